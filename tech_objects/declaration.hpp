@@ -34,7 +34,8 @@ constexpr std::string_view unit_text(Unit unit) noexcept {
   return texts[static_cast<std::size_t>(unit)];
 }
 
-/// Range of permitted values. For an integer or LREAL: lowest ≤ value ≤ highest, less `excluded` where that is a number.
+/// Range of permitted values. For an integer or LREAL: lowest ≤ value ≤ highest, less `excluded` where that
+/// is a number.
 struct Range {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
@@ -44,8 +45,8 @@ struct Range {
     return value >= lowest && value <= highest && value != excluded;  // NaN fails the first comparison
   }
   constexpr bool unbounded() const noexcept {
-    return lowest == -std::numeric_limits<double>::infinity() && highest == std::numeric_limits<double>::infinity() &&
-           excluded != excluded;
+    return lowest == -std::numeric_limits<double>::infinity() &&
+           highest == std::numeric_limits<double>::infinity() && excluded != excluded;
   }
 };
 

@@ -7,9 +7,9 @@
 namespace lockstep {
 namespace {
 
-constexpr std::array<std::string_view, 19> kNames = {"BOOL",  "SINT", "INT",   "DINT",  "LINT", "USINT", "UINT",
-                                                     "UDINT", "ULINT", "BYTE", "WORD",  "DWORD", "LWORD", "REAL",
-                                                     "LREAL", "TIME", "DB_ANY", "AXIS", "TAG"};
+constexpr std::array<std::string_view, 19> kNames = {
+    "BOOL", "SINT",  "INT",   "DINT", "LINT",  "USINT", "UINT",   "UDINT", "ULINT", "BYTE",
+    "WORD", "DWORD", "LWORD", "REAL", "LREAL", "TIME",  "DB_ANY", "AXIS",  "TAG"};
 constexpr std::array<int, 19> kSizes = {1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 4, 8, 8};
 
 template <class T>
@@ -26,7 +26,9 @@ void write(void* address, T value) noexcept {
 
 }  // namespace
 
-std::string_view type_name(Type type) noexcept { return kNames[static_cast<std::size_t>(type)]; }
+std::string_view type_name(Type type) noexcept {
+  return kNames[static_cast<std::size_t>(type)];
+}
 
 std::optional<Type> tag_type(std::string_view name) noexcept {
   for (std::size_t i = 0; i <= static_cast<std::size_t>(Type::TIME); ++i)
@@ -34,14 +36,28 @@ std::optional<Type> tag_type(std::string_view name) noexcept {
   return std::nullopt;
 }
 
-int size_of(Type type) noexcept { return kSizes[static_cast<std::size_t>(type)]; }
+int size_of(Type type) noexcept {
+  return kSizes[static_cast<std::size_t>(type)];
+}
 
-bool is_signed_integer(Type type) noexcept { return type >= Type::SINT && type <= Type::LINT; }
-bool is_unsigned_integer(Type type) noexcept { return type >= Type::USINT && type <= Type::ULINT; }
-bool is_integer(Type type) noexcept { return is_signed_integer(type) || is_unsigned_integer(type); }
-bool is_real(Type type) noexcept { return type == Type::REAL || type == Type::LREAL; }
-bool is_numeric(Type type) noexcept { return is_integer(type) || is_real(type); }
-bool is_bit_string(Type type) noexcept { return type >= Type::BYTE && type <= Type::LWORD; }
+bool is_signed_integer(Type type) noexcept {
+  return type >= Type::SINT && type <= Type::LINT;
+}
+bool is_unsigned_integer(Type type) noexcept {
+  return type >= Type::USINT && type <= Type::ULINT;
+}
+bool is_integer(Type type) noexcept {
+  return is_signed_integer(type) || is_unsigned_integer(type);
+}
+bool is_real(Type type) noexcept {
+  return type == Type::REAL || type == Type::LREAL;
+}
+bool is_numeric(Type type) noexcept {
+  return is_integer(type) || is_real(type);
+}
+bool is_bit_string(Type type) noexcept {
+  return type >= Type::BYTE && type <= Type::LWORD;
+}
 
 std::int64_t lowest(Type type) noexcept {
   if (!is_signed_integer(type) && type != Type::TIME) return 0;
@@ -57,25 +73,47 @@ std::uint64_t highest(Type type) noexcept {
 Value Signal::load() const noexcept {
   Value value{};
   switch (type) {
-    case Type::BOOL: value.u = read<bool>(address) ? 1 : 0; break;
-    case Type::SINT: value.i = read<std::int8_t>(address); break;
-    case Type::INT: value.i = read<std::int16_t>(address); break;
-    case Type::DINT: value.i = read<std::int32_t>(address); break;
+    case Type::BOOL:
+      value.u = read<bool>(address) ? 1 : 0;
+      break;
+    case Type::SINT:
+      value.i = read<std::int8_t>(address);
+      break;
+    case Type::INT:
+      value.i = read<std::int16_t>(address);
+      break;
+    case Type::DINT:
+      value.i = read<std::int32_t>(address);
+      break;
     case Type::LINT:
-    case Type::TIME: value.i = read<std::int64_t>(address); break;
+    case Type::TIME:
+      value.i = read<std::int64_t>(address);
+      break;
     case Type::USINT:
-    case Type::BYTE: value.u = read<std::uint8_t>(address); break;
+    case Type::BYTE:
+      value.u = read<std::uint8_t>(address);
+      break;
     case Type::UINT:
-    case Type::WORD: value.u = read<std::uint16_t>(address); break;
+    case Type::WORD:
+      value.u = read<std::uint16_t>(address);
+      break;
     case Type::UDINT:
     case Type::DWORD:
-    case Type::DB_ANY: value.u = read<std::uint32_t>(address); break;
+    case Type::DB_ANY:
+      value.u = read<std::uint32_t>(address);
+      break;
     case Type::ULINT:
     case Type::LWORD:
     case Type::AXIS:
-    case Type::TAG: value.u = read<std::uint64_t>(address); break;
-    case Type::REAL: value.r = static_cast<double>(read<float>(address)); break;
-    case Type::LREAL: value.r = read<double>(address); break;
+    case Type::TAG:
+      value.u = read<std::uint64_t>(address);
+      break;
+    case Type::REAL:
+      value.r = static_cast<double>(read<float>(address));
+      break;
+    case Type::LREAL:
+      value.r = read<double>(address);
+      break;
   }
   if (bit >= 0) value.u = (value.u >> bit) & 1u;
   return value;
@@ -89,15 +127,23 @@ void Signal::store(Value value) const noexcept {
   }
   switch (size_of(type)) {
     case 1:
-      if (type == Type::BOOL) write(address, value.u != 0);
-      else write(address, static_cast<std::uint8_t>(value.u));
+      if (type == Type::BOOL)
+        write(address, value.u != 0);
+      else
+        write(address, static_cast<std::uint8_t>(value.u));
       break;
-    case 2: write(address, static_cast<std::uint16_t>(value.u)); break;
+    case 2:
+      write(address, static_cast<std::uint16_t>(value.u));
+      break;
     case 4:
-      if (type == Type::REAL) write(address, static_cast<float>(value.r));
-      else write(address, static_cast<std::uint32_t>(value.u));
+      if (type == Type::REAL)
+        write(address, static_cast<float>(value.r));
+      else
+        write(address, static_cast<std::uint32_t>(value.u));
       break;
-    default: write(address, value.u); break;
+    default:
+      write(address, value.u);
+      break;
   }
 }
 

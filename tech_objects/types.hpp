@@ -33,7 +33,22 @@ enum class DB_ANY : std::uint32_t {};
 
 /// The types that a tag, a pin or a variable may have.
 enum class Type : std::uint8_t {
-  BOOL, SINT, INT, DINT, LINT, USINT, UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD, REAL, LREAL, TIME,
+  BOOL,
+  SINT,
+  INT,
+  DINT,
+  LINT,
+  USINT,
+  UINT,
+  UDINT,
+  ULINT,
+  BYTE,
+  WORD,
+  DWORD,
+  LWORD,
+  REAL,
+  LREAL,
+  TIME,
   DB_ANY,  ///< number of a technology object
   AXIS,    ///< pin that takes a technology object by its name; holds an `Axis*`
   TAG      ///< variable that takes a tag by its name (VREF); holds the address of a BOOL
@@ -51,9 +66,9 @@ int size_of(Type type) noexcept;
 bool is_signed_integer(Type type) noexcept;    ///< SINT INT DINT LINT
 bool is_unsigned_integer(Type type) noexcept;  ///< USINT UINT UDINT ULINT
 bool is_integer(Type type) noexcept;
-bool is_real(Type type) noexcept;              ///< REAL LREAL
-bool is_numeric(Type type) noexcept;           ///< integers and reals
-bool is_bit_string(Type type) noexcept;        ///< BYTE WORD DWORD LWORD; BOOL is none of them here
+bool is_real(Type type) noexcept;        ///< REAL LREAL
+bool is_numeric(Type type) noexcept;     ///< integers and reals
+bool is_bit_string(Type type) noexcept;  ///< BYTE WORD DWORD LWORD; BOOL is none of them here
 
 /// Least and greatest value of an integer or bit-string type.
 std::int64_t lowest(Type type) noexcept;
@@ -62,26 +77,46 @@ std::uint64_t highest(Type type) noexcept;
 /// Type of a C++ value type.
 template <class T>
 consteval Type type_of() {
-  if constexpr (std::is_same_v<T, bool>) return Type::BOOL;
-  else if constexpr (std::is_same_v<T, lockstep::SINT>) return Type::SINT;
-  else if constexpr (std::is_same_v<T, lockstep::INT>) return Type::INT;
-  else if constexpr (std::is_same_v<T, lockstep::DINT>) return Type::DINT;
-  else if constexpr (std::is_same_v<T, lockstep::LINT>) return Type::LINT;
-  else if constexpr (std::is_same_v<T, lockstep::USINT>) return Type::USINT;
-  else if constexpr (std::is_same_v<T, lockstep::UINT>) return Type::UINT;
-  else if constexpr (std::is_same_v<T, lockstep::UDINT>) return Type::UDINT;
-  else if constexpr (std::is_same_v<T, lockstep::ULINT>) return Type::ULINT;
-  else if constexpr (std::is_same_v<T, lockstep::BYTE>) return Type::BYTE;
-  else if constexpr (std::is_same_v<T, lockstep::WORD>) return Type::WORD;
-  else if constexpr (std::is_same_v<T, lockstep::DWORD>) return Type::DWORD;
-  else if constexpr (std::is_same_v<T, lockstep::LWORD>) return Type::LWORD;
-  else if constexpr (std::is_same_v<T, lockstep::REAL>) return Type::REAL;
-  else if constexpr (std::is_same_v<T, lockstep::LREAL>) return Type::LREAL;
-  else if constexpr (std::is_same_v<T, lockstep::TIME>) return Type::TIME;
-  else if constexpr (std::is_same_v<T, lockstep::DB_ANY>) return Type::DB_ANY;
-  else if constexpr (std::is_same_v<T, const bool*>) return Type::TAG;
-  else if constexpr (std::is_pointer_v<T>) return Type::AXIS;
-  else return T::no_such_type;
+  if constexpr (std::is_same_v<T, bool>)
+    return Type::BOOL;
+  else if constexpr (std::is_same_v<T, lockstep::SINT>)
+    return Type::SINT;
+  else if constexpr (std::is_same_v<T, lockstep::INT>)
+    return Type::INT;
+  else if constexpr (std::is_same_v<T, lockstep::DINT>)
+    return Type::DINT;
+  else if constexpr (std::is_same_v<T, lockstep::LINT>)
+    return Type::LINT;
+  else if constexpr (std::is_same_v<T, lockstep::USINT>)
+    return Type::USINT;
+  else if constexpr (std::is_same_v<T, lockstep::UINT>)
+    return Type::UINT;
+  else if constexpr (std::is_same_v<T, lockstep::UDINT>)
+    return Type::UDINT;
+  else if constexpr (std::is_same_v<T, lockstep::ULINT>)
+    return Type::ULINT;
+  else if constexpr (std::is_same_v<T, lockstep::BYTE>)
+    return Type::BYTE;
+  else if constexpr (std::is_same_v<T, lockstep::WORD>)
+    return Type::WORD;
+  else if constexpr (std::is_same_v<T, lockstep::DWORD>)
+    return Type::DWORD;
+  else if constexpr (std::is_same_v<T, lockstep::LWORD>)
+    return Type::LWORD;
+  else if constexpr (std::is_same_v<T, lockstep::REAL>)
+    return Type::REAL;
+  else if constexpr (std::is_same_v<T, lockstep::LREAL>)
+    return Type::LREAL;
+  else if constexpr (std::is_same_v<T, lockstep::TIME>)
+    return Type::TIME;
+  else if constexpr (std::is_same_v<T, lockstep::DB_ANY>)
+    return Type::DB_ANY;
+  else if constexpr (std::is_same_v<T, const bool*>)
+    return Type::TAG;
+  else if constexpr (std::is_pointer_v<T>)
+    return Type::AXIS;
+  else
+    return T::no_such_type;
 }
 
 /// A value of any elementary type; which member counts is known from the type that goes with it.
@@ -96,7 +131,8 @@ union Value {
 struct Signal {
   void* address = nullptr;
   Type type = Type::BOOL;
-  std::int8_t bit = -1;  ///< bit of the integer or bit string at `address`, then `type` is that of the word; -1: whole
+  std::int8_t bit =
+      -1;  ///< bit of the integer or bit string at `address`, then `type` is that of the word; -1: whole
 
   /// Type of what `load` gives: BOOL for a bit.
   Type value_type() const noexcept { return bit < 0 ? type : Type::BOOL; }
