@@ -1,0 +1,91 @@
+#include "tech_objects/variable.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+namespace lockstep {
+namespace {
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// Takes the index out of `Sensor[2].Type`, leaving the lengths of the parts before and behind it.
+struct IndexedPath {
+  std::string_view array, member;
+  std::size_t index = 0;  // as published, from 1; 0: no well-formed index
+};
+
+IndexedPath split_index(std::string_view path) {
+  const auto open = path.find('[');
+  const auto close = path.find("].");
+  if (open == path.npos || close == path.npos || close < open) return {};
+  std::size_t index = 0;
+  const char* last = path.data() + close;
+  const auto [end, error] = std::from_chars(path.data() + open + 1, last, index);
+  if (error != std::errc{} || end != last) return {};
+  return {path.substr(0, open), path.substr(close + 2), index};
+}
+
+VariablePlace find_whole(std::string_view path) {
+  const IndexedPath indexed = split_index(path);
+  for (const auto list : {configuration_variables(), status_variables()}) {
+    for (const Variable& variable : list) {
+      if (variable.count == 0) {
+        if (same_name(variable.path, path)) return {&variable, variable.offset, -1};
+        continue;
+      }
+      const auto brackets = variable.path.find("[].");
+      if (indexed.index >= 1 && indexed.index <= variable.count &&
+          same_name(variable.path.substr(0, brackets), indexed.array) &&
+          same_name(variable.path.substr(brackets + 3), indexed.member))
+        return {&variable, variable.offset + (indexed.index - 1) * variable.stride, -1};
+    }
+  }
+  return {};
+}
+
+/// Number of a bit suffix such as `X22`; -1 if it is none.
+int bit_number(std::string_view suffix) {
+  if (suffix.size() < 2 || suffix.size() > 3 || lower(suffix[0]) != 'x') return -1;
+  int number = 0;
+  for (const char c : suffix.substr(1)) {
+    if (c < '0' || c > '9') return -1;
+    number = number * 10 + (c - '0');
+  }
+  return number;
+}
+
+}  // namespace
+
+bool Variable::computed() const noexcept {
+  return path.find('.') == path.npos || path.starts_with("Status") || path.starts_with("Error") ||
+         path == "Extrapolation.LeadingAxisDependentTime";
+}
+
+Signal VariablePlace::signal(AxisData& data) const noexcept {
+  return {reinterpret_cast<char*>(&data) + offset, variable->type, static_cast<std::int8_t>(bit)};
+}
+
+VariablePlace find_variable(std::string_view path) noexcept {
+  if (const VariablePlace whole = find_whole(path); whole.variable != nullptr) return whole;
+  const auto dot = path.rfind('.');
+  if (dot == path.npos) return {};
+  const int bit = bit_number(path.substr(dot + 1));
+  if (bit < 0) return {};
+  VariablePlace place = find_whole(path.substr(0, dot));
+  if (place.variable == nullptr) return {};
+  const Type type = place.variable->type;
+  const bool has_bits = is_bit_string(type) || is_integer(type);
+  if (!has_bits || bit >= 8 * size_of(type)) return {};
+  place.bit = bit;
+  return place;
+}
+
+}  // namespace lockstep
