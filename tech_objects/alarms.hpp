@@ -1,0 +1,107 @@
+/// Error identifiers of function blocks and technology alarms of objects: one table each.
+/// @source S7-1500/S7-1500T alarms and error IDs; S7-1500T synchronous operation V7, 13.1.40 to 13.1.42
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "tech_objects/types.hpp"
+
+namespace lockstep {
+
+/// Why a job was rejected or ended, as shown at the output ErrorID.
+enum class ErrorId : std::uint16_t {
+  none = 0x0000,
+  technology_alarm = 0x8001,
+  no_technology_object = 0x8002,
+  velocity = 0x8003,
+  acceleration = 0x8004,
+  deceleration = 0x8005,
+  jerk = 0x8006,
+  direction = 0x8007,
+  distance = 0x8008,
+  position = 0x8009,
+  mode = 0x800A,
+  stop_mode = 0x800B,
+  one_instance_only = 0x800C,
+  restarting = 0x800D,
+  restart_refused = 0x800E,
+  locked = 0x800F,
+  homing_mode_incremental = 0x8010,
+  no_job_memory = 0x8014,
+  actual_values_invalid = 0x8016,
+  ratio_numerator = 0x8017,
+  ratio_denominator = 0x8018,
+  recursive_coupling = 0x8019,
+  leading_distance = 0x8026,
+  master_sync_position = 0x8034,
+  slave_sync_position = 0x8035,
+  sync_profile_reference = 0x8036,
+  sensor = 0x8050,
+  not_position_controlled = 0x8071,
+  velocity_gear_active = 0x8079,
+  homing_while_coupled = 0x80A1,
+  unspecified = 0x8FFF
+};
+
+/// Meaning of an error identifier; empty for an unknown one.
+std::string_view error_text(ErrorId id) noexcept;
+
+/// One row of the table of error identifiers.
+struct ErrorText {
+  ErrorId id;
+  std::string_view text;
+};
+std::span<const ErrorText> error_texts() noexcept;
+
+/// What an alarm does to the axis, as shown in ErrorDetail.Reaction. A higher number of 1 to 4 overrides a
+/// lower one.
+enum class AlarmReaction : std::uint8_t {
+  none = 0,            ///< a warning: the job goes on
+  stop_current = 1,    ///< stop with the dynamic values of the running job
+  stop_maximum = 2,    ///< stop with DynamicLimits.MaxDeceleration and MaxJerk
+  stop_emergency = 3,  ///< stop with DynamicDefaults.EmergencyDeceleration, without jerk limit
+  remove_enable = 4,   ///< setpoint zero, the drive is switched off
+  track_setpoints = 5  ///< setpoint zero, the setpoint follows the actual value
+};
+
+enum class AlarmClass : std::uint8_t {
+  warning,          ///< MC_Reset or the end of its cause clears it
+  acknowledgeable,  ///< MC_Reset, then new jobs
+  fatal             ///< restart of the technology object
+};
+
+/// One technology alarm.
+struct Alarm {
+  int number;
+  std::string_view text;
+  int reaction;     ///< value of ErrorDetail.Reaction
+  int error_bit;    ///< bit of ErrorWord; -1: none
+  int warning_bit;  ///< bit of WarningWord; -1: none
+  AlarmClass alarm_class;
+};
+
+/// The alarm with a number; nullptr if there is none.
+const Alarm* find_alarm(int number) noexcept;
+std::span<const Alarm> alarms() noexcept;
+
+/// Numbers of the alarms that the runtime raises.
+namespace alarm {
+inline constexpr int kPositionRangeExceeded = 308;
+inline constexpr int kNotHomed = 321;
+inline constexpr int kVelocityLimited = 501;
+inline constexpr int kAccelerationLimited = 502;
+inline constexpr int kJerkLimited = 503;
+inline constexpr int kSpeedSetpointLimited = 504;
+inline constexpr int kFollowingError = 521;
+inline constexpr int kSoftwareLimitReached = 533;
+inline constexpr int kSoftwareLimitPassed = 534;
+inline constexpr int kPositioning = 541;
+inline constexpr int kLeadingAxis = 601;
+inline constexpr int kLeadingAxisNotPositionControlled = 603;
+inline constexpr int kSynchronizing = 608;
+inline constexpr int kInternal = 203;
+}  // namespace alarm
+
+}  // namespace lockstep
