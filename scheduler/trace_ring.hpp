@@ -24,9 +24,13 @@ struct TraceRow {
 /// reads.
 class TraceRing {
  public:
+  /// Rows that outlast a disk's pause of some seconds at the usual cycles, and keep virtual time from waiting
+  /// for the recorder's naps.
+  static constexpr std::size_t kRows = 8192;
+
   /// Allocates and touches all memory. Holds at least `rows` rows (rounded up to a power of two, at least 2).
   /// What the signals point at must outlive the last `push`.
-  TraceRing(std::vector<Signal> signals, std::size_t rows);
+  explicit TraceRing(std::vector<Signal> signals, std::size_t rows = kRows);
 
   /// Cycle: reads the signals into the ring. A constant number of steps; no allocation, no system call.
   /// @param t [ns] since the start of the run
