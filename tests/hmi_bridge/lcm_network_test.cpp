@@ -12,7 +12,9 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <thread>
@@ -31,7 +33,7 @@ constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 constexpr char kInside[] = "LOCKSTEP_TEST_IN_OWN_NETWORK";
 constexpr std::chrono::seconds kDeadline{60};
 
-const std::vector<TraceSignal> kSignals(24, {"x", Type::LREAL, "u"});  // a row is a message of 256 bytes
+const std::vector<TraceSignal> kSignals(25, {"x", Type::LREAL, "u"});  // a row is a message of 256 bytes
 const LcmTraceIdentity kIdentity{"rotary_knife", "KNIFE", 100'000, 0};
 
 /// A program that ends with this object, or with this process.
@@ -68,11 +70,11 @@ class Program {
   bool ended_ = false;
 };
 
-bool wait_until(const std::function<bool()>& condition) {
-  const auto deadline = Clock::now() + kDeadline;
+bool wait_until(const std::function<bool()>& condition, std::chrono::seconds limit = kDeadline) {
+  const auto deadline = Clock::now() + limit;
   while (!condition()) {
     if (Clock::now() > deadline) return false;
-    std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return true;
 }
@@ -112,7 +114,8 @@ void in_own_network(const std::function<void()>& body) {
   ::setenv(kInside, "1", 1);
   Program inside({"unshare", options, std::filesystem::read_symlink("/proc/self/exe"), filter});
   ::unsetenv(kInside);
-  ASSERT_TRUE(wait_until([&inside] { return !inside.running(); })) << "the test inside did not end";
+  ASSERT_TRUE(wait_until([&inside] { return !inside.running(); }, 4 * kDeadline))
+      << "the test inside did not end";
   EXPECT_EQ(inside.status(), 0) << "the test inside failed, its output is above";
 }
 
@@ -126,9 +129,15 @@ std::vector<Value> row_values(std::uint64_t tick) {
 /// Hears everything on the network, as a stranger's program does.
 class Listener {
  public:
-  Listener() : lcm_(lcm_create(kUrl)) { lcm_subscribe(lcm_, "KNIFE.*", on_message, this); }
+  Listener() : lcm_(lcm_create(kUrl)) {
+    auto* subscription = lcm_subscribe(lcm_, "KNIFE.*", on_message, this);
+    lcm_subscription_set_queue_capacity(subscription, 0);  // no limit: LCM's own is 30 messages
+  }
   ~Listener() { lcm_destroy(lcm_); }
-  void listen(int milliseconds) { lcm_handle_timeout(lcm_, milliseconds); }
+  /// Takes what comes until nothing has come for some time.
+  void listen(int milliseconds) {
+    while (lcm_handle_timeout(lcm_, milliseconds) > 0) continue;
+  }
 
   LcmDecoder decoder;
   std::uint64_t headers = 0;
@@ -175,17 +184,18 @@ TEST(LcmNetwork, LcmLoggerRecordsEveryRowOfABusyTrace) {
     const TraceDirectory directory;
     const std::string path = directory.file("logged.lcm");
     LcmPublisher publisher(kUrl, kIdentity);
-    Program logger({"lcm-logger", "-q", "--flush-interval=10", std::string("-l") + kUrl, path});
+    Program logger({"lcm-logger", "-q", "--flush-interval=10", std::string("--lcm-url=") + kUrl, path});
     const auto logged = [&path] {
       std::error_code none;
       const auto size = std::filesystem::file_size(path, none);
       return none ? 0 : size;
     };
-    ASSERT_TRUE(wait_until([&] {
-      lcm_publish(publisher.instance(), "IS_ANYBODY_THERE", "?", 1);
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      return logged() > 0 || !logger.running();
-    }));
+    // The logger looks whether to flush its file whenever a message comes.
+    const auto logged_up_to = [&](std::uint64_t size) {
+      lcm_publish(publisher.instance(), "ANOTHER", "?", 1);
+      return logged() > size || !logger.running();
+    };
+    ASSERT_TRUE(wait_until([&] { return logged_up_to(0); }));
     ASSERT_TRUE(logger.running()) << "lcm-logger has ended with " << logger.status();
 
     publisher.begin(kSignals);
@@ -195,7 +205,7 @@ TEST(LcmNetwork, LcmLoggerRecordsEveryRowOfABusyTrace) {
       publisher.row({static_cast<std::int64_t>(tick) * 100'000, tick, 0, row_values(tick)});
     }
     EXPECT_EQ(publisher.lost(), 0u) << publisher.reason();
-    EXPECT_TRUE(wait_until([&] { return logged() > kRows * (28 + 5 + 256); }));
+    EXPECT_TRUE(wait_until([&] { return logged_up_to(kRows * (28 + 5 + 256)); }));
     logger.interrupt();
     logger.status();
 
@@ -224,13 +234,13 @@ TEST(LcmNetwork, LcmLogplayerReplaysALogToASubscriber) {
     ASSERT_EQ(log.reason(), "");
 
     Listener listener;
-    Program player({"lcm-logplayer", std::string("-l") + kUrl, path});
+    Program player({"lcm-logplayer", std::string("--lcm-url=") + kUrl, path});
     EXPECT_TRUE(wait_until([&] {
-      listener.listen(10);
-      return listener.rows == kRows || !player.running();
+      listener.listen(100);
+      return !player.running();
     }));
     EXPECT_EQ(player.status(), 0);
-    for (int i = 0; i < 100 && listener.rows < kRows; ++i) listener.listen(100);
+    listener.listen(1000);
     EXPECT_EQ(listener.rows, kRows);
     EXPECT_EQ(listener.headers, 2u);
     EXPECT_EQ(listener.wrong, 0u);
