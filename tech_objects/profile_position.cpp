@@ -135,7 +135,6 @@ double PositionPlanner::solve_peak(const View& view, double base, double way, do
     const double a1 = pair.first.last_peak(), a2 = pair.second.last_peak();
     return (base + over) * (1.0 / a1 + 1.0 / a2) + (a1 + a2) * 0.5 * jerk_.inverse;
   };
-  const double tolerance = 2.0 * kEpsilon * (std::abs(way) + std::abs(pair.first.distance()) * kEpsilon);
   const bool near_is_second = base == view.end && view.end >= view.stop;
   const double near_limit = (base >= 0.0) == near_is_second ? rise_limits_.below : rise_limits_.above;
   const double flat = near_limit * near_limit * jerk_.inverse;  // from here on the smaller rise has a plateau
@@ -164,7 +163,9 @@ double PositionPlanner::solve_peak(const View& view, double base, double way, do
   for (int step = 0; step < kMostSteps; ++step) {
     pair = peak(view, base, over);
     const double miss = pair.way - way;
-    if (std::abs(miss) <= tolerance) break;
+    const double v = std::max(std::abs(view.v0), std::max(std::abs(view.end), std::abs(base + over)));
+    if (std::abs(miss) <= kEpsilon * (std::abs(way) + v * (pair.first.duration() + pair.second.duration())))
+      break;
     (miss < 0.0 ? low : high) = over;
     double next;
     if (by_root) {
@@ -240,7 +241,7 @@ void PositionPlanner::plan_below(const View& up, double way, double target, Prof
   const View down = view(-up.sign);
   const double tolerance = 2.0 * kEpsilon * std::abs(way);
   Pair pair;
-  double highest = up.stop;
+  double highest = up.stop, miss_highest = 0.0;
   if (up.stop <= up.limit) {
     pair = peak(up, up.stop, 0.0);
     if (pair.way <= way) {
@@ -248,6 +249,7 @@ void PositionPlanner::plan_below(const View& up, double way, double target, Prof
       build_peak(up, pair, cruise, target, out);
       return;
     }
+    miss_highest = pair.way - way;
   } else {
     highest = up.limit;
     pair = hold(down, -highest, up.stop - highest, highest - up.end);
@@ -259,6 +261,7 @@ void PositionPlanner::plan_below(const View& up, double way, double target, Prof
       builder.finish(target, target_velocity_);
       return;
     }
+    miss_highest = -pair.way - way;
   }
   const Entry from = entry(down);
   const double lowest = -from.lowest;
@@ -271,7 +274,7 @@ void PositionPlanner::plan_below(const View& up, double way, double target, Prof
     double over = 0.0;
     if (miss_lowest < 0.0)
       over = find_root([&](double x) { return -hold_at(x).way - way; }, 0.0, miss_lowest, highest - lowest,
-                       -pair.way - way, tolerance);
+                       miss_highest, tolerance);
     pair = hold_at(over);
     build_climb(builder, down, pair.first);
     builder.add_rise(pair.second, down.sign);
