@@ -12,6 +12,8 @@
 /// the one motion that fits is the quickest, and bracketing finds it.
 #pragma once
 
+#include <array>
+
 #include "tech_objects/profile.hpp"
 #include "tech_objects/profile_builder.hpp"
 #include "tech_objects/profile_rise.hpp"
@@ -59,14 +61,22 @@ class PositionPlanner {
   void build_climb(ProfileBuilder& builder, const View& view, const Rise& rise) const noexcept;
 
   Pair peak(const View& view, double base, double over) const noexcept;
-  double solve_peak(const View& view, double base, double way, double far_peak, Pair& pair) const noexcept;
-  double first_guess(double base, double missing, double far_peak, double most) const noexcept;
+  double rounding(const View& direct, const Rise& rise, double target) const noexcept;
+  double solve_peak(const View& view, double base, double way, Pair& pair) const noexcept;
+  double first_guess(double base, double missing, const Pair& pair, double most) const noexcept;
   void build_peak(const View& view, const Pair& pair, double cruise, double target,
                   Profile& out) const noexcept;
 
   Entry entry(const View& down) const noexcept;
-  Pair hold(const View& down, double at, double excess_to, double excess_from) const noexcept;
   Rise eased(const View& down, const Entry& from, double reduction, double& way) const noexcept;
+  std::array<double, 5> turning_reductions(const Entry& from, double end) const noexcept;
+  bool solve_ease(const View& down, const Entry& from, double way, double& reduction) const noexcept;
+  void build_eased(const View& down, const Entry& from, double reduction, double target,
+                   Profile& out) const noexcept;
+  Pair hold(const View& down, double at, double excess_to, double excess_from) const noexcept;
+  bool solve_hold(const View& down, double first, double last, double way, Pair& pair) const noexcept;
+  void build_hold(const View& down, const Pair& pair, double cruise, double target,
+                  Profile& out) const noexcept;
   void plan_below(const View& up, double way, double target, Profile& out) const noexcept;
 
   MotionState start_;
