@@ -1,0 +1,79 @@
+/// Answers one Modbus TCP request from the process image: no sockets of clients, no threads.
+/// @source Modbus application protocol V1.1b3, 6; Modbus messaging on TCP/IP V1.0b, 3.1.3
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hmi_bridge/modbus_map.hpp"
+#include "scheduler/process_image.hpp"
+
+namespace lockstep {
+
+/// Sizes of a frame on TCP [byte]: its MBAP header with the unit id, and all of it.
+inline constexpr std::size_t kModbusHeader = 7;
+inline constexpr std::size_t kModbusFrame = 260;
+
+/// Length [byte] of the frame that begins with these bytes, as its MBAP header says; 0 if that cannot be told
+/// yet; none if it is not Modbus (protocol id not 0, or a length that no frame has).
+std::optional<std::size_t> modbus_frame_length(std::span<const std::uint8_t> bytes) noexcept;
+
+/// The exceptions that this server answers with.
+enum class ModbusException : std::uint8_t {
+  none = 0,
+  illegal_function = 1,
+  illegal_data_address = 2,
+  illegal_data_value = 3,
+  server_device_busy = 6
+};
+
+/// Carries out requests on an image. Not copyable; everything is called by one thread, the bridge's of the
+/// image.
+class ModbusResponder {
+ public:
+  /// Both outlive it. The map's signals are those of the image.
+  /// @throws std::runtime_error if the system has no memory or no socket left
+  ModbusResponder(const ModbusMap& map, ProcessImage& image);
+  ~ModbusResponder();
+  ModbusResponder(const ModbusResponder&) = delete;
+  ModbusResponder& operator=(const ModbusResponder&) = delete;
+
+  /// Carries out a request and gives the frame to answer with, valid until the next call; empty if it could
+  /// not be made, which no request causes. `frame` is one whole frame, by modbus_frame_length.
+  std::span<const std::uint8_t> answer(std::span<const std::uint8_t> frame);
+
+  /// What the last answer said.
+  ModbusException exception() const noexcept { return exception_; }
+
+ private:
+  struct Library;  ///< the library's context and mapping
+  using Bytes = std::span<const std::uint8_t>;
+
+  ModbusException perform(Bytes pdu);
+  ModbusException read_bits(ModbusTable table, Bytes pdu);
+  ModbusException read_registers(ModbusTable table, std::uint32_t address, std::uint32_t count);
+  ModbusException write_bits(std::uint32_t address, std::uint32_t count, Bytes bits);
+  ModbusException write_registers(std::uint32_t address, Bytes words);
+  ModbusException mask_register(std::uint32_t address, std::uint16_t and_mask, std::uint16_t or_mask);
+  ModbusException write_and_read_registers(Bytes pdu);
+
+  ModbusException check_read(ModbusTable table, std::uint32_t address, std::uint32_t count) const;
+  ModbusException check_write(ModbusTable table, std::uint32_t address, std::uint32_t count) const;
+  ModbusException stage_registers(std::uint32_t address, Bytes words);
+  ModbusException post();
+  ModbusWords words_of(const ModbusEntry& entry) const;
+
+  const ModbusMap& map_;
+  ProcessImage& image_;
+  std::unique_ptr<Library> library_;
+  std::vector<SignalWrite> batch_;
+  std::array<std::uint8_t, kModbusFrame> reply_{};
+  ModbusException exception_ = ModbusException::none;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,257 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hmi_bridge/modbus_server.hpp"
+#include "tests/hmi_bridge/modbus_machine.hpp"
+#include "tests/hmi_bridge/modbus_raw_client.hpp"
+
+namespace lockstep {
+namespace {
+
+using Bytes = RawClient::Bytes;
+using std::chrono::milliseconds;
+
+/// A read of three registers; the answer begins with the same two bytes.
+Bytes request(std::uint16_t id) {
+  return {static_cast<std::uint8_t>(id >> 8), static_cast<std::uint8_t>(id), 0, 0, 0, 6, 1, 3, 0, 30, 0, 3};
+}
+Bytes answer(std::uint16_t id) {
+  return {static_cast<std::uint8_t>(id >> 8),
+          static_cast<std::uint8_t>(id),
+          0,
+          0,
+          0,
+          9,
+          1,
+          3,
+          6,
+          0x0F,
+          0x0F,
+          0xFF,
+          0xFD,
+          0,
+          77};
+}
+constexpr std::size_t kAnswer = 15;
+
+Bytes operator+(Bytes left, const Bytes& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
+class Hostile : public ::testing::Test {
+ protected:
+  void serve(ModbusServerOptions options = {}) {
+    options.port = 0;
+    server = std::make_unique<ModbusServer>(options, machine.map, machine.image);
+    ASSERT_EQ(server->start(), "");
+  }
+
+  void expect_served(RawClient& client) {
+    ASSERT_TRUE(client.send(request(4711)));
+    EXPECT_EQ(client.receive(kAnswer), answer(4711));
+  }
+  void expect_a_new_client_served() {
+    RawClient client(server->port());
+    expect_served(client);
+  }
+
+  /// Waits until a counter has a value; the test fails if it never has.
+  void expect_counted(const std::atomic<std::uint64_t>& counter, std::uint64_t value) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (counter != value && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+    EXPECT_EQ(counter, value);
+  }
+
+  ModbusMachine machine;
+  std::unique_ptr<ModbusServer> server;
+};
+
+TEST_F(Hostile, SilentClientsAndHalfRequestsHoldUpNobody) {
+  serve();
+  std::vector<RawClient> others;
+  for (std::size_t i = 0; i < 40; ++i) {
+    others.emplace_back(server->port());
+    const Bytes whole = request(1);
+    ASSERT_TRUE(others.back().send(Bytes(whole.begin(), whole.begin() + static_cast<long>(i % 12))));
+  }
+  const auto before = std::chrono::steady_clock::now();
+  for (int i = 0; i < 20; ++i) expect_a_new_client_served();
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(5));
+}
+
+TEST_F(Hostile, ARequestThatComesByteByByteIsAnswered) {
+  serve();
+  RawClient client(server->port());
+  for (std::uint16_t id = 0; id < 20; ++id) {
+    for (const std::uint8_t byte : request(id)) ASSERT_TRUE(client.send({byte}));
+    EXPECT_EQ(client.receive(kAnswer), answer(id));
+  }
+}
+
+TEST_F(Hostile, RequestsInOnePieceAreAllAnsweredInTheirOrder) {
+  serve();
+  RawClient client(server->port());
+  Bytes sent;
+  Bytes expected;
+  for (std::uint16_t id = 0; id < 1000; ++id) {
+    sent = sent + request(id);
+    expected = expected + answer(id);
+  }
+  ASSERT_TRUE(client.send(sent));
+  EXPECT_EQ(client.receive(expected.size()), expected);
+}
+
+TEST_F(Hostile, AClientThatEndsItsSideStillGetsItsAnswers) {
+  serve();
+  RawClient client(server->port());
+  const Bytes half = {0, 1, 0, 0};
+  ASSERT_TRUE(client.send(request(1) + request(2) + half));
+  client.end_sending();
+  EXPECT_EQ(client.receive(2 * kAnswer), answer(1) + answer(2));
+  EXPECT_TRUE(client.is_hung_up_on());
+  expect_counted(server->counters().clients, 0);
+}
+
+TEST_F(Hostile, WhatIsNotModbusIsHungUpOnAfterTheRequestsBeforeIt) {
+  serve();
+  const std::vector<Bytes> headers = {
+      {0, 1, 0, 1, 0, 6},   {0, 1, 1, 0, 0, 6}, {0, 1, 0, 0, 0, 0},     {0, 1, 0, 0, 0, 1},
+      {0, 1, 0, 0, 0, 255}, {0, 1, 0, 0, 1, 6}, {0, 1, 0, 0, 255, 255}, {'G', 'E', 'T', ' ', '/', ' '}};
+  RawClient bystander(server->port());
+  std::uint64_t count = 0;
+  for (const Bytes& header : headers) {
+    RawClient client(server->port());
+    expect_served(client);
+    ASSERT_TRUE(client.send(header));
+    EXPECT_TRUE(client.is_hung_up_on());
+    expect_counted(server->counters().malformed, ++count);
+    expect_served(bystander);
+  }
+}
+
+TEST_F(Hostile, AClientThatSendsMuchAndTakesNothingHoldsUpNobodyAndIsDisconnected) {
+  ModbusServerOptions options;
+  options.stall_time = milliseconds(300);
+  serve(options);
+  RawClient client(server->port());
+  const int small = 2048;
+  ::setsockopt(client.socket(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+  Bytes flood;
+  for (std::uint16_t id = 0; id < 2000; ++id) flood = flood + request(id);
+  bool is_full = false;
+  for (int i = 0; i < 10'000 && !is_full; ++i)
+    is_full = ::send(client.socket(), flood.data(), flood.size(), MSG_DONTWAIT | MSG_NOSIGNAL) <= 0;
+  EXPECT_TRUE(is_full) << "the server took everything and kept it";
+  expect_a_new_client_served();
+  expect_counted(server->counters().stalled, 1);
+}
+
+TEST_F(Hostile, AFloodOfRequestsLeavesTheOthersTheirTurn) {
+  serve();
+  std::atomic<bool> is_over{false};
+  std::vector<std::thread> floods;
+  for (int k = 0; k < 3; ++k)
+    floods.emplace_back([&] {
+      RawClient client(server->port());
+      Bytes requests;
+      for (std::uint16_t id = 0; id < 100; ++id) requests = requests + request(id);
+      while (!is_over && client.send(requests) && client.receive(100 * kAnswer).size() == 100 * kAnswer) {
+      }
+      EXPECT_TRUE(is_over);
+    });
+  RawClient client(server->port());
+  for (int i = 0; i < 100; ++i) expect_served(client);
+  is_over = true;
+  for (std::thread& flood : floods) flood.join();
+}
+
+TEST_F(Hostile, ARequestThatDoesNotEndIsHungUpOnAfterTheStallTime) {
+  ModbusServerOptions options;
+  options.stall_time = milliseconds(50);
+  serve(options);
+  RawClient idle(server->port());
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send({0, 1, 0, 0, 0, 6, 1}));
+  EXPECT_TRUE(client.is_hung_up_on());
+  EXPECT_EQ(server->counters().stalled, 1u);
+  expect_served(idle);
+}
+
+TEST_F(Hostile, OneClientTooManyIsRefusedAndTheOthersAreServed) {
+  ModbusServerOptions options;
+  options.max_clients = 3;
+  serve(options);
+  std::vector<RawClient> clients;
+  for (int i = 0; i < 3; ++i) {
+    clients.emplace_back(server->port());
+    expect_served(clients.back());
+  }
+  RawClient refused(server->port());
+  EXPECT_TRUE(refused.is_hung_up_on());
+  EXPECT_EQ(server->counters().refused, 1u);
+  for (RawClient& client : clients) expect_served(client);
+}
+
+TEST_F(Hostile, AClientThatIsSilentTooLongLosesItsPlaceToANewOne) {
+  ModbusServerOptions options;
+  options.max_clients = 2;
+  options.idle_time = milliseconds(0);
+  serve(options);
+  RawClient first(server->port());
+  expect_served(first);
+  RawClient second(server->port());
+  expect_served(second);
+  expect_served(first);
+  RawClient third(server->port());
+  expect_served(third);
+  EXPECT_TRUE(second.is_hung_up_on());
+  EXPECT_EQ(server->counters().displaced, 1u);
+  expect_served(first);
+}
+
+TEST_F(Hostile, ClientsThatComeAndGoLeaveNothingBehind) {
+  serve();
+  for (int i = 0; i < 300; ++i) {
+    RawClient client(server->port());
+    ASSERT_TRUE(client.is_connected());
+    if (i % 3 == 0) {
+      ASSERT_TRUE(client.send(request(1)));
+    }
+    if (i % 5 == 0) {  // closes with a reset
+      const linger now{1, 0};
+      ::setsockopt(client.socket(), SOL_SOCKET, SO_LINGER, &now, sizeof now);
+    }
+  }
+  expect_a_new_client_served();  // it came after all of them
+  expect_counted(server->counters().clients, 0);
+  EXPECT_EQ(server->counters().connections + server->counters().refused, 301u);
+  EXPECT_EQ(server->counters().faults, 0u);
+}
+
+TEST_F(Hostile, AnyStreamOfBytesLeavesTheServerAtItsWork) {
+  serve();
+  const unsigned seed = 20240603;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  RawClient bystander(server->port());
+  for (int round = 0; round < 300; ++round) {
+    RawClient client(server->port());
+    Bytes bytes(random() % 600);
+    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random() % 3 == 0 ? random() : random() % 8);
+    if (round % 2 == 0) bytes = request(1) + bytes;
+    client.send(bytes);
+    if (round % 10 == 0) expect_served(bystander);
+    machine.tick();
+  }
+  expect_a_new_client_served();
+  EXPECT_EQ(server->counters().faults, 0u);
+}
+
+}  // namespace
+}  // namespace lockstep
