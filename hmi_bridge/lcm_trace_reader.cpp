@@ -1,0 +1,118 @@
+#include "hmi_bridge/lcm_trace_reader.hpp"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kEventHead = 28;  // mark, number, time and two lengths stand before channel and data
+
+}  // namespace
+
+LcmTraceReader::LcmTraceReader(const std::string& path, const std::string& channel)
+    : path_(path), channel_(channel) {
+  open();
+  find_header();
+  open();  // from the front again: rows may stand before the header
+}
+
+void LcmTraceReader::open() {
+  log_.reset(lcm_eventlog_create(path_.c_str(), "r"));
+  struct stat status {};
+  if (log_ == nullptr) throw TraceFormatError(path_ + ": " + std::generic_category().message(errno));
+  if (::fstat(::fileno(log_->f), &status) == 0 && S_ISDIR(status.st_mode))
+    throw TraceFormatError(path_ + ": " + std::generic_category().message(EISDIR));
+  event_ = -1;
+  offset_ = 0;
+}
+
+void LcmTraceReader::find_header() {
+  const std::string wanted = channel_;
+  while (const Event event = next_event()) {
+    const std::string_view channel(event->channel, static_cast<std::size_t>(event->channellen));
+    if (!channel.ends_with(kHeaderSuffix)) continue;
+    if (!wanted.empty() && channel != wanted + std::string(kHeaderSuffix)) continue;
+    if (accept(*event) != LcmDecoder::Message::kHeader) continue;
+    channel_ = channel.substr(0, channel.size() - kHeaderSuffix.size());
+    return;
+  }
+  if (offset_ == 0) throw TraceFormatError(path_ + ": is not an LCM event log");
+  throw TraceFormatError(path_ + ": holds no trace" + (wanted.empty() ? "" : " on channel " + wanted));
+}
+
+bool LcmTraceReader::next() {
+  const std::int64_t id = header().id;
+  while (const Event event = next_event()) {
+    const std::string_view channel(event->channel, static_cast<std::size_t>(event->channellen));
+    if (channel != channel_ && channel != channel_ + std::string(kHeaderSuffix)) continue;
+    switch (accept(*event)) {
+      case LcmDecoder::Message::kRow:
+        event_time_ = event->timestamp;
+        return true;
+      case LcmDecoder::Message::kHeader:
+        if (header().id != id) fail("a trace of other signals begins on the same channel");
+        break;
+      case LcmDecoder::Message::kEarly:
+        ++early_;
+        break;
+      default:
+        fail("a damaged message on channel " + std::string(channel));
+    }
+  }
+  end_of_log();
+  return false;
+}
+
+LcmDecoder::Message LcmTraceReader::accept(const lcm_eventlog_event_t& event) {
+  return decoder_.accept(
+      {static_cast<const std::uint8_t*>(event.data), static_cast<std::size_t>(event.datalen)});
+}
+
+LcmTraceReader::Event LcmTraceReader::next_event() {
+  Event event(lcm_eventlog_read_next_event(log_.get()));
+  if (event) {
+    ++event_;
+    offset_ += kEventHead + event->channellen + event->datalen;
+  }
+  return event;
+}
+
+void LcmTraceReader::end_of_log() {
+  if (!remark_.empty()) return;
+  if (early_ > 0) remark_ = std::to_string(early_) + " rows of a trace with another header are left out";
+  struct stat status {};
+  if (::fstat(::fileno(log_->f), &status) != 0 || status.st_size == offset_) return;
+  if (!remark_.empty()) remark_ += "; ";
+  remark_ += "the log is cut short or damaged behind event " + std::to_string(event_);
+}
+
+void LcmTraceReader::fail(const std::string& what) const {
+  throw TraceFormatError(path_ + ": event " + std::to_string(event_) + ": " + what);
+}
+
+TraceTable read_lcm_trace(const std::string& path, const std::string& channel) {
+  LcmTraceReader reader(path, channel);
+  TraceTable table;
+  table.signals = reader.signals();
+  table.columns.resize(table.signals.size());
+  std::uint64_t dropped = 0;
+  while (reader.next()) {
+    const TraceRow row = reader.row();
+    dropped = row.dropped;
+    table.t.push_back(static_cast<double>(row.t) / 1e9);  // the nearest double: both sides are exact
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      table.columns[i].push_back(as_double(row.values[i], table.signals[i].type));
+  }
+  table.remark = reader.remark();
+  if (dropped > 0)
+    table.remark +=
+        (table.remark.empty() ? "" : "; ") + std::to_string(dropped) + " rows were dropped by the run";
+  return table;
+}
+
+}  // namespace lockstep

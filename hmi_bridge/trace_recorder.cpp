@@ -1,0 +1,136 @@
+#include "hmi_bridge/trace_recorder.hpp"
+
+#include <pthread.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kBatch = 256;  // rows given back to the writer at a time
+
+// A write to a closed pipe and one beyond the file size limit signal the writing thread; blocked there, they
+// are the errors EPIPE and EFBIG of the call and leave the rest of the process alone.
+void block_write_signals() noexcept {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGPIPE);
+  sigaddset(&signals, SIGXFSZ);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+template <class Call>
+void guarded(TraceSink& sink, std::uint64_t rows, Call call) noexcept {
+  try {
+    call(sink);
+  } catch (const std::exception& error) {
+    sink.lose(rows, error.what());
+  } catch (...) {
+    sink.lose(rows, "unknown error");
+  }
+}
+
+std::string loss_text(std::uint64_t rows, const std::string& where, const std::string& reason) {
+  return "trace incomplete: " + std::to_string(rows) + (rows == 1 ? " row" : " rows") + " lost in " + where +
+         ": " + reason;
+}
+
+}  // namespace
+
+void TraceSink::lose(std::uint64_t rows, std::string_view reason) noexcept {
+  lost_ += rows;
+  if (!reason_.empty()) return;
+  try {
+    reason_ = reason;
+  } catch (...) {
+    reason_ = "no memory";  // short enough to need none
+  }
+}
+
+TraceRecorder::TraceRecorder(TraceRing& ring, std::vector<TraceSignal> signals,
+                             std::vector<std::unique_ptr<TraceSink>> sinks)
+    : ring_(ring), signals_(std::move(signals)), sinks_(std::move(sinks)), thread_([this] { record(); }) {}
+
+TraceRecorder::~TraceRecorder() {
+  stop();
+}
+
+void TraceRecorder::stop() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+std::vector<std::string> TraceRecorder::losses() const {
+  std::vector<std::string> texts;
+  if (const std::uint64_t dropped = ring_.dropped(); dropped > 0)
+    texts.push_back(loss_text(dropped, "the trace buffer", "the recorder could not keep up with the run"));
+  const std::lock_guard lock(mutex_);
+  for (const Loss& loss : losses_) texts.push_back(loss_text(loss.rows, loss.name, loss.reason));
+  return texts;
+}
+
+void TraceRecorder::record() {
+  block_write_signals();
+  begin_sinks();
+  auto next_flush = std::chrono::steady_clock::now() + kFlush;
+  for (bool stopping = false; !stopping;) {
+    if (!drain()) {
+      std::unique_lock lock(mutex_);
+      wake_.wait_for(lock, kPoll, [this] { return stop_; });
+      stopping = stop_;
+    }
+    if (const auto now = std::chrono::steady_clock::now(); now >= next_flush) {
+      flush_sinks();
+      next_flush = now + kFlush;
+    }
+    report();
+  }
+  while (drain()) continue;  // the last rows came before stop_, so they are visible now
+  end_sinks();
+  report();
+  ring_.close();
+}
+
+void TraceRecorder::begin_sinks() noexcept {
+  for (const auto& sink : sinks_) guarded(*sink, 0, [this](TraceSink& s) { s.begin(signals_); });
+}
+
+bool TraceRecorder::drain() noexcept {
+  const std::size_t rows = std::min(ring_.readable(), kBatch);
+  if (rows == 0) return false;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const TraceRow row = ring_.row(i);
+    for (const auto& sink : sinks_) guarded(*sink, 1, [&row](TraceSink& s) { s.row(row); });
+  }
+  ring_.pop(rows);
+  return true;
+}
+
+void TraceRecorder::flush_sinks() noexcept {
+  for (const auto& sink : sinks_) guarded(*sink, 0, [](TraceSink& s) { s.flush(); });
+}
+
+void TraceRecorder::end_sinks() noexcept {
+  for (const auto& sink : sinks_) guarded(*sink, 0, [](TraceSink& s) { s.end(); });
+}
+
+void TraceRecorder::report() noexcept try {
+  std::vector<Loss> losses;
+  for (const auto& sink : sinks_)
+    if (!sink->reason().empty()) losses.push_back({std::string(sink->name()), sink->lost(), sink->reason()});
+  if (losses.empty()) return;  // losses never go away
+  const std::lock_guard lock(mutex_);
+  losses_ = std::move(losses);
+} catch (...) {
+  // Without memory for the report the counts stay with the sinks; the next round tries again.
+}
+
+}  // namespace lockstep

@@ -1,0 +1,72 @@
+/// The thread that carries rows from the ring to the sinks.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hmi_bridge/trace_sink.hpp"
+#include "scheduler/trace_ring.hpp"
+
+namespace lockstep {
+
+/// Drains a ring into sinks until it is stopped. The cycle neither wakes it nor waits for it: it looks every
+/// few milliseconds. Writing to a closed pipe or beyond a file size limit is an error of the sink, not a
+/// signal.
+class TraceRecorder {
+ public:
+  /// How often an idle recorder looks for rows. A ring should hold several times as many rows as arrive
+  /// meanwhile.
+  static constexpr std::chrono::milliseconds kPoll{2};
+  /// How long rows stay in a sink's buffer at most.
+  static constexpr std::chrono::milliseconds kFlush{250};
+
+  /// Starts the thread. `signals` describes the ring's columns, in their order.
+  /// The ring must outlive the recorder.
+  TraceRecorder(TraceRing& ring, std::vector<TraceSignal> signals,
+                std::vector<std::unique_ptr<TraceSink>> sinks);
+  TraceRecorder(const TraceRecorder&) = delete;
+  TraceRecorder& operator=(const TraceRecorder&) = delete;
+  ~TraceRecorder();  ///< stops
+
+  /// Writes out everything that is in the ring, ends the sinks and joins the thread. To be called after the
+  /// last `push`; a second call does nothing. The thread that made the recorder.
+  void stop();
+
+  /// What is missing from the trace so far: for each sink that failed, and for the ring when it overflowed, a
+  /// text such as "trace incomplete: 12 rows lost in run.csv: No space left on device". Empty if nothing is
+  /// missing. Any thread but the cycle's.
+  std::vector<std::string> losses() const;
+
+ private:
+  struct Loss {
+    std::string name;
+    std::uint64_t rows;
+    std::string reason;
+  };
+
+  void record();
+  void begin_sinks() noexcept;
+  bool drain() noexcept;
+  void flush_sinks() noexcept;
+  void end_sinks() noexcept;
+  void report() noexcept;
+
+  TraceRing& ring_;
+  const std::vector<TraceSignal> signals_;
+  const std::vector<std::unique_ptr<TraceSink>> sinks_;
+
+  mutable std::mutex mutex_;  // guards the three below; the cycle never takes it
+  std::condition_variable wake_;
+  bool stop_ = false;
+  std::vector<Loss> losses_;
+
+  std::thread thread_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,171 @@
+#include "hmi_bridge/lcm_log.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "hmi_bridge/lcm_trace_reader.hpp"
+#include "tests/hmi_bridge/trace_samples.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kPeriod = 250'000'000;  // [ns]
+
+const LcmTraceIdentity kIdentity{"rotary_knife", "KNIFE", kPeriod, 0};
+
+void write_log(const std::string& path, const LcmTraceIdentity& identity,
+               const std::vector<std::vector<Value>>& rows) {
+  LcmLog log(path, identity);
+  log.begin(sample_signals());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    log.row({static_cast<std::int64_t>(i) * identity.period, 2 * i, 0, rows[i]});
+  log.end();
+  EXPECT_EQ(log.reason(), "");
+}
+
+std::string message_of(const std::string& path, const std::string& channel = "") {
+  try {
+    read_lcm_trace(path, channel);
+  } catch (const TraceFormatError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(LcmLog, ALogReadsBackWithoutALostBit) {
+  const TraceDirectory directory;
+  const std::string path = directory.file("run.lcm");
+  const auto rows = sample_rows(500, 17);
+  write_log(path, kIdentity, rows);
+
+  LcmTraceReader reader(path);
+  EXPECT_EQ(reader.signals(), sample_signals());
+  EXPECT_EQ(reader.header().project, "rotary_knife");
+  EXPECT_EQ(reader.header().period, kPeriod);
+  std::size_t count = 0;
+  for (; reader.next(); ++count) {
+    const TraceRow row = reader.row();
+    ASSERT_EQ(row.t, static_cast<std::int64_t>(count) * kPeriod);
+    ASSERT_EQ(row.tick, 2 * count);
+    for (std::size_t i = 0; i < row.values.size(); ++i) ASSERT_EQ(row.values[i].u, rows[count][i].u);
+  }
+  EXPECT_EQ(count, rows.size());
+  EXPECT_EQ(reader.remark(), "");
+}
+
+TEST(LcmLog, InVirtualTimeTheStampsAreVirtualAndTwoLogsAreTheSameBytes) {
+  const TraceDirectory directory;
+  write_log(directory.file("a.lcm"), kIdentity, sample_rows(100, 3));
+  write_log(directory.file("b.lcm"), kIdentity, sample_rows(100, 3));
+  EXPECT_EQ(content(directory.file("a.lcm")), content(directory.file("b.lcm")));
+  LcmTraceReader reader(directory.file("a.lcm"));
+  for (std::int64_t i = 0; reader.next(); ++i) {
+    EXPECT_EQ(reader.event_time(), i * 250'000);
+    EXPECT_EQ(reader.utime(), i * 250'000);
+  }
+}
+
+TEST(LcmLog, InRealTimeTheStampsCountFromTheStartOnTheWallClock) {
+  const TraceDirectory directory;
+  constexpr std::int64_t kStart = 1'700'000'000'000'000;
+  write_log(directory.file("a.lcm"), {"p", "C", kPeriod, kStart}, sample_rows(3, 3));
+  LcmTraceReader reader(directory.file("a.lcm"));
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(reader.next());
+  EXPECT_EQ(reader.event_time(), kStart + 500'000);
+}
+
+TEST(LcmLog, TheHeaderStandsAtTheFrontAndOnceForEverySecond) {
+  const TraceDirectory directory;
+  write_log(directory.file("run.lcm"), kIdentity, sample_rows(9, 3));
+  lcm_eventlog_t* log = lcm_eventlog_create(directory.file("run.lcm").c_str(), "r");
+  ASSERT_NE(log, nullptr);
+  std::string order;
+  while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log)) {
+    const std::string channel(event->channel, static_cast<std::size_t>(event->channellen));
+    order += channel == "KNIFE_HEADER" ? 'H' : channel == "KNIFE" ? 'r' : '?';
+    lcm_eventlog_free_event(event);
+  }
+  lcm_eventlog_destroy(log);
+  EXPECT_EQ(order, "HrrrrHrrrrHr");
+}
+
+TEST(LcmLog, ATraceWithoutRowsStillTellsWhatItWouldHaveHeld) {
+  const TraceDirectory directory;
+  write_log(directory.file("run.lcm"), kIdentity, {});
+  const TraceTable table = read_lcm_trace(directory.file("run.lcm"));
+  EXPECT_EQ(table.signals, sample_signals());
+  EXPECT_TRUE(table.t.empty());
+}
+
+TEST(LcmLog, AFileThatCannotBeOpenedIsNamed) {
+  try {
+    LcmLog log("/no/such/folder/run.lcm", kIdentity);
+    FAIL() << "opened";
+  } catch (const std::system_error& error) {
+    EXPECT_EQ(std::string(error.what()), "/no/such/folder/run.lcm: No such file or directory");
+  }
+}
+
+TEST(LcmTraceReader, ALogThatWasCutShortGivesItsWholeRowsAndARemark) {
+  const TraceDirectory directory;
+  const std::string path = directory.file("run.lcm");
+  write_log(path, kIdentity, sample_rows(10, 3));
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 5);
+  const TraceTable table = read_lcm_trace(path);
+  EXPECT_EQ(table.t.size(), 9u);
+  EXPECT_EQ(table.remark, "the log is cut short or damaged behind event 11");
+}
+
+TEST(LcmTraceReader, RowsThatTheRunDroppedAreRemarked) {
+  const TraceDirectory directory;
+  {
+    LcmLog log(directory.file("run.lcm"), kIdentity);
+    log.begin({});
+    log.row({0, 0, 0, {}});
+    log.row({kPeriod, 1, 4, {}});
+    log.end();
+  }
+  EXPECT_EQ(read_lcm_trace(directory.file("run.lcm")).remark, "4 rows were dropped by the run");
+}
+
+TEST(LcmTraceReader, WhatIsNoTraceIsRefusedWithTheReason) {
+  const TraceDirectory directory;
+  const std::string path = directory.file("run.lcm");
+  EXPECT_EQ(message_of(path), path + ": No such file or directory");
+  EXPECT_EQ(message_of("/"), "/: Is a directory");
+  std::ofstream(path) << "t,a\n0,1\n";
+  EXPECT_EQ(message_of(path), path + ": is not an LCM event log");
+  write_log(path, kIdentity, sample_rows(1, 3));
+  EXPECT_EQ(message_of(path, "CUTTER"), path + ": holds no trace on channel CUTTER");
+  EXPECT_EQ(message_of(path, "KNIFE"), "no error");
+}
+
+TEST(LcmTraceReader, ADamagedMessageIsNamedByItsEvent) {
+  const TraceDirectory directory;
+  const std::string path = directory.file("run.lcm");
+  lcm_eventlog_t* log = lcm_eventlog_create(path.c_str(), "w");
+  ASSERT_NE(log, nullptr);
+  LcmEncoder encoder(kIdentity, sample_signals());
+  const auto rows = sample_rows(1, 3);
+  const auto write = [log](std::string channel, std::span<const std::uint8_t> bytes) {
+    std::vector<std::uint8_t> data(bytes.begin(), bytes.end());
+    lcm_eventlog_event_t event{};
+    event.channel = channel.data();
+    event.channellen = static_cast<std::int32_t>(channel.size());
+    event.data = data.data();
+    event.datalen = static_cast<std::int32_t>(data.size());
+    EXPECT_EQ(lcm_eventlog_write_event(log, &event), 0);
+  };
+  write("OTHER", std::vector<std::uint8_t>(3));  // other traffic on the network is passed over
+  write("KNIFE_HEADER", encoder.header());
+  write("KNIFE", encoder.row({0, 0, 0, rows[0]}));
+  write("KNIFE", encoder.row({0, 0, 0, rows[0]}).first(60));
+  lcm_eventlog_destroy(log);
+  EXPECT_EQ(message_of(path), path + ": event 3: a damaged message on channel KNIFE");
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,251 @@
+// Traces on a real network, with LCM's own programs: over UDP multicast, in a network of its own that each
+// test makes, so that no network of the machine is needed and none is disturbed.
+#include <gtest/gtest.h>
+#include <lcm/lcm.h>
+#include <net/if.h>
+#include <net/route.h>
+#include <netinet/in.h>
+#include <sys/ioctl.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include "hmi_bridge/lcm_log.hpp"
+#include "hmi_bridge/lcm_publisher.hpp"
+#include "hmi_bridge/lcm_trace_reader.hpp"
+#include "tests/hmi_bridge/trace_samples.hpp"
+
+namespace lockstep {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
+constexpr char kInside[] = "LOCKSTEP_TEST_IN_OWN_NETWORK";
+constexpr std::chrono::seconds kDeadline{60};
+
+const std::vector<TraceSignal> kSignals(25, {"x", Type::LREAL, "u"});  // a row is a message of 256 bytes
+const LcmTraceIdentity kIdentity{"rotary_knife", "KNIFE", 100'000, 0};
+
+/// A program that ends with this object, or with this process.
+class Program {
+ public:
+  explicit Program(std::vector<std::string> command) {
+    pid_ = ::fork();
+    if (pid_ != 0) return;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    std::vector<char*> arguments;
+    for (std::string& argument : command) arguments.push_back(argument.data());
+    arguments.push_back(nullptr);
+    ::execvp(arguments[0], arguments.data());
+    ::_exit(127);
+  }
+  ~Program() {
+    if (!ended_) ::kill(pid_, SIGKILL);
+    status();
+  }
+  void interrupt() { ::kill(pid_, SIGINT); }
+  bool running() {
+    if (!ended_) ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
+    return !ended_;
+  }
+  /// Waits for its end; the exit status, or -1 when a signal ended it.
+  int status() {
+    if (!ended_) ended_ = ::waitpid(pid_, &status_, 0) == pid_;
+    return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
+  }
+
+ private:
+  pid_t pid_ = -1;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+bool wait_until(const std::function<bool()>& condition, std::chrono::seconds limit = kDeadline) {
+  const auto deadline = Clock::now() + limit;
+  while (!condition()) {
+    if (Clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+// Brings up the loopback device of this network, able to multicast, with a route for all of it.
+void bring_up_network() {
+  const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
+  ifreq device{};
+  std::snprintf(device.ifr_name, sizeof device.ifr_name, "lo");
+  device.ifr_flags = IFF_UP | IFF_RUNNING | IFF_LOOPBACK | IFF_MULTICAST;
+  ASSERT_EQ(::ioctl(fd, SIOCSIFFLAGS, &device), 0) << std::strerror(errno);
+  rtentry route{};
+  const auto address = [](sockaddr& place, std::uint32_t number) {
+    sockaddr_in in{};
+    in.sin_family = AF_INET;
+    in.sin_addr.s_addr = htonl(number);
+    std::memcpy(&place, &in, sizeof in);
+  };
+  address(route.rt_dst, 0xE0000000);      // 224.0.0.0
+  address(route.rt_genmask, 0xF0000000);  // /4
+  route.rt_flags = RTF_UP;
+  route.rt_dev = device.ifr_name;
+  ASSERT_EQ(::ioctl(fd, SIOCADDRT, &route), 0) << std::strerror(errno);
+  ::close(fd);
+}
+
+/// Runs the body of a test in a network of its own: the test starts its own program again under `unshare`, as
+/// root or else as the root of a user namespace, with itself as the only test.
+void in_own_network(const std::function<void()>& body) {
+  if (std::getenv(kInside) != nullptr) return body();
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const std::string filter = std::string("--gtest_filter=") + test->test_suite_name() + "." + test->name();
+  const std::string options = ::geteuid() == 0 ? "-n" : "-Urn";
+  ASSERT_EQ(Program({"unshare", options, "true"}).status(), 0)
+      << "This test needs a network of its own: root, or user namespaces open to everybody (unshare "
+      << options << ").";
+  ::setenv(kInside, "1", 1);
+  Program inside({"unshare", options, std::filesystem::read_symlink("/proc/self/exe"), filter});
+  ::unsetenv(kInside);
+  ASSERT_TRUE(wait_until([&inside] { return !inside.running(); }, 4 * kDeadline))
+      << "the test inside did not end";
+  EXPECT_EQ(inside.status(), 0) << "the test inside failed, its output is above";
+}
+
+std::vector<Value> row_values(std::uint64_t tick) {
+  std::vector<Value> values;
+  for (std::size_t i = 0; i < kSignals.size(); ++i)
+    values.push_back(real(static_cast<double>(tick * 100 + i) / 7.0));
+  return values;
+}
+
+/// Hears everything on the network, as a stranger's program does.
+class Listener {
+ public:
+  Listener() : lcm_(lcm_create(kUrl)) {
+    auto* subscription = lcm_subscribe(lcm_, "KNIFE.*", on_message, this);
+    lcm_subscription_set_queue_capacity(subscription, 0);  // no limit: LCM's own is 30 messages
+  }
+  ~Listener() { lcm_destroy(lcm_); }
+  /// Takes what comes until nothing has come for some time.
+  void listen(int milliseconds) {
+    while (lcm_handle_timeout(lcm_, milliseconds) > 0) continue;
+  }
+
+  LcmDecoder decoder;
+  std::uint64_t headers = 0;
+  std::uint64_t rows = 0;
+  std::uint64_t wrong = 0;
+
+ private:
+  static void on_message(const lcm_recv_buf_t* buffer, const char*, void* self) {
+    auto& listener = *static_cast<Listener*>(self);
+    const auto message =
+        listener.decoder.accept({static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    if (message == LcmDecoder::Message::kHeader) ++listener.headers;
+    if (message != LcmDecoder::Message::kRow) return;
+    const TraceRow row = listener.decoder.row();
+    const std::vector<Value> expected = row_values(row.tick);
+    ++listener.rows;
+    for (std::size_t i = 0; i < expected.size(); ++i) listener.wrong += row.values[i].u != expected[i].u;
+  }
+
+  lcm_t* lcm_;
+};
+
+TEST(LcmNetwork, WithoutAMulticastRouteTheReasonIsGivenAndNothingIsPrinted) {
+  in_own_network([] {
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    std::string reason;
+    try {
+      LcmPublisher publisher(kUrl, kIdentity);
+    } catch (const std::runtime_error& error) {
+      reason = error.what();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(reason, std::string("LCM on ") + kUrl + ": no multicast route: Network is unreachable");
+  });
+}
+
+// 10,000 messages of 256 bytes in a second, to LCM's own logger.
+TEST(LcmNetwork, LcmLoggerRecordsEveryRowOfABusyTrace) {
+  in_own_network([] {
+    bring_up_network();
+    constexpr std::uint64_t kRows = 10'000;
+    const TraceDirectory directory;
+    const std::string path = directory.file("logged.lcm");
+    LcmPublisher publisher(kUrl, kIdentity);
+    Program logger({"lcm-logger", "-q", "--flush-interval=10", std::string("--lcm-url=") + kUrl, path});
+    const auto logged = [&path] {
+      std::error_code none;
+      const auto size = std::filesystem::file_size(path, none);
+      return none ? 0 : size;
+    };
+    // The logger looks whether to flush its file whenever a message comes.
+    const auto logged_up_to = [&](std::uint64_t size) {
+      lcm_publish(publisher.instance(), "ANOTHER", "?", 1);
+      return logged() > size || !logger.running();
+    };
+    ASSERT_TRUE(wait_until([&] { return logged_up_to(0); }));
+    ASSERT_TRUE(logger.running()) << "lcm-logger has ended with " << logger.status();
+
+    publisher.begin(kSignals);
+    const auto start = Clock::now();
+    for (std::uint64_t tick = 0; tick < kRows; ++tick) {
+      std::this_thread::sleep_until(start + tick * std::chrono::microseconds(100));
+      publisher.row({static_cast<std::int64_t>(tick) * 100'000, tick, 0, row_values(tick)});
+    }
+    EXPECT_EQ(publisher.lost(), 0u) << publisher.reason();
+    EXPECT_TRUE(wait_until([&] { return logged_up_to(kRows * (28 + 5 + 256)); }));
+    logger.interrupt();
+    logger.status();
+
+    LcmTraceReader reader(path, "KNIFE");
+    std::uint64_t rows = 0;
+    for (; reader.next(); ++rows) {
+      const std::vector<Value> expected = row_values(rows);
+      ASSERT_EQ(reader.row().tick, rows);
+      for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_EQ(reader.row().values[i].u, expected[i].u);
+    }
+    EXPECT_EQ(rows, kRows);
+  });
+}
+
+TEST(LcmNetwork, LcmLogplayerReplaysALogToASubscriber) {
+  in_own_network([] {
+    bring_up_network();
+    constexpr std::uint64_t kRows = 1500;  // 1.5 s of virtual time
+    const TraceDirectory directory;
+    const std::string path = directory.file("run.lcm");
+    LcmLog log(path, kIdentity);
+    log.begin(kSignals);
+    for (std::uint64_t tick = 0; tick < kRows; ++tick)
+      log.row({static_cast<std::int64_t>(tick) * 1'000'000, tick, 0, row_values(tick)});
+    log.end();
+    ASSERT_EQ(log.reason(), "");
+
+    Listener listener;
+    Program player({"lcm-logplayer", std::string("--lcm-url=") + kUrl, path});
+    EXPECT_TRUE(wait_until([&] {
+      listener.listen(100);
+      return !player.running();
+    }));
+    EXPECT_EQ(player.status(), 0);
+    listener.listen(1000);
+    EXPECT_EQ(listener.rows, kRows);
+    EXPECT_EQ(listener.headers, 2u);
+    EXPECT_EQ(listener.wrong, 0u);
+  });
+}
+
+}  // namespace
+}  // namespace lockstep

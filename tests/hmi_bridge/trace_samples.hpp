@@ -1,0 +1,73 @@
+/// Signals, rows and places for the tests of traces.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "hmi_bridge/trace_sink.hpp"
+
+namespace lockstep {
+
+/// A directory of one test, gone with it.
+class TraceDirectory {
+ public:
+  TraceDirectory() {
+    std::string pattern = testing::TempDir() + "lockstep_trace_XXXXXX";
+    if (::mkdtemp(pattern.data()) == nullptr) ADD_FAILURE() << "no directory " << pattern;
+    path_ = pattern;
+  }
+  ~TraceDirectory() { std::filesystem::remove_all(path_); }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+inline std::string content(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+inline Value real(double number) {
+  return {.r = number};
+}
+inline Value integer(std::int64_t number) {
+  return {.i = number};
+}
+
+/// One signal of each kind.
+inline std::vector<TraceSignal> sample_signals() {
+  return {{"Knife.Position", Type::LREAL, "u"},
+          {"gear.InSync", Type::BOOL, ""},
+          {"count", Type::DINT, ""},
+          {"total", Type::LINT, ""},
+          {"mask", Type::LWORD, ""},
+          {"after", Type::TIME, "s"},
+          {"share", Type::REAL, "%"}};
+}
+
+/// Seeded rows of `sample_signals`, whose 64-bit values do not fit a double.
+inline std::vector<std::vector<Value>> sample_rows(std::size_t rows, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> position(-1e3, 1e3);
+  std::vector<std::vector<Value>> values;
+  for (std::size_t i = 0; i < rows; ++i)
+    values.push_back({real(position(random)), integer(static_cast<std::int64_t>(random() & 1)),
+                      integer(static_cast<std::int32_t>(random())),
+                      integer(static_cast<std::int64_t>(random() | 1)),
+                      integer(static_cast<std::int64_t>(random() | 1)),
+                      integer(static_cast<std::int64_t>(random() >> 8 | 1)),
+                      real(static_cast<double>(static_cast<float>(position(random))))});
+  return values;
+}
+
+}  // namespace lockstep
