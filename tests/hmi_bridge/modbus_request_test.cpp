@@ -209,19 +209,6 @@ TEST_F(ModbusRequest, AWriteWithReadReadsWhatItHasWrittenAsTheTagHoldsIt) {
   EXPECT_EQ(machine.small, 9);
 }
 
-TEST(ModbusBusy, AWriteThatFindsNoRoomIsException6AndIsNotHalfDone) {
-  ModbusMachine machine(3);
-  ModbusResponder responder(machine.map, machine.image);
-  const Bytes two = {0, 0, 0, 0, 0, 11, 1, 16, 0, 200, 0, 2, 4, 0, 1, 0, 2};
-  EXPECT_EQ(responder.answer(two)[7], 16);
-  const auto refused = responder.answer(two);
-  EXPECT_EQ(refused[7], 0x90);
-  EXPECT_EQ(refused[8], 6);
-  EXPECT_EQ(responder.exception(), ModbusException::server_device_busy);
-  machine.tick();
-  EXPECT_EQ(responder.answer(two)[7], 16);
-}
-
 /// What is left of the tags after a request that was answered with an exception.
 Bytes memory_of(ModbusMachine& machine) {
   Bytes all;
