@@ -25,15 +25,19 @@ namespace {
 
 constexpr int kAcceptsPerTurn = 8;
 constexpr std::chrono::milliseconds kCheckTime{100};  ///< how often what clients owe is looked at
+constexpr int kSocketBuffer = 16 * 1024;              ///< [byte]
 constexpr int kNice = 5;
 
 void set_option(int socket, int level, int option, int value) noexcept {
   ::setsockopt(socket, level, option, &value, sizeof value);
 }
 
-/// Answers go out at once, and a peer that vanished without a word is noticed after a minute and a half.
+/// Answers go out at once, a peer that vanished without a word is noticed after a minute and a half, and what
+/// the system keeps for a client that takes no answers is bounded.
 void tune_client(int socket) noexcept {
   set_option(socket, IPPROTO_TCP, TCP_NODELAY, 1);
+  set_option(socket, SOL_SOCKET, SO_SNDBUF, kSocketBuffer);
+  set_option(socket, SOL_SOCKET, SO_RCVBUF, kSocketBuffer);
   set_option(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
   set_option(socket, IPPROTO_TCP, TCP_KEEPIDLE, 60);
   set_option(socket, IPPROTO_TCP, TCP_KEEPINTVL, 10);

@@ -36,12 +36,6 @@ void ProcessImage::WriteSet::add(std::uint32_t variable, Value value, std::uint6
   write.mask |= mask;
 }
 
-void ProcessImage::WriteSet::add(const WriteSet& later) noexcept {
-  for (const std::uint32_t variable : later.touched_)
-    add(variable, later.writes_[variable].value, later.writes_[variable].mask);
-  last = later.last;
-}
-
 void ProcessImage::WriteSet::clear() noexcept {
   for (const std::uint32_t variable : touched_) writes_[variable] = {};
   touched_.clear();
@@ -64,7 +58,6 @@ ProcessImage::ProcessImage(std::vector<Signal> signals)
       snapshot_(first_snapshot(variables_)),
       sets_{WriteSet(variables_.size()), WriteSet(variables_.size()), WriteSet(variables_.size())},
       shadow_(variables_.size()),
-      taken_(variables_.size()),
       waiting_(variables_.size()) {
   for (std::uint32_t i = 0; i < variables_.size(); ++i) shadow_of(i).store(snapshot_.front().values[i]);
 }
@@ -103,9 +96,8 @@ bool ProcessImage::refresh() noexcept {
   const Snapshot& snapshot = snapshot_.front();
   for (std::uint32_t i = 0; i < variables_.size(); ++i) shadow_of(i).store(snapshot.values[i]);
   // What this tick did not know yet goes on top.
-  for (const WriteSet* set : {&taken_, &waiting_})
-    if (set->last > snapshot.applied)
-      set->apply([this](std::uint32_t variable) { return shadow_of(variable); });
+  if (waiting_.last > snapshot.applied)
+    waiting_.apply([this](std::uint32_t variable) { return shadow_of(variable); });
   return true;
 }
 
@@ -127,7 +119,12 @@ void ProcessImage::add_to(WriteSet& set, const SignalWrite& write) const noexcep
 void ProcessImage::post(std::span<const SignalWrite> batch) noexcept {
   const std::uint8_t found = box_.exchange(bridge_set_, std::memory_order_acq_rel);
   bridge_set_ = found & kSet;
-  if ((found & kFull) == 0) begin_new_set();
+  if ((found & kFull) == 0) {
+    // The cycle has taken what waited, in a tick that followed the snapshot which this finds at the least. So
+    // every later one shows it, and until then the shadow does.
+    refresh();
+    waiting_.clear();
+  }
   WriteSet& set = sets_[bridge_set_];
   ++posted_;
   for (const SignalWrite& write : batch) {
@@ -138,14 +135,6 @@ void ProcessImage::post(std::span<const SignalWrite> batch) noexcept {
   waiting_.last = posted_;
   bridge_set_ = box_.exchange(bridge_set_ | kFull, std::memory_order_acq_rel) & kSet;
   waiting_.apply([this](std::uint32_t variable) { return shadow_of(variable); });
-}
-
-void ProcessImage::begin_new_set() noexcept {
-  // The cycle has taken what waited. What it had taken before that one a snapshot shows by now.
-  refresh();
-  if (taken_.last <= snapshot_.front().applied) taken_.clear();
-  taken_.add(waiting_);
-  waiting_.clear();
 }
 
 }  // namespace lockstep

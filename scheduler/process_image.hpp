@@ -74,7 +74,6 @@ class ProcessImage {
    public:
     explicit WriteSet(std::size_t variables) : writes_(variables) { touched_.reserve(variables); }
     void add(std::uint32_t variable, Value value, std::uint64_t mask) noexcept;
-    void add(const WriteSet& later) noexcept;
     void clear() noexcept;
     /// Applies the writes to these variables, of which `target(variable)` says where they are.
     template <class Target>
@@ -94,7 +93,6 @@ class ProcessImage {
   static Snapshot first_snapshot(const std::vector<Signal>& variables);
   Signal shadow_of(std::uint32_t variable) const noexcept;
   void add_to(WriteSet& set, const SignalWrite& write) const noexcept;
-  void begin_new_set() noexcept;
 
   // Fixed after construction. Several signals may lie in one variable: the word and its bits.
   const std::vector<Signal> signals_;
@@ -115,11 +113,10 @@ class ProcessImage {
   alignas(kCacheLine) std::uint8_t cycle_set_ = 0;
   std::uint64_t applied_ = 0;  ///< the cycle's: number of the last batch applied
 
-  // The bridge's: the variables as it sees them, and its writes that no snapshot may have shown yet. The
-  // cycle shows what it has taken before it takes the next set, so these are two sets at most.
+  // The bridge's: the variables as it sees them, and its writes that the cycle had not taken when it last
+  // looked.
   alignas(kCacheLine) std::uint8_t bridge_set_ = 2;
   mutable std::vector<std::uint64_t> shadow_;
-  WriteSet taken_;
   WriteSet waiting_;
   std::uint64_t posted_ = 0;
 };

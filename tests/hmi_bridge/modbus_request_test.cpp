@@ -141,6 +141,7 @@ TEST_F(ModbusRequest, AWriteOfAPartOfAValueIsException2) {
   EXPECT_EQ(ask({6, 0, 11, 0, 0}), (Bytes{0x86, 2}));
   EXPECT_EQ(ask({22, 0, 20, 0, 0, 0, 0}), (Bytes{0x96, 2}));
   EXPECT_EQ(ask({16, 0, 20, 0, 3, 6, 0, 0, 0, 0, 0, 0}), (Bytes{0x90, 2}));
+  EXPECT_EQ(ask({16, 0, 21, 0, 4, 8, 0, 0, 0, 0, 0, 0, 0, 0}), (Bytes{0x90, 2}));
   EXPECT_EQ(ask({16, 0, 21, 0, 3, 6, 0, 0, 0, 0, 0, 0}), (Bytes{0x90, 2}));
   EXPECT_EQ(ask({23, 0, 10, 0, 1, 0, 10, 0, 1, 2, 0, 0}), (Bytes{0x97, 2}));
 }
