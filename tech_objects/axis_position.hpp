@@ -1,0 +1,65 @@
+/// Where an axis is: its position on the modulo ring and the turns it has made, or its position on a line.
+#pragma once
+
+#include <cstdint>
+
+#include "tech_objects/double_double.hpp"
+
+namespace lockstep {
+
+/// The modulo setting of an axis.
+/// @source S7-1500T synchronous operation V7, 13.2 (Modulo)
+struct Modulo {
+  bool enabled = false;   ///< false: linear axis, the other two do not matter
+  double length = 360.0;  ///< [u] 0.001 … 1.0E12
+  double start = 0.0;     ///< [u] -1.0E12 … 1.0E12, lowest position
+
+  /// [u] The first double that is no position any more: start + length rounded.
+  constexpr double end() const noexcept { return start + length; }
+  constexpr bool contains(double value) const noexcept {
+    return !enabled || (value >= start && value < end());
+  }
+};
+
+/// Position of an axis. Modulo axis: `value` in [start, start + length), position on the line is
+/// turns · length + value. Linear axis: `turns` is 0. Turns wrap around at 64 bits without a step.
+struct AxisPosition {
+  std::int64_t turns = 0;
+  double value = 0.0;  ///< [u]
+
+  friend constexpr bool operator==(const AxisPosition&, const AxisPosition&) noexcept = default;
+};
+
+/// A value of any size brought onto the ring; the turns it held are counted. The reduction is exact and the
+/// result rounded once; a value that would round to the end of the ring is its start, one turn on. Linear
+/// axis: the value rounded. `value` is finite with |value| ≤ 2^52 · length, or it is returned as it is. Any
+/// thread.
+AxisPosition normalised(std::int64_t turns, DoubleDouble value, const Modulo& modulo) noexcept;
+
+inline AxisPosition normalised(AxisPosition position, const Modulo& modulo) noexcept {
+  if (modulo.contains(position.value)) return position;
+  return normalised(position.turns, to_double_double(position.value), modulo);
+}
+
+/// The position after a way of `increment` [u] of either sign: exact, then rounded once.
+/// Whoever adds up many increments keeps the sum as a DoubleDouble and adds it to where he began. Any thread.
+AxisPosition advanced(AxisPosition position, DoubleDouble increment, const Modulo& modulo) noexcept;
+
+inline AxisPosition advanced(AxisPosition position, double increment, const Modulo& modulo) noexcept {
+  return advanced(position, to_double_double(increment), modulo);
+}
+
+/// Way from `from` to `to` [u] with the turns (the shorter way round where these wrap), within 2^-103 of it.
+/// Any thread.
+DoubleDouble difference(AxisPosition to, AxisPosition from, const Modulo& modulo) noexcept;
+
+/// Way [u] from a position to a target on the ring in one direction: positive in [0, length], negative in
+/// [-length, 0]; length itself only where less than half an ulp is missing to a whole turn. The target may
+/// lie outside the ring and is brought onto it. Linear axis: target - from, whatever its sign. Any thread.
+double positive_distance(double from, double target, const Modulo& modulo) noexcept;
+double negative_distance(double from, double target, const Modulo& modulo) noexcept;
+
+/// The shorter of the two ways; the positive one when they are equal. Linear axis: target - from. Any thread.
+double shortest_distance(double from, double target, const Modulo& modulo) noexcept;
+
+}  // namespace lockstep

@@ -1,0 +1,49 @@
+#include "tech_objects/double_double.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace lockstep {
+namespace {
+
+TEST(DoubleDouble, SumsAndProductsOfDoublesLoseNothing) {
+  constexpr unsigned kSeed = 11;
+  std::mt19937_64 random(kSeed);
+  std::uniform_int_distribution<std::int64_t> numbers(-(1LL << 53), 1LL << 53);
+  __extension__ using Wide = __int128;
+  for (int i = 0; i < 100000; ++i) {
+    const std::int64_t a = numbers(random);
+    const std::int64_t b = numbers(random);
+    const DoubleDouble sum = two_sum(static_cast<double>(a), static_cast<double>(b));
+    ASSERT_EQ(static_cast<std::int64_t>(sum.hi) + static_cast<std::int64_t>(sum.lo), a + b)
+        << "seed " << kSeed;
+    const DoubleDouble product = two_product(static_cast<double>(a), static_cast<double>(b));
+    ASSERT_TRUE(static_cast<Wide>(product.hi) + static_cast<Wide>(product.lo) == static_cast<Wide>(a) * b)
+        << "seed " << kSeed;
+  }
+}
+
+TEST(DoubleDouble, AQuotientTimesItsDivisorIsTheDividend) {
+  const DoubleDouble third = to_double_double(1.0) / 3.0;
+  EXPECT_NE(third.lo, 0.0);
+  EXPECT_EQ((third * 3.0).rounded(), 1.0);
+  EXPECT_LE(std::abs((third * 3.0 - 1.0).rounded()), 0x1p-103);
+}
+
+TEST(DoubleDouble, A64BitIntegerIsExact) {
+  const DoubleDouble most = to_double_double(INT64_MAX);
+  EXPECT_EQ(most.hi, 0x1p63);
+  EXPECT_EQ(most.lo, -1.0);
+  EXPECT_EQ(to_double_double(INT64_MIN).hi, -0x1p63);
+}
+
+TEST(DoubleDouble, AManyTermSumIsTheRoundedExactSum) {
+  DoubleDouble sum{};
+  for (int i = 0; i < 1000000; ++i) sum = sum + 0.1;
+  EXPECT_EQ(sum.rounded(), 100000.00000000000555);  // a million times the double next to 0.1, rounded
+}
+
+}  // namespace
+}  // namespace lockstep

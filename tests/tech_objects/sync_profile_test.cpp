@@ -1,0 +1,194 @@
+#include "tech_objects/sync_profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tech_objects/gear_function.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr Modulo kLine{};
+constexpr Modulo kRing{true, 360.0, 0.0};
+
+/// Least slope of the following position x = F + y over the profile, times `to`.
+double least_slope(const SyncProfile& profile, double end_slope, double to) {
+  double least = INFINITY;
+  for (int i = 0; i <= 2000; ++i)
+    least = std::min(least, to * (end_slope + profile.value(profile.distance() * i / 2000.0).slope));
+  return least;
+}
+
+TEST(SyncProfile, BeginsWithTheMotionOfTheAxisAndEndsOnTheFunctionToTheLastBit) {
+  constexpr unsigned kSeed = 3;
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i < 2000; ++i) {
+    SyncStart start;
+    const bool backward = i % 2 == 0;
+    start.leading = {0, any(random) * 1000.0};
+    start.leading_velocity = (backward ? -1.0 : 1.0) * (1.0 + 99.0 * std::abs(any(random)));
+    start.leading_acceleration = any(random) * 100.0;
+    start.following = {0, any(random) * 500.0};
+    start.velocity = any(random) * 100.0;
+    start.acceleration = any(random) * 100.0;
+    const SyncTarget target{{0, any(random) * 500.0}, any(random) * 5.0};
+    const double distance = 1.0 + 100.0 * std::abs(any(random));
+    SyncProfile profile;
+    ASSERT_EQ(profile.plan(start, target, distance, backward, SyncDirection::kShortestPath, kLine, kLine),
+              SyncPlan::kReady);
+    const double way_velocity = std::abs(start.leading_velocity);
+    const double way_acceleration = (backward ? -1.0 : 1.0) * start.leading_acceleration;
+    const SyncOffset begin = profile.value(0.0);
+    EXPECT_EQ(begin.position, start.following.value - target.at_start.value) << "seed " << kSeed;
+    EXPECT_NEAR(target.slope * start.leading_velocity + begin.velocity(way_velocity), start.velocity, 1e-9);
+    EXPECT_NEAR(
+        target.slope * start.leading_acceleration + begin.acceleration(way_velocity, way_acceleration),
+        start.acceleration, 1e-6);
+    for (const double way : {distance, distance * 1.5}) {
+      const SyncOffset end = profile.value(way);
+      EXPECT_TRUE(end.position == 0.0 && end.slope == 0.0 && end.curvature == 0.0);
+    }
+    const double step = distance * 1e-6;  // joins with position, slope and curvature
+    const SyncOffset near = profile.value(distance - step);
+    const double scale = 1e4 * (1.0 + std::abs(begin.position) + distance * std::abs(begin.slope) +
+                                distance * distance * std::abs(begin.curvature));
+    EXPECT_LE(std::abs(near.position), scale * 1e-18);
+    EXPECT_LE(std::abs(near.slope) * distance, scale * 1e-12);
+    EXPECT_LE(std::abs(near.curvature) * distance * distance, scale * 1e-6);
+  }
+}
+
+TEST(SyncProfile, SlopeAndCurvatureAreTheDerivatives) {
+  SyncStart start;
+  start.leading_velocity = 10.0;
+  start.velocity = -30.0;
+  start.acceleration = 50.0;
+  start.following = {0, 12.0};
+  SyncProfile profile;
+  profile.plan(start, {{0, 3.0}, 1.5}, 40.0, false, SyncDirection::kShortestPath, kLine, kLine);
+  for (double way = 1.0; way < 39.0; way += 0.7) {
+    constexpr double kStep = 1e-3;
+    const SyncOffset low = profile.value(way - kStep);
+    const SyncOffset high = profile.value(way + kStep);
+    EXPECT_NEAR((high.position - low.position) / (2.0 * kStep), profile.value(way).slope, 1e-6);
+    EXPECT_NEAR((high.slope - low.slope) / (2.0 * kStep), profile.value(way).curvature, 1e-6);
+  }
+}
+
+TEST(SyncProfile, AStandingLeadingAxisStartsTheProfileWithSlopeZero) {
+  SyncStart start;
+  start.velocity = 20.0;
+  SyncProfile profile;
+  profile.plan(start, {{0, 5.0}, 2.0}, 10.0, false, SyncDirection::kShortestPath, kLine, kLine);
+  EXPECT_EQ(2.0 + profile.value(0.0).slope, 0.0);
+  EXPECT_EQ(profile.value(0.0).curvature, 0.0);
+}
+
+TEST(SyncProfile, TheShortestPathIsAtMostHalfATurn) {
+  // 100 units of leading distance into a function that ends at 90.
+  const SyncTarget target{{0, 350.0}, 1.0};
+  const struct {
+    double start;
+    double way;
+  } rows[] = {{350.0, 100.0}, {100.0, -10.0}, {200.0, -110.0}, {269.0, -179.0}, {271.0, 179.0}};
+  for (const auto& row : rows) {
+    SyncStart start;
+    start.following = {0, row.start};
+    SyncProfile profile;
+    ASSERT_EQ(profile.plan(start, target, 100.0, false, SyncDirection::kShortestPath, kLine, kRing),
+              SyncPlan::kReady);
+    EXPECT_DOUBLE_EQ(100.0 - profile.value(0.0).position, row.way) << "from " << row.start;
+  }
+}
+
+TEST(SyncProfile, OneWaySynchronizingTakesTheFewestTurnsThatNeverReverse) {
+  constexpr unsigned kSeed = 5;
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  int more_than_one = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const bool backward = i % 2 == 0;
+    const double to = i % 4 < 2 ? 1.0 : -1.0;
+    SyncStart start;
+    start.leading_velocity = (backward ? -1.0 : 1.0) * 10.0;
+    start.following = {7, 360.0 * any(random)};
+    start.velocity = i % 3 == 0 ? 0.0 : to * 200.0 * any(random);
+    start.acceleration = i % 3 == 0 ? 0.0 : 400.0 * (any(random) - 0.5);
+    const double end_slope = to * (0.01 + 10.0 * any(random));  // along the way
+    const SyncTarget target{{-3, 360.0 * any(random)}, backward ? -end_slope : end_slope};
+    const double distance = 1.0 + 200.0 * any(random);
+    const auto direction = to > 0.0 ? SyncDirection::kPositive : SyncDirection::kNegative;
+    SyncProfile profile;
+    ASSERT_EQ(profile.plan(start, target, distance, backward, direction, kLine, kRing), SyncPlan::kReady);
+    const double scale = std::abs(end_slope) + std::abs(start.velocity) / 10.0;
+    EXPECT_GE(least_slope(profile, end_slope, to), -1e-9 * scale) << "seed " << kSeed << " row " << i;
+    // With one turn less it would reverse, or there would be no way left to go.
+    SyncStart shifted = start;
+    shifted.following.turns += static_cast<std::int64_t>(to) - profile.turns();
+    SyncProfile shorter;
+    const double ahead = difference(shifted.following, target.at_start, kRing).rounded();
+    SyncStart on_line = start;
+    on_line.following = {0, ahead};
+    shorter.plan(on_line, {{0, 0.0}, target.slope}, distance, backward, direction, kLine, kLine);
+    EXPECT_LT(least_slope(shorter, end_slope, to), 1e-3 * scale) << "seed " << kSeed << " row " << i;
+    more_than_one += std::abs(end_slope * distance - profile.value(0.0).position) > 720.0 ? 1 : 0;
+  }
+  EXPECT_GT(more_than_one, 50);
+}
+
+TEST(SyncProfile, OneWaySynchronizingIsRejectedWhereItIsImpossible) {
+  SyncStart start;
+  start.leading_velocity = 10.0;
+  SyncProfile profile;
+  const auto plan = [&](double velocity, double acceleration, double slope, SyncDirection direction) {
+    start.velocity = velocity;
+    start.acceleration = acceleration;
+    return profile.plan(start, {{0, 5.0}, slope}, 50.0, false, direction, kLine, kRing);
+  };
+  EXPECT_EQ(plan(-1.0, 0.0, 1.0, SyncDirection::kPositive), SyncPlan::kAxisMovesTheOtherWay);
+  EXPECT_EQ(plan(0.0, -1.0, 1.0, SyncDirection::kPositive), SyncPlan::kAxisMovesTheOtherWay);
+  EXPECT_EQ(plan(1.0, 0.0, -1.0, SyncDirection::kNegative), SyncPlan::kAxisMovesTheOtherWay);
+  EXPECT_EQ(plan(0.0, 0.0, -1.0, SyncDirection::kPositive), SyncPlan::kFunctionRunsTheOtherWay);
+  EXPECT_EQ(plan(0.0, 0.0, 1.0, SyncDirection::kNegative), SyncPlan::kFunctionRunsTheOtherWay);
+  EXPECT_EQ(plan(0.0, 0.0, 1.0, SyncDirection::kPositive), SyncPlan::kReady);
+}
+
+TEST(SyncProfile, TheAxisRunsIntoTheGearWithoutAStepAcrossModuloWraps) {
+  GearFunction gear;
+  AxisPosition sync{2, 40.0};
+  gear.set(-3, 2, sync, {5, 10.0}, kRing, kRing);
+  SyncStart start;
+  start.leading = advanced(sync, -200.0, kRing);
+  start.leading_velocity = 100.0;
+  start.following = {9, 250.0};
+  start.velocity = -35.0;
+  SyncProfile profile;
+  ASSERT_EQ(profile.plan(start, {gear.value(start.leading), -1.5}, 200.0, false, SyncDirection::kNegative,
+                         kRing, kRing),
+            SyncPlan::kReady);
+  gear.set(-3, 2, sync, {5 + profile.turns(), 10.0}, kRing, kRing);
+  AxisPosition leading = start.leading;
+  AxisPosition before = start.following;
+  double step_before = start.velocity * 0.001;
+  for (int i = 0; i < 2500; ++i) {
+    leading = advanced(leading, 0.1, kRing);
+    const double way = profile.covered(leading);
+    const AxisPosition now = advanced(gear.value(leading), profile.value(way).position, kRing);
+    const double step = difference(now, before, kRing).rounded();
+    ASSERT_LE(step, 1e-12);
+    ASSERT_NEAR(step, step_before, 0.01) << i;
+    if (profile.complete(way)) {
+      ASSERT_EQ(now, gear.value(leading));
+    }
+    before = now;
+    step_before = step;
+  }
+  EXPECT_TRUE(profile.complete(profile.covered(leading)));
+}
+
+}  // namespace
+}  // namespace lockstep
