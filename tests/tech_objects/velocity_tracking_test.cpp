@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <functional>
 #include <random>
+#include <string>
 
 namespace lockstep {
 namespace {
@@ -178,6 +181,33 @@ TEST(VelocityTracking, WithoutJerkTheWayIsExactAcrossTheMeeting) {
       },
       limits, 0.0007, 400);
   EXPECT_NEAR(reversal.way, 5.0 - 1.25 - 50.0 * (0.28 - 0.15), 1e-12);
+}
+
+TEST(VelocityTracking, TakesTheTimeAndTheWayOfAnIndependentTimeOptimalGenerator) {
+  std::ifstream file(LOCKSTEP_TEST_DATA "/otg_velocity.csv");
+  ASSERT_TRUE(file.is_open());
+  int rows = 0;
+  for (std::string line; std::getline(file, line);) {
+    double v0, a0, v1, amax, jmax, duration, distance;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &v0, &a0, &v1, &amax, &jmax, &duration,
+                    &distance) != 7)
+      continue;
+    ++rows;
+    // Replanned in every one of some hundred ticks; velocity limit out of the way.
+    const double period = duration / 173.3;
+    const TrackingLimits limits{1e9, amax, amax, jmax};
+    const Chase run = follow(
+        {v0, a0},
+        [v1](double) {
+          return TrackingMotion{v1, 0.0};
+        },
+        limits, period, 180);
+    EXPECT_NEAR(run.synchronous_at * period, duration, 1.001 * period) << line;
+    EXPECT_GE(run.synchronous_at * period, duration * (1.0 - 1e-6)) << line;
+    EXPECT_NEAR(run.way, distance + v1 * (180 * period - duration), 1e-6 * (1.0 + std::abs(distance)))
+        << line;
+  }
+  EXPECT_GT(rows, 1900);
 }
 
 TEST(VelocityTracking, RandomSituationsConvergeInsideTheirLimits) {
