@@ -249,7 +249,8 @@ TEST_P(ProfileProperties, AMotionPlannedAnewOnItsWayTakesTheTimeThatWasLeft) {
     const MotionState s = profile.at(t);
     if (s.velocity > r.limits.velocity_max || s.velocity < r.limits.velocity_min || r.limits.jerk == 0.0)
       continue;
-    ASSERT_EQ(plan_position(s, r.position, 0.0, r.limits, anew), PlanResult::ok);
+    ASSERT_EQ(plan_position(s, r.position, 0.0, r.limits, anew), PlanResult::ok)
+        << "seed " << kSeed << ": " << text({s, r.position, 0.0, r.limits});
     // An error e of the position takes up to about (e / jerk)^(1/3) to be made good.
     const double error = 1e-14 * Scale(r, profile).position;
     const double allowed = 1e-6 * profile.duration() + 8.0 * std::cbrt(error / r.limits.jerk);

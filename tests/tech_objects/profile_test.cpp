@@ -196,6 +196,16 @@ TEST(Profile, FindsTheShortEasingWhereALongOneWouldAlsoMeetTheTarget) {
   }
 }
 
+TEST(Profile, MeetsATargetThatTheReleaseOfTheAccelerationSplitsExactly) {
+  const ProfileLimits limits{0.071436173436526612, -0.010305574015149331, 0.013568147838015798,
+                             0.060254942552606751, 0.0021653581266949085};
+  Profile profile;
+  ASSERT_EQ(plan_position({0.67047738487409902, 0.06085839686193284, -0.0044106800421103622},
+                          1.0759251372103746, 0.0, limits, profile),
+            PlanResult::ok);
+  EXPECT_NEAR(profile.at(std::nextafter(profile.duration(), 0.0)).position, 1.0759251372103746, 1e-14);
+}
+
 TEST(Profile, AStopKeepsOrDropsAnAccelerationThatIsPresent) {
   const MotionState speeding_up{0.0, 5.0, 100.0};
   Profile kept, dropped;
