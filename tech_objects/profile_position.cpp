@@ -32,9 +32,11 @@ PositionPlanner::View PositionPlanner::view(double sign) const noexcept {
   const double v0 = sign * start_.velocity;
   const double a0 = jerk_.jerk > 0.0 ? sign * start_.acceleration : 0.0;
   const double end = sign * target_velocity_;
-  double stop = v0 + a0 * std::abs(a0) * 0.5 * jerk_.inverse;
+  const double released = a0 * std::abs(a0) * 0.5 * jerk_.inverse;
+  double stop = v0 + released;
   // A change of velocity by what rounding leaves would take far more than a rounding error of time.
-  if (std::abs(stop - end) <= 8.0 * kEpsilon * std::abs(end)) stop = end;
+  const double velocities = std::abs(v0) + std::abs(released) + std::abs(end);
+  if (std::abs(stop - end) <= 16.0 * kEpsilon * velocities) stop = end;
   return {sign, v0, a0, stop, end, sign > 0.0 ? limit_up_ : limit_down_};
 }
 
@@ -71,7 +73,7 @@ double PositionPlanner::rounding(const View& direct, const Rise& rise, double ta
   if (v == 0.0 && direct.a0 == 0.0) return 0.0;
   const double ways = std::abs(start_.position) + std::abs(target) + v * rise.duration();
   const double of_acceleration = direct.a0 != 0.0 ? v * rise_limits_.above * jerk_.inverse : 0.0;
-  return 8.0 * kEpsilon * (ways + of_acceleration);
+  return 32.0 * kEpsilon * (ways + of_acceleration);
 }
 
 void PositionPlanner::plan_to(double target_position, Profile& out) const noexcept {
