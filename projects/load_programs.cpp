@@ -9,7 +9,6 @@ namespace lockstep {
 namespace {
 
 constexpr std::int64_t kLongestCycle = 86'400'000'000'000;  // of a program: a day [ns]
-constexpr int kHighestPriority = 26;
 constexpr int kDefaultPriority = 8;
 
 /// What a call is, by the key that only it has.
@@ -280,7 +279,7 @@ int read_priority(const Fields& fields, Ob ob, const Loading& loading) {
     return 0;
   }
   return static_cast<int>(
-      read_integer(json, 1, kHighestPriority, loading.problems).value_or(kDefaultPriority));
+      read_integer(json, kLowestPriority, kHighestPriority, loading.problems).value_or(kDefaultPriority));
 }
 
 class ProgramsLoader {
