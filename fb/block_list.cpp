@@ -8,6 +8,8 @@
 namespace lockstep {
 namespace {
 
+// One block a line:
+// clang-format off
 constexpr BlockType kTypes[] = {
     block_type<R_TRIG>(),
     block_type<F_TRIG>(),
@@ -20,6 +22,7 @@ constexpr BlockType kTypes[] = {
     block_type<CTD>(),
     block_type<CTUD>(),
 };
+// clang-format on
 
 }  // namespace
 
