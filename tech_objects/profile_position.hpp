@@ -55,6 +55,13 @@ class PositionPlanner {
     double way;
   };
 
+  /// Where the peak is looked for, as velocity above its base.
+  struct PeakSearch {
+    double low, high;
+    double over;   // the next to try
+    bool by_root;  // the way is smooth in √over
+  };
+
   View view(double sign) const noexcept;
   double release_way(const View& view) const noexcept;
   Rise climb(const View& view, double to, double excess) const noexcept;
@@ -63,6 +70,8 @@ class PositionPlanner {
   Pair peak(const View& view, double base, double over) const noexcept;
   double rounding(const View& direct, const Rise& rise, double target) const noexcept;
   double solve_peak(const View& view, double base, double way, Pair& pair) const noexcept;
+  void refine_peak(const View& view, double base, double way, PeakSearch search, Pair& pair) const noexcept;
+  double gain(const Pair& pair, double top) const noexcept;
   double first_guess(double base, double missing, const Pair& pair, double most) const noexcept;
   void build_peak(const View& view, const Pair& pair, double cruise, double target,
                   Profile& out) const noexcept;
