@@ -3,13 +3,14 @@
 /// The quickest change to the end velocity covers some way. If the target lies further in direction `s`, the
 /// motion gains way by going more in direction s, in this order, as more way is wanted:
 ///   1. ease: a present acceleration against s is reduced for a while before the change goes on;
-///   2. hold: the change is split in two at a velocity where the acceleration is 0 (starts beyond a limit
-///   only);
+///   2. hold: the change is split in two at a velocity where the acceleration is 0, if it starts
+///   beyond a limit;
 ///   3. peak: the velocity goes to a peak in direction s beyond both ends, and from there to the end
 ///   velocity;
 ///   4. cruise: with the peak at the limit, it stays there.
-/// Duration grows along this order, and the way, less the way to the target, changes its sign just once; so
-/// the one motion that fits is the quickest, and bracketing finds it.
+/// Duration grows along this order, so the first motion that fits is the quickest. The way may fall before it
+/// grows, but it passes the wanted way once, so that bracketing finds it; while easing it may do so more
+/// often, and the turning points are looked at.
 #pragma once
 
 #include <array>
