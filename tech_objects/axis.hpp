@@ -166,6 +166,7 @@ class Axis : public TechnologyObject {
 
   // axis_motion.cpp: motion of its own
   double velocity_limit() const noexcept;
+  double wanted_velocity(const Job& job) const noexcept;
   Dynamics effective_dynamics(const Job& job) noexcept;
   Dynamics maximum_dynamics() const noexcept;
   Dynamics emergency_dynamics() const noexcept;

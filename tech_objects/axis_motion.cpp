@@ -25,15 +25,27 @@ double Axis::velocity_limit() const noexcept {
   return std::min(data.DynamicLimits.MaxVelocity, data.DynamicLimits.Velocity);
 }
 
+/// Velocity that a job asks for, before the limit [u/s]. The override counts for the axis' own motion only.
+double Axis::wanted_velocity(const Job& job) const noexcept {
+  const double own = data.Override.Velocity / 100.0;
+  switch (job.kind) {
+    case JobKind::MC_GearIn:
+      return velocity_limit();
+    case JobKind::MC_GearInPos:
+      return job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity;
+    case JobKind::MC_MoveVelocity:
+    case JobKind::MC_MoveJog:
+      return std::abs(job.velocity) * own;
+    default:
+      return (job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity) * own;
+  }
+}
+
 /// Dynamic values of a job: defaults for negative ones, cut to the limits with a warning.
 Dynamics Axis::effective_dynamics(const Job& job) noexcept {
   const auto& defaults = data.DynamicDefaults;
   const auto& limits = data.DynamicLimits;
-  const bool endless = job.kind == JobKind::MC_MoveVelocity || job.kind == JobKind::MC_MoveJog;
-  const double asked = endless              ? std::abs(job.velocity)
-                       : job.velocity < 0.0 ? defaults.Velocity
-                                            : job.velocity;
-  const double velocity = asked * (data.Override.Velocity / 100.0);
+  const double velocity = wanted_velocity(job);
   const double acceleration = job.acceleration < 0.0 ? defaults.Acceleration : job.acceleration;
   const double deceleration = job.deceleration < 0.0 ? defaults.Deceleration : job.deceleration;
   const double jerk = job.jerk < 0.0 ? defaults.Jerk : job.jerk;

@@ -40,9 +40,9 @@ struct Driven : Rig {
     gear.Master = &l;
     gear.Slave = &f;
     power_l.Enable = power_f.Enable = true;
-    Rig::run(10);
+    Rig::run(10 * ratio);
     home.Execute = true;
-    Rig::run(10);
+    Rig::run(10 * ratio);
   }
 
   Axis& l;
@@ -117,7 +117,7 @@ TEST(DrivenAxisPower, HomingShiftsSetpointAndActualPositionTogether) {
   rig.free.Velocity = 100.0;
   rig.free.Execute = true;
   ASSERT_TRUE(rig.run_until([&] { return rig.free.InVelocity; }));
-  rig.run(500);
+  rig.run(3000);
   const double error = rig.f.data.StatusPositioning.FollowingError;
   rig.home.Execute = false;
   rig.run(2);
@@ -128,7 +128,7 @@ TEST(DrivenAxisPower, HomingShiftsSetpointAndActualPositionTogether) {
   rig.run(3);
   EXPECT_TRUE(rig.home.Done);
   rig.continuity[1].velocity = true;
-  rig.run(200);
+  rig.run(20);
   EXPECT_NEAR(rig.f.data.StatusPositioning.FollowingError, error, 1e-9);
   EXPECT_NEAR(rig.f.data.ActualVelocity, 100.0, 1e-6);
 }
