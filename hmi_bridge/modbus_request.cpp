@@ -199,7 +199,8 @@ ModbusException ModbusResponder::write_bits(std::uint32_t address, std::uint32_t
     if (!entry.range.allows(as_double(value, Type::BOOL))) return ModbusException::illegal_data_value;
     batch_.push_back({entry.signal, value});
   }
-  return post();
+  image_.post(batch_);
+  return ModbusException::none;
 }
 
 ModbusException ModbusResponder::stage_registers(std::uint32_t address, Bytes words) {
@@ -222,7 +223,8 @@ ModbusException ModbusResponder::write_registers(std::uint32_t address, Bytes wo
   const auto count = static_cast<std::uint32_t>(words.size() / 2);
   auto bad = check_write(ModbusTable::holding_register, address, count);
   if (bad == ModbusException::none) bad = stage_registers(address, words);
-  return bad == ModbusException::none ? post() : bad;
+  if (bad == ModbusException::none) image_.post(batch_);
+  return bad;
 }
 
 ModbusException ModbusResponder::mask_register(std::uint32_t address, std::uint16_t and_mask,
@@ -240,7 +242,8 @@ ModbusException ModbusResponder::mask_register(std::uint32_t address, std::uint1
   // Bits that the request leaves alone stay what they are when the write enters, not what they were when it
   // was asked for: a program may own them. Where the register is not the signal itself, the whole value goes.
   if (size_of(type) == 2) batch_[0].mask = static_cast<std::uint16_t>(~and_mask);
-  return post();
+  image_.post(batch_);
+  return ModbusException::none;
 }
 
 ModbusException ModbusResponder::write_and_read_registers(Bytes pdu) {
@@ -257,10 +260,6 @@ ModbusException ModbusResponder::write_and_read_registers(Bytes pdu) {
   if (const auto bad = write_registers(write_address, pdu.subspan(10)); bad != ModbusException::none)
     return bad;
   return read_registers(ModbusTable::holding_register, read_address, read_count);
-}
-
-ModbusException ModbusResponder::post() {
-  return image_.post(batch_) ? ModbusException::none : ModbusException::server_device_busy;
 }
 
 }  // namespace lockstep

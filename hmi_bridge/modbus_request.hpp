@@ -28,8 +28,7 @@ enum class ModbusException : std::uint8_t {
   none = 0,
   illegal_function = 1,
   illegal_data_address = 2,
-  illegal_data_value = 3,
-  server_device_busy = 6
+  illegal_data_value = 3
 };
 
 /// Carries out requests on an image. Not copyable; everything is called by one thread, the bridge's of the
@@ -65,7 +64,6 @@ class ModbusResponder {
   ModbusException check_read(ModbusTable table, std::uint32_t address, std::uint32_t count) const;
   ModbusException check_write(ModbusTable table, std::uint32_t address, std::uint32_t count) const;
   ModbusException stage_registers(std::uint32_t address, Bytes words);
-  ModbusException post();
   ModbusWords words_of(const ModbusEntry& entry) const;
 
   const ModbusMap& map_;

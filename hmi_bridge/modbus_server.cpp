@@ -17,6 +17,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <system_error>
 #include <utility>
 
 namespace lockstep {
@@ -24,15 +25,18 @@ namespace {
 
 constexpr int kAcceptsPerTurn = 8;
 constexpr std::chrono::milliseconds kCheckTime{100};  ///< how often what clients owe is looked at
+constexpr int kSendBuffer = 16 * 1024;                ///< [byte]
 constexpr int kNice = 5;
 
 void set_option(int socket, int level, int option, int value) noexcept {
   ::setsockopt(socket, level, option, &value, sizeof value);
 }
 
-/// Answers go out at once, and a peer that vanished without a word is noticed after a minute and a half.
+/// Answers go out at once, a peer that vanished without a word is noticed after a minute and a half, and what
+/// the system keeps for a client that takes no answers is bounded.
 void tune_client(int socket) noexcept {
   set_option(socket, IPPROTO_TCP, TCP_NODELAY, 1);
+  set_option(socket, SOL_SOCKET, SO_SNDBUF, kSendBuffer);
   set_option(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
   set_option(socket, IPPROTO_TCP, TCP_KEEPIDLE, 60);
   set_option(socket, IPPROTO_TCP, TCP_KEEPINTVL, 10);
@@ -73,6 +77,7 @@ std::string ModbusServer::start() {
     responder_ = std::make_unique<ModbusResponder>(map_, image_);
     clients_.reserve(options_.max_clients);
     events_.reserve(options_.max_clients + 2);
+    is_stopping_ = false;
     thread_ = std::thread([this] { run(); });
   } catch (const std::exception& error) {
     close_sockets();
@@ -115,6 +120,7 @@ void ModbusServer::close_sockets() noexcept {
 
 void ModbusServer::stop() {
   if (!thread_.joinable()) return;
+  is_stopping_ = true;
   const std::uint64_t one = 1;
   while (::write(wake_, &one, sizeof one) < 0 && errno == EINTR) {
   }
@@ -125,32 +131,34 @@ void ModbusServer::stop() {
 
 void ModbusServer::run() noexcept {
   step_back();
-  for (bool go_on = true; go_on;) {
+  while (!is_stopping_) {
     try {
-      go_on = turn();
+      turn();
     } catch (...) {
       ++counters_.faults;
+      std::this_thread::sleep_for(kCheckTime);  // what the system lacks it will lack at once again
     }
   }
   clients_.clear();
   counters_.clients = 0;
 }
 
-bool ModbusServer::turn() {
+void ModbusServer::turn() {
   Clock::time_point now = Clock::now();
   const bool accepts = now >= accept_again_;
   events_.assign(1, {wake_, POLLIN, 0});
   events_.push_back({accepts ? listener_ : -1, POLLIN, 0});
   for (const auto& client : clients_) events_.push_back({client->socket(), client->events(), 0});
-  if (::poll(events_.data(), events_.size(), wait_time(now)) < 0) return true;
-  if (events_[0].revents != 0) return false;
+  if (::poll(events_.data(), events_.size(), wait_time(now)) < 0) {
+    if (errno == EINTR) return;
+    throw std::system_error(errno, std::generic_category());
+  }
   now = Clock::now();
   for (std::size_t i = 0; i < clients_.size(); ++i)
     if (!serve(*clients_[i], events_[i + 2].revents, now)) clients_[i].reset();
   std::erase(clients_, nullptr);
   if (events_[1].revents != 0) accept_clients(now);
   counters_.clients = clients_.size();
-  return true;
 }
 
 int ModbusServer::wait_time(Clock::time_point now) const {
@@ -201,8 +209,8 @@ void ModbusServer::accept_clients(Clock::time_point now) {
     }
     auto* client = make_room(now) ? new (std::nothrow) ModbusConnection(socket, now) : nullptr;
     if (client == nullptr) {
-      ::close(socket);
       ++counters_.refused;
+      ::close(socket);
       continue;
     }
     tune_client(socket);
@@ -217,8 +225,8 @@ bool ModbusServer::make_room(Clock::time_point now) {
     return a->last_progress() < b->last_progress();
   });
   if (silent == clients_.end() || now - (*silent)->last_progress() < options_.idle_time) return false;
-  clients_.erase(silent);
   ++counters_.displaced;
+  clients_.erase(silent);
   return true;
 }
 

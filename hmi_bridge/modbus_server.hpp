@@ -75,7 +75,7 @@ class ModbusServer {
   std::string listen();
   void close_sockets() noexcept;
   void run() noexcept;
-  bool turn();
+  void turn();
   int wait_time(Clock::time_point now) const;
   void accept_clients(Clock::time_point now);
   bool make_room(Clock::time_point now);
@@ -88,7 +88,8 @@ class ModbusServer {
   ModbusCounters counters_;
   std::uint16_t port_ = 0;
   int listener_ = -1;
-  int wake_ = -1;  ///< event that ends the thread
+  int wake_ = -1;  ///< event that ends the thread's waiting
+  std::atomic<bool> is_stopping_{false};
   std::thread thread_;
 
   // The thread's.

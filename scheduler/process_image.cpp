@@ -1,11 +1,12 @@
 #include "scheduler/process_image.hpp"
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
 namespace lockstep {
 namespace {
+
+constexpr std::uint64_t kAllBits = ~0ULL;
 
 /// The distinct variables in which the signals lie, in the order of their first mention, and for each signal
 /// the number of its variable.
@@ -21,18 +22,44 @@ std::pair<std::vector<Signal>, std::vector<std::uint32_t>> variables_of(const st
   return result;
 }
 
+Value merged(Value before, Value value, std::uint64_t mask) noexcept {
+  if (mask != kAllBits) value.u = (before.u & ~mask) | (value.u & mask);
+  return value;
+}
+
 }  // namespace
 
-ProcessImage::ProcessImage(std::vector<Signal> signals, std::size_t capacity)
+void ProcessImage::WriteSet::add(std::uint32_t variable, Value value, std::uint64_t mask) noexcept {
+  Write& write = writes_[variable];
+  if (write.mask == 0) touched_.push_back(variable);  // never beyond what is reserved: each one once
+  write.value = merged(write.value, value, mask);
+  write.mask |= mask;
+}
+
+void ProcessImage::WriteSet::clear() noexcept {
+  for (const std::uint32_t variable : touched_) writes_[variable] = {};
+  touched_.clear();
+  last = 0;
+}
+
+template <class Target>
+void ProcessImage::WriteSet::apply(Target target) const noexcept {
+  for (const std::uint32_t variable : touched_) {
+    const Write& write = writes_[variable];
+    const Signal signal = target(variable);
+    signal.store(write.mask == kAllBits ? write.value : merged(signal.load(), write.value, write.mask));
+  }
+}
+
+ProcessImage::ProcessImage(std::vector<Signal> signals)
     : signals_(std::move(signals)),
       variables_(variables_of(signals_).first),
       places_(variables_of(signals_).second),
-      writes_(capacity),
       snapshot_(first_snapshot(variables_)),
+      sets_{WriteSet(variables_.size()), WriteSet(variables_.size()), WriteSet(variables_.size())},
       shadow_(variables_.size()),
-      pending_(std::max<std::size_t>(capacity, 1)) {
-  for (std::size_t i = 0; i < variables_.size(); ++i)
-    Signal{&shadow_[i], variables_[i].type, -1}.store(snapshot_.front().values[i]);
+      waiting_(variables_.size()) {
+  for (std::uint32_t i = 0; i < variables_.size(); ++i) shadow_of(i).store(snapshot_.front().values[i]);
 }
 
 ProcessImage::Snapshot ProcessImage::first_snapshot(const std::vector<Signal>& variables) {
@@ -41,14 +68,15 @@ ProcessImage::Snapshot ProcessImage::first_snapshot(const std::vector<Signal>& v
   return snapshot;
 }
 
-void ProcessImage::apply(const Signal& signal, const SignalWrite& write) noexcept {
-  Value value = write.value;
-  if (write.mask != ~0ULL) value.u = (signal.load().u & ~write.mask) | (value.u & write.mask);
-  signal.store(value);
-}
-
 void ProcessImage::take_writes() noexcept {
-  applied_ += writes_.consume([this](const SignalWrite& write) { apply(signals_[write.signal], write); });
+  if ((box_.load(std::memory_order_relaxed) & kFull) == 0) return;
+  // The bridge may have taken the set back since: then this is an empty one, and the set comes a tick later.
+  cycle_set_ = box_.exchange(cycle_set_, std::memory_order_acq_rel) & kSet;
+  WriteSet& set = sets_[cycle_set_];
+  if (set.last == 0) return;
+  set.apply([this](std::uint32_t variable) { return variables_[variable]; });
+  applied_ = set.last;
+  set.clear();
 }
 
 void ProcessImage::publish(std::int64_t tick) noexcept {
@@ -59,38 +87,54 @@ void ProcessImage::publish(std::int64_t tick) noexcept {
   snapshot_.publish();
 }
 
-Signal ProcessImage::shadow_of(std::size_t signal) const noexcept {
-  return Signal{&shadow_[places_[signal]], signals_[signal].type, signals_[signal].bit};
+Signal ProcessImage::shadow_of(std::uint32_t variable) const noexcept {
+  return Signal{&shadow_[variable], variables_[variable].type, -1};
 }
 
 bool ProcessImage::refresh() noexcept {
   if (!snapshot_.refresh()) return false;
   const Snapshot& snapshot = snapshot_.front();
-  for (std::size_t i = 0; i < variables_.size(); ++i)
-    Signal{&shadow_[i], variables_[i].type, -1}.store(snapshot.values[i]);
-  shown_ = snapshot.applied;
-  // What this tick did not know yet goes on top, by the same steps in which the cycle will apply it.
-  for (std::uint64_t n = shown_; n != posted_; ++n) {
-    const SignalWrite& write = pending_[n % pending_.size()];
-    apply(shadow_of(write.signal), write);
-  }
+  for (std::uint32_t i = 0; i < variables_.size(); ++i) shadow_of(i).store(snapshot.values[i]);
+  // What this tick did not know yet goes on top.
+  if (waiting_.last > snapshot.applied)
+    waiting_.apply([this](std::uint32_t variable) { return shadow_of(variable); });
   return true;
 }
 
 Value ProcessImage::value(std::size_t signal) const noexcept {
-  return shadow_of(signal).load();
+  return Signal{&shadow_[places_[signal]], signals_[signal].type, signals_[signal].bit}.load();
 }
 
-bool ProcessImage::post(std::span<const SignalWrite> batch) noexcept {
-  // The ring of pending writes is the narrower place: it holds a write until a snapshot shows it, the queue
-  // only until the cycle takes it.
-  if (batch.size() > writes_.capacity() - (posted_ - shown_) || !writes_.push(batch)) return false;
-  for (const SignalWrite& write : batch) {
-    pending_[posted_ % pending_.size()] = write;
-    ++posted_;
-    apply(shadow_of(write.signal), write);
+void ProcessImage::add_to(WriteSet& set, const SignalWrite& write) const noexcept {
+  const Signal& signal = signals_[write.signal];
+  Value value = write.value;
+  std::uint64_t mask = write.mask;
+  if (signal.bit >= 0) {
+    value.u = (value.u & 1u) << signal.bit;
+    mask = std::uint64_t{1} << signal.bit;
   }
-  return true;
+  if (mask != 0) set.add(places_[write.signal], value, mask);
+}
+
+void ProcessImage::post(std::span<const SignalWrite> batch) noexcept {
+  const std::uint8_t found = box_.exchange(bridge_set_, std::memory_order_acq_rel);
+  bridge_set_ = found & kSet;
+  if ((found & kFull) == 0) {
+    // The cycle has taken what waited, in a tick that followed the snapshot which this finds at the least. So
+    // every later one shows it, and until then the shadow does.
+    refresh();
+    waiting_.clear();
+  }
+  WriteSet& set = sets_[bridge_set_];
+  ++posted_;
+  for (const SignalWrite& write : batch) {
+    add_to(set, write);
+    add_to(waiting_, write);
+  }
+  set.last = posted_;
+  waiting_.last = posted_;
+  bridge_set_ = box_.exchange(bridge_set_ | kFull, std::memory_order_acq_rel) & kSet;
+  waiting_.apply([this](std::uint32_t variable) { return shadow_of(variable); });
 }
 
 }  // namespace lockstep

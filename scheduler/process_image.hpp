@@ -1,13 +1,14 @@
-/// The crossing of signal values between the cycle and the bridge: a snapshot out, a queue of writes in.
+/// The crossing of signal values between the cycle and the bridge: a snapshot out, a set of writes in.
 /// @source contract of the project file, sections 4 and 6
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "scheduler/spsc_queue.hpp"
 #include "scheduler/triple_buffer.hpp"
 #include "tech_objects/types.hpp"
 
@@ -17,78 +18,107 @@ namespace lockstep {
 struct SignalWrite {
   std::uint32_t signal = 0;    ///< index into the signals of the image
   Value value{};               ///< in the range of the signal's type
-  std::uint64_t mask = ~0ULL;  ///< bits to write, the others keep what they are at that tick; integers and
-                               ///< bit strings only
+  std::uint64_t mask = ~0ULL;  ///< bits to write, the others keep what they are at that tick; other than all
+                               ///< of them only for whole integers and bit strings
 };
 
-/// What crosses between the cycle and one thread of the bridge. The cycle's side is wait-free and allocates
-/// nothing. Writes enter the signals at the start of a tick, those of one batch at the same tick; the values
-/// that leave are those of the end of one tick. The bridge sees its own writes at once, whether the cycle has
-/// applied them already or not (or has not even started: then they wait in the queue).
+/// What crosses between the cycle and one thread of the bridge. Neither side ever waits for the other, and
+/// neither allocates after construction. Writes enter the signals at the start of a tick, those of one batch
+/// at the same tick; the values that leave are those of the end of one tick. Since of several writes before
+/// one tick the last wins, they are merged on their way: there is always room for more, and a tick never has
+/// more to apply than there are variables. The bridge sees its own writes at once, whether the cycle has
+/// applied them already or not (or has not even started: then they wait).
 class ProcessImage {
  public:
-  /// Number of writes that may be on their way: more than the largest Modbus request holds (1968 coils), and
-  /// few enough that applying all of them in one tick takes some ten microseconds.
-  static constexpr std::size_t kDefaultCapacity = 2048;
-
   /// Reads the signals once, so that the bridge has values before the first tick. The signals stay where they
   /// are for the life of the image, and nobody else changes them during construction.
-  explicit ProcessImage(std::vector<Signal> signals, std::size_t capacity = kDefaultCapacity);
+  explicit ProcessImage(std::vector<Signal> signals);
   ProcessImage(const ProcessImage&) = delete;
   ProcessImage& operator=(const ProcessImage&) = delete;
 
-  std::size_t size() const noexcept { return places_.size(); }
+  std::size_t size() const noexcept { return signals_.size(); }
   /// Type of the values of a signal: BOOL for a bit. `signal` < size().
   Type type(std::size_t signal) const noexcept { return signals_[signal].value_type(); }
 
-  /// Applies all writes that were posted before, oldest first, so that the last one to a signal wins. At most
-  /// as many as the capacity. Thread: the cycle, at the start of a tick.
+  /// Applies the batches that were posted before. Every tick calls it once, and `publish` once after it.
+  /// Thread: the cycle, at the start of a tick.
   void take_writes() noexcept;
 
   /// Shows the values as they stand to the bridge. `tick` ≥ 0. Thread: the cycle, at the end of a tick.
   void publish(std::int64_t tick) noexcept;
 
-  /// Turns to the newest values; false if no tick ended since the last call. Thread: the bridge.
+  /// Turns to the newest values; false if no tick ended since the last time. Thread: the bridge.
   bool refresh() noexcept;
 
-  /// Tick at whose end the values stood that `refresh` turned to; -1 before the first one. Thread: the
-  /// bridge.
+  /// Tick at whose end the values stood to which the bridge has turned; -1 before the first one.
+  /// Thread: the bridge.
   std::int64_t tick() const noexcept { return snapshot_.front().tick; }
 
   /// Value of a signal at that tick, with the posted writes which that tick did not know yet.
   /// `signal` < size(). Thread: the bridge.
   Value value(std::size_t signal) const noexcept;
 
-  /// Has all the writes applied at the start of one tick. False, and none is, if they do not fit beside those
-  /// on their way: the client has to be told. Every `signal` < size(). Thread: the bridge.
-  [[nodiscard]] bool post(std::span<const SignalWrite> batch) noexcept;
+  /// Has all the writes applied, in their order, at the start of one tick. Every `signal` < size(). May turn
+  /// to newer values, as `refresh` does. Thread: the bridge.
+  void post(std::span<const SignalWrite> batch) noexcept;
 
  private:
   struct Snapshot {
     std::int64_t tick = -1;
-    std::uint64_t applied = 0;  ///< number of writes, from the first one on, that are in `values`
+    std::uint64_t applied = 0;  ///< number of the last batch that is in `values`
     std::vector<Value> values;  ///< of `variables_`
   };
 
+  /// Merged writes, by variable: what applying one after the other would give.
+  class WriteSet {
+   public:
+    explicit WriteSet(std::size_t variables) : writes_(variables) { touched_.reserve(variables); }
+    void add(std::uint32_t variable, Value value, std::uint64_t mask) noexcept;
+    void clear() noexcept;
+    /// Applies the writes to these variables, of which `target(variable)` says where they are.
+    template <class Target>
+    void apply(Target target) const noexcept;
+
+    std::uint64_t last = 0;  ///< number of the last batch in it; 0: none
+
+   private:
+    struct Write {
+      Value value{};
+      std::uint64_t mask = 0;  ///< 0: no write
+    };
+    std::vector<Write> writes_;
+    std::vector<std::uint32_t> touched_;  ///< variables with a write
+  };
+
   static Snapshot first_snapshot(const std::vector<Signal>& variables);
-  static void apply(const Signal& signal, const SignalWrite& write) noexcept;
-  Signal shadow_of(std::size_t signal) const noexcept;
+  Signal shadow_of(std::uint32_t variable) const noexcept;
+  void add_to(WriteSet& set, const SignalWrite& write) const noexcept;
 
   // Fixed after construction. Several signals may lie in one variable: the word and its bits.
   const std::vector<Signal> signals_;
   std::vector<Signal> variables_;      ///< the distinct variables, whole
   std::vector<std::uint32_t> places_;  ///< variable of each signal
 
-  SpscQueue<SignalWrite> writes_;
   TripleBuffer<Snapshot> snapshot_;
 
-  std::uint64_t applied_ = 0;  ///< the cycle's: writes applied so far
+  // Three sets: one of each side and one in the box between them, where `kFull` says that it is to be
+  // applied. The cycle takes it only if it is; the bridge takes it back to add to it, so that each is applied
+  // once.
+  static constexpr std::size_t kCacheLine = 64;
+  static constexpr std::uint8_t kSet = 3;
+  static constexpr std::uint8_t kFull = 4;
+  std::array<WriteSet, 3> sets_;
+  alignas(kCacheLine) std::atomic<std::uint8_t> box_{1};
 
-  // The bridge's: the variables as it sees them, and its writes that no snapshot has shown yet.
+  alignas(kCacheLine) std::uint8_t cycle_set_ = 0;
+  std::uint64_t applied_ = 0;  ///< the cycle's: number of the last batch applied
+
+  // The bridge's: the variables as it sees them, and its writes that the cycle had not taken when it last
+  // looked.
+  alignas(kCacheLine) std::uint8_t bridge_set_ = 2;
   mutable std::vector<std::uint64_t> shadow_;
-  std::vector<SignalWrite> pending_;  ///< a ring of the queue's capacity, indexed by number of write
+  WriteSet waiting_;
   std::uint64_t posted_ = 0;
-  std::uint64_t shown_ = 0;
 };
 
 }  // namespace lockstep

@@ -1,11 +1,26 @@
 #include "tech_objects/profile.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tech_objects/profile_position.hpp"
 
 namespace lockstep {
 namespace {
+
+constexpr double kLeast = 1e-100;
+constexpr double kMost = 1e100;
+
+bool finite(const ProfileLimits& limits) noexcept {
+  return std::isfinite(limits.velocity_max) && std::isfinite(limits.velocity_min) &&
+         std::isfinite(limits.acceleration) && std::isfinite(limits.deceleration) &&
+         std::isfinite(limits.jerk);
+}
+
+bool in_range(double magnitude) noexcept {
+  return magnitude >= kLeast && magnitude <= kMost;
+}
 
 PlanResult check(const MotionState& start, double target_position, double target_velocity,
                  const ProfileLimits& limits) noexcept {
@@ -13,25 +28,36 @@ PlanResult check(const MotionState& start, double target_position, double target
       !std::isfinite(start.acceleration) || !std::isfinite(target_position) ||
       !std::isfinite(target_velocity))
     return PlanResult::not_finite;
-  if (!std::isfinite(limits.velocity_max) || !std::isfinite(limits.velocity_min) ||
-      !std::isfinite(limits.acceleration) || !std::isfinite(limits.deceleration) ||
-      !std::isfinite(limits.jerk))
-    return PlanResult::limits_invalid;
-  if (limits.velocity_max <= 0.0 || limits.velocity_min >= 0.0 || limits.acceleration <= 0.0 ||
-      limits.deceleration <= 0.0 || limits.jerk < 0.0)
+  if (!finite(limits) || limits.velocity_max <= 0.0 || limits.velocity_min >= 0.0 ||
+      limits.acceleration <= 0.0 || limits.deceleration <= 0.0 || limits.jerk < 0.0)
     return PlanResult::limits_invalid;
   if (target_velocity > limits.velocity_max || target_velocity < limits.velocity_min)
     return PlanResult::beyond_limits;
+  if (!in_range(limits.velocity_max) || !in_range(-limits.velocity_min) || !in_range(limits.acceleration) ||
+      !in_range(limits.deceleration) || (limits.jerk != 0.0 && !in_range(limits.jerk)) ||
+      std::abs(start.position) > kMost || std::abs(start.velocity) > kMost ||
+      std::abs(start.acceleration) > kMost || std::abs(target_position) > kMost)
+    return PlanResult::not_representable;
   return PlanResult::ok;
 }
 
-bool representable(const Profile& profile) noexcept {
-  if (!std::isfinite(profile.duration())) return false;
+/// Squares and products of extreme numbers may have left the range on the way: then the phases do not lead to
+/// the target.
+bool reaches_target(const Profile& profile) noexcept {
+  const MotionState& target = profile.target();
+  if (profile.phases().empty())
+    return std::abs(profile.start().position - target.position) <= 1e-12 * std::abs(target.position);
+  double fastest = std::abs(target.velocity);
   for (const Profile::Phase& phase : profile.phases())
-    if (!std::isfinite(phase.state.position) || !std::isfinite(phase.state.velocity) ||
-        !std::isfinite(phase.state.acceleration))
-      return false;
-  return std::isfinite(profile.target().position);
+    fastest = std::max(fastest, std::abs(phase.state.velocity));
+  const Profile::Phase& last = profile.phases().back();
+  const double t = profile.duration() - last.begin;
+  const double reached =
+      last.state.position +
+      t * (last.state.velocity + t * (last.state.acceleration * 0.5 + t * last.jerk * (1.0 / 6.0)));
+  const double ways =
+      std::abs(profile.start().position) + std::abs(target.position) + fastest * profile.duration();
+  return std::abs(reached - target.position) <= 1e-9 * ways && ways <= std::numeric_limits<double>::max();
 }
 
 }  // namespace
@@ -58,7 +84,7 @@ PlanResult plan_velocity(const MotionState& start, double target_velocity, const
     return checked;
   Profile profile;
   PositionPlanner{start, target_velocity, limits}.plan_direct(profile);
-  if (!representable(profile)) return PlanResult::not_representable;
+  if (!reaches_target(profile)) return PlanResult::not_representable;
   out = profile;
   return PlanResult::ok;
 }
@@ -70,7 +96,7 @@ PlanResult plan_position(const MotionState& start, double target_position, doubl
     return checked;
   Profile profile;
   PositionPlanner{start, target_velocity, limits}.plan_to(target_position, profile);
-  if (!representable(profile)) return PlanResult::not_representable;
+  if (!reaches_target(profile)) return PlanResult::not_representable;
   out = profile;
   return PlanResult::ok;
 }

@@ -32,7 +32,8 @@ enum class PlanResult : std::uint8_t {
   not_finite,        ///< a state or a target is NaN or infinite
   limits_invalid,    ///< a limit is not finite, or has the wrong sign, or is 0 where it must not be
   beyond_limits,     ///< the target velocity lies outside velocity_min … velocity_max
-  not_representable  ///< duration or way of the motion leave the range of numbers
+  not_representable  ///< a limit below 1e-100 or a value above 1e100, or a motion that leaves the range of
+                     ///< double
 };
 
 /// A motion over time: phases of constant jerk, after which the end velocity goes on. Plain data, fixed size.
@@ -53,8 +54,8 @@ class Profile {
   /// Time until the target state is reached [s], ≥ 0.
   double duration() const noexcept { return duration_; }
 
-  /// The state at a time [s]. t ≤ 0 and NaN: exactly the start; t ≥ duration: exactly the target, moving on
-  /// with the end velocity.
+  /// The state at a time [s]. t ≤ 0 and NaN: exactly the start, even if the duration is 0; t ≥ duration:
+  /// exactly the target, moving on with the end velocity.
   MotionState at(double t) const noexcept;
 
   /// The state the profile starts from.
@@ -79,8 +80,16 @@ class Profile {
 };
 
 /// Plans the quickest motion that reaches a position with a velocity and without acceleration.
-/// A start outside the limits is brought inside on the shortest way first; the rest is time-optimal.
-/// A target that the quickest change of velocity misses by rounding only counts as met by it.
+///
+/// The acceleration keeps within the limit of its side; it is brought to the limit of the other side before
+/// the velocity changes its sign, unless full jerk from the start on cannot do so. From a start inside the
+/// limits the motion is time-optimal. A start beyond a velocity limit comes inside with full jerk and
+/// deceleration, and meets the limit without falling short of it if it is to stay there; a motion that stayed
+/// beyond the limit for longer might be quicker.
+///
+/// The phases meet the target but for rounding. A target that the quickest change of velocity misses by some
+/// 1e-14 of positions and way counts as met by it, so that a motion planned anew from its own setpoints does
+/// not turn back; with an end velocity other than 0, planning anew in every cycle lets such errors add up.
 /// @param target_position [u] finite
 /// @param target_velocity [u/s] velocity_min … velocity_max
 /// @param out the profile; unchanged unless the result is ok

@@ -8,13 +8,15 @@
 namespace lockstep {
 
 /// Chandrupatla's method: inverse quadratic interpolation where it is safe, bisection elsewhere.
-/// @param low, high ends of the bracket, f(low) ≤ 0 ≤ f(high)
+/// @param low, high ends of the bracket, f(low) ≤ 0 ≤ f(high); an end that is a root is returned
 /// @param tolerance amount of f that counts as 0
 template <class Function>
 double find_root(Function f, double low, double f_low, double high, double f_high,
                  double tolerance) noexcept {
   constexpr int kMostSteps = 200;
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  if (f_high <= tolerance) return high;
+  if (f_low >= -tolerance) return low;
   double a = high, fa = f_high, b = low, fb = f_low, c = a, fc = fa, t = 0.5;
   for (int step = 0; step < kMostSteps; ++step) {
     const double x = a + t * (b - a);

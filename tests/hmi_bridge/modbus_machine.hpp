@@ -12,8 +12,7 @@ namespace lockstep {
 
 /// The addresses stand beside the tags. `w` can be written.
 struct ModbusMachine {
-  explicit ModbusMachine(std::size_t capacity = ProcessImage::kDefaultCapacity)
-      : map{lines(), types()}, image(signals, capacity) {}
+  ModbusMachine() : map{lines(), types()}, image(signals) {}
 
   BOOL start = false;                    // coil 0 w
   BOOL shown = true;                     // coil 1

@@ -141,6 +141,7 @@ TEST_F(ModbusRequest, AWriteOfAPartOfAValueIsException2) {
   EXPECT_EQ(ask({6, 0, 11, 0, 0}), (Bytes{0x86, 2}));
   EXPECT_EQ(ask({22, 0, 20, 0, 0, 0, 0}), (Bytes{0x96, 2}));
   EXPECT_EQ(ask({16, 0, 20, 0, 3, 6, 0, 0, 0, 0, 0, 0}), (Bytes{0x90, 2}));
+  EXPECT_EQ(ask({16, 0, 21, 0, 4, 8, 0, 0, 0, 0, 0, 0, 0, 0}), (Bytes{0x90, 2}));
   EXPECT_EQ(ask({16, 0, 21, 0, 3, 6, 0, 0, 0, 0, 0, 0}), (Bytes{0x90, 2}));
   EXPECT_EQ(ask({23, 0, 10, 0, 1, 0, 10, 0, 1, 2, 0, 0}), (Bytes{0x97, 2}));
 }
@@ -207,19 +208,6 @@ TEST_F(ModbusRequest, AWriteWithReadReadsWhatItHasWrittenAsTheTagHoldsIt) {
   machine.tick();
   EXPECT_EQ(machine.rounded, 0.1F);
   EXPECT_EQ(machine.small, 9);
-}
-
-TEST(ModbusBusy, AWriteThatFindsNoRoomIsException6AndIsNotHalfDone) {
-  ModbusMachine machine(3);
-  ModbusResponder responder(machine.map, machine.image);
-  const Bytes two = {0, 0, 0, 0, 0, 11, 1, 16, 0, 200, 0, 2, 4, 0, 1, 0, 2};
-  EXPECT_EQ(responder.answer(two)[7], 16);
-  const auto refused = responder.answer(two);
-  EXPECT_EQ(refused[7], 0x90);
-  EXPECT_EQ(refused[8], 6);
-  EXPECT_EQ(responder.exception(), ModbusException::server_device_busy);
-  machine.tick();
-  EXPECT_EQ(responder.answer(two)[7], 16);
 }
 
 /// What is left of the tags after a request that was answered with an exception.

@@ -119,17 +119,20 @@ TEST_F(Served, TheLibrarysClientGetsTheExceptions) {
   EXPECT_EQ(server.counters().faults, 0u);
 }
 
-TEST_F(Served, WritesWithoutACycleWaitUntilTheQueueIsFullAndThenTheClientIsTold) {
+TEST_F(Served, AnyNumberOfWritesWaitsForTheCycleAndTheLastOnesWin) {
   const Library client = client_of(server);
-  std::array<std::uint8_t, 1024> bits{};
-  EXPECT_EQ(modbus_write_bits(client.get(), 1000, 1024, bits.data()), 1024);
-  bits.fill(1);
-  EXPECT_EQ(modbus_write_bits(client.get(), 1000, 1024, bits.data()), 1024);
-  EXPECT_EQ(modbus_write_bit(client.get(), 0, 1), -1);
-  EXPECT_EQ(errno, EMBXSBUSY);
+  std::array<std::uint16_t, 123> row{};
+  std::array<std::uint16_t, 123> shown{};
+  for (std::uint16_t n = 0; n < 200; ++n) {
+    row.fill(n);
+    ASSERT_EQ(modbus_write_registers(client.get(), 200, 123, row.data()), 123);
+    ASSERT_EQ(modbus_read_registers(client.get(), 200, 123, shown.data()), 123);
+    ASSERT_EQ(shown, row);
+  }
+  EXPECT_EQ(machine.row[0], 0);
   machine.tick();
-  EXPECT_TRUE(machine.lamps[1023]);
-  EXPECT_EQ(modbus_write_bit(client.get(), 0, 1), 1);
+  EXPECT_EQ(machine.row[0], 199);
+  EXPECT_EQ(machine.row[122], 199);
 }
 
 TEST_F(Served, AForeignClientReadsAndWritesRealsInTheUsualWordOrder) {

@@ -1,0 +1,334 @@
+// Programs: from JSON calls to compiled sequences.
+#include <algorithm>
+#include <unordered_set>
+
+#include "projects/constant.hpp"
+#include "projects/loader.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kLongestCycle = 86'400'000'000'000;  // of a program: a day [ns]
+constexpr int kHighestPriority = 26;
+constexpr int kDefaultPriority = 8;
+
+/// What a call is, by the key that only it has.
+enum class CallKind { block, set, branch, unknown };
+
+CallKind kind_of(const JsonValue& call) {
+  if (call.find("fb") != nullptr) return CallKind::block;
+  if (call.find("set") != nullptr) return CallKind::set;
+  if (call.find("if") != nullptr) return CallKind::branch;
+  return CallKind::unknown;
+}
+
+const BlockType* read_block_type(const JsonValue* json, Problems& problems) {
+  const auto name = read_string(json, problems);
+  if (!name) return nullptr;
+  const BlockType* const type = find_block_type(*name);
+  if (type != nullptr && type->name == *name) return type;
+  std::vector<std::string_view> names;
+  for (const BlockType& candidate : block_types()) names.push_back(candidate.name);
+  problems.report(*json, "unknown function block " + quote(*name) + did_you_mean(*name, names) +
+                             "; allowed: what 'lockstep describe' lists");
+  return nullptr;
+}
+
+/// Adds the instances of some calls and of the branches among them.
+void declare_calls(const JsonValue* calls, const Loading& loading) {
+  if (calls == nullptr || calls->kind != JsonKind::array) return;
+  for (const JsonValue* const call : calls->elements) {
+    if (call->kind != JsonKind::object) continue;
+    if (kind_of(*call) == CallKind::branch) {
+      declare_calls(call->find("then"), loading);
+      declare_calls(call->find("else"), loading);
+    }
+    if (kind_of(*call) != CallKind::block) continue;
+    const BlockType* const type = read_block_type(call->find("fb"), loading.problems);
+    const JsonValue* const name = call->find("name");
+    if (name == nullptr || name->kind != JsonKind::string || !loading.add_name(*name, name->text, {}))
+      continue;
+    if (type != nullptr)
+      loading.names().define(name->text, &loading.controller().add_instance(*type, name->text));
+  }
+}
+
+/// Compiles the calls of one program.
+class ProgramLoader {
+ public:
+  ProgramLoader(Program& program, const Loading& loading)
+      : program_(program), loading_(loading), problems_(loading.problems) {}
+
+  void load_calls(const JsonValue* calls);
+
+ private:
+  void load_call(const JsonValue& json);
+  void load_branch(const JsonValue& json);
+  void load_set(const JsonValue& json);
+  void load_block(const JsonValue& json);
+  void load_pins(const JsonValue* in, const JsonValue& call, Instance& instance);
+  void load_pin(const std::string& name, const JsonValue& json, Instance& instance);
+  void load_object_pin(const JsonValue& json, const Pin& pin, Instance& instance);
+  void check_constants(const Instance& instance);
+  void check_leading_value(const JsonValue& in, Instance& instance);
+
+  /// What the place of a type gets: a JSON boolean or number, or an expression; none if it is reported.
+  std::optional<Expression> compile(const JsonValue* json, Type type);
+  static std::optional<Value> constant_value(const Expression& expression);
+
+  Program& program_;
+  const Loading& loading_;
+  Problems& problems_;
+  std::vector<std::pair<const Pin*, const JsonValue*>> constants_;  // of the call that is being loaded
+};
+
+void ProgramLoader::load_calls(const JsonValue* calls) {
+  if (read_array(calls, problems_) == nullptr) return;
+  for (const JsonValue* const call : calls->elements) load_call(*call);
+}
+
+void ProgramLoader::load_call(const JsonValue& json) {
+  if (read_object(&json, problems_) == nullptr) return;
+  switch (kind_of(json)) {
+    case CallKind::block:
+      return load_block(json);
+    case CallKind::set:
+      return load_set(json);
+    case CallKind::branch:
+      return load_branch(json);
+    case CallKind::unknown:
+      return problems_.report(json,
+                              "one of the keys 'fb', 'set', 'if' is missing, which tell what is to be done");
+  }
+}
+
+std::optional<Expression> ProgramLoader::compile(const JsonValue* json, Type type) {
+  if (json == nullptr) return std::nullopt;
+  if (json->kind != JsonKind::string) {
+    const auto value = read_plain_constant(*json, type, problems_);
+    return value ? std::optional<Expression>(std::in_place, type, *value) : std::nullopt;
+  }
+  CompiledExpression compiled = compile_expression(json->text, type, loading_.names());
+  const auto text = [](const ExpressionError& error) {
+    return error.message + " (column " + std::to_string(error.column) + ")";
+  };
+  for (const ExpressionError& error : compiled.errors)
+    if (error.message.find(Names::kKnownProblem) == std::string::npos) problems_.report(*json, text(error));
+  for (const ExpressionError& warning : compiled.warnings) problems_.warn(*json, text(warning));
+  return std::move(compiled.expression);
+}
+
+std::optional<Value> ProgramLoader::constant_value(const Expression& expression) {
+  if (!expression.constant()) return std::nullopt;
+  EvaluationCounters counters;
+  return expression.evaluate(counters);
+}
+
+void ProgramLoader::load_branch(const JsonValue& json) {
+  const Fields fields(json, keys::kIf, problems_);
+  auto condition = compile(fields["if"], Type::BOOL);
+  const std::size_t branch = program_.begin_branch(std::move(condition).value_or(Expression()));
+  load_calls(fields["then"]);
+  if (fields["else"] == nullptr) return program_.end_branch(branch);
+  const std::size_t alternative = program_.begin_alternative(branch);
+  load_calls(fields["else"]);
+  program_.end_branch(alternative);
+}
+
+void ProgramLoader::load_set(const JsonValue& json) {
+  const Fields fields(json, keys::kSet, problems_);
+  const auto path = read_string(fields["set"], problems_);
+  if (!path) return;
+  const auto place = loading_.find(*fields["set"], *path);
+  if (!place) return;
+  if (const std::string reason = why_not_writable(*place); !reason.empty())
+    return problems_.report(*fields["set"], reason);
+  auto expression = compile(fields["to"], place->signal.value_type());
+  if (!expression) return;
+  if (place->variable == nullptr) return program_.add_assignment(std::move(*expression), place->signal);
+  const Variable& variable = *place->variable;
+  if (const auto value = constant_value(*expression); value && place->signal.bit < 0) {
+    const std::string problem = range_problem(*value, variable.type, variable.range, variable.choices);
+    if (!problem.empty()) problems_.warn(*fields["to"], problem + "; the variable will not take it");
+  }
+  program_.add_assignment(std::move(*expression), place->signal, variable);
+}
+
+void ProgramLoader::load_block(const JsonValue& json) {
+  const Fields fields(json, keys::kCall, problems_);
+  const auto name = read_string(fields["name"], problems_);
+  if (!name) return;
+  const Names::Entity* const entity = loading_.names().find_entity(*name);
+  const auto* const found = entity == nullptr ? nullptr : std::get_if<const Instance*>(entity);
+  if (found == nullptr) return;  // could not be declared
+  auto& instance = const_cast<Instance&>(**found);
+  load_pins(fields["in"], json, instance);
+  program_.add_call(*instance.block);
+}
+
+void ProgramLoader::load_pins(const JsonValue* in, const JsonValue& call, Instance& instance) {
+  constants_.clear();
+  if (read_object(in, problems_) != nullptr)
+    for (const auto& [name, json] : in->members) load_pin(name, *json, instance);
+  for (const Pin& pin : instance.type->pins)
+    if (pin.type == Type::AXIS && (in == nullptr || in->find(pin.name) == nullptr))
+      problems_.report(in == nullptr ? call : *in,
+                       "the key '" + std::string(pin.name) +
+                           "' is missing: it takes a technology object and has no default");
+  if (in == nullptr) return;
+  check_constants(instance);
+  check_leading_value(*in, instance);
+}
+
+void ProgramLoader::load_pin(const std::string& name, const JsonValue& json, Instance& instance) {
+  const BlockType& type = *instance.type;
+  const Pin* const pin = type.find_pin(name);
+  if (pin == nullptr || pin->name != name || pin->pin_class != PinClass::input) {
+    std::vector<std::string_view> inputs;
+    for (const Pin& candidate : type.pins)
+      if (candidate.pin_class == PinClass::input) inputs.push_back(candidate.name);
+    if (pin != nullptr && pin->pin_class == PinClass::output)
+      return problems_.report(json, quote(name) + " is an output of " + std::string(type.name) +
+                                        "; it is read as " + instance.name + "." + std::string(pin->name) +
+                                        "; allowed: " + list_of(inputs));
+    return problems_.report(json, std::string(type.name) + " has no input " + quote(name) +
+                                      did_you_mean(name, inputs) + "; allowed: " + list_of(inputs));
+  }
+  if (pin->type == Type::AXIS) return load_object_pin(json, *pin, instance);
+  auto expression = compile(&json, pin->type);
+  if (!expression) return;
+  if (const auto value = constant_value(*expression)) {
+    constants_.emplace_back(pin, &json);
+    return pin->signal(*instance.block).store(*value);
+  }
+  program_.add_assignment(std::move(*expression), pin->signal(*instance.block));
+}
+
+void ProgramLoader::load_object_pin(const JsonValue& json, const Pin& pin, Instance& instance) {
+  if (json.kind != JsonKind::string) return report_kind(json, "the name of a technology object", problems_);
+  Axis* const axis = loading_.find_axis(&json);
+  if (axis == nullptr) return;
+  if ((pin.objects & static_cast<ObjectKinds>(axis->kind)) == 0) {
+    std::vector<std::string_view> kinds;
+    for (const ObjectKind kind : {ObjectKind::TO_PositioningAxis, ObjectKind::TO_SynchronousAxis})
+      if ((pin.objects & static_cast<ObjectKinds>(kind)) != 0) kinds.push_back(kind_name(kind));
+    return problems_.report(json,
+                            json.shown() + " is a " + kind_name(axis->kind) + "; allowed: " + list_of(kinds));
+  }
+  Value address{};
+  address.u = reinterpret_cast<std::uintptr_t>(axis);
+  pin.signal(*instance.block).store(address);
+}
+
+void ProgramLoader::check_constants(const Instance& instance) {
+  for (const auto& [pin, json] : constants_) {
+    if (pin->allows(*instance.block)) continue;
+    const Value value = pin->signal(*instance.block).load();
+    std::string problem = range_problem(value, pin->type, pin->range, pin->choices);
+    if (problem.empty()) problem = value_text(value, pin->type) + " is not permitted";  // infinity, NaN
+    problems_.warn(*json, problem + "; the block will report an error");
+  }
+}
+
+/// Warns of a leading axis with which the following axis is not interconnected: the job will fail.
+void ProgramLoader::check_leading_value(const JsonValue& in, Instance& instance) {
+  const JsonValue* const master = in.find("Master");
+  const JsonValue* const slave = in.find("Slave");
+  if (master == nullptr || slave == nullptr || master->kind != JsonKind::string ||
+      slave->kind != JsonKind::string)
+    return;
+  const Axis* const leading = loading_.names().find_axis(master->text).axis;
+  const Axis* const following = loading_.names().find_axis(slave->text).axis;
+  if (leading == nullptr || following == nullptr) return;
+  const auto& values = following->leading_values;
+  if (std::any_of(values.begin(), values.end(),
+                  [&](const LeadingValue& value) { return value.source == leading; }))
+    return;
+  problems_.warn(*master, master->shown() + " is not among the leading_values of '" + following->name +
+                              "'; the job of '" + instance.name + "' will fail");
+}
+
+/// A cycle of a program, which is there where its organization block needs one.
+std::int64_t read_cycle(const Fields& fields, Ob ob, const Loading& loading) {
+  const JsonValue* const json = fields["cycle"];
+  const bool cyclic = ob == Ob::Main || ob == Ob::Cyclic;
+  if (json == nullptr) {
+    if (cyclic)
+      loading.problems.report(fields.value(), "the key 'cycle' is missing; a Main or Cyclic program has one");
+    return 0;
+  }
+  if (!cyclic) {
+    loading.problems.report(*json,
+                            "a program of " + fields["ob"]->shown() +
+                                " runs with motion control and has no cycle; allowed with: Main, Cyclic");
+    return 0;
+  }
+  const auto cycle = read_duration(json, 1, kLongestCycle, loading.problems);
+  const std::int64_t servo_cycle = loading.controller().clock.servo_cycle;
+  if (cycle && *cycle % servo_cycle != 0)
+    loading.problems.report(*json, json->shown() +
+                                       " is no whole multiple of servo_cycle; allowed: multiples of " +
+                                       std::to_string(servo_cycle) + "ns");
+  return cycle.value_or(servo_cycle);
+}
+
+int read_priority(const Fields& fields, Ob ob, const Loading& loading) {
+  const JsonValue* const json = fields["priority"];
+  if (json != nullptr && ob != Ob::Cyclic) {
+    loading.problems.report(
+        *json, "a program of " + fields["ob"]->shown() + " has no priority; allowed with: Cyclic");
+    return 0;
+  }
+  return static_cast<int>(
+      read_integer(json, 1, kHighestPriority, loading.problems).value_or(kDefaultPriority));
+}
+
+class ProgramsLoader {
+ public:
+  explicit ProgramsLoader(const Loading& loading) : loading_(loading), problems_(loading.problems) {}
+
+  void load(const JsonValue& json) {
+    const Fields fields(json, keys::kProgram, problems_);
+    if (!fields.usable()) return;
+    const std::string name = read_name(fields["name"]);
+    const Ob ob = static_cast<Ob>(read_word(fields["ob"], words::kObs, problems_).value_or(kNoOb));
+    const bool known_ob = static_cast<std::size_t>(ob) != kNoOb;
+    const std::int64_t cycle = known_ob ? read_cycle(fields, ob, loading_) : 0;
+    const int priority = known_ob ? read_priority(fields, ob, loading_) : 0;
+    Program& program = loading_.controller().programs.emplace_back(name, ob, cycle, priority);
+    ProgramLoader(program, loading_).load_calls(fields["calls"]);
+  }
+
+ private:
+  static constexpr std::size_t kNoOb = 255;
+
+  std::string read_name(const JsonValue* json) {
+    const auto name = read_string(json, problems_);
+    if (!name) return "";
+    if (const std::string problem = identifier_problem(*name); !problem.empty())
+      problems_.report(*json, problem);
+    else if (!names_.insert(fold(*name)).second)
+      problems_.report(*json, "there is a program " + quote(*name) + " already; each name is allowed once");
+    return std::string(*name);
+  }
+
+  const Loading& loading_;
+  Problems& problems_;
+  std::unordered_set<std::string> names_;
+};
+
+}  // namespace
+
+void declare_instances(const JsonValue& programs, const Loading& loading) {
+  if (programs.kind != JsonKind::array) return;
+  for (const JsonValue* const program : programs.elements)
+    if (program->kind == JsonKind::object) declare_calls(program->find("calls"), loading);
+}
+
+void load_programs(const JsonValue& programs, const Loading& loading) {
+  if (read_array(&programs, loading.problems) == nullptr) return;
+  ProgramsLoader loader(loading);
+  for (const JsonValue* const program : programs.elements) loader.load(*program);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,70 @@
+// Tags and stimuli: the named values of a project and their changes in a simulation.
+#include <algorithm>
+
+#include "projects/constant.hpp"
+#include "projects/loader.hpp"
+
+namespace lockstep {
+namespace {
+
+/// The type of a tag, which is looked at even if the type is one of those that are not there yet.
+std::optional<Type> read_type(const JsonValue* json, Problems& problems) {
+  const auto text = read_string(json, problems);
+  if (!text) return std::nullopt;
+  if (const auto type = tag_type(*text)) return type;
+  if (text->starts_with("STRING") || text->starts_with("ARRAY")) {
+    problems.report(*json, "the type " + quote(*text) + " is not yet supported");
+    return std::nullopt;
+  }
+  std::vector<std::string_view> names;
+  for (int type = 0; type <= static_cast<int>(Type::TIME); ++type)
+    names.push_back(type_name(static_cast<Type>(type)));
+  problems.report(
+      *json, "unknown type " + quote(*text) + did_you_mean(*text, names) + "; allowed: " + list_of(names));
+  return std::nullopt;
+}
+
+void load_tag(const std::string& name, const JsonValue& json, const Loading& loading) {
+  const bool named = loading.add_name(json, name, {});
+  const Fields fields(json, keys::kTag, loading.problems);
+  if (!fields.usable()) return;
+  const auto type = read_type(fields["type"], loading.problems);
+  const bool retain = read_bool(fields["retain"], loading.problems).value_or(false);
+  const auto comment = read_string(fields["comment"], loading.problems);
+  if (!type) return;
+  Tag tag{.name = name, .type = *type, .retain = retain, .comment = std::string(comment.value_or(""))};
+  if (const JsonValue* const init = fields["init"])
+    tag.initial = read_constant(*init, *type, loading.problems).value_or(Value{});
+  if (named) loading.names().define(name, &loading.controller().add_tag(std::move(tag)));
+}
+
+void load_stimulus(const JsonValue& json, const Loading& loading) {
+  const Fields fields(json, keys::kStimulus, loading.problems);
+  const auto at = read_duration(fields["at"], 0, INT64_MAX, loading.problems);
+  const JsonValue* const set = read_object(fields["set"], loading.problems);
+  if (set == nullptr) return;
+  for (const auto& [path, json_value] : set->members) {
+    const auto place = loading.find(*json_value, path);
+    if (!place) continue;
+    if (place->tag == nullptr) {
+      loading.problems.report(*json_value, quote(path) + " is no tag; a stimulus sets tags");
+      continue;
+    }
+    const auto value = read_constant(*json_value, place->signal.value_type(), loading.problems);
+    if (at && value) loading.controller().stimuli.push_back({*at, place->signal, *value});
+  }
+}
+
+}  // namespace
+
+void load_tags(const JsonValue& tags, const Loading& loading) {
+  if (read_object(&tags, loading.problems) == nullptr) return;
+  for (const auto& [name, json] : tags.members) load_tag(name, *json, loading);
+}
+
+void load_stimuli(const JsonValue& stimuli, const Loading& loading) {
+  if (read_array(&stimuli, loading.problems) == nullptr) return;
+  for (const JsonValue* const stimulus : stimuli.elements) load_stimulus(*stimulus, loading);
+}
+
+}  // namespace lockstep

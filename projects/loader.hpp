@@ -1,0 +1,43 @@
+/// The parts of the loader; each reads one section of the project file into the project.
+#pragma once
+
+#include <unordered_map>
+
+#include "projects/json_fields.hpp"
+#include "projects/project.hpp"
+
+namespace lockstep {
+
+/// What the parts share while a project is being loaded.
+struct Loading {
+  Project& project;
+  Problems& problems;
+
+  Controller& controller() const { return *project.controller; }
+  Names& names() const { return project.names; }
+  /// Adds a name, or reports what is wrong with it.
+  bool add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const;
+  /// The place to which a path leads, or none: then that is reported, unless the problem is known already.
+  std::optional<Place> find(const JsonValue& at, std::string_view path) const;
+  /// A reference to an axis, or nullptr: then that is reported, unless the problem is known already.
+  Axis* find_axis(const JsonValue* name) const;
+};
+
+void load_clock(const JsonValue& clock, const Loading& loading);
+void load_tags(const JsonValue& tags, const Loading& loading);
+
+/// Adds all objects and their names; `load_objects` then reads them, when all names are there.
+void declare_objects(const JsonValue& objects, const Loading& loading);
+void load_objects(const JsonValue& objects, const Loading& loading);
+/// Sets the start values of one axis.
+void load_configuration(const JsonValue& config, Axis& axis, const Loading& loading);
+
+/// Adds all instances and their names; `load_programs` then compiles, when all names are there.
+void declare_instances(const JsonValue& programs, const Loading& loading);
+void load_programs(const JsonValue& programs, const Loading& loading);
+void load_stimuli(const JsonValue& stimuli, const Loading& loading);
+
+void load_modbus(const JsonValue* modbus, const Loading& loading);
+void load_trace(const JsonValue& trace, const Loading& loading);
+
+}  // namespace lockstep

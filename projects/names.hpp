@@ -1,0 +1,91 @@
+/// The names of a project and the one path syntax by which values are reached:
+/// `tag`, `instance.Pin`, `Object.Variable.Path[1]`, and a bit of any of them with `.Xn`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <variant>
+#include <vector>
+
+#include "fb/block.hpp"
+#include "projects/expression_compiler.hpp"
+#include "scheduler/controller.hpp"
+#include "tech_objects/axis.hpp"
+#include "tech_objects/declaration.hpp"
+#include "tech_objects/types.hpp"
+
+namespace lockstep {
+
+/// What is wrong with a name as an identifier of IEC 61131-3, and what is allowed; empty if nothing is.
+std::string identifier_problem(std::string_view name);
+
+/// A value of the project, found by its path. Exactly one of tag, pin and variable is set.
+struct Place {
+  Signal signal;
+  Unit unit = Unit::kNone;
+  const Tag* tag = nullptr;
+  const Pin* pin = nullptr;
+  const Variable* variable = nullptr;
+};
+
+/// A place, or what is wrong with the path.
+struct FoundPlace {
+  std::optional<Place> place;
+  std::string problem;         ///< what is wrong, what is allowed; empty if there is a place
+  bool known_problem = false;  ///< the path leads to something whose declaration has been reported already
+};
+
+/// Why a program may not write there at run time; empty if it may.
+std::string why_not_writable(const Place& place);
+
+/// The names of tags, instances and technology objects; they share one name space without regard to case.
+/// What is named has to stay where it is. Reading it is for any thread, as long as nobody adds.
+class Names final : public Scope {
+ public:
+  /// What a name stands for; monostate: something whose declaration is faulty.
+  using Entity = std::variant<std::monostate, const Tag*, const Instance*, Axis*>;
+
+  /// Adds a name. @return what is wrong with it: no identifier, or taken already; empty if nothing is.
+  std::string add(std::string_view name, Entity entity);
+  /// Tells what a name stands for that was added as faulty.
+  void define(std::string_view name, Entity entity);
+
+  /// What a name stands for; nullptr: there is no such name. Counts as a use.
+  const Entity* find_entity(std::string_view name) const;
+  /// The axis of a name, or what is wrong.
+  struct FoundAxis {
+    Axis* axis = nullptr;
+    std::string problem;  ///< empty if there is an axis, or if the problem is known already
+  };
+  FoundAxis find_axis(std::string_view name) const;
+
+  /// The place to which a path leads, in any case.
+  FoundPlace find(std::string_view path) const;
+
+  /// For the compiler of expressions.
+  Reference resolve(std::string_view name, std::string_view path) const override;
+  /// What `resolve` says of something whose declaration has been reported already.
+  static constexpr std::string_view kKnownProblem = "(its declaration is faulty)";
+
+  /// Whether anything has asked for the name.
+  bool used(std::string_view name) const;
+
+ private:
+  struct Entry {
+    std::string name;
+    Entity entity;
+    mutable bool used = false;
+  };
+
+  const Entry* entry(std::string_view name) const;
+  FoundPlace find_within(const Entry& entry, std::string_view path) const;
+  FoundPlace unknown(std::string_view name) const;
+  std::string nearest_name(std::string_view name) const;
+
+  std::unordered_map<std::string, Entry> entries_;  // by folded name
+  mutable int suggestions_left_ = 100;              // looking for the nearest of many names takes its time
+};
+
+}  // namespace lockstep

@@ -1,0 +1,119 @@
+#include "projects/project.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "projects/loader.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kLongestServoCycle = 60'000'000'000;  // [ns]
+
+/// Warns of what nothing refers to: it may be a name that was mistyped elsewhere.
+void warn_of_unused(const JsonValue& root, const Loading& loading) {
+  for (const auto& [section, what] :
+       {std::pair{"tags", "tag"}, std::pair{"technology_objects", "technology object"}}) {
+    const JsonValue* const named = root.find(section);
+    if (named == nullptr) continue;
+    for (const auto& [name, json] : named->members)
+      if (!loading.names().used(name))
+        loading.problems.warn(*json, std::string("nothing uses the ") + what + " " + quote(name));
+  }
+}
+
+void load_identity(const Fields& fields, const Loading& loading) {
+  read_integer(fields["lockstep"], 1, 1, loading.problems);
+  loading.project.name = read_title(fields["name"], loading.problems).value_or("");
+  loading.project.description = read_string(fields["description"], loading.problems).value_or("");
+}
+
+void load_root(const JsonValue& root, const Loading& loading) {
+  const Fields fields(root, keys::kProject, loading.problems);
+  if (!fields.usable()) return;
+  load_identity(fields, loading);
+  if (const auto* const clock = fields["clock"]) load_clock(*clock, loading);
+  const auto* const objects = fields["technology_objects"];
+  const auto* const programs = fields["programs"];
+  // All names first, so that everything may refer to everything.
+  if (const auto* const tags = fields["tags"]) load_tags(*tags, loading);
+  if (objects != nullptr) declare_objects(*objects, loading);
+  if (programs != nullptr) declare_instances(*programs, loading);
+  if (objects != nullptr) load_objects(*objects, loading);
+  if (programs != nullptr) load_programs(*programs, loading);
+  if (const auto* const stimuli = fields["stimuli"]) load_stimuli(*stimuli, loading);
+  load_modbus(fields["modbus"], loading);
+  if (const auto* const trace = fields["trace"]) load_trace(*trace, loading);
+  warn_of_unused(root, loading);
+}
+
+}  // namespace
+
+bool Loading::add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const {
+  const std::string problem = names().add(name, entity);
+  if (!problem.empty()) problems.report(at, problem);
+  return problem.empty();
+}
+
+std::optional<Place> Loading::find(const JsonValue& at, std::string_view path) const {
+  const FoundPlace found = names().find(path);
+  if (!found.place && !found.known_problem) problems.report(at, found.problem);
+  return found.place;
+}
+
+Axis* Loading::find_axis(const JsonValue* name) const {
+  const auto text = read_string(name, problems);
+  if (!text) return nullptr;
+  const Names::FoundAxis found = names().find_axis(*text);
+  if (!found.problem.empty()) problems.report(*name, found.problem);
+  return found.axis;
+}
+
+void load_clock(const JsonValue& clock, const Loading& loading) {
+  const Fields fields(clock, keys::kClock, loading.problems);
+  Clock& result = loading.controller().clock;
+  if (const auto cycle = read_duration(fields["servo_cycle"], 1, kLongestServoCycle, loading.problems))
+    result.servo_cycle = *cycle;
+  if (const auto ratio = read_integer(fields["interpolator_ratio"], 1, 32, loading.problems))
+    result.interpolator_ratio = static_cast<int>(*ratio);
+  loading.project.stop_on_overrun =
+      read_word(fields["overrun"], words::kOverrun, loading.problems).value_or(0) == 1;
+}
+
+LoadedProject load_project(std::string_view text) {
+  LoadedProject result;
+  const JsonDocument document(text);
+  result.problems = document.problems();
+  if (!document.usable()) return result;
+  Project project;
+  project.controller = std::make_unique<Controller>();
+  Problems problems;
+  load_root(document.root(), {project, problems});
+  const std::vector<Problem> found = problems.take_errors();
+  result.problems.insert(result.problems.end(), found.begin(), found.end());
+  result.warnings = problems.take_warnings();
+  if (!result.problems.empty()) return result;
+  project.controller->finish();
+  result.project = std::move(project);
+  return result;
+}
+
+LoadedProject load_project_file(const std::string& path) {
+  const auto fail = [&] { throw UnreadableFile(path + ": " + std::strerror(errno)); };
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (file == nullptr) fail();
+  std::string text(64 * 1024, '\0');
+  std::size_t size = 0;
+  while (size <= JsonDocument::kLongest) {
+    if (size == text.size()) text.resize(std::min(2 * size, JsonDocument::kLongest + 1));
+    const std::size_t count = std::fread(text.data() + size, 1, text.size() - size, file.get());
+    size += count;
+    if (count == 0) break;
+  }
+  if (std::ferror(file.get()) != 0) fail();
+  text.resize(size);
+  return load_project(text);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,87 @@
+/// The project file: from JSON text to a controller that is ready to run.
+/// @source contract of the project file, sections 1, 2, 5, 6
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hmi_bridge/modbus_map.hpp"
+#include "projects/names.hpp"
+#include "projects/problem.hpp"
+#include "scheduler/controller.hpp"
+
+namespace lockstep {
+
+/// A signal under the name by which the project calls it.
+struct NamedSignal {
+  std::string name;
+  Signal signal;
+  Unit unit = Unit::kNone;
+};
+
+/// Where a server listens.
+struct Endpoint {
+  std::string host;
+  std::uint16_t port = 0;  ///< 0: any that is free
+  bool operator==(const Endpoint&) const = default;
+};
+
+/// Reads "HOST:PORT": an IPv4 address or a name, and a port from 0 to 65535.
+/// @return none if it is something else, with what is wrong and what is allowed in `problem`
+std::optional<Endpoint> parse_endpoint(std::string_view text, std::string& problem);
+
+/// What is wrong with the URL of an LCM network, and what is allowed; empty if nothing is. Allowed are
+/// `udpm://ADDRESS:PORT?ttl=N` with a multicast address, where all but `udpm://` may be left out, and
+/// `memq://`.
+std::string lcm_url_problem(std::string_view url);
+
+struct ModbusConfig {
+  std::optional<Endpoint> listen;    ///< none: the project has no server
+  std::vector<NamedSignal> signals;  ///< of the process image, one for each entry of the map
+  std::optional<ModbusMap> map;      ///< always there in a loaded project
+};
+
+struct TraceConfig {
+  std::string url;  ///< empty: the project has no LCM trace
+  std::string channel;
+  std::vector<NamedSignal> signals;  ///< each name once
+};
+
+/// A loaded project.
+struct Project {
+  std::string name;
+  std::string description;
+  std::unique_ptr<Controller> controller;
+  Names names;                   ///< of everything in the controller, for signals named on the command line
+  bool stop_on_overrun = false;  ///< "overrun": "stop"
+  ModbusConfig modbus;
+  TraceConfig trace;
+};
+
+/// What loading gives: a project if there are no problems, else all problems. Warnings there may be either
+/// way.
+struct LoadedProject {
+  std::optional<Project> project;
+  std::vector<Problem> problems;
+  std::vector<Problem> warnings;
+};
+
+/// The file cannot be read; the text names it and tells why.
+struct UnreadableFile : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Loads a project from its text. Never fails but through problems. Allocates; not for the thread of the
+/// cycle.
+LoadedProject load_project(std::string_view text);
+
+/// Loads a project from a file, of which it reads no more than `JsonDocument::kLongest` and a byte.
+/// @throws UnreadableFile
+LoadedProject load_project_file(const std::string& path);
+
+}  // namespace lockstep

@@ -1,0 +1,68 @@
+/// The keys of the project file, for the loader, its messages and the schema alike.
+/// @source contract of the project file, section 1
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace lockstep {
+
+struct Key {
+  std::string_view name;
+  bool required = false;
+};
+
+/// The keys of one kind of object.
+using Keys = std::span<const Key>;
+
+namespace keys {
+
+inline constexpr bool kRequired = true;
+
+inline constexpr Key kProject[] = {{"lockstep", kRequired},
+                                   {"name", kRequired},
+                                   {"description"},
+                                   {"clock", kRequired},
+                                   {"technology_objects"},
+                                   {"tags"},
+                                   {"programs"},
+                                   {"stimuli"},
+                                   {"modbus"},
+                                   {"trace"}};
+inline constexpr Key kClock[] = {{"servo_cycle", kRequired}, {"interpolator_ratio"}, {"overrun"}};
+inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
+inline constexpr Key kDrive[] = {
+    {"model", kRequired}, {"time_constant"}, {"dead_time"}, {"encoder_resolution"}};
+inline constexpr Key kLeadingValue[] = {{"to", kRequired}, {"coupling"}};
+inline constexpr Key kTag[] = {{"type", kRequired}, {"init"}, {"retain"}, {"comment"}};
+inline constexpr Key kProgram[] = {
+    {"name", kRequired}, {"ob", kRequired}, {"cycle"}, {"priority"}, {"calls", kRequired}};
+inline constexpr Key kCall[] = {{"fb", kRequired}, {"name", kRequired}, {"in"}};
+inline constexpr Key kSet[] = {{"set", kRequired}, {"to", kRequired}};
+inline constexpr Key kIf[] = {{"if", kRequired}, {"then", kRequired}, {"else"}};
+inline constexpr Key kStimulus[] = {{"at", kRequired}, {"set", kRequired}};
+inline constexpr Key kModbus[] = {{"server"}, {"map"}};
+inline constexpr Key kServer[] = {{"listen", kRequired}};
+inline constexpr Key kMapEntry[] = {{"tag", kRequired}, {"table", kRequired}, {"address", kRequired},
+                                    {"type"},           {"word_order"},       {"access"}};
+inline constexpr Key kTrace[] = {{"lcm"}, {"signals"}};
+inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}};
+
+}  // namespace keys
+
+namespace words {
+
+inline constexpr std::string_view kOverrun[] = {"report", "stop"};
+inline constexpr std::string_view kObjectTypes[] = {"TO_PositioningAxis", "TO_SynchronousAxis"};
+inline constexpr std::string_view kModels[] = {"simulated"};
+inline constexpr std::string_view kCouplings[] = {"setpoint", "actual"};
+inline constexpr std::string_view kObs[] = {"MC_PreServo", "MC_PostServo", "MC_PreInterpolator", "Cyclic",
+                                            "Main"};
+inline constexpr std::string_view kTables[] = {"coil", "discrete_input", "input_register",
+                                               "holding_register"};
+inline constexpr std::string_view kWordOrders[] = {"big", "little"};
+inline constexpr std::string_view kAccesses[] = {"read", "write"};
+
+}  // namespace words
+}  // namespace lockstep

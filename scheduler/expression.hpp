@@ -1,0 +1,179 @@
+/// Compiled expressions of the project and their evaluation in the cycle.
+/// @source IEC 61131-3:2013, 6.6.2.5 (standard functions), 7.3.2 (expressions)
+///
+/// An expression is a flat array of typed instructions. Each instruction is the address of a small function
+/// for exactly its operation and type, which ends by calling the next one: nothing asks for a type at run
+/// time. The newest value is in the accumulator; older ones rest in numbered slots known when the code is
+/// built.
+///
+/// Semantics, all of them total functions:
+/// - integers wrap at the width of their type; a division truncates, MOD has the sign of the dividend, the
+///   least number divided by -1 wraps; a division by zero gives 0 and is counted;
+/// - REAL is rounded to single precision after each operation; a real division gives infinity or NaN;
+/// - with a NaN every comparison but <> is FALSE, and MIN, MAX and LIMIT give NaN;
+/// - a real becomes an integer by rounding to the nearest, a half to the even one; out of range it becomes
+/// the
+///   nearest end of the range, NaN becomes 0;
+/// - integers converted to a narrower type keep their low bits; a bit string and an integer of the same width
+///   exchange their bits, a wider bit string is filled with zeros.
+///
+/// SIN, COS, TAN, ASIN, ACOS, ATAN, ATAN2, EXP, LN, LOG and ** are those of the system's mathematical
+/// library, which may differ in the last bit between processors; everything else is the same everywhere.
+/// Setpoints do not depend on them unless a project feeds such a result to a pin.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "tech_objects/types.hpp"
+
+namespace lockstep {
+
+/// What evaluation counts; owned by the cycle, which reports it.
+struct EvaluationCounters {
+  std::uint64_t integer_divisions_by_zero = 0;  ///< `/` and MOD of integers, TIME / integer
+};
+
+/// What an instruction computes. The first group has two operands, the second one.
+enum class Operation : std::uint8_t {
+  kAdd,           ///< numbers, TIME
+  kSubtract,      ///< numbers, TIME
+  kMultiply,      ///< numbers, TIME
+  kDivide,        ///< numbers, TIME
+  kModulo,        ///< integers
+  kPower,         ///< reals
+  kAtan2,         ///< reals: y, x
+  kLess,          ///< all but BOOL
+  kLessEqual,     ///< all but BOOL
+  kGreater,       ///< all but BOOL
+  kGreaterEqual,  ///< all but BOOL
+  kEqual,         ///< all
+  kUnequal,       ///< all
+  kAnd,           ///< BOOL, bit strings
+  kOr,            ///< BOOL, bit strings
+  kXor,           ///< BOOL, bit strings
+  kMinimum,       ///< all but BOOL
+  kMaximum,       ///< all but BOOL
+  kShiftLeft,     ///< bit string, LINT: a count ≥ the width gives 0, one ≤ 0 changes nothing
+  kShiftRight,    ///< bit string, LINT
+  kRotateLeft,    ///< bit string, LINT: the count is taken modulo the width, one ≤ 0 changes nothing
+  kRotateRight,   ///< bit string, LINT
+  kNegate,        ///< numbers, TIME
+  kNot,           ///< BOOL, bit strings
+  kAbsolute,      ///< numbers; the least integer stays what it is
+  kSquareRoot,    ///< reals, from here on
+  kNaturalLog,
+  kDecimalLog,
+  kExponential,
+  kSine,  ///< angles in radian
+  kCosine,
+  kTangent,
+  kArcSine,
+  kArcCosine,
+  kArcTangent,
+  kTruncate,  ///< towards zero
+  kFloor,
+  kCeiling,
+  kRound  ///< to the nearest, a half to the even one
+};
+
+/// Number of operands, 1 or 2.
+constexpr int operands_of(Operation operation) noexcept {
+  return operation < Operation::kNegate ? 2 : 1;
+}
+
+/// Whether values of one type can become the other explicitly (`TO_type`). TIME and numbers convert in
+/// milliseconds; REAL and DWORD, LREAL and LWORD exchange their bits.
+bool convertible(Type from, Type to) noexcept;
+
+/// One step of a compiled expression; only ExpressionBuilder makes them.
+struct Instruction {
+  using Step = std::uint64_t (*)(const Instruction* at, std::uint64_t accumulator, std::uint64_t* slots,
+                                 EvaluationCounters& counters) noexcept;
+  union Operand {
+    const void* address;
+    std::uint64_t constant;
+  };
+  Step step;
+  Operand operand;     ///< where a value is loaded from, or the constant right operand
+  std::uint16_t slot;  ///< where the left operand rests, or where the accumulator is put first
+  std::uint16_t bit;   ///< bit to load, or number of inputs
+};
+
+/// A compiled expression. Copies are independent. Evaluation neither allocates nor fails.
+class Expression {
+ public:
+  /// The constant FALSE.
+  Expression() : Expression(Type::BOOL, Value{}) {}
+  /// A constant; the value has to be in the range of the type.
+  Expression(Type type, Value value);
+  /// A plain reference; the signal has to outlive the expression.
+  explicit Expression(const Signal& signal);
+
+  /// The value now. Reads the signals that it names, each where it stands in the text.
+  /// Thread: the one that owns those signals (the cycle).
+  Value evaluate(EvaluationCounters& counters) const noexcept;
+
+  /// Type of the value: that of the place for which it was compiled.
+  Type type() const noexcept { return type_; }
+  /// Whether the value never changes and evaluating it counts nothing.
+  bool constant() const noexcept { return constant_; }
+  std::size_t instructions() const noexcept { return code_.size(); }
+
+ private:
+  friend class ExpressionBuilder;
+  Expression(const Signal& signal, Type type);
+  Expression(Type type, std::vector<Instruction> code) noexcept
+      : code_(std::move(code)), type_(type), constant_(false) {}
+
+  std::vector<Instruction> code_;
+  Type type_;
+  bool constant_;
+};
+
+/// Puts an expression together in postfix order while loading: operands first, then what is done with them.
+/// Operations on constants alone are done at once, unless they divide by zero, which has to be counted.
+class ExpressionBuilder {
+ public:
+  static constexpr std::size_t kMostValues = 64;  ///< values that may rest at the same time
+
+  void signal(const Signal& signal);
+  void constant(Value value);
+  /// Applies an operation to the last one or two values. `type` is that of the operands (of the left one for
+  /// shifts, whose count is a LINT). Returns whether the operation exists for the type.
+  [[nodiscard]] bool apply(Operation operation, Type type);
+  /// Converts the last value; `convertible(from, to)` has to hold.
+  void convert(Type from, Type to);
+  /// SEL: of the last three values, the third (a BOOL) chooses the first (FALSE) or the second (TRUE).
+  void select();
+  /// MUX: the last value chooses among the `inputs` before it, from 0; below 0 the first is taken, above the
+  /// last one.
+  void multiplex(int inputs);
+  /// Adds to the count of divisions by zero at each evaluation, for those found in literals.
+  void count_divisions_by_zero(int number);
+
+  /// The finished expression. There has to be exactly one value, and `fits()`.
+  Expression finish(Type type) &&;
+  /// Whether no more than kMostValues rested at any time.
+  bool fits() const noexcept { return fits_; }
+
+ private:
+  struct Entry {
+    std::size_t start;  ///< its first instruction
+    bool constant;
+  };
+
+  void push(Instruction::Step plain, Instruction::Step resting, Instruction instruction, bool is_constant);
+  void unary(Instruction::Step step, std::uint64_t constant = 0);
+  void combine(std::size_t inputs, Instruction instruction);
+  void fold();
+
+  std::vector<Instruction> code_;
+  std::vector<Entry> values_;
+  Signal last_signal_;
+  bool fits_ = true;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,569 @@
+#include "scheduler/expression_steps.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace lockstep::expression_steps {
+namespace {
+
+using Word = std::uint64_t;
+using Step = Instruction::Step;
+
+// In the accumulator and the slots a value is 64 bits: integers widened, BOOL 0 or 1, REAL and LREAL as a
+// double. So widening among integers, and from REAL to LREAL, costs no instruction.
+template <class T>
+T decode(Word word) noexcept {
+  if constexpr (std::same_as<T, bool>)
+    return word != 0;
+  else if constexpr (std::floating_point<T>)
+    return static_cast<T>(std::bit_cast<double>(word));
+  else
+    return static_cast<T>(word);
+}
+
+template <class T>
+Word encode(T value) noexcept {
+  if constexpr (std::floating_point<T>)
+    return std::bit_cast<Word>(static_cast<double>(value));
+  else if constexpr (std::signed_integral<T>)
+    return static_cast<Word>(static_cast<std::int64_t>(value));
+  else
+    return static_cast<Word>(value);
+}
+
+Word next(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
+  return at[1].step(at + 1, accumulator, slots, counters);
+}
+
+template <class T, Mode mode>
+Word load_value(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
+  if constexpr (mode == Mode::kResting) slots[at->slot] = accumulator;
+  T value;
+  std::memcpy(&value, at->operand.address, sizeof value);
+  if constexpr (mode == Mode::kOnly)
+    return encode(value);
+  else
+    return next(at, encode(value), slots, counters);
+}
+
+template <class T, Mode mode>
+Word load_bit(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
+  if constexpr (mode == Mode::kResting) slots[at->slot] = accumulator;
+  T value;
+  std::memcpy(&value, at->operand.address, sizeof value);
+  const Word bit = (static_cast<Word>(value) >> at->bit) & 1u;
+  if constexpr (mode == Mode::kOnly)
+    return bit;
+  else
+    return next(at, bit, slots, counters);
+}
+
+template <Mode mode>
+Word take_constant(const Instruction* at, Word accumulator, Word* slots,
+                   EvaluationCounters& counters) noexcept {
+  if constexpr (mode == Mode::kResting) slots[at->slot] = accumulator;
+  if constexpr (mode == Mode::kOnly)
+    return at->operand.constant;
+  else
+    return next(at, at->operand.constant, slots, counters);
+}
+
+Word give_result(const Instruction*, Word accumulator, Word*, EvaluationCounters&) noexcept {
+  return accumulator;
+}
+
+/// An integer type in the sense of IEC 61131-3; bit strings and TIME compute as integers of their width.
+template <class T>
+concept Integer = std::integral<T> && !std::same_as<T, bool>;
+template <class T>
+concept Number = Integer<T> || std::floating_point<T>;
+
+// Unsigned arithmetic wraps; the conversion back to T keeps the low bits.
+struct Add {
+  template <Number T>
+  static T apply(T a, T b, EvaluationCounters&) noexcept {
+    if constexpr (Integer<T>)
+      return static_cast<T>(static_cast<Word>(a) + static_cast<Word>(b));
+    else
+      return a + b;
+  }
+};
+struct Subtract {
+  template <Number T>
+  static T apply(T a, T b, EvaluationCounters&) noexcept {
+    if constexpr (Integer<T>)
+      return static_cast<T>(static_cast<Word>(a) - static_cast<Word>(b));
+    else
+      return a - b;
+  }
+};
+struct Multiply {
+  template <Number T>
+  static T apply(T a, T b, EvaluationCounters&) noexcept {
+    if constexpr (Integer<T>)
+      return static_cast<T>(static_cast<Word>(a) * static_cast<Word>(b));
+    else
+      return a * b;
+  }
+};
+struct Divide {
+  template <Number T>
+  static T apply(T a, T b, EvaluationCounters& counters) noexcept {
+    if constexpr (Integer<T>) {
+      if (b == 0) {
+        ++counters.integer_divisions_by_zero;
+        return 0;
+      }
+      if constexpr (std::signed_integral<T>)
+        if (b == -1) return static_cast<T>(Word{0} - static_cast<Word>(a));  // the least number wraps
+      return static_cast<T>(a / b);
+    } else {
+      return a / b;
+    }
+  }
+};
+struct Modulo {
+  template <Integer T>
+  static T apply(T a, T b, EvaluationCounters& counters) noexcept {
+    if (b == 0) {
+      ++counters.integer_divisions_by_zero;
+      return 0;
+    }
+    if constexpr (std::signed_integral<T>)
+      if (b == -1) return 0;
+    return static_cast<T>(a % b);
+  }
+};
+struct Power {
+  template <std::floating_point T>
+  static T apply(T a, T b, EvaluationCounters&) noexcept {
+    return static_cast<T>(std::pow(static_cast<double>(a), static_cast<double>(b)));
+  }
+};
+struct Atan2 {
+  template <std::floating_point T>
+  static T apply(T y, T x, EvaluationCounters&) noexcept {
+    return static_cast<T>(std::atan2(static_cast<double>(y), static_cast<double>(x)));
+  }
+};
+struct Less {
+  template <Number T>
+  static bool apply(T a, T b, EvaluationCounters&) noexcept {
+    return a < b;
+  }
+};
+struct LessEqual {
+  template <Number T>
+  static bool apply(T a, T b, EvaluationCounters&) noexcept {
+    return a <= b;
+  }
+};
+struct Greater {
+  template <Number T>
+  static bool apply(T a, T b, EvaluationCounters&) noexcept {
+    return a > b;
+  }
+};
+struct GreaterEqual {
+  template <Number T>
+  static bool apply(T a, T b, EvaluationCounters&) noexcept {
+    return a >= b;
+  }
+};
+struct Equal {
+  template <class T>
+  static bool apply(T a, T b, EvaluationCounters&) noexcept {
+    return a == b;
+  }
+};
+struct Unequal {
+  template <class T>
+  static bool apply(T a, T b, EvaluationCounters&) noexcept {
+    return a != b;
+  }
+};
+struct And {
+  template <std::unsigned_integral T>
+  static T apply(T a, T b, EvaluationCounters&) noexcept {
+    return static_cast<T>(a & b);
+  }
+};
+struct Or {
+  template <std::unsigned_integral T>
+  static T apply(T a, T b, EvaluationCounters&) noexcept {
+    return static_cast<T>(a | b);
+  }
+};
+struct Xor {
+  template <std::unsigned_integral T>
+  static T apply(T a, T b, EvaluationCounters&) noexcept {
+    return static_cast<T>(a ^ b);
+  }
+};
+struct Minimum {
+  template <Number T>
+  static T apply(T a, T b, EvaluationCounters&) noexcept {
+    return a < b || a != a ? a : b;  // a NaN on either side is the result
+  }
+};
+struct Maximum {
+  template <Number T>
+  static T apply(T a, T b, EvaluationCounters&) noexcept {
+    return a > b || a != a ? a : b;
+  }
+};
+
+template <class Op, class T, bool constant_right>
+Word binary_step(const Instruction* at, Word accumulator, Word* slots,
+                 EvaluationCounters& counters) noexcept {
+  const Word left = constant_right ? accumulator : slots[at->slot];
+  const Word right = constant_right ? at->operand.constant : accumulator;
+  return next(at, encode(Op::apply(decode<T>(left), decode<T>(right), counters)), slots, counters);
+}
+
+/// The bits of a bit string moved by a count, which is a LINT.
+template <Operation operation, class T>
+T moved(T bits, std::int64_t count) noexcept {
+  constexpr int width = std::numeric_limits<T>::digits;
+  if (count <= 0) return bits;
+  if constexpr (operation == Operation::kRotateLeft) return std::rotl(bits, static_cast<int>(count % width));
+  if constexpr (operation == Operation::kRotateRight) return std::rotr(bits, static_cast<int>(count % width));
+  if (count >= width) return 0;
+  return static_cast<T>(operation == Operation::kShiftLeft ? static_cast<Word>(bits) << count
+                                                           : static_cast<Word>(bits) >> count);
+}
+
+template <Operation operation, class T, bool constant_right>
+Word move_bits(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
+  const Word left = constant_right ? accumulator : slots[at->slot];
+  const Word count = constant_right ? at->operand.constant : accumulator;
+  const T value = moved<operation>(decode<T>(left), static_cast<std::int64_t>(count));
+  return next(at, encode(value), slots, counters);
+}
+
+/// One-operand operations on reals; REAL is rounded by a step of its own.
+template <double (*function)(double)>
+Word real_function(const Instruction* at, Word accumulator, Word* slots,
+                   EvaluationCounters& counters) noexcept {
+  return next(at, encode(function(decode<double>(accumulator))), slots, counters);
+}
+
+template <class T>
+Word negated(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
+  if constexpr (std::floating_point<T>)
+    return next(at, encode(-decode<T>(accumulator)), slots, counters);
+  else
+    return next(at, encode(static_cast<T>(Word{0} - accumulator)), slots, counters);
+}
+
+template <class T>
+Word inverted(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
+  if constexpr (std::same_as<T, bool>)
+    return next(at, accumulator ^ 1u, slots, counters);
+  else
+    return next(at, encode(static_cast<T>(~accumulator)), slots, counters);
+}
+
+template <class T>
+Word absolute(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
+  const T value = decode<T>(accumulator);
+  Word word = encode(value);
+  if constexpr (std::floating_point<T>)
+    word = encode(std::fabs(value));
+  else if constexpr (std::signed_integral<T>)
+    if (value < 0) word = encode(static_cast<T>(Word{0} - static_cast<Word>(value)));
+  return next(at, word, slots, counters);
+}
+
+/// From one representation to another: `From` is how the accumulator is read, `To` what it becomes.
+template <class From, class To>
+To converted(From value) noexcept {
+  if constexpr (std::same_as<To, bool>) {
+    return value != From{};
+  } else if constexpr (std::floating_point<From> && Integer<To>) {
+    if (value != value) return 0;
+    const double nearest = std::nearbyint(static_cast<double>(value));
+    constexpr auto lowest = static_cast<double>(std::numeric_limits<To>::min());
+    constexpr double above = 2.0 * static_cast<double>(Word{1} << (std::numeric_limits<To>::digits - 1));
+    if (nearest < lowest) return std::numeric_limits<To>::min();
+    if (nearest >= above) return std::numeric_limits<To>::max();
+    return static_cast<To>(nearest);
+  } else {
+    return static_cast<To>(value);
+  }
+}
+
+template <class From, class To>
+Word convert_step(const Instruction* at, Word accumulator, Word* slots,
+                  EvaluationCounters& counters) noexcept {
+  return next(at, encode(converted<From, To>(decode<From>(accumulator))), slots, counters);
+}
+
+Word float_bits(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
+  return next(at, std::bit_cast<std::uint32_t>(decode<float>(accumulator)), slots, counters);
+}
+
+Word float_of_bits(const Instruction* at, Word accumulator, Word* slots,
+                   EvaluationCounters& counters) noexcept {
+  return next(at, encode(std::bit_cast<float>(decode<std::uint32_t>(accumulator))), slots, counters);
+}
+
+Word select_step(const Instruction* at, Word accumulator, Word* slots,
+                 EvaluationCounters& counters) noexcept {
+  return next(at, slots[at->slot + (accumulator != 0 ? 1 : 0)], slots, counters);
+}
+
+Word multiplex_step(const Instruction* at, Word accumulator, Word* slots,
+                    EvaluationCounters& counters) noexcept {
+  const auto wanted = static_cast<std::int64_t>(accumulator);
+  const auto chosen = std::clamp<std::int64_t>(wanted, 0, at->bit - 1);
+  return next(at, slots[at->slot + chosen], slots, counters);
+}
+
+Word count_step(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
+  counters.integer_divisions_by_zero += at->operand.constant;
+  return next(at, accumulator, slots, counters);
+}
+
+/// Calls `visitor.operator()<T>()` with the C++ type that computes for an IEC type; null for a technology
+/// object.
+template <class Visitor>
+Step visit(Type type, Visitor visitor) {
+  switch (type) {
+    case Type::BOOL:
+      return visitor.template operator()<bool>();
+    case Type::SINT:
+      return visitor.template operator()<std::int8_t>();
+    case Type::INT:
+      return visitor.template operator()<std::int16_t>();
+    case Type::DINT:
+      return visitor.template operator()<std::int32_t>();
+    case Type::LINT:
+    case Type::TIME:
+      return visitor.template operator()<std::int64_t>();
+    case Type::USINT:
+    case Type::BYTE:
+      return visitor.template operator()<std::uint8_t>();
+    case Type::UINT:
+    case Type::WORD:
+      return visitor.template operator()<std::uint16_t>();
+    case Type::UDINT:
+    case Type::DWORD:
+    case Type::DB_ANY:
+      return visitor.template operator()<std::uint32_t>();
+    case Type::ULINT:
+    case Type::LWORD:
+      return visitor.template operator()<std::uint64_t>();
+    case Type::REAL:
+      return visitor.template operator()<float>();
+    case Type::LREAL:
+      return visitor.template operator()<double>();
+    case Type::AXIS:
+    case Type::TAG:
+      break;
+  }
+  return nullptr;
+}
+
+template <Mode mode>
+Step load_of(const Signal& signal) {
+  return visit(signal.type, [&]<class T>() -> Step {
+    if constexpr (Integer<T>)
+      if (signal.bit >= 0) return load_bit<T, mode>;
+    return load_value<T, mode>;
+  });
+}
+
+template <class Op>
+Step binary_of(Type type, bool constant_right) {
+  return visit(type, [&]<class T>() -> Step {
+    if constexpr (requires(T value, EvaluationCounters & counters) { Op::apply(value, value, counters); })
+      return constant_right ? Step{binary_step<Op, T, true>} : Step{binary_step<Op, T, false>};
+    else
+      return nullptr;
+  });
+}
+
+template <Operation operation>
+Step move_of(Type type, bool constant_right) {
+  return visit(type, [&]<class T>() -> Step {
+    if constexpr (Integer<T> && std::unsigned_integral<T>)
+      return constant_right ? Step{move_bits<operation, T, true>} : Step{move_bits<operation, T, false>};
+    else
+      return nullptr;
+  });
+}
+
+template <Operation operation>
+Step unary_of(Type type) {
+  return visit(type, []<class T>() -> Step {
+    if constexpr (operation == Operation::kNegate && Number<T>)
+      return negated<T>;
+    else if constexpr (operation == Operation::kAbsolute && Number<T>)
+      return absolute<T>;
+    else if constexpr (operation == Operation::kNot && std::unsigned_integral<T>)
+      return inverted<T>;
+    else
+      return nullptr;
+  });
+}
+
+template <class From>
+Step conversion_from(Type to) {
+  return visit(to, []<class To>() -> Step { return convert_step<From, To>; });
+}
+
+using RealFunction = double (*)(double);
+
+Step real_step(Operation operation) {
+  switch (operation) {
+    case Operation::kSquareRoot:
+      return real_function<static_cast<RealFunction>(&std::sqrt)>;
+    case Operation::kNaturalLog:
+      return real_function<static_cast<RealFunction>(&std::log)>;
+    case Operation::kDecimalLog:
+      return real_function<static_cast<RealFunction>(&std::log10)>;
+    case Operation::kExponential:
+      return real_function<static_cast<RealFunction>(&std::exp)>;
+    case Operation::kSine:
+      return real_function<static_cast<RealFunction>(&std::sin)>;
+    case Operation::kCosine:
+      return real_function<static_cast<RealFunction>(&std::cos)>;
+    case Operation::kTangent:
+      return real_function<static_cast<RealFunction>(&std::tan)>;
+    case Operation::kArcSine:
+      return real_function<static_cast<RealFunction>(&std::asin)>;
+    case Operation::kArcCosine:
+      return real_function<static_cast<RealFunction>(&std::acos)>;
+    case Operation::kArcTangent:
+      return real_function<static_cast<RealFunction>(&std::atan)>;
+    case Operation::kTruncate:
+      return real_function<static_cast<RealFunction>(&std::trunc)>;
+    case Operation::kFloor:
+      return real_function<static_cast<RealFunction>(&std::floor)>;
+    case Operation::kCeiling:
+      return real_function<static_cast<RealFunction>(&std::ceil)>;
+    case Operation::kRound:
+      return real_function<static_cast<RealFunction>(&std::nearbyint)>;
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+Step load(const Signal& signal, Mode mode) noexcept {
+  switch (mode) {
+    case Mode::kResting:
+      return load_of<Mode::kResting>(signal);
+    case Mode::kOnly:
+      return load_of<Mode::kOnly>(signal);
+    default:
+      return load_of<Mode::kPlain>(signal);
+  }
+}
+
+Step constant(Mode mode) noexcept {
+  switch (mode) {
+    case Mode::kResting:
+      return take_constant<Mode::kResting>;
+    case Mode::kOnly:
+      return take_constant<Mode::kOnly>;
+    default:
+      return take_constant<Mode::kPlain>;
+  }
+}
+
+Step binary(Operation operation, Type type, bool constant_right) noexcept {
+  switch (operation) {
+    case Operation::kAdd:
+      return binary_of<Add>(type, constant_right);
+    case Operation::kSubtract:
+      return binary_of<Subtract>(type, constant_right);
+    case Operation::kMultiply:
+      return binary_of<Multiply>(type, constant_right);
+    case Operation::kDivide:
+      return binary_of<Divide>(type, constant_right);
+    case Operation::kModulo:
+      return binary_of<Modulo>(type, constant_right);
+    case Operation::kPower:
+      return binary_of<Power>(type, constant_right);
+    case Operation::kAtan2:
+      return binary_of<Atan2>(type, constant_right);
+    case Operation::kLess:
+      return binary_of<Less>(type, constant_right);
+    case Operation::kLessEqual:
+      return binary_of<LessEqual>(type, constant_right);
+    case Operation::kGreater:
+      return binary_of<Greater>(type, constant_right);
+    case Operation::kGreaterEqual:
+      return binary_of<GreaterEqual>(type, constant_right);
+    case Operation::kEqual:
+      return binary_of<Equal>(type, constant_right);
+    case Operation::kUnequal:
+      return binary_of<Unequal>(type, constant_right);
+    case Operation::kAnd:
+      return binary_of<And>(type, constant_right);
+    case Operation::kOr:
+      return binary_of<Or>(type, constant_right);
+    case Operation::kXor:
+      return binary_of<Xor>(type, constant_right);
+    case Operation::kMinimum:
+      return binary_of<Minimum>(type, constant_right);
+    case Operation::kMaximum:
+      return binary_of<Maximum>(type, constant_right);
+    case Operation::kShiftLeft:
+      return move_of<Operation::kShiftLeft>(type, constant_right);
+    case Operation::kShiftRight:
+      return move_of<Operation::kShiftRight>(type, constant_right);
+    case Operation::kRotateLeft:
+      return move_of<Operation::kRotateLeft>(type, constant_right);
+    case Operation::kRotateRight:
+      return move_of<Operation::kRotateRight>(type, constant_right);
+    default:
+      return nullptr;
+  }
+}
+
+Step unary(Operation operation, Type type) noexcept {
+  switch (operation) {
+    case Operation::kNegate:
+      return unary_of<Operation::kNegate>(type);
+    case Operation::kNot:
+      return unary_of<Operation::kNot>(type);
+    case Operation::kAbsolute:
+      return unary_of<Operation::kAbsolute>(type);
+    default:
+      return is_real(type) ? real_step(operation) : nullptr;
+  }
+}
+
+Step conversion(Type from, Type to) noexcept {
+  return visit(from, [to]<class From>() -> Step { return conversion_from<From>(to); });
+}
+
+Step bits_of_real() noexcept {
+  return float_bits;
+}
+Step real_of_bits() noexcept {
+  return float_of_bits;
+}
+Step select() noexcept {
+  return select_step;
+}
+Step multiplex() noexcept {
+  return multiplex_step;
+}
+Step count() noexcept {
+  return count_step;
+}
+Step result() noexcept {
+  return give_result;
+}
+
+}  // namespace lockstep::expression_steps

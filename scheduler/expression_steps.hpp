@@ -1,0 +1,32 @@
+/// The functions of which compiled expressions are made: one for each operation and type.
+/// Each reads its operands from the accumulator and the slots and ends by calling the next instruction's; an
+/// optimising compiler makes that a jump. Null is returned where an operation does not exist for a type.
+#pragma once
+
+#include "scheduler/expression.hpp"
+
+namespace lockstep::expression_steps {
+
+/// What a load does around its own work.
+enum class Mode {
+  kPlain,    ///< loads over the accumulator
+  kResting,  ///< puts the accumulator into `slot` first
+  kOnly      ///< is the whole expression: calls nothing further
+};
+
+Instruction::Step load(const Signal& signal, Mode mode) noexcept;
+Instruction::Step constant(Mode mode) noexcept;
+/// Two operands: `slot` and the accumulator, or, with `constant_right`, the accumulator and `constant`.
+Instruction::Step binary(Operation operation, Type type, bool constant_right) noexcept;
+/// One operand. Functions of reals compute in double precision; REAL has to be rounded by a conversion after.
+Instruction::Step unary(Operation operation, Type type) noexcept;
+/// From one type's range and representation to the other's; TIME counts as LINT.
+Instruction::Step conversion(Type from, Type to) noexcept;
+Instruction::Step bits_of_real() noexcept;  ///< REAL to DWORD
+Instruction::Step real_of_bits() noexcept;  ///< DWORD to REAL
+Instruction::Step select() noexcept;
+Instruction::Step multiplex() noexcept;
+Instruction::Step count() noexcept;
+Instruction::Step result() noexcept;
+
+}  // namespace lockstep::expression_steps
