@@ -127,6 +127,7 @@ class Axis : public TechnologyObject {
   /// Largest distance between actual position and synchronous function while synchronous [u], for the summary
   /// of a run.
   double largest_synchronous_deviation() const noexcept { return largest_deviation_; }
+  bool was_synchronous() const noexcept { return was_synchronous_; }
 
  private:
   enum class PowerState : std::uint8_t { off, switching_on, on, braking };
@@ -225,6 +226,7 @@ class Axis : public TechnologyObject {
   double actual_velocity_ = 0.0;  // [u/s]
   double last_actual_velocity_ = 0.0;
   double largest_deviation_ = 0.0;
+  bool was_synchronous_ = false;
   SynchronousMotion synchronous_;
   SingleAxisMotion single_;
 

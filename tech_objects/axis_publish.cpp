@@ -50,6 +50,7 @@ void Axis::publish_synchronous() noexcept {
   status.StatusWord = word;
 
   if (motion_ != Motion::synchronous) return;
+  was_synchronous_ = true;
   // A drive follows later; there the balanced difference tells how far the axis is from where it should be.
   const double deviation = has_drive_ ? std::abs(data.StatusPositioning.FollowingError)
                                       : std::abs(difference(actual_, function.position, modulo_).rounded());
