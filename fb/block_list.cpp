@@ -1,14 +1,45 @@
 // The one list of function blocks: a new block is its file pair, its test and one line here.
+#include "fb/bistable.hpp"
 #include "fb/block.hpp"
+#include "fb/counters.hpp"
 #include "fb/edge.hpp"
+#include "fb/gear_in.hpp"
+#include "fb/home.hpp"
+#include "fb/jog.hpp"
+#include "fb/move.hpp"
+#include "fb/power.hpp"
+#include "fb/stop.hpp"
+#include "fb/timers.hpp"
 
 namespace lockstep {
 namespace {
 
+// One block a line:
+// clang-format off
 constexpr BlockType kTypes[] = {
+    block_type<MC_Power>(),
+    block_type<MC_Reset>(),
+    block_type<MC_Home>(),
+    block_type<MC_MoveAbsolute>(),
+    block_type<MC_MoveRelative>(),
+    block_type<MC_MoveVelocity>(),
+    block_type<MC_MoveJog>(),
+    block_type<MC_Halt>(),
+    block_type<MC_Stop>(),
+    block_type<MC_GearIn>(),
+    block_type<MC_GearInPos>(),
     block_type<R_TRIG>(),
     block_type<F_TRIG>(),
+    block_type<SR>(),
+    block_type<RS>(),
+    block_type<TON>(),
+    block_type<TOF>(),
+    block_type<TP>(),
+    block_type<CTU>(),
+    block_type<CTD>(),
+    block_type<CTUD>(),
 };
+// clang-format on
 
 }  // namespace
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr int kAcceptsPerTurn = 8;
 constexpr std::chrono::milliseconds kCheckTime{100};  ///< how often what clients owe is looked at
-constexpr int kSocketBuffer = 16 * 1024;              ///< [byte]
+constexpr int kSendBuffer = 16 * 1024;                ///< [byte]
 constexpr int kNice = 5;
 
 void set_option(int socket, int level, int option, int value) noexcept {
@@ -36,8 +36,7 @@ void set_option(int socket, int level, int option, int value) noexcept {
 /// the system keeps for a client that takes no answers is bounded.
 void tune_client(int socket) noexcept {
   set_option(socket, IPPROTO_TCP, TCP_NODELAY, 1);
-  set_option(socket, SOL_SOCKET, SO_SNDBUF, kSocketBuffer);
-  set_option(socket, SOL_SOCKET, SO_RCVBUF, kSocketBuffer);
+  set_option(socket, SOL_SOCKET, SO_SNDBUF, kSendBuffer);
   set_option(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
   set_option(socket, IPPROTO_TCP, TCP_KEEPIDLE, 60);
   set_option(socket, IPPROTO_TCP, TCP_KEEPINTVL, 10);

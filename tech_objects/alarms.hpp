@@ -88,6 +88,8 @@ std::span<const Alarm> alarms() noexcept;
 
 /// Numbers of the alarms that the runtime raises.
 namespace alarm {
+inline constexpr int kVelocityLimitZero = 304;
+inline constexpr int kAccelerationLimitZero = 305;
 inline constexpr int kPositionRangeExceeded = 308;
 inline constexpr int kNotHomed = 321;
 inline constexpr int kVelocityLimited = 501;

@@ -92,6 +92,10 @@ void PositionController::reset(AxisPosition setpoint) noexcept {
   setpoints_.fill(setpoint);
 }
 
+void PositionController::shift(double by, const Modulo& modulo) noexcept {
+  for (AxisPosition& setpoint : setpoints_) setpoint = advanced(setpoint, by, modulo);
+}
+
 PositionControlled PositionController::step(AxisPosition setpoint, double velocity, AxisPosition actual,
                                             const Modulo& modulo) noexcept {
   setpoints_[cycle_ % kDelay] = setpoint;

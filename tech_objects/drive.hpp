@@ -110,6 +110,9 @@ class PositionController {
   /// Begins anew from a standing setpoint: before the first step, and after switching on or homing.
   void reset(AxisPosition setpoint) noexcept;
 
+  /// Shifts the history of setpoints [u], for homing: the controlled side does not notice.
+  void shift(double by, const Modulo& modulo) noexcept;
+
   /// One servo cycle. `velocity` [u/s] is that of the setpoint. Positions of the axis with its turns; works
   /// across the ends of the ring.
   PositionControlled step(AxisPosition setpoint, double velocity, AxisPosition actual,

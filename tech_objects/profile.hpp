@@ -81,11 +81,11 @@ class Profile {
 
 /// Plans the quickest motion that reaches a position with a velocity and without acceleration.
 ///
-/// Between two changes of the direction of motion the acceleration keeps within the limit of its side; it is
-/// brought to the limit of the other side before the velocity changes its sign. A start beyond a limit comes
-/// inside with full jerk and deceleration, without falling short of the limit if it is to stay there; from
-/// where it is inside the rest is time-optimal. A start from which a limit cannot be kept exceeds it by no
-/// more than the jerk makes unavoidable.
+/// The acceleration keeps within the limit of its side; it is brought to the limit of the other side before
+/// the velocity changes its sign, unless full jerk from the start on cannot do so. From a start inside the
+/// limits the motion is time-optimal. A start beyond a velocity limit comes inside with full jerk and
+/// deceleration, and meets the limit without falling short of it if it is to stay there; a motion that stayed
+/// beyond the limit for longer might be quicker.
 ///
 /// The phases meet the target but for rounding. A target that the quickest change of velocity misses by some
 /// 1e-14 of positions and way counts as met by it, so that a motion planned anew from its own setpoints does

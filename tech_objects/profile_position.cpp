@@ -130,65 +130,69 @@ double PositionPlanner::first_guess(double base, double missing, const Pair& pai
   return x * x;
 }
 
+/// How much way a higher peak adds, per velocity [s].
+double PositionPlanner::gain(const Pair& pair, double top) const noexcept {
+  const double a1 = pair.first.last_peak(), a2 = pair.second.last_peak();
+  return top * (1.0 / a1 + 1.0 / a2) + (a1 + a2) * 0.5 * jerk_.inverse;
+}
+
 /// Finds the peak that covers a way; returns the time at constant velocity [s].
 double PositionPlanner::solve_peak(const View& view, double base, double way, Pair& pair) const noexcept {
-  constexpr int kMostSteps = 200;
-  double high = std::max(view.limit - base, 0.0);
-  pair = peak(view, base, high);
+  PeakSearch search{0.0, std::max(view.limit - base, 0.0), 0.0, true};
+  pair = peak(view, base, search.high);
   if (pair.way <= way) return (way - pair.way) / view.limit;
 
-  const auto slope = [&](double over) {
-    const double a1 = pair.first.last_peak(), a2 = pair.second.last_peak();
-    return (base + over) * (1.0 / a1 + 1.0 / a2) + (a1 + a2) * 0.5 * jerk_.inverse;
-  };
-  const bool near_is_second = base == view.end && view.end >= view.stop;
+  // From `flat` on the smaller rise has a plateau, and the way mostly is a quadratic polynomial.
+  const bool near_is_second = view.end >= view.stop;
   const double near_limit = (base >= 0.0) == near_is_second ? rise_limits_.below : rise_limits_.above;
-  const double flat = near_limit * near_limit * jerk_.inverse;  // from here on the smaller rise has a plateau
-  double low = 0.0, over = high;
-  bool by_root = true;
-  if (flat < high) {
+  const double flat = near_limit * near_limit * jerk_.inverse;
+  if (flat < search.high) {
     pair = peak(view, base, flat);
-    if (pair.way < way) {
-      low = flat;
-      by_root = false;
-      const double missing = way - pair.way, gain = slope(flat);
-      const double bend = 1.0 / pair.first.last_peak() + 1.0 / pair.second.last_peak();
-      const double root = gain * gain + 2.0 * bend * missing;
-      over = gain > 0.0 ? flat + 2.0 * missing / (gain + std::sqrt(root)) : high;
-    } else {
-      high = flat;
-      over = flat;
-    }
+    search.by_root = pair.way >= way;
+    (search.by_root ? search.high : search.low) = flat;
   }
-  if (by_root) {
+  if (search.by_root) {
     pair = peak(view, base, 0.0);
-    over = first_guess(base, way - pair.way, pair, over);
+    search.over = first_guess(base, way - pair.way, pair, search.high);
+  } else {
+    const double missing = way - pair.way, linear = gain(pair, base + flat);
+    const double bend = 1.0 / pair.first.last_peak() + 1.0 / pair.second.last_peak();
+    search.over = flat + 2.0 * missing / (linear + std::sqrt(linear * linear + 2.0 * bend * missing));
   }
-  if (!(over > low && over < high)) over = 0.5 * (low + high);
+  if (!(search.over > search.low && search.over < search.high))
+    search.over = 0.5 * (search.low + search.high);
+  refine_peak(view, base, way, search, pair);
+  return 0.0;
+}
+
+/// Newton's method, in √over where the smaller rise has no plateau; bisection where that leaves the bracket.
+void PositionPlanner::refine_peak(const View& view, double base, double way, PeakSearch search,
+                                  Pair& pair) const noexcept {
+  constexpr int kMostSteps = 200;
+  const double fastest = std::max(std::abs(view.v0), std::abs(view.end));
   for (int step = 0; step < kMostSteps; ++step) {
+    const double over = search.over;
     pair = peak(view, base, over);
     const double miss = pair.way - way;
-    const double v = std::max(std::abs(view.v0), std::max(std::abs(view.end), std::abs(base + over)));
-    if (std::abs(miss) <= kEpsilon * (std::abs(way) + v * (pair.first.duration() + pair.second.duration())))
-      break;
-    (miss < 0.0 ? low : high) = over;
-    double next;
-    if (by_root) {
+    const double ways = std::abs(way) + std::max(fastest, std::abs(base + over)) *
+                                            (pair.first.duration() + pair.second.duration());
+    if (std::abs(miss) <= kEpsilon * ways) return;
+    (miss < 0.0 ? search.low : search.high) = over;
+    const double slope = gain(pair, base + over);
+    double next = over - miss / slope;
+    if (search.by_root) {
       const double x = std::sqrt(over);
-      const double better = x - miss / (2.0 * x * slope(over));
-      next = better > 0.0 ? better * better : low;
-    } else {
-      next = over - miss / slope(over);
+      const double better = x - miss / (2.0 * x * slope);
+      next = better > 0.0 ? better * better : search.low;
     }
-    if (std::abs(next - over) <= kEpsilon * over) break;
-    if (!(next > low && next < high)) {
-      const double x = 0.5 * (std::sqrt(low) + std::sqrt(high));
+    if (std::abs(next - over) <= kEpsilon * over) return;
+    if (!(next > search.low && next < search.high)) {
+      const double x = 0.5 * (std::sqrt(search.low) + std::sqrt(search.high));
       next = x * x;
+      if (!(next > search.low && next < search.high)) return;  // nothing lies between them
     }
-    if (high - low <= kEpsilon * high) break;
-    over = next;
+    search.over = next;
   }
-  return 0.0;
 }
 
 void PositionPlanner::build_peak(const View& view, const Pair& pair, double cruise, double target,

@@ -3,13 +3,14 @@
 /// The quickest change to the end velocity covers some way. If the target lies further in direction `s`, the
 /// motion gains way by going more in direction s, in this order, as more way is wanted:
 ///   1. ease: a present acceleration against s is reduced for a while before the change goes on;
-///   2. hold: the change is split in two at a velocity where the acceleration is 0 (starts beyond a limit
-///   only);
+///   2. hold: the change is split in two at a velocity where the acceleration is 0, if it starts
+///   beyond a limit;
 ///   3. peak: the velocity goes to a peak in direction s beyond both ends, and from there to the end
 ///   velocity;
 ///   4. cruise: with the peak at the limit, it stays there.
-/// Duration grows along this order, and the way, less the way to the target, changes its sign just once; so
-/// the one motion that fits is the quickest, and bracketing finds it.
+/// Duration grows along this order, so the first motion that fits is the quickest. The way may fall before it
+/// grows, but it passes the wanted way once, so that bracketing finds it; while easing it may do so more
+/// often, and the turning points are looked at.
 #pragma once
 
 #include <array>
@@ -55,6 +56,13 @@ class PositionPlanner {
     double way;
   };
 
+  /// Where the peak is looked for, as velocity above its base.
+  struct PeakSearch {
+    double low, high;
+    double over;   // the next to try
+    bool by_root;  // the way is smooth in √over
+  };
+
   View view(double sign) const noexcept;
   double release_way(const View& view) const noexcept;
   Rise climb(const View& view, double to, double excess) const noexcept;
@@ -63,6 +71,8 @@ class PositionPlanner {
   Pair peak(const View& view, double base, double over) const noexcept;
   double rounding(const View& direct, const Rise& rise, double target) const noexcept;
   double solve_peak(const View& view, double base, double way, Pair& pair) const noexcept;
+  void refine_peak(const View& view, double base, double way, PeakSearch search, Pair& pair) const noexcept;
+  double gain(const Pair& pair, double top) const noexcept;
   double first_guess(double base, double missing, const Pair& pair, double most) const noexcept;
   void build_peak(const View& view, const Pair& pair, double cruise, double target,
                   Profile& out) const noexcept;

@@ -56,6 +56,9 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
     slope = start.velocity / way_velocity;
     curvature =
         (start.acceleration - slope * sign * start.leading_acceleration) / way_velocity / way_velocity;
+    // A leading axis that creeps so slowly that nothing finite comes of it stands.
+    if (!std::isfinite(slope * distance) || !std::isfinite(curvature * distance * distance))
+      slope = curvature = 0.0;
   }
   const double end_slope = sign * target.slope;
   DoubleDouble ahead = difference(start.following, target.at_start, following);  // y at the start

@@ -140,7 +140,7 @@ TrackingStep step_below_limit(TrackingMotion own, TrackingMotion target, Bounds 
 
 /// Whether an axis that brakes harder than it may speed up would still do so beyond its reversal.
 bool brakes_past_rest(const TrackingStep& step, const TrackingLimits& limits) noexcept {
-  if (step.velocity <= 0.0) return true;
+  if (step.velocity < 0.0) return true;
   if (step.acceleration >= -limits.acceleration) return false;
   const double way_back =
       (step.acceleration * step.acceleration - limits.acceleration * limits.acceleration) /

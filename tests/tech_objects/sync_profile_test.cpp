@@ -88,6 +88,19 @@ TEST(SyncProfile, AStandingLeadingAxisStartsTheProfileWithSlopeZero) {
   EXPECT_EQ(profile.value(0.0).curvature, 0.0);
 }
 
+TEST(SyncProfile, ALeadingAxisThatHardlyMovesLeavesTheProfileFinite) {
+  SyncStart start;
+  start.velocity = 20.0;
+  start.acceleration = 5.0;
+  for (const double creep : {1e-320, 1e-200, 1e-9}) {
+    start.leading_velocity = creep;
+    SyncProfile profile;
+    profile.plan(start, {{0, 5.0}, 2.0}, 10.0, false, SyncDirection::kShortestPath, kLine, kLine);
+    EXPECT_TRUE(std::isfinite(profile.value(3.0).position)) << creep;
+    EXPECT_TRUE(std::isfinite(profile.value(3.0).curvature)) << creep;
+  }
+}
+
 TEST(SyncProfile, TheShortestPathIsAtMostHalfATurn) {
   // 100 units of leading distance into a function that ends at 90.
   const SyncTarget target{{0, 350.0}, 1.0};

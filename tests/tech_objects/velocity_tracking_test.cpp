@@ -32,6 +32,11 @@ Chase follow(TrackingMotion own, const Target& target, const TrackingLimits& lim
     const TrackingStep step = track_velocity(own, goal, limits, period);
     const double most = std::max(limits.acceleration, limits.deceleration) * (1.0 + 1e-12);
     EXPECT_LE(std::abs(step.acceleration), most) << tick;
+    const double bound = step.velocity * step.acceleration > 0.0   ? limits.acceleration
+                         : step.velocity * step.acceleration < 0.0 ? limits.deceleration
+                                                                   : most;
+    EXPECT_LE(std::abs(step.acceleration), bound * (1.0 + 1e-12))
+        << "at " << step.velocity << " in tick " << tick;
     EXPECT_LE(std::abs(step.velocity - own.velocity), most * period + 1e-12 * std::abs(step.velocity))
         << tick;
     if (step.velocity * own.velocity > 0.0 && std::abs(step.velocity) > std::abs(own.velocity)) {

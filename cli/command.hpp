@@ -1,0 +1,32 @@
+/// The commands of `lockstep` and their exit statuses.
+/// @source contract of the project file, section 3
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "projects/project.hpp"
+
+namespace lockstep::cli {
+
+/// Exit statuses, as the contract has them.
+enum ExitStatus : int {
+  kOk = 0,
+  kNotValid = 1,       ///< the project is not valid; a name is unknown
+  kCouldNotStart = 2,  ///< a file cannot be read, a port is taken, the command line is wrong
+  kStoppedByFault = 3  ///< an internal fault, or the overrun policy
+};
+
+/// What a command does once the command line has been read; gives the exit status.
+using Action = std::function<int()>;
+
+void add_check_command(CLI::App& app, Action& action);
+void add_run_command(CLI::App& app, Action& action);
+
+/// Loads a project and tells its problems and warnings on standard error.
+/// @param status the exit status if there is no project
+std::optional<Project> load_or_tell(const std::string& path, int& status);
+
+}  // namespace lockstep::cli

@@ -1,0 +1,104 @@
+/// The contract of all blocks with an input Execute: edge, hand-over of a job, and outputs from its phase.
+/// @source S7-1500T programming, function-block contract; decisions on retriggering in the README of this
+/// folder
+#pragma once
+
+#include <array>
+
+#include "fb/block.hpp"
+#include "tech_objects/axis.hpp"
+
+namespace lockstep {
+
+/// A rising edge of Execute takes the inputs over and hands a job to the axis. The outputs derive from one
+/// stored phase, so that Busy, Done, CommandAborted and Error exclude each other. Done, CommandAborted and
+/// Error last while Execute is TRUE and at least for one call. A new edge starts a new job, which the outputs
+/// show from then on.
+class ExecuteBlock : public Block {
+ public:
+  BOOL Execute{};
+  BOOL Done{};
+  BOOL Busy{};
+  BOOL CommandAborted{};
+  BOOL Error{};
+  WORD ErrorID{};
+
+  void call(std::int64_t now) noexcept final;
+
+ protected:
+  /// The block's own table of pins, from which the inputs are checked.
+  virtual std::span<const Pin> pin_table() const noexcept = 0;
+  /// Writes the inputs, which are permitted, into the job.
+  virtual void request(Job& job) const noexcept = 0;
+  /// The axis that gets the job; nullptr if the pin is not wired.
+  virtual Axis* target() const noexcept = 0;
+  /// Carries the job out or hands it over. The default submits it to the target.
+  virtual void hand_over(Job& job) noexcept;
+  /// Shows the phase at outputs of the block's own.
+  virtual void show(JobPhase /*phase*/) noexcept {}
+
+  Job* job() noexcept { return job_; }
+
+ private:
+  void start() noexcept;
+  ErrorId check_inputs() const noexcept;
+  Job& free_job() noexcept;
+
+  // The job that moves the axis, one that waits and one that is being handed over may be three.
+  std::array<Job, 3> jobs_{};
+  Job* job_ = nullptr;  // the one that the outputs show
+  JobPhase phase_ = JobPhase::idle;
+  ErrorId error_ = ErrorId::none;
+  bool last_execute_ = false;
+};
+
+/// Pins that many blocks share, spelled once.
+namespace pin {
+
+inline constexpr Pin kExecute =
+    in<&ExecuteBlock::Execute>("Execute", Unit::kNone, kAny, "a rising edge starts the job");
+inline constexpr Pin kDone = out<&ExecuteBlock::Done>("Done", "the job is complete");
+inline constexpr Pin kBusy = out<&ExecuteBlock::Busy>("Busy", "the job is in process");
+inline constexpr Pin kCommandAborted =
+    out<&ExecuteBlock::CommandAborted>("CommandAborted", "another job or disabling has ended the job");
+inline constexpr Pin kError =
+    out<&ExecuteBlock::Error>("Error", "the job was rejected or has failed; ErrorID tells why");
+inline constexpr Pin kErrorID = out<&ExecuteBlock::ErrorID>("ErrorID", "identifier of the error");
+
+template <class T>
+constexpr Pin axis() {
+  return object<&T::Axis>("Axis", kAnyAxis, "axis that carries out the job");
+}
+template <class T>
+constexpr Pin velocity(std::string_view text, InputFacts facts = {.error = ErrorId::velocity}) {
+  return in<&T::Velocity>("Velocity", Unit::kVelocity, kNotZero, text, facts);
+}
+template <class T>
+constexpr Pin acceleration(InputFacts facts = {.error = ErrorId::acceleration}) {
+  return in<&T::Acceleration>("Acceleration", Unit::kAcceleration, kNotZero,
+                              "> 0: used; < 0: DynamicDefaults.Acceleration; 0 is not permitted", facts);
+}
+template <class T>
+constexpr Pin deceleration(InputFacts facts = {.error = ErrorId::deceleration}) {
+  return in<&T::Deceleration>("Deceleration", Unit::kAcceleration, kNotZero,
+                              "> 0: used; < 0: DynamicDefaults.Deceleration; 0 is not permitted", facts);
+}
+template <class T>
+constexpr Pin jerk(InputFacts facts = {.error = ErrorId::jerk}) {
+  return in<&T::Jerk>("Jerk", Unit::kJerk, kFinite,
+                      "> 0: used; 0: trapezoidal velocity profile; < 0: DynamicDefaults.Jerk", facts);
+}
+template <class T>
+constexpr Pin abort_acceleration() {
+  return in<&T::AbortAcceleration>("AbortAcceleration", Unit::kNone, kAny,
+                                   "TRUE: an acceleration at the start is set to 0 at once");
+}
+template <class T>
+constexpr Pin position_controlled() {
+  return in<&T::PositionControlled>("PositionControlled", Unit::kNone, kAny,
+                                    "whether the axis is position-controlled from now on");
+}
+
+}  // namespace pin
+
+}  // namespace lockstep

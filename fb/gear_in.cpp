@@ -1,0 +1,36 @@
+#include "fb/gear_in.hpp"
+
+namespace lockstep {
+
+void MC_GearIn::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_GearIn;
+  job.master = Master;
+  job.numerator = RatioNumerator;
+  job.denominator = RatioDenominator;
+  job.acceleration = Acceleration;
+  job.deceleration = Deceleration;
+  job.jerk = Jerk;
+}
+
+bool MC_GearInPos::following_modulo(const Block& block) noexcept {
+  const Axis* slave = static_cast<const MC_GearInPos&>(block).Slave;
+  return slave != nullptr && slave->data.Modulo.Enable;
+}
+
+void MC_GearInPos::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_GearInPos;
+  job.master = Master;
+  job.numerator = RatioNumerator;
+  job.denominator = RatioDenominator;
+  job.master_sync_position = MasterSyncPosition;
+  job.slave_sync_position = SlaveSyncPosition;
+  job.mode = SyncProfileReference;
+  job.master_start_distance = MasterStartDistance;
+  job.velocity = Velocity;
+  job.acceleration = Acceleration;
+  job.deceleration = Deceleration;
+  job.jerk = Jerk;
+  job.direction = SyncDirection;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,46 @@
+#include "fb/move.hpp"
+
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+/// Takes over the dynamic values that all three blocks have.
+template <class B>
+void take_dynamics(const B& block, Job& job) noexcept {
+  job.velocity = block.Velocity;
+  job.acceleration = block.Acceleration;
+  job.deceleration = block.Deceleration;
+  job.jerk = block.Jerk;
+}
+
+}  // namespace
+
+bool MC_MoveAbsolute::has_modulo(const Block& block) noexcept {
+  const lockstep::Axis* axis = static_cast<const MC_MoveAbsolute&>(block).Axis;
+  return axis != nullptr && axis->data.Modulo.Enable;
+}
+
+void MC_MoveAbsolute::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_MoveAbsolute;
+  job.position = Position;
+  job.direction = Direction;
+  take_dynamics(*this, job);
+}
+
+void MC_MoveRelative::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_MoveRelative;
+  job.position = Distance;
+  take_dynamics(*this, job);
+}
+
+void MC_MoveVelocity::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_MoveVelocity;
+  take_dynamics(*this, job);
+  if (Direction == 1) job.velocity = std::abs(Velocity);
+  if (Direction == 2) job.velocity = -std::abs(Velocity);
+  job.current = Current;
+  job.position_controlled = PositionControlled;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,64 @@
+#include "scheduler/controller.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace lockstep {
+
+Tag& Controller::add_tag(Tag tag) {
+  tag_memory_.push_back(Value{});
+  tag.signal = {&tag_memory_.back(), tag.type, -1};
+  tag.signal.store(tag.initial);
+  tags.push_back(std::move(tag));
+  return tags.back();
+}
+
+Axis& Controller::add_axis(ObjectKind kind, std::string name) {
+  const auto number = static_cast<DB_ANY>(axes.size() + 1);
+  axes.push_back(std::make_unique<Axis>(kind, std::move(name), number));
+  return *axes.back();
+}
+
+Instance& Controller::add_instance(const BlockType& type, std::string name) {
+  instances.push_back({std::move(name), &type, type.create()});
+  return instances.back();
+}
+
+void Controller::finish() {
+  const double servo_period = static_cast<double>(clock.servo_cycle) * 1e-9;
+  for (auto& axis : axes) {
+    axis->configure(servo_period, clock.interpolator_ratio);
+    if (!axis->is_virtual()) driven_.push_back(axis.get());
+  }
+  summary_.resize(axes.size());
+  order_.set_axes(axes);
+  order_.rebuild();
+  for (Program& program : programs) schedule_.push_back(&program);
+  std::stable_sort(schedule_.begin(), schedule_.end(), [](const Program* a, const Program* b) {
+    return a->ob() != b->ob() ? a->ob() < b->ob() : a->priority() > b->priority();
+  });
+  std::stable_sort(stimuli.begin(), stimuli.end(),
+                   [](const Stimulus& a, const Stimulus& b) { return a.at < b.at; });
+}
+
+void Controller::shut_down() noexcept {
+  take_summary();
+  shutting_down_ = true;
+}
+
+void Controller::take_summary() noexcept {
+  for (std::size_t i = 0; i < summary_.size(); ++i) {
+    const Axis& axis = *axes[i];
+    summary_[i] = {.status_word = axis.data.StatusWord,
+                   .function_state = axis.data.StatusSynchronizedMotion.FunctionState,
+                   .alarm = axis.data.ErrorDetail.Number,
+                   .position = axis.data.ActualPosition,
+                   .largest_deviation = axis.largest_synchronous_deviation()};
+  }
+}
+
+bool Controller::at_rest() const noexcept {
+  return std::all_of(axes.begin(), axes.end(), [](const auto& axis) { return axis->off(); });
+}
+
+}  // namespace lockstep

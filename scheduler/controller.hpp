@@ -1,0 +1,131 @@
+/// The controller: technology objects, tags and programs of one project, and the cycle that runs them.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fb/block.hpp"
+#include "scheduler/process_image.hpp"
+#include "scheduler/program.hpp"
+#include "scheduler/trace_ring.hpp"
+#include "tech_objects/axis.hpp"
+#include "tech_objects/coupling_order.hpp"
+
+namespace lockstep {
+
+/// The two periods of motion control.
+/// @source S7-1500T: MC_Servo [OB91], MC_Interpolator [OB92]
+struct Clock {
+  std::int64_t servo_cycle = 1'000'000;  ///< period of MC_Servo [ns]
+  int interpolator_ratio = 1;            ///< MC_Interpolator runs on every so many servo ticks, 1 to 32
+
+  std::int64_t interpolator_cycle() const noexcept { return servo_cycle * interpolator_ratio; }  ///< [ns]
+};
+
+/// A tag: a named value of the project.
+struct Tag {
+  std::string name;
+  Type type = Type::BOOL;
+  Value initial{};
+  bool retain = false;
+  std::string comment;
+  Signal signal{};  ///< where it lives, set by `Controller::add_tag`
+};
+
+/// An instance of a function block with its name.
+struct Instance {
+  std::string name;
+  const BlockType* type = nullptr;
+  std::unique_ptr<Block> block;
+};
+
+/// A change of a tag at a time of the simulation.
+struct Stimulus {
+  std::int64_t at = 0;  ///< [ns]
+  Signal place;
+  Value value{};
+};
+
+/// What a run has counted. Written by the cycle, read after the run or through signals.
+struct CycleCounters {
+  std::uint64_t ticks = 0;               ///< servo ticks executed
+  std::uint64_t interpolator_ticks = 0;  ///< interpolator ticks executed
+  EvaluationCounters evaluation;         ///< of all expressions
+};
+
+/// How an axis stood when its run ended, for the summary.
+struct AxisSummary {
+  DWORD status_word{};
+  DINT function_state{};      ///< StatusSynchronizedMotion.FunctionState
+  UDINT alarm{};              ///< ErrorDetail.Number
+  LREAL position{};           ///< [u]
+  LREAL largest_deviation{};  ///< largest distance from the synchronous function while synchronous [u]
+};
+
+/// Built at load time through its public lists and `add_…`; after `finish` only `tick` touches it, in the
+/// thread of the cycle.
+class Controller {
+ public:
+  Clock clock;
+  std::vector<std::unique_ptr<Axis>> axes;  ///< in the order of `technology_objects`
+  std::deque<Tag> tags;
+  std::deque<Instance> instances;
+  std::deque<Program> programs;
+  std::vector<Stimulus> stimuli;
+  bool apply_stimuli = false;
+  std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
+  TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
+
+  Tag& add_tag(Tag tag);
+  Axis& add_axis(ObjectKind kind, std::string name);
+  Instance& add_instance(const BlockType& type, std::string name);
+
+  /// Call once when all is loaded: sorts programs and stimuli and readies the axes for the clock.
+  void finish();
+
+  /// One servo tick, run to completion. Nothing in it allocates, locks, blocks or throws.
+  void tick() noexcept;
+
+  /// Leaves ticks out that the wall clock has passed: time goes on, motion does not. What was due in them is
+  /// done in the next tick.
+  void skip(std::int64_t ticks) noexcept { next_tick_ += ticks; }
+
+  /// Time of the next tick [ns]: its number times the servo cycle.
+  std::int64_t now() const noexcept { return next_tick_ * clock.servo_cycle; }
+  const CycleCounters& counters() const noexcept { return counters_; }
+
+  /// Brings every axis to rest with maximum dynamics and then off, as at the end of a run; whether all are at
+  /// rest is told by `at_rest`. Programs no longer run.
+  void shut_down() noexcept;
+  bool at_rest() const noexcept;
+
+  /// Notes how the axes stand; `shut_down` does so as well.
+  void take_summary() noexcept;
+  const std::vector<AxisSummary>& summary() const noexcept { return summary_; }
+
+ private:
+  void take_inputs(std::int64_t now) noexcept;
+  void run_programs(Ob ob, std::int64_t now) noexcept;
+  void run_due_programs(std::int64_t now) noexcept;
+  bool due(std::int64_t cycle, std::int64_t now) const noexcept;
+  void servo() noexcept;
+  void interpolate() noexcept;
+  void show(std::int64_t now, bool interpolator_tick) noexcept;
+
+  std::deque<Value> tag_memory_;
+  std::vector<Program*> schedule_;  // sorted by organization block, then priority
+  std::vector<Axis*> driven_;       // axes with a drive, which MC_Servo serves
+  CouplingOrder order_;
+  std::size_t next_stimulus_ = 0;
+  std::int64_t next_tick_ = 0;
+  std::int64_t last_time_ = -1;  // of the last executed tick [ns]; -1: none yet
+  bool shutting_down_ = false;
+  CycleCounters counters_;
+  std::vector<AxisSummary> summary_;  // of the axes
+};
+
+}  // namespace lockstep

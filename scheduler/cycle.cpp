@@ -1,0 +1,83 @@
+// The cycle, from top to bottom as section 4 of the contract has it. Nothing here allocates, locks or blocks.
+#include "scheduler/controller.hpp"
+
+namespace lockstep {
+
+void Controller::tick() noexcept {
+  const std::int64_t t = now();
+  const bool interpolator_tick = due(clock.interpolator_cycle(), t);
+
+  take_inputs(t);
+
+  run_programs(Ob::MC_PreServo, t);
+  servo();
+  run_programs(Ob::MC_PostServo, t);
+
+  if (interpolator_tick) {
+    run_programs(Ob::MC_PreInterpolator, t);
+    interpolate();
+  }
+
+  run_due_programs(t);
+
+  show(t, interpolator_tick);
+
+  last_time_ = t;
+  ++next_tick_;
+  ++counters_.ticks;
+}
+
+/// Whether a grid of the given cycle has a point at `t`, or one that has been left out since the last tick.
+bool Controller::due(std::int64_t cycle, std::int64_t t) const noexcept {
+  return last_time_ < 0 || t / cycle != last_time_ / cycle;
+}
+
+/// Writes from outside and stimuli enter the tags.
+void Controller::take_inputs(std::int64_t t) noexcept {
+  for (ProcessImage* image : images) image->take_writes();
+  if (!apply_stimuli) return;
+  for (; next_stimulus_ < stimuli.size() && stimuli[next_stimulus_].at <= t; ++next_stimulus_)
+    stimuli[next_stimulus_].place.store(stimuli[next_stimulus_].value);
+}
+
+void Controller::servo() noexcept {
+  for (Axis* axis : driven_) axis->servo();
+}
+
+/// start_jobs → step (leading before following), guarded → publish.
+void Controller::interpolate() noexcept {
+  bool changed = false;
+  for (Axis* axis : order_.axes()) {
+    if (shutting_down_) axis->power.enable = false;
+    if (axis->has_new_jobs()) axis->start_jobs();
+    changed |= axis->coupling_changed;
+    axis->coupling_changed = false;
+  }
+  if (changed) order_.rebuild();
+  for (Axis* axis : order_.axes()) {
+    axis->step();
+    axis->publish();
+  }
+  ++counters_.interpolator_ticks;
+}
+
+void Controller::run_programs(Ob ob, std::int64_t t) noexcept {
+  if (shutting_down_) return;
+  for (const Program* program : schedule_)
+    if (program->ob() == ob) program->run(t, counters_.evaluation);
+}
+
+/// Cyclic programs by priority, then Main.
+void Controller::run_due_programs(std::int64_t t) noexcept {
+  if (shutting_down_) return;
+  for (const Program* program : schedule_)
+    if (program->ob() >= Ob::Cyclic && due(program->cycle(), t)) program->run(t, counters_.evaluation);
+}
+
+/// The image for Modbus, and on interpolator ticks the trace row.
+void Controller::show(std::int64_t t, bool interpolator_tick) noexcept {
+  for (ProcessImage* image : images) image->publish(next_tick_);
+  if (trace != nullptr && interpolator_tick) trace->push(t, static_cast<std::uint64_t>(next_tick_));
+}
+
+}  // namespace lockstep

@@ -1,0 +1,76 @@
+/// Programs: compiled sequences of block calls, assignments and branches, walked by the cycle.
+/// @source contract of the project file, sections 1 and 2
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fb/block.hpp"
+#include "scheduler/expression.hpp"
+#include "tech_objects/variable.hpp"
+
+namespace lockstep {
+
+/// Organization block in which a program runs.
+/// @source S7-1500T: OB1, OB30…, OB67, OB95, OB68
+enum class Ob : std::uint8_t { MC_PreServo, MC_PostServo, MC_PreInterpolator, Cyclic, Main };
+
+/// One program. Built at load time by the add functions, in the order in which it is written; then only
+/// `run`.
+class Program {
+ public:
+  Program(std::string name, Ob ob, std::int64_t cycle, int priority);
+
+  const std::string& name() const noexcept { return name_; }
+  Ob ob() const noexcept { return ob_; }
+  /// Period of a Cyclic or Main program [ns], a whole multiple of the servo cycle.
+  std::int64_t cycle() const noexcept { return cycle_; }
+  /// Priority of a Cyclic program; the higher runs first.
+  int priority() const noexcept { return priority_; }
+
+  /// Assigns the value of an expression of the place's type to a tag or a pin.
+  void add_assignment(Expression expression, Signal place);
+  /// Assigns to a variable of a technology object: an LREAL out of its range is brought to its limit, any
+  /// other value that is not permitted is refused and counted, and the variable keeps what it had.
+  void add_assignment(Expression expression, Signal place, const Variable& variable);
+  void add_call(Block& block);
+  /// Begins what runs only if the BOOL expression is TRUE; returns a mark for `end_branch`.
+  std::size_t begin_branch(Expression condition);
+  /// Ends the part behind a condition and begins its alternative; returns the mark of that.
+  std::size_t begin_alternative(std::size_t mark);
+  void end_branch(std::size_t mark);
+
+  /// One run, in the thread of the cycle. @param now time of the tick [ns]
+  void run(std::int64_t now, EvaluationCounters& counters) const noexcept;
+
+  /// Assignments to variables that were refused since the start.
+  std::uint64_t refused_assignments() const noexcept { return refused_; }
+
+ private:
+  enum class Op : std::uint8_t { assign, assign_variable, call, jump, jump_unless };
+  struct Instruction {
+    Op op;
+    std::uint32_t operand = 0;  // place, block or target of a jump
+    std::uint32_t expression = 0;
+  };
+  struct Place {
+    Signal signal;
+    const Variable* variable = nullptr;
+  };
+
+  std::uint32_t keep(Expression expression);
+  void assign_variable(const Place& place, Value value) const noexcept;
+
+  std::string name_;
+  Ob ob_;
+  std::int64_t cycle_;
+  int priority_;
+  std::vector<Instruction> instructions_;
+  std::vector<Expression> expressions_;
+  std::vector<Place> places_;
+  std::vector<Block*> blocks_;
+  mutable std::uint64_t refused_ = 0;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,110 @@
+#include "scheduler/real_time.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace lockstep {
+namespace {
+
+constexpr int kPriority = 80;                              // of SCHED_FIFO, below the kernel's own threads
+constexpr int kOverrunsToStop = 3;                         // in a row
+constexpr std::int64_t kLongestShutdown = 10'000'000'000;  // [ns] for bringing the axes to rest
+
+std::int64_t clock_now() noexcept {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+void sleep_until(std::int64_t due) noexcept {
+  const timespec time{static_cast<time_t>(due / 1'000'000'000), static_cast<long>(due % 1'000'000'000)};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {
+  }
+}
+
+template <class T>
+void raise_to(std::atomic<T>& place, T value) noexcept {
+  if (value > place.load(std::memory_order_relaxed)) place.store(value, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+RealTimeRun::RealTimeRun(Controller& controller, OverrunPolicy policy, std::int64_t duration)
+    : controller_(controller), policy_(policy), duration_(duration) {}
+
+RealTimeRun::~RealTimeRun() {
+  stop();
+  wait();
+}
+
+std::vector<std::string> RealTimeRun::start() {
+  std::vector<std::string> warnings;
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
+    warnings.push_back(std::string("memory cannot be locked (") + std::strerror(errno) +
+                       "): a page fault may delay a tick");
+  thread_ = std::thread([this] { run(); });
+  const sched_param parameters{kPriority};
+  if (const int error = pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &parameters); error != 0)
+    warnings.push_back(std::string("real-time priority is not permitted (") + std::strerror(error) +
+                       "): other processes may delay a tick");
+  return warnings;
+}
+
+void RealTimeRun::wait() {
+  if (thread_.joinable()) thread_.join();
+}
+
+void RealTimeRun::run() noexcept {
+  const std::int64_t cycle = controller_.clock.servo_cycle;
+  const std::int64_t start = clock_now() + cycle;
+  bool shutting_down = false;
+  std::int64_t shutdown_begin = 0;
+  for (;;) {
+    const std::int64_t t = controller_.now();
+    const std::int64_t due = start + t;
+    sleep_until(due);
+    const std::int64_t begin = clock_now();
+    raise_to(status_.worst_lateness, begin - due);
+
+    const bool ended = duration_ >= 0 && t >= duration_;
+    if (!shutting_down && (ended || stop_requested_.load(std::memory_order_relaxed) ||
+                           status_.stopped_by_overrun.load(std::memory_order_relaxed))) {
+      controller_.shut_down();
+      controller_.trace = nullptr;
+      shutting_down = true;
+      shutdown_begin = t;
+    }
+    if (shutting_down && (controller_.at_rest() || t - shutdown_begin > kLongestShutdown)) break;
+    controller_.tick();
+    status_.ticks.fetch_add(1, std::memory_order_relaxed);
+    status_.time.store(t, std::memory_order_relaxed);
+
+    const std::int64_t end = clock_now();
+    raise_to(status_.longest_tick, end - begin);
+    const std::int64_t late = end - (due + cycle);
+    // The grid of ticks stays; those whose time has passed are left out.
+    const std::int64_t missed = late > 0 ? (late + cycle - 1) / cycle : 0;
+    if (missed > 0) {
+      controller_.skip(missed);
+      status_.missed_ticks.fetch_add(static_cast<std::uint64_t>(missed), std::memory_order_relaxed);
+    }
+    if (t % controller_.clock.interpolator_cycle() == 0 || missed > 0)
+      count_overrun(end - due > controller_.clock.interpolator_cycle());
+  }
+  status_.over.store(true, std::memory_order_release);
+}
+
+void RealTimeRun::count_overrun(bool overrun) noexcept {
+  overruns_in_a_row_ = overrun ? overruns_in_a_row_ + 1 : 0;
+  if (overrun) status_.overruns.fetch_add(1, std::memory_order_relaxed);
+  if (policy_ == OverrunPolicy::stop && overruns_in_a_row_ >= kOverrunsToStop)
+    status_.stopped_by_overrun.store(true, std::memory_order_relaxed);
+}
+
+}  // namespace lockstep

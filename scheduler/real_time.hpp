@@ -1,0 +1,64 @@
+/// Running the cycle in real time: a thread of its own on the grid of servo ticks.
+/// @source contract of the project file, section 4
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "scheduler/controller.hpp"
+
+namespace lockstep {
+
+enum class OverrunPolicy : std::uint8_t {
+  report,  ///< overruns are counted
+  stop     ///< three overrun interpolator cycles in a row stop the axes and the run
+};
+
+/// What a run in real time looks like from outside; every member may be read by any thread while it goes on.
+struct RealTimeStatus {
+  std::atomic<std::uint64_t> ticks{0};         ///< servo ticks executed
+  std::atomic<std::uint64_t> missed_ticks{0};  ///< ticks of the grid that were left out
+  std::atomic<std::uint64_t> overruns{0};  ///< interpolator cycles that were not over at the next one's time
+  std::atomic<std::int64_t> worst_lateness{0};  ///< latest start of a tick after its time [ns]
+  std::atomic<std::int64_t> longest_tick{0};    ///< [ns]
+  std::atomic<std::int64_t> time{0};            ///< time of the controller [ns]
+  std::atomic<bool> stopped_by_overrun{false};
+  std::atomic<bool> over{false};  ///< the thread has ended, the axes are at rest
+};
+
+/// Owns the thread of the cycle. Threads: one that starts, stops and waits.
+class RealTimeRun {
+ public:
+  /// @param duration runs the ticks with t < duration [ns]; negative: until `stop`
+  RealTimeRun(Controller& controller, OverrunPolicy policy, std::int64_t duration);
+  ~RealTimeRun();
+  RealTimeRun(const RealTimeRun&) = delete;
+  RealTimeRun& operator=(const RealTimeRun&) = delete;
+
+  /// Starts the thread with real-time priority and locked memory as far as the system permits.
+  /// @return what was not permitted, as plain warnings
+  std::vector<std::string> start();
+
+  /// Asks the run to end: axes are brought to rest, then the thread ends.
+  void stop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
+  void wait();
+
+  const RealTimeStatus& status() const noexcept { return status_; }
+
+ private:
+  void run() noexcept;
+  void count_overrun(bool overrun) noexcept;
+
+  Controller& controller_;
+  OverrunPolicy policy_;
+  std::int64_t duration_;
+  std::atomic<bool> stop_requested_{false};
+  RealTimeStatus status_;
+  int overruns_in_a_row_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,250 @@
+#include "tech_objects/axis.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+/// Value of StatusSensor.State: the actual value is valid.
+constexpr DINT kSensorValid = 2;
+
+/// Largest magnitude of a position [u]; beyond it a setpoint is not followed.
+/// @source S7-1500T synchronous operation V7, 13.1 (ranges); alarm 308
+constexpr double kPositionRange = 1e12;
+
+}  // namespace
+
+Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
+    : TechnologyObject{object_kind, std::move(object_name), object_number} {}
+
+void Axis::configure(double servo_period, int ratio) {
+  servo_period_ = servo_period;
+  ratio_ = ratio;
+  period_ = servo_period * ratio;
+  start_values_ = data;
+  has_drive_ = !is_virtual();
+  take_start_values();
+  setpoint_ = Setpoint{};
+  setpoint_.position = normalised({0, 0.0}, modulo_);
+  last_setpoint_ = setpoint_;
+  actual_ = setpoint_.position;
+  shown_actual_ = last_actual_ = actual_;
+  single_.stand(setpoint_);
+  if (has_drive_) configure_servo();
+  data.OperativeSensor = 1;
+  data.StatusSensor[0].State = kSensorValid;
+  data.StatusSensor[0].CommunicationOK = true;
+  data.StatusDrive.CommunicationOK = true;
+  publish();
+}
+
+void Axis::take_start_values() noexcept {
+  modulo_ = {data.Modulo.Enable, data.Modulo.Length, data.Modulo.StartValue};
+  single_.configure(modulo_, period_);
+  synchronous_.configure(modulo_, period_, data.Synchronization.MasterReversionTolerance);
+  awaited_.configure(modulo_, period_, data.Synchronization.MasterReversionTolerance);
+  standstill_dwell_ = ticks_of(data.StandstillSignal.MinDwellTime);
+}
+
+std::int64_t Axis::ticks_of(double seconds) const noexcept {
+  return static_cast<std::int64_t>(std::ceil(seconds / period_ - 1e-9));
+}
+
+// ---- Power
+// ------------------------------------------------------------------------------------------------------
+
+bool Axis::power_busy() const noexcept {
+  return power_state_ != PowerState::off;
+}
+
+void Axis::step_power() noexcept {
+  switch (power_state_) {
+    case PowerState::off:
+      if (power.enable && !enable_removed_) switch_on();
+      break;
+    case PowerState::switching_on:
+      if (drive_running_) take_up_motion();
+      break;
+    case PowerState::on:
+      if (!power.enable) begin_braking(power.stop_mode);
+      break;
+    case PowerState::braking:
+      if (single_.finished()) switch_off();
+      break;
+  }
+}
+
+void Axis::switch_on() noexcept {
+  if (has_drive_) {
+    drive_.enable(true);
+    power_state_ = PowerState::switching_on;
+    return;
+  }
+  take_up_motion();
+}
+
+/// The position at this moment becomes the setpoint. A moving axis brakes with maximum dynamics and returns
+/// to it.
+void Axis::take_up_motion() noexcept {
+  power_state_ = PowerState::on;
+  position_controlled_ = power.start_mode == 1;
+  motion_ = Motion::single_axis;
+  if (has_drive_) setpoint_ = {actual_, moving(actual_velocity_) ? actual_velocity_ : 0.0, 0.0};
+  const AxisPosition here = setpoint_.position;
+  if (has_drive_) controller_.reset(here);
+  if (setpoint_.standing() || single_.move_to(setpoint_, here, 0.0, maximum_dynamics()) != PlanResult::ok) {
+    setpoint_.velocity = 0.0;
+    setpoint_.acceleration = 0.0;
+    single_.stand(setpoint_);
+  }
+}
+
+void Axis::begin_braking(INT stop_mode) noexcept {
+  end_all_jobs(JobPhase::aborted, ErrorId::none);
+  const bool drive_stops = has_drive_ && (stop_mode == 1 || stop_mode == 3);
+  if (drive_stops) {
+    switch_off();
+    return;
+  }
+  power_state_ = PowerState::braking;
+  begin_stop(stop_mode == 2 ? maximum_dynamics() : emergency_dynamics(), false);
+}
+
+void Axis::switch_off() noexcept {
+  if (has_drive_) drive_.enable(false);
+  power_state_ = PowerState::off;
+  motion_ = Motion::none;
+  setpoint_.velocity = 0.0;
+  setpoint_.acceleration = 0.0;
+  single_.stand(setpoint_);
+}
+
+/// Switched off, the setpoint tracks the actual value.
+void Axis::follow_actual() noexcept {
+  if (!has_drive_) return;
+  setpoint_ = {actual_, moving(actual_velocity_) ? actual_velocity_ : 0.0, 0.0};
+}
+
+bool Axis::moving(double velocity) const noexcept {
+  return std::abs(velocity) > data.StandstillSignal.VelocityThreshold;
+}
+
+// ---- Alarms
+// -----------------------------------------------------------------------------------------------------
+
+void Axis::raise(int alarm_number) noexcept {
+  const Alarm* alarm = find_alarm(alarm_number);
+  if (alarm->reaction == static_cast<int>(AlarmReaction::none)) {
+    set_bit(data.WarningWord, static_cast<unsigned>(alarm->warning_bit), true);
+    return;
+  }
+  set_bit(data.ErrorWord, static_cast<unsigned>(alarm->error_bit), true);
+  set_bit(data.StatusWord, StatusBit::Error, true);
+  if (alarm->reaction <= data.ErrorDetail.Reaction) return;  // a weaker reaction changes nothing
+  data.ErrorDetail.Number = static_cast<UDINT>(alarm->number);
+  data.ErrorDetail.Reaction = alarm->reaction;
+  react(static_cast<AlarmReaction>(alarm->reaction));
+}
+
+void Axis::react(AlarmReaction reaction) noexcept {
+  Dynamics dynamics = maximum_dynamics();
+  if (reaction == AlarmReaction::stop_current) dynamics = single_.dynamics();
+  if (reaction == AlarmReaction::stop_emergency) dynamics = emergency_dynamics();
+  end_all_jobs(JobPhase::failed, ErrorId::technology_alarm);
+  if (reaction == AlarmReaction::remove_enable || reaction == AlarmReaction::track_setpoints) {
+    enable_removed_ = true;
+    if (power_state_ == PowerState::off) return;
+    // The drive stops by its own ramp; a virtual axis, which has none, takes the emergency ramp.
+    begin_braking(1);
+    return;
+  }
+  if (power_state_ == PowerState::on) begin_stop(dynamics, false);
+}
+
+ErrorId Axis::reset(bool restart) noexcept {
+  if (restart && power_state_ != PowerState::off) return ErrorId::restart_refused;
+  data.ErrorWord = DWORD{};
+  data.WarningWord = DWORD{};
+  data.ErrorDetail = {};
+  enable_removed_ = false;
+  if (restart) {
+    end_all_jobs(JobPhase::aborted, ErrorId::none);
+    data = start_values_;
+    homed_ = false;
+    take_start_values();
+    data.OperativeSensor = 1;
+    data.StatusSensor[0].State = kSensorValid;
+    data.StatusSensor[0].CommunicationOK = true;
+    data.StatusDrive.CommunicationOK = true;
+  }
+  return ErrorId::none;
+}
+
+// ---- One interpolator cycle
+// -------------------------------------------------------------------------------------
+
+void Axis::step() noexcept {
+  last_setpoint_ = setpoint_;
+  last_actual_ = shown_actual_;
+  servo_tick_ = 0;
+  if (power_state_ != PowerState::on || !power.enable) step_power();
+  if (running_[kWaiting] != nullptr) watch_waiting();
+  switch (motion_) {
+    case Motion::none:
+      follow_actual();
+      break;
+    case Motion::single_axis:
+      step_single_axis();
+      break;
+    case Motion::synchronizing:
+    case Motion::synchronous:
+      step_synchronous();
+      break;
+  }
+  guard();
+  if (!has_drive_) {
+    // A virtual axis is where its setpoint is, in the same tick.
+    actual_ = setpoint_.position;
+    actual_velocity_ = setpoint_.velocity;
+  }
+}
+
+/// Last look at the setpoint before anyone sees it: finite, and within the range of positions.
+void Axis::guard() noexcept {
+  const double sum = setpoint_.position.value + setpoint_.velocity + setpoint_.acceleration;
+  if (std::isfinite(sum) && std::abs(setpoint_.position.value) <= kPositionRange) return;
+  const bool finite = std::isfinite(sum);
+  setpoint_ = {last_setpoint_.position, 0.0, 0.0};
+  single_.stand(setpoint_);
+  raise(finite ? alarm::kPositionRangeExceeded : alarm::kInternal);
+}
+
+Setpoint Axis::leading_state(Coupling coupling) const noexcept {
+  if (coupling == Coupling::actual) return extrapolated(actual_);
+  if (position_controlled_) return setpoint_;
+  return {};  // [1173-1175]: without position control the leading setpoint is zero
+}
+
+Setpoint Axis::last_leading_state(Coupling coupling) const noexcept {
+  if (coupling == Coupling::actual) return extrapolated(last_actual_);
+  if (position_controlled_) return last_setpoint_;
+  return {};
+}
+
+/// The actual value, led on by the time that passes until the following axis acts on it.
+Setpoint Axis::extrapolated(const AxisPosition& position) const noexcept {
+  const double ahead = period_ + data.Extrapolation.FollowingAxisDependentTime;
+  return {advanced(position, actual_velocity_ * ahead, modulo_), actual_velocity_, 0.0};
+}
+
+Axis* Axis::coupled_leading_axis() const noexcept {
+  const bool coupled = motion_ == Motion::synchronizing || motion_ == Motion::synchronous;
+  return coupled ? synchronous_.leading_axis() : nullptr;
+}
+
+Axis* Axis::awaited_leading_axis() const noexcept {
+  return running_[kWaiting] != nullptr ? running_[kWaiting]->master : nullptr;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,258 @@
+/// An axis: TO_PositioningAxis and TO_SynchronousAxis. It owns its motion; a function block only asks.
+///
+/// In the interpolator each axis goes through start_jobs → step → guard → publish, leading axes before
+/// following ones. All functions below "Cycle" run in the thread of the cycle; they neither allocate nor
+/// block.
+/// @source S7-1500T synchronous operation V7, 4.5, 6, 13.1; S7-1500T axis functions
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tech_objects/axis_position.hpp"
+#include "tech_objects/drive.hpp"
+#include "tech_objects/job.hpp"
+#include "tech_objects/override.hpp"
+#include "tech_objects/single_axis_motion.hpp"
+#include "tech_objects/synchronous_motion.hpp"
+#include "tech_objects/technology_object.hpp"
+#include "tech_objects/variable.hpp"
+
+namespace lockstep {
+
+/// How a leading value is taken from its source.
+/// @source S7-1500T synchronous operation V7, 5.2
+enum class Coupling : std::uint8_t {
+  setpoint,  ///< the setpoint of the same tick
+  actual     ///< the extrapolated actual value
+};
+
+/// One configured leading value interconnection of a following axis.
+struct LeadingValue {
+  Axis* source = nullptr;
+  Coupling coupling = Coupling::setpoint;
+};
+
+/// What MC_Power wants of the axis; written by the one instance that has claimed it.
+struct PowerRequest {
+  const void* owner = nullptr;  ///< the instance of MC_Power in charge; nullptr: none yet
+  BOOL enable{};
+  DINT start_mode = 1;  ///< 0: without, 1: with position control
+  INT stop_mode{};      ///< 0 emergency ramp, 1 quick stop, 2 maximum dynamics, 3 coast down
+};
+
+class Axis : public TechnologyObject {
+ public:
+  Axis(ObjectKind kind, std::string name, DB_ANY number);
+
+  // ---- Load time
+  // --------------------------------------------------------------------------------------------------
+
+  /// The technology data block. The project sets start values before `configure`; afterwards DIR and CAL
+  /// variables may be written in the cycle, the rest is computed.
+  AxisData data;
+
+  /// The leading values with which this axis is interconnected; only these may be named by jobs.
+  std::vector<LeadingValue> leading_values;
+
+  /// Model of the simulated drive; counts unless the axis is virtual.
+  SimulatedDriveSettings drive_settings;
+
+  /// Takes over the start values. Call once, after `data` is set and before the first tick.
+  /// @param servo_period period of MC_Servo [s]  @param ratio servo ticks per interpolator tick, 1 to 32
+  void configure(double servo_period, int ratio);
+
+  bool is_virtual() const noexcept { return data.VirtualAxis.Mode == 1; }
+  Modulo modulo() const noexcept { return modulo_; }
+
+  // ---- Cycle: called by blocks
+  // ------------------------------------------------------------------------------------
+
+  /// Hands a job over; it starts at the next interpolator tick. With no space left it fails with 16#8014 at
+  /// once. The job stays where it is until it has ended.
+  void submit(Job& job) noexcept;
+
+  PowerRequest power;
+  /// Whether switching off (or on) is still under way, for MC_Power.Busy.
+  bool power_busy() const noexcept;
+
+  /// Number of the alarm with a reaction that is pending; 0: none.
+  int pending_alarm() const noexcept { return static_cast<int>(data.ErrorDetail.Number); }
+
+  // ---- Cycle: called by the scheduler
+  // -----------------------------------------------------------------------------
+
+  /// One servo tick: reads actual values, closes the position loop, writes the setpoint to the drive.
+  void servo() noexcept;
+
+  /// Starts the jobs handed over since the last interpolator tick, by the override rules.
+  void start_jobs() noexcept;
+  bool has_new_jobs() const noexcept { return new_count_ != 0; }
+
+  /// One interpolator cycle: the setpoint of this tick. Leading axes have to be stepped before.
+  void step() noexcept;
+
+  /// Checks the setpoint and shows everything in the data block.
+  void publish() noexcept;
+
+  /// Leading axes on which this axis depends: the coupled one and the one that a waiting job names.
+  Axis* coupled_leading_axis() const noexcept;
+  Axis* awaited_leading_axis() const noexcept;
+  /// Raised when a coupling has changed, so that the order of the axes is built anew.
+  bool coupling_changed = false;
+  /// Whether the awaited leading axis is stepped before this one; told by the order.
+  bool awaited_axis_in_order = true;
+
+  /// Raises a technology alarm: shows it and has its reaction carried out.
+  void raise(int alarm_number) noexcept;
+
+  /// The setpoint of the last interpolator tick, and the one before it.
+  const Setpoint& setpoint() const noexcept { return setpoint_; }
+  const Setpoint& last_setpoint() const noexcept { return last_setpoint_; }
+  /// What a following axis sees of this one, now and one interpolator tick ago.
+  Setpoint leading_state(Coupling coupling) const noexcept;
+  Setpoint last_leading_state(Coupling coupling) const noexcept;
+
+  bool enabled() const noexcept { return power_state_ == PowerState::on; }
+  bool off() const noexcept { return power_state_ == PowerState::off; }
+  /// Whether an alarm has removed the enable, until it is acknowledged.
+  bool enable_removed() const noexcept { return enable_removed_; }
+  bool position_controlled() const noexcept { return position_controlled_; }
+  /// Whether this axis is `axis` or follows, over any number of couplings, one that is.
+  bool led_by_this(const Axis* axis) const noexcept;
+  /// Largest distance between actual position and synchronous function while synchronous [u], for the summary
+  /// of a run.
+  double largest_synchronous_deviation() const noexcept { return largest_deviation_; }
+  bool was_synchronous() const noexcept { return was_synchronous_; }
+
+ private:
+  enum class PowerState : std::uint8_t { off, switching_on, on, braking };
+  /// What generates the setpoint.
+  enum class Motion : std::uint8_t { none, single_axis, synchronizing, synchronous };
+  /// Places of running jobs: the base motion, and a synchronous job that waits.
+  enum Slot : std::uint8_t { kBase, kWaiting, kSlots };
+
+  // axis.cpp: power, alarms, the cycle
+  void take_start_values() noexcept;
+  std::int64_t ticks_of(double seconds) const noexcept;
+  void step_power() noexcept;
+  void switch_on() noexcept;
+  void take_up_motion() noexcept;
+  void begin_braking(INT stop_mode) noexcept;
+  void switch_off() noexcept;
+  void follow_actual() noexcept;
+  bool moving(double velocity) const noexcept;
+  void react(AlarmReaction reaction) noexcept;
+  ErrorId reset(bool restart) noexcept;
+  void guard() noexcept;
+  Setpoint extrapolated(const AxisPosition& position) const noexcept;
+
+  // axis_jobs.cpp: taking jobs over, override rules, ends
+  void start(Job& job) noexcept;
+  ErrorId check(const Job& job) const noexcept;
+  int missing_precondition(const Job& job) const noexcept;
+  const LeadingValue* find_leading_value(const Axis* master) const noexcept;
+  bool override_running(JobClass new_job, Job& job) noexcept;
+  void install(Job& job) noexcept;
+  void end_job(Slot slot, JobPhase phase, ErrorId error) noexcept;
+  void end_all_jobs(JobPhase phase, ErrorId error) noexcept;
+  bool locked_by_stop() const noexcept;
+  void home(Job& job) noexcept;
+  double position_shift(double home_position) const noexcept;
+  void shift_positions(double by) noexcept;
+
+  // axis_motion.cpp: motion of its own
+  double velocity_limit() const noexcept;
+  double wanted_velocity(const Job& job) const noexcept;
+  Dynamics effective_dynamics(const Job& job) noexcept;
+  Dynamics maximum_dynamics() const noexcept;
+  Dynamics emergency_dynamics() const noexcept;
+  Dynamics maximum_for_current(Dynamics dynamics) const noexcept;
+  int zero_limit(const Dynamics& dynamics) const noexcept;
+  void begin_base_motion(Job& job) noexcept;
+  PlanResult plan(Job& job, const Dynamics& dynamics) noexcept;
+  PlanResult move_by(double way, const Job& job, const Dynamics& dynamics) noexcept;
+  double absolute_distance(const Job& job) const noexcept;
+  void begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept;
+  void step_single_axis() noexcept;
+  void follow_changes(Job& job) noexcept;
+  void remember_limits() noexcept;
+  void watch_base_job(Job& job) noexcept;
+  void watch_positioning() noexcept;
+  void watch_standstill() noexcept;
+
+  // axis_synchronous.cpp: motion led by another axis
+  void begin_gear_in(Job& job) noexcept;
+  void begin_waiting(Job& job) noexcept;
+  void watch_waiting() noexcept;
+  void activate_waiting(Motion motion) noexcept;
+  void step_synchronous() noexcept;
+  void leave_synchronous() noexcept;
+  void show_coupling(const Job& job, Motion motion) noexcept;
+
+  // axis_servo.cpp: drive and position control
+  void configure_servo();
+  PositionControlSettings control_settings() const noexcept;
+  double way_per_motor_turn() const noexcept;
+  void control_position() noexcept;
+  void shift_servo(double by) noexcept;
+
+  // axis_publish.cpp: the data block
+  void publish_motion() noexcept;
+  void publish_synchronous() noexcept;
+  void publish_status() noexcept;
+
+  // Hot: touched in every interpolator cycle.
+  Setpoint setpoint_;
+  Setpoint last_setpoint_;
+  double period_ = 0.001;  // of the interpolator [s]
+  Modulo modulo_;
+  Motion motion_ = Motion::none;
+  PowerState power_state_ = PowerState::off;
+  bool position_controlled_ = true;
+  bool homed_ = false;
+  bool has_drive_ = false;
+  bool enable_removed_ = false;
+  std::array<Job*, kSlots> running_{};
+  std::int64_t standstill_dwell_ = 0;  // [interpolator ticks]
+  std::int64_t standstill_ticks_ = 0;
+  AxisPosition actual_;
+  AxisPosition shown_actual_;     // of the last interpolator tick
+  AxisPosition last_actual_;      // and of the one before
+  double actual_velocity_ = 0.0;  // [u/s]
+  double last_actual_velocity_ = 0.0;
+  double largest_deviation_ = 0.0;
+  bool was_synchronous_ = false;
+  SynchronousMotion synchronous_;
+  SingleAxisMotion single_;
+
+  // Positioning and limits.
+  std::int64_t in_window_ticks_ = 0;
+  std::int64_t since_target_ticks_ = 0;
+  double planned_override_ = 100.0;
+  double planned_velocity_limit_ = 0.0;
+  Job jogged_;  // inputs of MC_MoveJog that are planned for
+
+  // Jobs.
+  static constexpr std::size_t kNewJobs = 16;
+  std::array<Job*, kNewJobs> new_jobs_{};  // handed over, in order
+  std::size_t new_count_ = 0;
+  Job* stop_ = nullptr;        // the MC_Stop that may lock the axis
+  SynchronousMotion awaited_;  // what the waiting job prepares
+  AxisData start_values_;
+
+  // Servo.
+  double servo_period_ = 0.001;  // [s]
+  int ratio_ = 1;
+  int servo_tick_ = 0;           // since the last interpolator tick
+  AxisPosition encoder_origin_;  // position where the drive reports 0
+  bool drive_running_ = false;
+  SimulatedDrive drive_;
+  PositionController controller_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,263 @@
+// Motion of an axis of its own: positioning, endless motion, jogging and stopping.
+#include <algorithm>
+#include <cmath>
+
+#include "tech_objects/axis.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Highest deceleration that a data block can hold [u/s²]: what is left when no limit is configured.
+/// @source S7-1500T synchronous operation V7, 13.1.16
+constexpr double kHighestDeceleration = 2.77777777777778e8;
+
+double positive_or(double value, double other) noexcept {
+  return value > 0.0 ? value : other;
+}
+
+}  // namespace
+
+// ---- Dynamics
+// ---------------------------------------------------------------------------------------------------
+
+/// Velocity limit in effect [u/s].
+double Axis::velocity_limit() const noexcept {
+  return std::min(data.DynamicLimits.MaxVelocity, data.DynamicLimits.Velocity);
+}
+
+/// Velocity that a job asks for, before the limit [u/s]. The override counts for the axis' own motion only.
+double Axis::wanted_velocity(const Job& job) const noexcept {
+  const double own = data.Override.Velocity / 100.0;
+  switch (job.kind) {
+    case JobKind::MC_GearIn:
+      return velocity_limit();
+    case JobKind::MC_GearInPos:
+      return job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity;
+    case JobKind::MC_MoveVelocity:
+    case JobKind::MC_MoveJog:
+      return std::abs(job.velocity) * own;
+    default:
+      return (job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity) * own;
+  }
+}
+
+/// Dynamic values of a job: defaults for negative ones, cut to the limits with a warning.
+Dynamics Axis::effective_dynamics(const Job& job) noexcept {
+  const auto& defaults = data.DynamicDefaults;
+  const auto& limits = data.DynamicLimits;
+  const double velocity = wanted_velocity(job);
+  const double acceleration = job.acceleration < 0.0 ? defaults.Acceleration : job.acceleration;
+  const double deceleration = job.deceleration < 0.0 ? defaults.Deceleration : job.deceleration;
+  const double jerk = job.jerk < 0.0 ? defaults.Jerk : job.jerk;
+  if (velocity > velocity_limit()) raise(alarm::kVelocityLimited);
+  if (acceleration > limits.MaxAcceleration || deceleration > limits.MaxDeceleration)
+    raise(alarm::kAccelerationLimited);
+  if (jerk > limits.MaxJerk) raise(alarm::kJerkLimited);
+  return {.velocity = std::min(velocity, velocity_limit()),
+          .acceleration = std::min(acceleration, limits.MaxAcceleration),
+          .deceleration = std::min(deceleration, limits.MaxDeceleration),
+          .jerk = std::min(jerk, limits.MaxJerk)};
+}
+
+Dynamics Axis::maximum_dynamics() const noexcept {
+  const double deceleration = positive_or(data.DynamicLimits.MaxDeceleration, kHighestDeceleration);
+  return {.velocity = velocity_limit(),
+          .acceleration = positive_or(data.DynamicLimits.MaxAcceleration, deceleration),
+          .deceleration = deceleration,
+          .jerk = data.DynamicLimits.MaxJerk};
+}
+
+Dynamics Axis::emergency_dynamics() const noexcept {
+  Dynamics dynamics = maximum_dynamics();
+  dynamics.deceleration = positive_or(data.DynamicDefaults.EmergencyDeceleration, dynamics.deceleration);
+  dynamics.jerk = 0.0;
+  return dynamics;
+}
+
+/// An alarm for a limit of zero, which no motion can keep; 0: none.
+int Axis::zero_limit(const Dynamics& dynamics) const noexcept {
+  if (velocity_limit() <= 0.0) return alarm::kVelocityLimitZero;
+  if (dynamics.acceleration <= 0.0 || dynamics.deceleration <= 0.0) return alarm::kAccelerationLimitZero;
+  return 0;
+}
+
+// ---- Beginning a motion
+// -----------------------------------------------------------------------------------------
+
+void Axis::begin_base_motion(Job& job) noexcept {
+  const Dynamics dynamics = effective_dynamics(job);
+  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
+    raise(alarm_number);
+    return job.fail(ErrorId::technology_alarm);
+  }
+  running_[kBase] = &job;
+  job.phase = JobPhase::active;
+  leave_synchronous();
+  motion_ = Motion::single_axis;
+  in_window_ticks_ = 0;
+  since_target_ticks_ = 0;
+  remember_limits();
+  if (job.kind != JobKind::MC_Halt && job.kind != JobKind::MC_Stop)
+    position_controlled_ = job.position_controlled;
+  if (plan(job, dynamics) == PlanResult::ok) return;
+  end_job(kBase, JobPhase::failed, ErrorId::unspecified);
+  begin_stop(maximum_dynamics(), false);
+}
+
+PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
+  switch (job.kind) {
+    case JobKind::MC_MoveAbsolute:
+      return move_by(absolute_distance(job), job, dynamics);
+    case JobKind::MC_MoveRelative:
+      return move_by(job.position, job, dynamics);
+    case JobKind::MC_MoveVelocity: {
+      if (job.current) {
+        job.velocity = setpoint_.velocity;
+        return single_.run_at(setpoint_, job.velocity, maximum_for_current(dynamics));
+      }
+      return single_.run_at(setpoint_, std::copysign(dynamics.velocity, job.velocity), dynamics);
+    }
+    case JobKind::MC_MoveJog:
+      jogged_ = job;
+      return single_.run_at(setpoint_, dynamics.velocity * job.direction, dynamics);
+    case JobKind::MC_Stop:
+      stop_ = &job;
+      if (job.mode == 0) return single_.stop(setpoint_, emergency_dynamics(), job.abort_acceleration);
+      if (job.mode == 2) return single_.stop(setpoint_, maximum_dynamics(), job.abort_acceleration);
+      [[fallthrough]];
+    default:  // MC_Halt
+      return single_.stop(setpoint_, dynamics, job.abort_acceleration);
+  }
+}
+
+/// The velocity held by Current may be the one of a synchronous motion, beyond the limit of the axis' own
+/// motion: then it comes down to that.
+Dynamics Axis::maximum_for_current(Dynamics dynamics) const noexcept {
+  dynamics.velocity = velocity_limit();
+  return dynamics;
+}
+
+/// Way to the target of MC_MoveAbsolute [u].
+double Axis::absolute_distance(const Job& job) const noexcept {
+  const double here = setpoint_.position.value;
+  if (!modulo_.enabled) return job.position - here;
+  const double target = normalised({0, job.position}, modulo_).value;
+  if (job.direction == 3) return shortest_distance(here, target, modulo_);
+  if (target == here) return 0.0;
+  return job.direction == 1 ? positive_distance(here, target, modulo_)
+                            : negative_distance(here, target, modulo_);
+}
+
+PlanResult Axis::move_by(double way, const Job& job, const Dynamics& dynamics) noexcept {
+  AxisPosition target = advanced(setpoint_.position, way, modulo_);
+  if (job.kind == JobKind::MC_MoveAbsolute) {
+    // The way is rounded; the target is the given position itself.
+    target.value = modulo_.enabled ? normalised({0, job.position}, modulo_).value : job.position;
+  }
+  data.StatusPositioning.TargetPosition = target.value;
+  data.StatusPositioning.TargetPositionModuloCycle = static_cast<DINT>(target.turns);
+  if (dynamics.velocity > 0.0) return single_.move_to(setpoint_, target, way, dynamics);
+  Dynamics crawl = dynamics;  // an override of 0 %: plan with the least velocity, then hold at once
+  crawl.velocity = velocity_limit();
+  const PlanResult result = single_.move_to(setpoint_, target, way, crawl);
+  return result == PlanResult::ok ? single_.replan(setpoint_, dynamics) : result;
+}
+
+void Axis::begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept {
+  leave_synchronous();
+  motion_ = Motion::single_axis;
+  if (single_.stop(setpoint_, dynamics, abort_acceleration) == PlanResult::ok) return;
+  setpoint_.velocity = 0.0;  // no ramp can be planned from such a state: stand
+  setpoint_.acceleration = 0.0;
+  single_.stand(setpoint_);
+}
+
+// ---- One cycle
+// --------------------------------------------------------------------------------------------------
+
+void Axis::step_single_axis() noexcept {
+  Job* job = running_[kBase];
+  if (job != nullptr) follow_changes(*job);
+  single_.advance(setpoint_);
+  if (running_[kBase] != nullptr) watch_base_job(*running_[kBase]);
+}
+
+/// Limits and override count at once; so do the inputs of a jogging block.
+void Axis::follow_changes(Job& job) noexcept {
+  const bool jog = job.kind == JobKind::MC_MoveJog;
+  const bool inputs_changed =
+      jog && (job.direction != jogged_.direction || job.velocity != jogged_.velocity ||
+              job.acceleration != jogged_.acceleration || job.deceleration != jogged_.deceleration ||
+              job.jerk != jogged_.jerk);
+  const bool limits_changed =
+      data.Override.Velocity != planned_override_ || velocity_limit() != planned_velocity_limit_;
+  if (!inputs_changed && !limits_changed) return;
+  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt) return;
+  remember_limits();
+  const Dynamics dynamics = effective_dynamics(job);
+  PlanResult result = PlanResult::ok;
+  if (jog || (job.kind == JobKind::MC_MoveVelocity && !job.current)) {
+    result = plan(job, dynamics);
+  } else if (!single_.finished() || single_.aim() != SingleAxisMotion::Aim::position) {
+    result = single_.replan(setpoint_, dynamics);
+  }
+  if (job.phase == JobPhase::reached) job.phase = JobPhase::active;
+  if (result == PlanResult::ok) return;
+  end_job(kBase, JobPhase::failed, ErrorId::unspecified);
+  begin_stop(maximum_dynamics(), false);
+}
+
+void Axis::remember_limits() noexcept {
+  planned_override_ = data.Override.Velocity;
+  planned_velocity_limit_ = velocity_limit();
+}
+
+void Axis::watch_base_job(Job& job) noexcept {
+  if (!single_.finished()) return;
+  switch (job.kind) {
+    case JobKind::MC_MoveVelocity:
+      job.phase = JobPhase::reached;
+      break;
+    case JobKind::MC_MoveJog:
+      if (job.direction != 0) {
+        job.phase = JobPhase::reached;
+      } else {
+        end_job(kBase, JobPhase::done, ErrorId::none);
+      }
+      break;
+    case JobKind::MC_MoveAbsolute:
+    case JobKind::MC_MoveRelative:
+      watch_positioning();
+      break;
+    default:
+      watch_standstill();
+      break;
+  }
+}
+
+/// Done once the actual position has stayed in the positioning window for the dwell time; alarm 541 if it
+/// does not come there within the tolerance time.
+void Axis::watch_positioning() noexcept {
+  const auto& monitoring = data.PositioningMonitoring;
+  const double away = std::abs(difference(actual_, setpoint_.position, modulo_).rounded());
+  ++since_target_ticks_;
+  in_window_ticks_ = away <= monitoring.Window ? in_window_ticks_ + 1 : 0;
+  if (in_window_ticks_ > ticks_of(monitoring.MinDwellTime)) {
+    end_job(kBase, JobPhase::done, ErrorId::none);
+  } else if (in_window_ticks_ == 0 && since_target_ticks_ > ticks_of(monitoring.ToleranceTime)) {
+    raise(alarm::kPositioning);
+  }
+}
+
+/// A stop under position control is done when the actual position has settled as well.
+void Axis::watch_standstill() noexcept {
+  const bool settled = !has_drive_ || !moving(actual_velocity_);
+  if (!settled) return;
+  if (position_controlled_ && running_[kBase]->kind == JobKind::MC_Halt) {
+    watch_positioning();
+  } else {
+    end_job(kBase, JobPhase::done, ErrorId::none);
+  }
+}
+
+}  // namespace lockstep

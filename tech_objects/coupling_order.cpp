@@ -1,0 +1,62 @@
+#include "tech_objects/coupling_order.hpp"
+
+#include <algorithm>
+
+namespace lockstep {
+namespace {
+
+enum Mark : std::uint8_t { kUnseen, kOnPath, kPlaced };
+
+}  // namespace
+
+void CouplingOrder::set_axes(std::span<const std::unique_ptr<Axis>> axes) {
+  all_.clear();
+  std::uint32_t highest = 0;
+  for (const auto& axis : axes) {
+    all_.push_back(axis.get());
+    highest = std::max(highest, static_cast<std::uint32_t>(axis->number));
+  }
+  order_ = all_;
+  path_.reserve(all_.size() + 1);
+  marks_.assign(highest + 1, kUnseen);
+}
+
+std::uint8_t& CouplingOrder::mark(const Axis* axis) noexcept {
+  return marks_[static_cast<std::uint32_t>(axis->number)];
+}
+
+void CouplingOrder::rebuild() noexcept {
+  std::fill(marks_.begin(), marks_.end(), std::uint8_t{kUnseen});
+  order_.clear();
+  for (Axis* axis : all_) place(axis);
+}
+
+/// Depth first without recursion: an axis is placed once the axes that lead it are.
+void CouplingOrder::place(Axis* first) noexcept {
+  if (mark(first) != kUnseen) return;
+  path_.clear();
+  path_.push_back(first);
+  mark(first) = kOnPath;
+  while (!path_.empty()) {
+    Axis* axis = path_.back();
+    Axis* coupled = axis->coupled_leading_axis();
+    Axis* awaited = axis->awaited_leading_axis();
+    Axis* next = nullptr;
+    if (coupled != nullptr && mark(coupled) == kUnseen) {
+      next = coupled;
+    } else if (awaited != nullptr && mark(awaited) == kUnseen) {
+      next = awaited;
+    }
+    if (next != nullptr) {
+      mark(next) = kOnPath;
+      path_.push_back(next);
+      continue;
+    }
+    axis->awaited_axis_in_order = awaited == nullptr || mark(awaited) == kPlaced;
+    mark(axis) = kPlaced;
+    order_.push_back(axis);
+    path_.pop_back();
+  }
+}
+
+}  // namespace lockstep

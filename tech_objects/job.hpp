@@ -1,0 +1,88 @@
+/// Jobs: what a function block asks of an axis, and how far the axis has come with it.
+#pragma once
+
+#include <cstdint>
+
+#include "tech_objects/alarms.hpp"
+#include "tech_objects/types.hpp"
+
+namespace lockstep {
+
+class Axis;
+
+/// The instruction that a job comes from.
+enum class JobKind : std::uint8_t {
+  MC_Home,
+  MC_Reset,
+  MC_Halt,
+  MC_MoveAbsolute,
+  MC_MoveRelative,
+  MC_MoveVelocity,
+  MC_MoveJog,
+  MC_Stop,
+  MC_MoveSuperimposed,
+  MC_MotionInSuperimposed,
+  MC_HaltSuperimposed,
+  MC_MotionInVelocity,
+  MC_MotionInPosition,
+  MC_GearIn,
+  MC_GearInVelocity,
+  MC_GearInPos,
+  MC_CamIn,
+  MC_PhasingAbsolute,
+  MC_PhasingRelative,
+  MC_OffsetAbsolute,
+  MC_OffsetRelative,
+  MC_LeadingValueAdditive,
+  MC_GearOut,
+  MC_CamOut
+};
+
+/// How far a job is. A block derives its outputs from this alone.
+enum class JobPhase : std::uint8_t {
+  idle,         ///< not handed over
+  handed_over,  ///< taken over by the axis at its next interpolator tick
+  waiting,      ///< accepted; waits for its start condition and touches no motion
+  active,       ///< moves the axis; not yet where it wants to be
+  reached,      ///< InVelocity, InGear, InSync: the job goes on and its aim is met
+  done,
+  aborted,  ///< by another job or by disabling
+  failed    ///< `error` tells why
+};
+
+/// A request and its fate. It lives in the block that asks; the axis writes `phase` and `error`.
+/// Dynamic values: > 0 is used, < 0 stands for the default of the technology object (the block's pins decide
+/// what is permitted). Thread: the cycle.
+struct Job {
+  JobKind kind{};
+  JobPhase phase = JobPhase::idle;
+  ErrorId error = ErrorId::none;
+
+  LREAL position{};           ///< target, distance, home position or shift [u]
+  LREAL velocity = -1.0;      ///< [u/s]
+  LREAL acceleration = -1.0;  ///< [u/s²]
+  LREAL deceleration = -1.0;  ///< [u/s²]
+  LREAL jerk = -1.0;          ///< [u/s³]; 0: trapezoidal
+  DINT direction{};           ///< Direction or SyncDirection
+  DINT mode{};                ///< Mode, SyncProfileReference
+  BOOL current{};             ///< MC_MoveVelocity: keep the present velocity
+  BOOL position_controlled = true;
+  BOOL abort_acceleration{};  ///< drop a present acceleration at once
+  BOOL hold{};                ///< MC_Stop: Execute is still TRUE, so the axis stays locked after the stop
+
+  Axis* master{};  ///< leading axis
+  DINT numerator = 1;
+  DINT denominator = 1;
+  LREAL master_sync_position{};   ///< [u] of the leading axis
+  LREAL slave_sync_position{};    ///< [u]
+  LREAL master_start_distance{};  ///< [u] of the leading axis
+
+  bool ended() const noexcept { return phase >= JobPhase::done; }
+  bool running() const noexcept { return phase >= JobPhase::handed_over && phase <= JobPhase::reached; }
+  void fail(ErrorId id) noexcept {
+    phase = JobPhase::failed;
+    error = id;
+  }
+};
+
+}  // namespace lockstep

@@ -1,0 +1,139 @@
+#include "tech_objects/single_axis_motion.hpp"
+
+#include <algorithm>
+
+namespace lockstep {
+namespace {
+
+/// Ticks after which an endless motion counts anew from where it is, so that its local positions stay small.
+constexpr std::int64_t kRebaseTicks = 4096;
+
+/// Stands in for a velocity limit of zero (an override of 0 %), since the planner wants a positive one [u/s].
+constexpr double kNoVelocity = 1e-12;
+
+ProfileLimits profile_limits(const Dynamics& dynamics) noexcept {
+  const double velocity = std::max(dynamics.velocity, kNoVelocity);
+  return {.velocity_max = velocity,
+          .velocity_min = -velocity,
+          .acceleration = dynamics.acceleration,
+          .deceleration = dynamics.deceleration,
+          .jerk = dynamics.jerk};
+}
+
+MotionState local_state(const Setpoint& from) noexcept {
+  return {0.0, from.velocity, from.acceleration};
+}
+
+}  // namespace
+
+void SingleAxisMotion::configure(const Modulo& modulo, double period) noexcept {
+  modulo_ = modulo;
+  period_ = period;
+}
+
+void SingleAxisMotion::begin(const Setpoint& from, Aim aim, const Dynamics& dynamics) noexcept {
+  aim_ = aim;
+  dynamics_ = dynamics;
+  origin_ = from.position;
+  ticks_ = 0;
+  finished_ = false;
+}
+
+void SingleAxisMotion::stand(const Setpoint& from) noexcept {
+  begin(from, Aim::stand, dynamics_);
+  profile_ = Profile{};
+  target_ = from.position;
+  exact_target_ = true;
+  target_velocity_ = 0.0;
+  finished_ = true;
+}
+
+PlanResult SingleAxisMotion::move_to(const Setpoint& from, AxisPosition target, double distance,
+                                     const Dynamics& dynamics) noexcept {
+  const PlanResult result =
+      plan_position(local_state(from), distance, 0.0, profile_limits(dynamics), profile_);
+  if (result != PlanResult::ok) return result;
+  begin(from, Aim::position, dynamics);
+  target_ = target;
+  exact_target_ = true;
+  target_velocity_ = 0.0;
+  return result;
+}
+
+PlanResult SingleAxisMotion::run_at(const Setpoint& from, double velocity,
+                                    const Dynamics& dynamics) noexcept {
+  const double limited = std::clamp(velocity, -dynamics.velocity, dynamics.velocity);
+  const PlanResult result = plan_velocity(local_state(from), limited, profile_limits(dynamics), profile_);
+  if (result != PlanResult::ok) return result;
+  begin(from, Aim::velocity, dynamics);
+  wanted_velocity_ = velocity;
+  target_velocity_ = limited;
+  exact_target_ = false;
+  return result;
+}
+
+PlanResult SingleAxisMotion::stop(const Setpoint& from, const Dynamics& dynamics,
+                                  bool abort_acceleration) noexcept {
+  const PlanResult result =
+      plan_stop(local_state(from), profile_limits(dynamics),
+                abort_acceleration ? PresentAcceleration::abort : PresentAcceleration::keep, profile_);
+  if (result != PlanResult::ok) return result;
+  begin(from, Aim::stand, dynamics);
+  exact_target_ = false;
+  target_velocity_ = 0.0;
+  target_ = advanced(origin_, profile_.target().position, modulo_);
+  return result;
+}
+
+PlanResult SingleAxisMotion::replan(const Setpoint& from, const Dynamics& dynamics) noexcept {
+  switch (aim_) {
+    case Aim::position:
+      if (dynamics.velocity == 0.0) {
+        // An override of 0 %: brake, and keep the target for later.
+        const PlanResult result = plan_velocity(local_state(from), 0.0, profile_limits(dynamics), profile_);
+        if (result != PlanResult::ok) return result;
+        begin(from, Aim::position, dynamics);
+        exact_target_ = false;
+        return result;
+      }
+      return move_to(from, target_, difference(target_, from.position, modulo_).rounded(), dynamics);
+    case Aim::velocity:
+      return run_at(from, wanted_velocity_, dynamics);
+    case Aim::stand:
+      break;
+  }
+  return PlanResult::ok;
+}
+
+void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
+  if (aim_ == Aim::stand && finished_) {
+    setpoint.velocity = 0.0;
+    setpoint.acceleration = 0.0;
+    return;
+  }
+  const double t = static_cast<double>(++ticks_) * period_;
+  const MotionState state = profile_.at(t);
+  setpoint.velocity = state.velocity;
+  setpoint.acceleration = state.acceleration;
+  const bool over = t >= profile_.duration();
+  if (over && exact_target_) {
+    setpoint.position = target_;
+  } else {
+    setpoint.position = advanced(origin_, state.position, modulo_);
+  }
+  if (!over) return;
+  finished_ =
+      aim_ != Aim::position || exact_target_;  // braked short of its target, a positioning goes on later
+  if (target_velocity_ != 0.0 && ticks_ >= kRebaseTicks) {
+    const Dynamics dynamics = dynamics_;
+    run_at(setpoint, wanted_velocity_, dynamics);
+    finished_ = true;
+  }
+}
+
+void SingleAxisMotion::shift(double by) noexcept {
+  origin_ = advanced(origin_, by, modulo_);
+  target_ = advanced(target_, by, modulo_);
+}
+
+}  // namespace lockstep

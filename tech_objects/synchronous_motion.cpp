@@ -1,0 +1,326 @@
+#include "tech_objects/synchronous_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tech_objects/axis.hpp"
+
+namespace lockstep {
+namespace {
+
+/// How close "standing on the synchronous position" is, relative to the position: rounding of the last
+/// motion.
+constexpr double kSamePlace = 1e-14;
+
+int sign(double value) noexcept {
+  return value > 0.0 ? 1 : value < 0.0 ? -1 : 0;
+}
+
+bool same_place(double distance, double position) noexcept {
+  return std::abs(distance) <= kSamePlace * std::max(1.0, std::abs(position));
+}
+
+}  // namespace
+
+void SynchronousMotion::configure(const Modulo& following, double period, double tolerance) noexcept {
+  following_ = following;
+  period_ = period;
+  tolerance_ = tolerance;
+}
+
+Axis* SynchronousMotion::leading_axis() const noexcept {
+  return leading_ == nullptr ? nullptr : leading_->source;
+}
+
+// ---- Every tick
+// -------------------------------------------------------------------------------------------------
+
+void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
+  look_at_leading();
+  if (synchronous_) {
+    evaluate_function();
+    setpoint = function_;
+    return;
+  }
+  watch_reversal();
+  if (reversed_) return;
+  if (way_ == Way::velocity) return advance_velocity(setpoint);
+  evaluate_function();
+  advance_along_profile(setpoint);
+}
+
+void SynchronousMotion::look_at_leading() noexcept {
+  leading_now_ = leading_->source->leading_state(leading_->coupling);
+  if (!synchronous_) leading_last_ = leading_->source->last_leading_state(leading_->coupling);
+}
+
+void SynchronousMotion::evaluate_function() noexcept {
+  function_.position = gear_.value(leading_now_.position);
+  function_.velocity = gear_.velocity(leading_now_.velocity);
+  function_.acceleration = gear_.acceleration(leading_now_.acceleration);
+}
+
+void SynchronousMotion::watch_reversal() noexcept {
+  const double step = difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
+  if (direction_ == 0) direction_ = sign(step);
+  progress_ += direction_ * step;
+  furthest_ = std::max(furthest_, progress_);
+  reversed_ = furthest_ - progress_ > tolerance_;
+}
+
+/// MC_GearIn: towards velocity and acceleration of the function; where both are met, the function begins.
+void SynchronousMotion::advance_velocity(Setpoint& setpoint) noexcept {
+  const bool holding = progress_ < furthest_;  // reversed within the tolerance
+  const double velocity = holding ? 0.0 : gear_.velocity(leading_now_.velocity);
+  const double acceleration = holding ? 0.0 : gear_.acceleration(leading_now_.acceleration);
+  const TrackingStep step =
+      track_velocity({setpoint.velocity, setpoint.acceleration}, {velocity, acceleration},
+                     {.velocity = dynamics_.velocity,
+                      .acceleration = dynamics_.acceleration,
+                      .deceleration = dynamics_.deceleration,
+                      .jerk = dynamics_.jerk},
+                     period_);
+  setpoint.position = advanced(setpoint.position, step.way, following_);
+  setpoint.velocity = step.velocity;
+  setpoint.acceleration = step.acceleration;
+  function_ = setpoint;
+  if (!step.synchronous || holding) return;
+  gear_.set(numerator_, denominator_, leading_now_.position, setpoint.position, leading_modulo_, following_);
+  synchronous_ = true;
+}
+
+/// MC_GearInPos: the function of this tick plus what the axis is ahead of it.
+void SynchronousMotion::advance_along_profile(Setpoint& setpoint) noexcept {
+  const double way =
+      direction_ * difference(leading_now_.position, leading_start_, leading_modulo_).rounded();
+  if (way >= profile_way_) {
+    synchronous_ = true;
+    setpoint = function_;
+    return;
+  }
+  const SyncOffset ahead = offset(std::max(way, 0.0));
+  const double way_velocity = direction_ * leading_now_.velocity;
+  const double way_acceleration = direction_ * leading_now_.acceleration;
+  setpoint.position = advanced(function_.position, ahead.position, following_);
+  setpoint.velocity = function_.velocity + ahead.velocity(way_velocity);
+  setpoint.acceleration = function_.acceleration + ahead.acceleration(way_velocity, way_acceleration);
+}
+
+/// What the axis is ahead of its function, over the leading distance covered.
+SyncOffset SynchronousMotion::offset(double way) const noexcept {
+  if (way_ == Way::distance) return distance_profile_.value(way);
+  const MotionState state = time_profile_.at(way / time_velocity_);
+  return {state.position, state.velocity / time_velocity_,
+          state.acceleration / (time_velocity_ * time_velocity_)};
+}
+
+void SynchronousMotion::shift_following(double by) noexcept {
+  if (leading_ == nullptr || !synchronous_) return;
+  function_.position = advanced(function_.position, by, following_);
+  gear_.set(numerator_, denominator_, leading_now_.position, function_.position, leading_modulo_, following_);
+}
+
+// ---- Beginning
+// --------------------------------------------------------------------------------------------------
+
+void SynchronousMotion::couple(const LeadingValue& leading, const Job& job,
+                               const Dynamics& dynamics) noexcept {
+  leading_ = &leading;
+  leading_modulo_ = leading.source->modulo();
+  numerator_ = job.numerator;
+  denominator_ = job.denominator;
+  ratio_ = static_cast<double>(job.numerator) / static_cast<double>(job.denominator);
+  dynamics_ = dynamics;
+  synchronous_ = false;
+  reversed_ = false;
+  direction_ = 0;
+  progress_ = 0.0;
+  furthest_ = 0.0;
+}
+
+void SynchronousMotion::begin_gear_in(const LeadingValue& leading, const Job& job,
+                                      const Dynamics& dynamics) noexcept {
+  couple(leading, job, dynamics);
+  way_ = Way::velocity;
+  gear_.set(numerator_, denominator_, {}, {}, leading_modulo_, following_);  // for its ratio; placed when met
+}
+
+ErrorId SynchronousMotion::begin_waiting(const LeadingValue& leading, const Job& job,
+                                         const Dynamics& dynamics, const Setpoint& own) noexcept {
+  couple(leading, job, dynamics);
+  way_ = Way::none;
+  profile_reference_ = job.mode;
+  sync_direction_ = job.direction;
+  master_sync_position_ = normalised({0, job.master_sync_position}, leading_modulo_).value;
+  slave_sync_position_ = normalised({0, job.slave_sync_position}, following_).value;
+  start_distance_ = job.master_start_distance;
+  look_at_leading();
+  leading_last_ = leading_now_;
+  if (profile_reference_ != 1 || leading_modulo_.enabled || standing_on_sync_positions(own))
+    return ErrorId::none;
+  // On a line, profile 1 needs its whole distance ahead; a standing leading axis is judged in both
+  // directions.
+  const double to_go = master_sync_position_ - leading_now_.position.value;
+  const int heading = sign(leading_now_.velocity);
+  const bool ahead = heading == 0 || heading * to_go >= 0.0;
+  return ahead && std::abs(to_go) < start_distance_ ? ErrorId::leading_distance : ErrorId::none;
+}
+
+bool SynchronousMotion::standing_on_sync_positions(const Setpoint& own) const noexcept {
+  const double leading = leading_now_.position.value;
+  const double following = own.position.value;
+  return own.standing() && leading_now_.velocity == 0.0 && leading_last_.velocity == 0.0 &&
+         same_place(shortest_distance(leading, master_sync_position_, leading_modulo_), leading) &&
+         same_place(shortest_distance(following, slave_sync_position_, following_), following);
+}
+
+SynchronousMotion::Start SynchronousMotion::reject(ErrorId error) noexcept {
+  rejection_ = error;
+  return Start::rejected;
+}
+
+// ---- Waiting
+// ----------------------------------------------------------------------------------------------------
+
+SynchronousMotion::Start SynchronousMotion::watch(const Setpoint& own) noexcept {
+  look_at_leading();
+  if (standing_on_sync_positions(own)) {
+    direction_ = 1;
+    const double way =
+        shortest_distance(leading_last_.position.value, master_sync_position_, leading_modulo_);
+    const double following = shortest_distance(own.position.value, slave_sync_position_, following_);
+    anchor(way, advanced(own.position, following, following_));
+    synchronous_ = true;
+    return Start::synchronous;
+  }
+  direction_ = sign(difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded());
+  if (direction_ == 0) return Start::not_yet;
+  const Start start = profile_reference_ == 0 ? watch_time(own) : watch_distance(own);
+  if (start != Start::synchronizing) direction_ = 0;
+  return start;
+}
+
+/// Way from the last leading position to a place, in the direction of motion [u]; negative: a linear axis has
+/// passed it.
+double SynchronousMotion::way_to(double place) const noexcept {
+  const double from = leading_last_.position.value;
+  if (!leading_modulo_.enabled) return direction_ * (place - from);
+  const double target = normalised({0, place}, leading_modulo_).value;
+  if (target == from) return 0.0;
+  return direction_ > 0 ? positive_distance(from, target, leading_modulo_)
+                        : -negative_distance(from, target, leading_modulo_);
+}
+
+/// Places the function: the synchronous positions belong together, the leading one a way ahead of the last
+/// tick.
+void SynchronousMotion::anchor(double way_to_sync_position, AxisPosition following) noexcept {
+  AxisPosition leading = advanced(leading_last_.position, direction_ * way_to_sync_position, leading_modulo_);
+  if (leading_modulo_.enabled) {
+    // The way is rounded: at the end of the ring the turn may be the neighbour's.
+    const double off = leading.value - master_sync_position_;
+    if (off > 0.5 * leading_modulo_.length) ++leading.turns;
+    if (off < -0.5 * leading_modulo_.length) --leading.turns;
+  }
+  leading.value = master_sync_position_;
+  following.value = slave_sync_position_;
+  gear_.set(numerator_, denominator_, leading, following, leading_modulo_, following_);
+}
+
+/// Profiles 1 and 3: starts at the last tick before the start position is crossed and spans the rest.
+SynchronousMotion::Start SynchronousMotion::watch_distance(const Setpoint& own) noexcept {
+  const bool in_advance = profile_reference_ == 1;
+  const double start_place =
+      in_advance ? master_sync_position_ - direction_ * start_distance_ : master_sync_position_;
+  const double way = way_to(start_place);
+  const double step =
+      direction_ * difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
+  if (way < 0.0 || way > step) return Start::not_yet;
+
+  const double way_to_sync = in_advance ? way + start_distance_ : way;
+  profile_way_ = way + start_distance_;
+  AxisPosition following{own.position.turns, slave_sync_position_};
+  anchor(way_to_sync, following);
+  leading_start_ = leading_last_.position;
+  const SyncStart start{.leading = leading_start_,
+                        .leading_velocity = leading_last_.velocity,
+                        .leading_acceleration = leading_last_.acceleration,
+                        .following = own.position,
+                        .velocity = own.velocity,
+                        .acceleration = own.acceleration};
+  const SyncTarget target{.at_start = gear_.value(leading_start_), .slope = gear_.ratio().rounded()};
+  const SyncPlan plan =
+      distance_profile_.plan(start, target, profile_way_, direction_ < 0,
+                             static_cast<SyncDirection>(sync_direction_), leading_modulo_, following_);
+  if (plan != SyncPlan::kReady) return reject(ErrorId::direction);
+  following.turns += distance_profile_.turns();
+  anchor(way_to_sync, following);
+  return begin_profile(Way::distance);
+}
+
+SynchronousMotion::Start SynchronousMotion::begin_profile(Way way) noexcept {
+  way_ = way;
+  progress_ = 0.0;
+  furthest_ = 0.0;
+  return Start::synchronizing;
+}
+
+/// Profile 0: starts at the last tick from which the way that is left still suffices for the planned time.
+SynchronousMotion::Start SynchronousMotion::watch_time(const Setpoint& own) noexcept {
+  const double leading_velocity = leading_now_.velocity;
+  const double synchronous_velocity = ratio_ * leading_velocity;
+  if (leading_last_.velocity == 0.0 || sign(leading_velocity) != direction_) return Start::not_yet;
+  if (std::abs(synchronous_velocity) >= dynamics_.velocity) return reject(ErrorId::velocity);
+  const int forced = !following_.enabled || sync_direction_ == 3 ? 0 : sync_direction_ == 1 ? 1 : -1;
+  if (forced != 0 && (sign(synchronous_velocity) != forced || forced * own.velocity < 0.0))
+    return reject(ErrorId::direction);
+
+  const double way = way_to(master_sync_position_);
+  const double step =
+      direction_ * difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
+  Profile now, next;
+  if (way < 0.0 || !plan_time(own, leading_last_, way, 0.0, now)) return Start::not_yet;
+  const double speed = std::abs(leading_last_.velocity);
+  if (now.duration() * speed > way) return Start::not_yet;  // too late for this pass
+  const bool next_suffices = way > step &&
+                             plan_time(own, leading_now_, way - step, own.velocity * period_, next) &&
+                             next.duration() * std::abs(leading_velocity) <= way - step;
+  if (next_suffices) return Start::not_yet;
+
+  anchor(way, advanced(own.position, following_way(own.position.value), following_));
+  time_profile_ = now;
+  time_velocity_ = speed;
+  profile_way_ = way;
+  leading_start_ = leading_last_.position;
+  return begin_profile(Way::time);
+}
+
+/// Way of the following axis to its synchronous position, as SyncDirection has it [u].
+double SynchronousMotion::following_way(double here) const noexcept {
+  if (!following_.enabled) return slave_sync_position_ - here;
+  if (sync_direction_ == 3 || slave_sync_position_ == here)
+    return shortest_distance(here, slave_sync_position_, following_);
+  return sync_direction_ == 1 ? positive_distance(here, slave_sync_position_, following_)
+                              : negative_distance(here, slave_sync_position_, following_);
+}
+
+/// The motion relative to the function, at the leading velocity at hand, that ends on it at rest.
+/// @param way leading distance that is left  @param ahead way that the axis itself makes until then [u]
+bool SynchronousMotion::plan_time(const Setpoint& own, const Setpoint& leading, double way, double ahead,
+                                  Profile& profile) const noexcept {
+  const double function_velocity = ratio_ * leading.velocity;
+  ProfileLimits limits{.velocity_max = dynamics_.velocity - function_velocity,
+                       .velocity_min = -dynamics_.velocity - function_velocity,
+                       .acceleration = std::min(dynamics_.acceleration, dynamics_.deceleration),
+                       .deceleration = std::min(dynamics_.acceleration, dynamics_.deceleration),
+                       .jerk = dynamics_.jerk};
+  if (following_.enabled && sync_direction_ == 1) limits.velocity_min = -function_velocity;
+  if (following_.enabled && sync_direction_ == 2) limits.velocity_max = -function_velocity;
+  const double relative_velocity = own.velocity - function_velocity;
+  const double slope_change = relative_velocity / leading.velocity * leading.acceleration;
+  const MotionState start{.position = ratio_ * direction_ * way - (following_way(own.position.value) - ahead),
+                          .velocity = relative_velocity,
+                          .acceleration = own.acceleration - ratio_ * leading.acceleration - slope_change};
+  return plan_position(start, 0.0, 0.0, limits, profile) == PlanResult::ok;
+}
+
+}  // namespace lockstep

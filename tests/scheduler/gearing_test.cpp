@@ -1,0 +1,551 @@
+// Gearing on virtual axes, through the blocks: MC_GearIn, MC_GearInPos.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fb/gear_in.hpp"
+#include "fb/home.hpp"
+#include "fb/move.hpp"
+#include "fb/power.hpp"
+#include "fb/stop.hpp"
+#include "tests/support/rig.hpp"
+
+namespace lockstep {
+namespace {
+
+using test::Rig;
+
+void ring(AxisData& data) {
+  data.Modulo.Enable = true;
+}
+void line(AxisData& /*data*/) {}
+
+/// A leading and a following axis, both enabled and homed; the leading one is moved by MC_MoveVelocity.
+struct Pair : Rig {
+  explicit Pair(const std::function<void(AxisData&)>& leading = line,
+                const std::function<void(AxisData&)>& following = line)
+      : l(axis("Leading", leading)),
+        f(axis("Following", following)),
+        power_l(block<MC_Power>()),
+        power_f(block<MC_Power>()),
+        home_l(block<MC_Home>()),
+        home_f(block<MC_Home>()),
+        run_l(block<MC_MoveVelocity>()),
+        gear(block<MC_GearIn>()),
+        pos(block<MC_GearInPos>()),
+        move_f(block<MC_MoveVelocity>()),
+        halt_f(block<MC_Halt>()) {
+    lead(f, l);
+    power_l.Axis = home_l.Axis = run_l.Axis = &l;
+    power_f.Axis = home_f.Axis = move_f.Axis = halt_f.Axis = &f;
+    gear.Master = pos.Master = &l;
+    gear.Slave = pos.Slave = &f;
+    power_l.Enable = power_f.Enable = true;
+    Rig::run(3);
+    home_l.Execute = home_f.Execute = true;
+    Rig::run(3);
+    // While synchronizing over a distance the following axis has no limits of its own.
+    continuity[1].highest_acceleration = 1e6;
+    continuity[1].highest_jerk = 1e9;
+  }
+
+  void start_leading(double velocity) {
+    run_l.Velocity = velocity;
+    run_l.Execute = false;
+    tick();
+    run_l.Execute = true;
+  }
+
+  double following_minus_function(double numerator, double denominator, double l0, double f0) const {
+    const double ways = numerator / denominator * (l.setpoint().position.value - l0) + f0;
+    return f.setpoint().position.value - ways;
+  }
+
+  Axis& l;
+  Axis& f;
+  MC_Power& power_l;
+  MC_Power& power_f;
+  MC_Home& home_l;
+  MC_Home& home_f;
+  MC_MoveVelocity& run_l;
+  MC_GearIn& gear;
+  MC_GearInPos& pos;
+  MC_MoveVelocity& move_f;
+  MC_Halt& halt_f;
+};
+
+bool bit(const Axis& axis, StatusBit which) {
+  return has_bit(axis.data.StatusWord, which);
+}
+
+// ---- MC_GearIn
+// --------------------------------------------------------------------------------------------------
+
+TEST(MC_GearIn, SynchronizesToAMovingLeadingAxisAndThenKeepsTheRatioExactly) {
+  Pair rig;
+  rig.continuity[1].highest_acceleration = 1000.0;
+  rig.continuity[1].highest_jerk = 10000.0;
+  rig.start_leading(50.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.run_l.InVelocity; }));
+  rig.gear.RatioNumerator = -3;
+  rig.gear.RatioDenominator = 2;
+  rig.gear.Execute = true;
+  rig.run(2);
+  EXPECT_TRUE(rig.gear.Busy);
+  EXPECT_FALSE(rig.gear.InGear);
+  EXPECT_TRUE(bit(rig.f, StatusBit::Synchronizing));
+  EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.FunctionState, 1);
+  EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.ActualMaster, rig.l.number);
+  ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear; }));
+  EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));
+  EXPECT_FALSE(bit(rig.f, StatusBit::Synchronizing));
+  const double l0 = rig.l.setpoint().position.value;
+  const double f0 = rig.f.setpoint().position.value;
+  for (int i = 0; i < 3000; ++i) {
+    rig.tick();
+    ASSERT_NEAR(rig.following_minus_function(-3, 2, l0, f0), 0.0, 1e-11);
+    ASSERT_EQ(rig.f.data.Velocity, -1.5 * rig.l.data.Velocity);
+  }
+}
+
+TEST(MC_GearIn, IsAtOnceInGearWhenBothAxesStand) {
+  Pair rig;
+  rig.gear.Execute = true;
+  rig.run(2);
+  EXPECT_TRUE(rig.gear.InGear);
+}
+
+TEST(MC_GearIn, FollowsAccelerationAndStandstillOfTheLeadingAxisInTheSameTick) {
+  Pair rig;
+  rig.gear.RatioNumerator = 5;
+  rig.gear.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear; }));
+  rig.start_leading(80.0);
+  for (int i = 0; i < 1000; ++i) {
+    rig.tick();
+    ASSERT_EQ(rig.f.data.Position, 5.0 * rig.l.data.Position);
+    ASSERT_EQ(rig.f.data.Acceleration, 5.0 * rig.l.data.Acceleration);
+  }
+}
+
+/// Function diagram GearIn-1: a second job with another leading axis overrides the first.
+TEST(MC_GearIn, SwitchesTheLeadingValueOnTheFly) {
+  Rig rig;
+  Axis& one = rig.axis("One");
+  Axis& two = rig.axis("Two");
+  Axis& f = rig.axis("Following");
+  rig.lead(f, one);
+  rig.lead(f, two);
+  for (Axis* axis : {&one, &two, &f}) {
+    auto& power = rig.block<MC_Power>();
+    power.Axis = axis;
+    power.Enable = true;
+  }
+  auto& run_one = rig.block<MC_MoveVelocity>();
+  auto& run_two = rig.block<MC_MoveVelocity>();
+  run_one.Axis = &one;
+  run_two.Axis = &two;
+  run_one.Velocity = 30.0;
+  run_two.Velocity = 70.0;
+  auto& a1 = rig.block<MC_GearIn>();
+  auto& a2 = rig.block<MC_GearIn>();
+  a1.Master = &one;
+  a2.Master = &two;
+  a1.Slave = a2.Slave = &f;
+  rig.run(3);
+  run_one.Execute = run_two.Execute = true;
+  rig.run(500);
+
+  a1.Execute = true;
+  rig.run(2);
+  EXPECT_TRUE(a1.Busy);
+  EXPECT_FALSE(a1.InGear);
+  EXPECT_TRUE(bit(f, StatusBit::Synchronizing));
+  EXPECT_EQ(f.data.StatusSynchronizedMotion.FunctionState, 1);
+  EXPECT_EQ(f.data.StatusSynchronizedMotion.ActualMaster, one.number);
+  ASSERT_TRUE(rig.run_until([&] { return a1.InGear; }));
+  EXPECT_TRUE(bit(f, StatusBit::Synchronous));
+  EXPECT_FALSE(bit(f, StatusBit::Synchronizing));
+
+  a2.Execute = true;
+  rig.run(2);
+  EXPECT_TRUE(a1.CommandAborted);
+  EXPECT_FALSE(a1.InGear);
+  EXPECT_FALSE(a1.Busy);
+  EXPECT_TRUE(a2.Busy);
+  EXPECT_FALSE(a2.InGear);
+  EXPECT_TRUE(bit(f, StatusBit::Synchronizing));
+  EXPECT_FALSE(bit(f, StatusBit::Synchronous));
+  EXPECT_EQ(f.data.StatusSynchronizedMotion.ActualMaster, two.number);
+  ASSERT_TRUE(rig.run_until([&] { return a2.InGear; }));
+  EXPECT_TRUE(bit(f, StatusBit::Synchronous));
+  EXPECT_EQ(f.data.Velocity, 70.0);
+}
+
+TEST(MC_GearIn, ReversalWhileSynchronizingRaisesAlarm608AndStopsWithMaximumDynamics) {
+  Pair rig;
+  rig.start_leading(500.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.run_l.InVelocity; }));
+  rig.gear.Acceleration = 100.0;
+  rig.gear.Execute = true;
+  rig.run(100);
+  rig.start_leading(-500.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.gear.Error; }));
+  EXPECT_EQ(rig.gear.ErrorID, static_cast<WORD>(0x8001));
+  EXPECT_EQ(rig.f.data.ErrorDetail.Number, 608u);
+  EXPECT_EQ(rig.f.data.ErrorDetail.Reaction, 2);
+  EXPECT_TRUE(has_bit(rig.f.data.ErrorWord, 14));
+  ASSERT_TRUE(rig.run_until([&] { return rig.f.data.Velocity == 0.0; }));
+}
+
+TEST(MC_GearIn, RejectsARatioThatIsNotPermitted) {
+  Pair rig;
+  rig.gear.RatioNumerator = 0;
+  rig.gear.Execute = true;
+  rig.run(1);
+  EXPECT_EQ(rig.gear.ErrorID, static_cast<WORD>(0x8017));
+  rig.gear.Execute = false;
+  rig.run(1);
+  rig.gear.RatioNumerator = 1;
+  rig.gear.RatioDenominator = -2;
+  rig.gear.Execute = true;
+  rig.run(1);
+  EXPECT_EQ(rig.gear.ErrorID, static_cast<WORD>(0x8018));
+}
+
+TEST(MC_GearIn, ALeadingAxisThatIsNotInterconnectedShowsInErrorWord) {
+  Pair rig;
+  rig.f.leading_values.clear();
+  rig.gear.Execute = true;
+  rig.run(2);
+  EXPECT_TRUE(rig.gear.Error);
+  EXPECT_TRUE(has_bit(rig.f.data.ErrorWord, ErrorBit::SynchronousError));
+}
+
+TEST(MC_GearIn, ARecursiveCouplingIsRejectedWhenItWouldBecomeEffective) {
+  Pair rig;
+  rig.lead(rig.l, rig.f);
+  auto& back = rig.block<MC_GearIn>();
+  back.Master = &rig.f;
+  back.Slave = &rig.l;
+  rig.gear.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear; }));
+  back.Execute = true;
+  rig.run(2);
+  EXPECT_EQ(back.ErrorID, static_cast<WORD>(0x8019));
+  EXPECT_TRUE(rig.gear.InGear);
+}
+
+TEST(MC_GearIn, DisablingTheFollowingAxisAbortsDisablingTheLeadingOneDoesNot) {
+  Pair rig;
+  rig.continuity[0].acceleration = rig.continuity[1].acceleration = false;
+  rig.start_leading(50.0);
+  rig.gear.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear; }));
+  rig.power_l.Enable = false;
+  ASSERT_TRUE(rig.run_until([&] { return !rig.power_l.Busy; }));
+  EXPECT_TRUE(rig.gear.InGear);
+  EXPECT_EQ(rig.f.data.Velocity, 0.0);
+  rig.power_f.Enable = false;
+  rig.run(2);
+  EXPECT_TRUE(rig.gear.CommandAborted);
+}
+
+TEST(MC_GearIn, ChainsFollowInTheSameTickWhateverTheOrderOfTheObjects) {
+  Rig rig;
+  Axis& last = rig.axis("Last");
+  Axis& middle = rig.axis("Middle");
+  Axis& first = rig.axis("First");
+  rig.lead(last, middle);
+  rig.lead(middle, first);
+  for (Axis* axis : {&first, &middle, &last}) {
+    auto& power = rig.block<MC_Power>();
+    power.Axis = axis;
+    power.Enable = true;
+  }
+  auto& g1 = rig.block<MC_GearIn>();
+  auto& g2 = rig.block<MC_GearIn>();
+  auto& run = rig.block<MC_MoveVelocity>();
+  g1.Master = &first;
+  g1.Slave = g2.Master = &middle;
+  g2.Slave = &last;
+  g1.RatioNumerator = 2;
+  g2.RatioNumerator = 3;
+  run.Axis = &first;
+  rig.run(3);
+  g1.Execute = g2.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return g1.InGear && g2.InGear; }));
+  run.Execute = true;
+  for (int i = 0; i < 500; ++i) {
+    rig.tick();
+    ASSERT_EQ(last.data.Position, 6.0 * first.data.Position);
+  }
+}
+
+TEST(MC_GearIn, HomingTheFollowingAxisRenamesItsPositionWithoutMotion) {
+  Pair rig;
+  rig.start_leading(50.0);
+  rig.gear.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear && rig.run_l.InVelocity; }));
+  rig.home_f.Execute = false;
+  rig.run(2);
+  rig.continuity[1].velocity = false;
+  rig.home_f.Position = 5000.0;
+  rig.home_f.Execute = true;
+  rig.run(2);
+  EXPECT_TRUE(rig.home_f.Done);
+  EXPECT_TRUE(rig.gear.InGear);
+  const double renamed = rig.f.data.Position;
+  EXPECT_GE(renamed, 5000.0);
+  EXPECT_LE(renamed, 5000.2);
+  EXPECT_EQ(rig.f.data.Velocity, 50.0);
+  rig.continuity[1].velocity = true;
+  rig.run(100);
+  EXPECT_NEAR(rig.f.data.Position, renamed + 5.0, 1e-9);
+}
+
+// ---- MC_GearInPos
+// -----------------------------------------------------------------------------------------------
+
+struct SyncCase {
+  const char* name;
+  bool modulo;
+  DINT profile;
+  double velocity;  // of the leading axis
+  DINT numerator, denominator;
+  double master_sync, slave_sync, distance;
+  DINT direction;
+};
+
+std::ostream& operator<<(std::ostream& out, const SyncCase& c) {
+  return out << c.name;
+}
+
+class MC_GearInPosWays : public ::testing::TestWithParam<SyncCase> {};
+
+TEST_P(MC_GearInPosWays, WaitsSynchronizesWithoutAStepAndIsThenExact) {
+  const SyncCase c = GetParam();
+  Pair rig(c.modulo ? ring : line, c.modulo ? ring : line);
+  rig.pos.RatioNumerator = c.numerator;
+  rig.pos.RatioDenominator = c.denominator;
+  rig.pos.MasterSyncPosition = c.master_sync;
+  rig.pos.SlaveSyncPosition = c.slave_sync;
+  rig.pos.SyncProfileReference = c.profile;
+  rig.pos.MasterStartDistance = c.distance;
+  rig.pos.SyncDirection = c.direction;
+  rig.pos.Velocity = 2000.0;
+  rig.pos.Execute = true;
+  rig.run(2);
+  EXPECT_TRUE(rig.pos.Busy);
+  EXPECT_FALSE(rig.pos.StartSync);
+  EXPECT_FALSE(rig.pos.InSync);
+  EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.WaitingFunctionState, 2);
+  rig.start_leading(c.velocity);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.StartSync; }));
+  EXPECT_TRUE(bit(rig.f, StatusBit::Synchronizing));
+  EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.WaitingFunctionState, 0);
+  EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.FunctionState, 2);
+  const AxisPosition start = rig.f.setpoint().position;
+  double lowest = 0.0, highest = 0.0;
+  ASSERT_TRUE(rig.run_until([&] {
+    const double way = difference(rig.f.setpoint().position, start, rig.f.modulo()).rounded();
+    lowest = std::min(lowest, way);
+    highest = std::max(highest, way);
+    return rig.pos.InSync;
+  }));
+  EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));
+  EXPECT_FALSE(rig.pos.StartSync);
+  if (c.modulo && c.direction == 1) {
+    EXPECT_GE(lowest, -1e-9);
+  }
+  if (c.modulo && c.direction == 2) {
+    EXPECT_LE(highest, 1e-9);
+  }
+  const double ratio = static_cast<double>(c.numerator) / c.denominator;
+  for (int i = 0; i < 2000; ++i) {
+    rig.tick();
+    const double function = c.slave_sync + ratio * (rig.l.data.Position - c.master_sync);
+    const double away = rig.f.data.Position - function;
+    const double off =
+        c.modulo ? std::remainder(away, ratio == std::round(ratio) ? 360.0 : 360.0 / c.denominator) : away;
+    ASSERT_NEAR(off, 0.0, 1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Profiles, MC_GearInPosWays,
+    ::testing::Values(SyncCase{"advance", false, 1, 100, 3, 2, 300, 90, 100, 3},
+                      SyncCase{"advance_backward", false, 1, -100, 3, 2, -300, 90, 100, 3},
+                      SyncCase{"advance_negative_ratio", false, 1, 100, -1, 3, 150, -40, 100, 3},
+                      SyncCase{"subsequent", false, 3, 100, 1, 1, 120, 80, 60, 3},
+                      SyncCase{"subsequent_backward", false, 3, -100, 1, 1, -120, 80, 60, 3},
+                      SyncCase{"dynamic", false, 0, 100, 1, 1, 400, 90, 0, 3},
+                      SyncCase{"dynamic_backward", false, 0, -100, 2, 1, -400, 90, 0, 3},
+                      SyncCase{"dynamic_negative_ratio", false, 0, 100, -1, 2, 400, 90, 0, 3},
+                      SyncCase{"ring_advance_shortest", true, 1, 200, 1, 1, 300, 200, 100, 3},
+                      SyncCase{"ring_advance_positive", true, 1, 200, 1, 1, 300, 200, 100, 1},
+                      SyncCase{"ring_advance_negative", true, 1, 200, -1, 1, 300, 10, 100, 2},
+                      SyncCase{"ring_subsequent_positive", true, 3, 200, 2, 1, 90, 350, 100, 1},
+                      SyncCase{"ring_dynamic_positive", true, 0, 100, 1, 1, 200, 200, 0, 1},
+                      SyncCase{"ring_dynamic_negative", true, 0, 100, -1, 1, 200, 200, 0, 2},
+                      SyncCase{"ring_dynamic_shortest", true, 0, 100, 1, 1, 200, 20, 0, 3}),
+    [](const auto& parameter) { return std::string(parameter.param.name); });
+
+TEST(MC_GearInPos, IsSynchronousAtOnceWhenBothAxesStandOnTheirPositions) {
+  for (const DINT profile : {0, 1, 3}) {
+    Pair rig;
+    rig.pos.SyncProfileReference = profile;
+    rig.pos.Execute = true;
+    rig.run(2);
+    EXPECT_TRUE(rig.pos.InSync) << profile;
+  }
+}
+
+TEST(MC_GearInPos, ProfileOneInsideItsDistanceIsRejected) {
+  Pair rig;
+  rig.pos.MasterSyncPosition = 50.0;
+  rig.pos.MasterStartDistance = 60.0;
+  rig.pos.Execute = true;
+  rig.run(2);
+  EXPECT_EQ(rig.pos.ErrorID, static_cast<WORD>(0x8026));
+}
+
+TEST(MC_GearInPos, ProfileOneInsideItsDistanceOnARingWaitsForTheNextTurn) {
+  Pair rig(ring, ring);
+  rig.pos.MasterSyncPosition = 50.0;
+  rig.pos.MasterStartDistance = 60.0;
+  rig.pos.Execute = true;
+  rig.start_leading(200.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.InSync; }));
+  EXPECT_GE(rig.l.setpoint().position.turns, 1);
+}
+
+TEST(MC_GearInPos, ProfileZeroBeyondItsVelocityIsRejected) {
+  Pair rig;
+  rig.start_leading(100.0);
+  rig.run(300);
+  rig.pos.SyncProfileReference = 0;
+  rig.pos.RatioNumerator = 3;
+  rig.pos.Velocity = 200.0;
+  rig.pos.MasterSyncPosition = 1000.0;
+  rig.pos.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.pos.ErrorID, static_cast<WORD>(0x8003));
+}
+
+TEST(MC_GearInPos, ASynchronousFunctionAgainstSyncDirectionIsRejected) {
+  Pair rig(ring, ring);
+  rig.pos.MasterSyncPosition = 200.0;
+  rig.pos.MasterStartDistance = 50.0;
+  rig.pos.SyncDirection = 2;
+  rig.pos.Execute = true;
+  rig.start_leading(200.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.Error; }));
+  EXPECT_EQ(rig.pos.ErrorID, static_cast<WORD>(0x8007));
+}
+
+TEST(MC_GearInPos, TakesOverARunningMotionWithoutAStepAndAbortsItOnlyWhenActive) {
+  Pair rig;
+  rig.move_f.Velocity = 30.0;
+  rig.move_f.Execute = true;
+  rig.start_leading(100.0);
+  rig.pos.MasterSyncPosition = 300.0;
+  rig.pos.SlaveSyncPosition = 200.0;
+  rig.pos.MasterStartDistance = 100.0;
+  rig.pos.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.move_f.InVelocity; }));
+  EXPECT_TRUE(rig.pos.Busy);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.StartSync; }));
+  rig.run(1);
+  EXPECT_TRUE(rig.move_f.CommandAborted);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.InSync; }));
+  EXPECT_NEAR(rig.following_minus_function(1, 1, 300.0, 200.0), 0.0, 1e-10);
+}
+
+TEST(MC_GearInPos, RetriggeredWhileSynchronousItKeepsItsGearUntilTheNewJobStarts) {
+  Pair rig(ring, ring);
+  rig.pos.MasterSyncPosition = 100.0;
+  rig.pos.SlaveSyncPosition = 0.0;
+  rig.pos.MasterStartDistance = 50.0;
+  rig.pos.Execute = true;
+  rig.start_leading(100.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.InSync; }));
+  rig.pos.Execute = false;
+  rig.run(1);
+  rig.pos.SlaveSyncPosition = 45.0;
+  rig.pos.Execute = true;
+  rig.run(2);
+  EXPECT_FALSE(rig.pos.InSync);
+  EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.WaitingFunctionState, 2);
+  EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.FunctionState, 2);
+  EXPECT_EQ(rig.f.data.Velocity, rig.l.data.Velocity);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.InSync; }));
+  EXPECT_NEAR(std::remainder(rig.f.data.Position - rig.l.data.Position + 55.0, 360.0), 0.0, 1e-9);
+}
+
+TEST(MC_GearInPos, AWaitingJobIsReplacedByAnotherWaitingOneAndSurvivesMC_Halt) {
+  Pair rig;
+  auto& other = rig.block<MC_GearInPos>();
+  other.Master = &rig.l;
+  other.Slave = &rig.f;
+  rig.pos.MasterSyncPosition = other.MasterSyncPosition = 500.0;
+  rig.pos.Execute = true;
+  rig.run(2);
+  rig.halt_f.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.pos.Busy);
+  other.Execute = true;
+  rig.run(2);
+  EXPECT_TRUE(rig.pos.CommandAborted);
+  EXPECT_TRUE(other.Busy);
+  EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.WaitingFunctionState, 2);
+}
+
+TEST(MC_GearInPos, HomingTheFollowingAxisWhileActiveIsRejected) {
+  Pair rig;
+  rig.pos.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.InSync; }));
+  rig.home_f.Execute = false;
+  rig.run(1);
+  rig.home_f.Execute = true;
+  rig.run(2);
+  EXPECT_EQ(rig.home_f.ErrorID, static_cast<WORD>(0x80A1));
+  EXPECT_TRUE(rig.pos.InSync);
+}
+
+TEST(MC_GearInPos, WithinTheReversionToleranceTheProfileIsFollowedBackwards) {
+  Pair rig(line, [](AxisData& data) { data.Synchronization.MasterReversionTolerance = 20.0; });
+  rig.pos.MasterSyncPosition = 200.0;
+  rig.pos.SlaveSyncPosition = 50.0;
+  rig.pos.MasterStartDistance = 150.0;
+  rig.pos.Execute = true;
+  rig.start_leading(100.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.l.data.Position > 120.0; }));
+  rig.run_l.Jerk = 0.0;
+  rig.continuity[0].acceleration = false;
+  rig.start_leading(-40.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.l.data.Velocity == -40.0; }));
+  rig.run(100);
+  EXPECT_FALSE(rig.pos.Error);
+  rig.start_leading(100.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.InSync; }));
+  EXPECT_NEAR(rig.following_minus_function(1, 1, 200.0, 50.0), 0.0, 1e-10);
+}
+
+TEST(MC_GearInPos, ReversalWhileSynchronizingRaisesAlarm608) {
+  Pair rig;
+  rig.pos.MasterSyncPosition = 300.0;
+  rig.pos.MasterStartDistance = 200.0;
+  rig.pos.SlaveSyncPosition = 10.0;
+  rig.pos.Execute = true;
+  rig.start_leading(100.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.StartSync; }));
+  rig.run(100);
+  rig.start_leading(-100.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.Error; }));
+  EXPECT_EQ(rig.f.data.ErrorDetail.Number, 608u);
+  EXPECT_EQ(rig.pos.ErrorID, static_cast<WORD>(0x8001));
+}
+
+}  // namespace
+}  // namespace lockstep
