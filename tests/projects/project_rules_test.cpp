@@ -82,29 +82,19 @@ Rule missing(const std::string& key, std::string parent, std::string part) {
   return {parent + "/" + key, "", std::move(parent), std::move(part)};
 }
 
-INSTANTIATE_TEST_SUITE_P(Project, Rules,
-                         testing::ValuesIn(std::vector<Rule>{
-                             at("", "[]", "an array is not allowed here; allowed: an object"),
-                             at("", "3", "allowed: an object"),
-                             at("/surprise", "1", "unknown key 'surprise'"),
-                             at("/tag", "{}", "(did you mean 'tags'?)"),
-                             at("/Name", "\"x\"", "(did you mean 'name'?)"),
-                             at("/lockstep", "2", "2 is not allowed"),
-                             at("/lockstep", "\"1\"", "'1' is not allowed"),
-                             missing("lockstep", "", "'lockstep' is missing"),
-                             missing("name", "", "'name' is missing"),
-                             at("/name", "\"\"", "1 to 128 bytes"),
-                             at("/name", "\"a\\u0007b\"", "control characters"),
-                             at("/name", "7", "allowed: a string"),
-                             at("/name", "\"" + std::string(129, 'n') + "\"", "1 to 128 bytes"),
-                             at("/description", "null", "null is not allowed"),
-                             missing("clock", "", "'clock' is missing"),
-                             at("/technology_objects", "[]", "allowed: an object"),
-                             at("/tags/more", "[]", "allowed: an object"),
-                             at("/programs", "{}", "allowed: an array"),
-                             at("/stimuli", "{}", "allowed: an array"),
-                             at("/modbus", "[]", "allowed: an object"),
-                             at("/trace", "[]", "allowed: an object")}));
+INSTANTIATE_TEST_SUITE_P(
+    Project, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        at("", "[]", "an array is not allowed here; allowed: an object"), at("", "3", "allowed: an object"),
+        at("/surprise", "1", "unknown key 'surprise'"), at("/tag", "{}", "(did you mean 'tags'?)"),
+        at("/Name", "\"x\"", "(did you mean 'name'?)"), at("/lockstep", "2", "2 is not allowed"),
+        at("/lockstep", "\"1\"", "'1' is not allowed"), missing("lockstep", "", "'lockstep' is missing"),
+        missing("name", "", "'name' is missing"), at("/name", "\"\"", "1 to 128 bytes"),
+        at("/name", "\"a\\u0007b\"", "control characters"), at("/name", "7", "allowed: a string"),
+        at("/name", "\"" + std::string(129, 'n') + "\"", "1 to 128 bytes"),
+        at("/description", "null", "null is not allowed"), missing("clock", "", "'clock' is missing"),
+        at("/tags/more", "[]", "allowed: an object"), at("/stimuli", "{}", "allowed: an array"),
+        at("/modbus", "[]", "allowed: an object"), at("/trace", "[]", "allowed: an object")}));
 
 INSTANTIATE_TEST_SUITE_P(Clock, Rules,
                          testing::ValuesIn(std::vector<Rule>{
@@ -143,7 +133,8 @@ INSTANTIATE_TEST_SUITE_P(Naming, Rules,
                              at("/tags/SPEED", R"({"type": "BOOL"})", "(as 'speed', case does not count)"),
                              {"/tags/knife", R"({"type": "BOOL"})", kKnife, "taken already (as 'knife'"},
                              {"/tags/GEAR", R"({"type": "BOOL"})", kCalls + "/4/name", "taken already"},
-                             {kNew, R"({"fb": "R_TRIG", "name": "run"})", kNew + "/name", "taken already"},
+                             {kNew, R"({"fb": "F_TRIG", "name": "run", "in": {"CLK": true}})", kNew + "/name",
+                              "taken already"},
                              {kNew, R"({"fb": "R_TRIG", "name": "x.y"})", kNew + "/name", "is not a name"},
                              {"/programs/1", R"({"name": "main", "ob": "MC_PreServo", "calls": []})",
                               "/programs/1/name", "there is a program 'main' already"}}));
@@ -263,7 +254,7 @@ INSTANTIATE_TEST_SUITE_P(
     Programs, Rules,
     testing::ValuesIn(std::vector<Rule>{
         missing("ob", "/programs/0", "'ob' is missing"),
-        missing("calls", "/programs/0", "'calls' is missing"),
+        {"/programs/1", R"({"name": "p", "ob": "MC_PreServo"})", "/programs/1", "'calls' is missing"},
         missing("name", "/programs/0", "'name' is missing"),
         missing("cycle", "/programs/0", "'cycle' is missing"),
         at("/programs/0/ob", "\"OB1\"", "MC_PreServo, MC_PostServo, MC_PreInterpolator, Cyclic, Main"),
@@ -443,6 +434,17 @@ INSTANTIATE_TEST_SUITE_P(
         Rule{kNew, R"({"set": "speed", "to": "1 / 2"})", kNew + "/to", "(column"},
         Rule{kConfig + "/Actor", R"({"Efficiency": 0.5})", kConfig + "/Actor/Efficiency", "no effect yet"}}));
 
+TEST(ProjectProblems, AreToldForSectionsOfAnotherKind) {
+  for (const auto& [section, allowed] : {std::pair{"technology_objects", "an object"},
+                                         std::pair{"tags", "an object"}, std::pair{"programs", "an array"}}) {
+    Json project = {{"lockstep", 1}, {"name", "x"}, {"clock", {{"servo_cycle", "1ms"}}}};
+    project[section] = "text";
+    const LoadedProject loaded = load_project(project.dump());
+    EXPECT_EQ(lines(loaded.problems),
+              std::string("FILE:/") + section + ": 'text' is not allowed here; allowed: " + allowed + "\n");
+  }
+}
+
 TEST(ProjectProblems, AreAllToldAtOnce) {
   Json project = Json::parse(kExampleProject);
   project["clock"]["interpolator_ratio"] = 99;
@@ -469,6 +471,14 @@ TEST(ProjectProblems, DoNotRepeatThemselvesWhereAFaultyObjectIsUsed) {
   const LoadedProject loaded = load_project(project.dump());
   ASSERT_EQ(loaded.problems.size(), 1u) << lines(loaded.problems);
   EXPECT_EQ(loaded.problems[0].place, "/technology_objects/Knife/type");
+}
+
+TEST(ProjectProblems, IncludeThePinsOfACallWhoseNameIsTaken) {
+  const LoadedProject loaded =
+      load_project(changed(kNew, R"({"fb": "R_TRIG", "name": "run", "in": {"CLCK": true}})"));
+  ASSERT_EQ(loaded.problems.size(), 2u) << lines(loaded.problems);
+  EXPECT_EQ(loaded.problems[0].place, kNew + "/name");
+  EXPECT_EQ(loaded.problems[1].place, kNew + "/in/CLCK");
 }
 
 TEST(ProjectProblems, AreToldForDuplicateKeysAndWhatElseIsWrong) {
