@@ -9,10 +9,6 @@ namespace {
 /// Value of StatusSensor.State: the actual value is valid.
 constexpr DINT kSensorValid = 2;
 
-/// Largest magnitude of a position [u]; beyond it a setpoint is not followed.
-/// @source S7-1500T synchronous operation V7, 13.1 (ranges); alarm 308
-constexpr double kPositionRange = 1e12;
-
 }  // namespace
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)

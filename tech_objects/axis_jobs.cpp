@@ -220,7 +220,10 @@ bool Axis::locked_by_stop() const noexcept {
 /// Direct homing: setpoint and actual position are shifted together; nothing moves.
 void Axis::home(Job& job) noexcept {
   const double by = job.mode == 0 ? position_shift(job.position) : job.position;
-  if (!std::isfinite(by)) return job.fail(ErrorId::position);
+  // Outside the numeric range, or not representable on its ring, the axis could not be used again.
+  const double homed_at = advanced(setpoint_.position, by, modulo_).value;
+  if (!std::isfinite(by) || !(std::abs(homed_at) <= kPositionRange) || !modulo_.contains(homed_at))
+    return job.fail(ErrorId::position);
   shift_positions(by);
   if (job.mode == 0 && !has_drive_) {
     // A virtual axis has no following error: the position is the given one to the last bit.

@@ -60,7 +60,16 @@ Dynamics Axis::effective_dynamics(const Job& job) noexcept {
   return {.velocity = std::min(velocity, velocity_limit()),
           .acceleration = std::min(acceleration, limits.MaxAcceleration),
           .deceleration = std::min(deceleration, limits.MaxDeceleration),
-          .jerk = std::min(jerk, limits.MaxJerk)};
+          .jerk = std::min(jerk == 0.0 ? 0.0 : std::max(jerk, least_jerk()), limits.MaxJerk)};
+}
+
+/// Least jerk with which a present acceleration is run down before the velocity limit is passed [u/s³]: the
+/// limit counts more than the jerk that a job asks for.
+double Axis::least_jerk() const noexcept {
+  if (setpoint_.velocity * setpoint_.acceleration <= 0.0) return 0.0;
+  const double room = velocity_limit() - std::abs(setpoint_.velocity);
+  if (room <= 0.0) return data.DynamicLimits.MaxJerk;
+  return setpoint_.acceleration * setpoint_.acceleration / (2.0 * room);
 }
 
 Dynamics Axis::maximum_dynamics() const noexcept {
