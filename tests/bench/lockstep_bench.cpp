@@ -102,7 +102,7 @@ class Report {
     if (rows.empty()) return;
     if (!options_.lines)
       std::printf("%-12s %5s %-8s %5s %7s %8s %8s %8s %8s %9s\n", "motion", "axes", "drive", "ratio",
-                  "signals", counting_instructions() ? "instr." : "mean", "p50", "p99", "load", "x real");
+                  "signals", options_.instructions ? "instr." : "mean", "p50", "p99", "load", "x real");
     for (const MachinePlan& plan : rows) machine(plan);
   }
 
@@ -110,7 +110,7 @@ class Report {
     std::vector<Part> rows = parts(options_.quick);
     std::erase_if(rows, [this](const Part& part) { return !wanted(part.name); });
     if (!rows.empty() && !options_.lines)
-      std::printf("\n%-75s %10s\n", "part", counting_instructions() ? "instr." : "[ns]");
+      std::printf("\n%-75s %10s\n", "part", options_.instructions ? "instr." : "[ns]");
     for (Part& part : rows) this->part(part);
   }
 
@@ -119,7 +119,7 @@ class Report {
 
   void machine(const MachinePlan& plan) const {
     Machine machine(plan);
-    if (counting_instructions()) return count(machine);
+    if (options_.instructions) return count(machine);
     const Effort effort{.runs = options_.runs,
                         .calls = options_.quick ? 1000 : std::max(1000, 200'000 / plan.axes),
                         .burst = std::max(1, 32 / plan.axes),
@@ -148,7 +148,7 @@ class Report {
   void part(Part& part) const {
     const int calls = options_.quick ? std::min(part.calls, 100) : part.calls;
     double figure = 0.0;
-    if (counting_instructions()) {
+    if (options_.instructions) {
       figure = static_cast<double>(count_instructions([&] { part.work(calls); })) / calls;
     } else {
       part.work(calls);
