@@ -29,4 +29,9 @@ void add_run_command(CLI::App& app, Action& action);
 /// @param status the exit status if there is no project
 std::optional<Project> load_or_tell(const std::string& path, int& status);
 
+/// Writes a text to standard error, as far as that takes it. A closed terminal, a pipe without reader or a
+/// full disk is no reason to end a run, and one that takes nothing, such as a stopped terminal, holds nothing
+/// up for longer than `patience` [ms].
+void write_message(const std::string& text, int patience = 500) noexcept;
+
 }  // namespace lockstep::cli

@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 
+#include "cli/command.hpp"
 #include "cli/run_command.hpp"
 
 namespace lockstep::cli {
@@ -63,13 +63,12 @@ void Display::show(std::int64_t time, const std::string& note) {
     line += part;
   }
   line.resize(std::min(line.size(), width));
-  fmt::print(stderr, "\r\033[K{}", line);
-  std::fflush(stderr);
+  write_message("\r\033[K" + line, 0);
   open_ = true;
 }
 
 void Display::close() {
-  if (open_) fmt::print(stderr, "\n");
+  if (open_) write_message("\n");
   open_ = false;
 }
 
@@ -82,7 +81,7 @@ void tell_axes(const Controller& controller) {
                                    state_text(axis), axis.position);
     const bool followed = controller.axes[i]->was_synchronous();
     if (followed) line += fmt::format("; largest deviation while synchronous {:.3g}", axis.largest_deviation);
-    fmt::print(stderr, "{}\n", line);
+    write_message(line + "\n");
   }
 }
 

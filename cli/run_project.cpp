@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <memory>
 #include <system_error>
 #include <thread>
@@ -45,7 +44,7 @@ void take_signals() {
 }
 
 void tell(const std::string& text) {
-  fmt::print(stderr, "lockstep: {}\n", text);
+  write_message("lockstep: " + text + "\n");
 }
 
 /// What could not be started; its text says what and why.
@@ -191,8 +190,8 @@ void simulate(Project& project, Surroundings& surroundings, Display& display, st
   display.close();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   const double simulated = static_cast<double>(controller.now()) * 1e-9;
-  fmt::print(stderr, "simulated {:.3f} s in {:.3f} s ({:.0f} × real time), {} ticks\n", simulated,
-             spent.count(), simulated / spent.count(), controller.counters().ticks);
+  write_message(fmt::format("simulated {:.3f} s in {:.3f} s ({:.0f} × real time), {} ticks\n", simulated,
+                            spent.count(), simulated / spent.count(), controller.counters().ticks));
 }
 
 /// Real time, on a thread of its own; this one only looks and tells.
@@ -209,12 +208,12 @@ int run_in_real_time(Project& project, Display& display, std::int64_t duration) 
   }
   run.wait();
   display.close();
-  fmt::print(stderr,
-             "ran {:.3f} s: {} ticks, {} overruns, {} missed ticks, worst lateness {:.1f} µs, longest tick "
-             "{:.1f} µs\n",
-             static_cast<double>(status.time.load()) * 1e-9, status.ticks.load(), status.overruns.load(),
-             status.missed_ticks.load(), static_cast<double>(status.worst_lateness.load()) * 1e-3,
-             static_cast<double>(status.longest_tick.load()) * 1e-3);
+  write_message(fmt::format(
+      "ran {:.3f} s: {} ticks, {} overruns, {} missed ticks, worst lateness {:.1f} µs, longest tick "
+      "{:.1f} µs\n",
+      static_cast<double>(status.time.load()) * 1e-9, status.ticks.load(), status.overruns.load(),
+      status.missed_ticks.load(), static_cast<double>(status.worst_lateness.load()) * 1e-3,
+      static_cast<double>(status.longest_tick.load()) * 1e-3));
   if (!status.stopped_by_overrun.load()) return kOk;
   tell("stopped: three interpolator cycles in a row were not over in time (clock.overrun is \"stop\")");
   return kStoppedByFault;
