@@ -73,16 +73,21 @@ class Bench {
   }
 
   void tick() noexcept {
+    const char* wrong = nullptr;
+    const Subject* culprit = nullptr;
     {
       const std::uint64_t before = allocations_counted();
       const CountAllocations count;
       controller.tick();
       for (Block* block : support_) block->call(now());
-      for (Subject& subject : subjects_) subject.block().call(now());
+      for (Subject& subject : subjects_)
+        if (const char* found = subject.call(now()); found != nullptr && wrong == nullptr) {
+          wrong = found;
+          culprit = &subject;
+        }
       allocations += allocations_counted() - before;
     }
-    for (Subject& subject : subjects_)
-      if (const char* wrong = subject.wrong_outputs()) fault(subject.name() + ": " + wrong);
+    if (wrong != nullptr) fault(culprit->name() + ": " + wrong);
     watch(leading, last_[0]);
     watch(following, last_[1]);
   }
@@ -108,8 +113,10 @@ class Bench {
     first_fault = note.str();
   }
 
-  /// The position of the following axis is renamed: homing, restart.
-  void allow_position_step() noexcept { position_steps_ = true; }
+  /// Positions may be renamed in the next ticks: homing, restart.
+  void allow_position_steps(std::uint64_t ticks) noexcept {
+    position_steps_until_ = controller.counters().ticks + ticks;
+  }
 
   /// Whether the following axis is braking from beyond what its ramp can brake in kStoppingTicks.
   bool brakes_for_long() const noexcept {
@@ -135,7 +142,6 @@ class Bench {
   struct Last {
     bool known = false;
     bool coupled = false;
-    bool beyond_limits = false;  // left there by a coupling
     Setpoint setpoint;
   };
 
@@ -152,7 +158,7 @@ class Bench {
   }
 
   /// Finite at any time. While the axis moves on its own: no step of position or velocity, and inside the
-  /// limits unless a coupling has left it beyond them.
+  /// limits or on the way into them.
   void watch(const Axis& axis, Last& last) noexcept {
     const Setpoint& s = axis.setpoint();
     const Last before = last;
@@ -162,17 +168,15 @@ class Bench {
     last.setpoint = s;
     if (!std::isfinite(s.position.value) || !std::isfinite(s.velocity) || !std::isfinite(s.acceleration))
       return fault(axis.name + ": setpoint not finite");
-    const bool speeding_up = s.velocity * s.acceleration > 0.0;
-    if (last.coupled) last.beyond_limits = true;
     if (!before.known || last.coupled || before.coupled) return;
     if (axis.pending_alarm() == alarm::kPositionRangeExceeded) return;  // at the end of the numbers it stands
-    const double v = std::abs(s.velocity), a = std::abs(s.acceleration);
-    if (v <= BenchLimits::kVelocity && !speeding_up) last.beyond_limits = false;
-    const double was_a = std::abs(before.setpoint.acceleration);
-    if (!last.beyond_limits && v > BenchLimits::kVelocity * (1 + kSlack))
+    const double most_v = std::max(BenchLimits::kVelocity, std::abs(before.setpoint.velocity));
+    if (std::abs(s.velocity) > most_v * (1 + kSlack))
       fault(axis.name + ": velocity " + std::to_string(s.velocity) + " beyond its limit");
-    const double most_a = speeding_up ? BenchLimits::kAcceleration : BenchLimits::kEmergency;
-    if (a > std::max(most_a, was_a) * (1 + kSlack))
+    const bool speeding_up = s.velocity * s.acceleration > 0.0;
+    const double most_a = std::max(speeding_up ? BenchLimits::kAcceleration : BenchLimits::kEmergency,
+                                   std::abs(before.setpoint.acceleration));
+    if (std::abs(s.acceleration) > most_a * (1 + kSlack))
       fault(axis.name + ": acceleration " + std::to_string(s.acceleration) + " beyond its limit");
     watch_steps(axis, before.setpoint, s);
   }
@@ -183,7 +187,7 @@ class Bench {
     if (std::abs(s.velocity - before.velocity) > most_a * kPeriod * (1 + kSlack) + kSlack)
       fault(axis.name + ": step of the velocity from " + std::to_string(before.velocity) + " to " +
             std::to_string(s.velocity));
-    if (position_steps_) return;
+    if (controller.counters().ticks <= position_steps_until_) return;
     const double way = difference(s.position, before.position, axis.modulo()).rounded();
     const double mean = 0.5 * (s.velocity + before.velocity) * kPeriod;
     const double rounding = 1e-12 * std::abs(s.position.value);
@@ -196,7 +200,7 @@ class Bench {
   std::vector<Block*> support_;
   std::deque<Subject> subjects_;
   Last last_[2];
-  bool position_steps_ = false;
+  std::uint64_t position_steps_until_ = 0;
 };
 
 }  // namespace lockstep::test
