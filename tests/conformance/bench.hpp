@@ -137,6 +137,8 @@ class Bench {
   MC_MoveRelative relative_following;
   std::uint64_t allocations = 0;
   std::string first_fault;
+  /// Whether a coupled axis is held to have no steps, too: with synchronizing distances of many cycles only.
+  bool watch_coupled = false;
 
  private:
   struct Last {
@@ -168,7 +170,11 @@ class Bench {
     last.setpoint = s;
     if (!std::isfinite(s.position.value) || !std::isfinite(s.velocity) || !std::isfinite(s.acceleration))
       return fault(axis.name + ": setpoint not finite");
-    if (!before.known || last.coupled || before.coupled) return;
+    if (!before.known) return;
+    if (last.coupled || (before.coupled && axis.pending_alarm() != 0)) {
+      if (watch_coupled && !positions_may_step()) watch_steps(axis, before.setpoint, s, kBetweenTicks);
+      return;
+    }
     if (axis.pending_alarm() == alarm::kPositionRangeExceeded) return;  // at the end of the numbers it stands
     const double most_v = std::max(BenchLimits::kVelocity, std::abs(before.setpoint.velocity));
     if (std::abs(s.velocity) > most_v * (1 + kSlack))
@@ -178,16 +184,18 @@ class Bench {
                                    std::abs(before.setpoint.acceleration));
     if (std::abs(s.acceleration) > most_a * (1 + kSlack))
       fault(axis.name + ": acceleration " + std::to_string(s.acceleration) + " beyond its limit");
-    watch_steps(axis, before.setpoint, s);
+    watch_steps(axis, before.setpoint, s, 1.0);
   }
 
-  void watch_steps(const Axis& axis, const Setpoint& before, const Setpoint& s) noexcept {
+  /// @param between how much more than at the two ticks the acceleration may be between them
+  void watch_steps(const Axis& axis, const Setpoint& before, const Setpoint& s, double between) noexcept {
     constexpr double kPeriod = static_cast<double>(BenchLimits::kPeriod) * 1e-9;
-    const double most_a = std::max(BenchLimits::kEmergency, std::abs(before.acceleration));
+    const double at_ticks = std::max(std::abs(before.acceleration), std::abs(s.acceleration));
+    const double most_a = between * std::max(BenchLimits::kEmergency, at_ticks);
     if (std::abs(s.velocity - before.velocity) > most_a * kPeriod * (1 + kSlack) + kSlack)
       fault(axis.name + ": step of the velocity from " + std::to_string(before.velocity) + " to " +
             std::to_string(s.velocity));
-    if (controller.counters().ticks <= position_steps_until_) return;
+    if (positions_may_step()) return;
     const double way = difference(s.position, before.position, axis.modulo()).rounded();
     const double mean = 0.5 * (s.velocity + before.velocity) * kPeriod;
     const double rounding = 1e-12 * std::abs(s.position.value);
@@ -195,7 +203,11 @@ class Bench {
       fault(axis.name + ": step of the position by " + std::to_string(way));
   }
 
+  bool positions_may_step() const noexcept { return controller.counters().ticks <= position_steps_until_; }
+
   static constexpr double kSlack = 1e-9;
+  /// A profile over a few cycles has its highest acceleration between them.
+  static constexpr double kBetweenTicks = 2.0;
 
   std::vector<Block*> support_;
   std::deque<Subject> subjects_;

@@ -30,6 +30,7 @@ class Sequence {
       subject.wire(*type.find_pin("Axis"), &bench_.leading);
       leading_.push_back(&subject);
     }
+    bench_.watch_coupled = true;
     bench_.ready();
   }
 
@@ -118,7 +119,7 @@ class Sequence {
       case Unit::kJerk:
         return chance(0.3) ? -1.0 : chance(0.2) ? 0.0 : uniform(500.0, 150000.0);
       case Unit::kLeading:
-        return uniform(10.0, 60.0);
+        return uniform(40.0, 95.0);
       default:
         return uniform(-200.0, 200.0);
     }
