@@ -28,7 +28,7 @@ void emit(const Term& term, ExpressionBuilder& code) {
       code.signal(term.signal);
       break;
     case Term::Form::kConversion:
-      code.convert(term.from, term.type);
+      code.convert(term.from, term.to);
       break;
     case Term::Form::kSelection:
       code.select();

@@ -178,13 +178,7 @@ Term Typing::call(const Syntax& syntax) {
     case Kind::kMove:
       return std::move(inputs.front());
     case Kind::kAbsolute:
-      if (inputs.front().shape == Shape::kInteger && inputs.front().form == Term::Form::kLiteral)
-        return inputs.front().integer < 0 ? unary("-", column, std::move(inputs.front()))
-                                          : std::move(inputs.front());
-      if (!(inputs.front().shape == Shape::kTyped ? is_numeric(inputs.front().type)
-                                                  : inputs.front().shape != Shape::kBits))
-        return no_meaning(syntax.text, column, inputs, "allowed are numbers");
-      return operation(Operation::kAbsolute, column, common_of(inputs.front()), std::move(inputs));
+      return absolute(syntax, std::move(inputs));
     case Kind::kOperator:
       break;
   }
@@ -228,6 +222,16 @@ Term Typing::extremum(Operation operation, const Syntax& syntax, std::vector<Ter
   upper.push_back(this->operation(Operation::kMaximum, syntax.column, *common, std::move(lower)));
   upper.push_back(std::move(inputs[2]));
   return this->operation(operation, syntax.column, *common, std::move(upper));
+}
+
+Term Typing::absolute(const Syntax& syntax, std::vector<Term> inputs) {
+  Term& input = inputs.front();
+  if (input.shape == Shape::kInteger && input.form == Term::Form::kLiteral)
+    return unary(input.integer < 0 ? "-" : "+", syntax.column, std::move(input));
+  const Common common = common_of(input);
+  if (common.shape == Shape::kTyped ? !is_numeric(common.type) : common.shape == Shape::kBits)
+    return no_meaning(syntax.text, syntax.column, inputs, "allowed are numbers");
+  return operation(Operation::kAbsolute, syntax.column, common, std::move(inputs));
 }
 
 /// SEL and MUX: the chooser comes first in the text and last in the code.

@@ -128,7 +128,7 @@ Term converted(Term term, Type from, Type to) {
   outer.form = Term::Form::kConversion;
   outer.column = term.column;
   outer.from = from;
-  outer.type = to;
+  outer.type = outer.to = to;
   outer.faulty = term.faulty;
   outer.operands.push_back(std::move(term));
   return outer;

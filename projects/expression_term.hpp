@@ -33,7 +33,7 @@ struct Term {
     kLiteral,      ///< `integer`, or `value` (a real, or of `type`)
     kSignal,       ///< `signal`
     kOperation,    ///< `operation` on `operands`
-    kConversion,   ///< `operands[0]` from the representation of `from` to `type`
+    kConversion,   ///< `operands[0]` from the representation of `from` to that of `to`
     kSelection,    ///< SEL: operands IN0, IN1, G
     kMultiplexer,  ///< MUX: operands IN0, IN1, …, K
     kRounding  ///< `operation` (TRUNC, …) on a real: an integer, or in a real place the real without fraction
@@ -42,7 +42,8 @@ struct Term {
   Form form = Form::kLiteral;
   int column = 1;
   Type type = Type::BOOL;
-  Type from = Type::BOOL;
+  Type from = Type::BOOL;  ///< of a conversion; differs from the operand's type where TIME counts as LINT
+  Type to = Type::BOOL;
   Value value{};
   Signal signal;
   Operation operation = Operation::kAdd;

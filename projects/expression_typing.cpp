@@ -245,8 +245,9 @@ Term Typing::time_arithmetic(Operation operation, std::string_view text, int col
   const bool left_time = is_typed(left, Type::TIME);
   const bool right_time = is_typed(right, Type::TIME);
   const bool additive = operation == Operation::kAdd || operation == Operation::kSubtract;
+  const Common duration{Shape::kTyped, Type::TIME, 0, 0};
   if (additive && left_time && right_time)
-    return this->operation(operation, column, common_of(left), pair_of(std::move(left), std::move(right)));
+    return this->operation(operation, column, duration, pair_of(std::move(left), std::move(right)));
   const Common number = common_of(left_time ? right : left);
   const bool linear = is_number(number) && !is_typed(left_time ? right : left, Type::ULINT);
   if (operation == Operation::kMultiply && linear && left_time != right_time)

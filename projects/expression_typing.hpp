@@ -40,6 +40,7 @@ class Typing {
   Term call(const Syntax& syntax);
   Term conversion(const Syntax& syntax, Term input, std::optional<Type> from, Type to);
   Term extremum(Operation operation, const Syntax& syntax, std::vector<Term> inputs);
+  Term absolute(const Syntax& syntax, std::vector<Term> inputs);
   Term choice(const Syntax& syntax, std::vector<Term> inputs, bool binary_choice);
   Term shift(Operation operation, const Syntax& syntax, std::vector<Term> inputs);
   Term rounding(Operation operation, const Syntax& syntax, Term input);

@@ -30,6 +30,7 @@ void Controller::finish() {
     axis->configure(servo_period, clock.interpolator_ratio);
     if (!axis->is_virtual()) driven_.push_back(axis.get());
   }
+  summary_.resize(axes.size());
   order_.set_axes(axes);
   order_.rebuild();
   for (Program& program : programs) schedule_.push_back(&program);
@@ -38,6 +39,22 @@ void Controller::finish() {
   });
   std::stable_sort(stimuli.begin(), stimuli.end(),
                    [](const Stimulus& a, const Stimulus& b) { return a.at < b.at; });
+}
+
+void Controller::shut_down() noexcept {
+  take_summary();
+  shutting_down_ = true;
+}
+
+void Controller::take_summary() noexcept {
+  for (std::size_t i = 0; i < summary_.size(); ++i) {
+    const Axis& axis = *axes[i];
+    summary_[i] = {.status_word = axis.data.StatusWord,
+                   .function_state = axis.data.StatusSynchronizedMotion.FunctionState,
+                   .alarm = axis.data.ErrorDetail.Number,
+                   .position = axis.data.ActualPosition,
+                   .largest_deviation = axis.largest_synchronous_deviation()};
+  }
 }
 
 bool Controller::at_rest() const noexcept {

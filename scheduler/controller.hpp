@@ -57,6 +57,15 @@ struct CycleCounters {
   EvaluationCounters evaluation;         ///< of all expressions
 };
 
+/// How an axis stood when its run ended, for the summary.
+struct AxisSummary {
+  DWORD status_word{};
+  DINT function_state{};      ///< StatusSynchronizedMotion.FunctionState
+  UDINT alarm{};              ///< ErrorDetail.Number
+  LREAL position{};           ///< [u]
+  LREAL largest_deviation{};  ///< largest distance from the synchronous function while synchronous [u]
+};
+
 /// Built at load time through its public lists and `add_…`; after `finish` only `tick` touches it, in the
 /// thread of the cycle.
 class Controller {
@@ -91,8 +100,12 @@ class Controller {
 
   /// Brings every axis to rest with maximum dynamics and then off, as at the end of a run; whether all are at
   /// rest is told by `at_rest`. Programs no longer run.
-  void shut_down() noexcept { shutting_down_ = true; }
+  void shut_down() noexcept;
   bool at_rest() const noexcept;
+
+  /// Notes how the axes stand; `shut_down` does so as well.
+  void take_summary() noexcept;
+  const std::vector<AxisSummary>& summary() const noexcept { return summary_; }
 
  private:
   void take_inputs(std::int64_t now) noexcept;
@@ -112,6 +125,7 @@ class Controller {
   std::int64_t last_time_ = -1;  // of the last executed tick [ns]; -1: none yet
   bool shutting_down_ = false;
   CycleCounters counters_;
+  std::vector<AxisSummary> summary_;  // of the axes
 };
 
 }  // namespace lockstep

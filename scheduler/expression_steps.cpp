@@ -5,13 +5,12 @@
 #include <cmath>
 #include <concepts>
 #include <cstring>
-#include <limits>
-#include <utility>
+
+#include "scheduler/expression_operations.hpp"
 
 namespace lockstep::expression_steps {
 namespace {
 
-using Word = std::uint64_t;
 using Step = Instruction::Step;
 
 // In the accumulator and the slots a value is 64 bits: integers widened, BOOL 0 or 1, REAL and LREAL as a
@@ -77,165 +76,12 @@ Word give_result(const Instruction*, Word accumulator, Word*, EvaluationCounters
   return accumulator;
 }
 
-/// An integer type in the sense of IEC 61131-3; bit strings and TIME compute as integers of their width.
-template <class T>
-concept Integer = std::integral<T> && !std::same_as<T, bool>;
-template <class T>
-concept Number = Integer<T> || std::floating_point<T>;
-
-// Unsigned arithmetic wraps; the conversion back to T keeps the low bits.
-struct Add {
-  template <Number T>
-  static T apply(T a, T b, EvaluationCounters&) noexcept {
-    if constexpr (Integer<T>)
-      return static_cast<T>(static_cast<Word>(a) + static_cast<Word>(b));
-    else
-      return a + b;
-  }
-};
-struct Subtract {
-  template <Number T>
-  static T apply(T a, T b, EvaluationCounters&) noexcept {
-    if constexpr (Integer<T>)
-      return static_cast<T>(static_cast<Word>(a) - static_cast<Word>(b));
-    else
-      return a - b;
-  }
-};
-struct Multiply {
-  template <Number T>
-  static T apply(T a, T b, EvaluationCounters&) noexcept {
-    if constexpr (Integer<T>)
-      return static_cast<T>(static_cast<Word>(a) * static_cast<Word>(b));
-    else
-      return a * b;
-  }
-};
-struct Divide {
-  template <Number T>
-  static T apply(T a, T b, EvaluationCounters& counters) noexcept {
-    if constexpr (Integer<T>) {
-      if (b == 0) {
-        ++counters.integer_divisions_by_zero;
-        return 0;
-      }
-      if constexpr (std::signed_integral<T>)
-        if (b == -1) return static_cast<T>(Word{0} - static_cast<Word>(a));  // the least number wraps
-      return static_cast<T>(a / b);
-    } else {
-      return a / b;
-    }
-  }
-};
-struct Modulo {
-  template <Integer T>
-  static T apply(T a, T b, EvaluationCounters& counters) noexcept {
-    if (b == 0) {
-      ++counters.integer_divisions_by_zero;
-      return 0;
-    }
-    if constexpr (std::signed_integral<T>)
-      if (b == -1) return 0;
-    return static_cast<T>(a % b);
-  }
-};
-struct Power {
-  template <std::floating_point T>
-  static T apply(T a, T b, EvaluationCounters&) noexcept {
-    return static_cast<T>(std::pow(static_cast<double>(a), static_cast<double>(b)));
-  }
-};
-struct Atan2 {
-  template <std::floating_point T>
-  static T apply(T y, T x, EvaluationCounters&) noexcept {
-    return static_cast<T>(std::atan2(static_cast<double>(y), static_cast<double>(x)));
-  }
-};
-struct Less {
-  template <Number T>
-  static bool apply(T a, T b, EvaluationCounters&) noexcept {
-    return a < b;
-  }
-};
-struct LessEqual {
-  template <Number T>
-  static bool apply(T a, T b, EvaluationCounters&) noexcept {
-    return a <= b;
-  }
-};
-struct Greater {
-  template <Number T>
-  static bool apply(T a, T b, EvaluationCounters&) noexcept {
-    return a > b;
-  }
-};
-struct GreaterEqual {
-  template <Number T>
-  static bool apply(T a, T b, EvaluationCounters&) noexcept {
-    return a >= b;
-  }
-};
-struct Equal {
-  template <class T>
-  static bool apply(T a, T b, EvaluationCounters&) noexcept {
-    return a == b;
-  }
-};
-struct Unequal {
-  template <class T>
-  static bool apply(T a, T b, EvaluationCounters&) noexcept {
-    return a != b;
-  }
-};
-struct And {
-  template <std::unsigned_integral T>
-  static T apply(T a, T b, EvaluationCounters&) noexcept {
-    return static_cast<T>(a & b);
-  }
-};
-struct Or {
-  template <std::unsigned_integral T>
-  static T apply(T a, T b, EvaluationCounters&) noexcept {
-    return static_cast<T>(a | b);
-  }
-};
-struct Xor {
-  template <std::unsigned_integral T>
-  static T apply(T a, T b, EvaluationCounters&) noexcept {
-    return static_cast<T>(a ^ b);
-  }
-};
-struct Minimum {
-  template <Number T>
-  static T apply(T a, T b, EvaluationCounters&) noexcept {
-    return a < b || a != a ? a : b;  // a NaN on either side is the result
-  }
-};
-struct Maximum {
-  template <Number T>
-  static T apply(T a, T b, EvaluationCounters&) noexcept {
-    return a > b || a != a ? a : b;
-  }
-};
-
 template <class Op, class T, bool constant_right>
 Word binary_step(const Instruction* at, Word accumulator, Word* slots,
                  EvaluationCounters& counters) noexcept {
   const Word left = constant_right ? accumulator : slots[at->slot];
   const Word right = constant_right ? at->operand.constant : accumulator;
   return next(at, encode(Op::apply(decode<T>(left), decode<T>(right), counters)), slots, counters);
-}
-
-/// The bits of a bit string moved by a count, which is a LINT.
-template <Operation operation, class T>
-T moved(T bits, std::int64_t count) noexcept {
-  constexpr int width = std::numeric_limits<T>::digits;
-  if (count <= 0) return bits;
-  if constexpr (operation == Operation::kRotateLeft) return std::rotl(bits, static_cast<int>(count % width));
-  if constexpr (operation == Operation::kRotateRight) return std::rotr(bits, static_cast<int>(count % width));
-  if (count >= width) return 0;
-  return static_cast<T>(operation == Operation::kShiftLeft ? static_cast<Word>(bits) << count
-                                                           : static_cast<Word>(bits) >> count);
 }
 
 template <Operation operation, class T, bool constant_right>
@@ -278,24 +124,6 @@ Word absolute(const Instruction* at, Word accumulator, Word* slots, EvaluationCo
   else if constexpr (std::signed_integral<T>)
     if (value < 0) word = encode(static_cast<T>(Word{0} - static_cast<Word>(value)));
   return next(at, word, slots, counters);
-}
-
-/// From one representation to another: `From` is how the accumulator is read, `To` what it becomes.
-template <class From, class To>
-To converted(From value) noexcept {
-  if constexpr (std::same_as<To, bool>) {
-    return value != From{};
-  } else if constexpr (std::floating_point<From> && Integer<To>) {
-    if (value != value) return 0;
-    const double nearest = std::nearbyint(static_cast<double>(value));
-    constexpr auto lowest = static_cast<double>(std::numeric_limits<To>::min());
-    constexpr double above = 2.0 * static_cast<double>(Word{1} << (std::numeric_limits<To>::digits - 1));
-    if (nearest < lowest) return std::numeric_limits<To>::min();
-    if (nearest >= above) return std::numeric_limits<To>::max();
-    return static_cast<To>(nearest);
-  } else {
-    return static_cast<To>(value);
-  }
 }
 
 template <class From, class To>

@@ -30,8 +30,12 @@ double Axis::wanted_velocity(const Job& job) const noexcept {
   const double own = data.Override.Velocity / 100.0;
   switch (job.kind) {
     case JobKind::MC_GearIn:
+    case JobKind::MC_GearInVelocity:
+    case JobKind::MC_GearOut:
       return velocity_limit();
     case JobKind::MC_GearInPos:
+    case JobKind::MC_PhasingAbsolute:
+    case JobKind::MC_PhasingRelative:
       return job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity;
     case JobKind::MC_MoveVelocity:
     case JobKind::MC_MoveJog:
@@ -219,7 +223,7 @@ void Axis::follow_changes(Job& job) noexcept {
   const bool limits_changed =
       data.Override.Velocity != planned_override_ || velocity_limit() != planned_velocity_limit_;
   if (!inputs_changed && !limits_changed) return;
-  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt) return;
+  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || job.kind == JobKind::MC_GearOut) return;
   remember_limits();
   const Dynamics dynamics = own_dynamics(job);
   PlanResult result = PlanResult::ok;
@@ -254,6 +258,7 @@ void Axis::watch_base_job(Job& job) noexcept {
       break;
     case JobKind::MC_MoveAbsolute:
     case JobKind::MC_MoveRelative:
+    case JobKind::MC_GearOut:
       watch_positioning();
       break;
     default:

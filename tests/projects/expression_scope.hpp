@@ -1,6 +1,8 @@
 /// Tags and variables for tests of expressions: one of each type, and a small object.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <limits>
 #include <map>
 #include <string>
@@ -74,6 +76,39 @@ class TestScope : public Scope {
   }
 
   std::map<std::string, Signal> signals_;
+};
+
+/// Compiles and evaluates texts.
+class ExpressionTest : public ::testing::Test {
+ protected:
+  Value value(const std::string& text, Type wanted) {
+    const CompiledExpression compiled = compile_expression(text, wanted, scope);
+    for (const ExpressionError& error : compiled.errors)
+      ADD_FAILURE() << text << ": column " << error.column << ": " << error.message;
+    return compiled.expression ? compiled.expression->evaluate(counters) : Value{};
+  }
+  double real(const std::string& text, Type wanted = Type::LREAL) { return value(text, wanted).r; }
+  std::int64_t integer(const std::string& text, Type wanted = Type::LINT) { return value(text, wanted).i; }
+  std::uint64_t bits(const std::string& text, Type wanted = Type::LWORD) { return value(text, wanted).u; }
+  bool truth(const std::string& text) { return value(text, Type::BOOL).u != 0; }
+  /// The first error as "column: message"; empty if there is none.
+  std::string error(const std::string& text, Type wanted) {
+    const CompiledExpression compiled = compile_expression(text, wanted, scope);
+    EXPECT_NE(compiled.expression.has_value(), !compiled.errors.empty()) << text;
+    if (compiled.errors.empty()) return "";
+    return std::to_string(compiled.errors.front().column) + ": " + compiled.errors.front().message;
+  }
+  bool accepts(const std::string& text, Type wanted) { return error(text, wanted).empty(); }
+  /// The column of the only warning; 0 if there is none.
+  int warning(const std::string& text, Type wanted) {
+    const CompiledExpression compiled = compile_expression(text, wanted, scope);
+    EXPECT_TRUE(compiled.expression) << text;
+    EXPECT_LE(compiled.warnings.size(), 1u) << text;
+    return compiled.warnings.empty() ? 0 : compiled.warnings.front().column;
+  }
+
+  TestScope scope;
+  EvaluationCounters counters;
 };
 
 }  // namespace lockstep

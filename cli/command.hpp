@@ -1,0 +1,37 @@
+/// The commands of `lockstep` and their exit statuses.
+/// @source contract of the project file, section 3
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "projects/project.hpp"
+
+namespace lockstep::cli {
+
+/// Exit statuses, as the contract has them.
+enum ExitStatus : int {
+  kOk = 0,
+  kNotValid = 1,       ///< the project is not valid; a name is unknown
+  kCouldNotStart = 2,  ///< a file cannot be read, a port is taken, the command line is wrong
+  kStoppedByFault = 3  ///< an internal fault, or the overrun policy
+};
+
+/// What a command does once the command line has been read; gives the exit status.
+using Action = std::function<int()>;
+
+void add_check_command(CLI::App& app, Action& action);
+void add_run_command(CLI::App& app, Action& action);
+
+/// Loads a project and tells its problems and warnings on standard error.
+/// @param status the exit status if there is no project
+std::optional<Project> load_or_tell(const std::string& path, int& status);
+
+/// Writes a text to standard error, as far as that takes it. A closed terminal, a pipe without reader or a
+/// full disk is no reason to end a run, and one that takes nothing, such as a stopped terminal, holds nothing
+/// up for longer than `patience` [ms].
+void write_message(const std::string& text, int patience = 500) noexcept;
+
+}  // namespace lockstep::cli

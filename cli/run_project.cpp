@@ -1,0 +1,255 @@
+// lockstep run: puts the parts together, runs them and tells how it went.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <system_error>
+#include <thread>
+
+#include "cli/command.hpp"
+#include "cli/run_command.hpp"
+#include "hmi_bridge/csv_trace.hpp"
+#include "hmi_bridge/lcm_log.hpp"
+#include "hmi_bridge/lcm_publisher.hpp"
+#include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/trace_recorder.hpp"
+#include "scheduler/real_time.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kTraceRows = 1 << 14;  // of the ring: seconds of a trace that a slow disk may hold up
+constexpr auto kRefresh = 100ms;             // of the display
+constexpr std::uint64_t kTicksBetweenLooks = 4096;  // of a simulation, at the clock and for signals
+
+volatile std::sig_atomic_t end_requested = 0;
+
+void request_end(int /*signal*/) {
+  end_requested = 1;
+}
+
+/// SIGINT and SIGTERM end the run; a closed terminal or pipe does not touch it.
+void take_signals() {
+  end_requested = 0;
+  struct sigaction action {};
+  action.sa_handler = &request_end;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  action.sa_handler = SIG_IGN;
+  sigaction(SIGHUP, &action, nullptr);
+  sigaction(SIGPIPE, &action, nullptr);
+}
+
+void tell(const std::string& text) {
+  write_message("lockstep: " + text + "\n");
+}
+
+/// What could not be started; its text says what and why.
+struct CouldNotStart : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Everything around the cycle: crossings, server, recorder. Ends in the reverse order of its making.
+class Surroundings {
+ public:
+  Surroundings(Project& project, const RunOptions& options) : project_(project), options_(options) {
+    choose_signals();
+    start_trace();
+    start_modbus();
+  }
+
+  const std::vector<NamedSignal>& signals() const { return signals_; }
+  TraceRing* ring() { return ring_.get(); }
+
+  /// Ends server and recorder and tells what is missing.
+  void stop() {
+    if (server_) server_->stop();
+    if (!recorder_) return;
+    recorder_->stop();
+    for (const std::string& loss : recorder_->losses()) tell("warning: " + loss);
+  }
+
+ private:
+  void choose_signals() {
+    if (options_.signals.empty()) {
+      signals_ = project_.trace.signals;
+      return;
+    }
+    for (const std::string& name : options_.signals) {
+      const FoundPlace found = project_.names.find(name);
+      if (!found.place) throw CouldNotStart("--signals: " + found.problem);
+      const Type type = found.place->signal.type;
+      if (type == Type::AXIS || type == Type::TAG)
+        throw CouldNotStart("--signals: " + name + " has no value to record");
+      signals_.push_back({name, found.place->signal, found.place->unit});
+    }
+  }
+
+  LcmTraceIdentity identity() const {
+    const auto wall = std::chrono::system_clock::now().time_since_epoch();
+    const std::int64_t epoch = std::chrono::duration_cast<std::chrono::microseconds>(wall).count();
+    return {.project = project_.name,
+            .channel = project_.trace.channel.empty() ? "LOCKSTEP" : project_.trace.channel,
+            .period = project_.controller->clock.interpolator_cycle(),
+            .epoch = options_.simulate ? 0 : epoch};
+  }
+
+  void add_trace_file(std::vector<std::unique_ptr<TraceSink>>& sinks) {
+    const std::string& path = options_.trace_file;
+    if (path.empty()) return;
+    try {
+      if (path.ends_with(".csv")) {
+        sinks.push_back(std::make_unique<CsvTrace>(path));
+      } else if (path.ends_with(".lcm")) {
+        sinks.push_back(std::make_unique<LcmLog>(path, identity()));
+      } else {
+        throw CouldNotStart("--trace: '" + path + "' has to end in .csv or .lcm");
+      }
+    } catch (const std::system_error& error) {
+      throw CouldNotStart(std::string("--trace: ") + error.what());
+    }
+  }
+
+  void add_lcm(std::vector<std::unique_ptr<TraceSink>>& sinks) {
+    const bool asked = !options_.lcm.empty();
+    const bool wanted = asked || (!options_.simulate && !options_.no_lcm && !project_.trace.url.empty());
+    if (!wanted) return;
+    const std::string url = asked ? options_.lcm : project_.trace.url;
+    try {
+      sinks.push_back(std::make_unique<LcmPublisher>(url, identity()));
+    } catch (const std::exception& error) {
+      if (asked) throw CouldNotStart(std::string("--lcm: ") + error.what());
+      tell(std::string("warning: no traces over LCM: ") + error.what());
+    }
+  }
+
+  void start_trace() {
+    std::vector<std::unique_ptr<TraceSink>> sinks;
+    add_trace_file(sinks);
+    add_lcm(sinks);
+    if (sinks.empty()) return;
+    std::vector<Signal> places;
+    std::vector<TraceSignal> columns;
+    for (const NamedSignal& signal : signals_) {
+      places.push_back(signal.signal);
+      columns.push_back({signal.name, signal.signal.value_type(), std::string(unit_text(signal.unit))});
+    }
+    ring_ = std::make_unique<TraceRing>(std::move(places), kTraceRows);
+    project_.controller->trace = ring_.get();
+    recorder_ = std::make_unique<TraceRecorder>(*ring_, std::move(columns), std::move(sinks));
+  }
+
+  void start_modbus() {
+    const bool asked = !options_.modbus.empty();
+    const bool wanted = asked || (!options_.simulate && !options_.no_modbus && project_.modbus.listen);
+    if (!wanted) return;
+    std::string problem;
+    const std::optional<Endpoint> endpoint =
+        asked ? parse_endpoint(options_.modbus, problem) : project_.modbus.listen;
+    if (!endpoint) throw CouldNotStart("--modbus: " + problem);
+    std::vector<Signal> places;
+    for (const NamedSignal& signal : project_.modbus.signals) places.push_back(signal.signal);
+    image_ = std::make_unique<ProcessImage>(std::move(places));
+    project_.controller->images.push_back(image_.get());
+    ModbusServerOptions server_options;
+    server_options.host = endpoint->host;
+    server_options.port = endpoint->port;
+    server_ = std::make_unique<ModbusServer>(server_options, *project_.modbus.map, *image_);
+    if (const std::string error = server_->start(); !error.empty()) throw CouldNotStart("Modbus: " + error);
+    tell(fmt::format("Modbus server on {}:{}", endpoint->host, server_->port()));
+  }
+
+  Project& project_;
+  const RunOptions& options_;
+  std::vector<NamedSignal> signals_;
+  std::unique_ptr<TraceRing> ring_;
+  std::unique_ptr<TraceRecorder> recorder_;
+  std::unique_ptr<ProcessImage> image_;
+  std::unique_ptr<ModbusServer> server_;
+};
+
+/// Virtual time: as fast as the machine can; waits for the disk, never for the clock.
+void simulate(Project& project, Surroundings& surroundings, Display& display, std::int64_t duration) {
+  Controller& controller = *project.controller;
+  const auto begin = std::chrono::steady_clock::now();
+  auto next_look = begin;
+  for (std::uint64_t tick = 0; duration < 0 || controller.now() < duration; ++tick) {
+    if (surroundings.ring() != nullptr && !surroundings.ring()->wait_for_space()) break;
+    controller.tick();
+    if (tick % kTicksBetweenLooks != 0) continue;
+    if (end_requested != 0) break;
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_look) continue;
+    display.show(controller.now(), "");
+    next_look = now + kRefresh;
+  }
+  controller.take_summary();
+  display.close();
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  const double simulated = static_cast<double>(controller.now()) * 1e-9;
+  write_message(fmt::format("simulated {:.3f} s in {:.3f} s ({:.0f} × real time), {} ticks\n", simulated,
+                            spent.count(), simulated / spent.count(), controller.counters().ticks));
+}
+
+/// Real time, on a thread of its own; this one only looks and tells.
+int run_in_real_time(Project& project, Display& display, std::int64_t duration) {
+  const OverrunPolicy policy = project.stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
+  RealTimeRun run(*project.controller, policy, duration);
+  for (const std::string& warning : run.start()) tell("warning: " + warning);
+  const RealTimeStatus& status = run.status();
+  while (!status.over.load(std::memory_order_acquire)) {
+    std::this_thread::sleep_for(kRefresh);
+    if (end_requested != 0) run.stop();
+    display.show(status.time.load(),
+                 fmt::format("  ticks {}  overruns {}", status.ticks.load(), status.overruns.load()));
+  }
+  run.wait();
+  display.close();
+  write_message(fmt::format(
+      "ran {:.3f} s: {} ticks, {} overruns, {} missed ticks, worst lateness {:.1f} µs, longest tick "
+      "{:.1f} µs\n",
+      static_cast<double>(status.time.load()) * 1e-9, status.ticks.load(), status.overruns.load(),
+      status.missed_ticks.load(), static_cast<double>(status.worst_lateness.load()) * 1e-3,
+      static_cast<double>(status.longest_tick.load()) * 1e-3));
+  if (!status.stopped_by_overrun.load()) return kOk;
+  tell("stopped: three interpolator cycles in a row were not over in time (clock.overrun is \"stop\")");
+  return kStoppedByFault;
+}
+
+void tell_counters(const Controller& controller) {
+  if (const auto zero = controller.counters().evaluation.integer_divisions_by_zero; zero != 0)
+    tell(fmt::format("warning: {} integer divisions by zero gave 0", zero));
+  std::uint64_t refused = 0;
+  for (const Program& program : controller.programs) refused += program.refused_assignments();
+  if (refused != 0)
+    tell(fmt::format("warning: {} assignments of values that are not permitted were refused", refused));
+}
+
+}  // namespace
+
+int run_project(Project project, const RunOptions& options) {
+  take_signals();
+  project.controller->apply_stimuli = options.simulate || options.stimuli;
+  try {
+    Surroundings surroundings(project, options);
+    Display display(project, surroundings.signals(), options.duration);
+    int status = kOk;
+    if (options.simulate) {
+      simulate(project, surroundings, display, options.duration);
+    } else {
+      status = run_in_real_time(project, display, options.duration);
+    }
+    surroundings.stop();
+    tell_axes(*project.controller);
+    tell_counters(*project.controller);
+    return status;
+  } catch (const CouldNotStart& error) {
+    tell(error.what());
+    return kCouldNotStart;
+  }
+}
+
+}  // namespace lockstep::cli
