@@ -301,7 +301,7 @@ TEST_P(JobBlock, MeetsEveryOtherBlockAtAnyTime) {
     for (const int delay : {0, 1, 2, 7, 60, 200}) {
       Trial run(type(), "other jobs");
       run.what = std::string(other_type.name) + " after " + std::to_string(delay) + " calls";
-      if (kRenamesPositions.contains(other_type.name)) run.bench.allow_position_step();
+      if (kRenamesPositions.contains(other_type.name)) run.bench.allow_position_steps(kTicksOfATrial);
       Subject& s = *run.subject;
       Subject& other = run.bench.add(other_type);
       apply_settings(other);

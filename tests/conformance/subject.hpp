@@ -50,6 +50,25 @@ class Subject {
   bool starts_by_edge() const noexcept { return start_ != nullptr && start_->name == "Execute"; }
   bool enables() const noexcept { return start_ != nullptr && start_->name == "Enable"; }
 
+  /// One call of the block; tells what the outputs do that they must not, nullptr if nothing.
+  const char* call(std::int64_t now) noexcept {
+    const bool execute = on(start_);
+    const bool rising = execute && !last_execute_;
+    const bool was_busy = busy(), was_done = done(), was_aborted = aborted(), was_error = error();
+    last_execute_ = execute;
+    block_->call(now);
+    if (const char* wrong = wrong_outputs()) return wrong;
+    if (!starts_by_edge()) return nullptr;
+    if (rising) return busy() || ended() ? nullptr : "a request is not answered";
+    const bool was_ended = was_done || was_aborted || was_error;
+    if (was_busy) return busy() || ended() ? nullptr : "a job vanishes without an end";
+    if (busy()) return "Busy without a request";
+    if (!was_ended) return ended() ? "an end without a job" : nullptr;
+    if (!execute) return ended() ? "an end outlasts its request and its call" : nullptr;
+    const bool same = was_done == done() && was_aborted == aborted() && was_error == error();
+    return same ? nullptr : "an end changes while Execute is TRUE";
+  }
+
   /// Sets the pin that starts the block.
   void start(bool on) noexcept { store(*start_, on ? 1.0 : 0.0); }
   const Pin* start_pin() const noexcept { return start_; }
@@ -101,6 +120,7 @@ class Subject {
   const BlockType* type_;
   std::unique_ptr<Block> block_;
   const Pin* start_ = nullptr;
+  bool last_execute_ = false;
   const Pin *done_, *busy_, *aborted_, *error_, *error_id_;
 };
 

@@ -100,13 +100,16 @@ inline void apply_settings(Subject& subject) {
     if (subject.type().name == setting.block) subject.set(setting.pin, setting.value);
 }
 
+/// More ticks than any trial has.
+inline constexpr int kTicksOfATrial = 1'000'000;
+
 /// A bench with the block under test on it, ready to be started.
 struct Trial {
   Trial(const BlockType& type, const char* check_name, bool modulo = false, bool enabled = true)
       : subject_type(type), check(check_name), bench(modulo, enabled && type.name != "MC_Power") {
     subject = &bench.add(type);
     apply_settings(*subject);
-    if (kRenamesPositions.contains(type.name)) bench.allow_position_step();
+    if (kRenamesPositions.contains(type.name)) bench.allow_position_steps(kTicksOfATrial);
     if (subject->enables() && enabled) subject->start(true);
     bench.ready();
     if (enabled && kOnMovingAxis.contains(type.name)) {
