@@ -13,7 +13,8 @@ namespace {
 std::vector<std::string> examples() {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(LOCKSTEP_SOURCE_DIR "/projects"))
-    if (std::filesystem::exists(entry.path() / "project.json")) files.push_back(entry.path() / "project.json");
+    if (std::filesystem::exists(entry.path() / "project.json"))
+      files.push_back(entry.path() / "project.json");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -123,10 +124,10 @@ TEST(Run, ADurationGivesOneRowForEachInterpolatorCycleThatBeginsWithinIt) {
     std::size_t rows;
     double last;
   };
-  for (const Case& c : {Case{"1ms", 1, "10ms", 10, 0.009}, Case{"1ms", 2, "10ms", 5, 0.008},
-                        Case{"1ms", 2, "9ms", 5, 0.008}, Case{"1ms", 2, "8ms", 4, 0.006},
-                        Case{"1ms", 4, "1us", 1, 0.0}, Case{"250us", 32, "1s", 125, 0.992},
-                        Case{"3ms", 3, "1s", 112, 0.999}}) {
+  for (const Case& c :
+       {Case{"1ms", 1, "10ms", 10, 0.009}, Case{"1ms", 2, "10ms", 5, 0.008}, Case{"1ms", 2, "9ms", 5, 0.008},
+        Case{"1ms", 2, "8ms", 4, 0.006}, Case{"1ms", 4, "1us", 1, 0.0}, Case{"250us", 32, "1s", 125, 0.992},
+        Case{"3ms", 3, "1s", 112, 0.999}}) {
     Json project = empty_project(c.servo_cycle, c.ratio);
     project["tags"] = {{"x", {{"type", "BOOL"}}}};
     const CsvTable table = simulate(project, c.duration, "x");
@@ -162,8 +163,9 @@ TEST(Run, TheTwoTraceFormatsHoldTheSameValues) {
   const Directory directory;
   const std::string knife = example("02_rotary_knife");
   for (const char* name : {"knife.csv", "knife.lcm"})
-    ASSERT_EQ(lockstep({"run", knife, "--simulate", "--duration", "3s", "--trace", directory.file(name)}).status,
-              0);
+    ASSERT_EQ(
+        lockstep({"run", knife, "--simulate", "--duration", "3s", "--trace", directory.file(name)}).status,
+        0);
   const CsvTable csv = read_csv(directory.file("knife.csv"));
   LcmTraceReader lcm(directory.file("knife.lcm"), "ROTARY_KNIFE");
   ASSERT_EQ(lcm.signals().size() + 1, csv.names.size());

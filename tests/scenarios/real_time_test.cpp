@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(Signals, EndedBySignal, testing::Values(SIGINT, SIGTERM
 TEST(RealTime, ADurationEndsItAndTheAxesAreBroughtToRestAfterIt) {
   const Directory directory;
   const std::string trace = directory.file("trace.csv");
-  const Ended ended = lockstep({"run", slow_to_brake(directory), "--duration", "500ms", "--trace", trace,
-                                "--signals", "A.Velocity"});
+  const Ended ended = lockstep(
+      {"run", slow_to_brake(directory), "--duration", "500ms", "--trace", trace, "--signals", "A.Velocity"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   const Ticks ticks = ticks_of(ended.err);
   EXPECT_GE(ticks.executed + ticks.missed, 1490) << "500 ms and a second of braking";

@@ -81,8 +81,7 @@ TEST(TimeAndOrder, ProgramsOfOnePriorityRunInTheOrderOfTheFile) {
   project["tags"]["order"] = tag("UDINT");
   for (int digit = 1; digit <= 3; ++digit) {
     const std::string name = "P" + std::to_string(digit);
-    const std::string expression =
-        digit == 1 ? std::string("1") : "order * 10 + " + std::to_string(digit);
+    const std::string expression = digit == 1 ? std::string("1") : "order * 10 + " + std::to_string(digit);
     project["programs"].push_back(
         program(name, "Main", {assignment("order", expression)}, {{"cycle", "1ms"}}));
   }
@@ -93,8 +92,7 @@ TEST(TimeAndOrder, ACycleIsMetOnItsMultiples) {
   Json project = empty_project();
   project["tags"] = {{"two", tag("UDINT")}, {"five", tag("UDINT")}, {"servo", tag("UDINT")}};
   project["programs"] = {
-      program("Two", "Cyclic", {assignment("two", "two + 1")},
-              {{"cycle", "2ms"}, {"priority", 5}}),
+      program("Two", "Cyclic", {assignment("two", "two + 1")}, {{"cycle", "2ms"}, {"priority", 5}}),
       program("Five", "Main", {assignment("five", "five + 1")}, {{"cycle", "5ms"}}),
       program("Servo", "MC_PreServo", {assignment("servo", "servo + 1")})};
   const CsvTable table = simulate(project, "1s", "two,five,servo");
@@ -110,11 +108,11 @@ TEST(TimeAndOrder, AnExpressionThatNamesALaterCallReadsItsLastValues) {
   Json project = empty_project();
   project["tags"] = {{"before", tag("INT")}, {"after", tag("INT")}, {"go", tag("BOOL")}};
   project["stimuli"] = {stimulus("3ms", "go", true)};
-  project["programs"] = {program("Main", "Main",
-                                 {assignment("before", "counter.CV"),
-                                  call("CTU", "counter", {{"CU", "go"}, {"PV", 5}}),
-                                  assignment("after", "counter.CV")},
-                                 {{"cycle", "1ms"}})};
+  project["programs"] = {
+      program("Main", "Main",
+              {assignment("before", "counter.CV"), call("CTU", "counter", {{"CU", "go"}, {"PV", 5}}),
+               assignment("after", "counter.CV")},
+              {{"cycle", "1ms"}})};
   const CsvTable table = simulate(project, "10ms", "before,after");
   EXPECT_EQ(table.first("after", 1.0), 3u);
   EXPECT_EQ(table.first("before", 1.0), 4u);
@@ -181,14 +179,14 @@ TEST(TimeAndOrder, ALeadingAndItsFollowersMoveInTheSameTickInWhateverOrderTheySt
   Json calls = Json::array();
   for (const char* name : {"First", "Middle", "Last"})
     calls.push_back(call("MC_Power", std::string("power_") + name, {{"Axis", name}, {"Enable", true}}));
-  calls.push_back(call("MC_GearIn", "gear_m",
-                       {{"Master", "First"}, {"Slave", "Middle"}, {"Execute", "power_Middle.Status"},
-                        {"RatioNumerator", 3}}));
-  calls.push_back(call("MC_GearIn", "gear_l",
-                       {{"Master", "Middle"}, {"Slave", "Last"}, {"Execute", "power_Last.Status"},
-                        {"RatioNumerator", -7}}));
-  calls.push_back(call("MC_MoveVelocity", "run",
-                       {{"Axis", "First"}, {"Execute", "gear_m.InGear AND gear_l.InGear"}}));
+  calls.push_back(call(
+      "MC_GearIn", "gear_m",
+      {{"Master", "First"}, {"Slave", "Middle"}, {"Execute", "power_Middle.Status"}, {"RatioNumerator", 3}}));
+  calls.push_back(call(
+      "MC_GearIn", "gear_l",
+      {{"Master", "Middle"}, {"Slave", "Last"}, {"Execute", "power_Last.Status"}, {"RatioNumerator", -7}}));
+  calls.push_back(
+      call("MC_MoveVelocity", "run", {{"Axis", "First"}, {"Execute", "gear_m.InGear AND gear_l.InGear"}}));
   project["programs"] = {program("Main", "Main", calls, {{"cycle", "1ms"}})};
   const CsvTable table = simulate(project, "1s", "First.Position,Middle.Position,Last.Position");
   ASSERT_GT(table["First.Position"].back(), 10.0);
