@@ -4,9 +4,14 @@
 #include "fb/counters.hpp"
 #include "fb/edge.hpp"
 #include "fb/gear_in.hpp"
+#include "fb/gear_in_velocity.hpp"
+#include "fb/gear_out.hpp"
 #include "fb/home.hpp"
 #include "fb/jog.hpp"
+#include "fb/leading_value.hpp"
 #include "fb/move.hpp"
+#include "fb/offset.hpp"
+#include "fb/phasing.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
 #include "fb/timers.hpp"
@@ -28,6 +33,14 @@ constexpr BlockType kTypes[] = {
     block_type<MC_Stop>(),
     block_type<MC_GearIn>(),
     block_type<MC_GearInPos>(),
+    block_type<MC_GearInVelocity>(),
+    block_type<MC_PhasingRelative>(),
+    block_type<MC_PhasingAbsolute>(),
+    block_type<MC_OffsetRelative>(),
+    block_type<MC_OffsetAbsolute>(),
+    block_type<MC_SynchronizedMotionSimulation>(),
+    block_type<MC_GearOut>(),
+    block_type<MC_LeadingValueAdditive>(),
     block_type<R_TRIG>(),
     block_type<F_TRIG>(),
     block_type<SR>(),

@@ -1,5 +1,5 @@
 /// Edge detection.
-/// @source IEC 61131-3:2013, 6.6.3.5.2
+/// @source IEC 61131-3:2013, 6.6.3.5.3
 #pragma once
 
 #include "fb/block.hpp"
@@ -14,7 +14,7 @@ struct R_TRIG final : Block {
 
   static constexpr std::string_view kName = "R_TRIG";
   static constexpr std::string_view kText = "Detects the rising edge of a signal.";
-  static constexpr std::string_view kSource = "IEC 61131-3:2013, 6.6.3.5.2";
+  static constexpr std::string_view kSource = "IEC 61131-3:2013, 6.6.3.5.3";
   static constexpr auto kPins = pins(in<&R_TRIG::CLK>("CLK", Unit::kNone, kAny, "signal to watch"),
                                      out<&R_TRIG::Q>("Q", "the signal has risen since the last call"));
 
@@ -31,7 +31,7 @@ struct F_TRIG final : Block {
 
   static constexpr std::string_view kName = "F_TRIG";
   static constexpr std::string_view kText = "Detects the falling edge of a signal.";
-  static constexpr std::string_view kSource = "IEC 61131-3:2013, 6.6.3.5.2";
+  static constexpr std::string_view kSource = "IEC 61131-3:2013, 6.6.3.5.3";
   static constexpr auto kPins = pins(in<&F_TRIG::CLK>("CLK", Unit::kNone, kAny, "signal to watch"),
                                      out<&F_TRIG::Q>("Q", "the signal has fallen since the last call"));
 

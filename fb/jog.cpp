@@ -18,7 +18,8 @@ void MC_MoveJog::call(std::int64_t /*now*/) noexcept {
     } else if (job_.running()) {
       update(JogForward ? 1 : -1);
     } else if (released_) {
-      job_ = Job{.kind = JobKind::MC_MoveJog};
+      job_ = Job{};
+      job_.kind = JobKind::MC_MoveJog;
       update(JogForward ? 1 : -1);
       released_ = false;
       Axis->submit(job_);

@@ -29,7 +29,7 @@ std::string reason(std::string_view message) {
   std::string text;
   constexpr std::string_view kLastRead = "; last read: '";
   const auto last_read = message.find(kLastRead);
-  if (last_read == message.npos) return shown(message);
+  if (last_read == message.npos) return std::string(message);
   // What was read last may be very long; what is expected follows it.
   const std::string_view token = message.substr(last_read + kLastRead.size());
   const auto end = token.rfind('\'');

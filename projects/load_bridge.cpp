@@ -38,7 +38,20 @@ std::optional<std::uint32_t> first_of_address(std::string_view address) {
   return first;
 }
 
-/// What a map entry asks for, as far as it can be read.
+/// What a client may write to a variable: its range, which for an enumeration goes from its first to its last
+/// value.
+Range written_range(const Variable& variable) {
+  Range range = variable.range;
+  if (variable.choices.empty() || variable.type == Type::BOOL) return range;
+  const auto [least, most] =
+      std::minmax_element(variable.choices.begin(), variable.choices.end(),
+                          [](const Choice& a, const Choice& b) { return a.value < b.value; });
+  range.lowest = std::max(range.lowest, static_cast<double>(least->value));
+  range.highest = std::min(range.highest, static_cast<double>(most->value));
+  return range;
+}
+
+/// Reads the entries of the map, and tells at its place what the map says of them.
 class MapLoader {
  public:
   MapLoader(ModbusConfig& modbus, const Loading& loading)
@@ -110,7 +123,7 @@ void MapLoader::load_entry(const JsonValue& json) {
                     .type = read_type(fields["type"], *place),
                     .word_order = order.value_or(0) == 0 ? WordOrder::big : WordOrder::little};
   entry.writable = read_access(fields["access"], *place, entry.table);
-  if (place->variable != nullptr && place->signal.bit < 0) entry.range = place->variable->range;
+  if (place->variable != nullptr && place->signal.bit < 0) entry.range = written_range(*place->variable);
   if (problems_.count() != before) return;
   entries_.push_back(entry);
   types_.push_back(place->signal.value_type());

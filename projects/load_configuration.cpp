@@ -90,7 +90,7 @@ void ConfigurationLoader::load_variable(const JsonValue& json, const Variable& v
   const std::size_t offset = index == 0 ? 0 : (index - 1) * variable.stride;
   const Signal place = VariablePlace{&variable, variable.offset + offset, -1}.signal(axis_.data);
   if (variable.type == Type::TAG) return load_tag_reference(json, place);
-  const auto value = read_constant(json, variable.type, problems_);
+  const auto value = read_plain_constant(json, variable.type, problems_);
   if (!value) return;
   if (const std::string problem = range_problem(*value, variable.type, variable.range, variable.choices);
       !problem.empty())

@@ -9,7 +9,6 @@ namespace lockstep {
 namespace {
 
 constexpr std::int64_t kLongestCycle = 86'400'000'000'000;  // of a program: a day [ns]
-constexpr int kHighestPriority = 26;
 constexpr int kDefaultPriority = 8;
 
 /// What a call is, by the key that only it has.
@@ -34,22 +33,28 @@ const BlockType* read_block_type(const JsonValue* json, Problems& problems) {
   return nullptr;
 }
 
+/// Adds the instance of a call of a function block. It is there even if its name is not free, so that its
+/// pins are looked at.
+void declare_instance(const JsonValue& call, const Loading& loading) {
+  const BlockType* const type = read_block_type(call.find("fb"), loading.problems);
+  const JsonValue* const json = call.find("name");
+  const std::string name = json != nullptr && json->kind == JsonKind::string ? json->text : "";
+  const bool named = !name.empty() && loading.add_name(*json, name, {});
+  if (type == nullptr) return;
+  Instance& instance = loading.controller().add_instance(*type, name);
+  loading.instances.emplace(&call, &instance);
+  if (named) loading.names().define(name, &instance);
+}
+
 /// Adds the instances of some calls and of the branches among them.
 void declare_calls(const JsonValue* calls, const Loading& loading) {
   if (calls == nullptr || calls->kind != JsonKind::array) return;
   for (const JsonValue* const call : calls->elements) {
     if (call->kind != JsonKind::object) continue;
-    if (kind_of(*call) == CallKind::branch) {
-      declare_calls(call->find("then"), loading);
-      declare_calls(call->find("else"), loading);
-    }
-    if (kind_of(*call) != CallKind::block) continue;
-    const BlockType* const type = read_block_type(call->find("fb"), loading.problems);
-    const JsonValue* const name = call->find("name");
-    if (name == nullptr || name->kind != JsonKind::string || !loading.add_name(*name, name->text, {}))
-      continue;
-    if (type != nullptr)
-      loading.names().define(name->text, &loading.controller().add_instance(*type, name->text));
+    if (kind_of(*call) == CallKind::block) declare_instance(*call, loading);
+    if (kind_of(*call) != CallKind::branch) continue;
+    declare_calls(call->find("then"), loading);
+    declare_calls(call->find("else"), loading);
   }
 }
 
@@ -156,14 +161,12 @@ void ProgramLoader::load_set(const JsonValue& json) {
 
 void ProgramLoader::load_block(const JsonValue& json) {
   const Fields fields(json, keys::kCall, problems_);
-  const auto name = read_string(fields["name"], problems_);
-  if (!name) return;
-  const Names::Entity* const entity = loading_.names().find_entity(*name);
-  const auto* const found = entity == nullptr ? nullptr : std::get_if<const Instance*>(entity);
-  if (found == nullptr) return;  // could not be declared
-  auto& instance = const_cast<Instance&>(**found);
-  load_pins(fields["in"], json, instance);
-  program_.add_call(*instance.block);
+  if (const auto name = read_string(fields["name"], problems_); name && name->empty())
+    problems_.report(*fields["name"], identifier_problem(*name));
+  const auto instance = loading_.instances.find(&json);
+  if (instance == loading_.instances.end()) return;  // its type is unknown
+  load_pins(fields["in"], json, *instance->second);
+  program_.add_call(*instance->second->block);
 }
 
 void ProgramLoader::load_pins(const JsonValue* in, const JsonValue& call, Instance& instance) {
@@ -280,7 +283,7 @@ int read_priority(const Fields& fields, Ob ob, const Loading& loading) {
     return 0;
   }
   return static_cast<int>(
-      read_integer(json, 1, kHighestPriority, loading.problems).value_or(kDefaultPriority));
+      read_integer(json, kLowestPriority, kHighestPriority, loading.problems).value_or(kDefaultPriority));
 }
 
 class ProgramsLoader {

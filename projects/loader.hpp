@@ -12,6 +12,8 @@ namespace lockstep {
 struct Loading {
   Project& project;
   Problems& problems;
+  /// The instance of each call of a function block, as far as its type is known.
+  std::unordered_map<const JsonValue*, Instance*>& instances;
 
   Controller& controller() const { return *project.controller; }
   Names& names() const { return project.names; }

@@ -212,14 +212,18 @@ std::string Names::add(std::string_view name, Entity entity) {
   if (std::string problem = identifier_problem(name); !problem.empty()) return problem;
   const auto [place, added] = entries_.try_emplace(fold(name), Entry{std::string(name), entity});
   if (added) return "";
-  std::string same =
-      place->second.name == name ? "" : " (as '" + place->second.name + "', case does not count)";
+  Entry& first = place->second;
+  first.entity = {};
+  first.ambiguous = true;
+  first.used = true;
+  const std::string same = first.name == name ? "" : " (as '" + first.name + "', case does not count)";
   return "the name " + quote(name) + " is taken already" + same +
          "; each name is allowed once among tags, technology objects and instances";
 }
 
 void Names::define(std::string_view name, Entity entity) {
-  entries_.at(fold(name)).entity = entity;
+  Entry& added = entries_.at(fold(name));
+  if (!added.ambiguous) added.entity = entity;
 }
 
 const Names::Entry* Names::entry(std::string_view name) const {

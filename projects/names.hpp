@@ -47,9 +47,10 @@ class Names final : public Scope {
   /// What a name stands for; monostate: something whose declaration is faulty.
   using Entity = std::variant<std::monostate, const Tag*, const Instance*, Axis*>;
 
-  /// Adds a name. @return what is wrong with it: no identifier, or taken already; empty if nothing is.
+  /// Adds a name. A name that is added twice stands for something faulty from then on.
+  /// @return what is wrong with it: no identifier, or taken already; empty if nothing is.
   std::string add(std::string_view name, Entity entity);
-  /// Tells what a name stands for that was added as faulty.
+  /// Tells what a name stands for that was added as faulty, unless it was added twice.
   void define(std::string_view name, Entity entity);
 
   /// What a name stands for; nullptr: there is no such name. Counts as a use.
@@ -76,6 +77,7 @@ class Names final : public Scope {
   struct Entry {
     std::string name;
     Entity entity;
+    bool ambiguous = false;
     mutable bool used = false;
   };
 

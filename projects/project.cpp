@@ -89,7 +89,8 @@ LoadedProject load_project(std::string_view text) {
   Project project;
   project.controller = std::make_unique<Controller>();
   Problems problems;
-  load_root(document.root(), {project, problems});
+  std::unordered_map<const JsonValue*, Instance*> instances;
+  load_root(document.root(), {project, problems, instances});
   const std::vector<Problem> found = problems.take_errors();
   result.problems.insert(result.problems.end(), found.begin(), found.end());
   result.warnings = problems.take_warnings();

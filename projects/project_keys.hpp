@@ -51,6 +51,10 @@ inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}};
 
 }  // namespace keys
 
+/// Priorities of a Cyclic program.
+inline constexpr int kLowestPriority = 1;
+inline constexpr int kHighestPriority = 26;
+
 namespace words {
 
 inline constexpr std::string_view kOverrun[] = {"report", "stop"};

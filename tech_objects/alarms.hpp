@@ -39,9 +39,22 @@ enum class ErrorId : std::uint16_t {
   slave_sync_position = 0x8035,
   sync_profile_reference = 0x8036,
   sensor = 0x8050,
+  slave_position = 0x8037,
+  phase_shift = 0x8070,
   not_position_controlled = 0x8071,
+  no_synchronous_operation = 0x8075,
+  simulated = 0x8076,
+  no_gear = 0x8077,
   velocity_gear_active = 0x8079,
+  offset = 0x8080,
+  offset_distance = 0x8081,
+  phasing_distance = 0x8082,
+  profile_reference = 0x8083,
+  start_position = 0x8084,
+  shifts_exclude = 0x808A,
+  leading_value_reversed = 0x808C,
   homing_while_coupled = 0x80A1,
+  not_synchronous = 0x80A9,
   unspecified = 0x8FFF
 };
 

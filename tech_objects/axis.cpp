@@ -9,10 +9,6 @@ namespace {
 /// Value of StatusSensor.State: the actual value is valid.
 constexpr DINT kSensorValid = 2;
 
-/// Largest magnitude of a position [u]; beyond it a setpoint is not followed.
-/// @source S7-1500T synchronous operation V7, 13.1 (ranges); alarm 308
-constexpr double kPositionRange = 1e12;
-
 }  // namespace
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
@@ -42,8 +38,9 @@ void Axis::configure(double servo_period, int ratio) {
 void Axis::take_start_values() noexcept {
   modulo_ = {data.Modulo.Enable, data.Modulo.Length, data.Modulo.StartValue};
   single_.configure(modulo_, period_);
-  synchronous_.configure(modulo_, period_, data.Synchronization.MasterReversionTolerance);
-  awaited_.configure(modulo_, period_, data.Synchronization.MasterReversionTolerance);
+  const double tolerance = data.Synchronization.MasterReversionTolerance;
+  synchronous_.configure(modulo_, period_, tolerance, additive_);
+  awaited_.configure(modulo_, period_, tolerance, additive_);
   standstill_dwell_ = ticks_of(data.StandstillSignal.MinDwellTime);
 }
 
@@ -126,6 +123,16 @@ void Axis::follow_actual() noexcept {
   setpoint_ = {actual_, moving(actual_velocity_) ? actual_velocity_ : 0.0, 0.0};
 }
 
+/// Taken up anew, position control begins where the axis is.
+void Axis::set_position_control(bool on) noexcept {
+  if (on && !position_controlled_ && has_drive_) {
+    setpoint_.position = actual_;
+    last_setpoint_.position = actual_;
+    controller_.reset(actual_);
+  }
+  position_controlled_ = on;
+}
+
 bool Axis::moving(double velocity) const noexcept {
   return std::abs(velocity) > data.StandstillSignal.VelocityThreshold;
 }
@@ -152,6 +159,7 @@ void Axis::react(AlarmReaction reaction) noexcept {
   if (reaction == AlarmReaction::stop_current) dynamics = single_.dynamics();
   if (reaction == AlarmReaction::stop_emergency) dynamics = emergency_dynamics();
   end_all_jobs(JobPhase::failed, ErrorId::technology_alarm);
+  end_simulated_gear(JobPhase::failed, ErrorId::technology_alarm);
   if (reaction == AlarmReaction::remove_enable || reaction == AlarmReaction::track_setpoints) {
     enable_removed_ = true;
     if (power_state_ == PowerState::off) return;
@@ -170,6 +178,7 @@ ErrorId Axis::reset(bool restart) noexcept {
   enable_removed_ = false;
   if (restart) {
     end_all_jobs(JobPhase::aborted, ErrorId::none);
+    end_simulated_gear(JobPhase::aborted, ErrorId::none);
     data = start_values_;
     homed_ = false;
     take_start_values();
@@ -189,6 +198,8 @@ void Axis::step() noexcept {
   last_actual_ = shown_actual_;
   servo_tick_ = 0;
   if (power_state_ != PowerState::on || !power.enable) step_power();
+  if (additive_request.owner != nullptr || additive_.in_use) take_additive();
+  if (simulation_request.owner != nullptr) watch_simulation();
   if (running_[kWaiting] != nullptr) watch_waiting();
   switch (motion_) {
     case Motion::none:
@@ -199,6 +210,7 @@ void Axis::step() noexcept {
       break;
     case Motion::synchronizing:
     case Motion::synchronous:
+    case Motion::desynchronizing:
       step_synchronous();
       break;
   }
@@ -239,8 +251,7 @@ Setpoint Axis::extrapolated(const AxisPosition& position) const noexcept {
 }
 
 Axis* Axis::coupled_leading_axis() const noexcept {
-  const bool coupled = motion_ == Motion::synchronizing || motion_ == Motion::synchronous;
-  return coupled ? synchronous_.leading_axis() : nullptr;
+  return led() || simulating() ? synchronous_.leading_axis() : nullptr;
 }
 
 Axis* Axis::awaited_leading_axis() const noexcept {

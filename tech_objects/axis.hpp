@@ -45,6 +45,18 @@ struct PowerRequest {
   INT stop_mode{};      ///< 0 emergency ramp, 1 quick stop, 2 maximum dynamics, 3 coast down
 };
 
+/// What MC_LeadingValueAdditive and MC_SynchronizedMotionSimulation want; written by the instance that was
+/// enabled last.
+struct AdditiveRequest {
+  const void* owner = nullptr;  ///< nullptr: none is enabled
+  AdditiveLeadingValue value;
+};
+struct SimulationRequest {
+  const void* owner = nullptr;  ///< nullptr: no instance has asked yet
+  BOOL enable{};
+  ErrorId error = ErrorId::none;  ///< written by the axis: why it has not begun, or cannot end
+};
+
 class Axis : public TechnologyObject {
  public:
   Axis(ObjectKind kind, std::string name, DB_ANY number);
@@ -79,6 +91,10 @@ class Axis : public TechnologyObject {
   PowerRequest power;
   /// Whether switching off (or on) is still under way, for MC_Power.Busy.
   bool power_busy() const noexcept;
+
+  AdditiveRequest additive_request;
+  SimulationRequest simulation_request;
+  bool simulating() const noexcept { return simulated_ != nullptr; }
 
   /// Number of the alarm with a reaction that is pending; 0: none.
   int pending_alarm() const noexcept { return static_cast<int>(data.ErrorDetail.Number); }
@@ -132,9 +148,9 @@ class Axis : public TechnologyObject {
  private:
   enum class PowerState : std::uint8_t { off, switching_on, on, braking };
   /// What generates the setpoint.
-  enum class Motion : std::uint8_t { none, single_axis, synchronizing, synchronous };
-  /// Places of running jobs: the base motion, and a synchronous job that waits.
-  enum Slot : std::uint8_t { kBase, kWaiting, kSlots };
+  enum class Motion : std::uint8_t { none, single_axis, synchronizing, synchronous, desynchronizing };
+  /// Places of running jobs: the base motion, synchronous and desynchronizing jobs that wait, shifts.
+  enum Slot : std::uint8_t { kBase, kWaiting, kWaitingOut, kPhasing, kOffset, kSlots };
 
   // axis.cpp: power, alarms, the cycle
   void take_start_values() noexcept;
@@ -146,6 +162,7 @@ class Axis : public TechnologyObject {
   void switch_off() noexcept;
   void follow_actual() noexcept;
   bool moving(double velocity) const noexcept;
+  void set_position_control(bool on) noexcept;
   void react(AlarmReaction reaction) noexcept;
   ErrorId reset(bool restart) noexcept;
   void guard() noexcept;
@@ -154,9 +171,12 @@ class Axis : public TechnologyObject {
   // axis_jobs.cpp: taking jobs over, override rules, ends
   void start(Job& job) noexcept;
   ErrorId check(const Job& job) const noexcept;
+  ErrorId check_synchronous(const Job& job) const noexcept;
   int missing_precondition(const Job& job) const noexcept;
   const LeadingValue* find_leading_value(const Axis* master) const noexcept;
   bool override_running(JobClass new_job, Job& job) noexcept;
+  void cancel_waiting_shift(Job& job) noexcept;
+  bool gear_runs_or_waits() const noexcept;
   void install(Job& job) noexcept;
   void end_job(Slot slot, JobPhase phase, ErrorId error) noexcept;
   void end_all_jobs(JobPhase phase, ErrorId error) noexcept;
@@ -169,6 +189,7 @@ class Axis : public TechnologyObject {
   double velocity_limit() const noexcept;
   double wanted_velocity(const Job& job) const noexcept;
   Dynamics effective_dynamics(const Job& job) noexcept;
+  double least_jerk() const noexcept;
   Dynamics maximum_dynamics() const noexcept;
   Dynamics emergency_dynamics() const noexcept;
   Dynamics maximum_for_current(Dynamics dynamics) const noexcept;
@@ -193,6 +214,20 @@ class Axis : public TechnologyObject {
   void step_synchronous() noexcept;
   void leave_synchronous() noexcept;
   void show_coupling(const Job& job, Motion motion) noexcept;
+  void take_additive() noexcept;
+  void begin_shift(Job& job) noexcept;
+  void advance_shift(Slot slot) noexcept;
+  bool led() const noexcept { return motion_ >= Motion::synchronizing; }
+
+  // axis_desynchronizing.cpp: out of a synchronous motion, and its simulation
+  void begin_sync_out(Job& job) noexcept;
+  bool watch_sync_out(const Setpoint& candidate) noexcept;
+  void activate_sync_out(Job& job, const Dynamics& dynamics) noexcept;
+  void end_desynchronizing() noexcept;
+  void watch_simulation() noexcept;
+  void begin_simulation() noexcept;
+  void end_simulation() noexcept;
+  void end_simulated_gear(JobPhase phase, ErrorId error) noexcept;
 
   // axis_servo.cpp: drive and position control
   void configure_servo();
@@ -243,6 +278,9 @@ class Axis : public TechnologyObject {
   std::size_t new_count_ = 0;
   Job* stop_ = nullptr;        // the MC_Stop that may lock the axis
   SynchronousMotion awaited_;  // what the waiting job prepares
+  AdditiveLeadingValues additive_;
+  Job* simulated_ = nullptr;  // the gear that is simulated
+  Setpoint ghost_;            // where it would have the axis
   AxisData start_values_;
 
   // Servo.

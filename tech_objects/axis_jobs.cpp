@@ -14,8 +14,27 @@ int stop_rank(DINT mode) noexcept {
   return mode == 0 ? 3 : mode == 2 ? 2 : 1;
 }
 
-bool is_synchronous(JobKind kind) noexcept {
-  return kind == JobKind::MC_GearIn || kind == JobKind::MC_GearInPos;
+bool couples(JobKind kind) noexcept {
+  return kind == JobKind::MC_GearIn || kind == JobKind::MC_GearInPos || kind == JobKind::MC_GearInVelocity;
+}
+
+bool is_phasing(JobKind kind) noexcept {
+  return kind == JobKind::MC_PhasingAbsolute || kind == JobKind::MC_PhasingRelative;
+}
+
+bool is_shift(JobKind kind) noexcept {
+  return is_phasing(kind) || kind == JobKind::MC_OffsetAbsolute || kind == JobKind::MC_OffsetRelative;
+}
+
+/// Profile 5 of shifts and of MC_GearOut: only cancels what waits.
+constexpr DINT kCancelWaiting = 5;
+
+/// What a job shows that another one forbids.
+ErrorId rejection(JobClass new_job, JobClass running) noexcept {
+  if (running == JobClass::gear_in_velocity) return ErrorId::velocity_gear_active;
+  const bool shifts = (new_job == JobClass::phasing && running == JobClass::offset) ||
+                      (new_job == JobClass::offset && running == JobClass::phasing);
+  return shifts ? ErrorId::shifts_exclude : ErrorId::locked;
 }
 
 }  // namespace
@@ -46,6 +65,7 @@ void Axis::start(Job& job) noexcept {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
   }
+  if (is_shift(job.kind) && job.mode == kCancelWaiting) return cancel_waiting_shift(job);
   if (!override_running(class_of(job, false), job)) return;
   install(job);
 }
@@ -61,20 +81,50 @@ ErrorId Axis::check(const Job& job) const noexcept {
   if (pending_alarm() != 0) return ErrorId::technology_alarm;
   if (!enabled()) return ErrorId::locked;
   if (locked_by_stop() && job.kind != JobKind::MC_Stop) return ErrorId::locked;
-  if (!is_synchronous(job.kind)) return ErrorId::none;
-  if (job.master == this) return ErrorId::recursive_coupling;
-  // A waiting job couples nothing yet; it is looked at again when it would become active.
-  const bool recursive = job.kind == JobKind::MC_GearIn && led_by_this(job.master);
-  return recursive ? ErrorId::recursive_coupling : ErrorId::none;
+  return check_synchronous(job);
+}
+
+/// Conditions of synchronous jobs.
+ErrorId Axis::check_synchronous(const Job& job) const noexcept {
+  const bool gear_out = job.kind == JobKind::MC_GearOut;
+  if (!couples(job.kind) && !is_shift(job.kind) && !gear_out) return ErrorId::none;
+  if (simulating()) return ErrorId::simulated;
+  if (couples(job.kind)) {
+    if (job.master == this) return ErrorId::recursive_coupling;
+    // A waiting job couples nothing yet; it is looked at again when it would become active.
+    const bool recursive = job.kind != JobKind::MC_GearInPos && led_by_this(job.master);
+    return recursive ? ErrorId::recursive_coupling : ErrorId::none;
+  }
+  const Job* base = running_[kBase];
+  if (base != nullptr && base->kind == JobKind::MC_GearInVelocity) return ErrorId::velocity_gear_active;
+  if (gear_out) return gear_runs_or_waits() ? ErrorId::none : ErrorId::no_gear;
+  if (job.mode == kCancelWaiting) return ErrorId::none;
+  return motion_ == Motion::synchronous ? ErrorId::none : ErrorId::not_synchronous;
+}
+
+bool Axis::gear_runs_or_waits() const noexcept {
+  const Job* base = running_[kBase];
+  const bool runs =
+      base != nullptr && (base->kind == JobKind::MC_GearIn || base->kind == JobKind::MC_GearInPos);
+  return runs || running_[kWaiting] != nullptr || running_[kWaitingOut] != nullptr;
+}
+
+/// Profile 5: ends a shift that waits; one that runs and the shift in effect stay.
+void Axis::cancel_waiting_shift(Job& job) noexcept {
+  const Slot slot = is_phasing(job.kind) ? kPhasing : kOffset;
+  if (running_[slot] != nullptr && running_[slot]->phase == JobPhase::waiting)
+    end_job(slot, JobPhase::aborted, ErrorId::none);
+  job.phase = JobPhase::done;
 }
 
 /// Preconditions whose absence is a technology alarm; 0: none is missing.
 int Axis::missing_precondition(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_MoveAbsolute && !homed_) return alarm::kNotHomed;
-  if (!is_synchronous(job.kind)) return 0;
+  if (!couples(job.kind)) return 0;
   const LeadingValue* leading = find_leading_value(job.master);
   if (leading == nullptr) return alarm::kLeadingAxis;
-  const bool controlled = job.master->position_controlled() || leading->coupling == Coupling::actual;
+  const bool controlled = job.kind == JobKind::MC_GearInVelocity || job.master->position_controlled() ||
+                          leading->coupling == Coupling::actual;
   return controlled ? 0 : alarm::kLeadingAxisNotPositionControlled;
 }
 
@@ -102,7 +152,7 @@ bool Axis::override_running(JobClass new_job, Job& job) noexcept {
     const bool weaker =
         effects[slot] == OverrideEffect::abort_by_rank && stop_rank(job.mode) < stop_rank(running->mode);
     if (effects[slot] == OverrideEffect::reject || weaker) {
-      job.fail(ErrorId::locked);
+      job.fail(rejection(new_job, class_of(*running, slot == kBase)));
       return false;
     }
   }
@@ -121,7 +171,17 @@ void Axis::install(Job& job) noexcept {
       begin_waiting(job);
       break;
     case JobKind::MC_GearIn:
+    case JobKind::MC_GearInVelocity:
       begin_gear_in(job);
+      break;
+    case JobKind::MC_GearOut:
+      begin_sync_out(job);
+      break;
+    case JobKind::MC_PhasingAbsolute:
+    case JobKind::MC_PhasingRelative:
+    case JobKind::MC_OffsetAbsolute:
+    case JobKind::MC_OffsetRelative:
+      begin_shift(job);
       break;
     default:
       begin_base_motion(job);
@@ -136,7 +196,8 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   const bool stopping = job->kind == JobKind::MC_Stop && phase == JobPhase::failed;
   job->phase = stopping ? JobPhase::aborted : phase;  // an alarm shows at MC_Stop as CommandAborted
   job->error = stopping ? ErrorId::none : error;
-  if (slot == kWaiting) {
+  if (slot == kBase && job->kind == JobKind::MC_GearOut) data.StatusSynchronizedMotion.FunctionState = 0;
+  if (slot == kWaiting || slot == kWaitingOut) {
     data.StatusSynchronizedMotion.WaitingFunctionState = 0;
     coupling_changed = true;
   }
@@ -159,7 +220,10 @@ bool Axis::locked_by_stop() const noexcept {
 /// Direct homing: setpoint and actual position are shifted together; nothing moves.
 void Axis::home(Job& job) noexcept {
   const double by = job.mode == 0 ? position_shift(job.position) : job.position;
-  if (!std::isfinite(by)) return job.fail(ErrorId::position);
+  // Outside the numeric range, or not representable on its ring, the axis could not be used again.
+  const double homed_at = advanced(setpoint_.position, by, modulo_).value;
+  if (!std::isfinite(by) || !(std::abs(homed_at) <= kPositionRange) || !modulo_.contains(homed_at))
+    return job.fail(ErrorId::position);
   shift_positions(by);
   if (job.mode == 0 && !has_drive_) {
     // A virtual axis has no following error: the position is the given one to the last bit.

@@ -30,8 +30,12 @@ double Axis::wanted_velocity(const Job& job) const noexcept {
   const double own = data.Override.Velocity / 100.0;
   switch (job.kind) {
     case JobKind::MC_GearIn:
+    case JobKind::MC_GearInVelocity:
+    case JobKind::MC_GearOut:
       return velocity_limit();
     case JobKind::MC_GearInPos:
+    case JobKind::MC_PhasingAbsolute:
+    case JobKind::MC_PhasingRelative:
       return job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity;
     case JobKind::MC_MoveVelocity:
     case JobKind::MC_MoveJog:
@@ -56,7 +60,16 @@ Dynamics Axis::effective_dynamics(const Job& job) noexcept {
   return {.velocity = std::min(velocity, velocity_limit()),
           .acceleration = std::min(acceleration, limits.MaxAcceleration),
           .deceleration = std::min(deceleration, limits.MaxDeceleration),
-          .jerk = std::min(jerk, limits.MaxJerk)};
+          .jerk = std::min(jerk == 0.0 ? 0.0 : std::max(jerk, least_jerk()), limits.MaxJerk)};
+}
+
+/// Least jerk with which a present acceleration is run down before the velocity limit is passed [u/s³]: the
+/// limit counts more than the jerk that a job asks for.
+double Axis::least_jerk() const noexcept {
+  if (setpoint_.velocity * setpoint_.acceleration <= 0.0) return 0.0;
+  const double room = velocity_limit() - std::abs(setpoint_.velocity);
+  if (room <= 0.0) return data.DynamicLimits.MaxJerk;
+  return setpoint_.acceleration * setpoint_.acceleration / (2.0 * room);
 }
 
 Dynamics Axis::maximum_dynamics() const noexcept {
@@ -192,7 +205,7 @@ void Axis::follow_changes(Job& job) noexcept {
   const bool limits_changed =
       data.Override.Velocity != planned_override_ || velocity_limit() != planned_velocity_limit_;
   if (!inputs_changed && !limits_changed) return;
-  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt) return;
+  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || job.kind == JobKind::MC_GearOut) return;
   remember_limits();
   const Dynamics dynamics = effective_dynamics(job);
   PlanResult result = PlanResult::ok;
@@ -227,6 +240,7 @@ void Axis::watch_base_job(Job& job) noexcept {
       break;
     case JobKind::MC_MoveAbsolute:
     case JobKind::MC_MoveRelative:
+    case JobKind::MC_GearOut:
       watch_positioning();
       break;
     default:

@@ -21,6 +21,10 @@ struct Modulo {
   }
 };
 
+/// Largest magnitude of a position [u]; beyond it a setpoint is not followed.
+/// @source S7-1500T synchronous operation V7, 13.1 (ranges); alarm 308
+inline constexpr double kPositionRange = 1e12;
+
 /// Position of an axis. Modulo axis: `value` in [start, start + length), position on the line is
 /// turns · length + value. Linear axis: `turns` is 0. Turns wrap around at 64 bits without a step.
 struct AxisPosition {

@@ -8,7 +8,7 @@ namespace lockstep {
 void Axis::publish() noexcept {
   shown_actual_ = actual_;
   publish_motion();
-  if (motion_ == Motion::synchronizing || motion_ == Motion::synchronous) publish_synchronous();
+  if (led() || simulating()) publish_synchronous();
   publish_status();
 }
 
@@ -36,7 +36,9 @@ void Axis::publish_synchronous() noexcept {
   status.EffectiveLeadingValue.Position = effective.position.value;
   status.EffectiveLeadingValue.Velocity = effective.velocity;
   status.EffectiveLeadingValue.Acceleration = effective.acceleration;
-  status.FunctionLeadingValue.Position = effective.position.value;
+  status.FunctionLeadingValue.Position = synchronous_.function_leading_position();
+  status.PhaseShift = synchronous_.phase_shift().value().rounded();
+  status.Offset = synchronous_.following_offset().value().rounded();
   status.FunctionFollowingValue.Position = function.position.value;
   status.FunctionFollowingValue.Velocity = function.velocity;
   status.FunctionFollowingValue.Acceleration = function.acceleration;
@@ -47,13 +49,16 @@ void Axis::publish_synchronous() noexcept {
   set_bit(word, SynchronizedMotionBit::MaxVelocityExceeded, speed > data.DynamicLimits.MaxVelocity);
   set_bit(word, SynchronizedMotionBit::MaxAccelerationExceeded, push > data.DynamicLimits.MaxAcceleration);
   set_bit(word, SynchronizedMotionBit::MaxDecelerationExceeded, -push > data.DynamicLimits.MaxDeceleration);
+  set_bit(word, SynchronizedMotionBit::InSimulation, simulating());
+  set_bit(word, SynchronizedMotionBit::LeadingValueAdditiveCommand, additive_request.owner != nullptr);
   status.StatusWord = word;
 
   if (motion_ != Motion::synchronous) return;
   was_synchronous_ = true;
   // A drive follows later; there the balanced difference tells how far the axis is from where it should be.
-  const double deviation = has_drive_ ? std::abs(data.StatusPositioning.FollowingError)
-                                      : std::abs(difference(actual_, function.position, modulo_).rounded());
+  const double deviation =
+      has_drive_ ? std::abs(data.StatusPositioning.FollowingError)
+                 : std::abs(difference(actual_, synchronous_.following_position(), modulo_).rounded());
   if (deviation > largest_deviation_) largest_deviation_ = deviation;
 }
 
@@ -80,9 +85,19 @@ void Axis::publish_status() noexcept {
   set_bit(word, StatusBit::Decelerating, push < 0.0);
   set_bit(word, StatusBit::Synchronizing, motion_ == Motion::synchronizing);
   set_bit(word, StatusBit::Synchronous, motion_ == Motion::synchronous);
+  set_bit(word, StatusBit::PhasingCommand,
+          running_[kPhasing] != nullptr && running_[kPhasing]->phase == JobPhase::active);
   set_bit(word, StatusBit::NonPositionControlled, on && !position_controlled_);
   data.StatusWord = word;
-  set_bit(data.StatusWord2, Status2Bit::StopCommand, locked_by_stop());
+
+  const auto in_phase = [](const Job* job, JobPhase phase) { return job != nullptr && job->phase == phase; };
+  DWORD word2 = data.StatusWord2;
+  set_bit(word2, Status2Bit::StopCommand, locked_by_stop());
+  set_bit(word2, Status2Bit::DesynchronizingCommand, runs(JobKind::MC_GearOut));
+  set_bit(word2, Status2Bit::PhasingCommandWaiting, in_phase(running_[kPhasing], JobPhase::waiting));
+  set_bit(word2, Status2Bit::OffsetCommand, in_phase(running_[kOffset], JobPhase::active));
+  set_bit(word2, Status2Bit::OffsetCommandWaiting, in_phase(running_[kOffset], JobPhase::waiting));
+  data.StatusWord2 = word2;
   data.StatusDrive.InOperation = has_drive_ ? drive_running_ : on;
   data.StatusDrive.Disabled = power_state_ == PowerState::off;
 }

@@ -8,7 +8,14 @@ namespace {
 
 /// Value of StatusSynchronizedMotion.FunctionState and WaitingFunctionState for a job.
 DINT function_state(JobKind kind) noexcept {
-  return kind == JobKind::MC_GearIn ? 1 : 2;
+  switch (kind) {
+    case JobKind::MC_GearIn:
+      return 1;
+    case JobKind::MC_GearInVelocity:
+      return 6;
+    default:
+      return 2;  // MC_GearInPos
+  }
 }
 
 }  // namespace
@@ -21,7 +28,7 @@ void Axis::begin_gear_in(Job& job) noexcept {
   }
   running_[kBase] = &job;
   job.phase = JobPhase::active;
-  position_controlled_ = true;
+  set_position_control(job.position_controlled);
   synchronous_.begin_gear_in(*find_leading_value(job.master), job, dynamics);
   show_coupling(job, Motion::synchronizing);
 }
@@ -67,7 +74,7 @@ void Axis::activate_waiting(Motion motion) noexcept {
   }
   running_[kBase] = &job;
   job.phase = motion == Motion::synchronous ? JobPhase::reached : JobPhase::active;
-  position_controlled_ = true;
+  set_position_control(true);
   synchronous_ = awaited_;
   show_coupling(job, motion);
 }
@@ -83,21 +90,91 @@ void Axis::show_coupling(const Job& job, Motion motion) noexcept {
 }
 
 void Axis::step_synchronous() noexcept {
-  synchronous_.advance(setpoint_);
-  if (motion_ == Motion::synchronous) return;
   Job* job = running_[kBase];
+  if (job->update) synchronous_.change_ratio(job->numerator, job->denominator);
+  if (running_[kPhasing] != nullptr) advance_shift(kPhasing);
+  if (running_[kOffset] != nullptr) advance_shift(kOffset);
+  Setpoint next = setpoint_;
+  synchronous_.advance(next);
+  if (motion_ == Motion::synchronous) {
+    if (running_[kWaitingOut] != nullptr && watch_sync_out(next)) return;
+    setpoint_ = next;
+    return;
+  }
   if (synchronous_.reversed()) {
-    setpoint_ = last_setpoint_;  // the stop begins at the last setpoint that followed
-    raise(alarm::kSynchronizing);
+    raise(alarm::kSynchronizing);  // the stop begins at the last setpoint that followed
     return step_single_axis();
+  }
+  setpoint_ = next;
+  if (motion_ == Motion::desynchronizing) {
+    if (synchronous_.desynchronized()) end_desynchronizing();
+    return;
   }
   if (!synchronous_.synchronous()) return;
   motion_ = Motion::synchronous;
   job->phase = JobPhase::reached;
 }
 
+// ---- Shifts
+// -----------------------------------------------------------------------------------------------------
+
+/// MC_LeadingValueAdditive: what counts from this tick on.
+void Axis::take_additive() noexcept {
+  additive_.last = additive_.now;
+  additive_.now = additive_request.owner != nullptr ? additive_request.value : AdditiveLeadingValue{};
+  const auto zero = [](const AdditiveLeadingValue& value) {
+    return value.position == 0.0 && value.velocity == 0.0 && value.acceleration == 0.0;
+  };
+  additive_.in_use = !zero(additive_.now) || !zero(additive_.last);
+}
+
+/// MC_Phasing… and MC_Offset…
+void Axis::begin_shift(Job& job) noexcept {
+  const bool phasing = job.kind == JobKind::MC_PhasingAbsolute || job.kind == JobKind::MC_PhasingRelative;
+  const bool relative = job.kind == JobKind::MC_PhasingRelative || job.kind == JobKind::MC_OffsetRelative;
+  Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
+  Dynamics dynamics = phasing && job.mode == 0 ? effective_dynamics(job) : maximum_dynamics();
+  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
+    raise(alarm_number);
+    return job.fail(ErrorId::technology_alarm);
+  }
+  // The dynamics are those of the following axis; a phase shift moves it by the ratio.
+  const double ratio =
+      phasing ? std::abs(static_cast<double>(running_[kBase]->numerator) / running_[kBase]->denominator)
+              : 1.0;
+  const ShiftRequest request{
+      .target = relative ? shift.value() + job.position : DoubleDouble{job.position, 0.0},
+      .profile = job.mode,
+      .distance = job.master_start_distance,
+      .start_position = job.start_position,
+      .direction = job.direction,
+      .limits = {.velocity_max = dynamics.velocity / ratio,
+                 .velocity_min = -dynamics.velocity / ratio,
+                 .acceleration = dynamics.acceleration / ratio,
+                 .deceleration = dynamics.deceleration / ratio,
+                 .jerk = dynamics.jerk / ratio}};
+  job.shift_base = relative ? shift.value() : DoubleDouble{};
+  if (const ErrorId error = shift.begin(request, period_); error != ErrorId::none) {
+    shift.halt();
+    return job.fail(error);
+  }
+  running_[phasing ? kPhasing : kOffset] = &job;
+  job.phase = shift.phase() == Shift::Phase::running ? JobPhase::active : JobPhase::waiting;
+}
+
+void Axis::advance_shift(Slot slot) noexcept {
+  Job& job = *running_[slot];
+  const Shift& shift = slot == kPhasing ? synchronous_.phase_shift() : synchronous_.following_offset();
+  const Shift::Event event =
+      slot == kPhasing ? synchronous_.advance_phase_shift() : synchronous_.advance_following_offset();
+  job.phase = shift.phase() == Shift::Phase::waiting ? JobPhase::waiting : JobPhase::active;
+  job.covered = (shift.value() - job.shift_base).rounded();
+  if (event == Shift::Event::done) end_job(slot, JobPhase::done, ErrorId::none);
+  if (event == Shift::Event::reversed) end_job(slot, JobPhase::failed, ErrorId::leading_value_reversed);
+}
+
 void Axis::leave_synchronous() noexcept {
-  if (motion_ != Motion::synchronizing && motion_ != Motion::synchronous) return;
+  if (!led()) return;
   synchronous_.end();
   motion_ = Motion::single_axis;
   coupling_changed = true;

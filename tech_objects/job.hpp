@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "tech_objects/alarms.hpp"
+#include "tech_objects/double_double.hpp"
 #include "tech_objects/types.hpp"
 
 namespace lockstep {
@@ -75,7 +76,13 @@ struct Job {
   DINT denominator = 1;
   LREAL master_sync_position{};   ///< [u] of the leading axis
   LREAL slave_sync_position{};    ///< [u]
-  LREAL master_start_distance{};  ///< [u] of the leading axis
+  LREAL master_start_distance{};  ///< MasterStartDistance, PhasingDistance, … [u] of the leading axis
+  LREAL start_position{};         ///< StartPosition of the leading value [u]
+  BOOL update{};                  ///< MC_GearInVelocity: the ratio counts in every cycle
+
+  // Written by the axis.
+  LREAL covered{};          ///< share of a shift made so far [u]
+  DoubleDouble shift_base;  ///< from which that share counts [u]
 
   bool ended() const noexcept { return phase >= JobPhase::done; }
   bool running() const noexcept { return phase >= JobPhase::handed_over && phase <= JobPhase::reached; }

@@ -55,7 +55,7 @@ OverrideEffect override_effect(JobClass new_job, JobClass running, bool position
 struct OverrideRow {
   JobClass new_job;
   std::string_view codes;    ///< a letter per running class; see override.cpp
-  std::array<int, 2> lines;  ///< lines of the manual's text; 0: none
+  std::array<int, 2> lines;  ///< lines of the manual's text, in 12.3.1 and in 12.3.2; 0: none
 };
 
 /// A cell in which Lockstep differs from the printed tables on purpose.

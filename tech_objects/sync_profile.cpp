@@ -81,30 +81,14 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
   leading_start_ = start.leading;
   leading_ = leading;
   backward_ = backward;
-  distance_ = distance;
   turns_ = static_cast<std::int64_t>(turns);
-  a_ = ahead.rounded();
-  b_ = (slope - end_slope) * distance + 3.0 * a_;
-  c_ = 0.5 * curvature * distance * distance + 3.0 * b_ - 3.0 * a_;
+  remainder_.set({.position = ahead.rounded(), .slope = slope - end_slope, .curvature = curvature}, distance);
   return SyncPlan::kReady;
 }
 
 double SyncProfile::covered(AxisPosition leading) const noexcept {
   const double way = difference(leading, leading_start_, leading_).rounded();
   return backward_ ? -way : way;
-}
-
-SyncOffset SyncProfile::value(double way) const noexcept {
-  if (complete(way)) return {};
-  const double u = way / distance_;
-  const double v = (distance_ - way) / distance_;  // exact to the end, unlike 1 - u
-  const double q = a_ + u * (b_ + u * c_);
-  const double dq = b_ + 2.0 * u * c_;
-  SyncOffset result;
-  result.position = v * v * v * q;
-  result.slope = v * v * (v * dq - 3.0 * q) / distance_;
-  result.curvature = 2.0 * v * (v * (v * c_ - 3.0 * dq) + 3.0 * q) / distance_ / distance_;
-  return result;
 }
 
 }  // namespace lockstep

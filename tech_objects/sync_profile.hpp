@@ -5,6 +5,7 @@
 
 #include "tech_objects/axis_position.hpp"
 #include "tech_objects/double_double.hpp"
+#include "tech_objects/remainder.hpp"
 
 namespace lockstep {
 
@@ -39,20 +40,6 @@ enum class SyncPlan : std::uint8_t {
   kFunctionRunsTheOtherWay,  ///< the synchronous function runs against SyncDirection
 };
 
-/// What the following axis is ahead of its synchronous function at a place of the profile.
-struct SyncOffset {
-  double position = 0.0;   ///< [u] y
-  double slope = 0.0;      ///< [u / leading u] dy/dλ
-  double curvature = 0.0;  ///< [u / leading u²] d²y/dλ²
-
-  /// [u/s] To be added to the velocity of the synchronous function; `way_velocity` = dλ/dt [leading u/s].
-  double velocity(double way_velocity) const noexcept { return slope * way_velocity; }
-  /// [u/s²] To be added to the acceleration of the synchronous function.
-  double acceleration(double way_velocity, double way_acceleration) const noexcept {
-    return slope * way_acceleration + curvature * way_velocity * way_velocity;
-  }
-};
-
 /// A quintic over the leading distance λ, in the direction in which the leading axis moves: from position,
 /// velocity and acceleration of the following axis into the synchronous function with its slope and without
 /// curvature. It is held as y(λ) = x - F, with the factor (D - λ)³, so that it ends on the function to the
@@ -77,25 +64,22 @@ class SyncProfile {
   /// joined.
   std::int64_t turns() const noexcept { return turns_; }
 
-  double distance() const noexcept { return distance_; }  ///< [leading u] D
+  double distance() const noexcept { return remainder_.distance(); }  ///< [leading u] D
   bool backward() const noexcept { return backward_; }
 
   /// λ [leading u]: way of the leading axis from the start, positive in the direction of the profile. Any
   /// thread.
   double covered(AxisPosition leading) const noexcept;
-  bool complete(double way) const noexcept { return !(way < distance_); }
+  bool complete(double way) const noexcept { return remainder_.complete(way); }
 
   /// y and its derivatives; exactly 0 from λ = D on. λ < 0 (leading axis turned back before the start, within
   /// its tolerance) continues the quintic. Any thread.
-  SyncOffset value(double way) const noexcept;
+  SyncOffset value(double way) const noexcept { return remainder_.value(way); }
 
  private:
   AxisPosition leading_start_;
   Modulo leading_;
-  double distance_ = 0.0;
-  double a_ = 0.0;  // y = (1 - u)³ (a + b u + c u²), u = λ / D
-  double b_ = 0.0;
-  double c_ = 0.0;
+  Remainder remainder_;
   std::int64_t turns_ = 0;
   bool backward_ = false;
 };

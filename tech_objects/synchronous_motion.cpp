@@ -22,10 +22,12 @@ bool same_place(double distance, double position) noexcept {
 
 }  // namespace
 
-void SynchronousMotion::configure(const Modulo& following, double period, double tolerance) noexcept {
+void SynchronousMotion::configure(const Modulo& following, double period, double tolerance,
+                                  const AdditiveLeadingValues& additive) noexcept {
   following_ = following;
   period_ = period;
   tolerance_ = tolerance;
+  additive_ = &additive;
 }
 
 Axis* SynchronousMotion::leading_axis() const noexcept {
@@ -37,27 +39,86 @@ Axis* SynchronousMotion::leading_axis() const noexcept {
 
 void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
   look_at_leading();
-  if (synchronous_) {
+  if (synchronous_ && !velocity_only_) {
     evaluate_function();
     setpoint = function_;
+    if (offset_.in_use()) add_offset(setpoint);
     return;
   }
+  if (synchronous_) return advance_in_velocity(setpoint);
   watch_reversal();
   if (reversed_) return;
   if (way_ == Way::velocity) return advance_velocity(setpoint);
+  if (way_ == Way::out) return advance_out(setpoint);
   evaluate_function();
   advance_along_profile(setpoint);
 }
 
+/// leading value → + additive → effective leading value
 void SynchronousMotion::look_at_leading() noexcept {
   leading_now_ = leading_->source->leading_state(leading_->coupling);
-  if (!synchronous_) leading_last_ = leading_->source->last_leading_state(leading_->coupling);
+  const bool steady = synchronous_ && !phase_.in_use() && !offset_.in_use() && !additive_->in_use;
+  if (steady) return;
+  leading_last_ = leading_->source->last_leading_state(leading_->coupling);
+  if (!additive_->in_use) return;
+  add_additive(leading_now_, additive_->now);
+  add_additive(leading_last_, additive_->last);
 }
 
+void SynchronousMotion::add_additive(Setpoint& leading, const AdditiveLeadingValue& additive) const noexcept {
+  leading.position = advanced(leading.position, additive.position, leading_modulo_);
+  leading.velocity += additive.velocity;
+  leading.acceleration += additive.acceleration;
+}
+
+/// effective leading value → + phase shift → function. The shift's share is added behind the gear, where
+/// nothing is rounded in between.
 void SynchronousMotion::evaluate_function() noexcept {
   function_.position = gear_.value(leading_now_.position);
   function_.velocity = gear_.velocity(leading_now_.velocity);
   function_.acceleration = gear_.acceleration(leading_now_.acceleration);
+  if (!phase_.in_use()) return;
+  function_.position = advanced(function_.position, gear_.ratio() * phase_.value(), following_);
+  function_.velocity += gear_.velocity(phase_.velocity());
+  function_.acceleration += gear_.acceleration(phase_.acceleration());
+}
+
+/// function → + offset
+void SynchronousMotion::add_offset(Setpoint& setpoint) const noexcept {
+  setpoint.position = advanced(setpoint.position, offset_.value(), following_);
+  setpoint.velocity += offset_.velocity();
+  setpoint.acceleration += offset_.acceleration();
+}
+
+double SynchronousMotion::function_leading_position() const noexcept {
+  if (!phase_.in_use()) return leading_now_.position.value;
+  return advanced(leading_now_.position, phase_.value(), leading_modulo_).value;
+}
+
+Shift::Event SynchronousMotion::advance_phase_shift() noexcept {
+  look_at_leading();
+  return phase_.advance(leading_step());
+}
+
+Shift::Event SynchronousMotion::advance_following_offset() noexcept {
+  look_at_leading();
+  return offset_.advance(leading_step());
+}
+
+/// MC_GearInVelocity: the velocity follows, whatever the position.
+void SynchronousMotion::advance_in_velocity(Setpoint& setpoint) noexcept {
+  const double last = setpoint.velocity;
+  setpoint.velocity = gear_.velocity(leading_now_.velocity);
+  setpoint.acceleration = gear_.acceleration(leading_now_.acceleration);
+  setpoint.position = advanced(setpoint.position, 0.5 * (last + setpoint.velocity) * period_, following_);
+  function_ = setpoint;
+}
+
+void SynchronousMotion::change_ratio(DINT numerator, DINT denominator) noexcept {
+  if (!synchronous_ || (numerator == numerator_ && denominator == denominator_)) return;
+  numerator_ = numerator;
+  denominator_ = denominator;
+  gear_.set(numerator_, denominator_, {}, {}, leading_modulo_, following_);
 }
 
 void SynchronousMotion::watch_reversal() noexcept {
@@ -85,7 +146,9 @@ void SynchronousMotion::advance_velocity(Setpoint& setpoint) noexcept {
   setpoint.acceleration = step.acceleration;
   function_ = setpoint;
   if (!step.synchronous || holding) return;
-  gear_.set(numerator_, denominator_, leading_now_.position, setpoint.position, leading_modulo_, following_);
+  if (!velocity_only_)
+    gear_.set(numerator_, denominator_, leading_now_.position, setpoint.position, leading_modulo_,
+              following_);
   synchronous_ = true;
 }
 
@@ -115,9 +178,93 @@ SyncOffset SynchronousMotion::offset(double way) const noexcept {
 }
 
 void SynchronousMotion::shift_following(double by) noexcept {
-  if (leading_ == nullptr || !synchronous_) return;
+  if (leading_ == nullptr || !synchronous_ || velocity_only_) return;
   function_.position = advanced(function_.position, by, following_);
-  gear_.set(numerator_, denominator_, leading_now_.position, function_.position, leading_modulo_, following_);
+  const AxisPosition without_phase =
+      phase_.in_use() ? advanced(function_.position, -(gear_.ratio() * phase_.value()), following_)
+                      : function_.position;
+  gear_.set(numerator_, denominator_, leading_now_.position, without_phase, leading_modulo_, following_);
+}
+
+// ---- Desynchronizing
+// --------------------------------------------------------------------------------------------
+
+bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
+                                       const Dynamics& dynamics) noexcept {
+  const double step = difference(candidate.position, last.position, following_).rounded();
+  const int heading = sign(step);
+  if (heading == 0 || (job.direction == 1 && heading < 0) || (job.direction == 2 && heading > 0))
+    return false;
+  const double target = normalised({0, job.position}, following_).value;
+  const double braking = job.mode == 1 ? 0.5 * std::abs(ratio_) * job.master_start_distance
+                                       : stopping_way(last, heading, dynamics);
+  if (!std::isfinite(braking)) return false;
+  // Way to the stop position; on a ring as many turns more as braking needs.
+  double spare = heading * (target - last.position.value) - braking;
+  if (following_.enabled) {
+    spare = std::fmod(spare, following_.length);
+    if (spare < 0.0) spare += following_.length;
+  }
+  if (spare < 0.0 || spare > std::abs(step)) return false;
+  out_way_ = heading * (braking + spare);
+  out_distance_ = job.master_start_distance + spare / std::abs(ratio_);
+  out_position_ = advanced(last.position, out_way_, following_);
+  if (following_.enabled) {
+    // The way is rounded: at the end of the ring the turn may be the neighbour's.
+    const double off = out_position_.value - target;
+    if (off > 0.5 * following_.length) ++out_position_.turns;
+    if (off < -0.5 * following_.length) --out_position_.turns;
+  }
+  out_position_.value = target;
+  return true;
+}
+
+/// Way that the axis needs to stop in the direction it is heading [u]; NaN if that cannot be planned.
+double SynchronousMotion::stopping_way(const Setpoint& from, int heading,
+                                       const Dynamics& dynamics) const noexcept {
+  Profile profile;
+  const double velocity = std::max(std::abs(from.velocity), dynamics.velocity);
+  const ProfileLimits limits{.velocity_max = velocity,
+                             .velocity_min = -velocity,
+                             .acceleration = dynamics.deceleration,
+                             .deceleration = dynamics.deceleration,
+                             .jerk = dynamics.jerk};
+  const MotionState state{0.0, from.velocity, from.acceleration};
+  if (plan_stop(state, limits, PresentAcceleration::keep, profile) != PlanResult::ok) return std::nan("");
+  return heading * profile.target().position;
+}
+
+void SynchronousMotion::begin_sync_out(const Setpoint& last) noexcept {
+  way_ = Way::out;
+  synchronous_ = false;
+  reversed_ = false;
+  desynchronized_ = false;
+  look_at_leading();
+  direction_ = sign(leading_step().way());
+  progress_ = 0.0;
+  furthest_ = 0.0;
+  leading_start_ = leading_last_.position;
+  SyncOffset start{.position = -out_way_};
+  const double way_velocity = direction_ * leading_last_.velocity;
+  if (way_velocity > 0.0) {
+    start.slope = last.velocity / way_velocity;
+    start.curvature = (last.acceleration - start.slope * direction_ * leading_last_.acceleration) /
+                      (way_velocity * way_velocity);
+  }
+  out_remainder_.set(start, out_distance_);
+}
+
+/// MC_GearOut profile 1: what is left of the way to the stop position.
+void SynchronousMotion::advance_out(Setpoint& setpoint) noexcept {
+  const double way =
+      direction_ * difference(leading_now_.position, leading_start_, leading_modulo_).rounded();
+  const SyncOffset left = out_remainder_.value(std::max(way, 0.0));
+  desynchronized_ = out_remainder_.complete(way);
+  setpoint.position = advanced(out_position_, left.position, following_);
+  setpoint.velocity = left.velocity(direction_ * leading_now_.velocity);
+  setpoint.acceleration =
+      left.acceleration(direction_ * leading_now_.velocity, direction_ * leading_now_.acceleration);
+  function_ = setpoint;
 }
 
 // ---- Beginning
@@ -131,6 +278,9 @@ void SynchronousMotion::couple(const LeadingValue& leading, const Job& job,
   denominator_ = job.denominator;
   ratio_ = static_cast<double>(job.numerator) / static_cast<double>(job.denominator);
   dynamics_ = dynamics;
+  velocity_only_ = job.kind == JobKind::MC_GearInVelocity;
+  phase_.reset();
+  offset_.reset();
   synchronous_ = false;
   reversed_ = false;
   direction_ = 0;

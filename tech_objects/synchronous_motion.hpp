@@ -10,6 +10,7 @@
 #include "tech_objects/job.hpp"
 #include "tech_objects/profile.hpp"
 #include "tech_objects/setpoint.hpp"
+#include "tech_objects/shift.hpp"
 #include "tech_objects/sync_profile.hpp"
 #include "tech_objects/velocity_tracking.hpp"
 
@@ -17,14 +18,27 @@ namespace lockstep {
 
 struct LeadingValue;
 
+/// What MC_LeadingValueAdditive adds to the leading value of one following axis, now and one tick ago.
+struct AdditiveLeadingValue {
+  double position = 0.0;      ///< [u] of the leading axis
+  double velocity = 0.0;      ///< [u/s]
+  double acceleration = 0.0;  ///< [u/s²]
+};
+struct AdditiveLeadingValues {
+  bool in_use = false;  ///< whether either is other than zero
+  AdditiveLeadingValue now;
+  AdditiveLeadingValue last;
+};
+
 /// One synchronous job: what it follows, how it synchronizes and the function that then holds. Thread: the
 /// cycle.
 class SynchronousMotion {
  public:
   enum class Way : std::uint8_t {
     none,
-    velocity,  ///< MC_GearIn: brings velocity and acceleration to those of the function
+    velocity,  ///< MC_GearIn, MC_GearInVelocity: brings velocity and acceleration to those of the function
     distance,  ///< MC_GearInPos profiles 1 and 3: a function of the leading value over a distance
+    out,       ///< MC_GearOut profile 1: a function of the leading value over a distance, to rest
     time,      ///< MC_GearInPos profile 0: planned in time, then a function of the leading value
   };
 
@@ -32,9 +46,11 @@ class SynchronousMotion {
   enum class Start : std::uint8_t { not_yet, synchronizing, synchronous, rejected };
 
   /// @param tolerance leading distance by which the leading value may reverse [u]
-  void configure(const Modulo& following, double period, double tolerance) noexcept;
+  /// @param additive of the axis; outlives this
+  void configure(const Modulo& following, double period, double tolerance,
+                 const AdditiveLeadingValues& additive) noexcept;
 
-  /// MC_GearIn: from the setpoint at hand, at once.
+  /// MC_GearIn, MC_GearInVelocity: from the setpoint at hand, at once.
   void begin_gear_in(const LeadingValue& leading, const Job& job, const Dynamics& dynamics) noexcept;
 
   /// MC_GearInPos: prepares to wait for the start condition.
@@ -50,6 +66,34 @@ class SynchronousMotion {
   /// The setpoint of this tick from the leading value of this tick.
   void advance(Setpoint& setpoint) noexcept;
 
+  /// MC_GearInVelocity: another ratio, which counts once the axis is synchronous.
+  void change_ratio(DINT numerator, DINT denominator) noexcept;
+
+  // ---- Shifts of a synchronous axis
+
+  /// Leading value offset by MC_Phasing…, following value offset by MC_Offset….
+  Shift& phase_shift() noexcept { return phase_; }
+  Shift& following_offset() noexcept { return offset_; }
+  const Shift& phase_shift() const noexcept { return phase_; }
+  const Shift& following_offset() const noexcept { return offset_; }
+  /// Advances both by the leading value of this tick; before `advance`.
+  Shift::Event advance_phase_shift() noexcept;
+  Shift::Event advance_following_offset() noexcept;
+
+  // ---- Desynchronizing by MC_GearOut
+
+  /// Whether the axis comes past the place from which it would come to rest at the given position between the
+  /// last setpoint and the candidate for this tick.
+  /// @param dynamics of profile 0
+  bool meets_sync_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
+                      const Dynamics& dynamics) noexcept;
+  /// After `meets_sync_out`: way to the stop position [u], and that position.
+  double sync_out_way() const noexcept { return out_way_; }
+  AxisPosition sync_out_position() const noexcept { return out_position_; }
+  /// Profile 1: from here on over the leading distance.
+  void begin_sync_out(const Setpoint& last) noexcept;
+  bool desynchronized() const noexcept { return way_ == Way::out && desynchronized_; }
+
   /// Forgets the coupling.
   void end() noexcept { leading_ = nullptr; }
 
@@ -61,6 +105,12 @@ class SynchronousMotion {
   /// The chain's values of this tick, for the data block.
   const Setpoint& effective_leading_value() const noexcept { return leading_now_; }
   const Setpoint& function_value() const noexcept { return function_; }
+  /// Position that the function and the following value offset ask for.
+  AxisPosition following_position() const noexcept {
+    return offset_.in_use() ? advanced(function_.position, offset_.value(), following_) : function_.position;
+  }
+  /// Effective leading position and phase shift [u].
+  double function_leading_position() const noexcept;
 
   /// Shifts the following side of the function without motion, for homing [u].
   void shift_following(double by) noexcept;
@@ -69,6 +119,12 @@ class SynchronousMotion {
   void couple(const LeadingValue& leading, const Job& job, const Dynamics& dynamics) noexcept;
   void look_at_leading() noexcept;
   void evaluate_function() noexcept;
+  void add_additive(Setpoint& leading, const AdditiveLeadingValue& additive) const noexcept;
+  void add_offset(Setpoint& setpoint) const noexcept;
+  double stopping_way(const Setpoint& from, int heading, const Dynamics& dynamics) const noexcept;
+  void advance_in_velocity(Setpoint& setpoint) noexcept;
+  void advance_out(Setpoint& setpoint) noexcept;
+  LeadingStep leading_step() const noexcept { return {leading_last_, leading_now_, leading_modulo_}; }
   void watch_reversal() noexcept;
   void advance_velocity(Setpoint& setpoint) noexcept;
   void advance_along_profile(Setpoint& setpoint) noexcept;
@@ -98,6 +154,10 @@ class SynchronousMotion {
   Setpoint leading_last_;
   Setpoint function_;
   GearFunction gear_;
+  const AdditiveLeadingValues* additive_ = nullptr;
+  bool velocity_only_ = false;  // MC_GearInVelocity
+  Shift phase_;
+  Shift offset_;
 
   // Synchronizing.
   int direction_ = 0;           // of the leading value while synchronizing: 1, -1; 0: it has not moved yet
@@ -120,6 +180,13 @@ class SynchronousMotion {
   double start_distance_ = 0.0;        // [u] of the leading axis
   Dynamics dynamics_;
   ErrorId rejection_ = ErrorId::none;
+
+  // Desynchronizing.
+  double out_way_ = 0.0;  // to the stop position [u], signed
+  AxisPosition out_position_;
+  double out_distance_ = 0.0;  // leading distance [u]
+  bool desynchronized_ = false;
+  Remainder out_remainder_;
 };
 
 }  // namespace lockstep

@@ -1,0 +1,43 @@
+#include "fb/phasing.hpp"
+
+namespace lockstep {
+
+void MC_PhasingRelative::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_PhasingRelative;
+  job.master = Master;
+  job.position = PhaseShift;
+  job.velocity = Velocity;
+  job.acceleration = Acceleration;
+  job.deceleration = Deceleration;
+  job.jerk = Jerk;
+  job.mode = ProfileReference;
+  job.master_start_distance = PhasingDistance;
+  job.start_position = StartPosition;
+  job.direction = Direction;
+}
+
+void MC_PhasingRelative::show(JobPhase phase) noexcept {
+  StartPhasing = phase == JobPhase::active;
+  if (job() != nullptr) CoveredPhaseShift = job()->covered;
+}
+
+void MC_PhasingAbsolute::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_PhasingAbsolute;
+  job.master = Master;
+  job.position = PhaseShift;
+  job.velocity = Velocity;
+  job.acceleration = Acceleration;
+  job.deceleration = Deceleration;
+  job.jerk = Jerk;
+  job.mode = ProfileReference;
+  job.master_start_distance = PhasingDistance;
+  job.start_position = StartPosition;
+  job.direction = Direction;
+}
+
+void MC_PhasingAbsolute::show(JobPhase phase) noexcept {
+  StartPhasing = phase == JobPhase::active;
+  if (job() != nullptr) AbsolutePhaseShift = job()->covered;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,138 @@
+// Out of a synchronous motion: MC_GearOut, and the simulation of a synchronous motion.
+#include <algorithm>
+#include <cmath>
+
+#include "tech_objects/axis.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr DINT kGearOut = 4;        // value of FunctionState and WaitingFunctionState
+constexpr DINT kOverDistance = 1;   // SyncProfileReference
+constexpr DINT kCancelWaiting = 5;  // SyncProfileReference
+
+}  // namespace
+
+// ---- MC_GearOut
+// -------------------------------------------------------------------------------------------------
+
+/// A waiting gear has been cancelled by the override rules; an active one is left when the start is met.
+void Axis::begin_sync_out(Job& job) noexcept {
+  if (job.mode == kCancelWaiting || running_[kBase] == nullptr || !led()) {
+    job.phase = JobPhase::done;
+    return;
+  }
+  running_[kWaitingOut] = &job;
+  job.phase = JobPhase::waiting;
+  data.StatusSynchronizedMotion.WaitingFunctionState = kGearOut;
+}
+
+/// Each tick while desynchronizing waits; true if it has begun and the setpoint is made.
+bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
+  Job& job = *running_[kWaitingOut];
+  const Dynamics dynamics = effective_dynamics(job);
+  const double target = normalised({0, job.position}, modulo_).value;
+  const bool there = candidate.standing() && setpoint_.standing() && candidate.position.value == target;
+  if (!there && !synchronous_.meets_sync_out(job, setpoint_, candidate, dynamics)) return false;
+  running_[kWaitingOut] = nullptr;
+  data.StatusSynchronizedMotion.WaitingFunctionState = 0;
+  if (!override_running(JobClass::gear_out_active, job)) return false;
+  running_[kBase] = &job;
+  job.phase = JobPhase::active;
+  in_window_ticks_ = 0;
+  since_target_ticks_ = 0;
+  if (there) {
+    leave_synchronous();
+    single_.stand(setpoint_);
+    step_single_axis();
+  } else {
+    activate_sync_out(job, dynamics);
+  }
+  return true;
+}
+
+/// From the setpoint of the last tick: over the leading distance, or with the dynamics of the job.
+void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
+  if (job.mode == kOverDistance) {
+    synchronous_.begin_sync_out(setpoint_);
+    motion_ = Motion::desynchronizing;
+    data.StatusSynchronizedMotion.FunctionState = kGearOut;
+    return step_synchronous();
+  }
+  const double way = synchronous_.sync_out_way();
+  const AxisPosition position = synchronous_.sync_out_position();
+  leave_synchronous();
+  data.StatusSynchronizedMotion.FunctionState = kGearOut;
+  Dynamics own = dynamics;
+  own.acceleration = own.deceleration;
+  own.velocity = std::max(own.velocity, std::abs(setpoint_.velocity));
+  if (single_.move_to(setpoint_, position, way, own) != PlanResult::ok) {
+    end_job(kBase, JobPhase::failed, ErrorId::unspecified);
+    return begin_stop(maximum_dynamics(), false);
+  }
+  step_single_axis();
+}
+
+/// The following axis has come to rest at its stop position.
+void Axis::end_desynchronizing() noexcept {
+  leave_synchronous();
+  data.StatusSynchronizedMotion.FunctionState = kGearOut;
+  setpoint_.velocity = 0.0;
+  setpoint_.acceleration = 0.0;
+  single_.stand(setpoint_);
+}
+
+// ---- MC_SynchronizedMotionSimulation
+// ----------------------------------------------------------------------------
+
+void Axis::watch_simulation() noexcept {
+  SimulationRequest& request = simulation_request;
+  request.error = ErrorId::none;
+  if (request.enable && !simulating()) begin_simulation();
+  if (simulating()) {
+    synchronous_.advance(ghost_);
+    if (!request.enable) end_simulation();
+  }
+  if (!request.enable && !simulating()) request.owner = nullptr;
+}
+
+/// The gear goes on without the axis: only while it is synchronous and the leading axis stands.
+void Axis::begin_simulation() noexcept {
+  const bool leading_stands = led() && synchronous_.leading_axis()->setpoint().velocity == 0.0;
+  if (motion_ != Motion::synchronous || !leading_stands) {
+    simulation_request.error = ErrorId::no_synchronous_operation;
+    return;
+  }
+  simulated_ = running_[kBase];
+  running_[kBase] = nullptr;
+  ghost_ = setpoint_;
+  motion_ = Motion::single_axis;
+  single_.stand(setpoint_);
+}
+
+/// The setpoints of the gear count again, once they agree with where the axis is.
+void Axis::end_simulation() noexcept {
+  const double away = std::abs(difference(ghost_.position, setpoint_.position, modulo_).rounded());
+  const bool agrees = away <= data.PositioningMonitoring.Window && setpoint_.standing();
+  if (!enabled() || !agrees) {
+    simulation_request.error = enabled() ? ErrorId::position : ErrorId::locked;
+    return;
+  }
+  end_job(kBase, JobPhase::aborted, ErrorId::none);
+  running_[kBase] = simulated_;
+  simulated_ = nullptr;
+  motion_ = Motion::synchronous;
+}
+
+void Axis::end_simulated_gear(JobPhase phase, ErrorId error) noexcept {
+  if (simulated_ == nullptr) return;
+  simulated_->phase = phase;
+  simulated_->error = error;
+  simulated_ = nullptr;
+  synchronous_.end();
+  coupling_changed = true;
+  data.StatusSynchronizedMotion.FunctionState = 0;
+  data.StatusSynchronizedMotion.ActualMaster = DB_ANY{};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,122 @@
+#include "tech_objects/shift.hpp"
+
+#include <cmath>
+
+namespace lockstep {
+
+ErrorId Shift::begin(const ShiftRequest& request, double period) noexcept {
+  const MotionState from{0.0, velocity_, acceleration_};
+  const bool over_time = request.profile == 0;
+  const bool moving = velocity_ != 0.0 || acceleration_ != 0.0;
+  Profile profile;
+  PlanResult result = PlanResult::ok;
+  if (over_time) {
+    result = plan_position(from, (request.target - value_).rounded(), 0.0, request.limits, profile);
+  } else if (moving) {
+    result = plan_stop(from, request.limits, PresentAcceleration::keep, profile);
+  }
+  if (result != PlanResult::ok) return ErrorId::unspecified;
+  request_ = request;
+  profile_ = profile;
+  settling_ = moving && !over_time;
+  period_ = period;
+  base_ = value_;
+  ticks_ = 0;
+  heading_ = 0;
+  covered_ = 0.0;
+  planned_ = false;
+  in_use_ = true;
+  phase_ = over_time ? Phase::running : Phase::waiting;
+  return ErrorId::none;
+}
+
+void Shift::halt() noexcept {
+  phase_ = Phase::resting;
+  settling_ = false;
+  velocity_ = 0.0;
+  acceleration_ = 0.0;
+}
+
+Shift::Event Shift::advance(const LeadingStep& step) noexcept {
+  if (phase_ == Phase::waiting && may_start(step)) {
+    phase_ = Phase::running;
+    settling_ = false;
+  }
+  if (settling_) settling_ = follow_profile();
+  if (phase_ != Phase::running) return Event::none;
+  return request_.profile == 0 ? follow_time() : follow_leading(step);
+}
+
+/// Profile 1 starts where it is, if the leading value stands or moves the right way; profile 2 at the last
+/// tick before the start position is crossed.
+bool Shift::may_start(const LeadingStep& step) noexcept {
+  const double way = step.way();
+  const int heading = way > 0.0 ? 1 : way < 0.0 ? -1 : 0;
+  to_start_ = 0.0;
+  if (heading == 0) return request_.profile == 1 && request_.direction == 3;
+  if ((request_.direction == 1 && heading < 0) || (request_.direction == 2 && heading > 0)) return false;
+  if (request_.profile == 1) return true;
+  const double from = step.last.position.value;
+  const double target = normalised({0, request_.start_position}, step.modulo).value;
+  if (!step.modulo.enabled) {
+    to_start_ = heading * (target - from);
+  } else if (target != from) {
+    to_start_ = heading > 0 ? positive_distance(from, target, step.modulo)
+                            : -negative_distance(from, target, step.modulo);
+  }
+  return to_start_ >= 0.0 && to_start_ <= std::abs(way);
+}
+
+/// From the shift of the last tick, with its velocity and acceleration, to the target.
+void Shift::start_over_distance(const LeadingStep& step) noexcept {
+  SyncOffset start{.position = (value_ - request_.target).rounded()};
+  const double way_velocity = heading_ * step.last.velocity;
+  if (way_velocity > 0.0) {
+    start.slope = velocity_ / way_velocity;
+    start.curvature =
+        (acceleration_ - start.slope * heading_ * step.last.acceleration) / (way_velocity * way_velocity);
+  }
+  remainder_.set(start, to_start_ + request_.distance);
+  covered_ = 0.0;
+  planned_ = true;
+}
+
+Shift::Event Shift::follow_leading(const LeadingStep& step) noexcept {
+  const double way = step.way();
+  if (heading_ == 0) heading_ = way > 0.0 ? 1 : way < 0.0 ? -1 : 0;
+  if (heading_ == 0) return Event::none;
+  if (!planned_) start_over_distance(step);
+  if (heading_ * way < 0.0) {
+    halt();
+    return Event::reversed;
+  }
+  covered_ += heading_ * way;
+  if (remainder_.complete(covered_)) return arrive();
+  const SyncOffset left = remainder_.value(covered_);
+  value_ = request_.target + DoubleDouble{left.position, 0.0};
+  velocity_ = left.velocity(heading_ * step.now.velocity);
+  acceleration_ = left.acceleration(heading_ * step.now.velocity, heading_ * step.now.acceleration);
+  return Event::none;
+}
+
+Shift::Event Shift::follow_time() noexcept {
+  return follow_profile() ? Event::none : arrive();
+}
+
+/// One tick along the profile over time; false at its end.
+bool Shift::follow_profile() noexcept {
+  const double t = static_cast<double>(++ticks_) * period_;
+  const MotionState state = profile_.at(t);
+  value_ = base_ + DoubleDouble{state.position, 0.0};
+  velocity_ = state.velocity;
+  acceleration_ = state.acceleration;
+  return t < profile_.duration();
+}
+
+Shift::Event Shift::arrive() noexcept {
+  halt();
+  value_ = request_.target;
+  return Event::done;
+}
+
+}  // namespace lockstep

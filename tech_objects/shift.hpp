@@ -1,0 +1,90 @@
+/// An offset that is brought into a running synchronous motion: leading value offset (phasing) and following
+/// value offset.
+/// @source S7-1500T synchronous operation V7, 6.2.4, 6.2.5
+#pragma once
+
+#include "tech_objects/alarms.hpp"
+#include "tech_objects/double_double.hpp"
+#include "tech_objects/job.hpp"
+#include "tech_objects/profile.hpp"
+#include "tech_objects/remainder.hpp"
+#include "tech_objects/setpoint.hpp"
+
+namespace lockstep {
+
+/// The way of the effective leading value from one tick to the next.
+struct LeadingStep {
+  Setpoint last;
+  Setpoint now;
+  Modulo modulo;
+
+  double way() const noexcept { return difference(now.position, last.position, modulo).rounded(); }
+};
+
+/// What is asked of a shift.
+struct ShiftRequest {
+  DoubleDouble target;    ///< total shift at the end [u]
+  DINT profile = 1;       ///< ProfileReference: 0 dynamics, 1 distance from here, 2 from a start position
+  double distance = 0.0;  ///< leading distance [u] > 0; profiles 1, 2
+  double start_position = 0.0;  ///< of the leading value [u]; profile 2
+  DINT direction = 3;           ///< of the leading value: 1 positive, 2 negative, 3 either
+  ProfileLimits limits;  ///< of the shift: for profile 0, and for a shift that has to rest before it waits
+};
+
+/// The shift in effect and how it changes. The sum of many shifts carries its rounding error along. Thread:
+/// the cycle.
+class Shift {
+ public:
+  enum class Phase : std::uint8_t { resting, waiting, running };
+  /// What has happened in a tick.
+  enum class Event : std::uint8_t { none, done, reversed };
+
+  /// Back to zero.
+  void reset() noexcept { *this = Shift{}; }
+
+  /// Begins to wait or to run. A shift that is running goes on from its value, velocity and acceleration.
+  /// @return an error if no profile can be planned
+  ErrorId begin(const ShiftRequest& request, double period) noexcept;
+
+  /// Leaves the shift where it is.
+  void halt() noexcept;
+
+  /// One tick.
+  Event advance(const LeadingStep& step) noexcept;
+
+  Phase phase() const noexcept { return phase_; }
+  /// Whether there is any shift, or one is coming.
+  bool in_use() const noexcept { return in_use_; }
+
+  DoubleDouble value() const noexcept { return value_; }          ///< [u]
+  double velocity() const noexcept { return velocity_; }          ///< [u/s]
+  double acceleration() const noexcept { return acceleration_; }  ///< [u/s²]
+
+ private:
+  bool may_start(const LeadingStep& step) noexcept;
+  void start_over_distance(const LeadingStep& step) noexcept;
+  Event follow_leading(const LeadingStep& step) noexcept;
+  Event follow_time() noexcept;
+  bool follow_profile() noexcept;
+  Event arrive() noexcept;
+
+  Phase phase_ = Phase::resting;
+  bool in_use_ = false;
+  DoubleDouble value_;
+  double velocity_ = 0.0;
+  double acceleration_ = 0.0;
+
+  ShiftRequest request_;
+  double to_start_ = 0.0;  // leading way from the last tick to the start [u]
+  int heading_ = 0;        // of the leading value while running: 1, -1; 0: it has not moved yet
+  double covered_ = 0.0;   // leading distance since the start [u]
+  Remainder remainder_;    // target - value over the leading distance, negative
+  bool planned_ = false;
+  Profile profile_;        // profile 0, and coming to rest: value from `base_`
+  bool settling_ = false;  // a shift that was moving comes to rest while the next one waits
+  DoubleDouble base_;
+  double period_ = 0.001;
+  std::int64_t ticks_ = 0;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,179 @@
+#include "bench/machine.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace lockstep::bench {
+namespace {
+
+/// Cycles after which every machine runs as it is to: the leading axis is up to speed in a tenth of that.
+constexpr int kWarmUp = 2000;
+
+std::string axis_name(int number) {
+  return "Axis" + std::to_string(number);
+}
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  return result.append(text).append("\"");
+}
+
+std::string axis_object(const MachinePlan& plan, int number) {
+  const bool gear = plan.motion == Motion::gear;
+  std::string text = quoted(axis_name(number));
+  text += R"(: { "type": )" + quoted(gear ? "TO_SynchronousAxis" : "TO_PositioningAxis");
+  text += R"(, "config": { )";
+  if (!plan.drives) text += R"("VirtualAxis": { "Mode": 1 }, )";
+  text += R"("Modulo": { "Enable": )" + std::string(number % 2 == 0 ? "true" : "false") + " }, ";
+  text += R"("PositioningMonitoring": { "MinDwellTime": 0.0 }, )";
+  text += R"("DynamicDefaults": { "Velocity": 1000.0, "Acceleration": 1.0E4, "Deceleration": 1.0E4, )"
+          R"("Jerk": 1.0E5 } })";
+  if (plan.drives)
+    text += R"(, "drive": { "model": "simulated", "time_constant": "2ms", "dead_time": "1ms" })";
+  if (gear) text += R"(, "leading_values": [ { "to": "Leading" } ])";
+  return text + " }";
+}
+
+constexpr std::string_view kLeadingObject =
+    R"("Leading": { "type": "TO_PositioningAxis",
+  "config": { "VirtualAxis": { "Mode": 1 }, "Modulo": { "Enable": true } } })";
+
+constexpr std::string_view kLeadingCalls =
+    R"({ "fb": "MC_Power", "name": "power", "in": { "Axis": "Leading", "Enable": true } },
+{ "fb": "MC_MoveVelocity", "name": "run",
+  "in": { "Axis": "Leading", "Execute": "power.Status", "Velocity": 314.0 } })";
+
+/// One call: the block, the name of its instance, its axis, and its other inputs.
+std::string call(std::string_view block, const std::string& instance, std::string_view axis_pin,
+                 const std::string& axis, const std::string& inputs) {
+  std::string text = R"({ "fb": )" + quoted(block);
+  text += R"(, "name": )" + quoted(instance);
+  text += R"(, "in": { )" + quoted(axis_pin) + ": " + quoted(axis);
+  return text + ", " + inputs + " } }";
+}
+
+std::string execute(const std::string& expression) {
+  return R"("Execute": )" + quoted(expression);
+}
+
+std::string axis_calls(const MachinePlan& plan, int number) {
+  const std::string n = std::to_string(number);
+  const std::string axis = axis_name(number);
+  const std::string separator = ",\n";
+  const std::string power = "power" + n;
+  std::string text = call("MC_Power", power, "Axis", axis, R"("Enable": true)");
+  if (plan.motion == Motion::gear) {
+    const std::string ratio = R"("RatioNumerator": )" + std::to_string(number % 2 == 0 ? 3 : -7) +
+                              R"(, "RatioDenominator": )" + std::to_string(1 + number % 11);
+    text += separator + call("MC_GearIn", "gear" + n, "Slave", axis,
+                             R"("Master": "Leading", )" + ratio + ", " + execute(power + ".Status"));
+  }
+  if (plan.motion == Motion::positioning) {
+    const std::string forth = "forth" + n;
+    const std::string back = "back" + n;
+    const std::string distance = std::to_string(400 + 13 * (number % 31));
+    const std::string turn = power + ".Status AND NOT " + back + ".Busy AND NOT " + forth + ".Done";
+    text += separator +
+            call("MC_MoveRelative", forth, "Axis", axis, R"("Distance": )" + distance + ", " + execute(turn));
+    text += separator + call("MC_MoveRelative", back, "Axis", axis,
+                             R"("Distance": -)" + distance + ", " + execute(forth + ".Done"));
+  }
+  return text;
+}
+
+std::string signal_name(const MachinePlan& plan, int index) {
+  static constexpr std::string_view kPaths[] = {".Position",
+                                                ".Velocity",
+                                                ".ActualPosition",
+                                                ".StatusWord.X22",
+                                                ".Acceleration",
+                                                ".StatusWord",
+                                                ".StatusPositioning.Distance",
+                                                ".ModuloCycle"};
+  const auto paths = static_cast<int>(std::size(kPaths));
+  const int axis = 1 + index / paths % plan.axes;
+  return axis_name(axis) + std::string(kPaths[static_cast<std::size_t>(index % paths)]);
+}
+
+}  // namespace
+
+std::string_view name_of(Motion motion) {
+  switch (motion) {
+    case Motion::gear:
+      return "gear";
+    case Motion::positioning:
+      return "positioning";
+    case Motion::idle:
+      break;
+  }
+  return "idle";
+}
+
+std::string MachinePlan::name() const {
+  return std::string(name_of(motion)) + " " + std::to_string(axes) + (drives ? " drives" : " virtual") +
+         " 1:" + std::to_string(ratio) + " " + std::to_string(signals) + " signals";
+}
+
+std::string project_text(const MachinePlan& plan) {
+  const bool gear = plan.motion == Motion::gear;
+  std::string objects(gear ? kLeadingObject : "");
+  std::string calls(gear ? kLeadingCalls : "");
+  for (int number = 1; number <= plan.axes; ++number) {
+    const std::string_view separator = objects.empty() ? "" : ",\n";
+    objects += std::string(separator) + axis_object(plan, number);
+    calls += std::string(separator) + axis_calls(plan, number);
+  }
+  return R"({ "lockstep": 1, "name": "bench",
+"clock": { "servo_cycle": "1ms", "interpolator_ratio": )" +
+         std::to_string(plan.ratio) + " },\n\"technology_objects\": {\n" + objects +
+         R"( },
+"programs": [ { "name": "Main", "ob": "MC_PreInterpolator", "calls": [
+)" + calls +
+         " ] } ] }";
+}
+
+Machine::Machine(const MachinePlan& plan) : plan_(plan) {
+  LoadedProject loaded = load_project(project_text(plan));
+  if (!loaded.project) throw std::runtime_error(to_string(plan.name(), loaded.problems.front()));
+  project_ = std::move(*loaded.project);
+  if (plan.signals > 0) {
+    std::vector<Signal> signals;
+    for (int i = 0; i < plan.signals; ++i)
+      signals.push_back(project_.names.find(signal_name(plan, i)).place.value().signal);
+    trace_ = std::make_unique<TraceRing>(std::move(signals));
+    project_.controller->trace = trace_.get();
+  }
+  run(kWarmUp);
+  check();
+}
+
+void Machine::run(int cycles) {
+  constexpr int kRowsAtOnce = 1000;  // far fewer than the ring holds
+  while (cycles > 0) {
+    const int now = std::min(cycles, kRowsAtOnce);
+    for (int tick = 0; tick < now * plan_.ratio; ++tick) project_.controller->tick();
+    if (trace_) trace_->pop(trace_->readable());
+    cycles -= now;
+  }
+}
+
+/// What is measured has to be what the plan says.
+void Machine::check() const {
+  const StatusBit wanted = plan_.motion == Motion::gear          ? StatusBit::Synchronous
+                           : plan_.motion == Motion::positioning ? StatusBit::PositioningCommand
+                                                                 : StatusBit::Standstill;
+  int right = 0;
+  for (const auto& axis : project_.controller->axes) {
+    if (axis->pending_alarm() != 0) throw std::runtime_error(plan_.name() + ": alarm at " + axis->name);
+    if (has_bit(axis->data.StatusWord, wanted)) ++right;
+  }
+  // While one positioning is over and the next not yet begun, an axis shows none.
+  const int least = plan_.motion == Motion::positioning ? plan_.axes - plan_.axes / 4 - 1 : plan_.axes;
+  if (right < least)
+    throw std::runtime_error(plan_.name() + ": only " + std::to_string(right) + " axes run as planned");
+  if (trace_ && trace_->dropped() != 0) throw std::runtime_error(plan_.name() + ": trace rows are dropped");
+}
+
+}  // namespace lockstep::bench

@@ -1,0 +1,150 @@
+#include "bench/parts.hpp"
+
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "bench/machine.hpp"
+#include "bench/measure.hpp"
+#include "projects/expression_compiler.hpp"
+#include "projects/project.hpp"
+#include "tech_objects/gear_function.hpp"
+#include "tech_objects/profile.hpp"
+
+namespace lockstep::bench {
+namespace {
+
+using Row = std::vector<double>;
+
+std::vector<Row> rows_of(const std::string& name) {
+  std::ifstream file(std::string(LOCKSTEP_TEST_DATA) + "/" + name);
+  std::vector<Row> rows;
+  std::string line;
+  for (bool header = true; std::getline(file, line);) {
+    if (line.empty() || line.front() == '#' || std::exchange(header, false)) continue;
+    std::istringstream cells(line);
+    Row row;
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) throw std::runtime_error("no test data in " + name);
+  return rows;
+}
+
+PlanResult plan_any_state(const Row& r, Profile& profile) {
+  return plan_position({r[0], r[1], r[2]}, r[3], r[4], {r[5], -r[5], r[6], r[6], r[7]}, profile);
+}
+
+PlanResult plan_unequal(const Row& r, Profile& profile) {
+  return plan_position({r[0], 0.0, 0.0}, r[1], 0.0, {r[2], -r[2], r[3], r[4], r[5]}, profile);
+}
+
+PlanResult plan_change(const Row& r, Profile& profile) {
+  constexpr double kNoLimit = 1e9;
+  return plan_velocity({0.0, r[0], r[1]}, r[2], {kNoLimit, -kNoLimit, r[3], r[3], r[4]}, profile);
+}
+
+/// Plans the motions of a file one after the other.
+Part planning(std::string name, const std::string& file, PlanResult (*plan)(const Row&, Profile&)) {
+  auto rows = std::make_shared<std::vector<Row>>(rows_of(file));
+  return {std::move(name),
+          [rows, plan, next = std::size_t{0}](int calls) mutable {
+            Profile profile;
+            for (int i = 0; i < calls; ++i) {
+              if (plan((*rows)[next], profile) != PlanResult::ok) throw std::runtime_error("not planned");
+              keep(profile);
+              next = (next + 1) % rows->size();
+            }
+          },
+          static_cast<int>(rows->size())};
+}
+
+/// Evaluates the motions of a file at times spread over their duration.
+Part evaluation(const std::string& file) {
+  auto profiles = std::make_shared<std::vector<Profile>>();
+  for (const Row& row : rows_of(file)) {
+    Profile profile;
+    if (plan_any_state(row, profile) == PlanResult::ok) profiles->push_back(profile);
+  }
+  return {"profile: state at a time",
+          [profiles](int calls) {
+            for (int i = 0; i < calls; ++i) {
+              const Profile& profile = (*profiles)[static_cast<std::size_t>(i) % profiles->size()];
+              keep(profile.at(profile.duration() * (i % 101) / 100.0));
+            }
+          },
+          100'000};
+}
+
+Part gear(std::string name, const Modulo& leading, const Modulo& following) {
+  auto function = std::make_shared<GearFunction>();
+  function->set(-7, 11, {0, 10.0}, {0, 20.0}, leading, following);
+  return {std::move(name),
+          [function, leading, place = AxisPosition{}](int calls) mutable {
+            for (int i = 0; i < calls; ++i) {
+              place = advanced(place, 0.314, leading);
+              keep(function->value(place));
+            }
+          },
+          100'000};
+}
+
+/// The names that the expressions use.
+class Tags final : public Scope {
+ public:
+  Reference resolve(std::string_view name, std::string_view /*path*/) const override {
+    if (name == "start") return {Signal{&start_, Type::BOOL, -1}, ""};
+    if (name == "stop") return {Signal{&stop_, Type::BOOL, -1}, ""};
+    return {Signal{&speed_, Type::LREAL, -1}, ""};
+  }
+
+ private:
+  mutable bool start_ = true;
+  mutable bool stop_ = false;
+  mutable double speed_ = 120.0;
+};
+
+Part expression(std::string_view text, Type type) {
+  auto tags = std::make_shared<Tags>();
+  CompiledExpression compiled = compile_expression(text, type, *tags);
+  if (!compiled.expression) throw std::runtime_error("not compiled: " + std::string(text));
+  return {"expression: " + std::string(text),
+          [tags, code = *compiled.expression, counters = EvaluationCounters{}](int calls) mutable {
+            for (int i = 0; i < calls; ++i) keep(code.evaluate(counters));
+          },
+          100'000};
+}
+
+Part loading(int axes) {
+  auto text = std::make_shared<std::string>(project_text({.motion = Motion::gear, .axes = axes}));
+  return {
+      "load a project of " + std::to_string(axes) + " axes (" + std::to_string(text->size() / 1024) + " KiB)",
+      [text](int calls) {
+        for (int i = 0; i < calls; ++i)
+          if (!load_project(*text).project) throw std::runtime_error("not loaded");
+      },
+      1};
+}
+
+}  // namespace
+
+std::vector<Part> parts(bool quick) {
+  const Modulo line;
+  const Modulo ring{true, 360.0, 0.0};
+  return {planning("profile: plan from any state", "otg_position.csv", plan_any_state),
+          planning("profile: plan from rest to rest", "otg_asymmetric.csv", plan_unequal),
+          planning("profile: plan a change of velocity", "otg_velocity.csv", plan_change),
+          evaluation("otg_position.csv"),
+          gear("gear function: linear after linear axis, and a step of the leading axis", line, line),
+          gear("gear function: modulo after modulo axis, and a step of the leading axis", ring, ring),
+          expression("start", Type::BOOL),
+          expression("start AND NOT stop", Type::BOOL),
+          expression("LIMIT(10.0, speed * 1.5 + 2.0, 500.0)", Type::LREAL),
+          loading(quick ? 10 : 1000)};
+}
+
+}  // namespace lockstep::bench

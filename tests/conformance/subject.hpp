@@ -1,0 +1,107 @@
+/// A block instance under test, handled through its declared pins alone.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "fb/block.hpp"
+#include "tech_objects/axis.hpp"
+
+namespace lockstep::test {
+
+/// A number as the value of a type.
+inline Value value_of(Type type, double number) noexcept {
+  Value value{};
+  if (is_real(type))
+    value.r = number;
+  else if (is_signed_integer(type) || type == Type::TIME)
+    value.i = static_cast<std::int64_t>(number);
+  else
+    value.u = number < 0.0 ? 0 : static_cast<std::uint64_t>(number);
+  return value;
+}
+
+class Subject {
+ public:
+  explicit Subject(const BlockType& type)
+      : type_(&type),
+        block_(type.create()),
+        done_(output("Done")),
+        busy_(output("Busy")),
+        aborted_(output("CommandAborted")),
+        error_(output("Error")),
+        error_id_(output("ErrorID")) {
+    for (const char* name : {"Execute", "Enable", "JogForward"})
+      if (start_ == nullptr) start_ = type.find_pin(name);
+  }
+
+  const BlockType& type() const noexcept { return *type_; }
+  Block& block() noexcept { return *block_; }
+  std::string name() const { return std::string(type_->name); }
+
+  /// Whether the block moves or manages a technology object.
+  bool uses_objects() const noexcept {
+    return std::any_of(type_->pins.begin(), type_->pins.end(),
+                       [](const Pin& pin) { return pin.type == Type::AXIS; });
+  }
+  /// Whether a rising edge starts a job, so that its end is shown by Done, CommandAborted or Error.
+  bool starts_by_edge() const noexcept { return start_ != nullptr && start_->name == "Execute"; }
+  bool enables() const noexcept { return start_ != nullptr && start_->name == "Enable"; }
+
+  /// Sets the pin that starts the block.
+  void start(bool on) noexcept { store(*start_, on ? 1.0 : 0.0); }
+  const Pin* start_pin() const noexcept { return start_; }
+
+  void set(std::string_view pin, double number) noexcept { store(*type_->find_pin(pin), number); }
+  void store(const Pin& pin, double number) noexcept {
+    pin.signal(*block_).store(value_of(pin.type, number));
+  }
+  double number(const Pin& pin) noexcept { return as_double(pin.signal(*block_).load(), pin.type); }
+  void wire(const Pin& pin, Axis* axis) noexcept { *static_cast<Axis**>(pin.address(*block_)) = axis; }
+
+  bool busy() noexcept { return on(busy_); }
+  bool done() noexcept { return on(done_); }
+  bool aborted() noexcept { return on(aborted_); }
+  bool error() noexcept { return on(error_); }
+  WORD error_id() noexcept {
+    return error_id_ == nullptr ? WORD{} : static_cast<WORD>(error_id_->signal(*block_).load().u);
+  }
+  bool ended() noexcept { return done() || aborted() || error(); }
+
+  /// Whether an output such as InVelocity, InGear or Status tells that the aim of the block is met.
+  bool in_effect() noexcept {
+    for (const Pin& pin : type_->pins)
+      if (pin.pin_class == PinClass::output && pin.type == Type::BOOL &&
+          (pin.name.starts_with("In") || pin.name == "Status") && on(&pin))
+        return true;
+    return false;
+  }
+
+  /// What is wrong with the outputs as they stand; nullptr if nothing is.
+  const char* wrong_outputs() noexcept {
+    if (error_ == nullptr) return nullptr;
+    if (error() != (error_id() != WORD{})) return "ErrorID differs from 0 if and only if Error";
+    if (done_ == nullptr && aborted_ == nullptr) return nullptr;  // MC_Power stays Busy through an alarm
+    if (busy() + done() + aborted() + error() > 1)
+      return "Busy, Done, CommandAborted and Error exclude each other";
+    if ((in_effect() || on(output("StartSync"))) && !busy())
+      return "an output that tells of a running job while the block is not Busy";
+    return nullptr;
+  }
+
+ private:
+  const Pin* output(std::string_view name) const noexcept {
+    const Pin* pin = type_->find_pin(name);
+    return pin != nullptr && pin->pin_class == PinClass::output ? pin : nullptr;
+  }
+  bool on(const Pin* pin) noexcept { return pin != nullptr && pin->signal(*block_).load().u != 0; }
+
+  const BlockType* type_;
+  std::unique_ptr<Block> block_;
+  const Pin* start_ = nullptr;
+  const Pin *done_, *busy_, *aborted_, *error_, *error_id_;
+};
+
+}  // namespace lockstep::test

@@ -1,0 +1,178 @@
+#include "projects/json_document.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace lockstep {
+namespace {
+
+struct Refused {
+  std::string name;
+  std::string text;
+  std::string place;
+  std::string part;  // of the message
+};
+
+void PrintTo(const Refused& refused, std::ostream* out) {
+  *out << refused.name;
+}
+
+class JsonText : public testing::TestWithParam<Refused> {};
+
+TEST_P(JsonText, IsRefusedAtItsPlace) {
+  const JsonDocument document(GetParam().text);
+  ASSERT_FALSE(document.problems().empty());
+  EXPECT_EQ(document.problems().front().place, GetParam().place);
+  EXPECT_NE(document.problems().front().text.find(GetParam().part), std::string::npos)
+      << document.problems().front().text;
+  EXPECT_LT(document.problems().front().text.size(), 400u);
+}
+
+std::string nested(int levels) {
+  return std::string(static_cast<std::size_t>(levels), '[') +
+         std::string(static_cast<std::size_t>(levels), ']');
+}
+
+std::string zeros(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += "/0";
+  return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Syntax, JsonText,
+    testing::Values(Refused{"empty", "", "1:1", "empty"}, Refused{"blank", " \n\t ", "1:1", "empty"},
+                    Refused{"cut_short", "{\"a\": 1", "1:8", "expected"},
+                    Refused{"trailing_comma", "{\"a\": 1,}", "1:9", "expected string literal"},
+                    Refused{"comment", "// note\n{}", "1:1", "invalid literal"},
+                    Refused{"third_line", "{\n\"a\": 1,\n  \"b\" 2\n}", "3:7", "expected ':'"},
+                    Refused{"column_counts_characters", "[\"äöü\", x]", "1:9", "invalid literal"},
+                    Refused{"garbage_behind", "{} {}", "1:4", "end of input"},
+                    Refused{"invalid_utf8", "{\"a\": \"\xff\"}", "1:8", "UTF-8"},
+                    Refused{"lone_surrogate", R"(["\ud800"])", "1:9", "surrogate"},
+                    Refused{"nul_between", std::string("{}\0{}", 5), "1:3", "NUL"},
+                    Refused{"nul_in_string", std::string("[\"a\0\"]", 6), "1:4", "NUL"},
+                    Refused{"nan", "[NaN]", "1:2", "invalid literal"},
+                    Refused{"leading_zero", "[01]", "1:3", "expected"},
+                    Refused{"control_character", "[\"a\nb\"]", "1:4", "control character"},
+                    Refused{"long_token", "[\"" + std::string(1'000'000, 'x'), "1:1000003",
+                            "missing closing quote"}),
+    [](const auto& suite_case) { return suite_case.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Structure, JsonText,
+    testing::Values(Refused{"duplicate", R"({"a": {"b": 1, "b": 2}})", "/a/b", "twice"},
+                    Refused{"duplicate_after_escape", R"({"a": 1, "\u0061": 2})", "/a", "twice"},
+                    Refused{"overflow", R"({"a": [0, 1e400]})", "/a/1", "the number 1e400 is out of range"},
+                    Refused{"negative_overflow", "[-1e999]", "/0", "out of range"},
+                    Refused{"too_deep", nested(65), zeros(64), "64 levels"},
+                    Refused{"bottomless", nested(100'000), zeros(64), "64 levels"},
+                    Refused{"unclosed", std::string(100'000, '['), zeros(64), "64 levels"},
+                    Refused{"huge", std::string(JsonDocument::kLongest + 1, ' '), "", "16 MiB"}),
+    [](const auto& suite_case) { return suite_case.param.name; });
+
+TEST(JsonDocument, TakesSixtyFourLevels) {
+  const JsonDocument document(nested(64));
+  EXPECT_TRUE(document.usable());
+  EXPECT_TRUE(document.problems().empty());
+}
+
+TEST(JsonDocument, TellsEveryDuplicateAndEveryOverflow) {
+  const JsonDocument document(R"({"a": 1, "a": 2, "b": 1e400, "c": [-1e400, 3], "a": 3})");
+  ASSERT_TRUE(document.usable());
+  std::vector<std::string> places;
+  for (const Problem& problem : document.problems()) places.push_back(problem.place);
+  std::sort(places.begin(), places.end());
+  EXPECT_EQ(places, (std::vector<std::string>{"/a", "/a", "/b", "/c/0"}));
+  EXPECT_EQ(document.root().find("b")->kind, JsonKind::unusable);
+  EXPECT_EQ(document.root().find("c")->elements[1]->magnitude, 3u);
+  EXPECT_EQ(document.root().find("a")->magnitude, 1u) << "the first of duplicates is kept";
+}
+
+TEST(JsonDocument, GivesUpOnTooManyOverflows) {
+  std::string text = "[1e400";
+  for (int i = 0; i < 100; ++i) text += ", 1e400";
+  const JsonDocument document(text + "]");
+  EXPECT_FALSE(document.usable());
+  EXPECT_EQ(document.problems().size(), 20u);
+}
+
+TEST(JsonDocument, GivesUpOnTooManyValues) {
+  std::string text = "[0";
+  for (std::size_t i = 0; i < JsonDocument::kMostValues; ++i) text += ",0";
+  const JsonDocument document(text + "]");
+  EXPECT_FALSE(document.usable());
+  ASSERT_EQ(document.problems().size(), 1u);
+  EXPECT_NE(document.problems()[0].text.find("2000000 values"), std::string::npos);
+}
+
+TEST(JsonDocument, KeepsTheOrderOfMembers) {
+  const JsonDocument document(R"({"z": 1, "a": 2, "m": 3})");
+  std::string order;
+  for (const auto& member : document.root().members) order += member.key;
+  EXPECT_EQ(order, "zam");
+}
+
+TEST(JsonDocument, TellsNumbersWithAFractionFromThoseWithout) {
+  const JsonDocument document("[3, -3, 3.0, 3e2, 3e-1, 18446744073709551615, 1e30, -9223372036854775808]");
+  const auto& numbers = document.root().elements;
+  const auto whole = [&](std::size_t i) { return numbers[i]->whole; };
+  const auto fraction = [&](std::size_t i) { return numbers[i]->fraction; };
+  EXPECT_TRUE(whole(0) && whole(1) && whole(3) && whole(5) && whole(7));
+  EXPECT_FALSE(whole(2) || whole(4) || whole(6));
+  EXPECT_TRUE(fraction(2) && fraction(4));
+  EXPECT_FALSE(fraction(0) || fraction(3) || fraction(6));
+  EXPECT_EQ(numbers[3]->magnitude, 300u);
+  EXPECT_EQ(numbers[5]->magnitude, 18446744073709551615u);
+  EXPECT_TRUE(numbers[7]->negative);
+  EXPECT_EQ(numbers[7]->magnitude, std::uint64_t{1} << 63);
+}
+
+TEST(JsonDocument, EscapesPointersAndKeepsThemOnOneLine) {
+  const JsonDocument document(R"({"a/b~c": {"x\ny": [1]}})");
+  const JsonValue& inner = *document.root().members[0].value->members[0].value;
+  EXPECT_EQ(inner.elements[0]->pointer(), "/a~1b~0c/x?y/0");
+  EXPECT_EQ(document.root().pointer(), "");
+}
+
+TEST(JsonDocument, CutsVeryLongKeysAndValuesShort) {
+  const JsonDocument document("{\"" + std::string(1'000'000, 'k') + "\": \"" + std::string(1'000'000, 'v') +
+                              "\"}");
+  const JsonValue& value = *document.root().members[0].value;
+  EXPECT_LT(value.pointer().size(), 80u);
+  EXPECT_LT(value.shown().size(), 80u);
+}
+
+TEST(JsonDocument, SkipsAByteOrderMark) {
+  const JsonDocument document("\xEF\xBB\xBF{}");
+  EXPECT_TRUE(document.usable());
+  EXPECT_TRUE(document.problems().empty());
+}
+
+TEST(Shown, ReplacesWhatATerminalCannotShow) {
+  EXPECT_EQ(shown("a\x1b[31m\tb\x7f"), "a?[31m?b?");
+  EXPECT_EQ(shown("äöü€😀"), "äöü€😀");
+  EXPECT_EQ(shown("\xff\xc3"), "??");
+  EXPECT_EQ(shown("\xc2\x9b"), "??") << "control characters beyond ASCII as well";
+}
+
+TEST(Shown, CutsBetweenCharacters) {
+  std::string text;
+  for (int i = 0; i < 100; ++i) text += "ä";
+  std::string expected;
+  for (int i = 0; i < 60; ++i) expected += "ä";
+  EXPECT_EQ(shown(text), expected + "…");
+}
+
+TEST(DidYouMean, NamesTheNearestOneOrNone) {
+  const std::vector<std::string_view> names = {"Velocity", "Acceleration", "Jerk"};
+  EXPECT_EQ(did_you_mean("Velosity", names), " (did you mean 'Velocity'?)");
+  EXPECT_EQ(did_you_mean("velocity", names), " (did you mean 'Velocity'?)");
+  EXPECT_EQ(did_you_mean("Jrek", names), " (did you mean 'Jerk'?)");
+  EXPECT_EQ(did_you_mean("Torque", names), "");
+  EXPECT_EQ(did_you_mean(std::string(1'000'000, 'V'), names), "");
+}
+
+}  // namespace
+}  // namespace lockstep

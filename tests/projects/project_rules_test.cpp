@@ -1,0 +1,524 @@
+// Every rule of the project file: what is wrong is told at its place, with what is allowed.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "example_project.hpp"
+#include "projects/project.hpp"
+
+namespace lockstep {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string lines(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += to_string("FILE", problem) + "\n";
+  return text;
+}
+
+/// The example project with one place replaced by some JSON; an empty text removes the place.
+std::string changed(const std::string& pointer, const std::string& value) {
+  Json project = Json::parse(kExampleProject);
+  if (value.empty()) {
+    const Json::json_pointer place(pointer);
+    if (project.at(place.parent_pointer()).is_array())
+      project.at(place.parent_pointer()).erase(std::stoul(place.back()));
+    else
+      project.at(place.parent_pointer()).erase(place.back());
+  } else {
+    project[Json::json_pointer(pointer)] = Json::parse(value);
+  }
+  return project.dump();
+}
+
+struct Rule {
+  std::string change;  // pointer
+  std::string value;   // JSON; empty: removed
+  std::string place;   // where the only problem has to be told
+  std::string part;    // of its text
+};
+
+void PrintTo(const Rule& rule, std::ostream* out) {
+  *out << rule.change << " = " << (rule.value.empty() ? "nothing" : rule.value.substr(0, 100));
+}
+
+class Rules : public testing::TestWithParam<Rule> {};
+
+TEST_P(Rules, AreToldAtTheirPlace) {
+  const Rule& rule = GetParam();
+  const LoadedProject loaded = load_project(changed(rule.change, rule.value));
+  EXPECT_FALSE(loaded.project.has_value());
+  ASSERT_EQ(loaded.problems.size(), 1u) << lines(loaded.problems);
+  EXPECT_EQ(loaded.problems[0].place, rule.place) << loaded.problems[0].text;
+  EXPECT_NE(loaded.problems[0].text.find(rule.part), std::string::npos) << loaded.problems[0].text;
+  EXPECT_LT(loaded.problems[0].text.size(), 700u);
+}
+
+class Warnings : public testing::TestWithParam<Rule> {};
+
+TEST_P(Warnings, LeaveTheProjectValid) {
+  const Rule& rule = GetParam();
+  const LoadedProject loaded = load_project(changed(rule.change, rule.value));
+  EXPECT_TRUE(loaded.project.has_value()) << lines(loaded.problems);
+  ASSERT_EQ(loaded.warnings.size(), 1u) << lines(loaded.warnings);
+  EXPECT_EQ(loaded.warnings[0].place, rule.place) << loaded.warnings[0].text;
+  EXPECT_NE(loaded.warnings[0].text.find(rule.part), std::string::npos) << loaded.warnings[0].text;
+}
+
+const std::string kConveyor = "/technology_objects/Conveyor";
+const std::string kKnife = "/technology_objects/Knife";
+const std::string kConfig = "/technology_objects/Knife/config";
+const std::string kCalls = "/programs/0/calls";
+const std::string kGear = "/programs/0/calls/4/in";
+const std::string kNew = "/programs/0/calls/7";  // a call behind the others
+const std::string kMap = "/modbus/map/4";        // an entry behind the others
+
+/// A change of a place whose problem is told there.
+Rule at(std::string place, std::string value, std::string part) {
+  return {place, std::move(value), place, std::move(part)};
+}
+Rule missing(const std::string& key, std::string parent, std::string part) {
+  return {parent + "/" + key, "", std::move(parent), std::move(part)};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Project, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        at("", "[]", "an array is not allowed here; allowed: an object"), at("", "3", "allowed: an object"),
+        at("/surprise", "1", "unknown key 'surprise'"), at("/tag", "{}", "(did you mean 'tags'?)"),
+        at("/Name", "\"x\"", "(did you mean 'name'?)"), at("/lockstep", "2", "2 is not allowed"),
+        at("/lockstep", "\"1\"", "'1' is not allowed"), missing("lockstep", "", "'lockstep' is missing"),
+        missing("name", "", "'name' is missing"), at("/name", "\"\"", "1 to 128 bytes"),
+        at("/name", "\"a\\u0007b\"", "control characters"), at("/name", "7", "allowed: a string"),
+        at("/name", "\"" + std::string(129, 'n') + "\"", "1 to 128 bytes"),
+        at("/description", "null", "null is not allowed"), missing("clock", "", "'clock' is missing"),
+        at("/tags/more", "[]", "allowed: an object"), at("/stimuli", "{}", "allowed: an array"),
+        at("/modbus", "[]", "allowed: an object"), at("/trace", "[]", "allowed: an object")}));
+
+INSTANTIATE_TEST_SUITE_P(Clock, Rules,
+                         testing::ValuesIn(std::vector<Rule>{
+                             missing("servo_cycle", "/clock", "'servo_cycle' is missing"),
+                             at("/clock/servo_cycle", "1", "a duration such as \"10ms\""),
+                             at("/clock/servo_cycle", "\"1 ms\"", "is not a duration"),
+                             at("/clock/servo_cycle", "\"0ms\"", "from 1ns"),
+                             at("/clock/servo_cycle", "\"-1ms\"", "from 1ns"),
+                             at("/clock/servo_cycle", "\"0.1ns\"", "whole number of nanoseconds"),
+                             at("/clock/servo_cycle", "\"61s\"", "to 1min"),
+                             {"/clock/servo_cycle", "\"3ms\"", "/programs/0/cycle",
+                              "whole multiple of servo_cycle"},
+                             at("/clock/interpolator_ratio", "0", "from 1 to 32"),
+                             at("/clock/interpolator_ratio", "33", "from 1 to 32"),
+                             at("/clock/interpolator_ratio", "2.5", "from 1 to 32"),
+                             at("/clock/interpolator_ratio", "\"2\"", "from 1 to 32"),
+                             at("/clock/interpolator_ratio", "99999999999999999999", "from 1 to 32"),
+                             at("/clock/overrun", "\"halt\"", "allowed: report, stop"),
+                             at("/clock/overrun", "\"Stop\"", "(did you mean 'stop'?)"),
+                             at("/clock/cycle", "\"1ms\"", "unknown key 'cycle'")}));
+
+INSTANTIATE_TEST_SUITE_P(Naming, Rules,
+                         testing::ValuesIn(std::vector<Rule>{
+                             at("/tags/1st", R"({"type": "BOOL"})", "'1st' is not a name"),
+                             at("/tags/", R"({"type": "BOOL"})", "is not a name"),
+                             at("/tags/a__b", R"({"type": "BOOL"})", "single underscores"),
+                             at("/tags/a_", R"({"type": "BOOL"})", "an underscore last"),
+                             at("/tags/a b", R"({"type": "BOOL"})", "is not a name"),
+                             at("/tags/grün", R"({"type": "BOOL"})", "is not a name"),
+                             at("/tags/a-b", R"({"type": "BOOL"})", "is not a name"),
+                             {"/tags/" + std::string(129, 'x'), R"({"type": "BOOL"})",
+                              "/tags/" + std::string(60, 'x') + "…", "up to 128 characters"},
+                             at("/tags/mod", R"({"type": "BOOL"})", "keyword"),
+                             at("/tags/LReal", R"({"type": "BOOL"})", "keyword"),
+                             at("/tags/True", R"({"type": "BOOL"})", "keyword"),
+                             at("/tags/SPEED", R"({"type": "BOOL"})", "(as 'speed', case does not count)"),
+                             {"/tags/knife", R"({"type": "BOOL"})", kKnife, "taken already (as 'knife'"},
+                             {"/tags/GEAR", R"({"type": "BOOL"})", kCalls + "/4/name", "taken already"},
+                             {kNew, R"({"fb": "F_TRIG", "name": "run", "in": {"CLK": true}})", kNew + "/name",
+                              "taken already"},
+                             {kNew, R"({"fb": "R_TRIG", "name": "x.y"})", kNew + "/name", "is not a name"},
+                             {"/programs/1", R"({"name": "main", "ob": "MC_PreServo", "calls": []})",
+                              "/programs/1/name", "there is a program 'main' already"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Tags, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        at("/tags/more", "{}", "'type' is missing"),
+        at("/tags/start/typ", "1", "unknown key 'typ'"),
+        {"/tags/more", R"({"type": "LREALL"})", "/tags/more/type", "(did you mean 'LREAL'?)"},
+        {"/tags/more", R"({"type": "bool"})", "/tags/more/type", "(did you mean 'BOOL'?)"},
+        {"/tags/more", R"({"type": "DB_ANY"})", "/tags/more/type", "unknown type 'DB_ANY'"},
+        {"/tags/more", R"({"type": "STRING[20]"})", "/tags/more/type", "not yet supported"},
+        {"/tags/more", R"({"type": "ARRAY[1..3] OF INT"})", "/tags/more/type", "not yet supported"},
+        {"/tags/more", R"({"type": 3})", "/tags/more/type", "allowed: a string"},
+        at("/tags/start/init", "1", "allowed: true, false"),
+        at("/tags/start/init", "null", "null"),
+        at("/tags/start/retain", "1", "allowed: true, false"),
+        at("/tags/start/comment", "[]", "allowed: a string"),
+        {"/tags/more", R"({"type": "SINT", "init": 128})", "/tags/more/init", "from -128 to 127 (SINT)"},
+        {"/tags/more", R"({"type": "SINT", "init": -129})", "/tags/more/init", "from -128 to 127"},
+        {"/tags/more", R"({"type": "USINT", "init": -1})", "/tags/more/init", "from 0 to 255"},
+        {"/tags/more", R"({"type": "DINT", "init": 3.0})", "/tags/more/init", "without fraction"},
+        {"/tags/more", R"({"type": "LINT", "init": 9223372036854775808})", "/tags/more/init", "(LINT)"},
+        {"/tags/more", R"({"type": "ULINT", "init": 18446744073709551616})", "/tags/more/init", "(ULINT)"},
+        {"/tags/more", R"({"type": "WORD", "init": 65536})", "/tags/more/init", "to 65535 (WORD)"},
+        {"/tags/more", R"({"type": "WORD", "init": "16#10000"})", "/tags/more/init", "WORD"},
+        {"/tags/more", R"({"type": "REAL", "init": 1e39})", "/tags/more/init", "(REAL)"},
+        {"/tags/more", R"({"type": "LREAL", "init": "1.0 / 0.0"})", "/tags/more/init", "no finite constant"},
+        {"/tags/more", R"({"type": "LREAL", "init": "speed"})", "/tags/more/init", "allowed: constants"},
+        {"/tags/more", R"({"type": "LREAL", "init": true})", "/tags/more/init", "a number (LREAL)"},
+        {"/tags/more", R"({"type": "TIME", "init": 5})", "/tags/more/init", "a duration"},
+        {"/tags/more", R"({"type": "TIME", "init": "5"})", "/tags/more/init", "is not a duration"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Objects, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        at("/technology_objects/More", "{}", "'type' is missing"),
+        {"/technology_objects/More", R"({"type": "TO_Cam"})", "/technology_objects/More/type",
+         "not yet supported"},
+        {"/technology_objects/More", R"({"type": "TO_SynchronAxis"})", "/technology_objects/More/type",
+         "(did you mean 'TO_SynchronousAxis'?)"},
+        at(kKnife + "/points", "[]", "unknown key 'points'"),
+        missing("drive", kKnife, "neither virtual"),
+        {kKnife + "/config/VirtualAxis", R"({"Mode": 1})", kKnife + "/drive", "allowed is one of the two"},
+        missing("model", kKnife + "/drive", "'model' is missing"),
+        at(kKnife + "/drive/model", "\"real\"", "allowed: simulated"),
+        at(kKnife + "/drive/time_constant", "\"11s\"", "to 10s"),
+        at(kKnife + "/drive/time_constant", "\"-1ms\"", "from 0ns"),
+        at(kKnife + "/drive/dead_time", "\"255ms\"", "to 254ms"),
+        at(kKnife + "/drive/dead_time", "1", "a duration"),
+        at(kKnife + "/drive/encoder_resolution", "-0.1", "from 0 to"),
+        at(kKnife + "/drive/encoder_resolution", "\"1\"", "a number"),
+        at(kKnife + "/drive/inertia", "1", "unknown key"),
+        at(kKnife + "/drive", "true", "allowed: an object"),
+        at(kConveyor + "/leading_values", R"([{"to": "Knife"}])", "allowed with: TO_SynchronousAxis"),
+        at(kKnife + "/leading_values", "{}", "allowed: an array"),
+        {kKnife + "/leading_values/1", "{}", kKnife + "/leading_values/1", "'to' is missing"},
+        at(kKnife + "/leading_values/0/to", "\"Conveior\"", "(did you mean 'Conveyor'?)"),
+        at(kKnife + "/leading_values/0/to", "\"speed\"", "is no technology object"),
+        at(kKnife + "/leading_values/0/to", "\"Knife\"", "cannot follow itself"),
+        at(kKnife + "/leading_values/0/to", "1", "allowed: a string"),
+        {kKnife + "/leading_values/1", R"({"to": "conveyor"})", kKnife + "/leading_values/1/to", "already"},
+        at(kKnife + "/leading_values/0/coupling", "\"delayed\"", "not yet supported"),
+        at(kKnife + "/leading_values/0/coupling", "\"actuel\"", "(did you mean 'actual'?)")}));
+
+INSTANTIATE_TEST_SUITE_P(Configuration, Rules,
+                         testing::ValuesIn(std::vector<Rule>{
+                             at(kConfig + "/Surprise", "{}", "unknown key 'Surprise'"),
+                             at(kConfig + "/modulo", R"({"Enable": true})", "(did you mean 'Modulo'?)"),
+                             at(kConfig + "/Modulo/length", "10.0", "(did you mean 'Length'?)"),
+                             at(kConfig + "/Modulo.Length", "10.0", "structures are nested"),
+                             at(kConfig + "/Modulo", "10.0", "an object with Enable, Length, StartValue"),
+                             at(kConfig + "/Modulo/Length", "{}", "a number (LREAL)"),
+                             at(kConfig + "/Modulo/Length", "0", "allowed: from"),
+                             at(kConfig + "/Modulo/Length", "1e13", "to 1e+12"),
+                             at(kConfig + "/Modulo/Length", "\"360.0\"", "a number"),
+                             at(kConfig + "/Modulo/Enable", "1", "allowed: true, false"),
+                             at(kConfig + "/Properties/MotionType", "2", "allowed: 0, 1"),
+                             at(kConfig + "/Properties/MotionType", "1.0", "without fraction"),
+                             at(kConfig + "/Properties/MotionType", "true", "without fraction"),
+                             {kConfig + "/VirtualAxis", R"({"Mode": -1})", kConfig + "/VirtualAxis/Mode",
+                              "(UDINT)"},
+                             at(kConfig + "/Position", "1.0", "computed by the runtime"),
+                             at(kConfig + "/OperativeSensor", "1", "computed by the runtime"),
+                             at(kConfig + "/ModuloCycle", "1", "computed by the runtime"),
+                             at(kConfig + "/VelocitySetpoint", "1", "computed by the runtime"),
+                             at(kConfig + "/StatusWord", "1", "computed by the runtime"),
+                             at(kConfig + "/ErrorWord", "1", "computed by the runtime"),
+                             at(kConfig + "/WarningWord", "1", "computed by the runtime"),
+                             at(kConfig + "/ErrorDetail", R"({"Number": 1})", "computed by the runtime"),
+                             at(kConfig + "/StatusSensor[1]", R"({"State": 1})", "computed by the runtime"),
+                             {kConfig + "/Extrapolation", R"({"LeadingAxisDependentTime": 1})",
+                              kConfig + "/Extrapolation/LeadingAxisDependentTime", "computed by the runtime"},
+                             at(kConfig + "/Sensor", "{}", "'Sensor[1]' to 'Sensor[4]'"),
+                             at(kConfig + "/Sensor", "[]", "'Sensor[1]' to 'Sensor[4]'"),
+                             at(kConfig + "/Sensor[0]", "{}", "unknown key 'Sensor[0]'"),
+                             at(kConfig + "/Sensor[5]", "{}", "'Sensor[1]' to 'Sensor[4]'"),
+                             at(kConfig + "/Sensor[01]", "{}", "unknown key"),
+                             at(kConfig + "/Sensor[-1]", "{}", "unknown key"),
+                             at(kConfig + "/Sensor[99999999999999999999]", "{}", "unknown key"),
+                             at(kConfig + "/Modulo[1]", "{}", "'Modulo' is no array"),
+                             {kConfig + "/Sensor[1]", R"({"Parameter": {"Resolution": 0}})",
+                              kConfig + "/Sensor[1]/Parameter/Resolution", "allowed: from"},
+                             {kConfig + "/PositionLimits_SW", R"({"MinPosition": 5, "MaxPosition": 5})",
+                              kConfig + "/PositionLimits_SW", "less than MaxPosition"},
+                             {kConfig + "/PositionLimits_HW", R"({"MinSwitchAddress": 4})",
+                              kConfig + "/PositionLimits_HW/MinSwitchAddress", "the name of a BOOL tag"},
+                             {kConfig + "/PositionLimits_HW", R"({"MinSwitchAddress": "speed"})",
+                              kConfig + "/PositionLimits_HW/MinSwitchAddress", "the name of a BOOL tag"},
+                             {kConfig + "/PositionLimits_HW", R"({"MinSwitchAddress": "power_c.Status"})",
+                              kConfig + "/PositionLimits_HW/MinSwitchAddress", "the name of a BOOL tag"},
+                             {kConfig + "/PositionLimits_HW", R"({"MinSwitchAddress": "sinced"})",
+                              kConfig + "/PositionLimits_HW/MinSwitchAddress", "(did you mean 'synced'?)"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Programs, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        missing("ob", "/programs/0", "'ob' is missing"),
+        {"/programs/1", R"({"name": "p", "ob": "MC_PreServo"})", "/programs/1", "'calls' is missing"},
+        missing("name", "/programs/0", "'name' is missing"),
+        missing("cycle", "/programs/0", "'cycle' is missing"),
+        at("/programs/0/ob", "\"OB1\"", "MC_PreServo, MC_PostServo, MC_PreInterpolator, Cyclic, Main"),
+        at("/programs/0/ob", "\"main\"", "(did you mean 'Main'?)"),
+        at("/programs/0/cycle", "\"10.5ms\"", "whole multiple of servo_cycle"),
+        at("/programs/0/cycle", "\"0s\"", "from 1ns"),
+        at("/programs/0/cycle", "\"25h\"", "to 24h"),
+        at("/programs/0/cycle", "10", "a duration"),
+        at("/programs/0/priority", "3", "allowed with: Cyclic"),
+        {"/programs/1", R"({"name": "p", "ob": "MC_PreServo", "cycle": "1ms", "calls": []})",
+         "/programs/1/cycle", "has no cycle"},
+        {"/programs/1", R"({"name": "p", "ob": "Cyclic", "calls": []})", "/programs/1", "'cycle' is missing"},
+        {"/programs/1", R"({"name": "p", "ob": "Cyclic", "cycle": "2ms", "priority": 0, "calls": []})",
+         "/programs/1/priority", "from 1 to 26"},
+        {"/programs/1", R"({"name": "p", "ob": "Cyclic", "cycle": "2ms", "priority": 27, "calls": []})",
+         "/programs/1/priority", "from 1 to 26"},
+        {"/programs/1", R"({"name": "TO", "ob": "MC_PreServo", "calls": []})", "/programs/1/name", "keyword"},
+        at("/programs/1", "[]", "allowed: an object"),
+        at("/programs/0/start", "1", "unknown key"),
+        at(kNew, "{}", "one of the keys 'fb', 'set', 'if' is missing"),
+        at(kNew, "3", "allowed: an object"),
+        at(kNew, R"({"call": "MC_Power"})", "one of the keys")}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Calls, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        at(kCalls + "/4/fb", "\"MC_GearInPoss\"", "(did you mean 'MC_GearInPos'?)"),
+        at(kCalls + "/3/fb", "\"mc_movevelocity\"", "(did you mean 'MC_MoveVelocity'?)"),
+        at(kCalls + "/3/fb", "5", "allowed: a string"),
+        {kNew, R"({"fb": "R_TRIG"})", kNew, "'name' is missing"},
+        {kNew, R"({"fb": "R_TRIG", "name": 5})", kNew + "/name", "allowed: a string"},
+        {kNew, R"({"fb": "R_TRIG", "name": "edge", "out": {}})", kNew + "/out", "unknown key 'out'"},
+        {kNew, R"({"fb": "R_TRIG", "name": "edge", "set": "speed"})", kNew + "/set", "unknown key 'set'"},
+        {kNew, R"({"fb": "R_TRIG", "name": "edge", "in": []})", kNew + "/in", "allowed: an object"},
+        at(kGear + "/Ratio", "3", "has no input 'Ratio'"),
+        at(kGear + "/ratioNumerator", "3", "(did you mean 'RatioNumerator'?)"),
+        at(kGear + "/InSync", "true", "is an output of MC_GearInPos; it is read as gear.InSync"),
+        missing("Slave", kGear, "'Slave' is missing"),
+        {kNew, R"({"fb": "MC_Power", "name": "p"})", kNew, "'Axis' is missing"},
+        at(kGear + "/Slave", "\"Conveyor\"", "is a TO_PositioningAxis; allowed: TO_SynchronousAxis"),
+        at(kGear + "/Slave", "\"Knive\"", "(did you mean 'Knife'?)"),
+        at(kGear + "/Slave", "\"speed\"", "is no technology object"),
+        at(kGear + "/Slave", "\"Knife.Position\"", "there is no technology object"),
+        at(kGear + "/Slave", "2", "the name of a technology object"),
+        at(kGear + "/RatioNumerator", "1.5", "without fraction"),
+        at(kGear + "/RatioNumerator", "3000000000", "(DINT)"),
+        at(kGear + "/RatioNumerator", "true", "(DINT)"),
+        at(kGear + "/RatioNumerator", "null", "null"),
+        at(kGear + "/RatioNumerator", "\"1.5\"", "DINT"),
+        at(kGear + "/RatioNumerator", "\"speed\"", "LREAL"),
+        at(kGear + "/Execute", "1", "allowed: true, false"),
+        at(kGear + "/Execute", "\"speed\"", "BOOL"),
+        at(kGear + "/Execute", "\"start AND\"", "(column"),
+        at(kGear + "/Execute", "\"\"", "(column 1)"),
+        at(kGear + "/Execute", "\"home_k.Don\"", "has no pin 'Don' (did you mean 'Done'?)"),
+        at(kGear + "/Execute", "\"home_k\"", "one of its pins has to follow"),
+        at(kGear + "/Execute", "\"home_k.Axis\"", "takes a technology object and has no value"),
+        at(kGear + "/Execute", "\"stort\"", "unknown name 'stort' (did you mean 'start'?)"),
+        at(kGear + "/Execute", "\"Knife\"", "one of its variables has to follow"),
+        at(kGear + "/Execute", "\"Knife.Pos > 0.0\"", "has no variable 'Pos'"),
+        at(kGear + "/Execute", "\"Knife.StatusWord.X32\"", "X3"),
+        at(kGear + "/Execute", "\"start.X0\"", "BOOL")}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Assignments, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        {kNew, R"({"set": "synced"})", kNew, "'to' is missing"},
+        {kNew, R"({"set": 3, "to": 1})", kNew + "/set", "allowed: a string"},
+        {kNew, R"({"set": "sinced", "to": true})", kNew + "/set", "(did you mean 'synced'?)"},
+        {kNew, R"({"set": "synced", "to": 1})", kNew + "/to", "allowed: true, false"},
+        {kNew, R"({"set": "speed", "to": "start"})", kNew + "/to", "BOOL"},
+        {kNew, R"({"set": "speed", "to": {}})", kNew + "/to", "an object is not allowed"},
+        {kNew, R"({"set": "speed.X1", "to": true})", kNew + "/set", "has no bits"},
+        {kNew, R"({"set": "speed.foo", "to": true})", kNew + "/set", "has no part 'foo'"},
+        {kNew, R"({"set": "speed.", "to": true})", kNew + "/set", "has to follow the point"},
+        {kNew, R"({"set": "run.Velocity", "to": 1})", kNew + "/set", "a pin cannot be written"},
+        {kNew, R"({"set": "Knife.Position", "to": 1})", kNew + "/set", "computed by the runtime"},
+        {kNew, R"({"set": "Knife.StatusWord.X1", "to": true})", kNew + "/set", "computed by the runtime"},
+        {kNew, R"({"set": "Knife.Modulo.Length", "to": 1})", kNew + "/set",
+         "restart of the technology object (RES)"},
+        {kNew, R"({"set": "Knife.VirtualAxis.Mode", "to": 1})", kNew + "/set", "read-only at run time (RON)"},
+        {kNew, R"({"set": "Knife.Override.Velocity", "to": true})", kNew + "/to", "a number (LREAL)"},
+        {kNew, R"({"if": "start"})", kNew, "'then' is missing"},
+        {kNew, R"({"if": "speed", "then": []})", kNew + "/if", "BOOL"},
+        {kNew, R"({"if": 1, "then": []})", kNew + "/if", "allowed: true, false"},
+        {kNew, R"({"if": true, "then": {}})", kNew + "/then", "allowed: an array"},
+        {kNew, R"({"if": true, "then": [], "elsif": []})", kNew + "/elsif", "unknown key 'elsif'"},
+        {kNew, R"({"if": true, "then": [{"if": true, "then": [], "else": [{"set": "speed", "to": true}]}]})",
+         kNew + "/then/0/else/0/to", "a number (LREAL)"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Stimuli, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        missing("at", "/stimuli/0", "'at' is missing"), missing("set", "/stimuli/0", "'set' is missing"),
+        at("/stimuli/0/at", "0.5", "a duration"), at("/stimuli/0/at", "\"-1s\"", "from 0ns"),
+        at("/stimuli/0/set", "[]", "allowed: an object"), at("/stimuli/0/set/start", "1", "true, false"),
+        at("/stimuli/0/set/stert", "true", "(did you mean 'start'?)"),
+        at("/stimuli/0/set/gear.Execute", "true", "is no tag"),
+        at("/stimuli/0/set/Knife.Override.Velocity", "50.0", "is no tag"),
+        at("/stimuli/0/set/speed", "\"start\"", "allowed: constants"),
+        at("/stimuli/0/wait", "1", "unknown key"), at("/stimuli/1", "1", "allowed: an object")}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Modbus, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        at("/modbus/client", "{}", "unknown key 'client'"),
+        at("/modbus/server", "1", "allowed: an object"),
+        missing("listen", "/modbus/server", "'listen' is missing"),
+        at("/modbus/server/listen", "\"localhost\"", "is not HOST:PORT"),
+        at("/modbus/server/listen", "\"a:70000\"", "a port from 0 to 65535"),
+        at("/modbus/server/listen", "502", "allowed: a string"),
+        at("/modbus/map", "{}", "allowed: an array"),
+        missing("tag", "/modbus/map/0", "'tag' is missing"),
+        missing("table", "/modbus/map/0", "'table' is missing"),
+        missing("address", "/modbus/map/0", "'address' is missing"),
+        at("/modbus/map/0/tag", "\"strt\"", "(did you mean 'start'?)"),
+        at("/modbus/map/0/table", "\"coils\"", "(did you mean 'coil'?)"),
+        at("/modbus/map/0/address", "65536", "from 0 to 65535"),
+        at("/modbus/map/0/address", "-1", "from 0 to 65535"),
+        at("/modbus/map/1/type", "\"FLOAT\"", "unknown type 'FLOAT'; allowed: LREAL, REAL"),
+        at("/modbus/map/1/type", "\"INT\"", "allowed: LREAL, REAL"),
+        at("/modbus/map/1/word_order", "\"middle\"", "allowed: big, little"),
+        at("/modbus/map/1/access", "\"rw\"", "allowed: read, write"),
+        at("/modbus/map/1/unit", "1", "unknown key"),
+        {"/modbus/map/1/table", "\"coil\"", "/modbus/map/1/table", "does not fit the one bit"},
+        at("/modbus/map/3/access", "\"write\"", "computed by the runtime"),
+        at("/modbus/map/2/access", "\"write\"", "allowed: coil, holding_register"),
+        {kMap, R"({"tag": "gear.Execute", "table": "coil", "address": 9, "access": "write"})",
+         kMap + "/access", "a pin cannot be written"},
+        {kMap,
+         R"({"tag": "Knife.Modulo.Length", "table": "holding_register", "address": 100, "access": "write"})",
+         kMap + "/access", "(RES)"},
+        {kMap, R"({"tag": "synced", "table": "coil", "address": 0})", kMap + "/address",
+         "is taken by entry 0"},
+        {kMap, R"({"tag": "speed", "table": "holding_register", "address": 7})", kMap + "/address",
+         "is taken by entry 1"},
+        {kMap, R"({"tag": "speed", "table": "holding_register", "address": 65533})", kMap + "/address",
+         "beyond 65535"},
+        {kMap, R"({"tag": "gear.Slave", "table": "coil", "address": 9})", kMap + "/tag", "has no value"},
+        {kMap, R"({"tag": "gear", "table": "coil", "address": 9})", kMap + "/tag", "one of its pins"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Trace, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        at("/trace/csv", "1", "unknown key"), at("/trace/lcm", "\"x\"", "allowed: an object"),
+        missing("url", "/trace/lcm", "'url' is missing"),
+        missing("channel", "/trace/lcm", "'channel' is missing"),
+        at("/trace/lcm/url", "\"http://x\"", "no address of an LCM network"),
+        at("/trace/lcm/channel", "\"\"", "allowed: a text"),
+        at("/trace/lcm/channel", "\"" + std::string(57, 'C') + "\"", "up to 56 characters"),
+        at("/trace/signals", "{}", "allowed: an array"), at("/trace/signals/4", "1", "allowed: a string"),
+        at("/trace/signals/4", "\"Knife.Positon\"", "(did you mean 'Position'?)"),
+        at("/trace/signals/4", "\"Knife.StatusWord.X32\"", "X0 to X31"),
+        at("/trace/signals/4", "\"Knife.Position.X1\"", "has no bits"),
+        at("/trace/signals/4", "\"knife.position\"", "is there twice"),
+        at("/trace/signals/4", "\"Knife.Sensor[5].Type\"", "has no variable"),
+        at("/trace/signals/4", "\"Knife.PositionLimits_HW.MinSwitchAddress\"", "has no value"),
+        at("/trace/signals/4", "\"\"", "unknown name ''"),
+        at("/trace/signals/4", "\".\"", "unknown name ''")}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Looks, Warnings,
+    testing::ValuesIn(std::vector<Rule>{
+        Rule{kGear + "/SyncProfileReference", "7", kGear + "/SyncProfileReference", "allowed: 0, 1, 3"},
+        Rule{kGear + "/SyncProfileReference", "\"3 + 4\"", kGear + "/SyncProfileReference",
+             "7 is not permitted"},
+        Rule{kGear + "/RatioNumerator", "0", kGear + "/RatioNumerator", "without 0"},
+        Rule{kGear + "/MasterStartDistance", "\"1.0 / 0.0\"", kGear + "/MasterStartDistance",
+             "inf is not permitted"},
+        Rule{kGear + "/Master", "\"Knife\"", kGear + "/Master", "not among the leading_values of 'Knife'"},
+        Rule{"/tags/spare", R"({"type": "BOOL"})", "/tags/spare", "nothing uses the tag 'spare'"},
+        Rule{"/technology_objects/Spare",
+             R"({"type": "TO_PositioningAxis", "config": {"VirtualAxis": {"Mode": 1}}})",
+             "/technology_objects/Spare", "nothing uses the technology object 'Spare'"},
+        Rule{kNew, R"({"set": "Knife.Override.Velocity", "to": 300})", kNew + "/to",
+             "allowed: from 0 to 200"},
+        Rule{kNew, R"({"set": "speed", "to": "1 / 2"})", kNew + "/to", "(column"},
+        Rule{kConfig + "/Actor", R"({"Efficiency": 0.5})", kConfig + "/Actor/Efficiency", "no effect yet"}}));
+
+TEST(ProjectProblems, AreToldForSectionsOfAnotherKind) {
+  for (const auto& [section, allowed] : {std::pair{"technology_objects", "an object"},
+                                         std::pair{"tags", "an object"}, std::pair{"programs", "an array"}}) {
+    Json project = {{"lockstep", 1}, {"name", "x"}, {"clock", {{"servo_cycle", "1ms"}}}};
+    project[section] = "text";
+    const LoadedProject loaded = load_project(project.dump());
+    EXPECT_EQ(lines(loaded.problems),
+              std::string("FILE:/") + section + ": 'text' is not allowed here; allowed: " + allowed + "\n");
+  }
+}
+
+TEST(ProjectProblems, AreAllToldAtOnce) {
+  Json project = Json::parse(kExampleProject);
+  project["clock"]["interpolator_ratio"] = 99;
+  project["technology_objects"]["Knife"]["config"]["Modulo"]["Length"] = -1;
+  project["tags"]["speed"]["type"] = "FLOAT";
+  project["programs"][0]["calls"][4]["in"]["Ratio"] = 1;
+  project["modbus"]["map"][0]["address"] = -1;
+  project["trace"]["signals"][0] = "Conveyer.Position";
+  project["extra"] = 1;
+  const LoadedProject loaded = load_project(project.dump());
+  std::vector<std::string> places;
+  for (const Problem& problem : loaded.problems) places.push_back(problem.place);
+  std::sort(places.begin(), places.end());
+  EXPECT_EQ(places,
+            (std::vector<std::string>{"/clock/interpolator_ratio", "/extra", "/modbus/map/0/address",
+                                      "/programs/0/calls/4/in/Ratio", "/tags/speed/type",
+                                      "/technology_objects/Knife/config/Modulo/Length", "/trace/signals/0"}))
+      << "and nothing about what only follows from the faulty declaration of 'speed'";
+}
+
+TEST(ProjectProblems, DoNotRepeatThemselvesWhereAFaultyObjectIsUsed) {
+  Json project = Json::parse(kExampleProject);
+  project["technology_objects"]["Knife"]["type"] = "TO_Cam";
+  const LoadedProject loaded = load_project(project.dump());
+  ASSERT_EQ(loaded.problems.size(), 1u) << lines(loaded.problems);
+  EXPECT_EQ(loaded.problems[0].place, "/technology_objects/Knife/type");
+}
+
+TEST(ProjectProblems, IncludeThePinsOfACallWhoseNameIsTaken) {
+  const LoadedProject loaded =
+      load_project(changed(kNew, R"({"fb": "R_TRIG", "name": "run", "in": {"CLCK": true}})"));
+  ASSERT_EQ(loaded.problems.size(), 2u) << lines(loaded.problems);
+  EXPECT_EQ(loaded.problems[0].place, kNew + "/name");
+  EXPECT_EQ(loaded.problems[1].place, kNew + "/in/CLCK");
+}
+
+TEST(ProjectProblems, AreToldForDuplicateKeysAndWhatElseIsWrong) {
+  const LoadedProject loaded = load_project(
+      R"({"lockstep": 1, "lockstep": 2, "name": "x", "clock": {"servo_cycle": "1ms"}, "tags": {"a": {"type": "BOL"}}})");
+  EXPECT_EQ(lines(loaded.problems),
+            "FILE:/lockstep: the key 'lockstep' is there twice; each key is allowed once\n"
+            "FILE:/tags/a/type: unknown type 'BOL' (did you mean 'BOOL'?); allowed: BOOL, SINT, INT, DINT, "
+            "LINT, USINT, "
+            "UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD, REAL, LREAL, TIME\n");
+}
+
+TEST(ProjectProblems, NameAPlaceOnOneLineWhateverTheKey) {
+  const LoadedProject loaded = load_project(
+      "{\"lockstep\": 1, \"name\": \"x\", \"clock\": {\"servo_cycle\": \"1ms\"}, \"tags\": {\"a\\nb\": "
+      "{\"type\": \"BOOL\"}}}");
+  ASSERT_EQ(loaded.problems.size(), 1u);
+  EXPECT_EQ(loaded.problems[0].place, "/tags/a?b");
+  EXPECT_EQ(lines(loaded.problems).find('\n'), lines(loaded.problems).size() - 1);
+}
+
+TEST(ProjectProblems, StayShortForVeryLongNames) {
+  const std::string name(1'000'000, 'n');
+  const LoadedProject loaded =
+      load_project("{\"lockstep\": 1, \"name\": \"" + name + "\", \"clock\": {\"servo_cycle\": \"" + name +
+                   "\"}, \"" + name + "\": 1, \"tags\": {\"" + name + "\": {\"type\": \"" + name +
+                   "\"}}, \"trace\": {\"signals\": [\"" + name + "\", \"" + name + "." + name + "\"]}}");
+  EXPECT_GE(loaded.problems.size(), 6u);
+  EXPECT_LT(lines(loaded.problems).size(), 4000u) << lines(loaded.problems);
+}
+
+TEST(ProjectProblems, AreFoundInTimeAmongManyNames) {
+  Json project = Json::parse(kExampleProject);
+  for (int i = 0; i < 3000; ++i) {
+    project["tags"]["tag_number_" + std::to_string(i)] = {{"type", "BOOL"}};
+    project["trace"]["signals"].push_back("tug_number_" + std::to_string(i));
+  }
+  const LoadedProject loaded = load_project(project.dump());
+  EXPECT_EQ(loaded.problems.size(), 3000u);
+}
+
+}  // namespace
+}  // namespace lockstep

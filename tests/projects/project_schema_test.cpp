@@ -1,0 +1,141 @@
+#include "projects/project_schema.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "example_project.hpp"
+#include "projects/project.hpp"
+
+namespace lockstep {
+namespace {
+
+using nlohmann::json;
+
+const std::string kProjects = LOCKSTEP_SOURCE_DIR "/projects";
+
+std::string read(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class Schema : public testing::Test {
+ protected:
+  Schema() {
+    const json document = json::parse(project_schema());
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+        .populateSchema(valijson::adapters::NlohmannJsonAdapter(document), schema_);
+  }
+
+  bool accepts(const json& project) {
+    return valijson::Validator().validate(schema_, valijson::adapters::NlohmannJsonAdapter(project), nullptr);
+  }
+
+  valijson::Schema schema_;
+};
+
+// LOCKSTEP_UPDATE=1 writes the file.
+TEST_F(Schema, ShipsAsItIsMade) {
+  const std::string path = kProjects + "/project.schema.json";
+  if (std::getenv("LOCKSTEP_UPDATE") != nullptr) std::ofstream(path) << project_schema();
+  EXPECT_TRUE(read(path) == project_schema())
+      << "a declaration has changed: run LOCKSTEP_UPDATE=1 projects_tests --gtest_filter=Schema.*";
+}
+
+TEST_F(Schema, UsesNothingThatLargeTextsOrValidatorsStumbleOver) {
+  for (const char* word : {"\"pattern\"", "\"format\"", "\"oneOf\"", "\"patternProperties\""})
+    EXPECT_EQ(project_schema().find(word), std::string::npos) << word;
+}
+
+TEST_F(Schema, AcceptsEveryExampleProject) {
+  EXPECT_TRUE(accepts(json::parse(kExampleProject)));
+  for (const auto& entry : std::filesystem::directory_iterator(kProjects)) {
+    const std::string path = entry.path().string() + "/project.json";
+    if (!entry.is_directory() || !std::filesystem::exists(path)) continue;
+    EXPECT_TRUE(accepts(json::parse(read(path)))) << path;
+    EXPECT_TRUE(load_project_file(path).project.has_value()) << path;
+  }
+}
+
+// Whatever key is added at whatever place of the example: the schema and the loader agree on whether it is
+// known.
+TEST_F(Schema, KnowsTheKeysThatTheLoaderKnows) {
+  const json example = json::parse(kExampleProject);
+  const json flat = example.flatten();
+  std::vector<std::string> objects = {""};
+  for (const auto& [pointer, value] : flat.items())
+    for (json::json_pointer place(pointer); !place.empty();) {
+      place.pop_back();
+      if (example.at(place).is_object()) objects.push_back(place.to_string());
+    }
+  std::sort(objects.begin(), objects.end());
+  objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+  ASSERT_GT(objects.size(), 30u);
+
+  for (const std::string& object : objects) {
+    json project = example;
+    json& place = project.at(json::json_pointer(object));
+    place["no_such_key"] = 1;
+    // These hold the names of pins and tags, which the schema does not know.
+    const bool named = object.ends_with("/in") || object.ends_with("/set");
+    EXPECT_EQ(accepts(project), named) << object;
+    EXPECT_FALSE(load_project(project.dump()).project.has_value()) << object;
+  }
+}
+
+TEST_F(Schema, MissesTheKeysThatTheLoaderMisses) {
+  const json example = json::parse(kExampleProject);
+  const json flat = example.flatten();
+  int refused = 0;
+  for (const auto& [pointer, value] : flat.items()) {
+    for (json::json_pointer place(pointer); !place.empty(); place.pop_back()) {
+      const json::json_pointer parent = place.parent_pointer();
+      if (!example.at(parent).is_object()) continue;
+      json project = example;
+      project.at(parent).erase(place.back());
+      if (accepts(project)) continue;
+      ++refused;
+      EXPECT_FALSE(load_project(project.dump()).project.has_value()) << place.to_string();
+    }
+  }
+  EXPECT_GT(refused, 20);
+}
+
+// What the schema refuses the loader refuses too: values at every place are replaced by ones of other kinds.
+TEST_F(Schema, RefusesNothingThatTheLoaderAccepts) {
+  const json example = json::parse(kExampleProject);
+  const json flat = example.flatten();
+  const json values = {nullptr,       true,          -1, 0, 1, 2.5, 1e30, "", "start", "10ms",
+                       json::array(), json::object()};
+  for (const auto& [pointer, old] : flat.items()) {
+    for (const json& value : values) {
+      json project = example;
+      project[json::json_pointer(pointer)] = value;
+      if (accepts(project)) continue;
+      EXPECT_FALSE(load_project(project.dump()).project.has_value()) << pointer << " = " << value;
+    }
+  }
+}
+
+TEST_F(Schema, DescribesEveryVariableThatAProjectMaySet) {
+  const json schema = json::parse(project_schema());
+  const json& config = schema.at("definitions").at("config").at("properties");
+  EXPECT_EQ(config.at("Modulo").at("properties").at("Length").at("default"), 360.0);
+  EXPECT_EQ(config.at("Properties").at("properties").at("MotionType").at("enum"), json({0, 1}));
+  EXPECT_TRUE(config.contains("Sensor[4]"));
+  EXPECT_FALSE(config.contains("Position") || config.contains("StatusDrive") ||
+               config.contains("OperativeSensor"));
+}
+
+}  // namespace
+}  // namespace lockstep

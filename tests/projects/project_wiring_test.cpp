@@ -1,0 +1,311 @@
+// A loaded project is wired as it is written.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "example_project.hpp"
+#include "projects/project.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string lines(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += to_string("FILE", problem) + "\n";
+  return text;
+}
+
+Project load(std::string_view text) {
+  LoadedProject loaded = load_project(text);
+  EXPECT_TRUE(loaded.project.has_value()) << lines(loaded.problems);
+  return loaded.project ? std::move(*loaded.project) : Project{};
+}
+
+Value value_of(const Project& project, std::string_view path) {
+  const FoundPlace found = project.names.find(path);
+  EXPECT_TRUE(found.place.has_value()) << found.problem;
+  return found.place ? found.place->signal.load() : Value{};
+}
+
+void store(const Project& project, std::string_view path, Value value) {
+  const FoundPlace found = project.names.find(path);
+  ASSERT_TRUE(found.place.has_value()) << found.problem;
+  found.place->signal.store(value);
+}
+
+Value whole(std::int64_t number) {
+  Value value{};
+  value.i = number;
+  return value;
+}
+Value real(double number) {
+  Value value{};
+  value.r = number;
+  return value;
+}
+
+void run(const Project& project, std::int64_t now = 0) {
+  EvaluationCounters counters;
+  for (const Program& program : project.controller->programs) program.run(now, counters);
+}
+
+/// A project with some tags and the calls of one Main program.
+std::string with_calls(const std::string& calls) {
+  return R"({"lockstep": 1, "name": "test", "clock": {"servo_cycle": "1ms"},
+             "technology_objects": {"A": {"type": "TO_SynchronousAxis", "config": {"VirtualAxis": {"Mode": 1}}}},
+             "tags": {"b": {"type": "BOOL"}, "i": {"type": "INT"}, "x": {"type": "LREAL", "init": 1.5},
+                      "w": {"type": "WORD"}, "t": {"type": "TIME"}},
+             "programs": [{"name": "Main", "ob": "Main", "cycle": "1ms", "calls": [)" +
+         calls + "]}]}";
+}
+
+TEST(ExampleProject, LoadsWithoutProblemsOrWarnings) {
+  const LoadedProject loaded = load_project(kExampleProject);
+  EXPECT_EQ(lines(loaded.problems), "");
+  EXPECT_EQ(lines(loaded.warnings), "");
+  EXPECT_TRUE(loaded.project.has_value());
+}
+
+TEST(ExampleProject, HasItsClockAndItsAxes) {
+  const Project project = load(kExampleProject);
+  const Controller& controller = *project.controller;
+  EXPECT_EQ(project.name, "rotary_knife");
+  EXPECT_EQ(project.description, "A knife drum geared to a conveyor.");
+  EXPECT_FALSE(project.stop_on_overrun);
+  EXPECT_EQ(controller.clock.servo_cycle, 1'000'000);
+  EXPECT_EQ(controller.clock.interpolator_ratio, 2);
+  ASSERT_EQ(controller.axes.size(), 2u);
+  const Axis& conveyor = *controller.axes[0];
+  const Axis& knife = *controller.axes[1];
+  EXPECT_EQ(conveyor.name, "Conveyor");
+  EXPECT_EQ(conveyor.kind, ObjectKind::TO_PositioningAxis);
+  EXPECT_EQ(conveyor.number, static_cast<DB_ANY>(1));
+  EXPECT_TRUE(conveyor.is_virtual());
+  EXPECT_EQ(conveyor.data.DynamicDefaults.Jerk, 10000.0);
+  EXPECT_EQ(knife.number, static_cast<DB_ANY>(2));
+  EXPECT_EQ(knife.data.Properties.MotionType, 1);
+  EXPECT_TRUE(knife.data.Modulo.Enable);
+  EXPECT_EQ(knife.drive_settings.time_constant, 0.002);
+  EXPECT_EQ(knife.drive_settings.dead_time, 0.001);
+  ASSERT_EQ(knife.leading_values.size(), 1u);
+  EXPECT_EQ(knife.leading_values[0].source, &conveyor);
+  EXPECT_EQ(knife.leading_values[0].coupling, Coupling::setpoint);
+}
+
+TEST(ExampleProject, StoresConstantPinsOnceAndObjectsByTheirAddress) {
+  const Project project = load(kExampleProject);
+  EXPECT_EQ(value_of(project, "gear.RatioNumerator").i, 3);
+  EXPECT_EQ(value_of(project, "gear.MasterSyncPosition").r, 300.0);
+  EXPECT_EQ(value_of(project, "power_c.Enable").u, 1u);
+  EXPECT_EQ(value_of(project, "gear.Velocity").r, -1.0) << "a pin that is not given keeps its default";
+  const Instance& gear = project.controller->instances[4];
+  ASSERT_EQ(gear.name, "gear");
+  const auto object = [&](std::string_view pin) {
+    return reinterpret_cast<const Axis*>(gear.type->find_pin(pin)->signal(*gear.block).load().u);
+  };
+  EXPECT_EQ(object("Master"), project.controller->axes[0].get());
+  EXPECT_EQ(object("Slave"), project.controller->axes[1].get());
+}
+
+TEST(ExampleProject, MovesExpressionsToPinsAndOutputsToTags) {
+  const Project project = load(kExampleProject);
+  store(project, "start", whole(1));
+  store(project, "speed", real(123.0));
+  store(project, "power_c.Status", whole(1));
+  store(project, "gear.InSync", whole(1));
+  run(project);
+  EXPECT_EQ(value_of(project, "run.Velocity").r, 123.0);
+  EXPECT_EQ(value_of(project, "gear.Execute").u, 0u) << "home_k.Done is FALSE";
+}
+
+TEST(ExampleProject, HasItsStimuliItsMapAndItsTrace) {
+  const Project project = load(kExampleProject);
+  ASSERT_EQ(project.controller->stimuli.size(), 1u);
+  EXPECT_EQ(project.controller->stimuli[0].at, 500'000'000);
+  EXPECT_EQ(project.controller->stimuli[0].place.address, project.controller->tags[0].signal.address);
+  EXPECT_EQ(project.controller->stimuli[0].value.u, 1u);
+  EXPECT_EQ(project.modbus.listen, (Endpoint{"127.0.0.1", 1502}));
+  ASSERT_EQ(project.modbus.signals.size(), 4u);
+  const auto& entries = project.modbus.map->entries();
+  ASSERT_EQ(entries.size(), 4u);
+  EXPECT_TRUE(entries[0].writable && entries[1].writable);
+  EXPECT_FALSE(entries[2].writable || entries[3].writable);
+  EXPECT_EQ(entries[1].type, Type::REAL);
+  EXPECT_EQ(project.modbus.signals[3].signal.address, &project.controller->axes[1]->data.ActualPosition);
+  EXPECT_EQ(project.trace.url, "udpm://239.255.76.67:7667?ttl=0");
+  EXPECT_EQ(project.trace.channel, "ROTARY_KNIFE");
+  ASSERT_EQ(project.trace.signals.size(), 4u);
+  EXPECT_EQ(project.trace.signals[0].unit, Unit::kPosition);
+  EXPECT_EQ(project.trace.signals[3].signal.bit, 22);
+  EXPECT_EQ(project.trace.signals[3].name, "Knife.StatusWord.X22");
+}
+
+TEST(ExampleProject, RunsToSynchronism) {
+  Project project = load(kExampleProject);
+  project.controller->apply_stimuli = true;
+  for (int tick = 0; tick < 10'000; ++tick) project.controller->tick();
+  EXPECT_EQ(value_of(project, "synced").u, 1u);
+  EXPECT_EQ(value_of(project, "gear.ErrorID").u, 0u);
+}
+
+TEST(Program, RunsTheBranchThatTheConditionChooses) {
+  const Project project = load(with_calls(
+      R"({"if": "b", "then": [{"set": "i", "to": 1}, {"if": "x > 1.0", "then": [{"set": "w", "to": "16#FF"}]}],
+                          "else": [{"set": "i", "to": "2"}]}, {"set": "t", "to": "T#5ms"})"));
+  run(project);
+  EXPECT_EQ(value_of(project, "i").i, 2);
+  EXPECT_EQ(value_of(project, "w").u, 0u);
+  EXPECT_EQ(value_of(project, "t").i, 5'000'000);
+  store(project, "b", whole(1));
+  run(project);
+  EXPECT_EQ(value_of(project, "i").i, 1);
+  EXPECT_EQ(value_of(project, "w").u, 255u);
+}
+
+TEST(Program, SetsVariablesAndBits) {
+  const Project project =
+      load(with_calls(R"({"set": "A.Override.Velocity", "to": "x * 20.0"}, {"set": "w.X3", "to": true})"));
+  run(project);
+  EXPECT_EQ(value_of(project, "A.Override.Velocity").r, 30.0);
+  EXPECT_EQ(value_of(project, "w").u, 8u);
+}
+
+TEST(Program, MayNameALaterInstance) {
+  const Project project = load(with_calls(
+      R"({"set": "b", "to": "later.Q"}, {"fb": "R_TRIG", "name": "later", "in": {"CLK": true}}, {"set": "w.X0", "to": "later.Q"})"));
+  run(project);
+  EXPECT_EQ(value_of(project, "b").u, 0u);
+  EXPECT_EQ(value_of(project, "w").u, 1u);
+  run(project);
+  EXPECT_EQ(value_of(project, "b").u, 1u);
+  EXPECT_EQ(value_of(project, "w").u, 0u);
+}
+
+TEST(Names, AreFoundInAnyCase) {
+  const Project project = load(kExampleProject);
+  EXPECT_TRUE(project.names.find("KNIFE.statusword.x22").place.has_value());
+  EXPECT_TRUE(project.names.find("Gear.insync").place.has_value());
+  EXPECT_TRUE(project.names.find("SPEED").place.has_value());
+}
+
+TEST(Tags, TakeTheirStartValues) {
+  const Project project = load(
+      R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"}, "tags": {
+          "a": {"type": "BOOL", "init": true}, "b": {"type": "SINT", "init": -128}, "c": {"type": "ULINT", "init": 18446744073709551615},
+          "d": {"type": "WORD", "init": "16#ABCD"}, "e": {"type": "REAL", "init": 0.1}, "f": {"type": "TIME", "init": "1.5s"},
+          "g": {"type": "LINT", "init": -9223372036854775808}, "h": {"type": "TIME", "init": "T#-5ms"},
+          "k": {"type": "LREAL", "init": 2, "retain": true, "comment": "kept"}, "l": {"type": "DINT", "init": 3e2}}})");
+  EXPECT_EQ(value_of(project, "a").u, 1u);
+  EXPECT_EQ(value_of(project, "b").i, -128);
+  EXPECT_EQ(value_of(project, "c").u, 18446744073709551615u);
+  EXPECT_EQ(value_of(project, "d").u, 0xABCDu);
+  EXPECT_EQ(value_of(project, "e").r, static_cast<double>(0.1F));
+  EXPECT_EQ(value_of(project, "f").i, 1'500'000'000);
+  EXPECT_EQ(value_of(project, "g").i, INT64_MIN);
+  EXPECT_EQ(value_of(project, "h").i, -5'000'000);
+  EXPECT_EQ(value_of(project, "k").r, 2.0);
+  EXPECT_EQ(value_of(project, "l").i, 300);
+  EXPECT_TRUE(project.controller->tags[8].retain);
+  EXPECT_EQ(project.controller->tags[8].comment, "kept");
+}
+
+TEST(Configuration, ReachesArrayElementsAndTags) {
+  const Project project = load(
+      R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"}, "tags": {"limit": {"type": "BOOL"}},
+          "technology_objects": {"A": {"type": "TO_PositioningAxis", "drive": {"model": "simulated", "encoder_resolution": 0.001},
+            "config": {"Sensor[2]": {"Parameter": {"Resolution": 0.25}}, "PositionLimits_HW": {"MinSwitchAddress": "limit"},
+                       "CrossPlcSynchronousOperation": {"Interface[8]": {"EnableLeadingValueOutput": true}}}}}})");
+  const Axis& axis = *project.controller->axes[0];
+  EXPECT_EQ(axis.data.Sensor[1].Parameter.Resolution, 0.25);
+  EXPECT_EQ(axis.data.Sensor[0].Parameter.Resolution, 0.001);
+  EXPECT_EQ(axis.data.PositionLimits_HW.MinSwitchAddress, project.controller->tags[0].signal.address);
+  EXPECT_TRUE(axis.data.CrossPlcSynchronousOperation.Interface[7].EnableLeadingValueOutput);
+  EXPECT_EQ(axis.drive_settings.resolution, 0.001);
+}
+
+TEST(ModbusMapping, WritesAVariableOnlyIfTheEntryAsksForIt) {
+  const Project project = load(
+      R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"},
+          "technology_objects": {"A": {"type": "TO_PositioningAxis", "config": {"VirtualAxis": {"Mode": 1}}}},
+          "tags": {"x": {"type": "LREAL"}},
+          "modbus": {"map": [
+            {"tag": "A.Override.Velocity", "table": "holding_register", "address": 0},
+            {"tag": "A.Override.Velocity", "table": "holding_register", "address": 10, "access": "write"},
+            {"tag": "x", "table": "holding_register", "address": 20, "access": "read", "word_order": "little"}]}})");
+  const auto& entries = project.modbus.map->entries();
+  ASSERT_EQ(entries.size(), 3u);
+  EXPECT_FALSE(entries[0].writable);
+  EXPECT_TRUE(entries[1].writable);
+  EXPECT_EQ(entries[1].range.highest, 200.0);
+  EXPECT_FALSE(entries[2].writable);
+  EXPECT_EQ(entries[2].word_order, WordOrder::little);
+  EXPECT_FALSE(project.modbus.listen.has_value());
+}
+
+TEST(LoadProjectFile, ReadsAFileAndTellsWhenItCannot) {
+  const std::string path = testing::TempDir() + "lockstep_project.json";
+  std::ofstream(path) << kExampleProject;
+  EXPECT_TRUE(load_project_file(path).project.has_value());
+  std::remove(path.c_str());
+  EXPECT_THROW(load_project_file(path), UnreadableFile);
+  EXPECT_THROW(load_project_file(testing::TempDir()), UnreadableFile);
+}
+
+TEST(LoadProjectFile, StopsReadingWhatHasNoEnd) {
+  const LoadedProject loaded = load_project_file("/dev/zero");
+  ASSERT_EQ(loaded.problems.size(), 1u);
+  EXPECT_NE(loaded.problems[0].text.find("16 MiB"), std::string::npos);
+}
+
+TEST(LoadProject, LoadsAThousandAxesInTime) {
+  std::string objects, calls;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string n = std::to_string(i);
+    const std::string comma = i == 0 ? "" : ",";
+    objects +=
+        comma + R"("Axis)" + n + R"(": {"type": "TO_SynchronousAxis", "config": {"VirtualAxis": {"Mode": 1},
+      "Modulo": {"Enable": true, "Length": 360.0}, "DynamicDefaults": {"Velocity": 10.0, "Jerk": 0}}, "leading_values": [{"to": "axis0"}]})";
+    if (i == 0) objects.replace(objects.find(R"(, "leading_values")"), std::string::npos, "}");
+    calls += comma + R"({"fb": "MC_Power", "name": "power)" + n + R"(", "in": {"Axis": "Axis)" + n +
+             R"(", "Enable": "power)" + std::to_string((i + 1) % 1000) +
+             R"(.Status AND Axis0.Position >= 0.0"}})";
+  }
+  const std::string text =
+      R"({"lockstep": 1, "name": "big", "clock": {"servo_cycle": "1ms"}, "technology_objects": {)" + objects +
+      R"(}, "programs": [{"name": "Main", "ob": "Main", "cycle": "1ms", "calls": [)" + calls + "]}]}";
+  const auto start = std::chrono::steady_clock::now();
+  const Project project = load(text);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(project.controller->axes.size(), 1000u);
+  EXPECT_EQ(project.controller->instances.size(), 1000u);
+  EXPECT_LT(time.count(), 5.0) << "takes some 50 ms; a quadratic look-up would take much longer";
+  RecordProperty("seconds", std::to_string(time.count()));
+  std::printf("loaded 1000 axes in %.3f s\n", time.count());
+}
+
+TEST(Endpoint, IsAHostAndAPort) {
+  std::string problem;
+  EXPECT_EQ(parse_endpoint("127.0.0.1:1502", problem), (Endpoint{"127.0.0.1", 1502}));
+  EXPECT_EQ(parse_endpoint("plc-1.local:0", problem), (Endpoint{"plc-1.local", 0}));
+  for (const char* wrong : {"", ":", "localhost", ":502", "host:", "host:65536", "host:-1", "host: 1",
+                            "a b:1", "[::1]:502", "host:0x10", "http://host:1"}) {
+    problem.clear();
+    EXPECT_FALSE(parse_endpoint(wrong, problem).has_value()) << wrong;
+    EXPECT_NE(problem.find("allowed"), std::string::npos) << wrong;
+  }
+}
+
+TEST(LcmUrl, NamesAMulticastNetwork) {
+  for (const char* good : {"udpm://239.255.76.67:7667?ttl=0", "udpm://", "udpm://?ttl=1", "udpm://224.0.0.1",
+                           "udpm://239.1.1.1:1", "memq://"})
+    EXPECT_EQ(lcm_url_problem(good), "") << good;
+  for (const char* wrong : {"", "239.255.76.67:7667", "tcpq://", "udpm://10.0.0.1:7667", "udpm://239.1.1:7",
+                            "udpm://239.1.1.256:7", "udpm://239.1.1.1:0", "udpm://239.1.1.1:65536",
+                            "udpm://239.1.1.1?ttl=256", "udpm://239.1.1.1?x=1", "udpm://240.0.0.1"})
+    EXPECT_NE(lcm_url_problem(wrong), "") << wrong;
+}
+
+}  // namespace
+}  // namespace lockstep

@@ -1,0 +1,152 @@
+// Compares alarms and error identifiers with the catalogue, both ways.
+#include "tech_objects/alarms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "tech_objects/status_bits.hpp"
+
+namespace lockstep {
+namespace {
+
+using Json = nlohmann::json;
+
+const Json& catalogue() {
+  static const Json file = Json::parse(std::ifstream(LOCKSTEP_TEST_DATA "/alarms.json"));
+  return file;
+}
+
+// A bit as it is printed, "X11"; -1 for none.
+int printed_bit(const Json& bit) {
+  return bit.is_null() ? -1 : std::stoi(bit.get<std::string>().substr(1));
+}
+
+AlarmClass printed_class(const Json& text) {
+  static const std::map<std::string, AlarmClass> classes = {{"warning", AlarmClass::warning},
+                                                            {"acknowledgeable", AlarmClass::acknowledgeable},
+                                                            {"fatal", AlarmClass::fatal}};
+  return classes.at(text.get<std::string>());
+}
+
+// Reactions that depend on a variable are printed as "4 or 3"; the first is the one of its start value.
+int printed_reaction(const Json& reaction) {
+  return reaction.is_number() ? reaction.get<int>() : std::stoi(reaction.get<std::string>());
+}
+
+TEST(Alarms, AreThoseOfTheCatalogue) {
+  const Json& printed = catalogue().at("alarms");
+  ASSERT_EQ(alarms().size(), printed.size());
+  for (const Json& row : printed) {
+    const Alarm* alarm = find_alarm(row.at("number"));
+    ASSERT_NE(alarm, nullptr) << row;
+    EXPECT_EQ(alarm->number, row.at("number").get<int>());
+    EXPECT_EQ(alarm->text, row.at("meaning").get<std::string>());
+    EXPECT_EQ(alarm->reaction, printed_reaction(row.at("reaction"))) << row;
+    EXPECT_EQ(alarm->error_bit, printed_bit(row.at("errorWordBit"))) << row;
+    EXPECT_EQ(alarm->warning_bit, printed_bit(row.at("warningWordBit"))) << row;
+    EXPECT_EQ(alarm->alarm_class, printed_class(row.at("class"))) << row;
+  }
+}
+
+TEST(Alarms, AreNumberedOnceInAscendingOrder) {
+  int last = 0;
+  for (const Alarm& alarm : alarms()) {
+    EXPECT_GT(alarm.number, last);
+    last = alarm.number;
+  }
+  EXPECT_EQ(find_alarm(0), nullptr);
+  EXPECT_EQ(find_alarm(-1), nullptr);
+  EXPECT_EQ(find_alarm(1000), nullptr);
+}
+
+TEST(Alarms, ShowInABitThatHasAName) {
+  for (const Alarm& alarm : alarms()) {
+    const bool in_error_word = alarm.error_bit >= 0;
+    const int bit = in_error_word ? alarm.error_bit : alarm.warning_bit;
+    ASSERT_TRUE(bit >= 0 && bit < 32) << alarm.number;
+    EXPECT_NE(alarm.error_bit >= 0, alarm.warning_bit >= 0) << alarm.number;
+    const BitNames& names = in_error_word ? kErrorBitNames : kWarningBitNames;
+    EXPECT_FALSE(names[static_cast<std::size_t>(bit)].empty()) << alarm.number;
+    if (alarm.alarm_class == AlarmClass::warning) {
+      EXPECT_EQ(alarm.reaction, 0) << alarm.number;
+      EXPECT_FALSE(in_error_word) << alarm.number;
+    }
+  }
+}
+
+TEST(Alarms, HaveTheReactionsThatAnAxisKnowsAndThoseOfOtherObjects) {
+  std::set<int> known;
+  for (const Json& row : catalogue().at("reactions")) known.insert(row.at("value").get<int>());
+  for (const Alarm& alarm : alarms()) EXPECT_TRUE(known.contains(alarm.reaction)) << alarm.number;
+  for (const AlarmReaction reaction :
+       {AlarmReaction::none, AlarmReaction::stop_current, AlarmReaction::stop_maximum,
+        AlarmReaction::stop_emergency, AlarmReaction::remove_enable, AlarmReaction::track_setpoints})
+    EXPECT_TRUE(known.contains(static_cast<int>(reaction)));
+}
+
+TEST(Alarms, ThatTheRuntimeRaisesStandInTheTable) {
+  for (const int number :
+       {alarm::kVelocityLimitZero, alarm::kAccelerationLimitZero, alarm::kPositionRangeExceeded,
+        alarm::kNotHomed, alarm::kVelocityLimited, alarm::kAccelerationLimited, alarm::kJerkLimited,
+        alarm::kSpeedSetpointLimited, alarm::kFollowingError, alarm::kSoftwareLimitReached,
+        alarm::kSoftwareLimitPassed, alarm::kPositioning, alarm::kLeadingAxis,
+        alarm::kLeadingAxisNotPositionControlled, alarm::kSynchronizing, alarm::kInternal})
+    EXPECT_NE(find_alarm(number), nullptr) << number;
+}
+
+TEST(ErrorIds, AreThoseOfTheCatalogue) {
+  const Json& printed = catalogue().at("errorIds");
+  ASSERT_EQ(error_texts().size(), printed.size());
+  std::size_t i = 0;
+  for (const Json& row : printed) {
+    const std::string text = row.at("errorId");
+    ASSERT_TRUE(text.starts_with("16#")) << text;
+    const auto id = static_cast<ErrorId>(std::stoul(text.substr(3), nullptr, 16));
+    EXPECT_EQ(error_text(id), row.at("meaning").get<std::string>()) << text;
+    EXPECT_EQ(error_texts()[i++].id, id) << text;
+  }
+}
+
+TEST(ErrorIds, ThatTheRuntimeReportsHaveATextAndUnknownOnesHaveNone) {
+  for (const ErrorId id : {ErrorId::none,
+                           ErrorId::technology_alarm,
+                           ErrorId::no_technology_object,
+                           ErrorId::velocity,
+                           ErrorId::acceleration,
+                           ErrorId::deceleration,
+                           ErrorId::jerk,
+                           ErrorId::direction,
+                           ErrorId::distance,
+                           ErrorId::position,
+                           ErrorId::mode,
+                           ErrorId::stop_mode,
+                           ErrorId::one_instance_only,
+                           ErrorId::restarting,
+                           ErrorId::restart_refused,
+                           ErrorId::locked,
+                           ErrorId::homing_mode_incremental,
+                           ErrorId::no_job_memory,
+                           ErrorId::actual_values_invalid,
+                           ErrorId::ratio_numerator,
+                           ErrorId::ratio_denominator,
+                           ErrorId::recursive_coupling,
+                           ErrorId::leading_distance,
+                           ErrorId::master_sync_position,
+                           ErrorId::slave_sync_position,
+                           ErrorId::sync_profile_reference,
+                           ErrorId::sensor,
+                           ErrorId::not_position_controlled,
+                           ErrorId::velocity_gear_active,
+                           ErrorId::homing_while_coupled,
+                           ErrorId::unspecified})
+    EXPECT_FALSE(error_text(id).empty()) << static_cast<int>(id);
+  EXPECT_TRUE(error_text(ErrorId{0x1234}).empty());
+}
+
+}  // namespace
+}  // namespace lockstep
