@@ -1,0 +1,241 @@
+// The example projects: their traces stay what they were, and mean what their READMEs say.
+// LOCKSTEP_UPDATE=1 renews the stored traces.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include "tests/scenarios/csv_table.hpp"
+
+namespace lockstep::test {
+namespace {
+
+// ---- Stored traces
+// -------------------------------------------------------------------------------------------
+
+struct Stored {
+  const char* project;
+  const char* duration;
+  std::size_t every;  // of the rows is stored
+};
+
+/// How far a value may be from the stored one; the runs themselves are identical to the bit.
+double tolerance(const std::string& name) {
+  const auto ends = [&](const std::string& end) {
+    return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+  };
+  if (ends(".Position") || ends(".ActualPosition") || ends(".FollowingError")) return 1e-6;
+  if (ends(".Velocity")) return 1e-5;
+  if (ends(".Acceleration")) return 1e-3;
+  return 0.0;
+}
+
+/// Length of the ring on which a column goes round; none: a line, or no position.
+std::optional<double> ring(const std::string& name) {
+  if (name == "Conveyor.Position") return 240.0;
+  if (name == "Delivery.Position") return 1000.0;
+  const bool position = name.find("Position") != std::string::npos && name.find("Slide") != 0 &&
+                        name.find("FollowingError") == std::string::npos;
+  return position ? std::optional<double>(360.0) : std::nullopt;
+}
+
+void renew(const std::string& path, const std::string& trace, std::size_t every) {
+  std::ifstream from(trace);
+  std::ofstream to(path);
+  std::string line;
+  for (std::size_t i = 0; std::getline(from, line); ++i)
+    if (i == 0 || (i - 1) % every == 0) to << line << '\n';
+}
+
+class StoredTrace : public testing::TestWithParam<Stored> {};
+
+TEST_P(StoredTrace, IsRepeatedWithinATolerancePerColumn) {
+  const Stored& stored = GetParam();
+  const Directory directory;
+  const std::string trace = directory.file("trace.csv");
+  const Ended ended = lockstep(
+      {"run", example(stored.project), "--simulate", "--duration", stored.duration, "--trace", trace});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const std::string path = std::string(LOCKSTEP_TEST_DATA "/scenario_") + stored.project + ".csv";
+  if (std::getenv("LOCKSTEP_UPDATE") != nullptr) renew(path, trace, stored.every);
+  EXPECT_LT(std::filesystem::file_size(path), 100'000u);
+  const CsvTable before = read_csv(path);
+  const CsvTable now = read_csv(trace);
+  ASSERT_EQ(now.names, before.names);
+  ASSERT_EQ((now.rows + stored.every - 1) / stored.every, before.rows);
+  for (std::size_t column = 0; column < now.names.size(); ++column) {
+    const std::string& name = now.names[column];
+    for (std::size_t row = 0; row < before.rows; ++row) {
+      const double is = now.columns[column][row * stored.every];
+      const double was = before.columns[column][row];
+      const auto length = ring(name);
+      const double distance = length ? ring_distance(is, was, *length) : is - was;
+      ASSERT_LE(std::abs(distance), tolerance(name))
+          << name << " at " << before["t"][row] << ": " << is << ", stored " << was;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, StoredTrace,
+                         testing::Values(Stored{"01_positioning", "5s", 25},
+                                         Stored{"02_rotary_knife", "5s", 20},
+                                         Stored{"03_line_shaft", "5s", 25}),
+                         [](const auto& stored) { return std::string(stored.param.project); });
+
+// ---- Meaning
+// -------------------------------------------------------------------------------------------------
+
+/// No position steps by more than its velocity allows, and no velocity by more than `acceleration` allows.
+void expect_smooth(const CsvTable& table, const std::string& axis, double velocity, double acceleration) {
+  const auto& position = table[axis + ".Position"];
+  const auto& speed = table[axis + ".Velocity"];
+  const auto length = ring(axis + ".Position");
+  const double period = table["t"][1] - table["t"][0];
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    const double step = position[i] - position[i - 1];
+    const double way = length ? ring_distance(position[i], position[i - 1], *length) : step;
+    ASSERT_LE(std::abs(speed[i]), velocity * (1 + 1e-12)) << axis << " at " << table["t"][i];
+    ASSERT_LE(std::abs(speed[i] - speed[i - 1]), acceleration * period * (1 + 1e-9) + 1e-9)
+        << axis << " at " << table["t"][i];
+    ASSERT_NEAR(way, 0.5 * (speed[i] + speed[i - 1]) * period, acceleration * period * period + 1e-9)
+        << axis << " at " << table["t"][i];
+  }
+}
+
+void expect_never(const CsvTable& table, const std::string& name) {
+  EXPECT_EQ(table.first(name, 1.0), table.rows) << name;
+}
+
+TEST(Positioning, LaysThreePartsDownAndHaltsWhereTheSensorSeesTheNextRoundAfterRound) {
+  const CsvTable table = simulate(example("01_positioning"), "120s",
+                                  {"--signals",
+                                   "Slide.Position,Slide.Velocity,Slide.ActualPosition,step,laid,"
+                                   "rounds,alarm,sensor,lay_down.Done,halt.Done,lay_down.Error"});
+  expect_never(table, "alarm");
+  expect_never(table, "lay_down.Error");
+  EXPECT_GE(table["rounds"].back(), 20.0);
+  expect_smooth(table, "Slide", 400.0, 5000.0);
+  std::size_t laid = 0;
+  std::size_t halted = 0;
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    if (table["lay_down.Done"][i] > table["lay_down.Done"][i - 1]) {
+      EXPECT_NEAR(table["Slide.Position"][i], 560.0 - 80.0 * table["laid"][i], 1e-9);
+      EXPECT_EQ(table["Slide.Velocity"][i], 0.0);
+      ++laid;
+    }
+    if (table["halt.Done"][i] > table["halt.Done"][i - 1]) {
+      EXPECT_EQ(table["Slide.Velocity"][i], 0.0);
+      EXPECT_LT(table["Slide.Position"][i], 130.0);
+      EXPECT_GT(table["Slide.Position"][i], 95.0) << "it takes its way to brake from 200 mm/s";
+      ++halted;
+    }
+  }
+  EXPECT_GE(laid, 60u);
+  EXPECT_GE(halted, 20u);
+}
+
+TEST(RotaryKnifeTrace, InSyncMeansThatTheKnifeIsWhereTheSynchronousFunctionSays) {
+  const CsvTable table = simulate(example("02_rotary_knife"), "60s");
+  std::size_t synchronous = 0;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    if (table["gear.InSync"][i] == 0.0) continue;
+    const double function = 90.0 + 1.5 * (table["Conveyor.Position"][i] - 60.0);
+    largest = std::max(largest, std::abs(ring_distance(table["Knife.Position"][i], function, 360.0)));
+    ASSERT_EQ(table["Knife.Velocity"][i], 1.5 * table["Conveyor.Velocity"][i]) << table["t"][i];
+    ++synchronous;
+  }
+  EXPECT_LT(largest, 1e-9);
+  EXPECT_GT(synchronous, table.rows * 3 / 4);
+  expect_smooth(table, "Conveyor", 300.0, 400.0);
+  expect_smooth(table, "Knife", 450.0 * 1.02, 5000.0);
+}
+
+TEST(RotaryKnifeTrace, WaitsSynchronizesAndIsSynchronousAfterEveryStartAndParksAfterEveryStop) {
+  const CsvTable table = simulate(example("02_rotary_knife"), "60s",
+                                  {"--signals",
+                                   "start,waiting,gear.StartSync,gear.InSync,alarm,gear.Error,"
+                                   "park.Done,Knife.Position,Conveyor.Velocity,cuts"});
+  expect_never(table, "alarm");
+  expect_never(table, "gear.Error");
+  std::size_t row = 0;
+  for (int start = 0; start < 2; ++start) {
+    row = table.first("start", 1.0, row);
+    for (const char* phase : {"waiting", "gear.StartSync", "gear.InSync"}) {
+      const std::size_t next = table.first(phase, 1.0, row);
+      ASSERT_LT(next, table.rows) << phase << " after start " << start;
+      row = next;
+    }
+    if (start == 1) break;
+    row = table.first("start", 0.0, row);
+    row = table.first("park.Done", 1.0, row);
+    ASSERT_LT(row, table.rows);
+    EXPECT_EQ(table["Knife.Position"][row], 0.0);
+    EXPECT_EQ(table["Conveyor.Velocity"][row], 0.0);
+  }
+  EXPECT_GT(table["cuts"].back(), 30.0);
+}
+
+/// A roll of the line shaft and what it hangs on.
+struct Roll {
+  const char* following;
+  const char* leading;
+  double numerator;
+  double denominator;
+};
+
+TEST(LineShaft, EveryRollKeepsItsRatioWhileItIsSynchronous) {
+  std::string signals = "Shaft.Position,Shaft.Velocity";
+  for (const char* roll : {"Infeed", "Impression", "Chill", "Slitter", "Delivery"})
+    for (const char* signal : {".Position", ".Velocity", ".StatusWord.X22"})
+      signals += std::string(",") + roll + signal;
+  const CsvTable table = simulate(example("03_line_shaft"), "60s", {"--signals", signals});
+  for (const Roll& roll :
+       {Roll{"Infeed", "Shaft", 1, 1}, Roll{"Impression", "Shaft", -1, 1}, Roll{"Chill", "Shaft", 355, 113},
+        Roll{"Slitter", "Chill", -3, 7}, Roll{"Delivery", "Shaft", 22, 7}}) {
+    const auto& synchronous = table[std::string(roll.following) + ".StatusWord.X22"];
+    const std::string following = std::string(roll.following) + ".Position";
+    const std::string leading = std::string(roll.leading) + ".Position";
+    // Ways since the roll became synchronous, added up over the turns of the rings.
+    double following_way = 0.0;
+    double leading_way = 0.0;
+    double largest = 0.0;
+    std::size_t rows = 0;
+    for (std::size_t i = 1; i < table.rows; ++i) {
+      if (synchronous[i] == 0.0 || synchronous[i - 1] == 0.0) {
+        following_way = leading_way = 0.0;
+        continue;
+      }
+      following_way += ring_distance(table[following][i], table[following][i - 1], *ring(following));
+      leading_way += ring_distance(table[leading][i], table[leading][i - 1], *ring(leading));
+      largest = std::max(largest, std::abs(following_way - leading_way * roll.numerator / roll.denominator));
+      ++rows;
+    }
+    EXPECT_LT(largest, 1e-7) << roll.following;
+    EXPECT_GT(rows, table.rows / 2) << roll.following;
+    expect_smooth(table, roll.following, 2000.0, 2000.0);
+  }
+  expect_smooth(table, "Shaft", 360.0, 240.0);
+}
+
+TEST(LineShaft, AllRollsComeIntoGearOneAfterAnotherAndNoneRaisesAnAlarm) {
+  const CsvTable table = simulate(example("03_line_shaft"), "60s",
+                                  {"--signals",
+                                   "gear_1.InGear,gear_2.InGear,gear_3.InGear,gear_4.InGear,"
+                                   "gear_5.InGear,all_geared,alarm,clutch_3,fast"});
+  expect_never(table, "alarm");
+  std::size_t row = 0;
+  for (int gear = 1; gear <= 5; ++gear) {
+    const std::size_t next = table.first("gear_" + std::to_string(gear) + ".InGear", 1.0);
+    ASSERT_LT(next, table.rows) << gear;
+    EXPECT_GT(next, row) << gear;
+    row = next;
+  }
+  EXPECT_EQ(table["all_geared"].back(), 1.0) << "again, after the clutch of the chill roll was open";
+}
+
+}  // namespace
+}  // namespace lockstep::test

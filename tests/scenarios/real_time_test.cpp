@@ -1,0 +1,186 @@
+// Runs in real time: how they end, what a terminal or a client cannot do to them.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <regex>
+#include <string>
+
+#include "tests/scenarios/modbus_client.hpp"
+#include "tests/scenarios/small_project.hpp"
+
+namespace lockstep::test {
+namespace {
+
+/// What `lockstep run` says of the ticks at its end.
+struct Ticks {
+  double time = -1.0;  // [s]
+  long executed = -1;
+  long missed = -1;
+};
+
+Ticks ticks_of(const std::string& text) {
+  std::smatch match;
+  if (!std::regex_search(text, match,
+                         std::regex("ran ([0-9.]+) s: ([0-9]+) ticks, [0-9]+ overruns, ([0-9]+) missed"))) {
+    ADD_FAILURE() << "no summary in\n" << text;
+    return {};
+  }
+  return {std::stod(match[1]), std::stol(match[2]), std::stol(match[3])};
+}
+
+/// An axis that runs at 200 mm/s and needs a second to come to rest, whatever asks it to.
+std::string slow_to_brake(const Directory& directory) {
+  Json project = empty_project();
+  Json axis = virtual_axis();
+  axis["config"]["DynamicLimits"] = {{"MaxDeceleration", 200.0}, {"MaxAcceleration", 1e5}, {"MaxJerk", 0.0}};
+  axis["config"]["DynamicDefaults"] = {
+      {"Deceleration", 200.0}, {"Acceleration", 1e5}, {"Jerk", 0.0}, {"EmergencyDeceleration", 200.0}};
+  project["technology_objects"]["A"] = axis;
+  project["tags"]["alive"] = {{"type", "UDINT"}};
+  project["programs"].push_back(
+      {{"name", "Main"},
+       {"ob", "Main"},
+       {"cycle", "1ms"},
+       {"calls",
+        {assignment("alive", "alive + 1"), call("MC_Power", "power", {{"Axis", "A"}, {"Enable", true}}),
+         call("MC_MoveVelocity", "run",
+              {{"Axis", "A"}, {"Execute", "power.Status"}, {"Velocity", 200.0}})}}});
+  project["modbus"]["map"] = {
+      {{"tag", "A.Velocity"}, {"table", "input_register"}, {"address", 0}, {"type", "REAL"}},
+      {{"tag", "alive"}, {"table", "input_register"}, {"address", 2}}};
+  return directory.write("project.json", project.dump());
+}
+
+bool running_at_200(ModbusClient& client) {
+  return wait_until([&] { return client.input_float(0) == 200.0F; });
+}
+
+/// Whether programs are called: their count grows.
+bool alive(ModbusClient& client) {
+  const std::uint32_t before = client.input_double_word(2);
+  return wait_until([&] { return client.input_double_word(2) >= before + 100; });
+}
+
+class EndedBySignal : public testing::TestWithParam<int> {};
+
+TEST_P(EndedBySignal, BringsItsAxesToRestAndEndsWith0) {
+  const Directory directory;
+  RunningLockstep run(slow_to_brake(directory));
+  ModbusClient client(run.port());
+  ASSERT_TRUE(running_at_200(client));
+  const auto asked = Clock::now();
+  run.send(GetParam());
+  EXPECT_TRUE(wait_until([&] {
+    const float velocity = client.input_float(0);
+    return velocity > 0.0F && velocity < 150.0F;
+  })) << "it does not brake";
+  EXPECT_EQ(run.status(), 0) << run.err();
+  EXPECT_GT(Clock::now() - asked, std::chrono::milliseconds(900)) << "the axis cannot stand yet";
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, EndedBySignal, testing::Values(SIGINT, SIGTERM),
+                         [](const auto& signal) { return signal.param == SIGINT ? "SIGINT" : "SIGTERM"; });
+
+TEST(RealTime, ADurationEndsItAndTheAxesAreBroughtToRestAfterIt) {
+  const Directory directory;
+  const std::string trace = directory.file("trace.csv");
+  const Ended ended = lockstep(
+      {"run", slow_to_brake(directory), "--duration", "500ms", "--trace", trace, "--signals", "A.Velocity"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  const Ticks ticks = ticks_of(ended.err);
+  EXPECT_GE(ticks.executed + ticks.missed, 1490) << "500 ms and a second of braking";
+  const CsvTable table = read_csv(trace);
+  ASSERT_GT(table.rows, 0u);
+  EXPECT_LT(table["t"].back(), 0.5) << "the trace ends with the duration";
+}
+
+TEST(RealTime, ASecondServerOnAPortThatIsTakenCannotStart) {
+  const Directory directory;
+  RunningLockstep first(slow_to_brake(directory));
+  const std::string endpoint = "127.0.0.1:" + std::to_string(first.port());
+  const Ended second = lockstep({"run", slow_to_brake(directory), "--modbus", endpoint, "--duration", "50s"});
+  EXPECT_EQ(second.status, 2);
+  EXPECT_NE(second.err.find(endpoint), std::string::npos) << second.err;
+  ModbusClient client(first.port());
+  EXPECT_TRUE(alive(client)) << "the first one is disturbed";
+}
+
+TEST(RealTime, SighupDoesNotEndIt) {
+  const Directory directory;
+  RunningLockstep run(slow_to_brake(directory));
+  ModbusClient client(run.port());
+  ASSERT_TRUE(running_at_200(client));
+  run.send(SIGHUP);
+  EXPECT_TRUE(alive(client));
+  EXPECT_EQ(client.input_float(0), 200.0F);
+  run.send(SIGTERM);
+  EXPECT_EQ(run.status(), 0);
+}
+
+TEST(RealTime, AClosedTerminalNeitherEndsNorStallsIt) {
+  const Directory directory;
+  const std::string trace = directory.file("trace.csv");
+  RunningLockstep run(slow_to_brake(directory), {"--trace", trace, "--signals", "alive"},
+                      Process::Output::terminal);
+  EXPECT_TRUE(wait_until([&] { return run.err().find("ticks") != std::string::npos; }))
+      << "a terminal gets progress";
+  run.close_terminal();
+  ModbusClient client(run.port());
+  EXPECT_TRUE(alive(client));
+  EXPECT_TRUE(alive(client));
+  const double seen = client.input_double_word(2);
+  run.send(SIGTERM);
+  EXPECT_EQ(run.status(), 0);
+  const CsvTable table = read_csv(trace);
+  ASSERT_GT(table.rows, 0u);
+  EXPECT_GE(table["alive"].back(), seen) << "the trace ends too early";
+}
+
+TEST(RealTime, ATerminalThatNobodyReadsDoesNotHoldUpItsEnd) {
+  const Directory directory;
+  RunningLockstep run(slow_to_brake(directory), {}, Process::Output::terminal);
+  ModbusClient client(run.port());
+  for (int i = 0; i < 8; ++i) ASSERT_TRUE(alive(client));
+  run.send(SIGTERM);
+  EXPECT_EQ(run.status(), 0);
+}
+
+/// A socket that has sent the first bytes of a request and now says nothing.
+class SilentClient {
+ public:
+  explicit SilentClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    const unsigned char begin[] = {0, 1, 0, 0, 0, 6, 1, 3, 0};  // of a request to read registers
+    EXPECT_EQ(::send(socket_, begin, sizeof begin, 0), static_cast<ssize_t>(sizeof begin));
+  }
+  ~SilentClient() { ::close(socket_); }
+  SilentClient(const SilentClient&) = delete;
+  SilentClient& operator=(const SilentClient&) = delete;
+
+ private:
+  int socket_;
+};
+
+TEST(RealTime, AClientThatStopsInTheMiddleOfARequestStallsNeitherTheTicksNorOtherClients) {
+  const Directory directory;
+  RunningLockstep run(slow_to_brake(directory), {"--duration", "2s"});
+  const SilentClient silent(run.port());
+  ModbusClient client(run.port());
+  EXPECT_TRUE(running_at_200(client));
+  EXPECT_TRUE(alive(client));
+  EXPECT_EQ(run.status(), 0);
+  // Every tick of the grid was executed or counted as missed; how many were missed is up to the machine.
+  const Ticks ticks = ticks_of(run.err());
+  EXPECT_GE(ticks.executed + ticks.missed, 2990) << "2 s and a second of braking";
+  EXPECT_LE(ticks.time, static_cast<double>(ticks.executed + ticks.missed) * 1e-3 + 0.01);
+  EXPECT_GT(ticks.executed, 300) << "less than a tenth of the ticks";
+}
+
+}  // namespace
+}  // namespace lockstep::test
