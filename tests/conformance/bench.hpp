@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fb/gear_in.hpp"
 #include "fb/home.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
@@ -43,13 +44,15 @@ class Bench {
     power_leading.Axis = run_leading.Axis = &leading;
     power_following.Axis = home_following.Axis = &following;
     reset_following.Axis = relative_following.Axis = &following;
+    gear_following.Master = &leading;
+    gear_following.Slave = &following;
     power_leading.Enable = true;
     run_leading.Velocity = BenchLimits::kLeadingVelocity;
     power_following.Enable = enable_following;
     support_ = {&power_leading, &run_leading};
     if (enable_following) support_.push_back(&power_following);
     for (Block* block : {static_cast<Block*>(&home_following), static_cast<Block*>(&reset_following),
-                         static_cast<Block*>(&relative_following)})
+                         static_cast<Block*>(&relative_following), static_cast<Block*>(&gear_following)})
       support_.push_back(block);
   }
   Bench(const Bench&) = delete;
@@ -70,6 +73,14 @@ class Bench {
     run(4);
     home_following.Execute = false;
     run(2);
+  }
+
+  /// The following axis runs synchronously with the leading one.
+  void couple() {
+    gear_following.Execute = true;
+    if (!run_until([&] { return gear_following.InGear; }, 500)) fault("the axis cannot be coupled");
+    gear_following.Execute = false;
+    run(1);
   }
 
   void tick() noexcept {
@@ -135,6 +146,7 @@ class Bench {
   MC_Home home_following;
   MC_Reset reset_following;
   MC_MoveRelative relative_following;
+  MC_GearIn gear_following;
   std::uint64_t allocations = 0;
   std::string first_fault;
   /// Whether a coupled axis is held to have no steps, too: with synchronizing distances of many cycles only.

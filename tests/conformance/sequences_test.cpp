@@ -25,9 +25,10 @@ class Sequence {
       if (!Subject(type).uses_objects() || type.name == "MC_Power") continue;
       following_.push_back(&bench_.add(type));
       following_.push_back(&bench_.add(type));
-      if (type.find_pin("Master") != nullptr) continue;
+      const Pin* axis = type.find_pin("Axis");
+      if (axis == nullptr) continue;  // what only a following axis can do
       Subject& subject = bench_.add(type);
-      subject.wire(*type.find_pin("Axis"), &bench_.leading);
+      subject.wire(*axis, &bench_.leading);
       leading_.push_back(&subject);
     }
     bench_.watch_coupled = true;
@@ -53,11 +54,17 @@ class Sequence {
   }
 
   void tick() {
+    // Additive velocities and positions need not fit each other; what follows them shows it.
+    const bool additive = std::any_of(following_.begin(), following_.end(), [](Subject* s) {
+      return s->type().name == "MC_LeadingValueAdditive" && s->busy();
+    });
+    bench_.watch_coupled = !additive;
     bench_.tick();
     for (const auto* subjects : {&following_, &leading_}) {
-      const auto in_effect =
-          std::count_if(subjects->begin(), subjects->end(), [](Subject* s) { return s->in_effect(); });
-      if (in_effect > 1) bench_.fault("two jobs on one axis have met their aims at once");
+      const auto in_effect = std::count_if(subjects->begin(), subjects->end(),
+                                           [](Subject* s) { return s->has_jobs() && s->in_effect(); });
+      if (in_effect > 1 && !bench_.following.simulating())
+        bench_.fault("two jobs on one axis have met their aims at once");
     }
   }
 
@@ -83,6 +90,7 @@ class Sequence {
 
   /// Starts a block with inputs at random, starts it anew in mid-job, or drops its request.
   void use(Subject& subject, bool follows) {
+    if (may_step(subject)) bench_.allow_position_steps(4);
     if (subject.number(*subject.start_pin()) != 0.0) {
       subject.start(false);
       if (chance(0.5)) return;
@@ -90,9 +98,14 @@ class Sequence {
     }
     for (const Pin& pin : subject.type().pins)
       if (pin.pin_class == PinClass::input && pin.type != Type::AXIS) set_at_random(subject, pin, follows);
-    if (subject.type().name == "MC_Home" || subject.type().name == "MC_Reset") bench_.allow_position_steps(3);
     subject.start(true);
     tell(subject, follows);
+  }
+
+  /// Published steps: homing, also of the leading axis; additive leading values.
+  static bool may_step(const Subject& subject) {
+    return subject.type().name == "MC_Home" || subject.type().name == "MC_Reset" ||
+           subject.type().name == "MC_LeadingValueAdditive";
   }
 
   void set_at_random(Subject& subject, const Pin& pin, bool follows) {
@@ -125,15 +138,22 @@ class Sequence {
     }
   }
 
-  /// Disabled, both axes come to rest and no block is left with a running job.
+  /// Disabled, both axes come to rest and no block is left with a running job, unless a simulated synchronous
+  /// motion outlives the enable.
   void finish() {
+    for (const auto* subjects : {&following_, &leading_})
+      for (Subject* subject : *subjects)
+        if (!subject->has_jobs()) subject->start(false);
+    bench_.allow_position_steps(4);
     bench_.power_following.Enable = bench_.power_leading.Enable = false;
     for (int i = 0; i < kStoppingTicks && !(bench_.following.off() && bench_.leading.off()); ++i) tick();
     for (int i = 0; i < 3; ++i) tick();
+    if (bench_.brakes_for_long()) return;  // left at a velocity by a step of the additive leading value
     if (!bench_.following.off() || !bench_.leading.off()) return bench_.fault("an axis does not stop");
     for (const auto* subjects : {&following_, &leading_})
       for (Subject* subject : *subjects)
-        if (subject->busy()) bench_.fault(subject->name() + " is Busy on a disabled axis");
+        if (subject->busy() && !bench_.following.simulating())
+          bench_.fault(subject->name() + " is Busy on a disabled axis");
     if (bench_.following.data.Velocity != 0.0 || bench_.leading.data.Velocity != 0.0)
       bench_.fault("a disabled axis moves");
   }

@@ -48,7 +48,10 @@ class Subject {
   }
   /// Whether a rising edge starts a job, so that its end is shown by Done, CommandAborted or Error.
   bool starts_by_edge() const noexcept { return start_ != nullptr && start_->name == "Execute"; }
-  bool enables() const noexcept { return start_ != nullptr && start_->name == "Enable"; }
+  /// Whether the block runs jobs, which another job or disabling can end.
+  bool has_jobs() const noexcept { return aborted_ != nullptr; }
+  /// Whether the block enables the axis itself.
+  bool powers() const noexcept { return type_->name == "MC_Power"; }
 
   /// One call of the block; tells what the outputs do that they must not, nullptr if nothing.
   const char* call(std::int64_t now) noexcept {
@@ -102,7 +105,7 @@ class Subject {
   const char* wrong_outputs() noexcept {
     if (error_ == nullptr) return nullptr;
     if (error() != (error_id() != WORD{})) return "ErrorID differs from 0 if and only if Error";
-    if (done_ == nullptr && aborted_ == nullptr) return nullptr;  // MC_Power stays Busy through an alarm
+    if (done_ == nullptr && aborted_ == nullptr) return nullptr;  // Busy while enabled, even with an error
     if (busy() + done() + aborted() + error() > 1)
       return "Busy, Done, CommandAborted and Error exclude each other";
     if ((in_effect() || on(output("StartSync"))) && !busy())

@@ -33,9 +33,27 @@ inline constexpr Setting kSettings[] = {
     {"MC_GearIn", "RatioNumerator", -1.0},
     {"MC_GearInPos", "MasterSyncPosition", 50.0},
     {"MC_GearInPos", "MasterStartDistance", 30.0},
+    {"MC_PhasingAbsolute", "PhaseShift", 10.0},
+    {"MC_PhasingRelative", "PhaseShift", 10.0},
+    {"MC_PhasingAbsolute", "PhasingDistance", 40.0},
+    {"MC_PhasingRelative", "PhasingDistance", 40.0},
+    {"MC_OffsetAbsolute", "Offset", 10.0},
+    {"MC_OffsetRelative", "Offset", 10.0},
+    {"MC_OffsetAbsolute", "OffsetDistance", 40.0},
+    {"MC_OffsetRelative", "OffsetDistance", 40.0},
+    {"MC_GearOut", "SlavePosition", 300.0},
+    {"MC_GearOut", "MasterStopDistance", 50.0},
 };
 // Blocks that act on an axis which moves.
 inline const std::set<std::string_view> kOnMovingAxis = {"MC_Halt", "MC_Stop"};
+// Blocks that act on an axis which is coupled.
+inline const std::set<std::string_view> kOnCoupledAxis = {"MC_PhasingAbsolute",
+                                                          "MC_PhasingRelative",
+                                                          "MC_OffsetAbsolute",
+                                                          "MC_OffsetRelative",
+                                                          "MC_GearOut",
+                                                          "MC_LeadingValueAdditive",
+                                                          "MC_SynchronizedMotionSimulation"};
 // Blocks that also act on a disabled axis.
 inline const std::set<std::string_view> kOnDisabledAxis = {"MC_Home", "MC_Reset"};
 // Blocks that rename positions, so that these may step.
@@ -110,8 +128,9 @@ struct Trial {
     subject = &bench.add(type);
     apply_settings(*subject);
     if (kRenamesPositions.contains(type.name)) bench.allow_position_steps(kTicksOfATrial);
-    if (subject->enables() && enabled) subject->start(true);
+    if (subject->powers() && enabled) subject->start(true);
     bench.ready();
+    if (enabled && kOnCoupledAxis.contains(type.name)) bench.couple();
     if (enabled && kOnMovingAxis.contains(type.name)) {
       bench.relative_following.Distance = 1e6;
       bench.relative_following.Execute = true;
@@ -138,7 +157,7 @@ struct Trial {
         s.store(pin, 0.0);
     restore_defaults();
     const auto enable = [&](bool on) {
-      if (s.enables())
+      if (s.powers())
         s.start(on);
       else
         bench.power_following.Enable = on;
