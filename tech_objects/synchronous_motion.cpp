@@ -37,15 +37,11 @@ Axis* SynchronousMotion::leading_axis() const noexcept {
 
 void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
   look_at_leading();
-  if (synchronous_) {
-    evaluate_function();
-    setpoint = function_;
-    return;
-  }
+  if (synchronous_) return evaluate_function(setpoint);
   watch_reversal();
   if (reversed_) return;
   if (way_ == Way::velocity) return advance_velocity(setpoint);
-  evaluate_function();
+  evaluate_function(function_);
   advance_along_profile(setpoint);
 }
 
@@ -54,10 +50,14 @@ void SynchronousMotion::look_at_leading() noexcept {
   if (!synchronous_) leading_last_ = leading_->source->last_leading_state(leading_->coupling);
 }
 
-void SynchronousMotion::evaluate_function() noexcept {
-  function_.position = gear_.value(leading_now_.position);
-  function_.velocity = gear_.velocity(leading_now_.velocity);
-  function_.acceleration = gear_.acceleration(leading_now_.acceleration);
+/// The function of the leading value, to `function_` and to `result`. Written value by value: copying a whole
+/// setpoint would make the processor wait until its parts have left for memory.
+void SynchronousMotion::evaluate_function(Setpoint& result) noexcept {
+  const AxisPosition position = gear_.value(leading_now_.position);
+  result.position.turns = function_.position.turns = position.turns;
+  result.position.value = function_.position.value = position.value;
+  result.velocity = function_.velocity = gear_.velocity(leading_now_.velocity);
+  result.acceleration = function_.acceleration = gear_.acceleration(leading_now_.acceleration);
 }
 
 void SynchronousMotion::watch_reversal() noexcept {

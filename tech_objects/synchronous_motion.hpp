@@ -68,7 +68,7 @@ class SynchronousMotion {
  private:
   void couple(const LeadingValue& leading, const Job& job, const Dynamics& dynamics) noexcept;
   void look_at_leading() noexcept;
-  void evaluate_function() noexcept;
+  void evaluate_function(Setpoint& result) noexcept;
   void watch_reversal() noexcept;
   void advance_velocity(Setpoint& setpoint) noexcept;
   void advance_along_profile(Setpoint& setpoint) noexcept;
