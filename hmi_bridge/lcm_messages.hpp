@@ -1,4 +1,4 @@
-/// Rows as LCM messages and back; README.lcm.md describes the layout.
+/// Rows as LCM messages and back; LCM.md describes the layout.
 #pragma once
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <unordered_set>
 
@@ -63,12 +64,13 @@ std::string JsonValue::pointer() const {
   std::vector<const JsonValue*> path;
   for (const JsonValue* value = this; value->parent_ != nullptr; value = value->parent_)
     path.push_back(value);
+  std::reverse(path.begin(), path.end());
   std::string result;
-  for (auto value = path.rbegin(); value != path.rend(); ++value) {
-    if ((*value)->parent_->kind == JsonKind::array)
-      append_segment(result, std::to_string((*value)->index_));
+  for (const JsonValue* const value : path) {
+    if (value->parent_->kind == JsonKind::array)
+      append_segment(result, std::to_string(value->index_));
     else
-      append_segment(result, lockstep::shown((*value)->key_));
+      append_segment(result, lockstep::shown(value->key_));
   }
   return result;
 }

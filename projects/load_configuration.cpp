@@ -82,7 +82,7 @@ void ConfigurationLoader::report_unknown(const std::string& key, const JsonValue
   const std::vector<std::string_view> names(texts.begin(), texts.end());
   std::string text = "unknown key " + quote(key) + did_you_mean(key, names);
   if (key.find('.') != key.npos && find_variable(key).variable != nullptr)
-    text += "; structures are nested, as in { \"DynamicDefaults\": { \"Velocity\": 100.0 } }";
+    text += R"(; structures are nested, as in { "DynamicDefaults": { "Velocity": 100.0 } })";
   problems_.report(json, text + "; allowed: " + list_of(names));
 }
 

@@ -214,7 +214,7 @@ void ProgramLoader::load_object_pin(const JsonValue& json, const Pin& pin, Insta
   if ((pin.objects & static_cast<ObjectKinds>(axis->kind)) == 0) {
     std::vector<std::string_view> kinds;
     for (const ObjectKind kind : {ObjectKind::TO_PositioningAxis, ObjectKind::TO_SynchronousAxis})
-      if ((pin.objects & static_cast<ObjectKinds>(kind)) != 0) kinds.push_back(kind_name(kind));
+      if ((pin.objects & static_cast<ObjectKinds>(kind)) != 0) kinds.emplace_back(kind_name(kind));
     return problems_.report(json,
                             json.shown() + " is a " + kind_name(axis->kind) + "; allowed: " + list_of(kinds));
   }

@@ -1,7 +1,8 @@
 #include "projects/project_schema.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <initializer_list>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -33,7 +34,7 @@ Json object(Keys keys, const Members& members) {
   return schema;
 }
 
-Json described(std::string_view description, Json schema) {
+Json described(std::string_view description, const Json& schema) {
   Json result = {{"description", description}};
   result.update(schema);
   return result;

@@ -189,7 +189,9 @@ class Axis : public TechnologyObject {
   double velocity_limit() const noexcept;
   double wanted_velocity(const Job& job) const noexcept;
   Dynamics effective_dynamics(const Job& job) noexcept;
-  double least_jerk() const noexcept;
+  Dynamics own_dynamics(const Job& job) noexcept;
+  double room_to_limit() const noexcept;
+  void cut_acceleration() noexcept;
   Dynamics maximum_dynamics() const noexcept;
   Dynamics emergency_dynamics() const noexcept;
   Dynamics maximum_for_current(Dynamics dynamics) const noexcept;

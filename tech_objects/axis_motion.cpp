@@ -60,16 +60,32 @@ Dynamics Axis::effective_dynamics(const Job& job) noexcept {
   return {.velocity = std::min(velocity, velocity_limit()),
           .acceleration = std::min(acceleration, limits.MaxAcceleration),
           .deceleration = std::min(deceleration, limits.MaxDeceleration),
-          .jerk = std::min(jerk == 0.0 ? 0.0 : std::max(jerk, least_jerk()), limits.MaxJerk)};
+          .jerk = std::min(jerk, limits.MaxJerk)};
 }
 
-/// Least jerk with which a present acceleration is run down before the velocity limit is passed [u/s³]: the
-/// limit counts more than the jerk that a job asks for.
-double Axis::least_jerk() const noexcept {
-  if (setpoint_.velocity * setpoint_.acceleration <= 0.0) return 0.0;
-  const double room = velocity_limit() - std::abs(setpoint_.velocity);
-  if (room <= 0.0) return data.DynamicLimits.MaxJerk;
-  return setpoint_.acceleration * setpoint_.acceleration / (2.0 * room);
+/// Dynamic values for a motion of the axis' own that takes over from the present state. The velocity limit
+/// counts more than the jerk that a job asks for: with too low a one, the velocity would pass the limit while
+/// a present acceleration is run down.
+Dynamics Axis::own_dynamics(const Job& job) noexcept {
+  Dynamics dynamics = effective_dynamics(job);
+  const double a = setpoint_.acceleration;
+  if (dynamics.jerk > 0.0 && a * a > 2.0 * dynamics.jerk * room_to_limit())
+    dynamics.jerk = std::min(a * a / (2.0 * room_to_limit()), data.DynamicLimits.MaxJerk);
+  return dynamics;
+}
+
+/// Velocity that is left, in the direction of the present acceleration, up to the limit [u/s] ≥ 0.
+double Axis::room_to_limit() const noexcept {
+  const double towards = setpoint_.acceleration < 0.0 ? -setpoint_.velocity : setpoint_.velocity;
+  return std::max(velocity_limit() - towards, 0.0);
+}
+
+/// A synchronous motion, or one without jerk limit, may leave an acceleration that not even MaxJerk can run
+/// down below the velocity limit: what is too much is dropped.
+void Axis::cut_acceleration() noexcept {
+  const double most = std::sqrt(2.0 * data.DynamicLimits.MaxJerk * room_to_limit());
+  if (std::abs(setpoint_.acceleration) > most)
+    setpoint_.acceleration = std::copysign(most, setpoint_.acceleration);
 }
 
 Dynamics Axis::maximum_dynamics() const noexcept {
@@ -98,7 +114,8 @@ int Axis::zero_limit(const Dynamics& dynamics) const noexcept {
 // -----------------------------------------------------------------------------------------
 
 void Axis::begin_base_motion(Job& job) noexcept {
-  const Dynamics dynamics = effective_dynamics(job);
+  cut_acceleration();
+  const Dynamics dynamics = own_dynamics(job);
   if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
@@ -179,6 +196,7 @@ PlanResult Axis::move_by(double way, const Job& job, const Dynamics& dynamics) n
 void Axis::begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept {
   leave_synchronous();
   motion_ = Motion::single_axis;
+  cut_acceleration();
   if (single_.stop(setpoint_, dynamics, abort_acceleration) == PlanResult::ok) return;
   setpoint_.velocity = 0.0;  // no ramp can be planned from such a state: stand
   setpoint_.acceleration = 0.0;
@@ -207,7 +225,7 @@ void Axis::follow_changes(Job& job) noexcept {
   if (!inputs_changed && !limits_changed) return;
   if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || job.kind == JobKind::MC_GearOut) return;
   remember_limits();
-  const Dynamics dynamics = effective_dynamics(job);
+  const Dynamics dynamics = own_dynamics(job);
   PlanResult result = PlanResult::ok;
   if (jog || (job.kind == JobKind::MC_MoveVelocity && !job.current)) {
     result = plan(job, dynamics);

@@ -159,8 +159,7 @@ constexpr Variable kVariables[] = {
              "which synchronous operation function is waiting",
              .choices = kStatusSynchronizedMotionWaitingFunctionState),
     VARIABLE(StatusSynchronizedMotion.PhaseShift, RON, kLeading, between(-1e12, 1e12),
-             "current absolute leading-value offset of an MC_PhasingAbsolute or MC_PhasingRelative job",
-             .later = true),
+             "current absolute leading-value offset of an MC_PhasingAbsolute or MC_PhasingRelative job"),
     VARIABLE(StatusSynchronizedMotion.ActualMaster, RON, kNone, between(0.0, 65535.0),
              "number of the technology data block of the leading axis in use; shown from the start of a "
              "synchronous operation job",
@@ -176,7 +175,7 @@ constexpr Variable kVariables[] = {
     VARIABLE(StatusSynchronizedMotion.SlaveScaling, RON, kNone, between(-1e12, 1e12),
              "current scaling of the following-value range of the cam, from an MC_CamIn job", .later = true),
     VARIABLE(StatusSynchronizedMotion.Offset, RON, kPosition, between(-1e12, 1e12),
-             "following-value offset in effect, including SlaveOffset of a cam job", .later = true),
+             "following-value offset in effect, including SlaveOffset of a cam job"),
     VARIABLE(StatusSynchronizedMotion.EffectiveLeadingValue.Position, RON, kLeading, between(-1e12, 1e12),
              "position"),
     VARIABLE(StatusSynchronizedMotion.EffectiveLeadingValue.Velocity, RON, kVelocity, between(-1e12, 1e12),

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fb/gear_in.hpp"
 #include "fb/home.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
@@ -43,13 +44,15 @@ class Bench {
     power_leading.Axis = run_leading.Axis = &leading;
     power_following.Axis = home_following.Axis = &following;
     reset_following.Axis = relative_following.Axis = &following;
+    gear_following.Master = &leading;
+    gear_following.Slave = &following;
     power_leading.Enable = true;
     run_leading.Velocity = BenchLimits::kLeadingVelocity;
     power_following.Enable = enable_following;
     support_ = {&power_leading, &run_leading};
     if (enable_following) support_.push_back(&power_following);
     for (Block* block : {static_cast<Block*>(&home_following), static_cast<Block*>(&reset_following),
-                         static_cast<Block*>(&relative_following)})
+                         static_cast<Block*>(&relative_following), static_cast<Block*>(&gear_following)})
       support_.push_back(block);
   }
   Bench(const Bench&) = delete;
@@ -72,17 +75,30 @@ class Bench {
     run(2);
   }
 
+  /// The following axis runs synchronously with the leading one.
+  void couple() {
+    gear_following.Execute = true;
+    if (!run_until([&] { return gear_following.InGear; }, 500)) fault("the axis cannot be coupled");
+    gear_following.Execute = false;
+    run(1);
+  }
+
   void tick() noexcept {
+    const char* wrong = nullptr;
+    const Subject* culprit = nullptr;
     {
       const std::uint64_t before = allocations_counted();
       const CountAllocations count;
       controller.tick();
       for (Block* block : support_) block->call(now());
-      for (Subject& subject : subjects_) subject.block().call(now());
+      for (Subject& subject : subjects_)
+        if (const char* found = subject.call(now()); found != nullptr && wrong == nullptr) {
+          wrong = found;
+          culprit = &subject;
+        }
       allocations += allocations_counted() - before;
     }
-    for (Subject& subject : subjects_)
-      if (const char* wrong = subject.wrong_outputs()) fault(subject.name() + ": " + wrong);
+    if (wrong != nullptr) fault(culprit->name() + ": " + wrong);
     watch(leading, last_[0]);
     watch(following, last_[1]);
   }
@@ -108,8 +124,10 @@ class Bench {
     first_fault = note.str();
   }
 
-  /// The position of the following axis is renamed: homing, restart.
-  void allow_position_step() noexcept { position_steps_ = true; }
+  /// Positions may be renamed in the next ticks: homing, restart.
+  void allow_position_steps(std::uint64_t ticks) noexcept {
+    position_steps_until_ = controller.counters().ticks + ticks;
+  }
 
   /// Whether the following axis is braking from beyond what its ramp can brake in kStoppingTicks.
   bool brakes_for_long() const noexcept {
@@ -128,14 +146,16 @@ class Bench {
   MC_Home home_following;
   MC_Reset reset_following;
   MC_MoveRelative relative_following;
+  MC_GearIn gear_following;
   std::uint64_t allocations = 0;
   std::string first_fault;
+  /// Whether a coupled axis is held to have no steps, too: with synchronizing distances of many cycles only.
+  bool watch_coupled = false;
 
  private:
   struct Last {
     bool known = false;
     bool coupled = false;
-    bool beyond_limits = false;  // left there by a coupling
     Setpoint setpoint;
   };
 
@@ -152,7 +172,7 @@ class Bench {
   }
 
   /// Finite at any time. While the axis moves on its own: no step of position or velocity, and inside the
-  /// limits unless a coupling has left it beyond them.
+  /// limits or on the way into them.
   void watch(const Axis& axis, Last& last) noexcept {
     const Setpoint& s = axis.setpoint();
     const Last before = last;
@@ -162,28 +182,32 @@ class Bench {
     last.setpoint = s;
     if (!std::isfinite(s.position.value) || !std::isfinite(s.velocity) || !std::isfinite(s.acceleration))
       return fault(axis.name + ": setpoint not finite");
-    const bool speeding_up = s.velocity * s.acceleration > 0.0;
-    if (last.coupled) last.beyond_limits = true;
-    if (!before.known || last.coupled || before.coupled) return;
+    if (!before.known) return;
+    if (last.coupled || (before.coupled && axis.pending_alarm() != 0)) {
+      if (watch_coupled && !positions_may_step()) watch_steps(axis, before.setpoint, s, kBetweenTicks);
+      return;
+    }
     if (axis.pending_alarm() == alarm::kPositionRangeExceeded) return;  // at the end of the numbers it stands
-    const double v = std::abs(s.velocity), a = std::abs(s.acceleration);
-    if (v <= BenchLimits::kVelocity && !speeding_up) last.beyond_limits = false;
-    const double was_a = std::abs(before.setpoint.acceleration);
-    if (!last.beyond_limits && v > BenchLimits::kVelocity * (1 + kSlack))
+    const double most_v = std::max(BenchLimits::kVelocity, std::abs(before.setpoint.velocity));
+    if (std::abs(s.velocity) > most_v * (1 + kSlack))
       fault(axis.name + ": velocity " + std::to_string(s.velocity) + " beyond its limit");
-    const double most_a = speeding_up ? BenchLimits::kAcceleration : BenchLimits::kEmergency;
-    if (a > std::max(most_a, was_a) * (1 + kSlack))
+    const bool speeding_up = s.velocity * s.acceleration > 0.0;
+    const double most_a = std::max(speeding_up ? BenchLimits::kAcceleration : BenchLimits::kEmergency,
+                                   std::abs(before.setpoint.acceleration));
+    if (std::abs(s.acceleration) > most_a * (1 + kSlack))
       fault(axis.name + ": acceleration " + std::to_string(s.acceleration) + " beyond its limit");
-    watch_steps(axis, before.setpoint, s);
+    watch_steps(axis, before.setpoint, s, 1.0);
   }
 
-  void watch_steps(const Axis& axis, const Setpoint& before, const Setpoint& s) noexcept {
+  /// @param between how much more than at the two ticks the acceleration may be between them
+  void watch_steps(const Axis& axis, const Setpoint& before, const Setpoint& s, double between) noexcept {
     constexpr double kPeriod = static_cast<double>(BenchLimits::kPeriod) * 1e-9;
-    const double most_a = std::max(BenchLimits::kEmergency, std::abs(before.acceleration));
+    const double at_ticks = std::max(std::abs(before.acceleration), std::abs(s.acceleration));
+    const double most_a = between * std::max(BenchLimits::kEmergency, at_ticks);
     if (std::abs(s.velocity - before.velocity) > most_a * kPeriod * (1 + kSlack) + kSlack)
       fault(axis.name + ": step of the velocity from " + std::to_string(before.velocity) + " to " +
             std::to_string(s.velocity));
-    if (position_steps_) return;
+    if (positions_may_step()) return;
     const double way = difference(s.position, before.position, axis.modulo()).rounded();
     const double mean = 0.5 * (s.velocity + before.velocity) * kPeriod;
     const double rounding = 1e-12 * std::abs(s.position.value);
@@ -191,12 +215,16 @@ class Bench {
       fault(axis.name + ": step of the position by " + std::to_string(way));
   }
 
+  bool positions_may_step() const noexcept { return controller.counters().ticks <= position_steps_until_; }
+
   static constexpr double kSlack = 1e-9;
+  /// A profile over a few cycles has its highest acceleration between them.
+  static constexpr double kBetweenTicks = 2.0;
 
   std::vector<Block*> support_;
   std::deque<Subject> subjects_;
   Last last_[2];
-  bool position_steps_ = false;
+  std::uint64_t position_steps_until_ = 0;
 };
 
 }  // namespace lockstep::test

@@ -48,7 +48,29 @@ class Subject {
   }
   /// Whether a rising edge starts a job, so that its end is shown by Done, CommandAborted or Error.
   bool starts_by_edge() const noexcept { return start_ != nullptr && start_->name == "Execute"; }
-  bool enables() const noexcept { return start_ != nullptr && start_->name == "Enable"; }
+  /// Whether the block runs jobs, which another job or disabling can end.
+  bool has_jobs() const noexcept { return aborted_ != nullptr; }
+  /// Whether the block enables the axis itself.
+  bool powers() const noexcept { return type_->name == "MC_Power"; }
+
+  /// One call of the block; tells what the outputs do that they must not, nullptr if nothing.
+  const char* call(std::int64_t now) noexcept {
+    const bool execute = on(start_);
+    const bool rising = execute && !last_execute_;
+    const bool was_busy = busy(), was_done = done(), was_aborted = aborted(), was_error = error();
+    last_execute_ = execute;
+    block_->call(now);
+    if (const char* wrong = wrong_outputs()) return wrong;
+    if (!starts_by_edge()) return nullptr;
+    if (rising) return busy() || ended() ? nullptr : "a request is not answered";
+    const bool was_ended = was_done || was_aborted || was_error;
+    if (was_busy) return busy() || ended() ? nullptr : "a job vanishes without an end";
+    if (busy()) return "Busy without a request";
+    if (!was_ended) return ended() ? "an end without a job" : nullptr;
+    if (!execute) return ended() ? "an end outlasts its request and its call" : nullptr;
+    const bool same = was_done == done() && was_aborted == aborted() && was_error == error();
+    return same ? nullptr : "an end changes while Execute is TRUE";
+  }
 
   /// Sets the pin that starts the block.
   void start(bool on) noexcept { store(*start_, on ? 1.0 : 0.0); }
@@ -83,7 +105,7 @@ class Subject {
   const char* wrong_outputs() noexcept {
     if (error_ == nullptr) return nullptr;
     if (error() != (error_id() != WORD{})) return "ErrorID differs from 0 if and only if Error";
-    if (done_ == nullptr && aborted_ == nullptr) return nullptr;  // MC_Power stays Busy through an alarm
+    if (done_ == nullptr && aborted_ == nullptr) return nullptr;  // Busy while enabled, even with an error
     if (busy() + done() + aborted() + error() > 1)
       return "Busy, Done, CommandAborted and Error exclude each other";
     if ((in_effect() || on(output("StartSync"))) && !busy())
@@ -101,6 +123,7 @@ class Subject {
   const BlockType* type_;
   std::unique_ptr<Block> block_;
   const Pin* start_ = nullptr;
+  bool last_execute_ = false;
   const Pin *done_, *busy_, *aborted_, *error_, *error_id_;
 };
 

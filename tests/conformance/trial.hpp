@@ -33,9 +33,27 @@ inline constexpr Setting kSettings[] = {
     {"MC_GearIn", "RatioNumerator", -1.0},
     {"MC_GearInPos", "MasterSyncPosition", 50.0},
     {"MC_GearInPos", "MasterStartDistance", 30.0},
+    {"MC_PhasingAbsolute", "PhaseShift", 10.0},
+    {"MC_PhasingRelative", "PhaseShift", 10.0},
+    {"MC_PhasingAbsolute", "PhasingDistance", 40.0},
+    {"MC_PhasingRelative", "PhasingDistance", 40.0},
+    {"MC_OffsetAbsolute", "Offset", 10.0},
+    {"MC_OffsetRelative", "Offset", 10.0},
+    {"MC_OffsetAbsolute", "OffsetDistance", 40.0},
+    {"MC_OffsetRelative", "OffsetDistance", 40.0},
+    {"MC_GearOut", "SlavePosition", 300.0},
+    {"MC_GearOut", "MasterStopDistance", 50.0},
 };
 // Blocks that act on an axis which moves.
 inline const std::set<std::string_view> kOnMovingAxis = {"MC_Halt", "MC_Stop"};
+// Blocks that act on an axis which is coupled.
+inline const std::set<std::string_view> kOnCoupledAxis = {"MC_PhasingAbsolute",
+                                                          "MC_PhasingRelative",
+                                                          "MC_OffsetAbsolute",
+                                                          "MC_OffsetRelative",
+                                                          "MC_GearOut",
+                                                          "MC_LeadingValueAdditive",
+                                                          "MC_SynchronizedMotionSimulation"};
 // Blocks that also act on a disabled axis.
 inline const std::set<std::string_view> kOnDisabledAxis = {"MC_Home", "MC_Reset"};
 // Blocks that rename positions, so that these may step.
@@ -100,15 +118,19 @@ inline void apply_settings(Subject& subject) {
     if (subject.type().name == setting.block) subject.set(setting.pin, setting.value);
 }
 
+/// More ticks than any trial has.
+inline constexpr int kTicksOfATrial = 1'000'000;
+
 /// A bench with the block under test on it, ready to be started.
 struct Trial {
   Trial(const BlockType& type, const char* check_name, bool modulo = false, bool enabled = true)
       : subject_type(type), check(check_name), bench(modulo, enabled && type.name != "MC_Power") {
     subject = &bench.add(type);
     apply_settings(*subject);
-    if (kRenamesPositions.contains(type.name)) bench.allow_position_step();
-    if (subject->enables() && enabled) subject->start(true);
+    if (kRenamesPositions.contains(type.name)) bench.allow_position_steps(kTicksOfATrial);
+    if (subject->powers() && enabled) subject->start(true);
     bench.ready();
+    if (enabled && kOnCoupledAxis.contains(type.name)) bench.couple();
     if (enabled && kOnMovingAxis.contains(type.name)) {
       bench.relative_following.Distance = 1e6;
       bench.relative_following.Execute = true;
@@ -135,7 +157,7 @@ struct Trial {
         s.store(pin, 0.0);
     restore_defaults();
     const auto enable = [&](bool on) {
-      if (s.enables())
+      if (s.powers())
         s.start(on);
       else
         bench.power_following.Enable = on;

@@ -1,36 +1,11 @@
 // Every rule of the project file: what is wrong is told at its place, with what is allowed.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "example_project.hpp"
+#include "changed_project.hpp"
 #include "projects/project.hpp"
 
 namespace lockstep {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string lines(const std::vector<Problem>& problems) {
-  std::string text;
-  for (const Problem& problem : problems) text += to_string("FILE", problem) + "\n";
-  return text;
-}
-
-/// The example project with one place replaced by some JSON; an empty text removes the place.
-std::string changed(const std::string& pointer, const std::string& value) {
-  Json project = Json::parse(kExampleProject);
-  if (value.empty()) {
-    const Json::json_pointer place(pointer);
-    if (project.at(place.parent_pointer()).is_array())
-      project.at(place.parent_pointer()).erase(std::stoul(place.back()));
-    else
-      project.at(place.parent_pointer()).erase(place.back());
-  } else {
-    project[Json::json_pointer(pointer)] = Json::parse(value);
-  }
-  return project.dump();
-}
 
 struct Rule {
   std::string change;  // pointer
@@ -433,92 +408,6 @@ INSTANTIATE_TEST_SUITE_P(
              "allowed: from 0 to 200"},
         Rule{kNew, R"({"set": "speed", "to": "1 / 2"})", kNew + "/to", "(column"},
         Rule{kConfig + "/Actor", R"({"Efficiency": 0.5})", kConfig + "/Actor/Efficiency", "no effect yet"}}));
-
-TEST(ProjectProblems, AreToldForSectionsOfAnotherKind) {
-  for (const auto& [section, allowed] : {std::pair{"technology_objects", "an object"},
-                                         std::pair{"tags", "an object"}, std::pair{"programs", "an array"}}) {
-    Json project = {{"lockstep", 1}, {"name", "x"}, {"clock", {{"servo_cycle", "1ms"}}}};
-    project[section] = "text";
-    const LoadedProject loaded = load_project(project.dump());
-    EXPECT_EQ(lines(loaded.problems),
-              std::string("FILE:/") + section + ": 'text' is not allowed here; allowed: " + allowed + "\n");
-  }
-}
-
-TEST(ProjectProblems, AreAllToldAtOnce) {
-  Json project = Json::parse(kExampleProject);
-  project["clock"]["interpolator_ratio"] = 99;
-  project["technology_objects"]["Knife"]["config"]["Modulo"]["Length"] = -1;
-  project["tags"]["speed"]["type"] = "FLOAT";
-  project["programs"][0]["calls"][4]["in"]["Ratio"] = 1;
-  project["modbus"]["map"][0]["address"] = -1;
-  project["trace"]["signals"][0] = "Conveyer.Position";
-  project["extra"] = 1;
-  const LoadedProject loaded = load_project(project.dump());
-  std::vector<std::string> places;
-  for (const Problem& problem : loaded.problems) places.push_back(problem.place);
-  std::sort(places.begin(), places.end());
-  EXPECT_EQ(places,
-            (std::vector<std::string>{"/clock/interpolator_ratio", "/extra", "/modbus/map/0/address",
-                                      "/programs/0/calls/4/in/Ratio", "/tags/speed/type",
-                                      "/technology_objects/Knife/config/Modulo/Length", "/trace/signals/0"}))
-      << "and nothing about what only follows from the faulty declaration of 'speed'";
-}
-
-TEST(ProjectProblems, DoNotRepeatThemselvesWhereAFaultyObjectIsUsed) {
-  Json project = Json::parse(kExampleProject);
-  project["technology_objects"]["Knife"]["type"] = "TO_Cam";
-  const LoadedProject loaded = load_project(project.dump());
-  ASSERT_EQ(loaded.problems.size(), 1u) << lines(loaded.problems);
-  EXPECT_EQ(loaded.problems[0].place, "/technology_objects/Knife/type");
-}
-
-TEST(ProjectProblems, IncludeThePinsOfACallWhoseNameIsTaken) {
-  const LoadedProject loaded =
-      load_project(changed(kNew, R"({"fb": "R_TRIG", "name": "run", "in": {"CLCK": true}})"));
-  ASSERT_EQ(loaded.problems.size(), 2u) << lines(loaded.problems);
-  EXPECT_EQ(loaded.problems[0].place, kNew + "/name");
-  EXPECT_EQ(loaded.problems[1].place, kNew + "/in/CLCK");
-}
-
-TEST(ProjectProblems, AreToldForDuplicateKeysAndWhatElseIsWrong) {
-  const LoadedProject loaded = load_project(
-      R"({"lockstep": 1, "lockstep": 2, "name": "x", "clock": {"servo_cycle": "1ms"}, "tags": {"a": {"type": "BOL"}}})");
-  EXPECT_EQ(lines(loaded.problems),
-            "FILE:/lockstep: the key 'lockstep' is there twice; each key is allowed once\n"
-            "FILE:/tags/a/type: unknown type 'BOL' (did you mean 'BOOL'?); allowed: BOOL, SINT, INT, DINT, "
-            "LINT, USINT, "
-            "UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD, REAL, LREAL, TIME\n");
-}
-
-TEST(ProjectProblems, NameAPlaceOnOneLineWhateverTheKey) {
-  const LoadedProject loaded = load_project(
-      "{\"lockstep\": 1, \"name\": \"x\", \"clock\": {\"servo_cycle\": \"1ms\"}, \"tags\": {\"a\\nb\": "
-      "{\"type\": \"BOOL\"}}}");
-  ASSERT_EQ(loaded.problems.size(), 1u);
-  EXPECT_EQ(loaded.problems[0].place, "/tags/a?b");
-  EXPECT_EQ(lines(loaded.problems).find('\n'), lines(loaded.problems).size() - 1);
-}
-
-TEST(ProjectProblems, StayShortForVeryLongNames) {
-  const std::string name(1'000'000, 'n');
-  const LoadedProject loaded =
-      load_project("{\"lockstep\": 1, \"name\": \"" + name + "\", \"clock\": {\"servo_cycle\": \"" + name +
-                   "\"}, \"" + name + "\": 1, \"tags\": {\"" + name + "\": {\"type\": \"" + name +
-                   "\"}}, \"trace\": {\"signals\": [\"" + name + "\", \"" + name + "." + name + "\"]}}");
-  EXPECT_GE(loaded.problems.size(), 6u);
-  EXPECT_LT(lines(loaded.problems).size(), 4000u) << lines(loaded.problems);
-}
-
-TEST(ProjectProblems, AreFoundInTimeAmongManyNames) {
-  Json project = Json::parse(kExampleProject);
-  for (int i = 0; i < 3000; ++i) {
-    project["tags"]["tag_number_" + std::to_string(i)] = {{"type", "BOOL"}};
-    project["trace"]["signals"].push_back("tug_number_" + std::to_string(i));
-  }
-  const LoadedProject loaded = load_project(project.dump());
-  EXPECT_EQ(loaded.problems.size(), 3000u);
-}
 
 }  // namespace
 }  // namespace lockstep

@@ -5,17 +5,11 @@
 #include <cstdio>
 #include <fstream>
 
-#include "example_project.hpp"
+#include "changed_project.hpp"
 #include "projects/project.hpp"
 
 namespace lockstep {
 namespace {
-
-std::string lines(const std::vector<Problem>& problems) {
-  std::string text;
-  for (const Problem& problem : problems) text += to_string("FILE", problem) + "\n";
-  return text;
-}
 
 Project load(std::string_view text) {
   LoadedProject loaded = load_project(text);
