@@ -194,6 +194,13 @@ void simulate(Project& project, Surroundings& surroundings, Display& display, st
                             spent.count(), simulated / spent.count(), controller.counters().ticks));
 }
 
+/// What goes wrong with the clock, for the display; nothing as long as nothing does.
+std::string trouble(const RealTimeStatus& status) {
+  const std::uint64_t overruns = status.overruns.load();
+  const std::uint64_t missed = status.missed_ticks.load();
+  return overruns + missed == 0 ? "" : fmt::format("  overruns {}  missed ticks {}", overruns, missed);
+}
+
 /// Real time, on a thread of its own; this one only looks and tells.
 int run_in_real_time(Project& project, Display& display, std::int64_t duration) {
   const OverrunPolicy policy = project.stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
@@ -203,8 +210,7 @@ int run_in_real_time(Project& project, Display& display, std::int64_t duration) 
   while (!status.over.load(std::memory_order_acquire)) {
     std::this_thread::sleep_for(kRefresh);
     if (end_requested != 0) run.stop();
-    display.show(status.time.load(),
-                 fmt::format("  ticks {}  overruns {}", status.ticks.load(), status.overruns.load()));
+    display.show(status.time.load(), trouble(status));
   }
   run.wait();
   display.close();

@@ -124,7 +124,7 @@ TEST(RealTime, AClosedTerminalNeitherEndsNorStallsIt) {
   const std::string trace = directory.file("trace.csv");
   RunningLockstep run(slow_to_brake(directory), {"--trace", trace, "--signals", "alive"},
                       Process::Output::terminal);
-  EXPECT_TRUE(wait_until([&] { return run.err().find("ticks") != std::string::npos; }))
+  EXPECT_TRUE(wait_until([&] { return run.err().find("alive ") != std::string::npos; }))
       << "a terminal gets progress";
   run.close_terminal();
   ModbusClient client(run.port());

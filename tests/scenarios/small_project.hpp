@@ -40,6 +40,11 @@ inline Json stimulus(const std::string& at, const std::string& tag, Json value) 
   return Json{{"at", at}, {"set", {{tag, std::move(value)}}}};
 }
 
+/// An example project, for a test to change.
+inline Json example_json(const std::string& name) {
+  return Json::parse(content(example(name)));
+}
+
 /// Simulates a project given as JSON; `signals` are recorded.
 inline CsvTable simulate(const Json& project, const std::string& duration, const std::string& signals) {
   const Directory directory;
