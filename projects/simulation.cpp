@@ -27,7 +27,8 @@ Value converted(double value, Type type) {
     result.i = static_cast<std::int64_t>(value);
     return result;
   }
-  throw std::domain_error(std::to_string(value) + " does not fit a value of type " + std::string(type_name(type)));
+  throw std::domain_error(std::to_string(value) + " does not fit a value of type " +
+                          std::string(type_name(type)));
 }
 
 }  // namespace
@@ -38,7 +39,9 @@ Simulation::Simulation(LoadedProject loaded) : project_(valid(std::move(loaded))
 
 Simulation::Simulation(const std::string& path) : Simulation(load_project_file(path)) {}
 
-Simulation Simulation::from_text(std::string_view text) { return Simulation(load_project(text)); }
+Simulation Simulation::from_text(std::string_view text) {
+  return Simulation(load_project(text));
+}
 
 void Simulation::run_for(std::chrono::nanoseconds duration) noexcept {
   const std::int64_t end = project_.controller->now() + duration.count();

@@ -30,12 +30,13 @@ void sleep_until(std::int64_t due) noexcept {
   }
 }
 
-/// Locks what is there. What comes later is locked only where there is no limit: with one, an allocation of another
-/// thread would fail.
+/// Locks what is there. What comes later is locked only where there is no limit: with one, an allocation of
+/// another thread would fail.
 bool lock_memory() noexcept {
   if (mlockall(MCL_CURRENT) != 0) return false;
   rlimit limit{};
-  const bool unlimited = geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
+  const bool unlimited =
+      geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
   return !unlimited || mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
 }
 

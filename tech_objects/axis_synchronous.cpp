@@ -94,7 +94,8 @@ void Axis::step_synchronous() noexcept {
   if (job->update) synchronous_.change_ratio(job->numerator, job->denominator);
   if (running_[kPhasing] != nullptr) advance_shift(kPhasing);
   if (running_[kOffset] != nullptr) advance_shift(kOffset);
-  if (motion_ == Motion::synchronous && running_[kWaitingOut] == nullptr) return synchronous_.advance(setpoint_);
+  if (motion_ == Motion::synchronous && running_[kWaitingOut] == nullptr)
+    return synchronous_.advance(setpoint_);
   Setpoint next = setpoint_;
   synchronous_.advance(next);
   if (motion_ == Motion::synchronous) {

@@ -70,9 +70,9 @@ void SynchronousMotion::add_additive(Setpoint& leading, const AdditiveLeadingVal
   leading.acceleration += additive.acceleration;
 }
 
-/// effective leading value → + phase shift → function, to `function_` and to `result`. Written value by value:
-/// copying a whole setpoint would make the processor wait until its parts have left for memory. The share of the shift
-/// is added behind the gear, where nothing is rounded in between.
+/// effective leading value → + phase shift → function, to `function_` and to `result`. Written value by
+/// value: copying a whole setpoint would make the processor wait until its parts have left for memory. The
+/// share of the shift is added behind the gear, where nothing is rounded in between.
 void SynchronousMotion::evaluate_function(Setpoint& result) noexcept {
   const AxisPosition position = gear_.value(leading_now_.position);
   result.position.turns = function_.position.turns = position.turns;
