@@ -66,6 +66,7 @@ void Axis::activate_waiting(Motion motion) noexcept {
   if (!awaited_axis_in_order || led_by_this(job.master))
     return end_job(kWaiting, JobPhase::failed, ErrorId::recursive_coupling);
   if (locked_by_stop()) return end_job(kWaiting, JobPhase::failed, ErrorId::locked);
+  if (simulating()) return end_job(kWaiting, JobPhase::failed, ErrorId::simulated);
   running_[kWaiting] = nullptr;
   data.StatusSynchronizedMotion.WaitingFunctionState = 0;
   if (!override_running(class_of(job, true), job)) {
