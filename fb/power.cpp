@@ -20,9 +20,13 @@ void MC_Power::call(std::int64_t /*now*/) noexcept {
   ErrorID = static_cast<WORD>(error);
 }
 
-ErrorId MC_Power::check() const noexcept {
-  for (const Pin& pin : kPins)
-    if (pin.error != ErrorId::none && !pin.allows(*this)) return pin.error;
+ErrorId MC_Power::check() noexcept {
+  const Modes modes{StartMode, StopMode};
+  if (Axis == nullptr || permitted_ != modes) {
+    for (const Pin& pin : kPins)
+      if (pin.error != ErrorId::none && !pin.allows(*this)) return pin.error;
+    permitted_ = modes;
+  }
   const bool other = Axis->power.owner != nullptr && Axis->power.owner != this;
   return other ? ErrorId::one_instance_only : ErrorId::none;
 }

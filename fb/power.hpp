@@ -1,6 +1,8 @@
 /// Enabling and resetting technology objects: MC_Power and MC_Reset.
 #pragma once
 
+#include <optional>
+
 #include "fb/execute_block.hpp"
 
 namespace lockstep {
@@ -42,7 +44,15 @@ struct MC_Power final : Block {
            out<&MC_Power::ErrorID>("ErrorID", "identifier of the error"));
 
  private:
-  ErrorId check() const noexcept;
+  struct Modes {
+    DINT start;
+    INT stop;
+    bool operator==(const Modes&) const = default;
+  };
+
+  ErrorId check() noexcept;
+
+  std::optional<Modes> permitted_;  // by the table of pins; looked up again only when they change
 };
 
 /// Acknowledges technology alarms, or restarts a technology object.

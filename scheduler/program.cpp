@@ -9,62 +9,68 @@ namespace lockstep {
 Program::Program(std::string name, Ob ob, std::int64_t cycle, int priority)
     : name_(std::move(name)), ob_(ob), cycle_(cycle), priority_(priority) {}
 
-std::uint32_t Program::keep(Expression expression) {
-  expressions_.push_back(std::move(expression));
-  return static_cast<std::uint32_t>(expressions_.size() - 1);
+const Expression* Program::keep(Expression expression) {
+  return &expressions_.emplace_back(std::move(expression));
 }
 
 void Program::add_assignment(Expression expression, Signal place) {
-  places_.push_back({place, nullptr});
-  instructions_.push_back(
-      {Op::assign, static_cast<std::uint32_t>(places_.size() - 1), keep(std::move(expression))});
+  const bool whole_flag = place.type == Type::BOOL && place.bit < 0;
+  Instruction& instruction =
+      instructions_.emplace_back(whole_flag ? Op::assign_flag : Op::assign, keep(std::move(expression)));
+  if (whole_flag) {
+    instruction.flag = static_cast<bool*>(place.address);
+  } else {
+    instruction.place = &places_.emplace_back(Place{place, nullptr});
+  }
 }
 
 void Program::add_assignment(Expression expression, Signal place, const Variable& variable) {
-  places_.push_back({place, &variable});
-  instructions_.push_back(
-      {Op::assign_variable, static_cast<std::uint32_t>(places_.size() - 1), keep(std::move(expression))});
+  instructions_.emplace_back(Op::assign_variable, keep(std::move(expression))).place =
+      &places_.emplace_back(Place{place, &variable});
 }
 
 void Program::add_call(Block& block) {
-  blocks_.push_back(&block);
-  instructions_.push_back({Op::call, static_cast<std::uint32_t>(blocks_.size() - 1), 0});
+  instructions_.emplace_back(Op::call).block = &block;
 }
 
 std::size_t Program::begin_branch(Expression condition) {
-  instructions_.push_back({Op::jump_unless, 0, keep(std::move(condition))});
+  instructions_.emplace_back(Op::jump_unless, keep(std::move(condition)));
   return instructions_.size() - 1;
 }
 
 std::size_t Program::begin_alternative(std::size_t mark) {
-  instructions_.push_back({Op::jump, 0, 0});
+  instructions_.emplace_back(Op::jump);
   end_branch(mark);
   return instructions_.size() - 1;
 }
 
 void Program::end_branch(std::size_t mark) {
-  instructions_[mark].operand = static_cast<std::uint32_t>(instructions_.size());
+  instructions_[mark].target = static_cast<std::uint32_t>(instructions_.size());
 }
 
 void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept {
-  for (std::size_t i = 0; i < instructions_.size();) {
-    const Instruction& instruction = instructions_[i++];
+  const Instruction* const first = instructions_.data();
+  const Instruction* const end = first + instructions_.size();
+  for (const Instruction* at = first; at != end;) {
+    const Instruction& instruction = *at++;
     switch (instruction.op) {
+      case Op::call:
+        instruction.block->call(now);
+        break;
+      case Op::assign_flag:
+        *instruction.flag = instruction.expression->evaluate(counters).u != 0;
+        break;
       case Op::assign:
-        places_[instruction.operand].signal.store(expressions_[instruction.expression].evaluate(counters));
+        instruction.place->signal.store(instruction.expression->evaluate(counters));
         break;
       case Op::assign_variable:
-        assign_variable(places_[instruction.operand],
-                        expressions_[instruction.expression].evaluate(counters));
-        break;
-      case Op::call:
-        blocks_[instruction.operand]->call(now);
+        assign_variable(*instruction.place, instruction.expression->evaluate(counters));
         break;
       case Op::jump:
-        i = instruction.operand;
+        at = first + instruction.target;
         break;
       case Op::jump_unless:
-        if (expressions_[instruction.expression].evaluate(counters).u == 0) i = instruction.operand;
+        if (instruction.expression->evaluate(counters).u == 0) at = first + instruction.target;
         break;
     }
   }

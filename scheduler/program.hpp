@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ enum class Ob : std::uint8_t { MC_PreServo, MC_PostServo, MC_PreInterpolator, Cy
 class Program {
  public:
   Program(std::string name, Ob ob, std::int64_t cycle, int priority);
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
 
   const std::string& name() const noexcept { return name_; }
   Ob ob() const noexcept { return ob_; }
@@ -48,18 +51,26 @@ class Program {
   std::uint64_t refused_assignments() const noexcept { return refused_; }
 
  private:
-  enum class Op : std::uint8_t { assign, assign_variable, call, jump, jump_unless };
-  struct Instruction {
-    Op op;
-    std::uint32_t operand = 0;  // place, block or target of a jump
-    std::uint32_t expression = 0;
-  };
+  enum class Op : std::uint8_t { call, assign_flag, assign, assign_variable, jump, jump_unless };
   struct Place {
     Signal signal;
     const Variable* variable = nullptr;
   };
+  /// One step; which members count is known from `op`.
+  struct Instruction {
+    explicit Instruction(Op what, const Expression* value = nullptr) : op(what), expression(value) {}
 
-  std::uint32_t keep(Expression expression);
+    Op op;
+    std::uint32_t target = 0;  // of a jump
+    const Expression* expression;
+    union {
+      Block* block = nullptr;
+      bool* flag;  // a whole BOOL, as most pins with an expression are
+      const Place* place;
+    };
+  };
+
+  const Expression* keep(Expression expression);
   void assign_variable(const Place& place, Value value) const noexcept;
 
   std::string name_;
@@ -67,9 +78,8 @@ class Program {
   std::int64_t cycle_;
   int priority_;
   std::vector<Instruction> instructions_;
-  std::vector<Expression> expressions_;
-  std::vector<Place> places_;
-  std::vector<Block*> blocks_;
+  std::deque<Expression> expressions_;  // where they are they stay: instructions point at them
+  std::deque<Place> places_;
   mutable std::uint64_t refused_ = 0;
 };
 

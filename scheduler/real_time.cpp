@@ -3,7 +3,9 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -28,6 +30,16 @@ void sleep_until(std::int64_t due) noexcept {
   }
 }
 
+/// Locks what is there. What comes later is locked only where there is no limit: with one, an allocation of
+/// another thread would fail.
+bool lock_memory() noexcept {
+  if (mlockall(MCL_CURRENT) != 0) return false;
+  rlimit limit{};
+  const bool unlimited =
+      geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
+  return !unlimited || mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+}
+
 template <class T>
 void raise_to(std::atomic<T>& place, T value) noexcept {
   if (value > place.load(std::memory_order_relaxed)) place.store(value, std::memory_order_relaxed);
@@ -45,10 +57,10 @@ RealTimeRun::~RealTimeRun() {
 
 std::vector<std::string> RealTimeRun::start() {
   std::vector<std::string> warnings;
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
+  thread_ = std::thread([this] { run(); });
+  if (!lock_memory())
     warnings.push_back(std::string("memory cannot be locked (") + std::strerror(errno) +
                        "): a page fault may delay a tick");
-  thread_ = std::thread([this] { run(); });
   const sched_param parameters{kPriority};
   if (const int error = pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &parameters); error != 0)
     warnings.push_back(std::string("real-time priority is not permitted (") + std::strerror(error) +

@@ -133,10 +133,6 @@ void Axis::set_position_control(bool on) noexcept {
   position_controlled_ = on;
 }
 
-bool Axis::moving(double velocity) const noexcept {
-  return std::abs(velocity) > data.StandstillSignal.VelocityThreshold;
-}
-
 // ---- Alarms
 // -----------------------------------------------------------------------------------------------------
 
@@ -216,8 +212,10 @@ void Axis::step() noexcept {
   }
   guard();
   if (!has_drive_) {
-    // A virtual axis is where its setpoint is, in the same tick.
-    actual_ = setpoint_.position;
+    // A virtual axis is where its setpoint is, in the same tick. Written part by part, as they have just been
+    // computed: copied as a whole they would have to reach memory first.
+    actual_.turns = setpoint_.position.turns;
+    actual_.value = setpoint_.position.value;
     actual_velocity_ = setpoint_.velocity;
   }
 }

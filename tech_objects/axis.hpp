@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -161,7 +162,9 @@ class Axis : public TechnologyObject {
   void begin_braking(INT stop_mode) noexcept;
   void switch_off() noexcept;
   void follow_actual() noexcept;
-  bool moving(double velocity) const noexcept;
+  bool moving(double velocity) const noexcept {
+    return std::abs(velocity) > data.StandstillSignal.VelocityThreshold;
+  }
   void set_position_control(bool on) noexcept;
   void react(AlarmReaction reaction) noexcept;
   ErrorId reset(bool restart) noexcept;
@@ -180,7 +183,9 @@ class Axis : public TechnologyObject {
   void install(Job& job) noexcept;
   void end_job(Slot slot, JobPhase phase, ErrorId error) noexcept;
   void end_all_jobs(JobPhase phase, ErrorId error) noexcept;
-  bool locked_by_stop() const noexcept;
+  bool locked_by_stop() const noexcept {
+    return stop_ != nullptr && (stop_->running() || (stop_->phase == JobPhase::done && stop_->hold));
+  }
   void home(Job& job) noexcept;
   double position_shift(double home_position) const noexcept;
   void shift_positions(double by) noexcept;
@@ -255,6 +260,8 @@ class Axis : public TechnologyObject {
   bool has_drive_ = false;
   bool enable_removed_ = false;
   std::array<Job*, kSlots> running_{};
+  std::size_t new_count_ = 0;          // of new_jobs_
+  Job* stop_ = nullptr;                // the MC_Stop that may lock the axis
   std::int64_t standstill_dwell_ = 0;  // [interpolator ticks]
   std::int64_t standstill_ticks_ = 0;
   AxisPosition actual_;
@@ -277,9 +284,7 @@ class Axis : public TechnologyObject {
   // Jobs.
   static constexpr std::size_t kNewJobs = 16;
   std::array<Job*, kNewJobs> new_jobs_{};  // handed over, in order
-  std::size_t new_count_ = 0;
-  Job* stop_ = nullptr;        // the MC_Stop that may lock the axis
-  SynchronousMotion awaited_;  // what the waiting job prepares
+  SynchronousMotion awaited_;              // what the waiting job prepares
   AdditiveLeadingValues additive_;
   Job* simulated_ = nullptr;  // the gear that is simulated
   Setpoint ghost_;            // where it would have the axis

@@ -213,10 +213,6 @@ void Axis::end_all_jobs(JobPhase phase, ErrorId error) noexcept {
   stop_ = nullptr;
 }
 
-bool Axis::locked_by_stop() const noexcept {
-  return stop_ != nullptr && (stop_->running() || (stop_->phase == JobPhase::done && stop_->hold));
-}
-
 /// Direct homing: setpoint and actual position are shifted together; nothing moves.
 void Axis::home(Job& job) noexcept {
   const double by = job.mode == 0 ? position_shift(job.position) : job.position;

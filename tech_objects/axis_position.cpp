@@ -49,20 +49,6 @@ AxisPosition normalised(std::int64_t turns, DoubleDouble value, const Modulo& mo
   return {add_turns(turns, 1), modulo.start};
 }
 
-AxisPosition advanced(AxisPosition position, DoubleDouble increment, const Modulo& modulo) noexcept {
-  const DoubleDouble value = increment + position.value;
-  if (modulo.contains(value.hi)) return {position.turns, value.rounded()};
-  return normalised(position.turns, value, modulo);
-}
-
-DoubleDouble difference(AxisPosition to, AxisPosition from, const Modulo& modulo) noexcept {
-  const DoubleDouble values = two_difference(to.value, from.value);
-  if (!modulo.enabled || to.turns == from.turns) return values;
-  const std::int64_t turns = static_cast<std::int64_t>(static_cast<std::uint64_t>(to.turns) -
-                                                       static_cast<std::uint64_t>(from.turns));
-  return to_double_double(turns) * modulo.length + values;
-}
-
 double positive_distance(double from, double target, const Modulo& modulo) noexcept {
   if (!modulo.enabled) return target - from;
   return way_on_ring(from, target, modulo).rounded();

@@ -47,7 +47,11 @@ inline AxisPosition normalised(AxisPosition position, const Modulo& modulo) noex
 
 /// The position after a way of `increment` [u] of either sign: exact, then rounded once.
 /// Whoever adds up many increments keeps the sum as a DoubleDouble and adds it to where he began. Any thread.
-AxisPosition advanced(AxisPosition position, DoubleDouble increment, const Modulo& modulo) noexcept;
+inline AxisPosition advanced(AxisPosition position, DoubleDouble increment, const Modulo& modulo) noexcept {
+  const DoubleDouble value = increment + position.value;
+  if (modulo.contains(value.hi)) return {position.turns, value.rounded()};
+  return normalised(position.turns, value, modulo);
+}
 
 inline AxisPosition advanced(AxisPosition position, double increment, const Modulo& modulo) noexcept {
   return advanced(position, to_double_double(increment), modulo);
@@ -55,7 +59,13 @@ inline AxisPosition advanced(AxisPosition position, double increment, const Modu
 
 /// Way from `from` to `to` [u] with the turns (the shorter way round where these wrap), within 2^-103 of it.
 /// Any thread.
-DoubleDouble difference(AxisPosition to, AxisPosition from, const Modulo& modulo) noexcept;
+inline DoubleDouble difference(AxisPosition to, AxisPosition from, const Modulo& modulo) noexcept {
+  const DoubleDouble values = two_difference(to.value, from.value);
+  if (!modulo.enabled || to.turns == from.turns) return values;
+  const std::int64_t turns = static_cast<std::int64_t>(static_cast<std::uint64_t>(to.turns) -
+                                                       static_cast<std::uint64_t>(from.turns));
+  return to_double_double(turns) * modulo.length + values;
+}
 
 /// Way [u] from a position to a target on the ring in one direction: positive in [0, length], negative in
 /// [-length, 0]; length itself only where less than half an ulp is missing to a whole turn. The target may

@@ -4,9 +4,30 @@
 #include "tech_objects/axis.hpp"
 
 namespace lockstep {
+namespace {
+
+/// Puts a word together without a branch per bit. Bits that are not shown here keep what they are.
+class Bits {
+ public:
+  template <class Bit>
+  constexpr void show(Bit bit, bool value) noexcept {
+    shown_ |= std::uint32_t{1} << static_cast<unsigned>(bit);
+    if (value) bits_ |= std::uint32_t{1} << static_cast<unsigned>(bit);
+  }
+  constexpr DWORD in(DWORD word) const noexcept {
+    return static_cast<DWORD>((static_cast<std::uint32_t>(word) & ~shown_) | bits_);
+  }
+
+ private:
+  std::uint32_t shown_ = 0;
+  std::uint32_t bits_ = 0;
+};
+
+}  // namespace
 
 void Axis::publish() noexcept {
-  shown_actual_ = actual_;
+  shown_actual_.turns = actual_.turns;  // part by part, see step()
+  shown_actual_.value = actual_.value;
   publish_motion();
   if (led() || simulating()) publish_synchronous();
   publish_status();
@@ -45,13 +66,13 @@ void Axis::publish_synchronous() noexcept {
 
   const double speed = std::abs(setpoint_.velocity);
   const double push = setpoint_.velocity < 0.0 ? -setpoint_.acceleration : setpoint_.acceleration;
-  DWORD word = status.StatusWord;
-  set_bit(word, SynchronizedMotionBit::MaxVelocityExceeded, speed > data.DynamicLimits.MaxVelocity);
-  set_bit(word, SynchronizedMotionBit::MaxAccelerationExceeded, push > data.DynamicLimits.MaxAcceleration);
-  set_bit(word, SynchronizedMotionBit::MaxDecelerationExceeded, -push > data.DynamicLimits.MaxDeceleration);
-  set_bit(word, SynchronizedMotionBit::InSimulation, simulating());
-  set_bit(word, SynchronizedMotionBit::LeadingValueAdditiveCommand, additive_request.owner != nullptr);
-  status.StatusWord = word;
+  Bits word;
+  word.show(SynchronizedMotionBit::MaxVelocityExceeded, speed > data.DynamicLimits.MaxVelocity);
+  word.show(SynchronizedMotionBit::MaxAccelerationExceeded, push > data.DynamicLimits.MaxAcceleration);
+  word.show(SynchronizedMotionBit::MaxDecelerationExceeded, -push > data.DynamicLimits.MaxDeceleration);
+  word.show(SynchronizedMotionBit::InSimulation, simulating());
+  word.show(SynchronizedMotionBit::LeadingValueAdditiveCommand, additive_request.owner != nullptr);
+  status.StatusWord = word.in(status.StatusWord);
 
   if (motion_ != Motion::synchronous) return;
   was_synchronous_ = true;
@@ -65,39 +86,45 @@ void Axis::publish_synchronous() noexcept {
 void Axis::publish_status() noexcept {
   standstill_ticks_ = moving(actual_velocity_) ? 0 : standstill_ticks_ + 1;
   const Job* base = running_[kBase];
+  const bool idle = base == nullptr && running_[kWaiting] == nullptr;
+  const JobKind kind = base != nullptr ? base->kind : JobKind::MC_Halt;  // neither shows at a bit
   const bool on = power_state_ == PowerState::on;
-  const double push = setpoint_.velocity * setpoint_.acceleration;
-  const bool standing = setpoint_.velocity == 0.0;
-  const auto runs = [base](JobKind kind) { return base != nullptr && base->kind == kind; };
-
-  DWORD word = data.StatusWord;
-  set_bit(word, StatusBit::Enable, on && power.enable);
-  set_bit(word, StatusBit::Error, data.ErrorDetail.Number != 0);
-  set_bit(word, StatusBit::HomingDone, homed_);
-  set_bit(word, StatusBit::Done, on && base == nullptr && running_[kWaiting] == nullptr);
-  set_bit(word, StatusBit::Standstill, standstill_ticks_ > standstill_dwell_);
-  set_bit(word, StatusBit::PositioningCommand,
-          runs(JobKind::MC_MoveAbsolute) || runs(JobKind::MC_MoveRelative));
-  set_bit(word, StatusBit::JogCommand, runs(JobKind::MC_MoveJog));
-  set_bit(word, StatusBit::VelocityCommand, runs(JobKind::MC_MoveVelocity));
-  set_bit(word, StatusBit::ConstantVelocity, on && setpoint_.acceleration == 0.0);
-  set_bit(word, StatusBit::Accelerating, push > 0.0 || (standing && setpoint_.acceleration != 0.0));
-  set_bit(word, StatusBit::Decelerating, push < 0.0);
-  set_bit(word, StatusBit::Synchronizing, motion_ == Motion::synchronizing);
-  set_bit(word, StatusBit::Synchronous, motion_ == Motion::synchronous);
-  set_bit(word, StatusBit::PhasingCommand,
-          running_[kPhasing] != nullptr && running_[kPhasing]->phase == JobPhase::active);
-  set_bit(word, StatusBit::NonPositionControlled, on && !position_controlled_);
-  data.StatusWord = word;
+  bool accelerating = false;
+  bool decelerating = false;
+  if (setpoint_.acceleration != 0.0) {
+    const double push = setpoint_.velocity * setpoint_.acceleration;
+    accelerating = push > 0.0 || setpoint_.velocity == 0.0;
+    decelerating = push < 0.0;
+  }
 
   const auto in_phase = [](const Job* job, JobPhase phase) { return job != nullptr && job->phase == phase; };
-  DWORD word2 = data.StatusWord2;
-  set_bit(word2, Status2Bit::StopCommand, locked_by_stop());
-  set_bit(word2, Status2Bit::DesynchronizingCommand, runs(JobKind::MC_GearOut));
-  set_bit(word2, Status2Bit::PhasingCommandWaiting, in_phase(running_[kPhasing], JobPhase::waiting));
-  set_bit(word2, Status2Bit::OffsetCommand, in_phase(running_[kOffset], JobPhase::active));
-  set_bit(word2, Status2Bit::OffsetCommandWaiting, in_phase(running_[kOffset], JobPhase::waiting));
-  data.StatusWord2 = word2;
+
+  Bits word;
+  word.show(StatusBit::Enable, on && power.enable);
+  word.show(StatusBit::Error, data.ErrorDetail.Number != 0);
+  word.show(StatusBit::HomingDone, homed_);
+  word.show(StatusBit::Done, on && idle);
+  word.show(StatusBit::Standstill, standstill_ticks_ > standstill_dwell_);
+  word.show(StatusBit::PositioningCommand,
+            kind == JobKind::MC_MoveAbsolute || kind == JobKind::MC_MoveRelative);
+  word.show(StatusBit::JogCommand, kind == JobKind::MC_MoveJog);
+  word.show(StatusBit::VelocityCommand, kind == JobKind::MC_MoveVelocity);
+  word.show(StatusBit::ConstantVelocity, on && setpoint_.acceleration == 0.0);
+  word.show(StatusBit::Accelerating, accelerating);
+  word.show(StatusBit::Decelerating, decelerating);
+  word.show(StatusBit::Synchronizing, motion_ == Motion::synchronizing);
+  word.show(StatusBit::Synchronous, motion_ == Motion::synchronous);
+  word.show(StatusBit::PhasingCommand, in_phase(running_[kPhasing], JobPhase::active));
+  word.show(StatusBit::NonPositionControlled, on && !position_controlled_);
+  data.StatusWord = word.in(data.StatusWord);
+
+  Bits word2;
+  word2.show(Status2Bit::StopCommand, locked_by_stop());
+  word2.show(Status2Bit::DesynchronizingCommand, kind == JobKind::MC_GearOut);
+  word2.show(Status2Bit::PhasingCommandWaiting, in_phase(running_[kPhasing], JobPhase::waiting));
+  word2.show(Status2Bit::OffsetCommand, in_phase(running_[kOffset], JobPhase::active));
+  word2.show(Status2Bit::OffsetCommandWaiting, in_phase(running_[kOffset], JobPhase::waiting));
+  data.StatusWord2 = word2.in(data.StatusWord2);
   data.StatusDrive.InOperation = has_drive_ ? drive_running_ : on;
   data.StatusDrive.Disabled = power_state_ == PowerState::off;
 }

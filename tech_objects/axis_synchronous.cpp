@@ -66,6 +66,7 @@ void Axis::activate_waiting(Motion motion) noexcept {
   if (!awaited_axis_in_order || led_by_this(job.master))
     return end_job(kWaiting, JobPhase::failed, ErrorId::recursive_coupling);
   if (locked_by_stop()) return end_job(kWaiting, JobPhase::failed, ErrorId::locked);
+  if (simulating()) return end_job(kWaiting, JobPhase::failed, ErrorId::simulated);
   running_[kWaiting] = nullptr;
   data.StatusSynchronizedMotion.WaitingFunctionState = 0;
   if (!override_running(class_of(job, true), job)) {
@@ -94,11 +95,12 @@ void Axis::step_synchronous() noexcept {
   if (job->update) synchronous_.change_ratio(job->numerator, job->denominator);
   if (running_[kPhasing] != nullptr) advance_shift(kPhasing);
   if (running_[kOffset] != nullptr) advance_shift(kOffset);
+  if (motion_ == Motion::synchronous && running_[kWaitingOut] == nullptr)
+    return synchronous_.advance(setpoint_);
   Setpoint next = setpoint_;
   synchronous_.advance(next);
   if (motion_ == Motion::synchronous) {
-    if (running_[kWaitingOut] != nullptr && watch_sync_out(next)) return;
-    setpoint_ = next;
+    if (!watch_sync_out(next)) setpoint_ = next;
     return;
   }
   if (synchronous_.reversed()) {

@@ -40,8 +40,7 @@ Axis* SynchronousMotion::leading_axis() const noexcept {
 void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
   look_at_leading();
   if (synchronous_ && !velocity_only_) {
-    evaluate_function();
-    setpoint = function_;
+    evaluate_function(setpoint);
     if (offset_.in_use()) add_offset(setpoint);
     return;
   }
@@ -50,7 +49,7 @@ void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
   if (reversed_) return;
   if (way_ == Way::velocity) return advance_velocity(setpoint);
   if (way_ == Way::out) return advance_out(setpoint);
-  evaluate_function();
+  evaluate_function(function_);
   advance_along_profile(setpoint);
 }
 
@@ -71,16 +70,20 @@ void SynchronousMotion::add_additive(Setpoint& leading, const AdditiveLeadingVal
   leading.acceleration += additive.acceleration;
 }
 
-/// effective leading value → + phase shift → function. The shift's share is added behind the gear, where
-/// nothing is rounded in between.
-void SynchronousMotion::evaluate_function() noexcept {
-  function_.position = gear_.value(leading_now_.position);
-  function_.velocity = gear_.velocity(leading_now_.velocity);
-  function_.acceleration = gear_.acceleration(leading_now_.acceleration);
+/// effective leading value → + phase shift → function, to `function_` and to `result`. Written value by
+/// value: copying a whole setpoint would make the processor wait until its parts have left for memory. The
+/// share of the shift is added behind the gear, where nothing is rounded in between.
+void SynchronousMotion::evaluate_function(Setpoint& result) noexcept {
+  const AxisPosition position = gear_.value(leading_now_.position);
+  result.position.turns = function_.position.turns = position.turns;
+  result.position.value = function_.position.value = position.value;
+  result.velocity = function_.velocity = gear_.velocity(leading_now_.velocity);
+  result.acceleration = function_.acceleration = gear_.acceleration(leading_now_.acceleration);
   if (!phase_.in_use()) return;
-  function_.position = advanced(function_.position, gear_.ratio() * phase_.value(), following_);
+  function_.position = advanced(position, gear_.ratio() * phase_.value(), following_);
   function_.velocity += gear_.velocity(phase_.velocity());
   function_.acceleration += gear_.acceleration(phase_.acceleration());
+  result = function_;
 }
 
 /// function → + offset

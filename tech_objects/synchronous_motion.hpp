@@ -118,7 +118,7 @@ class SynchronousMotion {
  private:
   void couple(const LeadingValue& leading, const Job& job, const Dynamics& dynamics) noexcept;
   void look_at_leading() noexcept;
-  void evaluate_function() noexcept;
+  void evaluate_function(Setpoint& result) noexcept;
   void add_additive(Setpoint& leading, const AdditiveLeadingValue& additive) const noexcept;
   void add_offset(Setpoint& setpoint) const noexcept;
   double stopping_way(const Setpoint& from, int heading, const Dynamics& dynamics) const noexcept;

@@ -51,5 +51,5 @@ awk -F'\t' -v name="$name" '
     for (i = 1; i <= count; ++i)
       if (rows[i] in other)
         printf "%-75s %12.1f %12.1f %7.2f\n", rows[i], other[rows[i]], here[rows[i]],
-          other[rows[i]] > 0 ? here[rows[i]] / other[rows[i]] : 0
+          (other[rows[i]] ? here[rows[i]] / other[rows[i]] : 0)
   }' "$results/other" "$results/here"

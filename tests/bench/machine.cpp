@@ -1,6 +1,8 @@
 #include "bench/machine.hpp"
 
 #include <algorithm>
+#include <initializer_list>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -15,25 +17,27 @@ std::string axis_name(int number) {
   return "Axis" + std::to_string(number);
 }
 
+std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts) text += part;
+  return text;
+}
+
 std::string quoted(std::string_view text) {
-  std::string result = "\"";
-  return result.append(text).append("\"");
+  return joined({"\"", text, "\""});
 }
 
 std::string axis_object(const MachinePlan& plan, int number) {
   const bool gear = plan.motion == Motion::gear;
-  std::string text = quoted(axis_name(number));
-  text += R"(: { "type": )" + quoted(gear ? "TO_SynchronousAxis" : "TO_PositioningAxis");
-  text += R"(, "config": { )";
-  if (!plan.drives) text += R"("VirtualAxis": { "Mode": 1 }, )";
-  text += R"("Modulo": { "Enable": )" + std::string(number % 2 == 0 ? "true" : "false") + " }, ";
-  text += R"("PositioningMonitoring": { "MinDwellTime": 0.0 }, )";
-  text += R"("DynamicDefaults": { "Velocity": 1000.0, "Acceleration": 1.0E4, "Deceleration": 1.0E4, )"
-          R"("Jerk": 1.0E5 } })";
-  if (plan.drives)
-    text += R"(, "drive": { "model": "simulated", "time_constant": "2ms", "dead_time": "1ms" })";
-  if (gear) text += R"(, "leading_values": [ { "to": "Leading" } ])";
-  return text + " }";
+  return joined({quoted(axis_name(number)), R"(: { "type": )",
+                 quoted(gear ? "TO_SynchronousAxis" : "TO_PositioningAxis"), R"(, "config": { )",
+                 plan.drives ? "" : R"("VirtualAxis": { "Mode": 1 }, )", R"("Modulo": { "Enable": )",
+                 number % 2 == 0 ? "true" : "false", R"( }, "PositioningMonitoring": { "MinDwellTime": 0.0 },
+  "DynamicDefaults": { "Velocity": 1000.0, "Acceleration": 1.0E4, "Deceleration": 1.0E4, "Jerk": 1.0E5 } })",
+                 plan.drives ? R"(,
+  "drive": { "model": "simulated", "time_constant": "2ms", "dead_time": "1ms" })"
+                             : "",
+                 gear ? R"(, "leading_values": [ { "to": "Leading" } ])" : "", " }"});
 }
 
 constexpr std::string_view kLeadingObject =
@@ -47,40 +51,32 @@ constexpr std::string_view kLeadingCalls =
 
 /// One call: the block, the name of its instance, its axis, and its other inputs.
 std::string call(std::string_view block, const std::string& instance, std::string_view axis_pin,
-                 const std::string& axis, const std::string& inputs) {
-  std::string text = R"({ "fb": )" + quoted(block);
-  text += R"(, "name": )" + quoted(instance);
-  text += R"(, "in": { )" + quoted(axis_pin) + ": " + quoted(axis);
-  return text + ", " + inputs + " } }";
-}
-
-std::string execute(const std::string& expression) {
-  return R"("Execute": )" + quoted(expression);
+                 const std::string& axis, std::string_view inputs) {
+  return joined({R"({ "fb": )", quoted(block), R"(, "name": )", quoted(instance), R"(, "in": { )",
+                 quoted(axis_pin), ": ", quoted(axis), ", ", inputs, " } }"});
 }
 
 std::string axis_calls(const MachinePlan& plan, int number) {
   const std::string n = std::to_string(number);
   const std::string axis = axis_name(number);
-  const std::string separator = ",\n";
-  const std::string power = "power" + n;
-  std::string text = call("MC_Power", power, "Axis", axis, R"("Enable": true)");
+  const std::string enabled = "power" + n + ".Status";
+  const std::string power = call("MC_Power", "power" + n, "Axis", axis, R"("Enable": true)");
+  if (plan.motion == Motion::idle) return power;
   if (plan.motion == Motion::gear) {
-    const std::string ratio = R"("RatioNumerator": )" + std::to_string(number % 2 == 0 ? 3 : -7) +
-                              R"(, "RatioDenominator": )" + std::to_string(1 + number % 11);
-    text += separator + call("MC_GearIn", "gear" + n, "Slave", axis,
-                             R"("Master": "Leading", )" + ratio + ", " + execute(power + ".Status"));
+    const std::string inputs = joined({R"("Master": "Leading", "RatioNumerator": )",
+                                       number % 2 == 0 ? "3" : "-7", R"(, "RatioDenominator": )",
+                                       std::to_string(1 + number % 11), R"(, "Execute": )", quoted(enabled)});
+    return joined({power, ",\n", call("MC_GearIn", "gear" + n, "Slave", axis, inputs)});
   }
-  if (plan.motion == Motion::positioning) {
-    const std::string forth = "forth" + n;
-    const std::string back = "back" + n;
-    const std::string distance = std::to_string(400 + 13 * (number % 31));
-    const std::string turn = power + ".Status AND NOT " + back + ".Busy AND NOT " + forth + ".Done";
-    text += separator +
-            call("MC_MoveRelative", forth, "Axis", axis, R"("Distance": )" + distance + ", " + execute(turn));
-    text += separator + call("MC_MoveRelative", back, "Axis", axis,
-                             R"("Distance": -)" + distance + ", " + execute(forth + ".Done"));
-  }
-  return text;
+  const std::string forth = "forth" + n;
+  const std::string back = "back" + n;
+  const std::string distance = std::to_string(400 + 13 * (number % 31));
+  const std::string go_forth = joined({enabled, " AND NOT ", back, ".Busy AND NOT ", forth, ".Done"});
+  const auto move = [&](const std::string& name, std::string_view sign, const std::string& execute) {
+    return call("MC_MoveRelative", name, "Axis", axis,
+                joined({R"("Distance": )", sign, distance, R"(, "Execute": )", quoted(execute)}));
+  };
+  return joined({power, ",\n", move(forth, "", go_forth), ",\n", move(back, "-", forth + ".Done")});
 }
 
 std::string signal_name(const MachinePlan& plan, int index) {
@@ -125,13 +121,12 @@ std::string project_text(const MachinePlan& plan) {
     objects += std::string(separator) + axis_object(plan, number);
     calls += std::string(separator) + axis_calls(plan, number);
   }
-  return R"({ "lockstep": 1, "name": "bench",
-"clock": { "servo_cycle": "1ms", "interpolator_ratio": )" +
-         std::to_string(plan.ratio) + " },\n\"technology_objects\": {\n" + objects +
-         R"( },
+  return joined({R"({ "lockstep": 1, "name": "bench",
+"clock": { "servo_cycle": "1ms", "interpolator_ratio": )",
+                 std::to_string(plan.ratio), " },\n\"technology_objects\": {\n", objects, R"( },
 "programs": [ { "name": "Main", "ob": "MC_PreInterpolator", "calls": [
-)" + calls +
-         " ] } ] }";
+)",
+                 calls, " ] } ] }"});
 }
 
 Machine::Machine(const MachinePlan& plan) : plan_(plan) {
