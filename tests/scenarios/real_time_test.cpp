@@ -96,6 +96,16 @@ TEST(RealTime, ADurationEndsItAndTheAxesAreBroughtToRestAfterIt) {
   EXPECT_LT(table["t"].back(), 0.5) << "the trace ends with the duration";
 }
 
+TEST(RealTime, TheExamplesRunWithoutAlarms) {
+  for (const char* name : {"01_positioning", "02_rotary_knife", "03_line_shaft"}) {
+    const Ended ended =
+        lockstep({"run", example(name), "--stimuli", "--duration", "1s", "--no-modbus", "--no-lcm"});
+    EXPECT_EQ(ended.status, 0) << name << "\n" << ended.err;
+    EXPECT_EQ(ended.err.find("alarm"), std::string::npos) << name << "\n" << ended.err;
+    EXPECT_EQ(ended.err.find("not enabled"), std::string::npos) << name << "\n" << ended.err;
+  }
+}
+
 TEST(RealTime, ASecondServerOnAPortThatIsTakenCannotStart) {
   const Directory directory;
   RunningLockstep first(slow_to_brake(directory));
