@@ -106,9 +106,10 @@ Selection select(std::string_view path) {
   const std::size_t index = take_index(wanted);
   for (const auto list : {configuration_variables(), status_variables()}) {
     for (const Variable& variable : list) {
-      const std::string name = fold(variable.path);
+      std::string name = fold(variable.path);
+      take_index(name);
       if (name == wanted && index == 0) return {{&variable}, -1, true};
-      const bool below = wanted.empty() || name.starts_with(wanted + ".") || name.starts_with(wanted + "[].");
+      const bool below = wanted.empty() || name.starts_with(wanted + ".");
       if (below && index <= variable.count) selection.variables.push_back(&variable);
     }
   }
