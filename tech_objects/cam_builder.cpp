@@ -173,8 +173,12 @@ bool CamBuilder::is_a_curve() const noexcept {
     for (const double c : piece.c) sum += c * 0.0;
     if (piece.shape == CamFunction::Shape::bezier) {
       const CamFunction::Inverse& inverse = f_.inverses_[piece.index];
-      for (const double b : inverse.b) sum += b * 0.0;
-      for (const double guess : inverse.guess) sum += guess * 0.0;
+      // Derivatives are largest where the curve is steepest: at an end, or where x(t) is slowest inside.
+      const double slowest = std::clamp(-inverse.b[1] / (3.0 * inverse.b[2]), 0.0, 1.0);
+      for (const double t : {0.0, slowest == slowest ? slowest : 0.5, 1.0}) {
+        const CamValue value = f_.bezier_value(piece, t);
+        sum += (value.position + value.first_derivative + value.second_derivative) * 0.0;
+      }
     }
     if (i < f_.count_) sum += (f_.extents_[i].lowest + f_.extents_[i].highest) * 0.0;
   }

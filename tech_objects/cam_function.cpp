@@ -68,7 +68,10 @@ CamValue CamFunction::curved_value(const Piece& piece, double x) const noexcept 
     const CamSegment& segment = segments_[piece.index];
     return segment.value(x - segment.origin);
   }
-  const double t = parameter(piece, x);
+  return bezier_value(piece, parameter(piece, x));
+}
+
+CamValue CamFunction::bezier_value(const Piece& piece, double t) const noexcept {
   const double* b = inverses_[piece.index].b;
   const double* c = piece.c;
   const double x1 = b[0] + t * (2.0 * b[1] + t * (3.0 * b[2]));

@@ -123,6 +123,7 @@ class CamFunction {
   std::uint32_t find(double x, std::uint32_t near) const noexcept;
   CamValue curved_value(const Piece& piece, double x) const noexcept;
   double parameter(const Piece& piece, double x) const noexcept;
+  CamValue bezier_value(const Piece& piece, double t) const noexcept;
 
   int turns_of(std::uint32_t piece, double (&turns)[2]) const noexcept;
   double local_value(const Piece& piece, double local) const noexcept;
