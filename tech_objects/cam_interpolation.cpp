@@ -268,4 +268,10 @@ void CamInterpolator::level_end_legs() noexcept {
   run_[last - 1].y = run_[last].y - slope * (run_[last].x - run_[last - 1].x);
 }
 
+TO_Cam_Struct_StatusCam status_of(const CamElements& elements, const CamFunction& function) noexcept {
+  return {function.start_leading_value(), function.end_leading_value(),
+          static_cast<DINT>(std::ranges::count(elements.ValidPoint, true)),
+          static_cast<DINT>(std::ranges::count(elements.ValidSegment, true))};
+}
+
 }  // namespace lockstep

@@ -332,6 +332,18 @@ TEST(CamInterpolation, TenThousandDescendingPointsAreSorted) {
   }
 }
 
+TEST(CamInterpolation, TheStatusShowsTheRangeAndTheValidElements) {
+  Cam cam;
+  cam.line(10.0, 20.0, 0.0, 1.0).point(-4.0, 0.0).point(15.0, 0.0).point(18.0, 0.0).point(25.0, 1.0);
+  cam.data->ValidPoint[3] = false;
+  ASSERT_EQ(cam.interpolate(), ErrorId::none);
+  const TO_Cam_Struct_StatusCam status = status_of(elements_of(*cam.data), cam.f);
+  EXPECT_EQ(status.StartLeadingValue, -4.0);
+  EXPECT_EQ(status.EndLeadingValue, 20.0);
+  EXPECT_EQ(status.NumberOfValidPoints, 3);  // also those that a segment covers
+  EXPECT_EQ(status.NumberOfValidSegments, 1);
+}
+
 TEST(CamInterpolation, UnknownSettingsAreRefused) {
   for (const auto& [mode, boundary] : {std::pair{-1, 0}, {3, 0}, {0, -1}, {0, 2}}) {
     Cam cam;
