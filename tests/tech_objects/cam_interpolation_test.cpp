@@ -150,6 +150,16 @@ TEST(CamInterpolation, AGapUpToATenThousandthIsClosedAndALargerOneGetsATransitio
   }
 }
 
+TEST(CamInterpolation, AGapWrittenAsExactlyATenThousandthIsClosedWhateverItsDoublesAre) {
+  for (const auto& [end, start] :
+       {std::pair{10.0, 10.0001}, {359.9998, 359.9999}, {0.0001, 0.0002}, {1.0e6, 1000000.0001}}) {
+    Cam cam;
+    cam.mode(1).line(end - 1.0, end, 0.0, 1.0).line(start, start + 1.0, 1.0, 1.0);
+    ASSERT_EQ(cam.interpolate(), ErrorId::none);
+    EXPECT_EQ(cam.f.piece_count(), 2u) << end;
+  }
+}
+
 TEST(CamInterpolation, APointJustBesideASegmentDoesNotCountButStillBoundsTheCam) {
   Cam cam;
   cam.mode(1).line(0.00005, 359.99999, 0.00005, 1.0).point(0.0, 7.0).point(360.0, 9.0);
