@@ -82,8 +82,8 @@ struct CamData {
   DWORD WarningWord{};
 };
 
-using TO_Cam_Data = CamData<kCamPoints>;
-using TO_Cam_10k_Data = CamData<kCam10kPoints>;
+using CamData1k = CamData<kCamPoints>;
+using CamData10k = CamData<kCam10kPoints>;
 
 /// The definition of a cam of either type, as the interpolation reads it: the data block's own arrays, or a
 /// copy of them where the program goes on writing meanwhile. A point or segment counts if it is valid.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lockstep {
 namespace {
@@ -11,6 +12,14 @@ constexpr double kSmallGap = 1.0e-4;    // [leading u] that is closed without a 
 constexpr double kSlopeMatch = 1.0e-6;  // of the slopes at both ends
 
 enum Mode : DINT { linear = 0, cubic = 1, bezier = 2 };
+
+/// Whether two elements are so near that the gap between them is closed. Leading values written with a gap of
+/// exactly 1.0E-4 differ by a little more or less as doubles: that counts as 1.0E-4.
+bool small_gap(double from, double to) noexcept {
+  const double rounding =
+      4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(from), std::abs(to));
+  return to - from <= kSmallGap + rounding;
+}
 
 bool in_range(double value) noexcept {
   return value >= -kLargest && value <= kLargest;  // FALSE for NaN
@@ -114,7 +123,7 @@ bool CamInterpolator::collect_parts(const CamElements& elements) noexcept {
 
 void CamInterpolator::close_small_gaps() noexcept {
   for (std::size_t i = 0; i + 1 < parts_.size(); ++i)
-    if (parts_[i + 1].from - parts_[i].to <= kSmallGap) parts_[i].to = parts_[i + 1].from;
+    if (small_gap(parts_[i].to, parts_[i + 1].from)) parts_[i].to = parts_[i + 1].from;
 }
 
 /// Points on a segment or as near to one as a small gap do not count, but the ends of the cam stay.
@@ -124,8 +133,8 @@ void CamInterpolator::drop_points_in_parts() noexcept {
   const double last = points_.back().x;
   std::size_t part = 0;
   const auto covered = [&](const CamPoint& point) {
-    while (part < parts_.size() && point.x - parts_[part].to > kSmallGap) ++part;
-    return part < parts_.size() && parts_[part].from - point.x <= kSmallGap;
+    while (part < parts_.size() && !small_gap(parts_[part].to, point.x)) ++part;
+    return part < parts_.size() && small_gap(point.x, parts_[part].from);
   };
   std::erase_if(points_, covered);
   if (first < parts_.front().from && !head()) parts_.front().from = first;
@@ -266,6 +275,12 @@ void CamInterpolator::level_end_legs() noexcept {
   if (last == 2) slope = leg(run_[0], run_[2]);
   run_[1].y = run_[0].y + slope * (run_[1].x - run_[0].x);
   run_[last - 1].y = run_[last].y - slope * (run_[last].x - run_[last - 1].x);
+}
+
+TO_Cam_Struct_StatusCam status_of(const CamElements& elements, const CamFunction& function) noexcept {
+  return {function.start_leading_value(), function.end_leading_value(),
+          static_cast<DINT>(std::ranges::count(elements.ValidPoint, true)),
+          static_cast<DINT>(std::ranges::count(elements.ValidSegment, true))};
 }
 
 }  // namespace lockstep

@@ -97,4 +97,8 @@ class CamInterpolator {
   std::optional<double> free_end_slope_;  // if so, and known before the gap is closed
 };
 
+/// What StatusCam shows after an interpolation: the range of definition of the function and the numbers of
+/// elements with ValidPoint or ValidSegment. Walks all elements: not for the cycle.
+TO_Cam_Struct_StatusCam status_of(const CamElements& elements, const CamFunction& function) noexcept;
+
 }  // namespace lockstep

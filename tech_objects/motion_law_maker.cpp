@@ -189,50 +189,35 @@ class MotionLawMaker {
     return MotionLawError::none;
   }
 
-  /// Two polynomials that meet in the inflection point up to the fourth derivative. Position and velocity
-  /// there follow from the third and fourth, which depend on them linearly.
+  /// Two polynomials that meet in the inflection point with acceleration 0. Its position and velocity are
+  /// those of the polynomial between rests, each half stretched to its way; so the acceleration changes its
+  /// sign there alone, which a smoother joint would not keep. The jerk steps unless lambda is in the middle.
   MotionLawError make_two_polynomials() noexcept {
-    if (request_.ca || request_.ca_star) return MotionLawError::parameter;
-    const double ways[2] = {*request_.lambda * length_, (1.0 - *request_.lambda) * length_};
-    const MotionBoundary* ends[2] = {&request_.start, &request_.end};
-    double c[2][3][8];   // per half: with the end alone, with a position alone, with a velocity alone
-    double third[2][3];  // derivatives at the inflection point
-    double fourth[2][3];
-    for (int half = 0; half < 2; ++half) {
-      const double way = ways[half];
-      for (int part = 0; part < 3; ++part) {
-        EndConditions outer = conditions(*ends[half], way);
-        if (part > 0)
-          for (auto& derivative : outer.derivative)
-            if (derivative) derivative = 0.0;
-        const EndConditions inner{{part == 1 ? 1.0 : 0.0, part == 2 ? way : 0.0, 0.0, std::nullopt}};
-        double(&polynomial)[8] = c[half][part];
-        if (!(half == 0 ? polynomial_between(outer, inner, polynomial)
-                        : polynomial_between(inner, outer, polynomial)))
-          return MotionLawError::boundary;
-        const double z = half == 0 ? 1.0 : 0.0;
-        third[half][part] = polynomial_derivative(polynomial, 3, z) / (way * way * way);
-        fourth[half][part] = polynomial_derivative(polynomial, 4, z) / (way * way * way * way);
-      }
-    }
-    const double a = third[0][1] - third[1][1];
-    const double b = third[0][2] - third[1][2];
-    const double d = fourth[0][1] - fourth[1][1];
-    const double e = fourth[0][2] - fourth[1][2];
-    const double p = third[1][0] - third[0][0];
-    const double q = fourth[1][0] - fourth[0][0];
-    const double determinant = a * e - b * d;
-    if (!(std::abs(determinant) > 1.0e-12 * (std::abs(a * e) + std::abs(b * d))))
+    if (request_.ca || request_.ca_star || !request_.start.velocity || !request_.end.velocity)
       return MotionLawError::parameter;
-    const double position = (p * e - b * q) / determinant;
-    const double velocity = (a * q - p * d) / determinant;
-    for (int half = 0; half < 2; ++half) {
-      double sum[8];
-      for (int k = 0; k < 8; ++k)
-        sum[k] = c[half][0][k] + position * c[half][1][k] + velocity * c[half][2][k];
-      add_polynomial(half == 0 ? request_.start.x : request_.start.x + ways[0], ways[half], sum);
-    }
+    const double lambda = *request_.lambda;
+    const double k = way_of_polynomial(request_.start);
+    const double velocity = inflection_velocity(k, way_of_polynomial(request_.end), lambda);
+    const double ways[2] = {lambda * length_, request_.end.x - (request_.start.x + lambda * length_)};
+    MotionBoundary inflection;
+    inflection.x = request_.start.x + ways[0];
+    inflection.y = request_.start.y + ways[0] * (start_velocity_ + (velocity - start_velocity_) * k);
+    inflection.velocity = velocity;
+    inflection.acceleration = 0.0;
+    double c[8];
+    if (!polynomial_between(conditions(request_.start, ways[0]), conditions(inflection, ways[0]), c))
+      return MotionLawError::boundary;
+    add_polynomial(request_.start.x, ways[0], c);
+    if (!polynomial_between(conditions(inflection, ways[1]), conditions(request_.end, ways[1]), c))
+      return MotionLawError::boundary;
+    add_polynomial(inflection.x, ways[1], c);
     return MotionLawError::none;
+  }
+
+  /// Half::way for the polynomials 2-3, 3-4-5 and 4-5-6-7: the inverse of their greatest velocity.
+  static double way_of_polynomial(const MotionBoundary& end) noexcept {
+    if (end.jerk) return 16.0 / 35.0;
+    return end.acceleration ? 8.0 / 15.0 : 2.0 / 3.0;
   }
 
   MotionLawError make_double_harmonic() noexcept {
@@ -246,9 +231,7 @@ class MotionLawMaker {
   }
 
   /// Velocity at the inflection point: with it both halves together cover the stroke.
-  double inflection_velocity(const Half& first, const Half& second, double lambda) const noexcept {
-    const double k1 = first.way();
-    const double k2 = second.way();
+  double inflection_velocity(double k1, double k2, double lambda) const noexcept {
     return (stroke_ / length_ - lambda * start_velocity_ * (1.0 - k1) -
             (1.0 - lambda) * end_velocity_ * (1.0 - k2)) /
            (lambda * k1 + (1.0 - lambda) * k2);
@@ -274,7 +257,7 @@ class MotionLawMaker {
   std::optional<double> lambda_of_acceleration(const Half& first, const Half& second) const noexcept {
     const double unit = stroke_ / (length_ * length_);
     const auto excess = [&](double lambda) {
-      const double velocity = inflection_velocity(first, second, lambda);
+      const double velocity = inflection_velocity(first.way(), second.way(), lambda);
       if (request_.ca)
         return (velocity - start_velocity_) / (lambda * length_ * first.mean()) / unit - *request_.ca;
       return (velocity - end_velocity_) / ((1.0 - lambda) * length_ * second.mean()) / unit -
@@ -344,7 +327,7 @@ class MotionLawMaker {
     y_ = request_.start.y;
     velocity_ = start_velocity_;
     const double ways[2] = {lambda * length_, (1.0 - lambda) * length_};
-    const double velocity = inflection_velocity(first, second, lambda);
+    const double velocity = inflection_velocity(first.way(), second.way(), lambda);
     const double heights[2] = {(velocity - start_velocity_) / (ways[0] * first.mean()),
                                (end_velocity_ - velocity) / (ways[1] * second.mean())};
     for (int i = 0; i < first.count; ++i) {
@@ -369,10 +352,17 @@ class MotionLawMaker {
     last.length = request_.end.x - last.start;
   }
 
+  /// The published numbers of segments: the trapezoid never joins, the modified sine between rests alone.
+  bool may_join() const noexcept {
+    if (request_.law == MotionLawKind::modified_sine)
+      return law_.tasks_[0] == MotionTask::rest && law_.tasks_[1] == MotionTask::rest;
+    return request_.law != MotionLawKind::modified_acceleration_trapezoid;
+  }
+
   /// One piece for the stretches on both sides of the inflection point, where one formula has both.
   bool add_joined(Wave before, Wave after, double length_before, double length_after,
                   const double (&heights)[2]) noexcept {
-    if (before != after) return false;
+    if (before != after || !may_join()) return false;
     const double length = length_before + length_after;
     if (before == Wave::none) {
       add_stretch(Wave::none, length, 0.0);

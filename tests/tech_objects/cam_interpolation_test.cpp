@@ -150,6 +150,16 @@ TEST(CamInterpolation, AGapUpToATenThousandthIsClosedAndALargerOneGetsATransitio
   }
 }
 
+TEST(CamInterpolation, AGapWrittenAsExactlyATenThousandthIsClosedWhateverItsDoublesAre) {
+  for (const auto& [end, start] :
+       {std::pair{10.0, 10.0001}, {359.9998, 359.9999}, {0.0001, 0.0002}, {1.0e6, 1000000.0001}}) {
+    Cam cam;
+    cam.mode(1).line(end - 1.0, end, 0.0, 1.0).line(start, start + 1.0, 1.0, 1.0);
+    ASSERT_EQ(cam.interpolate(), ErrorId::none);
+    EXPECT_EQ(cam.f.piece_count(), 2u) << end;
+  }
+}
+
 TEST(CamInterpolation, APointJustBesideASegmentDoesNotCountButStillBoundsTheCam) {
   Cam cam;
   cam.mode(1).line(0.00005, 359.99999, 0.00005, 1.0).point(0.0, 7.0).point(360.0, 9.0);
@@ -330,6 +340,18 @@ TEST(CamInterpolation, TenThousandDescendingPointsAreSorted) {
     EXPECT_EQ(cam.f.start_leading_value(), 1.0);
     EXPECT_EQ(cam.f.value(1234.5).position, 2.0);
   }
+}
+
+TEST(CamInterpolation, TheStatusShowsTheRangeAndTheValidElements) {
+  Cam cam;
+  cam.line(10.0, 20.0, 0.0, 1.0).point(-4.0, 0.0).point(15.0, 0.0).point(18.0, 0.0).point(25.0, 1.0);
+  cam.data->ValidPoint[3] = false;
+  ASSERT_EQ(cam.interpolate(), ErrorId::none);
+  const TO_Cam_Struct_StatusCam status = status_of(elements_of(*cam.data), cam.f);
+  EXPECT_EQ(status.StartLeadingValue, -4.0);
+  EXPECT_EQ(status.EndLeadingValue, 20.0);
+  EXPECT_EQ(status.NumberOfValidPoints, 3);  // also those that a segment covers
+  EXPECT_EQ(status.NumberOfValidSegments, 1);
 }
 
 TEST(CamInterpolation, UnknownSettingsAreRefused) {

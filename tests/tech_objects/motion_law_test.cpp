@@ -97,14 +97,29 @@ TEST(MotionLaw, FiguresOfRestInRestAgreeWithTheReferenceInEveryDigit) {
     ++compared;
     const MotionLaw law = made(rest_in_rest(entry->second.first, entry->second.second));
     const MotionPeaks peaks = law.normalised_peaks();
-    expect_digits(peaks.velocity, cells.at(1), "Cv");
-    expect_digits(peaks.acceleration, cells.at(2), "Ca");
-    expect_digits(peaks.deceleration, cells.at(2), "Ca*");
+    if (entry->second.first == MotionLawKind::modified_sine) {
+      // The reference row is 3e-9 off the closed form of the law; the next test holds the law to that.
+      EXPECT_NEAR(peaks.velocity / std::stod(cells.at(1)), 1.0, 4.0e-9);
+      EXPECT_NEAR(peaks.acceleration / std::stod(cells.at(2)), 1.0, 4.0e-9);
+    } else {
+      expect_digits(peaks.velocity, cells.at(1), "Cv");
+      expect_digits(peaks.acceleration, cells.at(2), "Ca");
+      expect_digits(peaks.deceleration, cells.at(2), "Ca*");
+    }
     expect_digits(peaks.jerk, cells.at(3), "Cj");
     expect_digits(law.value(0.25).position, cells.at(4), "s(0.25)");
     expect_digits(peaks.torque, cells.at(5), "Cmdyn");
   }
   EXPECT_EQ(compared, laws.size());
+}
+
+TEST(MotionLaw, FiguresOfTheModifiedSineAreThoseOfItsClosedForm) {
+  const double pi = 3.14159265358979323846;
+  const MotionPeaks peaks = made(rest_in_rest(MotionLawKind::modified_sine)).normalised_peaks();
+  EXPECT_NEAR(peaks.velocity, 4.0 * pi / (4.0 + pi), 1.0e-14);
+  EXPECT_NEAR(peaks.acceleration, 4.0 * pi * pi / (4.0 + pi), 1.0e-13);
+  EXPECT_NEAR(peaks.deceleration, 4.0 * pi * pi / (4.0 + pi), 1.0e-13);
+  EXPECT_NEAR(peaks.jerk, 16.0 * pi * pi * pi / (4.0 + pi), 1.0e-12);
 }
 
 TEST(MotionLaw, EveryLawKeepsAtBothEndsWhatTheTableSaysForEveryPair) {
@@ -218,29 +233,26 @@ TEST(MotionLaw, TheInflectionPointLiesAtLambda) {
     }
 }
 
-TEST(MotionLaw, APolynomialInTwoPiecesIsSmoothUpToTheFourthDerivativeAndThatOfOnePieceForTheMiddle) {
+TEST(MotionLaw, APolynomialInTwoPiecesIsThatOfOnePieceForTheMiddleAndStretchesItsHalvesElsewhere) {
   for (const int derivatives : {1, 2, 3}) {
     MotionLawRequest request = rest_in_rest(MotionLawKind::polynomial, derivatives);
     const MotionLaw one = made(request);
     request.lambda = 0.5;
     const MotionLaw two = made(request);
-    ASSERT_EQ(two.pieces().size(), 2u);
-    if (derivatives < 3) {  // with the jerk, one piece would need degree 7
-      for (double z = 0.0; z <= 1.0; z += 0.03125)
-        EXPECT_NEAR(one.value(z).position, two.value(z).position, 1.0e-13);
-    }
-    request.lambda = 0.4;
+    request.lambda = 0.3;
     const MotionLaw uneven = made(request);
-    const MotionPiece& first = uneven.pieces()[0];
-    const MotionPiece& second = uneven.pieces()[1];
-    const MotionValue left = first.value(first.length);
-    const MotionValue right = second.value(0.0);
-    EXPECT_NEAR(left.acceleration, 0.0, 1.0e-11);
-    EXPECT_NEAR(right.acceleration, 0.0, 1.0e-11);
-    EXPECT_NEAR(left.jerk, right.jerk, 1.0e-9);
-    const double h = 1.0e-5;
-    EXPECT_NEAR((left.jerk - first.value(first.length - h).jerk) / h, (second.value(h).jerk - right.jerk) / h,
-                0.1);
+    ASSERT_EQ(uneven.pieces().size(), 2u);
+    // With the jerk the one piece has degree 7, the halves have degree 6: 0.13 % of the stroke apart.
+    const double tolerance = derivatives < 3 ? 1.0e-14 : 1.4e-3;
+    for (double z = 0.0; z <= 0.5; z += 0.03125) {
+      EXPECT_NEAR(two.value(z).position, one.value(z).position, tolerance);
+      EXPECT_NEAR(two.value(1.0 - z).position, one.value(1.0 - z).position, tolerance);
+      EXPECT_NEAR(uneven.value(0.6 * z).position, 0.6 * two.value(z).position, 1.0e-14);
+      EXPECT_NEAR(1.0 - uneven.value(1.0 - 1.4 * z).position, 1.4 * (1.0 - two.value(1.0 - z).position),
+                  1.0e-14);
+    }
+    EXPECT_NEAR(uneven.normalised_peaks().velocity, one.normalised_peaks().velocity, 1.0e-12);
+    EXPECT_NEAR(uneven.value(0.3).acceleration, 0.0, 1.0e-12);
   }
 }
 
@@ -418,6 +430,18 @@ TEST(MotionLaw, ADegree7PolynomialInTwoSegmentsKeepsItsEndsUpToTheJerkAndItsMidd
     for (int order = 0; order <= orders; ++order)
       EXPECT_NEAR(seen.derivative(order, 0.0), wanted[order], 1.0e-9) << segment << ' ' << x << ' ' << order;
   }
+}
+
+TEST(MotionLaw, ThePolynomial4567InTwoSegmentsDeviatesByAnEighthOfAPercentOfTheStroke) {
+  const MotionLaw law = made(rest_in_rest(MotionLawKind::polynomial, 3));
+  test::Cam cam;
+  TO_Cam_Struct_SegmentData segments[2];
+  ASSERT_EQ(law.segments(segments), 2u);
+  ASSERT_EQ(cam.segment(segments[0]).segment(segments[1]).interpolate(), ErrorId::none);
+  double deviation = 0.0;
+  for (double z = 0.0; z <= 1.0; z += 0.001)
+    deviation = std::max(deviation, std::abs(cam.f.value(z).position - law.value(z).position));
+  EXPECT_NEAR(deviation, 1.31e-3, 0.01e-3);
 }
 
 TEST(MotionLaw, MirroredStrokesAndFarLeadingValuesChangeNothingButTheSign) {
