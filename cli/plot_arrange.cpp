@@ -157,7 +157,10 @@ class Arrangement {
     curve.name = name;
     curve.steps = steps;
     const bool wraps = quantity_of(name).ends_with("Position");
-    for (const auto& piece : pieces_of(trace_.t, values, range_.first, range_.last, wraps))
+    auto pieces = pieces_of(trace_.t, values, range_.first, range_.last, wraps);
+    // With several wraps in a pixel nobody sees one.
+    if (pieces.size() > kBins) pieces = pieces_of(trace_.t, values, range_.first, range_.last, false);
+    for (const auto& piece : pieces)
       curve.pieces.push_back(thinned(piece, picture_.begin, picture_.end, kBins));
     const std::string_view object = object_of(name);
     curve.color = colors_.try_emplace(std::string(object), static_cast<int>(colors_.size())).first->second;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -82,6 +83,8 @@ PlotRange chosen_range(const TraceTable& trace, const PlotOptions& options) {
   const double from = time_of("--from", options.from, -kInfinite);
   const double to = time_of("--to", options.to, kInfinite);
   if (trace.t.empty()) throw CannotPlot("the trace has no rows");
+  if (!std::all_of(trace.t.begin(), trace.t.end(), [](double t) { return std::isfinite(t); }))
+    throw CannotPlot("a time of the trace is no number");
   if (!std::is_sorted(trace.t.begin(), trace.t.end())) throw CannotPlot("the times of the trace go back");
   const auto first = std::lower_bound(trace.t.begin(), trace.t.end(), from);
   const auto last = std::upper_bound(trace.t.begin(), trace.t.end(), to);

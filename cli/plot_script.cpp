@@ -28,8 +28,8 @@ constexpr double kLabel = 16;  // of the axis, from the left
 constexpr double kDiagram = 210;
 constexpr double kGap = 16;
 constexpr double kLegendGap = 10;
-constexpr double kThin = 1.6, kThick = 3.4;  // of lines: a curve that covers another is thinner
-kThick = 4.0;                                // of lines: a curve that covers another is thinner
+constexpr double kThin = 1.6;   // of the topmost line
+constexpr double kThick = 3.4;  // of the lowest one, so that one that is covered is seen
 constexpr double kLane = 25;
 constexpr double kCharacter = 7.2;  // width of one in the legend
 constexpr double kStateCharacter = 8.0;
