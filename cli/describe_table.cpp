@@ -12,7 +12,7 @@ namespace lockstep::cli {
 namespace {
 
 constexpr std::size_t kUsualWidth = 80;
-constexpr std::size_t kLeastLast = 28;  // columns, below which the last column goes on lines of its own
+constexpr std::size_t kLeastLast = 30;  // columns, below which the last column goes on lines of its own
 constexpr std::size_t kGap = 2;
 
 void trim_end(std::string& line) {
