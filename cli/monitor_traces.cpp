@@ -36,10 +36,10 @@ std::string value_text(Value value, Type type) {
 std::string cut(const std::string& text, std::size_t width) {
   std::string result;
   std::size_t shown = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool begins = (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80;
+  for (const char c : text) {
+    const bool begins = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
     if (begins && ++shown > width) break;
-    result += text[i];
+    result += c;
   }
   return result;
 }
