@@ -36,23 +36,26 @@ std::string value_text(Value value, Type type) {
 std::string cut(const std::string& text, std::size_t width) {
   std::string result;
   std::size_t shown = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool begins = (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80;
+  for (const char c : text) {
+    const bool begins = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
     if (begins && ++shown > width) break;
-    result += text[i];
+    result += c;
   }
   return result;
 }
 
 std::string heading(const std::string& channel, const HeardTrace& trace, HeardTrace::Clock::time_point now) {
-  std::string line = printable(channel) + ": " + printable(trace.project());
+  const std::string line = printable(channel) + ": " + printable(trace.project());
   if (!trace.has_row()) return line + "  no rows yet";
-  const TraceRow row = trace.row();
-  line += fmt::format("  t {:.3f} s  {:.0f} rows/s  age {:.1f} s  dropped {}  lost {}",
-                      static_cast<double>(row.t) * 1e-9, trace.rate(now), trace.age(now), row.dropped,
-                      trace.lost());
-  if (trace.damaged() != 0) line += fmt::format("  damaged {}", trace.damaged());
   return trace.age(now) > kSilent ? line + "  SILENT" : line;
+}
+
+std::string counts_text(const HeardTrace& trace, HeardTrace::Clock::time_point now) {
+  const TraceRow row = trace.row();
+  std::string line = fmt::format("  t {:.3f} s  {:.0f} rows/s  age {:.1f} s  dropped {}  lost {}",
+                                 static_cast<double>(row.t) * 1e-9, trace.rate(now), trace.age(now),
+                                 row.dropped, trace.lost());
+  return trace.damaged() != 0 ? line + fmt::format("  damaged {}", trace.damaged()) : line;
 }
 
 }  // namespace
@@ -135,6 +138,7 @@ std::vector<std::string> trace_lines(const HeardTraces& traces, HeardTrace::Cloc
   for (const auto& [channel, trace] : traces.all()) {
     if (!lines.empty()) lines.emplace_back();
     lines.push_back(cut(heading(channel, trace, now), width));
+    if (trace.has_row()) lines.push_back(cut(counts_text(trace, now), width));
     const auto& signals = trace.signals();
     std::size_t longest = 0;
     for (const TraceSignal& signal : signals)

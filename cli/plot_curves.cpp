@@ -7,7 +7,7 @@
 namespace lockstep::cli {
 
 std::vector<Point> thinned(const std::vector<Point>& points, double begin, double end, int bins) {
-  if (points.size() <= static_cast<std::size_t>(4 * bins)) return points;
+  if (points.size() <= 4 * static_cast<std::size_t>(bins)) return points;
   std::vector<Point> result;
   const auto bin_of = [&](const Point& point) {
     return static_cast<int>((point.first - begin) / (end - begin) * bins);

@@ -59,6 +59,7 @@ inline Ended run(std::vector<std::string> command) {
     redirect(folder.file("out"), STDOUT_FILENO);
     redirect(folder.file("err"), STDERR_FILENO);
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (std::string& argument : command) arguments.push_back(argument.data());
     arguments.push_back(nullptr);
     ::execvp(arguments[0], arguments.data());

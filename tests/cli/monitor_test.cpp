@@ -40,7 +40,7 @@ std::string monitor_until_heard(const std::string& options) {
 TEST(Monitor, OnceShowsTheTraceOfARunningProject) {
   const Ended ended = run(in_own_network(with_knife(monitor_until_heard("--once"))));
   ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_EQ(ended.out.find("ROTARY_KNIFE: rotary_knife  t "), 0u) << ended.out;
+  EXPECT_EQ(ended.out.find("ROTARY_KNIFE: rotary_knife\n  t "), 0u) << ended.out;
   for (const char* text :
        {"rows/s", "age 0.", "dropped 0", "\n  Knife.Position ", " u/s\n", "\n  gear.InSync "})
     EXPECT_NE(ended.out.find(text), std::string::npos) << text << "\n" << ended.out;
@@ -79,6 +79,7 @@ class OnTerminal {
     pid_ = ::forkpty(&fd_, nullptr, nullptr, &size);
     if (pid_ != 0) return;
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (std::string& argument : command) arguments.push_back(argument.data());
     arguments.push_back(nullptr);
     ::execvp(arguments[0], arguments.data());
@@ -130,9 +131,9 @@ TEST(Monitor, OnATerminalItShowsLiveValuesScrollsAndLeavesTheTerminalAsItWas) {
     EXPECT_NE(before.find("\033[?1049h"), std::string::npos) << before;
     EXPECT_NE(terminal.read_until("Conveyor.Position").find("Conveyor.Position"), std::string::npos);
     terminal.press("\033[6~");
-    EXPECT_NE(terminal.read_until("lines 6 to 11 of 11").find("lines 6 to 11 of 11"), std::string::npos);
+    EXPECT_NE(terminal.read_until("lines 7 to 12 of 12").find("lines 7 to 12 of 12"), std::string::npos);
     terminal.press("\033[A");
-    EXPECT_NE(terminal.read_until("lines 5 to 10 of 11").find("lines 5 to 10 of 11"), std::string::npos);
+    EXPECT_NE(terminal.read_until("lines 6 to 11 of 12").find("lines 6 to 11 of 12"), std::string::npos);
     terminal.press(last_key);
     const std::string after = terminal.read_until("\033[?25h\033[?1049l");
     EXPECT_NE(after.find("\033[?25h\033[?1049l"), std::string::npos);
