@@ -128,7 +128,7 @@ void Axis::begin_base_motion(Job& job) noexcept {
   since_target_ticks_ = 0;
   remember_limits();
   if (job.kind != JobKind::MC_Halt && job.kind != JobKind::MC_Stop)
-    position_controlled_ = job.position_controlled;
+    set_position_control(job.position_controlled);
   if (plan(job, dynamics) == PlanResult::ok) return;
   end_job(kBase, JobPhase::failed, ErrorId::unspecified);
   begin_stop(maximum_dynamics(), false);

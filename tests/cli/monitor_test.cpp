@@ -129,7 +129,7 @@ TEST(Monitor, OnATerminalItShowsLiveValuesScrollsAndLeavesTheTerminalAsItWas) {
                                                   " monitor; status=$?; stty -g >&2; (exit $status)")));
     const std::string before = terminal.read_until("\033[?1049h");
     EXPECT_NE(before.find("\033[?1049h"), std::string::npos) << before;
-    EXPECT_NE(terminal.read_until("Conveyor.Position").find("Conveyor.Position"), std::string::npos);
+    EXPECT_NE(terminal.read_until("Knife.Position").find("Knife.Position"), std::string::npos);
     terminal.press("\033[6~");
     EXPECT_NE(terminal.read_until("lines 7 to 12 of 12").find("lines 7 to 12 of 12"), std::string::npos);
     terminal.press("\033[A");
