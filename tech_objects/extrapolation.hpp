@@ -1,9 +1,8 @@
 /// The actual value of a leading axis as a leading value: filtered, and led on by the time that passes until
 /// the following axis acts on it.
 ///
-///   actual position → PT2 filter ─────────────────────── + velocity · extrapolation time → hysteresis →
-///   position actual velocity → PT2 filter → tolerance band
-///   ─┴─────────────────────────────────────────────────→ velocity
+///   actual velocity → PT2 filter → tolerance band → velocity
+///   actual position → PT2 filter → + velocity · extrapolation time → hysteresis → position
 ///
 /// @source S7-1500T synchronous operation V7, 5.2.3, 5.2.4, 13.1 (Extrapolation, StatusExtrapolation)
 #pragma once
@@ -78,9 +77,10 @@ class Extrapolation {
   void reset(AxisPosition actual) noexcept;
 
   /// One interpolator cycle. All of `settings` counts at once; what is negative or no number counts as 0.
-  /// Neither a change of the position filter, nor one of the velocity filter except to 0, makes the
-  /// extrapolated position step (where the leading-axis part is switched off: nor a change of the position
-  /// filter except to 0). One of FollowingAxisDependentTime does, by velocity · change.
+  /// Changed time constants do not make the extrapolated position step; the position filter may even be
+  /// switched off. (A velocity filter that is switched off, and a position filter whose lag is not made up
+  /// for because SystemDefinedExtrapolation = 0, give up what they were behind.) A change of
+  /// FollowingAxisDependentTime makes it step by velocity · change.
   /// @param velocity [u/s] actual
   const ExtrapolatedValues& step(AxisPosition actual, double velocity,
                                  const TO_Struct_Extrapolation& settings) noexcept;
