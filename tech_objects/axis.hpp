@@ -17,6 +17,7 @@
 
 #include "tech_objects/axis_position.hpp"
 #include "tech_objects/drive.hpp"
+#include "tech_objects/extrapolation.hpp"
 #include "tech_objects/job.hpp"
 #include "tech_objects/override.hpp"
 #include "tech_objects/single_axis_motion.hpp"
@@ -175,7 +176,7 @@ class Axis : public TechnologyObject {
   void react(AlarmReaction reaction) noexcept;
   ErrorId reset(bool restart) noexcept;
   void guard() noexcept;
-  Setpoint extrapolated(const AxisPosition& position) const noexcept;
+  void extrapolate() noexcept;
 
   // axis_jobs.cpp: taking jobs over, override rules, ends
   void start(Job& job) noexcept;
@@ -253,6 +254,7 @@ class Axis : public TechnologyObject {
   void publish_motion() noexcept;
   void publish_synchronous() noexcept;
   void publish_status() noexcept;
+  void publish_extrapolation() noexcept;
 
   // Hot: touched in every interpolator cycle.
   Setpoint setpoint_;
@@ -271,10 +273,8 @@ class Axis : public TechnologyObject {
   std::int64_t standstill_dwell_ = 0;  // [interpolator ticks]
   std::int64_t standstill_ticks_ = 0;
   AxisPosition actual_;
-  AxisPosition shown_actual_;     // of the last interpolator tick
-  AxisPosition last_actual_;      // and of the one before
   double actual_velocity_ = 0.0;  // [u/s]
-  double last_actual_velocity_ = 0.0;
+  bool leads_by_actual_value_ = false;
   double largest_deviation_ = 0.0;
   bool was_synchronous_ = false;
   SynchronousMotion synchronous_;
@@ -295,6 +295,11 @@ class Axis : public TechnologyObject {
   Job* simulated_ = nullptr;  // the gear that is simulated
   Setpoint ghost_;            // where it would have the axis
   AxisData start_values_;
+
+  // Leading by actual value.
+  Extrapolation extrapolation_;
+  Setpoint leading_actual_;
+  Setpoint last_leading_actual_;
 
   // Servo.
   double servo_period_ = 0.001;  // [s]
