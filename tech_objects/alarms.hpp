@@ -110,6 +110,7 @@ inline constexpr int kAccelerationLimited = 502;
 inline constexpr int kJerkLimited = 503;
 inline constexpr int kSpeedSetpointLimited = 504;
 inline constexpr int kFollowingError = 521;
+inline constexpr int kFollowingErrorWarning = 522;
 inline constexpr int kSoftwareLimitReached = 533;
 inline constexpr int kSoftwareLimitPassed = 534;
 inline constexpr int kPositioning = 541;

@@ -50,7 +50,6 @@ void Axis::take_start_values() noexcept {
   awaited_.configure(modulo_, period_, tolerance, additive_);
   extrapolation_.configure(modulo_, period_, kAcquisitionTime);
   data.Extrapolation.LeadingAxisDependentTime = extrapolation_.leading_axis_time(data.Extrapolation);
-  standstill_dwell_ = ticks_of(data.StandstillSignal.MinDwellTime);
 }
 
 std::int64_t Axis::ticks_of(double seconds) const noexcept {
@@ -146,17 +145,23 @@ void Axis::set_position_control(bool on) noexcept {
 // -----------------------------------------------------------------------------------------------------
 
 void Axis::raise(int alarm_number) noexcept {
+  raise(alarm_number, static_cast<AlarmReaction>(find_alarm(alarm_number)->reaction));
+}
+
+/// For alarms whose reaction is a matter of configuration.
+void Axis::raise(int alarm_number, AlarmReaction reaction) noexcept {
   const Alarm* alarm = find_alarm(alarm_number);
-  if (alarm->reaction == static_cast<int>(AlarmReaction::none)) {
+  if (reaction == AlarmReaction::none) {
     set_bit(data.WarningWord, static_cast<unsigned>(alarm->warning_bit), true);
     return;
   }
   set_bit(data.ErrorWord, static_cast<unsigned>(alarm->error_bit), true);
   set_bit(data.StatusWord, StatusBit::Error, true);
-  if (alarm->reaction <= data.ErrorDetail.Reaction) return;  // a weaker reaction changes nothing
+  const DINT strength = static_cast<DINT>(reaction);
+  if (strength <= data.ErrorDetail.Reaction) return;  // a weaker reaction changes nothing
   data.ErrorDetail.Number = static_cast<UDINT>(alarm->number);
-  data.ErrorDetail.Reaction = alarm->reaction;
-  react(static_cast<AlarmReaction>(alarm->reaction));
+  data.ErrorDetail.Reaction = strength;
+  react(reaction);
 }
 
 void Axis::react(AlarmReaction reaction) noexcept {
@@ -217,6 +222,11 @@ void Axis::step() noexcept {
     case Motion::desynchronizing:
       step_synchronous();
       break;
+  }
+  if (data.PositionLimits_SW.Active) {
+    watch_position_limits();
+  } else {
+    limit_side_ = 0;
   }
   guard();
   if (!has_drive_) {

@@ -173,6 +173,7 @@ class Axis : public TechnologyObject {
     return std::abs(velocity) > data.StandstillSignal.VelocityThreshold;
   }
   void set_position_control(bool on) noexcept;
+  void raise(int alarm_number, AlarmReaction reaction) noexcept;
   void react(AlarmReaction reaction) noexcept;
   ErrorId reset(bool restart) noexcept;
   void guard() noexcept;
@@ -250,6 +251,24 @@ class Axis : public TechnologyObject {
   void control_position() noexcept;
   void shift_servo(double by) noexcept;
 
+  // axis_monitoring.cpp: software limit switches, following error, standstill
+  struct PositionLimits {
+    double least;     // [u]
+    double greatest;  // [u]
+  };
+  PositionLimits position_limits() const noexcept;
+  void watch_position_limits() noexcept;
+  void show_limit(const PositionLimits& limits) noexcept;
+  bool keep_within(int side, double limit) noexcept;
+  Dynamics limit_dynamics() const noexcept;
+  bool find_braking(int side, double room, Dynamics& dynamics) const noexcept;
+  void stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept;
+  AlarmReaction reaction_at_limit() const noexcept;
+  void approach_limit(double way, AxisPosition limit, Dynamics dynamics) noexcept;
+  double permissible_following_error(double velocity) const noexcept;
+  void watch_following_error(double velocity) noexcept;
+  bool stands_still() noexcept;
+
   // axis_publish.cpp: the data block
   void publish_motion() noexcept;
   void publish_synchronous() noexcept;
@@ -270,8 +289,9 @@ class Axis : public TechnologyObject {
   std::array<Job*, kSlots> running_{};
   std::size_t new_count_ = 0;          // of new_jobs_
   Job* stop_ = nullptr;                // the MC_Stop that may lock the axis
-  std::int64_t standstill_dwell_ = 0;  // [interpolator ticks]
-  std::int64_t standstill_ticks_ = 0;
+  std::int64_t standstill_ticks_ = 0;  // within the standstill window
+  bool standstill_ = false;
+  std::int8_t limit_side_ = 0;  // software limit switch approached or passed: 1, -1; 0: none
   AxisPosition actual_;
   double actual_velocity_ = 0.0;  // [u/s]
   bool leads_by_actual_value_ = false;
@@ -281,6 +301,7 @@ class Axis : public TechnologyObject {
   SingleAxisMotion single_;
 
   // Positioning and limits.
+  std::int8_t approached_side_ = 0;  // while the axis brakes in front of a limit switch
   std::int64_t in_window_ticks_ = 0;
   std::int64_t since_target_ticks_ = 0;
   double planned_override_ = 100.0;

@@ -268,11 +268,12 @@ void Axis::watch_base_job(Job& job) noexcept {
 }
 
 /// Done once the actual position has stayed in the positioning window for the dwell time; alarm 541 if it
-/// does not come there within the tolerance time.
+/// does not come there within the tolerance time, or leaves the window within the dwell time.
 void Axis::watch_positioning() noexcept {
   const auto& monitoring = data.PositioningMonitoring;
   const double away = std::abs(difference(actual_, setpoint_.position, modulo_).rounded());
   ++since_target_ticks_;
+  if (away > monitoring.Window && in_window_ticks_ > 0) return raise(alarm::kPositioning);
   in_window_ticks_ = away <= monitoring.Window ? in_window_ticks_ + 1 : 0;
   if (in_window_ticks_ > ticks_of(monitoring.MinDwellTime)) {
     end_job(kBase, JobPhase::done, ErrorId::none);

@@ -83,7 +83,6 @@ void Axis::publish_synchronous() noexcept {
 }
 
 void Axis::publish_status() noexcept {
-  standstill_ticks_ = moving(actual_velocity_) ? 0 : standstill_ticks_ + 1;
   const Job* base = running_[kBase];
   const bool idle = base == nullptr && running_[kWaiting] == nullptr;
   const JobKind kind = base != nullptr ? base->kind : JobKind::MC_Halt;  // neither shows at a bit
@@ -103,7 +102,7 @@ void Axis::publish_status() noexcept {
   word.show(StatusBit::Error, data.ErrorDetail.Number != 0);
   word.show(StatusBit::HomingDone, homed_);
   word.show(StatusBit::Done, on && idle);
-  word.show(StatusBit::Standstill, standstill_ticks_ > standstill_dwell_);
+  word.show(StatusBit::Standstill, stands_still());
   word.show(StatusBit::PositioningCommand,
             kind == JobKind::MC_MoveAbsolute || kind == JobKind::MC_MoveRelative);
   word.show(StatusBit::JogCommand, kind == JobKind::MC_MoveJog);
@@ -111,6 +110,8 @@ void Axis::publish_status() noexcept {
   word.show(StatusBit::ConstantVelocity, on && setpoint_.acceleration == 0.0);
   word.show(StatusBit::Accelerating, accelerating);
   word.show(StatusBit::Decelerating, decelerating);
+  word.show(StatusBit::SWLimitMinActive, limit_side_ < 0);
+  word.show(StatusBit::SWLimitMaxActive, limit_side_ > 0);
   word.show(StatusBit::Synchronizing, motion_ == Motion::synchronizing);
   word.show(StatusBit::Synchronous, motion_ == Motion::synchronous);
   word.show(StatusBit::PhasingCommand, in_phase(running_[kPhasing], JobPhase::active));

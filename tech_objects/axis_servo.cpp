@@ -76,6 +76,8 @@ void Axis::control_position() noexcept {
   const double velocity = whole ? setpoint_.velocity : fine.velocity;
   if (!position_controlled_) {
     data.VelocitySetpoint = velocity;
+    data.StatusPositioning.FollowingError = 0.0;
+    data.StatusServo.ControlDifference = 0.0;
     return;
   }
   controller_.configure(control_settings(), servo_period_);
@@ -85,6 +87,7 @@ void Axis::control_position() noexcept {
   data.StatusServo.ControlDifference = controlled.control_difference;
   data.StatusPositioning.FollowingError = controlled.control_difference;
   if (controlled.limited) raise(alarm::kSpeedSetpointLimited);
+  if (data.FollowingError.EnableMonitoring) watch_following_error(velocity);
 }
 
 void Axis::shift_servo(double by) noexcept {

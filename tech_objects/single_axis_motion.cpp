@@ -1,6 +1,9 @@
 #include "tech_objects/single_axis_motion.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 namespace lockstep {
 namespace {
@@ -22,6 +25,15 @@ ProfileLimits profile_limits(const Dynamics& dynamics) noexcept {
 
 MotionState local_state(const Setpoint& from) noexcept {
   return {0.0, from.velocity, from.acceleration};
+}
+
+/// Times in a phase at which the motion turns back, from its beginning [s]; NaN or outside: none.
+std::array<double, 2> turning_times(const Profile::Phase& phase) noexcept {
+  const double v = phase.state.velocity;
+  const double a = phase.state.acceleration;
+  if (phase.jerk == 0.0) return {-v / a, -v / a};
+  const double root = std::sqrt(a * a - 2.0 * phase.jerk * v);
+  return {(-a - root) / phase.jerk, (-a + root) / phase.jerk};
 }
 
 }  // namespace
@@ -129,6 +141,23 @@ void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
     run_at(setpoint, wanted_velocity_, dynamics);
     finished_ = true;
   }
+}
+
+double SingleAxisMotion::way_left(int direction) const noexcept {
+  if (direction * target_velocity_ > 0.0) return std::numeric_limits<double>::infinity();
+  const double now = static_cast<double>(ticks_) * period_;
+  const double here = direction * profile_.at(now).position;
+  double furthest = std::max(direction * profile_.target().position, here);
+  const auto phases = profile_.phases();
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const double end = i + 1 < phases.size() ? phases[i + 1].begin : profile_.duration();
+    for (const double turn : turning_times(phases[i])) {
+      const double t = phases[i].begin + turn;
+      if (t > std::max(phases[i].begin, now) && t < end)
+        furthest = std::max(furthest, direction * profile_.at(t).position);
+    }
+  }
+  return furthest - here;
 }
 
 void SingleAxisMotion::shift(double by) noexcept {

@@ -1,0 +1,221 @@
+// What an axis watches over: software limit switches, following error, standstill.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tech_objects/axis.hpp"
+
+namespace lockstep {
+namespace {
+
+/// What positions and ways may be apart by rounding, relative to their size.
+constexpr double kRounding = 1e-12;
+
+/// How far the velocity has to rise above the threshold to end a standstill: without it the signal would
+/// flicker while an axis trembles at the threshold.
+constexpr double kStandstillHysteresis = 1.05;
+
+/// The state of motion as seen in one direction.
+struct Heading {
+  double velocity;
+  double acceleration;
+
+  Heading(const Setpoint& setpoint, int side) noexcept
+      : velocity{side * setpoint.velocity}, acceleration{side * setpoint.acceleration} {}
+};
+
+/// A way that a stop does not exceed, from few operations: the present acceleration is run down, then the
+/// velocity; the time of the latter is at most v/d + d/j.
+double most_stopping_way(const Heading& from, const Dynamics& dynamics) noexcept {
+  const double a = std::max(from.acceleration, 0.0);
+  if (dynamics.jerk <= 0.0) {
+    const double v = std::max(from.velocity, 0.0);
+    return v * v / (2.0 * dynamics.deceleration);
+  }
+  const double run_down = a / dynamics.jerk;
+  const double v = from.velocity + 0.5 * a * run_down;
+  if (v <= 0.0) return 0.0;
+  return v * (run_down + 0.5 * (v / dynamics.deceleration + dynamics.deceleration / dynamics.jerk));
+}
+
+/// The way that the axis still makes in a direction if it stops at once [u] ≥ 0.
+double stopping_way(const Setpoint& from, int side, const Dynamics& dynamics) noexcept {
+  const Heading heading{from, side};
+  const double v = heading.velocity;
+  const double a = heading.acceleration;
+  if (v <= 0.0 && (a <= 0.0 || dynamics.jerk <= 0.0)) return 0.0;
+  // It brakes so hard already that it is about to turn back.
+  if (a < 0.0 && dynamics.jerk > 0.0 && a * a >= 2.0 * dynamics.jerk * v) return v * v / (-2.0 * a);
+  const double velocity = std::max(dynamics.velocity, v) + 1.0;  // no limit to a stop; the planner wants one
+  const ProfileLimits limits{.velocity_max = velocity,
+                             .velocity_min = -velocity,
+                             .acceleration = dynamics.acceleration,
+                             .deceleration = dynamics.deceleration,
+                             .jerk = dynamics.jerk};
+  Profile profile;
+  if (plan_stop({0.0, v, a}, limits, PresentAcceleration::keep, profile) != PlanResult::ok)
+    return std::numeric_limits<double>::infinity();
+  return std::max(profile.target().position, 0.0);
+}
+
+}  // namespace
+
+// ---- Software limit switches
+// --------------------------------------------------------------------------------------
+
+/// The software limit switches in effect. On a ring they count when they lie on it; one that does not is put
+/// at the border of the ring, and two have no effect. An axis outside has its limit where it stands.
+/// @source S7-1500T axis functions, traversing range limitation
+Axis::PositionLimits Axis::position_limits() const noexcept {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  double least = data.PositionLimits_SW.MinPosition;
+  double greatest = data.PositionLimits_SW.MaxPosition;
+  if (modulo_.enabled) {
+    const bool least_counts = modulo_.contains(least);
+    const bool greatest_counts = modulo_.contains(greatest);
+    if (!least_counts && !greatest_counts) return {-kNone, kNone};
+    if (!least_counts) least = modulo_.start;
+    if (!greatest_counts) greatest = std::nextafter(modulo_.end(), modulo_.start);
+  }
+  return {least, greatest};
+}
+
+/// Each cycle in which the limits are active, after the setpoint has been made: where the next one could no
+/// longer stop in front of a limit, the axis has to brake from the last one on.
+void Axis::watch_position_limits() noexcept {
+  limit_side_ = 0;
+  const bool controlled = power_state_ == PowerState::on || power_state_ == PowerState::braking;
+  if (!homed_) return;
+  const PositionLimits limits = position_limits();
+  const double here = last_setpoint_.position.value;
+  const bool rests = setpoint_.standing() && setpoint_.position == last_setpoint_.position;
+  if (controlled && !rests) {
+    // Outside, the last position is the limit.
+    if (keep_within(1, std::max(limits.greatest, here))) keep_within(-1, std::min(limits.least, here));
+  }
+  show_limit(limits);
+}
+
+void Axis::show_limit(const PositionLimits& limits) noexcept {
+  const double position = setpoint_.position.value;
+  if (position >= limits.greatest) limit_side_ = 1;
+  if (position <= limits.least) limit_side_ = -1;
+  if (approached_side_ == 0) return;
+  const bool arriving = motion_ == Motion::single_axis && !single_.finished() &&
+                        single_.aim() == SingleAxisMotion::Aim::position && running_[kBase] == nullptr;
+  if (!arriving) approached_side_ = 0;
+  if (limit_side_ == 0) limit_side_ = approached_side_;
+}
+
+/// @param side 1 for the positive limit, -1 for the negative one  @param limit [u] on the present turn
+/// @return whether the setpoint made for this cycle stays; if not, another one has been made
+bool Axis::keep_within(int side, double limit) noexcept {
+  if (!std::isfinite(limit)) return true;
+  const AxisPosition border{last_setpoint_.position.turns, limit};
+  const double room = side * difference(border, setpoint_.position, modulo_).rounded();
+  const Dynamics dynamics = limit_dynamics();
+  if (most_stopping_way({setpoint_, side}, dynamics) <= room) return true;
+  const double slack = kRounding * (1.0 + std::abs(limit));
+  if (motion_ == Motion::single_axis && single_.way_left(side) <= room + slack) return true;
+  if (stopping_way(setpoint_, side, dynamics) <= room + slack) return true;
+  stop_at_limit(side, border, dynamics);
+  return false;
+}
+
+/// What the axis brakes with in front of a limit: the values of its job only if it moves on its own.
+Dynamics Axis::limit_dynamics() const noexcept {
+  const bool current = data.PositionLimits_SW.LimitReachedBehavior == 1 && motion_ == Motion::single_axis;
+  return current ? single_.dynamics() : maximum_dynamics();
+}
+
+/// Dynamic values with which the axis comes to rest within a way: those given, or else the highest, or else
+/// these without jerk limit. False: it cannot be done.
+bool Axis::find_braking(int side, double room, Dynamics& dynamics) const noexcept {
+  const double most = room + kRounding * (1.0 + room);
+  if (stopping_way(setpoint_, side, dynamics) <= most) return true;
+  dynamics = maximum_dynamics();
+  if (stopping_way(setpoint_, side, dynamics) <= most) return true;
+  dynamics.jerk = 0.0;
+  return stopping_way(setpoint_, side, dynamics) <= most;
+}
+
+/// From the last setpoint to rest at the limit. When that is too near, the axis stops behind it, by the
+/// reactions of the alarms.
+void Axis::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept {
+  const AlarmReaction reaction = reaction_at_limit();
+  const bool reacts =
+      power_state_ == PowerState::on && data.ErrorDetail.Reaction < static_cast<DINT>(reaction);
+  const Setpoint made = setpoint_;
+  setpoint_ = last_setpoint_;
+  cut_acceleration();
+  const double room = side * difference(limit, setpoint_.position, modulo_).rounded();
+  const bool possible = find_braking(side, room, dynamics);
+  raise(alarm::kSoftwareLimitReached, reaction);
+  set_bit(data.WarningWord, side > 0 ? WarningBit::SWLimitMax : WarningBit::SWLimitMin, true);
+  approached_side_ = static_cast<std::int8_t>(side);
+  if (possible) return approach_limit(side * room, limit, dynamics);
+  if (reacts) {
+    single_.advance(setpoint_);
+  } else {
+    setpoint_ = made;  // it brakes already
+  }
+  if (side * difference(setpoint_.position, limit, modulo_).rounded() > 0.0)
+    raise(alarm::kSoftwareLimitPassed, data.PositionLimits_SW.LimitExceededBehavior == 1
+                                           ? AlarmReaction::stop_emergency
+                                           : AlarmReaction::remove_enable);
+}
+
+AlarmReaction Axis::reaction_at_limit() const noexcept {
+  const bool current = data.PositionLimits_SW.LimitReachedBehavior == 1 && !led();
+  return current ? AlarmReaction::stop_current : AlarmReaction::stop_maximum;
+}
+
+void Axis::approach_limit(double way, AxisPosition limit, Dynamics dynamics) noexcept {
+  leave_synchronous();
+  motion_ = Motion::single_axis;
+  // Led by another axis it may be faster than its own limit.
+  dynamics.velocity = std::max(velocity_limit(), std::abs(setpoint_.velocity));
+  if (single_.move_to(setpoint_, limit, way, dynamics) != PlanResult::ok)
+    return begin_stop(maximum_dynamics(), false);
+  single_.advance(setpoint_);
+}
+
+// ---- Following error
+// ----------------------------------------------------------------------------------------------
+
+/// Permissible following error at a velocity setpoint [u].
+double Axis::permissible_following_error(double velocity) const noexcept {
+  const auto& monitoring = data.FollowingError;
+  const double above = std::abs(velocity) - monitoring.MinVelocity;
+  if (above <= 0.0) return monitoring.MinValue;
+  const double span = data.DynamicLimits.MaxVelocity - monitoring.MinVelocity;
+  if (above >= span) return monitoring.MaxValue;
+  return monitoring.MinValue + (monitoring.MaxValue - monitoring.MinValue) * (above / span);
+}
+
+/// Each servo cycle under position control.
+/// @param velocity setpoint before the position controller [u/s]
+void Axis::watch_following_error(double velocity) noexcept {
+  const double error = std::abs(data.StatusPositioning.FollowingError);
+  const double level = 0.01 * data.FollowingError.WarningLevel;
+  if (error < level * std::min(data.FollowingError.MinValue, data.FollowingError.MaxValue)) return;
+  const double permissible = permissible_following_error(velocity);
+  if (error > permissible) return raise(alarm::kFollowingError);
+  if (error > level * permissible) raise(alarm::kFollowingErrorWarning);
+}
+
+// ---- Standstill
+// ---------------------------------------------------------------------------------------------------
+
+/// Whether the actual velocity has kept within the standstill window for the dwell time.
+bool Axis::stands_still() noexcept {
+  const auto& signal = data.StandstillSignal;
+  const double hysteresis = standstill_ ? kStandstillHysteresis : 1.0;
+  const bool within = std::abs(actual_velocity_) <= signal.VelocityThreshold * hysteresis;
+  standstill_ticks_ = within ? standstill_ticks_ + 1 : 0;
+  const double dwelt = static_cast<double>(standstill_ticks_ - 1) * period_;
+  standstill_ = within && dwelt >= signal.MinDwellTime - 1e-9 * period_;
+  return standstill_;
+}
+
+}  // namespace lockstep
