@@ -253,6 +253,7 @@ class Axis : public TechnologyObject {
   void watch_position_limits() noexcept;
   void show_limit(const PositionLimits& limits) noexcept;
   bool keep_within(int side, double limit) noexcept;
+  bool turns_in_time(int side, double room, double jerk) const noexcept;
   Dynamics limit_dynamics() const noexcept;
   bool find_braking(int side, double room, Dynamics& dynamics) const noexcept;
   void stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept;
