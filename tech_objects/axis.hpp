@@ -251,6 +251,7 @@ class Axis : public TechnologyObject {
   };
   PositionLimits position_limits() const noexcept;
   void watch_position_limits() noexcept;
+  void hold_limits(const PositionLimits& limits, bool rests) noexcept;
   void show_limit(const PositionLimits& limits) noexcept;
   bool keep_within(int side, double limit) noexcept;
   bool turns_in_time(int side, double room, double jerk) const noexcept;
@@ -296,6 +297,7 @@ class Axis : public TechnologyObject {
   SingleAxisMotion single_;
 
   // Positioning and limits.
+  PositionLimits held_limits_{};     // the software limit switches for the present motion [u]
   std::int8_t approached_side_ = 0;  // while the axis brakes in front of a limit switch
   std::int64_t in_window_ticks_ = 0;
   std::int64_t since_target_ticks_ = 0;

@@ -72,7 +72,7 @@ double stopping_way(const Setpoint& from, int side, const Dynamics& dynamics) no
 // --------------------------------------------------------------------------------------
 
 /// The software limit switches in effect. On a ring they count when they lie on it; one that does not is put
-/// at the border of the ring, and two have no effect. An axis outside has its limit where it stands.
+/// at the border of the ring, and two have no effect.
 /// @source S7-1500T axis functions, traversing range limitation
 Axis::PositionLimits Axis::position_limits() const noexcept {
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -91,21 +91,31 @@ Axis::PositionLimits Axis::position_limits() const noexcept {
 /// Each cycle in which the limits are active, after the setpoint has been made: where the next one could no
 /// longer stop in front of a limit, the axis has to brake from the last one on.
 void Axis::watch_position_limits() noexcept {
-  limit_side_ = 0;
   const bool controlled = power_state_ == PowerState::on || power_state_ == PowerState::braking;
-  if (!homed_) return;
-  const PositionLimits limits = position_limits();
-  const double here = last_setpoint_.position.value;
-  const bool rests = setpoint_.standing() && setpoint_.position == last_setpoint_.position;
-  if (controlled && !rests) {
-    // Outside, the last position is the limit.
-    if (keep_within(1, std::max(limits.greatest, here))) keep_within(-1, std::min(limits.least, here));
+  if (!homed_) {
+    limit_side_ = 0;
+    return;
   }
+  const PositionLimits limits = position_limits();
+  const bool rests = setpoint_.standing() && setpoint_.position == last_setpoint_.position;
+  hold_limits(limits, rests || !controlled);
+  if (controlled && !rests && keep_within(1, held_limits_.greatest)) keep_within(-1, held_limits_.least);
   show_limit(limits);
+}
+
+/// An axis outside has its limit where it stands; in motion, where it has been furthest outside since. (A
+/// limit that came along with every cycle could not be kept by an axis that turns around.)
+void Axis::hold_limits(const PositionLimits& limits, bool rests) noexcept {
+  const double here = last_setpoint_.position.value;
+  const double highest = !rests && limit_side_ > 0 ? std::max(held_limits_.greatest, here) : here;
+  const double lowest = !rests && limit_side_ < 0 ? std::min(held_limits_.least, here) : here;
+  held_limits_.greatest = here > limits.greatest ? highest : limits.greatest;
+  held_limits_.least = here < limits.least ? lowest : limits.least;
 }
 
 void Axis::show_limit(const PositionLimits& limits) noexcept {
   const double position = setpoint_.position.value;
+  limit_side_ = 0;
   if (position >= limits.greatest) limit_side_ = 1;
   if (position <= limits.least) limit_side_ = -1;
   if (approached_side_ == 0) return;

@@ -574,23 +574,9 @@ class RandomJobs {
 
   /// How far the setpoint has been outside at most [u].
   double run() {
-    double last = rig_.position();
-    bool controlled = true;
     for (int i = 0; i < 12; ++i) {
       act();
-      for (int ticks = pick(600); ticks > 0; --ticks) {
-        rig_.tick();
-        const double position = rig_.position();
-        // Switched off it goes where the drive runs out to; from there it may only come back.
-        const double outside =
-            std::max(position - std::max(greatest_, last), std::min(least_, last) - position);
-        const bool before = controlled;
-        controlled = rig_.a.enabled() || (controlled && !rig_.a.off());
-        if (before && controlled) furthest_ = std::max(furthest_, outside);
-        last = position;
-        alarmed_ = alarmed_ || rig_.a.pending_alarm() == 533;
-        passed_ = passed_ || rig_.a.pending_alarm() == 534;
-      }
+      for (int ticks = pick(600); ticks > 0; --ticks) tick();
       if (rig_.a.pending_alarm() != 0 && chance(0.7)) reset();
       if (chance(0.8)) rig_.power.Enable = true;
     }
@@ -609,6 +595,8 @@ class RandomJobs {
   void configure(AxisData& data) {
     least_ = uniform(-200.0, -5.0);
     greatest_ = uniform(5.0, 200.0);
+    lowest_ = least_;
+    highest_ = greatest_;
     use_limits(data, least_, greatest_);
     data.PositionLimits_SW.LimitReachedBehavior = pick(2);
     data.PositionLimits_SW.LimitExceededBehavior = pick(2);
@@ -618,10 +606,28 @@ class RandomJobs {
     data.DynamicDefaults.EmergencyDeceleration = uniform(1000.0, 50000.0);
   }
 
+  void tick() {
+    const double last = rig_.position();
+    const bool before = controlled_;
+    rig_.tick();
+    controlled_ = rig_.a.enabled() || (controlled_ && !rig_.a.off());
+    alarmed_ = alarmed_ || rig_.a.pending_alarm() == 533;
+    passed_ = passed_ || rig_.a.pending_alarm() == 534;
+    if (!before || !controlled_) {
+      // Switched off it goes where the drive runs out to; from there it may only come back.
+      highest_ = std::max(greatest_, rig_.position());
+      lowest_ = std::min(least_, rig_.position());
+      return;
+    }
+    furthest_ = std::max({furthest_, rig_.position() - highest_, lowest_ - rig_.position()});
+    if (last <= greatest_) highest_ = greatest_;
+    if (last >= least_) lowest_ = least_;
+  }
+
   template <class B>
   void start(B& block) {
     block.Execute = false;
-    rig_.tick();
+    tick();
     block.Execute = true;
   }
   template <class B>
@@ -684,7 +690,10 @@ class RandomJobs {
   std::mt19937_64 random_;
   double least_ = 0.0;
   double greatest_ = 0.0;
+  double lowest_ = 0.0;  // what is permitted now
+  double highest_ = 0.0;
   double furthest_ = 0.0;
+  bool controlled_ = true;
   bool alarmed_ = false;
   bool passed_ = false;
   Limited rig_;
