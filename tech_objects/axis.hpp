@@ -258,8 +258,10 @@ class Axis : public TechnologyObject {
   };
   PositionLimits position_limits() const noexcept;
   void watch_position_limits() noexcept;
+  void hold_limits(const PositionLimits& limits, bool rests) noexcept;
   void show_limit(const PositionLimits& limits) noexcept;
   bool keep_within(int side, double limit) noexcept;
+  bool turns_in_time(int side, double room, double jerk) const noexcept;
   Dynamics limit_dynamics() const noexcept;
   bool find_braking(int side, double room, Dynamics& dynamics) const noexcept;
   void stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept;
@@ -301,6 +303,7 @@ class Axis : public TechnologyObject {
   SingleAxisMotion single_;
 
   // Positioning and limits.
+  PositionLimits held_limits_{};     // the software limit switches for the present motion [u]
   std::int8_t approached_side_ = 0;  // while the axis brakes in front of a limit switch
   std::int64_t in_window_ticks_ = 0;
   std::int64_t since_target_ticks_ = 0;

@@ -38,14 +38,22 @@ double most_stopping_way(const Heading& from, const Dynamics& dynamics) noexcept
   return v * (run_down + 0.5 * (v / dynamics.deceleration + dynamics.deceleration / dynamics.jerk));
 }
 
+/// Whether the axis brakes so hard that it turns back before the deceleration can be run down.
+bool turning_back(const Heading& heading, double jerk) noexcept {
+  const double a = heading.acceleration;
+  return heading.velocity > 0.0 && a < 0.0 && jerk > 0.0 && a * a >= 2.0 * jerk * heading.velocity;
+}
+
 /// The way that the axis still makes in a direction if it stops at once [u] ≥ 0.
 double stopping_way(const Setpoint& from, int side, const Dynamics& dynamics) noexcept {
   const Heading heading{from, side};
   const double v = heading.velocity;
   const double a = heading.acceleration;
   if (v <= 0.0 && (a <= 0.0 || dynamics.jerk <= 0.0)) return 0.0;
-  // It brakes so hard already that it is about to turn back.
-  if (a < 0.0 && dynamics.jerk > 0.0 && a * a >= 2.0 * dynamics.jerk * v) return v * v / (-2.0 * a);
+  if (turning_back(heading, dynamics.jerk)) {
+    const double t = (-a - std::sqrt(a * a - 2.0 * dynamics.jerk * v)) / dynamics.jerk;
+    return t * (v + t * (0.5 * a + t * dynamics.jerk * (1.0 / 6.0)));
+  }
   const double velocity = std::max(dynamics.velocity, v) + 1.0;  // no limit to a stop; the planner wants one
   const ProfileLimits limits{.velocity_max = velocity,
                              .velocity_min = -velocity,
@@ -64,7 +72,7 @@ double stopping_way(const Setpoint& from, int side, const Dynamics& dynamics) no
 // --------------------------------------------------------------------------------------
 
 /// The software limit switches in effect. On a ring they count when they lie on it; one that does not is put
-/// at the border of the ring, and two have no effect. An axis outside has its limit where it stands.
+/// at the border of the ring, and two have no effect.
 /// @source S7-1500T axis functions, traversing range limitation
 Axis::PositionLimits Axis::position_limits() const noexcept {
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -83,21 +91,31 @@ Axis::PositionLimits Axis::position_limits() const noexcept {
 /// Each cycle in which the limits are active, after the setpoint has been made: where the next one could no
 /// longer stop in front of a limit, the axis has to brake from the last one on.
 void Axis::watch_position_limits() noexcept {
-  limit_side_ = 0;
   const bool controlled = power_state_ == PowerState::on || power_state_ == PowerState::braking;
-  if (!homed_) return;
-  const PositionLimits limits = position_limits();
-  const double here = last_setpoint_.position.value;
-  const bool rests = setpoint_.standing() && setpoint_.position == last_setpoint_.position;
-  if (controlled && !rests) {
-    // Outside, the last position is the limit.
-    if (keep_within(1, std::max(limits.greatest, here))) keep_within(-1, std::min(limits.least, here));
+  if (!homed_) {
+    limit_side_ = 0;
+    return;
   }
+  const PositionLimits limits = position_limits();
+  const bool rests = setpoint_.standing() && setpoint_.position == last_setpoint_.position;
+  hold_limits(limits, rests || !controlled);
+  if (controlled && !rests && keep_within(1, held_limits_.greatest)) keep_within(-1, held_limits_.least);
   show_limit(limits);
+}
+
+/// An axis outside has its limit where it stands; in motion, where it has been furthest outside since. (A
+/// limit that came along with every cycle could not be kept by an axis that turns around.)
+void Axis::hold_limits(const PositionLimits& limits, bool rests) noexcept {
+  const double here = last_setpoint_.position.value;
+  const double highest = !rests && limit_side_ > 0 ? std::max(held_limits_.greatest, here) : here;
+  const double lowest = !rests && limit_side_ < 0 ? std::min(held_limits_.least, here) : here;
+  held_limits_.greatest = here > limits.greatest ? highest : limits.greatest;
+  held_limits_.least = here < limits.least ? lowest : limits.least;
 }
 
 void Axis::show_limit(const PositionLimits& limits) noexcept {
   const double position = setpoint_.position.value;
+  limit_side_ = 0;
   if (position >= limits.greatest) limit_side_ = 1;
   if (position <= limits.least) limit_side_ = -1;
   if (approached_side_ == 0) return;
@@ -116,10 +134,18 @@ bool Axis::keep_within(int side, double limit) noexcept {
   const Dynamics dynamics = limit_dynamics();
   if (most_stopping_way({setpoint_, side}, dynamics) <= room) return true;
   const double slack = kRounding * (1.0 + std::abs(limit));
-  if (motion_ == Motion::single_axis && single_.way_left(side) <= room + slack) return true;
+  if (turns_in_time(side, room + slack, dynamics.jerk)) return true;
   if (stopping_way(setpoint_, side, dynamics) <= room + slack) return true;
   stop_at_limit(side, border, dynamics);
   return false;
+}
+
+/// Whether the axis comes to rest or turns back in front of the limit by what it does anyway.
+bool Axis::turns_in_time(int side, double room, double jerk) const noexcept {
+  if (motion_ == Motion::single_axis) return single_.way_left(side) <= room;
+  const Heading heading{setpoint_, side};
+  const double v = heading.velocity;
+  return turning_back(heading, jerk) && v * v <= -2.0 * heading.acceleration * room;
 }
 
 /// What the axis brakes with in front of a limit: the values of its job only if it moves on its own.

@@ -151,6 +151,7 @@ double SingleAxisMotion::way_left(int direction) const noexcept {
   const auto phases = profile_.phases();
   for (std::size_t i = 0; i < phases.size(); ++i) {
     const double end = i + 1 < phases.size() ? phases[i + 1].begin : profile_.duration();
+    if (phases[i].begin > now) furthest = std::max(furthest, direction * phases[i].state.position);
     for (const double turn : turning_times(phases[i])) {
       const double t = phases[i].begin + turn;
       if (t > std::max(phases[i].begin, now) && t < end)

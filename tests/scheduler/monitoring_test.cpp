@@ -405,6 +405,160 @@ TEST(SoftwareLimits, OnARingLetTheOtherSideEndAtItsBorder) {
   EXPECT_GT(none.a.setpoint().position.turns, 0);
 }
 
+// ---- Following error
+// ----------------------------------------------------------------------------------------------
+
+TEST(FollowingErrorMonitoring, RemovesTheEnableWhenADriveDoesNotFollow) {
+  Limited rig(1, true, [](AxisData& data) {
+    data.Actor.DriveParameter.MaxSpeed = 3000.0;  // 500 mm/s
+    data.FollowingError = {.MinValue = 2.0, .MaxValue = 20.0, .MinVelocity = 100.0};
+    data.DynamicLimits.MaxVelocity = data.DynamicLimits.Velocity = 1000.0;
+  });
+  rig.run_a.Velocity = 700.0;
+  rig.run_a.Execute = true;
+  rig.continuity[1].velocity = false;  // the setpoint follows the drive that runs out
+  bool warned = false;
+  double greatest = 0.0;
+  double velocity = 0.0;
+  ASSERT_TRUE(rig.run_until([&] {
+    warned = warned || (rig.a.pending_alarm() == 0 &&
+                        has_bit(rig.a.data.WarningWord, WarningBit::FollowingErrorWarning));
+    greatest = std::max(greatest, std::abs(rig.a.data.StatusPositioning.FollowingError));
+    if (rig.a.pending_alarm() != 0) return true;
+    velocity = rig.a.data.Velocity;
+    return false;
+  }));
+  EXPECT_EQ(rig.a.data.ErrorDetail.Number, 521u);
+  EXPECT_EQ(rig.a.data.ErrorDetail.Reaction, 4);
+  EXPECT_TRUE(has_bit(rig.a.data.ErrorWord, ErrorBit::FollowingErrorFault));
+  EXPECT_TRUE(warned);
+  // 2 mm up to 100 mm/s, 20 mm at 1000 mm/s.
+  EXPECT_NEAR(greatest, 2.0 + 18.0 * (velocity - 100.0) / 900.0, 0.2);
+  EXPECT_GT(velocity, 550.0);
+  rig.run(100);
+  EXPECT_FALSE(rig.power.Status);
+  EXPECT_TRUE(rig.run_a.Error);
+  EXPECT_EQ(rig.a.data.StatusPositioning.FollowingError, 0.0);
+}
+
+TEST(FollowingErrorMonitoring, HoldsMinValueBelowMinVelocity) {
+  Limited rig(1, true, [](AxisData& data) {
+    data.Actor.DriveParameter.MaxSpeed = 60.0;  // 10 mm/s
+    data.FollowingError = {.MinValue = 1.0, .MaxValue = 100.0, .MinVelocity = 50.0, .WarningLevel = 50.0};
+  });
+  rig.run_a.Velocity = 20.0;
+  rig.run_a.Execute = true;
+  rig.continuity[1].velocity = false;
+  double at_warning = 0.0;
+  double greatest = 0.0;
+  ASSERT_TRUE(rig.run_until([&] {
+    const double error = rig.a.data.StatusPositioning.FollowingError;
+    greatest = std::max(greatest, error);
+    if (at_warning == 0.0 && has_bit(rig.a.data.WarningWord, WarningBit::FollowingErrorWarning))
+      at_warning = error;
+    return rig.a.pending_alarm() != 0;
+  }));
+  EXPECT_EQ(rig.a.pending_alarm(), 521);
+  EXPECT_NEAR(greatest, 1.0, 0.03);
+  EXPECT_NEAR(at_warning, 0.5, 0.03);
+}
+
+TEST(FollowingErrorMonitoring, IsSilentWhenItIsOffOrTheDriveFollows) {
+  for (const bool monitored : {false, true}) {
+    Limited rig(1, true, [&](AxisData& data) {
+      data.FollowingError = {
+          .EnableMonitoring = monitored, .MinValue = 0.5, .MaxValue = 1.0, .MinVelocity = 10.0};
+      if (!monitored) data.Actor.DriveParameter.MaxSpeed = 600.0;  // 100 mm/s
+    });
+    rig.run_a.Velocity = 300.0;
+    rig.run_a.Execute = true;
+    rig.run(2000);
+    EXPECT_EQ(rig.a.pending_alarm(), 0);
+    EXPECT_FALSE(has_bit(rig.a.data.WarningWord, WarningBit::FollowingErrorWarning));
+    EXPECT_TRUE(rig.power.Status);
+  }
+}
+
+TEST(FollowingErrorMonitoring, PausesWithoutPositionControlAndBeginsAnewWithIt) {
+  Limited rig(4, true, [](AxisData& data) {
+    data.FollowingError = {.MinValue = 2.0, .MaxValue = 4.0, .MinVelocity = 10.0};
+    data.PositionControl.Kpc = 90.0;  // without position control the axis lags more and more
+  });
+  rig.continuity[1].velocity = false;  // the setpoint begins anew where the axis is
+  rig.run_a.Velocity = 200.0;
+  rig.run_a.PositionControlled = false;
+  rig.run_a.Execute = true;
+  rig.run(8000);
+  ASSERT_TRUE(bit(rig.a, StatusBit::NonPositionControlled));
+  EXPECT_EQ(rig.a.data.StatusPositioning.FollowingError, 0.0);
+  rig.run_a.Execute = false;
+  rig.tick();
+  rig.run_a.PositionControlled = true;
+  rig.run_a.Execute = true;
+  rig.run(2000);
+  EXPECT_FALSE(bit(rig.a, StatusBit::NonPositionControlled));
+  EXPECT_EQ(rig.a.pending_alarm(), 0);
+  EXPECT_NEAR(rig.a.data.ActualVelocity, 200.0, 1.0);
+}
+
+// ---- Standstill and positioning
+// ----------------------------------------------------------------------------------
+
+TEST(Standstill, IsLeftOnlySomewhatAboveItsThreshold) {
+  Limited rig(1, false, [](AxisData& data) {
+    data.StandstillSignal = {.VelocityThreshold = 10.0, .MinDwellTime = 0.05};
+  });
+  const auto settle_at = [&](double velocity) {
+    rig.run_a.Velocity = velocity;
+    rig.run_a.Execute = false;
+    rig.tick();
+    rig.run_a.Execute = true;
+    EXPECT_TRUE(rig.run_until([&] { return rig.run_a.InVelocity; }));
+    rig.run(200);
+  };
+  rig.run(100);
+  ASSERT_TRUE(bit(rig.a, StatusBit::Standstill));
+  settle_at(10.2);
+  EXPECT_TRUE(bit(rig.a, StatusBit::Standstill));
+  settle_at(11.0);
+  EXPECT_FALSE(bit(rig.a, StatusBit::Standstill));
+  settle_at(10.2);
+  EXPECT_FALSE(bit(rig.a, StatusBit::Standstill));
+  settle_at(9.9);
+  EXPECT_TRUE(bit(rig.a, StatusBit::Standstill));
+}
+
+TEST(Standstill, TakesItsDwellTimeAsWrittenInTheCycle) {
+  Limited rig(1, false, [](AxisData&) {});
+  rig.a.data.StandstillSignal.MinDwellTime = 0.25;
+  rig.run_a.Velocity = 100.0;
+  rig.run_a.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.run_a.InVelocity; }));
+  rig.halt.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return std::abs(rig.a.data.ActualVelocity) <= 5.0; }));
+  int ticks = 0;
+  ASSERT_TRUE(rig.run_until([&] { return ++ticks, bit(rig.a, StatusBit::Standstill); }));
+  EXPECT_EQ(ticks, 250);
+}
+
+TEST(PositioningMonitoring, RaisesAlarm541WhenTheAxisLeavesTheWindowWithinTheDwellTime) {
+  Limited rig(1, true, [](AxisData& data) {
+    data.PositionControl = {.Kv = 5.0, .Kpc = 0.0};  // creeps to its target
+    data.PositioningMonitoring = {.ToleranceTime = 10.0, .MinDwellTime = 5.0, .Window = 2.0};
+    data.FollowingError.EnableMonitoring = false;
+  });
+  rig.move.Position = 20.0;
+  rig.move.Execute = true;
+  const auto away = [&] { return std::abs(rig.a.data.ActualPosition - 20.0); };
+  ASSERT_TRUE(rig.run_until([&] { return rig.a.setpoint().standing() && away() < 1.5; }));
+  EXPECT_TRUE(rig.move.Busy);
+  rig.continuity[1].velocity = false;  // switched off, the setpoint is where the axis is
+  rig.a.data.PositioningMonitoring.Window = 0.5 * away();
+  rig.run(2);
+  EXPECT_TRUE(rig.move.Error);
+  EXPECT_EQ(rig.a.data.ErrorDetail.Number, 541u);
+}
+
 // ---- Random jobs
 // ------------------------------------------------------------------------------------------------
 
@@ -422,16 +576,13 @@ class RandomJobs {
   double run() {
     for (int i = 0; i < 12; ++i) {
       act();
-      for (int ticks = pick(600); ticks > 0; --ticks) {
-        rig_.tick();
-        const double position = rig_.position();
-        furthest_ = std::max({furthest_, position - greatest_, least_ - position});
-      }
+      for (int ticks = pick(600); ticks > 0; --ticks) tick();
       if (rig_.a.pending_alarm() != 0 && chance(0.7)) reset();
+      if (chance(0.8)) rig_.power.Enable = true;
     }
     return furthest_;
   }
-  bool passed() const { return rig_.a.pending_alarm() == 534; }
+  bool passed() const { return passed_; }
   bool alarmed() const { return alarmed_; }
 
  private:
@@ -444,6 +595,8 @@ class RandomJobs {
   void configure(AxisData& data) {
     least_ = uniform(-200.0, -5.0);
     greatest_ = uniform(5.0, 200.0);
+    lowest_ = least_;
+    highest_ = greatest_;
     use_limits(data, least_, greatest_);
     data.PositionLimits_SW.LimitReachedBehavior = pick(2);
     data.PositionLimits_SW.LimitExceededBehavior = pick(2);
@@ -453,10 +606,28 @@ class RandomJobs {
     data.DynamicDefaults.EmergencyDeceleration = uniform(1000.0, 50000.0);
   }
 
+  void tick() {
+    const double last = rig_.position();
+    const bool before = controlled_;
+    rig_.tick();
+    controlled_ = rig_.a.enabled() || (controlled_ && !rig_.a.off());
+    alarmed_ = alarmed_ || rig_.a.pending_alarm() == 533;
+    passed_ = passed_ || rig_.a.pending_alarm() == 534;
+    if (!before || !controlled_) {
+      // Switched off it goes where the drive runs out to; from there it may only come back.
+      highest_ = std::max(greatest_, rig_.position());
+      lowest_ = std::min(least_, rig_.position());
+      return;
+    }
+    furthest_ = std::max({furthest_, rig_.position() - highest_, lowest_ - rig_.position()});
+    if (last <= greatest_) highest_ = greatest_;
+    if (last >= least_) lowest_ = least_;
+  }
+
   template <class B>
   void start(B& block) {
     block.Execute = false;
-    rig_.tick();
+    tick();
     block.Execute = true;
   }
   template <class B>
@@ -467,7 +638,7 @@ class RandomJobs {
   }
 
   void act() {
-    switch (pick(8)) {
+    switch (pick(10)) {
       case 0:
         rig_.move.Position = chance(0.3) ? greatest_ : uniform(-300.0, 300.0);
         rig_.move.Velocity = uniform(5.0, 800.0);
@@ -497,15 +668,21 @@ class RandomJobs {
         rig_.gear.RatioNumerator = pick(2) * 2 - 1;
         set_dynamics(rig_.gear);
         return start(rig_.gear);
-      default:
+      case 7:
         rig_.run_l.Velocity = uniform(-300.0, 300.0);
         set_dynamics(rig_.run_l);
         return start(rig_.run_l);
+      case 8:
+        rig_.a.data.Override.Velocity = uniform(0.0, 200.0);
+        return;
+      default:
+        rig_.power.StopMode = chance(0.5) ? INT{0} : INT{2};
+        rig_.power.Enable = !rig_.power.Enable || chance(0.3);
+        return;
     }
   }
 
   void reset() {
-    alarmed_ = true;
     start(rig_.reset);
     rig_.jog.JogForward = rig_.jog.JogBackward = false;
   }
@@ -513,8 +690,12 @@ class RandomJobs {
   std::mt19937_64 random_;
   double least_ = 0.0;
   double greatest_ = 0.0;
+  double lowest_ = 0.0;  // what is permitted now
+  double highest_ = 0.0;
   double furthest_ = 0.0;
+  bool controlled_ = true;
   bool alarmed_ = false;
+  bool passed_ = false;
   Limited rig_;
 };
 
