@@ -246,6 +246,7 @@ class Axis : public TechnologyObject {
 
   // axis_publish.cpp: the data block
   void publish_motion() noexcept;
+  void publish_awaited() noexcept;
   void publish_synchronous() noexcept;
   void publish_status() noexcept;
 
