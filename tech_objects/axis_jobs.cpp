@@ -112,8 +112,10 @@ bool Axis::gear_runs_or_waits() const noexcept {
 /// Profile 5: ends a shift that waits; one that runs and the shift in effect stay.
 void Axis::cancel_waiting_shift(Job& job) noexcept {
   const Slot slot = is_phasing(job.kind) ? kPhasing : kOffset;
-  if (running_[slot] != nullptr && running_[slot]->phase == JobPhase::waiting)
+  if (running_[slot] != nullptr && running_[slot]->phase == JobPhase::waiting) {
     end_job(slot, JobPhase::aborted, ErrorId::none);
+    (slot == kPhasing ? synchronous_.phase_shift() : synchronous_.following_offset()).cancel();
+  }
   job.phase = JobPhase::done;
 }
 

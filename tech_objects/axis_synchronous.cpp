@@ -93,8 +93,14 @@ void Axis::show_coupling(const Job& job, Motion motion) noexcept {
 void Axis::step_synchronous() noexcept {
   Job* job = running_[kBase];
   if (job->update) synchronous_.change_ratio(job->numerator, job->denominator);
-  if (running_[kPhasing] != nullptr) advance_shift(kPhasing);
-  if (running_[kOffset] != nullptr) advance_shift(kOffset);
+  if (running_[kPhasing] != nullptr)
+    advance_shift(kPhasing);
+  else if (synchronous_.phase_shift().settling())
+    synchronous_.advance_phase_shift();
+  if (running_[kOffset] != nullptr)
+    advance_shift(kOffset);
+  else if (synchronous_.following_offset().settling())
+    synchronous_.advance_following_offset();
   if (motion_ == Motion::synchronous && running_[kWaitingOut] == nullptr)
     return synchronous_.advance(setpoint_);
   Setpoint next = setpoint_;

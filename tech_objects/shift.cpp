@@ -40,8 +40,8 @@ void Shift::halt() noexcept {
 Shift::Event Shift::advance(const LeadingStep& step) noexcept {
   if (phase_ == Phase::waiting && may_start(step)) {
     phase_ = Phase::running;
-    // While the leading value stands nothing can be led on by it: a shift that moves comes to rest first.
-    if (step.way() != 0.0) settling_ = false;
+    // A leading value that stands or turns cannot lead a moving shift on: that comes to rest first.
+    if (step.way() * step.last.velocity > 0.0) settling_ = false;
   }
   if (settling_) {
     settling_ = follow_profile();

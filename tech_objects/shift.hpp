@@ -49,10 +49,15 @@ class Shift {
   /// Leaves the shift where it is.
   void halt() noexcept;
 
+  /// Waits no more; a shift that moves still comes to rest.
+  void cancel() noexcept { phase_ = Phase::resting; }
+
   /// One tick.
   Event advance(const LeadingStep& step) noexcept;
 
   Phase phase() const noexcept { return phase_; }
+  /// Whether it is coming to rest, also without a job.
+  bool settling() const noexcept { return settling_; }
   /// Whether there is any shift, or one is coming.
   bool in_use() const noexcept { return in_use_; }
 

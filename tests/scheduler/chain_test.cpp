@@ -357,6 +357,33 @@ TEST(Chain, AMovingShiftComesToRestWhileTheLeadingValueThatIsToLeadItOnStands) {
   EXPECT_EQ(chain.f.data.StatusSynchronizedMotion.PhaseShift, 20.0);
 }
 
+/// Profile 5 ends a job that waits while the shift before it has not come to rest yet.
+TEST(Chain, AMovingShiftComesToRestAlsoWhenTheJobThatReplacedItIsCancelled) {
+  Chain chain({}, {}, 1, 1);
+  chain.gear.Execute = true;
+  ASSERT_TRUE(chain.run_until([&] { return chain.gear.InGear; }));
+  chain.f.data.DynamicLimits.MaxAcceleration = chain.f.data.DynamicLimits.MaxDeceleration = 500.0;
+  chain.continuity[1] = Continuity{.highest_acceleration = 1e3, .highest_jerk = 1e9};
+  chain.phase.PhaseShift = 50.0;
+  chain.phase.Execute = true;
+  chain.run(150);
+  chain.phase_to.ProfileReference = 2;
+  chain.phase_to.PhasingDistance = 40.0;
+  chain.phase_to.StartPosition = 500.0;
+  chain.phase_to.Execute = true;
+  chain.run(5);
+  ASSERT_GT(chain.f.data.Velocity, 10.0);
+  chain.phase.Execute = false;
+  chain.tick();
+  chain.phase.ProfileReference = 5;
+  chain.phase.Execute = true;
+  chain.run(3);
+  EXPECT_TRUE(chain.phase.Done);
+  EXPECT_TRUE(chain.phase_to.CommandAborted);
+  chain.run(500);
+  EXPECT_EQ(chain.f.data.Velocity, 0.0);
+}
+
 // ---- Sums of shifts
 // ---------------------------------------------------------------------------------------------
 
