@@ -131,7 +131,8 @@ void Axis::follow_actual() noexcept {
   setpoint_ = {actual_, moving(actual_velocity_) ? actual_velocity_ : 0.0, 0.0};
 }
 
-/// Taken up anew, position control begins where the axis is: with the setpoint ahead by what the drive is late.
+/// Taken up anew, position control begins where the axis is: with the setpoint ahead by what the drive is
+/// late.
 void Axis::set_position_control(bool on) noexcept {
   if (on && !position_controlled_ && has_drive_) {
     setpoint_.position = advanced(actual_, actual_velocity_ * drive_.known_delay(), modulo_);

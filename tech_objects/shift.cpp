@@ -3,6 +3,12 @@
 #include <cmath>
 
 namespace lockstep {
+namespace {
+
+/// Most that a shift's own velocity may make of its way over the leading distance, as a multiple of that way.
+constexpr double kSteepest = 20.0;
+
+}  // namespace
 
 ErrorId Shift::begin(const ShiftRequest& request, double period) noexcept {
   const MotionState from{0.0, velocity_, acceleration_};
@@ -40,8 +46,7 @@ void Shift::halt() noexcept {
 Shift::Event Shift::advance(const LeadingStep& step) noexcept {
   if (phase_ == Phase::waiting && may_start(step)) {
     phase_ = Phase::running;
-    // A leading value that stands or turns cannot lead a moving shift on: that comes to rest first.
-    if (step.way() * step.last.velocity > 0.0) settling_ = false;
+    if (can_lead_on(step)) settling_ = false;
   }
   if (settling_) {
     settling_ = follow_profile();
@@ -49,6 +54,16 @@ Shift::Event Shift::advance(const LeadingStep& step) noexcept {
   }
   if (phase_ != Phase::running) return Event::none;
   return request_.profile == 0 ? follow_time() : follow_leading(step);
+}
+
+/// Whether the leading value can lead a moving shift on. One that stands, turns or creeps cannot: over its
+/// distance the shift would have to shoot far beyond its target. Then it comes to rest first.
+bool Shift::can_lead_on(const LeadingStep& step) const noexcept {
+  const double way_velocity = std::abs(step.last.velocity);
+  const double to_go = std::abs((request_.target - value_).rounded());
+  const double distance = to_start_ + request_.distance;
+  return step.way() * step.last.velocity > 0.0 &&
+         std::abs(velocity_) * distance <= kSteepest * to_go * way_velocity;
 }
 
 /// Profile 1 starts where it is, if the leading value stands or moves the right way; profile 2 at the last

@@ -12,6 +12,10 @@ namespace {
 /// motion.
 constexpr double kSamePlace = 1e-14;
 
+/// Most that velocity and acceleration of the axis may make of its way over the leading distance, as a
+/// multiple of that way: the quintic then stays within some ten times the way.
+constexpr double kSteepest = 100.0;
+
 int sign(double value) noexcept {
   return value > 0.0 ? 1 : value < 0.0 ? -1 : 0;
 }
@@ -414,9 +418,18 @@ SynchronousMotion::Start SynchronousMotion::watch_distance(const Setpoint& own) 
       distance_profile_.plan(start, target, profile_way_, direction_ < 0,
                              static_cast<SyncDirection>(sync_direction_), leading_modulo_, following_);
   if (plan != SyncPlan::kReady) return reject(ErrorId::direction);
+  if (shoots_beyond(distance_profile_.value(0.0), profile_way_)) return reject(ErrorId::leading_distance);
   following.turns += distance_profile_.turns();
   anchor(way_to_sync, following);
   return begin_profile(Way::distance);
+}
+
+/// Whether velocity and acceleration of the axis, led on by a leading axis that creeps, would carry it far
+/// beyond the way that it has to make.
+bool SynchronousMotion::shoots_beyond(const SyncOffset& start, double distance) const noexcept {
+  const double natural = std::abs(start.position) + std::abs(ratio_) * distance;
+  const double own = std::abs(start.slope) * distance + std::abs(start.curvature) * distance * distance;
+  return own > kSteepest * natural;
 }
 
 SynchronousMotion::Start SynchronousMotion::begin_profile(Way way) noexcept {

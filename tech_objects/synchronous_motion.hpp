@@ -137,6 +137,7 @@ class SynchronousMotion {
   Start watch_distance(const Setpoint& own) noexcept;
   Start watch_time(const Setpoint& own) noexcept;
   Start reject(ErrorId error) noexcept;
+  bool shoots_beyond(const SyncOffset& start, double distance) const noexcept;
   Start begin_profile(Way way) noexcept;
   double following_way(double here) const noexcept;
   bool plan_time(const Setpoint& own, const Setpoint& leading, double way, double ahead,

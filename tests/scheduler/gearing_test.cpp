@@ -532,6 +532,22 @@ TEST(MC_GearInPos, WithinTheReversionToleranceTheProfileIsFollowedBackwards) {
   EXPECT_NEAR(rig.following_minus_function(1, 1, 200.0, 50.0), 0.0, 1e-10);
 }
 
+TEST(MC_GearInPos, AMovingAxisIsNotTakenOverByALeadingAxisThatCreeps) {
+  Pair rig;
+  rig.move_f.Velocity = 80.0;
+  rig.move_f.Execute = true;
+  rig.start_leading(0.01);
+  ASSERT_TRUE(rig.run_until([&] { return rig.move_f.InVelocity && rig.run_l.InVelocity; }));
+  rig.pos.SyncProfileReference = 3;
+  rig.pos.MasterSyncPosition = rig.l.data.Position + 0.02;
+  rig.pos.SlaveSyncPosition = rig.f.data.Position + 200.0;
+  rig.pos.MasterStartDistance = 100.0;
+  rig.pos.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.Error; }));
+  EXPECT_EQ(rig.pos.ErrorID, static_cast<WORD>(0x8026));
+  EXPECT_TRUE(rig.move_f.InVelocity);
+}
+
 TEST(MC_GearInPos, ReversalWhileSynchronizingRaisesAlarm608) {
   Pair rig;
   rig.pos.MasterSyncPosition = 300.0;
