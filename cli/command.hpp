@@ -24,6 +24,10 @@ using Action = std::function<int()>;
 
 void add_check_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
+void add_describe_command(CLI::App& app, Action& action);
+void add_tags_command(CLI::App& app, Action& action);
+void add_plot_command(CLI::App& app, Action& action);
+void add_monitor_command(CLI::App& app, Action& action);
 
 /// Loads a project and tells its problems and warnings on standard error.
 /// @param status the exit status if there is no project

@@ -19,6 +19,10 @@ int main(int argc, char** argv) {
   Action action;
   add_check_command(app, action);
   add_run_command(app, action);
+  add_describe_command(app, action);
+  add_tags_command(app, action);
+  add_plot_command(app, action);
+  add_monitor_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,8 +1,9 @@
 #include "hmi_bridge/csv_number.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <string_view>
 
 namespace lockstep {
 namespace {
@@ -40,8 +41,8 @@ char* print_seconds(char* out, std::int64_t nanoseconds) noexcept {
 char* print_value(char* out, Value value, Type type) noexcept {
   if (is_real(type)) {
     if (!std::isnan(value.r)) return print(out, value.r);
-    std::memcpy(out, "nan", 3);  // the sign of a NaN means nothing and depends on the processor
-    return out + 3;
+    constexpr std::string_view kNan = "nan";  // the sign of a NaN means nothing and depends on the processor
+    return std::copy(kNan.begin(), kNan.end(), out);
   }
   if (type == Type::TIME) return print_seconds(out, value.i);
   return is_signed_integer(type) ? print(out, value.i) : print(out, value.u);

@@ -248,7 +248,7 @@ void Settling::settle_real(Term& term, Type type) {
   }
   if (term.form != Term::Form::kLiteral) return settle_values(term, type);
   if (type == Type::REAL) {
-    const double rounded = static_cast<double>(static_cast<float>(term.value.r));
+    const auto rounded = static_cast<double>(static_cast<float>(term.value.r));
     if (!std::isfinite(rounded) || (rounded == 0.0 && term.value.r != 0.0)) {
       error(term.column, "the literal is out of the range of REAL (1.2E-38 to 3.4E38)");
       term.faulty = true;

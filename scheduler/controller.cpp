@@ -41,6 +41,11 @@ void Controller::finish() {
                    [](const Stimulus& a, const Stimulus& b) { return a.at < b.at; });
 }
 
+void Controller::skip(std::int64_t ticks) noexcept {
+  next_tick_ += ticks;
+  for (Axis* axis : driven_) axis->skip_servo(ticks);
+}
+
 void Controller::shut_down() noexcept {
   take_summary();
   shutting_down_ = true;

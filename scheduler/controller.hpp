@@ -92,7 +92,7 @@ class Controller {
 
   /// Leaves ticks out that the wall clock has passed: time goes on, motion does not. What was due in them is
   /// done in the next tick.
-  void skip(std::int64_t ticks) noexcept { next_tick_ += ticks; }
+  void skip(std::int64_t ticks) noexcept;
 
   /// Time of the next tick [ns]: its number times the servo cycle.
   std::int64_t now() const noexcept { return next_tick_ * clock.servo_cycle; }

@@ -9,6 +9,10 @@ namespace {
 /// Value of StatusSensor.State: the actual value is valid.
 constexpr DINT kSensorValid = 2;
 
+/// Age of an actual value when the interpolator takes it [s]: the drive is read at the beginning of the very
+/// tick.
+constexpr double kAcquisitionTime = 0.0;
+
 }  // namespace
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
@@ -25,8 +29,11 @@ void Axis::configure(double servo_period, int ratio) {
   setpoint_.position = normalised({0, 0.0}, modulo_);
   last_setpoint_ = setpoint_;
   actual_ = setpoint_.position;
-  shown_actual_ = last_actual_ = actual_;
   single_.stand(setpoint_);
+  extrapolation_.reset(actual_);
+  leading_actual_ = last_leading_actual_ = {actual_, 0.0, 0.0};
+  for (const LeadingValue& leading : leading_values)
+    if (leading.coupling == Coupling::actual) leading.source->leads_by_actual_value_ = true;
   if (has_drive_) configure_servo();
   data.OperativeSensor = 1;
   data.StatusSensor[0].State = kSensorValid;
@@ -41,6 +48,8 @@ void Axis::take_start_values() noexcept {
   const double tolerance = data.Synchronization.MasterReversionTolerance;
   synchronous_.configure(modulo_, period_, tolerance, additive_);
   awaited_.configure(modulo_, period_, tolerance, additive_);
+  extrapolation_.configure(modulo_, period_, kAcquisitionTime);
+  data.Extrapolation.LeadingAxisDependentTime = extrapolation_.leading_axis_time(data.Extrapolation);
 }
 
 std::int64_t Axis::ticks_of(double seconds) const noexcept {
@@ -122,12 +131,12 @@ void Axis::follow_actual() noexcept {
   setpoint_ = {actual_, moving(actual_velocity_) ? actual_velocity_ : 0.0, 0.0};
 }
 
-/// Taken up anew, position control begins where the axis is.
+/// Taken up anew, position control begins where the axis is: with the setpoint ahead by what the drive is late.
 void Axis::set_position_control(bool on) noexcept {
   if (on && !position_controlled_ && has_drive_) {
-    setpoint_.position = actual_;
-    last_setpoint_.position = actual_;
-    controller_.reset(actual_);
+    setpoint_.position = advanced(actual_, actual_velocity_ * drive_.known_delay(), modulo_);
+    last_setpoint_.position = setpoint_.position;
+    controller_.reset(setpoint_.position, actual_velocity_ * servo_period_, modulo_);
   }
   position_controlled_ = on;
 }
@@ -196,7 +205,6 @@ ErrorId Axis::reset(bool restart) noexcept {
 
 void Axis::step() noexcept {
   last_setpoint_ = setpoint_;
-  last_actual_ = shown_actual_;
   servo_tick_ = 0;
   if (power_state_ != PowerState::on || !power.enable) step_power();
   if (additive_request.owner != nullptr || additive_.in_use) take_additive();
@@ -228,6 +236,7 @@ void Axis::step() noexcept {
     actual_.value = setpoint_.position.value;
     actual_velocity_ = setpoint_.velocity;
   }
+  if (leads_by_actual_value_) extrapolate();
 }
 
 /// Last look at the setpoint before anyone sees it: finite, and within the range of positions.
@@ -241,21 +250,23 @@ void Axis::guard() noexcept {
 }
 
 Setpoint Axis::leading_state(Coupling coupling) const noexcept {
-  if (coupling == Coupling::actual) return extrapolated(actual_);
+  if (coupling == Coupling::actual) return leading_actual_;
   if (position_controlled_) return setpoint_;
   return {};  // [1173-1175]: without position control the leading setpoint is zero
 }
 
 Setpoint Axis::last_leading_state(Coupling coupling) const noexcept {
-  if (coupling == Coupling::actual) return extrapolated(last_actual_);
+  if (coupling == Coupling::actual) return last_leading_actual_;
   if (position_controlled_) return last_setpoint_;
   return {};
 }
 
-/// The actual value, led on by the time that passes until the following axis acts on it.
-Setpoint Axis::extrapolated(const AxisPosition& position) const noexcept {
-  const double ahead = period_ + data.Extrapolation.FollowingAxisDependentTime;
-  return {advanced(position, actual_velocity_ * ahead, modulo_), actual_velocity_, 0.0};
+/// The actual value of this tick as following axes see it. Its acceleration is not extrapolated: a difference
+/// of differences of what an encoder reports would be noise.
+void Axis::extrapolate() noexcept {
+  const ExtrapolatedValues& values = extrapolation_.step(actual_, actual_velocity_, data.Extrapolation);
+  last_leading_actual_ = leading_actual_;
+  leading_actual_ = {values.position, values.velocity, 0.0};
 }
 
 Axis* Axis::coupled_leading_axis() const noexcept {

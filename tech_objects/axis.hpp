@@ -6,6 +6,7 @@
 /// @source S7-1500T synchronous operation V7, 4.5, 6, 13.1; S7-1500T axis functions
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -16,6 +17,7 @@
 
 #include "tech_objects/axis_position.hpp"
 #include "tech_objects/drive.hpp"
+#include "tech_objects/extrapolation.hpp"
 #include "tech_objects/job.hpp"
 #include "tech_objects/override.hpp"
 #include "tech_objects/single_axis_motion.hpp"
@@ -106,6 +108,11 @@ class Axis : public TechnologyObject {
   /// One servo tick: reads actual values, closes the position loop, writes the setpoint to the drive.
   void servo() noexcept;
 
+  /// Servo ticks that the wall clock has passed: the fine interpolation goes on to where it would be.
+  void skip_servo(std::int64_t ticks) noexcept {
+    servo_tick_ += static_cast<int>(std::min<std::int64_t>(ticks, ratio_));
+  }
+
   /// Starts the jobs handed over since the last interpolator tick, by the override rules.
   void start_jobs() noexcept;
   bool has_new_jobs() const noexcept { return new_count_ != 0; }
@@ -170,7 +177,7 @@ class Axis : public TechnologyObject {
   void react(AlarmReaction reaction) noexcept;
   ErrorId reset(bool restart) noexcept;
   void guard() noexcept;
-  Setpoint extrapolated(const AxisPosition& position) const noexcept;
+  void extrapolate() noexcept;
 
   // axis_jobs.cpp: taking jobs over, override rules, ends
   void start(Job& job) noexcept;
@@ -268,6 +275,7 @@ class Axis : public TechnologyObject {
   void publish_motion() noexcept;
   void publish_synchronous() noexcept;
   void publish_status() noexcept;
+  void publish_extrapolation() noexcept;
 
   // Hot: touched in every interpolator cycle.
   Setpoint setpoint_;
@@ -287,10 +295,8 @@ class Axis : public TechnologyObject {
   bool standstill_ = false;
   std::int8_t limit_side_ = 0;  // software limit switch approached or passed: 1, -1; 0: none
   AxisPosition actual_;
-  AxisPosition shown_actual_;     // of the last interpolator tick
-  AxisPosition last_actual_;      // and of the one before
   double actual_velocity_ = 0.0;  // [u/s]
-  double last_actual_velocity_ = 0.0;
+  bool leads_by_actual_value_ = false;
   double largest_deviation_ = 0.0;
   bool was_synchronous_ = false;
   SynchronousMotion synchronous_;
@@ -313,6 +319,11 @@ class Axis : public TechnologyObject {
   Job* simulated_ = nullptr;  // the gear that is simulated
   Setpoint ghost_;            // where it would have the axis
   AxisData start_values_;
+
+  // Leading by actual value.
+  Extrapolation extrapolation_;
+  Setpoint leading_actual_;
+  Setpoint last_leading_actual_;
 
   // Servo.
   double servo_period_ = 0.001;  // [s]

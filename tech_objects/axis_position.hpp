@@ -62,8 +62,8 @@ inline AxisPosition advanced(AxisPosition position, double increment, const Modu
 inline DoubleDouble difference(AxisPosition to, AxisPosition from, const Modulo& modulo) noexcept {
   const DoubleDouble values = two_difference(to.value, from.value);
   if (!modulo.enabled || to.turns == from.turns) return values;
-  const std::int64_t turns = static_cast<std::int64_t>(static_cast<std::uint64_t>(to.turns) -
-                                                       static_cast<std::uint64_t>(from.turns));
+  const auto turns = static_cast<std::int64_t>(static_cast<std::uint64_t>(to.turns) -
+                                               static_cast<std::uint64_t>(from.turns));
   return to_double_double(turns) * modulo.length + values;
 }
 

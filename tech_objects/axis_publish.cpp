@@ -26,11 +26,10 @@ class Bits {
 }  // namespace
 
 void Axis::publish() noexcept {
-  shown_actual_.turns = actual_.turns;  // part by part, see step()
-  shown_actual_.value = actual_.value;
   publish_motion();
   if (led() || simulating()) publish_synchronous();
   publish_status();
+  if (leads_by_actual_value_) publish_extrapolation();
 }
 
 void Axis::publish_motion() noexcept {
@@ -128,6 +127,15 @@ void Axis::publish_status() noexcept {
   data.StatusWord2 = word2.in(data.StatusWord2);
   data.StatusDrive.InOperation = has_drive_ ? drive_running_ : on;
   data.StatusDrive.Disabled = power_state_ == PowerState::off;
+}
+
+void Axis::publish_extrapolation() noexcept {
+  const ExtrapolatedValues& values = extrapolation_.values();
+  data.Extrapolation.LeadingAxisDependentTime = extrapolation_.leading_axis_time(data.Extrapolation);
+  data.StatusExtrapolation.FilteredPosition = values.filtered_position.value;
+  data.StatusExtrapolation.FilteredVelocity = values.filtered_velocity;
+  data.StatusExtrapolation.ExtrapolatedPosition = values.position.value;
+  data.StatusExtrapolation.ExtrapolatedVelocity = values.velocity;
 }
 
 }  // namespace lockstep

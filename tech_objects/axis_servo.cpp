@@ -26,8 +26,8 @@ void Axis::configure_servo() {
   controller_.configure(control_settings(), servo_period_);
   controller_.reset(setpoint_.position);
   encoder_origin_ = setpoint_.position;
-  const double interpolation = ratio_ > 1 ? period_ : 0.0;
-  data.StatusPositioning.SetpointExecutionTime = interpolation + servo_period_ + drive_.known_delay();
+  // A setpoint is handed to the drive, at the end of the fine interpolation, one interpolator cycle later.
+  data.StatusPositioning.SetpointExecutionTime = period_ + drive_.known_delay();
 }
 
 PositionControlSettings Axis::control_settings() const noexcept {

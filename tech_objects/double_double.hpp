@@ -114,7 +114,8 @@ constexpr bool operator==(DoubleDouble a, DoubleDouble b) noexcept {
 
 /// A 64-bit integer exactly.
 constexpr DoubleDouble to_double_double(std::int64_t value) noexcept {
-  const double high = static_cast<double>(value / 4294967296) * 4294967296.0;  // 32 bits each: exact
+  const std::int64_t upper = value / 4294967296;  // 32 bits each: exact
+  const double high = static_cast<double>(upper) * 4294967296.0;
   return two_sum(high, static_cast<double>(value % 4294967296));
 }
 

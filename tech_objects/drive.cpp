@@ -3,20 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tech_objects/decay.hpp"
+
 namespace lockstep {
 namespace {
-
-/// 1 - exp(-x) for x ≥ 0, from nothing but what every processor computes alike: series of a small argument,
-/// then 1 - exp(-2y) = g (2 - g) with g = 1 - exp(-y).
-double decay_within(double x) noexcept {
-  if (!(x < 64.0)) return 1.0;
-  int doublings = 0;
-  for (; x > 0.125; x *= 0.5) ++doublings;
-  double sum = 0.0;
-  for (int order = 16; order >= 1; --order) sum = x / order * (1.0 - sum);
-  for (; doublings > 0; --doublings) sum *= 2.0 - sum;
-  return sum;
-}
 
 /// A delay as whole cycles and a part of one.
 struct Cycles {
@@ -90,6 +80,12 @@ void PositionController::configure(const PositionControlSettings& settings, doub
 
 void PositionController::reset(AxisPosition setpoint) noexcept {
   setpoints_.fill(setpoint);
+}
+
+void PositionController::reset(AxisPosition setpoint, double way, const Modulo& modulo) noexcept {
+  for (std::size_t age = 0; age < kDelay; ++age)
+    setpoints_[(cycle_ + kDelay - 1 - age) % kDelay] =
+        advanced(setpoint, -way * static_cast<double>(age), modulo);
 }
 
 void PositionController::shift(double by, const Modulo& modulo) noexcept {

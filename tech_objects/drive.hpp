@@ -107,8 +107,10 @@ class PositionController {
   /// `servo_cycle` [s] > 0. The history of setpoints stays. Kv and Kpc may change at run time.
   void configure(const PositionControlSettings& settings, double servo_cycle) noexcept;
 
-  /// Begins anew from a standing setpoint: before the first step, and after switching on or homing.
+  /// Begins anew from a standing setpoint: before the first step, and after switching on.
   void reset(AxisPosition setpoint) noexcept;
+  /// Begins anew from a setpoint that has moved by `way` [u] in each servo cycle until now.
+  void reset(AxisPosition setpoint, double way, const Modulo& modulo) noexcept;
 
   /// Shifts the history of setpoints [u], for homing: the controlled side does not notice.
   void shift(double by, const Modulo& modulo) noexcept;

@@ -124,10 +124,12 @@ void SynchronousMotion::change_ratio(DINT numerator, DINT denominator) noexcept 
   gear_.set(numerator_, denominator_, {}, {}, leading_modulo_, following_);
 }
 
+/// Over a distance the progress is the very place at which the profile is read, so that a leading axis homed
+/// backwards counts as the reversal that it is for the profile.
 void SynchronousMotion::watch_reversal() noexcept {
   const double step = difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
   if (direction_ == 0) direction_ = sign(step);
-  progress_ += direction_ * step;
+  progress_ = way_ == Way::velocity ? progress_ + direction_ * step : covered();
   furthest_ = std::max(furthest_, progress_);
   reversed_ = furthest_ - progress_ > tolerance_;
 }
@@ -155,16 +157,20 @@ void SynchronousMotion::advance_velocity(Setpoint& setpoint) noexcept {
   synchronous_ = true;
 }
 
+/// Leading distance since the start of the profile, in its direction [u].
+double SynchronousMotion::covered() const noexcept {
+  return direction_ * difference(leading_now_.position, leading_start_, leading_modulo_).rounded();
+}
+
 /// MC_GearInPos: the function of this tick plus what the axis is ahead of it.
 void SynchronousMotion::advance_along_profile(Setpoint& setpoint) noexcept {
-  const double way =
-      direction_ * difference(leading_now_.position, leading_start_, leading_modulo_).rounded();
+  const double way = covered();
   if (way >= profile_way_) {
     synchronous_ = true;
     setpoint = function_;
     return;
   }
-  const SyncOffset ahead = offset(std::max(way, 0.0));
+  const SyncOffset ahead = offset(way);
   const double way_velocity = direction_ * leading_now_.velocity;
   const double way_acceleration = direction_ * leading_now_.acceleration;
   setpoint.position = advanced(function_.position, ahead.position, following_);
@@ -176,6 +182,10 @@ void SynchronousMotion::advance_along_profile(Setpoint& setpoint) noexcept {
 SyncOffset SynchronousMotion::offset(double way) const noexcept {
   if (way_ == Way::distance) return distance_profile_.value(way);
   const MotionState state = time_profile_.at(way / time_velocity_);
+  if (way < 0.0) {  // turned back before the start, within the tolerance
+    const double slope = state.velocity / time_velocity_;
+    return {state.position + slope * way, slope, 0.0};
+  }
   return {state.position, state.velocity / time_velocity_,
           state.acceleration / (time_velocity_ * time_velocity_)};
 }
@@ -259,9 +269,8 @@ void SynchronousMotion::begin_sync_out(const Setpoint& last) noexcept {
 
 /// MC_GearOut profile 1: what is left of the way to the stop position.
 void SynchronousMotion::advance_out(Setpoint& setpoint) noexcept {
-  const double way =
-      direction_ * difference(leading_now_.position, leading_start_, leading_modulo_).rounded();
-  const SyncOffset left = out_remainder_.value(std::max(way, 0.0));
+  const double way = covered();
+  const SyncOffset left = out_remainder_.value(way);
   desynchronized_ = out_remainder_.complete(way);
   setpoint.position = advanced(out_position_, left.position, following_);
   setpoint.velocity = left.velocity(direction_ * leading_now_.velocity);

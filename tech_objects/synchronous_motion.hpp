@@ -129,6 +129,7 @@ class SynchronousMotion {
   void advance_velocity(Setpoint& setpoint) noexcept;
   void advance_along_profile(Setpoint& setpoint) noexcept;
   SyncOffset offset(double way) const noexcept;
+  double covered() const noexcept;
 
   double way_to(double place) const noexcept;
   void anchor(double way_to_sync_position, AxisPosition following) noexcept;

@@ -177,14 +177,14 @@ class Bench {
     const Setpoint& s = axis.setpoint();
     const Last before = last;
     last.known = true;
-    last.coupled = has_bit(axis.data.StatusWord, StatusBit::Synchronizing) ||
-                   has_bit(axis.data.StatusWord, StatusBit::Synchronous);
+    last.coupled = axis.coupled_leading_axis() != nullptr && !axis.simulating();
     last.setpoint = s;
     if (!std::isfinite(s.position.value) || !std::isfinite(s.velocity) || !std::isfinite(s.acceleration))
       return fault(axis.name + ": setpoint not finite");
     if (!before.known) return;
     if (last.coupled || (before.coupled && axis.pending_alarm() != 0)) {
-      if (watch_coupled && !positions_may_step()) watch_steps(axis, before.setpoint, s, kBetweenTicks);
+      if (watch_coupled && !positions_may_step())
+        watch_steps(axis, before.setpoint, s, kBetweenTicks, handed_on(before.setpoint));
       return;
     }
     if (axis.pending_alarm() == alarm::kPositionRangeExceeded) return;  // at the end of the numbers it stands
@@ -196,22 +196,33 @@ class Bench {
                                    std::abs(before.setpoint.acceleration));
     if (std::abs(s.acceleration) > most_a * (1 + kSlack))
       fault(axis.name + ": acceleration " + std::to_string(s.acceleration) + " beyond its limit");
-    watch_steps(axis, before.setpoint, s, 1.0);
+    watch_steps(axis, before.setpoint, s, 1.0, 0.0);
+  }
+
+  /// Change of velocity that the leading axis hands on: it may come to rest between two ticks, and what is a
+  /// function of its position then rests as well, from any velocity.
+  double handed_on(const Setpoint& before) const noexcept {
+    const double from = leading.last_setpoint().velocity;
+    const double change = leading.setpoint().velocity - from;
+    return from == 0.0 ? 0.0 : std::abs(before.velocity / from * change);
   }
 
   /// @param between how much more than at the two ticks the acceleration may be between them
-  void watch_steps(const Axis& axis, const Setpoint& before, const Setpoint& s, double between) noexcept {
+  /// @param handed_on change of velocity that is not the axis' own [u/s]
+  void watch_steps(const Axis& axis, const Setpoint& before, const Setpoint& s, double between,
+                   double handed_on) noexcept {
     constexpr double kPeriod = static_cast<double>(BenchLimits::kPeriod) * 1e-9;
     const double at_ticks = std::max(std::abs(before.acceleration), std::abs(s.acceleration));
     const double most_a = between * std::max(BenchLimits::kEmergency, at_ticks);
-    if (std::abs(s.velocity - before.velocity) > most_a * kPeriod * (1 + kSlack) + kSlack)
+    const double most_change = most_a * kPeriod + handed_on;
+    if (std::abs(s.velocity - before.velocity) > most_change * (1 + kSlack) + kSlack)
       fault(axis.name + ": step of the velocity from " + std::to_string(before.velocity) + " to " +
             std::to_string(s.velocity));
     if (positions_may_step()) return;
     const double way = difference(s.position, before.position, axis.modulo()).rounded();
     const double mean = 0.5 * (s.velocity + before.velocity) * kPeriod;
     const double rounding = 1e-12 * std::abs(s.position.value);
-    if (std::abs(way - mean) > most_a * kPeriod * kPeriod + rounding + kSlack)
+    if (std::abs(way - mean) > most_change * kPeriod + rounding + kSlack)
       fault(axis.name + ": step of the position by " + std::to_string(way));
   }
 

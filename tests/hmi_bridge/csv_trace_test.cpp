@@ -162,7 +162,7 @@ TEST(CsvTrace, EveryDoubleReadsBackBitForBit) {
 TEST(CsvReader, ErrorsNameLineAndColumn) {
   EXPECT_EQ(message_of(""), "run.csv:1:1: the file is empty");
   EXPECT_EQ(message_of("t,a"), "run.csv:1:1: the line of the names has no end");
-  EXPECT_EQ(message_of("x,a\n"), "run.csv:1:1: the first column is \"x\", it has to be \"t\"");
+  EXPECT_EQ(message_of("x,a\n"), "run.csv:1:1: the first column is 'x', it has to be 't'");
   EXPECT_EQ(message_of("t,a,,b\n"), "run.csv:1:5: a column has no name");
   EXPECT_EQ(message_of("t,a\n0,1\n0.1,2.5x\n"), "run.csv:3:5: \"2.5x\" is not a number");
   EXPECT_EQ(message_of("t,a\n0,\n"), "run.csv:2:3: \"\" is not a number");

@@ -87,6 +87,26 @@ TEST_P(DrivenAxis, FollowsAGearWithoutFollowingErrorAtConstantVelocityOverManyTu
   EXPECT_GT(rig.f.data.ActualModuloCycle, 10);
 }
 
+TEST(DrivenAxisMissedTicks, TheFineInterpolationStaysOnTheGridOfTheWallClock) {
+  Driven rig(4);
+  rig.free.Velocity = 400.0;
+  rig.free.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.free.InVelocity; }));
+  rig.run(4001);  // one servo tick behind an interpolator tick
+  const auto balanced = [&] { return rig.f.data.StatusServo.BalancedPosition; };
+  rig.run(3);
+  const double before = balanced();
+  rig.run(1);
+  const double step = std::remainder(balanced() - before, 360.0);
+  EXPECT_NEAR(step, 0.4, 1e-9);
+  const std::int64_t ticks = rig.controller.now() / 1'000'000;
+  rig.controller.skip(2);
+  rig.run(20);
+  // 22 ticks of the grid have passed; the setpoint has made their way, not that of the 20 executed ones.
+  EXPECT_EQ(rig.controller.now() / 1'000'000 - ticks, 22);
+  EXPECT_NEAR(std::remainder(balanced() - before - 23 * 0.4, 360.0), 0.0, 1e-9);
+}
+
 TEST(DrivenAxisWithEncoder, SettlesWithinAnIncrementOfItsTarget) {
   Driven rig(1, 0.01);
   rig.move.Position = 45.0;

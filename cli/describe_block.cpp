@@ -1,0 +1,93 @@
+// lockstep describe: function blocks and their pins.
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/describe_subject.hpp"
+#include "cli/describe_table.hpp"
+#include "cli/describe_values.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+constexpr ObjectKind kKinds[] = {ObjectKind::TO_PositioningAxis, ObjectKind::TO_SynchronousAxis};
+
+std::vector<std::string> accepted_kinds(const Pin& pin) {
+  std::vector<std::string> names;
+  for (const ObjectKind kind : kKinds)
+    if ((pin.objects & static_cast<ObjectKinds>(kind)) != 0) names.emplace_back(kind_name(kind));
+  return names;
+}
+
+/// The value that a newly made block holds.
+Value start_value(const Pin& pin, Block& block) {
+  return pin.type == Type::AXIS ? Value{} : pin.signal(block).load();
+}
+
+void add_notes(Table& table, const Pin& pin) {
+  std::string otherwise;
+  if (pin.error != ErrorId::none)
+    otherwise = "; else ErrorID " + error_literal(static_cast<unsigned>(pin.error));
+  if (pin.type == Type::AXIS) {
+    std::string names;
+    for (const std::string& name : accepted_kinds(pin)) names += (names.empty() ? "" : " or ") + name;
+    table.note("takes a " + names + otherwise);
+    return;
+  }
+  for (const std::string& line : choice_lines(pin.type, pin.choices)) table.note(line);
+  std::string allowed = range_text(pin.type, pin.range);
+  if (!pin.choices.empty()) allowed = "these values";
+  if (allowed.empty() && is_real(pin.type) && pin.pin_class == PinClass::input) allowed = "any finite number";
+  if (!allowed.empty()) table.note("allowed: " + allowed + otherwise);
+}
+
+std::string pins_text(const BlockType& type, PinClass pin_class, const Pin* only, std::size_t width) {
+  const auto block = type.create();
+  Table table({pin_class == PinClass::input ? "Input" : "Output", "Type", "Default", "Unit", "Meaning"});
+  for (const Pin& pin : type.pins) {
+    if (pin.pin_class != pin_class || (only != nullptr && only != &pin)) continue;
+    table.row({std::string(pin.name), pin.type == Type::AXIS ? "object" : std::string(type_name(pin.type)),
+               literal(start_value(pin, *block), pin.type), std::string(unit_text(pin.unit)),
+               std::string(pin.text)});
+    add_notes(table, pin);
+  }
+  return table.empty() ? "" : "\n" + table.text(0, width);
+}
+
+std::string block_text(const BlockType& type, const Pin* only, std::size_t width) {
+  std::string text = std::string(type.name) + "\n";
+  text += paragraph(type.text, 2, width);
+  text += paragraph("Source: " + std::string(type.source), 2, width);
+  text += pins_text(type, PinClass::input, only, width);
+  return text + pins_text(type, PinClass::output, only, width);
+}
+
+nlohmann::ordered_json pin_json(const Pin& pin, Block& block) {
+  nlohmann::ordered_json json{{"name", pin.name},
+                              {"class", pin.pin_class == PinClass::input ? "input" : "output"},
+                              {"type", pin.type == Type::AXIS ? "object" : type_name(pin.type)},
+                              {"default", json_value(start_value(pin, block), pin.type)}};
+  add_declaration(json, pin.type, pin.unit, pin.range, pin.choices);
+  if (pin.type == Type::AXIS) json["objects"] = accepted_kinds(pin);
+  if (pin.error != ErrorId::none) json["error"] = error_literal(static_cast<unsigned>(pin.error));
+  json["text"] = pin.text;
+  return json;
+}
+
+nlohmann::ordered_json block_json(const BlockType& type, const Pin* only) {
+  const auto block = type.create();
+  nlohmann::ordered_json json{
+      {"kind", "function_block"}, {"name", type.name}, {"text", type.text}, {"source", type.source}};
+  auto& pins = json["pins"] = nlohmann::ordered_json::array();
+  for (const Pin& pin : type.pins)
+    if (only == nullptr || only == &pin) pins.push_back(pin_json(pin, *block));
+  return json;
+}
+
+}  // namespace
+
+Subject block_subject(const BlockType& type, const Pin* pin) {
+  return {[&type, pin](std::size_t width) { return block_text(type, pin, width); },
+          [&type, pin] { return block_json(type, pin); }};
+}
+
+}  // namespace lockstep::cli

@@ -1,0 +1,47 @@
+// What all commands have in common: --help, --version, exit statuses.
+#include <gtest/gtest.h>
+
+#include "tests/cli/command_run.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+constexpr const char* kCommands[] = {"check", "run", "describe", "tags", "plot", "monitor"};
+
+TEST(CommandLine, EveryCommandHasAHelpThatNamesItsExitStatuses) {
+  const Ended all = lockstep({"--help"});
+  EXPECT_EQ(all.status, 0);
+  for (const char* command : kCommands) {
+    EXPECT_NE(all.out.find(std::string("\n  ") + command), std::string::npos) << command;
+    const Ended help = lockstep({command, "--help"});
+    EXPECT_EQ(help.status, 0) << command;
+    EXPECT_NE(help.out.find("Exit status"), std::string::npos) << command;
+    EXPECT_EQ(help.err, "") << command;
+  }
+}
+
+TEST(CommandLine, TheVersionIsTold) {
+  const Ended version = lockstep({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out.substr(0, 9), "lockstep ");
+}
+
+TEST(CommandLine, AWrongOneExitsWith2AndSaysSoOnStandardError) {
+  const std::vector<std::vector<std::string>> wrong = {{},
+                                                       {"descripe"},
+                                                       {"plot"},
+                                                       {"tags"},
+                                                       {"plot", "a.csv"},
+                                                       {"monitor", "extra"},
+                                                       {"describe", "--jason"},
+                                                       {"describe", "a", "b", "c"}};
+  for (const auto& arguments : wrong) {
+    const Ended ended = lockstep(arguments);
+    EXPECT_EQ(ended.status, 2) << (arguments.empty() ? "nothing" : arguments.back());
+    EXPECT_NE(ended.err, "");
+    EXPECT_EQ(ended.out, "");
+  }
+}
+
+}  // namespace
+}  // namespace lockstep::cli

@@ -1,0 +1,221 @@
+// lockstep describe against the declarations.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "fb/block.hpp"
+#include "tech_objects/alarms.hpp"
+#include "tech_objects/override.hpp"
+#include "tech_objects/variable.hpp"
+#include "tests/cli/command_run.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+using nlohmann::json;
+
+json described(std::vector<std::string> names) {
+  names.insert(names.begin(), "describe");
+  names.emplace_back("--json");
+  const Ended ended = lockstep(names);
+  EXPECT_EQ(ended.status, 0) << names[1] << ": " << ended.err;
+  return json::parse(ended.out, nullptr, false);
+}
+
+// A bound is shown where the type has values beyond it.
+void expect_range(const json& object, Type type, const Range& range, const std::string& what) {
+  constexpr double kGreatest = std::numeric_limits<double>::max();
+  const bool wide = is_real(type) || type == Type::TIME;
+  const double least = wide ? -kGreatest : static_cast<double>(lowest(type));
+  const double most = wide ? kGreatest : static_cast<double>(highest(type));
+  const json bounds = object.value("range", json::object());
+  json expected = json::object();
+  if (range.lowest > least) expected["lowest"] = range.lowest;
+  if (range.highest < most) expected["highest"] = range.highest;
+  if (!std::isnan(range.excluded)) expected["excluded"] = range.excluded;
+  EXPECT_EQ(bounds, expected) << what;
+}
+
+void expect_choices(const json& object, std::span<const Choice> choices, const std::string& what) {
+  const json list = object.value("choices", json::array());
+  ASSERT_EQ(list.size(), choices.size()) << what;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const std::int64_t value =
+        list[i]["value"].is_boolean() ? list[i]["value"].get<bool>() : list[i]["value"].get<std::int64_t>();
+    EXPECT_EQ(value, choices[i].value) << what;
+    EXPECT_EQ(list[i]["text"], choices[i].text) << what;
+  }
+}
+
+void expect_value(const json& shown, Value value, Type type, const std::string& what) {
+  if (type == Type::AXIS || type == Type::TAG)
+    EXPECT_TRUE(shown.is_null()) << what;
+  else if (type == Type::BOOL)
+    EXPECT_EQ(shown, value.u != 0) << what;
+  else if (type == Type::TIME)
+    EXPECT_TRUE(shown.is_string()) << what;
+  else
+    EXPECT_EQ(shown.get<double>(), as_double(value, type)) << what;
+}
+
+TEST(Describe, WithoutANameListsEveryBlockAndObject) {
+  const json list = described({});
+  ASSERT_EQ(list["function_blocks"].size(), block_types().size());
+  for (std::size_t i = 0; i < block_types().size(); ++i)
+    EXPECT_EQ(list["function_blocks"][i]["name"], block_types()[i].name);
+  EXPECT_EQ(list["technology_objects"].size(), 2u);
+  const Ended text = lockstep({"describe"});
+  for (const BlockType& type : block_types())
+    EXPECT_NE(text.out.find("\n" + std::string(type.name) + " "), std::string::npos) << type.name;
+}
+
+TEST(Describe, TellsEveryPinOfEveryBlockAsItIsDeclared) {
+  for (const BlockType& type : block_types()) {
+    const json shown = described({std::string(type.name)});
+    const auto block = type.create();
+    ASSERT_EQ(shown["pins"].size(), type.pins.size()) << type.name;
+    for (std::size_t i = 0; i < type.pins.size(); ++i) {
+      const Pin& pin = type.pins[i];
+      const json& own = shown["pins"][i];
+      const std::string what = std::string(type.name) + "." + std::string(pin.name);
+      EXPECT_EQ(own["name"], pin.name);
+      EXPECT_EQ(own["class"], pin.pin_class == PinClass::input ? "input" : "output") << what;
+      EXPECT_EQ(own["type"], pin.type == Type::AXIS ? "object" : type_name(pin.type)) << what;
+      EXPECT_EQ(own.value("unit", ""), unit_text(pin.unit)) << what;
+      EXPECT_EQ(own["text"], pin.text) << what;
+      if (pin.type != Type::AXIS) expect_value(own["default"], pin.signal(*block).load(), pin.type, what);
+      expect_range(own, pin.type, pin.range, what);
+      expect_choices(own, pin.choices, what);
+    }
+  }
+}
+
+TEST(Describe, NamesEveryPinInTheTextOfEveryBlock) {
+  for (const BlockType& type : block_types()) {
+    const Ended text = lockstep({"describe", std::string(type.name)});
+    EXPECT_EQ(text.status, 0);
+    for (const Pin& pin : type.pins)
+      EXPECT_NE(text.out.find("\n" + std::string(pin.name) + " "), std::string::npos)
+          << type.name << pin.name;
+  }
+}
+
+TEST(Describe, KeepsToEightyColumnsInAPipe) {
+  for (const char* name : {"MC_GearInPos", "MC_Home", "alarms", "StatusWord"}) {
+    const Ended text = lockstep({"describe", name});
+    std::size_t width = 0;
+    for (const char c : text.out) {
+      const bool begins = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+      width = c == '\n' ? 0 : width + (begins ? 1 : 0);
+      ASSERT_LE(width, 80u) << name;
+    }
+  }
+}
+
+TEST(Describe, TellsEveryVariableOfEveryObjectAsItIsDeclared) {
+  for (const char* object : {"TO_PositioningAxis", "TO_SynchronousAxis"}) {
+    std::map<std::string, json> shown;
+    const json all = described({object});
+    for (const json& variable : all["variables"]) shown[variable["path"]] = variable;
+    EXPECT_EQ(shown.size(), configuration_variables().size() + status_variables().size());
+    AxisData data{};
+    for (const auto list : {configuration_variables(), status_variables()}) {
+      for (const Variable& variable : list) {
+        const std::string what(variable.path);
+        ASSERT_TRUE(shown.contains(what)) << what;
+        const json& own = shown[what];
+        EXPECT_EQ(own["type"], variable.type == Type::TAG ? "VREF" : type_name(variable.type)) << what;
+        EXPECT_EQ(own.value("unit", ""), unit_text(variable.unit)) << what;
+        EXPECT_EQ(own.value("elements", std::size_t{0}), variable.count) << what;
+        EXPECT_EQ(own["computed"], variable.computed()) << what;
+        EXPECT_EQ(own["later"], variable.later) << what;
+        EXPECT_EQ(own.contains("bits"), variable.bits != nullptr) << what;
+        const json& first = own["default"].is_array() ? own["default"][0] : own["default"];
+        if (variable.type != Type::TAG)
+          expect_value(first, VariablePlace{&variable, variable.offset, -1}.signal(data).load(),
+                       variable.type, what);
+        expect_range(own, variable.type, variable.range, what);
+        expect_choices(own, variable.choices, what);
+      }
+    }
+  }
+}
+
+TEST(Describe, FindsAPartOfAnObjectInAnySpelling) {
+  EXPECT_EQ(described({"to_synchronousaxis.DYNAMICLIMITS"})["variables"].size(),
+            described({"DynamicLimits"})["variables"].size());
+  EXPECT_EQ(described({"dynamiclimits.maxvelocity"})["variables"][0]["path"], "DynamicLimits.MaxVelocity");
+  EXPECT_EQ(described({"Sensor[2].Type"})["variables"][0]["path"], "Sensor[].Type");
+  EXPECT_EQ(described({"Sensor.Existent"})["variables"][0]["default"].size(), 4u);
+  EXPECT_EQ(described({"StatusWord.X5"})["name"], "HomingDone");
+  EXPECT_EQ(described({"mc_gearinpos.insync"})["pins"][0]["name"], "InSync");
+  const Ended word = lockstep({"describe", "StatusWord"});
+  EXPECT_NE(word.out.find("X22 Synchronous"), std::string::npos);
+}
+
+TEST(Describe, TellsEveryAlarmAndError) {
+  EXPECT_EQ(described({"alarms"})["alarms"].size(), alarms().size());
+  EXPECT_EQ(described({"errors"})["errors"].size(), error_texts().size());
+  EXPECT_EQ(described({"608"})["text"], find_alarm(608)->text);
+  EXPECT_EQ(described({"608"})["reaction"], find_alarm(608)->reaction);
+  EXPECT_EQ(described({"16#8026"})["text"], error_text(ErrorId::leading_distance));
+  EXPECT_EQ(described({"0x8026"}), described({"32806"}));
+  const json pins = described({"16#8026"})["pins"];
+  EXPECT_NE(std::find(pins.begin(), pins.end(), "MC_GearInPos.MasterStartDistance"), pins.end());
+}
+
+TEST(Describe, TellsTheOverrideTablesAsTheyAre) {
+  const json gear = described({"override", "mc_gearinpos"});
+  ASSERT_EQ(gear["new_jobs"].size(), 2u);
+  const json& active = gear["new_jobs"][1];
+  EXPECT_EQ(gear["new_jobs"][0]["which"], "waiting");
+  EXPECT_EQ(active["which"], "active");
+  ASSERT_EQ(active["running_jobs"].size(), static_cast<std::size_t>(kRunningClasses));
+  constexpr std::string_view kNames[] = {"none", "abort", "reject", "abort_by_rank"};
+  for (int i = 0; i < kRunningClasses; ++i) {
+    const auto running = static_cast<JobClass>(i);
+    const json& cell = active["running_jobs"][static_cast<std::size_t>(i)];
+    const auto name = [&](bool controlled) {
+      return kNames[static_cast<int>(override_effect(JobClass::gear_in_pos_active, running, controlled))];
+    };
+    EXPECT_EQ(cell["effect"], name(true)) << i;
+    EXPECT_EQ(cell["effect_without_position_control"], name(false)) << i;
+    EXPECT_EQ(cell.contains("exception"), running == JobClass::motion_in) << i;
+    EXPECT_EQ(cell["line"], running < JobClass::gear_in ? 7221 : 7286) << i;
+  }
+  const json all = described({"override"});
+  for (const json& name : all["instructions"])
+    EXPECT_GT(described({"override", name})["new_jobs"].size(), 0u) << name;
+}
+
+TEST(Describe, AnUnknownNameExitsWith1AndASuggestion) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> unknown = {
+      {{"MC_GaerInPos"}, "did you mean 'MC_GearInPos'?"},
+      {{"MC_Power.Statu"}, "did you mean 'Status'?"},
+      {{"TO_SynchronousAxis.DynamicLimit"}, "did you mean 'DynamicLimits'?"},
+      {{"StatusWrod"}, "did you mean 'StatusWord'?"},
+      {{"StatusWord.X32"}, "there is nothing called"},
+      {{"Sensor[5]"}, "there is nothing called"},
+      {{""}, "there is nothing called"},
+      {{"8026"}, "did you mean '16#8026'?"},
+      {{"16#9999"}, "there is no error"},
+      {{"99999999999999999999"}, "there is nothing called"},
+      {{"override", "MC_GaerIn"}, "did you mean 'MC_GearIn'?"},
+      {{"alarms", "608"}, "takes no second name"},
+  };
+  for (const auto& [names, suggestion] : unknown) {
+    std::vector<std::string> arguments = names;
+    arguments.insert(arguments.begin(), "describe");
+    const Ended ended = lockstep(arguments);
+    EXPECT_EQ(ended.status, 1) << names.back();
+    EXPECT_EQ(ended.out, "") << names.back();
+    EXPECT_NE(ended.err.find(suggestion), std::string::npos) << ended.err;
+  }
+}
+
+}  // namespace
+}  // namespace lockstep::cli

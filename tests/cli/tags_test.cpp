@@ -1,0 +1,85 @@
+// lockstep tags on a small project.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command_run.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr char kProject[] = R"({
+  "lockstep": 1, "name": "small", "description": "Two axes.",
+  "clock": { "servo_cycle": "1ms", "interpolator_ratio": 1 },
+  "technology_objects": {
+    "Belt": { "type": "TO_PositioningAxis", "config": { "VirtualAxis": { "Mode": 1 } } },
+    "Drum": { "type": "TO_SynchronousAxis", "config": { "VirtualAxis": { "Mode": 1 } },
+              "leading_values": [ { "to": "Belt", "coupling": "setpoint" } ] }
+  },
+  "tags": {
+    "go":    { "type": "BOOL", "init": true, "comment": "from the HMI" },
+    "speed": { "type": "LREAL", "init": 12.5, "retain": true },
+    "wait":  { "type": "TIME", "init": "250ms" },
+    "mask":  { "type": "WORD", "init": 4660 }
+  },
+  "programs": [ { "name": "Main", "ob": "Main", "cycle": "10ms", "calls": [
+    { "fb": "MC_Power", "name": "power", "in": { "Axis": "Belt", "Enable": "go" } } ] } ],
+  "modbus": { "server": { "listen": "127.0.0.1:1502" }, "map": [
+    { "tag": "go", "table": "coil", "address": 7 },
+    { "tag": "speed", "table": "holding_register", "address": 10, "word_order": "little" },
+    { "tag": "speed", "table": "input_register", "address": 20, "type": "REAL" },
+    { "tag": "mask.X3", "table": "discrete_input", "address": 1 },
+    { "tag": "power.Status", "table": "discrete_input", "address": 2 },
+    { "tag": "Drum.ActualPosition", "table": "input_register", "address": 0, "type": "REAL" } ] }
+})";
+
+TEST(Tags, TellsTagsWithTheirAddressesAndWhatElseIsOnModbusAndTheNumbersOfObjects) {
+  const Folder folder;
+  const Ended ended = lockstep({"tags", folder.write("project.json", kProject), "--json"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const json shown = json::parse(ended.out);
+  EXPECT_EQ(shown["modbus_server"], "127.0.0.1:1502");
+  ASSERT_EQ(shown["tags"].size(), 4u);
+  EXPECT_EQ(shown["tags"][0], json::parse(R"({"name": "go", "type": "BOOL", "initial": true, "retain": false,
+      "comment": "from the HMI", "modbus": [{"table": "coil", "address": 7, "bits": 1, "type": "BOOL",
+      "word_order": "big", "access": "write"}]})"));
+  EXPECT_EQ(shown["tags"][1],
+            json::parse(R"({"name": "speed", "type": "LREAL", "initial": 12.5, "retain": true,
+      "comment": "", "modbus": [{"table": "holding_register", "address": 10, "registers": 4, "type": "LREAL",
+      "word_order": "little", "access": "write"}, {"table": "input_register", "address": 20, "registers": 2,
+      "type": "REAL", "word_order": "big", "access": "read"}]})"));
+  EXPECT_EQ(shown["tags"][2]["initial"], "T#0.25s");
+  EXPECT_EQ(shown["tags"][3]["modbus"], json::array());
+  ASSERT_EQ(shown["other_modbus"].size(), 3u);
+  EXPECT_EQ(shown["other_modbus"][0]["name"], "mask.X3");
+  EXPECT_EQ(shown["other_modbus"][0]["type"], "BOOL");
+  EXPECT_EQ(shown["other_modbus"][1]["name"], "power.Status");
+  EXPECT_EQ(shown["other_modbus"][2]["unit"], "u");
+  EXPECT_EQ(shown["technology_objects"],
+            json::parse(R"([{"number": 1, "name": "Belt", "type": "TO_PositioningAxis"},
+                            {"number": 2, "name": "Drum", "type": "TO_SynchronousAxis"}])"));
+}
+
+TEST(Tags, AlignsTheTable) {
+  const Folder folder;
+  const Ended ended = lockstep({"tags", folder.write("project.json", kProject)});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  for (const char* line : {"\ngo ", " TRUE ", " 12.5 ", " retain ", "\n    from the HMI", " 10-13 ",
+                           "LREAL little", "16#1234", "\nmask.X3 ", "\n2       Drum "})
+    EXPECT_NE(ended.out.find(line), std::string::npos) << line << "\n" << ended.out;
+}
+
+TEST(Tags, ExitsAsCheckDoes) {
+  const Folder folder;
+  const Ended missing = lockstep({"tags", folder.file("nothing.json")});
+  EXPECT_EQ(missing.status, 2);
+  const Ended wrong = lockstep({"tags", folder.write("wrong.json", R"({"lockstep": 1, "nmae": "x"})")});
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_NE(wrong.err.find("wrong.json:/nmae: "), std::string::npos) << wrong.err;
+  EXPECT_EQ(wrong.out, "");
+}
+
+}  // namespace
+}  // namespace lockstep::cli

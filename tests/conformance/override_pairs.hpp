@@ -1,0 +1,260 @@
+/// Jobs of the override tables on the bench: how each of them is brought about, and what became of it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/conformance/bench.hpp"
+
+namespace lockstep::test {
+
+/// A job as the tables name it.
+struct NamedJob {
+  std::string block;
+  std::string state;  ///< "waiting", "active"; empty: the table does not tell them apart
+  int mode = -1;      ///< MC_Home; -1: none
+};
+
+/// What can become of a job.
+enum class Fate { waits, active, done, aborted, failed, silent };
+
+inline std::string text(Fate fate) {
+  constexpr const char* kTexts[] = {"waits", "is active", "is done", "is aborted", "has failed", "is silent"};
+  return kTexts[static_cast<int>(fate)];
+}
+
+inline bool is_one_of(const std::string& name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+inline bool is_single_axis(const std::string& block) {
+  return is_one_of(block, {"MC_Halt", "MC_MoveAbsolute", "MC_MoveRelative", "MC_MoveVelocity", "MC_MoveJog"});
+}
+inline bool is_shift(const std::string& block) {
+  return block.starts_with("MC_Phasing") || block.starts_with("MC_Offset");
+}
+
+/// The bench with a leading axis that turns slowly: five seconds for a turn.
+class Stage {
+ public:
+  Stage() {
+    bench.run_leading.Velocity = kLeadingVelocity;
+    bench.ready();
+    bench.run(100);
+  }
+
+  Subject& make(const std::string& block) { return bench.add(*find_block_type(block)); }
+
+  /// The job that is to override; it starts at once, or after a way of the leading or following axis.
+  Subject& start(const std::string& block, double ahead) {
+    Subject& job = make(block);
+    set_up(job, ahead);
+    job.start(true);
+    return job;
+  }
+
+  /// A gear 1:1 that is synchronous, or is being synchronized for seconds.
+  Subject& gear(const std::string& block, bool synchronous, bool position_controlled = true) {
+    Subject& job = make(block);
+    set_up(job, kSoon);
+    job.set("RatioNumerator", 1.0);
+    if (block != "MC_GearInPos") job.set("Acceleration", synchronous ? 1000.0 : 5.0);
+    if (block == "MC_GearInVelocity") job.set("PositionControlled", position_controlled ? 1.0 : 0.0);
+    job.start(true);
+    bench.run_until([&] { return synchronous ? job.in_effect() : fate(job) == Fate::active; }, 500);
+    return job;
+  }
+
+  /// Starts a job that moves the following axis on its own.
+  Subject& start_single_axis(const std::string& block) {
+    Subject& job = make(block);
+    for (const char* pin : {"Position", "Distance"})
+      if (job.type().find_pin(pin) != nullptr) job.set(pin, 1e6);
+    if (job.type().find_pin("Velocity") != nullptr) job.set("Velocity", kLeadingVelocity);
+    job.start(true);
+    return job;
+  }
+
+  /// The following axis runs so fast that a slow stop takes seconds.
+  void rush() {
+    bench.relative_following.Distance = 1e6;
+    bench.relative_following.Execute = true;
+    bench.run(50);
+  }
+
+  void set_up(Subject& job, double ahead) {
+    const std::string block = job.name();
+    const double leading = bench.leading.setpoint().position.value;
+    const double following = bench.following.setpoint().position.value;
+    if (block == "MC_GearInPos") {
+      job.set("MasterStartDistance", kStartDistance);
+      job.set("MasterSyncPosition", on_ring(leading + ahead + kStartDistance));
+      job.set("SlaveSyncPosition", following + 10.0);
+    } else if (is_shift(block)) {
+      job.set(block.starts_with("MC_Phasing") ? "PhaseShift" : "Offset", 5.0);
+      job.set(block.starts_with("MC_Phasing") ? "PhasingDistance" : "OffsetDistance", 60.0);
+      job.set("ProfileReference", ahead == kFar ? 2.0 : 1.0);
+      job.set("StartPosition", on_ring(leading + ahead));
+    } else if (block == "MC_GearOut") {
+      job.set("MasterStopDistance", 60.0);
+      job.set("SlavePosition", following + 0.5 * 60.0 + ahead);
+    } else if (block == "MC_LeadingValueAdditive") {
+      job.set("Position", 1.0);
+    } else if (is_one_of(block, {"MC_GearIn", "MC_GearInVelocity"})) {
+      job.set("RatioNumerator", 2.0);
+    } else if (is_single_axis(block) && block != "MC_Halt") {
+      for (const char* pin : {"Position", "Distance"})
+        if (job.type().find_pin(pin) != nullptr) job.set(pin, 1e5);
+      if (job.type().find_pin("Velocity") != nullptr) job.set("Velocity", 30.0);
+    }
+  }
+
+  /// What the outputs of a block tell.
+  static Fate fate(Subject& job) {
+    if (job.error()) return Fate::failed;
+    if (job.aborted()) return Fate::aborted;
+    if (job.done()) return Fate::done;
+    if (!job.busy()) return Fate::silent;
+    if (!has_start_output(job) || job.in_effect()) return Fate::active;
+    return shows(job, "Start") ? Fate::active : Fate::waits;
+  }
+
+  static constexpr double kLeadingVelocity = 20.0;  // [u/s]
+  static constexpr double kStartDistance = 15.0;    // [u] of the leading axis
+  static constexpr double kSoon = 2.0;              // [u] until a waiting job starts
+  static constexpr double kFar = 80.0;              // [u]; within one turn of the leading axis
+
+  Bench bench;
+
+ private:
+  static bool is_output(const Pin& pin, std::string_view prefix) {
+    return pin.pin_class == PinClass::output && pin.type == Type::BOOL && pin.name.starts_with(prefix);
+  }
+  static bool has_start_output(Subject& job) {
+    for (const Pin& pin : job.type().pins)
+      if (is_output(pin, "Start")) return true;
+    return false;
+  }
+  static bool shows(Subject& job, std::string_view prefix) {
+    for (const Pin& pin : job.type().pins)
+      if (is_output(pin, prefix) && job.number(pin) != 0.0) return true;
+    return false;
+  }
+  double on_ring(double position) const { return std::fmod(position, BenchLimits::kLeadingLength); }
+};
+
+/// One way in which a job runs, and how it gets there.
+struct Situation {
+  const char* name;
+  std::function<Subject*(Stage&)> bring_about;
+  bool gear = false;                ///< a gear runs or waits, so that MC_GearOut has something to leave
+  bool moves_with_leading = false;  ///< … and runs, or will once it is synchronized
+  bool synchronous = false;         ///< the following axis is synchronous
+  bool position_controlled = true;
+  bool ended = false;                     ///< the job has ended, and holds the axis by its Execute
+  double before_gear_out = Stage::kSoon;  ///< way until MC_GearOut begins: the axis has to be synchronous [u]
+};
+
+inline std::vector<Situation> stop_situations(const std::string& block) {
+  const auto braking = [block](Stage& stage) {
+    stage.rush();
+    Subject& job = stage.make(block);
+    job.set("Deceleration", 20.0);
+    if (block == "MC_Stop") job.set("Mode", 3.0);
+    job.start(true);
+    stage.bench.run(5);
+    return &job;
+  };
+  if (block == "MC_Halt") return {{.name = "braking", .bring_about = braking}};
+  const auto held = [block](Stage& stage) {
+    Subject& job = stage.make(block);
+    job.start(true);
+    stage.bench.run_until([&] { return job.done(); }, 500);
+    return &job;
+  };
+  return {{.name = "braking", .bring_about = braking}, {.name = "held", .bring_about = held, .ended = true}};
+}
+
+inline std::vector<Situation> gear_situations(const std::string& block) {
+  const auto gear = [block](bool synchronous, bool controlled) {
+    return [=](Stage& stage) { return &stage.gear(block, synchronous, controlled); };
+  };
+  constexpr double kUntilSynchronous = 90.0;
+  Situation synchronizing{.name = "synchronizing", .bring_about = gear(false, true)};
+  Situation synchronous{.name = "synchronous", .bring_about = gear(true, true)};
+  if (block == "MC_GearInVelocity") {
+    Situation uncontrolled{.name = "synchronous without position control", .bring_about = gear(true, false)};
+    uncontrolled.position_controlled = false;
+    return {synchronizing, synchronous, uncontrolled};
+  }
+  synchronizing.gear = synchronous.gear = true;
+  synchronizing.moves_with_leading = synchronous.moves_with_leading = true;
+  synchronizing.before_gear_out = kUntilSynchronous;
+  synchronous.synchronous = true;
+  return {synchronizing, synchronous};
+}
+
+/// A job beside a gear: it waits for the leading or following axis, or acts on the gear.
+inline std::vector<Situation> accompanying_situations(const NamedJob& running) {
+  const std::string block = running.block;
+  const auto beside = [block](bool gear, double ahead) {
+    return [=](Stage& stage) {
+      if (gear) stage.bench.couple();
+      Subject& job = stage.start(block, ahead);
+      stage.bench.run(3);
+      return &job;
+    };
+  };
+  Situation far{.name = "waiting", .bring_about = beside(true, Stage::kFar)};
+  Situation near{.name = "running", .bring_about = beside(true, Stage::kSoon)};
+  Situation alone{.name = "alone", .bring_about = beside(false, Stage::kFar)};
+  for (Situation* situation : {&far, &near})
+    situation->gear = situation->moves_with_leading = situation->synchronous = true;
+  if (is_shift(block)) return {far, near};
+  if (block == "MC_GearOut") return {far};
+  if (block == "MC_GearInPos") {
+    alone.gear = true;
+    return {far, alone};
+  }
+  return {near, alone};  // MC_LeadingValueAdditive
+}
+
+inline std::vector<Situation> gear_out_situations() {
+  const auto leaving = [](double profile) {
+    return [profile](Stage& stage) {
+      stage.bench.couple();
+      Subject& job = stage.make("MC_GearOut");
+      stage.set_up(job, Stage::kSoon);
+      job.set("SyncProfileReference", profile);
+      job.set("Deceleration", 10.0);
+      job.start(true);
+      stage.bench.run_until([&] { return Stage::fate(job) == Fate::active; }, 500);
+      return &job;
+    };
+  };
+  return {{.name = "with dynamics", .bring_about = leaving(0.0)},
+          {.name = "over a distance", .bring_about = leaving(1.0)}};
+}
+
+/// Every way in which a job of the tables can run here; none: nothing that exists brings it about.
+inline std::vector<Situation> situations(const NamedJob& running) {
+  const std::string& block = running.block;
+  if (is_one_of(block, {"MC_Halt", "MC_Stop"})) return stop_situations(block);
+  if (is_single_axis(block)) {
+    const auto moving = [block](Stage& stage) {
+      Subject& job = stage.start_single_axis(block);
+      stage.bench.run(10);
+      return &job;
+    };
+    return {{.name = "moving", .bring_about = moving}};
+  }
+  if (is_one_of(block, {"MC_GearIn", "MC_GearInVelocity"})) return gear_situations(block);
+  if (block == "MC_GearInPos" && running.state == "active") return gear_situations(block);
+  if (block == "MC_GearOut" && running.state == "active") return gear_out_situations();
+  if (is_shift(block) || is_one_of(block, {"MC_GearInPos", "MC_GearOut", "MC_LeadingValueAdditive"}))
+    return accompanying_situations(running);
+  return {};
+}
+
+}  // namespace lockstep::test
