@@ -204,7 +204,8 @@ class Axis : public TechnologyObject {
   Dynamics effective_dynamics(const Job& job) noexcept;
   Dynamics own_dynamics(const Job& job) noexcept;
   double room_to_limit() const noexcept;
-  void cut_acceleration() noexcept;
+  double tolerable_acceleration() const noexcept;
+  void cut_acceleration() noexcept { setpoint_.acceleration = tolerable_acceleration(); }
   Dynamics maximum_dynamics() const noexcept;
   Dynamics emergency_dynamics() const noexcept;
   Dynamics maximum_for_current(Dynamics dynamics) const noexcept;
@@ -273,6 +274,7 @@ class Axis : public TechnologyObject {
 
   // axis_publish.cpp: the data block
   void publish_motion() noexcept;
+  void publish_awaited() noexcept;
   void publish_synchronous() noexcept;
   void publish_status() noexcept;
   void publish_extrapolation() noexcept;

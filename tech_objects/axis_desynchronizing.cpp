@@ -33,7 +33,9 @@ bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
   const Dynamics dynamics = effective_dynamics(job);
   const double target = normalised({0, job.position}, modulo_).value;
   const bool there = candidate.standing() && setpoint_.standing() && candidate.position.value == target;
-  if (!there && !synchronous_.meets_sync_out(job, setpoint_, candidate, dynamics)) return false;
+  Setpoint from = setpoint_;
+  if (job.mode != kOverDistance) from.acceleration = tolerable_acceleration();
+  if (!there && !synchronous_.meets_sync_out(job, from, candidate, dynamics)) return false;
   running_[kWaitingOut] = nullptr;
   data.StatusSynchronizedMotion.WaitingFunctionState = 0;
   if (!override_running(JobClass::gear_out_active, job)) return false;
@@ -62,6 +64,7 @@ void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
   const double way = synchronous_.sync_out_way();
   const AxisPosition position = synchronous_.sync_out_position();
   leave_synchronous();
+  cut_acceleration();
   data.StatusSynchronizedMotion.FunctionState = kGearOut;
   Dynamics own = dynamics;
   own.acceleration = own.deceleration;

@@ -82,10 +82,10 @@ double Axis::room_to_limit() const noexcept {
 
 /// A synchronous motion, or one without jerk limit, may leave an acceleration that not even MaxJerk can run
 /// down below the velocity limit: what is too much is dropped.
-void Axis::cut_acceleration() noexcept {
+double Axis::tolerable_acceleration() const noexcept {
   const double most = std::sqrt(2.0 * data.DynamicLimits.MaxJerk * room_to_limit());
-  if (std::abs(setpoint_.acceleration) > most)
-    setpoint_.acceleration = std::copysign(most, setpoint_.acceleration);
+  const double a = setpoint_.acceleration;
+  return std::abs(a) > most ? std::copysign(most, a) : a;
 }
 
 Dynamics Axis::maximum_dynamics() const noexcept {

@@ -27,7 +27,10 @@ class Bits {
 
 void Axis::publish() noexcept {
   publish_motion();
-  if (led() || simulating()) publish_synchronous();
+  if (led() || simulating())
+    publish_synchronous();
+  else
+    publish_awaited();
   publish_status();
   if (leads_by_actual_value_) publish_extrapolation();
 }
@@ -47,6 +50,19 @@ void Axis::publish_motion() noexcept {
   const bool positioning = motion_ == Motion::single_axis && single_.aim() == SingleAxisMotion::Aim::position;
   data.StatusPositioning.Distance =
       positioning ? difference(single_.target(), setpoint_.position, modulo_).rounded() : 0.0;
+}
+
+/// Not coupled yet: the additive leading value, and the leading value that a waiting job looks at.
+void Axis::publish_awaited() noexcept {
+  auto& status = data.StatusSynchronizedMotion;
+  Bits word;
+  word.show(SynchronizedMotionBit::LeadingValueAdditiveCommand, additive_request.owner != nullptr);
+  status.StatusWord = word.in(status.StatusWord);
+  if (running_[kWaiting] == nullptr) return;
+  const Setpoint& effective = awaited_.effective_leading_value();
+  status.EffectiveLeadingValue.Position = effective.position.value;
+  status.EffectiveLeadingValue.Velocity = effective.velocity;
+  status.EffectiveLeadingValue.Acceleration = effective.acceleration;
 }
 
 void Axis::publish_synchronous() noexcept {

@@ -40,9 +40,13 @@ void Shift::halt() noexcept {
 Shift::Event Shift::advance(const LeadingStep& step) noexcept {
   if (phase_ == Phase::waiting && may_start(step)) {
     phase_ = Phase::running;
-    settling_ = false;
+    // While the leading value stands nothing can be led on by it: a shift that moves comes to rest first.
+    if (step.way() != 0.0) settling_ = false;
   }
-  if (settling_) settling_ = follow_profile();
+  if (settling_) {
+    settling_ = follow_profile();
+    return Event::none;
+  }
   if (phase_ != Phase::running) return Event::none;
   return request_.profile == 0 ? follow_time() : follow_leading(step);
 }
