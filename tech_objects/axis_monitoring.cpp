@@ -98,7 +98,7 @@ void Axis::watch_position_limits() noexcept {
   }
   const PositionLimits limits = position_limits();
   const bool rests = setpoint_.standing() && setpoint_.position == last_setpoint_.position;
-  hold_limits(limits, rests || !controlled);
+  hold_limits(limits, !controlled || (setpoint_.standing() && !led()));
   if (controlled && !rests && keep_within(1, held_limits_.greatest)) keep_within(-1, held_limits_.least);
   show_limit(limits);
 }
@@ -106,7 +106,7 @@ void Axis::watch_position_limits() noexcept {
 /// An axis outside has its limit where it stands; in motion, where it has been furthest outside since. (A
 /// limit that came along with every cycle could not be kept by an axis that turns around.)
 void Axis::hold_limits(const PositionLimits& limits, bool rests) noexcept {
-  const double here = last_setpoint_.position.value;
+  const double here = rests ? setpoint_.position.value : last_setpoint_.position.value;
   const double highest = !rests && limit_side_ > 0 ? std::max(held_limits_.greatest, here) : here;
   const double lowest = !rests && limit_side_ < 0 ? std::min(held_limits_.least, here) : here;
   held_limits_.greatest = here > limits.greatest ? highest : limits.greatest;
