@@ -48,8 +48,7 @@ class Parser {
     for (bool first = true; begin <= line.size(); first = false) {
       const std::size_t end = std::min(line.find(',', begin), line.size());
       const std::string_view name = line.substr(begin, end - begin);
-      if (first && name != "t")
-        fail(1, "the first column is '" + std::string(name) + "', it has to be 't'");
+      if (first && name != "t") fail(1, "the first column is '" + std::string(name) + "', it has to be 't'");
       if (name.empty()) fail(begin + 1, "a column has no name");
       if (!first) table_.signals.push_back({std::string(name), Type::LREAL, ""});
       begin = end + 1;
