@@ -305,6 +305,7 @@ class Axis : public TechnologyObject {
   SingleAxisMotion single_;
 
   // Positioning and limits.
+  bool was_controlled_ = false;      // in the last cycle, for the software limit switches
   PositionLimits held_limits_{};     // the software limit switches for the present motion [u]
   std::int8_t approached_side_ = 0;  // while the axis brakes in front of a limit switch
   std::int64_t in_window_ticks_ = 0;

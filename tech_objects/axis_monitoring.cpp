@@ -91,15 +91,19 @@ Axis::PositionLimits Axis::position_limits() const noexcept {
 /// Each cycle in which the limits are active, after the setpoint has been made: where the next one could no
 /// longer stop in front of a limit, the axis has to brake from the last one on.
 void Axis::watch_position_limits() noexcept {
-  const bool controlled = power_state_ == PowerState::on || power_state_ == PowerState::braking;
   if (!homed_) {
     limit_side_ = 0;
     return;
   }
   const PositionLimits limits = position_limits();
+  // A setpoint that has just been taken up does not come out of the last one.
+  const bool controlled = power_state_ == PowerState::on || power_state_ == PowerState::braking;
+  const bool generated = controlled && was_controlled_;
+  was_controlled_ = controlled;
   const bool rests = setpoint_.standing() && setpoint_.position == last_setpoint_.position;
-  hold_limits(limits, !controlled || (setpoint_.standing() && !led()));
-  if (controlled && !rests && keep_within(1, held_limits_.greatest)) keep_within(-1, held_limits_.least);
+  const bool moves = generated && !rests;
+  hold_limits(limits, !moves);
+  if (moves && keep_within(1, held_limits_.greatest)) keep_within(-1, held_limits_.least);
   show_limit(limits);
 }
 

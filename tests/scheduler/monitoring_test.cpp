@@ -352,6 +352,26 @@ TEST(SoftwareLimits, HoldWhenAWeakerJobTakesOverShortlyBeforeThem) {
   EXPECT_TRUE(rig.halt.Error);
 }
 
+TEST(SoftwareLimits, HoldForAHaltThatEndsWithinOneCycleBehindThem) {
+  Limited rig(32, false, [](AxisData& data) {
+    within_a_hundred(data);
+    data.PositionLimits_SW.LimitReachedBehavior = 1;
+  });
+  rig.continuity[1].acceleration = false;
+  rig.run_a.Velocity = 10.0;
+  rig.run_a.Deceleration = 50000.0;
+  rig.run_a.Jerk = 0.0;
+  rig.run_a.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.position() > 50.0; }));
+  rig.a.data.PositionLimits_SW.MaxPosition = rig.position() + 0.1;  // the halt takes 0.125 u and 25 ms
+  rig.halt.Deceleration = 400.0;
+  rig.halt.Jerk = 0.0;
+  rig.halt.Execute = true;
+  rig.run_within(1000, -100.0, rig.a.data.PositionLimits_SW.MaxPosition);
+  EXPECT_EQ(rig.position(), rig.a.data.PositionLimits_SW.MaxPosition);
+  EXPECT_EQ(rig.a.pending_alarm(), 533);
+}
+
 TEST(SoftwareLimits, HoldForTheRampOfMC_Power) {
   Limited rig(1, false, [](AxisData& data) {
     within_a_hundred(data);
