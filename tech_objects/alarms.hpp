@@ -55,6 +55,9 @@ enum class ErrorId : std::uint16_t {
   leading_value_reversed = 0x808C,
   homing_while_coupled = 0x80A1,
   not_synchronous = 0x80A9,
+  cam_empty = 0x80AA,
+  cam_in_use = 0x80AB,
+  cam_elements_wrong = 0x80AC,
   unspecified = 0x8FFF
 };
 
