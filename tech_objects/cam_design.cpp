@@ -247,6 +247,10 @@ ErrorId interpolate_all(std::span<const TO_Cam_Struct_PointData> points,
       {points, {valid.get(), points.size()}, segments, {valid.get(), segments.size()}, settings}, function);
 }
 
+DesignedCam design_cam(const CamDesign& design, std::size_t capacity) {
+  return Designer(design, capacity).make();
+}
+
 DesignedCam interpolated_cam(std::vector<TO_Cam_Struct_PointData> points,
                              std::vector<TO_Cam_Struct_SegmentData> segments,
                              const TO_Cam_Struct_InterpolationSettings& interpolation, std::size_t capacity) {

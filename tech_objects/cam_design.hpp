@@ -109,6 +109,7 @@ struct CamTransition {
   std::optional<double> ca, ca_star;
   std::size_t count = MotionLaw::kDefaultPoints;  ///< points of a law that becomes points
   std::optional<double> tolerance;
+  std::string comment;
 };
 
 struct CamElement {
