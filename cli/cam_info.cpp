@@ -67,8 +67,13 @@ std::string overview(const CamDefinition& definition) {
 std::string extremes(const CamFunction& cam) {
   const CamExtremes all = extremes_of(cam, cam.start_leading_value(), cam.end_leading_value());
   std::string text = row_of({"of the cam", "least", "greatest"}, 18);
-  for (int order = 0; order < 4; ++order)
-    text += row_of({kQuantities[order], shown(all.lowest[order]), shown(all.highest[order])}, 18);
+  for (int order = 0; order < 4; ++order) {
+    const auto rounded = [&](double value) {
+      return std::abs(value) < 1e-12 * all.peak(order) ? 0.0 : value;
+    };
+    text += row_of(
+        {kQuantities[order], shown(rounded(all.lowest[order])), shown(rounded(all.highest[order]))}, 18);
+  }
   return text + "\n";
 }
 
@@ -127,11 +132,12 @@ std::string transition(const CamDefinition& definition, const CamStretch& stretc
 /// The figures of elements whose mapping changes them, such as a polynomial of degree 7.
 std::string mapped_elements(const CamDefinition& definition) {
   std::string text;
+  const CamFunction& cam = *definition.cam.function;
+  const double rounding = 1e-9 * extremes_of(cam, cam.start_leading_value(), cam.end_leading_value()).peak(0);
   for (const CamStretch& stretch : definition.cam.stretches) {
-    const double scale = extremes_of(*definition.cam.function, stretch.from, stretch.to).peak(0);
-    if (stretch.law || !stretch.curve || stretch.deviation <= 1e-9 * scale) continue;
+    if (stretch.law || !stretch.curve || stretch.deviation <= rounding) continue;
     const CamExtremes before = extremes_of(stretch.curve, stretch.from, stretch.to);
-    const CamExtremes after = extremes_of(*definition.cam.function, stretch.from, stretch.to);
+    const CamExtremes after = extremes_of(cam, stretch.from, stretch.to);
     text += fmt::format("{} from {} to {}: differs from its curve by {} at most\n",
                         stretch_name(definition, stretch), shown(stretch.from), shown(stretch.to),
                         shown(stretch.deviation));

@@ -11,7 +11,8 @@ namespace lockstep {
 namespace {
 
 constexpr double kLargest = 1.0e12;  // magnitude of everything in the data block
-/// Part of the stroke by which the ends of a segment may miss its curve once its coefficients are rounded.
+/// Part of the stroke, or of a hundredth of the following value, by which the ends of a segment may miss its
+/// curve once its coefficients are rounded.
 constexpr double kResolution = 1.0e-6;
 
 bool finite_and_in_range(double value) {
@@ -128,14 +129,13 @@ class Designer {
     for (const TO_Cam_Struct_SegmentData& segment : built.segments) {
       const CamSegment local = shifted(segment, segment.xmin);
       for (const double x : {segment.xmin, segment.xmax}) {
-        // Just inside: the curve may have another course beyond a joint.
         const double y = built.curve(x).position;
         worst = std::max(worst, std::abs(local.value(x - segment.xmin).position - y));
         lowest = std::min(lowest, y);
         highest = std::max(highest, y);
       }
     }
-    const double scale = std::max({highest - lowest, built.stroke, 1.0e-9 * std::abs(highest)});
+    const double scale = std::max({highest - lowest, built.stroke, 0.01 * std::abs(highest)});
     if (built.segments.empty() || worst <= kResolution * scale) return;
     report_.problem("",
                     "the coefficients of its segments, which belong to leading value 0, cannot hold the "
