@@ -342,6 +342,17 @@ TEST(CamInterpolation, TenThousandDescendingPointsAreSorted) {
   }
 }
 
+TEST(CamInterpolation, LinearIgnoresBoundaryConditions) {
+  for (const DINT boundary : {0, 1}) {
+    test::Cam cam;
+    cam.mode(0, boundary).line(0.0, 10.0, 0.0, 1.0).point(15.0, 0.0).line(20.0, 30.0, 5.0, -2.0);
+    ASSERT_EQ(cam.interpolate(), ErrorId::none) << "slopes at both ends differ, and that is no error";
+    EXPECT_EQ(cam.f.value(0.0).first_derivative, 1.0);
+    EXPECT_EQ(cam.f.value(12.0).first_derivative, -2.0);
+    EXPECT_EQ(cam.f.value(30.0).first_derivative, -2.0);
+  }
+}
+
 TEST(CamInterpolation, TheStatusShowsTheRangeAndTheValidElements) {
   Cam cam;
   cam.line(10.0, 20.0, 0.0, 1.0).point(-4.0, 0.0).point(15.0, 0.0).point(18.0, 0.0).point(25.0, 1.0);
