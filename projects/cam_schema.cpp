@@ -36,8 +36,14 @@ Json one_of(std::string_view text, std::span<const std::string_view> list) {
 Json count(std::string_view text) {
   return described(text, {{"type", "integer"}, {"minimum", 2}, {"maximum", kCam10kPoints}});
 }
-Json reference(std::string_view name) {
-  return {{"$ref", "#/definitions/" + std::string(name)}};
+/// The name of a definition: a reference is an URI, which has no blanks.
+std::string definition_name(std::string_view kind) {
+  std::string name(kind);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+Json reference(std::string_view kind) {
+  return {{"$ref", "#/definitions/" + definition_name(kind)}};
 }
 Json array(std::string_view text, Json items) {
   return described(text, {{"type", "array"}, {"items", std::move(items)}});
@@ -138,7 +144,7 @@ Json definitions() {
                 {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 1}, {"maxItems", 7}});
   return {
       {"point", ObjectSchema("point").numbers<CamPointElement>(cam_fields::kPoint).finish()},
-      {"point group", group_schema()},
+      {definition_name("point group"), group_schema()},
       {"line", ObjectSchema("line").numbers<CamLine>(cam_fields::kLine).finish()},
       {"sine",
        ObjectSchema("sine").numbers<CamSine>(cam_fields::kSine).numbers<CamWave>(cam_fields::kWave).finish()},

@@ -179,7 +179,7 @@ class Designer {
     if (!stretch.curve) return;
     constexpr int kSamples = 2000;
     CamHint hint;
-    for (int k = 0; k <= kSamples; ++k) {
+    for (int k = 0; k < kSamples; ++k) {  // the end belongs to what follows, which may begin elsewhere
       const double x = stretch.from + (stretch.to - stretch.from) * k / kSamples;
       const double distance = cam_.function->value(x, hint).position - stretch.curve(x).position;
       stretch.deviation = std::max(stretch.deviation, std::abs(distance));
