@@ -153,7 +153,7 @@ Json definitions() {
                          .numbers<CamWave>(cam_fields::kWave, false)
                          .members(cam_fields::kPolynomialMembers, {{"coefficients", coefficients}})
                          .finish()},
-      {"inverse sine",
+      {definition_name("inverse sine"),
        ObjectSchema("inverse sine")
            .numbers<CamInverseSine>(cam_fields::kInverseSine)
            .members(cam_fields::kInverseSineMembers, {{"mirrored", flag("falls from highest to lowest")},
