@@ -182,8 +182,9 @@ class Bench {
     if (!std::isfinite(s.position.value) || !std::isfinite(s.velocity) || !std::isfinite(s.acceleration))
       return fault(axis.name + ": setpoint not finite");
     if (!before.known) return;
+    const bool outrun = outruns_its_profile(axis);
     if (last.coupled || (before.coupled && axis.pending_alarm() != 0)) {
-      if (watch_coupled && !positions_may_step())
+      if (watch_coupled && !positions_may_step() && !outrun)
         watch_steps(axis, before.setpoint, s, kBetweenTicks, handed_on(before.setpoint));
       return;
     }
@@ -197,6 +198,22 @@ class Bench {
     if (std::abs(s.acceleration) > most_a * (1 + kSlack))
       fault(axis.name + ": acceleration " + std::to_string(s.acceleration) + " beyond its limit");
     watch_steps(axis, before.setpoint, s, 1.0, 0.0);
+  }
+
+  /// What is planned over a way of the leading axis is as steep as that axis is fast: planned for a slow one
+  /// that then speeds up, it may be over between two ticks. That is published; no acceleration is held to.
+  bool outruns_its_profile(const Axis& axis) noexcept {
+    if (&axis != &following) return false;
+    const double speed = std::abs(leading.setpoint().velocity);
+    const bool synchronizing =
+        (static_cast<std::uint32_t>(axis.data.StatusWord) >> static_cast<unsigned>(StatusBit::Synchronizing) &
+         1u) != 0;
+    const bool was_outrun = outrun_;
+    if (!synchronizing || !synchronizing_) slowest_ = speed;
+    synchronizing_ = synchronizing;
+    slowest_ = std::min(slowest_, speed);
+    outrun_ = synchronizing && speed > 2.0 * slowest_;
+    return outrun_ || was_outrun;
   }
 
   /// Change of velocity that the leading axis hands on: it may come to rest between two ticks, and what is a
@@ -236,6 +253,9 @@ class Bench {
   std::deque<Subject> subjects_;
   Last last_[2];
   std::uint64_t position_steps_until_ = 0;
+  bool synchronizing_ = false;  // the following axis, in the last tick
+  bool outrun_ = false;
+  double slowest_ = 0.0;  // leading velocity since it has been synchronizing [u/s]
 };
 
 }  // namespace lockstep::test
