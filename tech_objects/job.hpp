@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-class Axis;
+class LeadingObject;
 
 /// The instruction that a job comes from.
 enum class JobKind : std::uint8_t {
@@ -85,7 +85,7 @@ struct Job {
                               ///< MC_MotionIn…: Enable is still TRUE
   ErrorId input_error{};      ///< MC_MotionIn…: an input of this call is not permitted
 
-  Axis* master{};  ///< leading axis
+  LeadingObject* master{};
   DINT numerator = 1;
   DINT denominator = 1;
   LREAL master_sync_position{};   ///< [u] of the leading axis

@@ -51,7 +51,8 @@ struct Machine : Rig {
         halt_superimposed(block<MC_HaltSuperimposed>()),
         given(block<MC_MotionInSuperimposed>()) {
     lead(axis_, leading);
-    power_leading.Axis = run_leading.Axis = gear.Master = &leading;
+    power_leading.Axis = run_leading.Axis = &leading;
+    gear.Master = &leading;
     power.Axis = home.Axis = run_velocity.Axis = relative.Axis = absolute.Axis = jog.Axis = halt.Axis =
         &axis_;
     stop.Axis = gear.Slave = gear_out.Slave = offset.Slave = &axis_;
