@@ -67,6 +67,7 @@ class Surroundings {
   /// Ends server and recorder and tells what is missing.
   void stop() {
     if (server_) server_->stop();
+    if (server_) tell_refused_clients();
     if (!recorder_) return;
     recorder_->stop();
     for (const std::string& loss : recorder_->losses()) tell("warning: " + loss);
@@ -142,24 +143,54 @@ class Surroundings {
     recorder_ = std::make_unique<TraceRecorder>(*ring_, std::move(columns), std::move(sinks));
   }
 
+  /// What is served where: as the project says, or at the one place that the command line names.
+  std::vector<ModbusService> modbus_services() const {
+    const ModbusConfig& modbus = project_.modbus;
+    std::vector<ModbusService> services;
+    for (std::size_t i = 0; i < modbus.servers.size(); ++i)
+      services.push_back({modbus.servers[i], modbus.units_of(i)});
+    if (options_.modbus.empty()) return services;
+    std::string problem;
+    const std::optional<Endpoint> endpoint = parse_endpoint(options_.modbus, problem);
+    if (!endpoint) throw CouldNotStart("--modbus: " + problem);
+    if (services.empty()) services.push_back({ModbusServerOptions{}, modbus.units_of(0)});
+    services.erase(services.begin() + 1, services.end());
+    services[0].options.listen = {*endpoint};
+    return services;
+  }
+
   void start_modbus() {
     const bool asked = !options_.modbus.empty();
-    const bool wanted = asked || (!options_.simulate && !options_.no_modbus && project_.modbus.listen);
+    const bool wanted =
+        asked || (!options_.simulate && !options_.no_modbus && !project_.modbus.servers.empty());
     if (!wanted) return;
-    std::string problem;
-    const std::optional<Endpoint> endpoint =
-        asked ? parse_endpoint(options_.modbus, problem) : project_.modbus.listen;
-    if (!endpoint) throw CouldNotStart("--modbus: " + problem);
     std::vector<Signal> places;
     for (const NamedSignal& signal : project_.modbus.signals) places.push_back(signal.signal);
+    std::vector<ModbusService> services = modbus_services();
     image_ = std::make_unique<ProcessImage>(std::move(places));
     project_.controller->images.push_back(image_.get());
-    ModbusServerOptions server_options;
-    server_options.host = endpoint->host;
-    server_options.port = endpoint->port;
-    server_ = std::make_unique<ModbusServer>(server_options, *project_.modbus.map, *image_);
+    ModbusIdentity identity;
+    identity.revision = LOCKSTEP_VERSION;
+    identity.application = project_.name;
+    server_ = std::make_unique<ModbusServer>(std::move(services), *image_, identity);
     if (const std::string error = server_->start(); !error.empty()) throw CouldNotStart("Modbus: " + error);
-    tell(fmt::format("Modbus server on {}:{}", endpoint->host, server_->port()));
+    for (const Endpoint& place : server_->places()) tell("Modbus server on " + to_string(place));
+  }
+
+  /// Clients that were turned away: somebody may be missing, or somebody may have tried.
+  void tell_refused_clients() const {
+    const ModbusCounters& counters = server_->counters();
+    const auto warn = [](const std::atomic<std::uint64_t>& count, std::string_view text) {
+      if (count != 0) tell(fmt::format("warning: Modbus: {} {}", count.load(), text));
+    };
+    warn(counters.not_allowed, "connections refused: not from a network in 'allow'");
+    warn(counters.refused, "connections refused: too many clients");
+    warn(counters.displaced, "silent clients lost their place to new ones");
+    warn(counters.malformed, "connections closed: what came was not Modbus");
+    warn(counters.stalled, "connections closed: a request not ended or an answer not taken");
+    warn(counters.throttled, "requests held back: more than 'max_requests_per_second'");
+    warn(counters.bad_frames, "frames on serial lines dropped: wrong check or length");
+    warn(counters.faults, "internal faults survived");
   }
 
   Project& project_;

@@ -42,10 +42,21 @@ inline constexpr Key kCall[] = {{"fb", kRequired}, {"name", kRequired}, {"in"}};
 inline constexpr Key kSet[] = {{"set", kRequired}, {"to", kRequired}};
 inline constexpr Key kIf[] = {{"if", kRequired}, {"then", kRequired}, {"else"}};
 inline constexpr Key kStimulus[] = {{"at", kRequired}, {"set", kRequired}};
-inline constexpr Key kModbus[] = {{"server"}, {"map"}};
-inline constexpr Key kServer[] = {{"listen", kRequired}};
-inline constexpr Key kMapEntry[] = {{"tag", kRequired}, {"table", kRequired}, {"address", kRequired},
-                                    {"type"},           {"word_order"},       {"access"}};
+inline constexpr Key kModbus[] = {{"server"}, {"map"}, {"units"}};
+inline constexpr Key kServer[] = {{"listen"},       {"allow"}, {"max_clients"}, {"max_requests_per_second"},
+                                  {"idle_timeout"}, {"map"},   {"units"}};
+inline constexpr Key kUnit[] = {{"unit", kRequired}, {"map", kRequired}};
+inline constexpr Key kMapEntry[] = {{"tag"},
+                                    {"diagnostic"},
+                                    {"table", kRequired},
+                                    {"address", kRequired},
+                                    {"type"},
+                                    {"word_order"},
+                                    {"byte_order"},
+                                    {"bit"},
+                                    {"scale"},
+                                    {"offset"},
+                                    {"access"}};
 inline constexpr Key kTrace[] = {{"lcm"}, {"signals"}};
 inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}};
 

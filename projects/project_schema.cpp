@@ -177,17 +177,50 @@ Json programs_schema() {
   return array("programs", program);
 }
 
+/// A text or an array of texts, an object or an array of objects.
+Json one_or_many(Json one, std::string_view description) {
+  Json schema = described(description, one);
+  schema["items"] = one;
+  schema["type"] = {one["type"], "array"};
+  return schema;
+}
+
+Json modbus_entry_schema() {
+  return object(keys::kMapEntry,
+                {{"tag", text("signal: tag, instance.Pin or Object.Variable")},
+                 {"diagnostic",
+                  text("in place of a tag: a number of the run, such as ticks, overruns, alarms, refused")},
+                 {"table", words("table of Modbus", words::kTables)},
+                 {"address", integer("zero-based address of the first register or of the bit", 0, 65535)},
+                 {"type", words("type on the wire; it may narrow that of the signal", tag_type_names())},
+                 {"word_order", words("big: most significant register first", words::kWordOrders)},
+                 {"byte_order", words("big: more significant byte of a register first", words::kWordOrders)},
+                 {"bit", integer("a BOOL as this bit of a register, which several may share", 0, 15)},
+                 {"scale", described("of a REAL or LREAL as an integer: value = integer * scale + offset",
+                                     {{"type", "number"}})},
+                 {"offset", described("see scale", {{"type", "number"}})},
+                 {"access", words("whether a client may write", words::kAccesses)}});
+}
+
 Json modbus_schema() {
-  const Json entry =
-      object(keys::kMapEntry,
-             {{"tag", text("signal: tag, instance.Pin or Object.Variable")},
-              {"table", words("table of Modbus", words::kTables)},
-              {"address", integer("zero-based address of the first register or of the bit", 0, 65535)},
-              {"type", words("type on the wire; it may narrow that of the signal", tag_type_names())},
-              {"word_order", words("big: most significant register first", words::kWordOrders)},
-              {"access", words("whether a client may write", words::kAccesses)}});
-  const Json server = object(keys::kServer, {{"listen", text("HOST:PORT, such as 127.0.0.1:1502")}});
-  return object(keys::kModbus, {{"server", server}, {"map", array("which signal stands where", entry)}});
+  const Json unit =
+      object(keys::kUnit, {{"unit", integer("unit id", 0, 255)},
+                           {"map", array("which signal stands where", reference("modbus_entry"))}});
+  const Json own_map = array("a map of its own in place of the common one", reference("modbus_entry"));
+  const Json units = array("maps of single unit ids in place of the one for all", unit);
+  const Json network = text("address or network, such as 192.168.1.0/24");
+  const Json server = object(
+      keys::kServer,
+      {{"listen", one_or_many({{"type", "string"}}, "HOST:PORT, such as 127.0.0.1:1502 or [::1]:1502")},
+       {"allow", array("from where clients may come; from everywhere if missing", network)},
+       {"max_clients", integer("connected at the same time (64)", 1, 1000)},
+       {"max_requests_per_second", integer("of one client; what is more waits", 1, 1'000'000)},
+       {"idle_timeout", duration("a client that asks for nothing for this long is disconnected")},
+       {"map", own_map},
+       {"units", units}});
+  return object(keys::kModbus, {{"server", one_or_many(server, "where clients may ask")},
+                                {"map", array("which signal stands where", reference("modbus_entry"))},
+                                {"units", units}});
 }
 
 Json trace_schema() {
@@ -230,6 +263,7 @@ std::string project_schema() {
   Json config = structure_schema(configuration_tree(), definitions);
   definitions["config"] = described("start values of the technology data block", config);
   definitions["call"] = call_schema();
+  definitions["modbus_entry"] = modbus_entry_schema();
   schema["definitions"] = definitions;
   return schema.dump(2) + "\n";
 }

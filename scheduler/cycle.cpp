@@ -54,9 +54,11 @@ void Controller::interpolate() noexcept {
     axis->coupling_changed = false;
   }
   if (changed) order_.rebuild();
+  counters_.alarms = 0;
   for (Axis* axis : order_.axes()) {
     axis->step();
     axis->publish();
+    if (axis->data.ErrorDetail.Number != 0) ++counters_.alarms;
   }
   ++counters_.interpolator_ticks;
 }
