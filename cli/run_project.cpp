@@ -12,6 +12,7 @@
 #include "hmi_bridge/csv_trace.hpp"
 #include "hmi_bridge/lcm_log.hpp"
 #include "hmi_bridge/lcm_publisher.hpp"
+#include "hmi_bridge/modbus_client.hpp"
 #include "hmi_bridge/modbus_server.hpp"
 #include "hmi_bridge/trace_recorder.hpp"
 #include "scheduler/real_time.hpp"
@@ -59,15 +60,18 @@ class Surroundings {
     choose_signals();
     start_trace();
     start_modbus();
+    start_clients();
   }
 
   const std::vector<NamedSignal>& signals() const { return signals_; }
   TraceRing* ring() { return ring_.get(); }
 
-  /// Ends server and recorder and tells what is missing.
+  /// Ends server, clients and recorder and tells what is missing.
   void stop() {
     if (server_) server_->stop();
     if (server_) tell_refused_clients();
+    for (const auto& client : clients_) client->stop();
+    for (const auto& client : clients_) tell_failures(*client);
     if (!recorder_) return;
     recorder_->stop();
     for (const std::string& loss : recorder_->losses()) tell("warning: " + loss);
@@ -156,6 +160,7 @@ class Surroundings {
     if (services.empty()) services.push_back({ModbusServerOptions{}, modbus.units_of(0)});
     services.erase(services.begin() + 1, services.end());
     services[0].options.listen = {*endpoint};
+    services[0].options.serial.reset();
     return services;
   }
 
@@ -175,6 +180,37 @@ class Surroundings {
     server_ = std::make_unique<ModbusServer>(std::move(services), *image_, identity);
     if (const std::string error = server_->start(); !error.empty()) throw CouldNotStart("Modbus: " + error);
     for (const Endpoint& place : server_->places()) tell("Modbus server on " + to_string(place));
+    if (asked) return;
+    for (const ModbusServerOptions& server : project_.modbus.servers)
+      if (server.serial)
+        tell(fmt::format("Modbus server on {}, unit {}", server.serial->device, server.serial_unit));
+  }
+
+  /// Foreign devices have no place in a simulation.
+  void start_clients() {
+    if (options_.simulate || options_.no_modbus) return;
+    for (const ModbusClientConfig& client : project_.modbus.clients) {
+      std::vector<Signal> places;
+      for (const NamedSignal& signal : client.signals) places.push_back(signal.signal);
+      client_images_.push_back(std::make_unique<ProcessImage>(std::move(places)));
+      project_.controller->images.push_back(client_images_.back().get());
+      clients_.push_back(std::make_unique<ModbusClient>(client.options, *client_images_.back()));
+    }
+    for (const auto& client : clients_) client->start();
+  }
+
+  static void tell_failures(const ModbusClient& client) {
+    const ModbusClientCounters& counters = client.counters();
+    const auto warn = [&](const std::atomic<std::uint64_t>& count, std::string_view text) {
+      if (count != 0)
+        tell(
+            fmt::format("warning: Modbus client of {}: {} {}", client.options().place(), count.load(), text));
+    };
+    warn(counters.unreachable, "attempts to connect failed");
+    warn(counters.failed, "requests without a good answer");
+    warn(counters.refused, "requests refused with an exception");
+    warn(counters.bad_values, "values read that their tags cannot hold");
+    warn(counters.faults, "internal faults survived");
   }
 
   /// Clients that were turned away: somebody may be missing, or somebody may have tried.
@@ -200,6 +236,8 @@ class Surroundings {
   std::unique_ptr<TraceRecorder> recorder_;
   std::unique_ptr<ProcessImage> image_;
   std::unique_ptr<ModbusServer> server_;
+  std::vector<std::unique_ptr<ProcessImage>> client_images_;
+  std::vector<std::unique_ptr<ModbusClient>> clients_;
 };
 
 /// Virtual time: as fast as the machine can; waits for the disk, never for the clock.

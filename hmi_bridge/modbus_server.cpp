@@ -9,6 +9,7 @@
 #include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -116,7 +117,8 @@ std::string ModbusServer::start() {
   if (thread_.joinable()) return {};
   wake_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   std::string problem = wake_ < 0 ? std::strerror(errno) : "";
-  for (std::size_t i = 0; i < services_.size() && problem.empty(); ++i) problem = listen(i);
+  for (std::size_t i = 0; i < services_.size() && problem.empty(); ++i)
+    problem = services_[i].options.serial ? open_line(i) : listen(i);
   sigset_t all;
   sigset_t before;
   ::sigfillset(&all);
@@ -142,13 +144,21 @@ void ModbusServer::make_responders() {
     clients += service.options.max_clients;
   }
   clients_.reserve(clients);
-  events_.reserve(clients + listeners_.size() + 1);
+  events_.reserve(clients + listeners_.size() + lines_.size() + 1);
 }
 
 std::string ModbusServer::listen(std::size_t service) {
   for (const Endpoint& place : services_[service].options.listen)
     if (const std::string problem = listen_at(place, service); !problem.empty())
       return to_string(place) + ": " + problem;
+  return {};
+}
+
+std::string ModbusServer::open_line(std::size_t service) {
+  const SerialOptions& options = *services_[service].options.serial;
+  auto port = std::make_unique<ModbusSerialLine>(options, counters_);
+  if (const std::string problem = port->open(); !problem.empty()) return options.device + ": " + problem;
+  lines_.push_back({std::move(port), service});
   return {};
 }
 
@@ -177,6 +187,7 @@ std::string ModbusServer::listen_at(Endpoint place, std::size_t service) {
 void ModbusServer::close_sockets() noexcept {
   for (const Listener& listener : listeners_) ::close(listener.socket);
   listeners_.clear();
+  lines_.clear();
   places_.clear();
   if (wake_ >= 0) ::close(wake_);
   wake_ = -1;
@@ -208,40 +219,72 @@ void ModbusServer::run() noexcept {
 }
 
 void ModbusServer::turn() {
-  Clock::time_point now = Clock::now();
-  const bool accepts = now >= accept_again_;
-  events_.assign(1, {wake_, POLLIN, 0});
-  for (const Listener& listener : listeners_) events_.push_back({accepts ? listener.socket : -1, POLLIN, 0});
-  const std::size_t first_client = events_.size();
-  for (const Client& client : clients_)
-    events_.push_back({client.connection->socket(), client.connection->events(), 0});
-  if (::poll(events_.data(), events_.size(), wait_time(now)) < 0) {
-    if (errno == EINTR) return;
-    throw std::system_error(errno, std::generic_category());
-  }
-  now = Clock::now();
+  wait();
+  const Clock::time_point now = Clock::now();
+  const std::size_t first_line = 1 + listeners_.size();
+  const std::size_t first_client = first_line + lines_.size();
   for (std::size_t i = 0; i < clients_.size(); ++i)
     if (!serve(clients_[i], events_[first_client + i].revents, now)) clients_[i].connection.reset();
+  for (Line& line : lines_) serve_line(line, now);
   std::erase_if(clients_, [](const Client& client) { return client.connection == nullptr; });
   for (std::size_t i = 0; i < listeners_.size(); ++i)
     if (events_[i + 1].revents != 0) accept_clients(listeners_[i], now);
   counters_.clients = clients_.size();
 }
 
-int ModbusServer::wait_time(Clock::time_point now) const {
-  using std::chrono::milliseconds;
+/// Waits until there is something to do.
+void ModbusServer::wait() {
+  const Clock::time_point now = Clock::now();
+  const bool accepts = now >= accept_again_;
+  events_.assign(1, {wake_, POLLIN, 0});
+  for (const Listener& listener : listeners_) events_.push_back({accepts ? listener.socket : -1, POLLIN, 0});
+  for (const Line& line : lines_) events_.push_back({line.port->descriptor(), POLLIN, 0});
+  for (const Client& client : clients_)
+    events_.push_back({client.connection->socket(), client.connection->events(), 0});
+  const Clock::time_point until = due(now);
+  const std::int64_t left = std::max<std::int64_t>(0, std::chrono::nanoseconds(until - now).count());
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const timespec time{static_cast<time_t>(left / kSecond), static_cast<long>(left % kSecond)};
+  const bool has_end = until != Clock::time_point::max();
+  if (::ppoll(events_.data(), events_.size(), has_end ? &time : nullptr, nullptr) >= 0) return;
+  if (errno != EINTR) throw std::system_error(errno, std::generic_category());
+  for (pollfd& event : events_) event.revents = 0;
+}
+
+/// When there is something to do even if nothing comes.
+ModbusServer::Clock::time_point ModbusServer::due(Clock::time_point now) const {
   Clock::time_point until = Clock::time_point::max();
   if (now < accept_again_) until = accept_again_;
+  for (const Line& line : lines_) until = std::min(until, line.port->due());
   for (const Client& client : clients_) {
     const ModbusConnection& connection = *client.connection;
     const bool has_request = !connection.request().empty();
     if (has_request) until = std::min(until, std::max(now, may_ask_at(client)));
     if (!has_request && (connection.is_owing() || services_[client.service].options.idle_limit.count() > 0))
       until = std::min(until, now + kCheckTime);
-    if (until <= now) return 0;
   }
-  if (until == Clock::time_point::max()) return -1;
-  return static_cast<int>(std::chrono::ceil<milliseconds>(until - now).count());
+  return until;
+}
+
+/// Requests to others on the line get no answer, and those to everybody are carried out without one.
+void ModbusServer::serve_line(Line& line, Clock::time_point now) {
+  line.port->receive(now);
+  const std::span<std::uint8_t> frame = line.port->request(now);
+  if (frame.empty()) return;
+  const ModbusService& service = services_[line.service];
+  std::uint8_t& unit = frame[kModbusHeader - 1];
+  const bool is_for_all = unit == 0;
+  if (is_for_all) unit = service.options.serial_unit;
+  if (unit != service.options.serial_unit && service.units.own[unit] == nullptr) return;
+  ModbusResponder& responder = responders_[line.service];
+  const std::span<const std::uint8_t> reply = responder.answer(frame);
+  if (reply.empty()) {
+    ++counters_.faults;
+    return;
+  }
+  ++counters_.requests;
+  if (responder.exception() != ModbusException::none) ++counters_.exceptions;
+  if (!is_for_all) line.port->reply(reply);
 }
 
 bool ModbusServer::serve(Client& client, short events, Clock::time_point now) {

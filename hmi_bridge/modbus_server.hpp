@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "hmi_bridge/modbus_counters.hpp"
 #include "hmi_bridge/modbus_map.hpp"
 #include "hmi_bridge/modbus_request.hpp"
+#include "hmi_bridge/modbus_serial.hpp"
 #include "hmi_bridge/network.hpp"
 #include "scheduler/process_image.hpp"
 
@@ -28,8 +30,10 @@ struct ModbusServerOptions {
   /// Addresses and names of interfaces of this machine; a name stands for all its addresses, 0.0.0.0 and ::
   /// for all of IPv4 and of IPv6.
   std::vector<Endpoint> listen{{"127.0.0.1", 502}};
-  std::vector<IpNetwork> allow;           ///< from where clients may come; empty: from everywhere
-  std::size_t max_clients = 64;           ///< ≥ 1; a further client is refused, see `idle_time`
+  std::optional<SerialOptions> serial;  ///< RTU over this line in place of TCP; what follows is for TCP alone
+  std::uint8_t serial_unit = 1;         ///< own address on the line, besides those with a map of their own
+  std::vector<IpNetwork> allow;         ///< from where clients may come; empty: from everywhere
+  std::size_t max_clients = 64;         ///< ≥ 1; a further client is refused, see `idle_time`
   std::uint32_t requests_per_second = 0;  ///< of one client; what is more waits; 0: as many as it likes
   /// A client that does not end a request, or take an answer, for this long is disconnected.
   std::chrono::milliseconds stall_time{10'000};
@@ -88,13 +92,22 @@ class ModbusServer {
     bool is_waiting = false;  ///< the next request has been counted as one that waits
   };
 
+  /// A serial line on which it answers.
+  struct Line {
+    std::unique_ptr<ModbusSerialLine> port;
+    std::size_t service;
+  };
+
   std::string listen(std::size_t service);
+  std::string open_line(std::size_t service);
   std::string listen_at(Endpoint place, std::size_t service);
   void make_responders();
   void close_sockets() noexcept;
   void run() noexcept;
   void turn();
-  int wait_time(Clock::time_point now) const;
+  void wait();
+  Clock::time_point due(Clock::time_point now) const;
+  void serve_line(Line& line, Clock::time_point now);
   void accept_clients(const Listener& listener, Clock::time_point now);
   bool admits(const sockaddr_storage& peer, std::size_t service);
   bool make_room(std::size_t service, Clock::time_point now);
@@ -111,6 +124,7 @@ class ModbusServer {
   ModbusCounters counters_;
   std::vector<Endpoint> places_;
   std::vector<Listener> listeners_;
+  std::vector<Line> lines_;
   int wake_ = -1;  ///< event that ends the thread's waiting
   std::atomic<bool> is_stopping_{false};
   std::thread thread_;
@@ -118,7 +132,7 @@ class ModbusServer {
   // The thread's.
   std::deque<ModbusResponder> responders_;  ///< of the services
   std::vector<Client> clients_;
-  std::vector<pollfd> events_;  ///< wake, listeners, then the clients
+  std::vector<pollfd> events_;  ///< wake, listeners, lines, then the clients
   Clock::time_point accept_again_{};
 };
 

@@ -14,19 +14,6 @@ constexpr std::int64_t kShortestIdle = 1'000'000'000;      // [ns]
 constexpr std::int64_t kLongestIdle = 86'400'000'000'000;  // [ns]
 constexpr double kMost = std::numeric_limits<double>::max();
 
-/// What a client may write to a variable: its range, which for an enumeration goes from its first to its last
-/// value.
-Range written_range(const Variable& variable) {
-  Range range = variable.range;
-  if (variable.choices.empty() || variable.type == Type::BOOL) return range;
-  const auto [least, most] =
-      std::minmax_element(variable.choices.begin(), variable.choices.end(),
-                          [](const Choice& a, const Choice& b) { return a.value < b.value; });
-  range.lowest = std::max(range.lowest, static_cast<double>(least->value));
-  range.highest = std::min(range.highest, static_cast<double>(most->value));
-  return range;
-}
-
 /// A number of the run that a map may show, besides the counters of the server.
 struct CycleDiagnostic {
   std::string_view name;
@@ -150,7 +137,7 @@ std::optional<ModbusEntry> MapLoader::load_source(const Fields& fields) {
       read_modbus_shape(fields, place ? std::optional(place->signal.value_type()) : std::nullopt, problems_);
   if (!place || !entry) return std::nullopt;
   entry->writable = read_access(fields["access"], *place, entry->table);
-  if (place->variable != nullptr && place->signal.bit < 0) entry->range = written_range(*place->variable);
+  entry->range = written_range(*place);
   entry->signal = static_cast<std::uint32_t>(modbus_.signals.size());
   modbus_.signals.push_back({std::string(*path), place->signal, place->unit});
   return entry;
@@ -212,6 +199,17 @@ void warn_of_open_server(const Fields& fields, const ModbusServerOptions& option
                                            "networks clients may come");
 }
 
+/// RTU over a serial line.
+void load_line(const Fields& fields, ModbusServerOptions& options, Problems& problems) {
+  for (const char* const key : {"listen", "allow", "max_clients", "max_requests_per_second", "idle_timeout"})
+    if (const JsonValue* const field = fields[key])
+      problems.report(*field, "'" + std::string(key) + "' is for TCP; a server has it or 'serial'");
+  options.listen.clear();
+  options.serial = read_serial(*fields["serial"], problems);
+  if (const auto unit = read_integer(fields["unit"], 1, 247, problems))
+    options.serial_unit = static_cast<std::uint8_t>(*unit);
+}
+
 void load_server(const JsonValue& json, const Loading& loading, MapLoader& maps) {
   Problems& problems = loading.problems;
   const Fields fields(json, keys::kServer, problems);
@@ -219,7 +217,13 @@ void load_server(const JsonValue& json, const Loading& loading, MapLoader& maps)
   std::vector<ModbusServerOptions>& servers = loading.project.modbus.servers;
   const std::size_t index = servers.size();
   ModbusServerOptions& options = servers.emplace_back();
-  if (fields["listen"] == nullptr) problems.report(json, "the key 'listen' is missing");
+  if (fields["map"] != nullptr) maps.load(fields["map"], index, std::nullopt);
+  maps.load_units(fields["units"], index);
+  if (fields["serial"] != nullptr) return load_line(fields, options, problems);
+  if (fields["listen"] == nullptr)
+    problems.report(json, "the key 'listen' is missing, or 'serial' in its place");
+  if (fields["unit"] != nullptr)
+    problems.report(*fields["unit"], "on TCP every unit id is answered; allowed with 'serial' only");
   if (fields["listen"] != nullptr) load_listen(*fields["listen"], options, problems);
   load_allow(fields["allow"], options, problems);
   if (const auto most = read_integer(fields["max_clients"], 1, kMostClients, problems))
@@ -229,8 +233,6 @@ void load_server(const JsonValue& json, const Loading& loading, MapLoader& maps)
   if (const auto idle = read_duration(fields["idle_timeout"], kShortestIdle, kLongestIdle, problems))
     options.idle_limit = std::chrono::milliseconds(*idle / 1'000'000);
   warn_of_open_server(fields, options, problems);
-  if (fields["map"] != nullptr) maps.load(fields["map"], index, std::nullopt);
-  maps.load_units(fields["units"], index);
 }
 
 void load_servers(const JsonValue& json, const Loading& loading, MapLoader& maps) {
@@ -274,6 +276,40 @@ void read_scale(const Fields& fields, ModbusEntry& entry, Problems& problems) {
 }
 
 }  // namespace
+
+Range written_range(const Place& place) {
+  if (place.variable == nullptr || place.signal.bit >= 0) return kAny;
+  const Variable& variable = *place.variable;
+  Range range = variable.range;
+  if (variable.choices.empty() || variable.type == Type::BOOL) return range;
+  const auto [least, most] =
+      std::minmax_element(variable.choices.begin(), variable.choices.end(),
+                          [](const Choice& a, const Choice& b) { return a.value < b.value; });
+  range.lowest = std::max(range.lowest, static_cast<double>(least->value));
+  range.highest = std::min(range.highest, static_cast<double>(most->value));
+  return range;
+}
+
+SerialOptions read_serial(const JsonValue& json, Problems& problems) {
+  SerialOptions options;
+  const Fields fields(json, keys::kSerial, problems);
+  if (!fields.usable()) return options;
+  options.device = read_title(fields["device"], problems).value_or("");
+  if (const auto baud = read_integer(fields["baud"], kBauds.front(), kBauds.back(), problems)) {
+    options.baud = static_cast<int>(*baud);
+    std::vector<std::string> texts;
+    for (const int allowed : kBauds) texts.push_back(std::to_string(allowed));
+    if (std::find(kBauds.begin(), kBauds.end(), options.baud) == kBauds.end())
+      report_kind(*fields["baud"], list_of(std::vector<std::string_view>(texts.begin(), texts.end())),
+                  problems);
+  }
+  if (const auto parity = read_word(fields["parity"], words::kParities, problems))
+    options.parity = static_cast<Parity>(*parity);
+  options.stop_bits = static_cast<int>(read_integer(fields["stop_bits"], 1, 2, problems).value_or(1));
+  if (const auto silence = read_duration(fields["silence"], 100'000, 1'000'000'000, problems))
+    options.silence = std::chrono::microseconds(*silence / 1000);
+  return options;
+}
 
 std::optional<ModbusEntry> read_modbus_shape(const Fields& fields, std::optional<Type> signal,
                                              Problems& problems) {
@@ -328,6 +364,7 @@ void load_modbus(const JsonValue* modbus, const Loading& loading) {
   maps.load_units(fields["units"], std::nullopt);
   if (fields["server"] != nullptr) load_servers(*fields["server"], loading, maps);
   maps.finish();
+  load_modbus_clients(fields["clients"], loading);
 }
 
 }  // namespace lockstep

@@ -14,4 +14,14 @@ namespace lockstep {
 std::optional<ModbusEntry> read_modbus_shape(const Fields& fields, std::optional<Type> signal,
                                              Problems& problems);
 
+/// Reads the keys of a serial line.
+SerialOptions read_serial(const JsonValue& json, Problems& problems);
+
+/// What may be written to a variable from outside: its range, which for an enumeration goes from its first to
+/// its last value; for anything else any value.
+Range written_range(const Place& place);
+
+/// Reads the clients of the project.
+void load_modbus_clients(const JsonValue* clients, const Loading& loading);
+
 }  // namespace lockstep

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/modbus_client.hpp"
 #include "hmi_bridge/modbus_map.hpp"
 #include "hmi_bridge/modbus_server.hpp"
 #include "hmi_bridge/network.hpp"
@@ -43,10 +44,17 @@ struct ModbusMapConfig {
   ModbusMap map;
 };
 
+/// A client with the signals of its image.
+struct ModbusClientConfig {
+  ModbusClientOptions options;
+  std::vector<NamedSignal> signals;
+};
+
 struct ModbusConfig {
   std::vector<ModbusServerOptions> servers;  ///< none: the project has no server
   std::vector<NamedSignal> signals;          ///< of the process image, to which the entries of the maps refer
-  std::deque<ModbusMapConfig> maps;          ///< the first one is the project's map of all unit ids
+  std::vector<ModbusClientConfig> clients;
+  std::deque<ModbusMapConfig> maps;  ///< the first one is the project's map of all unit ids
 
   /// The maps that a server serves; this outlives them.
   ModbusUnits units_of(std::size_t server) const;

@@ -410,6 +410,57 @@ INSTANTIATE_TEST_SUITE_P(
         {kMap, R"({"tag": "gear.Slave", "table": "coil", "address": 9})", kMap + "/tag", "has no value"},
         {kMap, R"({"tag": "gear", "table": "coil", "address": 9})", kMap + "/tag", "one of its pins"}}));
 
+const std::string kLine = R"({"serial": {"device": "/dev/ttyS0")";
+const std::string kDevices = R"({"connect": "10.0.0.5:502", "devices": [{"name": "meter", "cycle": "1s")";
+
+INSTANTIATE_TEST_SUITE_P(
+    ModbusLines, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        {"/modbus/server", R"({"serial": {}})", "/modbus/server/serial", "'device' is missing"},
+        {"/modbus/server", kLine + R"(, "baud": 9601}})", "/modbus/server/serial/baud", "9600, 19200"},
+        {"/modbus/server", kLine + R"(, "parity": "mark"}})", "/modbus/server/serial/parity",
+         "allowed: none, even, odd"},
+        {"/modbus/server", kLine + R"(, "stop_bits": 3}})", "/modbus/server/serial/stop_bits", "from 1 to 2"},
+        {"/modbus/server", kLine + R"(, "silence": "2s"}})", "/modbus/server/serial/silence",
+         "from 100us to 1s"},
+        {"/modbus/server", kLine + R"(}, "unit": 248})", "/modbus/server/unit", "from 1 to 247"},
+        {"/modbus/server", kLine + R"(}, "listen": "127.0.0.1:1"})", "/modbus/server/listen",
+         "a server has it or 'serial'"},
+        at("/modbus/server/unit", "1", "allowed with 'serial' only")}));
+
+INSTANTIATE_TEST_SUITE_P(
+    ModbusClients, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        at("/modbus/clients", "{}", "allowed: an array"),
+        {"/modbus/clients", R"([{"devices": []}])", "/modbus/clients/0",
+         "one of the keys 'connect', 'serial'"},
+        {"/modbus/clients", R"([{"connect": "10.0.0.5:502"}])", "/modbus/clients/0", "'devices' is missing"},
+        {"/modbus/clients", R"([{"connect": "10.0.0.5:0", "devices": []}])", "/modbus/clients/0/connect",
+         "from 1 to 65535"},
+        {"/modbus/clients", R"([{"connect": "10.0.0.5:502", "timeout": "2min", "devices": []}])",
+         "/modbus/clients/0/timeout", "from 1ms to 1min"},
+        {"/modbus/clients", R"([{"connect": "10.0.0.5:502", "devices": [{"name": "meter"}]}])",
+         "/modbus/clients/0/devices/0", "'cycle' is missing"},
+        {"/modbus/clients", "[" + kDevices + R"(, "unit": 250}]}])", "/modbus/clients/0/devices/0/unit",
+         "from 0 to 247, 255"},
+        {"/modbus/clients", "[" + kDevices + R"(, "quality": "speed"}]}])",
+         "/modbus/clients/0/devices/0/quality", "no tag of type BOOL"},
+        {"/modbus/clients", "[" + kDevices + R"(, "age": "speed"}]}])", "/modbus/clients/0/devices/0/age",
+         "no tag of type TIME"},
+        {"/modbus/clients",
+         "[" + kDevices + R"(, "read": [{"tag": "gear.InSync", "table": "coil", "address": 0}]}]}])",
+         "/modbus/clients/0/devices/0/read/0/tag", "a pin cannot be written"},
+        {"/modbus/clients",
+         "[" + kDevices + R"(, "read": [{"tag": "speed", "table": "coil", "address": 0}]}]}])",
+         "/modbus/clients/0/devices/0/read/0/table", "does not fit the one bit"},
+        {"/modbus/clients",
+         "[" + kDevices + R"(, "write": [{"tag": "start", "table": "discrete_input", "address": 0}]}]}])",
+         "/modbus/clients/0/devices/0/write/0/table", "allowed: coil, holding_register"},
+        {"/modbus/clients",
+         "[" + kDevices +
+             R"(, "read": [{"tag": "start", "table": "coil", "address": 0, "access": "read"}]}]}])",
+         "/modbus/clients/0/devices/0/read/0/access", "unknown key"}}));
+
 INSTANTIATE_TEST_SUITE_P(
     Trace, Rules,
     testing::ValuesIn(std::vector<Rule>{

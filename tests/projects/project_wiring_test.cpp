@@ -278,6 +278,39 @@ TEST(ModbusMapping, ServersAndUnitsMayHaveMapsOfTheirOwn) {
   EXPECT_EQ(second.of(1).find(ModbusTable::holding_register, 0), nullptr);
 }
 
+TEST(ModbusMapping, LinesAndClientsAreReadAsTheyStand) {
+  const Project project = load(
+      R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"},
+          "tags": {"power": {"type": "LREAL"}, "limit": {"type": "INT"}, "good": {"type": "BOOL"},
+                   "age": {"type": "TIME"}},
+          "modbus": {
+            "server": {"serial": {"device": "/dev/ttyS1", "baud": 9600, "parity": "none", "stop_bits": 2,
+                                  "silence": "5ms"}, "unit": 12},
+            "clients": [{"connect": "[::1]:502", "timeout": "250ms", "devices": [
+              {"name": "meter", "unit": 3, "cycle": "20ms", "quality": "good", "age": "age",
+               "read": [{"tag": "power", "table": "input_register", "address": 7, "type": "DINT", "scale": 0.1}],
+               "write": [{"tag": "limit", "table": "holding_register", "address": 9}]}]}]}})");
+  const ModbusServerOptions& server = project.modbus.servers.at(0);
+  ASSERT_TRUE(server.serial.has_value());
+  EXPECT_EQ(server.serial->device, "/dev/ttyS1");
+  EXPECT_EQ(server.serial->baud, 9600);
+  EXPECT_EQ(server.serial->parity, Parity::none);
+  EXPECT_EQ(server.serial->stop_bits, 2);
+  EXPECT_EQ(server.serial->silence, std::chrono::milliseconds(5));
+  EXPECT_EQ(server.serial_unit, 12);
+  const ModbusClientConfig& client = project.modbus.clients.at(0);
+  EXPECT_EQ(client.options.place(), "[::1]:502");
+  EXPECT_EQ(client.options.timeout, std::chrono::milliseconds(250));
+  const ModbusDevice& device = client.options.devices.at(0);
+  EXPECT_EQ(device.unit, 3);
+  EXPECT_EQ(device.cycle, std::chrono::milliseconds(20));
+  EXPECT_EQ(client.signals.at(device.quality.value()).name, "good");
+  EXPECT_EQ(client.signals.at(device.age.value()).name, "age");
+  EXPECT_EQ(client.signals.at(device.reads.at(0).signal).name, "power");
+  EXPECT_TRUE(device.reads[0].is_scaled && device.reads[0].type == Type::DINT);
+  EXPECT_EQ(client.signals.at(device.writes.at(0).signal).name, "limit");
+}
+
 TEST(LoadProjectFile, ReadsAFileAndTellsWhenItCannot) {
   const std::string path = testing::TempDir() + "lockstep_project.json";
   std::ofstream(path) << kExampleProject;
