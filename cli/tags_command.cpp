@@ -185,12 +185,48 @@ nlohmann::ordered_json project_json(const Project& project) {
   return json;
 }
 
-int tell_tags(const std::string& file, bool json) {
+/// A cell of a CSV file (RFC 4180).
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+/// One line for each place on Modbus, for the import of HMI systems.
+std::string project_csv(const Project& project) {
+  std::string text =
+      "name,type,unit,table,address,length,wire_type,word_order,byte_order,bit,scale,offset,access,server,"
+      "unit_id,comment\r\n";
+  const Entries entries = sort_entries(project);
+  const auto line = [&](const Entry& entry, const std::string& comment) {
+    const ModbusEntry& place = *entry.place;
+    const auto order = [](bool is_big) { return is_big ? "big" : "little"; };
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(entry.name), type_name(entry.type),
+        unit_text(entry.unit), modbus_table_name(place.table), place.address, modbus_span(place),
+        type_name(place.type), order(place.word_order == WordOrder::big),
+        order(place.byte_order == ByteOrder::big), place.bit >= 0 ? std::to_string(place.bit) : "",
+        place.is_scaled ? fmt::format("{}", place.scale) : "",
+        place.is_scaled ? fmt::format("{}", place.offset) : "", place.writable ? "write" : "read",
+        entry.map->server ? std::to_string(*entry.map->server) : "",
+        entry.map->unit ? std::to_string(*entry.map->unit) : "", csv_cell(comment));
+  };
+  for (std::size_t i = 0; i < entries.of_tags.size(); ++i)
+    for (const Entry& entry : entries.of_tags[i]) line(entry, project.controller->tags[i].comment);
+  for (const Entry& entry : entries.others) line(entry, "");
+  return text;
+}
+
+enum class Form { text, json, csv };
+
+int tell_tags(const std::string& file, Form form) {
   int status = kOk;
   const std::optional<Project> project = load_or_tell(file, status);
   if (!project) return status;
-  const std::string text =
-      json ? project_json(*project).dump(2) + "\n" : project_text(*project, output_width());
+  const std::string text = form == Form::json  ? project_json(*project).dump(2) + "\n"
+                           : form == Form::csv ? project_csv(*project)
+                                               : project_text(*project, output_width());
   std::fwrite(text.data(), 1, text.size(), stdout);
   return kOk;
 }
@@ -202,13 +238,19 @@ void add_tags_command(CLI::App& app, Action& action) {
       "tags", "List a project's tags with their Modbus addresses, and its objects' numbers");
   auto file = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
+  auto csv = std::make_shared<bool>(false);
   command->add_option("FILE", *file, "the project file")->required();
-  command->add_flag("--json", *json, "as JSON, for programs");
+  auto* const as_json = command->add_flag("--json", *json, "as JSON, for programs");
+  command->add_flag("--csv", *csv, "what is on Modbus as CSV, for HMI systems")->excludes(as_json);
   command->footer(
       "Address: zero-based, first to last. As: the type on the wire, most significant word first unless it\n"
       "says little. Access: what a client may do. Number: what ActualMaster shows.\n"
       "Exit status: 0, 1 project not valid, 2 cannot be read");
-  command->callback([&action, file, json] { action = [file, json] { return tell_tags(*file, *json); }; });
+  command->callback([&action, file, json, csv] {
+    action = [file, json, csv] {
+      return tell_tags(*file, *json ? Form::json : *csv ? Form::csv : Form::text);
+    };
+  });
 }
 
 }  // namespace lockstep::cli
