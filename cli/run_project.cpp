@@ -210,6 +210,7 @@ class Surroundings {
     warn(counters.failed, "requests without a good answer");
     warn(counters.refused, "requests refused with an exception");
     warn(counters.bad_values, "values read that their tags cannot hold");
+    warn(counters.broken_lines, "times a serial line broke");
     warn(counters.faults, "internal faults survived");
   }
 

@@ -127,7 +127,8 @@ void ModbusClient::turn(Device& device) {
 }
 
 bool ModbusClient::is_reachable(Clock::time_point now) {
-  if (master_->is_connected()) return true;
+  if (master_->is_connected() && !master_->is_cut()) return true;
+  master_->close();
   if (now < connection_.at) return false;
   if (master_->connect()) {
     ++counters_.connections;

@@ -1,6 +1,7 @@
 #include "hmi_bridge/modbus_master.hpp"
 
 #include <modbus.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
@@ -57,6 +58,13 @@ bool ModbusMaster::connect() {
 void ModbusMaster::close() noexcept {
   if (is_connected_) modbus_close(library_->context);
   is_connected_ = false;
+}
+
+bool ModbusMaster::is_cut() const noexcept {
+  char byte = 0;
+  const ssize_t count =
+      ::recv(modbus_get_socket(library_->context), &byte, 1, MSG_PEEK | MSG_DONTWAIT | MSG_NOSIGNAL);
+  return count == 0 || (count < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != ENOTSOCK);
 }
 
 bool ModbusMaster::fail(int error) {

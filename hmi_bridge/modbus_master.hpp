@@ -31,6 +31,9 @@ class ModbusMaster {
   bool connect();
   void close() noexcept;
   bool is_connected() const noexcept { return is_connected_; }
+  /// Whether the other side has ended the connection meanwhile, as many do with one that rests; of a serial
+  /// line never.
+  bool is_cut() const noexcept;
 
   /// Reads registers, or bits as 0 and 1, into all of `words`; as many as one request may read.
   /// @param unit 1…247; over TCP 0 and 255 too

@@ -84,7 +84,7 @@ ModbusSerialLine::Clock::time_point ModbusSerialLine::due() const noexcept {
   return filled_ == 0 ? Clock::time_point::max() : last_byte_ + silence_;
 }
 
-void ModbusSerialLine::receive(Clock::time_point now) {
+void ModbusSerialLine::receive(Clock::time_point now, bool is_broken) {
   if (descriptor_ < 0) {
     if (now >= open_again_ && !open().empty()) close(now);
     return;
@@ -98,8 +98,10 @@ void ModbusSerialLine::receive(Clock::time_point now) {
       last_byte_ = now;
       continue;
     }
-    if (count < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) {
-      ++counters_.faults;
+    // No bytes is what a quiet line gives as well as one that has ended.
+    is_broken |= count < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR;
+    if (is_broken) {
+      ++counters_.broken_lines;
       close(now);
     }
     return;
@@ -133,7 +135,7 @@ void ModbusSerialLine::reply(std::span<const std::uint8_t> answer) {
   out[body.size() + 1] = static_cast<std::uint8_t>(crc >> 8);
   const std::size_t size = body.size() + kCheck;
   // The system takes 4 kB at once; if it does not, nobody listens, and the asker will ask again.
-  if (::write(descriptor_, out.data(), size) != static_cast<ssize_t>(size)) ++counters_.faults;
+  if (::write(descriptor_, out.data(), size) != static_cast<ssize_t>(size)) ++counters_.bad_frames;
 }
 
 }  // namespace lockstep

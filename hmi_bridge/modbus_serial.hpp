@@ -56,7 +56,8 @@ class ModbusSerialLine {
   Clock::time_point due() const noexcept;
 
   /// Takes in what has come; opens the line again if that is due.
-  void receive(Clock::time_point now);
+  /// @param is_broken the system says that there is nobody any more
+  void receive(Clock::time_point now, bool is_broken = false);
   /// The frame that has ended, with the header of Modbus TCP before it, or nothing. Valid until the next
   /// call.
   std::span<std::uint8_t> request(Clock::time_point now);

@@ -167,6 +167,7 @@ std::string ModbusServer::open_line(std::size_t service) {
 std::string ModbusServer::listen_at(Endpoint place, std::size_t service) {
   const Addresses addresses(place);
   if (addresses.code != 0) return ::gai_strerror(addresses.code);
+  if (addresses.list.empty()) return "has no address";
   bool is_first = true;
   for (const addrinfo* one : addresses.list) {
     sockaddr_storage address{};
@@ -225,7 +226,7 @@ void ModbusServer::turn() {
   const std::size_t first_client = first_line + lines_.size();
   for (std::size_t i = 0; i < clients_.size(); ++i)
     if (!serve(clients_[i], events_[first_client + i].revents, now)) clients_[i].connection.reset();
-  for (Line& line : lines_) serve_line(line, now);
+  for (std::size_t i = 0; i < lines_.size(); ++i) serve_line(lines_[i], events_[first_line + i].revents, now);
   std::erase_if(clients_, [](const Client& client) { return client.connection == nullptr; });
   for (std::size_t i = 0; i < listeners_.size(); ++i)
     if (events_[i + 1].revents != 0) accept_clients(listeners_[i], now);
@@ -267,8 +268,8 @@ ModbusServer::Clock::time_point ModbusServer::due(Clock::time_point now) const {
 }
 
 /// Requests to others on the line get no answer, and those to everybody are carried out without one.
-void ModbusServer::serve_line(Line& line, Clock::time_point now) {
-  line.port->receive(now);
+void ModbusServer::serve_line(Line& line, short events, Clock::time_point now) {
+  line.port->receive(now, (events & (POLLERR | POLLHUP | POLLNVAL)) != 0);
   const std::span<std::uint8_t> frame = line.port->request(now);
   if (frame.empty()) return;
   const ModbusService& service = services_[line.service];

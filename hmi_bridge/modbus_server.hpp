@@ -107,7 +107,7 @@ class ModbusServer {
   void turn();
   void wait();
   Clock::time_point due(Clock::time_point now) const;
-  void serve_line(Line& line, Clock::time_point now);
+  void serve_line(Line& line, short events, Clock::time_point now);
   void accept_clients(const Listener& listener, Clock::time_point now);
   bool admits(const sockaddr_storage& peer, std::size_t service);
   bool make_room(std::size_t service, Clock::time_point now);

@@ -14,7 +14,8 @@ std::string to_string(const Endpoint& endpoint) {
 }
 
 bool is_loopback(std::string_view host) noexcept {
-  return host == "::1" || host == "localhost" || (host.starts_with("127.") && host.size() <= 15);
+  return host == "::1" || host == "localhost" ||
+         (host.starts_with("127.") && host.find_first_not_of("0123456789.") == host.npos);
 }
 
 std::optional<IpNetwork> IpNetwork::parse(std::string_view text, std::string& problem) {

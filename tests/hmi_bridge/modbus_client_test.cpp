@@ -204,6 +204,25 @@ TEST_F(Client, ADeviceThatKeepsSilentIsAskedLessAndLessOftenAndHoldsUpNoOther) {
   ::close(silent);
 }
 
+TEST_F(Client, AConnectionThatTheDeviceEndsBetweenTwoCyclesIsMadeAnewInTime) {
+  ModbusServerOptions at;
+  at.listen = {{"127.0.0.1", 0}};
+  at.idle_limit = 50ms;
+  server = std::make_unique<ModbusServer>(at, machine.map, machine.image);
+  ASSERT_EQ(server->start(), "");
+  ModbusDevice device = plain_device();
+  device.cycle = 400ms;
+  poll({device}, server->port());
+  tags.expect([&] { return tags.quality; });
+  bool was_good = true;
+  tags.expect([&] {
+    was_good &= tags.quality;
+    return client->counters().connections >= 3;
+  });
+  EXPECT_TRUE(was_good);
+  EXPECT_EQ(client->counters().failed, 0u);
+}
+
 TEST_F(Client, PollsOverASerialLine) {
   const SerialCable cable;
   ModbusServerOptions line;

@@ -140,6 +140,26 @@ TEST(SerialLine, ThatIsNotThereOrIsNoneIsTold) {
   EXPECT_NE(none.start(), "");
 }
 
+TEST(SerialLine, ThatBreaksLeavesTheRestAtItsWork) {
+  ModbusMachine machine;
+  auto line = std::make_unique<PseudoTerminal>();
+  ModbusServerOptions tcp;
+  tcp.listen = {{"127.0.0.1", 0}};
+  ModbusServer server({{on(line->name()), machine.map}, {tcp, machine.map}}, machine.image);
+  ASSERT_EQ(server.start(), "");
+  line.reset();
+  const auto deadline = std::chrono::steady_clock::now() + 20s;
+  while (server.counters().broken_lines == 0 && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::yield();
+  EXPECT_EQ(server.counters().broken_lines, 1u);
+  ModbusMaster master(Endpoint{"127.0.0.1", server.port()}, 20s);
+  ASSERT_TRUE(master.connect());
+  std::vector<std::uint16_t> words(1);
+  ASSERT_TRUE(master.read(1, ModbusTable::holding_register, 32, words));
+  EXPECT_EQ(words[0], 77);
+  EXPECT_EQ(server.counters().broken_lines, 1u);
+}
+
 TEST(SerialLine, TheLibrarysMasterReadsAndWritesOverTheCable) {
   ModbusMachine machine;
   const SerialCable cable;
