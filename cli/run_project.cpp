@@ -210,7 +210,6 @@ class Surroundings {
     warn(counters.failed, "requests without a good answer");
     warn(counters.refused, "requests refused with an exception");
     warn(counters.bad_values, "values read that their tags cannot hold");
-    warn(counters.broken_lines, "times a serial line broke");
     warn(counters.faults, "internal faults survived");
   }
 
@@ -227,6 +226,7 @@ class Surroundings {
     warn(counters.stalled, "connections closed: a request not ended or an answer not taken");
     warn(counters.throttled, "requests held back: more than 'max_requests_per_second'");
     warn(counters.bad_frames, "frames on serial lines dropped: wrong check or length");
+    warn(counters.broken_lines, "times a serial line broke");
     warn(counters.faults, "internal faults survived");
   }
 

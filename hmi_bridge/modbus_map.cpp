@@ -75,6 +75,7 @@ std::uint64_t wire_bits(Type wire, Type signal, Value value) noexcept {
     default:
       break;
   }
+  if (wire == signal) return value.u;  // it fits as it is
   if (is_bit_string(wire)) return value.u & highest(wire);
   return saturated(value, signal, lowest(wire), highest(wire));
 }
@@ -100,12 +101,14 @@ std::optional<Value> wire_value(Type wire, std::uint64_t bits) noexcept {
     const int unused = 64 - 16 * modbus_registers(wire);
     value.i = static_cast<std::int64_t>(bits << unused) >> unused;
   }
-  return fits(value, wire, wire) ? std::optional(value) : std::nullopt;
+  const bool fills_its_registers = size_of(wire) >= 2;
+  return fills_its_registers || fits(value, wire, wire) ? std::optional(value) : std::nullopt;
 }
 
 bool holds(Type signal, Type wire, Value value) noexcept {
   if (signal == Type::REAL) return std::isfinite(static_cast<float>(value.r));
   if (signal == Type::LREAL) return std::isfinite(value.r);
+  if (wire == signal) return true;
   return fits(value, wire, signal);
 }
 

@@ -212,16 +212,16 @@ ModbusException ModbusResponder::read_bits(ModbusTable table, Bytes pdu) {
 ModbusException ModbusResponder::read_registers(ModbusTable table, std::uint32_t address,
                                                 std::uint32_t count) {
   if (count < 1 || count > MODBUS_MAX_READ_REGISTERS) return ModbusException::illegal_data_value;
-  if (const auto bad = check_read(table, address, count); bad != ModbusException::none) return bad;
   modbus_mapping_t& mapping = *library_->mapping;
   std::uint16_t* registers =
       table == ModbusTable::holding_register ? mapping.tab_registers : mapping.tab_input_registers;
   // A value that begins before the range or ends behind it gives the part that was asked for.
   for (std::uint32_t i = address; i < address + count;) {
-    const ModbusEntry& entry = *map_->find(table, i);
-    const ModbusWords words = words_of(entry);
-    const std::uint32_t end = std::min(address + count, entry.address + modbus_span(entry));
-    for (; i < end; ++i) registers[i] = words[i - entry.address];
+    const ModbusEntry* const entry = map_->find(table, i);
+    if (entry == nullptr) return ModbusException::illegal_data_address;
+    const ModbusWords words = words_of(*entry);
+    const std::uint32_t end = std::min(address + count, entry->address + modbus_span(*entry));
+    for (; i < end; ++i) registers[i] = words[i - entry->address];
   }
   return ModbusException::none;
 }
