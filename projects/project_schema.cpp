@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fb/block.hpp"
+#include "hmi_bridge/modbus_serial.hpp"
 #include "projects/configuration_tree.hpp"
 #include "projects/project_keys.hpp"
 #include "tech_objects/technology_object.hpp"
@@ -180,17 +181,86 @@ Json programs_schema() {
   return array("programs", program);
 }
 
+/// A text or an array of texts, an object or an array of objects.
+Json one_or_many(Json one, std::string_view description) {
+  Json schema = described(description, one);
+  schema["items"] = one;
+  schema["type"] = {one["type"], "array"};
+  return schema;
+}
+
+Json modbus_entry_schema() {
+  return object(keys::kMapEntry,
+                {{"tag", text("signal: tag, instance.Pin or Object.Variable")},
+                 {"diagnostic",
+                  text("in place of a tag: a number of the run, such as ticks, overruns, alarms, refused")},
+                 {"table", words("table of Modbus", words::kTables)},
+                 {"address", integer("zero-based address of the first register or of the bit", 0, 65535)},
+                 {"type", words("type on the wire; it may narrow that of the signal", tag_type_names())},
+                 {"word_order", words("big: most significant register first", words::kWordOrders)},
+                 {"byte_order", words("big: more significant byte of a register first", words::kWordOrders)},
+                 {"bit", integer("a BOOL as this bit of a register, which several may share", 0, 15)},
+                 {"scale", described("of a REAL or LREAL as an integer: value = integer * scale + offset",
+                                     {{"type", "number"}})},
+                 {"offset", described("see scale", {{"type", "number"}})},
+                 {"access", words("whether a client may write", words::kAccesses)}});
+}
+
+Json modbus_client_schema(const Json& serial) {
+  const Json served = modbus_entry_schema();
+  const Json& shapes = served["properties"];
+  const Json entry = object(keys::kDeviceEntry, {{"tag", text("tag or variable")},
+                                                 {"table", shapes["table"]},
+                                                 {"address", shapes["address"]},
+                                                 {"type", shapes["type"]},
+                                                 {"word_order", shapes["word_order"]},
+                                                 {"byte_order", shapes["byte_order"]},
+                                                 {"bit", shapes["bit"]},
+                                                 {"scale", shapes["scale"]},
+                                                 {"offset", shapes["offset"]}});
+  const Json device =
+      object(keys::kDevice, {{"name", text("for messages")},
+                             {"unit", integer("unit id (1)", 0, 255)},
+                             {"cycle", duration("how often it is read and written")},
+                             {"quality", text("BOOL tag: the last cycle went well")},
+                             {"age", text("TIME tag: since the last cycle that went well")},
+                             {"read", array("from the device into tags", entry)},
+                             {"write", array("from tags and variables to the device", entry)}});
+  return object(keys::kClient, {{"connect", text("HOST:PORT of the device or gateway")},
+                                {"serial", described("RTU over a serial line, in place of connect", serial)},
+                                {"timeout", duration("for connecting and for each answer (500ms)")},
+                                {"devices", array("devices behind this connection", device)}});
+}
+
 Json modbus_schema() {
-  const Json entry =
-      object(keys::kMapEntry,
-             {{"tag", text("signal: tag, instance.Pin or Object.Variable")},
-              {"table", words("table of Modbus", words::kTables)},
-              {"address", integer("zero-based address of the first register or of the bit", 0, 65535)},
-              {"type", words("type on the wire; it may narrow that of the signal", tag_type_names())},
-              {"word_order", words("big: most significant register first", words::kWordOrders)},
-              {"access", words("whether a client may write", words::kAccesses)}});
-  const Json server = object(keys::kServer, {{"listen", text("HOST:PORT, such as 127.0.0.1:1502")}});
-  return object(keys::kModbus, {{"server", server}, {"map", array("which signal stands where", entry)}});
+  const Json unit =
+      object(keys::kUnit, {{"unit", integer("unit id", 0, 255)},
+                           {"map", array("which signal stands where", reference("modbus_entry"))}});
+  const Json own_map = array("a map of its own in place of the common one", reference("modbus_entry"));
+  const Json units = array("maps of single unit ids in place of the one for all", unit);
+  const Json serial =
+      object(keys::kSerial,
+             {{"device", text("serial line, such as /dev/ttyS0")},
+              {"baud", described("bits per second (19200)", {{"enum", Json(kBauds)}})},
+              {"parity", words("(even)", words::kParities)},
+              {"stop_bits", integer("(1)", 1, 2)},
+              {"silence", duration("that ends a frame; 3.5 characters and at least 1.75 ms if missing")}});
+  const Json network = text("address or network, such as 192.168.1.0/24");
+  const Json server = object(
+      keys::kServer,
+      {{"listen", one_or_many({{"type", "string"}}, "HOST:PORT, such as 127.0.0.1:1502 or [::1]:1502")},
+       {"serial", described("RTU over a serial line, in place of listen", serial)},
+       {"unit", integer("own address on the serial line (1)", 1, 247)},
+       {"allow", array("from where clients may come; from everywhere if missing", network)},
+       {"max_clients", integer("connected at the same time (64)", 1, 1000)},
+       {"max_requests_per_second", integer("of one client; what is more waits", 1, 1'000'000)},
+       {"idle_timeout", duration("a client that asks for nothing for this long is disconnected")},
+       {"map", own_map},
+       {"units", units}});
+  return object(keys::kModbus, {{"server", one_or_many(server, "where clients may ask")},
+                                {"map", array("which signal stands where", reference("modbus_entry"))},
+                                {"units", units},
+                                {"clients", array("foreign devices", modbus_client_schema(serial))}});
 }
 
 Json trace_schema() {
@@ -235,6 +305,7 @@ std::string project_schema() {
     definitions["config"] = described("start values of the technology data block", config);
   }
   definitions["call"] = call_schema();
+  definitions["modbus_entry"] = modbus_entry_schema();
   schema["definitions"] = definitions;
   return schema.dump(2) + "\n";
 }

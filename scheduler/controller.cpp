@@ -52,6 +52,7 @@ void Controller::finish() {
 
 void Controller::skip(std::int64_t ticks) noexcept {
   next_tick_ += ticks;
+  counters_.missed_ticks += static_cast<std::uint64_t>(ticks);
   for (Axis* axis : driven_) axis->skip_servo(ticks);
 }
 

@@ -54,6 +54,9 @@ struct Stimulus {
 struct CycleCounters {
   std::uint64_t ticks = 0;               ///< servo ticks executed
   std::uint64_t interpolator_ticks = 0;  ///< interpolator ticks executed
+  std::uint64_t missed_ticks = 0;        ///< ticks of the grid that were left out
+  std::uint64_t overruns = 0;            ///< interpolator cycles that were not over in time
+  std::uint64_t alarms = 0;              ///< axes with an alarm, now
   EvaluationCounters evaluation;         ///< of all expressions
 };
 
@@ -100,6 +103,12 @@ class Controller {
   /// Time of the next tick [ns]: its number times the servo cycle.
   std::int64_t now() const noexcept { return next_tick_ * clock.servo_cycle; }
   const CycleCounters& counters() const noexcept { return counters_; }
+  /// Where a counter lives, for snapshots, which read it and never write.
+  Signal counter(std::uint64_t CycleCounters::*member) noexcept {
+    return {&(counters_.*member), Type::ULINT, -1};
+  }
+  /// Notes that an interpolator cycle was not over in time. Thread: the cycle.
+  void count_overrun() noexcept { ++counters_.overruns; }
 
   /// Brings every axis to rest with maximum dynamics and then off, as at the end of a run; whether all are at
   /// rest is told by `at_rest`. Programs no longer run.

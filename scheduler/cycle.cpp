@@ -58,9 +58,11 @@ void Controller::interpolate() noexcept {
     for (Axis* axis : order_.axes()) axis->restarted = false;
     order_.rebuild();
   }
+  counters_.alarms = 0;
   for (Axis* axis : order_.axes()) {
     axis->step();
     axis->publish();
+    if (axis->data.ErrorDetail.Number != 0) ++counters_.alarms;
   }
   ++counters_.interpolator_ticks;
 }

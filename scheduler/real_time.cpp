@@ -115,6 +115,7 @@ void RealTimeRun::run() noexcept {
 void RealTimeRun::count_overrun(bool overrun) noexcept {
   overruns_in_a_row_ = overrun ? overruns_in_a_row_ + 1 : 0;
   if (overrun) status_.overruns.fetch_add(1, std::memory_order_relaxed);
+  if (overrun) controller_.count_overrun();
   if (policy_ == OverrunPolicy::stop && overruns_in_a_row_ >= kOverrunsToStop)
     status_.stopped_by_overrun.store(true, std::memory_order_relaxed);
 }
