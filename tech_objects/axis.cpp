@@ -6,9 +6,6 @@
 namespace lockstep {
 namespace {
 
-/// Value of StatusSensor.State: the actual value is valid.
-constexpr DINT kSensorValid = 2;
-
 /// Age of an actual value when the interpolator takes it [s]: the drive is read at the beginning of the very
 /// tick.
 constexpr double kAcquisitionTime = 0.0;
@@ -35,11 +32,15 @@ void Axis::configure(double servo_period, int ratio) {
   for (const LeadingValue& leading : leading_values)
     if (leading.coupling == Coupling::actual) leading.source->leads_by_actual_value_ = true;
   if (has_drive_) configure_servo();
+  show_readiness();
+  publish();
+}
+
+void Axis::show_readiness() noexcept {
   data.OperativeSensor = 1;
   data.StatusSensor[0].State = kSensorValid;
   data.StatusSensor[0].CommunicationOK = true;
   data.StatusDrive.CommunicationOK = true;
-  publish();
 }
 
 void Axis::take_start_values() noexcept {
@@ -193,10 +194,10 @@ ErrorId Axis::reset(bool restart) noexcept {
     data = start_values_;
     homed_ = false;
     take_start_values();
-    data.OperativeSensor = 1;
-    data.StatusSensor[0].State = kSensorValid;
-    data.StatusSensor[0].CommunicationOK = true;
-    data.StatusDrive.CommunicationOK = true;
+    show_readiness();
+    if (has_drive_) restore_encoder();
+    limit_switches_ = {};
+    beyond_limit_switch_ = false;
   }
   return ErrorId::none;
 }
@@ -211,6 +212,7 @@ void Axis::step() noexcept {
   if (additive_request.owner != nullptr || additive_.in_use) take_additive();
   if (simulation_request.owner != nullptr) watch_simulation();
   if (running_[kWaiting] != nullptr) watch_waiting();
+  if (homing_now_) step_homing();
   switch (motion_) {
     case Motion::none:
       follow_actual();
@@ -229,6 +231,7 @@ void Axis::step() noexcept {
   } else {
     limit_side_ = 0;
   }
+  if (beyond_limit_switch_) hold_limit_switches();
   guard();
   if (!has_drive_) {
     // A virtual axis is where its setpoint is, in the same tick. Written part by part, as they have just been

@@ -26,6 +26,8 @@ void Axis::configure_servo() {
   controller_.configure(control_settings(), servo_period_);
   controller_.reset(setpoint_.position);
   encoder_origin_ = setpoint_.position;
+  restore_encoder();
+  signals_watched_ = signals_always_watched();
   // A setpoint is handed to the drive, at the end of the fine interpolation, one interpolator cycle later.
   data.StatusPositioning.SetpointExecutionTime = period_ + drive_.known_delay();
 }
@@ -53,6 +55,8 @@ void Axis::servo() noexcept {
   data.StatusSensor[0].Position = actual_.value;
   data.StatusSensor[0].Velocity = actual_velocity_;
   data.ActualSpeed = actual_velocity_ / way_per_motor_turn() * 60.0;
+
+  if (signals_watched_) watch_signals(now.position);
 
   ++servo_tick_;
   if (power_state_ == PowerState::off || power_state_ == PowerState::switching_on) {

@@ -7,6 +7,7 @@
 
 #include "tech_objects/axis_position.hpp"
 #include "tech_objects/double_double.hpp"
+#include "tech_objects/machine_signals.hpp"
 
 namespace lockstep {
 
@@ -35,6 +36,7 @@ struct SimulatedDriveSettings {
   double time_constant = 0.0;  ///< [s] ≥ 0, of the velocity loop as a first-order lag; 0: follows at once
   double dead_time = 0.0;      ///< [s] 0 … 254 servo cycles, whole or not; more counts as that
   double resolution = 0.0;     ///< [u] ≥ 0, increment of the encoder; 0: reports the position itself
+  MachineSignals signals{};    ///< what stands along its way; the drive itself takes no notice of it
 };
 
 /// Velocity loop as dead time and first-order lag, position as its integral, both exact for a setpoint that
