@@ -126,6 +126,7 @@ void load_drive(const JsonValue& json, Axis& axis, const Loading& loading) {
   constexpr double kCoarsest = 1e12;
   if (const auto resolution = read_number(fields["encoder_resolution"], 0.0, kCoarsest, problems))
     drive.resolution = *resolution;
+  if (const auto inverted = read_bool(fields["inverted"], problems)) drive.inverted = *inverted;
   load_signals(fields, drive.signals, loading);
 }
 

@@ -151,17 +151,19 @@ Json objects_schema() {
   const Json digital_input =
       object(keys::kDigitalInput, {{"tag", text("BOOL tag that the machine writes in every servo cycle")},
                                    {"range", range("positions in which it is TRUE")}});
-  const Json drive =
-      object(keys::kDrive, {{"model", words("kind of the drive", words::kModels)},
-                            {"time_constant", duration("lag of the velocity loop")},
-                            {"dead_time", duration("dead time of the velocity loop")},
-                            {"encoder_resolution", described("increment of the encoder [u]; 0: none",
-                                                             {{"type", "number"}, {"minimum", 0}})},
-                            {"start_position", place("of the machine, on its own scale [u]")},
-                            {"zero_marks", zero_marks},
-                            {"reference_cam", range("positions in which the reference cam is active")},
-                            {"limit_switches", limit_switches},
-                            {"digital_inputs", array("switches that are tags", digital_input)}});
+  const Json drive = object(
+      keys::kDrive, {{"model", words("kind of the drive", words::kModels)},
+                     {"time_constant", duration("lag of the velocity loop")},
+                     {"dead_time", duration("dead time of the velocity loop")},
+                     {"encoder_resolution", described("increment of the encoder [u]; 0: none",
+                                                      {{"type", "number"}, {"minimum", 0}})},
+                     {"inverted", described("motor and encoder turn the other way round than the machine",
+                                            {{"type", "boolean"}})},
+                     {"start_position", place("of the machine, on its own scale [u]")},
+                     {"zero_marks", zero_marks},
+                     {"reference_cam", range("positions in which the reference cam is active")},
+                     {"limit_switches", limit_switches},
+                     {"digital_inputs", array("switches that are tags", digital_input)}});
   const Json axis =
       object(keys::kObject, {{"type", words("published type", words::kObjectTypes)},
                              {"config", reference("config")},

@@ -98,7 +98,7 @@ void Axis::take_up_motion() noexcept {
   motion_ = Motion::single_axis;
   if (has_drive_) setpoint_ = {actual_, moving(actual_velocity_) ? actual_velocity_ : 0.0, 0.0};
   const AxisPosition here = setpoint_.position;
-  if (has_drive_) controller_.reset(here);
+  if (has_drive_) reset_servo({here, 0.0});
   if (setpoint_.standing() || single_.move_to(setpoint_, here, 0.0, maximum_dynamics()) != PlanResult::ok) {
     setpoint_.velocity = 0.0;
     setpoint_.acceleration = 0.0;
@@ -136,9 +136,9 @@ void Axis::follow_actual() noexcept {
 /// late.
 void Axis::set_position_control(bool on) noexcept {
   if (on && !position_controlled_ && has_drive_) {
-    setpoint_.position = advanced(actual_, actual_velocity_ * drive_.known_delay(), modulo_);
+    setpoint_.position = advanced(actual_, actual_velocity_ * setpoint_delay(), modulo_);
     last_setpoint_.position = setpoint_.position;
-    controller_.reset(setpoint_.position, actual_velocity_ * servo_period_, modulo_);
+    reset_servo({setpoint_.position, actual_velocity_});
   }
   position_controlled_ = on;
 }
@@ -195,7 +195,7 @@ ErrorId Axis::reset(bool restart) noexcept {
     homed_ = false;
     take_start_values();
     show_readiness();
-    if (has_drive_) restore_encoder();
+    if (has_drive_) restore_servo();
     limit_switches_ = {};
     beyond_limit_switch_ = false;
   }

@@ -20,6 +20,7 @@
 #include "tech_objects/extrapolation.hpp"
 #include "tech_objects/job.hpp"
 #include "tech_objects/override.hpp"
+#include "tech_objects/setpoint_filter.hpp"
 #include "tech_objects/single_axis_motion.hpp"
 #include "tech_objects/synchronous_motion.hpp"
 #include "tech_objects/technology_object.hpp"
@@ -247,6 +248,8 @@ class Axis : public TechnologyObject {
   }
   void leave_homing(const Job& job) noexcept;
   void adjust_encoder(bool store) noexcept;
+  /// What an absolute encoder reports where the machine is at the beginning [u].
+  double encoder_start() const noexcept { return encoder_sign_ * drive_settings.signals.start_position; }
   void restore_encoder() noexcept;
   bool absolute_encoder() const noexcept { return has_drive_ && data.Sensor[0].Type != 0; }
   double position_shift(double home_position) const noexcept;
@@ -315,6 +318,12 @@ class Axis : public TechnologyObject {
   PositionControlSettings control_settings() const noexcept;
   double way_per_motor_turn() const noexcept;
   void control_position() noexcept;
+  void restore_servo() noexcept;
+  void show_execution_time() noexcept;
+  double setpoint_delay() const noexcept;
+  double control_delay() const noexcept;
+  void reset_servo(const ServoSetpoint& setpoint) noexcept;
+  void delay_following_error(const PositionControlled& controlled) noexcept;
   void shift_servo(double by) noexcept;
 
   // axis_monitoring.cpp: software limit switches, following error, standstill
@@ -414,9 +423,14 @@ class Axis : public TechnologyObject {
   int ratio_ = 1;
   int servo_tick_ = 0;           // since the last interpolator tick
   AxisPosition encoder_origin_;  // position where the drive reports 0
+  double setpoint_sign_ = 1.0;   // -1: the drive turns the other way round
+  double encoder_sign_ = 1.0;
   bool drive_running_ = false;
   SimulatedDrive drive_;
   PositionController controller_;
+  DynamicFilter setpoint_filter_;
+  FirstOrderLag following_lag_;  // FollowingError.AdditionalSetpointDelayTime
+  AxisPosition last_balanced_;
 };
 
 }  // namespace lockstep

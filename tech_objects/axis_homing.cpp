@@ -127,8 +127,7 @@ void Axis::adjust_encoder(bool store) noexcept {
   const DoubleDouble turns = modulo_.enabled
                                  ? to_double_double(encoder_origin_.turns - counted_from_) * modulo_.length
                                  : DoubleDouble{};
-  const DoubleDouble offset =
-      turns + two_difference(encoder_origin_.value, drive_settings.signals.start_position);
+  const DoubleDouble offset = turns + two_difference(encoder_origin_.value, encoder_start());
   encoder_adjustment = {true, offset.rounded()};
   data.StatusSensor[0].AbsEncoderOffset = encoder_adjustment.offset;
 }
@@ -137,7 +136,7 @@ void Axis::adjust_encoder(bool store) noexcept {
 void Axis::restore_encoder() noexcept {
   if (!absolute_encoder()) return;
   if (!encoder_adjustment.adjusted || !std::isfinite(encoder_adjustment.offset)) encoder_adjustment = {};
-  const DoubleDouble place = two_sum(drive_settings.signals.start_position, encoder_adjustment.offset);
+  const DoubleDouble place = two_sum(encoder_start(), encoder_adjustment.offset);
   const AxisPosition origin = normalised(0, place, modulo_);
   shift_positions(difference(origin, encoder_origin_, modulo_).rounded());
   encoder_origin_ = origin;
@@ -200,7 +199,9 @@ void Axis::search_mark(bool active, int direction) noexcept {
   const auto& sensor = data.Sensor[0];
   const DINT mark = active ? sensor.ActiveHoming.Mode : sensor.PassiveHoming.Mode;
   const BOOL positive_side = active ? sensor.ActiveHoming.SideInput : sensor.PassiveHoming.SideInput;
-  mark_search_.begin(static_cast<HomingMark>(mark), direction, positive_side ? 1 : -1);
+  // The machine may lie the other way round than the axis counts.
+  const int sign = encoder_sign_ < 0.0 ? -1 : 1;
+  mark_search_.begin(static_cast<HomingMark>(mark), sign * direction, positive_side ? sign : -sign);
   on_home_switch_ = false;
   signals_watched_ = true;
 }
@@ -270,7 +271,7 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
 /// The mark has been passed; a virtual axis has none, and takes the place where it is.
 void Axis::take_mark() noexcept {
   const DoubleDouble way = two_difference(mark_search_.place(), drive_settings.signals.start_position);
-  const AxisPosition place = has_drive_ ? advanced(encoder_origin_, way, modulo_) : actual_;
+  const AxisPosition place = has_drive_ ? advanced(encoder_origin_, way * encoder_sign_, modulo_) : actual_;
   mark_search_.end();
   Job* const passive = running_[kPassiveHoming];
   Job& job = passive != nullptr ? *passive : *running_[kBase];

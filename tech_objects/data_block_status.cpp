@@ -116,7 +116,7 @@ constexpr Variable kVariables[] = {
              "position setpoint after the balancing filter"),
     VARIABLE(StatusServo.ControlDifference, RON, kPosition, kAny, "control difference"),
     VARIABLE(StatusServo.PositionAfterDynamicFilter, RON, kPosition, kAny,
-             "position setpoint after the dynamic filter", .later = true),
+             "position setpoint after the dynamic filter"),
     VARIABLE(StatusProvidedLeadingValue.DelayedLeadingValue.Position, RON, kPosition, between(-1e12, 1e12),
              "position", .later = true),
     VARIABLE(StatusProvidedLeadingValue.DelayedLeadingValue.Velocity, RON, kVelocity, between(-1e12, 1e12),
