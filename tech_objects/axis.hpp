@@ -17,27 +17,19 @@
 
 #include "tech_objects/axis_position.hpp"
 #include "tech_objects/drive.hpp"
-#include "tech_objects/extrapolation.hpp"
 #include "tech_objects/job.hpp"
+#include "tech_objects/leading_object.hpp"
 #include "tech_objects/override.hpp"
 #include "tech_objects/setpoint_filter.hpp"
 #include "tech_objects/single_axis_motion.hpp"
 #include "tech_objects/synchronous_motion.hpp"
-#include "tech_objects/technology_object.hpp"
 #include "tech_objects/variable.hpp"
 
 namespace lockstep {
 
-/// How a leading value is taken from its source.
-/// @source S7-1500T synchronous operation V7, 5.2
-enum class Coupling : std::uint8_t {
-  setpoint,  ///< the setpoint of the same tick
-  actual     ///< the extrapolated actual value
-};
-
 /// One configured leading value interconnection of a following axis.
 struct LeadingValue {
-  Axis* source = nullptr;
+  LeadingObject* source = nullptr;
   Coupling coupling = Coupling::setpoint;
 };
 
@@ -68,7 +60,7 @@ struct EncoderAdjustment {
       0.0;  ///< [u] StatusSensor[1].AbsEncoderOffset: position of the axis less that of the encoder
 };
 
-class Axis : public TechnologyObject {
+class Axis final : public LeadingObject {
  public:
   Axis(ObjectKind kind, std::string name, DB_ANY number);
 
@@ -91,10 +83,11 @@ class Axis : public TechnologyObject {
 
   /// Takes over the start values. Call once, after `data` is set and before the first tick.
   /// @param servo_period period of MC_Servo [s]  @param ratio servo ticks per interpolator tick, 1 to 32
-  void configure(double servo_period, int ratio);
+  void configure(double servo_period, int ratio) override;
+  void* data_block() noexcept override { return &data; }
+  void* start_values() noexcept override { return &start_values_; }
 
   bool is_virtual() const noexcept { return data.VirtualAxis.Mode == 1; }
-  Modulo modulo() const noexcept { return modulo_; }
 
   // ---- Cycle: called by blocks
   // ------------------------------------------------------------------------------------
@@ -129,13 +122,17 @@ class Axis : public TechnologyObject {
   void start_jobs() noexcept;
   bool has_new_jobs() const noexcept { return new_count_ != 0; }
 
+  /// Alarm 601 if the object that leads this axis has been restarted: where it is then has no meaning for it.
+  void watch_leading_object() noexcept;
+
   /// One interpolator cycle: the setpoint of this tick. Leading axes have to be stepped before.
   void step() noexcept;
 
   /// Checks the setpoint and shows everything in the data block.
   void publish() noexcept;
 
-  /// Leading axes on which this axis depends: the coupled one and the one that a waiting job names.
+  /// Leading axes on which this axis depends: the coupled one and the one that a waiting job names; nullptr:
+  /// none, or an object that depends on no other.
   Axis* coupled_leading_axis() const noexcept;
   Axis* awaited_leading_axis() const noexcept;
   /// Raised when a coupling has changed, so that the order of the axes is built anew.
@@ -146,20 +143,14 @@ class Axis : public TechnologyObject {
   /// Raises a technology alarm: shows it and has its reaction carried out.
   void raise(int alarm_number) noexcept;
 
-  /// The setpoint of the last interpolator tick, and the one before it.
-  const Setpoint& setpoint() const noexcept { return setpoint_; }
-  const Setpoint& last_setpoint() const noexcept { return last_setpoint_; }
-  /// What a following axis sees of this one, now and one interpolator tick ago.
-  Setpoint leading_state(Coupling coupling) const noexcept;
-  Setpoint last_leading_state(Coupling coupling) const noexcept;
+  bool leading_value_stands() const noexcept override { return setpoint_.velocity == 0.0; }
 
   bool enabled() const noexcept { return power_state_ == PowerState::on; }
   bool off() const noexcept { return power_state_ == PowerState::off; }
   /// Whether an alarm has removed the enable, until it is acknowledged.
   bool enable_removed() const noexcept { return enable_removed_; }
-  bool position_controlled() const noexcept { return position_controlled_; }
-  /// Whether this axis is `axis` or follows, over any number of couplings, one that is.
-  bool led_by_this(const Axis* axis) const noexcept;
+  /// Whether this axis is `leading` or follows, over any number of couplings, one that is.
+  bool led_by_this(const LeadingObject* leading) const noexcept;
   /// Largest distance between actual position and synchronous function while synchronous [u], for the summary
   /// of a run.
   double largest_synchronous_deviation() const noexcept { return largest_deviation_; }
@@ -177,7 +168,6 @@ class Axis : public TechnologyObject {
 
   // axis.cpp: power, alarms, the cycle
   void take_start_values() noexcept;
-  void show_readiness() noexcept;
   std::int64_t ticks_of(double seconds) const noexcept;
   void step_power() noexcept;
   void switch_on() noexcept;
@@ -192,15 +182,16 @@ class Axis : public TechnologyObject {
   void raise(int alarm_number, AlarmReaction reaction) noexcept;
   void react(AlarmReaction reaction) noexcept;
   ErrorId reset(bool restart) noexcept;
+  void restart() noexcept;
+  void show_sensor() noexcept;
   void guard() noexcept;
-  void extrapolate() noexcept;
 
   // axis_jobs.cpp: taking jobs over, override rules, ends
   void start(Job& job) noexcept;
   ErrorId check(const Job& job) const noexcept;
   ErrorId check_synchronous(const Job& job) const noexcept;
   int missing_precondition(const Job& job) const noexcept;
-  const LeadingValue* find_leading_value(const Axis* master) const noexcept;
+  const LeadingValue* find_leading_value(const LeadingObject* master) const noexcept;
   bool override_running(JobClass new_job, Job& job) noexcept;
   void cancel_waiting_shift(Job& job) noexcept;
   bool gear_runs_or_waits() const noexcept;
@@ -315,10 +306,11 @@ class Axis : public TechnologyObject {
 
   // axis_servo.cpp: drive and position control
   void configure_servo();
+  void restart_servo() noexcept;
+  void take_servo_settings() noexcept;
   PositionControlSettings control_settings() const noexcept;
   double way_per_motor_turn() const noexcept;
   void control_position() noexcept;
-  void restore_servo() noexcept;
   void show_execution_time() noexcept;
   double setpoint_delay() const noexcept;
   double control_delay() const noexcept;
@@ -351,16 +343,11 @@ class Axis : public TechnologyObject {
   void publish_awaited() noexcept;
   void publish_synchronous() noexcept;
   void publish_status() noexcept;
-  void publish_extrapolation() noexcept;
 
   // Hot: touched in every interpolator cycle.
-  Setpoint setpoint_;
-  Setpoint last_setpoint_;
   double period_ = 0.001;  // of the interpolator [s]
-  Modulo modulo_;
   Motion motion_ = Motion::none;
   PowerState power_state_ = PowerState::off;
-  bool position_controlled_ = true;
   bool homed_ = false;
   bool has_drive_ = false;
   bool enable_removed_ = false;
@@ -374,7 +361,6 @@ class Axis : public TechnologyObject {
   bool signals_watched_ = false;
   AxisPosition actual_;
   double actual_velocity_ = 0.0;  // [u/s]
-  bool leads_by_actual_value_ = false;
   double largest_deviation_ = 0.0;
   bool was_synchronous_ = false;
   SynchronousMotion synchronous_;
@@ -399,11 +385,6 @@ class Axis : public TechnologyObject {
   Setpoint ghost_;            // where it would have the axis
   AxisData start_values_;
 
-  // Leading by actual value.
-  Extrapolation extrapolation_;
-  Setpoint leading_actual_;
-  Setpoint last_leading_actual_;
-
   // Homing and hardware limit switches.
   struct LimitSwitch {
     bool pressed = false;
@@ -421,9 +402,10 @@ class Axis : public TechnologyObject {
   // Servo.
   double servo_period_ = 0.001;  // [s]
   int ratio_ = 1;
-  int servo_tick_ = 0;           // since the last interpolator tick
-  AxisPosition encoder_origin_;  // position where the drive reports 0
-  double setpoint_sign_ = 1.0;   // -1: the drive turns the other way round
+  int servo_tick_ = 0;             // since the last interpolator tick
+  AxisPosition encoder_origin_;    // position where the drive is where it was at the beginning
+  DoubleDouble encoder_position_;  // way of the drive from there [u], as it counts
+  double setpoint_sign_ = 1.0;     // -1: the drive turns the other way round
   double encoder_sign_ = 1.0;
   bool drive_running_ = false;
   SimulatedDrive drive_;

@@ -317,11 +317,7 @@ void Axis::shift_positions(double by) noexcept {
   setpoint_.position = advanced(setpoint_.position, by, modulo_);
   last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
   actual_ = advanced(actual_, by, modulo_);
-  if (leads_by_actual_value_) {
-    extrapolation_.shift(by);
-    leading_actual_.position = advanced(leading_actual_.position, by, modulo_);
-    last_leading_actual_.position = advanced(last_leading_actual_.position, by, modulo_);
-  }
+  if (leads_by_actual_value()) shift_leading(by);
   single_.shift(by);
   synchronous_.shift_following(by);
   if (has_drive_) shift_servo(by);

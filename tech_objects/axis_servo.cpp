@@ -21,24 +21,31 @@ FineSetpoint between(double way, double from_velocity, double to_velocity, doubl
 
 }  // namespace
 
-void Axis::configure_servo() {
-  drive_.configure(drive_settings, servo_period_);
-  const bool inverted = drive_settings.inverted;
-  setpoint_sign_ = data.Actor.InverseDirection != inverted ? -1.0 : 1.0;
-  encoder_sign_ = data.Sensor[0].InverseDirection != inverted ? -1.0 : 1.0;
-  controller_.configure(control_settings(), servo_period_);
-  controller_.reset(setpoint_.position);
-  encoder_origin_ = setpoint_.position;
+/// The encoder goes on from where it is, at the position that the axis has now.
+void Axis::restart_servo() noexcept {
+  take_servo_settings();
+  encoder_origin_ = advanced(actual_, -(encoder_position_ * encoder_sign_), modulo_);
   restore_encoder();
-  signals_watched_ = signals_always_watched();
-  setpoint_filter_.configure(modulo_, servo_period_);
-  setpoint_filter_.reset({setpoint_.position, 0.0}, data.SetpointFilter.DynamicFilter);
+  reset_servo({setpoint_.position, 0.0});
   show_execution_time();
 }
 
-/// After a restart of the object.
-void Axis::restore_servo() noexcept {
+/// Settings that count from the start, or a restart, on.
+void Axis::take_servo_settings() noexcept {
+  const bool inverted = drive_settings.inverted;
+  setpoint_sign_ = data.Actor.InverseDirection != inverted ? -1.0 : 1.0;
+  encoder_sign_ = data.Sensor[0].InverseDirection != inverted ? -1.0 : 1.0;
+  setpoint_filter_.configure(modulo_, servo_period_);
+  signals_watched_ = signals_always_watched();
+}
+
+void Axis::configure_servo() {
+  drive_.configure(drive_settings, servo_period_);
+  take_servo_settings();
+  controller_.configure(control_settings(), servo_period_);
+  encoder_origin_ = setpoint_.position;
   restore_encoder();
+  reset_servo({setpoint_.position, 0.0});
   show_execution_time();
 }
 
@@ -78,6 +85,7 @@ double Axis::way_per_motor_turn() const noexcept {
 
 void Axis::servo() noexcept {
   DriveActual now = drive_.read();
+  encoder_position_ = now.position;
   if (signals_watched_) watch_signals(now.position);
   if (encoder_sign_ < 0.0) {
     now.position = -now.position;
