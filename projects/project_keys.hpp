@@ -35,7 +35,11 @@ inline constexpr Key kProject[] = {{"lockstep", kRequired},
 inline constexpr Key kClock[] = {{"servo_cycle", kRequired}, {"interpolator_ratio"}, {"overrun"}};
 inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
 inline constexpr Key kDrive[] = {
-    {"model", kRequired}, {"time_constant"}, {"dead_time"}, {"encoder_resolution"}};
+    {"model", kRequired}, {"time_constant"}, {"dead_time"},     {"encoder_resolution"}, {"inverted"},
+    {"start_position"},   {"zero_marks"},    {"reference_cam"}, {"limit_switches"},     {"digital_inputs"}};
+inline constexpr Key kZeroMarks[] = {{"position", kRequired}, {"period"}};
+inline constexpr Key kLimitSwitches[] = {{"min"}, {"max"}};
+inline constexpr Key kDigitalInput[] = {{"tag", kRequired}, {"range", kRequired}};
 inline constexpr Key kLeadingValue[] = {{"to", kRequired}, {"coupling"}};
 inline constexpr Key kTag[] = {{"type", kRequired}, {"init"}, {"retain"}, {"comment"}};
 inline constexpr Key kProgram[] = {

@@ -133,12 +133,37 @@ Json objects_schema() {
   const Json leading_value =
       object(keys::kLeadingValue, {{"to", text("name of the leading axis")},
                                    {"coupling", words("how its value is taken", words::kCouplings)}});
-  const Json drive =
-      object(keys::kDrive, {{"model", words("kind of the drive", words::kModels)},
-                            {"time_constant", duration("lag of the velocity loop")},
-                            {"dead_time", duration("dead time of the velocity loop")},
-                            {"encoder_resolution", described("increment of the encoder [u]; 0: none",
-                                                             {{"type", "number"}, {"minimum", 0}})}});
+  const auto place = [](std::string_view description) {
+    return described(description, {{"type", "number"}, {"minimum", -1e12}, {"maximum", 1e12}});
+  };
+  const auto range = [&](std::string_view description) {
+    Json schema = array(description, place("[u]"));
+    schema["minItems"] = schema["maxItems"] = 2;
+    return schema;
+  };
+  const Json zero_marks = object(
+      keys::kZeroMarks, {{"position", place("of a zero mark [u]")},
+                         {"period", described("after which the next one follows [u]; 0: there is one only",
+                                              {{"type", "number"}, {"minimum", 0}, {"maximum", 1e12}})}});
+  const Json limit_switches =
+      object(keys::kLimitSwitches, {{"min", place("from here downwards the negative one is pressed [u]")},
+                                    {"max", place("from here upwards the positive one is pressed [u]")}});
+  const Json digital_input =
+      object(keys::kDigitalInput, {{"tag", text("BOOL tag that the machine writes in every servo cycle")},
+                                   {"range", range("positions in which it is TRUE")}});
+  const Json drive = object(
+      keys::kDrive, {{"model", words("kind of the drive", words::kModels)},
+                     {"time_constant", duration("lag of the velocity loop")},
+                     {"dead_time", duration("dead time of the velocity loop")},
+                     {"encoder_resolution", described("increment of the encoder [u]; 0: none",
+                                                      {{"type", "number"}, {"minimum", 0}})},
+                     {"inverted", described("motor and encoder turn the other way round than the machine",
+                                            {{"type", "boolean"}})},
+                     {"start_position", place("of the machine, on its own scale [u]")},
+                     {"zero_marks", zero_marks},
+                     {"reference_cam", range("positions in which the reference cam is active")},
+                     {"limit_switches", limit_switches},
+                     {"digital_inputs", array("switches that are tags", digital_input)}});
   const Json axis =
       object(keys::kObject, {{"type", words("published type", words::kObjectTypes)},
                              {"config", reference("config")},

@@ -73,12 +73,7 @@ void Axis::start(Job& job) noexcept {
 
 /// Whether the state of the axis permits the job at all.
 ErrorId Axis::check(const Job& job) const noexcept {
-  if (job.kind == JobKind::MC_Home) {
-    if (!position_controlled_) return ErrorId::not_position_controlled;
-    const Job* base = running_[kBase];
-    const bool coupled = base != nullptr && base->kind == JobKind::MC_GearInPos;
-    return coupled ? ErrorId::homing_while_coupled : ErrorId::none;
-  }
+  if (job.kind == JobKind::MC_Home) return check_homing(job);
   if (pending_alarm() != 0) return ErrorId::technology_alarm;
   if (!enabled()) return ErrorId::locked;
   if (locked_by_stop() && job.kind != JobKind::MC_Stop) return ErrorId::locked;
@@ -125,6 +120,7 @@ void Axis::cancel_waiting_shift(Job& job) noexcept {
 /// Preconditions whose absence is a technology alarm; 0: none is missing.
 int Axis::missing_precondition(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_MoveAbsolute && !homed_) return alarm::kNotHomed;
+  if (job.kind == JobKind::MC_Home) return missing_for_homing(job);
   if (!couples(job.kind)) return 0;
   const LeadingValue* leading = find_leading_value(job.master);
   if (leading == nullptr) return alarm::kLeadingAxis;
@@ -215,6 +211,7 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   if (slot == kBase && alone) end_job(kBuffered, JobPhase::aborted, ErrorId::none);
   if (slot == kSuperimposed) show_superimposed_command();
   if (slot == kBase && class_of(*job, true) == JobClass::motion_in) show_motion_in_command();
+  if (job->kind == JobKind::MC_Home) leave_homing(*job);
   if (slot == kBase && job->kind == JobKind::MC_GearOut) data.StatusSynchronizedMotion.FunctionState = 0;
   if (slot == kWaiting || slot == kWaitingOut) {
     data.StatusSynchronizedMotion.WaitingFunctionState = 0;
@@ -230,42 +227,6 @@ void Axis::end_all_jobs(JobPhase phase, ErrorId error) noexcept {
   }
   new_count_ = 0;
   stop_ = nullptr;
-}
-
-/// Direct homing: setpoint and actual position are shifted together; nothing moves.
-void Axis::home(Job& job) noexcept {
-  const double by = job.mode == 0 ? position_shift(job.position) : job.position;
-  // Outside the numeric range, or not representable on its ring, the axis could not be used again.
-  const double homed_at = advanced(setpoint_.position, by, modulo_).value;
-  if (!std::isfinite(by) || !(std::abs(homed_at) <= kPositionRange) || !modulo_.contains(homed_at))
-    return job.fail(ErrorId::position);
-  shift_positions(by);
-  if (job.mode == 0 && !has_drive_) {
-    // A virtual axis has no following error: the position is the given one to the last bit.
-    const AxisPosition exact = normalised({setpoint_.position.turns, job.position}, modulo_);
-    setpoint_.position.value = exact.value;
-    const bool idle = running_[kBase] == nullptr && !superimposed_.in_use();
-    if (setpoint_.standing() && motion_ == Motion::single_axis && idle) single_.stand(setpoint_);
-    actual_ = setpoint_.position;
-  }
-  homed_ = true;
-  job.phase = JobPhase::done;
-}
-
-/// Way from the actual position to a home position; on a ring the shorter one.
-double Axis::position_shift(double home_position) const noexcept {
-  return shortest_distance(actual_.value, home_position, modulo_);
-}
-
-void Axis::shift_positions(double by) noexcept {
-  setpoint_.position = advanced(setpoint_.position, by, modulo_);
-  last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
-  base_.position = advanced(base_.position, by, modulo_);
-  actual_ = advanced(actual_, by, modulo_);
-  if (leads_by_actual_value()) shift_leading(by);
-  single_.shift(by);
-  synchronous_.shift_following(by);
-  if (has_drive_) shift_servo(by);
 }
 
 }  // namespace lockstep

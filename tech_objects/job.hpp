@@ -77,6 +77,7 @@ struct Job {
   LREAL jerk = -1.0;          ///< [u/s³]; 0: trapezoidal
   DINT direction{};           ///< Direction or SyncDirection
   DINT mode{};                ///< Mode, SyncProfileReference
+  DINT sensor{};              ///< MC_Home: encoder to adjust, 1 to 4; 0: the operative one
   BOOL current{};             ///< MC_MoveVelocity: keep the present velocity
   BOOL position_controlled = true;
   BufferMode buffer_mode{};   ///< MC_MoveAbsolute, MC_MoveRelative, MC_MoveVelocity, MC_Halt
@@ -96,6 +97,7 @@ struct Job {
 
   // Written by the axis.
   LREAL covered{};          ///< share of a shift made so far [u]
+  LREAL mark_position{};    ///< MC_Home: position assigned to the homing mark [u]
   DoubleDouble shift_base;  ///< from which that share counts [u]
 
   bool ended() const noexcept { return phase >= JobPhase::done; }

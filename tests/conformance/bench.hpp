@@ -36,8 +36,13 @@ class Bench {
  public:
   /// @param modulo whether the following axis has a ring
   /// @param enable_following false: a block under test does it, or the axis stays off
-  explicit Bench(bool modulo = false, bool enable_following = true)
+  /// @param driven whether the following axis has a drive, with a zero mark that is far away
+  explicit Bench(bool modulo = false, bool enable_following = true, bool driven = false)
       : leading(make_axis("Leading", true)), following(make_axis("Following", modulo)) {
+    if (driven) {
+      following.data.VirtualAxis.Mode = 0;
+      following.drive_settings.signals.zero_marks = ZeroMarks{1e6, 0.0};
+    }
     controller.clock = {BenchLimits::kPeriod, 1};
     following.leading_values.push_back({&leading, Coupling::setpoint});
     following.data.Modulo.Length = 360.0;

@@ -17,6 +17,15 @@ struct NamedJob {
   int mode = -1;      ///< MC_Home; -1: none
 };
 
+/// Whether a job looks for a homing mark: MC_Home Mode 3 and 5 by a motion of its own, 2, 8 and 10 in
+/// passing.
+inline bool homes_actively(const NamedJob& job) {
+  return job.mode == 3 || job.mode == 5;
+}
+inline bool homes_passively(const NamedJob& job) {
+  return job.mode == 2 || job.mode == 8 || job.mode == 10;
+}
+
 /// What can become of a job.
 enum class Fate { waits, active, done, aborted, failed, silent };
 
@@ -41,7 +50,8 @@ inline bool is_shift(const std::string& block) {
 /// The bench with a leading axis that turns slowly: five seconds for a turn.
 class Stage {
  public:
-  Stage() {
+  /// @param driven whether the following axis has a drive, so that it has a mark to look for
+  explicit Stage(bool driven = false) : bench(false, true, driven) {
     bench.run_leading.Velocity = kLeadingVelocity;
     bench.ready();
     bench.run(100);
@@ -53,6 +63,14 @@ class Stage {
   Subject& start(const std::string& block, double ahead) {
     Subject& job = make(block);
     set_up(job, ahead);
+    job.start(true);
+    return job;
+  }
+
+  Subject& start(const NamedJob& named, double ahead) {
+    Subject& job = make(named.block);
+    set_up(job, ahead);
+    if (named.mode >= 0) job.set("Mode", named.mode);
     job.start(true);
     return job;
   }
@@ -77,6 +95,15 @@ class Stage {
     if (job.type().find_pin("Velocity") != nullptr) job.set("Velocity", kLeadingVelocity);
     job.start(true);
     return job;
+  }
+
+  /// The following axis is homed directly, which ends no job.
+  void rehome() {
+    bench.allow_position_steps(6);
+    bench.home_following.Execute = true;
+    bench.run(4);
+    bench.home_following.Execute = false;
+    bench.run(2);
   }
 
   /// The following axis runs so fast that a slow stop takes seconds.
@@ -299,6 +326,15 @@ inline std::vector<Situation> superimposed_situations(const std::string& block) 
 /// Every way in which a job of the tables can run here; none: nothing that exists brings it about.
 inline std::vector<Situation> situations(const NamedJob& running) {
   const std::string& block = running.block;
+  if (block == "MC_Home") {
+    const auto searching = [running](Stage& stage) {
+      Subject& job = stage.start(running, Stage::kSoon);
+      stage.bench.run(10);
+      stage.rehome();  // without it, MC_MoveAbsolute ends in alarm 321
+      return &job;
+    };
+    return {{.name = "searching", .bring_about = searching}};
+  }
   if (is_one_of(block, {"MC_Halt", "MC_Stop"})) return stop_situations(block);
   if (is_single_axis(block)) {
     const auto moving = [block](Stage& stage) {

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/conformance/bench.hpp"
 
@@ -71,7 +72,7 @@ struct Unsupported {
   const char* pin;
   std::set<double> values;
 };
-inline const Unsupported kUnsupported[] = {{"MC_Home", "Mode", {2, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13}}};
+inline const std::vector<Unsupported> kUnsupported;  // none
 
 // ---- The table of results
 // ---------------------------------------------------------------------------------------

@@ -220,6 +220,26 @@ TEST(Configuration, ReachesArrayElementsAndTags) {
   EXPECT_EQ(axis.drive_settings.resolution, 0.001);
 }
 
+TEST(Drive, TakesTheMarksAndSwitchesOfItsMachine) {
+  const Project project = load(
+      R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"}, "tags": {"door": {"type": "BOOL"}},
+          "technology_objects": {"A": {"type": "TO_PositioningAxis", "drive": {"model": "simulated", "start_position": 40.5,
+            "zero_marks": {"position": 3, "period": 10.0}, "reference_cam": [100, 120], "limit_switches": {"min": -200, "max": 400},
+            "digital_inputs": [{"tag": "door", "range": [-1, 1]}]}}}})");
+  const MachineSignals& signals = project.controller->axes[0]->drive_settings.signals;
+  EXPECT_EQ(signals.start_position, 40.5);
+  ASSERT_TRUE(signals.zero_marks && signals.reference_cam);
+  EXPECT_EQ(signals.zero_marks->position, 3.0);
+  EXPECT_EQ(signals.zero_marks->period, 10.0);
+  EXPECT_EQ(signals.reference_cam->from, 100.0);
+  EXPECT_EQ(signals.reference_cam->to, 120.0);
+  EXPECT_EQ(signals.limit_min, -200.0);
+  EXPECT_EQ(signals.limit_max, 400.0);
+  ASSERT_EQ(signals.digital_inputs.size(), 1u);
+  EXPECT_EQ(signals.digital_inputs[0].tag, project.controller->tags[0].signal.address);
+  EXPECT_EQ(signals.digital_inputs[0].range.from, -1.0);
+}
+
 TEST(ModbusMapping, WritesAVariableOnlyIfTheEntryAsksForIt) {
   const Project project = load(
       R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"},
