@@ -54,6 +54,10 @@ enum class ErrorId : std::uint16_t {
   shifts_exclude = 0x808A,
   leading_value_reversed = 0x808C,
   homing_while_coupled = 0x80A1,
+  measuring_range = 0x80A2,
+  measuring_range_start = 0x80A5,
+  measuring_range_end = 0x80A6,
+  outside_measuring_range = 0x80A7,
   not_synchronous = 0x80A9,
   unspecified = 0x8FFF
 };
@@ -105,6 +109,8 @@ inline constexpr int kVelocityLimitZero = 304;
 inline constexpr int kAccelerationLimitZero = 305;
 inline constexpr int kPositionRangeExceeded = 308;
 inline constexpr int kNotHomed = 321;
+inline constexpr int kEncoder = 411;
+inline constexpr int kActualValueRange = 412;
 inline constexpr int kVelocityLimited = 501;
 inline constexpr int kAccelerationLimited = 502;
 inline constexpr int kJerkLimited = 503;
@@ -117,6 +123,8 @@ inline constexpr int kPositioning = 541;
 inline constexpr int kLeadingAxis = 601;
 inline constexpr int kLeadingAxisNotPositionControlled = 603;
 inline constexpr int kSynchronizing = 608;
+inline constexpr int kPositionInvalid = 702;
+inline constexpr int kMeasuringRangePassed = 752;
 inline constexpr int kInternal = 203;
 }  // namespace alarm
 

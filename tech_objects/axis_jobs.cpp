@@ -124,7 +124,7 @@ int Axis::missing_precondition(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_MoveAbsolute && !homed_) return alarm::kNotHomed;
   if (!couples(job.kind)) return 0;
   const LeadingValue* leading = find_leading_value(job.master);
-  if (leading == nullptr) return alarm::kLeadingAxis;
+  if (leading == nullptr || !job.master->actual_values_valid()) return alarm::kLeadingAxis;
   const bool controlled = job.kind == JobKind::MC_GearInVelocity || job.master->position_controlled() ||
                           leading->coupling == Coupling::actual;
   return controlled ? 0 : alarm::kLeadingAxisNotPositionControlled;
@@ -245,7 +245,7 @@ void Axis::shift_positions(double by) noexcept {
   setpoint_.position = advanced(setpoint_.position, by, modulo_);
   last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
   actual_ = advanced(actual_, by, modulo_);
-  if (leads_by_actual_value()) shift_leading(by);
+  shift_leading(by);
   single_.shift(by);
   synchronous_.shift_following(by);
   if (has_drive_) shift_servo(by);
