@@ -17,8 +17,8 @@ struct Job;
 enum class ObjectKind : std::uint32_t {
   TO_PositioningAxis = 1u << 0,
   TO_SynchronousAxis = 1u << 1,
-  TO_ExternalEncoder = 1u << 2,
-  TO_MeasuringInput = 1u << 3,
+  TO_ExternalEncoder = 1u << 8,
+  TO_MeasuringInput = 1u << 9,
 };
 
 /// A set of object kinds.
