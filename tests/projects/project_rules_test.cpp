@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
     Encoder, Rules,
     testing::ValuesIn(std::vector<Rule>{
         {kEncoder, R"({"type": "TO_ExternalEncoder"})", kEncoder, "'encoder' is missing"},
-        {kEncoder, encoder("{}"), kEncoder + "/encoder", "'model' is missing"},
+        {kEncoder, encoder(R"({"follows": "Knife"})"), kEncoder + "/encoder", "'model' is missing"},
         {kEncoder, encoder(R"({"model": "simulated"})"), kEncoder + "/encoder",
          "'follows' (an axis) and 'signal'"},
         {kEncoder, encoder(R"({"model": "simulated", "follows": "Knife", "signal": "speed"})"),

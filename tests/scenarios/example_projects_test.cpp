@@ -85,14 +85,12 @@ TEST_P(StoredTrace, IsRepeatedWithinATolerancePerColumn) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, StoredTrace,
-                         testing::Values(Stored{"01_positioning", "5s", 25},
-                                         Stored{"02_rotary_knife", "5s", 20},
-                                         Stored{"03_line_shaft", "5s", 25},
-                                         Stored{"04_cross_cutter", "5s", 25},
-                                         Stored{"06_encoder_conveyor", "8s", 25},
-                                         Stored{"07_emergency_door", "16s", 40}),
-                         [](const auto& stored) { return std::string(stored.param.project); });
+INSTANTIATE_TEST_SUITE_P(
+    Examples, StoredTrace,
+    testing::Values(Stored{"01_positioning", "5s", 25}, Stored{"02_rotary_knife", "5s", 20},
+                    Stored{"03_line_shaft", "5s", 25}, Stored{"04_cross_cutter", "5s", 25},
+                    Stored{"06_encoder_conveyor", "8s", 25}, Stored{"07_emergency_door", "16s", 40}),
+    [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
 // -------------------------------------------------------------------------------------------------

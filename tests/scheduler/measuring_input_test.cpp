@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, MeasuringOnce,
                          ::testing::Values(Mode{0, 20, 0, -72, 0}, Mode{1, 28, 0, -80, 0},
                                            Mode{2, 20, 28, -72, -80}, Mode{3, 20, 28, -72, -80},
                                            Mode{4, 28, 120, -80, -172}),
-                         [](const auto& info) { return "Mode" + std::to_string(info.param.mode); });
+                         [](const auto& mode) { return "Mode" + std::to_string(mode.param.mode); });
 
 /// While the axis accelerates, ticks lie anywhere beside the marks.
 TEST_P(MeasuringOnce, GivesThePositionsOfTheEdgesWhicheverWayTheyPass) {

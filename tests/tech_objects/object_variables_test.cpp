@@ -101,7 +101,9 @@ TEST_P(ObjectVariables, HaveThePublishedTypesEffectsAndRanges) {
     EXPECT_EQ(variable->effect, effects.at(expected.at("W"))) << path;
     const Range range = range_of(expected.at("valueRange"));
     if (path == "ErrorDetail.Reaction") continue;  // the values of its own list
-    if (!kFromZero.contains(path)) EXPECT_EQ(variable->range.lowest, range.lowest) << path;
+    if (!kFromZero.contains(path)) {
+      EXPECT_EQ(variable->range.lowest, range.lowest) << path;
+    }
     EXPECT_EQ(variable->range.highest, range.highest) << path;
   }
 }
@@ -160,7 +162,7 @@ std::vector<ObjectKind> kinds_of_the_catalogue() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, ObjectVariables, testing::ValuesIn(kinds_of_the_catalogue()),
-                         [](const auto& info) { return std::string(kind_name(info.param)); });
+                         [](const auto& kind) { return std::string(kind_name(kind.param)); });
 
 }  // namespace
 }  // namespace lockstep
