@@ -26,6 +26,7 @@ void Axis::begin_gear_in(Job& job) noexcept {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
   }
+  absorb_superimposed();
   running_[kBase] = &job;
   job.phase = JobPhase::active;
   set_position_control(job.position_controlled);
@@ -73,6 +74,7 @@ void Axis::activate_waiting(Motion motion) noexcept {
     coupling_changed = true;
     return;
   }
+  absorb_superimposed();
   running_[kBase] = &job;
   job.phase = motion == Motion::synchronous ? JobPhase::reached : JobPhase::active;
   set_position_control(true);
@@ -106,7 +108,7 @@ void Axis::step_synchronous() noexcept {
   Setpoint next = setpoint_;
   synchronous_.advance(next);
   if (motion_ == Motion::synchronous) {
-    if (!watch_sync_out(next)) setpoint_ = next;
+    if (!watch_sync_out(advancing_base_ ? with_superimposed(next) : next)) setpoint_ = next;
     return;
   }
   if (synchronous_.reversed()) {

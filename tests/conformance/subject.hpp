@@ -55,9 +55,13 @@ class Subject {
   bool starts_by_edge() const noexcept { return start_ != nullptr && start_->name == "Execute"; }
   /// Whether the block runs jobs, which another job or disabling can end.
   bool has_jobs() const noexcept { return aborted_ != nullptr; }
+  /// Whether an output tells that the aim of a job is met.
+  bool has_aim() const noexcept {
+    return done_ != nullptr || std::any_of(type_->pins.begin(), type_->pins.end(), [](const Pin& pin) {
+             return pin.pin_class == PinClass::output && pin.name.starts_with("In");
+           });
+  }
   /// Whether the block enables the axis itself.
-  /// Whether its job goes on until it is ended.
-  bool endless() const noexcept { return done_ == nullptr && has_jobs(); }
   bool powers() const noexcept { return type_->name == "MC_Power"; }
 
   /// One call of the block; tells what the outputs do that they must not, nullptr if nothing.
@@ -82,6 +86,7 @@ class Subject {
   /// Sets the pin that starts the block.
   void start(bool on) noexcept { store(*start_, on ? 1.0 : 0.0); }
   const Pin* start_pin() const noexcept { return start_; }
+  bool on_start() noexcept { return on(start_); }
 
   void set(std::string_view pin, double number) noexcept { store(*type_->find_pin(pin), number); }
   void store(const Pin& pin, double number) noexcept {

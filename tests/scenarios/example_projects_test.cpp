@@ -332,10 +332,13 @@ TEST(EmergencyDoor, KeepsTheCouplingWhileTheDriveIsOffAndGoesOnInStep) {
   for (std::size_t i = synchronous; i < table.rows; ++i) {
     const double function = 90.0 + 0.9 * (table["Belt.Position"][i] - 200.0);
     const double away = std::abs(ring_distance(table["Press.Position"][i], function, 360.0));
-    if (table["in_step"][i] != 0.0 && table["simulation.InSimulation"][i] == 0.0)
+    if (table["in_step"][i] != 0.0 && table["simulation.InSimulation"][i] == 0.0) {
       ASSERT_LT(away, 1e-9) << table["t"][i];
+    }
     furthest = std::max(furthest, away);
-    if (table["safe"][i] != 0.0) ASSERT_EQ(table["Belt.Velocity"][i], 0.0);
+    if (table["safe"][i] != 0.0) {
+      ASSERT_EQ(table["Belt.Velocity"][i], 0.0);
+    }
   }
   EXPECT_GT(furthest, 15.0) << "the press was inched away meanwhile";
   expect_smooth(table, "Press", 185.0, 1000.0);
