@@ -335,7 +335,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"/programs/1", R"({"name": "TO", "ob": "MC_PreServo", "calls": []})", "/programs/1/name", "keyword"},
         at("/programs/1", "[]", "allowed: an object"),
         at("/programs/0/start", "1", "unknown key"),
-        at(kNew, "{}", "one of the keys 'fb', 'set', 'if' is missing"),
+        at(kNew, "{}", "one of the keys 'fb', 'set', 'set_start', 'if' is missing"),
         at(kNew, "3", "allowed: an object"),
         at(kNew, R"({"call": "MC_Power"})", "one of the keys")}));
 
