@@ -28,6 +28,7 @@ void add_describe_command(CLI::App& app, Action& action);
 void add_tags_command(CLI::App& app, Action& action);
 void add_plot_command(CLI::App& app, Action& action);
 void add_monitor_command(CLI::App& app, Action& action);
+void add_cam_command(CLI::App& app, Action& action);
 
 /// Loads a project and tells its problems and warnings on standard error.
 /// @param status the exit status if there is no project

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   add_tags_command(app, action);
   add_plot_command(app, action);
   add_monitor_command(app, action);
+  add_cam_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

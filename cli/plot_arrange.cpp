@@ -172,21 +172,6 @@ class Arrangement {
     diagram.curves.push_back(std::move(curve));
   }
 
-  static void set_range(Diagram& diagram) {
-    double least = INFINITY, most = -INFINITY;
-    for (const Curve& curve : diagram.curves)
-      for (const auto& piece : curve.pieces)
-        for (const Point& point : piece) {
-          least = std::min(least, point.second);
-          most = std::max(most, point.second);
-        }
-    if (least > most) least = most = 0.0;
-    const double span = most - least;
-    const double margin = span > 0.0 ? 0.06 * span : std::max(0.1 * std::abs(most), 1e-9);
-    diagram.lowest = std::max(least - margin, -1e300);
-    diagram.highest = std::min(most + margin, 1e300);
-  }
-
   const TraceTable& trace_;
   const PlotRange& range_;
   Picture picture_;
@@ -196,6 +181,21 @@ class Arrangement {
 };
 
 }  // namespace
+
+void set_range(Diagram& diagram) {
+  double least = INFINITY, most = -INFINITY;
+  for (const Curve& curve : diagram.curves)
+    for (const auto& piece : curve.pieces)
+      for (const Point& point : piece) {
+        least = std::min(least, point.second);
+        most = std::max(most, point.second);
+      }
+  if (least > most) least = most = 0.0;
+  const double span = most - least;
+  const double margin = span > 0.0 ? 0.06 * span : std::max(0.1 * std::abs(most), 1e-9);
+  diagram.lowest = std::max(least - margin, -1e300);
+  diagram.highest = std::min(most + margin, 1e300);
+}
 
 Picture arrange(const TraceTable& trace, const PlotRange& range, bool typed) {
   Arrangement arrangement(trace, range);

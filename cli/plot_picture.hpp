@@ -45,7 +45,8 @@ struct Lane {
 
 struct Picture {
   std::string title;
-  double begin = 0.0, end = 1.0;  ///< [s]
+  std::string axis_label = "t [s]";
+  double begin = 0.0, end = 1.0;  ///< of that axis
   std::vector<Diagram> diagrams;
   std::vector<Lane> lanes;
 };
@@ -60,6 +61,9 @@ struct PlotRange {
 /// names of variables and pins, or else from the values.
 /// @param range not empty
 Picture arrange(const TraceTable& trace, const PlotRange& range, bool typed);
+
+/// Sets the axis of a diagram so that all its points are within.
+void set_range(Diagram& diagram);
 
 /// Fewer points that look the same: of the points of a `bin`-th part of the time, first, last, least and
 /// greatest.

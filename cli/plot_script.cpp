@@ -104,7 +104,10 @@ class Script {
         1.0 - (top + height) / height_);
     add("set key at screen {},{} left top vertical Left reverse samplen 2.4 spacing 1.15",
         (kWidth - right_ + kLegendGap) / kWidth, 1.0 - (top + 2) / height_);
-    add("{}", lowest ? "set format x '%g'\nset xlabel 't [s]'" : "set format x ''\nunset xlabel");
+    if (lowest)
+      add("set format x '%g'\nset xlabel {}", quoted(picture_.axis_label));
+    else
+      add("set format x ''\nunset xlabel");
   }
 
   void write_diagram(const Diagram& diagram) {

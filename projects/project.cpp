@@ -1,9 +1,5 @@
 #include "projects/project.hpp"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-
 #include "projects/loader.hpp"
 
 namespace lockstep {
@@ -101,20 +97,7 @@ LoadedProject load_project(std::string_view text) {
 }
 
 LoadedProject load_project_file(const std::string& path) {
-  const auto fail = [&] { throw UnreadableFile(path + ": " + std::strerror(errno)); };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (file == nullptr) fail();
-  std::string text(64 * 1024, '\0');
-  std::size_t size = 0;
-  while (size <= JsonDocument::kLongest) {
-    if (size == text.size()) text.resize(std::min(2 * size, JsonDocument::kLongest + 1));
-    const std::size_t count = std::fread(text.data() + size, 1, text.size() - size, file.get());
-    size += count;
-    if (count == 0) break;
-  }
-  if (std::ferror(file.get()) != 0) fail();
-  text.resize(size);
-  return load_project(text);
+  return load_project(read_text_file(path, JsonDocument::kLongest));
 }
 
 }  // namespace lockstep

@@ -13,6 +13,7 @@
 #include "hmi_bridge/modbus_map.hpp"
 #include "projects/names.hpp"
 #include "projects/problem.hpp"
+#include "projects/text_file.hpp"
 #include "scheduler/controller.hpp"
 
 namespace lockstep {
@@ -69,11 +70,6 @@ struct LoadedProject {
   std::optional<Project> project;
   std::vector<Problem> problems;
   std::vector<Problem> warnings;
-};
-
-/// The file cannot be read; the text names it and tells why.
-struct UnreadableFile : std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 /// Loads a project from its text. Never fails but through problems. Allocates; not for the thread of the

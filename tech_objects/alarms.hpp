@@ -59,6 +59,9 @@ enum class ErrorId : std::uint16_t {
   measuring_range_end = 0x80A6,
   outside_measuring_range = 0x80A7,
   not_synchronous = 0x80A9,
+  cam_empty = 0x80AA,
+  cam_in_use = 0x80AB,
+  cam_elements_wrong = 0x80AC,
   unspecified = 0x8FFF
 };
 

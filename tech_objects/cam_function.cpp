@@ -82,6 +82,30 @@ CamValue CamFunction::bezier_value(const Piece& piece, double t) const noexcept 
   return {c[0] + t * (c[1] + t * (c[2] + t * c[3])), slope, (y2 - slope * x2) / (x1 * x1)};
 }
 
+CamDerivatives CamFunction::piece_value(std::size_t i, double x) const noexcept {
+  const Piece& piece = pieces_[i];
+  const double* c = piece.c;
+  if (piece.shape == Shape::segment) {
+    const CamSegment& segment = segments_[piece.index];
+    const double d = x - segment.origin;
+    const CamValue value = segment.value(d);
+    return {value.position, value.first_derivative, value.second_derivative, segment.derivative(3, d)};
+  }
+  if (piece.shape == Shape::polynomial) {
+    const double d = x - piece.start;
+    return {c[0] + d * (c[1] + d * (c[2] + d * c[3])), c[1] + d * (2.0 * c[2] + d * (3.0 * c[3])),
+            2.0 * c[2] + 6.0 * c[3] * d, 6.0 * c[3]};
+  }
+  const double t = parameter(piece, x);
+  const CamValue value = bezier_value(piece, t);
+  const double* b = inverses_[piece.index].b;
+  const double x1 = b[0] + t * (2.0 * b[1] + t * (3.0 * b[2]));
+  const double x2 = 2.0 * b[1] + 6.0 * b[2] * t;
+  const double rest =
+      6.0 * c[3] - 3.0 * value.second_derivative * x1 * x2 - value.first_derivative * 6.0 * b[2];
+  return {value.position, value.first_derivative, value.second_derivative, rest / (x1 * x1 * x1)};
+}
+
 // A piece's own variable is its distance from its start (of a segment: from the segment's origin), or the
 // parameter of a Bézier piece.
 

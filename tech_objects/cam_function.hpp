@@ -74,8 +74,13 @@ class CamFunction {
   /// thread or any other.
   std::optional<double> leading_value(double following_value, double approach) const noexcept;
 
-  /// Pieces that the curve is made of.
+  /// Pieces that the curve is made of, each given by one formula.
   std::size_t piece_count() const noexcept { return count_; }
+  /// Leading value at which a piece starts; for piece_count() that at the end.
+  double piece_start(std::size_t piece) const noexcept { return pieces_[piece].start; }
+  /// Value and derivatives by the formula of one piece, within it or at its ends: at a joint this tells what
+  /// is to the left from what is to the right.
+  CamDerivatives piece_value(std::size_t piece, double leading_value) const noexcept;
 
  private:
   friend class CamBuilder;

@@ -58,13 +58,14 @@ ErrorId CamInterpolator::interpolate(const CamElements& elements, CamFunction& f
   const auto& settings = elements.InterpolationSettings;
   if (settings.InterpolationMode < linear || settings.InterpolationMode > bezier ||
       settings.BoundaryConditions < 0 || settings.BoundaryConditions > 1)
-    return kCamElementsWrong;
-  if (!collect_points(elements) || !collect_parts(elements)) return kCamElementsWrong;
-  if (points_.empty() && parts_.empty()) return kCamEmpty;
+    return ErrorId::cam_elements_wrong;
+  if (!collect_points(elements) || !collect_parts(elements)) return ErrorId::cam_elements_wrong;
+  if (points_.empty() && parts_.empty()) return ErrorId::cam_empty;
   close_small_gaps();
   drop_points_in_parts();
-  if (!shift_parts(elements)) return kCamElementsWrong;
-  if (parts_.empty() && points_.size() < 2) return kCamElementsWrong;  // one leading value is no range
+  if (!shift_parts(elements)) return ErrorId::cam_elements_wrong;
+  if (parts_.empty() && points_.size() < 2)
+    return ErrorId::cam_elements_wrong;  // one leading value is no range
   return build(settings, function);
 }
 
@@ -166,7 +167,7 @@ ErrorId CamInterpolator::build(const TO_Cam_Struct_InterpolationSettings& settin
   const DINT mode = settings.InterpolationMode;
   closed_ = settings.BoundaryConditions == 1 && mode != linear;
   free_end_slope_.reset();
-  if (closed_ && !parts_.empty() && !find_end_slopes()) return kCamElementsWrong;
+  if (closed_ && !parts_.empty() && !find_end_slopes()) return ErrorId::cam_elements_wrong;
   CamBuilder cam(function);
   for (std::size_t gap = 0; gap <= parts_.size(); ++gap) {
     fill_run(gap);
@@ -176,7 +177,7 @@ ErrorId CamInterpolator::build(const TO_Cam_Struct_InterpolationSettings& settin
   const bool ends_in_point = parts_.empty() || tail();
   const double end = ends_in_point ? points_.back().x : parts_.back().to;
   const double value = ends_in_point ? points_.back().y : parts_.back().at_to.position;
-  return cam.finish(end, value) ? ErrorId::none : kCamElementsWrong;
+  return cam.finish(end, value) ? ErrorId::none : ErrorId::cam_elements_wrong;
 }
 
 /// With equal slopes wanted at both ends of a cam with segments: the slope a free end takes, where it does

@@ -14,6 +14,14 @@ struct CamValue {
   double second_derivative = 0.0;  ///< [following u / leading u²]
 };
 
+/// The same with the third derivative.
+struct CamDerivatives {
+  double position = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+  double third = 0.0;  ///< [following u / leading u³]
+};
+
 /// A polynomial of degree 6 plus a sine, both in the distance from `origin`.
 struct CamSegment {
   double origin = 0.0;  ///< leading value

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tech_objects/cam_segment.hpp"
 #include "tech_objects/cam_sine.hpp"
 #include "tech_objects/motion_law_polynomial.hpp"
+#include "tech_objects/motion_law_segment.hpp"
 
 namespace lockstep {
 namespace {
@@ -38,46 +38,6 @@ double greatest(const Function& f, double length) noexcept {
 
 bool has_no_acceleration(MotionTask task) noexcept {
   return task == MotionTask::rest || task == MotionTask::constant_velocity;
-}
-
-TO_Cam_Struct_SegmentData segment_of(const double (&c)[8], double start, double length,
-                                     const MotionPiece::Sine& sine) noexcept {
-  const TO_Cam_Struct_SegmentData local{0.0,  length, c[0], c[1],           c[2],           c[3],
-                                        c[4], c[5],   c[6], sine.amplitude, sine.frequency, sine.phase};
-  const CamSegment absolute = shifted(local, -start);  // seen from leading value 0
-  const double* a = absolute.coefficient;
-  return {start,
-          start + length,
-          a[0],
-          a[1],
-          a[2],
-          a[3],
-          a[4],
-          a[5],
-          a[6],
-          absolute.amplitude,
-          absolute.frequency,
-          absolute.phase};
-}
-
-/// A polynomial with the values of a piece at both ends, up to an order each, as a segment.
-TO_Cam_Struct_SegmentData segment_between(const MotionValue& left, int left_order, const MotionValue& right,
-                                          int right_order, double start, double length) noexcept {
-  const auto conditions = [&](const MotionValue& value, int orders) {
-    const double all[] = {value.position, value.velocity * length, value.acceleration * length * length,
-                          value.jerk * length * length * length};
-    EndConditions result;
-    for (int k = 0; k <= orders; ++k) result.derivative[k] = all[k];
-    return result;
-  };
-  double c[8];
-  polynomial_between(conditions(left, left_order), conditions(right, right_order), c);  // 7 of them: exists
-  double scale = 1.0;
-  for (double& coefficient : c) {
-    coefficient *= scale;
-    scale /= length;
-  }
-  return segment_of(c, start, length, {});
 }
 
 }  // namespace
@@ -170,7 +130,7 @@ std::size_t MotionLaw::segments(std::span<TO_Cam_Struct_SegmentData> segments) c
     const bool degree_7 = p.coefficient[7] != 0.0;
     if (written + (degree_7 ? 2 : 1) > segments.size()) return 0;
     if (!degree_7) {
-      segments[written++] = segment_of(p.coefficient, p.start, p.length, p.sine[0]);
+      segments[written++] = segment_of(p);
       continue;
     }
     const double half = 0.5 * p.length;

@@ -146,6 +146,15 @@ TEST(CamFunction, AValueThatTheCamDoesNotTakeHasNoLeadingValue) {
   EXPECT_EQ(*step.f.leading_value(1.0, 0.3), 1.0);
 }
 
+TEST(CamFunction, AFollowingValueARoundingBeyondAnExtremumHasItsLeadingValue) {
+  test::Cam cam;
+  ASSERT_EQ(cam.mode(0).point(0.0, 0.0).point(10.0, 100.0).point(20.0, 0.0).interpolate(), ErrorId::none);
+  EXPECT_EQ(cam.f.leading_value(100.0 + 0.9e-10, 0.0), 10.0);  // 1.0E-12 of the largest value
+  EXPECT_EQ(cam.f.leading_value(100.0 + 1.1e-10, 0.0), std::nullopt);
+  EXPECT_EQ(cam.f.leading_value(-0.9e-10, 3.0), 0.0);
+  EXPECT_EQ(cam.f.leading_value(-1.1e-10, 3.0), std::nullopt);
+}
+
 TEST(CamFunction, TheNearestLeadingValueIsNeverFartherThanAnyThatAScanFinds) {
   const std::uint64_t seed = 5150;
   RecordProperty("seed", std::to_string(seed));

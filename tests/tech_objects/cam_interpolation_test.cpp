@@ -38,12 +38,12 @@ TO_Cam_Struct_SegmentData cube(double xmin, double xmax, double x0, double y0, d
 
 TEST(CamInterpolation, AnEmptyCamIsRefusedAndLeavesNoCurve) {
   Cam cam;
-  EXPECT_EQ(cam.interpolate(), kCamEmpty);
+  EXPECT_EQ(cam.interpolate(), ErrorId::cam_empty);
   cam.point(0.0, 1.0).point(1.0, 2.0);
   ASSERT_EQ(cam.interpolate(), ErrorId::none);
   ASSERT_TRUE(cam.f.interpolated());
   cam.data->ValidPoint[0] = cam.data->ValidPoint[1] = false;
-  EXPECT_EQ(cam.interpolate(), kCamEmpty);
+  EXPECT_EQ(cam.interpolate(), ErrorId::cam_empty);
   EXPECT_FALSE(cam.f.interpolated());
   EXPECT_EQ(at(cam, 0.5), 0.0);
 }
@@ -266,7 +266,7 @@ TEST(CamInterpolation, WithBoundaryConditionsSegmentsWithUnequalSlopesAtTheEndsA
   for (const DINT mode : {0, 1, 2}) {
     Cam cam;
     cam.mode(mode, 1).line(0.0, 10.0, 0.0, 1.0).line(20.0, 30.0, 0.0, 1.001);
-    EXPECT_EQ(cam.interpolate(), mode == 0 ? ErrorId::none : kCamElementsWrong);
+    EXPECT_EQ(cam.interpolate(), mode == 0 ? ErrorId::none : ErrorId::cam_elements_wrong);
     cam.data->Segment[1].a1 = 1.0;
     EXPECT_EQ(cam.interpolate(), ErrorId::none);
   }
@@ -302,9 +302,9 @@ TEST(CamInterpolation, ABezierCamOfPointsStaysWithinTheRangeOfItsPoints) {
 TEST(CamInterpolation, ValuesThatAreNoNumbersOrTooLargeAreRefused) {
   for (const double wrong : {kNan, kInfinity, -kInfinity, 1.0e12 * 1.0001, -1.0e300}) {
     Cam x;
-    EXPECT_EQ(x.point(0.0, 0.0).point(wrong, 0.0).interpolate(), kCamElementsWrong);
+    EXPECT_EQ(x.point(0.0, 0.0).point(wrong, 0.0).interpolate(), ErrorId::cam_elements_wrong);
     Cam y;
-    EXPECT_EQ(y.point(0.0, 0.0).point(1.0, wrong).interpolate(), kCamElementsWrong);
+    EXPECT_EQ(y.point(0.0, 0.0).point(1.0, wrong).interpolate(), ErrorId::cam_elements_wrong);
     for (double TO_Cam_Struct_SegmentData::*member :
          {&TO_Cam_Struct_SegmentData::xmin, &TO_Cam_Struct_SegmentData::xmax, &TO_Cam_Struct_SegmentData::a0,
           &TO_Cam_Struct_SegmentData::a6, &TO_Cam_Struct_SegmentData::sineAmplitude,
@@ -312,7 +312,7 @@ TEST(CamInterpolation, ValuesThatAreNoNumbersOrTooLargeAreRefused) {
       Cam cam;
       cam.line(0.0, 1.0, 0.0, 1.0);
       cam.data->Segment[0].*member = wrong;
-      EXPECT_EQ(cam.interpolate(), kCamElementsWrong);
+      EXPECT_EQ(cam.interpolate(), ErrorId::cam_elements_wrong);
       EXPECT_FALSE(cam.f.interpolated());
       cam.data->ValidSegment[0] = false;  // what does not count is not looked at
       EXPECT_EQ(cam.point(0.0, 0.0).point(1.0, 1.0).interpolate(), ErrorId::none);
@@ -321,15 +321,15 @@ TEST(CamInterpolation, ValuesThatAreNoNumbersOrTooLargeAreRefused) {
 }
 
 TEST(CamInterpolation, SegmentsThatDescendOrHaveNoLengthAreRefused) {
-  EXPECT_EQ(Cam().line(1.0, 0.0, 0.0, 1.0).interpolate(), kCamElementsWrong);
-  EXPECT_EQ(Cam().line(1.0, 1.0, 0.0, 1.0).interpolate(), kCamElementsWrong);
+  EXPECT_EQ(Cam().line(1.0, 0.0, 0.0, 1.0).interpolate(), ErrorId::cam_elements_wrong);
+  EXPECT_EQ(Cam().line(1.0, 1.0, 0.0, 1.0).interpolate(), ErrorId::cam_elements_wrong);
 }
 
 TEST(CamInterpolation, TenThousandEqualPointsAndASinglePointAreRefused) {
   Cam10k equal;
   for (std::size_t i = 0; i < kCam10kPoints; ++i) equal.point(5.0, static_cast<double>(i));
-  for (const DINT mode : {0, 1, 2}) EXPECT_EQ(equal.mode(mode).interpolate(), kCamElementsWrong);
-  EXPECT_EQ(Cam().point(1.0, 1.0).interpolate(), kCamElementsWrong);
+  for (const DINT mode : {0, 1, 2}) EXPECT_EQ(equal.mode(mode).interpolate(), ErrorId::cam_elements_wrong);
+  EXPECT_EQ(Cam().point(1.0, 1.0).interpolate(), ErrorId::cam_elements_wrong);
 }
 
 TEST(CamInterpolation, TenThousandDescendingPointsAreSorted) {
@@ -339,6 +339,17 @@ TEST(CamInterpolation, TenThousandDescendingPointsAreSorted) {
     ASSERT_EQ(cam.mode(mode).interpolate(), ErrorId::none);
     EXPECT_EQ(cam.f.start_leading_value(), 1.0);
     EXPECT_EQ(cam.f.value(1234.5).position, 2.0);
+  }
+}
+
+TEST(CamInterpolation, LinearIgnoresBoundaryConditions) {
+  for (const DINT boundary : {0, 1}) {
+    test::Cam cam;
+    cam.mode(0, boundary).line(0.0, 10.0, 0.0, 1.0).point(15.0, 0.0).line(20.0, 30.0, 5.0, -2.0);
+    ASSERT_EQ(cam.interpolate(), ErrorId::none) << "slopes at both ends differ, and that is no error";
+    EXPECT_EQ(cam.f.value(0.0).first_derivative, 1.0);
+    EXPECT_EQ(cam.f.value(12.0).first_derivative, -2.0);
+    EXPECT_EQ(cam.f.value(30.0).first_derivative, -2.0);
   }
 }
 
@@ -357,14 +368,14 @@ TEST(CamInterpolation, TheStatusShowsTheRangeAndTheValidElements) {
 TEST(CamInterpolation, UnknownSettingsAreRefused) {
   for (const auto& [mode, boundary] : {std::pair{-1, 0}, {3, 0}, {0, -1}, {0, 2}}) {
     Cam cam;
-    EXPECT_EQ(cam.mode(mode, boundary).point(0.0, 0.0).point(1.0, 1.0).interpolate(), kCamElementsWrong);
+    EXPECT_EQ(cam.mode(mode, boundary).point(0.0, 0.0).point(1.0, 1.0).interpolate(), ErrorId::cam_elements_wrong);
   }
 }
 
 TEST(CamInterpolation, PointsTooNearForADoubleAreRefusedAndNeverGiveANumberThatIsNotFinite) {
   Cam cam;
   cam.point(0.0, 0.0).point(5.0e-324, 1.0e12).point(1.0, 0.0);
-  for (const DINT mode : {0, 1, 2}) EXPECT_EQ(cam.mode(mode).interpolate(), kCamElementsWrong);
+  for (const DINT mode : {0, 1, 2}) EXPECT_EQ(cam.mode(mode).interpolate(), ErrorId::cam_elements_wrong);
 }
 
 TEST(CamInterpolation, MoreThan1024PeriodsOfSinesAreRefused) {
@@ -377,7 +388,7 @@ TEST(CamInterpolation, MoreThan1024PeriodsOfSinesAreRefused) {
   EXPECT_EQ(cam.interpolate(), ErrorId::none);
   EXPECT_EQ(cam.f.piece_count(), 2u * 1023u + 1u);
   cam.data->Segment[0].sinePeriod = 1025.0 * 6.283185307179586;
-  EXPECT_EQ(cam.interpolate(), kCamElementsWrong);
+  EXPECT_EQ(cam.interpolate(), ErrorId::cam_elements_wrong);
   cam.data->Segment[0].sineAmplitude = 0.0;
   EXPECT_EQ(cam.interpolate(), ErrorId::none);
 }
