@@ -9,6 +9,7 @@
 #include "fb/home.hpp"
 #include "fb/jog.hpp"
 #include "fb/leading_value.hpp"
+#include "fb/measuring_input.hpp"
 #include "fb/motion_in.hpp"
 #include "fb/move.hpp"
 #include "fb/offset.hpp"
@@ -48,6 +49,9 @@ constexpr BlockType kTypes[] = {
     block_type<MC_SynchronizedMotionSimulation>(),
     block_type<MC_GearOut>(),
     block_type<MC_LeadingValueAdditive>(),
+    block_type<MC_MeasuringInput>(),
+    block_type<MC_MeasuringInputCyclic>(),
+    block_type<MC_AbortMeasuringInput>(),
     block_type<R_TRIG>(),
     block_type<F_TRIG>(),
     block_type<SR>(),

@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-/// A rising edge of Execute takes the inputs over and hands a job to the axis. The outputs derive from one
+/// A rising edge of Execute takes the inputs over and hands a job to the object. The outputs derive from one
 /// stored phase, so that Busy, Done, CommandAborted and Error exclude each other. Done, CommandAborted and
 /// Error last while Execute is TRUE and at least for one call. A new edge starts a new job, which the outputs
 /// show from then on.
@@ -30,8 +30,8 @@ class ExecuteBlock : public Block {
   virtual std::span<const Pin> pin_table() const noexcept = 0;
   /// Writes the inputs, which are permitted, into the job.
   virtual void request(Job& job) const noexcept = 0;
-  /// The axis that gets the job; nullptr if the pin is not wired.
-  virtual Axis* target() const noexcept = 0;
+  /// The object that gets the job; nullptr if the pin is not wired.
+  virtual TechnologyObject* target() const noexcept = 0;
   /// Carries the job out or hands it over. The default submits it to the target.
   virtual void hand_over(Job& job) noexcept;
   /// Shows the phase at outputs of the block's own.

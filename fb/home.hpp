@@ -12,14 +12,14 @@ namespace lockstep {
 /// the encoder; 16#8016, 16#8050 Sensor; 16#8071 not position-controlled; 16#80A1 MC_GearInPos or MC_CamIn
 /// active
 struct MC_Home final : ExecuteBlock {
-  lockstep::Axis* Axis{};
+  LeadingObject* Axis{};
   LREAL Position{};
   INT Mode{};
   DINT Sensor{};
   LREAL ReferenceMarkPosition{};
 
   static constexpr std::string_view kName = "MC_Home";
-  static constexpr std::string_view kText = "Homes the axis.";
+  static constexpr std::string_view kText = "Homes an axis or an external encoder.";
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_Home";
   static constexpr Choice kModes[] = {
       {0, "direct, absolute: the actual position becomes Position"},
@@ -36,7 +36,7 @@ struct MC_Home final : ExecuteBlock {
       {12, "the setpoint is shifted by Position, the following error stays"},
       {13, "incremental encoder adjustment: the position of the encoder becomes Position"}};
   static constexpr auto kPins =
-      pins(pin::axis<MC_Home>(), pin::kExecute,
+      pins(object<&MC_Home::Axis>("Axis", kLeading, "axis or encoder that is homed"), pin::kExecute,
            in<&MC_Home::Position>("Position", Unit::kPosition, kFinite, "home position or shift, by Mode",
                                   {.error = ErrorId::position}),
            in<&MC_Home::Mode>("Mode", Unit::kNone, kAny, "kind of homing",
@@ -51,7 +51,7 @@ struct MC_Home final : ExecuteBlock {
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }
   void request(Job& job) const noexcept override;
-  lockstep::Axis* target() const noexcept override { return Axis; }
+  TechnologyObject* target() const noexcept override { return Axis; }
   void show(JobPhase phase) noexcept override;
 };
 

@@ -7,12 +7,12 @@
 
 namespace lockstep {
 
-/// Enables or disables an axis. One instance per axis.
+/// Enables or disables an axis or encoder. One instance per object.
 /// @source S7-1500T axis functions, MC_Power
 /// @errors 16#800A StartMode; 16#800B StopMode; 16#800C a second instance; 16#8001 while an alarm has removed
 /// the enable
 struct MC_Power final : Block {
-  lockstep::Axis* Axis{};
+  LeadingObject* Axis{};
   BOOL Enable{};
   DINT StartMode = 1;
   INT StopMode{};
@@ -24,7 +24,7 @@ struct MC_Power final : Block {
   void call(std::int64_t now) noexcept override;
 
   static constexpr std::string_view kName = "MC_Power";
-  static constexpr std::string_view kText = "Enables or disables an axis.";
+  static constexpr std::string_view kText = "Enables or disables an axis or an external encoder.";
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_Power";
   static constexpr Choice kStartModes[] = {{0, "without position control"}, {1, "with position control"}};
   static constexpr Choice kStopModes[] = {{0, "emergency stop ramp: DynamicDefaults.EmergencyDeceleration"},
@@ -32,7 +32,7 @@ struct MC_Power final : Block {
                                           {2, "maximum dynamics: DynamicLimits.MaxDeceleration and MaxJerk"},
                                           {3, "coast down"}};
   static constexpr auto kPins =
-      pins(pin::axis<MC_Power>(),
+      pins(object<&MC_Power::Axis>("Axis", kLeading, "axis or encoder that is enabled"),
            in<&MC_Power::Enable>("Enable", Unit::kNone, kAny, "TRUE: enable; FALSE: stop and disable"),
            in<&MC_Power::StartMode>("StartMode", Unit::kNone, kAny, "control mode taken at enabling",
                                     {.error = ErrorId::mode, .choices = kStartModes}),
@@ -59,22 +59,22 @@ struct MC_Power final : Block {
 /// @source S7-1500T axis functions, MC_Reset
 /// @errors 16#800E restart of an enabled axis
 struct MC_Reset final : ExecuteBlock {
-  lockstep::Axis* Axis{};
+  TechnologyObject* Axis{};
   BOOL Restart{};
 
   static constexpr std::string_view kName = "MC_Reset";
   static constexpr std::string_view kText = "Acknowledges alarms of a technology object, or restarts it.";
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_Reset";
-  static constexpr auto kPins =
-      pins(pin::axis<MC_Reset>(), pin::kExecute,
-           in<&MC_Reset::Restart>("Restart", Unit::kNone, kAny,
-                                  "TRUE: take over the start values anew; the axis has to be disabled"),
-           pin::kDone, pin::kBusy, pin::kCommandAborted, pin::kError, pin::kErrorID);
+  static constexpr auto kPins = pins(
+      object<&MC_Reset::Axis>("Axis", kResettable, "object that is acknowledged or restarted"), pin::kExecute,
+      in<&MC_Reset::Restart>("Restart", Unit::kNone, kAny,
+                             "TRUE: take over the start values anew; an axis or encoder has to be disabled"),
+      pin::kDone, pin::kBusy, pin::kCommandAborted, pin::kError, pin::kErrorID);
 
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }
   void request(Job& job) const noexcept override;
-  lockstep::Axis* target() const noexcept override { return Axis; }
+  TechnologyObject* target() const noexcept override { return Axis; }
 };
 
 }  // namespace lockstep

@@ -12,10 +12,9 @@ constexpr std::int64_t kMostDeadCycles = 254;         // of MC_Servo, as dead ti
 constexpr double kSecond = 1e9;                       // [ns]
 
 /// Published types that are not there yet.
-constexpr std::string_view kLaterTypes[] = {
-    "TO_Cam",        "TO_Cam_10k",          "TO_CamTrack",       "TO_ExternalEncoder",
-    "TO_Kinematics", "TO_LeadingAxisProxy", "TO_MeasuringInput", "TO_OutputCam",
-    "TO_SpeedAxis"};
+constexpr std::string_view kLaterTypes[] = {"TO_Cam",        "TO_Cam_10k",          "TO_CamTrack",
+                                            "TO_Kinematics", "TO_LeadingAxisProxy", "TO_OutputCam",
+                                            "TO_SpeedAxis"};
 
 bool known(std::span<const std::string_view> words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -130,8 +129,11 @@ void load_drive(const JsonValue& json, Axis& axis, const Loading& loading) {
   load_signals(fields, drive.signals, loading);
 }
 
-std::optional<Coupling> read_coupling(const JsonValue* json, Problems& problems) {
-  if (json == nullptr) return Coupling::setpoint;
+/// An encoder has no setpoint: it leads by its actual value.
+std::optional<Coupling> read_coupling(const JsonValue* json, const LeadingObject* source,
+                                      Problems& problems) {
+  const bool encoder = source != nullptr && source->kind == ObjectKind::TO_ExternalEncoder;
+  if (json == nullptr) return encoder ? Coupling::actual : Coupling::setpoint;
   if (json->kind == JsonKind::string && json->text == "delayed") {
     problems.report(*json, "the coupling 'delayed' (cross-controller) is not yet supported; allowed: " +
                                list_of(words::kCouplings));
@@ -139,6 +141,10 @@ std::optional<Coupling> read_coupling(const JsonValue* json, Problems& problems)
   }
   const auto word = read_word(json, words::kCouplings, problems);
   if (!word) return std::nullopt;
+  if (encoder && *word == 0) {
+    problems.report(*json, "an external encoder has no setpoint; allowed: 'actual'");
+    return std::nullopt;
+  }
   return *word == 0 ? Coupling::setpoint : Coupling::actual;
 }
 
@@ -146,7 +152,7 @@ void load_leading_value(const JsonValue& json, Axis& axis, const Loading& loadin
   const Fields fields(json, keys::kLeadingValue, loading.problems);
   const JsonValue* const to = fields["to"];
   auto* const source = static_cast<LeadingObject*>(loading.find_object(to, kLeading));
-  const auto coupling = read_coupling(fields["coupling"], loading.problems);
+  const auto coupling = read_coupling(fields["coupling"], source, loading.problems);
   if (source == nullptr || !coupling) return;
   if (source == &axis) return loading.problems.report(*to, "an axis cannot follow itself");
   const auto same = [&](const LeadingValue& other) { return other.source == source; };
@@ -197,6 +203,10 @@ void load_object(const JsonValue& json, TechnologyObject& object, const Loading&
     case ObjectKind::TO_PositioningAxis:
     case ObjectKind::TO_SynchronousAxis:
       return load_axis(json, static_cast<Axis&>(object), loading);
+    case ObjectKind::TO_ExternalEncoder:
+      return load_encoder(json, static_cast<ExternalEncoder&>(object), loading);
+    case ObjectKind::TO_MeasuringInput:
+      return load_measuring_input(json, static_cast<MeasuringInput&>(object), loading);
   }
 }
 

@@ -32,6 +32,9 @@ void load_tags(const JsonValue& tags, const Loading& loading);
 /// Adds all objects and their names; `load_objects` then reads them, when all names are there.
 void declare_objects(const JsonValue& objects, const Loading& loading);
 void load_objects(const JsonValue& objects, const Loading& loading);
+/// What an encoder measures; what a measuring input sees, and of what it measures the position.
+void load_encoder(const JsonValue& json, ExternalEncoder& encoder, const Loading& loading);
+void load_measuring_input(const JsonValue& json, MeasuringInput& input, const Loading& loading);
 /// Sets the start values of one object.
 void load_configuration(const JsonValue& config, TechnologyObject& object, const Loading& loading);
 

@@ -34,6 +34,12 @@ inline constexpr Key kProject[] = {{"lockstep", kRequired},
                                    {"trace"}};
 inline constexpr Key kClock[] = {{"servo_cycle", kRequired}, {"interpolator_ratio"}, {"overrun"}};
 inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
+inline constexpr Key kEncoderObject[] = {{"type", kRequired}, {"config"}, {"encoder", kRequired}};
+inline constexpr Key kEncoder[] = {{"model", kRequired}, {"follows"}, {"ratio"}, {"signal"}, {"wrap"},
+                                   {"resolution"},       {"noise"}};
+inline constexpr Key kMeasuringInputObject[] = {
+    {"type", kRequired}, {"config"}, {"assigned_to", kRequired}, {"marks"}};
+inline constexpr Key kMarks[] = {{"period", kRequired}, {"offset"}, {"width"}};
 inline constexpr Key kDrive[] = {
     {"model", kRequired}, {"time_constant"}, {"dead_time"},     {"encoder_resolution"}, {"inverted"},
     {"start_position"},   {"zero_marks"},    {"reference_cam"}, {"limit_switches"},     {"digital_inputs"}};

@@ -129,6 +129,36 @@ std::vector<std::string_view> tag_type_names() {
   return names;
 }
 
+Json number(std::string_view description, double lowest, double highest) {
+  return described(description, {{"type", "number"}, {"minimum", lowest}, {"maximum", highest}});
+}
+
+Json encoder_schema(const Json& type, const Json& config) {
+  const Json encoder =
+      object(keys::kEncoder,
+             {{"model", words("kind of the encoder", words::kModels)},
+              {"follows", text("axis on whose load it sits; or 'signal'")},
+              {"ratio", number("user units of the encoder per unit of that axis, not 0", -1e12, 1e12)},
+              {"signal", text("number whose value is the position: tag, instance.Pin or Object.Variable")},
+              {"wrap", number("length at which the signal wraps [u]", 0.001, 1e12)},
+              {"resolution", number("increment of the encoder [u]; 0: none", 0.0, 1e12)},
+              {"noise", number("largest deviation of a reading to either side [u]", 0.0, 1e12)}});
+  return object(keys::kEncoderObject, {{"type", type}, {"config", config}, {"encoder", encoder}});
+}
+
+Json measuring_input_schema(const Json& type, const Json& config) {
+  const Json marks =
+      object(keys::kMarks,
+             {{"period", number("distance from mark to mark [u]", 0.001, 1e12)},
+              {"offset", number("beginning of a mark [u]", -1e12, 1e12)},
+              {"width", number("of a mark [u], less than the period; half of it if not given", 0.0, 1e12)}});
+  return object(keys::kMeasuringInputObject,
+                {{"type", type},
+                 {"config", config},
+                 {"assigned_to", text("axis or external encoder whose position is measured")},
+                 {"marks", described("print marks that the input sees", marks)}});
+}
+
 Json objects_schema() {
   const Json leading_value =
       object(keys::kLeadingValue, {{"to", text("name of the leading axis")},
@@ -164,12 +194,18 @@ Json objects_schema() {
                      {"reference_cam", range("positions in which the reference cam is active")},
                      {"limit_switches", limit_switches},
                      {"digital_inputs", array("switches that are tags", digital_input)}});
+  const Json type = words("published type", words::kObjectTypes);
+  const Json config = {
+      {"anyOf", {reference("config"), reference("encoder_config"), reference("measuring_input_config")}}};
   const Json axis =
-      object(keys::kObject, {{"type", words("published type", words::kObjectTypes)},
-                             {"config", reference("config")},
+      object(keys::kObject, {{"type", type},
+                             {"config", config},
                              {"drive", drive},
                              {"leading_values", array("axes that this one may follow", leading_value)}});
-  return map("name: technology object", axis);
+  Json any = axis;
+  for (const Json& other : {encoder_schema(type, config), measuring_input_schema(type, config)})
+    any["properties"].update(other["properties"]);
+  return map("name: technology object", any);
 }
 
 /// One schema for all kinds of calls: which keys go together is told by `dependencies`.
@@ -325,10 +361,14 @@ std::string project_schema() {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Lockstep project"}};
   schema.update(root_schema());
   Json definitions = Json::object();
-  for (const ObjectKind kind : {ObjectKind::TO_SynchronousAxis}) {
+  const auto add_configuration = [&](const char* name, ObjectKind kind, std::string_view text) {
     const Json config = structure_schema(configuration_tree(kind), definitions);
-    definitions["config"] = described("start values of the technology data block", config);
-  }
+    definitions[name] = described(text, config);
+  };
+  add_configuration("config", ObjectKind::TO_SynchronousAxis, "start values of the technology data block");
+  add_configuration("encoder_config", ObjectKind::TO_ExternalEncoder, "start values of an external encoder");
+  add_configuration("measuring_input_config", ObjectKind::TO_MeasuringInput,
+                    "start values of a measuring input");
   definitions["call"] = call_schema();
   definitions["modbus_entry"] = modbus_entry_schema();
   schema["definitions"] = definitions;

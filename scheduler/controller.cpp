@@ -21,6 +21,12 @@ TechnologyObject& Controller::add_object(ObjectKind kind, std::string name) {
       objects.push_back(std::make_unique<Axis>(kind, std::move(name), number));
       axes.push_back(static_cast<Axis*>(objects.back().get()));
       break;
+    case ObjectKind::TO_ExternalEncoder:
+      encoders.push_back(add<ExternalEncoder>(std::move(name), number));
+      break;
+    case ObjectKind::TO_MeasuringInput:
+      measuring_inputs.push_back(add<MeasuringInput>(std::move(name), number));
+      break;
   }
   return *objects.back();
 }
@@ -54,6 +60,8 @@ void Controller::skip(std::int64_t ticks) noexcept {
   next_tick_ += ticks;
   counters_.missed_ticks += static_cast<std::uint64_t>(ticks);
   for (Axis* axis : driven_) axis->skip_servo(ticks);
+  for (ExternalEncoder* encoder : encoders) encoder->skip_servo(ticks);
+  for (MeasuringInput* input : measuring_inputs) input->skip_servo(ticks);
 }
 
 void Controller::shut_down() noexcept {

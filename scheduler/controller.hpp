@@ -14,6 +14,8 @@
 #include "scheduler/trace_ring.hpp"
 #include "tech_objects/axis.hpp"
 #include "tech_objects/coupling_order.hpp"
+#include "tech_objects/external_encoder.hpp"
+#include "tech_objects/measuring_input.hpp"
 
 namespace lockstep {
 
@@ -76,6 +78,8 @@ class Controller {
   Clock clock;
   std::vector<std::unique_ptr<TechnologyObject>> objects;  ///< in the order of `technology_objects`
   std::vector<Axis*> axes;                                 ///< those of them that are axes, in this order
+  std::vector<ExternalEncoder*> encoders;                  ///< those that are encoders
+  std::vector<MeasuringInput*> measuring_inputs;           ///< those that are measuring inputs
   std::deque<Tag> tags;
   std::deque<Instance> instances;
   std::deque<Program> programs;
@@ -120,6 +124,11 @@ class Controller {
   const std::vector<AxisSummary>& summary() const noexcept { return summary_; }
 
  private:
+  template <class Object>
+  Object* add(std::string name, DB_ANY number) {
+    objects.push_back(std::make_unique<Object>(std::move(name), number));
+    return static_cast<Object*>(objects.back().get());
+  }
   void take_inputs(std::int64_t now) noexcept;
   void run_programs(Ob ob, std::int64_t now) noexcept;
   void run_due_programs(std::int64_t now) noexcept;

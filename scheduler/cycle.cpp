@@ -42,11 +42,18 @@ void Controller::take_inputs(std::int64_t t) noexcept {
 
 void Controller::servo() noexcept {
   for (Axis* axis : driven_) axis->servo();
+  for (ExternalEncoder* encoder : encoders) encoder->servo();
+  for (MeasuringInput* input : measuring_inputs) input->servo();
 }
 
-/// start_jobs → step (leading before following), guarded → publish.
+/// Encoders, which depend on no axis; then start_jobs → step (leading before following), guarded → publish.
 void Controller::interpolate() noexcept {
   bool changed = false;
+  for (ExternalEncoder* encoder : encoders) {
+    encoder->step();
+    changed |= encoder->lost();
+  }
+  for (MeasuringInput* input : measuring_inputs) input->interpolated();
   for (Axis* axis : order_.axes()) {
     if (shutting_down_) axis->power.enable = false;
     if (axis->has_new_jobs()) axis->start_jobs();
@@ -56,6 +63,7 @@ void Controller::interpolate() noexcept {
   if (changed) {
     for (Axis* axis : order_.axes()) axis->watch_leading_object();
     for (Axis* axis : order_.axes()) axis->restarted = false;
+    for (ExternalEncoder* encoder : encoders) encoder->restarted = false;
     order_.rebuild();
   }
   counters_.alarms = 0;

@@ -55,6 +55,10 @@ enum class ErrorId : std::uint16_t {
   shifts_exclude = 0x808A,
   leading_value_reversed = 0x808C,
   homing_while_coupled = 0x80A1,
+  measuring_range = 0x80A2,
+  measuring_range_start = 0x80A5,
+  measuring_range_end = 0x80A6,
+  outside_measuring_range = 0x80A7,
   not_synchronous = 0x80A9,
   cam_empty = 0x80AA,
   cam_in_use = 0x80AB,
@@ -113,6 +117,8 @@ inline constexpr int kHomingNotPossible = 323;
 inline constexpr int kHomingData = 341;
 inline constexpr int kMarkNotFound = 342;
 inline constexpr int kHomingNotSupported = 343;
+inline constexpr int kEncoder = 411;
+inline constexpr int kActualValueRange = 412;
 inline constexpr int kVelocityLimited = 501;
 inline constexpr int kAccelerationLimited = 502;
 inline constexpr int kJerkLimited = 503;
@@ -126,6 +132,8 @@ inline constexpr int kPositioning = 541;
 inline constexpr int kLeadingAxis = 601;
 inline constexpr int kLeadingAxisNotPositionControlled = 603;
 inline constexpr int kSynchronizing = 608;
+inline constexpr int kPositionInvalid = 702;
+inline constexpr int kMeasuringRangePassed = 752;
 inline constexpr int kInternal = 203;
 }  // namespace alarm
 

@@ -197,13 +197,17 @@ void Axis::restart() noexcept {
   if (has_drive_) restart_servo();
   show_sensor();
   restarted = true;
+  ++restarts_;
   coupling_changed = true;
 }
 
 void Axis::watch_leading_object() noexcept {
   const Job* const waiting = running_[kWaiting];
-  const bool led_by_restarted = (led() || simulating()) && synchronous_.leading_object()->restarted;
-  if (led_by_restarted || (waiting != nullptr && waiting->master->restarted)) raise(alarm::kLeadingAxis);
+  const auto lost = [](const LeadingObject& leading) {
+    return leading.restarted || !leading.actual_values_valid();
+  };
+  const bool led_by_lost = (led() || simulating()) && lost(*synchronous_.leading_object());
+  if (led_by_lost || (waiting != nullptr && lost(*waiting->master))) raise(alarm::kLeadingAxis);
 }
 
 /// What there is of an encoder: it is simulated, so it always works.

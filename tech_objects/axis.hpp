@@ -34,14 +34,6 @@ struct LeadingValue {
   Coupling coupling = Coupling::setpoint;
 };
 
-/// What MC_Power wants of the axis; written by the one instance that has claimed it.
-struct PowerRequest {
-  const void* owner = nullptr;  ///< the instance of MC_Power in charge; nullptr: none yet
-  BOOL enable{};
-  DINT start_mode = 1;  ///< 0: without, 1: with position control
-  INT stop_mode{};      ///< 0 emergency ramp, 1 quick stop, 2 maximum dynamics, 3 coast down
-};
-
 /// What MC_LeadingValueAdditive and MC_SynchronizedMotionSimulation want; written by the instance that was
 /// enabled last.
 struct AdditiveRequest {
@@ -95,11 +87,9 @@ class Axis final : public LeadingObject {
 
   /// Hands a job over; it starts at the next interpolator tick. With no space left it fails with 16#8014 at
   /// once. The job stays where it is until it has ended.
-  void submit(Job& job) noexcept;
+  void submit(Job& job) noexcept override;
 
-  PowerRequest power;
-  /// Whether switching off (or on) is still under way, for MC_Power.Busy.
-  bool power_busy() const noexcept;
+  bool power_busy() const noexcept override;
 
   AdditiveRequest additive_request;
   SimulationRequest simulation_request;
@@ -146,10 +136,13 @@ class Axis final : public LeadingObject {
 
   bool leading_value_stands() const noexcept override { return setpoint_.velocity == 0.0; }
 
-  bool enabled() const noexcept { return power_state_ == PowerState::on; }
+  AxisPosition actual_position() const noexcept override { return actual_; }
+  bool measured_in_servo() const noexcept override { return has_drive_; }
+  DoubleDouble measured_line() const noexcept override { return encoder_position_; }
+
+  bool enabled() const noexcept override { return power_state_ == PowerState::on; }
   bool off() const noexcept { return power_state_ == PowerState::off; }
-  /// Whether an alarm has removed the enable, until it is acknowledged.
-  bool enable_removed() const noexcept { return enable_removed_; }
+  bool enable_removed() const noexcept override { return enable_removed_; }
   /// Whether this axis is `leading` or follows, over any number of couplings, one that is.
   bool led_by_this(const LeadingObject* leading) const noexcept;
   /// Largest distance between actual position and synchronous function while synchronous [u], for the summary

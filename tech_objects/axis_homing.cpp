@@ -319,7 +319,7 @@ void Axis::shift_positions(double by) noexcept {
   last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
   base_.position = advanced(base_.position, by, modulo_);
   actual_ = advanced(actual_, by, modulo_);
-  if (leads_by_actual_value()) shift_leading(by);
+  shift_leading(by);
   single_.shift(by);
   synchronous_.shift_following(by);
   if (has_drive_) shift_servo(by);

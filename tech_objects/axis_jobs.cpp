@@ -123,7 +123,7 @@ int Axis::missing_precondition(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_Home) return missing_for_homing(job);
   if (!couples(job.kind)) return 0;
   const LeadingValue* leading = find_leading_value(job.master);
-  if (leading == nullptr) return alarm::kLeadingAxis;
+  if (leading == nullptr || !job.master->actual_values_valid()) return alarm::kLeadingAxis;
   const bool controlled = job.kind == JobKind::MC_GearInVelocity || job.master->position_controlled() ||
                           leading->coupling == Coupling::actual;
   return controlled ? 0 : alarm::kLeadingAxisNotPositionControlled;

@@ -1,26 +1,8 @@
 // MC_Servo of an axis with a drive: actual values, fine interpolation, position control.
 #include "tech_objects/axis.hpp"
+#include "tech_objects/fine_interpolation.hpp"
 
 namespace lockstep {
-namespace {
-
-/// Position and velocity between two interpolator ticks, on a cubic through both.
-struct FineSetpoint {
-  double way = 0.0;       // from the earlier tick [u]
-  double velocity = 0.0;  // [u/s]
-};
-
-/// @param way between the ticks [u]  @param u part of the interpolator cycle, 0 to 1
-FineSetpoint between(double way, double from_velocity, double to_velocity, double period, double u) noexcept {
-  const double a = from_velocity * period;
-  const double b = to_velocity * period;
-  const double cubic = a + b - 2.0 * way;
-  const double square = 3.0 * way - 2.0 * a - b;
-  return {((cubic * u + square) * u + a) * u, ((3.0 * cubic * u + 2.0 * square) * u + a) / period};
-}
-
-}  // namespace
-
 /// The encoder goes on from where it is, at the position that the axis has now.
 void Axis::restart_servo() noexcept {
   take_servo_settings();
@@ -115,7 +97,7 @@ void Axis::control_position() noexcept {
   const double way = difference(setpoint_.position, last_setpoint_.position, modulo_).rounded();
   const double part = static_cast<double>(servo_tick_) / ratio_;
   const bool whole = servo_tick_ >= ratio_;
-  const FineSetpoint fine = between(way, last_setpoint_.velocity, setpoint_.velocity, period_, part);
+  const FineSetpoint fine = fine_setpoint(way, last_setpoint_.velocity, setpoint_.velocity, period_, part);
   AxisPosition position = whole ? setpoint_.position : advanced(last_setpoint_.position, fine.way, modulo_);
   double velocity = whole ? setpoint_.velocity : fine.velocity;
   if (!position_controlled_) {

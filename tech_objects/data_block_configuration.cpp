@@ -1,5 +1,6 @@
 /// Declaration of the configuration variables of an axis.
 /// @source S7-1500T synchronous operation V7, 13.1
+#include "tech_objects/data_block_choices.hpp"
 #include "tech_objects/data_block_declaration.hpp"
 
 namespace lockstep {
@@ -16,12 +17,6 @@ constexpr Choice kVirtualAxisMode[] = {{0, "not a virtual axis"},
 
 constexpr Choice kActorType[] = {{0, "analog output"}, {1, "PROFIdrive telegram"}};
 
-constexpr Choice kActorInverseDirection[] = {{0, "no"}, {1, "yes"}};
-
-constexpr Choice kActorDataAdaption[] = {
-    {0, "no automatic transfer; values are configured by hand"},
-    {1, "values configured in the drive are taken into the TO configuration automatically"}};
-
 constexpr Choice kActorMotorType[] = {{0, "rotary motor (standard motor)"}, {1, "linear motor"}};
 
 constexpr Choice kActorInterfaceEnableDriveOutput[] = {{0, "disabled"}, {1, "enabled"}};
@@ -31,78 +26,10 @@ constexpr Choice kTorqueLimitingLimitBase[] = {{0, "motor side"}, {1, "load side
 constexpr Choice kTorqueLimitingPositionBasedMonitors[] = {{0, "monitoring deactivated"},
                                                            {1, "monitoring activated"}};
 
-constexpr Choice kSensorType[] = {
-    {0, "INCREMENTAL: incremental"}, {1, "ABSOLUTE: absolute"}, {2, "CYCLIC_ABSOLUTE: cyclic absolute"}};
-
-constexpr Choice kSensorSystem[] = {{0, "LINEAR: linear encoder"}, {1, "ROTATORY: rotary encoder"}};
-
-constexpr Choice kSensorMountingMode[] = {
-    {0, "on the motor shaft"}, {1, "on the load side"}, {2, "external measuring system"}};
-
-constexpr Choice kSensorActualVelocityMode[] = {{0, "from the differentiation of the position change"},
-                                                {1, "from the NIST (NACT) value of the telegram"}};
-
-constexpr Choice kSensorParameterBehaviorGxXIST1[] = {
-    {0,
-     "based on the bits of the encoder resolution; the incremental value Gx_XIST1 is transferred with fewer "
-     "than 32 bits (e.g. 16 bits: 0 to 65535)"},
-    {1, "32-bit encoder value; Gx_XIST1 is transferred with 32 bits, 0 to 4294967295"}};
-
 constexpr Choice kSensorBacklashDirectionAbsoluteHoming[] = {{0, "positive"}, {1, "negative"}};
-
-constexpr Choice kSensorActiveHomingMode[] = {{0, "use zero mark via PROFIdrive telegram"},
-                                              {1, "use zero mark via PROFIdrive telegram and reference cam"},
-                                              {2, "use reference mark via digital input"}};
-
-constexpr Choice kSensorActiveHomingSideInput[] = {{0, "negative side"}, {1, "positive side"}};
 
 constexpr Choice kSensorActiveHomingDirection[] = {{0, "positive homing direction"},
                                                    {1, "negative homing direction"}};
-
-constexpr Choice kSensorActiveHomingSwitchLevel[] = {{0, "lower level"}, {1, "upper level"}};
-
-constexpr Choice kSensorPassiveHomingDirection[] = {
-    {0, "positive homing direction"}, {1, "negative homing direction"}, {2, "current homing direction"}};
-
-constexpr Choice kExtrapolationSettingsSystemDefinedExtrapolation[] = {{0, "not effective"},
-                                                                       {1, "effective"}};
-
-constexpr Choice kExtrapolationSettingsExtrapolatedVelocityMode[] = {
-    {0, "FilteredVelocity: leading-value velocity from the filtered actual velocity"},
-    {1,
-     "VelocityByDifferentiation: leading-value velocity from differentiation of the extrapolated "
-     "leading-value position"}};
-
-constexpr Choice kPropertiesMotionType[] = {{0, "linear axis or motion"}, {1, "rotary axis or motion"}};
-
-constexpr Choice kUnitsLengthUnit[] = {
-    {1010, "m"},   {1013, "mm"}, {1536, "mm (higher resolution: position values with six decimal places)"},
-    {1011, "km"},  {1014, "µm"}, {1015, "nm"},
-    {1019, "in"},  {1018, "ft"}, {1021, "mi"},
-    {1004, "rad"}, {1005, "°"},  {1537, "° (higher resolution: position values with six decimal places)"}};
-
-constexpr Choice kUnitsVelocityUnit[] = {
-    {1521, "°/s"},
-    {1539, "°/s (higher resolution: position values with six decimal places)"},
-    {1522, "°/min"},
-    {1086, "rad/s"},
-    {1523, "rad/min"},
-    {1062, "mm/s"},
-    {1538, "mm/s (higher resolution: position values with six decimal places)"},
-    {1061, "m/s"},
-    {1524, "mm/min"},
-    {1525, "m/min"},
-    {1526, "mm/h"},
-    {1063, "m/h"},
-    {1527, "km/min"},
-    {1064, "km/h"},
-    {1066, "in/s"},
-    {1069, "in/min"},
-    {1067, "ft/s"},
-    {1070, "ft/min"},
-    {1075, "mi/h"}};
-
-constexpr Choice kUnitsTimeUnit[] = {{1054, "s"}};
 
 constexpr Choice kUnitsTorqueUnit[] = {{1126, "Nm"},
                                        {1128, "kNm"},
@@ -118,8 +45,6 @@ constexpr Choice kUnitsForceUnit[] = {{1120, "N"},
                                       {1094, "lbf (pound-force)"},
                                       {1093, "ozf (ounce-force)"},
                                       {1535, "pdl (poundals)"}};
-
-constexpr Choice kModuloEnable[] = {{0, "modulo conversion deactivated"}, {1, "modulo conversion activated"}};
 
 constexpr Choice kPositionLimitsSWActive[] = {{0, "monitoring deactivated"}, {1, "monitoring activated"}};
 

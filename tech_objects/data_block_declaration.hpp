@@ -37,6 +37,8 @@ namespace lockstep {
 
 // What the tables declare, for `data_block_of`.
 const DataBlock& axis_data_block() noexcept;
+const DataBlock& encoder_data_block() noexcept;
+const DataBlock& measuring_input_data_block() noexcept;
 std::span<const Variable> axis_status_variables() noexcept;
 
 /// Start value in a data block that has just been made. While loading.

@@ -1,5 +1,6 @@
 /// Declaration of the variables that the runtime computes.
 /// @source S7-1500T synchronous operation V7, 13.1
+#include "tech_objects/data_block_choices.hpp"
 #include "tech_objects/data_block_declaration.hpp"
 
 namespace lockstep {
@@ -19,28 +20,6 @@ constexpr Choice kStatusDriveCommunicationOK[] = {
     {1, "cyclic communication OK and no fault in effect"}};
 
 constexpr Choice kStatusDriveError[] = {{0, "no error at the drive"}, {1, "error at the drive"}};
-
-constexpr Choice kStatusDriveAdaptionState[] = {
-    {0, "NOT_ADAPTED: data not transferred"},
-    {1, "IN_ADAPTION: data transfer in progress"},
-    {2, "ADAPTED: data transfer complete"},
-    {3, "NOT_APPLICABLE: data transfer not selected or not possible"},
-    {4, "ADAPTION_ERROR: error during data transfer"}};
-
-constexpr Choice kStatusSensorState[] = {
-    {0, "NOT_VALID: not valid"}, {1, "WAITING_FOR_VALID: waiting for status 'valid'"}, {2, "VALID: valid"}};
-
-constexpr Choice kStatusSensorCommunicationOK[] = {{0, "not established"}, {1, "established"}};
-
-constexpr Choice kStatusSensorError[] = {{0, "no error in the measuring system"},
-                                         {1, "error in the measuring system"}};
-
-constexpr Choice kStatusSensorControl[] = {{0, "encoder is not active"}, {1, "encoder is active"}};
-
-constexpr Choice kStatusSensorAdjusted[] = {{0, "encoder not homed"},
-                                            {1,
-                                             "encoder homed by active homing, passive homing, absolute "
-                                             "encoder adjustment or incremental encoder adjustment"}};
 
 constexpr Choice kStatusSynchronizedMotionFunctionState[] = {
     {0, "no synchronous operation active"},

@@ -24,13 +24,14 @@ enum class Unit : std::uint8_t {
   kSpeed,         ///< [1/min]
   kTorque,        ///< [Nm]
   kForce,         ///< [N]
-  kPerSecond      ///< [1/s]
+  kPerSecond,     ///< [1/s]
+  kMilliseconds   ///< [ms]
 };
 
 /// Text of a unit, such as "u/s²"; empty for none.
 constexpr std::string_view unit_text(Unit unit) noexcept {
-  constexpr std::string_view texts[] = {"",  "u", "u/s",   "u/s²", "u/s³", "u (leading)",
-                                        "s", "%", "1/min", "Nm",   "N",    "1/s"};
+  constexpr std::string_view texts[] = {"",  "u",     "u/s", "u/s²", "u/s³", "u (leading)", "s",
+                                        "%", "1/min", "Nm",  "N",    "1/s",  "ms"};
   return texts[static_cast<std::size_t>(unit)];
 }
 

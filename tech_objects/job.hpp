@@ -36,7 +36,10 @@ enum class JobKind : std::uint8_t {
   MC_OffsetRelative,
   MC_LeadingValueAdditive,
   MC_GearOut,
-  MC_CamOut
+  MC_CamOut,
+  MC_MeasuringInput,
+  MC_MeasuringInputCyclic,
+  MC_AbortMeasuringInput
 };
 
 /// When a job begins that finds another one running.
@@ -60,6 +63,13 @@ enum class JobPhase : std::uint8_t {
   done,
   aborted,  ///< by another job or by disabling
   failed    ///< `error` tells why
+};
+
+/// What a measuring job has measured: first and second values.
+struct MeasuredEdges {
+  LREAL value[2]{};    ///< [u]
+  UDINT counter[2]{};  ///< of cyclic measuring, from 0
+  UDINT lost[2]{};     ///< edges lost in the servo cycle of the value, 0 to 7
 };
 
 /// A request and its fate. It lives in the block that asks; the axis writes `phase` and `error`.
@@ -95,7 +105,10 @@ struct Job {
   LREAL start_position{};         ///< StartPosition of the leading value [u]
   BOOL update{};                  ///< MC_GearInVelocity: the ratio counts in every cycle
 
-  // Written by the axis.
+  BOOL limited{};  ///< MC_MeasuringInput…: only from start_position to position
+
+  // Written by the axis, or by the object that measures.
+  MeasuredEdges measured;
   LREAL covered{};          ///< share of a shift made so far [u]
   LREAL mark_position{};    ///< MC_Home: position assigned to the homing mark [u]
   DoubleDouble shift_base;  ///< from which that share counts [u]

@@ -29,6 +29,7 @@ void LeadingObject::extrapolate(AxisPosition actual, double velocity,
 }
 
 void LeadingObject::shift_leading(double by) noexcept {
+  renamed_ = renamed_ + by;
   extrapolation_.shift(by);
   leading_actual_.position = advanced(leading_actual_.position, by, modulo_);
   last_leading_actual_.position = advanced(last_leading_actual_.position, by, modulo_);

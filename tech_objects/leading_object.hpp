@@ -18,6 +18,14 @@ enum class Coupling : std::uint8_t {
   actual     ///< the extrapolated actual value
 };
 
+/// What MC_Power wants of an object; written by the one instance that has claimed it.
+struct PowerRequest {
+  const void* owner = nullptr;  ///< the instance of MC_Power in charge; nullptr: none yet
+  BOOL enable{};
+  DINT start_mode = 1;  ///< 0: without, 1: with position control
+  INT stop_mode{};      ///< 0 emergency ramp, 1 quick stop, 2 maximum dynamics, 3 coast down
+};
+
 /// A technology object with a position that following axes follow. It is stepped before them. The functions
 /// below run in the thread of the cycle.
 class LeadingObject : public TechnologyObject {
@@ -42,6 +50,27 @@ class LeadingObject : public TechnologyObject {
   const Setpoint& setpoint() const noexcept { return setpoint_; }
   const Setpoint& last_setpoint() const noexcept { return last_setpoint_; }
   bool position_controlled() const noexcept { return position_controlled_; }
+
+  PowerRequest power;
+  virtual bool enabled() const noexcept = 0;
+  /// Whether switching off (or on) is still under way, for MC_Power.Busy.
+  virtual bool power_busy() const noexcept = 0;
+  /// Whether an alarm has removed the enable, until it is acknowledged.
+  virtual bool enable_removed() const noexcept = 0;
+
+  /// The actual position, as it is called now.
+  virtual AxisPosition actual_position() const noexcept = 0;
+  /// Whether a drive or a sensor is read in each MC_Servo; else the actual position is the setpoint.
+  virtual bool measured_in_servo() const noexcept = 0;
+  /// Where it is read: what has been moved, on a line from where it was called 0 at the start [u]. Neither
+  /// homing nor a restart changes it.
+  virtual DoubleDouble measured_line() const noexcept = 0;
+  /// False once a sensor has failed, until that is acknowledged.
+  virtual bool actual_values_valid() const noexcept { return true; }
+  /// By how much homing has changed the names of positions since the start [u].
+  DoubleDouble renamed() const noexcept { return renamed_; }
+  /// Restarts since the start.
+  std::uint32_t restarts() const noexcept { return restarts_; }
 
   /// Whether it stands, so that a coupling may be taken over to its simulation.
   virtual bool leading_value_stands() const noexcept = 0;
@@ -68,12 +97,14 @@ class LeadingObject : public TechnologyObject {
   Setpoint last_setpoint_;
   Modulo modulo_;
   bool position_controlled_ = true;
+  std::uint32_t restarts_ = 0;
 
  private:
   bool leads_by_actual_value_ = false;
   Setpoint leading_actual_;
   Setpoint last_leading_actual_;
   Extrapolation extrapolation_;
+  DoubleDouble renamed_;
 };
 
 }  // namespace lockstep

@@ -101,7 +101,10 @@ JobClass class_of(const Job& job, bool active) noexcept {
     case JobKind::MC_CamOut:
       return active ? JobClass::cam_out_active : JobClass::cam_out_waiting;
     case JobKind::MC_Reset:
-      break;  // stands beside the tables
+    case JobKind::MC_MeasuringInput:
+    case JobKind::MC_MeasuringInputCyclic:
+    case JobKind::MC_AbortMeasuringInput:
+      break;  // stand beside the tables
   }
   return JobClass::home_direct;
 }

@@ -11,10 +11,14 @@
 
 namespace lockstep {
 
+struct Job;
+
 /// Published types of technology objects; a bit each, so that a pin can name those it accepts.
 enum class ObjectKind : std::uint32_t {
   TO_PositioningAxis = 1u << 0,
   TO_SynchronousAxis = 1u << 1,
+  TO_ExternalEncoder = 1u << 8,
+  TO_MeasuringInput = 1u << 9,
 };
 
 /// A set of object kinds.
@@ -33,7 +37,10 @@ constexpr bool among(ObjectKind kind, ObjectKinds kinds) noexcept {
 inline constexpr ObjectKinds kAnyAxis = ObjectKind::TO_PositioningAxis | ObjectKind::TO_SynchronousAxis;
 inline constexpr ObjectKinds kSynchronousAxis = static_cast<ObjectKinds>(ObjectKind::TO_SynchronousAxis);
 /// What may lead a following axis.
-inline constexpr ObjectKinds kLeading = kAnyAxis;
+inline constexpr ObjectKinds kLeading = kAnyAxis | ObjectKind::TO_ExternalEncoder;
+inline constexpr ObjectKinds kMeasuringInput = static_cast<ObjectKinds>(ObjectKind::TO_MeasuringInput);
+/// What MC_Reset acknowledges.
+inline constexpr ObjectKinds kResettable = kLeading | ObjectKind::TO_MeasuringInput;
 
 /// A published type and what it is, for messages and `describe`.
 struct ObjectKindText {
@@ -48,6 +55,10 @@ inline constexpr std::array kObjectKinds = {
                    "Axis that is positioned; it may lead others."},
     ObjectKindText{ObjectKind::TO_SynchronousAxis, "TO_SynchronousAxis",
                    "Axis that is positioned or follows a leading value."},
+    ObjectKindText{ObjectKind::TO_ExternalEncoder, "TO_ExternalEncoder",
+                   "Encoder that moves nothing; it leads axes by its extrapolated actual value."},
+    ObjectKindText{ObjectKind::TO_MeasuringInput, "TO_MeasuringInput",
+                   "Input at whose edges the position of an axis or encoder is measured."},
 };
 
 /// Published name, such as "TO_SynchronousAxis".
@@ -73,6 +84,11 @@ class TechnologyObject {
   virtual void* start_values() noexcept = 0;
   /// Whether start values have been changed since the last restart: OnlineStartValuesChanged.
   BOOL start_values_changed{};
+
+  /// Hands a job over; it is started at the object's next step. The job stays where it is until it has ended.
+  /// An object without jobs has nothing to acknowledge: MC_Reset is done, everything else fails. Thread: the
+  /// cycle.
+  virtual void submit(Job& job) noexcept;
 
   /// Takes over the start values. Call once, after the data block is set and before the first tick.
   /// @param servo_period period of MC_Servo [s]  @param ratio servo ticks per interpolator tick, 1 to 32

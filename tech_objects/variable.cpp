@@ -69,6 +69,10 @@ const DataBlock& data_block_of(ObjectKind kind) noexcept {
     case ObjectKind::TO_PositioningAxis:
     case ObjectKind::TO_SynchronousAxis:
       break;
+    case ObjectKind::TO_ExternalEncoder:
+      return encoder_data_block();
+    case ObjectKind::TO_MeasuringInput:
+      return measuring_input_data_block();
   }
   return axis_data_block();
 }

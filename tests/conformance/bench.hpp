@@ -44,6 +44,8 @@ class Bench {
       following.drive_settings.signals.zero_marks = ZeroMarks{1e6, 0.0};
     }
     controller.clock = {BenchLimits::kPeriod, 1};
+    input.measured = &leading;
+    input.marks = PrintMarks{.period = 10.0, .offset = 3.0, .width = 4.0};
     following.leading_values.push_back({&leading, Coupling::setpoint});
     following.data.Modulo.Length = 360.0;
     controller.finish();
@@ -70,8 +72,15 @@ class Bench {
   Subject& add(const BlockType& type) {
     Subject& subject = subjects_.emplace_back(type);
     for (const Pin& pin : type.pins)
-      if (pin.type == Type::AXIS) subject.wire(pin, pin.name == "Master" ? &leading : &following);
+      if (pin.type == Type::AXIS) subject.wire(pin, object_for(pin));
     return subject;
+  }
+
+  /// An object of a kind that the pin takes.
+  TechnologyObject* object_for(const Pin& pin) noexcept {
+    if (among(ObjectKind::TO_SynchronousAxis, pin.objects))
+      return pin.name == "Master" ? &leading : &following;
+    return &input;
   }
 
   /// Leading axis running, following axis homed and at rest.
@@ -154,6 +163,8 @@ class Bench {
   Controller controller;
   Axis& leading;
   Axis& following;
+  MeasuringInput& input =
+      static_cast<MeasuringInput&>(controller.add_object(ObjectKind::TO_MeasuringInput, "Input"));
   MC_Power power_leading, power_following;
   MC_MoveVelocity run_leading;
   MC_Home home_following;

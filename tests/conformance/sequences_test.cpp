@@ -22,7 +22,7 @@ class Sequence {
  public:
   Sequence(std::uint64_t seed, bool told) : random_(seed), told_(told), bench_(chance(0.5)) {
     for (const BlockType& type : block_types()) {
-      if (!Subject(type).uses_objects() || type.name == "MC_Power") continue;
+      if (!Subject(type).acts_on_axis() || type.name == "MC_Power") continue;
       following_.push_back(&bench_.add(type));
       following_.push_back(&bench_.add(type));
       const Pin* axis = type.find_pin("Axis");

@@ -46,6 +46,11 @@ class Subject {
     return std::any_of(type_->pins.begin(), type_->pins.end(),
                        [](const Pin& pin) { return pin.type == Type::AXIS; });
   }
+  /// Whether its jobs are those of an axis, which disabling it ends.
+  bool acts_on_axis() const noexcept {
+    return std::any_of(type_->pins.begin(), type_->pins.end(),
+                       [](const Pin& pin) { return among(ObjectKind::TO_SynchronousAxis, pin.objects); });
+  }
   /// Whether a rising edge starts a job, so that its end is shown by Done, CommandAborted or Error.
   bool starts_by_edge() const noexcept { return start_ != nullptr && start_->name == "Execute"; }
   /// Whether the block runs jobs, which another job or disabling can end.
@@ -88,7 +93,9 @@ class Subject {
     pin.signal(*block_).store(value_of(pin.type, number));
   }
   double number(const Pin& pin) noexcept { return as_double(pin.signal(*block_).load(), pin.type); }
-  void wire(const Pin& pin, Axis* axis) noexcept { *static_cast<Axis**>(pin.address(*block_)) = axis; }
+  void wire(const Pin& pin, TechnologyObject* object) noexcept {
+    *static_cast<TechnologyObject**>(pin.address(*block_)) = object;
+  }
 
   bool busy() noexcept { return on(busy_); }
   bool done() noexcept { return on(done_); }

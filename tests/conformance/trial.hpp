@@ -184,7 +184,7 @@ struct Trial {
       return;
     }
     bench.run(2);
-    if (s.busy()) return bench.fault(s.name() + " is Busy on a disabled axis");
+    if (s.busy() && s.acts_on_axis()) return bench.fault(s.name() + " is Busy on a disabled axis");
     bench.reset_following.Execute = true;
     bench.run(3);
     if (!bench.reset_following.Done) return bench.fault("the axis cannot be acknowledged");

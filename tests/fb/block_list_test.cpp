@@ -35,7 +35,8 @@ constexpr ExtraPin kExtraPins[] = {
 };
 
 // The kinds of technology object there are; a kind that the catalogue names beyond these does not count.
-constexpr ObjectKind kKinds[] = {ObjectKind::TO_PositioningAxis, ObjectKind::TO_SynchronousAxis};
+constexpr ObjectKind kKinds[] = {ObjectKind::TO_PositioningAxis, ObjectKind::TO_SynchronousAxis,
+                                 ObjectKind::TO_ExternalEncoder, ObjectKind::TO_MeasuringInput};
 
 std::map<std::string, Json> read_catalogues() {
   std::map<std::string, Json> blocks;

@@ -114,6 +114,92 @@ INSTANTIATE_TEST_SUITE_P(Naming, Rules,
                              {"/programs/1", R"({"name": "main", "ob": "MC_PreServo", "calls": []})",
                               "/programs/1/name", "there is a program 'main' already"}}));
 
+const std::string kEncoder = "/technology_objects/Encoder";
+const std::string kInput = "/technology_objects/Input";
+
+std::string encoder(const std::string& source) {
+  return R"({"type": "TO_ExternalEncoder", "encoder": )" + source + "}";
+}
+std::string input(const std::string& rest) {
+  return R"({"type": "TO_MeasuringInput")" + rest + "}";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Encoder, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        {kEncoder, R"({"type": "TO_ExternalEncoder"})", kEncoder, "'encoder' is missing"},
+        {kEncoder, encoder(R"({"follows": "Knife"})"), kEncoder + "/encoder", "'model' is missing"},
+        {kEncoder, encoder(R"({"model": "simulated"})"), kEncoder + "/encoder",
+         "'follows' (an axis) and 'signal'"},
+        {kEncoder, encoder(R"({"model": "simulated", "follows": "Knife", "signal": "speed"})"),
+         kEncoder + "/encoder", "measures one thing"},
+        {kEncoder, encoder(R"({"model": "real", "follows": "Knife"})"), kEncoder + "/encoder/model",
+         "allowed: simulated"},
+        {kEncoder, encoder(R"({"model": "simulated", "follows": "speed"})"), kEncoder + "/encoder/follows",
+         "is no technology object"},
+        {kEncoder, encoder(R"({"model": "simulated", "follows": "Encoder"})"), kEncoder + "/encoder/follows",
+         "allowed: TO_PositioningAxis, TO_SynchronousAxis"},
+        {kEncoder, encoder(R"({"model": "simulated", "follows": "Knife", "ratio": 0})"),
+         kEncoder + "/encoder/ratio", "any other number"},
+        {kEncoder, encoder(R"({"model": "simulated", "follows": "Knife", "wrap": 10})"),
+         kEncoder + "/encoder/wrap", "with 'signal' only"},
+        {kEncoder, encoder(R"({"model": "simulated", "signal": "speed", "ratio": 2})"),
+         kEncoder + "/encoder/ratio", "with 'follows' only"},
+        {kEncoder, encoder(R"({"model": "simulated", "signal": "start"})"), kEncoder + "/encoder/signal",
+         "is of type BOOL; allowed: a number"},
+        {kEncoder, encoder(R"({"model": "simulated", "signal": "nothing"})"), kEncoder + "/encoder/signal",
+         "unknown name 'nothing'"},
+        {kEncoder, encoder(R"({"model": "simulated", "follows": "Knife", "noise": -1})"),
+         kEncoder + "/encoder/noise", "-1 is not allowed"},
+        {kEncoder, encoder(R"({"model": "simulated", "follows": "Knife", "resolution": "fine"})"),
+         kEncoder + "/encoder/resolution", "'fine' is not allowed"},
+        {kEncoder,
+         R"({"type": "TO_ExternalEncoder", "drive": {}, "encoder": {"model": "simulated", "follows": "Knife"}})",
+         kEncoder + "/drive", "unknown key 'drive'"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    MeasuringInput, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        {kInput, input(R"(, "marks": {"period": 10})"), kInput, "'assigned_to' is missing"},
+        {kInput, input(R"(, "assigned_to": "Knife")"), kInput, "an input sees one thing"},
+        {kInput, input(R"(, "assigned_to": "speed", "marks": {"period": 10})"), kInput + "/assigned_to",
+         "is no technology object"},
+        {kInput, input(R"(, "assigned_to": "Knife", "marks": {})"), kInput + "/marks", "'period' is missing"},
+        {kInput, input(R"(, "assigned_to": "Knife", "marks": {"period": 0})"), kInput + "/marks/period",
+         "from 0.001"},
+        {kInput, input(R"(, "assigned_to": "Knife", "marks": {"period": 10, "width": 10})"),
+         kInput + "/marks/width", "less than 'period'"},
+        {kInput,
+         input(
+             R"(, "assigned_to": "Knife", "marks": {"period": 10}, "config": {"Interface": {"Address": "start"}})"),
+         kInput + "/marks", "an input sees one thing"},
+        {kInput,
+         input(
+             R"(, "assigned_to": "Knife", "marks": {"period": 10}, "config": {"Parameter": {"CorrectionTime": 1e6}})"),
+         kInput + "/config/Parameter/CorrectionTime", "254 servo cycles"},
+        {kInput, input(R"(, "assigned_to": "Knife", "marks": {"period": 10}, "config": {"Status": 1})"),
+         kInput + "/config/Status", "computed by the runtime"}}));
+
+TEST(EncoderProject, LeadsAFollowingAxisByItsActualValueAlone) {
+  Json project = Json::parse(kExampleProject);
+  project["technology_objects"]["Encoder"] =
+      Json::parse(encoder(R"({"model": "simulated", "follows": "Conveyor", "resolution": 0.1})"));
+  auto& values = project["technology_objects"]["Knife"]["leading_values"];
+  values.push_back(Json::parse(R"({"to": "Encoder"})"));
+  const LoadedProject loaded = load_project(project.dump());
+  ASSERT_TRUE(loaded.project.has_value()) << lines(loaded.problems);
+  const Axis* knife = nullptr;
+  for (const Axis* axis : loaded.project->controller->axes)
+    if (axis->name == "Knife") knife = axis;
+  ASSERT_NE(knife, nullptr);
+  EXPECT_EQ(knife->leading_values.back().coupling, Coupling::actual);
+  EXPECT_EQ(knife->leading_values.back().source, loaded.project->controller->encoders.front());
+  values.back()["coupling"] = "setpoint";
+  const LoadedProject refused = load_project(project.dump());
+  ASSERT_EQ(refused.problems.size(), 1u) << lines(refused.problems);
+  EXPECT_NE(refused.problems[0].text.find("no setpoint; allowed: 'actual'"), std::string::npos);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Tags, Rules,
     testing::ValuesIn(std::vector<Rule>{

@@ -27,8 +27,11 @@ double tolerance(const std::string& name) {
   const auto ends = [&](const std::string& end) {
     return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
   };
-  if (ends(".Position") || ends(".ActualPosition") || ends(".FollowingError")) return 1e-6;
-  if (ends(".Velocity")) return 1e-5;
+  for (const char* position : {".Position", ".ActualPosition", ".ExtrapolatedPosition", ".FollowingError",
+                               ".MeasuredValue1", ".PhaseShift", "error"})
+    if (ends(position)) return 1e-6;
+  for (const char* velocity : {".Velocity", ".ActualVelocity", ".FilteredVelocity"})
+    if (ends(velocity)) return 1e-5;
   if (ends(".Acceleration")) return 1e-3;
   return 0.0;
 }
@@ -38,6 +41,8 @@ std::optional<double> ring(const std::string& name) {
   if (name == "Conveyor.Position") return 240.0;
   if (name == "Belt.Position") return 400.0;
   if (name == "Delivery.Position") return 1000.0;
+  if (name == "Web.Position") return 300.0;
+  if (name.find("Encoder.") == 0 && name.find("Position") != std::string::npos) return 200.0;
   const bool position = name.find("Position") != std::string::npos && name.find("Slide") != 0 &&
                         name.find("FollowingError") == std::string::npos;
   return position ? std::optional<double>(360.0) : std::nullopt;
@@ -80,12 +85,12 @@ TEST_P(StoredTrace, IsRepeatedWithinATolerancePerColumn) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, StoredTrace,
-                         testing::Values(Stored{"01_positioning", "5s", 25},
-                                         Stored{"02_rotary_knife", "5s", 20},
-                                         Stored{"03_line_shaft", "5s", 25},
-                                         Stored{"07_emergency_door", "16s", 40}),
-                         [](const auto& stored) { return std::string(stored.param.project); });
+INSTANTIATE_TEST_SUITE_P(
+    Examples, StoredTrace,
+    testing::Values(Stored{"01_positioning", "5s", 25}, Stored{"02_rotary_knife", "5s", 20},
+                    Stored{"03_line_shaft", "5s", 25}, Stored{"04_cross_cutter", "5s", 25},
+                    Stored{"06_encoder_conveyor", "8s", 25}, Stored{"07_emergency_door", "16s", 40}),
+    [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
 // -------------------------------------------------------------------------------------------------
@@ -227,6 +232,74 @@ TEST(RotaryKnifeTrace, MayBeStoppedAndStartedAgainInEachOfItsPhases) {
       EXPECT_GT(table["cuts"].back(), 0.0);
     }
   }
+}
+
+TEST(CrossCutter, HitsEveryMarkWhateverTheSpeedAndMissesThemWithoutCorrection) {
+  for (const bool correct : {true, false}) {
+    Json project = example_json("04_cross_cutter");
+    project["tags"]["correct"]["init"] = correct;
+    const CsvTable table = simulate(project, "30s",
+                                    "Web.Position,Cutter.Position,gear.InSync,phasing.Error,"
+                                    "phasing.CommandAborted,gear.Error,alarm,measure.MeasuredValue1Counter,"
+                                    "error");
+    for (const char* fault : {"alarm", "gear.Error", "phasing.Error", "phasing.CommandAborted"})
+      expect_never(table, fault);
+    double web = 0.0;  // on a line
+    int cuts = 0;
+    double largest = 0.0;
+    for (std::size_t i = 1; i < table.rows; ++i) {
+      const double way = ring_distance(table["Web.Position"][i], table["Web.Position"][i - 1], 300.0);
+      const double before = table["Cutter.Position"][i - 1];
+      const double after = table["Cutter.Position"][i];
+      web += way;
+      if (table["gear.InSync"][i] == 0.0 || !(before < 180.0 && after >= 180.0)) continue;
+      const double place = web - way * (after - 180.0) / (after - before);
+      const double marks = (place - 200.0 - 40.0) / 300.4;
+      if (++cuts > 2) largest = std::max(largest, std::abs(marks - std::round(marks)) * 300.4);
+    }
+    EXPECT_GT(cuts, 50);
+    if (correct)
+      EXPECT_LT(largest, 1e-3);
+    else
+      EXPECT_GT(largest, 10.0);
+    // Behind the first mark each one is 0.4 mm further on.
+    const std::size_t last = table.rows - 1;
+    if (correct) EXPECT_NEAR(table["error"][last], -0.4, 1e-9);
+  }
+}
+
+TEST(EncoderConveyor, MeetsTheBeltWhileThatRunsEvenlyAndIsCalmerThanTheEncoder) {
+  const CsvTable table = simulate(example("06_encoder_conveyor"), "17s",
+                                  {"--signals",
+                                   "Belt.ActualPosition,Belt.ActualVelocity,Encoder.ActualVelocity,"
+                                   "Encoder.StatusExtrapolation.FilteredVelocity,Stamp.ActualPosition,"
+                                   "gear.InSync,gear.Error,alarm,stamps"});
+  expect_never(table, "alarm");
+  expect_never(table, "gear.Error");
+  double even = 0.0;
+  double uneven = 0.0;
+  double noise = 0.0;
+  double calm = 0.0;
+  int rows = 0;
+  for (std::size_t i = 500; i < table.rows; ++i) {
+    if (table["gear.InSync"][i] == 0.0) continue;
+    const double belt = table["Belt.ActualPosition"][i];
+    const double error =
+        ring_distance(table["Stamp.ActualPosition"][i], 270.0 + 1.8 * (belt - 150.0), 360.0) / 1.8;
+    const double speed = table["Belt.ActualVelocity"][i];
+    const bool constant = std::abs(speed - table["Belt.ActualVelocity"][i - 400]) < 1e-3;
+    (constant ? even : uneven) = std::max(constant ? even : uneven, std::abs(error));
+    if (!constant) continue;
+    ++rows;
+    noise = std::max(noise, std::abs(table["Encoder.ActualVelocity"][i] - speed));
+    calm = std::max(calm, std::abs(table["Encoder.StatusExtrapolation.FilteredVelocity"][i] - speed));
+  }
+  EXPECT_GT(rows, 3000);
+  EXPECT_LT(even, 0.05);
+  EXPECT_GT(uneven, even) << "the filters are late while the speed changes";
+  EXPECT_GT(noise, 9.0);
+  EXPECT_LT(calm, 1.0);
+  EXPECT_GT(table["stamps"].back(), 15.0);
 }
 
 /// A roll of the line shaft and what it hangs on.

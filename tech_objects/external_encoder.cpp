@@ -1,0 +1,192 @@
+#include "tech_objects/external_encoder.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "tech_objects/object_alarms.hpp"
+#include "tech_objects/object_bits.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Values of StatusSensor.State.
+constexpr DINT kSensorInvalid = 0;
+constexpr DINT kSensorValid = 2;
+
+/// A standing encoder leaves its standstill signal this much above the threshold, as an axis does.
+constexpr double kStandstillHysteresis = 1.05;
+
+}  // namespace
+
+ExternalEncoder::ExternalEncoder(std::string object_name, DB_ANY object_number)
+    : LeadingObject(ObjectKind::TO_ExternalEncoder, std::move(object_name), object_number) {}
+
+void ExternalEncoder::configure(double servo_period, int ratio) {
+  period_ = servo_period * ratio;
+  start_values_ = data;
+  position_controlled_ = false;  // it has no setpoint that could lead
+  take_start_values();
+  source_.configure(source_settings, servo_period, ratio, static_cast<std::uint32_t>(number));
+  actual_ = last_actual_ = normalised({0, 0.0}, modulo_);
+  reset_leading(actual_);
+  publish();
+}
+
+void ExternalEncoder::take_start_values() noexcept {
+  modulo_ = {data.Modulo.Enable, data.Modulo.Length, data.Modulo.StartValue};
+  configure_leading(period_, data.Extrapolation);
+}
+
+// ---- MC_Servo
+// ---------------------------------------------------------------------------------------------------
+
+void ExternalEncoder::servo() noexcept {
+  const EncoderReading reading = source_.read();
+  if (!reading.valid) return fault(alarm::kEncoder);
+  const bool inverse = data.Sensor.InverseDirection;
+  const DoubleDouble line = inverse ? -reading.position : reading.position;
+  last_true_line_ = begun_ ? true_line_ : inverse ? -reading.true_position : reading.true_position;
+  true_line_ = inverse ? -reading.true_position : reading.true_position;
+  if (!begun_) return begin(line);
+  if (faulty()) {
+    line_ = line;
+    return;
+  }
+  if (!follow(line)) return;
+  data.StatusSensor.Position = actual_.value;
+}
+
+/// The first reading is where the encoder is; nothing has moved.
+void ExternalEncoder::begin(DoubleDouble line) noexcept {
+  begun_ = true;
+  line_ = line;
+  origin_ = {};
+  actual_ = last_actual_ = advanced(origin_, line, modulo_);
+  reset_leading(actual_);
+}
+
+/// Takes a reading over; false where it cannot be one.
+bool ExternalEncoder::follow(DoubleDouble line) noexcept {
+  const double way = (line - line_).rounded();
+  const double most = leads_by_actual_value() ? 0.5 * modulo_.length : modulo_.length;
+  line_ = line;
+  if (modulo_.enabled && std::abs(way) > most) {
+    fault(alarm::kActualValueRange);
+    return false;
+  }
+  const AxisPosition here = advanced(origin_, line, modulo_);
+  if (!(std::abs(here.value) <= kPositionRange)) {
+    fault(alarm::kPositionRangeExceeded);
+    return false;
+  }
+  actual_ = here;
+  return true;
+}
+
+/// The position is not known any more: it stays where it was seen last.
+void ExternalEncoder::fault(int alarm_number) noexcept {
+  lost_ |= !faulty();
+  homed_ = false;
+  data.StatusSensor.State = kSensorInvalid;
+  data.StatusSensor.Error = alarm_number == alarm::kEncoder;
+  raise_alarm(alarm_number, ProcessingEnd::external_encoder, data);
+}
+
+// ---- MC_Interpolator
+// --------------------------------------------------------------------------------------------
+
+void ExternalEncoder::step() noexcept {
+  source_.interpolated();
+  new_jobs_.take([this](Job& job) { start(job); });
+  const double velocity = difference(actual_, last_actual_, modulo_).rounded() / period_;
+  data.ActualAcceleration = (velocity - actual_velocity_) / period_;
+  actual_velocity_ = velocity;
+  last_actual_ = actual_;
+  if (leads_by_actual_value()) extrapolate(actual_, actual_velocity_, data.Extrapolation);
+  enabled_ = power.enable && actual_values_valid();
+  watch_standstill();
+  publish();
+}
+
+void ExternalEncoder::watch_standstill() noexcept {
+  const auto& signal = data.StandstillSignal;
+  const double hysteresis = standstill_ ? kStandstillHysteresis : 1.0;
+  const bool within = std::abs(actual_velocity_) <= signal.VelocityThreshold * hysteresis;
+  standstill_ticks_ = within ? standstill_ticks_ + 1 : 0;
+  const double dwelt = static_cast<double>(standstill_ticks_ - 1) * period_;
+  standstill_ = within && dwelt >= signal.MinDwellTime - 1e-9 * period_;
+}
+
+void ExternalEncoder::publish() noexcept {
+  data.ActualPosition = actual_.value;
+  data.ActualVelocity = actual_velocity_;
+  data.ActualModuloCycle = static_cast<DINT>(actual_.turns);
+  data.StatusSensor.State = actual_values_valid() ? kSensorValid : kSensorInvalid;
+  data.StatusSensor.CommunicationOK = true;
+  data.StatusSensor.Control = true;
+  data.StatusSensor.Position = actual_.value;
+  data.StatusSensor.Velocity = actual_velocity_;
+  data.StatusSensor.ModuloCycle = data.ActualModuloCycle;
+  set_bit(data.StatusWord, StatusBit::Enable, enabled_);
+  set_bit(data.StatusWord, StatusBit::Error, faulty());
+  set_bit(data.StatusWord, StatusBit::OnlineStartValuesChanged, start_values_changed);
+  set_bit(data.StatusWord, StatusBit::HomingDone, homed_);
+  set_bit(data.StatusWord, StatusBit::Done, enabled_);
+  set_bit(data.StatusWord, StatusBit::Standstill, standstill_);
+  if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
+}
+
+// ---- Jobs
+// -------------------------------------------------------------------------------------------------------
+
+void ExternalEncoder::start(Job& job) noexcept {
+  ErrorId error = ErrorId::no_technology_object;
+  if (job.kind == JobKind::MC_Reset) error = reset(job.mode == 1);
+  if (job.kind == JobKind::MC_Home) error = home(job);
+  if (error != ErrorId::none) return job.fail(error);
+  job.phase = JobPhase::done;
+}
+
+ErrorId ExternalEncoder::reset(bool restart) noexcept {
+  if (restart && power.enable) return ErrorId::restart_refused;
+  // It is where it was seen last.
+  if (faulty()) origin_ = advanced(actual_, -line_, modulo_);
+  data.ErrorWord = DWORD{};
+  data.WarningWord = DWORD{};
+  data.ErrorDetail = {};
+  data.StatusSensor.Error = false;
+  if (!restart) return ErrorId::none;
+  data = start_values_;
+  start_values_changed = false;
+  homed_ = false;
+  take_start_values();
+  actual_ = last_actual_ = normalised({0, actual_.value}, modulo_);
+  origin_ = advanced(actual_, -line_, modulo_);
+  reset_leading(actual_);
+  ++restarts_;
+  restarted = lost_ = true;
+  return ErrorId::none;
+}
+
+/// Direct homing: the position is called by another name.
+ErrorId ExternalEncoder::home(const Job& job) noexcept {
+  if (!actual_values_valid()) return ErrorId::actual_values_invalid;
+  if (job.mode == 6 || job.mode == 7) return ErrorId::homing_mode_incremental;
+  if (job.mode != 0 && job.mode != 1) return ErrorId::mode;
+  const double by = job.mode == 0 ? shortest_distance(actual_.value, job.position, modulo_) : job.position;
+  const double homed_at = advanced(actual_, by, modulo_).value;
+  if (!std::isfinite(by) || !(std::abs(homed_at) <= kPositionRange) || !modulo_.contains(homed_at))
+    return ErrorId::position;
+  shift(by);
+  homed_ = true;
+  return ErrorId::none;
+}
+
+void ExternalEncoder::shift(double by) noexcept {
+  origin_ = advanced(origin_, by, modulo_);
+  actual_ = advanced(actual_, by, modulo_);
+  last_actual_ = advanced(last_actual_, by, modulo_);
+  shift_leading(by);
+}
+
+}  // namespace lockstep

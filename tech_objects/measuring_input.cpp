@@ -1,0 +1,309 @@
+#include "tech_objects/measuring_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tech_objects/external_encoder.hpp"
+#include "tech_objects/object_alarms.hpp"
+#include "tech_objects/object_bits.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Values of Status.
+constexpr DINT kNoMeasurement = 0;
+constexpr DINT kWaits = 1;
+constexpr DINT kCaptured = 2;
+constexpr DINT kError = 3;
+
+constexpr double kMilliseconds = 1e-3;  // [s]
+constexpr UDINT kHighestCount = 2147483647;
+constexpr std::int64_t kMostLost = 7;
+
+bool cyclic(const Job& job) noexcept {
+  return job.kind == JobKind::MC_MeasuringInputCyclic;
+}
+
+/// Edges that one-time measuring takes.
+int values_of(DINT mode) noexcept {
+  return mode >= 2 ? 2 : 1;
+}
+
+}  // namespace
+
+MeasuringInput::MeasuringInput(std::string object_name, DB_ANY object_number)
+    : TechnologyObject(ObjectKind::TO_MeasuringInput, std::move(object_name), object_number) {}
+
+double MeasuringInput::longest_correction(double servo_period) noexcept {
+  return static_cast<double>(kHistory - 2) * servo_period / kMilliseconds;
+}
+
+void MeasuringInput::configure(double servo_period, int ratio) {
+  servo_period_ = servo_period;
+  start_values_ = data;
+  if (measured == nullptr) return;
+  load_.watch(*measured, servo_period, ratio);
+  if (measured->kind == ObjectKind::TO_ExternalEncoder)
+    encoder_ = static_cast<const ExternalEncoder*>(measured);
+  publish();
+}
+
+// ---- MC_Servo
+// ---------------------------------------------------------------------------------------------------
+
+void MeasuringInput::servo() noexcept {
+  if (measured == nullptr) return;
+  modulo_ = measured->modulo();
+  if (job_ != nullptr && restarts_ != measured->restarts()) end_in_error(ErrorId::restarting);
+  restarts_ = measured->restarts();
+  const Edges seen = edges();
+  remember();
+  if (job_ != nullptr && !measured->actual_values_valid()) {
+    raise_alarm(alarm::kPositionInvalid, ProcessingEnd::measuring_input, data);
+    end_in_error(ErrorId::technology_alarm);
+  }
+  if (job_ != nullptr) {
+    if (cyclic(*job_))
+      measure_cyclically(seen);
+    else
+      measure_once(seen);
+  }
+  last_position_ = load_.position().value;
+  new_jobs_.take([this](Job& job) { start(job); });
+  publish();
+}
+
+/// What the probe has seen since the servo tick before. The material is where the encoder truly is.
+Edges MeasuringInput::edges() noexcept {
+  const bool begun = load_.begun();
+  const DoubleDouble from = encoder_ != nullptr ? encoder_->last_true_line() : load_.line();
+  load_.servo();
+  const DoubleDouble to = encoder_ != nullptr ? encoder_->true_line() : load_.line();
+  Edges seen;
+  if (!marks) {
+    const bool level = data.Interface.Address != nullptr && *data.Interface.Address;
+    if (begun)
+      probe_.sample(level, seen);
+    else
+      probe_.begin(level);
+  } else if (begun) {
+    probe_.move(*marks, from, to, seen);
+  } else {
+    probe_.begin(ProbeSignal::on_mark(*marks, to));
+    history_.fill(load_.line());
+    last_position_ = load_.position().value;
+  }
+  return seen;
+}
+
+void MeasuringInput::remember() noexcept {
+  ++tick_;
+  history_[tick_ % kHistory] = load_.line();
+}
+
+/// The position some servo cycles ago, between two of them on a straight line [u].
+/// @param age [servo cycles] ≥ 0
+double MeasuringInput::position_at(double age) const noexcept {
+  const double whole = std::min(std::floor(age), static_cast<double>(kHistory - 2));
+  const double part = std::min(age - whole, 1.0);
+  const std::size_t newer = tick_ + kHistory - static_cast<std::size_t>(whole);
+  const DoubleDouble from = history_[newer % kHistory];
+  const DoubleDouble way = (history_[(newer - 1) % kHistory] - from) * part;
+  return advanced(load_.position(), from + way - load_.line(), modulo_).value;
+}
+
+// ---- Measuring range
+// --------------------------------------------------------------------------------------------
+
+ErrorId MeasuringInput::take_range(const Job& job) noexcept {
+  range_ = {};
+  if (!job.limited) return ErrorId::none;
+  range_.limited = true;
+  if (!modulo_.enabled) {
+    range_.start = std::min(job.start_position, job.position);
+    range_.length = std::abs(job.position - job.start_position);
+    return ErrorId::none;
+  }
+  if (std::abs(job.position - job.start_position) > modulo_.length) return ErrorId::measuring_range;
+  range_.start = normalised({0, job.start_position}, modulo_).value;
+  range_.length = positive_distance(job.start_position, job.position, modulo_);
+  return ErrorId::none;
+}
+
+double MeasuringInput::place_in_range(double position) const noexcept {
+  return positive_distance(range_.start, position, modulo_);
+}
+
+bool MeasuringInput::in_range(double position) const noexcept {
+  if (!range_.limited) return true;
+  const double place = place_in_range(position);
+  return place >= 0.0 && place <= range_.length;
+}
+
+/// Whether a position lies ahead of the range, where measuring is active already.
+bool MeasuringInput::in_lead_in(double position) const noexcept {
+  const auto& parameter = data.Parameter;
+  const double time =
+      (parameter.MeasuringRangeActivationTime + parameter.MeasuringRangeAdditionalActivationTime) *
+      kMilliseconds;
+  const double way = load_.way().rounded() / servo_period_ * time;
+  double place = place_in_range(position);
+  if (way < 0.0) return place > range_.length && place - range_.length <= -way;
+  if (modulo_.enabled) place -= modulo_.length;
+  return place < 0.0 && -place <= way;
+}
+
+/// Whether the way of this servo cycle has left the range.
+bool MeasuringInput::range_passed() const noexcept {
+  if (!range_.limited) return false;
+  const double way = load_.way().rounded();
+  const double place = place_in_range(last_position_);
+  if (way < 0.0) return place >= 0.0 && place + way < 0.0;
+  if (place <= range_.length) return place + way > range_.length;
+  return modulo_.enabled && place + way > modulo_.length + range_.length;
+}
+
+// ---- Measuring
+// --------------------------------------------------------------------------------------------------
+
+void MeasuringInput::measure_once(const Edges& seen) noexcept {
+  const double correction = data.Parameter.CorrectionTime * kMilliseconds / servo_period_;
+  for (std::size_t i = 0; i < seen.count; ++i) {
+    const Edge& edge = seen.list[i];
+    if (!wanted_once(edge.rising)) continue;
+    const double position = position_at(1.0 - edge.part + correction);
+    if (!in_range(position)) {
+      if (in_lead_in(position)) return end_in_error(ErrorId::outside_measuring_range);
+      continue;
+    }
+    show_value(captured_, position);
+    job_->measured.value[captured_] = position;
+    if (captured_ == 0) first_rising_ = edge.rising;
+    data.Status = kCaptured;
+    if (++captured_ == values_of(job_->mode)) return end(JobPhase::done, ErrorId::none);
+  }
+  if (!range_passed()) return;
+  raise_alarm(alarm::kMeasuringRangePassed, ProcessingEnd::measuring_input, data);
+  end_in_error(ErrorId::measuring_range);
+}
+
+bool MeasuringInput::wanted_once(bool rising) const noexcept {
+  switch (job_->mode) {
+    case 0:
+      return rising;
+    case 1:
+      return !rising;
+    case 3:
+      return rising == (captured_ == 0);
+    case 4:
+      return rising == (captured_ == 1);
+    default:
+      return true;
+  }
+}
+
+/// Two values of each servo cycle: of modes 0 and 1 the first two edges, of mode 2 the first of each kind.
+void MeasuringInput::measure_cyclically(const Edges& seen) noexcept {
+  const double correction = data.Parameter.CorrectionTime * kMilliseconds / servo_period_;
+  const DINT mode = job_->mode;
+  const std::int64_t all = mode == 0 ? seen.rising : mode == 1 ? seen.falling : seen.rising + seen.falling;
+  bool acquired[2] = {false, false};
+  std::int64_t dropped = 0;
+  for (std::size_t i = 0; i < seen.count; ++i) {
+    const Edge& edge = seen.list[i];
+    if ((mode == 0 && !edge.rising) || (mode == 1 && edge.rising)) continue;
+    const double position = position_at(1.0 - edge.part + correction);
+    if (!in_range(position)) {
+      ++dropped;
+      continue;
+    }
+    const int index = mode == 2 ? (edge.rising ? 0 : 1) : (acquired[0] ? 1 : 0);
+    if (acquired[index]) continue;
+    acquired[index] = true;
+    show_value(index, position);
+    job_->measured.value[index] = position;
+    ++job_->measured.counter[index];
+    data.Status = kCaptured;
+  }
+  const std::int64_t lost = std::clamp<std::int64_t>(all - dropped - acquired[0] - acquired[1], 0, kMostLost);
+  auto& values = data.MeasuredValues;
+  UDINT* const counters[2] = {&values.LostEdgeCounter1, &values.LostEdgeCounter2};
+  for (int index = 0; index < 2; ++index) {
+    if (!acquired[index]) continue;
+    *counters[index] = acquired[1 - index] ? static_cast<UDINT>(lost) : 0;
+    job_->measured.lost[index] = *counters[index];
+  }
+}
+
+void MeasuringInput::show_value(int index, double position) noexcept {
+  auto& values = data.MeasuredValues;
+  (index == 0 ? values.MeasuredValue1 : values.MeasuredValue2) = position;
+  UDINT& counter = index == 0 ? values.MeasuredValue1Counter : values.MeasuredValue2Counter;
+  counter = counter == kHighestCount ? 0 : counter + 1;
+}
+
+// ---- Jobs
+// -------------------------------------------------------------------------------------------------------
+
+void MeasuringInput::start(Job& job) noexcept {
+  if (job.kind == JobKind::MC_Reset) {
+    reset(job.mode == 1);
+    job.phase = JobPhase::done;
+    return;
+  }
+  if (job.kind == JobKind::MC_AbortMeasuringInput) {
+    end(JobPhase::aborted, ErrorId::none);
+    data.Status = kNoMeasurement;
+    job.phase = JobPhase::done;
+    return;
+  }
+  if (const ErrorId error = begin(job); error != ErrorId::none) job.fail(error);
+}
+
+ErrorId MeasuringInput::begin(Job& job) noexcept {
+  if (data.ErrorDetail.Reaction != 0) return ErrorId::technology_alarm;
+  if (!measured->actual_values_valid()) return ErrorId::actual_values_invalid;
+  const MeasuringRange running = range_;
+  if (const ErrorId error = take_range(job); error != ErrorId::none) {
+    range_ = running;
+    return error;
+  }
+  end(JobPhase::aborted, ErrorId::none);
+  job_ = &job;
+  job.phase = JobPhase::active;
+  captured_ = 0;
+  data.Status = kWaits;
+  data.MeasuredValues.LostEdgeCounter1 = data.MeasuredValues.LostEdgeCounter2 = 0;
+  return ErrorId::none;
+}
+
+void MeasuringInput::end(JobPhase phase, ErrorId error) noexcept {
+  if (job_ == nullptr) return;
+  job_->phase = phase;
+  job_->error = error;
+  job_ = nullptr;
+}
+
+void MeasuringInput::end_in_error(ErrorId error) noexcept {
+  end(JobPhase::failed, error);
+  data.Status = kError;
+}
+
+void MeasuringInput::reset(bool restart) noexcept {
+  clear_alarms(data);
+  if (!restart) return;
+  end(JobPhase::aborted, ErrorId::none);
+  data = start_values_;
+  start_values_changed = false;
+}
+
+void MeasuringInput::publish() noexcept {
+  data.InputState = probe_.level();
+  set_bit(data.StatusWord, InputOutputBit::Control, job_ != nullptr);
+  set_bit(data.StatusWord, InputOutputBit::Error, data.ErrorDetail.Number != 0);
+  set_bit(data.StatusWord, InputOutputBit::OnlineStartValuesChanged, start_values_changed);
+  set_bit(data.StatusWord, InputOutputBit::CommunicationOK, true);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,378 @@
+// Measuring inputs through their blocks: where edges are, more finely than a servo cycle.
+#include "fb/measuring_input.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fb/home.hpp"
+#include "fb/move.hpp"
+#include "fb/power.hpp"
+#include "tests/support/rig.hpp"
+
+namespace lockstep {
+namespace {
+
+using test::Rig;
+
+/// A conveyor with print marks, and an input that sees them: from 20 on over 8, every 100.
+struct Marks : Rig {
+  explicit Marks(const std::function<void(AxisData&)>& conveyor = {},
+                 const std::function<void(MeasuringInput&)>& set = {})
+      : c(axis("Conveyor", conveyor)),
+        input(static_cast<MeasuringInput&>(controller.add_object(ObjectKind::TO_MeasuringInput, "Input"))),
+        power(block<MC_Power>()),
+        home(block<MC_Home>()),
+        run_c(block<MC_MoveVelocity>()),
+        once(block<MC_MeasuringInput>()),
+        other(block<MC_MeasuringInput>()),
+        cyclic(block<MC_MeasuringInputCyclic>()),
+        abort(block<MC_AbortMeasuringInput>()),
+        reset(block<MC_Reset>()) {
+    input.measured = &c;
+    input.marks = PrintMarks{.period = 100.0, .offset = 20.0, .width = 8.0};
+    if (set) set(input);
+    power.Axis = home.Axis = run_c.Axis = &c;
+    once.MeasuringInput = other.MeasuringInput = cyclic.MeasuringInput = abort.MeasuringInput = &input;
+    reset.Axis = &input;
+    power.Enable = true;
+    run(5);
+    home.Execute = true;
+    run(3);
+  }
+  void go(double speed) {
+    run_c.Velocity = std::abs(speed);
+    run_c.Direction = speed < 0.0 ? 2 : 1;
+    run_c.Execute = true;
+    tick();
+  }
+
+  Axis& c;
+  MeasuringInput& input;
+  MC_Power& power;
+  MC_Home& home;
+  MC_MoveVelocity& run_c;
+  MC_MeasuringInput &once, &other;
+  MC_MeasuringInputCyclic& cyclic;
+  MC_AbortMeasuringInput& abort;
+  MC_Reset& reset;
+};
+
+void ring(AxisData& data) {
+  data.Modulo.Enable = true;
+  data.Modulo.Length = 360.0;
+}
+
+struct Mode {
+  DINT mode;
+  double first, second;  // forwards, from 0 on
+  double first_back, second_back;
+};
+
+class MeasuringOnce : public ::testing::TestWithParam<Mode> {};
+INSTANTIATE_TEST_SUITE_P(Modes, MeasuringOnce,
+                         ::testing::Values(Mode{0, 20, 0, -72, 0}, Mode{1, 28, 0, -80, 0},
+                                           Mode{2, 20, 28, -72, -80}, Mode{3, 20, 28, -72, -80},
+                                           Mode{4, 28, 120, -80, -172}),
+                         [](const auto& mode) { return "Mode" + std::to_string(mode.param.mode); });
+
+/// While the axis accelerates, ticks lie anywhere beside the marks.
+TEST_P(MeasuringOnce, GivesThePositionsOfTheEdgesWhicheverWayTheyPass) {
+  const Mode& mode = GetParam();
+  for (const double speed : {77.7, -77.7, 900.0, -900.0}) {
+    Marks rig;
+    rig.once.Mode = mode.mode;
+    rig.once.Execute = true;
+    rig.run(3);
+    EXPECT_TRUE(rig.once.Busy);
+    EXPECT_EQ(rig.input.data.Status, 1);
+    rig.go(speed);
+    ASSERT_TRUE(rig.run_until([&] { return rig.once.Done; }));
+    EXPECT_EQ(rig.input.data.Status, 2);
+    EXPECT_NEAR(rig.once.MeasuredValue1, speed > 0 ? mode.first : mode.first_back, 1e-9) << speed;
+    EXPECT_NEAR(rig.once.MeasuredValue2, speed > 0 ? mode.second : mode.second_back, 1e-9) << speed;
+    EXPECT_EQ(rig.input.data.MeasuredValues.MeasuredValue1, rig.once.MeasuredValue1);
+    EXPECT_EQ(rig.input.data.MeasuredValues.LostEdgeCounter1, 0u);
+  }
+}
+
+TEST(MeasuringRange, LimitsMeasuringOnALineInEitherOrder) {
+  for (const auto& [start, end] : {std::pair{100.0, 150.0}, {150.0, 100.0}}) {
+    Marks rig;
+    rig.once.MeasuringRange = true;
+    rig.once.StartPosition = start;
+    rig.once.EndPosition = end;
+    rig.once.Execute = true;
+    rig.run(3);
+    rig.go(300.0);
+    ASSERT_TRUE(rig.run_until([&] { return rig.once.Done; }));
+    EXPECT_NEAR(rig.once.MeasuredValue1, 120.0, 1e-9);
+  }
+}
+
+TEST(MeasuringRange, PassedWithoutAnEdgeEndsWithAlarm752) {
+  for (const double speed : {300.0, -300.0}) {
+    Marks rig;
+    rig.once.MeasuringRange = true;
+    rig.once.StartPosition = speed > 0 ? 40.0 : -40.0;
+    rig.once.EndPosition = speed > 0 ? 90.0 : -20.0;
+    rig.once.Execute = true;
+    rig.run(3);
+    rig.go(speed);
+    ASSERT_TRUE(rig.run_until([&] { return rig.once.Error; }));
+    EXPECT_EQ(rig.once.ErrorID, static_cast<WORD>(ErrorId::measuring_range));
+    EXPECT_EQ(rig.input.data.ErrorDetail.Number, 752u);
+    EXPECT_EQ(rig.input.data.ErrorDetail.Reaction, 0);
+    EXPECT_EQ(rig.input.data.Status, 3);
+    EXPECT_NEAR(rig.c.data.Position, speed > 0 ? 90.0 : -40.0, 1.0);
+    rig.reset.Execute = true;
+    rig.run(3);
+    EXPECT_EQ(rig.input.data.ErrorDetail.Number, 0u);
+    EXPECT_TRUE(rig.reset.Done);
+  }
+}
+
+TEST(MeasuringRange, RunsOverTheEndOfARing) {
+  Marks rig(ring, [](MeasuringInput& input) {
+    input.marks = PrintMarks{.period = 360.0, .offset = 10.0, .width = 5.0};
+  });
+  rig.once.MeasuringRange = true;
+  rig.once.StartPosition = 350.0;
+  rig.once.EndPosition = 30.0;
+  rig.go(500.0);
+  rig.run(150);
+  rig.once.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.once.Done || rig.once.Error; }));
+  EXPECT_TRUE(rig.once.Done);
+  EXPECT_NEAR(rig.once.MeasuredValue1, 10.0, 1e-9);
+}
+
+TEST(MeasuringRange, LongerThanTheRingIsRefused) {
+  Marks rig(ring);
+  rig.once.MeasuringRange = true;
+  rig.once.StartPosition = 0.0;
+  rig.once.EndPosition = 400.0;
+  rig.once.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.once.ErrorID, static_cast<WORD>(ErrorId::measuring_range));
+}
+
+TEST(MeasuringRange, DropsAnEdgeOfTheTimeByWhichMeasuringBeginsAhead) {
+  for (const double ahead : {0.0, 100.0}) {  // [ms]; 30 u at 300 u/s
+    Marks rig({}, [&](MeasuringInput& input) {
+      input.data.Parameter.MeasuringRangeAdditionalActivationTime = ahead;
+    });
+    rig.once.MeasuringRange = true;
+    rig.once.StartPosition = 125.0;
+    rig.once.EndPosition = 250.0;
+    rig.once.Execute = true;
+    rig.run(3);
+    rig.go(300.0);
+    ASSERT_TRUE(rig.run_until([&] { return rig.once.Done || rig.once.Error; }));
+    if (ahead == 0.0) {
+      EXPECT_NEAR(rig.once.MeasuredValue1, 220.0, 1e-9);
+    } else {
+      EXPECT_EQ(rig.once.ErrorID, static_cast<WORD>(ErrorId::outside_measuring_range));
+    }
+  }
+}
+
+TEST(MeasuringTime, IsCorrectedByTheCorrectionTime) {
+  Marks rig({}, [](MeasuringInput& input) { input.data.Parameter.CorrectionTime = 12.3; });
+  rig.go(200.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.run_c.InVelocity; }));
+  rig.run(50);
+  rig.once.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.once.Done; }));
+  const double mark = 20.0 + 100.0 * std::floor(rig.c.data.Position / 100.0);
+  EXPECT_NEAR(rig.once.MeasuredValue1, mark - 200.0 * 0.0123, 1e-9);
+}
+
+// ---- Cyclic measuring
+// -------------------------------------------------------------------------------------------
+
+TEST(MeasuringCyclically, CountsTheEdgesOfOneKindAndNoneIsMissing) {
+  Marks rig;
+  rig.cyclic.Mode = 0;
+  rig.cyclic.Execute = true;
+  rig.run(3);
+  rig.go(777.0);
+  double last = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    const UDINT before = rig.cyclic.MeasuredValue1Counter;
+    rig.tick();
+    if (rig.cyclic.MeasuredValue1Counter == before) continue;
+    ASSERT_EQ(rig.cyclic.MeasuredValue1Counter, before + 1);
+    ASSERT_NEAR(rig.cyclic.MeasuredValue1, 20.0 + 100.0 * before, 1e-9);
+    last = rig.cyclic.MeasuredValue1;
+  }
+  EXPECT_GT(last, 1000.0);
+  EXPECT_EQ(rig.cyclic.MeasuredValue2Counter, 0u);
+  EXPECT_EQ(rig.input.data.MeasuredValues.MeasuredValue1Counter, rig.cyclic.MeasuredValue1Counter);
+  EXPECT_TRUE(rig.cyclic.Busy);
+}
+
+TEST(MeasuringCyclically, TakesTheFirstOfEachKindInMode2AndCountsWhatIsLost) {
+  Marks rig({}, [](MeasuringInput& input) {
+    input.marks = PrintMarks{.period = 0.25, .offset = 0.1, .width = 0.05};
+  });
+  rig.cyclic.Mode = 2;
+  rig.go(1000.0);  // 1 u in a servo cycle: four marks
+  ASSERT_TRUE(rig.run_until([&] { return rig.run_c.InVelocity; }));
+  rig.cyclic.Execute = true;
+  rig.run(20);
+  const auto& values = rig.input.data.MeasuredValues;
+  EXPECT_EQ(rig.cyclic.LostEdgeCounter1, 6u);
+  EXPECT_EQ(rig.cyclic.LostEdgeCounter2, 6u);
+  EXPECT_EQ(values.LostEdgeCounter1, 6u);
+  EXPECT_NEAR(std::remainder(rig.cyclic.MeasuredValue1 - 0.1, 0.25), 0.0, 1e-9);
+  EXPECT_NEAR(std::remainder(rig.cyclic.MeasuredValue2 - 0.15, 0.25), 0.0, 1e-9);
+}
+
+TEST(MeasuringCyclically, LosesAtMostSevenThatItTellsOf) {
+  Marks rig({}, [](MeasuringInput& input) {
+    input.marks = PrintMarks{.period = 0.01, .offset = 0.0, .width = 0.005};
+  });
+  rig.cyclic.Execute = true;
+  rig.go(1000.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.run_c.InVelocity; }));
+  EXPECT_EQ(rig.cyclic.LostEdgeCounter1, 7u);
+}
+
+TEST(MeasuringCyclically, KeepsTheCountersOfTheObjectAndBeginsThoseOfTheJobAnew) {
+  Marks rig;
+  rig.cyclic.Execute = true;
+  rig.go(500.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.cyclic.MeasuredValue1Counter == 3; }));
+  rig.cyclic.Execute = false;
+  rig.tick();
+  rig.cyclic.Execute = true;
+  rig.tick();
+  EXPECT_EQ(rig.cyclic.MeasuredValue1Counter, 0u);
+  ASSERT_TRUE(rig.run_until([&] { return rig.cyclic.MeasuredValue1Counter == 2; }));
+  EXPECT_EQ(rig.input.data.MeasuredValues.MeasuredValue1Counter, 5u);
+}
+
+// ---- Jobs
+// -------------------------------------------------------------------------------------------------------
+
+TEST(MeasuringJobs, EndOneAnother) {
+  Marks rig;
+  rig.once.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.once.Busy);
+  rig.cyclic.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.once.CommandAborted);
+  EXPECT_TRUE(rig.cyclic.Busy);
+  rig.other.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.cyclic.CommandAborted);
+  EXPECT_FALSE(rig.cyclic.Busy);
+  rig.abort.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.other.CommandAborted);
+  EXPECT_TRUE(rig.abort.Done);
+  EXPECT_EQ(rig.input.data.Status, 0);
+  EXPECT_FALSE(has_bit(rig.input.data.StatusWord, 0));
+}
+
+TEST(MeasuringJobs, OutliveTheEnableOfTheAxis) {
+  Marks rig;
+  rig.once.Execute = true;
+  rig.run(3);
+  rig.power.Enable = false;
+  rig.run(50);
+  EXPECT_TRUE(rig.once.Busy);
+}
+
+TEST(MeasuringJobs, EndWith16_800DWhenTheAxisIsRestarted) {
+  Marks rig;
+  MC_Reset& restart = rig.block<MC_Reset>();
+  restart.Axis = &rig.c;
+  restart.Restart = true;
+  rig.once.Execute = true;
+  rig.power.Enable = false;
+  rig.run(50);
+  restart.Execute = true;
+  rig.run(4);
+  EXPECT_TRUE(rig.once.Error);
+  EXPECT_EQ(rig.once.ErrorID, static_cast<WORD>(ErrorId::restarting));
+}
+
+TEST(MeasuringJobs, MeasureAtTheEdgeOfATagWhereItIsSeen) {
+  bool sensor = false;
+  Marks rig({}, [&](MeasuringInput& input) {
+    input.marks.reset();
+    input.data.Interface.Address = &sensor;
+  });
+  rig.once.Execute = true;
+  rig.go(200.0);
+  rig.run(500);
+  EXPECT_FALSE(rig.input.data.InputState);
+  sensor = true;
+  const double before = rig.c.data.Position;  // what a servo cycle sees of a virtual axis
+  rig.tick();
+  EXPECT_TRUE(rig.input.data.InputState);
+  EXPECT_TRUE(rig.once.Done);
+  EXPECT_NEAR(rig.once.MeasuredValue1, before, 1e-9);
+}
+
+TEST(MeasuringAMovedName, GivesThePositionAsItIsCalledNowAndLeavesTheMarksWhereTheyAre) {
+  Marks rig;
+  rig.continuity[0].velocity = false;  // homing is a step
+  rig.home.Execute = false;
+  rig.tick();
+  rig.home.Mode = 1;
+  rig.home.Position = 1000.0;
+  rig.home.Execute = true;
+  rig.run(3);
+  rig.once.Execute = true;
+  rig.run(3);
+  rig.go(300.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.once.Done; }));
+  EXPECT_NEAR(rig.once.MeasuredValue1, 1020.0, 1e-9);
+}
+
+TEST(MeasuringWithAnEncoder, TellsWhereTheEncoderSawTheMark) {
+  struct WithEncoder : Rig {
+    WithEncoder()
+        : c(axis("Conveyor", [](AxisData& data) { data.VirtualAxis.Mode = 0; })),
+          e(static_cast<ExternalEncoder&>(controller.add_object(ObjectKind::TO_ExternalEncoder, "Encoder"))),
+          input(static_cast<MeasuringInput&>(controller.add_object(ObjectKind::TO_MeasuringInput, "Input"))),
+          power(block<MC_Power>()),
+          run_c(block<MC_MoveVelocity>()),
+          cyclic(block<MC_MeasuringInputCyclic>()) {
+      e.source_settings.follows = &c;
+      e.source_settings.ratio = 2.0;
+      e.source_settings.resolution = 0.01;
+      e.source_settings.noise = 0.02;
+      input.measured = &e;
+      input.marks = PrintMarks{.period = 50.0, .offset = 10.0, .width = 5.0};
+      power.Axis = run_c.Axis = &c;
+      power.Enable = true;
+      cyclic.MeasuringInput = &input;
+      cyclic.Execute = true;
+      run_c.Velocity = 200.0;
+    }
+    Axis& c;
+    ExternalEncoder& e;
+    MeasuringInput& input;
+    MC_Power& power;
+    MC_MoveVelocity& run_c;
+    MC_MeasuringInputCyclic& cyclic;
+  } line;
+  line.run(10);
+  line.run_c.Execute = true;
+  for (int i = 0; i < 3000; ++i) {
+    const UDINT before = line.cyclic.MeasuredValue1Counter;
+    line.tick();
+    if (line.cyclic.MeasuredValue1Counter == before) continue;
+    ASSERT_EQ(line.cyclic.MeasuredValue1Counter, before + 1) << "noise makes no edges";
+    ASSERT_NEAR(line.cyclic.MeasuredValue1, 10.0 + 50.0 * before, 0.02 + 0.005 + 1e-9);
+  }
+  EXPECT_GT(line.cyclic.MeasuredValue1Counter, 10u);
+}
+
+}  // namespace
+}  // namespace lockstep
