@@ -9,12 +9,10 @@
 namespace lockstep::cli {
 namespace {
 
-constexpr ObjectKind kKinds[] = {ObjectKind::TO_PositioningAxis, ObjectKind::TO_SynchronousAxis};
-
 std::vector<std::string> accepted_kinds(const Pin& pin) {
   std::vector<std::string> names;
-  for (const ObjectKind kind : kKinds)
-    if ((pin.objects & static_cast<ObjectKinds>(kind)) != 0) names.emplace_back(kind_name(kind));
+  for (const ObjectKindText& known : kObjectKinds)
+    if (among(known.kind, pin.objects)) names.emplace_back(known.name);
   return names;
 }
 

@@ -25,8 +25,8 @@ std::string overview_text(std::size_t width) {
   Table blocks({"Function block", ""});
   for (const BlockType& type : block_types()) blocks.row({std::string(type.name), std::string(type.text)});
   Table objects({"Technology object", ""});
-  for (const ObjectText& object : object_texts())
-    objects.row({kind_name(object.kind), std::string(object.text)});
+  for (const ObjectKindText& object : kObjectKinds)
+    objects.row({std::string(object.name), std::string(object.text)});
   Table topics({"Also", ""});
   for (const Topic& topic : kTopics) topics.row({std::string(topic.name), std::string(topic.text)});
   topics.row({"MC_Home.Mode", "a pin of a block"});
@@ -44,7 +44,7 @@ nlohmann::ordered_json overview_json() {
   auto& blocks = json["function_blocks"] = nlohmann::ordered_json::array();
   for (const BlockType& type : block_types()) add(blocks, type.name, type.text);
   auto& objects = json["technology_objects"] = nlohmann::ordered_json::array();
-  for (const ObjectText& object : object_texts()) add(objects, kind_name(object.kind), object.text);
+  for (const ObjectKindText& object : kObjectKinds) add(objects, object.name, object.text);
   auto& topics = json["topics"] = nlohmann::ordered_json::array();
   for (const Topic& topic : kTopics) add(topics, topic.name, topic.text);
   return json;
@@ -101,8 +101,8 @@ Subject find_block(std::string_view word, std::string& problem) {
 /// A type of technology object or some of its variables.
 Subject find_object(std::string_view word, std::string& problem) {
   const auto point = word.find('.');
-  for (const ObjectText& object : object_texts()) {
-    const std::string_view name = kind_name(object.kind);
+  for (const ObjectKindText& object : kObjectKinds) {
+    const std::string_view name = object.name;
     if (!same_name(name, word.substr(0, point))) continue;
     if (point == word.npos) return variables_subject(name, "");
     const std::string_view path = word.substr(point + 1);
@@ -116,7 +116,7 @@ Subject find_object(std::string_view word, std::string& problem) {
 std::string unknown(std::string_view word) {
   std::vector<std::string_view> names = variable_names();
   for (const BlockType& type : block_types()) names.push_back(type.name);
-  for (const ObjectText& object : object_texts()) names.emplace_back(kind_name(object.kind));
+  for (const ObjectKindText& object : kObjectKinds) names.emplace_back(object.name);
   for (const Topic& topic : kTopics) names.push_back(topic.name);
   return "there is nothing called " + quote(word) + did_you_mean(word, names) +
          "; lockstep describe lists what there is";

@@ -28,13 +28,6 @@ Subject overview();
 /// A function block, or one pin of it. @param pin nullptr: all
 Subject block_subject(const BlockType& type, const Pin* pin);
 
-/// The types of technology objects, each with what it is.
-struct ObjectText {
-  ObjectKind kind;
-  std::string_view text;
-};
-std::span<const ObjectText> object_texts() noexcept;
-
 /// The variables of a type of technology object that a path names: all for an empty one, a structure
 /// (`DynamicLimits`), one variable, or a bit of it (`StatusWord.X22`), without regard to case.
 /// @param object published name of the type; empty: the path stands alone

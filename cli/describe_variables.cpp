@@ -7,15 +7,11 @@
 #include "cli/describe_subject.hpp"
 #include "cli/describe_table.hpp"
 #include "cli/describe_values.hpp"
+#include "projects/names.hpp"
 #include "projects/problem.hpp"
 
 namespace lockstep::cli {
 namespace {
-
-constexpr ObjectText kObjects[] = {
-    {ObjectKind::TO_PositioningAxis, "Axis that is positioned; it may lead others."},
-    {ObjectKind::TO_SynchronousAxis, "Axis that is positioned or follows a leading value."},
-};
 
 struct EffectText {
   std::string_view name, text;
@@ -32,7 +28,7 @@ const EffectText& effect_of(const Variable& variable) {
 }
 
 std::string access_text(const Variable& variable) {
-  if (variable.computed()) return "read-only, computed by the runtime";
+  if (variable.computed) return "read-only, computed by the runtime";
   if (variable.effect == Effect::RON) return "read-only at run time, set in the project's config";
   return std::string(effect_of(variable).text);
 }
@@ -47,9 +43,7 @@ std::string shown_path(const Variable& variable) {
 
 /// Start value of an element, counted from 0.
 Value start_value(const Variable& variable, std::size_t element = 0) {
-  static AxisData data{};
-  if (variable.type == Type::TAG) return {};
-  return VariablePlace{&variable, variable.offset + element * variable.stride, -1}.signal(data).load();
+  return variable.type == Type::TAG ? Value{} : variable.start_value(element);
 }
 
 /// Elements whose start values have to be told: all of an array if they differ, else one.
@@ -84,7 +78,8 @@ std::string allowed_text(const Variable& variable) {
 struct Selection {
   std::vector<const Variable*> variables;
   int bit = -1;
-  bool whole = false;  // a single variable, named in full
+  bool whole = false;     // a single variable, named in full
+  ObjectKinds kinds = 0;  // of the objects that have them
 };
 
 /// Takes the index out of a path, and the brackets with it. @return the index; 0 if there is none
@@ -98,17 +93,26 @@ std::size_t take_index(std::string& path) {
   return index;
 }
 
-Selection select(std::string_view path) {
+/// The kinds that share the data block of one.
+ObjectKinds same_block(ObjectKind kind) {
+  ObjectKinds kinds = 0;
+  for (const ObjectKindText& known : kObjectKinds)
+    if (&data_block_of(known.kind) == &data_block_of(kind)) kinds = kinds | known.kind;
+  return kinds;
+}
+
+Selection select(ObjectKind kind, std::string_view path) {
   Selection selection;
-  if (const VariablePlace place = find_variable(path); place.variable != nullptr)
-    return {{place.variable}, place.bit, true};
+  selection.kinds = same_block(kind);
+  if (const VariablePlace place = find_variable(kind, path); place.variable != nullptr)
+    return {{place.variable}, place.bit, true, selection.kinds};
   std::string wanted = fold(path);
   const std::size_t index = take_index(wanted);
-  for (const auto list : {configuration_variables(), status_variables()}) {
+  for (const auto list : data_block_of(kind).lists()) {
     for (const Variable& variable : list) {
       std::string name = fold(variable.path);
       take_index(name);
-      if (name == wanted && index == 0) return {{&variable}, -1, true};
+      if (name == wanted && index == 0) return {{&variable}, -1, true, selection.kinds};
       const bool below = wanted.empty() || name.starts_with(wanted + ".");
       if (below && index <= variable.count) selection.variables.push_back(&variable);
     }
@@ -221,7 +225,7 @@ nlohmann::ordered_json variable_json(const Variable& variable) {
   json["default"] = default_json(variable);
   add_declaration(json, variable.type, variable.unit, variable.range, variable.choices);
   json["effect"] = effect_of(variable).name;
-  json["computed"] = variable.computed();
+  json["computed"] = variable.computed;
   if (variable.bits != nullptr) {
     auto& bits = json["bits"] = nlohmann::ordered_json::object();
     for (int bit = 0; bit < 8 * size_of(variable.type); ++bit)
@@ -236,8 +240,9 @@ nlohmann::ordered_json variable_json(const Variable& variable) {
 nlohmann::ordered_json selection_json(std::string_view object, const Selection& selection) {
   nlohmann::ordered_json json{{"kind", "variables"}};
   auto& objects = json["objects"] = nlohmann::ordered_json::array();
-  for (const ObjectText& known : kObjects)
-    if (object.empty() || object == kind_name(known.kind)) objects.push_back(kind_name(known.kind));
+  for (const ObjectKindText& known : kObjectKinds)
+    if (object.empty() ? among(known.kind, selection.kinds) : object == known.name)
+      objects.push_back(known.name);
   if (selection.bit >= 0) {
     json["bit"] = "X" + std::to_string(selection.bit);
     json["name"] = bit_name(*selection.variables.front(), selection.bit);
@@ -249,22 +254,22 @@ nlohmann::ordered_json selection_json(std::string_view object, const Selection& 
 
 }  // namespace
 
-std::span<const ObjectText> object_texts() noexcept {
-  return kObjects;
-}
-
 Subject variables_subject(std::string_view object, std::string_view path) {
-  const Selection selection = select(path);
+  Selection selection;
+  std::string about;
+  for (const ObjectKindText& known : kObjectKinds) {
+    if (!object.empty() && object != known.name) continue;
+    about = known.text;
+    selection = select(known.kind, path);
+    if (!selection.variables.empty()) break;
+  }
   if (selection.variables.empty()) return {};
   std::string title(object);
-  std::string about;
-  for (const ObjectText& known : kObjects)
-    if (object == kind_name(known.kind)) about = known.text;
   if (!path.empty()) {
     std::string name = selection.whole ? shown_path(*selection.variables.front()) : std::string(path);
     if (selection.bit >= 0) name += ".X" + std::to_string(selection.bit);
     title += (title.empty() ? "" : ".") + name;
-    if (object.empty()) title += "  (of every TO_PositioningAxis and TO_SynchronousAxis)";
+    if (object.empty()) title += "  (of every " + kind_names(selection.kinds) + ")";
     about.clear();
   }
   return {[=](std::size_t width) { return selection_text(title, about, selection, width); },
@@ -273,8 +278,9 @@ Subject variables_subject(std::string_view object, std::string_view path) {
 
 std::vector<std::string_view> variable_names() {
   std::vector<std::string_view> names;
-  for (const auto list : {configuration_variables(), status_variables()}) {
-    for (const Variable& variable : list) {
+  for (const ObjectKindText& known : kObjectKinds) {
+    for (const Variable* const declared : select(known.kind, "").variables) {
+      const Variable& variable = *declared;
       for (auto end = variable.path.find_first_of(".["); end != variable.path.npos;
            end = variable.path.find_first_of(".[", end + 1))
         if (const auto prefix = variable.path.substr(0, end); names.empty() || names.back() != prefix)

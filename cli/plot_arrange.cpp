@@ -47,9 +47,10 @@ std::optional<Kind> kind_of_name(std::string_view name) {
   const auto point = name.find('.');
   if (point == name.npos) return std::nullopt;
   const std::string_view path = name.substr(point + 1);
-  if (const VariablePlace place = find_variable(path); place.variable != nullptr)
-    return place.bit >= 0 ? Kind{Type::BOOL, ""}
-                          : Kind{place.variable->type, std::string(unit_text(place.variable->unit))};
+  for (const ObjectKindText& known : kObjectKinds)
+    if (const VariablePlace place = find_variable(known.kind, path); place.variable != nullptr)
+      return place.bit >= 0 ? Kind{Type::BOOL, ""}
+                            : Kind{place.variable->type, std::string(unit_text(place.variable->unit))};
   return kind_of_pin(path);
 }
 

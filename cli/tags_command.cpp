@@ -102,9 +102,9 @@ std::string project_text(const Project& project, std::size_t width) {
         fmt::format("  Modbus server on {}:{}\n", project.modbus.listen->host, project.modbus.listen->port);
   text += tags_text(project, entries, width) + others_text(entries, width);
   Table objects({"Number", "Technology object", "Type"});
-  for (const auto& axis : project.controller->axes)
-    objects.row(
-        {std::to_string(static_cast<std::uint32_t>(axis->number)), axis->name, kind_name(axis->kind)});
+  for (const auto& object : project.controller->objects)
+    objects.row({std::to_string(static_cast<std::uint32_t>(object->number)), object->name,
+                 std::string(kind_name(object->kind))});
   return objects.empty() ? text : text + "\n" + objects.text(0, width);
 }
 
@@ -144,10 +144,10 @@ nlohmann::ordered_json project_json(const Project& project) {
     others.push_back(std::move(other));
   }
   auto& objects = json["technology_objects"] = nlohmann::ordered_json::array();
-  for (const auto& axis : project.controller->axes)
-    objects.push_back({{"number", static_cast<std::uint32_t>(axis->number)},
-                       {"name", axis->name},
-                       {"type", kind_name(axis->kind)}});
+  for (const auto& object : project.controller->objects)
+    objects.push_back({{"number", static_cast<std::uint32_t>(object->number)},
+                       {"name", object->name},
+                       {"type", kind_name(object->kind)}});
   return json;
 }
 

@@ -9,7 +9,7 @@ namespace lockstep {
 /// @source S7-1500T synchronous operation V7, 12.1.1; 6.1
 /// @errors 16#8017, 16#8018 ratio; 16#8019 recursive coupling; 16#800F not enabled or MC_Stop active
 struct MC_GearIn final : ExecuteBlock {
-  Axis* Master{};
+  LeadingObject* Master{};
   Axis* Slave{};
   DINT RatioNumerator = 1;
   DINT RatioDenominator = 1;
@@ -22,7 +22,7 @@ struct MC_GearIn final : ExecuteBlock {
   static constexpr std::string_view kText = "Couples a following axis to a leading axis with a gear ratio.";
   static constexpr std::string_view kSource = "S7-1500T synchronous operation V7, 12.1.1";
   static constexpr auto kPins = pins(
-      object<&MC_GearIn::Master>("Master", kAnyAxis, "leading axis"),
+      object<&MC_GearIn::Master>("Master", kLeading, "leading axis"),
       object<&MC_GearIn::Slave>("Slave", kSynchronousAxis, "following axis"), pin::kExecute,
       in<&MC_GearIn::RatioNumerator>("RatioNumerator", Unit::kNone, {-2147483648.0, 2147483647.0, 0.0},
                                      "numerator of the ratio; its sign gives the direction",
@@ -46,7 +46,7 @@ struct MC_GearIn final : ExecuteBlock {
 ///         16#8026 MasterStartDistance; 16#8007 SyncDirection; 16#8019 recursive coupling;
 ///         16#800F not enabled or MC_Stop active
 struct MC_GearInPos final : ExecuteBlock {
-  Axis* Master{};
+  LeadingObject* Master{};
   Axis* Slave{};
   DINT RatioNumerator = 1;
   DINT RatioDenominator = 1;
@@ -78,7 +78,7 @@ struct MC_GearInPos final : ExecuteBlock {
   static bool following_modulo(const Block& block) noexcept;
 
   static constexpr auto kPins = pins(
-      object<&MC_GearInPos::Master>("Master", kAnyAxis, "leading axis"),
+      object<&MC_GearInPos::Master>("Master", kLeading, "leading axis"),
       object<&MC_GearInPos::Slave>("Slave", kSynchronousAxis, "following axis"), pin::kExecute,
       in<&MC_GearInPos::RatioNumerator>("RatioNumerator", Unit::kNone, {-2147483648.0, 2147483647.0, 0.0},
                                         "numerator of the ratio; its sign gives the direction",

@@ -10,7 +10,7 @@ namespace lockstep {
 /// @errors 16#8017, 16#8018 ratio; 16#8019 recursive coupling; 16#8076 simulated;
 ///         16#800F not enabled or MC_Stop active
 struct MC_GearInVelocity final : ExecuteBlock {
-  Axis* Master{};
+  LeadingObject* Master{};
   Axis* Slave{};
   BOOL ContinuousUpdate{};
   DINT RatioNumerator = 1;
@@ -28,7 +28,7 @@ struct MC_GearInVelocity final : ExecuteBlock {
       "Couples the velocity of a following axis to that of a leading axis with a ratio that may change.";
   static constexpr std::string_view kSource = "S7-1500T synchronous operation V7, 12.1.3";
   static constexpr auto kPins = pins(
-      object<&MC_GearInVelocity::Master>("Master", kAnyAxis, "leading axis"),
+      object<&MC_GearInVelocity::Master>("Master", kLeading, "leading axis"),
       object<&MC_GearInVelocity::Slave>("Slave", kSynchronousAxis, "following axis"), pin::kExecute,
       in<&MC_GearInVelocity::ContinuousUpdate>("ContinuousUpdate", Unit::kNone, kAny,
                                                "TRUE: changes of the ratio count while the job runs"),

@@ -11,7 +11,7 @@ namespace lockstep {
 /// @errors 16#80A9 not synchronous; 16#8079 MC_GearInVelocity active; 16#808A an offset runs or waits;
 ///         16#808C the leading value has reversed; 16#8076 simulated; 16#800F not enabled or MC_Stop active
 struct MC_PhasingRelative final : ExecuteBlock {
-  Axis* Master{};
+  LeadingObject* Master{};
   Axis* Slave{};
   LREAL PhaseShift{};
   LREAL Velocity = -1.0;
@@ -39,7 +39,7 @@ struct MC_PhasingRelative final : ExecuteBlock {
     return static_cast<const MC_PhasingRelative&>(block).ProfileReference == 0;
   }
   static constexpr auto kPins = pins(
-      object<&MC_PhasingRelative::Master>("Master", kAnyAxis, "leading axis"),
+      object<&MC_PhasingRelative::Master>("Master", kLeading, "leading axis"),
       object<&MC_PhasingRelative::Slave>("Slave", kSynchronousAxis, "following axis"), pin::kExecute,
       in<&MC_PhasingRelative::PhaseShift>("PhaseShift", Unit::kLeading, kFinite, "offset to add",
                                           {.error = ErrorId::phase_shift}),
@@ -79,7 +79,7 @@ struct MC_PhasingRelative final : ExecuteBlock {
 /// @errors 16#80A9 not synchronous; 16#8079 MC_GearInVelocity active; 16#808A an offset runs or waits;
 ///         16#808C the leading value has reversed; 16#8076 simulated; 16#800F not enabled or MC_Stop active
 struct MC_PhasingAbsolute final : ExecuteBlock {
-  Axis* Master{};
+  LeadingObject* Master{};
   Axis* Slave{};
   LREAL PhaseShift{};
   LREAL Velocity = -1.0;
@@ -107,7 +107,7 @@ struct MC_PhasingAbsolute final : ExecuteBlock {
     return static_cast<const MC_PhasingAbsolute&>(block).ProfileReference == 0;
   }
   static constexpr auto kPins = pins(
-      object<&MC_PhasingAbsolute::Master>("Master", kAnyAxis, "leading axis"),
+      object<&MC_PhasingAbsolute::Master>("Master", kLeading, "leading axis"),
       object<&MC_PhasingAbsolute::Slave>("Slave", kSynchronousAxis, "following axis"), pin::kExecute,
       in<&MC_PhasingAbsolute::PhaseShift>("PhaseShift", Unit::kLeading, kFinite, "offset to reach",
                                           {.error = ErrorId::phase_shift}),

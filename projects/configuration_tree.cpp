@@ -1,6 +1,7 @@
 #include "projects/configuration_tree.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace lockstep {
 namespace {
@@ -27,9 +28,9 @@ void insert(ConfigurationNode& root, const Variable& variable) {
   node->variable = &variable;
 }
 
-ConfigurationNode build() {
+ConfigurationNode build(ObjectKind kind) {
   ConfigurationNode root;
-  for (const auto list : {configuration_variables(), status_variables()})
+  for (const auto list : data_block_of(kind).lists())
     for (const Variable& variable : list) insert(root, variable);
   return root;
 }
@@ -43,13 +44,17 @@ const ConfigurationNode* ConfigurationNode::find(std::string_view child) const n
 }
 
 bool ConfigurationNode::computed() const noexcept {
-  if (variable != nullptr) return variable->computed();
+  if (variable != nullptr) return variable->computed;
   return std::all_of(children.begin(), children.end(), [](const auto& child) { return child->computed(); });
 }
 
-const ConfigurationNode& configuration_tree() {
-  static const ConfigurationNode tree = build();
-  return tree;
+const ConfigurationNode& configuration_tree(ObjectKind kind) {
+  static const std::map<ObjectKind, ConfigurationNode> trees = [] {
+    std::map<ObjectKind, ConfigurationNode> made;
+    for (const ObjectKindText& known : kObjectKinds) made.emplace(known.kind, build(known.kind));
+    return made;
+  }();
+  return trees.at(kind);
 }
 
 }  // namespace lockstep

@@ -22,7 +22,7 @@ struct ConfigurationNode {
   bool computed() const noexcept;
 };
 
-/// The tree of all variables, in published order. Built at the first call; any thread.
-const ConfigurationNode& configuration_tree();
+/// The tree of all variables of a kind of object, in published order. Built at the first call; any thread.
+const ConfigurationNode& configuration_tree(ObjectKind kind);
 
 }  // namespace lockstep

@@ -27,8 +27,8 @@ ElementKey split(std::string_view key) {
 
 class ConfigurationLoader {
  public:
-  ConfigurationLoader(Axis& axis, const Loading& loading)
-      : axis_(axis), loading_(loading), problems_(loading.problems) {}
+  ConfigurationLoader(TechnologyObject& object, const Loading& loading)
+      : object_(object), loading_(loading), problems_(loading.problems) {}
 
   /// @param index of the array element within which the structure lies, from 1; 0: none
   void load_structure(const JsonValue& json, const ConfigurationNode& structure, std::size_t index);
@@ -40,7 +40,7 @@ class ConfigurationLoader {
   void load_tag_reference(const JsonValue& json, const Signal& place);
   void report_unknown(const std::string& key, const JsonValue& json, const ConfigurationNode& structure);
 
-  Axis& axis_;
+  TechnologyObject& object_;
   const Loading& loading_;
   Problems& problems_;
 };
@@ -81,14 +81,14 @@ void ConfigurationLoader::report_unknown(const std::string& key, const JsonValue
     if (!child->computed()) texts.push_back(std::string(child->name) + (child->count != 0 ? "[1]" : ""));
   const std::vector<std::string_view> names(texts.begin(), texts.end());
   std::string text = "unknown key " + quote(key) + did_you_mean(key, names);
-  if (key.find('.') != key.npos && find_variable(key).variable != nullptr)
+  if (key.find('.') != key.npos && find_variable(object_.kind, key).variable != nullptr)
     text += R"(; structures are nested, as in { "DynamicDefaults": { "Velocity": 100.0 } })";
   problems_.report(json, text + "; allowed: " + list_of(names));
 }
 
 void ConfigurationLoader::load_variable(const JsonValue& json, const Variable& variable, std::size_t index) {
   const std::size_t offset = index == 0 ? 0 : (index - 1) * variable.stride;
-  const Signal place = VariablePlace{&variable, variable.offset + offset, -1}.signal(axis_.data);
+  const Signal place = VariablePlace{&variable, variable.offset + offset, -1}.signal(object_.data_block());
   if (variable.type == Type::TAG) return load_tag_reference(json, place);
   const auto value = read_plain_constant(json, variable.type, problems_);
   if (!value) return;
@@ -113,12 +113,8 @@ void ConfigurationLoader::load_tag_reference(const JsonValue& json, const Signal
 
 }  // namespace
 
-void load_configuration(const JsonValue& config, Axis& axis, const Loading& loading) {
-  ConfigurationLoader(axis, loading).load_structure(config, configuration_tree(), 0);
-  const TO_Struct_PositionLimitsSW& limits = axis.data.PositionLimits_SW;
-  const JsonValue* const json = config.find("PositionLimits_SW");
-  if (json != nullptr && limits.MinPosition >= limits.MaxPosition)
-    loading.problems.report(*json, "MinPosition has to be less than MaxPosition");
+void load_configuration(const JsonValue& config, TechnologyObject& object, const Loading& loading) {
+  ConfigurationLoader(object, loading).load_structure(config, configuration_tree(object.kind), 0);
 }
 
 }  // namespace lockstep

@@ -29,7 +29,7 @@ std::optional<ObjectKind> read_kind(const JsonValue* type, Problems& problems) {
   }
   const auto word = read_word(type, words::kObjectTypes, problems);
   if (!word) return std::nullopt;
-  return *word == 0 ? ObjectKind::TO_PositioningAxis : ObjectKind::TO_SynchronousAxis;
+  return kObjectKinds[*word].kind;
 }
 
 void declare_object(const std::string& name, const JsonValue& json, const Loading& loading) {
@@ -43,8 +43,8 @@ void declare_object(const std::string& name, const JsonValue& json, const Loadin
     return;
   }
   // The object is there even if its name is not free, so that its configuration is looked at.
-  Axis& axis = loading.controller().add_axis(*kind, name);
-  if (named) loading.names().define(name, &axis);
+  TechnologyObject& object = loading.controller().add_object(*kind, name);
+  if (named) loading.names().define(name, &object);
 }
 
 void load_drive(const JsonValue& json, Axis& axis, const Loading& loading) {
@@ -77,7 +77,7 @@ std::optional<Coupling> read_coupling(const JsonValue* json, Problems& problems)
 void load_leading_value(const JsonValue& json, Axis& axis, const Loading& loading) {
   const Fields fields(json, keys::kLeadingValue, loading.problems);
   const JsonValue* const to = fields["to"];
-  Axis* const source = loading.find_axis(to);
+  auto* const source = static_cast<LeadingObject*>(loading.find_object(to, kLeading));
   const auto coupling = read_coupling(fields["coupling"], loading.problems);
   if (source == nullptr || !coupling) return;
   if (source == &axis) return loading.problems.report(*to, "an axis cannot follow itself");
@@ -90,17 +90,27 @@ void load_leading_value(const JsonValue& json, Axis& axis, const Loading& loadin
 void load_leading_values(const JsonValue& json, Axis& axis, const Loading& loading) {
   if (read_array(&json, loading.problems) == nullptr) return;
   if (axis.kind != ObjectKind::TO_SynchronousAxis && !json.elements.empty())
-    return loading.problems.report(json, std::string("a ") + kind_name(axis.kind) +
+    return loading.problems.report(json, "a " + std::string(kind_name(axis.kind)) +
                                              " has no leading values; allowed with: TO_SynchronousAxis");
   for (const JsonValue* const leading_value : json.elements)
     load_leading_value(*leading_value, axis, loading);
 }
 
-void load_object(const JsonValue& json, Axis& axis, const Loading& loading) {
+void load_position_limits(const JsonValue& config, const Axis& axis, const Loading& loading) {
+  const TO_Struct_PositionLimitsSW& limits = axis.data.PositionLimits_SW;
+  const JsonValue* const json = config.find("PositionLimits_SW");
+  if (json != nullptr && limits.MinPosition >= limits.MaxPosition)
+    loading.problems.report(*json, "MinPosition has to be less than MaxPosition");
+}
+
+void load_axis(const JsonValue& json, Axis& axis, const Loading& loading) {
   Problems& problems = loading.problems;
   const Fields fields(json, keys::kObject, problems);
   const std::size_t before = problems.count();
-  if (const JsonValue* const config = fields["config"]) load_configuration(*config, axis, loading);
+  if (const JsonValue* const config = fields["config"]) {
+    load_configuration(*config, axis, loading);
+    load_position_limits(*config, axis, loading);
+  }
   const bool sure = problems.count() == before;
   const JsonValue* const drive = fields["drive"];
   if (drive != nullptr) load_drive(*drive, axis, loading);
@@ -114,6 +124,14 @@ void load_object(const JsonValue& json, Axis& axis, const Loading& loading) {
   if (const JsonValue* const values = fields["leading_values"]) load_leading_values(*values, axis, loading);
 }
 
+void load_object(const JsonValue& json, TechnologyObject& object, const Loading& loading) {
+  switch (object.kind) {
+    case ObjectKind::TO_PositioningAxis:
+    case ObjectKind::TO_SynchronousAxis:
+      return load_axis(json, static_cast<Axis&>(object), loading);
+  }
+}
+
 }  // namespace
 
 void declare_objects(const JsonValue& objects, const Loading& loading) {
@@ -122,13 +140,13 @@ void declare_objects(const JsonValue& objects, const Loading& loading) {
 }
 
 void load_objects(const JsonValue& objects, const Loading& loading) {
-  auto axis = loading.controller().axes.begin();
-  const auto end = loading.controller().axes.end();
+  auto object = loading.controller().objects.begin();
+  const auto end = loading.controller().objects.end();
   for (const auto& [name, json] : objects.members) {
-    if (axis == end) return;
-    if ((*axis)->name != name) continue;  // could not be declared
-    load_object(*json, **axis, loading);
-    ++axis;
+    if (object == end) return;
+    if ((*object)->name != name) continue;  // could not be declared
+    load_object(*json, **object, loading);
+    ++object;
   }
 }
 

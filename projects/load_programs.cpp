@@ -12,11 +12,12 @@ constexpr std::int64_t kLongestCycle = 86'400'000'000'000;  // of a program: a d
 constexpr int kDefaultPriority = 8;
 
 /// What a call is, by the key that only it has.
-enum class CallKind { block, set, branch, unknown };
+enum class CallKind { block, set, set_start, branch, unknown };
 
 CallKind kind_of(const JsonValue& call) {
   if (call.find("fb") != nullptr) return CallKind::block;
   if (call.find("set") != nullptr) return CallKind::set;
+  if (call.find("set_start") != nullptr) return CallKind::set_start;
   if (call.find("if") != nullptr) return CallKind::branch;
   return CallKind::unknown;
 }
@@ -70,6 +71,8 @@ class ProgramLoader {
   void load_call(const JsonValue& json);
   void load_branch(const JsonValue& json);
   void load_set(const JsonValue& json);
+  void load_set_start(const JsonValue& json);
+  void check_range(const JsonValue& json, const Expression& expression, const Place& place);
   void load_block(const JsonValue& json);
   void load_pins(const JsonValue* in, const JsonValue& call, Instance& instance);
   void load_pin(const std::string& name, const JsonValue& json, Instance& instance);
@@ -99,11 +102,13 @@ void ProgramLoader::load_call(const JsonValue& json) {
       return load_block(json);
     case CallKind::set:
       return load_set(json);
+    case CallKind::set_start:
+      return load_set_start(json);
     case CallKind::branch:
       return load_branch(json);
     case CallKind::unknown:
-      return problems_.report(json,
-                              "one of the keys 'fb', 'set', 'if' is missing, which tell what is to be done");
+      return problems_.report(
+          json, "one of the keys 'fb', 'set', 'set_start', 'if' is missing, which tell what is to be done");
   }
 }
 
@@ -151,12 +156,37 @@ void ProgramLoader::load_set(const JsonValue& json) {
   auto expression = compile(fields["to"], place->signal.value_type());
   if (!expression) return;
   if (place->variable == nullptr) return program_.add_assignment(std::move(*expression), place->signal);
-  const Variable& variable = *place->variable;
-  if (const auto value = constant_value(*expression); value && place->signal.bit < 0) {
-    const std::string problem = range_problem(*value, variable.type, variable.range, variable.choices);
-    if (!problem.empty()) problems_.warn(*fields["to"], problem + "; the variable will not take it");
-  }
-  program_.add_assignment(std::move(*expression), place->signal, variable);
+  check_range(*fields["to"], *expression, *place);
+  program_.add_assignment(std::move(*expression), place->signal, *place->variable);
+}
+
+/// Warns of a constant that the variable will not take.
+void ProgramLoader::check_range(const JsonValue& json, const Expression& expression, const Place& place) {
+  const Variable& variable = *place.variable;
+  const auto value = constant_value(expression);
+  if (!value || place.signal.bit >= 0) return;
+  const std::string problem = range_problem(*value, variable.type, variable.range, variable.choices);
+  if (!problem.empty()) problems_.warn(json, problem + "; the variable will not take it");
+}
+
+/// Changes a start value, which the object takes over with its next restart.
+void ProgramLoader::load_set_start(const JsonValue& json) {
+  const Fields fields(json, keys::kSetStart, problems_);
+  const auto path = read_string(fields["set_start"], problems_);
+  if (!path) return;
+  auto place = loading_.find(*fields["set_start"], *path);
+  if (!place) return;
+  if (const std::string reason = why_no_start_value(*place); !reason.empty())
+    return problems_.report(*fields["set_start"], reason);
+  auto expression = compile(fields["to"], place->signal.type);
+  if (!expression) return;
+  check_range(*fields["to"], *expression, *place);
+  TechnologyObject& object = *place->object;
+  const std::ptrdiff_t offset =
+      static_cast<char*>(place->signal.address) - static_cast<char*>(object.data_block());
+  place->signal.address = static_cast<char*>(object.start_values()) + offset;
+  program_.add_assignment(std::move(*expression), place->signal, *place->variable);
+  program_.add_assignment(Expression(Type::BOOL, Value{.u = 1}), {&object.start_values_changed, Type::BOOL});
 }
 
 void ProgramLoader::load_block(const JsonValue& json) {
@@ -209,17 +239,10 @@ void ProgramLoader::load_pin(const std::string& name, const JsonValue& json, Ins
 
 void ProgramLoader::load_object_pin(const JsonValue& json, const Pin& pin, Instance& instance) {
   if (json.kind != JsonKind::string) return report_kind(json, "the name of a technology object", problems_);
-  Axis* const axis = loading_.find_axis(&json);
-  if (axis == nullptr) return;
-  if ((pin.objects & static_cast<ObjectKinds>(axis->kind)) == 0) {
-    std::vector<std::string_view> kinds;
-    for (const ObjectKind kind : {ObjectKind::TO_PositioningAxis, ObjectKind::TO_SynchronousAxis})
-      if ((pin.objects & static_cast<ObjectKinds>(kind)) != 0) kinds.emplace_back(kind_name(kind));
-    return problems_.report(json,
-                            json.shown() + " is a " + kind_name(axis->kind) + "; allowed: " + list_of(kinds));
-  }
+  TechnologyObject* const object = loading_.find_object(&json, pin.objects);
+  if (object == nullptr) return;
   Value address{};
-  address.u = reinterpret_cast<std::uintptr_t>(axis);
+  address.u = reinterpret_cast<std::uintptr_t>(object);
   pin.signal(*instance.block).store(address);
 }
 
@@ -240,10 +263,11 @@ void ProgramLoader::check_leading_value(const JsonValue& in, Instance& instance)
   if (master == nullptr || slave == nullptr || master->kind != JsonKind::string ||
       slave->kind != JsonKind::string)
     return;
-  const Axis* const leading = loading_.names().find_axis(master->text).axis;
-  const Axis* const following = loading_.names().find_axis(slave->text).axis;
+  const TechnologyObject* const leading = loading_.names().find_object(master->text, kLeading).object;
+  const TechnologyObject* const following =
+      loading_.names().find_object(slave->text, kSynchronousAxis).object;
   if (leading == nullptr || following == nullptr) return;
-  const auto& values = following->leading_values;
+  const auto& values = static_cast<const Axis*>(following)->leading_values;
   if (std::any_of(values.begin(), values.end(),
                   [&](const LeadingValue& value) { return value.source == leading; }))
     return;

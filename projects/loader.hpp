@@ -21,8 +21,9 @@ struct Loading {
   bool add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const;
   /// The place to which a path leads, or none: then that is reported, unless the problem is known already.
   std::optional<Place> find(const JsonValue& at, std::string_view path) const;
-  /// A reference to an axis, or nullptr: then that is reported, unless the problem is known already.
-  Axis* find_axis(const JsonValue* name) const;
+  /// A technology object of one of the kinds, or nullptr: then that is reported, unless the problem is known
+  /// already.
+  TechnologyObject* find_object(const JsonValue* name, ObjectKinds kinds) const;
 };
 
 void load_clock(const JsonValue& clock, const Loading& loading);
@@ -31,8 +32,8 @@ void load_tags(const JsonValue& tags, const Loading& loading);
 /// Adds all objects and their names; `load_objects` then reads them, when all names are there.
 void declare_objects(const JsonValue& objects, const Loading& loading);
 void load_objects(const JsonValue& objects, const Loading& loading);
-/// Sets the start values of one axis.
-void load_configuration(const JsonValue& config, Axis& axis, const Loading& loading);
+/// Sets the start values of one object.
+void load_configuration(const JsonValue& config, TechnologyObject& object, const Loading& loading);
 
 /// Adds all instances and their names; `load_programs` then compiles, when all names are there.
 void declare_instances(const JsonValue& programs, const Loading& loading);

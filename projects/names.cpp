@@ -152,23 +152,27 @@ FoundPlace find_pin(const Instance& instance, std::string_view path) {
   return with_bit({.signal = pin->signal(*instance.block), .unit = pin->unit, .pin = pin}, bit, path);
 }
 
-FoundPlace find_axis_variable(Axis& axis, std::string_view path) {
-  const VariablePlace place = find_variable(path);
+FoundPlace find_variable_of(TechnologyObject& object, std::string_view path) {
+  void* const data = object.data_block();
+  const VariablePlace place = find_variable(object.kind, path);
   if (place.variable != nullptr) {
     if (place.variable->type == Type::TAG) return refuse(quote(path) + " names a tag and has no value");
-    return {
-        Place{.signal = place.signal(axis.data), .unit = place.variable->unit, .variable = place.variable},
-        "", false};
+    return {Place{.signal = place.signal(data),
+                  .unit = place.variable->unit,
+                  .variable = place.variable,
+                  .object = &object},
+            "", false};
   }
   std::string_view word = path;
   if (const int bit = take_bit(word); bit >= 0)
-    if (const VariablePlace whole = find_variable(word); whole.variable != nullptr)
-      return with_bit({.signal = whole.signal(axis.data)}, bit, word);
-  const std::string what = "'" + axis.name + "' is a technology object (" + kind_name(axis.kind) + ")";
+    if (const VariablePlace whole = find_variable(object.kind, word); whole.variable != nullptr)
+      return with_bit({.signal = whole.signal(data)}, bit, word);
+  const std::string what =
+      "'" + object.name + "' is a technology object (" + std::string(kind_name(object.kind)) + ")";
   if (path.empty())
-    return refuse(what + "; one of its variables has to follow, as in " + axis.name + ".Position");
+    return refuse(what + "; one of its variables has to follow, as in " + object.name + ".StatusWord");
   std::vector<std::string_view> names;
-  for (const auto list : {configuration_variables(), status_variables()})
+  for (const auto list : data_block_of(object.kind).lists())
     for (const Variable& variable : list) names.push_back(variable.path);
   return refuse(what + ", which has no variable " + quote(path) + did_you_mean(path, names));
 }
@@ -193,6 +197,13 @@ std::string identifier_problem(std::string_view name) {
   return "";
 }
 
+std::string kind_names(ObjectKinds kinds) {
+  std::vector<std::string_view> names;
+  for (const ObjectKindText& known : kObjectKinds)
+    if (among(known.kind, kinds)) names.push_back(known.name);
+  return list_of(names);
+}
+
 std::string why_not_writable(const Place& place) {
   if (place.tag != nullptr) return "";
   if (place.pin != nullptr)
@@ -200,9 +211,21 @@ std::string why_not_writable(const Place& place) {
            "run time "
            "(DIR, CAL)";
   const std::string name = "'" + std::string(place.variable->path) + "'";
-  if (place.variable->computed()) return name + " is computed by the runtime and cannot be written";
+  if (place.variable->computed) return name + " is computed by the runtime and cannot be written";
   if (place.variable->effect == Effect::RES)
-    return name + " takes effect only with a restart of the technology object (RES); it is set in 'config'";
+    return name +
+           " takes effect only with a restart of the technology object (RES); it is set in 'config', or by "
+           "'set_start' and MC_Reset with Restart";
+  if (place.variable->effect == Effect::RON)
+    return name + " is read-only at run time (RON); it is set in 'config'";
+  return "";
+}
+
+std::string why_no_start_value(const Place& place) {
+  if (place.variable == nullptr || place.signal.bit >= 0)
+    return "only variables of technology objects have start values that can be changed";
+  const std::string name = "'" + std::string(place.variable->path) + "'";
+  if (place.variable->computed) return name + " is computed by the runtime and has no start value";
   if (place.variable->effect == Effect::RON)
     return name + " is read-only at run time (RON); it is set in 'config'";
   return "";
@@ -252,13 +275,16 @@ std::string Names::nearest_name(std::string_view name) const {
   return did_you_mean(name, names);
 }
 
-Names::FoundAxis Names::find_axis(std::string_view name) const {
+Names::FoundObject Names::find_object(std::string_view name, ObjectKinds kinds) const {
   const Entity* const entity = find_entity(name);
   if (entity == nullptr)
     return {nullptr, "there is no technology object " + quote(name) + nearest_name(name)};
   if (std::holds_alternative<std::monostate>(*entity)) return {};
-  if (Axis* const* const axis = std::get_if<Axis*>(entity)) return {*axis, ""};
-  return {nullptr, quote(name) + " is no technology object"};
+  TechnologyObject* const* const object = std::get_if<TechnologyObject*>(entity);
+  if (object == nullptr) return {nullptr, quote(name) + " is no technology object"};
+  if (among((*object)->kind, kinds)) return {*object, ""};
+  return {nullptr, quote(name) + " is a " + std::string(kind_name((*object)->kind)) +
+                       "; allowed: " + kind_names(kinds)};
 }
 
 FoundPlace Names::unknown(std::string_view name) const {
@@ -273,7 +299,8 @@ FoundPlace Names::find_within(const Entry& entry, std::string_view path) const {
     return with_bit({.signal = (*tag)->signal, .tag = *tag}, bit, entry.name);
   }
   if (const auto* instance = std::get_if<const Instance*>(&entry.entity)) return find_pin(**instance, path);
-  if (Axis* const* const axis = std::get_if<Axis*>(&entry.entity)) return find_axis_variable(**axis, path);
+  if (TechnologyObject* const* const object = std::get_if<TechnologyObject*>(&entry.entity))
+    return find_variable_of(**object, path);
   return {std::nullopt, quote(entry.name) + " " + std::string(kKnownProblem), true};
 }
 

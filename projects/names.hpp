@@ -12,14 +12,17 @@
 #include "fb/block.hpp"
 #include "projects/expression_compiler.hpp"
 #include "scheduler/controller.hpp"
-#include "tech_objects/axis.hpp"
 #include "tech_objects/declaration.hpp"
+#include "tech_objects/technology_object.hpp"
 #include "tech_objects/types.hpp"
 
 namespace lockstep {
 
 /// What is wrong with a name as an identifier of IEC 61131-3, and what is allowed; empty if nothing is.
 std::string identifier_problem(std::string_view name);
+
+/// The published names of kinds, for messages: "TO_PositioningAxis, TO_SynchronousAxis".
+std::string kind_names(ObjectKinds kinds);
 
 /// A value of the project, found by its path. Exactly one of tag, pin and variable is set.
 struct Place {
@@ -28,6 +31,7 @@ struct Place {
   const Tag* tag = nullptr;
   const Pin* pin = nullptr;
   const Variable* variable = nullptr;
+  TechnologyObject* object = nullptr;  ///< whose variable it is
 };
 
 /// A place, or what is wrong with the path.
@@ -40,12 +44,15 @@ struct FoundPlace {
 /// Why a program may not write there at run time; empty if it may.
 std::string why_not_writable(const Place& place);
 
+/// Why a program may not change the start value of what is there; empty if it may.
+std::string why_no_start_value(const Place& place);
+
 /// The names of tags, instances and technology objects; they share one name space without regard to case.
 /// What is named has to stay where it is. Reading it is for any thread, as long as nobody adds.
 class Names final : public Scope {
  public:
   /// What a name stands for; monostate: something whose declaration is faulty.
-  using Entity = std::variant<std::monostate, const Tag*, const Instance*, Axis*>;
+  using Entity = std::variant<std::monostate, const Tag*, const Instance*, TechnologyObject*>;
 
   /// Adds a name. A name that is added twice stands for something faulty from then on.
   /// @return what is wrong with it: no identifier, or taken already; empty if nothing is.
@@ -55,12 +62,13 @@ class Names final : public Scope {
 
   /// What a name stands for; nullptr: there is no such name. Counts as a use.
   const Entity* find_entity(std::string_view name) const;
-  /// The axis of a name, or what is wrong.
-  struct FoundAxis {
-    Axis* axis = nullptr;
-    std::string problem;  ///< empty if there is an axis, or if the problem is known already
+  /// The technology object of a name, or what is wrong.
+  struct FoundObject {
+    TechnologyObject* object = nullptr;
+    std::string problem;  ///< empty if there is an object, or if the problem is known already
   };
-  FoundAxis find_axis(std::string_view name) const;
+  /// @param kinds that are allowed
+  FoundObject find_object(std::string_view name, ObjectKinds kinds) const;
 
   /// The place to which a path leads, in any case.
   FoundPlace find(std::string_view path) const;

@@ -62,12 +62,12 @@ std::optional<Place> Loading::find(const JsonValue& at, std::string_view path) c
   return found.place;
 }
 
-Axis* Loading::find_axis(const JsonValue* name) const {
+TechnologyObject* Loading::find_object(const JsonValue* name, ObjectKinds kinds) const {
   const auto text = read_string(name, problems);
   if (!text) return nullptr;
-  const Names::FoundAxis found = names().find_axis(*text);
+  const Names::FoundObject found = names().find_object(*text, kinds);
   if (!found.problem.empty()) problems.report(*name, found.problem);
-  return found.axis;
+  return found.object;
 }
 
 void load_clock(const JsonValue& clock, const Loading& loading) {

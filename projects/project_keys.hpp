@@ -6,6 +6,8 @@
 #include <span>
 #include <string_view>
 
+#include "tech_objects/technology_object.hpp"
+
 namespace lockstep {
 
 struct Key {
@@ -40,6 +42,7 @@ inline constexpr Key kProgram[] = {
     {"name", kRequired}, {"ob", kRequired}, {"cycle"}, {"priority"}, {"calls", kRequired}};
 inline constexpr Key kCall[] = {{"fb", kRequired}, {"name", kRequired}, {"in"}};
 inline constexpr Key kSet[] = {{"set", kRequired}, {"to", kRequired}};
+inline constexpr Key kSetStart[] = {{"set_start", kRequired}, {"to", kRequired}};
 inline constexpr Key kIf[] = {{"if", kRequired}, {"then", kRequired}, {"else"}};
 inline constexpr Key kStimulus[] = {{"at", kRequired}, {"set", kRequired}};
 inline constexpr Key kModbus[] = {{"server"}, {"map"}};
@@ -58,7 +61,11 @@ inline constexpr int kHighestPriority = 26;
 namespace words {
 
 inline constexpr std::string_view kOverrun[] = {"report", "stop"};
-inline constexpr std::string_view kObjectTypes[] = {"TO_PositioningAxis", "TO_SynchronousAxis"};
+inline constexpr auto kObjectTypes = [] {
+  std::array<std::string_view, kObjectKinds.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = kObjectKinds[i].name;
+  return names;
+}();
 inline constexpr std::string_view kModels[] = {"simulated"};
 inline constexpr std::string_view kCouplings[] = {"setpoint", "actual"};
 inline constexpr std::string_view kObs[] = {"MC_PreServo", "MC_PostServo", "MC_PreInterpolator", "Cyclic",

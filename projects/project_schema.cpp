@@ -66,8 +66,7 @@ Json value(std::string_view description) {
 }
 
 Json default_of(const Variable& variable) {
-  static AxisData data;
-  const Value start = VariablePlace{&variable, variable.offset, -1}.signal(data).load();
+  const Value start = variable.start_value();
   if (variable.type == Type::BOOL) return start.u != 0;
   if (is_real(variable.type)) return start.r;
   if (is_signed_integer(variable.type)) return start.i;
@@ -147,7 +146,7 @@ Json objects_schema() {
   return map("name: technology object", axis);
 }
 
-/// One schema for the three kinds of calls: which keys go together is told by `dependencies`.
+/// One schema for all kinds of calls: which keys go together is told by `dependencies`.
 Json call_schema() {
   Json schema = object(keys::kCall, {{"fb", words("function block", block_names())},
                                      {"name", text("name of the instance")},
@@ -155,14 +154,18 @@ Json call_schema() {
                                                 value("value, expression or technology object"))}});
   const Json set = object(keys::kSet, {{"set", text("tag or writable variable to assign to")},
                                        {"to", value("value or expression")}});
+  const Json start = object(keys::kSetStart, {{"set_start", text("variable whose start value is changed; it "
+                                                                 "counts with a restart by MC_Reset")},
+                                              {"to", value("value or expression")}});
   const Json branch = object(keys::kIf, {{"if", value("BOOL value or expression")},
                                          {"then", array("what runs if it is TRUE", reference("call"))},
                                          {"else", array("what runs if it is FALSE", reference("call"))}});
   schema["properties"].update(set["properties"]);
+  schema["properties"].update(start["properties"]);
   schema["properties"].update(branch["properties"]);
   schema.erase("required");
-  schema["dependencies"] = {{"fb", {"name"}}, {"name", {"fb"}}, {"in", {"fb"}},   {"set", {"to"}},
-                            {"to", {"set"}},  {"if", {"then"}}, {"then", {"if"}}, {"else", {"if"}}};
+  schema["dependencies"] = {{"fb", {"name"}},      {"name", {"fb"}}, {"in", {"fb"}},   {"set", {"to"}},
+                            {"set_start", {"to"}}, {"if", {"then"}}, {"then", {"if"}}, {"else", {"if"}}};
   return schema;
 }
 
@@ -227,8 +230,10 @@ std::string project_schema() {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Lockstep project"}};
   schema.update(root_schema());
   Json definitions = Json::object();
-  Json config = structure_schema(configuration_tree(), definitions);
-  definitions["config"] = described("start values of the technology data block", config);
+  for (const ObjectKind kind : {ObjectKind::TO_SynchronousAxis}) {
+    const Json config = structure_schema(configuration_tree(kind), definitions);
+    definitions["config"] = described("start values of the technology data block", config);
+  }
   definitions["call"] = call_schema();
   schema["definitions"] = definitions;
   return schema.dump(2) + "\n";

@@ -13,10 +13,20 @@ Tag& Controller::add_tag(Tag tag) {
   return tags.back();
 }
 
+TechnologyObject& Controller::add_object(ObjectKind kind, std::string name) {
+  const auto number = static_cast<DB_ANY>(objects.size() + 1);
+  switch (kind) {
+    case ObjectKind::TO_PositioningAxis:
+    case ObjectKind::TO_SynchronousAxis:
+      objects.push_back(std::make_unique<Axis>(kind, std::move(name), number));
+      axes.push_back(static_cast<Axis*>(objects.back().get()));
+      break;
+  }
+  return *objects.back();
+}
+
 Axis& Controller::add_axis(ObjectKind kind, std::string name) {
-  const auto number = static_cast<DB_ANY>(axes.size() + 1);
-  axes.push_back(std::make_unique<Axis>(kind, std::move(name), number));
-  return *axes.back();
+  return static_cast<Axis&>(add_object(kind, std::move(name)));
 }
 
 Instance& Controller::add_instance(const BlockType& type, std::string name) {
@@ -26,10 +36,9 @@ Instance& Controller::add_instance(const BlockType& type, std::string name) {
 
 void Controller::finish() {
   const double servo_period = static_cast<double>(clock.servo_cycle) * 1e-9;
-  for (auto& axis : axes) {
-    axis->configure(servo_period, clock.interpolator_ratio);
-    if (!axis->is_virtual()) driven_.push_back(axis.get());
-  }
+  for (auto& object : objects) object->configure(servo_period, clock.interpolator_ratio);
+  for (Axis* axis : axes)
+    if (!axis->is_virtual()) driven_.push_back(axis);
   summary_.resize(axes.size());
   order_.set_axes(axes);
   order_.rebuild();
@@ -63,7 +72,7 @@ void Controller::take_summary() noexcept {
 }
 
 bool Controller::at_rest() const noexcept {
-  return std::all_of(axes.begin(), axes.end(), [](const auto& axis) { return axis->off(); });
+  return std::all_of(axes.begin(), axes.end(), [](const Axis* axis) { return axis->off(); });
 }
 
 }  // namespace lockstep

@@ -71,7 +71,8 @@ struct AxisSummary {
 class Controller {
  public:
   Clock clock;
-  std::vector<std::unique_ptr<Axis>> axes;  ///< in the order of `technology_objects`
+  std::vector<std::unique_ptr<TechnologyObject>> objects;  ///< in the order of `technology_objects`
+  std::vector<Axis*> axes;                                 ///< those of them that are axes, in this order
   std::deque<Tag> tags;
   std::deque<Instance> instances;
   std::deque<Program> programs;
@@ -81,6 +82,8 @@ class Controller {
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
 
   Tag& add_tag(Tag tag);
+  /// Adds an object of any kind; its number is its place among all.
+  TechnologyObject& add_object(ObjectKind kind, std::string name);
   Axis& add_axis(ObjectKind kind, std::string name);
   Instance& add_instance(const BlockType& type, std::string name);
 

@@ -53,7 +53,11 @@ void Controller::interpolate() noexcept {
     changed |= axis->coupling_changed;
     axis->coupling_changed = false;
   }
-  if (changed) order_.rebuild();
+  if (changed) {
+    for (Axis* axis : order_.axes()) axis->watch_leading_object();
+    for (Axis* axis : order_.axes()) axis->restarted = false;
+    order_.rebuild();
+  }
   for (Axis* axis : order_.axes()) {
     axis->step();
     axis->publish();

@@ -9,14 +9,10 @@ namespace {
 /// Value of StatusSensor.State: the actual value is valid.
 constexpr DINT kSensorValid = 2;
 
-/// Age of an actual value when the interpolator takes it [s]: the drive is read at the beginning of the very
-/// tick.
-constexpr double kAcquisitionTime = 0.0;
-
 }  // namespace
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
-    : TechnologyObject{object_kind, std::move(object_name), object_number} {}
+    : LeadingObject(object_kind, std::move(object_name), object_number) {}
 
 void Axis::configure(double servo_period, int ratio) {
   servo_period_ = servo_period;
@@ -30,15 +26,11 @@ void Axis::configure(double servo_period, int ratio) {
   last_setpoint_ = setpoint_;
   actual_ = setpoint_.position;
   single_.stand(setpoint_);
-  extrapolation_.reset(actual_);
-  leading_actual_ = last_leading_actual_ = {actual_, 0.0, 0.0};
+  reset_leading(actual_);
   for (const LeadingValue& leading : leading_values)
-    if (leading.coupling == Coupling::actual) leading.source->leads_by_actual_value_ = true;
+    if (leading.coupling == Coupling::actual) leading.source->lead_by_actual_value();
   if (has_drive_) configure_servo();
-  data.OperativeSensor = 1;
-  data.StatusSensor[0].State = kSensorValid;
-  data.StatusSensor[0].CommunicationOK = true;
-  data.StatusDrive.CommunicationOK = true;
+  show_sensor();
   publish();
 }
 
@@ -48,8 +40,7 @@ void Axis::take_start_values() noexcept {
   const double tolerance = data.Synchronization.MasterReversionTolerance;
   synchronous_.configure(modulo_, period_, tolerance, additive_);
   awaited_.configure(modulo_, period_, tolerance, additive_);
-  extrapolation_.configure(modulo_, period_, kAcquisitionTime);
-  data.Extrapolation.LeadingAxisDependentTime = extrapolation_.leading_axis_time(data.Extrapolation);
+  configure_leading(period_, data.Extrapolation);
 }
 
 std::int64_t Axis::ticks_of(double seconds) const noexcept {
@@ -187,18 +178,41 @@ ErrorId Axis::reset(bool restart) noexcept {
   data.WarningWord = DWORD{};
   data.ErrorDetail = {};
   enable_removed_ = false;
-  if (restart) {
-    end_all_jobs(JobPhase::aborted, ErrorId::none);
-    end_simulated_gear(JobPhase::aborted, ErrorId::none);
-    data = start_values_;
-    homed_ = false;
-    take_start_values();
-    data.OperativeSensor = 1;
-    data.StatusSensor[0].State = kSensorValid;
-    data.StatusSensor[0].CommunicationOK = true;
-    data.StatusDrive.CommunicationOK = true;
-  }
+  if (restart) this->restart();
   return ErrorId::none;
+}
+
+/// The start values count from now on. The axis is where it was, on a ring of its own perhaps.
+void Axis::restart() noexcept {
+  end_all_jobs(JobPhase::aborted, ErrorId::none);
+  end_simulated_gear(JobPhase::aborted, ErrorId::none);
+  data = start_values_;
+  start_values_changed = false;
+  homed_ = false;
+  take_start_values();
+  setpoint_ = {normalised({0, setpoint_.position.value}, modulo_), 0.0, 0.0};
+  last_setpoint_ = setpoint_;
+  actual_ = normalised({0, actual_.value}, modulo_);
+  single_.stand(setpoint_);
+  reset_leading(actual_);
+  if (has_drive_) restart_servo();
+  show_sensor();
+  restarted = true;
+  coupling_changed = true;
+}
+
+void Axis::watch_leading_object() noexcept {
+  const Job* const waiting = running_[kWaiting];
+  const bool led_by_restarted = (led() || simulating()) && synchronous_.leading_object()->restarted;
+  if (led_by_restarted || (waiting != nullptr && waiting->master->restarted)) raise(alarm::kLeadingAxis);
+}
+
+/// What there is of an encoder: it is simulated, so it always works.
+void Axis::show_sensor() noexcept {
+  data.OperativeSensor = 1;
+  data.StatusSensor[0].State = kSensorValid;
+  data.StatusSensor[0].CommunicationOK = true;
+  data.StatusDrive.CommunicationOK = true;
 }
 
 // ---- One interpolator cycle
@@ -237,7 +251,7 @@ void Axis::step() noexcept {
     actual_.value = setpoint_.position.value;
     actual_velocity_ = setpoint_.velocity;
   }
-  if (leads_by_actual_value_) extrapolate();
+  if (leads_by_actual_value()) extrapolate(actual_, actual_velocity_, data.Extrapolation);
 }
 
 /// Last look at the setpoint before anyone sees it: finite, and within the range of positions.
@@ -250,32 +264,21 @@ void Axis::guard() noexcept {
   raise(finite ? alarm::kPositionRangeExceeded : alarm::kInternal);
 }
 
-Setpoint Axis::leading_state(Coupling coupling) const noexcept {
-  if (coupling == Coupling::actual) return leading_actual_;
-  if (position_controlled_) return setpoint_;
-  return {};  // [1173-1175]: without position control the leading setpoint is zero
+namespace {
+
+/// The axis that an object is; nullptr for others, which depend on nothing.
+Axis* as_axis(LeadingObject* leading) noexcept {
+  return leading != nullptr && among(leading->kind, kAnyAxis) ? static_cast<Axis*>(leading) : nullptr;
 }
 
-Setpoint Axis::last_leading_state(Coupling coupling) const noexcept {
-  if (coupling == Coupling::actual) return last_leading_actual_;
-  if (position_controlled_) return last_setpoint_;
-  return {};
-}
-
-/// The actual value of this tick as following axes see it. Its acceleration is not extrapolated: a difference
-/// of differences of what an encoder reports would be noise.
-void Axis::extrapolate() noexcept {
-  const ExtrapolatedValues& values = extrapolation_.step(actual_, actual_velocity_, data.Extrapolation);
-  last_leading_actual_ = leading_actual_;
-  leading_actual_ = {values.position, values.velocity, 0.0};
-}
+}  // namespace
 
 Axis* Axis::coupled_leading_axis() const noexcept {
-  return led() || simulating() ? synchronous_.leading_axis() : nullptr;
+  return led() || simulating() ? as_axis(synchronous_.leading_object()) : nullptr;
 }
 
 Axis* Axis::awaited_leading_axis() const noexcept {
-  return running_[kWaiting] != nullptr ? running_[kWaiting]->master : nullptr;
+  return running_[kWaiting] != nullptr ? as_axis(running_[kWaiting]->master) : nullptr;
 }
 
 }  // namespace lockstep

@@ -17,26 +17,18 @@
 
 #include "tech_objects/axis_position.hpp"
 #include "tech_objects/drive.hpp"
-#include "tech_objects/extrapolation.hpp"
 #include "tech_objects/job.hpp"
+#include "tech_objects/leading_object.hpp"
 #include "tech_objects/override.hpp"
 #include "tech_objects/single_axis_motion.hpp"
 #include "tech_objects/synchronous_motion.hpp"
-#include "tech_objects/technology_object.hpp"
 #include "tech_objects/variable.hpp"
 
 namespace lockstep {
 
-/// How a leading value is taken from its source.
-/// @source S7-1500T synchronous operation V7, 5.2
-enum class Coupling : std::uint8_t {
-  setpoint,  ///< the setpoint of the same tick
-  actual     ///< the extrapolated actual value
-};
-
 /// One configured leading value interconnection of a following axis.
 struct LeadingValue {
-  Axis* source = nullptr;
+  LeadingObject* source = nullptr;
   Coupling coupling = Coupling::setpoint;
 };
 
@@ -60,7 +52,7 @@ struct SimulationRequest {
   ErrorId error = ErrorId::none;  ///< written by the axis: why it has not begun, or cannot end
 };
 
-class Axis : public TechnologyObject {
+class Axis final : public LeadingObject {
  public:
   Axis(ObjectKind kind, std::string name, DB_ANY number);
 
@@ -79,10 +71,11 @@ class Axis : public TechnologyObject {
 
   /// Takes over the start values. Call once, after `data` is set and before the first tick.
   /// @param servo_period period of MC_Servo [s]  @param ratio servo ticks per interpolator tick, 1 to 32
-  void configure(double servo_period, int ratio);
+  void configure(double servo_period, int ratio) override;
+  void* data_block() noexcept override { return &data; }
+  void* start_values() noexcept override { return &start_values_; }
 
   bool is_virtual() const noexcept { return data.VirtualAxis.Mode == 1; }
-  Modulo modulo() const noexcept { return modulo_; }
 
   // ---- Cycle: called by blocks
   // ------------------------------------------------------------------------------------
@@ -117,13 +110,17 @@ class Axis : public TechnologyObject {
   void start_jobs() noexcept;
   bool has_new_jobs() const noexcept { return new_count_ != 0; }
 
+  /// Alarm 601 if the object that leads this axis has been restarted: where it is then has no meaning for it.
+  void watch_leading_object() noexcept;
+
   /// One interpolator cycle: the setpoint of this tick. Leading axes have to be stepped before.
   void step() noexcept;
 
   /// Checks the setpoint and shows everything in the data block.
   void publish() noexcept;
 
-  /// Leading axes on which this axis depends: the coupled one and the one that a waiting job names.
+  /// Leading axes on which this axis depends: the coupled one and the one that a waiting job names; nullptr:
+  /// none, or an object that depends on no other.
   Axis* coupled_leading_axis() const noexcept;
   Axis* awaited_leading_axis() const noexcept;
   /// Raised when a coupling has changed, so that the order of the axes is built anew.
@@ -134,20 +131,14 @@ class Axis : public TechnologyObject {
   /// Raises a technology alarm: shows it and has its reaction carried out.
   void raise(int alarm_number) noexcept;
 
-  /// The setpoint of the last interpolator tick, and the one before it.
-  const Setpoint& setpoint() const noexcept { return setpoint_; }
-  const Setpoint& last_setpoint() const noexcept { return last_setpoint_; }
-  /// What a following axis sees of this one, now and one interpolator tick ago.
-  Setpoint leading_state(Coupling coupling) const noexcept;
-  Setpoint last_leading_state(Coupling coupling) const noexcept;
+  bool leading_value_stands() const noexcept override { return setpoint_.velocity == 0.0; }
 
   bool enabled() const noexcept { return power_state_ == PowerState::on; }
   bool off() const noexcept { return power_state_ == PowerState::off; }
   /// Whether an alarm has removed the enable, until it is acknowledged.
   bool enable_removed() const noexcept { return enable_removed_; }
-  bool position_controlled() const noexcept { return position_controlled_; }
-  /// Whether this axis is `axis` or follows, over any number of couplings, one that is.
-  bool led_by_this(const Axis* axis) const noexcept;
+  /// Whether this axis is `leading` or follows, over any number of couplings, one that is.
+  bool led_by_this(const LeadingObject* leading) const noexcept;
   /// Largest distance between actual position and synchronous function while synchronous [u], for the summary
   /// of a run.
   double largest_synchronous_deviation() const noexcept { return largest_deviation_; }
@@ -176,15 +167,16 @@ class Axis : public TechnologyObject {
   void raise(int alarm_number, AlarmReaction reaction) noexcept;
   void react(AlarmReaction reaction) noexcept;
   ErrorId reset(bool restart) noexcept;
+  void restart() noexcept;
+  void show_sensor() noexcept;
   void guard() noexcept;
-  void extrapolate() noexcept;
 
   // axis_jobs.cpp: taking jobs over, override rules, ends
   void start(Job& job) noexcept;
   ErrorId check(const Job& job) const noexcept;
   ErrorId check_synchronous(const Job& job) const noexcept;
   int missing_precondition(const Job& job) const noexcept;
-  const LeadingValue* find_leading_value(const Axis* master) const noexcept;
+  const LeadingValue* find_leading_value(const LeadingObject* master) const noexcept;
   bool override_running(JobClass new_job, Job& job) noexcept;
   void cancel_waiting_shift(Job& job) noexcept;
   bool gear_runs_or_waits() const noexcept;
@@ -247,6 +239,7 @@ class Axis : public TechnologyObject {
 
   // axis_servo.cpp: drive and position control
   void configure_servo();
+  void restart_servo() noexcept;
   PositionControlSettings control_settings() const noexcept;
   double way_per_motor_turn() const noexcept;
   void control_position() noexcept;
@@ -277,16 +270,11 @@ class Axis : public TechnologyObject {
   void publish_awaited() noexcept;
   void publish_synchronous() noexcept;
   void publish_status() noexcept;
-  void publish_extrapolation() noexcept;
 
   // Hot: touched in every interpolator cycle.
-  Setpoint setpoint_;
-  Setpoint last_setpoint_;
   double period_ = 0.001;  // of the interpolator [s]
-  Modulo modulo_;
   Motion motion_ = Motion::none;
   PowerState power_state_ = PowerState::off;
-  bool position_controlled_ = true;
   bool homed_ = false;
   bool has_drive_ = false;
   bool enable_removed_ = false;
@@ -298,7 +286,6 @@ class Axis : public TechnologyObject {
   std::int8_t limit_side_ = 0;  // software limit switch approached or passed: 1, -1; 0: none
   AxisPosition actual_;
   double actual_velocity_ = 0.0;  // [u/s]
-  bool leads_by_actual_value_ = false;
   double largest_deviation_ = 0.0;
   bool was_synchronous_ = false;
   SynchronousMotion synchronous_;
@@ -323,16 +310,12 @@ class Axis : public TechnologyObject {
   Setpoint ghost_;            // where it would have the axis
   AxisData start_values_;
 
-  // Leading by actual value.
-  Extrapolation extrapolation_;
-  Setpoint leading_actual_;
-  Setpoint last_leading_actual_;
-
   // Servo.
   double servo_period_ = 0.001;  // [s]
   int ratio_ = 1;
-  int servo_tick_ = 0;           // since the last interpolator tick
-  AxisPosition encoder_origin_;  // position where the drive reports 0
+  int servo_tick_ = 0;             // since the last interpolator tick
+  AxisPosition encoder_origin_;    // position where the drive reports 0
+  DoubleDouble encoder_position_;  // that it reports [u]
   bool drive_running_ = false;
   SimulatedDrive drive_;
   PositionController controller_;

@@ -102,7 +102,7 @@ void Axis::watch_simulation() noexcept {
 /// The gear goes on without the axis: only while it is synchronous and the leading axis stands. The axis has
 /// to stand as well: it may still brake with the last tick, or be shifted by an offset.
 void Axis::begin_simulation() noexcept {
-  const bool leading_stands = led() && synchronous_.leading_axis()->setpoint().velocity == 0.0;
+  const bool leading_stands = led() && synchronous_.leading_object()->leading_value_stands();
   if (motion_ != Motion::synchronous || !leading_stands || !setpoint_.standing()) {
     simulation_request.error = ErrorId::no_synchronous_operation;
     return;

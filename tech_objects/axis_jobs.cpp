@@ -130,15 +130,16 @@ int Axis::missing_precondition(const Job& job) const noexcept {
   return controlled ? 0 : alarm::kLeadingAxisNotPositionControlled;
 }
 
-bool Axis::led_by_this(const Axis* axis) const noexcept {
-  for (int i = 0; axis != nullptr && i < kLongestChain; ++i) {
-    if (axis == this) return true;
-    axis = axis->coupled_leading_axis();
+bool Axis::led_by_this(const LeadingObject* leading) const noexcept {
+  for (int i = 0; leading != nullptr && i < kLongestChain; ++i) {
+    if (leading == this) return true;
+    if (!among(leading->kind, kAnyAxis)) return false;
+    leading = static_cast<const Axis*>(leading)->coupled_leading_axis();
   }
   return false;
 }
 
-const LeadingValue* Axis::find_leading_value(const Axis* master) const noexcept {
+const LeadingValue* Axis::find_leading_value(const LeadingObject* master) const noexcept {
   for (const LeadingValue& leading : leading_values)
     if (leading.source == master) return &leading;
   return nullptr;
@@ -244,11 +245,7 @@ void Axis::shift_positions(double by) noexcept {
   setpoint_.position = advanced(setpoint_.position, by, modulo_);
   last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
   actual_ = advanced(actual_, by, modulo_);
-  if (leads_by_actual_value_) {
-    extrapolation_.shift(by);
-    leading_actual_.position = advanced(leading_actual_.position, by, modulo_);
-    last_leading_actual_.position = advanced(last_leading_actual_.position, by, modulo_);
-  }
+  if (leads_by_actual_value()) shift_leading(by);
   single_.shift(by);
   synchronous_.shift_following(by);
   if (has_drive_) shift_servo(by);

@@ -32,7 +32,7 @@ void Axis::publish() noexcept {
   else
     publish_awaited();
   publish_status();
-  if (leads_by_actual_value_) publish_extrapolation();
+  if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
 }
 
 void Axis::publish_motion() noexcept {
@@ -117,6 +117,7 @@ void Axis::publish_status() noexcept {
   word.show(StatusBit::Enable, on && power.enable);
   word.show(StatusBit::Error, data.ErrorDetail.Number != 0);
   word.show(StatusBit::HomingDone, homed_);
+  word.show(StatusBit::OnlineStartValuesChanged, start_values_changed);
   word.show(StatusBit::Done, on && idle);
   word.show(StatusBit::Standstill, stands_still());
   word.show(StatusBit::PositioningCommand,
@@ -143,15 +144,6 @@ void Axis::publish_status() noexcept {
   data.StatusWord2 = word2.in(data.StatusWord2);
   data.StatusDrive.InOperation = has_drive_ ? drive_running_ : on;
   data.StatusDrive.Disabled = power_state_ == PowerState::off;
-}
-
-void Axis::publish_extrapolation() noexcept {
-  const ExtrapolatedValues& values = extrapolation_.values();
-  data.Extrapolation.LeadingAxisDependentTime = extrapolation_.leading_axis_time(data.Extrapolation);
-  data.StatusExtrapolation.FilteredPosition = values.filtered_position.value;
-  data.StatusExtrapolation.FilteredVelocity = values.filtered_velocity;
-  data.StatusExtrapolation.ExtrapolatedPosition = values.position.value;
-  data.StatusExtrapolation.ExtrapolatedVelocity = values.velocity;
 }
 
 }  // namespace lockstep

@@ -21,6 +21,13 @@ FineSetpoint between(double way, double from_velocity, double to_velocity, doubl
 
 }  // namespace
 
+/// The encoder goes on from where it is, at the position that the axis has now.
+void Axis::restart_servo() noexcept {
+  encoder_origin_ = advanced(actual_, -encoder_position_, modulo_);
+  controller_.reset(setpoint_.position);
+  data.StatusPositioning.SetpointExecutionTime = period_ + drive_.known_delay();
+}
+
 void Axis::configure_servo() {
   drive_.configure(drive_settings, servo_period_);
   controller_.configure(control_settings(), servo_period_);
@@ -47,6 +54,7 @@ double Axis::way_per_motor_turn() const noexcept {
 void Axis::servo() noexcept {
   const DriveActual now = drive_.read();
   drive_running_ = now.enabled;
+  encoder_position_ = now.position;
   actual_ = advanced(encoder_origin_, now.position, modulo_);
   data.ActualAcceleration = (now.velocity - actual_velocity_) / servo_period_;
   actual_velocity_ = now.velocity;

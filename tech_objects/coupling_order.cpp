@@ -9,11 +9,10 @@ enum Mark : std::uint8_t { kUnseen, kOnPath, kPlaced };
 
 }  // namespace
 
-void CouplingOrder::set_axes(std::span<const std::unique_ptr<Axis>> axes) {
-  all_.clear();
+void CouplingOrder::set_axes(std::span<Axis* const> axes) {
+  all_.assign(axes.begin(), axes.end());
   std::uint32_t highest = 0;
-  for (const auto& axis : axes) {
-    all_.push_back(axis.get());
+  for (const Axis* axis : axes) {
     highest = std::max(highest, static_cast<std::uint32_t>(axis->number));
   }
   order_ = all_;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,7 +14,7 @@ namespace lockstep {
 class CouplingOrder {
  public:
   /// Load time: reserves all memory and puts the axes in the given order.
-  void set_axes(std::span<const std::unique_ptr<Axis>> axes);
+  void set_axes(std::span<Axis* const> axes);
 
   /// Thread: the cycle.
   void rebuild() noexcept;

@@ -153,6 +153,8 @@ constexpr Choice kSetpointFilterDynamicFilterMode[] = {{0, "dynamic filter not e
 constexpr Choice kFollowingErrorEnableMonitoring[] = {{0, "following-error monitoring deactivated"},
                                                       {1, "following-error monitoring activated"}};
 
+using Data = AxisData;
+
 constexpr Variable kVariables[] = {
     VARIABLE(Simulation.Mode, RES, kNone, between(0.0, 1.0), "simulation mode", .choices = kSimulationMode,
              .later = true),
@@ -303,7 +305,7 @@ constexpr Variable kVariables[] = {
     VARIABLE(CrossPlcSynchronousOperation.LocalLeadingValueDelayTime, RES, kSeconds,
              between(0.0, 1000000000.0), "delay time of the leading-value output at the local following axes",
              .later = true),
-    VARIABLE(Extrapolation.LeadingAxisDependentTime, RON, kSeconds, kAny,
+    COMPUTED(Extrapolation.LeadingAxisDependentTime, RON, kSeconds, kAny,
              "leading-axis part of the extrapolation time: acquisition + interpolator cycle + filter times "
              "T1 + T2"),
     VARIABLE(Extrapolation.FollowingAxisDependentTime, DIR, kSeconds, between(0.0, 1e12),
@@ -469,8 +471,9 @@ constexpr Variable kVariables[] = {
 
 }  // namespace
 
-std::span<const Variable> configuration_variables() noexcept {
-  return kVariables;
+const DataBlock& axis_data_block() noexcept {
+  static const DataBlock kBlock{kVariables, axis_status_variables()};
+  return kBlock;
 }
 
 }  // namespace lockstep

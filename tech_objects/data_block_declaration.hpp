@@ -1,4 +1,5 @@
-/// How the declaration tables of the data block are written; included by those tables only.
+/// How the declaration tables of data blocks are written; included by those tables only. Before its table, a
+/// file says `using Data = …`, which data block it declares.
 #pragma once
 
 #include <iterator>
@@ -7,21 +8,42 @@
 #include "tech_objects/variable.hpp"
 
 /// VARIABLE(path, effect, unit, range, text, further fields): declares one variable; its path is spelled
-/// once.
-#define VARIABLE(path_, effect_, unit_, range_, text_, ...)                                             \
-  Variable {                                                                                            \
-    .path = #path_, .type = type_of<decltype(AxisData{}.path_)>(), .offset = offsetof(AxisData, path_), \
-    .effect = Effect::effect_, .unit = Unit::unit_, .range = range_,                                    \
-    .text = text_ __VA_OPT__(, ) __VA_ARGS__                                                            \
-  }
+/// once. COMPUTED: one that the runtime computes.
+#define VARIABLE(path_, ...) DECLARED_VARIABLE(false, path_, __VA_ARGS__)
+#define COMPUTED(path_, ...) DECLARED_VARIABLE(true, path_, __VA_ARGS__)
 
 /// ELEMENTS(array, member, effect, unit, range, text, further fields): declares a member of every array
-/// element.
-#define ELEMENTS(array_, member_, effect_, unit_, range_, text_, ...)                                        \
-  Variable {                                                                                                 \
-    .path = #array_ "[]." #member_, .type = type_of<decltype(AxisData{}.array_[0].member_)>(),               \
-    .offset = offsetof(AxisData, array_[0].member_),                                                         \
-    .count = sizeof(AxisData{}.array_) / sizeof(AxisData{}.array_[0]),                                       \
-    .stride = sizeof(AxisData{}.array_[0]), .effect = Effect::effect_, .unit = Unit::unit_, .range = range_, \
-    .text = text_ __VA_OPT__(, ) __VA_ARGS__                                                                 \
+/// element. COMPUTED_ELEMENTS: one that the runtime computes.
+#define ELEMENTS(array_, member_, ...) DECLARED_ELEMENTS(false, array_, member_, __VA_ARGS__)
+#define COMPUTED_ELEMENTS(array_, member_, ...) DECLARED_ELEMENTS(true, array_, member_, __VA_ARGS__)
+
+#define DECLARED_VARIABLE(computed_, path_, effect_, unit_, range_, text_, ...)                 \
+  Variable {                                                                                    \
+    .path = #path_, .type = type_of<decltype(Data{}.path_)>(), .offset = offsetof(Data, path_), \
+    .effect = Effect::effect_, .computed = computed_, .unit = Unit::unit_, .range = range_,     \
+    .text = text_ __VA_OPT__(, ) __VA_ARGS__, .start = &start_value_in<Data>                    \
   }
+
+#define DECLARED_ELEMENTS(computed_, array_, member_, effect_, unit_, range_, text_, ...)                   \
+  Variable {                                                                                                \
+    .path = #array_ "[]." #member_, .type = type_of<decltype(Data{}.array_[0].member_)>(),                  \
+    .offset = offsetof(Data, array_[0].member_), .count = sizeof(Data{}.array_) / sizeof(Data{}.array_[0]), \
+    .stride = sizeof(Data{}.array_[0]), .effect = Effect::effect_, .computed = computed_,                   \
+    .unit = Unit::unit_, .range = range_, .text = text_ __VA_OPT__(, ) __VA_ARGS__,                         \
+    .start = &start_value_in<Data>                                                                          \
+  }
+
+namespace lockstep {
+
+// What the tables declare, for `data_block_of`.
+const DataBlock& axis_data_block() noexcept;
+std::span<const Variable> axis_status_variables() noexcept;
+
+/// Start value in a data block that has just been made. While loading.
+template <class Data>
+Value start_value_in(const Variable& variable, std::size_t element) {
+  static Data data{};
+  return VariablePlace{&variable, variable.offset + element * variable.stride, -1}.signal(&data).load();
+}
+
+}  // namespace lockstep

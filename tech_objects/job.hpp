@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-class Axis;
+class LeadingObject;
 
 /// The instruction that a job comes from.
 enum class JobKind : std::uint8_t {
@@ -71,7 +71,7 @@ struct Job {
   BOOL abort_acceleration{};  ///< drop a present acceleration at once
   BOOL hold{};                ///< MC_Stop: Execute is still TRUE, so the axis stays locked after the stop
 
-  Axis* master{};  ///< leading axis
+  LeadingObject* master{};
   DINT numerator = 1;
   DINT denominator = 1;
   LREAL master_sync_position{};   ///< [u] of the leading axis

@@ -34,7 +34,7 @@ void SynchronousMotion::configure(const Modulo& following, double period, double
   additive_ = &additive;
 }
 
-Axis* SynchronousMotion::leading_axis() const noexcept {
+LeadingObject* SynchronousMotion::leading_object() const noexcept {
   return leading_ == nullptr ? nullptr : leading_->source;
 }
 

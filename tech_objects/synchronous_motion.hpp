@@ -100,7 +100,7 @@ class SynchronousMotion {
   bool synchronous() const noexcept { return synchronous_; }
   /// Whether the leading value has reversed while synchronizing by more than the tolerance.
   bool reversed() const noexcept { return reversed_; }
-  Axis* leading_axis() const noexcept;
+  LeadingObject* leading_object() const noexcept;
 
   /// The chain's values of this tick, for the data block.
   const Setpoint& effective_leading_value() const noexcept { return leading_now_; }

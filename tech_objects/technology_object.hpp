@@ -1,8 +1,11 @@
-/// What every technology object has: a kind, a name and a number.
+/// What every technology object has: a kind, a name, a number and a data block.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "tech_objects/types.hpp"
 
@@ -16,20 +19,68 @@ enum class ObjectKind : std::uint32_t {
 
 /// A set of object kinds.
 using ObjectKinds = std::uint32_t;
-inline constexpr ObjectKinds kAnyAxis = static_cast<ObjectKinds>(ObjectKind::TO_PositioningAxis) |
-                                        static_cast<ObjectKinds>(ObjectKind::TO_SynchronousAxis);
-inline constexpr ObjectKinds kSynchronousAxis = static_cast<ObjectKinds>(ObjectKind::TO_SynchronousAxis);
 
-/// Published name, such as "TO_SynchronousAxis".
-constexpr const char* kind_name(ObjectKind kind) noexcept {
-  return kind == ObjectKind::TO_PositioningAxis ? "TO_PositioningAxis" : "TO_SynchronousAxis";
+constexpr ObjectKinds operator|(ObjectKind a, ObjectKind b) noexcept {
+  return static_cast<ObjectKinds>(a) | static_cast<ObjectKinds>(b);
+}
+constexpr ObjectKinds operator|(ObjectKinds a, ObjectKind b) noexcept {
+  return a | static_cast<ObjectKinds>(b);
+}
+constexpr bool among(ObjectKind kind, ObjectKinds kinds) noexcept {
+  return (kinds & static_cast<ObjectKinds>(kind)) != 0;
 }
 
-/// Base of the technology objects. Only data; the cycle works on the concrete types.
-struct TechnologyObject {
+inline constexpr ObjectKinds kAnyAxis = ObjectKind::TO_PositioningAxis | ObjectKind::TO_SynchronousAxis;
+inline constexpr ObjectKinds kSynchronousAxis = static_cast<ObjectKinds>(ObjectKind::TO_SynchronousAxis);
+/// What may lead a following axis.
+inline constexpr ObjectKinds kLeading = kAnyAxis;
+
+/// A published type and what it is, for messages and `describe`.
+struct ObjectKindText {
   ObjectKind kind;
-  std::string name;  ///< as in the project
-  DB_ANY number{};   ///< position in `technology_objects`, from 1
+  std::string_view name;
+  std::string_view text;
+};
+
+/// All kinds that a project may have, in the order in which `describe` lists them.
+inline constexpr std::array kObjectKinds = {
+    ObjectKindText{ObjectKind::TO_PositioningAxis, "TO_PositioningAxis",
+                   "Axis that is positioned; it may lead others."},
+    ObjectKindText{ObjectKind::TO_SynchronousAxis, "TO_SynchronousAxis",
+                   "Axis that is positioned or follows a leading value."},
+};
+
+/// Published name, such as "TO_SynchronousAxis".
+constexpr std::string_view kind_name(ObjectKind kind) noexcept {
+  for (const ObjectKindText& known : kObjectKinds)
+    if (known.kind == kind) return known.name;
+  return {};
+}
+
+/// Base of the technology objects, each of which derives from it alone: a pin holds the address of either.
+class TechnologyObject {
+ public:
+  TechnologyObject(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
+      : kind(object_kind), name(std::move(object_name)), number(object_number) {}
+  virtual ~TechnologyObject() = default;
+  TechnologyObject(const TechnologyObject&) = delete;
+  TechnologyObject& operator=(const TechnologyObject&) = delete;
+
+  /// Address of the technology data block, whose variables `data_block_of` the kind declares.
+  virtual void* data_block() noexcept = 0;
+  /// Address of the start values, a data block like it: what a restart by MC_Reset takes over. They are those
+  /// of the project until a program changes them.
+  virtual void* start_values() noexcept = 0;
+  /// Whether start values have been changed since the last restart: OnlineStartValuesChanged.
+  BOOL start_values_changed{};
+
+  /// Takes over the start values. Call once, after the data block is set and before the first tick.
+  /// @param servo_period period of MC_Servo [s]  @param ratio servo ticks per interpolator tick, 1 to 32
+  virtual void configure(double servo_period, int ratio) = 0;
+
+  const ObjectKind kind;
+  const std::string name;  ///< as in the project
+  const DB_ANY number;     ///< position in `technology_objects`, from 1
 };
 
 }  // namespace lockstep

@@ -1,8 +1,8 @@
-#include "tech_objects/variable.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+
+#include "tech_objects/data_block_declaration.hpp"
 
 namespace lockstep {
 namespace {
@@ -16,7 +16,7 @@ bool same_name(std::string_view a, std::string_view b) {
                     [](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// Takes the index out of `Sensor[2].Type`, leaving the lengths of the parts before and behind it.
+/// Takes the index out of `Sensor[2].Type` or `ValidPoint[2]`, leaving the parts before and behind it.
 struct IndexedPath {
   std::string_view array, member;
   std::size_t index = 0;  // as published, from 1; 0: no well-formed index
@@ -24,27 +24,27 @@ struct IndexedPath {
 
 IndexedPath split_index(std::string_view path) {
   const auto open = path.find('[');
-  const auto close = path.find("].");
+  const auto close = path.find(']');
   if (open == path.npos || close == path.npos || close < open) return {};
   std::size_t index = 0;
   const char* last = path.data() + close;
   const auto [end, error] = std::from_chars(path.data() + open + 1, last, index);
   if (error != std::errc{} || end != last) return {};
-  return {path.substr(0, open), path.substr(close + 2), index};
+  return {path.substr(0, open), path.substr(close + 1), index};
 }
 
-VariablePlace find_whole(std::string_view path) {
+VariablePlace find_whole(ObjectKind kind, std::string_view path) {
   const IndexedPath indexed = split_index(path);
-  for (const auto list : {configuration_variables(), status_variables()}) {
+  for (const auto list : data_block_of(kind).lists()) {
     for (const Variable& variable : list) {
       if (variable.count == 0) {
         if (same_name(variable.path, path)) return {&variable, variable.offset, -1};
         continue;
       }
-      const auto brackets = variable.path.find("[].");
+      const auto brackets = variable.path.find("[]");
       if (indexed.index >= 1 && indexed.index <= variable.count &&
           same_name(variable.path.substr(0, brackets), indexed.array) &&
-          same_name(variable.path.substr(brackets + 3), indexed.member))
+          same_name(variable.path.substr(brackets + 2), indexed.member))
         return {&variable, variable.offset + (indexed.index - 1) * variable.stride, -1};
     }
   }
@@ -64,22 +64,26 @@ int bit_number(std::string_view suffix) {
 
 }  // namespace
 
-bool Variable::computed() const noexcept {
-  return path.find('.') == path.npos || path.starts_with("Status") || path.starts_with("Error") ||
-         path == "Extrapolation.LeadingAxisDependentTime";
+const DataBlock& data_block_of(ObjectKind kind) noexcept {
+  switch (kind) {
+    case ObjectKind::TO_PositioningAxis:
+    case ObjectKind::TO_SynchronousAxis:
+      break;
+  }
+  return axis_data_block();
 }
 
-Signal VariablePlace::signal(AxisData& data) const noexcept {
-  return {reinterpret_cast<char*>(&data) + offset, variable->type, static_cast<std::int8_t>(bit)};
+Signal VariablePlace::signal(void* data_block) const noexcept {
+  return {static_cast<char*>(data_block) + offset, variable->type, static_cast<std::int8_t>(bit)};
 }
 
-VariablePlace find_variable(std::string_view path) noexcept {
-  if (const VariablePlace whole = find_whole(path); whole.variable != nullptr) return whole;
+VariablePlace find_variable(ObjectKind kind, std::string_view path) noexcept {
+  if (const VariablePlace whole = find_whole(kind, path); whole.variable != nullptr) return whole;
   const auto dot = path.rfind('.');
   if (dot == path.npos) return {};
   const int bit = bit_number(path.substr(dot + 1));
   if (bit < 0) return {};
-  VariablePlace place = find_whole(path.substr(0, dot));
+  VariablePlace place = find_whole(kind, path.substr(0, dot));
   if (place.variable == nullptr) return {};
   const Type type = place.variable->type;
   const bool has_bits = is_bit_string(type) || is_integer(type);

@@ -121,9 +121,9 @@ TEST(Describe, TellsEveryVariableOfEveryObjectAsItIsDeclared) {
     std::map<std::string, json> shown;
     const json all = described({object});
     for (const json& variable : all["variables"]) shown[variable["path"]] = variable;
-    EXPECT_EQ(shown.size(), configuration_variables().size() + status_variables().size());
+    EXPECT_EQ(shown.size(), block.configuration.size() + block.status.size());
     AxisData data{};
-    for (const auto list : {configuration_variables(), status_variables()}) {
+    for (const auto list : block.lists()) {
       for (const Variable& variable : list) {
         const std::string what(variable.path);
         ASSERT_TRUE(shown.contains(what)) << what;

@@ -100,7 +100,7 @@ void expect_objects(const Pin& pin, const Json& data_type) {
   for (const ObjectKind kind : kKinds) {
     const auto bit = static_cast<ObjectKinds>(kind);
     known |= bit;
-    EXPECT_EQ((pin.objects & bit) != 0, published.contains(kind_name(kind))) << kind_name(kind);
+    EXPECT_EQ((pin.objects & bit) != 0, published.contains(std::string(kind_name(kind)))) << kind_name(kind);
   }
   EXPECT_EQ(pin.objects & ~known, 0u) << "a kind that this test does not know: add it to kKinds";
 }

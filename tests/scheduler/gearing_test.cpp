@@ -267,7 +267,8 @@ TEST(MC_GearIn, ChainsFollowInTheSameTickWhateverTheOrderOfTheObjects) {
   auto& g2 = rig.block<MC_GearIn>();
   auto& run = rig.block<MC_MoveVelocity>();
   g1.Master = &first;
-  g1.Slave = g2.Master = &middle;
+  g1.Slave = &middle;
+  g2.Master = &middle;
   g2.Slave = &last;
   g1.RatioNumerator = 2;
   g2.RatioNumerator = 3;

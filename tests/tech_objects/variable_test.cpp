@@ -65,7 +65,7 @@ PublishedPath published_path(const Json& variable) {
 
 std::vector<const Variable*> declared() {
   std::vector<const Variable*> list;
-  for (const auto variables : {configuration_variables(), status_variables()})
+  for (const auto variables : data_block_of(ObjectKind::TO_SynchronousAxis).lists())
     for (const Variable& variable : variables) list.push_back(&variable);
   return list;
 }
@@ -144,7 +144,7 @@ TEST(Variables, AreThePublishedOnesAndOneOfOurs) {
 }
 
 TEST(Variables, StandInPublishedOrder) {
-  for (const auto variables : {configuration_variables(), status_variables()}) {
+  for (const auto variables : data_block_of(ObjectKind::TO_SynchronousAxis).lists()) {
     std::size_t at = 0;
     for (const Variable& variable : variables) {
       if (variable.path == kOwnVariable) continue;
@@ -223,7 +223,8 @@ TEST(Variables, HoldDefaultsThatTheirRangesPermit) {
   for (const Variable* variable : declared()) {
     for (std::size_t i = 1; i <= std::max<std::size_t>(variable->count, 1); ++i) {
       const std::string path = concrete(variable->path, i);
-      const double value = as_double(find_variable(path).signal(data).load(), variable->type);
+      const double value =
+          as_double(find_variable(ObjectKind::TO_SynchronousAxis, path).signal(&data).load(), variable->type);
       if (variable->type == Type::TAG) {
         EXPECT_EQ(value, 0.0) << path << " names no tag until it is given one";
         continue;
@@ -245,7 +246,7 @@ TEST(Variables, LieInPlacesOfTheirOwn) {
   for (const Variable* variable : declared())
     for (std::size_t i = 1; i <= std::max<std::size_t>(variable->count, 1); ++i) {
       const std::string path = concrete(variable->path, i);
-      const std::size_t offset = find_variable(path).offset;
+      const std::size_t offset = find_variable(ObjectKind::TO_SynchronousAxis, path).offset;
       const auto size = static_cast<std::size_t>(size_of(variable->type));
       ASSERT_LE(offset + size, sizeof(AxisData)) << path;
       for (std::size_t byte = offset; byte < offset + size; ++byte) {
@@ -270,23 +271,26 @@ TEST(FindVariable, FindsEachPathEachElementAndEachBit) {
     for (std::size_t i = 1; i <= std::max<std::size_t>(variable->count, 1); ++i) {
       const std::string path = concrete(variable->path, i);
       for (const std::string& spelled : {path, upper(path)}) {
-        const VariablePlace place = find_variable(spelled);
+        const VariablePlace place = find_variable(ObjectKind::TO_SynchronousAxis, spelled);
         ASSERT_EQ(place.variable, variable) << spelled;
         EXPECT_EQ(place.bit, -1) << spelled;
         EXPECT_EQ(place.offset, variable->offset + (i - 1) * variable->stride) << spelled;
       }
       if (!has_bits(*variable)) {
-        EXPECT_EQ(find_variable(path + ".X0").variable, nullptr) << path;
+        EXPECT_EQ(find_variable(ObjectKind::TO_SynchronousAxis, path + ".X0").variable, nullptr) << path;
         continue;
       }
       const int width = 8 * size_of(variable->type);
       for (int bit = 0; bit < width; ++bit) {
-        const VariablePlace place = find_variable(path + ".X" + std::to_string(bit));
+        const VariablePlace place =
+            find_variable(ObjectKind::TO_SynchronousAxis, path + ".X" + std::to_string(bit));
         ASSERT_EQ(place.variable, variable) << path << ".X" << bit;
         EXPECT_EQ(place.bit, bit);
-        EXPECT_EQ(place.signal(data).value_type(), Type::BOOL);
+        EXPECT_EQ(place.signal(&data).value_type(), Type::BOOL);
       }
-      EXPECT_EQ(find_variable(path + ".X" + std::to_string(width)).variable, nullptr) << path;
+      EXPECT_EQ(find_variable(ObjectKind::TO_SynchronousAxis, path + ".X" + std::to_string(width)).variable,
+                nullptr)
+          << path;
     }
   }
 }
@@ -336,27 +340,28 @@ TEST(FindVariable, RefusesWhatIsNotThere) {
                            "DynamicLimits..MaxVelocity",
                            "ControlPanel",
                            "InternalToTrace"})
-    EXPECT_EQ(find_variable(path).variable, nullptr) << "'" << path << "'";
+    EXPECT_EQ(find_variable(ObjectKind::TO_SynchronousAxis, path).variable, nullptr) << "'" << path << "'";
 }
 
 TEST(FindVariable, GivesTheSignalOfTheMember) {
   AxisData data;
   data.Sensor[2].Type = 2;
-  EXPECT_EQ(find_variable("Sensor[3].Type").signal(data).load().i, 2);
-  EXPECT_EQ(find_variable("Sensor[2].Type").signal(data).load().i, data.Sensor[1].Type);
+  EXPECT_EQ(find_variable(ObjectKind::TO_SynchronousAxis, "Sensor[3].Type").signal(&data).load().i, 2);
+  EXPECT_EQ(find_variable(ObjectKind::TO_SynchronousAxis, "Sensor[2].Type").signal(&data).load().i,
+            data.Sensor[1].Type);
   data.Modulo.Length = 123.25;
-  EXPECT_EQ(find_variable("modulo.length").signal(data).load().r, 123.25);
+  EXPECT_EQ(find_variable(ObjectKind::TO_SynchronousAxis, "modulo.length").signal(&data).load().r, 123.25);
   set_bit(data.StatusWord, StatusBit::Synchronous, true);
-  EXPECT_EQ(find_variable("StatusWord.X22").signal(data).load().u, 1u);
-  EXPECT_EQ(find_variable("statusword.x21").signal(data).load().u, 0u);
+  EXPECT_EQ(find_variable(ObjectKind::TO_SynchronousAxis, "StatusWord.X22").signal(&data).load().u, 1u);
+  EXPECT_EQ(find_variable(ObjectKind::TO_SynchronousAxis, "statusword.x21").signal(&data).load().u, 0u);
 }
 
 // Refused in a project: what the runtime computes.
 TEST(Variables, AreSetByTheProjectUnlessTheRuntimeComputesThem) {
-  for (const Variable& variable : status_variables()) EXPECT_TRUE(variable.computed()) << variable.path;
-  for (const Variable& variable : configuration_variables())
-    EXPECT_EQ(variable.computed(), variable.path == "Extrapolation.LeadingAxisDependentTime")
-        << variable.path;
+  for (const Variable& variable : data_block_of(ObjectKind::TO_SynchronousAxis).status)
+    EXPECT_TRUE(variable.computed) << variable.path;
+  for (const Variable& variable : data_block_of(ObjectKind::TO_SynchronousAxis).configuration)
+    EXPECT_EQ(variable.computed, variable.path == "Extrapolation.LeadingAxisDependentTime") << variable.path;
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+#include "tech_objects/leading_object.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Age of an actual value when the interpolator takes it [s]: the drive is read at the beginning of the very
+/// tick.
+constexpr double kAcquisitionTime = 0.0;
+
+}  // namespace
+
+void LeadingObject::configure_leading(double period, TO_Struct_Extrapolation& settings) noexcept {
+  extrapolation_.configure(modulo_, period, kAcquisitionTime);
+  settings.LeadingAxisDependentTime = extrapolation_.leading_axis_time(settings);
+}
+
+void LeadingObject::reset_leading(AxisPosition actual) noexcept {
+  extrapolation_.reset(actual);
+  leading_actual_ = last_leading_actual_ = {actual, 0.0, 0.0};
+}
+
+/// The actual value of this tick as following axes see it. Its acceleration is not extrapolated: a difference
+/// of differences of what an encoder reports would be noise.
+void LeadingObject::extrapolate(AxisPosition actual, double velocity,
+                                const TO_Struct_Extrapolation& settings) noexcept {
+  const ExtrapolatedValues& values = extrapolation_.step(actual, velocity, settings);
+  last_leading_actual_ = leading_actual_;
+  leading_actual_ = {values.position, values.velocity, 0.0};
+}
+
+void LeadingObject::shift_leading(double by) noexcept {
+  extrapolation_.shift(by);
+  leading_actual_.position = advanced(leading_actual_.position, by, modulo_);
+  last_leading_actual_.position = advanced(last_leading_actual_.position, by, modulo_);
+}
+
+void LeadingObject::publish_extrapolation(TO_Struct_Extrapolation& settings,
+                                          TO_Struct_StatusExtrapolation& status) const noexcept {
+  const ExtrapolatedValues& values = extrapolation_.values();
+  settings.LeadingAxisDependentTime = extrapolation_.leading_axis_time(settings);
+  status.FilteredPosition = values.filtered_position.value;
+  status.FilteredVelocity = values.filtered_velocity;
+  status.ExtrapolatedPosition = values.position.value;
+  status.ExtrapolatedVelocity = values.velocity;
+}
+
+}  // namespace lockstep
