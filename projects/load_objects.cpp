@@ -12,10 +12,9 @@ constexpr std::int64_t kMostDeadCycles = 254;         // of MC_Servo, as dead ti
 constexpr double kSecond = 1e9;                       // [ns]
 
 /// Published types that are not there yet.
-constexpr std::string_view kLaterTypes[] = {
-    "TO_Cam",        "TO_Cam_10k",          "TO_CamTrack",       "TO_ExternalEncoder",
-    "TO_Kinematics", "TO_LeadingAxisProxy", "TO_MeasuringInput", "TO_OutputCam",
-    "TO_SpeedAxis"};
+constexpr std::string_view kLaterTypes[] = {"TO_CamTrack",         "TO_ExternalEncoder", "TO_Kinematics",
+                                            "TO_LeadingAxisProxy", "TO_MeasuringInput",  "TO_OutputCam",
+                                            "TO_SpeedAxis"};
 
 bool known(std::span<const std::string_view> words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -129,6 +128,9 @@ void load_object(const JsonValue& json, TechnologyObject& object, const Loading&
     case ObjectKind::TO_PositioningAxis:
     case ObjectKind::TO_SynchronousAxis:
       return load_axis(json, static_cast<Axis&>(object), loading);
+    case ObjectKind::TO_Cam:
+    case ObjectKind::TO_Cam_10k:
+      return load_cam(json, static_cast<Cam&>(object), loading);
   }
 }
 

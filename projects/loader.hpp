@@ -32,6 +32,8 @@ void load_tags(const JsonValue& tags, const Loading& loading);
 /// Adds all objects and their names; `load_objects` then reads them, when all names are there.
 void declare_objects(const JsonValue& objects, const Loading& loading);
 void load_objects(const JsonValue& objects, const Loading& loading);
+/// Defines a cam and interpolates it.
+void load_cam(const JsonValue& json, Cam& cam, const Loading& loading);
 /// Sets the start values of one object.
 void load_configuration(const JsonValue& config, TechnologyObject& object, const Loading& loading);
 

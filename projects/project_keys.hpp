@@ -34,6 +34,10 @@ inline constexpr Key kProject[] = {{"lockstep", kRequired},
                                    {"trace"}};
 inline constexpr Key kClock[] = {{"servo_cycle", kRequired}, {"interpolator_ratio"}, {"overrun"}};
 inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
+inline constexpr Key kCam[] = {{"type", kRequired}, {"config"}, {"points"}, {"segments"}};
+inline constexpr Key kSegment[] = {
+    {"xmin", kRequired}, {"xmax", kRequired}, {"a0"},       {"a1"}, {"a2"}, {"a3"}, {"a4"}, {"a5"}, {"a6"},
+    {"sineAmplitude"},   {"sinePeriod"},      {"sinePhase"}};
 inline constexpr Key kDrive[] = {
     {"model", kRequired}, {"time_constant"}, {"dead_time"}, {"encoder_resolution"}};
 inline constexpr Key kLeadingValue[] = {{"to", kRequired}, {"coupling"}};

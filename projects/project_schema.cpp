@@ -98,7 +98,9 @@ Json variable_schema(const Variable& variable) {
 
 /// A structure of the configuration. Elements of an array become definitions, which the elements refer to.
 Json structure_schema(const ConfigurationNode& structure, Json& definitions) {
+  constexpr std::size_t kListedElements = 100;  // of longer arrays an editor gets the kind of element only
   Json properties = Json::object();
+  Json others = Json::array();
   for (const auto& child : structure.children) {
     if (child->computed()) continue;
     const std::string name(child->name);
@@ -109,10 +111,15 @@ Json structure_schema(const ConfigurationNode& structure, Json& definitions) {
       continue;
     }
     definitions[name] = std::move(schema);
+    if (child->count > kListedElements) {
+      others.push_back(reference(name));
+      continue;
+    }
     for (std::size_t i = 1; i <= child->count; ++i)
       properties[name + "[" + std::to_string(i) + "]"] = reference(name);
   }
-  return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  const Json rest = others.empty() ? Json(false) : Json{{"anyOf", others}};
+  return {{"type", "object"}, {"properties", properties}, {"additionalProperties", rest}};
 }
 
 std::vector<std::string_view> block_names() {
@@ -138,12 +145,35 @@ Json objects_schema() {
                             {"dead_time", duration("dead time of the velocity loop")},
                             {"encoder_resolution", described("increment of the encoder [u]; 0: none",
                                                              {{"type", "number"}, {"minimum", 0}})}});
+  const Json type = words("published type", words::kObjectTypes);
   const Json axis =
-      object(keys::kObject, {{"type", words("published type", words::kObjectTypes)},
-                             {"config", reference("config")},
+      object(keys::kObject, {{"type", type},
+                             {"config", {{"anyOf", {reference("config"), reference("cam_config")}}}},
                              {"drive", drive},
                              {"leading_values", array("axes that this one may follow", leading_value)}});
-  return map("name: technology object", axis);
+  const Json number = {{"type", "number"}, {"minimum", -1e12}, {"maximum", 1e12}};
+  const auto coefficient = [&](std::string_view text) { return described(text, number); };
+  const Json segment = object(keys::kSegment, {{"xmin", coefficient("leading value at which it begins")},
+                                               {"xmax", coefficient("leading value at which it ends")},
+                                               {"a0", coefficient("coefficient of x^0")},
+                                               {"a1", coefficient("coefficient of x^1")},
+                                               {"a2", coefficient("coefficient of x^2")},
+                                               {"a3", coefficient("coefficient of x^3")},
+                                               {"a4", coefficient("coefficient of x^4")},
+                                               {"a5", coefficient("coefficient of x^5")},
+                                               {"a6", coefficient("coefficient of x^6")},
+                                               {"sineAmplitude", coefficient("amplitude of a sine")},
+                                               {"sinePeriod", coefficient("its angular frequency [rad/u]")},
+                                               {"sinePhase", coefficient("its phase [rad]")}});
+  const Json point = {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}};
+  const Json cam =
+      object(keys::kCam, {{"type", type},
+                          {"config", axis["properties"]["config"]},
+                          {"points", array("of a cam: pairs of leading value and following value", point)},
+                          {"segments", array("of a cam: stretches with a formula", segment)}});
+  Json any = axis;
+  any["properties"].update(cam["properties"]);
+  return map("name: technology object", any);
 }
 
 /// One schema for all kinds of calls: which keys go together is told by `dependencies`.
@@ -230,10 +260,12 @@ std::string project_schema() {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Lockstep project"}};
   schema.update(root_schema());
   Json definitions = Json::object();
-  for (const ObjectKind kind : {ObjectKind::TO_SynchronousAxis}) {
+  const auto add_configuration = [&](const char* name, ObjectKind kind, std::string_view text) {
     const Json config = structure_schema(configuration_tree(kind), definitions);
-    definitions["config"] = described("start values of the technology data block", config);
-  }
+    definitions[name] = described(text, config);
+  };
+  add_configuration("config", ObjectKind::TO_SynchronousAxis, "start values of the technology data block");
+  add_configuration("cam_config", ObjectKind::TO_Cam_10k, "start values of the data block of a cam");
   definitions["call"] = call_schema();
   schema["definitions"] = definitions;
   return schema.dump(2) + "\n";

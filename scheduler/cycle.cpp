@@ -46,6 +46,7 @@ void Controller::servo() noexcept {
 
 /// start_jobs → step (leading before following), guarded → publish.
 void Controller::interpolate() noexcept {
+  for (Cam* cam : cams) cam->step(cams_interpolated_elsewhere ? nullptr : interpolator_.get());
   bool changed = false;
   for (Axis* axis : order_.axes()) {
     if (shutting_down_) axis->power.enable = false;
@@ -62,6 +63,7 @@ void Controller::interpolate() noexcept {
     axis->step();
     axis->publish();
   }
+  for (Cam* cam : cams) cam->publish();
   ++counters_.interpolator_ticks;
 }
 

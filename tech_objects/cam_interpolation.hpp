@@ -15,8 +15,8 @@
 namespace lockstep {
 
 /// What MC_InterpolateCam reports.
-inline constexpr ErrorId kCamEmpty{0x80AA};
-inline constexpr ErrorId kCamElementsWrong{0x80AC};
+inline constexpr ErrorId kCamEmpty = ErrorId::cam_empty;
+inline constexpr ErrorId kCamElementsWrong = ErrorId::cam_elements_wrong;
 
 /// Interpolates cams of up to a number of points, in storage of its own: one per thread that interpolates,
 /// not in the cycle (some milliseconds for 10,000 points).

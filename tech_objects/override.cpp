@@ -101,6 +101,7 @@ JobClass class_of(const Job& job, bool active) noexcept {
     case JobKind::MC_CamOut:
       return active ? JobClass::cam_out_active : JobClass::cam_out_waiting;
     case JobKind::MC_Reset:
+    case JobKind::MC_InterpolateCam:
       break;  // stands beside the tables
   }
   return JobClass::home_direct;

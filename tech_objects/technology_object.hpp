@@ -15,6 +15,8 @@ namespace lockstep {
 enum class ObjectKind : std::uint32_t {
   TO_PositioningAxis = 1u << 0,
   TO_SynchronousAxis = 1u << 1,
+  TO_Cam = 1u << 2,
+  TO_Cam_10k = 1u << 3,
 };
 
 /// A set of object kinds.
@@ -32,6 +34,7 @@ constexpr bool among(ObjectKind kind, ObjectKinds kinds) noexcept {
 
 inline constexpr ObjectKinds kAnyAxis = ObjectKind::TO_PositioningAxis | ObjectKind::TO_SynchronousAxis;
 inline constexpr ObjectKinds kSynchronousAxis = static_cast<ObjectKinds>(ObjectKind::TO_SynchronousAxis);
+inline constexpr ObjectKinds kAnyCam = ObjectKind::TO_Cam | ObjectKind::TO_Cam_10k;
 /// What may lead a following axis.
 inline constexpr ObjectKinds kLeading = kAnyAxis;
 
@@ -48,6 +51,8 @@ inline constexpr std::array kObjectKinds = {
                    "Axis that is positioned; it may lead others."},
     ObjectKindText{ObjectKind::TO_SynchronousAxis, "TO_SynchronousAxis",
                    "Axis that is positioned or follows a leading value."},
+    ObjectKindText{ObjectKind::TO_Cam, "TO_Cam", "Cam of up to 1000 points and 50 segments."},
+    ObjectKindText{ObjectKind::TO_Cam_10k, "TO_Cam_10k", "Cam of up to 10000 points and 50 segments."},
 };
 
 /// Published name, such as "TO_SynchronousAxis".

@@ -69,6 +69,10 @@ const DataBlock& data_block_of(ObjectKind kind) noexcept {
     case ObjectKind::TO_PositioningAxis:
     case ObjectKind::TO_SynchronousAxis:
       break;
+    case ObjectKind::TO_Cam:
+      return cam_data_block();
+    case ObjectKind::TO_Cam_10k:
+      return cam_10k_data_block();
   }
   return axis_data_block();
 }

@@ -1,4 +1,4 @@
-/// A leading and a following axis with the blocks that ready them, watched at every tick.
+/// A leading and a following axis, two cams and the blocks that ready them, watched at every tick.
 #pragma once
 
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fb/cam_in.hpp"
 #include "fb/gear_in.hpp"
 #include "fb/home.hpp"
 #include "fb/move.hpp"
@@ -36,7 +37,10 @@ class Bench {
   /// @param modulo whether the following axis has a ring
   /// @param enable_following false: a block under test does it, or the axis stays off
   explicit Bench(bool modulo = false, bool enable_following = true)
-      : leading(make_axis("Leading", true)), following(make_axis("Following", modulo)) {
+      : leading(make_axis("Leading", true)),
+        following(make_axis("Following", modulo)),
+        cam(make_cam("Wave", {{0.0, 0.0}, {25.0, 10.0}, {50.0, 20.0}, {75.0, 10.0}, {100.0, 0.0}})),
+        straight(make_cam("Straight", {{0.0, 0.0}, {50.0, 50.0}, {100.0, 100.0}})) {
     controller.clock = {BenchLimits::kPeriod, 1};
     following.leading_values.push_back({&leading, Coupling::setpoint});
     following.data.Modulo.Length = 360.0;
@@ -46,13 +50,17 @@ class Bench {
     reset_following.Axis = relative_following.Axis = &following;
     gear_following.Master = &leading;
     gear_following.Slave = &following;
+    cam_following.Master = &leading;
+    cam_following.Slave = &following;
+    cam_following.Cam = &straight;
     power_leading.Enable = true;
     run_leading.Velocity = BenchLimits::kLeadingVelocity;
     power_following.Enable = enable_following;
     support_ = {&power_leading, &run_leading};
     if (enable_following) support_.push_back(&power_following);
     for (Block* block : {static_cast<Block*>(&home_following), static_cast<Block*>(&reset_following),
-                         static_cast<Block*>(&relative_following), static_cast<Block*>(&gear_following)})
+                         static_cast<Block*>(&relative_following), static_cast<Block*>(&gear_following),
+                         static_cast<Block*>(&cam_following)})
       support_.push_back(block);
   }
   Bench(const Bench&) = delete;
@@ -62,8 +70,14 @@ class Bench {
   Subject& add(const BlockType& type) {
     Subject& subject = subjects_.emplace_back(type);
     for (const Pin& pin : type.pins)
-      if (pin.type == Type::AXIS) subject.wire(pin, pin.name == "Master" ? &leading : &following);
+      if (pin.type == Type::AXIS) subject.wire(pin, object_for(pin));
     return subject;
+  }
+
+  TechnologyObject* object_for(const Pin& pin) noexcept {
+    if (pin.objects == kAnyCam) return &cam;
+    if (pin.name == "Master") return &leading;
+    return &following;
   }
 
   /// Leading axis running, following axis homed and at rest.
@@ -82,6 +96,20 @@ class Bench {
     gear_following.Execute = false;
     run(1);
   }
+
+  /// The following axis follows a straight cam that goes on for ever.
+  void couple_to_cam() {
+    cam_following.SyncProfileReference = 4;
+    cam_following.MasterStartDistance = 20.0;
+    cam_following.ApplicationMode = 2;
+    cam_following.Execute = true;
+    if (!run_until([&] { return cam_following.InSync; }, 2000)) fault("the axis cannot follow a cam");
+    cam_following.Execute = false;
+    run(1);
+  }
+
+  /// What a block needs that acts on a coupled axis.
+  void couple_for(std::string_view block) { block == "MC_CamOut" ? couple_to_cam() : couple(); }
 
   void tick() noexcept {
     const char* wrong = nullptr;
@@ -141,12 +169,15 @@ class Bench {
   Controller controller;
   Axis& leading;
   Axis& following;
+  Cam& cam;
+  Cam& straight;
   MC_Power power_leading, power_following;
   MC_MoveVelocity run_leading;
   MC_Home home_following;
   MC_Reset reset_following;
   MC_MoveRelative relative_following;
   MC_GearIn gear_following;
+  MC_CamIn cam_following;
   std::uint64_t allocations = 0;
   std::string first_fault;
   /// Whether a coupled axis is held to have no steps, too: with synchronizing distances of many cycles only.
@@ -169,6 +200,15 @@ class Bench {
     axis.data.DynamicDefaults.Jerk = 20000.0;
     axis.data.DynamicDefaults.EmergencyDeceleration = BenchLimits::kEmergency;
     return axis;
+  }
+
+  Cam& make_cam(const char* name, const std::vector<TO_Cam_Struct_PointData>& points) {
+    Cam& made = static_cast<Cam&>(controller.add_object(ObjectKind::TO_Cam, name));
+    static_cast<CamData1k*>(made.data_block())->InterpolationSettings = {1, 1};
+    for (std::size_t i = 0; i < points.size(); ++i) made.define_point(i, points[i]);
+    CamInterpolator interpolator(kCamPoints);
+    made.interpolate(interpolator);
+    return made;
   }
 
   /// Finite at any time. While the axis moves on its own: no step of position or velocity, and inside the

@@ -237,7 +237,7 @@ TEST_P(JobBlock, StartsAnewAfterTheAxisWasDisabledAndEnabledAgain) {
     run.bench.run(2);
     run.bench.power_following.Enable = true;
     run.bench.run(3);
-    if (kOnCoupledAxis.contains(type().name)) run.bench.couple();
+    if (kOnCoupledAxis.contains(type().name)) run.bench.couple_for(type().name);
     s.start(true);
     run.bench.run(2);
     if (s.error()) run.bench.fault("rejected after enabling, round " + std::to_string(round));
@@ -290,7 +290,7 @@ TEST_P(MotionBlock, TellsThatItIsNotWired) {
       run.bench.run(2);
       if (s.error() && s.has_jobs()) run.bench.fault("the error outlasts the request");
     }
-    s.wire(pin, pin.name == "Master" ? &run.bench.leading : &run.bench.following);
+    s.wire(pin, run.bench.object_for(pin));
     run.leave_in_order();
   }
 }

@@ -43,19 +43,21 @@ inline constexpr Setting kSettings[] = {
     {"MC_OffsetRelative", "OffsetDistance", 40.0},
     {"MC_GearOut", "SlavePosition", 300.0},
     {"MC_GearOut", "MasterStopDistance", 50.0},
+    {"MC_CamIn", "MasterSyncPosition", 50.0},
+    {"MC_CamIn", "MasterStartDistance", 30.0},
+    {"MC_CamIn", "ApplicationMode", 1.0},
+    {"MC_CamOut", "SlavePosition", 300.0},
+    {"MC_CamOut", "MasterStopDistance", 50.0},
 };
 // Blocks that act on an axis which moves.
 inline const std::set<std::string_view> kOnMovingAxis = {"MC_Halt", "MC_Stop"};
 // Blocks that act on an axis which is coupled.
-inline const std::set<std::string_view> kOnCoupledAxis = {"MC_PhasingAbsolute",
-                                                          "MC_PhasingRelative",
-                                                          "MC_OffsetAbsolute",
-                                                          "MC_OffsetRelative",
-                                                          "MC_GearOut",
-                                                          "MC_LeadingValueAdditive",
-                                                          "MC_SynchronizedMotionSimulation"};
+inline const std::set<std::string_view> kOnCoupledAxis = {
+    "MC_PhasingAbsolute", "MC_PhasingRelative", "MC_OffsetAbsolute",       "MC_OffsetRelative",
+    "MC_GearOut",         "MC_CamOut",          "MC_LeadingValueAdditive", "MC_SynchronizedMotionSimulation"};
 // Blocks that also act on a disabled axis.
-inline const std::set<std::string_view> kOnDisabledAxis = {"MC_Home", "MC_Reset"};
+inline const std::set<std::string_view> kOnDisabledAxis = {
+    "MC_Home", "MC_Reset", "MC_InterpolateCam", "MC_GetCamLeadingValue", "MC_GetCamFollowingValue"};
 // Blocks that rename positions, so that these may step.
 inline const std::set<std::string_view> kRenamesPositions = {"MC_Home", "MC_Reset"};
 // Published values that are not supported and are refused with the error of their pin.
@@ -130,7 +132,7 @@ struct Trial {
     if (kRenamesPositions.contains(type.name)) bench.allow_position_steps(kTicksOfATrial);
     if (subject->powers() && enabled) subject->start(true);
     bench.ready();
-    if (enabled && kOnCoupledAxis.contains(type.name)) bench.couple();
+    if (enabled && kOnCoupledAxis.contains(type.name)) bench.couple_for(type.name);
     if (enabled && kOnMovingAxis.contains(type.name)) {
       bench.relative_following.Distance = 1e6;
       bench.relative_following.Execute = true;

@@ -47,7 +47,10 @@ TEST(CamFollowing, IsTheScaledAndShiftedCurve) {
   CamFollowing cam;
   // MasterOffset 100, MasterScaling 2: the cam starts at 100.
   cam.set(f, {2.0, -0.5, CamMode::once}, {0, 160.0}, {60.0, 0.0}, kLine, kLine);
-  for (double leading = 100.0; leading <= 820.0; leading += 7.3) {
+  cam.value({0, 100.0});  // back to its start
+  EXPECT_EQ(cam.ended(), CamEnd::at_start);
+  cam.clear_end();
+  for (double leading = 100.0; leading < 820.0; leading += 7.3) {
     const CamValue reference = f.value((leading - 100.0) / 2.0);
     const CamPlace place = cam.value({0, leading});
     EXPECT_NEAR(place.position.value, -0.5 * reference.position, 1e-13) << leading;
