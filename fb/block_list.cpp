@@ -13,11 +13,13 @@
 #include "fb/interpolate_cam.hpp"
 #include "fb/jog.hpp"
 #include "fb/leading_value.hpp"
+#include "fb/motion_in.hpp"
 #include "fb/move.hpp"
 #include "fb/offset.hpp"
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
+#include "fb/superimposed.hpp"
 #include "fb/timers.hpp"
 
 namespace lockstep {
@@ -35,6 +37,11 @@ constexpr BlockType kTypes[] = {
     block_type<MC_MoveJog>(),
     block_type<MC_Halt>(),
     block_type<MC_Stop>(),
+    block_type<MC_MoveSuperimposed>(),
+    block_type<MC_HaltSuperimposed>(),
+    block_type<MC_MotionInSuperimposed>(),
+    block_type<MC_MotionInVelocity>(),
+    block_type<MC_MotionInPosition>(),
     block_type<MC_GearIn>(),
     block_type<MC_GearInPos>(),
     block_type<MC_GearInVelocity>(),

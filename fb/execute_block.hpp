@@ -95,6 +95,18 @@ constexpr Pin abort_acceleration() {
   return in<&T::AbortAcceleration>("AbortAcceleration", Unit::kNone, kAny,
                                    "TRUE: an acceleration at the start is set to 0 at once");
 }
+inline constexpr Choice kBufferModes[] = {
+    {0, "mcAborting: at once, the running job is aborted"},
+    {1, "mcBuffered: when the running job has ended"},
+    {2, "mcBlendingLow: at the target of the running job, passed with the lower velocity of both"},
+    {3, "mcBlendingPrevious: … with the velocity of the running job"},
+    {4, "mcBlendingNext: … with the velocity of the new job"},
+    {5, "mcBlendingHigh: … with the higher velocity of both"}};
+template <class T>
+constexpr Pin buffer_mode() {
+  return in<&T::BufferMode>("BufferMode", Unit::kNone, kAny, "MC_BUFFER_MODE: when the job begins",
+                            {.error = ErrorId::mode, .choices = kBufferModes});
+}
 template <class T>
 constexpr Pin position_controlled() {
   return in<&T::PositionControlled>("PositionControlled", Unit::kNone, kAny,

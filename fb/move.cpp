@@ -5,13 +5,14 @@
 namespace lockstep {
 namespace {
 
-/// Takes over the dynamic values that all three blocks have.
+/// Takes over the inputs that all three blocks have.
 template <class B>
-void take_dynamics(const B& block, Job& job) noexcept {
+void take_inputs(const B& block, Job& job) noexcept {
   job.velocity = block.Velocity;
   job.acceleration = block.Acceleration;
   job.deceleration = block.Deceleration;
   job.jerk = block.Jerk;
+  job.buffer_mode = static_cast<lockstep::BufferMode>(block.BufferMode);
 }
 
 }  // namespace
@@ -25,18 +26,18 @@ void MC_MoveAbsolute::request(Job& job) const noexcept {
   job.kind = JobKind::MC_MoveAbsolute;
   job.position = Position;
   job.direction = Direction;
-  take_dynamics(*this, job);
+  take_inputs(*this, job);
 }
 
 void MC_MoveRelative::request(Job& job) const noexcept {
   job.kind = JobKind::MC_MoveRelative;
   job.position = Distance;
-  take_dynamics(*this, job);
+  take_inputs(*this, job);
 }
 
 void MC_MoveVelocity::request(Job& job) const noexcept {
   job.kind = JobKind::MC_MoveVelocity;
-  take_dynamics(*this, job);
+  take_inputs(*this, job);
   if (Direction == 1) job.velocity = std::abs(Velocity);
   if (Direction == 2) job.velocity = -std::abs(Velocity);
   job.current = Current;

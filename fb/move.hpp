@@ -7,7 +7,9 @@ namespace lockstep {
 
 /// Moves the axis to an absolute position.
 /// @source S7-1500T axis functions, MC_MoveAbsolute
-/// @errors 16#800F not enabled or MC_Stop active; not homed: technology alarm 321, 16#8001
+/// @errors 16#800F not enabled or MC_Stop active; 16#800A BufferMode, also behind a synchronous job; 16#8014
+/// a
+///         job is buffered already; not homed: technology alarm 321, 16#8001
 struct MC_MoveAbsolute final : ExecuteBlock {
   lockstep::Axis* Axis{};
   LREAL Position{};
@@ -16,6 +18,7 @@ struct MC_MoveAbsolute final : ExecuteBlock {
   LREAL Deceleration = -1.0;
   LREAL Jerk = -1.0;
   INT Direction = 1;
+  INT BufferMode{};
 
   static constexpr std::string_view kName = "MC_MoveAbsolute";
   static constexpr std::string_view kText = "Moves the axis to an absolute position.";
@@ -33,7 +36,8 @@ struct MC_MoveAbsolute final : ExecuteBlock {
            in<&MC_MoveAbsolute::Direction>(
                "Direction", Unit::kNone, kAny, "way to the target on a modulo axis",
                {.error = ErrorId::direction, .choices = kDirections, .relevant = &has_modulo}),
-           pin::kDone, pin::kBusy, pin::kCommandAborted, pin::kError, pin::kErrorID);
+           pin::buffer_mode<MC_MoveAbsolute>(), pin::kDone, pin::kBusy, pin::kCommandAborted, pin::kError,
+           pin::kErrorID);
 
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }
@@ -43,7 +47,9 @@ struct MC_MoveAbsolute final : ExecuteBlock {
 
 /// Moves the axis by a distance from its setpoint at the start.
 /// @source S7-1500T axis functions, MC_MoveRelative
-/// @errors 16#800F not enabled or MC_Stop active
+/// @errors 16#800F not enabled or MC_Stop active; 16#800A BufferMode, also behind a synchronous job; 16#8014
+/// a
+///         job is buffered already
 struct MC_MoveRelative final : ExecuteBlock {
   lockstep::Axis* Axis{};
   LREAL Distance{};
@@ -51,17 +57,19 @@ struct MC_MoveRelative final : ExecuteBlock {
   LREAL Acceleration = -1.0;
   LREAL Deceleration = -1.0;
   LREAL Jerk = -1.0;
+  INT BufferMode{};
 
   static constexpr std::string_view kName = "MC_MoveRelative";
   static constexpr std::string_view kText = "Moves the axis by a distance from where it is.";
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_MoveRelative";
-  static constexpr auto kPins = pins(
-      pin::axis<MC_MoveRelative>(), pin::kExecute,
-      in<&MC_MoveRelative::Distance>("Distance", Unit::kPosition, kFinite, "signed distance",
-                                     {.error = ErrorId::distance}),
-      pin::velocity<MC_MoveRelative>("> 0: used; < 0: DynamicDefaults.Velocity; 0 is not permitted"),
-      pin::acceleration<MC_MoveRelative>(), pin::deceleration<MC_MoveRelative>(),
-      pin::jerk<MC_MoveRelative>(), pin::kDone, pin::kBusy, pin::kCommandAborted, pin::kError, pin::kErrorID);
+  static constexpr auto kPins =
+      pins(pin::axis<MC_MoveRelative>(), pin::kExecute,
+           in<&MC_MoveRelative::Distance>("Distance", Unit::kPosition, kFinite, "signed distance",
+                                          {.error = ErrorId::distance}),
+           pin::velocity<MC_MoveRelative>("> 0: used; < 0: DynamicDefaults.Velocity; 0 is not permitted"),
+           pin::acceleration<MC_MoveRelative>(), pin::deceleration<MC_MoveRelative>(),
+           pin::jerk<MC_MoveRelative>(), pin::buffer_mode<MC_MoveRelative>(), pin::kDone, pin::kBusy,
+           pin::kCommandAborted, pin::kError, pin::kErrorID);
 
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }
@@ -71,7 +79,9 @@ struct MC_MoveRelative final : ExecuteBlock {
 
 /// Moves the axis endlessly with a velocity.
 /// @source S7-1500T axis functions, MC_MoveVelocity
-/// @errors 16#800F not enabled or MC_Stop active
+/// @errors 16#800F not enabled or MC_Stop active; 16#800A BufferMode, also behind a synchronous job; 16#8014
+/// a
+///         job is buffered already
 struct MC_MoveVelocity final : ExecuteBlock {
   lockstep::Axis* Axis{};
   LREAL Velocity = 100.0;
@@ -81,6 +91,7 @@ struct MC_MoveVelocity final : ExecuteBlock {
   INT Direction{};
   BOOL Current{};
   BOOL PositionControlled = true;
+  INT BufferMode{};
   BOOL InVelocity{};
 
   static constexpr std::string_view kName = "MC_MoveVelocity";
@@ -101,7 +112,7 @@ struct MC_MoveVelocity final : ExecuteBlock {
       in<&MC_MoveVelocity::Current>(
           "Current", Unit::kNone, kAny,
           "TRUE: the velocity at the start is held; Velocity and Direction are ignored"),
-      pin::position_controlled<MC_MoveVelocity>(),
+      pin::position_controlled<MC_MoveVelocity>(), pin::buffer_mode<MC_MoveVelocity>(),
       out<&MC_MoveVelocity::InVelocity>("InVelocity", "the velocity is reached and held"), pin::kBusy,
       pin::kCommandAborted, pin::kError, pin::kErrorID);
 

@@ -7,6 +7,7 @@ void MC_Halt::request(Job& job) const noexcept {
   job.deceleration = Deceleration;
   job.jerk = Jerk;
   job.abort_acceleration = AbortAcceleration;
+  job.buffer_mode = static_cast<lockstep::BufferMode>(BufferMode);
 }
 
 void MC_Stop::request(Job& job) const noexcept {

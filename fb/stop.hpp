@@ -13,13 +13,15 @@ struct MC_Halt final : ExecuteBlock {
   LREAL Deceleration = -1.0;
   LREAL Jerk = -1.0;
   BOOL AbortAcceleration{};
+  INT BufferMode{};
 
   static constexpr std::string_view kName = "MC_Halt";
   static constexpr std::string_view kText = "Brakes the axis to standstill.";
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_Halt";
-  static constexpr auto kPins = pins(pin::axis<MC_Halt>(), pin::kExecute, pin::deceleration<MC_Halt>(),
-                                     pin::jerk<MC_Halt>(), pin::abort_acceleration<MC_Halt>(), pin::kDone,
-                                     pin::kBusy, pin::kCommandAborted, pin::kError, pin::kErrorID);
+  static constexpr auto kPins =
+      pins(pin::axis<MC_Halt>(), pin::kExecute, pin::deceleration<MC_Halt>(), pin::jerk<MC_Halt>(),
+           pin::abort_acceleration<MC_Halt>(), pin::buffer_mode<MC_Halt>(), pin::kDone, pin::kBusy,
+           pin::kCommandAborted, pin::kError, pin::kErrorID);
 
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }

@@ -37,6 +37,7 @@ void Axis::configure(double servo_period, int ratio) {
 void Axis::take_start_values() noexcept {
   modulo_ = {data.Modulo.Enable, data.Modulo.Length, data.Modulo.StartValue};
   single_.configure(modulo_, period_);
+  superimposed_.configure(period_);
   const double tolerance = data.Synchronization.MasterReversionTolerance;
   synchronous_.configure(modulo_, period_, tolerance, additive_);
   awaited_.configure(modulo_, period_, tolerance, additive_);
@@ -108,6 +109,7 @@ void Axis::begin_braking(INT stop_mode) noexcept {
 }
 
 void Axis::switch_off() noexcept {
+  absorb_superimposed();
   if (has_drive_) drive_.enable(false);
   power_state_ = PowerState::off;
   motion_ = Motion::none;
@@ -225,19 +227,10 @@ void Axis::step() noexcept {
   if (additive_request.owner != nullptr || additive_.in_use) take_additive();
   if (simulation_request.owner != nullptr) watch_simulation();
   if (running_[kWaiting] != nullptr) watch_waiting();
-  switch (motion_) {
-    case Motion::none:
-      follow_actual();
-      break;
-    case Motion::single_axis:
-      step_single_axis();
-      break;
-    case Motion::synchronizing:
-    case Motion::synchronous:
-    case Motion::desynchronizing:
-      step_synchronous();
-      break;
-  }
+  if (superimposed_.in_use())
+    step_superimposed();
+  else
+    step_base();
   if (data.PositionLimits_SW.Active) {
     watch_position_limits();
   } else {
@@ -254,11 +247,32 @@ void Axis::step() noexcept {
   if (leads_by_actual_value()) extrapolate(actual_, actual_velocity_, data.Extrapolation);
 }
 
+/// The base motion: of the axis' own, or led by another axis.
+void Axis::step_base() noexcept {
+  switch (motion_) {
+    case Motion::none:
+      follow_actual();
+      break;
+    case Motion::single_axis:
+      step_single_axis();
+      break;
+    case Motion::given:
+      step_given();
+      break;
+    case Motion::synchronizing:
+    case Motion::synchronous:
+    case Motion::desynchronizing:
+      step_synchronous();
+      break;
+  }
+}
+
 /// Last look at the setpoint before anyone sees it: finite, and within the range of positions.
 void Axis::guard() noexcept {
   const double sum = setpoint_.position.value + setpoint_.velocity + setpoint_.acceleration;
   if (std::isfinite(sum) && std::abs(setpoint_.position.value) <= kPositionRange) return;
   const bool finite = std::isfinite(sum);
+  absorb_superimposed();
   setpoint_ = {last_setpoint_.position, 0.0, 0.0};
   single_.stand(setpoint_);
   raise(finite ? alarm::kPositionRangeExceeded : alarm::kInternal);

@@ -21,6 +21,7 @@
 #include "tech_objects/leading_object.hpp"
 #include "tech_objects/override.hpp"
 #include "tech_objects/single_axis_motion.hpp"
+#include "tech_objects/superimposed.hpp"
 #include "tech_objects/synchronous_motion.hpp"
 #include "tech_objects/variable.hpp"
 
@@ -147,9 +148,19 @@ class Axis final : public LeadingObject {
  private:
   enum class PowerState : std::uint8_t { off, switching_on, on, braking };
   /// What generates the setpoint.
-  enum class Motion : std::uint8_t { none, single_axis, synchronizing, synchronous, desynchronizing };
-  /// Places of running jobs: the base motion, synchronous and desynchronizing jobs that wait, shifts.
-  enum Slot : std::uint8_t { kBase, kWaiting, kWaitingOut, kPhasing, kOffset, kSlots };
+  enum class Motion : std::uint8_t { none, single_axis, given, synchronizing, synchronous, desynchronizing };
+  /// Places of running jobs: the base motion, synchronous and desynchronizing jobs that wait, shifts, what is
+  /// superimposed on the base motion, the next base motion.
+  enum Slot : std::uint8_t {
+    kBase,
+    kWaiting,
+    kWaitingOut,
+    kPhasing,
+    kOffset,
+    kSuperimposed,
+    kBuffered,
+    kSlots
+  };
 
   // axis.cpp: power, alarms, the cycle
   void take_start_values() noexcept;
@@ -169,6 +180,7 @@ class Axis final : public LeadingObject {
   ErrorId reset(bool restart) noexcept;
   void restart() noexcept;
   void show_sensor() noexcept;
+  void step_base() noexcept;
   void guard() noexcept;
 
   // axis_jobs.cpp: taking jobs over, override rules, ends
@@ -205,8 +217,9 @@ class Axis final : public LeadingObject {
   int zero_limit(const Dynamics& dynamics) const noexcept;
   void begin_base_motion(Job& job) noexcept;
   PlanResult plan(Job& job, const Dynamics& dynamics) noexcept;
-  PlanResult move_by(double way, const Job& job, const Dynamics& dynamics) noexcept;
-  double absolute_distance(const Job& job) const noexcept;
+  PlanResult move_by(DoubleDouble way, const Job& job, const Dynamics& dynamics) noexcept;
+  DoubleDouble absolute_way(const Job& job) const noexcept;
+  double absolute_distance(const Job& job, double here) const noexcept;
   void begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept;
   void step_single_axis() noexcept;
   void follow_changes(Job& job) noexcept;
@@ -229,6 +242,43 @@ class Axis final : public LeadingObject {
   void begin_shift(Job& job) noexcept;
   void advance_shift(Slot slot) noexcept;
   bool led() const noexcept { return motion_ >= Motion::synchronizing; }
+
+  // axis_buffer.cpp: a job that waits for the end of another, and blending
+  struct Blending {
+    double way;         // of the next motion from the target of this one; its direction if endless [u]
+    bool endless;       // whether it has no target that it must not pass
+    Dynamics dynamics;  // of the next motion
+  };
+  bool buffer(Job& job) noexcept;
+  void watch_buffered() noexcept;
+  void plan_blending() noexcept;
+  Blending blending_into(const Job& next) noexcept;
+  double wanted_blending_velocity(BufferMode mode, double previous, double next) const noexcept;
+  bool next_can_take_over(const Blending& next, double velocity) const noexcept;
+
+  // axis_motion_in.cpp: setpoints given by the program
+  void begin_motion_in(Job& job) noexcept;
+  void step_given() noexcept;
+  AxisPosition given_position(double position) const noexcept;
+  void show_motion_in_command() noexcept;
+
+  // axis_superimposed.cpp: what is added to the base motion
+  void begin_superimposed(Job& job) noexcept;
+  ErrorId begin_superimposed_part(Job& job) noexcept;
+  void take_position_control() noexcept;
+  Dynamics superimposed_room() const noexcept;
+  Dynamics left_by_base() const noexcept;
+  Dynamics quick_enough(Dynamics room) noexcept;
+  void follow_room() noexcept;
+  void leave_to_superimposed(Dynamics& dynamics) noexcept;
+  void step_superimposed() noexcept;
+  void advance_superimposed() noexcept;
+  void follow_given_superimposed(Job& job) noexcept;
+  void add_superimposed() noexcept;
+  Setpoint with_superimposed(const Setpoint& base) const noexcept;
+  void absorb_superimposed() noexcept;
+  void show_superimposed_command() noexcept;
+  const Setpoint& base_setpoint() const noexcept { return superimposed_.in_use() ? base_ : setpoint_; }
 
   // axis_desynchronizing.cpp: out of a synchronous motion, and its simulation
   void begin_sync_out(Job& job) noexcept;
@@ -292,8 +342,16 @@ class Axis final : public LeadingObject {
   double actual_velocity_ = 0.0;  // [u/s]
   double largest_deviation_ = 0.0;
   bool was_synchronous_ = false;
+  bool advancing_base_ = false;  // `setpoint_` is that of the base motion alone, within a step
   SynchronousMotion synchronous_;
   SingleAxisMotion single_;
+
+  // Superimposed motion.
+  Superimposed superimposed_;
+  Setpoint base_;                 // the setpoint without the superimposed part, while there is one
+  Dynamics superimposed_wanted_;  // what MC_MoveSuperimposed asks for, before override and limits
+  Dynamics superimposed_room_;    // of that, what it has been planned with
+  bool base_curbed_ = false;      // the base motion has been planned with less, for what is superimposed
 
   // Positioning and limits.
   bool was_controlled_ = false;      // in the last cycle, for the software limit switches
@@ -301,6 +359,7 @@ class Axis final : public LeadingObject {
   std::int8_t approached_side_ = 0;  // while the axis brakes in front of a limit switch
   std::int64_t in_window_ticks_ = 0;
   std::int64_t since_target_ticks_ = 0;
+  DoubleDouble beyond_target_;  // way that the axis has made since the target of the motion before [u]
   double planned_override_ = 100.0;
   double planned_velocity_limit_ = 0.0;
   Job jogged_;  // inputs of MC_MoveJog that are planned for

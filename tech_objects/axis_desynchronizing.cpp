@@ -34,18 +34,20 @@ void Axis::begin_sync_out(Job& job) noexcept {
   data.StatusSynchronizedMotion.WaitingFunctionState = out_state(job);
 }
 
-/// Each tick while desynchronizing waits; true if it has begun and the setpoint is made.
+/// Each tick while desynchronizing waits; true if it has begun and the setpoint is made. It looks at where
+/// the axis is with all that is superimposed.
 bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
   Job& job = *running_[kWaitingOut];
   const Dynamics dynamics = effective_dynamics(job);
   const double target = normalised({0, job.position}, modulo_).value;
-  const bool there = candidate.standing() && setpoint_.standing() && candidate.position.value == target;
-  Setpoint from = setpoint_;
+  const bool there = candidate.standing() && last_setpoint_.standing() && candidate.position.value == target;
+  Setpoint from = last_setpoint_;
   if (job.mode != kOverDistance) from.acceleration = tolerable_acceleration();
   if (!there && !synchronous_.meets_sync_out(job, from, candidate, dynamics)) return false;
   running_[kWaitingOut] = nullptr;
   data.StatusSynchronizedMotion.WaitingFunctionState = 0;
   if (!override_running(class_of(job, true), job)) return false;
+  absorb_superimposed();
   running_[kBase] = &job;
   job.phase = JobPhase::active;
   in_window_ticks_ = 0;
@@ -110,21 +112,21 @@ void Axis::watch_simulation() noexcept {
 /// to stand as well: it may still brake with the last tick, or be shifted by an offset.
 void Axis::begin_simulation() noexcept {
   const bool leading_stands = led() && synchronous_.leading_object()->leading_value_stands();
-  if (motion_ != Motion::synchronous || !leading_stands || !setpoint_.standing()) {
+  if (motion_ != Motion::synchronous || !leading_stands || !base_setpoint().standing()) {
     simulation_request.error = ErrorId::no_synchronous_operation;
     return;
   }
   simulated_ = running_[kBase];
   running_[kBase] = nullptr;
-  ghost_ = setpoint_;
+  ghost_ = base_setpoint();
   motion_ = Motion::single_axis;
-  single_.stand(setpoint_);
+  single_.stand(base_setpoint());
 }
 
 /// The setpoints of the gear count again, once they agree with where the axis is.
 void Axis::end_simulation() noexcept {
-  const double away = std::abs(difference(ghost_.position, setpoint_.position, modulo_).rounded());
-  const bool agrees = away <= data.PositioningMonitoring.Window && setpoint_.standing();
+  const double away = std::abs(difference(ghost_.position, base_setpoint().position, modulo_).rounded());
+  const bool agrees = away <= data.PositioningMonitoring.Window && base_setpoint().standing();
   if (!enabled() || !agrees) {
     simulation_request.error = enabled() ? ErrorId::position : ErrorId::locked;
     return;

@@ -78,6 +78,7 @@ void Axis::start(Job& job) noexcept {
     return job.fail(ErrorId::technology_alarm);
   }
   if (is_shift(job.kind) && job.mode == kCancelWaiting) return cancel_waiting_shift(job);
+  if (job.buffer_mode != BufferMode::mcAborting && buffer(job)) return;
   if (!override_running(class_of(job, false), job)) return;
   install(job);
 }
@@ -97,8 +98,10 @@ ErrorId Axis::check(const Job& job) const noexcept {
   return check_synchronous(job);
 }
 
-/// Conditions of synchronous jobs.
+/// Conditions of synchronous jobs, and of values given on top of a motion.
 ErrorId Axis::check_synchronous(const Job& job) const noexcept {
+  if (job.kind == JobKind::MC_MotionInSuperimposed && !position_controlled_)
+    return led() ? ErrorId::velocity_gear_active : ErrorId::not_position_controlled;
   if (!couples(job.kind) && !is_shift(job.kind) && !leaves(job.kind)) return ErrorId::none;
   if (simulating()) return ErrorId::simulated;
   if (couples(job.kind)) {
@@ -216,6 +219,15 @@ void Axis::install(Job& job) noexcept {
     case JobKind::MC_OffsetRelative:
       begin_shift(job);
       break;
+    case JobKind::MC_MoveSuperimposed:
+    case JobKind::MC_MotionInSuperimposed:
+    case JobKind::MC_HaltSuperimposed:
+      begin_superimposed(job);
+      break;
+    case JobKind::MC_MotionInVelocity:
+    case JobKind::MC_MotionInPosition:
+      begin_motion_in(job);
+      break;
     default:
       begin_base_motion(job);
       break;
@@ -229,6 +241,10 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   const bool stopping = job->kind == JobKind::MC_Stop && phase == JobPhase::failed;
   job->phase = stopping ? JobPhase::aborted : phase;  // an alarm shows at MC_Stop as CommandAborted
   job->error = stopping ? ErrorId::none : error;
+  const bool alone = phase == JobPhase::failed && error != ErrorId::technology_alarm;
+  if (slot == kBase && alone) end_job(kBuffered, JobPhase::aborted, ErrorId::none);
+  if (slot == kSuperimposed) show_superimposed_command();
+  if (slot == kBase && class_of(*job, true) == JobClass::motion_in) show_motion_in_command();
   if (slot == kBase && leaves(job->kind)) data.StatusSynchronizedMotion.FunctionState = 0;
   if (slot == kWaiting || slot == kWaitingOut) {
     data.StatusSynchronizedMotion.WaitingFunctionState = 0;
@@ -258,8 +274,8 @@ void Axis::home(Job& job) noexcept {
     // A virtual axis has no following error: the position is the given one to the last bit.
     const AxisPosition exact = normalised({setpoint_.position.turns, job.position}, modulo_);
     setpoint_.position.value = exact.value;
-    if (setpoint_.standing() && motion_ == Motion::single_axis && running_[kBase] == nullptr)
-      single_.stand(setpoint_);
+    const bool idle = running_[kBase] == nullptr && !superimposed_.in_use();
+    if (setpoint_.standing() && motion_ == Motion::single_axis && idle) single_.stand(setpoint_);
     actual_ = setpoint_.position;
   }
   homed_ = true;
@@ -274,6 +290,7 @@ double Axis::position_shift(double home_position) const noexcept {
 void Axis::shift_positions(double by) noexcept {
   setpoint_.position = advanced(setpoint_.position, by, modulo_);
   last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
+  base_.position = advanced(base_.position, by, modulo_);
   actual_ = advanced(actual_, by, modulo_);
   if (leads_by_actual_value()) shift_leading(by);
   single_.shift(by);

@@ -146,7 +146,10 @@ bool Axis::keep_within(int side, double limit) noexcept {
 
 /// Whether the axis comes to rest or turns back in front of the limit by what it does anyway.
 bool Axis::turns_in_time(int side, double room, double jerk) const noexcept {
-  if (motion_ == Motion::single_axis) return single_.way_left(side) <= room;
+  if (motion_ == Motion::single_axis) {
+    const double added = superimposed_.in_use() ? superimposed_.way_left(side) : 0.0;
+    return single_.way_left(side) + added <= room;
+  }
   const Heading heading{setpoint_, side};
   const double v = heading.velocity;
   return turning_back(heading, jerk) && v * v <= -2.0 * heading.acceleration * room;
@@ -181,6 +184,7 @@ void Axis::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexce
   const double room = side * difference(limit, setpoint_.position, modulo_).rounded();
   const bool possible = find_braking(side, room, dynamics);
   raise(alarm::kSoftwareLimitReached, reaction);
+  absorb_superimposed();
   set_bit(data.WarningWord, side > 0 ? WarningBit::SWLimitMax : WarningBit::SWLimitMin, true);
   approached_side_ = static_cast<std::int8_t>(side);
   if (possible) return approach_limit(side * room, limit, dynamics);

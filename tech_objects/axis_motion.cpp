@@ -116,6 +116,7 @@ int Axis::zero_limit(const Dynamics& dynamics) const noexcept {
 // -----------------------------------------------------------------------------------------
 
 void Axis::begin_base_motion(Job& job) noexcept {
+  absorb_superimposed();
   cut_acceleration();
   const Dynamics dynamics = own_dynamics(job);
   if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
@@ -139,9 +140,9 @@ void Axis::begin_base_motion(Job& job) noexcept {
 PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
   switch (job.kind) {
     case JobKind::MC_MoveAbsolute:
-      return move_by(absolute_distance(job), job, dynamics);
+      return move_by(absolute_way(job), job, dynamics);
     case JobKind::MC_MoveRelative:
-      return move_by(job.position, job, dynamics);
+      return move_by(DoubleDouble{job.position, 0.0} - beyond_target_, job, dynamics);
     case JobKind::MC_MoveVelocity: {
       if (job.current) {
         job.velocity = setpoint_.velocity;
@@ -169,9 +170,16 @@ Dynamics Axis::maximum_for_current(Dynamics dynamics) const noexcept {
   return dynamics;
 }
 
-/// Way to the target of MC_MoveAbsolute [u].
-double Axis::absolute_distance(const Job& job) const noexcept {
-  const double here = setpoint_.position.value;
+/// Way to the target of MC_MoveAbsolute [u]. On a ring a motion that blends counts it from the target before.
+DoubleDouble Axis::absolute_way(const Job& job) const noexcept {
+  if (!modulo_.enabled || beyond_target_ == DoubleDouble{})
+    return {absolute_distance(job, setpoint_.position.value), 0.0};
+  const AxisPosition before = advanced(setpoint_.position, -beyond_target_, modulo_);
+  return DoubleDouble{absolute_distance(job, before.value), 0.0} - beyond_target_;
+}
+
+/// Way from a position to the target of MC_MoveAbsolute [u].
+double Axis::absolute_distance(const Job& job, double here) const noexcept {
   if (!modulo_.enabled) return job.position - here;
   const double target = normalised({0, job.position}, modulo_).value;
   if (job.direction == 3) return shortest_distance(here, target, modulo_);
@@ -180,8 +188,9 @@ double Axis::absolute_distance(const Job& job) const noexcept {
                             : negative_distance(here, target, modulo_);
 }
 
-PlanResult Axis::move_by(double way, const Job& job, const Dynamics& dynamics) noexcept {
-  AxisPosition target = advanced(setpoint_.position, way, modulo_);
+PlanResult Axis::move_by(DoubleDouble exact_way, const Job& job, const Dynamics& dynamics) noexcept {
+  const double way = exact_way.rounded();
+  AxisPosition target = advanced(setpoint_.position, exact_way, modulo_);
   if (job.kind == JobKind::MC_MoveAbsolute) {
     // The way is rounded; the target is the given position itself.
     target.value = modulo_.enabled ? normalised({0, job.position}, modulo_).value : job.position;
@@ -196,6 +205,7 @@ PlanResult Axis::move_by(double way, const Job& job, const Dynamics& dynamics) n
 }
 
 void Axis::begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept {
+  absorb_superimposed();
   leave_synchronous();
   motion_ = Motion::single_axis;
   cut_acceleration();
@@ -212,7 +222,9 @@ void Axis::step_single_axis() noexcept {
   Job* job = running_[kBase];
   if (job != nullptr) follow_changes(*job);
   single_.advance(setpoint_);
+  if (advancing_base_) add_superimposed();
   if (running_[kBase] != nullptr) watch_base_job(*running_[kBase]);
+  if (running_[kBuffered] != nullptr) watch_buffered();
 }
 
 /// Limits and override count at once; so do the inputs of a jogging block.
@@ -229,13 +241,15 @@ void Axis::follow_changes(Job& job) noexcept {
       job.kind == JobKind::MC_CamOut)
     return;
   remember_limits();
-  const Dynamics dynamics = own_dynamics(job);
+  Dynamics dynamics = own_dynamics(job);
+  if (advancing_base_) leave_to_superimposed(dynamics);
   PlanResult result = PlanResult::ok;
   if (jog || (job.kind == JobKind::MC_MoveVelocity && !job.current)) {
     result = plan(job, dynamics);
   } else if (!single_.finished() || single_.aim() != SingleAxisMotion::Aim::position) {
     result = single_.replan(setpoint_, dynamics);
   }
+  if (running_[kBuffered] != nullptr && result == PlanResult::ok) plan_blending();
   if (job.phase == JobPhase::reached) job.phase = JobPhase::active;
   if (result == PlanResult::ok) return;
   end_job(kBase, JobPhase::failed, ErrorId::unspecified);
@@ -248,7 +262,8 @@ void Axis::remember_limits() noexcept {
 }
 
 void Axis::watch_base_job(Job& job) noexcept {
-  if (!single_.finished()) return;
+  const bool passes = single_.aim() == SingleAxisMotion::Aim::position && single_.target_velocity() != 0.0;
+  if (!single_.finished() || passes) return;
   switch (job.kind) {
     case JobKind::MC_MoveVelocity:
       job.phase = JobPhase::reached;
@@ -276,7 +291,9 @@ void Axis::watch_base_job(Job& job) noexcept {
 /// does not come there within the tolerance time, or leaves the window within the dwell time.
 void Axis::watch_positioning() noexcept {
   const auto& monitoring = data.PositioningMonitoring;
-  const double away = std::abs(difference(actual_, setpoint_.position, modulo_).rounded());
+  // While a superimposed motion goes on, the axis cannot be there; its base motion has come to rest.
+  const double away =
+      superimposed_.resting() ? std::abs(difference(actual_, setpoint_.position, modulo_).rounded()) : 0.0;
   ++since_target_ticks_;
   if (away > monitoring.Window && in_window_ticks_ > 0) return raise(alarm::kPositioning);
   in_window_ticks_ = away <= monitoring.Window ? in_window_ticks_ + 1 : 0;

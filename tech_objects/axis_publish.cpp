@@ -59,7 +59,7 @@ void Axis::publish_motion() noexcept {
   }
   const bool positioning = motion_ == Motion::single_axis && single_.aim() == SingleAxisMotion::Aim::position;
   data.StatusPositioning.Distance =
-      positioning ? difference(single_.target(), setpoint_.position, modulo_).rounded() : 0.0;
+      positioning ? difference(single_.target(), base_setpoint().position, modulo_).rounded() : 0.0;
 }
 
 /// Not coupled yet: the additive leading value, and the leading value that a waiting job looks at.
@@ -102,15 +102,17 @@ void Axis::publish_synchronous() noexcept {
   if (motion_ != Motion::synchronous) return;
   was_synchronous_ = true;
   // A drive follows later; there the balanced difference tells how far the axis is from where it should be.
-  const double deviation =
-      has_drive_ ? std::abs(data.StatusPositioning.FollowingError)
-                 : std::abs(difference(actual_, synchronous_.following_position(), modulo_).rounded());
+  const AxisPosition following =
+      superimposed_.in_use() ? advanced(synchronous_.following_position(), superimposed_.value(), modulo_)
+                             : synchronous_.following_position();
+  const double deviation = has_drive_ ? std::abs(data.StatusPositioning.FollowingError)
+                                      : std::abs(difference(actual_, following, modulo_).rounded());
   if (deviation > largest_deviation_) largest_deviation_ = deviation;
 }
 
 void Axis::publish_status() noexcept {
   const Job* base = running_[kBase];
-  const bool idle = base == nullptr && running_[kWaiting] == nullptr;
+  const bool idle = base == nullptr && running_[kWaiting] == nullptr && running_[kSuperimposed] == nullptr;
   const JobKind kind = base != nullptr ? base->kind : JobKind::MC_Halt;  // neither shows at a bit
   const bool on = power_state_ == PowerState::on;
   bool accelerating = false;

@@ -31,6 +31,7 @@ void Axis::begin_gear_in(Job& job) noexcept {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
   }
+  absorb_superimposed();
   running_[kBase] = &job;
   job.phase = JobPhase::active;
   set_position_control(job.position_controlled);
@@ -84,10 +85,15 @@ void Axis::activate_waiting(Motion motion) noexcept {
     coupling_changed = true;
     return;
   }
+  // The new cam continues the following position of the old one, with what is superimposed on it.
+  const DoubleDouble superimposed =
+      at_cam_end && superimposed_.in_use() ? superimposed_.value() : DoubleDouble{};
+  absorb_superimposed();
   running_[kBase] = &job;
   job.phase = motion == Motion::synchronous ? JobPhase::reached : JobPhase::active;
   set_position_control(true);
   synchronous_ = awaited_;
+  if (at_cam_end) synchronous_.raise_cam(superimposed);
   show_coupling(job, motion);
 }
 
@@ -136,7 +142,7 @@ void Axis::step_synchronous() noexcept {
   Setpoint next = setpoint_;
   synchronous_.advance(next);
   if (motion_ == Motion::synchronous) {
-    if (watch_sync_out(next)) return;
+    if (watch_sync_out(advancing_base_ ? with_superimposed(next) : next)) return;
     setpoint_ = next;
     if (synchronous_.at_cam_end()) meet_cam_end();
     return;

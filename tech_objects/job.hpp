@@ -41,6 +41,17 @@ enum class JobKind : std::uint8_t {
   MC_InterpolateCam
 };
 
+/// When a job begins that finds another one running.
+/// @source PLCopen Motion Control Part 1 v2.0, 2.4.2 (MC_BUFFER_MODE)
+enum class BufferMode : std::uint8_t {
+  mcAborting,          ///< at once; the running one is aborted
+  mcBuffered,          ///< when the running one has ended
+  mcBlendingLow,       ///< at its target, which is passed with the lower velocity of both
+  mcBlendingPrevious,  ///< … with the velocity of the running one
+  mcBlendingNext,      ///< … with the velocity of the new one
+  mcBlendingHigh       ///< … with the higher velocity of both
+};
+
 /// How far a job is. A block derives its outputs from this alone.
 enum class JobPhase : std::uint8_t {
   idle,         ///< not handed over
@@ -70,8 +81,11 @@ struct Job {
   DINT mode{};                ///< Mode, SyncProfileReference
   BOOL current{};             ///< MC_MoveVelocity: keep the present velocity
   BOOL position_controlled = true;
+  BufferMode buffer_mode{};   ///< MC_MoveAbsolute, MC_MoveRelative, MC_MoveVelocity, MC_Halt
   BOOL abort_acceleration{};  ///< drop a present acceleration at once
-  BOOL hold{};                ///< MC_Stop: Execute is still TRUE, so the axis stays locked after the stop
+  BOOL hold{};                ///< MC_Stop: Execute is still TRUE, so the axis stays locked after the stop;
+                              ///< MC_MotionIn…: Enable is still TRUE
+  ErrorId input_error{};      ///< MC_MotionIn…: an input of this call is not permitted
 
   LeadingObject* master{};
   DINT numerator = 1;

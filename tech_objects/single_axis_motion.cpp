@@ -61,15 +61,32 @@ void SingleAxisMotion::stand(const Setpoint& from) noexcept {
 }
 
 PlanResult SingleAxisMotion::move_to(const Setpoint& from, AxisPosition target, double distance,
-                                     const Dynamics& dynamics) noexcept {
+                                     const Dynamics& dynamics, double end_velocity) noexcept {
   const PlanResult result =
-      plan_position(local_state(from), distance, 0.0, profile_limits(dynamics), profile_);
+      plan_position(local_state(from), distance, end_velocity, profile_limits(dynamics), profile_);
   if (result != PlanResult::ok) return result;
   begin(from, Aim::position, dynamics);
   target_ = target;
   exact_target_ = true;
-  target_velocity_ = 0.0;
+  target_velocity_ = end_velocity;
   return result;
+}
+
+bool SingleAxisMotion::passes_ahead(const Setpoint& from, double distance, double end_velocity,
+                                    const Dynamics& dynamics) const noexcept {
+  Profile profile;
+  if (plan_position(local_state(from), distance, end_velocity, profile_limits(dynamics), profile) !=
+      PlanResult::ok)
+    return false;
+  for (const Profile::Phase& phase : profile.phases()) {
+    if (phase.state.velocity * end_velocity < 0.0) return false;
+    if (phase.jerk == 0.0) continue;
+    // Within a phase of constant jerk the velocity has its least amount where the acceleration passes 0.
+    const double t = phase.begin - phase.state.acceleration / phase.jerk;
+    if (t > phase.begin && t < profile.duration() && profile.at(t).velocity * end_velocity < 0.0)
+      return false;
+  }
+  return true;
 }
 
 PlanResult SingleAxisMotion::run_at(const Setpoint& from, double velocity,
@@ -106,6 +123,7 @@ PlanResult SingleAxisMotion::replan(const Setpoint& from, const Dynamics& dynami
         if (result != PlanResult::ok) return result;
         begin(from, Aim::position, dynamics);
         exact_target_ = false;
+        target_velocity_ = 0.0;
         return result;
       }
       return move_to(from, target_, difference(target_, from.position, modulo_).rounded(), dynamics);
@@ -128,7 +146,8 @@ void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
   setpoint.velocity = state.velocity;
   setpoint.acceleration = state.acceleration;
   const bool over = t >= profile_.duration();
-  if (over && exact_target_) {
+  const bool passes = aim_ == Aim::position && target_velocity_ != 0.0;
+  if (over && exact_target_ && !passes) {
     setpoint.position = target_;
   } else {
     setpoint.position = advanced(origin_, state.position, modulo_);
@@ -136,7 +155,7 @@ void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
   if (!over) return;
   finished_ =
       aim_ != Aim::position || exact_target_;  // braked short of its target, a positioning goes on later
-  if (target_velocity_ != 0.0 && ticks_ >= kRebaseTicks) {
+  if (aim_ == Aim::velocity && target_velocity_ != 0.0 && ticks_ >= kRebaseTicks) {
     const Dynamics dynamics = dynamics_;
     run_at(setpoint, wanted_velocity_, dynamics);
     finished_ = true;

@@ -18,15 +18,20 @@ class SingleAxisMotion {
 
   /// Stands where the setpoint is.
   void stand(const Setpoint& from) noexcept;
-  /// To a position `distance` away [u], which is `target`; comes to rest exactly there.
-  PlanResult move_to(const Setpoint& from, AxisPosition target, double distance,
-                     const Dynamics& dynamics) noexcept;
+  /// To a position `distance` away [u], which is `target`; comes to rest exactly there, or passes it with an
+  /// end velocity [u/s] within ±dynamics.velocity.
+  PlanResult move_to(const Setpoint& from, AxisPosition target, double distance, const Dynamics& dynamics,
+                     double end_velocity = 0.0) noexcept;
+  /// Whether such a motion with an end velocity other than 0 never turns back. Changes nothing.
+  bool passes_ahead(const Setpoint& from, double distance, double end_velocity,
+                    const Dynamics& dynamics) const noexcept;
   /// To a velocity [u/s] within ±dynamics.velocity, which is then held.
   PlanResult run_at(const Setpoint& from, double velocity, const Dynamics& dynamics) noexcept;
   /// To rest, as quickly as deceleration and jerk permit.
   PlanResult stop(const Setpoint& from, const Dynamics& dynamics, bool abort_acceleration) noexcept;
 
-  /// Plans anew for the same aim with other dynamics; a target velocity beyond the new one is cut to it.
+  /// Plans anew for the same aim (to rest, if it is a position) with other dynamics; a target velocity beyond
+  /// the new one is cut to it.
   PlanResult replan(const Setpoint& from, const Dynamics& dynamics) noexcept;
 
   /// The setpoint one interpolator cycle later.

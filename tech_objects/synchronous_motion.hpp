@@ -93,6 +93,11 @@ class SynchronousMotion {
   bool passed_once() const noexcept { return cam_use_.mode == CamMode::once; }
   /// Whether the axis comes to rest at the end that has been reached.
   bool rests_at_cam_end() const noexcept;
+  /// Adds to the offset with which a cam begins [u].
+  void raise_cam(DoubleDouble by) noexcept {
+    offset_.start_at(offset_.value() + by);
+    slave_offset_ = offset_.value().hi;
+  }
   /// Offsets in effect when the job became active.
   double master_offset() const noexcept { return master_offset_; }
   double slave_offset() const noexcept { return slave_offset_; }

@@ -12,6 +12,7 @@
 #include "fb/home.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
+#include "fb/superimposed.hpp"
 #include "scheduler/controller.hpp"
 #include "tests/conformance/allocations.hpp"
 #include "tests/conformance/subject.hpp"
@@ -48,6 +49,7 @@ class Bench {
     power_leading.Axis = run_leading.Axis = &leading;
     power_following.Axis = home_following.Axis = &following;
     reset_following.Axis = relative_following.Axis = &following;
+    superimposed_following.Axis = &following;
     gear_following.Master = &leading;
     gear_following.Slave = &following;
     cam_following.Master = &leading;
@@ -60,7 +62,7 @@ class Bench {
     if (enable_following) support_.push_back(&power_following);
     for (Block* block : {static_cast<Block*>(&home_following), static_cast<Block*>(&reset_following),
                          static_cast<Block*>(&relative_following), static_cast<Block*>(&gear_following),
-                         static_cast<Block*>(&cam_following)})
+                         static_cast<Block*>(&cam_following), static_cast<Block*>(&superimposed_following)})
       support_.push_back(block);
   }
   Bench(const Bench&) = delete;
@@ -157,6 +159,11 @@ class Bench {
     position_steps_until_ = controller.counters().ticks + ticks;
   }
 
+  /// Setpoints may jump, and be beyond the limits, in the next ticks: they are given.
+  void allow_jumps(std::uint64_t ticks) noexcept {
+    jumps_until_ = std::max(jumps_until_, controller.counters().ticks + ticks);
+  }
+
   /// Whether the following axis is braking from beyond what its ramp can brake in kStoppingTicks.
   bool brakes_for_long() const noexcept {
     const Setpoint& s = following.setpoint();
@@ -178,6 +185,7 @@ class Bench {
   MC_MoveRelative relative_following;
   MC_GearIn gear_following;
   MC_CamIn cam_following;
+  MC_MoveSuperimposed superimposed_following;
   std::uint64_t allocations = 0;
   std::string first_fault;
   /// Whether a coupled axis is held to have no steps, too: with synchronizing distances of many cycles only.
@@ -221,9 +229,10 @@ class Bench {
     last.setpoint = s;
     if (!std::isfinite(s.position.value) || !std::isfinite(s.velocity) || !std::isfinite(s.acceleration))
       return fault(axis.name + ": setpoint not finite");
-    if (!before.known) return;
+    const bool outrun = outruns_its_profile(axis);
+    if (!before.known || controller.counters().ticks <= jumps_until_) return;
     if (last.coupled || (before.coupled && axis.pending_alarm() != 0)) {
-      if (watch_coupled && !positions_may_step())
+      if (watch_coupled && !positions_may_step() && !outrun)
         watch_steps(axis, before.setpoint, s, kBetweenTicks, handed_on(before.setpoint));
       return;
     }
@@ -237,6 +246,22 @@ class Bench {
     if (std::abs(s.acceleration) > most_a * (1 + kSlack))
       fault(axis.name + ": acceleration " + std::to_string(s.acceleration) + " beyond its limit");
     watch_steps(axis, before.setpoint, s, 1.0, 0.0);
+  }
+
+  /// What is planned over a way of the leading axis is as steep as that axis is fast: planned for a slow one
+  /// that then speeds up, it may be over between two ticks. That is published; no acceleration is held to.
+  bool outruns_its_profile(const Axis& axis) noexcept {
+    if (&axis != &following) return false;
+    const double speed = std::abs(leading.setpoint().velocity);
+    const bool synchronizing =
+        (static_cast<std::uint32_t>(axis.data.StatusWord) >> static_cast<unsigned>(StatusBit::Synchronizing) &
+         1u) != 0;
+    const bool was_outrun = outrun_;
+    if (!synchronizing || !synchronizing_) slowest_ = speed;
+    synchronizing_ = synchronizing;
+    slowest_ = std::min(slowest_, speed);
+    outrun_ = synchronizing && speed > 2.0 * slowest_;
+    return outrun_ || was_outrun;
   }
 
   /// Change of velocity that the leading axis hands on: it may come to rest between two ticks, and what is a
@@ -276,6 +301,10 @@ class Bench {
   std::deque<Subject> subjects_;
   Last last_[2];
   std::uint64_t position_steps_until_ = 0;
+  bool synchronizing_ = false;  // the following axis, in the last tick
+  bool outrun_ = false;
+  double slowest_ = 0.0;  // leading velocity since it has been synchronizing [u/s]
+  std::uint64_t jumps_until_ = 0;
 };
 
 }  // namespace lockstep::test

@@ -34,6 +34,9 @@ inline bool is_single_axis(const std::string& block) {
 inline bool leaves(const std::string& block) {
   return is_one_of(block, {"MC_GearOut", "MC_CamOut"});
 }
+inline bool is_superimposed(const std::string& block) {
+  return block.ends_with("Superimposed");
+}
 inline bool is_shift(const std::string& block) {
   return block.starts_with("MC_Phasing") || block.starts_with("MC_Offset");
 }
@@ -115,6 +118,12 @@ class Stage {
       job.set("Position", 1.0);
     } else if (is_one_of(block, {"MC_GearIn", "MC_GearInVelocity"})) {
       job.set("RatioNumerator", 2.0);
+    } else if (block == "MC_MotionInVelocity") {
+      job.set("Velocity", 30.0);
+    } else if (block == "MC_MotionInPosition") {
+      job.set("Position", following);
+    } else if (block == "MC_MoveSuperimposed") {
+      job.set("Distance", 1e5);
     } else if (is_single_axis(block) && block != "MC_Halt") {
       for (const char* pin : {"Position", "Distance"})
         if (job.type().find_pin(pin) != nullptr) job.set(pin, 1e5);
@@ -270,6 +279,56 @@ inline std::vector<Situation> out_situations(const std::string& block) {
           {.name = "over a distance", .bring_about = leaving(1.0)}};
 }
 
+/// Setpoints from the program, with and without position control.
+inline std::vector<Situation> motion_in_situations(const std::string& block) {
+  const auto given = [block](bool controlled) {
+    return [=](Stage& stage) {
+      stage.bench.allow_jumps(2);
+      Subject& job = stage.make(block);
+      job.set("Velocity", block == "MC_MotionInVelocity" ? 20.0 : 0.0);
+      if (block == "MC_MotionInPosition")
+        job.set("Position", stage.bench.following.setpoint().position.value);
+      if (!controlled) job.set("PositionControlled", 0.0);
+      job.start(true);
+      stage.bench.run(10);
+      return &job;
+    };
+  };
+  const Situation controlled{.name = "given", .bring_about = given(true)};
+  if (block == "MC_MotionInPosition") return {controlled};
+  Situation uncontrolled{.name = "given without position control", .bring_about = given(false)};
+  uncontrolled.position_controlled = false;
+  return {controlled, uncontrolled};
+}
+
+/// On top of no motion, of a single-axis one and of a synchronous one.
+inline std::vector<Situation> superimposed_situations(const std::string& block) {
+  const auto on_top = [block](bool moving, bool gear) {
+    return [=](Stage& stage) {
+      if (gear) stage.bench.couple();
+      if (moving) stage.start_single_axis("MC_MoveVelocity");
+      stage.bench.run(10);
+      if (block == "MC_HaltSuperimposed") {  // it needs something to halt, and time for it
+        Subject& superimposed = stage.make("MC_MoveSuperimposed");
+        superimposed.set("Distance", 1e5);
+        superimposed.start(true);
+        stage.bench.run(50);
+      }
+      Subject& job = stage.make(block);
+      if (block == "MC_MoveSuperimposed") job.set("Distance", 1e5);
+      if (block == "MC_HaltSuperimposed") job.set("Deceleration", 20.0);
+      job.start(true);
+      stage.bench.run(10);
+      return &job;
+    };
+  };
+  Situation gear{.name = "on a gear", .bring_about = on_top(false, true)};
+  gear.gear = gear.moves_with_leading = gear.synchronous = true;
+  return {{.name = "alone", .bring_about = on_top(false, false)},
+          {.name = "on a motion", .bring_about = on_top(true, false)},
+          gear};
+}
+
 /// Every way in which a job of the tables can run here; none: nothing that exists brings it about.
 inline std::vector<Situation> situations(const NamedJob& running) {
   const std::string& block = running.block;
@@ -282,6 +341,8 @@ inline std::vector<Situation> situations(const NamedJob& running) {
     };
     return {{.name = "moving", .bring_about = moving}};
   }
+  if (block.starts_with("MC_MotionIn") && !is_superimposed(block)) return motion_in_situations(block);
+  if (is_superimposed(block)) return superimposed_situations(block);
   if (is_one_of(block, {"MC_GearIn", "MC_GearInVelocity"})) return gear_situations(block);
   if (is_one_of(block, {"MC_GearInPos", "MC_CamIn"}) && running.state == "active")
     return gear_situations(block);

@@ -61,6 +61,9 @@ class Sequence {
       return s->busy() && (name == "MC_LeadingValueAdditive" || name == "MC_CamIn" || name == "MC_CamOut");
     });
     bench_.watch_coupled = !additive;
+    for (const auto* subjects : {&following_, &leading_})
+      for (Subject* s : *subjects)
+        if (s->type().name.starts_with("MC_MotionIn") && (s->busy() || s->on_start())) bench_.allow_jumps(3);
     bench_.tick();
     for (const auto* subjects : {&following_, &leading_}) {
       const auto in_effect = std::count_if(subjects->begin(), subjects->end(),

@@ -52,6 +52,12 @@ class Subject {
   bool starts_by_edge() const noexcept { return start_ != nullptr && start_->name == "Execute"; }
   /// Whether the block runs jobs, which another job or disabling can end.
   bool has_jobs() const noexcept { return aborted_ != nullptr; }
+  /// Whether an output tells that the aim of a job is met.
+  bool has_aim() const noexcept {
+    return done_ != nullptr || std::any_of(type_->pins.begin(), type_->pins.end(), [](const Pin& pin) {
+             return pin.pin_class == PinClass::output && pin.name.starts_with("In");
+           });
+  }
   /// Whether the block enables the axis itself.
   bool powers() const noexcept { return type_->name == "MC_Power"; }
 
@@ -77,6 +83,7 @@ class Subject {
   /// Sets the pin that starts the block.
   void start(bool on) noexcept { store(*start_, on ? 1.0 : 0.0); }
   const Pin* start_pin() const noexcept { return start_; }
+  bool on_start() noexcept { return on(start_); }
 
   void set(std::string_view pin, double number) noexcept { store(*type_->find_pin(pin), number); }
   void store(const Pin& pin, double number) noexcept {
@@ -90,9 +97,7 @@ class Subject {
 
   bool busy() noexcept { return on(busy_); }
   /// MC_CamIn has no Done: it ends without an error at the end of a cam that is passed once.
-  bool done() noexcept {
-    return on(done_) || (on(end_of_profile_) && !busy() && !aborted() && !error());
-  }
+  bool done() noexcept { return on(done_) || (on(end_of_profile_) && !busy() && !aborted() && !error()); }
   bool aborted() noexcept { return on(aborted_); }
   bool error() noexcept { return on(error_); }
   WORD error_id() noexcept {

@@ -41,6 +41,8 @@ inline constexpr Setting kSettings[] = {
     {"MC_OffsetRelative", "Offset", 10.0},
     {"MC_OffsetAbsolute", "OffsetDistance", 40.0},
     {"MC_OffsetRelative", "OffsetDistance", 40.0},
+    {"MC_MotionInVelocity", "Velocity", 50.0},
+    {"MC_MoveSuperimposed", "Distance", 60.0},
     {"MC_GearOut", "SlavePosition", 300.0},
     {"MC_GearOut", "MasterStopDistance", 50.0},
     {"MC_CamIn", "MasterSyncPosition", 50.0},
@@ -51,10 +53,15 @@ inline constexpr Setting kSettings[] = {
 };
 // Blocks that act on an axis which moves.
 inline const std::set<std::string_view> kOnMovingAxis = {"MC_Halt", "MC_Stop"};
+// Blocks that act on what is superimposed on the motion of an axis.
+inline const std::set<std::string_view> kOnSuperimposedMotion = {"MC_HaltSuperimposed"};
 // Blocks that act on an axis which is coupled.
 inline const std::set<std::string_view> kOnCoupledAxis = {
     "MC_PhasingAbsolute", "MC_PhasingRelative", "MC_OffsetAbsolute",       "MC_OffsetRelative",
     "MC_GearOut",         "MC_CamOut",          "MC_LeadingValueAdditive", "MC_SynchronizedMotionSimulation"};
+// Blocks whose inputs are the setpoints themselves, without profile or limits, so that these may jump.
+inline const std::set<std::string_view> kGivesSetpoints = {"MC_MotionInSuperimposed", "MC_MotionInVelocity",
+                                                           "MC_MotionInPosition"};
 // Blocks that also act on a disabled axis.
 inline const std::set<std::string_view> kOnDisabledAxis = {
     "MC_Home", "MC_Reset", "MC_InterpolateCam", "MC_GetCamLeadingValue", "MC_GetCamFollowingValue"};
@@ -130,6 +137,7 @@ struct Trial {
     subject = &bench.add(type);
     apply_settings(*subject);
     if (kRenamesPositions.contains(type.name)) bench.allow_position_steps(kTicksOfATrial);
+    if (kGivesSetpoints.contains(type.name)) bench.allow_jumps(kTicksOfATrial);
     if (subject->powers() && enabled) subject->start(true);
     bench.ready();
     if (enabled && kOnCoupledAxis.contains(type.name)) bench.couple_for(type.name);
@@ -138,6 +146,12 @@ struct Trial {
       bench.relative_following.Execute = true;
       bench.run(15);
       bench.relative_following.Execute = false;
+    }
+    if (enabled && kOnSuperimposedMotion.contains(type.name)) {
+      bench.superimposed_following.Distance = 1e6;
+      bench.superimposed_following.Execute = true;
+      bench.run(15);
+      bench.superimposed_following.Execute = false;
     }
   }
   ~Trial() {

@@ -99,8 +99,8 @@ TEST(ExampleProject, StoresConstantPinsOnceAndObjectsByTheirAddress) {
   const auto object = [&](std::string_view pin) {
     return reinterpret_cast<const Axis*>(gear.type->find_pin(pin)->signal(*gear.block).load().u);
   };
-  EXPECT_EQ(object("Master"), project.controller->axes[0].get());
-  EXPECT_EQ(object("Slave"), project.controller->axes[1].get());
+  EXPECT_EQ(object("Master"), project.controller->axes[0]);
+  EXPECT_EQ(object("Slave"), project.controller->axes[1]);
 }
 
 TEST(ExampleProject, MovesExpressionsToPinsAndOutputsToTags) {

@@ -36,6 +36,8 @@ std::string project(const std::string& more) {
 
 class Restart : public testing::Test {
  protected:
+  void SetUp() override { run(10); }  // until both axes are on
+
   void run(int milliseconds) { machine_.run_for(std::chrono::milliseconds(milliseconds)); }
   void write(const char* path, double value) { machine_.write(path, value); }
   double read(const char* path) const { return machine_.read(path); }
@@ -45,7 +47,7 @@ class Restart : public testing::Test {
 
 TEST_F(Restart, TakesOverTheStartValuesThatAProgramHasChanged) {
   write("move", 1.0);
-  run(1000);
+  run(3000);
   EXPECT_EQ(read("Drum.Position"), 300.0);
   write("length", 250.0);
   write("change", 1.0);
@@ -95,7 +97,6 @@ TEST_F(Restart, OfALeadingAxisStopsTheAxesThatFollowItWithAlarm601) {
 }
 
 TEST_F(Restart, IsRefusedWhileTheAxisIsOn) {
-  run(10);
   write("again", 1.0);
   run(3);
   EXPECT_EQ(read("reset.Error"), 1.0);

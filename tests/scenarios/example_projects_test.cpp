@@ -36,6 +36,7 @@ double tolerance(const std::string& name) {
 /// Length of the ring on which a column goes round; none: a line, or no position.
 std::optional<double> ring(const std::string& name) {
   if (name == "Conveyor.Position") return 240.0;
+  if (name == "Belt.Position") return 400.0;
   if (name == "Delivery.Position") return 1000.0;
   const bool position = name.find("Position") != std::string::npos && name.find("Slide") != 0 &&
                         name.find("FollowingError") == std::string::npos;
@@ -82,7 +83,8 @@ TEST_P(StoredTrace, IsRepeatedWithinATolerancePerColumn) {
 INSTANTIATE_TEST_SUITE_P(Examples, StoredTrace,
                          testing::Values(Stored{"01_positioning", "5s", 25},
                                          Stored{"02_rotary_knife", "5s", 20},
-                                         Stored{"03_line_shaft", "5s", 25}),
+                                         Stored{"03_line_shaft", "5s", 25},
+                                         Stored{"07_emergency_door", "16s", 40}),
                          [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
@@ -235,12 +237,47 @@ struct Roll {
   double denominator;
 };
 
+TEST(EmergencyDoor, KeepsTheCouplingWhileTheDriveIsOffAndGoesOnInStep) {
+  const CsvTable table =
+      simulate(example("07_emergency_door"), "30s",
+               {"--signals",
+                "Belt.Position,Belt.Velocity,Press.Position,Press.Velocity,Press.StatusDrive.InOperation,"
+                "gear.InSync,in_step,safe,hold,simulation.InSimulation,simulation.Error,alarm"});
+  expect_never(table, "alarm");
+  expect_never(table, "simulation.Error");
+  const std::size_t synchronous = table.first("gear.InSync", 1.0);
+  const std::size_t simulated = table.first("simulation.InSimulation", 1.0);
+  const std::size_t safe = table.first("safe", 1.0);
+  const std::size_t resumed = table.first("simulation.InSimulation", 0.0, simulated);
+  ASSERT_LT(synchronous, simulated);
+  ASSERT_LT(simulated, safe);
+  ASSERT_LT(safe, resumed);
+  ASSERT_LT(resumed, table.rows);
+  EXPECT_EQ(table["Press.StatusDrive.InOperation"][safe], 0.0);
+  EXPECT_EQ(table.first("gear.InSync", 0.0, synchronous), table.rows) << "the coupling never ends";
+  double furthest = 0.0;
+  for (std::size_t i = synchronous; i < table.rows; ++i) {
+    const double function = 90.0 + 0.9 * (table["Belt.Position"][i] - 200.0);
+    const double away = std::abs(ring_distance(table["Press.Position"][i], function, 360.0));
+    if (table["in_step"][i] != 0.0 && table["simulation.InSimulation"][i] == 0.0) {
+      ASSERT_LT(away, 1e-9) << table["t"][i];
+    }
+    furthest = std::max(furthest, away);
+    if (table["safe"][i] != 0.0) {
+      ASSERT_EQ(table["Belt.Velocity"][i], 0.0);
+    }
+  }
+  EXPECT_GT(furthest, 15.0) << "the press was inched away meanwhile";
+  expect_smooth(table, "Press", 185.0, 1000.0);
+}
+
 TEST(LineShaft, EveryRollKeepsItsRatioWhileItIsSynchronous) {
-  std::string signals = "Shaft.Position,Shaft.Velocity";
+  std::string signals = "Shaft.Position,Shaft.Velocity,Impression.StatusSynchronizedMotion.Offset";
   for (const char* roll : {"Infeed", "Impression", "Chill", "Slitter", "Delivery"})
     for (const char* signal : {".Position", ".Velocity", ".StatusWord.X22"})
       signals += std::string(",") + roll + signal;
   const CsvTable table = simulate(example("03_line_shaft"), "60s", {"--signals", signals});
+  const auto& offset = table["Impression.StatusSynchronizedMotion.Offset"];
   for (const Roll& roll :
        {Roll{"Infeed", "Shaft", 1, 1}, Roll{"Impression", "Shaft", -1, 1}, Roll{"Chill", "Shaft", 355, 113},
         Roll{"Slitter", "Chill", -3, 7}, Roll{"Delivery", "Shaft", 22, 7}}) {
@@ -258,6 +295,7 @@ TEST(LineShaft, EveryRollKeepsItsRatioWhileItIsSynchronous) {
         continue;
       }
       following_way += ring_distance(table[following][i], table[following][i - 1], *ring(following));
+      if (following == "Impression.Position") following_way -= offset[i] - offset[i - 1];
       leading_way += ring_distance(table[leading][i], table[leading][i - 1], *ring(leading));
       largest = std::max(largest, std::abs(following_way - leading_way * roll.numerator / roll.denominator));
       ++rows;
@@ -267,6 +305,27 @@ TEST(LineShaft, EveryRollKeepsItsRatioWhileItIsSynchronous) {
     expect_smooth(table, roll.following, 2000.0, 2000.0);
   }
   expect_smooth(table, "Shaft", 360.0, 240.0);
+}
+
+TEST(LineShaft, TheRegisterIsCorrectedByWhatIsAskedForOverHalfATurnOfTheShaft) {
+  const CsvTable table = simulate(example("03_line_shaft"), "30s",
+                                  {"--signals",
+                                   "Impression.StatusSynchronizedMotion.Offset,register.StartOffset,"
+                                   "register.Done,register.Error,Shaft.Position"});
+  expect_never(table, "register.Error");
+  const auto& offset = table["Impression.StatusSynchronizedMotion.Offset"];
+  std::size_t row = 0;
+  double before = 0.0;
+  for (const double after : {2.5, -1.5}) {
+    const std::size_t start = table.first("register.StartOffset", 1.0, row);
+    const std::size_t end = table.first("register.Done", 1.0, start);
+    ASSERT_LT(end, table.rows);
+    EXPECT_NEAR(offset[start], before, 0.1);
+    EXPECT_EQ(offset[end], after);
+    before = after;
+    row = table.first("register.Done", 0.0, end);
+  }
+  EXPECT_EQ(offset.back(), -1.5);
 }
 
 TEST(LineShaft, AllRollsComeIntoGearOneAfterAnotherAndNoneRaisesAnAlarm) {

@@ -97,7 +97,7 @@ TEST(RealTime, ADurationEndsItAndTheAxesAreBroughtToRestAfterIt) {
 }
 
 TEST(RealTime, TheExamplesRunWithoutAlarms) {
-  for (const char* name : {"01_positioning", "02_rotary_knife", "03_line_shaft"}) {
+  for (const char* name : {"01_positioning", "02_rotary_knife", "03_line_shaft", "07_emergency_door"}) {
     const Ended ended =
         lockstep({"run", example(name), "--stimuli", "--duration", "1s", "--no-modbus", "--no-lcm"});
     EXPECT_EQ(ended.status, 0) << name << "\n" << ended.err;

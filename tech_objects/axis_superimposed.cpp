@@ -1,0 +1,250 @@
+// What is added to the base motion: MC_MoveSuperimposed, MC_MotionInSuperimposed, MC_HaltSuperimposed.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tech_objects/axis.hpp"
+
+namespace lockstep {
+namespace {
+
+/// What a limit still leaves of `used`; nothing that is used leaves it all.
+double rest_of(double limit, double used) noexcept {
+  return std::max(limit - used, 0.0);
+}
+
+}  // namespace
+
+// ---- Beginning
+// --------------------------------------------------------------------------------------------------
+
+void Axis::begin_superimposed(Job& job) noexcept {
+  if (job.kind == JobKind::MC_HaltSuperimposed && superimposed_.resting()) {
+    if (superimposed_.in_use()) superimposed_.rest();  // a distance that waited is given up
+    job.phase = JobPhase::done;
+    return;
+  }
+  if (job.kind != JobKind::MC_MotionInSuperimposed) {
+    superimposed_wanted_ = effective_dynamics(job);
+    if (const int alarm_number = zero_limit(superimposed_wanted_); alarm_number != 0) {
+      raise(alarm_number);
+      return job.fail(ErrorId::technology_alarm);
+    }
+  }
+  if (job.kind == JobKind::MC_MoveSuperimposed) take_position_control();
+  if (!superimposed_.in_use()) {
+    base_ = setpoint_;
+    superimposed_.begin();
+  }
+  superimposed_.cut_acceleration(maximum_dynamics().acceleration);
+  running_[kSuperimposed] = &job;
+  job.phase = JobPhase::active;
+  show_superimposed_command();
+  if (const ErrorId error = begin_superimposed_part(job); error != ErrorId::none) {
+    superimposed_.rest();
+    end_job(kSuperimposed, JobPhase::failed, error);
+  }
+}
+
+ErrorId Axis::begin_superimposed_part(Job& job) noexcept {
+  if (job.kind == JobKind::MC_MotionInSuperimposed) {
+    superimposed_.begin_giving();
+    return ErrorId::none;
+  }
+  superimposed_wanted_.velocity = job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity;
+  const bool halts = job.kind == JobKind::MC_HaltSuperimposed;
+  if (halts) superimposed_wanted_.velocity = velocity_limit();
+  superimposed_room_ = superimposed_room();
+  Dynamics room = superimposed_room_;
+  if (!superimposed_.resting() && (room.acceleration <= 0.0 || room.deceleration <= 0.0)) {
+    // Values given until now have taken more than there is: it has to brake all the same.
+    const double velocity = room.velocity;
+    room = superimposed_wanted_;
+    room.velocity = velocity;
+  }
+  room = quick_enough(room);
+  const PlanResult result =
+      halts ? superimposed_.stop(room, job.abort_acceleration) : superimposed_.move_by(job.position, room);
+  return result == PlanResult::ok ? ErrorId::none : ErrorId::unspecified;
+}
+
+/// A motion that goes on without position control goes on from where the axis is.
+void Axis::take_position_control() noexcept {
+  if (position_controlled_) return;
+  const AxisPosition before = setpoint_.position;
+  set_position_control(true);
+  const double by = difference(setpoint_.position, before, modulo_).rounded();
+  single_.shift(by);
+  base_.position = advanced(base_.position, by, modulo_);
+}
+
+// ---- Room
+// -----------------------------------------------------------------------------------------------------
+
+/// Dynamic values for the distance of MC_MoveSuperimposed in this cycle. On a single-axis motion the sum
+/// keeps within the limits, and the base motion comes first; a synchronous motion is not limited by them.
+Dynamics Axis::superimposed_room() const noexcept {
+  Dynamics room = superimposed_wanted_;
+  room.velocity = std::min(room.velocity * data.Override.Velocity / 100.0, velocity_limit());
+  if (led()) return room;
+  const Dynamics left = left_by_base();
+  room.velocity = std::min(room.velocity, left.velocity);
+  room.acceleration = std::min(room.acceleration, left.acceleration);
+  room.deceleration = std::min(room.deceleration, left.deceleration);
+  if (room.jerk > 0.0) room.jerk = std::min(room.jerk, left.jerk);
+  const bool jerk_left = room.jerk > 0.0 || superimposed_wanted_.jerk <= 0.0;
+  if (!jerk_left) room.acceleration = room.deceleration = 0.0;
+  return room;
+}
+
+/// What the limits leave beside a base motion of the axis' own, from now until its end: as long as it changes
+/// its velocity, all but the dynamic values that it has. At a constant velocity it may have to change it
+/// again, and is left half of the limits, or what it was started with.
+Dynamics Axis::left_by_base() const noexcept {
+  Dynamics left = maximum_dynamics();
+  left.acceleration = left.deceleration = std::min(left.acceleration, left.deceleration);
+  double speed = std::abs(base_.velocity);
+  if (motion_ != Motion::single_axis || (single_.finished() && running_[kBase] == nullptr)) {
+    left.velocity = rest_of(left.velocity, speed);
+    return left;
+  }
+  const Dynamics& own = single_.dynamics();
+  const bool changes = !single_.finished();
+  const bool faster = base_.velocity * base_.acceleration > 0.0;  // until the acceleration has been run down
+  if (faster && own.jerk > 0.0) speed += base_.acceleration * base_.acceleration / (2.0 * own.jerk);
+  const auto share = [changes](double limit, double used) {
+    return changes ? rest_of(limit, used) : std::max(limit - used, 0.5 * limit);
+  };
+  left.velocity = rest_of(left.velocity, changes ? std::max(own.velocity, speed) : speed);
+  left.acceleration = share(left.acceleration, std::max(own.acceleration, own.deceleration));
+  left.deceleration = left.acceleration;
+  left.jerk = share(left.jerk, own.jerk);
+  return left;
+}
+
+/// The velocity limit counts more than the jerk: a present acceleration is run down before it is exceeded.
+Dynamics Axis::quick_enough(Dynamics room) noexcept {
+  const double a = superimposed_.acceleration();
+  const double towards = a < 0.0 ? -superimposed_.velocity() : superimposed_.velocity();
+  const double left = rest_of(led() ? velocity_limit() : left_by_base().velocity, towards);
+  const double most_jerk = data.DynamicLimits.MaxJerk;
+  if (room.jerk > 0.0 && a * a > 2.0 * room.jerk * left)
+    room.jerk = std::min(a * a / (2.0 * left), most_jerk);
+  superimposed_.cut_acceleration(std::sqrt(2.0 * most_jerk * left));
+  return room;
+}
+
+/// A base motion that is planned anew keeps to what the superimposed motion under way leaves.
+void Axis::leave_to_superimposed(Dynamics& dynamics) noexcept {
+  if (!superimposed_.planned() || led()) return;
+  const Dynamics whole = dynamics;
+  const Dynamics& used = superimposed_.dynamics();
+  const Dynamics most = maximum_dynamics();
+  dynamics.velocity = std::min(dynamics.velocity, rest_of(most.velocity, used.velocity));
+  const auto curb = [](double& value, double left) {
+    if (left > 0.0) value = std::min(value, left);
+  };
+  curb(dynamics.acceleration, most.acceleration - used.acceleration);
+  curb(dynamics.deceleration, most.deceleration - used.deceleration);
+  if (dynamics.jerk > 0.0 && used.jerk > 0.0) curb(dynamics.jerk, most.jerk - used.jerk);
+  base_curbed_ |= dynamics != whole;
+}
+
+// ---- One cycle
+// --------------------------------------------------------------------------------------------------
+
+/// The base motion goes on by itself; then what is superimposed is added.
+void Axis::step_superimposed() noexcept {
+  advance_superimposed();
+  setpoint_ = base_;
+  advancing_base_ = true;
+  step_base();
+  if (advancing_base_) add_superimposed();
+  if (!superimposed_.in_use()) return;
+  data.StatusPositioning.SuperimposedDistance = std::abs(superimposed_.value().rounded());
+  const Job* job = running_[kSuperimposed];
+  if (job != nullptr) {
+    const bool given = job->kind == JobKind::MC_MotionInSuperimposed;
+    const bool exceeded = given && std::abs(setpoint_.velocity) > data.DynamicLimits.MaxVelocity;
+    set_bit(data.StatusMotionIn.StatusWord, MotionInBit::MaxVelocityExceeded, exceeded);
+    return;
+  }
+  if (!superimposed_.finished()) return;
+  if (base_curbed_) planned_override_ = std::numeric_limits<double>::quiet_NaN();  // it may have all again
+  base_curbed_ = false;
+  const bool base_rests = motion_ == Motion::single_axis && running_[kBase] == nullptr && single_.finished();
+  if (!base_rests || simulating()) return;
+  absorb_superimposed();
+  single_.stand(setpoint_);
+}
+
+void Axis::advance_superimposed() noexcept {
+  Job* job = running_[kSuperimposed];
+  if (job != nullptr && job->kind == JobKind::MC_MotionInSuperimposed) return follow_given_superimposed(*job);
+  if (job != nullptr && job->kind == JobKind::MC_MoveSuperimposed) follow_room();
+  superimposed_.advance();
+  if (running_[kSuperimposed] != nullptr && superimposed_.finished())
+    end_job(kSuperimposed, JobPhase::done, ErrorId::none);
+}
+
+/// Override, limits and the base motion count at once.
+void Axis::follow_room() noexcept {
+  const Dynamics room = superimposed_room();
+  if (room == superimposed_room_) return;
+  superimposed_room_ = room;
+  if (superimposed_.make_room(quick_enough(room)) == PlanResult::ok) return;
+  end_job(kSuperimposed, JobPhase::failed, ErrorId::unspecified);
+  if (superimposed_.stop(maximum_dynamics(), true) != PlanResult::ok) superimposed_.rest();
+}
+
+/// MC_MotionInSuperimposed: the values of the last call. Without Enable they go to zero at once.
+void Axis::follow_given_superimposed(Job& job) noexcept {
+  if (job.input_error != ErrorId::none) {
+    end_job(kSuperimposed, JobPhase::failed, job.input_error);
+    superimposed_.cut_acceleration(maximum_dynamics().acceleration);
+    if (superimposed_.stop(maximum_dynamics(), true) != PlanResult::ok) superimposed_.rest();
+    return superimposed_.advance();
+  }
+  if (!job.hold) {
+    superimposed_.rest();
+    return end_job(kSuperimposed, JobPhase::done, ErrorId::none);
+  }
+  superimposed_.give(job.position, job.velocity, job.acceleration);
+}
+
+/// … function → + offset → + superimposed → setpoint
+void Axis::add_superimposed() noexcept {
+  base_ = setpoint_;
+  setpoint_ = with_superimposed(base_);
+  advancing_base_ = false;
+}
+
+Setpoint Axis::with_superimposed(const Setpoint& base) const noexcept {
+  return {advanced(base.position, superimposed_.value(), modulo_), base.velocity + superimposed_.velocity(),
+          base.acceleration + superimposed_.acceleration()};
+}
+
+/// Before any base motion begins anew: it takes over from what the axis does in all, and the superimposed
+/// part is one of the base motion from now on. Within a step, before the base motion has been advanced, that
+/// is the last setpoint.
+void Axis::absorb_superimposed() noexcept {
+  if (!superimposed_.in_use()) return;
+  if (advancing_base_) setpoint_ = last_setpoint_;
+  advancing_base_ = false;
+  end_job(kSuperimposed, JobPhase::aborted, ErrorId::none);
+  superimposed_.reset();
+  base_curbed_ = false;
+  data.StatusPositioning.SuperimposedDistance = 0.0;
+}
+
+void Axis::show_superimposed_command() noexcept {
+  const Job* job = running_[kSuperimposed];
+  const auto runs = [job](JobKind kind) { return job != nullptr && job->kind == kind; };
+  set_bit(data.StatusWord, StatusBit::MoveSuperimposedCommand, runs(JobKind::MC_MoveSuperimposed));
+  set_bit(data.StatusWord2, Status2Bit::MotionInSuperimposedCommand, runs(JobKind::MC_MotionInSuperimposed));
+  set_bit(data.StatusWord2, Status2Bit::HaltSuperimposedCommand, runs(JobKind::MC_HaltSuperimposed));
+  if (!runs(JobKind::MC_MotionInSuperimposed))
+    set_bit(data.StatusMotionIn.StatusWord, MotionInBit::MaxVelocityExceeded, false);
+}
+
+}  // namespace lockstep
