@@ -12,9 +12,8 @@ constexpr std::int64_t kMostDeadCycles = 254;         // of MC_Servo, as dead ti
 constexpr double kSecond = 1e9;                       // [ns]
 
 /// Published types that are not there yet.
-constexpr std::string_view kLaterTypes[] = {"TO_Cam",        "TO_Cam_10k",          "TO_CamTrack",
-                                            "TO_Kinematics", "TO_LeadingAxisProxy", "TO_OutputCam",
-                                            "TO_SpeedAxis"};
+constexpr std::string_view kLaterTypes[] = {"TO_CamTrack", "TO_Kinematics", "TO_LeadingAxisProxy",
+                                            "TO_OutputCam", "TO_SpeedAxis"};
 
 bool known(std::span<const std::string_view> words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -207,6 +206,9 @@ void load_object(const JsonValue& json, TechnologyObject& object, const Loading&
       return load_encoder(json, static_cast<ExternalEncoder&>(object), loading);
     case ObjectKind::TO_MeasuringInput:
       return load_measuring_input(json, static_cast<MeasuringInput&>(object), loading);
+    case ObjectKind::TO_Cam:
+    case ObjectKind::TO_Cam_10k:
+      return load_cam(json, static_cast<Cam&>(object), loading);
   }
 }
 

@@ -99,7 +99,9 @@ Json variable_schema(const Variable& variable) {
 
 /// A structure of the configuration. Elements of an array become definitions, which the elements refer to.
 Json structure_schema(const ConfigurationNode& structure, Json& definitions) {
+  constexpr std::size_t kListedElements = 100;  // of longer arrays an editor gets the kind of element only
   Json properties = Json::object();
+  Json others = Json::array();
   for (const auto& child : structure.children) {
     if (child->computed()) continue;
     const std::string name(child->name);
@@ -110,10 +112,15 @@ Json structure_schema(const ConfigurationNode& structure, Json& definitions) {
       continue;
     }
     definitions[name] = std::move(schema);
+    if (child->count > kListedElements) {
+      others.push_back(reference(name));
+      continue;
+    }
     for (std::size_t i = 1; i <= child->count; ++i)
       properties[name + "[" + std::to_string(i) + "]"] = reference(name);
   }
-  return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  const Json rest = others.empty() ? Json(false) : Json{{"anyOf", others}};
+  return {{"type", "object"}, {"properties", properties}, {"additionalProperties", rest}};
 }
 
 std::vector<std::string_view> block_names() {
@@ -195,15 +202,36 @@ Json objects_schema() {
                      {"limit_switches", limit_switches},
                      {"digital_inputs", array("switches that are tags", digital_input)}});
   const Json type = words("published type", words::kObjectTypes);
-  const Json config = {
-      {"anyOf", {reference("config"), reference("encoder_config"), reference("measuring_input_config")}}};
+  const Json config = {{"anyOf",
+                        {reference("config"), reference("encoder_config"),
+                         reference("measuring_input_config"), reference("cam_config")}}};
   const Json axis =
       object(keys::kObject, {{"type", type},
                              {"config", config},
                              {"drive", drive},
                              {"leading_values", array("axes that this one may follow", leading_value)}});
+  const Json number = {{"type", "number"}, {"minimum", -1e12}, {"maximum", 1e12}};
+  const auto coefficient = [&](std::string_view text) { return described(text, number); };
+  const Json segment = object(keys::kSegment, {{"xmin", coefficient("leading value at which it begins")},
+                                               {"xmax", coefficient("leading value at which it ends")},
+                                               {"a0", coefficient("coefficient of x^0")},
+                                               {"a1", coefficient("coefficient of x^1")},
+                                               {"a2", coefficient("coefficient of x^2")},
+                                               {"a3", coefficient("coefficient of x^3")},
+                                               {"a4", coefficient("coefficient of x^4")},
+                                               {"a5", coefficient("coefficient of x^5")},
+                                               {"a6", coefficient("coefficient of x^6")},
+                                               {"sineAmplitude", coefficient("amplitude of a sine")},
+                                               {"sinePeriod", coefficient("its angular frequency [rad/u]")},
+                                               {"sinePhase", coefficient("its phase [rad]")}});
+  const Json point = {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}};
+  const Json cam =
+      object(keys::kCam, {{"type", type},
+                          {"config", config},
+                          {"points", array("of a cam: pairs of leading value and following value", point)},
+                          {"segments", array("of a cam: stretches with a formula", segment)}});
   Json any = axis;
-  for (const Json& other : {encoder_schema(type, config), measuring_input_schema(type, config)})
+  for (const Json& other : {encoder_schema(type, config), measuring_input_schema(type, config), cam})
     any["properties"].update(other["properties"]);
   return map("name: technology object", any);
 }
@@ -369,6 +397,7 @@ std::string project_schema() {
   add_configuration("encoder_config", ObjectKind::TO_ExternalEncoder, "start values of an external encoder");
   add_configuration("measuring_input_config", ObjectKind::TO_MeasuringInput,
                     "start values of a measuring input");
+  add_configuration("cam_config", ObjectKind::TO_Cam_10k, "start values of the data block of a cam");
   definitions["call"] = call_schema();
   definitions["modbus_entry"] = modbus_entry_schema();
   schema["definitions"] = definitions;

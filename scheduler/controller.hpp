@@ -13,6 +13,7 @@
 #include "scheduler/program.hpp"
 #include "scheduler/trace_ring.hpp"
 #include "tech_objects/axis.hpp"
+#include "tech_objects/cam.hpp"
 #include "tech_objects/coupling_order.hpp"
 #include "tech_objects/external_encoder.hpp"
 #include "tech_objects/measuring_input.hpp"
@@ -80,11 +81,14 @@ class Controller {
   std::vector<Axis*> axes;                                 ///< those of them that are axes, in this order
   std::vector<ExternalEncoder*> encoders;                  ///< those that are encoders
   std::vector<MeasuringInput*> measuring_inputs;           ///< those that are measuring inputs
+  std::vector<Cam*> cams;                                  ///< those of them that are cams
   std::deque<Tag> tags;
   std::deque<Instance> instances;
   std::deque<Program> programs;
   std::vector<Stimulus> stimuli;
   bool apply_stimuli = false;
+  /// Whether another thread calls `interpolate_cams`; if not, a tick does it itself.
+  bool cams_interpolated_elsewhere = false;
   std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
 
@@ -103,6 +107,10 @@ class Controller {
   /// Leaves ticks out that the wall clock has passed: time goes on, motion does not. What was due in them is
   /// done in the next tick.
   void skip(std::int64_t ticks) noexcept;
+
+  /// Makes the curves that are wanted by MC_InterpolateCam; false if none is. Some milliseconds for 10,000
+  /// points. One thread at a time, while `tick` goes on in its own.
+  bool interpolate_cams() noexcept;
 
   /// Time of the next tick [ns]: its number times the servo cycle.
   std::int64_t now() const noexcept { return next_tick_ * clock.servo_cycle; }
@@ -141,6 +149,7 @@ class Controller {
   std::vector<Program*> schedule_;  // sorted by organization block, then priority
   std::vector<Axis*> driven_;       // axes with a drive, which MC_Servo serves
   CouplingOrder order_;
+  std::unique_ptr<CamInterpolator> interpolator_;  // for the largest cam; none without cams
   std::size_t next_stimulus_ = 0;
   std::int64_t next_tick_ = 0;
   std::int64_t last_time_ = -1;  // of the last executed tick [ns]; -1: none yet

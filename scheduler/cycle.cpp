@@ -48,6 +48,7 @@ void Controller::servo() noexcept {
 
 /// Encoders, which depend on no axis; then start_jobs → step (leading before following), guarded → publish.
 void Controller::interpolate() noexcept {
+  for (Cam* cam : cams) cam->step(cams_interpolated_elsewhere ? nullptr : interpolator_.get());
   bool changed = false;
   for (ExternalEncoder* encoder : encoders) {
     encoder->step();
@@ -72,6 +73,7 @@ void Controller::interpolate() noexcept {
     axis->publish();
     if (axis->data.ErrorDetail.Number != 0) ++counters_.alarms;
   }
+  for (Cam* cam : cams) cam->publish();
   ++counters_.interpolator_ticks;
 }
 

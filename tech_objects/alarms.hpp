@@ -35,17 +35,26 @@ enum class ErrorId : std::uint16_t {
   ratio_numerator = 0x8017,
   ratio_denominator = 0x8018,
   recursive_coupling = 0x8019,
+  master_offset = 0x8021,
+  slave_offset = 0x8022,
+  master_scaling = 0x8023,
+  slave_scaling = 0x8024,
   leading_distance = 0x8026,
+  application_mode = 0x8027,
   master_sync_position = 0x8034,
   slave_sync_position = 0x8035,
   sync_profile_reference = 0x8036,
   sensor = 0x8050,
   slave_position = 0x8037,
+  approach_leading_value = 0x8062,
+  no_leading_value = 0x8063,
+  no_following_value = 0x8064,
   phase_shift = 0x8070,
   not_position_controlled = 0x8071,
   no_synchronous_operation = 0x8075,
   simulated = 0x8076,
   no_gear = 0x8077,
+  no_cam = 0x8078,
   velocity_gear_active = 0x8079,
   offset = 0x8080,
   offset_distance = 0x8081,
@@ -53,16 +62,20 @@ enum class ErrorId : std::uint16_t {
   profile_reference = 0x8083,
   start_position = 0x8084,
   shifts_exclude = 0x808A,
+  no_camming = 0x808B,
   leading_value_reversed = 0x808C,
   homing_while_coupled = 0x80A1,
   measuring_range = 0x80A2,
   measuring_range_start = 0x80A5,
   measuring_range_end = 0x80A6,
   outside_measuring_range = 0x80A7,
+  phasing_in_time = 0x80A8,
   not_synchronous = 0x80A9,
   cam_empty = 0x80AA,
   cam_in_use = 0x80AB,
   cam_elements_wrong = 0x80AC,
+  outside_cam = 0x80AD,
+  cam_in_interpolation = 0x80E8,
   unspecified = 0x8FFF
 };
 
@@ -134,6 +147,7 @@ inline constexpr int kLeadingAxisNotPositionControlled = 603;
 inline constexpr int kSynchronizing = 608;
 inline constexpr int kPositionInvalid = 702;
 inline constexpr int kMeasuringRangePassed = 752;
+inline constexpr int kCamNotInterpolated = 612;
 inline constexpr int kInternal = 203;
 }  // namespace alarm
 

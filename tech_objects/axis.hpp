@@ -200,7 +200,8 @@ class Axis final : public LeadingObject {
   const LeadingValue* find_leading_value(const LeadingObject* master) const noexcept;
   bool override_running(JobClass new_job, Job& job) noexcept;
   void cancel_waiting_shift(Job& job) noexcept;
-  bool gear_runs_or_waits() const noexcept;
+  ErrorId check_cam(const Job& job) const noexcept;
+  bool runs_or_waits(bool cam) const noexcept;
   void install(Job& job) noexcept;
   void end_job(Slot slot, JobPhase phase, ErrorId error) noexcept;
   void end_all_jobs(JobPhase phase, ErrorId error) noexcept;
@@ -296,6 +297,8 @@ class Axis final : public LeadingObject {
   void step_synchronous() noexcept;
   void leave_synchronous() noexcept;
   void show_coupling(const Job& job, Motion motion) noexcept;
+  void clear_cam_status() noexcept;
+  void meet_cam_end() noexcept;
   void take_additive() noexcept;
   void begin_shift(Job& job) noexcept;
   void advance_shift(Slot slot) noexcept;
@@ -384,6 +387,7 @@ class Axis final : public LeadingObject {
 
   // axis_publish.cpp: the data block
   void publish_motion() noexcept;
+  void show_cam_use() const noexcept;
   void publish_awaited() noexcept;
   void publish_synchronous() noexcept;
   void publish_status() noexcept;

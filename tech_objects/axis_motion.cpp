@@ -32,8 +32,10 @@ double Axis::wanted_velocity(const Job& job) const noexcept {
     case JobKind::MC_GearIn:
     case JobKind::MC_GearInVelocity:
     case JobKind::MC_GearOut:
+    case JobKind::MC_CamOut:
       return velocity_limit();
     case JobKind::MC_GearInPos:
+    case JobKind::MC_CamIn:
     case JobKind::MC_PhasingAbsolute:
     case JobKind::MC_PhasingRelative:
       return job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity;
@@ -237,7 +239,9 @@ void Axis::follow_changes(Job& job) noexcept {
   const bool limits_changed =
       data.Override.Velocity != planned_override_ || velocity_limit() != planned_velocity_limit_;
   if (!inputs_changed && !limits_changed) return;
-  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || job.kind == JobKind::MC_GearOut) return;
+  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || job.kind == JobKind::MC_GearOut ||
+      job.kind == JobKind::MC_CamOut)
+    return;
   remember_limits();
   Dynamics dynamics = own_dynamics(job);
   if (advancing_base_) leave_to_superimposed(dynamics);
@@ -279,6 +283,7 @@ void Axis::watch_base_job(Job& job) noexcept {
     case JobKind::MC_MoveAbsolute:
     case JobKind::MC_MoveRelative:
     case JobKind::MC_GearOut:
+    case JobKind::MC_CamOut:
       watch_positioning();
       break;
     default:

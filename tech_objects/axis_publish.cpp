@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tech_objects/axis.hpp"
+#include "tech_objects/cam.hpp"
 
 namespace lockstep {
 namespace {
@@ -31,8 +32,17 @@ void Axis::publish() noexcept {
     publish_synchronous();
   else
     publish_awaited();
+  show_cam_use();
   publish_status();
   if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
+}
+
+/// A cam that is followed, simulated or waited for is in use.
+void Axis::show_cam_use() const noexcept {
+  if (led() || simulating())
+    if (Cam* const cam = synchronous_.cam()) cam->show_use();
+  if (running_[kWaiting] != nullptr && running_[kWaiting]->cam != nullptr)
+    running_[kWaiting]->cam->show_use();
 }
 
 void Axis::publish_motion() noexcept {
@@ -142,7 +152,7 @@ void Axis::publish_status() noexcept {
 
   Bits word2;
   word2.show(Status2Bit::StopCommand, locked_by_stop());
-  word2.show(Status2Bit::DesynchronizingCommand, kind == JobKind::MC_GearOut);
+  word2.show(Status2Bit::DesynchronizingCommand, kind == JobKind::MC_GearOut || kind == JobKind::MC_CamOut);
   word2.show(Status2Bit::PhasingCommandWaiting, in_phase(running_[kPhasing], JobPhase::waiting));
   word2.show(Status2Bit::OffsetCommand, in_phase(running_[kOffset], JobPhase::active));
   word2.show(Status2Bit::OffsetCommandWaiting, in_phase(running_[kOffset], JobPhase::waiting));

@@ -9,6 +9,7 @@
 
 namespace lockstep {
 
+class Cam;
 class LeadingObject;
 
 /// The instruction that a job comes from.
@@ -39,7 +40,8 @@ enum class JobKind : std::uint8_t {
   MC_CamOut,
   MC_MeasuringInput,
   MC_MeasuringInputCyclic,
-  MC_AbortMeasuringInput
+  MC_AbortMeasuringInput,
+  MC_InterpolateCam
 };
 
 /// When a job begins that finds another one running.
@@ -103,7 +105,13 @@ struct Job {
   LREAL slave_sync_position{};    ///< [u]
   LREAL master_start_distance{};  ///< MasterStartDistance, PhasingDistance, … [u] of the leading axis
   LREAL start_position{};         ///< StartPosition of the leading value [u]
-  BOOL update{};                  ///< MC_GearInVelocity: the ratio counts in every cycle
+  Cam* cam{};
+  LREAL master_offset{};  ///< of the cam [u] of the leading axis
+  LREAL slave_offset{};   ///< of the cam [u]
+  LREAL master_scaling = 1.0;
+  LREAL slave_scaling = 1.0;
+  DINT application_mode{};
+  BOOL update{};  ///< MC_GearInVelocity: the ratio counts in every cycle
 
   BOOL limited{};  ///< MC_MeasuringInput…: only from start_position to position
 
@@ -111,6 +119,8 @@ struct Job {
   MeasuredEdges measured;
   LREAL covered{};          ///< share of a shift made so far [u]
   LREAL mark_position{};    ///< MC_Home: position assigned to the homing mark [u]
+  UDINT ends{};             ///< ends of the cam reached so far
+  BOOL end_of_profile{};    ///< the job has ended at the end of its cam
   DoubleDouble shift_base;  ///< from which that share counts [u]
 
   bool ended() const noexcept { return phase >= JobPhase::done; }

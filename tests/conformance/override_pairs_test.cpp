@@ -138,6 +138,10 @@ constexpr Rejection kRejections[] = {
      },
      ErrorId::no_gear, "no gear to leave"},
     {[](const Pair& pair, const Situation& situation, OverrideEffect) {
+       return pair.new_job.block == "MC_CamOut" && !situation.cam;
+     },
+     ErrorId::no_cam, "no cam to leave"},
+    {[](const Pair& pair, const Situation& situation, OverrideEffect) {
        return is_shift(pair.new_job.block) && !situation.synchronous;
      },
      ErrorId::not_synchronous, "shifts need a synchronous axis"},
@@ -178,9 +182,9 @@ class Encounter {
   bool run(OverrideEffect effect, OverrideEffect effect_while_waiting) {
     const ErrorId error = expected_error(pair_, situation_, effect);
     const bool by_and_by = pair_.new_job.state == "active";
-    const double ahead = pair_.new_job.state == "waiting"      ? Stage::kFar
-                         : pair_.new_job.block == "MC_GearOut" ? situation_.before_gear_out
-                                                               : Stage::kSoon;
+    const double ahead = pair_.new_job.state == "waiting" ? Stage::kFar
+                         : leaves(pair_.new_job.block)    ? situation_.before_gear_out
+                                                          : Stage::kSoon;
     new_ = &stage_.start(pair_.new_job, ahead);
     if (pair_.new_job.block.starts_with("MC_MotionIn")) stage_.bench.allow_jumps(2);  // what is given counts
     stage_.bench.run(2);
@@ -223,7 +227,8 @@ class Encounter {
     }
     EXPECT_EQ(new_->error_id(), WORD{});
     const bool ended_at_once = pair_.new_job.mode == kEndPassiveHoming;
-    const bool nothing_to_leave = pair_.new_job.block == "MC_GearOut" && !situation_.moves_with_leading;
+    const bool nothing_to_leave = (pair_.new_job.block == "MC_GearOut" && !situation_.moves_with_leading) ||
+                                  (pair_.new_job.block == "MC_CamOut" && !situation_.moves_with_cam);
     const Fate expected = nothing_to_leave || ended_at_once     ? Fate::done
                           : pair_.new_job.state == "waiting"    ? Fate::waits
                           : fate == Fate::done && short_lived() ? Fate::done
