@@ -138,7 +138,9 @@ Json transition_schema() {
       .finish();
 }
 
-Json definitions() {
+}  // namespace
+
+Json cam_schema_definitions() {
   const Json coefficients =
       described("coefficients of x^0 to x^6; x is the leading value itself",
                 {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 1}, {"maxItems", 7}});
@@ -163,6 +165,8 @@ Json definitions() {
       {"segment", ObjectSchema().numbers<TO_Cam_Struct_SegmentData>(cam_fields::kSegment).finish()}};
 }
 
+namespace {
+
 Json checks_schema() {
   return ObjectSchema()
       .numbers<CamChecks>(cam_fields::kChecks)
@@ -182,17 +186,26 @@ std::vector<Key> list(const Key (&keys)[n]) {
 
 }  // namespace
 
-std::string cam_schema() {
+Json cam_definition_schema() {
   Json elements = Json::array();
   for (const std::string_view name : cam_words::kElements) elements.push_back(reference(name));
-  const Json interpolation =
-      object(list(keys::kCamInterpolation),
-             {{"mode", one_of("how gaps are closed; cubic if not given", cam_words::kModes)},
-              {"boundary", one_of("velocity: equal slopes at start and end", cam_words::kBoundaries)}});
   const Json optimization = object(
       list(keys::kCamOptimization),
       {{"continuity", one_of("of transitions that do not say it themselves", cam_words::kContinuities)},
        {"goal", one_of("of transitions that do not say it themselves", cam_words::kGoals)}});
+  return {{"elements",
+           array("elements, ascending, and transitions by a law between them", {{"anyOf", elements}})},
+          {"optimization", optimization},
+          {"points", points_schema("points of the data block, instead of elements")},
+          {"segments", array("segments of the data block, instead of elements", reference("segment"))}};
+}
+
+std::string cam_schema() {
+  const Json definition = cam_definition_schema();
+  const Json interpolation =
+      object(list(keys::kCamInterpolation),
+             {{"mode", one_of("how gaps are closed; cubic if not given", cam_words::kModes)},
+              {"boundary", one_of("velocity: equal slopes at start and end", cam_words::kBoundaries)}});
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Lockstep cam"}};
   schema.update(object(
       list(keys::kCamFile),
@@ -201,13 +214,12 @@ std::string cam_schema() {
        {"description", text("what it is for")},
        {"type", one_of("TO_Cam holds 1000 points, TO_Cam_10k 10000; both 50 segments", cam_words::kTypes)},
        {"interpolation", interpolation},
-       {"elements",
-        array("elements, ascending, and transitions by a law between them", {{"anyOf", elements}})},
-       {"optimization", optimization},
-       {"points", points_schema("points of the data block, instead of elements")},
-       {"segments", array("segments of the data block, instead of elements", reference("segment"))},
+       {"elements", definition["elements"]},
+       {"optimization", definition["optimization"]},
+       {"points", definition["points"]},
+       {"segments", definition["segments"]},
        {"checks", checks_schema()}}));
-  schema["definitions"] = definitions();
+  schema["definitions"] = cam_schema_definitions();
   return schema.dump(2) + "\n";
 }
 

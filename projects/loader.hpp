@@ -14,6 +14,8 @@ struct Loading {
   Problems& problems;
   /// The instance of each call of a function block, as far as its type is known.
   std::unordered_map<const JsonValue*, Instance*>& instances;
+  /// Of the project file, to which names of files are relative; empty: the current one.
+  std::string folder;
 
   Controller& controller() const { return *project.controller; }
   Names& names() const { return project.names; }

@@ -1,5 +1,7 @@
 #include "projects/project.hpp"
 
+#include <filesystem>
+
 #include "projects/loader.hpp"
 
 namespace lockstep {
@@ -77,7 +79,7 @@ void load_clock(const JsonValue& clock, const Loading& loading) {
       read_word(fields["overrun"], words::kOverrun, loading.problems).value_or(0) == 1;
 }
 
-LoadedProject load_project(std::string_view text) {
+LoadedProject load_project(std::string_view text, const std::string& folder) {
   LoadedProject result;
   const JsonDocument document(text);
   result.problems = document.problems();
@@ -86,7 +88,7 @@ LoadedProject load_project(std::string_view text) {
   project.controller = std::make_unique<Controller>();
   Problems problems;
   std::unordered_map<const JsonValue*, Instance*> instances;
-  load_root(document.root(), {project, problems, instances});
+  load_root(document.root(), {project, problems, instances, folder});
   const std::vector<Problem> found = problems.take_errors();
   result.problems.insert(result.problems.end(), found.begin(), found.end());
   result.warnings = problems.take_warnings();
@@ -97,7 +99,8 @@ LoadedProject load_project(std::string_view text) {
 }
 
 LoadedProject load_project_file(const std::string& path) {
-  return load_project(read_text_file(path, JsonDocument::kLongest));
+  return load_project(read_text_file(path, JsonDocument::kLongest),
+                      std::filesystem::path(path).parent_path().string());
 }
 
 }  // namespace lockstep

@@ -91,7 +91,8 @@ struct LoadedProject {
 
 /// Loads a project from its text. Never fails but through problems. Allocates; not for the thread of the
 /// cycle.
-LoadedProject load_project(std::string_view text);
+/// @param folder to which names of files in it are relative; empty: the current one
+LoadedProject load_project(std::string_view text, const std::string& folder = "");
 
 /// Loads a project from a file, of which it reads no more than `JsonDocument::kLongest` and a byte.
 /// @throws UnreadableFile

@@ -40,10 +40,8 @@ inline constexpr Key kEncoder[] = {{"model", kRequired}, {"follows"}, {"ratio"},
 inline constexpr Key kMeasuringInputObject[] = {
     {"type", kRequired}, {"config"}, {"assigned_to", kRequired}, {"marks"}};
 inline constexpr Key kMarks[] = {{"period", kRequired}, {"offset"}, {"width"}};
-inline constexpr Key kCam[] = {{"type", kRequired}, {"config"}, {"points"}, {"segments"}};
-inline constexpr Key kSegment[] = {
-    {"xmin", kRequired}, {"xmax", kRequired}, {"a0"},       {"a1"}, {"a2"}, {"a3"}, {"a4"}, {"a5"}, {"a6"},
-    {"sineAmplitude"},   {"sinePeriod"},      {"sinePhase"}};
+inline constexpr Key kCam[] = {{"type", kRequired}, {"config"},   {"elements"}, {"optimization"},
+                               {"points"},          {"segments"}, {"file"}};
 inline constexpr Key kDrive[] = {
     {"model", kRequired}, {"time_constant"}, {"dead_time"},     {"encoder_resolution"}, {"inverted"},
     {"start_position"},   {"zero_marks"},    {"reference_cam"}, {"limit_switches"},     {"digital_inputs"}};

@@ -9,6 +9,7 @@
 
 #include "fb/block.hpp"
 #include "hmi_bridge/modbus_serial.hpp"
+#include "projects/cam_schema.hpp"
 #include "projects/configuration_tree.hpp"
 #include "projects/project_keys.hpp"
 #include "tech_objects/technology_object.hpp"
@@ -210,26 +211,15 @@ Json objects_schema() {
                              {"config", config},
                              {"drive", drive},
                              {"leading_values", array("axes that this one may follow", leading_value)}});
-  const Json number = {{"type", "number"}, {"minimum", -1e12}, {"maximum", 1e12}};
-  const auto coefficient = [&](std::string_view text) { return described(text, number); };
-  const Json segment = object(keys::kSegment, {{"xmin", coefficient("leading value at which it begins")},
-                                               {"xmax", coefficient("leading value at which it ends")},
-                                               {"a0", coefficient("coefficient of x^0")},
-                                               {"a1", coefficient("coefficient of x^1")},
-                                               {"a2", coefficient("coefficient of x^2")},
-                                               {"a3", coefficient("coefficient of x^3")},
-                                               {"a4", coefficient("coefficient of x^4")},
-                                               {"a5", coefficient("coefficient of x^5")},
-                                               {"a6", coefficient("coefficient of x^6")},
-                                               {"sineAmplitude", coefficient("amplitude of a sine")},
-                                               {"sinePeriod", coefficient("its angular frequency [rad/u]")},
-                                               {"sinePhase", coefficient("its phase [rad]")}});
-  const Json point = {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}};
+  const Json definition = cam_definition_schema();
   const Json cam =
       object(keys::kCam, {{"type", type},
                           {"config", config},
-                          {"points", array("of a cam: pairs of leading value and following value", point)},
-                          {"segments", array("of a cam: stretches with a formula", segment)}});
+                          {"elements", definition["elements"]},
+                          {"optimization", definition["optimization"]},
+                          {"points", definition["points"]},
+                          {"segments", definition["segments"]},
+                          {"file", text("cam file beside the project, instead of what else defines a cam")}});
   Json any = axis;
   for (const Json& other : {encoder_schema(type, config), measuring_input_schema(type, config), cam})
     any["properties"].update(other["properties"]);
@@ -399,6 +389,7 @@ std::string project_schema() {
                     "start values of a measuring input");
   add_configuration("cam_config", ObjectKind::TO_Cam_10k, "start values of the data block of a cam");
   definitions["call"] = call_schema();
+  definitions.update(cam_schema_definitions());
   definitions["modbus_entry"] = modbus_entry_schema();
   schema["definitions"] = definitions;
   return schema.dump(2) + "\n";

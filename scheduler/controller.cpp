@@ -26,6 +26,7 @@ TechnologyObject& Controller::add_object(ObjectKind kind, std::string name) {
       break;
     case ObjectKind::TO_MeasuringInput:
       measuring_inputs.push_back(add<MeasuringInput>(std::move(name), number));
+      break;
     case ObjectKind::TO_Cam:
     case ObjectKind::TO_Cam_10k:
       objects.push_back(std::make_unique<Cam>(kind, std::move(name), number));

@@ -36,6 +36,10 @@ class Cam final : public TechnologyObject {
   void define_point(std::size_t index, const TO_Cam_Struct_PointData& point) noexcept;
   void define_segment(std::size_t index, const TO_Cam_Struct_SegmentData& segment) noexcept;
   bool has_elements() const noexcept;
+  const TO_Cam_Struct_InterpolationSettings& interpolation() const noexcept { return *block_.settings; }
+  void set_interpolation(const TO_Cam_Struct_InterpolationSettings& settings) noexcept {
+    *block_.settings = settings;
+  }
   /// Interpolates the definition at once.
   ErrorId interpolate(CamInterpolator& interpolator) noexcept;
 

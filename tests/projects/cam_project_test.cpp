@@ -115,6 +115,21 @@ TEST(CamProject, ReportsEverythingThatIsWrongWithACam) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
 }
 
+TEST(CamProject, TakesElementsWithTransitionsByALaw) {
+  EXPECT_EQ(problems(R"({ "type": "TO_Cam", "elements": [
+    { "type": "line", "start": 0, "end": 60, "start_value": 0, "end_value": 0 },
+    { "type": "transition", "method": "law", "law": "modified sine" },
+    { "type": "line", "start": 160, "end": 360, "start_value": 50, "end_value": 50 } ] })"),
+            "");
+  EXPECT_NE(problems(R"({ "type": "TO_Cam", "elements": [ { "type": "circle" } ] })").find("/elements/0"),
+            std::string::npos);
+}
+
+TEST(CamProject, TellsAFileThatIsNotThere) {
+  EXPECT_NE(problems(R"({ "type": "TO_Cam", "file": "no/such.cam.json" })").find("/file: cannot be read"),
+            std::string::npos);
+}
+
 TEST(CamProject, ReportsPointsThatMakeNoCurveAndTooMany) {
   EXPECT_NE(problems(R"({ "type": "TO_Cam", "points": [ [1.0, 2.0] ] })").find("make no curve"),
             std::string::npos);

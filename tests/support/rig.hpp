@@ -18,9 +18,9 @@ struct Continuity {
   bool velocity =
       true;  ///< no step of the position beyond the velocity, none of the velocity beyond the acceleration
   bool acceleration = true;           ///< no step of the acceleration beyond the jerk
-  bool homing = false;                ///< the position may step in the tick in which HomingDone rises
   double highest_acceleration = 1e5;  ///< [u/s²]
   double highest_jerk = 5e6;          ///< [u/s³]
+  bool homing = false;                ///< the position may step in the tick in which HomingDone rises
 };
 
 /// Builds a controller, calls blocks in the order in which they were made, once per tick after the
