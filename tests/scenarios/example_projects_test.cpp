@@ -258,13 +258,16 @@ TEST(CrossCutter, HitsEveryMarkWhateverTheSpeedAndMissesThemWithoutCorrection) {
       if (++cuts > 2) largest = std::max(largest, std::abs(marks - std::round(marks)) * 300.4);
     }
     EXPECT_GT(cuts, 50);
-    if (correct)
+    if (correct) {
       EXPECT_LT(largest, 1e-3);
-    else
+    } else {
       EXPECT_GT(largest, 10.0);
+    }
     // Behind the first mark each one is 0.4 mm further on.
     const std::size_t last = table.rows - 1;
-    if (correct) EXPECT_NEAR(table["error"][last], -0.4, 1e-9);
+    if (correct) {
+      EXPECT_NEAR(table["error"][last], -0.4, 1e-9);
+    }
   }
 }
 
