@@ -26,6 +26,8 @@ void add_check_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
 void add_describe_command(CLI::App& app, Action& action);
 void add_tags_command(CLI::App& app, Action& action);
+void add_read_command(CLI::App& app, Action& action);
+void add_write_command(CLI::App& app, Action& action);
 void add_plot_command(CLI::App& app, Action& action);
 void add_monitor_command(CLI::App& app, Action& action);
 void add_cam_command(CLI::App& app, Action& action);

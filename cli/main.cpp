@@ -21,6 +21,8 @@ int main(int argc, char** argv) {
   add_run_command(app, action);
   add_describe_command(app, action);
   add_tags_command(app, action);
+  add_read_command(app, action);
+  add_write_command(app, action);
   add_plot_command(app, action);
   add_monitor_command(app, action);
   add_cam_command(app, action);

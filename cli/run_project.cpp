@@ -12,6 +12,7 @@
 #include "hmi_bridge/csv_trace.hpp"
 #include "hmi_bridge/lcm_log.hpp"
 #include "hmi_bridge/lcm_publisher.hpp"
+#include "hmi_bridge/modbus_client.hpp"
 #include "hmi_bridge/modbus_server.hpp"
 #include "hmi_bridge/trace_recorder.hpp"
 #include "scheduler/real_time.hpp"
@@ -59,14 +60,18 @@ class Surroundings {
     choose_signals();
     start_trace();
     start_modbus();
+    start_clients();
   }
 
   const std::vector<NamedSignal>& signals() const { return signals_; }
   TraceRing* ring() { return ring_.get(); }
 
-  /// Ends server and recorder and tells what is missing.
+  /// Ends server, clients and recorder and tells what is missing.
   void stop() {
     if (server_) server_->stop();
+    if (server_) tell_refused_clients();
+    for (const auto& client : clients_) client->stop();
+    for (const auto& client : clients_) tell_failures(*client);
     if (!recorder_) return;
     recorder_->stop();
     for (const std::string& loss : recorder_->losses()) tell("warning: " + loss);
@@ -142,24 +147,87 @@ class Surroundings {
     recorder_ = std::make_unique<TraceRecorder>(*ring_, std::move(columns), std::move(sinks));
   }
 
+  /// What is served where: as the project says, or at the one place that the command line names.
+  std::vector<ModbusService> modbus_services() const {
+    const ModbusConfig& modbus = project_.modbus;
+    std::vector<ModbusService> services;
+    for (std::size_t i = 0; i < modbus.servers.size(); ++i)
+      services.push_back({modbus.servers[i], modbus.units_of(i)});
+    if (options_.modbus.empty()) return services;
+    std::string problem;
+    const std::optional<Endpoint> endpoint = parse_endpoint(options_.modbus, problem);
+    if (!endpoint) throw CouldNotStart("--modbus: " + problem);
+    if (services.empty()) services.push_back({ModbusServerOptions{}, modbus.units_of(0)});
+    services.erase(services.begin() + 1, services.end());
+    services[0].options.listen = {*endpoint};
+    services[0].options.serial.reset();
+    return services;
+  }
+
   void start_modbus() {
     const bool asked = !options_.modbus.empty();
-    const bool wanted = asked || (!options_.simulate && !options_.no_modbus && project_.modbus.listen);
+    const bool wanted =
+        asked || (!options_.simulate && !options_.no_modbus && !project_.modbus.servers.empty());
     if (!wanted) return;
-    std::string problem;
-    const std::optional<Endpoint> endpoint =
-        asked ? parse_endpoint(options_.modbus, problem) : project_.modbus.listen;
-    if (!endpoint) throw CouldNotStart("--modbus: " + problem);
     std::vector<Signal> places;
     for (const NamedSignal& signal : project_.modbus.signals) places.push_back(signal.signal);
+    std::vector<ModbusService> services = modbus_services();
     image_ = std::make_unique<ProcessImage>(std::move(places));
     project_.controller->images.push_back(image_.get());
-    ModbusServerOptions server_options;
-    server_options.host = endpoint->host;
-    server_options.port = endpoint->port;
-    server_ = std::make_unique<ModbusServer>(server_options, *project_.modbus.map, *image_);
+    ModbusIdentity identity;
+    identity.revision = LOCKSTEP_VERSION;
+    identity.application = project_.name;
+    server_ = std::make_unique<ModbusServer>(std::move(services), *image_, identity);
     if (const std::string error = server_->start(); !error.empty()) throw CouldNotStart("Modbus: " + error);
-    tell(fmt::format("Modbus server on {}:{}", endpoint->host, server_->port()));
+    for (const Endpoint& place : server_->places()) tell("Modbus server on " + to_string(place));
+    if (asked) return;
+    for (const ModbusServerOptions& server : project_.modbus.servers)
+      if (server.serial)
+        tell(fmt::format("Modbus server on {}, unit {}", server.serial->device, server.serial_unit));
+  }
+
+  /// Foreign devices have no place in a simulation.
+  void start_clients() {
+    if (options_.simulate || options_.no_modbus) return;
+    for (const ModbusClientConfig& client : project_.modbus.clients) {
+      std::vector<Signal> places;
+      for (const NamedSignal& signal : client.signals) places.push_back(signal.signal);
+      client_images_.push_back(std::make_unique<ProcessImage>(std::move(places)));
+      project_.controller->images.push_back(client_images_.back().get());
+      clients_.push_back(std::make_unique<ModbusClient>(client.options, *client_images_.back()));
+    }
+    for (const auto& client : clients_) client->start();
+  }
+
+  static void tell_failures(const ModbusClient& client) {
+    const ModbusClientCounters& counters = client.counters();
+    const auto warn = [&](const std::atomic<std::uint64_t>& count, std::string_view text) {
+      if (count != 0)
+        tell(
+            fmt::format("warning: Modbus client of {}: {} {}", client.options().place(), count.load(), text));
+    };
+    warn(counters.unreachable, "attempts to connect failed");
+    warn(counters.failed, "requests without a good answer");
+    warn(counters.refused, "requests refused with an exception");
+    warn(counters.bad_values, "values read that their tags cannot hold");
+    warn(counters.faults, "internal faults survived");
+  }
+
+  /// Clients that were turned away: somebody may be missing, or somebody may have tried.
+  void tell_refused_clients() const {
+    const ModbusCounters& counters = server_->counters();
+    const auto warn = [](const std::atomic<std::uint64_t>& count, std::string_view text) {
+      if (count != 0) tell(fmt::format("warning: Modbus: {} {}", count.load(), text));
+    };
+    warn(counters.not_allowed, "connections refused: not from a network in 'allow'");
+    warn(counters.refused, "connections refused: too many clients");
+    warn(counters.displaced, "silent clients lost their place to new ones");
+    warn(counters.malformed, "connections closed: what came was not Modbus");
+    warn(counters.stalled, "connections closed: a request not ended or an answer not taken");
+    warn(counters.throttled, "requests held back: more than 'max_requests_per_second'");
+    warn(counters.bad_frames, "frames on serial lines dropped: wrong check or length");
+    warn(counters.broken_lines, "times a serial line broke");
+    warn(counters.faults, "internal faults survived");
   }
 
   Project& project_;
@@ -169,6 +237,8 @@ class Surroundings {
   std::unique_ptr<TraceRecorder> recorder_;
   std::unique_ptr<ProcessImage> image_;
   std::unique_ptr<ModbusServer> server_;
+  std::vector<std::unique_ptr<ProcessImage>> client_images_;
+  std::vector<std::unique_ptr<ModbusClient>> clients_;
 };
 
 /// Virtual time: as fast as the machine can; waits for the disk, never for the clock.

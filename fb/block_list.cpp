@@ -1,12 +1,16 @@
 // The one list of function blocks: a new block is its file pair, its test and one line here.
 #include "fb/bistable.hpp"
 #include "fb/block.hpp"
+#include "fb/cam_in.hpp"
+#include "fb/cam_out.hpp"
+#include "fb/cam_value.hpp"
 #include "fb/counters.hpp"
 #include "fb/edge.hpp"
 #include "fb/gear_in.hpp"
 #include "fb/gear_in_velocity.hpp"
 #include "fb/gear_out.hpp"
 #include "fb/home.hpp"
+#include "fb/interpolate_cam.hpp"
 #include "fb/jog.hpp"
 #include "fb/leading_value.hpp"
 #include "fb/measuring_input.hpp"
@@ -46,12 +50,17 @@ constexpr BlockType kTypes[] = {
     block_type<MC_PhasingAbsolute>(),
     block_type<MC_OffsetRelative>(),
     block_type<MC_OffsetAbsolute>(),
+    block_type<MC_CamIn>(),
     block_type<MC_SynchronizedMotionSimulation>(),
     block_type<MC_GearOut>(),
+    block_type<MC_CamOut>(),
     block_type<MC_LeadingValueAdditive>(),
     block_type<MC_MeasuringInput>(),
     block_type<MC_MeasuringInputCyclic>(),
     block_type<MC_AbortMeasuringInput>(),
+    block_type<MC_InterpolateCam>(),
+    block_type<MC_GetCamLeadingValue>(),
+    block_type<MC_GetCamFollowingValue>(),
     block_type<R_TRIG>(),
     block_type<F_TRIG>(),
     block_type<SR>(),

@@ -48,7 +48,7 @@ void ExecuteBlock::hand_over(Job& job) noexcept {
 ErrorId ExecuteBlock::check_inputs() const noexcept {
   for (const Pin& pin : pin_table())
     if (pin.error != ErrorId::none && !pin.allows(*this)) return pin.error;
-  return target() == nullptr ? ErrorId::no_technology_object : ErrorId::none;
+  return wired() ? ErrorId::none : ErrorId::no_technology_object;
 }
 
 Job& ExecuteBlock::free_job() noexcept {

@@ -32,6 +32,8 @@ class ExecuteBlock : public Block {
   virtual void request(Job& job) const noexcept = 0;
   /// The object that gets the job; nullptr if the pin is not wired.
   virtual TechnologyObject* target() const noexcept = 0;
+  /// Whether the technology object that gets the job is wired.
+  virtual bool wired() const noexcept { return target() != nullptr; }
   /// Carries the job out or hands it over. The default submits it to the target.
   virtual void hand_over(Job& job) noexcept;
   /// Shows the phase at outputs of the block's own.

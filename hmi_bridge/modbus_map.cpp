@@ -75,6 +75,7 @@ std::uint64_t wire_bits(Type wire, Type signal, Value value) noexcept {
     default:
       break;
   }
+  if (wire == signal) return value.u;  // it fits as it is
   if (is_bit_string(wire)) return value.u & highest(wire);
   return saturated(value, signal, lowest(wire), highest(wire));
 }
@@ -100,12 +101,38 @@ std::optional<Value> wire_value(Type wire, std::uint64_t bits) noexcept {
     const int unused = 64 - 16 * modbus_registers(wire);
     value.i = static_cast<std::int64_t>(bits << unused) >> unused;
   }
-  return fits(value, wire, wire) ? std::optional(value) : std::nullopt;
+  const bool fills_its_registers = size_of(wire) >= 2;
+  return fills_its_registers || fits(value, wire, wire) ? std::optional(value) : std::nullopt;
 }
 
 bool holds(Type signal, Type wire, Value value) noexcept {
   if (signal == Type::REAL) return std::isfinite(static_cast<float>(value.r));
-  return is_real(signal) || fits(value, wire, signal);
+  if (signal == Type::LREAL) return std::isfinite(value.r);
+  if (wire == signal) return true;
+  return fits(value, wire, signal);
+}
+
+std::uint16_t swapped(std::uint16_t word) noexcept {
+  return static_cast<std::uint16_t>(word << 8 | word >> 8);
+}
+
+/// The integer that stands for a scaled value: the nearest that the type on the wire holds.
+std::uint64_t scaled_bits(const ModbusEntry& entry, Value value) noexcept {
+  const double number = std::round((value.r - entry.offset) / entry.scale);
+  if (std::isnan(number)) return 0;
+  const std::int64_t low = lowest(entry.type);
+  const std::uint64_t high = highest(entry.type);
+  if (number <= static_cast<double>(low)) return static_cast<std::uint64_t>(low);
+  if (number >= static_cast<double>(high)) return high;
+  return number < 0.0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(number))
+                      : static_cast<std::uint64_t>(number);
+}
+
+Value unscaled(const ModbusEntry& entry, Value integer) noexcept {
+  const double number =
+      is_signed(entry.type) ? static_cast<double>(integer.i) : static_cast<double>(integer.u);
+  integer.r = number * entry.scale + entry.offset;
+  return integer;
 }
 
 std::string allowed(std::span<const Type> types) {
@@ -157,12 +184,15 @@ std::span<const Type> modbus_types(Type signal) noexcept {
 }
 
 ModbusWords encode(const ModbusEntry& entry, Type signal, Value value) noexcept {
-  const std::uint64_t bits = wire_bits(entry.type, signal, value);
+  if (entry.bit >= 0) return {value.u != 0 ? modbus_bit(entry) : std::uint16_t{0}};
+  const std::uint64_t bits =
+      entry.is_scaled ? scaled_bits(entry, value) : wire_bits(entry.type, signal, value);
   const int count = modbus_registers(entry.type);
   ModbusWords words{};
   for (int i = 0; i < count; ++i) {
     const int place = entry.word_order == WordOrder::big ? count - 1 - i : i;
-    words[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(bits >> (16 * place));
+    const auto word = static_cast<std::uint16_t>(bits >> (16 * place));
+    words[static_cast<std::size_t>(i)] = entry.byte_order == ByteOrder::big ? word : swapped(word);
   }
   return words;
 }
@@ -171,16 +201,20 @@ std::optional<Value> decode(const ModbusEntry& entry, Type signal,
                             std::span<const std::uint16_t> words) noexcept {
   const std::size_t count = words.size();
   std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    bits = bits << 16 | words[entry.word_order == WordOrder::big ? i : count - 1 - i];
-  const std::optional<Value> value = wire_value(entry.type, bits);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint16_t word = words[entry.word_order == WordOrder::big ? i : count - 1 - i];
+    bits = bits << 16 | (entry.byte_order == ByteOrder::big ? word : swapped(word));
+  }
+  if (entry.bit >= 0) bits = bits >> entry.bit & 1u;
+  std::optional<Value> value = wire_value(entry.type, bits);
+  if (value && entry.is_scaled) value = unscaled(entry, *value);
   if (!value || !holds(signal, entry.type, *value)) return std::nullopt;
   if (!entry.range.unbounded() && !entry.range.allows(as_double(*value, signal))) return std::nullopt;
   return value;
 }
 
 ModbusMap::ModbusMap(std::vector<ModbusEntry> entries, std::span<const Type> signals)
-    : entries_(std::move(entries)), signals_(signals.begin(), signals.end()) {
+    : entries_(std::move(entries)), signals_(signals.begin(), signals.end()), next_(entries_.size(), kNone) {
   for (std::size_t i = 0; i < entries_.size(); ++i)
     if (check(i)) place(i);
 }
@@ -192,9 +226,10 @@ void ModbusMap::report(std::size_t index, std::string_view key, std::string text
 bool ModbusMap::check(std::size_t index) {
   const ModbusEntry& entry = entries_[index];
   const std::size_t before = problems_.size();
-  if (entry.signal >= signals_.size())
+  if (entry.counter == nullptr && entry.signal >= signals_.size())
     report(index, "tag", "there is no signal with number " + std::to_string(entry.signal));
-  else if (check_type(index) && entry.address + std::uint64_t{modbus_span(entry)} > kAddresses)
+  else if (check_type(index) && check_shape(index) &&
+           entry.address + std::uint64_t{modbus_span(entry)} > kAddresses)
     report(index, "address",
            std::to_string(modbus_span(entry)) + " addresses from " + std::to_string(entry.address) +
                " on go beyond 65535");
@@ -207,8 +242,9 @@ bool ModbusMap::check(std::size_t index) {
 
 bool ModbusMap::check_type(std::size_t index) {
   const ModbusEntry& entry = entries_[index];
-  const Type signal = signals_[entry.signal];
-  const std::span<const Type> types = modbus_types(signal);
+  const Type signal = signal_type(entry);
+  const std::span<const Type> types =
+      entry.is_scaled ? std::span<const Type>(kIntegers) : modbus_types(signal);
   if (types.empty()) {
     report(index, "tag", "a reference to a tag or a technology object has no value that Modbus could carry");
     return false;
@@ -221,17 +257,37 @@ bool ModbusMap::check_type(std::size_t index) {
   }
   if (std::find(types.begin(), types.end(), entry.type) == types.end()) {
     report(index, "type",
-           "a value of type " + std::string(type_name(signal)) + " cannot go as " +
-               std::string(type_name(entry.type)) + "; allowed: " + allowed(types));
+           "a " + std::string(entry.is_scaled ? "scaled " : "") + "value of type " +
+               std::string(type_name(signal)) + " cannot go as " + std::string(type_name(entry.type)) +
+               "; allowed: " + allowed(types));
     return false;
   }
   return true;
+}
+
+/// Bits in registers and scales.
+bool ModbusMap::check_shape(std::size_t index) {
+  const ModbusEntry& entry = entries_[index];
+  const Type signal = signal_type(entry);
+  const std::size_t before = problems_.size();
+  if (entry.bit >= 0 && (is_bit_table(entry.table) || signal != Type::BOOL || entry.bit > 15))
+    report(index, "bit",
+           "only a BOOL in a register has a bit there; allowed: from 0 to 15, in the tables input_register, "
+           "holding_register");
+  if (entry.is_scaled && !is_real(signal))
+    report(index, "scale",
+           "a value of type " + std::string(type_name(signal)) +
+               " cannot be scaled; allowed: REAL, LREAL, as an integer on the wire");
+  return problems_.size() == before;
 }
 
 void ModbusMap::place(std::size_t index) {
   const ModbusEntry& entry = entries_[index];
   std::vector<std::uint32_t>& at = at_[static_cast<std::size_t>(entry.table)];
   const std::uint32_t end = entry.address + modbus_span(entry);
+  if (entry.bit >= 0 && entry.address < at.size() && at[entry.address] != kNone &&
+      entries_[at[entry.address]].bit >= 0)
+    return chain(index, at[entry.address]);
   for (std::uint32_t address = entry.address; address < end; ++address)
     if (address < at.size() && at[address] != kNone)
       return report(index, "address",
@@ -240,6 +296,25 @@ void ModbusMap::place(std::size_t index) {
                         std::to_string(at[address]) + " of the map already");
   if (at.size() < end) at.resize(end, kNone);
   std::fill(at.begin() + entry.address, at.begin() + end, static_cast<std::uint32_t>(index));
+}
+
+/// Adds a bit to those that share its register.
+void ModbusMap::chain(std::size_t index, std::uint32_t first) {
+  for (std::uint32_t other = first;; other = next_[other]) {
+    if (modbus_bit(entries_[other]) == modbus_bit(entries_[index]))
+      return report(index, "bit",
+                    "bit " + std::to_string(entries_[index].bit) + " of address " +
+                        std::to_string(entries_[index].address) + " is taken by entry " +
+                        std::to_string(other) + " of the map already");
+    if (next_[other] != kNone) continue;
+    next_[other] = static_cast<std::uint32_t>(index);
+    return;
+  }
+}
+
+const ModbusEntry* ModbusMap::next(const ModbusEntry& entry) const noexcept {
+  const std::uint32_t index = next_[static_cast<std::size_t>(&entry - entries_.data())];
+  return index == kNone ? nullptr : &entries_[index];
 }
 
 const ModbusEntry* ModbusMap::find(ModbusTable table, std::uint32_t address) const noexcept {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/modbus_counters.hpp"
 #include "tech_objects/declaration.hpp"
 #include "tech_objects/types.hpp"
 
@@ -20,6 +21,9 @@ namespace lockstep {
 enum class ModbusTable : std::uint8_t { coil, discrete_input, input_register, holding_register };
 /// Which register of a value comes first: its most (big) or its least (little) significant one.
 enum class WordOrder : std::uint8_t { big, little };
+/// Which byte of a register comes first. Modbus itself has the more significant one first; devices that
+/// think otherwise are common.
+enum class ByteOrder : std::uint8_t { big, little };
 
 std::string_view modbus_table_name(ModbusTable table) noexcept;
 std::optional<ModbusTable> modbus_table(std::string_view name) noexcept;
@@ -45,6 +49,12 @@ struct ModbusEntry {
   WordOrder word_order = WordOrder::big;
   bool writable = false;
   Range range = kAny;  ///< what may be written, besides what the signal's type holds; TIME in [s]
+  ByteOrder byte_order = ByteOrder::big;
+  std::int8_t bit = -1;  ///< 0…15: the BOOL is this bit of the register; -1: the value fills its registers
+  bool is_scaled = false;           ///< the registers hold an integer, value = integer · scale + offset
+  double scale = 1.0;               ///< finite, not 0
+  double offset = 0.0;              ///< finite
+  ModbusCounter counter = nullptr;  ///< shows this counter of the server, an ULINT, instead of a signal
 };
 
 /// The registers of a value, in the order of the wire; what the type does not need is 0.
@@ -52,7 +62,8 @@ using ModbusWords = std::array<std::uint16_t, 4>;
 
 /// A value as it goes to a client. A number that the type on the wire cannot hold becomes the nearest one
 /// that it can; a real number is rounded (beyond the range of REAL: infinity); of a bit string the low bits
-/// count.
+/// count. A scaled number is rounded to the nearest integer, half away from zero; NaN becomes 0. The register
+/// of a bit has its other bits 0.
 ModbusWords encode(const ModbusEntry& entry, Type signal, Value value) noexcept;
 
 /// A value as it comes from a client; none if the signal cannot hold it or the entry's range does not allow
@@ -78,24 +89,46 @@ class ModbusMap {
   const std::vector<ModbusMapProblem>& problems() const noexcept { return problems_; }
   const std::vector<ModbusEntry>& entries() const noexcept { return entries_; }
 
-  /// The entry that covers an address, or nullptr.
+  /// The entry that covers an address, or nullptr; of several bits in a register the first one.
   const ModbusEntry* find(ModbusTable table, std::uint32_t address) const noexcept;
+  /// The next bit in the same register, or nullptr.
+  const ModbusEntry* next(const ModbusEntry& entry) const noexcept;
   /// Type of the values of the signal of an entry.
-  Type signal_type(const ModbusEntry& entry) const noexcept { return signals_[entry.signal]; }
+  Type signal_type(const ModbusEntry& entry) const noexcept {
+    return entry.counter == nullptr ? signals_[entry.signal] : Type::ULINT;
+  }
 
  private:
   static constexpr std::uint32_t kNone = ~0U;
 
   bool check(std::size_t index);
   bool check_type(std::size_t index);
+  bool check_shape(std::size_t index);
   void place(std::size_t index);
+  void chain(std::size_t index, std::uint32_t first);
   void report(std::size_t index, std::string_view key, std::string text);
 
   std::vector<ModbusEntry> entries_;
   std::vector<Type> signals_;
   std::vector<ModbusMapProblem> problems_;
   std::array<std::vector<std::uint32_t>, 4> at_;  ///< per table and address: index of the entry or kNone
+  std::vector<std::uint32_t> next_;               ///< per entry: the next bit in its register or kNone
 };
+
+/// The maps of one place where clients ask: which one answers depends on the unit id. The maps outlive it.
+struct ModbusUnits {
+  /// One map for every unit id.
+  ModbusUnits(const ModbusMap& map) noexcept : every(&map) {}
+  const ModbusMap& of(std::uint8_t unit) const noexcept { return own[unit] == nullptr ? *every : *own[unit]; }
+
+  const ModbusMap* every;                   ///< of the unit ids that have none of their own
+  std::array<const ModbusMap*, 256> own{};  ///< by unit id; nullptr: none
+};
+
+/// Bit of a register's number in which an entry with `bit` stands.
+constexpr std::uint16_t modbus_bit(const ModbusEntry& entry) noexcept {
+  return static_cast<std::uint16_t>(1u << (entry.byte_order == ByteOrder::big ? entry.bit : entry.bit ^ 8));
+}
 
 /// Number of addresses that an entry covers.
 std::uint32_t modbus_span(const ModbusEntry& entry) noexcept;

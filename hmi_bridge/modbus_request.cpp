@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kLengthEnd = 6;  ///< end of the MBAP header's length; what it counts begins here
 constexpr std::uint32_t kAddresses = 65536;
+constexpr std::uint8_t kIdentify = 43;
 
 std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) noexcept {
   return static_cast<std::uint16_t>(bytes[offset] << 8 | bytes[offset + 1]);
@@ -62,18 +63,26 @@ struct ModbusResponder::Library {
   int pair[2] = {-1, -1};
 };
 
-ModbusResponder::ModbusResponder(const ModbusMap& map, ProcessImage& image)
-    : map_(map), image_(image), library_(std::make_unique<Library>()) {
+ModbusResponder::ModbusResponder(const ModbusUnits& units, ProcessImage& image, ModbusIdentity identity,
+                                 const ModbusCounters* counters)
+    : units_(units),
+      map_(units.every),
+      image_(image),
+      identity_(std::move(identity)),
+      counters_(counters),
+      library_(std::make_unique<Library>()) {
   batch_.reserve(MODBUS_MAX_WRITE_BITS);
 }
 
 ModbusResponder::~ModbusResponder() = default;
 
 std::span<const std::uint8_t> ModbusResponder::answer(std::span<const std::uint8_t> frame) {
+  const std::uint8_t function = frame[kModbusHeader];
+  if (function == kIdentify) return answer_identity(frame);
   image_.refresh();  // the one instant that this request sees
+  map_ = &units_.of(frame[kModbusHeader - 1]);
   exception_ = perform(frame.subspan(kModbusHeader));
   Library& library = *library_;
-  const std::uint8_t function = frame[kModbusHeader];
   if (exception_ != ModbusException::none) {
     modbus_reply_exception(library.context, frame.data(), static_cast<unsigned>(exception_));
   } else if (function == MODBUS_FC_WRITE_AND_READ_REGISTERS) {
@@ -92,6 +101,23 @@ std::span<const std::uint8_t> ModbusResponder::answer(std::span<const std::uint8
   reply_[kModbusHeader] =
       exception_ == ModbusException::none ? function : static_cast<std::uint8_t>(function | 0x80);
   return std::span(reply_).first(static_cast<std::size_t>(size));
+}
+
+/// The library knows no identification.
+std::span<const std::uint8_t> ModbusResponder::answer_identity(std::span<const std::uint8_t> frame) {
+  const std::span<std::uint8_t> pdu = std::span(reply_).subspan(kModbusHeader);
+  const ModbusIdentification found = identify(identity_, frame.subspan(kModbusHeader), pdu);
+  exception_ = static_cast<ModbusException>(found.exception);
+  std::size_t size = found.size;
+  if (exception_ != ModbusException::none) {
+    pdu[0] = kIdentify | 0x80;
+    pdu[1] = found.exception;
+    size = 2;
+  }
+  std::copy_n(frame.begin(), kModbusHeader, reply_.begin());
+  reply_[kLengthEnd - 2] = static_cast<std::uint8_t>((size + 1) >> 8);
+  reply_[kLengthEnd - 1] = static_cast<std::uint8_t>(size + 1);
+  return std::span(reply_).first(kModbusHeader + size);
 }
 
 ModbusException ModbusResponder::perform(Bytes pdu) {
@@ -138,7 +164,7 @@ ModbusException ModbusResponder::perform(Bytes pdu) {
 ModbusException ModbusResponder::check_read(ModbusTable table, std::uint32_t address,
                                             std::uint32_t count) const {
   for (std::uint32_t i = 0; i < count; ++i)
-    if (map_.find(table, address + i) == nullptr) return ModbusException::illegal_data_address;
+    if (map_->find(table, address + i) == nullptr) return ModbusException::illegal_data_address;
   return ModbusException::none;
 }
 
@@ -146,17 +172,29 @@ ModbusException ModbusResponder::check_write(ModbusTable table, std::uint32_t ad
                                              std::uint32_t count) const {
   const std::uint32_t end = address + count;
   while (address < end) {
-    const ModbusEntry* entry = map_.find(table, address);
-    if (entry == nullptr || !entry->writable || entry->address != address) {
-      return ModbusException::illegal_data_address;
-    }
+    const ModbusEntry* const entry = map_->find(table, address);
+    if (entry == nullptr || entry->address != address) return ModbusException::illegal_data_address;
+    for (const ModbusEntry* part = entry; part != nullptr; part = map_->next(*part))
+      if (!part->writable) return ModbusException::illegal_data_address;
     address += modbus_span(*entry);
   }
   return address == end ? ModbusException::none : ModbusException::illegal_data_address;
 }
 
+Value ModbusResponder::value_of(const ModbusEntry& entry) const {
+  if (entry.counter == nullptr) return image_.value(entry.signal);
+  Value value{};
+  if (counters_ != nullptr) value.u = (counters_->*entry.counter).load(std::memory_order_relaxed);
+  return value;
+}
+
+/// The registers of an entry; of a bit, with the other bits of its register.
 ModbusWords ModbusResponder::words_of(const ModbusEntry& entry) const {
-  return encode(entry, map_.signal_type(entry), image_.value(entry.signal));
+  ModbusWords words = encode(entry, map_->signal_type(entry), value_of(entry));
+  if (entry.bit >= 0)
+    for (const ModbusEntry* part = map_->next(entry); part != nullptr; part = map_->next(*part))
+      words[0] |= encode(*part, Type::BOOL, value_of(*part))[0];
+  return words;
 }
 
 ModbusException ModbusResponder::read_bits(ModbusTable table, Bytes pdu) {
@@ -167,23 +205,23 @@ ModbusException ModbusResponder::read_bits(ModbusTable table, Bytes pdu) {
   modbus_mapping_t& mapping = *library_->mapping;
   std::uint8_t* bits = table == ModbusTable::coil ? mapping.tab_bits : mapping.tab_input_bits;
   for (std::uint32_t i = address; i < address + count; ++i)
-    bits[i] = image_.value(map_.find(table, i)->signal).u != 0 ? 1 : 0;
+    bits[i] = image_.value(map_->find(table, i)->signal).u != 0 ? 1 : 0;
   return ModbusException::none;
 }
 
 ModbusException ModbusResponder::read_registers(ModbusTable table, std::uint32_t address,
                                                 std::uint32_t count) {
   if (count < 1 || count > MODBUS_MAX_READ_REGISTERS) return ModbusException::illegal_data_value;
-  if (const auto bad = check_read(table, address, count); bad != ModbusException::none) return bad;
   modbus_mapping_t& mapping = *library_->mapping;
   std::uint16_t* registers =
       table == ModbusTable::holding_register ? mapping.tab_registers : mapping.tab_input_registers;
   // A value that begins before the range or ends behind it gives the part that was asked for.
   for (std::uint32_t i = address; i < address + count;) {
-    const ModbusEntry& entry = *map_.find(table, i);
-    const ModbusWords words = words_of(entry);
-    const std::uint32_t end = std::min(address + count, entry.address + modbus_span(entry));
-    for (; i < end; ++i) registers[i] = words[i - entry.address];
+    const ModbusEntry* const entry = map_->find(table, i);
+    if (entry == nullptr) return ModbusException::illegal_data_address;
+    const ModbusWords words = words_of(*entry);
+    const std::uint32_t end = std::min(address + count, entry->address + modbus_span(*entry));
+    for (; i < end; ++i) registers[i] = words[i - entry->address];
   }
   return ModbusException::none;
 }
@@ -193,7 +231,7 @@ ModbusException ModbusResponder::write_bits(std::uint32_t address, std::uint32_t
     return bad;
   batch_.clear();
   for (std::uint32_t i = 0; i < count; ++i) {
-    const ModbusEntry& entry = *map_.find(ModbusTable::coil, address + i);
+    const ModbusEntry& entry = *map_->find(ModbusTable::coil, address + i);
     Value value{};
     value.u = bits[i / 8] >> (i % 8) & 1u;
     if (!entry.range.allows(as_double(value, Type::BOOL))) return ModbusException::illegal_data_value;
@@ -207,16 +245,34 @@ ModbusException ModbusResponder::stage_registers(std::uint32_t address, Bytes wo
   const auto end = address + static_cast<std::uint32_t>(words.size() / 2);
   batch_.clear();
   for (std::uint32_t i = address; i < end;) {
-    const ModbusEntry& entry = *map_.find(ModbusTable::holding_register, i);
+    const ModbusEntry& entry = *map_->find(ModbusTable::holding_register, i);
+    if (entry.bit >= 0) {
+      if (const auto bad = stage_bits(entry, word_at(words, 2 * (i - address))); bad != ModbusException::none)
+        return bad;
+      ++i;
+      continue;
+    }
     ModbusWords value_words{};
     const std::uint32_t span = modbus_span(entry);
     for (std::uint32_t k = 0; k < span; ++k) value_words[k] = word_at(words, 2 * (i - address + k));
-    const auto value = decode(entry, map_.signal_type(entry), std::span(value_words).first(span));
+    const auto value = decode(entry, map_->signal_type(entry), std::span(value_words).first(span));
     if (!value) return ModbusException::illegal_data_value;
     batch_.push_back({entry.signal, *value});
     i += span;
   }
   return ModbusException::none;
+}
+
+/// All bits of a register that have an entry; the others hold nothing, so that they can only be 0.
+ModbusException ModbusResponder::stage_bits(const ModbusEntry& first, std::uint16_t word) {
+  for (const ModbusEntry* part = &first; part != nullptr; part = map_->next(*part)) {
+    Value value{};
+    value.u = (word & modbus_bit(*part)) != 0 ? 1 : 0;
+    if (!part->range.allows(as_double(value, Type::BOOL))) return ModbusException::illegal_data_value;
+    batch_.push_back({part->signal, value});
+    word &= static_cast<std::uint16_t>(~modbus_bit(*part));
+  }
+  return word == 0 ? ModbusException::none : ModbusException::illegal_data_value;
 }
 
 ModbusException ModbusResponder::write_registers(std::uint32_t address, Bytes words) {
@@ -229,10 +285,12 @@ ModbusException ModbusResponder::write_registers(std::uint32_t address, Bytes wo
 
 ModbusException ModbusResponder::mask_register(std::uint32_t address, std::uint16_t and_mask,
                                                std::uint16_t or_mask) {
+  const ModbusEntry* const first = map_->find(ModbusTable::holding_register, address);
+  if (first != nullptr && first->bit >= 0) return mask_bits(*first, and_mask, or_mask);
   if (const auto bad = check_write(ModbusTable::holding_register, address, 1); bad != ModbusException::none)
     return bad;
-  const ModbusEntry& entry = *map_.find(ModbusTable::holding_register, address);
-  const Type type = map_.signal_type(entry);
+  const ModbusEntry& entry = *map_->find(ModbusTable::holding_register, address);
+  const Type type = map_->signal_type(entry);
   const std::uint16_t before = words_of(entry)[0];
   const std::uint16_t after[] = {
       static_cast<std::uint16_t>((before & and_mask) | (or_mask & static_cast<std::uint16_t>(~and_mask)))};
@@ -241,8 +299,30 @@ ModbusException ModbusResponder::mask_register(std::uint32_t address, std::uint1
   batch_.assign(1, {entry.signal, *value});
   // Bits that the request leaves alone stay what they are when the write enters, not what they were when it
   // was asked for: a program may own them. Where the register is not the signal itself, the whole value goes.
-  if (size_of(type) == 2) batch_[0].mask = static_cast<std::uint16_t>(~and_mask);
+  if (size_of(type) == 2 && !entry.is_scaled) {
+    const auto named = static_cast<std::uint16_t>(~and_mask);
+    batch_[0].mask = entry.byte_order == ByteOrder::big ? named : std::uint16_t(named << 8 | named >> 8);
+  }
   image_.post(batch_);
+  return ModbusException::none;
+}
+
+/// Of a register of bits only those that the request names have to be writable.
+ModbusException ModbusResponder::mask_bits(const ModbusEntry& first, std::uint16_t and_mask,
+                                           std::uint16_t or_mask) {
+  auto named = static_cast<std::uint16_t>(~and_mask);
+  batch_.clear();
+  for (const ModbusEntry* part = &first; part != nullptr; part = map_->next(*part)) {
+    if ((named & modbus_bit(*part)) == 0) continue;
+    named &= static_cast<std::uint16_t>(~modbus_bit(*part));
+    if (!part->writable) return ModbusException::illegal_data_address;
+    Value value{};
+    value.u = (or_mask & modbus_bit(*part)) != 0 ? 1 : 0;
+    if (!part->range.allows(as_double(value, Type::BOOL))) return ModbusException::illegal_data_value;
+    batch_.push_back({part->signal, value});
+  }
+  if ((named & or_mask) != 0) return ModbusException::illegal_data_value;
+  if (!batch_.empty()) image_.post(batch_);
   return ModbusException::none;
 }
 

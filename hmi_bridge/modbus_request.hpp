@@ -1,4 +1,5 @@
-/// Answers one Modbus TCP request from the process image: no sockets of clients, no threads.
+/// Answers one Modbus request from the process image: no sockets of clients, no threads. A request has the
+/// header of Modbus TCP, also one that came over a serial line.
 /// @source Modbus application protocol V1.1b3, 6; Modbus messaging on TCP/IP V1.0b, 3.1.3
 #pragma once
 
@@ -10,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "hmi_bridge/modbus_counters.hpp"
+#include "hmi_bridge/modbus_identity.hpp"
 #include "hmi_bridge/modbus_map.hpp"
 #include "scheduler/process_image.hpp"
 
@@ -35,9 +38,11 @@ enum class ModbusException : std::uint8_t {
 /// image.
 class ModbusResponder {
  public:
-  /// Both outlive it. The map's signals are those of the image.
+  /// The maps, the image and the counters outlive it. The signals of the maps are those of the image.
+  /// @param counters of the server, for the entries that show them; nullptr: they show 0
   /// @throws std::runtime_error if the system has no memory or no socket left
-  ModbusResponder(const ModbusMap& map, ProcessImage& image);
+  ModbusResponder(const ModbusUnits& units, ProcessImage& image, ModbusIdentity identity = {},
+                  const ModbusCounters* counters = nullptr);
   ~ModbusResponder();
   ModbusResponder(const ModbusResponder&) = delete;
   ModbusResponder& operator=(const ModbusResponder&) = delete;
@@ -59,15 +64,22 @@ class ModbusResponder {
   ModbusException write_bits(std::uint32_t address, std::uint32_t count, Bytes bits);
   ModbusException write_registers(std::uint32_t address, Bytes words);
   ModbusException mask_register(std::uint32_t address, std::uint16_t and_mask, std::uint16_t or_mask);
+  ModbusException mask_bits(const ModbusEntry& first, std::uint16_t and_mask, std::uint16_t or_mask);
   ModbusException write_and_read_registers(Bytes pdu);
+  std::span<const std::uint8_t> answer_identity(std::span<const std::uint8_t> frame);
 
   ModbusException check_read(ModbusTable table, std::uint32_t address, std::uint32_t count) const;
   ModbusException check_write(ModbusTable table, std::uint32_t address, std::uint32_t count) const;
   ModbusException stage_registers(std::uint32_t address, Bytes words);
+  ModbusException stage_bits(const ModbusEntry& first, std::uint16_t word);
+  Value value_of(const ModbusEntry& entry) const;
   ModbusWords words_of(const ModbusEntry& entry) const;
 
-  const ModbusMap& map_;
+  const ModbusUnits units_;
+  const ModbusMap* map_;  ///< of the request at hand
   ProcessImage& image_;
+  const ModbusIdentity identity_;
+  const ModbusCounters* counters_;
   std::unique_ptr<Library> library_;
   std::vector<SignalWrite> batch_;
   std::array<std::uint8_t, kModbusFrame> reply_{};

@@ -35,6 +35,8 @@ void load_objects(const JsonValue& objects, const Loading& loading);
 /// What an encoder measures; what a measuring input sees, and of what it measures the position.
 void load_encoder(const JsonValue& json, ExternalEncoder& encoder, const Loading& loading);
 void load_measuring_input(const JsonValue& json, MeasuringInput& input, const Loading& loading);
+/// Defines a cam and interpolates it.
+void load_cam(const JsonValue& json, Cam& cam, const Loading& loading);
 /// Sets the start values of one object.
 void load_configuration(const JsonValue& config, TechnologyObject& object, const Loading& loading);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -10,7 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/modbus_client.hpp"
 #include "hmi_bridge/modbus_map.hpp"
+#include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/network.hpp"
 #include "projects/names.hpp"
 #include "projects/problem.hpp"
 #include "projects/text_file.hpp"
@@ -25,14 +29,7 @@ struct NamedSignal {
   Unit unit = Unit::kNone;
 };
 
-/// Where a server listens.
-struct Endpoint {
-  std::string host;
-  std::uint16_t port = 0;  ///< 0: any that is free
-  bool operator==(const Endpoint&) const = default;
-};
-
-/// Reads "HOST:PORT": an IPv4 address or a name, and a port from 0 to 65535.
+/// Reads "HOST:PORT": an IPv4 address, an IPv6 address in brackets or a name, and a port from 0 to 65535.
 /// @return none if it is something else, with what is wrong and what is allowed in `problem`
 std::optional<Endpoint> parse_endpoint(std::string_view text, std::string& problem);
 
@@ -41,10 +38,30 @@ std::optional<Endpoint> parse_endpoint(std::string_view text, std::string& probl
 /// `memq://`.
 std::string lcm_url_problem(std::string_view url);
 
+/// A map, and for whom it is.
+struct ModbusMapConfig {
+  std::optional<std::size_t> server;  ///< index of the server whose own it is; none: of those without any
+  std::optional<std::uint8_t> unit;   ///< none: of all unit ids that have none of their own
+  ModbusMap map;
+};
+
+/// A client with the signals of its image.
+struct ModbusClientConfig {
+  ModbusClientOptions options;
+  std::vector<NamedSignal> signals;
+};
+
 struct ModbusConfig {
-  std::optional<Endpoint> listen;    ///< none: the project has no server
-  std::vector<NamedSignal> signals;  ///< of the process image, one for each entry of the map
-  std::optional<ModbusMap> map;      ///< always there in a loaded project
+  std::vector<ModbusServerOptions> servers;  ///< none: the project has no server
+  std::vector<NamedSignal> signals;          ///< of the process image, to which the entries of the maps refer
+  std::vector<ModbusClientConfig> clients;
+  std::deque<ModbusMapConfig> maps;  ///< the first one is the project's map of all unit ids
+
+  /// The maps that a server serves; this outlives them.
+  ModbusUnits units_of(std::size_t server) const;
+  /// The signal of an entry under its name; a diagnostic is called "diagnostic.NAME", and one of the server
+  /// itself has no place in memory.
+  NamedSignal signal_of(const ModbusEntry& entry) const;
 };
 
 struct TraceConfig {

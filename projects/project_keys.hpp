@@ -40,8 +40,16 @@ inline constexpr Key kEncoder[] = {{"model", kRequired}, {"follows"}, {"ratio"},
 inline constexpr Key kMeasuringInputObject[] = {
     {"type", kRequired}, {"config"}, {"assigned_to", kRequired}, {"marks"}};
 inline constexpr Key kMarks[] = {{"period", kRequired}, {"offset"}, {"width"}};
+inline constexpr Key kCam[] = {{"type", kRequired}, {"config"}, {"points"}, {"segments"}};
+inline constexpr Key kSegment[] = {
+    {"xmin", kRequired}, {"xmax", kRequired}, {"a0"},       {"a1"}, {"a2"}, {"a3"}, {"a4"}, {"a5"}, {"a6"},
+    {"sineAmplitude"},   {"sinePeriod"},      {"sinePhase"}};
 inline constexpr Key kDrive[] = {
-    {"model", kRequired}, {"time_constant"}, {"dead_time"}, {"encoder_resolution"}};
+    {"model", kRequired}, {"time_constant"}, {"dead_time"},     {"encoder_resolution"}, {"inverted"},
+    {"start_position"},   {"zero_marks"},    {"reference_cam"}, {"limit_switches"},     {"digital_inputs"}};
+inline constexpr Key kZeroMarks[] = {{"position", kRequired}, {"period"}};
+inline constexpr Key kLimitSwitches[] = {{"min"}, {"max"}};
+inline constexpr Key kDigitalInput[] = {{"tag", kRequired}, {"range", kRequired}};
 inline constexpr Key kLeadingValue[] = {{"to", kRequired}, {"coupling"}};
 inline constexpr Key kTag[] = {{"type", kRequired}, {"init"}, {"retain"}, {"comment"}};
 inline constexpr Key kProgram[] = {
@@ -51,10 +59,35 @@ inline constexpr Key kSet[] = {{"set", kRequired}, {"to", kRequired}};
 inline constexpr Key kSetStart[] = {{"set_start", kRequired}, {"to", kRequired}};
 inline constexpr Key kIf[] = {{"if", kRequired}, {"then", kRequired}, {"else"}};
 inline constexpr Key kStimulus[] = {{"at", kRequired}, {"set", kRequired}};
-inline constexpr Key kModbus[] = {{"server"}, {"map"}};
-inline constexpr Key kServer[] = {{"listen", kRequired}};
-inline constexpr Key kMapEntry[] = {{"tag", kRequired}, {"table", kRequired}, {"address", kRequired},
-                                    {"type"},           {"word_order"},       {"access"}};
+inline constexpr Key kModbus[] = {{"server"}, {"map"}, {"units"}, {"clients"}};
+inline constexpr Key kServer[] = {{"listen"},       {"serial"},      {"unit"},
+                                  {"allow"},        {"max_clients"}, {"max_requests_per_second"},
+                                  {"idle_timeout"}, {"map"},         {"units"}};
+inline constexpr Key kSerial[] = {{"device", kRequired}, {"baud"}, {"parity"}, {"stop_bits"}, {"silence"}};
+inline constexpr Key kClient[] = {{"connect"}, {"serial"}, {"timeout"}, {"devices", kRequired}};
+inline constexpr Key kDevice[] = {
+    {"name", kRequired}, {"unit"}, {"cycle", kRequired}, {"quality"}, {"age"}, {"read"}, {"write"}};
+inline constexpr Key kDeviceEntry[] = {{"tag", kRequired},
+                                       {"table", kRequired},
+                                       {"address", kRequired},
+                                       {"type"},
+                                       {"word_order"},
+                                       {"byte_order"},
+                                       {"bit"},
+                                       {"scale"},
+                                       {"offset"}};
+inline constexpr Key kUnit[] = {{"unit", kRequired}, {"map", kRequired}};
+inline constexpr Key kMapEntry[] = {{"tag"},
+                                    {"diagnostic"},
+                                    {"table", kRequired},
+                                    {"address", kRequired},
+                                    {"type"},
+                                    {"word_order"},
+                                    {"byte_order"},
+                                    {"bit"},
+                                    {"scale"},
+                                    {"offset"},
+                                    {"access"}};
 inline constexpr Key kTrace[] = {{"lcm"}, {"signals"}};
 inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}};
 
@@ -79,6 +112,7 @@ inline constexpr std::string_view kObs[] = {"MC_PreServo", "MC_PostServo", "MC_P
 inline constexpr std::string_view kTables[] = {"coil", "discrete_input", "input_register",
                                                "holding_register"};
 inline constexpr std::string_view kWordOrders[] = {"big", "little"};
+inline constexpr std::string_view kParities[] = {"none", "even", "odd"};
 inline constexpr std::string_view kAccesses[] = {"read", "write"};
 
 }  // namespace words

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fb/block.hpp"
+#include "hmi_bridge/modbus_serial.hpp"
 #include "projects/configuration_tree.hpp"
 #include "projects/project_keys.hpp"
 #include "tech_objects/technology_object.hpp"
@@ -98,7 +99,9 @@ Json variable_schema(const Variable& variable) {
 
 /// A structure of the configuration. Elements of an array become definitions, which the elements refer to.
 Json structure_schema(const ConfigurationNode& structure, Json& definitions) {
+  constexpr std::size_t kListedElements = 100;  // of longer arrays an editor gets the kind of element only
   Json properties = Json::object();
+  Json others = Json::array();
   for (const auto& child : structure.children) {
     if (child->computed()) continue;
     const std::string name(child->name);
@@ -109,10 +112,15 @@ Json structure_schema(const ConfigurationNode& structure, Json& definitions) {
       continue;
     }
     definitions[name] = std::move(schema);
+    if (child->count > kListedElements) {
+      others.push_back(reference(name));
+      continue;
+    }
     for (std::size_t i = 1; i <= child->count; ++i)
       properties[name + "[" + std::to_string(i) + "]"] = reference(name);
   }
-  return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  const Json rest = others.empty() ? Json(false) : Json{{"anyOf", others}};
+  return {{"type", "object"}, {"properties", properties}, {"additionalProperties", rest}};
 }
 
 std::vector<std::string_view> block_names() {
@@ -162,22 +170,68 @@ Json objects_schema() {
   const Json leading_value =
       object(keys::kLeadingValue, {{"to", text("name of the leading axis")},
                                    {"coupling", words("how its value is taken", words::kCouplings)}});
-  const Json drive =
-      object(keys::kDrive, {{"model", words("kind of the drive", words::kModels)},
-                            {"time_constant", duration("lag of the velocity loop")},
-                            {"dead_time", duration("dead time of the velocity loop")},
-                            {"encoder_resolution", described("increment of the encoder [u]; 0: none",
-                                                             {{"type", "number"}, {"minimum", 0}})}});
+  const auto place = [](std::string_view description) {
+    return described(description, {{"type", "number"}, {"minimum", -1e12}, {"maximum", 1e12}});
+  };
+  const auto range = [&](std::string_view description) {
+    Json schema = array(description, place("[u]"));
+    schema["minItems"] = schema["maxItems"] = 2;
+    return schema;
+  };
+  const Json zero_marks = object(
+      keys::kZeroMarks, {{"position", place("of a zero mark [u]")},
+                         {"period", described("after which the next one follows [u]; 0: there is one only",
+                                              {{"type", "number"}, {"minimum", 0}, {"maximum", 1e12}})}});
+  const Json limit_switches =
+      object(keys::kLimitSwitches, {{"min", place("from here downwards the negative one is pressed [u]")},
+                                    {"max", place("from here upwards the positive one is pressed [u]")}});
+  const Json digital_input =
+      object(keys::kDigitalInput, {{"tag", text("BOOL tag that the machine writes in every servo cycle")},
+                                   {"range", range("positions in which it is TRUE")}});
+  const Json drive = object(
+      keys::kDrive, {{"model", words("kind of the drive", words::kModels)},
+                     {"time_constant", duration("lag of the velocity loop")},
+                     {"dead_time", duration("dead time of the velocity loop")},
+                     {"encoder_resolution", described("increment of the encoder [u]; 0: none",
+                                                      {{"type", "number"}, {"minimum", 0}})},
+                     {"inverted", described("motor and encoder turn the other way round than the machine",
+                                            {{"type", "boolean"}})},
+                     {"start_position", place("of the machine, on its own scale [u]")},
+                     {"zero_marks", zero_marks},
+                     {"reference_cam", range("positions in which the reference cam is active")},
+                     {"limit_switches", limit_switches},
+                     {"digital_inputs", array("switches that are tags", digital_input)}});
   const Json type = words("published type", words::kObjectTypes);
-  const Json config = {
-      {"anyOf", {reference("config"), reference("encoder_config"), reference("measuring_input_config")}}};
+  const Json config = {{"anyOf",
+                        {reference("config"), reference("encoder_config"),
+                         reference("measuring_input_config"), reference("cam_config")}}};
   const Json axis =
       object(keys::kObject, {{"type", type},
                              {"config", config},
                              {"drive", drive},
                              {"leading_values", array("axes that this one may follow", leading_value)}});
+  const Json number = {{"type", "number"}, {"minimum", -1e12}, {"maximum", 1e12}};
+  const auto coefficient = [&](std::string_view text) { return described(text, number); };
+  const Json segment = object(keys::kSegment, {{"xmin", coefficient("leading value at which it begins")},
+                                               {"xmax", coefficient("leading value at which it ends")},
+                                               {"a0", coefficient("coefficient of x^0")},
+                                               {"a1", coefficient("coefficient of x^1")},
+                                               {"a2", coefficient("coefficient of x^2")},
+                                               {"a3", coefficient("coefficient of x^3")},
+                                               {"a4", coefficient("coefficient of x^4")},
+                                               {"a5", coefficient("coefficient of x^5")},
+                                               {"a6", coefficient("coefficient of x^6")},
+                                               {"sineAmplitude", coefficient("amplitude of a sine")},
+                                               {"sinePeriod", coefficient("its angular frequency [rad/u]")},
+                                               {"sinePhase", coefficient("its phase [rad]")}});
+  const Json point = {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}};
+  const Json cam =
+      object(keys::kCam, {{"type", type},
+                          {"config", config},
+                          {"points", array("of a cam: pairs of leading value and following value", point)},
+                          {"segments", array("of a cam: stretches with a formula", segment)}});
   Json any = axis;
-  for (const Json& other : {encoder_schema(type, config), measuring_input_schema(type, config)})
+  for (const Json& other : {encoder_schema(type, config), measuring_input_schema(type, config), cam})
     any["properties"].update(other["properties"]);
   return map("name: technology object", any);
 }
@@ -216,17 +270,86 @@ Json programs_schema() {
   return array("programs", program);
 }
 
+/// A text or an array of texts, an object or an array of objects.
+Json one_or_many(Json one, std::string_view description) {
+  Json schema = described(description, one);
+  schema["items"] = one;
+  schema["type"] = {one["type"], "array"};
+  return schema;
+}
+
+Json modbus_entry_schema() {
+  return object(keys::kMapEntry,
+                {{"tag", text("signal: tag, instance.Pin or Object.Variable")},
+                 {"diagnostic",
+                  text("in place of a tag: a number of the run, such as ticks, overruns, alarms, refused")},
+                 {"table", words("table of Modbus", words::kTables)},
+                 {"address", integer("zero-based address of the first register or of the bit", 0, 65535)},
+                 {"type", words("type on the wire; it may narrow that of the signal", tag_type_names())},
+                 {"word_order", words("big: most significant register first", words::kWordOrders)},
+                 {"byte_order", words("big: more significant byte of a register first", words::kWordOrders)},
+                 {"bit", integer("a BOOL as this bit of a register, which several may share", 0, 15)},
+                 {"scale", described("of a REAL or LREAL as an integer: value = integer * scale + offset",
+                                     {{"type", "number"}})},
+                 {"offset", described("see scale", {{"type", "number"}})},
+                 {"access", words("whether a client may write", words::kAccesses)}});
+}
+
+Json modbus_client_schema(const Json& serial) {
+  const Json served = modbus_entry_schema();
+  const Json& shapes = served["properties"];
+  const Json entry = object(keys::kDeviceEntry, {{"tag", text("tag or variable")},
+                                                 {"table", shapes["table"]},
+                                                 {"address", shapes["address"]},
+                                                 {"type", shapes["type"]},
+                                                 {"word_order", shapes["word_order"]},
+                                                 {"byte_order", shapes["byte_order"]},
+                                                 {"bit", shapes["bit"]},
+                                                 {"scale", shapes["scale"]},
+                                                 {"offset", shapes["offset"]}});
+  const Json device =
+      object(keys::kDevice, {{"name", text("for messages")},
+                             {"unit", integer("unit id (1)", 0, 255)},
+                             {"cycle", duration("how often it is read and written")},
+                             {"quality", text("BOOL tag: the last cycle went well")},
+                             {"age", text("TIME tag: since the last cycle that went well")},
+                             {"read", array("from the device into tags", entry)},
+                             {"write", array("from tags and variables to the device", entry)}});
+  return object(keys::kClient, {{"connect", text("HOST:PORT of the device or gateway")},
+                                {"serial", described("RTU over a serial line, in place of connect", serial)},
+                                {"timeout", duration("for connecting and for each answer (500ms)")},
+                                {"devices", array("devices behind this connection", device)}});
+}
+
 Json modbus_schema() {
-  const Json entry =
-      object(keys::kMapEntry,
-             {{"tag", text("signal: tag, instance.Pin or Object.Variable")},
-              {"table", words("table of Modbus", words::kTables)},
-              {"address", integer("zero-based address of the first register or of the bit", 0, 65535)},
-              {"type", words("type on the wire; it may narrow that of the signal", tag_type_names())},
-              {"word_order", words("big: most significant register first", words::kWordOrders)},
-              {"access", words("whether a client may write", words::kAccesses)}});
-  const Json server = object(keys::kServer, {{"listen", text("HOST:PORT, such as 127.0.0.1:1502")}});
-  return object(keys::kModbus, {{"server", server}, {"map", array("which signal stands where", entry)}});
+  const Json unit =
+      object(keys::kUnit, {{"unit", integer("unit id", 0, 255)},
+                           {"map", array("which signal stands where", reference("modbus_entry"))}});
+  const Json own_map = array("a map of its own in place of the common one", reference("modbus_entry"));
+  const Json units = array("maps of single unit ids in place of the one for all", unit);
+  const Json serial =
+      object(keys::kSerial,
+             {{"device", text("serial line, such as /dev/ttyS0")},
+              {"baud", described("bits per second (19200)", {{"enum", Json(kBauds)}})},
+              {"parity", words("(even)", words::kParities)},
+              {"stop_bits", integer("(1)", 1, 2)},
+              {"silence", duration("that ends a frame; 3.5 characters and at least 1.75 ms if missing")}});
+  const Json network = text("address or network, such as 192.168.1.0/24");
+  const Json server = object(
+      keys::kServer,
+      {{"listen", one_or_many({{"type", "string"}}, "HOST:PORT, such as 127.0.0.1:1502 or [::1]:1502")},
+       {"serial", described("RTU over a serial line, in place of listen", serial)},
+       {"unit", integer("own address on the serial line (1)", 1, 247)},
+       {"allow", array("from where clients may come; from everywhere if missing", network)},
+       {"max_clients", integer("connected at the same time (64)", 1, 1000)},
+       {"max_requests_per_second", integer("of one client; what is more waits", 1, 1'000'000)},
+       {"idle_timeout", duration("a client that asks for nothing for this long is disconnected")},
+       {"map", own_map},
+       {"units", units}});
+  return object(keys::kModbus, {{"server", one_or_many(server, "where clients may ask")},
+                                {"map", array("which signal stands where", reference("modbus_entry"))},
+                                {"units", units},
+                                {"clients", array("foreign devices", modbus_client_schema(serial))}});
 }
 
 Json trace_schema() {
@@ -274,7 +397,9 @@ std::string project_schema() {
   add_configuration("encoder_config", ObjectKind::TO_ExternalEncoder, "start values of an external encoder");
   add_configuration("measuring_input_config", ObjectKind::TO_MeasuringInput,
                     "start values of a measuring input");
+  add_configuration("cam_config", ObjectKind::TO_Cam_10k, "start values of the data block of a cam");
   definitions["call"] = call_schema();
+  definitions["modbus_entry"] = modbus_entry_schema();
   schema["definitions"] = definitions;
   return schema.dump(2) + "\n";
 }

@@ -26,6 +26,10 @@ TechnologyObject& Controller::add_object(ObjectKind kind, std::string name) {
       break;
     case ObjectKind::TO_MeasuringInput:
       measuring_inputs.push_back(add<MeasuringInput>(std::move(name), number));
+    case ObjectKind::TO_Cam:
+    case ObjectKind::TO_Cam_10k:
+      objects.push_back(std::make_unique<Cam>(kind, std::move(name), number));
+      cams.push_back(static_cast<Cam*>(objects.back().get()));
       break;
   }
   return *objects.back();
@@ -45,6 +49,9 @@ void Controller::finish() {
   for (auto& object : objects) object->configure(servo_period, clock.interpolator_ratio);
   for (Axis* axis : axes)
     if (!axis->is_virtual()) driven_.push_back(axis);
+  std::size_t most_points = 0;
+  for (const Cam* cam : cams) most_points = std::max(most_points, cam->point_count());
+  if (most_points > 0) interpolator_ = std::make_unique<CamInterpolator>(most_points);
   summary_.resize(axes.size());
   order_.set_axes(axes);
   order_.rebuild();
@@ -58,6 +65,7 @@ void Controller::finish() {
 
 void Controller::skip(std::int64_t ticks) noexcept {
   next_tick_ += ticks;
+  counters_.missed_ticks += static_cast<std::uint64_t>(ticks);
   for (Axis* axis : driven_) axis->skip_servo(ticks);
   for (ExternalEncoder* encoder : encoders) encoder->skip_servo(ticks);
   for (MeasuringInput* input : measuring_inputs) input->skip_servo(ticks);
@@ -77,6 +85,12 @@ void Controller::take_summary() noexcept {
                    .position = axis.data.ActualPosition,
                    .largest_deviation = axis.largest_synchronous_deviation()};
   }
+}
+
+bool Controller::interpolate_cams() noexcept {
+  bool worked = false;
+  for (Cam* cam : cams) worked |= cam->work(*interpolator_);
+  return worked;
 }
 
 bool Controller::at_rest() const noexcept {

@@ -13,6 +13,7 @@
 #include "scheduler/program.hpp"
 #include "scheduler/trace_ring.hpp"
 #include "tech_objects/axis.hpp"
+#include "tech_objects/cam.hpp"
 #include "tech_objects/coupling_order.hpp"
 #include "tech_objects/external_encoder.hpp"
 #include "tech_objects/measuring_input.hpp"
@@ -56,6 +57,9 @@ struct Stimulus {
 struct CycleCounters {
   std::uint64_t ticks = 0;               ///< servo ticks executed
   std::uint64_t interpolator_ticks = 0;  ///< interpolator ticks executed
+  std::uint64_t missed_ticks = 0;        ///< ticks of the grid that were left out
+  std::uint64_t overruns = 0;            ///< interpolator cycles that were not over in time
+  std::uint64_t alarms = 0;              ///< axes with an alarm, now
   EvaluationCounters evaluation;         ///< of all expressions
 };
 
@@ -77,11 +81,14 @@ class Controller {
   std::vector<Axis*> axes;                                 ///< those of them that are axes, in this order
   std::vector<ExternalEncoder*> encoders;                  ///< those that are encoders
   std::vector<MeasuringInput*> measuring_inputs;           ///< those that are measuring inputs
+  std::vector<Cam*> cams;                                  ///< those of them that are cams
   std::deque<Tag> tags;
   std::deque<Instance> instances;
   std::deque<Program> programs;
   std::vector<Stimulus> stimuli;
   bool apply_stimuli = false;
+  /// Whether another thread calls `interpolate_cams`; if not, a tick does it itself.
+  bool cams_interpolated_elsewhere = false;
   std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
 
@@ -101,9 +108,19 @@ class Controller {
   /// done in the next tick.
   void skip(std::int64_t ticks) noexcept;
 
+  /// Makes the curves that are wanted by MC_InterpolateCam; false if none is. Some milliseconds for 10,000
+  /// points. One thread at a time, while `tick` goes on in its own.
+  bool interpolate_cams() noexcept;
+
   /// Time of the next tick [ns]: its number times the servo cycle.
   std::int64_t now() const noexcept { return next_tick_ * clock.servo_cycle; }
   const CycleCounters& counters() const noexcept { return counters_; }
+  /// Where a counter lives, for snapshots, which read it and never write.
+  Signal counter(std::uint64_t CycleCounters::*member) noexcept {
+    return {&(counters_.*member), Type::ULINT, -1};
+  }
+  /// Notes that an interpolator cycle was not over in time. Thread: the cycle.
+  void count_overrun() noexcept { ++counters_.overruns; }
 
   /// Brings every axis to rest with maximum dynamics and then off, as at the end of a run; whether all are at
   /// rest is told by `at_rest`. Programs no longer run.
@@ -132,6 +149,7 @@ class Controller {
   std::vector<Program*> schedule_;  // sorted by organization block, then priority
   std::vector<Axis*> driven_;       // axes with a drive, which MC_Servo serves
   CouplingOrder order_;
+  std::unique_ptr<CamInterpolator> interpolator_;  // for the largest cam; none without cams
   std::size_t next_stimulus_ = 0;
   std::int64_t next_tick_ = 0;
   std::int64_t last_time_ = -1;  // of the last executed tick [ns]; -1: none yet

@@ -48,6 +48,7 @@ void Controller::servo() noexcept {
 
 /// Encoders, which depend on no axis; then start_jobs → step (leading before following), guarded → publish.
 void Controller::interpolate() noexcept {
+  for (Cam* cam : cams) cam->step(cams_interpolated_elsewhere ? nullptr : interpolator_.get());
   bool changed = false;
   for (ExternalEncoder* encoder : encoders) {
     encoder->step();
@@ -66,10 +67,13 @@ void Controller::interpolate() noexcept {
     for (ExternalEncoder* encoder : encoders) encoder->restarted = false;
     order_.rebuild();
   }
+  counters_.alarms = 0;
   for (Axis* axis : order_.axes()) {
     axis->step();
     axis->publish();
+    if (axis->data.ErrorDetail.Number != 0) ++counters_.alarms;
   }
+  for (Cam* cam : cams) cam->publish();
   ++counters_.interpolator_ticks;
 }
 

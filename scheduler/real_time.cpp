@@ -9,13 +9,15 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 
 namespace lockstep {
 namespace {
 
-constexpr int kPriority = 80;                              // of SCHED_FIFO, below the kernel's own threads
-constexpr int kOverrunsToStop = 3;                         // in a row
+constexpr int kPriority = 80;                     // of SCHED_FIFO, below the kernel's own threads
+constexpr int kOverrunsToStop = 3;                // in a row
+constexpr std::chrono::milliseconds kCamPoll{1};  // how often the interpolation of cams looks for work
 constexpr std::int64_t kLongestShutdown = 10'000'000'000;  // [ns] for bringing the axes to rest
 
 std::int64_t clock_now() noexcept {
@@ -57,6 +59,11 @@ RealTimeRun::~RealTimeRun() {
 
 std::vector<std::string> RealTimeRun::start() {
   std::vector<std::string> warnings;
+  if (!controller_.cams.empty()) {
+    controller_.cams_interpolated_elsewhere = true;
+    interpolating_.store(true, std::memory_order_relaxed);
+    interpolation_ = std::thread([this] { interpolate_cams(); });
+  }
   thread_ = std::thread([this] { run(); });
   if (!lock_memory())
     warnings.push_back(std::string("memory cannot be locked (") + std::strerror(errno) +
@@ -70,6 +77,16 @@ std::vector<std::string> RealTimeRun::start() {
 
 void RealTimeRun::wait() {
   if (thread_.joinable()) thread_.join();
+  interpolating_.store(false, std::memory_order_relaxed);
+  if (!interpolation_.joinable()) return;
+  interpolation_.join();
+  controller_.cams_interpolated_elsewhere = false;
+}
+
+/// Looks for work now and then, so that the cycle never has to wake it.
+void RealTimeRun::interpolate_cams() noexcept {
+  while (interpolating_.load(std::memory_order_relaxed))
+    if (!controller_.interpolate_cams()) std::this_thread::sleep_for(kCamPoll);
 }
 
 void RealTimeRun::run() noexcept {
@@ -115,6 +132,7 @@ void RealTimeRun::run() noexcept {
 void RealTimeRun::count_overrun(bool overrun) noexcept {
   overruns_in_a_row_ = overrun ? overruns_in_a_row_ + 1 : 0;
   if (overrun) status_.overruns.fetch_add(1, std::memory_order_relaxed);
+  if (overrun) controller_.count_overrun();
   if (policy_ == OverrunPolicy::stop && overruns_in_a_row_ >= kOverrunsToStop)
     status_.stopped_by_overrun.store(true, std::memory_order_relaxed);
 }

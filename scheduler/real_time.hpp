@@ -51,6 +51,7 @@ class RealTimeRun {
  private:
   void run() noexcept;
   void count_overrun(bool overrun) noexcept;
+  void interpolate_cams() noexcept;
 
   Controller& controller_;
   OverrunPolicy policy_;
@@ -59,6 +60,8 @@ class RealTimeRun {
   RealTimeStatus status_;
   int overruns_in_a_row_ = 0;
   std::thread thread_;
+  std::atomic<bool> interpolating_{false};
+  std::thread interpolation_;  // of cams; none without cams
 };
 
 }  // namespace lockstep

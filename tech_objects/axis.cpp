@@ -4,12 +4,6 @@
 #include <utility>
 
 namespace lockstep {
-namespace {
-
-/// Value of StatusSensor.State: the actual value is valid.
-constexpr DINT kSensorValid = 2;
-
-}  // namespace
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
     : LeadingObject(object_kind, std::move(object_name), object_number) {}
@@ -89,7 +83,7 @@ void Axis::take_up_motion() noexcept {
   motion_ = Motion::single_axis;
   if (has_drive_) setpoint_ = {actual_, moving(actual_velocity_) ? actual_velocity_ : 0.0, 0.0};
   const AxisPosition here = setpoint_.position;
-  if (has_drive_) controller_.reset(here);
+  if (has_drive_) reset_servo({here, 0.0});
   if (setpoint_.standing() || single_.move_to(setpoint_, here, 0.0, maximum_dynamics()) != PlanResult::ok) {
     setpoint_.velocity = 0.0;
     setpoint_.acceleration = 0.0;
@@ -128,9 +122,9 @@ void Axis::follow_actual() noexcept {
 /// late.
 void Axis::set_position_control(bool on) noexcept {
   if (on && !position_controlled_ && has_drive_) {
-    setpoint_.position = advanced(actual_, actual_velocity_ * drive_.known_delay(), modulo_);
+    setpoint_.position = advanced(actual_, actual_velocity_ * setpoint_delay(), modulo_);
     last_setpoint_.position = setpoint_.position;
-    controller_.reset(setpoint_.position, actual_velocity_ * servo_period_, modulo_);
+    reset_servo({setpoint_.position, actual_velocity_});
   }
   position_controlled_ = on;
 }
@@ -197,6 +191,9 @@ void Axis::restart() noexcept {
   actual_ = normalised({0, actual_.value}, modulo_);
   single_.stand(setpoint_);
   reset_leading(actual_);
+  counted_from_ = 0;
+  limit_switches_ = {};
+  beyond_limit_switch_ = false;
   if (has_drive_) restart_servo();
   show_sensor();
   restarted = true;
@@ -240,6 +237,7 @@ void Axis::step() noexcept {
   } else {
     limit_side_ = 0;
   }
+  if (beyond_limit_switch_) hold_limit_switches();
   guard();
   if (!has_drive_) {
     // A virtual axis is where its setpoint is, in the same tick. Written part by part, as they have just been
@@ -253,6 +251,7 @@ void Axis::step() noexcept {
 
 /// The base motion: of the axis' own, or led by another axis.
 void Axis::step_base() noexcept {
+  if (homing_now_) step_homing();
   switch (motion_) {
     case Motion::none:
       follow_actual();

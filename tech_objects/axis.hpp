@@ -20,6 +20,7 @@
 #include "tech_objects/job.hpp"
 #include "tech_objects/leading_object.hpp"
 #include "tech_objects/override.hpp"
+#include "tech_objects/setpoint_filter.hpp"
 #include "tech_objects/single_axis_motion.hpp"
 #include "tech_objects/superimposed.hpp"
 #include "tech_objects/synchronous_motion.hpp"
@@ -45,6 +46,13 @@ struct SimulationRequest {
   ErrorId error = ErrorId::none;  ///< written by the axis: why it has not begun, or cannot end
 };
 
+/// Adjustment of an absolute encoder, for a store that outlasts the controller.
+struct EncoderAdjustment {
+  bool adjusted = false;
+  double offset =
+      0.0;  ///< [u] StatusSensor[1].AbsEncoderOffset: position of the axis less that of the encoder
+};
+
 class Axis final : public LeadingObject {
  public:
   Axis(ObjectKind kind, std::string name, DB_ANY number);
@@ -61,6 +69,10 @@ class Axis final : public LeadingObject {
 
   /// Model of the simulated drive; counts unless the axis is virtual.
   SimulatedDriveSettings drive_settings;
+
+  /// The adjustment of the absolute encoder that is kept: may be set before `configure`, and read at any time
+  /// in the thread of the cycle. Counts for Sensor[1].Type 1 and 2. A restart of the object keeps it.
+  EncoderAdjustment encoder_adjustment;
 
   /// Takes over the start values. Call once, after `data` is set and before the first tick.
   /// @param servo_period period of MC_Servo [s]  @param ratio servo ticks per interpolator tick, 1 to 32
@@ -139,11 +151,14 @@ class Axis final : public LeadingObject {
   bool was_synchronous() const noexcept { return was_synchronous_; }
 
  private:
+  /// Value of StatusSensor.State: the actual value is valid.
+  static constexpr DINT kSensorValid = 2;
+
   enum class PowerState : std::uint8_t { off, switching_on, on, braking };
   /// What generates the setpoint.
   enum class Motion : std::uint8_t { none, single_axis, given, synchronizing, synchronous, desynchronizing };
   /// Places of running jobs: the base motion, synchronous and desynchronizing jobs that wait, shifts, what is
-  /// superimposed on the base motion, the next base motion.
+  /// superimposed on the base motion, the next base motion, homing in passing.
   enum Slot : std::uint8_t {
     kBase,
     kWaiting,
@@ -152,6 +167,7 @@ class Axis final : public LeadingObject {
     kOffset,
     kSuperimposed,
     kBuffered,
+    kPassiveHoming,
     kSlots
   };
 
@@ -184,16 +200,69 @@ class Axis final : public LeadingObject {
   const LeadingValue* find_leading_value(const LeadingObject* master) const noexcept;
   bool override_running(JobClass new_job, Job& job) noexcept;
   void cancel_waiting_shift(Job& job) noexcept;
-  bool gear_runs_or_waits() const noexcept;
+  ErrorId check_cam(const Job& job) const noexcept;
+  bool runs_or_waits(bool cam) const noexcept;
   void install(Job& job) noexcept;
   void end_job(Slot slot, JobPhase phase, ErrorId error) noexcept;
   void end_all_jobs(JobPhase phase, ErrorId error) noexcept;
   bool locked_by_stop() const noexcept {
     return stop_ != nullptr && (stop_->running() || (stop_->phase == JobPhase::done && stop_->hold));
   }
+
+  // axis_homing.cpp: MC_Home
+  enum class HomingPhase : std::uint8_t {
+    none,
+    approach,  // to the reference cam or switch
+    clear,     // off the switch again, to meet its edge from outside
+    back,      // beyond a zero mark, to meet it in the homing direction
+    search,    // towards the mark, with the homing velocity
+    travel     // the mark is known: to the home position
+  };
+  struct Homing {
+    HomingPhase phase = HomingPhase::none;
+    int direction = 1;      // in which the mark has to be met
+    bool reversed = false;  // at a hardware limit switch
+    double mark = 0.0;      // position that the mark gets [u]
+  };
+  ErrorId check_homing(const Job& job) const noexcept;
+  int missing_for_homing(const Job& job) const noexcept;
+  bool home_switch_missing(bool active) const noexcept;
   void home(Job& job) noexcept;
+  void home_directly(Job& job) noexcept;
+  void begin_passive_homing(Job& job) noexcept;
+  void begin_active_homing(Job& job) noexcept;
+  PlanResult plan_homing(const Job& job, const Dynamics& dynamics) noexcept;
+  void step_homing() noexcept;
+  void guide_active_homing(Job& job) noexcept;
+  void reverse_at_limit_switch(Job& job) noexcept;
+  void head_for(Job& job, HomingPhase phase, int direction) noexcept;
+  void search_mark(bool active, int direction) noexcept;
+  void take_mark() noexcept;
+  bool assign_position(AxisPosition place, double position) noexcept;
+  bool positions_fit(double by) const noexcept;
+  bool homing_reverses() const noexcept {
+    return homing_.phase != HomingPhase::none && homing_.phase != HomingPhase::travel &&
+           data.Homing.AutoReversal;
+  }
+  void leave_homing(const Job& job) noexcept;
+  void adjust_encoder(bool store) noexcept;
+  /// What an absolute encoder reports where the machine is at the beginning [u].
+  double encoder_start() const noexcept { return encoder_sign_ * drive_settings.signals.start_position; }
+  void restore_encoder() noexcept;
+  bool absolute_encoder() const noexcept { return has_drive_ && data.Sensor[0].Type != 0; }
   double position_shift(double home_position) const noexcept;
   void shift_positions(double by) noexcept;
+
+  // axis_switches.cpp: signals of the machine, hardware limit switches
+  bool signals_always_watched() const noexcept;
+  void watch_signals(const DoubleDouble& position) noexcept;
+  /// After which way the machine is where it was [u]; 0: never.
+  double turn() const noexcept { return modulo_.enabled ? modulo_.length : 0.0; }
+  bool on_home_switch(double place) const noexcept;
+  bool limit_switch_pressed(int side, double place) const noexcept;
+  void watch_limit_switch(int side, double place) noexcept;
+  void hold_limit_switches() noexcept;
+  AlarmReaction limit_switch_reaction() const noexcept;
 
   // axis_motion.cpp: motion of its own
   double velocity_limit() const noexcept;
@@ -228,6 +297,8 @@ class Axis final : public LeadingObject {
   void step_synchronous() noexcept;
   void leave_synchronous() noexcept;
   void show_coupling(const Job& job, Motion motion) noexcept;
+  void clear_cam_status() noexcept;
+  void meet_cam_end() noexcept;
   void take_additive() noexcept;
   void begin_shift(Job& job) noexcept;
   void advance_shift(Slot slot) noexcept;
@@ -283,9 +354,15 @@ class Axis final : public LeadingObject {
   // axis_servo.cpp: drive and position control
   void configure_servo();
   void restart_servo() noexcept;
+  void take_servo_settings() noexcept;
   PositionControlSettings control_settings() const noexcept;
   double way_per_motor_turn() const noexcept;
   void control_position() noexcept;
+  void show_execution_time() noexcept;
+  double setpoint_delay() const noexcept;
+  double control_delay() const noexcept;
+  void reset_servo(const ServoSetpoint& setpoint) noexcept;
+  void delay_following_error(const PositionControlled& controlled) noexcept;
   void shift_servo(double by) noexcept;
 
   // axis_monitoring.cpp: software limit switches, following error, standstill
@@ -310,6 +387,7 @@ class Axis final : public LeadingObject {
 
   // axis_publish.cpp: the data block
   void publish_motion() noexcept;
+  void show_cam_use() const noexcept;
   void publish_awaited() noexcept;
   void publish_synchronous() noexcept;
   void publish_status() noexcept;
@@ -327,6 +405,8 @@ class Axis final : public LeadingObject {
   std::int64_t standstill_ticks_ = 0;  // within the standstill window
   bool standstill_ = false;
   std::int8_t limit_side_ = 0;  // software limit switch approached or passed: 1, -1; 0: none
+  bool homing_now_ = false;     // a mark is being looked for, or an active homing is under way
+  bool signals_watched_ = false;
   AxisPosition actual_;
   double actual_velocity_ = 0.0;  // [u/s]
   double largest_deviation_ = 0.0;
@@ -362,15 +442,34 @@ class Axis final : public LeadingObject {
   Setpoint ghost_;            // where it would have the axis
   AxisData start_values_;
 
+  // Homing and hardware limit switches.
+  struct LimitSwitch {
+    bool pressed = false;
+    bool beyond = false;   // pressed, or overrun and not yet come back over
+    bool locked = false;   // approached in the wrong direction: until a restart
+    double entered = 0.0;  // where it was met [u] on the scale of the machine
+  };
+  Homing homing_;
+  MarkSearch mark_search_;
+  std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
+  bool beyond_limit_switch_ = false;
+  bool on_home_switch_ = false;
+  std::int64_t counted_from_ = 0;  // turn that ModuloCycle shows as 0
+
   // Servo.
   double servo_period_ = 0.001;  // [s]
   int ratio_ = 1;
   int servo_tick_ = 0;             // since the last interpolator tick
-  AxisPosition encoder_origin_;    // position where the drive reports 0
-  DoubleDouble encoder_position_;  // that it reports [u]
+  AxisPosition encoder_origin_;    // position where the drive is where it was at the beginning
+  DoubleDouble encoder_position_;  // way of the drive from there [u], as it counts
+  double setpoint_sign_ = 1.0;     // -1: the drive turns the other way round
+  double encoder_sign_ = 1.0;
   bool drive_running_ = false;
   SimulatedDrive drive_;
   PositionController controller_;
+  DynamicFilter setpoint_filter_;
+  FirstOrderLag following_lag_;  // FollowingError.AdditionalSetpointDelayTime
+  AxisPosition last_balanced_;
 };
 
 }  // namespace lockstep

@@ -25,7 +25,8 @@ bool positions(const Job& job) noexcept {
 bool Axis::buffer(Job& job) noexcept {
   const Job* base = running_[kBase];
   if (base == nullptr && !simulating()) return false;
-  const bool own = base != nullptr && motion_ == Motion::single_axis && base->kind != JobKind::MC_GearOut;
+  const bool own = base != nullptr && motion_ == Motion::single_axis && base->kind != JobKind::MC_GearOut &&
+                   base->kind != JobKind::MC_CamOut;
   if (!own) {
     job.fail(ErrorId::mode);
     return true;

@@ -7,24 +7,31 @@
 namespace lockstep {
 namespace {
 
-constexpr DINT kGearOut = 4;        // value of FunctionState and WaitingFunctionState
 constexpr DINT kOverDistance = 1;   // SyncProfileReference
 constexpr DINT kCancelWaiting = 5;  // SyncProfileReference
 
+/// Value of FunctionState and WaitingFunctionState.
+DINT out_state(const Job& job) noexcept {
+  return job.kind == JobKind::MC_CamOut ? 5 : 4;
+}
+
 }  // namespace
 
-// ---- MC_GearOut
+// ---- MC_GearOut, MC_CamOut
 // -------------------------------------------------------------------------------------------------
 
-/// A waiting gear has been cancelled by the override rules; an active one is left when the start is met.
+/// What waits has been cancelled by the override rules; an active gear (cam) is left when the start is met.
 void Axis::begin_sync_out(Job& job) noexcept {
-  if (job.mode == kCancelWaiting || running_[kBase] == nullptr || !led()) {
+  const Job* base = running_[kBase];
+  const bool leaves =
+      base != nullptr && led() && (base->kind == JobKind::MC_CamIn) == (job.kind == JobKind::MC_CamOut);
+  if (job.mode == kCancelWaiting || !leaves) {
     job.phase = JobPhase::done;
     return;
   }
   running_[kWaitingOut] = &job;
   job.phase = JobPhase::waiting;
-  data.StatusSynchronizedMotion.WaitingFunctionState = kGearOut;
+  data.StatusSynchronizedMotion.WaitingFunctionState = out_state(job);
 }
 
 /// Each tick while desynchronizing waits; true if it has begun and the setpoint is made. It looks at where
@@ -39,7 +46,7 @@ bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
   if (!there && !synchronous_.meets_sync_out(job, from, candidate, dynamics)) return false;
   running_[kWaitingOut] = nullptr;
   data.StatusSynchronizedMotion.WaitingFunctionState = 0;
-  if (!override_running(JobClass::gear_out_active, job)) return false;
+  if (!override_running(class_of(job, true), job)) return false;
   absorb_superimposed();
   running_[kBase] = &job;
   job.phase = JobPhase::active;
@@ -60,14 +67,14 @@ void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
   if (job.mode == kOverDistance) {
     synchronous_.begin_sync_out(setpoint_);
     motion_ = Motion::desynchronizing;
-    data.StatusSynchronizedMotion.FunctionState = kGearOut;
+    data.StatusSynchronizedMotion.FunctionState = out_state(job);
     return step_synchronous();
   }
   const double way = synchronous_.sync_out_way();
   const AxisPosition position = synchronous_.sync_out_position();
   leave_synchronous();
   cut_acceleration();
-  data.StatusSynchronizedMotion.FunctionState = kGearOut;
+  data.StatusSynchronizedMotion.FunctionState = out_state(job);
   Dynamics own = dynamics;
   own.acceleration = own.deceleration;
   own.velocity = std::max(own.velocity, std::abs(setpoint_.velocity));
@@ -81,7 +88,7 @@ void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
 /// The following axis has come to rest at its stop position.
 void Axis::end_desynchronizing() noexcept {
   leave_synchronous();
-  data.StatusSynchronizedMotion.FunctionState = kGearOut;
+  data.StatusSynchronizedMotion.FunctionState = out_state(*running_[kBase]);
   setpoint_.velocity = 0.0;
   setpoint_.acceleration = 0.0;
   single_.stand(setpoint_);
@@ -139,6 +146,7 @@ void Axis::end_simulated_gear(JobPhase phase, ErrorId error) noexcept {
   coupling_changed = true;
   data.StatusSynchronizedMotion.FunctionState = 0;
   data.StatusSynchronizedMotion.ActualMaster = DB_ANY{};
+  clear_cam_status();
 }
 
 }  // namespace lockstep

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tech_objects/axis.hpp"
+#include "tech_objects/cam.hpp"
 
 namespace lockstep {
 namespace {
@@ -15,7 +16,17 @@ int stop_rank(DINT mode) noexcept {
 }
 
 bool couples(JobKind kind) noexcept {
-  return kind == JobKind::MC_GearIn || kind == JobKind::MC_GearInPos || kind == JobKind::MC_GearInVelocity;
+  return kind == JobKind::MC_GearIn || kind == JobKind::MC_GearInPos || kind == JobKind::MC_GearInVelocity ||
+         kind == JobKind::MC_CamIn;
+}
+
+/// Whether a synchronous job waits for its start.
+bool waits(JobKind kind) noexcept {
+  return kind == JobKind::MC_GearInPos || kind == JobKind::MC_CamIn;
+}
+
+bool leaves(JobKind kind) noexcept {
+  return kind == JobKind::MC_GearOut || kind == JobKind::MC_CamOut;
 }
 
 bool is_phasing(JobKind kind) noexcept {
@@ -26,8 +37,9 @@ bool is_shift(JobKind kind) noexcept {
   return is_phasing(kind) || kind == JobKind::MC_OffsetAbsolute || kind == JobKind::MC_OffsetRelative;
 }
 
-/// Profile 5 of shifts and of MC_GearOut: only cancels what waits.
+/// Profile 5 of shifts, MC_GearOut and MC_CamOut: only cancels what waits.
 constexpr DINT kCancelWaiting = 5;
+constexpr DINT kAtCamEnd = 5;  // of MC_CamIn
 
 /// What a job shows that another one forbids.
 ErrorId rejection(JobClass new_job, JobClass running) noexcept {
@@ -73,12 +85,7 @@ void Axis::start(Job& job) noexcept {
 
 /// Whether the state of the axis permits the job at all.
 ErrorId Axis::check(const Job& job) const noexcept {
-  if (job.kind == JobKind::MC_Home) {
-    if (!position_controlled_) return ErrorId::not_position_controlled;
-    const Job* base = running_[kBase];
-    const bool coupled = base != nullptr && base->kind == JobKind::MC_GearInPos;
-    return coupled ? ErrorId::homing_while_coupled : ErrorId::none;
-  }
+  if (job.kind == JobKind::MC_Home) return check_homing(job);
   if (pending_alarm() != 0) return ErrorId::technology_alarm;
   if (!enabled()) return ErrorId::locked;
   if (locked_by_stop() && job.kind != JobKind::MC_Stop) return ErrorId::locked;
@@ -87,29 +94,43 @@ ErrorId Axis::check(const Job& job) const noexcept {
 
 /// Conditions of synchronous jobs, and of values given on top of a motion.
 ErrorId Axis::check_synchronous(const Job& job) const noexcept {
-  const bool gear_out = job.kind == JobKind::MC_GearOut;
   if (job.kind == JobKind::MC_MotionInSuperimposed && !position_controlled_)
     return led() ? ErrorId::velocity_gear_active : ErrorId::not_position_controlled;
-  if (!couples(job.kind) && !is_shift(job.kind) && !gear_out) return ErrorId::none;
+  if (!couples(job.kind) && !is_shift(job.kind) && !leaves(job.kind)) return ErrorId::none;
   if (simulating()) return ErrorId::simulated;
   if (couples(job.kind)) {
     if (job.master == this) return ErrorId::recursive_coupling;
     // A waiting job couples nothing yet; it is looked at again when it would become active.
-    const bool recursive = job.kind != JobKind::MC_GearInPos && led_by_this(job.master);
-    return recursive ? ErrorId::recursive_coupling : ErrorId::none;
+    const bool recursive = !waits(job.kind) && led_by_this(job.master);
+    if (recursive) return ErrorId::recursive_coupling;
+    return job.kind == JobKind::MC_CamIn ? check_cam(job) : ErrorId::none;
   }
   const Job* base = running_[kBase];
   if (base != nullptr && base->kind == JobKind::MC_GearInVelocity) return ErrorId::velocity_gear_active;
-  if (gear_out) return gear_runs_or_waits() ? ErrorId::none : ErrorId::no_gear;
+  const bool cam_out = job.kind == JobKind::MC_CamOut;
+  if (leaves(job.kind) && !runs_or_waits(cam_out)) return cam_out ? ErrorId::no_cam : ErrorId::no_gear;
+  if (leaves(job.kind)) return ErrorId::none;
   if (job.mode == kCancelWaiting) return ErrorId::none;
+  const bool in_time = is_phasing(job.kind) && job.mode == 0;
+  if (in_time && base != nullptr && base->kind == JobKind::MC_CamIn) return ErrorId::phasing_in_time;
   return motion_ == Motion::synchronous ? ErrorId::none : ErrorId::not_synchronous;
 }
 
-bool Axis::gear_runs_or_waits() const noexcept {
+ErrorId Axis::check_cam(const Job& job) const noexcept {
+  if (job.cam->in_interpolation()) return ErrorId::cam_in_interpolation;
   const Job* base = running_[kBase];
-  const bool runs =
-      base != nullptr && (base->kind == JobKind::MC_GearIn || base->kind == JobKind::MC_GearInPos);
-  return runs || running_[kWaiting] != nullptr || running_[kWaitingOut] != nullptr;
+  const bool camming = base != nullptr && base->kind == JobKind::MC_CamIn && motion_ == Motion::synchronous;
+  return job.mode == kAtCamEnd && !camming ? ErrorId::no_camming : ErrorId::none;
+}
+
+/// Whether a gear (a cam) runs, waits or is about to be left.
+bool Axis::runs_or_waits(bool cam) const noexcept {
+  const auto of_kind = [cam](const Job* job) {
+    return job != nullptr && cam == (job->kind == JobKind::MC_CamIn || job->kind == JobKind::MC_CamOut);
+  };
+  const Job* base = running_[kBase];
+  const bool runs = of_kind(base) && couples(base->kind);
+  return runs || of_kind(running_[kWaiting]) || of_kind(running_[kWaitingOut]);
 }
 
 /// Profile 5: ends a shift that waits; one that runs and the shift in effect stay.
@@ -125,9 +146,11 @@ void Axis::cancel_waiting_shift(Job& job) noexcept {
 /// Preconditions whose absence is a technology alarm; 0: none is missing.
 int Axis::missing_precondition(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_MoveAbsolute && !homed_) return alarm::kNotHomed;
+  if (job.kind == JobKind::MC_Home) return missing_for_homing(job);
   if (!couples(job.kind)) return 0;
   const LeadingValue* leading = find_leading_value(job.master);
   if (leading == nullptr || !job.master->actual_values_valid()) return alarm::kLeadingAxis;
+  if (job.kind == JobKind::MC_CamIn && !job.cam->interpolated()) return alarm::kCamNotInterpolated;
   const bool controlled = job.kind == JobKind::MC_GearInVelocity || job.master->position_controlled() ||
                           leading->coupling == Coupling::actual;
   return controlled ? 0 : alarm::kLeadingAxisNotPositionControlled;
@@ -174,6 +197,7 @@ void Axis::install(Job& job) noexcept {
       home(job);
       break;
     case JobKind::MC_GearInPos:
+    case JobKind::MC_CamIn:
       begin_waiting(job);
       break;
     case JobKind::MC_GearIn:
@@ -181,6 +205,7 @@ void Axis::install(Job& job) noexcept {
       begin_gear_in(job);
       break;
     case JobKind::MC_GearOut:
+    case JobKind::MC_CamOut:
       begin_sync_out(job);
       break;
     case JobKind::MC_PhasingAbsolute:
@@ -215,7 +240,8 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   if (slot == kBase && alone) end_job(kBuffered, JobPhase::aborted, ErrorId::none);
   if (slot == kSuperimposed) show_superimposed_command();
   if (slot == kBase && class_of(*job, true) == JobClass::motion_in) show_motion_in_command();
-  if (slot == kBase && job->kind == JobKind::MC_GearOut) data.StatusSynchronizedMotion.FunctionState = 0;
+  if (job->kind == JobKind::MC_Home) leave_homing(*job);
+  if (slot == kBase && leaves(job->kind)) data.StatusSynchronizedMotion.FunctionState = 0;
   if (slot == kWaiting || slot == kWaitingOut) {
     data.StatusSynchronizedMotion.WaitingFunctionState = 0;
     coupling_changed = true;
@@ -230,42 +256,6 @@ void Axis::end_all_jobs(JobPhase phase, ErrorId error) noexcept {
   }
   new_count_ = 0;
   stop_ = nullptr;
-}
-
-/// Direct homing: setpoint and actual position are shifted together; nothing moves.
-void Axis::home(Job& job) noexcept {
-  const double by = job.mode == 0 ? position_shift(job.position) : job.position;
-  // Outside the numeric range, or not representable on its ring, the axis could not be used again.
-  const double homed_at = advanced(setpoint_.position, by, modulo_).value;
-  if (!std::isfinite(by) || !(std::abs(homed_at) <= kPositionRange) || !modulo_.contains(homed_at))
-    return job.fail(ErrorId::position);
-  shift_positions(by);
-  if (job.mode == 0 && !has_drive_) {
-    // A virtual axis has no following error: the position is the given one to the last bit.
-    const AxisPosition exact = normalised({setpoint_.position.turns, job.position}, modulo_);
-    setpoint_.position.value = exact.value;
-    const bool idle = running_[kBase] == nullptr && !superimposed_.in_use();
-    if (setpoint_.standing() && motion_ == Motion::single_axis && idle) single_.stand(setpoint_);
-    actual_ = setpoint_.position;
-  }
-  homed_ = true;
-  job.phase = JobPhase::done;
-}
-
-/// Way from the actual position to a home position; on a ring the shorter one.
-double Axis::position_shift(double home_position) const noexcept {
-  return shortest_distance(actual_.value, home_position, modulo_);
-}
-
-void Axis::shift_positions(double by) noexcept {
-  setpoint_.position = advanced(setpoint_.position, by, modulo_);
-  last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
-  base_.position = advanced(base_.position, by, modulo_);
-  actual_ = advanced(actual_, by, modulo_);
-  shift_leading(by);
-  single_.shift(by);
-  synchronous_.shift_following(by);
-  if (has_drive_) shift_servo(by);
 }
 
 }  // namespace lockstep

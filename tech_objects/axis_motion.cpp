@@ -32,8 +32,10 @@ double Axis::wanted_velocity(const Job& job) const noexcept {
     case JobKind::MC_GearIn:
     case JobKind::MC_GearInVelocity:
     case JobKind::MC_GearOut:
+    case JobKind::MC_CamOut:
       return velocity_limit();
     case JobKind::MC_GearInPos:
+    case JobKind::MC_CamIn:
     case JobKind::MC_PhasingAbsolute:
     case JobKind::MC_PhasingRelative:
       return job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity;
@@ -148,6 +150,8 @@ PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
       }
       return single_.run_at(setpoint_, std::copysign(dynamics.velocity, job.velocity), dynamics);
     }
+    case JobKind::MC_Home:
+      return plan_homing(job, dynamics);
     case JobKind::MC_MoveJog:
       jogged_ = job;
       return single_.run_at(setpoint_, dynamics.velocity * job.direction, dynamics);
@@ -189,12 +193,12 @@ double Axis::absolute_distance(const Job& job, double here) const noexcept {
 PlanResult Axis::move_by(DoubleDouble exact_way, const Job& job, const Dynamics& dynamics) noexcept {
   const double way = exact_way.rounded();
   AxisPosition target = advanced(setpoint_.position, exact_way, modulo_);
-  if (job.kind == JobKind::MC_MoveAbsolute) {
+  if (job.kind == JobKind::MC_MoveAbsolute || job.kind == JobKind::MC_Home) {
     // The way is rounded; the target is the given position itself.
     target.value = modulo_.enabled ? normalised({0, job.position}, modulo_).value : job.position;
   }
   data.StatusPositioning.TargetPosition = target.value;
-  data.StatusPositioning.TargetPositionModuloCycle = static_cast<DINT>(target.turns);
+  data.StatusPositioning.TargetPositionModuloCycle = static_cast<DINT>(target.turns - counted_from_);
   if (dynamics.velocity > 0.0) return single_.move_to(setpoint_, target, way, dynamics);
   Dynamics crawl = dynamics;  // an override of 0 %: plan with the least velocity, then hold at once
   crawl.velocity = velocity_limit();
@@ -235,12 +239,14 @@ void Axis::follow_changes(Job& job) noexcept {
   const bool limits_changed =
       data.Override.Velocity != planned_override_ || velocity_limit() != planned_velocity_limit_;
   if (!inputs_changed && !limits_changed) return;
-  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || job.kind == JobKind::MC_GearOut) return;
+  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || job.kind == JobKind::MC_GearOut ||
+      job.kind == JobKind::MC_CamOut)
+    return;
   remember_limits();
   Dynamics dynamics = own_dynamics(job);
   if (advancing_base_) leave_to_superimposed(dynamics);
   PlanResult result = PlanResult::ok;
-  if (jog || (job.kind == JobKind::MC_MoveVelocity && !job.current)) {
+  if (jog || job.kind == JobKind::MC_Home || (job.kind == JobKind::MC_MoveVelocity && !job.current)) {
     result = plan(job, dynamics);
   } else if (!single_.finished() || single_.aim() != SingleAxisMotion::Aim::position) {
     result = single_.replan(setpoint_, dynamics);
@@ -271,9 +277,13 @@ void Axis::watch_base_job(Job& job) noexcept {
         end_job(kBase, JobPhase::done, ErrorId::none);
       }
       break;
+    case JobKind::MC_Home:
+      if (homing_.phase != HomingPhase::travel) break;
+      [[fallthrough]];
     case JobKind::MC_MoveAbsolute:
     case JobKind::MC_MoveRelative:
     case JobKind::MC_GearOut:
+    case JobKind::MC_CamOut:
       watch_positioning();
       break;
     default:

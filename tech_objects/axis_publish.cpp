@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tech_objects/axis.hpp"
+#include "tech_objects/cam.hpp"
 
 namespace lockstep {
 namespace {
@@ -31,18 +32,27 @@ void Axis::publish() noexcept {
     publish_synchronous();
   else
     publish_awaited();
+  show_cam_use();
   publish_status();
   if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
+}
+
+/// A cam that is followed, simulated or waited for is in use.
+void Axis::show_cam_use() const noexcept {
+  if (led() || simulating())
+    if (Cam* const cam = synchronous_.cam()) cam->show_use();
+  if (running_[kWaiting] != nullptr && running_[kWaiting]->cam != nullptr)
+    running_[kWaiting]->cam->show_use();
 }
 
 void Axis::publish_motion() noexcept {
   data.Position = position_controlled_ ? setpoint_.position.value : 0.0;
   data.Velocity = setpoint_.velocity;
   data.Acceleration = setpoint_.acceleration;
-  data.ModuloCycle = static_cast<DINT>(setpoint_.position.turns);
+  data.ModuloCycle = static_cast<DINT>(setpoint_.position.turns - counted_from_);
   data.ActualPosition = actual_.value;
   data.ActualVelocity = actual_velocity_;
-  data.ActualModuloCycle = static_cast<DINT>(actual_.turns);
+  data.ActualModuloCycle = static_cast<DINT>(actual_.turns - counted_from_);
   if (!has_drive_) {
     data.ActualAcceleration = setpoint_.acceleration;
     data.VelocitySetpoint = setpoint_.velocity;
@@ -126,11 +136,14 @@ void Axis::publish_status() noexcept {
             kind == JobKind::MC_MoveAbsolute || kind == JobKind::MC_MoveRelative);
   word.show(StatusBit::JogCommand, kind == JobKind::MC_MoveJog);
   word.show(StatusBit::VelocityCommand, kind == JobKind::MC_MoveVelocity);
+  word.show(StatusBit::HomingCommand, homing_now_);
   word.show(StatusBit::ConstantVelocity, on && setpoint_.acceleration == 0.0);
   word.show(StatusBit::Accelerating, accelerating);
   word.show(StatusBit::Decelerating, decelerating);
   word.show(StatusBit::SWLimitMinActive, limit_side_ < 0);
   word.show(StatusBit::SWLimitMaxActive, limit_side_ > 0);
+  word.show(StatusBit::HWLimitMinActive, limit_switches_[0].beyond);
+  word.show(StatusBit::HWLimitMaxActive, limit_switches_[1].beyond);
   word.show(StatusBit::Synchronizing, motion_ == Motion::synchronizing);
   word.show(StatusBit::Synchronous, motion_ == Motion::synchronous);
   word.show(StatusBit::PhasingCommand, in_phase(running_[kPhasing], JobPhase::active));
@@ -139,7 +152,7 @@ void Axis::publish_status() noexcept {
 
   Bits word2;
   word2.show(Status2Bit::StopCommand, locked_by_stop());
-  word2.show(Status2Bit::DesynchronizingCommand, kind == JobKind::MC_GearOut);
+  word2.show(Status2Bit::DesynchronizingCommand, kind == JobKind::MC_GearOut || kind == JobKind::MC_CamOut);
   word2.show(Status2Bit::PhasingCommandWaiting, in_phase(running_[kPhasing], JobPhase::waiting));
   word2.show(Status2Bit::OffsetCommand, in_phase(running_[kOffset], JobPhase::active));
   word2.show(Status2Bit::OffsetCommandWaiting, in_phase(running_[kOffset], JobPhase::waiting));

@@ -5,25 +5,57 @@
 namespace lockstep {
 /// The encoder goes on from where it is, at the position that the axis has now.
 void Axis::restart_servo() noexcept {
-  encoder_origin_ = advanced(actual_, -encoder_position_, modulo_);
-  controller_.reset(setpoint_.position);
-  data.StatusPositioning.SetpointExecutionTime = period_ + drive_.known_delay();
+  take_servo_settings();
+  encoder_origin_ = advanced(actual_, -(encoder_position_ * encoder_sign_), modulo_);
+  restore_encoder();
+  reset_servo({setpoint_.position, 0.0});
+  show_execution_time();
+}
+
+/// Settings that count from the start, or a restart, on.
+void Axis::take_servo_settings() noexcept {
+  const bool inverted = drive_settings.inverted;
+  setpoint_sign_ = data.Actor.InverseDirection != inverted ? -1.0 : 1.0;
+  encoder_sign_ = data.Sensor[0].InverseDirection != inverted ? -1.0 : 1.0;
+  setpoint_filter_.configure(modulo_, servo_period_);
+  signals_watched_ = signals_always_watched();
 }
 
 void Axis::configure_servo() {
   drive_.configure(drive_settings, servo_period_);
+  take_servo_settings();
   controller_.configure(control_settings(), servo_period_);
-  controller_.reset(setpoint_.position);
   encoder_origin_ = setpoint_.position;
-  // A setpoint is handed to the drive, at the end of the fine interpolation, one interpolator cycle later.
-  data.StatusPositioning.SetpointExecutionTime = period_ + drive_.known_delay();
+  restore_encoder();
+  reset_servo({setpoint_.position, 0.0});
+  show_execution_time();
+}
+
+/// A setpoint is handed to the drive, at the end of the fine interpolation, one interpolator cycle later.
+void Axis::show_execution_time() noexcept {
+  data.StatusPositioning.SetpointExecutionTime = period_ + setpoint_delay();
+}
+
+/// By what the actual position is behind the setpoint of the servo at constant velocity [s].
+double Axis::setpoint_delay() const noexcept {
+  return setpoint_filter_.delay(data.SetpointFilter.DynamicFilter) + control_delay();
+}
+
+/// What the balancing filter takes the controlled side to be late by [s]: with an axis model what that says
+/// of the velocity loop, else what the drive knows of itself.
+double Axis::control_delay() const noexcept {
+  const auto& model = data.DynamicAxisModel;
+  const double lag = model.VelocityTimeConstant + model.AdditionalPositionTimeConstant;
+  return lag > 0.0 ? drive_.transport_delay() + lag : drive_.known_delay();
 }
 
 PositionControlSettings Axis::control_settings() const noexcept {
   return {.kv = data.PositionControl.Kv,
           .kpc = data.PositionControl.Kpc,
-          .delay = drive_.known_delay(),
-          .max_velocity = data.Actor.DriveParameter.MaxSpeed / 60.0 * way_per_motor_turn()};
+          .delay = control_delay(),
+          .max_velocity = data.Actor.MotorType == 1
+                              ? data.Actor.LinearMotorDriveParameter.MaxVelocity
+                              : data.Actor.DriveParameter.MaxSpeed / 60.0 * way_per_motor_turn()};
 }
 
 /// What the axis moves in one turn of the motor, through load gear and lead screw [u].
@@ -34,9 +66,14 @@ double Axis::way_per_motor_turn() const noexcept {
 }
 
 void Axis::servo() noexcept {
-  const DriveActual now = drive_.read();
-  drive_running_ = now.enabled;
+  DriveActual now = drive_.read();
   encoder_position_ = now.position;
+  if (signals_watched_) watch_signals(now.position);
+  if (encoder_sign_ < 0.0) {
+    now.position = -now.position;
+    now.velocity = -now.velocity;
+  }
+  drive_running_ = now.enabled;
   actual_ = advanced(encoder_origin_, now.position, modulo_);
   data.ActualAcceleration = (now.velocity - actual_velocity_) / servo_period_;
   actual_velocity_ = now.velocity;
@@ -52,7 +89,7 @@ void Axis::servo() noexcept {
   } else {
     control_position();
   }
-  drive_.write(data.VelocitySetpoint);
+  drive_.write(setpoint_sign_ * data.VelocitySetpoint);
 }
 
 /// The setpoint of this servo tick: between the last two interpolator results, one interpolator cycle later.
@@ -61,26 +98,59 @@ void Axis::control_position() noexcept {
   const double part = static_cast<double>(servo_tick_) / ratio_;
   const bool whole = servo_tick_ >= ratio_;
   const FineSetpoint fine = fine_setpoint(way, last_setpoint_.velocity, setpoint_.velocity, period_, part);
-  const AxisPosition position =
-      whole ? setpoint_.position : advanced(last_setpoint_.position, fine.way, modulo_);
-  const double velocity = whole ? setpoint_.velocity : fine.velocity;
+  AxisPosition position = whole ? setpoint_.position : advanced(last_setpoint_.position, fine.way, modulo_);
+  double velocity = whole ? setpoint_.velocity : fine.velocity;
   if (!position_controlled_) {
     data.VelocitySetpoint = velocity;
     data.StatusPositioning.FollowingError = 0.0;
     data.StatusServo.ControlDifference = 0.0;
     return;
   }
-  controller_.configure(control_settings(), servo_period_);
+  double filter_delay = 0.0;
+  if (data.SetpointFilter.DynamicFilter.Mode == 1) {
+    filter_delay = setpoint_filter_.delay(data.SetpointFilter.DynamicFilter);
+    const ServoSetpoint filtered =
+        setpoint_filter_.step({position, velocity}, data.SetpointFilter.DynamicFilter);
+    position = filtered.position;
+    velocity = filtered.velocity;
+  }
+  data.StatusServo.PositionAfterDynamicFilter = position.value;
+  const PositionControlSettings settings = control_settings();
+  data.StatusPositioning.SetpointExecutionTime = period_ + filter_delay + settings.delay;
+  controller_.configure(settings, servo_period_);
   const PositionControlled controlled = controller_.step(position, velocity, actual_, modulo_);
   data.VelocitySetpoint = controlled.velocity;
   data.StatusServo.BalancedPosition = controlled.balanced.value;
   data.StatusServo.ControlDifference = controlled.control_difference;
   data.StatusPositioning.FollowingError = controlled.control_difference;
+  if (data.FollowingError.AdditionalSetpointDelayTime > 0.0 || following_lag_.behind() != 0.0)
+    delay_following_error(controlled);
+  last_balanced_ = controlled.balanced;
   if (controlled.limited) raise(alarm::kSpeedSetpointLimited);
   if (data.FollowingError.EnableMonitoring) watch_following_error(velocity);
 }
 
+/// Position control begins anew from a setpoint that has moved at its velocity until now.
+void Axis::reset_servo(const ServoSetpoint& setpoint) noexcept {
+  setpoint_filter_.reset(setpoint, data.SetpointFilter.DynamicFilter);
+  const double behind = setpoint.velocity * setpoint_filter_.delay(data.SetpointFilter.DynamicFilter);
+  last_balanced_ = advanced(setpoint.position, -behind, modulo_);
+  following_lag_.set_behind(0.0);
+  if (setpoint.velocity == 0.0) return controller_.reset(last_balanced_);
+  controller_.reset(last_balanced_, setpoint.velocity * servo_period_, modulo_);
+}
+
+/// The following error counts against a setpoint that is delayed further.
+void Axis::delay_following_error(const PositionControlled& controlled) noexcept {
+  const double time = data.FollowingError.AdditionalSetpointDelayTime;
+  if (time != following_lag_.time_constant()) following_lag_.tune(time, servo_period_);
+  following_lag_.step(difference(controlled.balanced, last_balanced_, modulo_).rounded());
+  data.StatusPositioning.FollowingError -= following_lag_.behind();
+}
+
 void Axis::shift_servo(double by) noexcept {
+  setpoint_filter_.shift(by);
+  last_balanced_ = advanced(last_balanced_, by, modulo_);
   encoder_origin_ = advanced(encoder_origin_, by, modulo_);
   controller_.shift(by, modulo_);
 }

@@ -2,15 +2,20 @@
 #include <cmath>
 
 #include "tech_objects/axis.hpp"
+#include "tech_objects/cam.hpp"
 
 namespace lockstep {
 namespace {
+
+constexpr DINT kAtCamEnd = 5;  // SyncProfileReference of MC_CamIn
 
 /// Value of StatusSynchronizedMotion.FunctionState and WaitingFunctionState for a job.
 DINT function_state(JobKind kind) noexcept {
   switch (kind) {
     case JobKind::MC_GearIn:
       return 1;
+    case JobKind::MC_CamIn:
+      return 3;
     case JobKind::MC_GearInVelocity:
       return 6;
     default:
@@ -46,7 +51,8 @@ void Axis::begin_waiting(Job& job) noexcept {
 
 /// Each tick while a synchronous job waits: has the leading value met the start?
 void Axis::watch_waiting() noexcept {
-  switch (awaited_.watch(setpoint_)) {
+  const SynchronousMotion* active = motion_ == Motion::synchronous ? &synchronous_ : nullptr;
+  switch (awaited_.watch(setpoint_, active)) {
     case SynchronousMotion::Start::not_yet:
       break;
     case SynchronousMotion::Start::rejected:
@@ -70,15 +76,24 @@ void Axis::activate_waiting(Motion motion) noexcept {
   if (simulating()) return end_job(kWaiting, JobPhase::failed, ErrorId::simulated);
   running_[kWaiting] = nullptr;
   data.StatusSynchronizedMotion.WaitingFunctionState = 0;
+  const bool at_cam_end = job.kind == JobKind::MC_CamIn && job.mode == kAtCamEnd;
+  if (at_cam_end && running_[kBase] != nullptr) {
+    ++running_[kBase]->ends;
+    running_[kBase]->end_of_profile = true;
+  }
   if (!override_running(class_of(job, true), job)) {
     coupling_changed = true;
     return;
   }
+  // The new cam continues the following position of the old one, with what is superimposed on it.
+  const DoubleDouble superimposed =
+      at_cam_end && superimposed_.in_use() ? superimposed_.value() : DoubleDouble{};
   absorb_superimposed();
   running_[kBase] = &job;
   job.phase = motion == Motion::synchronous ? JobPhase::reached : JobPhase::active;
   set_position_control(true);
   synchronous_ = awaited_;
+  if (at_cam_end) synchronous_.raise_cam(superimposed);
   show_coupling(job, motion);
 }
 
@@ -90,6 +105,22 @@ void Axis::show_coupling(const Job& job, Motion motion) noexcept {
   status.ActualMaster = job.master->number;
   status.PhaseShift = 0.0;
   status.Offset = 0.0;
+  if (job.kind != JobKind::MC_CamIn) return clear_cam_status();
+  status.ActualCam = job.cam->number;
+  status.MasterOffset = synchronous_.master_offset();
+  status.MasterScaling = job.master_scaling;
+  status.SlaveOffset = synchronous_.slave_offset();
+  status.SlaveScaling = job.slave_scaling;
+}
+
+void Axis::clear_cam_status() noexcept {
+  const TO_Struct_StatusSynchronizedMotion none;
+  auto& status = data.StatusSynchronizedMotion;
+  status.ActualCam = none.ActualCam;
+  status.MasterOffset = none.MasterOffset;
+  status.MasterScaling = none.MasterScaling;
+  status.SlaveOffset = none.SlaveOffset;
+  status.SlaveScaling = none.SlaveScaling;
 }
 
 void Axis::step_synchronous() noexcept {
@@ -103,12 +134,17 @@ void Axis::step_synchronous() noexcept {
     advance_shift(kOffset);
   else if (synchronous_.following_offset().settling())
     synchronous_.advance_following_offset();
-  if (motion_ == Motion::synchronous && running_[kWaitingOut] == nullptr)
-    return synchronous_.advance(setpoint_);
+  if (motion_ == Motion::synchronous && running_[kWaitingOut] == nullptr) {
+    synchronous_.advance(setpoint_);
+    if (synchronous_.at_cam_end()) meet_cam_end();
+    return;
+  }
   Setpoint next = setpoint_;
   synchronous_.advance(next);
   if (motion_ == Motion::synchronous) {
-    if (!watch_sync_out(advancing_base_ ? with_superimposed(next) : next)) setpoint_ = next;
+    if (watch_sync_out(advancing_base_ ? with_superimposed(next) : next)) return;
+    setpoint_ = next;
+    if (synchronous_.at_cam_end()) meet_cam_end();
     return;
   }
   if (synchronous_.reversed()) {
@@ -123,6 +159,30 @@ void Axis::step_synchronous() noexcept {
   if (!synchronous_.synchronous()) return;
   motion_ = Motion::synchronous;
   job->phase = JobPhase::reached;
+  if (synchronous_.at_cam_end()) meet_cam_end();
+}
+
+/// The leading value has reached an end of the cam. One that is passed once ends its job: the axis stands at
+/// the end, or brakes if the cam ends with a slope.
+void Axis::meet_cam_end() noexcept {
+  Job& job = *running_[kBase];
+  ++job.ends;
+  if (!synchronous_.passed_once()) return synchronous_.clear_cam_end();
+  job.end_of_profile = true;
+  const bool rests = synchronous_.rests_at_cam_end();
+  end_job(kBase, JobPhase::done, ErrorId::none);
+  for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) end_job(slot, JobPhase::aborted, ErrorId::none);
+  leave_synchronous();
+  if (rests) {
+    setpoint_.velocity = 0.0;
+    setpoint_.acceleration = 0.0;
+    return single_.stand(setpoint_);
+  }
+  setpoint_ = last_setpoint_;
+  cut_acceleration();
+  const Dynamics dynamics = effective_dynamics(Job{});
+  begin_stop(zero_limit(dynamics) == 0 ? dynamics : maximum_dynamics(), false);
+  step_single_axis();
 }
 
 // ---- Shifts
@@ -151,7 +211,7 @@ void Axis::begin_shift(Job& job) noexcept {
   // The dynamics are those of the following axis; a phase shift moves it by the ratio.
   const double ratio =
       phasing ? std::abs(static_cast<double>(running_[kBase]->numerator) / running_[kBase]->denominator)
-              : 1.0;
+              : 1.0;  // and 1 for a cam, whose shifts go over a distance
   const ShiftRequest request{
       .target = relative ? shift.value() + job.position : DoubleDouble{job.position, 0.0},
       .profile = job.mode,
@@ -191,6 +251,7 @@ void Axis::leave_synchronous() noexcept {
   auto& status = data.StatusSynchronizedMotion;
   status.FunctionState = 0;
   status.ActualMaster = DB_ANY{};
+  clear_cam_status();
   status.StatusWord = DWORD{};
 }
 

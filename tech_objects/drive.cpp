@@ -37,7 +37,8 @@ void SimulatedDrive::configure(const SimulatedDriveSettings& settings, double se
   before_ = piece(dead.part * servo_cycle, time_constant);
   after_ = piece((1.0 - dead.part) * servo_cycle, time_constant);
   resolution_ = std::max(0.0, settings.resolution);
-  known_delay_ = (static_cast<double>(dead.whole) + dead.part + 0.5) * servo_cycle + time_constant;
+  transport_delay_ = (static_cast<double>(dead.whole) + dead.part + 0.5) * servo_cycle;
+  known_delay_ = transport_delay_ + time_constant;
 }
 
 SimulatedDrive::Piece SimulatedDrive::piece(double duration, double time_constant) noexcept {

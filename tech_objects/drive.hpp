@@ -7,6 +7,7 @@
 
 #include "tech_objects/axis_position.hpp"
 #include "tech_objects/double_double.hpp"
+#include "tech_objects/machine_signals.hpp"
 
 namespace lockstep {
 
@@ -35,6 +36,8 @@ struct SimulatedDriveSettings {
   double time_constant = 0.0;  ///< [s] ≥ 0, of the velocity loop as a first-order lag; 0: follows at once
   double dead_time = 0.0;      ///< [s] 0 … 254 servo cycles, whole or not; more counts as that
   double resolution = 0.0;     ///< [u] ≥ 0, increment of the encoder; 0: reports the position itself
+  bool inverted = false;       ///< motor and its encoder turn the other way round than the machine
+  MachineSignals signals{};    ///< what stands along its way; the drive itself takes no notice of it
 };
 
 /// Velocity loop as dead time and first-order lag, position as its integral, both exact for a setpoint that
@@ -55,6 +58,8 @@ class SimulatedDrive final : public Drive {
   /// [s] By what a setpoint of constant velocity is ahead of the actual position: dead time, time constant,
   /// and half a servo cycle for the setpoint being held.
   double known_delay() const noexcept { return known_delay_; }
+  /// [s] The part of it that is no lag: dead time and half a servo cycle.
+  double transport_delay() const noexcept { return transport_delay_; }
 
  private:
   /// A piece of a servo cycle in which the setpoint at the lag does not change.
@@ -74,6 +79,7 @@ class SimulatedDrive final : public Drive {
   double servo_cycle_ = 0.001;
   double resolution_ = 0.0;
   double known_delay_ = 0.0;
+  double transport_delay_ = 0.0;
   DoubleDouble position_;
   double velocity_ = 0.0;
   DoubleDouble reported_;

@@ -9,6 +9,7 @@
 
 namespace lockstep {
 
+class Cam;
 class LeadingObject;
 
 /// The instruction that a job comes from.
@@ -39,7 +40,8 @@ enum class JobKind : std::uint8_t {
   MC_CamOut,
   MC_MeasuringInput,
   MC_MeasuringInputCyclic,
-  MC_AbortMeasuringInput
+  MC_AbortMeasuringInput,
+  MC_InterpolateCam
 };
 
 /// When a job begins that finds another one running.
@@ -87,6 +89,7 @@ struct Job {
   LREAL jerk = -1.0;          ///< [u/s³]; 0: trapezoidal
   DINT direction{};           ///< Direction or SyncDirection
   DINT mode{};                ///< Mode, SyncProfileReference
+  DINT sensor{};              ///< MC_Home: encoder to adjust, 1 to 4; 0: the operative one
   BOOL current{};             ///< MC_MoveVelocity: keep the present velocity
   BOOL position_controlled = true;
   BufferMode buffer_mode{};   ///< MC_MoveAbsolute, MC_MoveRelative, MC_MoveVelocity, MC_Halt
@@ -102,13 +105,22 @@ struct Job {
   LREAL slave_sync_position{};    ///< [u]
   LREAL master_start_distance{};  ///< MasterStartDistance, PhasingDistance, … [u] of the leading axis
   LREAL start_position{};         ///< StartPosition of the leading value [u]
-  BOOL update{};                  ///< MC_GearInVelocity: the ratio counts in every cycle
+  Cam* cam{};
+  LREAL master_offset{};  ///< of the cam [u] of the leading axis
+  LREAL slave_offset{};   ///< of the cam [u]
+  LREAL master_scaling = 1.0;
+  LREAL slave_scaling = 1.0;
+  DINT application_mode{};
+  BOOL update{};  ///< MC_GearInVelocity: the ratio counts in every cycle
 
   BOOL limited{};  ///< MC_MeasuringInput…: only from start_position to position
 
   // Written by the axis, or by the object that measures.
   MeasuredEdges measured;
   LREAL covered{};          ///< share of a shift made so far [u]
+  LREAL mark_position{};    ///< MC_Home: position assigned to the homing mark [u]
+  UDINT ends{};             ///< ends of the cam reached so far
+  BOOL end_of_profile{};    ///< the job has ended at the end of its cam
   DoubleDouble shift_base;  ///< from which that share counts [u]
 
   bool ended() const noexcept { return phase >= JobPhase::done; }

@@ -42,6 +42,13 @@ class Shift {
   /// Back to zero.
   void reset() noexcept { *this = Shift{}; }
 
+  /// In effect from the beginning, at rest.
+  void start_at(DoubleDouble value) noexcept {
+    reset();
+    value_ = value;
+    in_use_ = value.hi != 0.0;
+  }
+
   /// Begins to wait or to run. A shift that is running goes on from its value, velocity and acceleration.
   /// @return an error if no profile can be planned
   ErrorId begin(const ShiftRequest& request, double period) noexcept;

@@ -46,6 +46,32 @@ double least_monotone_way(double start_slope, double start_curvature, double end
   return (c2 + 2.0 * c4 + c1 + c0) / 5.0;
 }
 
+double least_monotone_way(double start_slope, double start_curvature, double end_slope,
+                          double end_curvature) noexcept {
+  if (end_curvature == 0.0 && end_slope > 0.0)
+    return least_monotone_way(start_slope, start_curvature, end_slope);
+  const double c0 = start_slope;
+  const double c1 = c0 + 0.25 * start_curvature;
+  const double c4 = end_slope;
+  const double c3 = c4 - 0.25 * end_curvature;
+  if (c0 < 0.0 || c4 < 0.0 || (c0 == 0.0 && c1 < 0.0) || (c4 == 0.0 && c3 < 0.0))
+    return std::numeric_limits<double>::infinity();
+  // 6 c2 ≥ -min (c0/t² + 4 c1/t + 4 c3 t + c4 t²), which may have two minima: from far below to far above.
+  const auto bound = [&](double t) { return (c0 / t + 4.0 * c1) / t + (4.0 * c3 + c4 * t) * t; };
+  constexpr double kStep = 1.0905077326652577;  // 2^(1/8)
+  double best = 1e-6;
+  for (double t = best; t < 1e6; t *= kStep)
+    if (bound(t) < bound(best)) best = t;
+  double low = best / kStep;
+  double high = best * kStep;
+  for (int i = 0; i < 60; ++i) {
+    const double left = low + (high - low) / 3.0;
+    const double right = high - (high - low) / 3.0;
+    (bound(left) < bound(right) ? high : low) = bound(left) < bound(right) ? right : left;
+  }
+  return (-bound(low) / 6.0 + c0 + c1 + c3 + c4) / 5.0;
+}
+
 SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, double distance, bool backward,
                            SyncDirection direction, const Modulo& leading, const Modulo& following) noexcept {
   const double sign = backward ? -1.0 : 1.0;
@@ -65,14 +91,16 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
   double turns = 0.0;
   if (following.enabled) {
     const double length = following.length;
-    const DoubleDouble way = two_product(end_slope, distance) - ahead;  // of the following axis, to be chosen
+    const DoubleDouble way = two_product(end_slope, distance) - 0.5 * target.curvature * distance * distance -
+                             ahead;  // of the following axis, to be chosen
     if (direction == SyncDirection::kShortestPath) {
       turns = -std::floor(way.hi / length + 0.5);
     } else {
       const double to = direction == SyncDirection::kPositive ? 1.0 : -1.0;
-      if (to * end_slope <= 0.0) return SyncPlan::kFunctionRunsTheOtherWay;
-      const double least = least_monotone_way(to * slope * distance, to * curvature * distance * distance,
-                                              to * end_slope * distance);
+      if (to * end_slope < 0.0) return SyncPlan::kFunctionRunsTheOtherWay;
+      const double least =
+          least_monotone_way(to * slope * distance, to * curvature * distance * distance,
+                             to * end_slope * distance, to * target.curvature * distance * distance);
       if (!(least < 0x1p52 * length)) return SyncPlan::kAxisMovesTheOtherWay;
       turns = to * std::ceil((least - to * way.hi) / length - kRounding * (1.0 + std::abs(least / length)));
     }
@@ -82,7 +110,10 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
   leading_ = leading;
   backward_ = backward;
   turns_ = static_cast<std::int64_t>(turns);
-  remainder_.set({.position = ahead.rounded(), .slope = slope - end_slope, .curvature = curvature}, distance);
+  remainder_.set({.position = ahead.rounded(),
+                  .slope = slope - (end_slope - target.curvature * distance),
+                  .curvature = curvature - target.curvature},
+                 distance);
   return SyncPlan::kReady;
 }
 

@@ -28,10 +28,12 @@ struct SyncStart {
   double acceleration = 0.0;  ///< [u/s²] of the following axis
 };
 
-/// The synchronous function that the profile joins: straight over the distance.
+/// The synchronous function that the profile joins: straight over the distance, or a parabola.
 struct SyncTarget {
   AxisPosition at_start;  ///< function value at the leading position where the profile starts
-  double slope = 1.0;     ///< [u / leading u] ratio, not 0
+  double slope = 1.0;  ///< [u / leading u] ratio of a gear, not 0; of a cam that at the end of the distance
+  double curvature = 0.0;  ///< [u / leading u²] of a cam, there: then the profile joins the parabola that
+                           ///< touches the cam at the end of the distance, and `at_start` is its value
 };
 
 enum class SyncPlan : std::uint8_t {
@@ -88,5 +90,10 @@ class SyncProfile {
 /// `start_curvature` to slope `end_slope` > 0, curvature 0 never runs backward. All slopes are times D and
 /// the curvature times D², so in [u]. Infinite if there is none. Any thread.
 double least_monotone_way(double start_slope, double start_curvature, double end_slope) noexcept;
+
+/// The same for a quintic that ends with a slope ≥ 0 and a curvature (times D²); searched for, so about right
+/// to 1.0E-9.
+double least_monotone_way(double start_slope, double start_curvature, double end_slope,
+                          double end_curvature) noexcept;
 
 }  // namespace lockstep

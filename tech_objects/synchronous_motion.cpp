@@ -53,6 +53,7 @@ void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
   if (reversed_) return;
   if (way_ == Way::velocity) return advance_velocity(setpoint);
   if (way_ == Way::out) return advance_out(setpoint);
+  if (cam_ != nullptr) follow_.clear_end();
   evaluate_function(function_);
   advance_along_profile(setpoint);
 }
@@ -78,6 +79,7 @@ void SynchronousMotion::add_additive(Setpoint& leading, const AdditiveLeadingVal
 /// value: copying a whole setpoint would make the processor wait until its parts have left for memory. The
 /// share of the shift is added behind the gear, where nothing is rounded in between.
 void SynchronousMotion::evaluate_function(Setpoint& result) noexcept {
+  if (cam_ != nullptr) return evaluate_cam(result);
   const AxisPosition position = gear_.value(leading_now_.position);
   result.position.turns = function_.position.turns = position.turns;
   result.position.value = function_.position.value = position.value;
@@ -172,14 +174,17 @@ void SynchronousMotion::advance_along_profile(Setpoint& setpoint) noexcept {
   if (way >= profile_way_) {
     synchronous_ = true;
     setpoint = function_;
+    if (offset_.in_use()) add_offset(setpoint);
+    if (cam_ != nullptr && !passed_once()) follow_.clear_end();  // it begins, whatever pass that is
     return;
   }
   const SyncOffset ahead = offset(way);
   const double way_velocity = direction_ * leading_now_.velocity;
   const double way_acceleration = direction_ * leading_now_.acceleration;
-  setpoint.position = advanced(function_.position, ahead.position, following_);
-  setpoint.velocity = function_.velocity + ahead.velocity(way_velocity);
-  setpoint.acceleration = function_.acceleration + ahead.acceleration(way_velocity, way_acceleration);
+  const Setpoint joined = cam_ != nullptr ? tangent(way) : function_;
+  setpoint.position = advanced(joined.position, ahead.position, following_);
+  setpoint.velocity = joined.velocity + ahead.velocity(way_velocity);
+  setpoint.acceleration = joined.acceleration + ahead.acceleration(way_velocity, way_acceleration);
 }
 
 /// What the axis is ahead of its function, over the leading distance covered.
@@ -195,7 +200,7 @@ SyncOffset SynchronousMotion::offset(double way) const noexcept {
 }
 
 void SynchronousMotion::shift_following(double by) noexcept {
-  if (leading_ == nullptr || !synchronous_ || velocity_only_) return;
+  if (leading_ == nullptr || !synchronous_ || velocity_only_ || cam_ != nullptr) return;
   function_.position = advanced(function_.position, by, following_);
   const AxisPosition without_phase =
       phase_.in_use() ? advanced(function_.position, -(gear_.ratio() * phase_.value()), following_)
@@ -208,6 +213,7 @@ void SynchronousMotion::shift_following(double by) noexcept {
 
 bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
                                        const Dynamics& dynamics) noexcept {
+  if (cam_ != nullptr) return meets_cam_out(job, last, candidate, dynamics);
   const double step = difference(candidate.position, last.position, following_).rounded();
   const int heading = sign(step);
   if (heading == 0 || (job.direction == 1 && heading < 0) || (job.direction == 2 && heading > 0))
@@ -225,6 +231,11 @@ bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, con
   if (spare < 0.0 || spare > std::abs(step)) return false;
   out_way_ = heading * (braking + spare);
   out_distance_ = job.master_start_distance + spare / std::abs(ratio_);
+  set_out_position(last, target);
+  return true;
+}
+
+void SynchronousMotion::set_out_position(const Setpoint& last, double target) noexcept {
   out_position_ = advanced(last.position, out_way_, following_);
   if (following_.enabled) {
     // The way is rounded: at the end of the ring the turn may be the neighbour's.
@@ -233,7 +244,6 @@ bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, con
     if (off < -0.5 * following_.length) --out_position_.turns;
   }
   out_position_.value = target;
-  return true;
 }
 
 /// Way that the axis needs to stop in the direction it is heading [u]; NaN if that cannot be planned.
@@ -290,6 +300,8 @@ void SynchronousMotion::couple(const LeadingValue& leading, const Job& job,
                                const Dynamics& dynamics) noexcept {
   leading_ = &leading;
   leading_modulo_ = leading.source->modulo();
+  cam_ = job.cam;
+  curvature_ = 0.0;
   numerator_ = job.numerator;
   denominator_ = job.denominator;
   ratio_ = static_cast<double>(job.numerator) / static_cast<double>(job.denominator);
@@ -322,6 +334,9 @@ ErrorId SynchronousMotion::begin_waiting(const LeadingValue& leading, const Job&
   start_distance_ = job.master_start_distance;
   look_at_leading();
   leading_last_ = leading_now_;
+  if (cam_ != nullptr) {
+    if (const ErrorId error = begin_cam(job); error != ErrorId::none) return error;
+  }
   if (profile_reference_ != 1 || leading_modulo_.enabled || standing_on_sync_positions(own))
     return ErrorId::none;
   // On a line, profile 1 needs its whole distance ahead; a standing leading axis is judged in both
@@ -348,7 +363,9 @@ SynchronousMotion::Start SynchronousMotion::reject(ErrorId error) noexcept {
 // ---- Waiting
 // ----------------------------------------------------------------------------------------------------
 
-SynchronousMotion::Start SynchronousMotion::watch(const Setpoint& own) noexcept {
+SynchronousMotion::Start SynchronousMotion::watch(const Setpoint& own,
+                                                  const SynchronousMotion* active) noexcept {
+  if (cam_ != nullptr) return watch_cam(own, active);
   look_at_leading();
   if (standing_on_sync_positions(own)) {
     direction_ = 1;
@@ -380,7 +397,14 @@ double SynchronousMotion::way_to(double place) const noexcept {
 /// Places the function: the synchronous positions belong together, the leading one a way ahead of the last
 /// tick.
 void SynchronousMotion::anchor(double way_to_sync_position, AxisPosition following) noexcept {
-  AxisPosition leading = advanced(leading_last_.position, direction_ * way_to_sync_position, leading_modulo_);
+  following.value = slave_sync_position_;
+  gear_.set(numerator_, denominator_, leading_at(way_to_sync_position), following, leading_modulo_,
+            following_);
+}
+
+/// The synchronous position of the leading axis, a way ahead of the last tick.
+AxisPosition SynchronousMotion::leading_at(double way) const noexcept {
+  AxisPosition leading = advanced(leading_last_.position, direction_ * way, leading_modulo_);
   if (leading_modulo_.enabled) {
     // The way is rounded: at the end of the ring the turn may be the neighbour's.
     const double off = leading.value - master_sync_position_;
@@ -388,8 +412,7 @@ void SynchronousMotion::anchor(double way_to_sync_position, AxisPosition followi
     if (off < -0.5 * leading_modulo_.length) --leading.turns;
   }
   leading.value = master_sync_position_;
-  following.value = slave_sync_position_;
-  gear_.set(numerator_, denominator_, leading, following, leading_modulo_, following_);
+  return leading;
 }
 
 /// Profiles 1 and 3: starts at the last tick before the start position is crossed and spans the rest.
@@ -442,14 +465,15 @@ SynchronousMotion::Start SynchronousMotion::begin_profile(Way way) noexcept {
 /// Profile 0: starts at the last tick from which the way that is left still suffices for the planned time.
 SynchronousMotion::Start SynchronousMotion::watch_time(const Setpoint& own) noexcept {
   const double leading_velocity = leading_now_.velocity;
+  const double way = way_to(master_sync_position_);
+  if (cam_ != nullptr) aim_at_cam(way);
   const double synchronous_velocity = ratio_ * leading_velocity;
   if (leading_last_.velocity == 0.0 || sign(leading_velocity) != direction_) return Start::not_yet;
   if (std::abs(synchronous_velocity) >= dynamics_.velocity) return reject(ErrorId::velocity);
   const int forced = !following_.enabled || sync_direction_ == 3 ? 0 : sync_direction_ == 1 ? 1 : -1;
-  if (forced != 0 && (sign(synchronous_velocity) != forced || forced * own.velocity < 0.0))
+  if (forced != 0 && (sign(synchronous_velocity) == -forced || forced * own.velocity < 0.0))
     return reject(ErrorId::direction);
 
-  const double way = way_to(master_sync_position_);
   const double step =
       direction_ * difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
   Profile now, next;
@@ -461,7 +485,11 @@ SynchronousMotion::Start SynchronousMotion::watch_time(const Setpoint& own) noex
                              next.duration() * std::abs(leading_velocity) <= way - step;
   if (next_suffices) return Start::not_yet;
 
-  anchor(way, advanced(own.position, following_way(own.position.value), following_));
+  const AxisPosition following = advanced(own.position, following_way(own.position.value), following_);
+  if (cam_ != nullptr)
+    take_joint(follow_.joined_at(leading_at(way), direction_), following.turns);
+  else
+    anchor(way, following);
   time_profile_ = now;
   time_velocity_ = speed;
   profile_way_ = way;
@@ -482,19 +510,27 @@ double SynchronousMotion::following_way(double here) const noexcept {
 /// @param way leading distance that is left  @param ahead way that the axis itself makes until then [u]
 bool SynchronousMotion::plan_time(const Setpoint& own, const Setpoint& leading, double way, double ahead,
                                   Profile& profile) const noexcept {
-  const double function_velocity = ratio_ * leading.velocity;
-  ProfileLimits limits{.velocity_max = dynamics_.velocity - function_velocity,
-                       .velocity_min = -dynamics_.velocity - function_velocity,
-                       .acceleration = std::min(dynamics_.acceleration, dynamics_.deceleration),
-                       .deceleration = std::min(dynamics_.acceleration, dynamics_.deceleration),
+  // Of a cam it is the parabola that touches it in the synchronous position.
+  const double slope = ratio_ - curvature_ * direction_ * way;
+  const double function_velocity = slope * leading.velocity;
+  const double bend = curvature_ * leading.velocity * leading.velocity;
+  const double slowest = std::min(function_velocity, ratio_ * leading.velocity);
+  const double fastest = std::max(function_velocity, ratio_ * leading.velocity);
+  const double acceleration = std::min(dynamics_.acceleration, dynamics_.deceleration) - std::abs(bend);
+  ProfileLimits limits{.velocity_max = dynamics_.velocity - fastest,
+                       .velocity_min = -dynamics_.velocity - slowest,
+                       .acceleration = acceleration,
+                       .deceleration = acceleration,
                        .jerk = dynamics_.jerk};
-  if (following_.enabled && sync_direction_ == 1) limits.velocity_min = -function_velocity;
-  if (following_.enabled && sync_direction_ == 2) limits.velocity_max = -function_velocity;
+  if (following_.enabled && sync_direction_ == 1) limits.velocity_min = -slowest;
+  if (following_.enabled && sync_direction_ == 2) limits.velocity_max = -fastest;
   const double relative_velocity = own.velocity - function_velocity;
   const double slope_change = relative_velocity / leading.velocity * leading.acceleration;
-  const MotionState start{.position = ratio_ * direction_ * way - (following_way(own.position.value) - ahead),
-                          .velocity = relative_velocity,
-                          .acceleration = own.acceleration - ratio_ * leading.acceleration - slope_change};
+  const MotionState start{
+      .position = ratio_ * direction_ * way - 0.5 * curvature_ * way * way -
+                  (following_way(own.position.value) - ahead),
+      .velocity = relative_velocity,
+      .acceleration = own.acceleration - slope * leading.acceleration - bend - slope_change};
   return plan_position(start, 0.0, 0.0, limits, profile) == PlanResult::ok;
 }
 

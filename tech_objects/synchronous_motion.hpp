@@ -1,11 +1,13 @@
 /// Motion led by another axis: the chain from leading value to following value, and the ways into it.
 ///
-///   leading value → + additive → + phase shift → function (gear) → + offset → + superimposed → setpoint
+///   leading value → + additive → + phase shift → function (gear | cam) → + offset → + superimposed →
+///   setpoint
 ///
 /// @source S7-1500T synchronous operation V7, 4.5, 6.1, 6.2
 #pragma once
 
 #include "tech_objects/alarms.hpp"
+#include "tech_objects/cam_motion.hpp"
 #include "tech_objects/gear_function.hpp"
 #include "tech_objects/job.hpp"
 #include "tech_objects/profile.hpp"
@@ -37,9 +39,10 @@ class SynchronousMotion {
   enum class Way : std::uint8_t {
     none,
     velocity,  ///< MC_GearIn, MC_GearInVelocity: brings velocity and acceleration to those of the function
-    distance,  ///< MC_GearInPos profiles 1 and 3: a function of the leading value over a distance
-    out,       ///< MC_GearOut profile 1: a function of the leading value over a distance, to rest
-    time,      ///< MC_GearInPos profile 0: planned in time, then a function of the leading value
+    distance,  ///< MC_GearInPos profiles 1 and 3, MC_CamIn 1, 3, 4, 6: a function of the leading value over a
+               ///< distance
+    out,       ///< MC_GearOut, MC_CamOut profile 1: a function of the leading value over a distance, to rest
+    time,      ///< MC_GearInPos, MC_CamIn profile 0: planned in time, then a function of the leading value
   };
 
   /// What becomes of a waiting job in this tick.
@@ -53,13 +56,13 @@ class SynchronousMotion {
   /// MC_GearIn, MC_GearInVelocity: from the setpoint at hand, at once.
   void begin_gear_in(const LeadingValue& leading, const Job& job, const Dynamics& dynamics) noexcept;
 
-  /// MC_GearInPos: prepares to wait for the start condition.
+  /// MC_GearInPos, MC_CamIn: prepares to wait for the start condition.
   /// @return the error with which the job has to be rejected, or none
   ErrorId begin_waiting(const LeadingValue& leading, const Job& job, const Dynamics& dynamics,
                         const Setpoint& own) noexcept;
   /// Looks whether the way between the last two leading values holds the start; `own` is the setpoint of the
-  /// last tick.
-  Start watch(const Setpoint& own) noexcept;
+  /// last tick, `active` the synchronous motion that leads the axis until then; nullptr: none.
+  Start watch(const Setpoint& own, const SynchronousMotion* active) noexcept;
   /// Why `watch` has rejected the job.
   ErrorId rejection() const noexcept { return rejection_; }
 
@@ -80,7 +83,26 @@ class SynchronousMotion {
   Shift::Event advance_phase_shift() noexcept;
   Shift::Event advance_following_offset() noexcept;
 
-  // ---- Desynchronizing by MC_GearOut
+  // ---- Cams
+
+  /// The cam that is followed, or waited for; nullptr: none.
+  Cam* cam() const noexcept { return cam_; }
+  /// After `advance`: whether the leading value has reached an end of the cam since it was cleared.
+  bool at_cam_end() const noexcept { return cam_ != nullptr && follow_.ended() != CamEnd::none; }
+  void clear_cam_end() noexcept { follow_.clear_end(); }
+  bool passed_once() const noexcept { return cam_use_.mode == CamMode::once; }
+  /// Whether the axis comes to rest at the end that has been reached.
+  bool rests_at_cam_end() const noexcept;
+  /// Adds to the offset with which a cam begins [u].
+  void raise_cam(DoubleDouble by) noexcept {
+    offset_.start_at(offset_.value() + by);
+    slave_offset_ = offset_.value().hi;
+  }
+  /// Offsets in effect when the job became active.
+  double master_offset() const noexcept { return master_offset_; }
+  double slave_offset() const noexcept { return slave_offset_; }
+
+  // ---- Desynchronizing by MC_GearOut and MC_CamOut
 
   /// Whether the axis comes past the place from which it would come to rest at the given position between the
   /// last setpoint and the candidate for this tick.
@@ -95,7 +117,10 @@ class SynchronousMotion {
   bool desynchronized() const noexcept { return way_ == Way::out && desynchronized_; }
 
   /// Forgets the coupling.
-  void end() noexcept { leading_ = nullptr; }
+  void end() noexcept {
+    leading_ = nullptr;
+    cam_ = nullptr;
+  }
 
   bool synchronous() const noexcept { return synchronous_; }
   /// Whether the leading value has reversed while synchronizing by more than the tolerance.
@@ -119,6 +144,7 @@ class SynchronousMotion {
   void couple(const LeadingValue& leading, const Job& job, const Dynamics& dynamics) noexcept;
   void look_at_leading() noexcept;
   void evaluate_function(Setpoint& result) noexcept;
+  void evaluate_cam(Setpoint& result) noexcept;
   void add_additive(Setpoint& leading, const AdditiveLeadingValue& additive) const noexcept;
   void add_offset(Setpoint& setpoint) const noexcept;
   double stopping_way(const Setpoint& from, int heading, const Dynamics& dynamics) const noexcept;
@@ -137,6 +163,24 @@ class SynchronousMotion {
   Start watch_distance(const Setpoint& own) noexcept;
   Start watch_time(const Setpoint& own) noexcept;
   Start reject(ErrorId error) noexcept;
+
+  // synchronous_camming.cpp
+  ErrorId begin_cam(const Job& job) noexcept;
+  Start watch_cam(const Setpoint& own, const SynchronousMotion* active) noexcept;
+  bool stands_on_cam(const Setpoint& own) noexcept;
+  Start watch_cam_distance(const Setpoint& own) noexcept;
+  Start watch_cam_end(const SynchronousMotion* active) noexcept;
+  Start set_on_cam(const Setpoint& own) noexcept;
+  bool place_cam_here(AxisPosition leading) noexcept;
+  void place_cam(AxisPosition leading) noexcept;
+  void aim_at_cam(double way) noexcept;
+  void take_joint(const CamPlace& place, std::int64_t turns) noexcept;
+  double cam_start() const noexcept;
+  Setpoint tangent(double way) const noexcept;
+  bool meets_cam_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
+                     const Dynamics& dynamics) noexcept;
+  AxisPosition leading_at(double way) const noexcept;
+  void set_out_position(const Setpoint& last, double target) noexcept;
   bool shoots_beyond(const SyncOffset& start, double distance) const noexcept;
   Start begin_profile(Way way) noexcept;
   double following_way(double here) const noexcept;
@@ -144,6 +188,7 @@ class SynchronousMotion {
                  Profile& profile) const noexcept;
 
   const LeadingValue* leading_ = nullptr;
+  Cam* cam_ = nullptr;  // nullptr: gear_ is the function
   Way way_ = Way::none;
   bool synchronous_ = false;
   bool reversed_ = false;
@@ -189,6 +234,15 @@ class SynchronousMotion {
   double out_distance_ = 0.0;  // leading distance [u]
   bool desynchronized_ = false;
   Remainder out_remainder_;
+
+  // Cams.
+  CamFollowing follow_;
+  CamUse cam_use_;
+  double cam_sync_way_ = 0.0;   // MasterSyncPosition: from the start of the cam [u] of the leading axis
+  double master_offset_ = 0.0;  // [u] of the leading axis
+  double slave_offset_ = 0.0;   // [u]
+  AxisPosition joint_;          // where profile and cam meet, with the offset
+  double curvature_ = 0.0;      // of the cam there [u / leading u²]; the slope is ratio_
 };
 
 }  // namespace lockstep

@@ -19,6 +19,8 @@ enum class ObjectKind : std::uint32_t {
   TO_SynchronousAxis = 1u << 1,
   TO_ExternalEncoder = 1u << 8,
   TO_MeasuringInput = 1u << 9,
+  TO_Cam = 1u << 2,
+  TO_Cam_10k = 1u << 3,
 };
 
 /// A set of object kinds.
@@ -36,6 +38,7 @@ constexpr bool among(ObjectKind kind, ObjectKinds kinds) noexcept {
 
 inline constexpr ObjectKinds kAnyAxis = ObjectKind::TO_PositioningAxis | ObjectKind::TO_SynchronousAxis;
 inline constexpr ObjectKinds kSynchronousAxis = static_cast<ObjectKinds>(ObjectKind::TO_SynchronousAxis);
+inline constexpr ObjectKinds kAnyCam = ObjectKind::TO_Cam | ObjectKind::TO_Cam_10k;
 /// What may lead a following axis.
 inline constexpr ObjectKinds kLeading = kAnyAxis | ObjectKind::TO_ExternalEncoder;
 inline constexpr ObjectKinds kMeasuringInput = static_cast<ObjectKinds>(ObjectKind::TO_MeasuringInput);
@@ -59,6 +62,8 @@ inline constexpr std::array kObjectKinds = {
                    "Encoder that moves nothing; it leads axes by its extrapolated actual value."},
     ObjectKindText{ObjectKind::TO_MeasuringInput, "TO_MeasuringInput",
                    "Input at whose edges the position of an axis or encoder is measured."},
+    ObjectKindText{ObjectKind::TO_Cam, "TO_Cam", "Cam of up to 1000 points and 50 segments."},
+    ObjectKindText{ObjectKind::TO_Cam_10k, "TO_Cam_10k", "Cam of up to 10000 points and 50 segments."},
 };
 
 /// Published name, such as "TO_SynchronousAxis".

@@ -73,6 +73,10 @@ const DataBlock& data_block_of(ObjectKind kind) noexcept {
       return encoder_data_block();
     case ObjectKind::TO_MeasuringInput:
       return measuring_input_data_block();
+    case ObjectKind::TO_Cam:
+      return cam_data_block();
+    case ObjectKind::TO_Cam_10k:
+      return cam_10k_data_block();
   }
   return axis_data_block();
 }

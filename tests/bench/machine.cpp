@@ -27,8 +27,27 @@ std::string quoted(std::string_view text) {
   return joined({"\"", text, "\""});
 }
 
+bool follows(const MachinePlan& plan) {
+  return plan.motion == Motion::gear || plan.motion == Motion::cam;
+}
+
+/// A parabola up and down, ten thousand points long, that begins and ends alike.
+std::string cam_object() {
+  constexpr int kPoints = 10'000;
+  std::string points;
+  for (int i = 0; i < kPoints; ++i) {
+    const double x = 360.0 * i / (kPoints - 1);
+    points +=
+        (i == 0 ? "[" : ", [") + std::to_string(x) + ", " + std::to_string(x * (360.0 - x) / 400.0) + "]";
+  }
+  return joined(
+      {R"("Cam": { "type": "TO_Cam_10k", "config": { "InterpolationSettings": { "InterpolationMode": 1 } },
+  "points": [ )",
+       points, " ] }"});
+}
+
 std::string axis_object(const MachinePlan& plan, int number) {
-  const bool gear = plan.motion == Motion::gear;
+  const bool gear = follows(plan);
   return joined({quoted(axis_name(number)), R"(: { "type": )",
                  quoted(gear ? "TO_SynchronousAxis" : "TO_PositioningAxis"), R"(, "config": { )",
                  plan.drives ? "" : R"("VirtualAxis": { "Mode": 1 }, )", R"("Modulo": { "Enable": )",
@@ -68,6 +87,12 @@ std::string axis_calls(const MachinePlan& plan, int number) {
                                        std::to_string(1 + number % 11), R"(, "Execute": )", quoted(enabled)});
     return joined({power, ",\n", call("MC_GearIn", "gear" + n, "Slave", axis, inputs)});
   }
+  if (plan.motion == Motion::cam) {
+    const std::string inputs = joined(
+        {R"("Master": "Leading", "Cam": "Cam", "SyncProfileReference": 2, "ApplicationMode": 1, "SlaveScaling": 0.)",
+         std::to_string(1 + number % 9), R"(, "Execute": )", quoted(enabled)});
+    return joined({power, ",\n", call("MC_CamIn", "cam" + n, "Slave", axis, inputs)});
+  }
   const std::string forth = "forth" + n;
   const std::string back = "back" + n;
   const std::string distance = std::to_string(400 + 13 * (number % 31));
@@ -99,6 +124,8 @@ std::string_view name_of(Motion motion) {
   switch (motion) {
     case Motion::gear:
       return "gear";
+    case Motion::cam:
+      return "cam";
     case Motion::positioning:
       return "positioning";
     case Motion::idle:
@@ -113,8 +140,9 @@ std::string MachinePlan::name() const {
 }
 
 std::string project_text(const MachinePlan& plan) {
-  const bool gear = plan.motion == Motion::gear;
+  const bool gear = follows(plan);
   std::string objects(gear ? kLeadingObject : "");
+  if (plan.motion == Motion::cam) objects += ",\n" + cam_object();
   std::string calls(gear ? kLeadingCalls : "");
   for (int number = 1; number <= plan.axes; ++number) {
     const std::string_view separator = objects.empty() ? "" : ",\n";
@@ -156,7 +184,7 @@ void Machine::run(int cycles) {
 
 /// What is measured has to be what the plan says.
 void Machine::check() const {
-  const StatusBit wanted = plan_.motion == Motion::gear          ? StatusBit::Synchronous
+  const StatusBit wanted = follows(plan_)                        ? StatusBit::Synchronous
                            : plan_.motion == Motion::positioning ? StatusBit::PositioningCommand
                                                                  : StatusBit::Standstill;
   int right = 0;

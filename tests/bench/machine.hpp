@@ -13,6 +13,7 @@ namespace lockstep::bench {
 /// What the axes do while they are measured.
 enum class Motion {
   gear,         ///< follow one leading axis: MC_Power and MC_GearIn each, called in every cycle
+  cam,          ///< follow one leading axis on one cam of 10,000 points: MC_Power and MC_CamIn each
   positioning,  ///< move back and forth: MC_Power and two MC_MoveRelative each, called in every cycle
   idle          ///< enabled and standing: MC_Power each, called in every cycle
 };

@@ -12,6 +12,8 @@
 #include "bench/measure.hpp"
 #include "projects/expression_compiler.hpp"
 #include "projects/project.hpp"
+#include "tech_objects/cam_interpolation.hpp"
+#include "tech_objects/cam_motion.hpp"
 #include "tech_objects/gear_function.hpp"
 #include "tech_objects/profile.hpp"
 
@@ -93,6 +95,51 @@ Part gear(std::string name, const Modulo& leading, const Modulo& following) {
           100'000};
 }
 
+/// A cam of 10,000 points, which is moved along, alone or applied to a pair of axes.
+CamFunction long_cam() {
+  const auto made = std::make_unique<CamData10k>();
+  CamData10k& data = *made;
+  for (std::size_t i = 0; i < data.Point.size(); ++i) {
+    const double x = 360.0 * static_cast<double>(i) / 9999.0;
+    data.Point[i] = {x, x * (360.0 - x) / 400.0};
+  }
+  data.ValidPoint.fill(true);
+  data.InterpolationSettings.InterpolationMode = 1;
+  CamFunction function(kCam10kPoints);
+  CamInterpolator interpolator(kCam10kPoints);
+  if (interpolator.interpolate(elements_of(data), function) != ErrorId::none)
+    throw std::runtime_error("no cam");
+  return function;
+}
+
+Part cam_curve() {
+  auto function = std::make_shared<CamFunction>(long_cam());
+  return {"cam of 10,000 points: value and derivatives, moving",
+          [function, hint = CamHint{}, x = 0.0](int calls) mutable {
+            for (int i = 0; i < calls; ++i) {
+              x += 0.314;
+              if (x >= 360.0) x -= 360.0;
+              keep(function->value(x, hint));
+            }
+          },
+          100'000};
+}
+
+Part cam_applied() {
+  auto function = std::make_shared<CamFunction>(long_cam());
+  auto cam = std::make_shared<CamFollowing>();
+  const Modulo ring{true, 360.0, 0.0};
+  cam->set(*function, {1.0, 0.5, CamMode::cyclic}, {}, {}, ring, {});
+  return {"cam applied to axes: linear after modulo axis, and a step of the leading axis",
+          [function, cam, ring, place = AxisPosition{}](int calls) mutable {
+            for (int i = 0; i < calls; ++i) {
+              place = advanced(place, 0.314, ring);
+              keep(cam->value(place));
+            }
+          },
+          100'000};
+}
+
 /// The names that the expressions use.
 class Tags final : public Scope {
  public:
@@ -141,6 +188,8 @@ std::vector<Part> parts(bool quick) {
           evaluation("otg_position.csv"),
           gear("gear function: linear after linear axis, and a step of the leading axis", line, line),
           gear("gear function: modulo after modulo axis, and a step of the leading axis", ring, ring),
+          cam_curve(),
+          cam_applied(),
           expression("start", Type::BOOL),
           expression("start AND NOT stop", Type::BOOL),
           expression("LIMIT(10.0, speed * 1.5 + 2.0, 500.0)", Type::LREAL),

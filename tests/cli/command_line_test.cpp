@@ -6,7 +6,7 @@
 namespace lockstep::cli {
 namespace {
 
-constexpr const char* kCommands[] = {"check", "run", "describe", "tags", "plot", "monitor"};
+constexpr const char* kCommands[] = {"check", "run", "describe", "tags", "read", "write", "plot", "monitor"};
 
 TEST(CommandLine, EveryCommandHasAHelpThatNamesItsExitStatuses) {
   const Ended all = lockstep({"--help"});
@@ -33,6 +33,9 @@ TEST(CommandLine, AWrongOneExitsWith2AndSaysSoOnStandardError) {
                                                        {"tags"},
                                                        {"plot", "a.csv"},
                                                        {"monitor", "extra"},
+                                                       {"read", "127.0.0.1:1"},
+                                                       {"write", "127.0.0.1:1", "--project", "p.json"},
+                                                       {"tags", "p.json", "--json", "--csv"},
                                                        {"describe", "--jason"},
                                                        {"describe", "a", "b", "c"}};
   for (const auto& arguments : wrong) {

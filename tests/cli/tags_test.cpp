@@ -35,6 +35,29 @@ constexpr char kProject[] = R"({
     { "tag": "Drum.ActualPosition", "table": "input_register", "address": 0, "type": "REAL" } ] }
 })";
 
+TEST(Tags, TellsWhatIsOnModbusAsCsv) {
+  const Folder folder;
+  json project = json::parse(kProject);
+  project["tags"]["go"]["comment"] = "from the \"HMI\", left";
+  project["modbus"]["units"] = json::parse(
+      R"([{"unit": 5, "map": [{"tag": "go", "table": "holding_register", "address": 3, "bit": 2},
+                              {"tag": "speed", "table": "holding_register", "address": 4, "type": "INT",
+                               "scale": 0.5, "offset": -1},
+                              {"diagnostic": "clients", "table": "input_register", "address": 9}]}])");
+  const Ended ended = lockstep({"tags", folder.write("project.json", project.dump()), "--csv"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_TRUE(ended.out.starts_with("name,type,unit,table,address,length,wire_type,word_order,"))
+      << ended.out;
+  for (const char* line :
+       {"go,BOOL,,coil,7,1,BOOL,big,big,,,,write,,,\"from the \"\"HMI\"\", left\"\r\n",
+        "go,BOOL,,holding_register,3,1,BOOL,big,big,2,,,write,,5,\"from the \"\"HMI\"\", left\"\r\n",
+        "speed,LREAL,,holding_register,10,4,LREAL,little,big,,,,write,,,\r\n",
+        "speed,LREAL,,holding_register,4,1,INT,big,big,,0.5,-1,write,,5,\r\n",
+        "diagnostic.clients,ULINT,,input_register,9,4,ULINT,big,big,,,,read,,5,\r\n",
+        "Drum.ActualPosition,LREAL,u,input_register,0,2,REAL,big,big,,,,read,,,\r\n"})
+    EXPECT_NE(ended.out.find(line), std::string::npos) << line << ended.out;
+}
+
 TEST(Tags, TellsTagsWithTheirAddressesAndWhatElseIsOnModbusAndTheNumbersOfObjects) {
   const Folder folder;
   const Ended ended = lockstep({"tags", folder.write("project.json", kProject), "--json"});

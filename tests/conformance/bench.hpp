@@ -1,4 +1,4 @@
-/// A leading and a following axis with the blocks that ready them, watched at every tick.
+/// A leading and a following axis, two cams and the blocks that ready them, watched at every tick.
 #pragma once
 
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fb/cam_in.hpp"
 #include "fb/gear_in.hpp"
 #include "fb/home.hpp"
 #include "fb/move.hpp"
@@ -36,8 +37,16 @@ class Bench {
  public:
   /// @param modulo whether the following axis has a ring
   /// @param enable_following false: a block under test does it, or the axis stays off
-  explicit Bench(bool modulo = false, bool enable_following = true)
-      : leading(make_axis("Leading", true)), following(make_axis("Following", modulo)) {
+  /// @param driven whether the following axis has a drive, with a zero mark that is far away
+  explicit Bench(bool modulo = false, bool enable_following = true, bool driven = false)
+      : leading(make_axis("Leading", true)),
+        following(make_axis("Following", modulo)),
+        cam(make_cam("Wave", {{0.0, 0.0}, {25.0, 10.0}, {50.0, 20.0}, {75.0, 10.0}, {100.0, 0.0}})),
+        straight(make_cam("Straight", {{0.0, 0.0}, {50.0, 50.0}, {100.0, 100.0}})) {
+    if (driven) {
+      following.data.VirtualAxis.Mode = 0;
+      following.drive_settings.signals.zero_marks = ZeroMarks{1e6, 0.0};
+    }
     controller.clock = {BenchLimits::kPeriod, 1};
     input.measured = &leading;
     input.marks = PrintMarks{.period = 10.0, .offset = 3.0, .width = 4.0};
@@ -50,6 +59,9 @@ class Bench {
     superimposed_following.Axis = &following;
     gear_following.Master = &leading;
     gear_following.Slave = &following;
+    cam_following.Master = &leading;
+    cam_following.Slave = &following;
+    cam_following.Cam = &straight;
     power_leading.Enable = true;
     run_leading.Velocity = BenchLimits::kLeadingVelocity;
     power_following.Enable = enable_following;
@@ -57,7 +69,7 @@ class Bench {
     if (enable_following) support_.push_back(&power_following);
     for (Block* block : {static_cast<Block*>(&home_following), static_cast<Block*>(&reset_following),
                          static_cast<Block*>(&relative_following), static_cast<Block*>(&gear_following),
-                         static_cast<Block*>(&superimposed_following)})
+                         static_cast<Block*>(&cam_following), static_cast<Block*>(&superimposed_following)})
       support_.push_back(block);
   }
   Bench(const Bench&) = delete;
@@ -73,6 +85,7 @@ class Bench {
 
   /// An object of a kind that the pin takes.
   TechnologyObject* object_for(const Pin& pin) noexcept {
+    if (pin.objects == kAnyCam) return &cam;
     if (among(ObjectKind::TO_SynchronousAxis, pin.objects))
       return pin.name == "Master" ? &leading : &following;
     return &input;
@@ -94,6 +107,20 @@ class Bench {
     gear_following.Execute = false;
     run(1);
   }
+
+  /// The following axis follows a straight cam that goes on for ever.
+  void couple_to_cam() {
+    cam_following.SyncProfileReference = 4;
+    cam_following.MasterStartDistance = 20.0;
+    cam_following.ApplicationMode = 2;
+    cam_following.Execute = true;
+    if (!run_until([&] { return cam_following.InSync; }, 2000)) fault("the axis cannot follow a cam");
+    cam_following.Execute = false;
+    run(1);
+  }
+
+  /// What a block needs that acts on a coupled axis.
+  void couple_for(std::string_view block) { block == "MC_CamOut" ? couple_to_cam() : couple(); }
 
   void tick() noexcept {
     const char* wrong = nullptr;
@@ -160,12 +187,15 @@ class Bench {
   Axis& following;
   MeasuringInput& input =
       static_cast<MeasuringInput&>(controller.add_object(ObjectKind::TO_MeasuringInput, "Input"));
+  Cam& cam;
+  Cam& straight;
   MC_Power power_leading, power_following;
   MC_MoveVelocity run_leading;
   MC_Home home_following;
   MC_Reset reset_following;
   MC_MoveRelative relative_following;
   MC_GearIn gear_following;
+  MC_CamIn cam_following;
   MC_MoveSuperimposed superimposed_following;
   std::uint64_t allocations = 0;
   std::string first_fault;
@@ -189,6 +219,15 @@ class Bench {
     axis.data.DynamicDefaults.Jerk = 20000.0;
     axis.data.DynamicDefaults.EmergencyDeceleration = BenchLimits::kEmergency;
     return axis;
+  }
+
+  Cam& make_cam(const char* name, const std::vector<TO_Cam_Struct_PointData>& points) {
+    Cam& made = static_cast<Cam&>(controller.add_object(ObjectKind::TO_Cam, name));
+    static_cast<CamData1k*>(made.data_block())->InterpolationSettings = {1, 1};
+    for (std::size_t i = 0; i < points.size(); ++i) made.define_point(i, points[i]);
+    CamInterpolator interpolator(kCamPoints);
+    made.interpolate(interpolator);
+    return made;
   }
 
   /// Finite at any time. While the axis moves on its own: no step of position or velocity, and inside the

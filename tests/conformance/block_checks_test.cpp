@@ -237,7 +237,7 @@ TEST_P(JobBlock, StartsAnewAfterTheAxisWasDisabledAndEnabledAgain) {
     run.bench.run(2);
     run.bench.power_following.Enable = true;
     run.bench.run(3);
-    if (kOnCoupledAxis.contains(type().name)) run.bench.couple();
+    if (kOnCoupledAxis.contains(type().name)) run.bench.couple_for(type().name);
     s.start(true);
     run.bench.run(2);
     if (s.error())

@@ -17,6 +17,15 @@ struct NamedJob {
   int mode = -1;      ///< MC_Home; -1: none
 };
 
+/// Whether a job looks for a homing mark: MC_Home Mode 3 and 5 by a motion of its own, 2, 8 and 10 in
+/// passing.
+inline bool homes_actively(const NamedJob& job) {
+  return job.mode == 3 || job.mode == 5;
+}
+inline bool homes_passively(const NamedJob& job) {
+  return job.mode == 2 || job.mode == 8 || job.mode == 10;
+}
+
 /// What can become of a job.
 enum class Fate { waits, active, done, aborted, failed, silent };
 
@@ -31,6 +40,9 @@ inline bool is_one_of(const std::string& name, std::initializer_list<std::string
 inline bool is_single_axis(const std::string& block) {
   return is_one_of(block, {"MC_Halt", "MC_MoveAbsolute", "MC_MoveRelative", "MC_MoveVelocity", "MC_MoveJog"});
 }
+inline bool leaves(const std::string& block) {
+  return is_one_of(block, {"MC_GearOut", "MC_CamOut"});
+}
 inline bool is_superimposed(const std::string& block) {
   return block.ends_with("Superimposed");
 }
@@ -41,13 +53,18 @@ inline bool is_shift(const std::string& block) {
 /// The bench with a leading axis that turns slowly: five seconds for a turn.
 class Stage {
  public:
-  Stage() {
+  /// @param driven whether the following axis has a drive, so that it has a mark to look for
+  explicit Stage(bool driven = false) : bench(false, true, driven) {
     bench.run_leading.Velocity = kLeadingVelocity;
     bench.ready();
     bench.run(100);
   }
 
-  Subject& make(const std::string& block) { return bench.add(*find_block_type(block)); }
+  Subject& make(const std::string& block) {
+    Subject& subject = bench.add(*find_block_type(block));
+    if (const Pin* const cam = subject.type().find_pin("Cam")) subject.wire(*cam, &bench.straight);
+    return subject;
+  }
 
   /// The job that is to override; it starts at once, or after a way of the leading or following axis.
   Subject& start(const std::string& block, double ahead) {
@@ -57,12 +74,20 @@ class Stage {
     return job;
   }
 
+  Subject& start(const NamedJob& named, double ahead) {
+    Subject& job = make(named.block);
+    set_up(job, ahead);
+    if (named.mode >= 0) job.set("Mode", named.mode);
+    job.start(true);
+    return job;
+  }
+
   /// A gear 1:1 that is synchronous, or is being synchronized for seconds.
   Subject& gear(const std::string& block, bool synchronous, bool position_controlled = true) {
     Subject& job = make(block);
     set_up(job, kSoon);
-    job.set("RatioNumerator", 1.0);
-    if (block != "MC_GearInPos") job.set("Acceleration", synchronous ? 1000.0 : 5.0);
+    if (block != "MC_CamIn") job.set("RatioNumerator", 1.0);
+    if (block != "MC_GearInPos" && block != "MC_CamIn") job.set("Acceleration", synchronous ? 1000.0 : 5.0);
     if (block == "MC_GearInVelocity") job.set("PositionControlled", position_controlled ? 1.0 : 0.0);
     job.start(true);
     bench.run_until([&] { return synchronous ? job.in_effect() : fate(job) == Fate::active; }, 500);
@@ -77,6 +102,15 @@ class Stage {
     if (job.type().find_pin("Velocity") != nullptr) job.set("Velocity", kLeadingVelocity);
     job.start(true);
     return job;
+  }
+
+  /// The following axis is homed directly, which ends no job.
+  void rehome() {
+    bench.allow_position_steps(6);
+    bench.home_following.Execute = true;
+    bench.run(4);
+    bench.home_following.Execute = false;
+    bench.run(2);
   }
 
   /// The following axis runs so fast that a slow stop takes seconds.
@@ -94,12 +128,17 @@ class Stage {
       job.set("MasterStartDistance", kStartDistance);
       job.set("MasterSyncPosition", on_ring(leading + ahead + kStartDistance));
       job.set("SlaveSyncPosition", following + 10.0);
+    } else if (block == "MC_CamIn") {
+      job.set("MasterStartDistance", kStartDistance);
+      job.set("MasterSyncPosition", on_ring(leading + ahead + kStartDistance));
+      job.set("ApplicationMode", 2.0);
+      job.set("SlaveOffset", following + 10.0 - on_ring(leading + ahead + kStartDistance));
     } else if (is_shift(block)) {
       job.set(block.starts_with("MC_Phasing") ? "PhaseShift" : "Offset", 5.0);
       job.set(block.starts_with("MC_Phasing") ? "PhasingDistance" : "OffsetDistance", 60.0);
       job.set("ProfileReference", ahead == kFar ? 2.0 : 1.0);
       job.set("StartPosition", on_ring(leading + ahead));
-    } else if (block == "MC_GearOut") {
+    } else if (leaves(block)) {
       job.set("MasterStopDistance", 60.0);
       job.set("SlavePosition", following + 0.5 * 60.0 + ahead);
     } else if (block == "MC_LeadingValueAdditive") {
@@ -159,7 +198,9 @@ struct Situation {
   std::function<Subject*(Stage&)> bring_about;
   bool gear = false;                ///< a gear runs or waits, so that MC_GearOut has something to leave
   bool moves_with_leading = false;  ///< … and runs, or will once it is synchronized
-  bool synchronous = false;         ///< the following axis is synchronous
+  bool cam = false;                 ///< the same of cams, for MC_CamOut
+  bool moves_with_cam = false;
+  bool synchronous = false;  ///< the following axis is synchronous
   bool position_controlled = true;
   bool ended = false;                     ///< the job has ended, and holds the axis by its Execute
   double before_gear_out = Stage::kSoon;  ///< way until MC_GearOut begins: the axis has to be synchronous [u]
@@ -197,8 +238,11 @@ inline std::vector<Situation> gear_situations(const std::string& block) {
     uncontrolled.position_controlled = false;
     return {synchronizing, synchronous, uncontrolled};
   }
-  synchronizing.gear = synchronous.gear = true;
-  synchronizing.moves_with_leading = synchronous.moves_with_leading = true;
+  for (Situation* situation : {&synchronizing, &synchronous}) {
+    const bool cam = block == "MC_CamIn";
+    situation->cam = situation->moves_with_cam = cam;
+    situation->gear = situation->moves_with_leading = !cam;
+  }
   synchronizing.before_gear_out = kUntilSynchronous;
   synchronous.synchronous = true;
   return {synchronizing, synchronous};
@@ -209,7 +253,7 @@ inline std::vector<Situation> accompanying_situations(const NamedJob& running) {
   const std::string block = running.block;
   const auto beside = [block](bool gear, double ahead) {
     return [=](Stage& stage) {
-      if (gear) stage.bench.couple();
+      if (gear) stage.bench.couple_for(block);
       Subject& job = stage.start(block, ahead);
       stage.bench.run(3);
       return &job;
@@ -222,6 +266,22 @@ inline std::vector<Situation> accompanying_situations(const NamedJob& running) {
     situation->gear = situation->moves_with_leading = situation->synchronous = true;
   if (is_shift(block)) return {far, near};
   if (block == "MC_GearOut") return {far};
+  if (block == "MC_CamOut") {
+    far.cam = far.moves_with_cam = true;
+    far.gear = far.moves_with_leading = false;
+    return {far};
+  }
+  if (block == "MC_CamIn") {
+    far.cam = alone.cam = true;
+    Situation other{.name = "waiting beside a cam", .bring_about = [block](Stage& stage) {
+                      stage.bench.couple_to_cam();
+                      Subject& job = stage.start(block, Stage::kFar);
+                      stage.bench.run(3);
+                      return &job;
+                    }};
+    other.cam = other.moves_with_cam = other.synchronous = true;
+    return {far, alone, other};
+  }
   if (block == "MC_GearInPos") {
     alone.gear = true;
     return {far, alone};
@@ -229,11 +289,11 @@ inline std::vector<Situation> accompanying_situations(const NamedJob& running) {
   return {near, alone};  // MC_LeadingValueAdditive
 }
 
-inline std::vector<Situation> gear_out_situations() {
-  const auto leaving = [](double profile) {
-    return [profile](Stage& stage) {
-      stage.bench.couple();
-      Subject& job = stage.make("MC_GearOut");
+inline std::vector<Situation> out_situations(const std::string& block) {
+  const auto leaving = [block](double profile) {
+    return [block, profile](Stage& stage) {
+      stage.bench.couple_for(block);
+      Subject& job = stage.make(block);
       stage.set_up(job, Stage::kSoon);
       job.set("SyncProfileReference", profile);
       job.set("Deceleration", 10.0);
@@ -299,6 +359,15 @@ inline std::vector<Situation> superimposed_situations(const std::string& block) 
 /// Every way in which a job of the tables can run here; none: nothing that exists brings it about.
 inline std::vector<Situation> situations(const NamedJob& running) {
   const std::string& block = running.block;
+  if (block == "MC_Home") {
+    const auto searching = [running](Stage& stage) {
+      Subject& job = stage.start(running, Stage::kSoon);
+      stage.bench.run(10);
+      stage.rehome();  // without it, MC_MoveAbsolute ends in alarm 321
+      return &job;
+    };
+    return {{.name = "searching", .bring_about = searching}};
+  }
   if (is_one_of(block, {"MC_Halt", "MC_Stop"})) return stop_situations(block);
   if (is_single_axis(block)) {
     const auto moving = [block](Stage& stage) {
@@ -311,9 +380,11 @@ inline std::vector<Situation> situations(const NamedJob& running) {
   if (block.starts_with("MC_MotionIn") && !is_superimposed(block)) return motion_in_situations(block);
   if (is_superimposed(block)) return superimposed_situations(block);
   if (is_one_of(block, {"MC_GearIn", "MC_GearInVelocity"})) return gear_situations(block);
-  if (block == "MC_GearInPos" && running.state == "active") return gear_situations(block);
-  if (block == "MC_GearOut" && running.state == "active") return gear_out_situations();
-  if (is_shift(block) || is_one_of(block, {"MC_GearInPos", "MC_GearOut", "MC_LeadingValueAdditive"}))
+  if (is_one_of(block, {"MC_GearInPos", "MC_CamIn"}) && running.state == "active")
+    return gear_situations(block);
+  if (leaves(block) && running.state == "active") return out_situations(block);
+  if (is_shift(block) || leaves(block) ||
+      is_one_of(block, {"MC_GearInPos", "MC_CamIn", "MC_LeadingValueAdditive"}))
     return accompanying_situations(running);
   return {};
 }

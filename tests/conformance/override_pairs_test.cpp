@@ -102,6 +102,8 @@ bool exists(const NamedJob& job) {
 // ---- What the tables do not tell: the fate of the new job
 // -------------------------------------------------------
 
+constexpr int kEndPassiveHoming = 9;  // MC_Home Mode
+
 struct Rejection {
   bool (*applies)(const Pair& pair, const Situation& situation, OverrideEffect effect);
   ErrorId error;
@@ -112,9 +114,15 @@ struct Rejection {
 constexpr Rejection kRejections[] = {
     {[](const Pair& pair, const Situation&, OverrideEffect) {
        return pair.running.block == "MC_Stop" && pair.new_job.block != "MC_Stop" &&
-              pair.new_job.block != "MC_LeadingValueAdditive";
+              pair.new_job.block != "MC_LeadingValueAdditive" && pair.new_job.mode != kEndPassiveHoming;
      },
      ErrorId::locked, "MC_Stop locks the axis (A07); an additive leading value moves nothing by itself"},
+    {[](const Pair& pair, const Situation& situation, OverrideEffect) {
+       const bool coupled = pair.running.block == "MC_GearInPos" || pair.running.block == "MC_GearOut";
+       return homes_actively(pair.new_job) && coupled && pair.running.state == "active" &&
+              situation.position_controlled;
+     },
+     ErrorId::homing_while_coupled, "an axis that MC_GearInPos couples, or that is leaving it, is not homed"},
     {[](const Pair& pair, const Situation&, OverrideEffect effect) {
        return effect == OverrideEffect::reject && pair.running.block == "MC_GearInVelocity";
      },
@@ -130,6 +138,10 @@ constexpr Rejection kRejections[] = {
      },
      ErrorId::no_gear, "no gear to leave"},
     {[](const Pair& pair, const Situation& situation, OverrideEffect) {
+       return pair.new_job.block == "MC_CamOut" && !situation.cam;
+     },
+     ErrorId::no_cam, "no cam to leave"},
+    {[](const Pair& pair, const Situation& situation, OverrideEffect) {
        return is_shift(pair.new_job.block) && !situation.synchronous;
      },
      ErrorId::not_synchronous, "shifts need a synchronous axis"},
@@ -144,9 +156,21 @@ ErrorId expected_error(const Pair& pair, const Situation& situation, OverrideEff
 // ---- One pair in one situation
 // ----------------------------------------------------------------------------------
 
+/// Whether the new job ends the gear on which the running one acts: what acts on a coupling ends with it.
+bool ends_its_gear(const Pair& pair) {
+  return homes_actively(pair.new_job) &&
+         (is_shift(pair.running.block) ||
+          (pair.running.block == "MC_GearOut" && pair.running.state == "waiting"));
+}
+
+bool homes(const Pair& pair) {
+  return pair.new_job.block == "MC_Home" || pair.running.block == "MC_Home";
+}
+
 class Encounter {
  public:
-  Encounter(const Pair& pair, const Situation& situation) : pair_(pair), situation_(situation) {
+  Encounter(const Pair& pair, const Situation& situation)
+      : pair_(pair), situation_(situation), stage_(homes(pair)) {
     running_ = situation.bring_about(stage_);
     before_ = Stage::fate(*running_);
     const bool as_told = situation.ended ? before_ == Fate::done
@@ -158,10 +182,10 @@ class Encounter {
   bool run(OverrideEffect effect, OverrideEffect effect_while_waiting) {
     const ErrorId error = expected_error(pair_, situation_, effect);
     const bool by_and_by = pair_.new_job.state == "active";
-    const double ahead = pair_.new_job.state == "waiting"      ? Stage::kFar
-                         : pair_.new_job.block == "MC_GearOut" ? situation_.before_gear_out
-                                                               : Stage::kSoon;
-    new_ = &stage_.start(pair_.new_job.block, ahead);
+    const double ahead = pair_.new_job.state == "waiting" ? Stage::kFar
+                         : leaves(pair_.new_job.block)    ? situation_.before_gear_out
+                                                          : Stage::kSoon;
+    new_ = &stage_.start(pair_.new_job, ahead);
     if (pair_.new_job.block.starts_with("MC_MotionIn")) stage_.bench.allow_jumps(2);  // what is given counts
     stage_.bench.run(2);
     if (by_and_by) {
@@ -186,7 +210,8 @@ class Encounter {
   }
 
   void expect_running(OverrideEffect effect, const char* when) {
-    const bool ends = effect == OverrideEffect::abort || effect == OverrideEffect::abort_by_rank;
+    const bool ends =
+        effect == OverrideEffect::abort || effect == OverrideEffect::abort_by_rank || ends_its_gear(pair_);
     // MC_LeadingValueAdditive has no CommandAborted: the older instance shows Busy FALSE and nothing else
     // (A04).
     const Fate aborted = pair_.running.block == "MC_LeadingValueAdditive" ? Fate::silent : Fate::aborted;
@@ -201,8 +226,10 @@ class Encounter {
       return;
     }
     EXPECT_EQ(new_->error_id(), WORD{});
-    const bool nothing_to_leave = pair_.new_job.block == "MC_GearOut" && !situation_.moves_with_leading;
-    const Fate expected = nothing_to_leave                      ? Fate::done
+    const bool ended_at_once = pair_.new_job.mode == kEndPassiveHoming;
+    const bool nothing_to_leave = (pair_.new_job.block == "MC_GearOut" && !situation_.moves_with_leading) ||
+                                  (pair_.new_job.block == "MC_CamOut" && !situation_.moves_with_cam);
+    const Fate expected = nothing_to_leave || ended_at_once     ? Fate::done
                           : pair_.new_job.state == "waiting"    ? Fate::waits
                           : fate == Fate::done && short_lived() ? Fate::done
                                                                 : Fate::active;

@@ -54,9 +54,11 @@ class Sequence {
   }
 
   void tick() {
-    // Additive velocities and positions need not fit each other; what follows them shows it.
+    // Additive velocities and positions need not fit each other; what follows them shows it. A cam scaled at
+    // random steps where it is set on or changed directly, and where its ends do not fit each other.
     const bool additive = std::any_of(following_.begin(), following_.end(), [](Subject* s) {
-      return s->type().name == "MC_LeadingValueAdditive" && s->busy();
+      const std::string_view name = s->type().name;
+      return s->busy() && (name == "MC_LeadingValueAdditive" || name == "MC_CamIn" || name == "MC_CamOut");
     });
     bench_.watch_coupled = !additive;
     for (const auto* subjects : {&following_, &leading_})
@@ -122,6 +124,8 @@ class Sequence {
           pin, static_cast<double>(
                    pin.choices[static_cast<std::size_t>(pick(static_cast<int>(pin.choices.size())))].value));
     if (is_integer(pin.type)) return subject.store(pin, pick(7) - (pin.name == "RatioNumerator" ? 3 : 0));
+    if (pin.name.ends_with("Scaling"))
+      return subject.store(pin, (chance(0.2) ? -1.0 : 1.0) * uniform(0.5, 2.0));
     subject.store(pin, number_for(pin));
   }
 

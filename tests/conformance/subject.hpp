@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -31,6 +32,7 @@ class Subject {
         done_(output("Done")),
         busy_(output("Busy")),
         aborted_(output("CommandAborted")),
+        end_of_profile_(output("EndOfProfile")),
         error_(output("Error")),
         error_id_(output("ErrorID")) {
     for (const char* name : {"Execute", "Enable", "JogForward"})
@@ -93,12 +95,14 @@ class Subject {
     pin.signal(*block_).store(value_of(pin.type, number));
   }
   double number(const Pin& pin) noexcept { return as_double(pin.signal(*block_).load(), pin.type); }
+  /// A pin holds the address of an object, which is that of its base as well.
   void wire(const Pin& pin, TechnologyObject* object) noexcept {
-    *static_cast<TechnologyObject**>(pin.address(*block_)) = object;
+    std::memcpy(pin.address(*block_), &object, sizeof object);
   }
 
   bool busy() noexcept { return on(busy_); }
-  bool done() noexcept { return on(done_); }
+  /// MC_CamIn has no Done: it ends without an error at the end of a cam that is passed once.
+  bool done() noexcept { return on(done_) || (on(end_of_profile_) && !busy() && !aborted() && !error()); }
   bool aborted() noexcept { return on(aborted_); }
   bool error() noexcept { return on(error_); }
   WORD error_id() noexcept {
@@ -138,7 +142,7 @@ class Subject {
   std::unique_ptr<Block> block_;
   const Pin* start_ = nullptr;
   bool last_execute_ = false;
-  const Pin *done_, *busy_, *aborted_, *error_, *error_id_;
+  const Pin *done_, *busy_, *aborted_, *end_of_profile_, *error_, *error_id_;
 };
 
 }  // namespace lockstep::test

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/conformance/bench.hpp"
 
@@ -45,24 +46,26 @@ inline constexpr Setting kSettings[] = {
     {"MC_MoveSuperimposed", "Distance", 60.0},
     {"MC_GearOut", "SlavePosition", 300.0},
     {"MC_GearOut", "MasterStopDistance", 50.0},
+    {"MC_CamIn", "MasterSyncPosition", 50.0},
+    {"MC_CamIn", "MasterStartDistance", 30.0},
+    {"MC_CamIn", "ApplicationMode", 1.0},
+    {"MC_CamOut", "SlavePosition", 300.0},
+    {"MC_CamOut", "MasterStopDistance", 50.0},
 };
 // Blocks that act on an axis which moves.
 inline const std::set<std::string_view> kOnMovingAxis = {"MC_Halt", "MC_Stop"};
 // Blocks that act on what is superimposed on the motion of an axis.
 inline const std::set<std::string_view> kOnSuperimposedMotion = {"MC_HaltSuperimposed"};
 // Blocks that act on an axis which is coupled.
-inline const std::set<std::string_view> kOnCoupledAxis = {"MC_PhasingAbsolute",
-                                                          "MC_PhasingRelative",
-                                                          "MC_OffsetAbsolute",
-                                                          "MC_OffsetRelative",
-                                                          "MC_GearOut",
-                                                          "MC_LeadingValueAdditive",
-                                                          "MC_SynchronizedMotionSimulation"};
+inline const std::set<std::string_view> kOnCoupledAxis = {
+    "MC_PhasingAbsolute", "MC_PhasingRelative", "MC_OffsetAbsolute",       "MC_OffsetRelative",
+    "MC_GearOut",         "MC_CamOut",          "MC_LeadingValueAdditive", "MC_SynchronizedMotionSimulation"};
 // Blocks whose inputs are the setpoints themselves, without profile or limits, so that these may jump.
 inline const std::set<std::string_view> kGivesSetpoints = {"MC_MotionInSuperimposed", "MC_MotionInVelocity",
                                                            "MC_MotionInPosition"};
 // Blocks that also act on a disabled axis.
-inline const std::set<std::string_view> kOnDisabledAxis = {"MC_Home", "MC_Reset"};
+inline const std::set<std::string_view> kOnDisabledAxis = {
+    "MC_Home", "MC_Reset", "MC_InterpolateCam", "MC_GetCamLeadingValue", "MC_GetCamFollowingValue"};
 // Blocks that rename positions, so that these may step.
 inline const std::set<std::string_view> kRenamesPositions = {"MC_Home", "MC_Reset"};
 // Published values that are not supported and are refused with the error of their pin.
@@ -71,7 +74,7 @@ struct Unsupported {
   const char* pin;
   std::set<double> values;
 };
-inline const Unsupported kUnsupported[] = {{"MC_Home", "Mode", {2, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13}}};
+inline const std::vector<Unsupported> kUnsupported;  // none
 
 // ---- The table of results
 // ---------------------------------------------------------------------------------------
@@ -138,7 +141,7 @@ struct Trial {
     if (kGivesSetpoints.contains(type.name)) bench.allow_jumps(kTicksOfATrial);
     if (subject->powers() && enabled) subject->start(true);
     bench.ready();
-    if (enabled && kOnCoupledAxis.contains(type.name)) bench.couple();
+    if (enabled && kOnCoupledAxis.contains(type.name)) bench.couple_for(type.name);
     if (enabled && kOnMovingAxis.contains(type.name)) {
       bench.relative_following.Distance = 1e6;
       bench.relative_following.Execute = true;

@@ -48,7 +48,7 @@ Bytes operator+(Bytes left, const Bytes& right) {
 class Hostile : public ::testing::Test {
  protected:
   void serve(ModbusServerOptions options = {}) {
-    options.port = 0;
+    options.listen = {{"127.0.0.1", 0}};
     server = std::make_unique<ModbusServer>(options, machine.map, machine.image);
     ASSERT_EQ(server->start(), "");
   }

@@ -19,12 +19,20 @@ class RawClient {
   using Bytes = std::vector<std::uint8_t>;
 
   /// Every wait of this client ends after a generous time; then the test fails for want of an answer.
-  explicit RawClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+  explicit RawClient(std::uint16_t port, int family = AF_INET) : socket_(::socket(family, SOCK_STREAM, 0)) {
     const timeval patience{20, 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     const int at_once = 1;
     ::setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
+    if (family == AF_INET6) {
+      sockaddr_in6 six{};
+      six.sin6_family = AF_INET6;
+      six.sin6_port = htons(port);
+      six.sin6_addr = in6addr_loopback;
+      is_connected_ = ::connect(socket_, reinterpret_cast<sockaddr*>(&six), sizeof six) == 0;
+      return;
+    }
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port);

@@ -22,7 +22,7 @@ using Library = std::unique_ptr<modbus_t, void (*)(modbus_t*)>;
 
 ModbusServerOptions any_port() {
   ModbusServerOptions options;
-  options.port = 0;
+  options.listen = {{"127.0.0.1", 0}};
   return options;
 }
 
@@ -149,14 +149,14 @@ TEST_F(Served, AForeignClientReadsAndWritesRealsInTheUsualWordOrder) {
 
 TEST_F(Served, APortThatIsTakenIsToldAndNothingStarts) {
   ModbusServerOptions options;
-  options.port = server.port();
+  options.listen = {{"127.0.0.1", server.port()}};
   ModbusMachine other;
   ModbusServer second(options, other.map, other.image);
   EXPECT_EQ(second.start(), "127.0.0.1:" + std::to_string(server.port()) + ": Address already in use");
   EXPECT_EQ(second.port(), 0);
   server.stop();
   EXPECT_EQ(second.start(), "");
-  EXPECT_EQ(second.port(), options.port);
+  EXPECT_EQ(second.port(), options.listen[0].port);
 }
 
 TEST_F(Served, StoppingHangsUpOnTheClientsAndStartingServesAgain) {
@@ -176,7 +176,7 @@ TEST_F(Served, StoppingHangsUpOnTheClientsAndStartingServesAgain) {
 TEST(ModbusServer, AHostThatIsNoneOfThisMachineIsTold) {
   ModbusMachine machine;
   ModbusServerOptions options = any_port();
-  options.host = "192.0.2.1";  // reserved for documentation
+  options.listen[0].host = "192.0.2.1";  // reserved for documentation
   ModbusServer server(options, machine.map, machine.image);
   EXPECT_EQ(server.start(), "192.0.2.1:0: Cannot assign requested address");
 }

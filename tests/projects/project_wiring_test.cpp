@@ -120,9 +120,10 @@ TEST(ExampleProject, HasItsStimuliItsMapAndItsTrace) {
   EXPECT_EQ(project.controller->stimuli[0].at, 500'000'000);
   EXPECT_EQ(project.controller->stimuli[0].place.address, project.controller->tags[0].signal.address);
   EXPECT_EQ(project.controller->stimuli[0].value.u, 1u);
-  EXPECT_EQ(project.modbus.listen, (Endpoint{"127.0.0.1", 1502}));
+  ASSERT_EQ(project.modbus.servers.size(), 1u);
+  EXPECT_EQ(project.modbus.servers[0].listen, (std::vector<Endpoint>{{"127.0.0.1", 1502}}));
   ASSERT_EQ(project.modbus.signals.size(), 4u);
-  const auto& entries = project.modbus.map->entries();
+  const auto& entries = project.modbus.maps[0].map.entries();
   ASSERT_EQ(entries.size(), 4u);
   EXPECT_TRUE(entries[0].writable && entries[1].writable);
   EXPECT_FALSE(entries[2].writable || entries[3].writable);
@@ -219,6 +220,26 @@ TEST(Configuration, ReachesArrayElementsAndTags) {
   EXPECT_EQ(axis.drive_settings.resolution, 0.001);
 }
 
+TEST(Drive, TakesTheMarksAndSwitchesOfItsMachine) {
+  const Project project = load(
+      R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"}, "tags": {"door": {"type": "BOOL"}},
+          "technology_objects": {"A": {"type": "TO_PositioningAxis", "drive": {"model": "simulated", "start_position": 40.5,
+            "zero_marks": {"position": 3, "period": 10.0}, "reference_cam": [100, 120], "limit_switches": {"min": -200, "max": 400},
+            "digital_inputs": [{"tag": "door", "range": [-1, 1]}]}}}})");
+  const MachineSignals& signals = project.controller->axes[0]->drive_settings.signals;
+  EXPECT_EQ(signals.start_position, 40.5);
+  ASSERT_TRUE(signals.zero_marks && signals.reference_cam);
+  EXPECT_EQ(signals.zero_marks->position, 3.0);
+  EXPECT_EQ(signals.zero_marks->period, 10.0);
+  EXPECT_EQ(signals.reference_cam->from, 100.0);
+  EXPECT_EQ(signals.reference_cam->to, 120.0);
+  EXPECT_EQ(signals.limit_min, -200.0);
+  EXPECT_EQ(signals.limit_max, 400.0);
+  ASSERT_EQ(signals.digital_inputs.size(), 1u);
+  EXPECT_EQ(signals.digital_inputs[0].tag, project.controller->tags[0].signal.address);
+  EXPECT_EQ(signals.digital_inputs[0].range.from, -1.0);
+}
+
 TEST(ModbusMapping, WritesAVariableOnlyIfTheEntryAsksForIt) {
   const Project project = load(
       R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"},
@@ -228,14 +249,86 @@ TEST(ModbusMapping, WritesAVariableOnlyIfTheEntryAsksForIt) {
             {"tag": "A.Override.Velocity", "table": "holding_register", "address": 0},
             {"tag": "A.Override.Velocity", "table": "holding_register", "address": 10, "access": "write"},
             {"tag": "x", "table": "holding_register", "address": 20, "access": "read", "word_order": "little"}]}})");
-  const auto& entries = project.modbus.map->entries();
+  const auto& entries = project.modbus.maps[0].map.entries();
   ASSERT_EQ(entries.size(), 3u);
   EXPECT_FALSE(entries[0].writable);
   EXPECT_TRUE(entries[1].writable);
   EXPECT_EQ(entries[1].range.highest, 200.0);
   EXPECT_FALSE(entries[2].writable);
   EXPECT_EQ(entries[2].word_order, WordOrder::little);
-  EXPECT_FALSE(project.modbus.listen.has_value());
+  EXPECT_TRUE(project.modbus.servers.empty());
+}
+
+TEST(ModbusMapping, ServersAndUnitsMayHaveMapsOfTheirOwn) {
+  const Project project = load(
+      R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"},
+          "tags": {"x": {"type": "LREAL"}, "flag": {"type": "BOOL"}},
+          "modbus": {
+            "server": [
+              {"listen": ["127.0.0.1:1", "[::1]:1"], "allow": ["127.0.0.0/8", "::1"], "max_clients": 3,
+               "max_requests_per_second": 100, "idle_timeout": "2s"},
+              {"listen": "127.0.0.1:2", "map": [{"tag": "flag", "table": "coil", "address": 7}]}],
+            "map": [
+              {"tag": "x", "table": "holding_register", "address": 0, "type": "INT", "scale": 0.1, "offset": 5},
+              {"tag": "flag", "table": "holding_register", "address": 9, "bit": 3, "byte_order": "little"},
+              {"diagnostic": "overruns", "table": "input_register", "address": 0, "type": "UDINT"},
+              {"diagnostic": "not_allowed", "table": "input_register", "address": 2, "type": "UINT"}],
+            "units": [{"unit": 9, "map": [{"tag": "flag", "table": "coil", "address": 1}]}]}})");
+  const ModbusConfig& modbus = project.modbus;
+  ASSERT_EQ(modbus.servers.size(), 2u);
+  EXPECT_EQ(modbus.servers[0].listen, (std::vector<Endpoint>{{"127.0.0.1", 1}, {"::1", 1}}));
+  EXPECT_EQ(modbus.servers[0].allow.size(), 2u);
+  EXPECT_EQ(modbus.servers[0].max_clients, 3u);
+  EXPECT_EQ(modbus.servers[0].requests_per_second, 100u);
+  EXPECT_EQ(modbus.servers[0].idle_limit, std::chrono::seconds(2));
+  const ModbusUnits first = modbus.units_of(0);
+  const ModbusEntry& scaled = *first.of(1).find(ModbusTable::holding_register, 0);
+  EXPECT_TRUE(scaled.is_scaled && scaled.scale == 0.1 && scaled.offset == 5.0 && scaled.writable);
+  const ModbusEntry& bit = *first.of(1).find(ModbusTable::holding_register, 9);
+  EXPECT_EQ(modbus_bit(bit), 1u << 11);
+  const ModbusEntry& overruns = *first.of(1).find(ModbusTable::input_register, 0);
+  EXPECT_EQ(modbus.signal_of(overruns).name, "diagnostic.overruns");
+  EXPECT_EQ(modbus.signal_of(*first.of(1).find(ModbusTable::input_register, 2)).name,
+            "diagnostic.not_allowed");
+  EXPECT_NE(first.of(9).find(ModbusTable::coil, 1), nullptr);
+  EXPECT_EQ(first.of(1).find(ModbusTable::coil, 1), nullptr);
+  const ModbusUnits second = modbus.units_of(1);
+  EXPECT_NE(second.of(9).find(ModbusTable::coil, 7), nullptr) << "its own map";
+  EXPECT_EQ(second.of(9).find(ModbusTable::coil, 1), nullptr);
+  EXPECT_EQ(second.of(1).find(ModbusTable::holding_register, 0), nullptr);
+}
+
+TEST(ModbusMapping, LinesAndClientsAreReadAsTheyStand) {
+  const Project project = load(
+      R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"},
+          "tags": {"power": {"type": "LREAL"}, "limit": {"type": "INT"}, "good": {"type": "BOOL"},
+                   "age": {"type": "TIME"}},
+          "modbus": {
+            "server": {"serial": {"device": "/dev/ttyS1", "baud": 9600, "parity": "none", "stop_bits": 2,
+                                  "silence": "5ms"}, "unit": 12},
+            "clients": [{"connect": "[::1]:502", "timeout": "250ms", "devices": [
+              {"name": "meter", "unit": 3, "cycle": "20ms", "quality": "good", "age": "age",
+               "read": [{"tag": "power", "table": "input_register", "address": 7, "type": "DINT", "scale": 0.1}],
+               "write": [{"tag": "limit", "table": "holding_register", "address": 9}]}]}]}})");
+  const ModbusServerOptions& server = project.modbus.servers.at(0);
+  ASSERT_TRUE(server.serial.has_value());
+  EXPECT_EQ(server.serial->device, "/dev/ttyS1");
+  EXPECT_EQ(server.serial->baud, 9600);
+  EXPECT_EQ(server.serial->parity, Parity::none);
+  EXPECT_EQ(server.serial->stop_bits, 2);
+  EXPECT_EQ(server.serial->silence, std::chrono::milliseconds(5));
+  EXPECT_EQ(server.serial_unit, 12);
+  const ModbusClientConfig& client = project.modbus.clients.at(0);
+  EXPECT_EQ(client.options.place(), "[::1]:502");
+  EXPECT_EQ(client.options.timeout, std::chrono::milliseconds(250));
+  const ModbusDevice& device = client.options.devices.at(0);
+  EXPECT_EQ(device.unit, 3);
+  EXPECT_EQ(device.cycle, std::chrono::milliseconds(20));
+  EXPECT_EQ(client.signals.at(device.quality.value()).name, "good");
+  EXPECT_EQ(client.signals.at(device.age.value()).name, "age");
+  EXPECT_EQ(client.signals.at(device.reads.at(0).signal).name, "power");
+  EXPECT_TRUE(device.reads[0].is_scaled && device.reads[0].type == Type::DINT);
+  EXPECT_EQ(client.signals.at(device.writes.at(0).signal).name, "limit");
 }
 
 TEST(LoadProjectFile, ReadsAFileAndTellsWhenItCannot) {
@@ -283,8 +376,10 @@ TEST(Endpoint, IsAHostAndAPort) {
   std::string problem;
   EXPECT_EQ(parse_endpoint("127.0.0.1:1502", problem), (Endpoint{"127.0.0.1", 1502}));
   EXPECT_EQ(parse_endpoint("plc-1.local:0", problem), (Endpoint{"plc-1.local", 0}));
-  for (const char* wrong : {"", ":", "localhost", ":502", "host:", "host:65536", "host:-1", "host: 1",
-                            "a b:1", "[::1]:502", "host:0x10", "http://host:1"}) {
+  EXPECT_EQ(parse_endpoint("[::1]:502", problem), (Endpoint{"::1", 502}));
+  for (const char* wrong :
+       {"", ":", "localhost", ":502", "host:", "host:65536", "host:-1", "host: 1", "a b:1", "[::1]",
+        "::1:502", "[127.0.0.1]:1", "[::1/64]:1", "host:0x10", "http://host:1"}) {
     problem.clear();
     EXPECT_FALSE(parse_endpoint(wrong, problem).has_value()) << wrong;
     EXPECT_NE(problem.find("allowed"), std::string::npos) << wrong;

@@ -1,0 +1,64 @@
+/// The asking side of Modbus: one connection to one device or gateway, over TCP or a serial line.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "hmi_bridge/modbus_map.hpp"
+#include "hmi_bridge/modbus_serial.hpp"
+#include "hmi_bridge/network.hpp"
+
+namespace lockstep {
+
+/// The most that one request may read or write.
+inline constexpr std::uint32_t kMostRegistersRead = 125, kMostRegistersWritten = 123;
+inline constexpr std::uint32_t kMostBitsRead = 2000, kMostBitsWritten = 1968;
+
+/// A connection. Each function waits for its answer, for the time-out at most (a name server may take
+/// longer). After any failure but an exception the connection is closed, since an answer that comes late
+/// would be taken for that of the next request. All functions: one thread.
+class ModbusMaster {
+ public:
+  ModbusMaster(const Endpoint& place, std::chrono::milliseconds timeout);
+  ModbusMaster(const SerialOptions& line, std::chrono::milliseconds timeout);
+  ~ModbusMaster();
+  ModbusMaster(const ModbusMaster&) = delete;
+  ModbusMaster& operator=(const ModbusMaster&) = delete;
+
+  bool connect();
+  void close() noexcept;
+  bool is_connected() const noexcept { return is_connected_; }
+  /// Whether the other side has ended the connection meanwhile, as many do with one that rests; of a serial
+  /// line never.
+  bool is_cut() const noexcept;
+
+  /// Reads registers, or bits as 0 and 1, into all of `words`; as many as one request may read.
+  /// @param unit 1…247; over TCP 0 and 255 too
+  bool read(int unit, ModbusTable table, std::uint32_t address, std::span<std::uint16_t> words);
+  /// Writes holding registers or coils; one of them with functions 6 and 5, several with 16 and 15.
+  bool write(int unit, ModbusTable table, std::uint32_t address, std::span<const std::uint16_t> words);
+  /// Writes the bits of a holding register that `mask` names, with function 22.
+  bool write_bits(int unit, std::uint32_t address, std::uint16_t mask, std::uint16_t bits);
+
+  /// What went wrong in the last function that failed.
+  const std::string& problem() const noexcept { return problem_; }
+  /// Whether that was an exception: the device has answered and refused.
+  bool was_refused() const noexcept { return was_refused_; }
+
+ private:
+  struct Library;
+  void prepare(std::chrono::milliseconds timeout);
+  bool select(int unit);
+  bool finish(bool is_good);
+  bool fail(int error);
+
+  std::unique_ptr<Library> library_;
+  bool is_connected_ = false;
+  bool was_refused_ = false;
+  std::string problem_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,370 @@
+// The Modbus servers of a project: where they listen, and their maps.
+#include "projects/load_modbus.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kMostClients = 1000;
+constexpr std::int64_t kHighestRate = 1'000'000;
+constexpr std::int64_t kShortestIdle = 1'000'000'000;      // [ns]
+constexpr std::int64_t kLongestIdle = 86'400'000'000'000;  // [ns]
+constexpr double kMost = std::numeric_limits<double>::max();
+
+/// A number of the run that a map may show, besides the counters of the server.
+struct CycleDiagnostic {
+  std::string_view name;
+  std::uint64_t CycleCounters::*counter;
+};
+constexpr CycleDiagnostic kCycleDiagnostics[] = {{"ticks", &CycleCounters::ticks},
+                                                 {"missed_ticks", &CycleCounters::missed_ticks},
+                                                 {"overruns", &CycleCounters::overruns},
+                                                 {"alarms", &CycleCounters::alarms}};
+
+/// Reads maps, and tells at its place what they say of their entries.
+class MapLoader {
+ public:
+  explicit MapLoader(const Loading& loading)
+      : modbus_(loading.project.modbus), loading_(loading), problems_(loading.problems) {}
+
+  /// A map, or nullptr for an empty one.
+  void load(const JsonValue* map, std::optional<std::size_t> server, std::optional<std::uint8_t> unit);
+  /// The maps of unit ids.
+  void load_units(const JsonValue* units, std::optional<std::size_t> server);
+  /// Makes the maps, when all signals are known.
+  void finish();
+
+ private:
+  struct Draft {
+    std::optional<std::size_t> server;
+    std::optional<std::uint8_t> unit;
+    std::vector<ModbusEntry> entries;
+    std::vector<const JsonValue*> places;  // of the entries in the file
+  };
+
+  void load_entry(const JsonValue& json, Draft& draft);
+  std::optional<ModbusEntry> load_source(const Fields& fields);
+  std::optional<ModbusEntry> load_diagnostic(const JsonValue& json, const Fields& fields);
+  bool read_access(const JsonValue* json, const Place& place, ModbusTable table);
+
+  ModbusConfig& modbus_;
+  const Loading& loading_;
+  Problems& problems_;
+  std::vector<Draft> drafts_;
+};
+
+void MapLoader::load(const JsonValue* map, std::optional<std::size_t> server,
+                     std::optional<std::uint8_t> unit) {
+  Draft& draft = drafts_.emplace_back(Draft{server, unit, {}, {}});
+  if (read_array(map, problems_) == nullptr) return;
+  for (const JsonValue* const entry : map->elements) load_entry(*entry, draft);
+}
+
+void MapLoader::load_units(const JsonValue* units, std::optional<std::size_t> server) {
+  if (read_array(units, problems_) == nullptr) return;
+  std::vector<std::int64_t> seen;
+  for (const JsonValue* const json : units->elements) {
+    const Fields fields(*json, keys::kUnit, problems_);
+    if (!fields.usable()) continue;
+    const auto unit = read_integer(fields["unit"], 0, 255, problems_);
+    if (unit && std::find(seen.begin(), seen.end(), *unit) != seen.end())
+      problems_.report(*fields["unit"],
+                       "unit " + std::to_string(*unit) + " is there twice; each unit id is allowed once");
+    if (unit) seen.push_back(*unit);
+    load(fields["map"], server, static_cast<std::uint8_t>(unit.value_or(0)));
+  }
+}
+
+void MapLoader::finish() {
+  std::vector<Type> types;
+  for (const NamedSignal& signal : modbus_.signals) types.push_back(signal.signal.value_type());
+  for (Draft& draft : drafts_) {
+    const ModbusMapConfig& made = modbus_.maps.emplace_back(
+        ModbusMapConfig{draft.server, draft.unit, {std::move(draft.entries), types}});
+    for (const ModbusMapProblem& problem : made.map.problems()) {
+      const JsonValue& entry = *draft.places[problem.entry];
+      const JsonValue* const field = entry.find(problem.key);
+      problems_.report(field == nullptr ? entry : *field, problem.text);
+    }
+  }
+}
+
+/// Whether a client may write: tags where the table allows it, a variable only if the entry asks for it.
+bool MapLoader::read_access(const JsonValue* json, const Place& place, ModbusTable table) {
+  const auto word = read_word(json, words::kAccesses, problems_);
+  if (!word) return place.tag != nullptr && is_writable_table(table);
+  if (*word == 0) return false;
+  const std::string reason = why_not_writable(place);
+  if (!reason.empty()) problems_.report(*json, reason);
+  return reason.empty();
+}
+
+/// A number of the run or of the server.
+std::optional<ModbusEntry> MapLoader::load_diagnostic(const JsonValue& json, const Fields& fields) {
+  std::vector<std::string_view> names;
+  for (const CycleDiagnostic& one : kCycleDiagnostics) names.push_back(one.name);
+  for (const ModbusCounterName& one : kModbusCounters) names.push_back(one.name);
+  const auto word = read_word(&json, names, problems_);
+  const auto access = read_word(fields["access"], words::kAccesses, problems_);
+  if (access == std::size_t{1})
+    problems_.report(*fields["access"], "a diagnostic cannot be written; allowed: read");
+  auto entry = read_modbus_shape(fields, Type::ULINT, problems_);
+  if (!word || !entry) return std::nullopt;
+  if (*word >= std::size(kCycleDiagnostics)) {
+    entry->counter = kModbusCounters[*word - std::size(kCycleDiagnostics)].counter;
+    return entry;
+  }
+  entry->signal = static_cast<std::uint32_t>(modbus_.signals.size());
+  modbus_.signals.push_back({"diagnostic." + std::string(names[*word]),
+                             loading_.controller().counter(kCycleDiagnostics[*word].counter), Unit::kNone});
+  return entry;
+}
+
+std::optional<ModbusEntry> MapLoader::load_source(const Fields& fields) {
+  const JsonValue* const tag = fields["tag"];
+  const JsonValue* const diagnostic = fields["diagnostic"];
+  if (tag != nullptr && diagnostic != nullptr)
+    problems_.report(*diagnostic, "an entry shows a tag or a diagnostic; allowed: one of the two keys");
+  if (tag == nullptr && diagnostic == nullptr)
+    problems_.report(fields.value(), "the key 'tag' is missing, or 'diagnostic' in its place");
+  if (tag == nullptr && diagnostic != nullptr) return load_diagnostic(*diagnostic, fields);
+  const auto path = read_string(tag, problems_);
+  const auto place = path ? loading_.find(*tag, *path) : std::nullopt;
+  auto entry =
+      read_modbus_shape(fields, place ? std::optional(place->signal.value_type()) : std::nullopt, problems_);
+  if (!place || !entry) return std::nullopt;
+  entry->writable = read_access(fields["access"], *place, entry->table);
+  entry->range = written_range(*place);
+  entry->signal = static_cast<std::uint32_t>(modbus_.signals.size());
+  modbus_.signals.push_back({std::string(*path), place->signal, place->unit});
+  return entry;
+}
+
+void MapLoader::load_entry(const JsonValue& json, Draft& draft) {
+  const Fields fields(json, keys::kMapEntry, problems_);
+  if (!fields.usable()) return;
+  const std::size_t before = problems_.count();
+  const auto entry = load_source(fields);
+  if (!entry || problems_.count() != before) return;
+  draft.entries.push_back(*entry);
+  draft.places.push_back(&json);
+}
+
+void load_listen(const JsonValue& json, ModbusServerOptions& options, Problems& problems) {
+  std::vector<const JsonValue*> places = json.elements;
+  if (json.kind != JsonKind::array) places.assign(1, &json);
+  if (places.empty()) problems.report(json, "nowhere to listen; allowed: HOST:PORT, or an array of them");
+  options.listen.clear();
+  for (const JsonValue* const place : places) {
+    const auto text = read_string(place, problems);
+    if (!text) continue;
+    std::string problem;
+    const auto endpoint = parse_endpoint(*text, problem);
+    if (!endpoint) {
+      problems.report(*place, problem);
+    } else if (endpoint->port != 0 &&
+               std::find(options.listen.begin(), options.listen.end(), *endpoint) != options.listen.end()) {
+      problems.report(*place, place->shown() + " is there twice; each address is allowed once");
+    } else {
+      options.listen.push_back(*endpoint);
+    }
+  }
+}
+
+void load_allow(const JsonValue* json, ModbusServerOptions& options, Problems& problems) {
+  if (read_array(json, problems) == nullptr) return;
+  if (json->elements.empty())
+    problems.report(*json, "an empty list lets nobody in; allowed: networks such as 192.168.1.0/24");
+  for (const JsonValue* const element : json->elements) {
+    const auto text = read_string(element, problems);
+    if (!text) continue;
+    std::string problem;
+    if (const auto network = IpNetwork::parse(*text, problem))
+      options.allow.push_back(*network);
+    else
+      problems.report(*element, element->shown() + " is no network; " + problem);
+  }
+}
+
+/// Modbus has no passwords.
+void warn_of_open_server(const Fields& fields, const ModbusServerOptions& options, Problems& problems) {
+  if (!options.allow.empty() || fields["allow"] != nullptr) return;
+  for (const Endpoint& place : options.listen)
+    if (!is_loopback(place.host))
+      problems.warn(*fields["listen"], "whoever reaches " + to_string(place) +
+                                           " may read and write what the map shows; 'allow' says from which "
+                                           "networks clients may come");
+}
+
+/// RTU over a serial line.
+void load_line(const Fields& fields, ModbusServerOptions& options, Problems& problems) {
+  for (const char* const key : {"listen", "allow", "max_clients", "max_requests_per_second", "idle_timeout"})
+    if (const JsonValue* const field = fields[key])
+      problems.report(*field, "'" + std::string(key) + "' is for TCP; a server has it or 'serial'");
+  options.listen.clear();
+  options.serial = read_serial(*fields["serial"], problems);
+  if (const auto unit = read_integer(fields["unit"], 1, 247, problems))
+    options.serial_unit = static_cast<std::uint8_t>(*unit);
+}
+
+void load_server(const JsonValue& json, const Loading& loading, MapLoader& maps) {
+  Problems& problems = loading.problems;
+  const Fields fields(json, keys::kServer, problems);
+  if (!fields.usable()) return;
+  std::vector<ModbusServerOptions>& servers = loading.project.modbus.servers;
+  const std::size_t index = servers.size();
+  ModbusServerOptions& options = servers.emplace_back();
+  if (fields["map"] != nullptr) maps.load(fields["map"], index, std::nullopt);
+  maps.load_units(fields["units"], index);
+  if (fields["serial"] != nullptr) return load_line(fields, options, problems);
+  if (fields["listen"] == nullptr)
+    problems.report(json, "the key 'listen' is missing, or 'serial' in its place");
+  if (fields["unit"] != nullptr)
+    problems.report(*fields["unit"], "on TCP every unit id is answered; allowed with 'serial' only");
+  if (fields["listen"] != nullptr) load_listen(*fields["listen"], options, problems);
+  load_allow(fields["allow"], options, problems);
+  if (const auto most = read_integer(fields["max_clients"], 1, kMostClients, problems))
+    options.max_clients = static_cast<std::size_t>(*most);
+  if (const auto rate = read_integer(fields["max_requests_per_second"], 1, kHighestRate, problems))
+    options.requests_per_second = static_cast<std::uint32_t>(*rate);
+  if (const auto idle = read_duration(fields["idle_timeout"], kShortestIdle, kLongestIdle, problems))
+    options.idle_limit = std::chrono::milliseconds(*idle / 1'000'000);
+  warn_of_open_server(fields, options, problems);
+}
+
+void load_servers(const JsonValue& json, const Loading& loading, MapLoader& maps) {
+  if (json.kind == JsonKind::object) {
+    load_server(json, loading, maps);
+  } else if (json.kind == JsonKind::array) {
+    for (const JsonValue* const server : json.elements) load_server(*server, loading, maps);
+  } else {
+    report_kind(json, "an object, or an array of them", loading.problems);
+  }
+}
+
+/// The type on the wire: the one that is given, or the usual one of the signal.
+Type read_type(const JsonValue* json, Type signal, bool is_scaled, Problems& problems) {
+  constexpr Type kScaled[] = {Type::SINT,  Type::INT,  Type::DINT,  Type::LINT,
+                              Type::USINT, Type::UINT, Type::UDINT, Type::ULINT};
+  const auto types = is_scaled ? std::span<const Type>(kScaled) : modbus_types(signal);
+  const Type usual = types.empty() ? signal : types.front();
+  const auto text = read_string(json, problems);
+  if (!text) return usual;
+  if (const auto given = tag_type(*text)) return *given;
+  std::vector<std::string_view> names;
+  for (const Type allowed : types) names.push_back(type_name(allowed));
+  problems.report(
+      *json, "unknown type " + quote(*text) + did_you_mean(*text, names) + "; allowed: " + list_of(names));
+  return usual;
+}
+
+/// value = integer · scale + offset
+void read_scale(const Fields& fields, ModbusEntry& entry, Problems& problems) {
+  entry.is_scaled = fields["scale"] != nullptr || fields["offset"] != nullptr;
+  if (!entry.is_scaled) return;
+  if (fields["type"] == nullptr)
+    problems.report(fields.value(),
+                    "the key 'type' is missing: a scaled value needs the integer that it has on "
+                    "the wire, such as INT");
+  entry.scale = read_number(fields["scale"], -kMost, kMost, problems).value_or(1.0);
+  entry.offset = read_number(fields["offset"], -kMost, kMost, problems).value_or(0.0);
+  if (!(std::abs(entry.scale) >= std::numeric_limits<double>::min()))
+    problems.report(*fields["scale"], "a scale of 0 makes all values the same; allowed: any other number");
+}
+
+}  // namespace
+
+Range written_range(const Place& place) {
+  if (place.variable == nullptr || place.signal.bit >= 0) return kAny;
+  const Variable& variable = *place.variable;
+  Range range = variable.range;
+  if (variable.choices.empty() || variable.type == Type::BOOL) return range;
+  const auto [least, most] =
+      std::minmax_element(variable.choices.begin(), variable.choices.end(),
+                          [](const Choice& a, const Choice& b) { return a.value < b.value; });
+  range.lowest = std::max(range.lowest, static_cast<double>(least->value));
+  range.highest = std::min(range.highest, static_cast<double>(most->value));
+  return range;
+}
+
+SerialOptions read_serial(const JsonValue& json, Problems& problems) {
+  SerialOptions options;
+  const Fields fields(json, keys::kSerial, problems);
+  if (!fields.usable()) return options;
+  options.device = read_title(fields["device"], problems).value_or("");
+  if (const auto baud = read_integer(fields["baud"], kBauds.front(), kBauds.back(), problems)) {
+    options.baud = static_cast<int>(*baud);
+    std::vector<std::string> texts;
+    for (const int allowed : kBauds) texts.push_back(std::to_string(allowed));
+    if (std::find(kBauds.begin(), kBauds.end(), options.baud) == kBauds.end())
+      report_kind(*fields["baud"], list_of(std::vector<std::string_view>(texts.begin(), texts.end())),
+                  problems);
+  }
+  if (const auto parity = read_word(fields["parity"], words::kParities, problems))
+    options.parity = static_cast<Parity>(*parity);
+  options.stop_bits = static_cast<int>(read_integer(fields["stop_bits"], 1, 2, problems).value_or(1));
+  if (const auto silence = read_duration(fields["silence"], 100'000, 1'000'000'000, problems))
+    options.silence = std::chrono::microseconds(*silence / 1000);
+  return options;
+}
+
+std::optional<ModbusEntry> read_modbus_shape(const Fields& fields, std::optional<Type> signal,
+                                             Problems& problems) {
+  const std::size_t before = problems.count();
+  const auto table = read_word(fields["table"], words::kTables, problems);
+  const auto address = read_integer(fields["address"], 0, 65535, problems);
+  const auto order = read_word(fields["word_order"], words::kWordOrders, problems);
+  const auto bytes = read_word(fields["byte_order"], words::kWordOrders, problems);
+  const auto bit = read_integer(fields["bit"], 0, 15, problems);
+  ModbusEntry entry;
+  read_scale(fields, entry, problems);
+  if (!signal || !table || !address) return std::nullopt;
+  entry.table = *modbus_table(words::kTables[*table]);
+  entry.address = static_cast<std::uint32_t>(*address);
+  entry.type = read_type(fields["type"], *signal, entry.is_scaled, problems);
+  entry.word_order = order.value_or(0) == 0 ? WordOrder::big : WordOrder::little;
+  entry.byte_order = bytes.value_or(0) == 0 ? ByteOrder::big : ByteOrder::little;
+  entry.bit = static_cast<std::int8_t>(bit.value_or(-1));
+  if (problems.count() != before) return std::nullopt;
+  return entry;
+}
+
+ModbusUnits ModbusConfig::units_of(std::size_t server) const {
+  const bool has_own =
+      std::any_of(maps.begin(), maps.end(), [&](const ModbusMapConfig& map) { return map.server == server; });
+  static const ModbusMap kEmpty({}, {});
+  ModbusUnits units(has_own ? kEmpty : maps.front().map);
+  for (const ModbusMapConfig& map : maps) {
+    if (map.server != (has_own ? std::optional(server) : std::nullopt)) continue;
+    if (map.unit)
+      units.own[*map.unit] = &map.map;
+    else
+      units.every = &map.map;
+  }
+  return units;
+}
+
+NamedSignal ModbusConfig::signal_of(const ModbusEntry& entry) const {
+  if (entry.counter == nullptr) return signals[entry.signal];
+  for (const ModbusCounterName& one : kModbusCounters)
+    if (one.counter == entry.counter) return {"diagnostic." + std::string(one.name), {}, Unit::kNone};
+  return {};
+}
+
+void load_modbus(const JsonValue* modbus, const Loading& loading) {
+  MapLoader maps(loading);
+  JsonValue none;
+  none.kind = JsonKind::object;
+  const Fields fields(modbus == nullptr ? none : *modbus, modbus == nullptr ? Keys{} : keys::kModbus,
+                      loading.problems);
+  maps.load(fields["map"], std::nullopt, std::nullopt);
+  maps.load_units(fields["units"], std::nullopt);
+  if (fields["server"] != nullptr) load_servers(*fields["server"], loading, maps);
+  maps.finish();
+  load_modbus_clients(fields["clients"], loading);
+}
+
+}  // namespace lockstep

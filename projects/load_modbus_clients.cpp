@@ -1,0 +1,147 @@
+// The Modbus clients of a project: foreign devices, and the tags that go to and fro.
+#include <algorithm>
+
+#include "projects/load_modbus.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kShortestCycle = 1'000'000;         // [ns]
+constexpr std::int64_t kLongestCycle = 3'600'000'000'000;  // [ns]
+constexpr std::int64_t kLongestTimeout = 60'000'000'000;   // [ns]
+constexpr int kHighestUnit = 247;
+constexpr int kTcpUnit = 255;
+
+/// Reads one client.
+class ClientLoader {
+ public:
+  ClientLoader(ModbusClientConfig& client, const Loading& loading)
+      : client_(client), loading_(loading), problems_(loading.problems) {}
+
+  void load(const JsonValue& json);
+
+ private:
+  void load_device(const JsonValue& json);
+  int read_unit(const JsonValue* json);
+  std::vector<ModbusEntry> load_entries(const JsonValue* json, bool is_write);
+  std::optional<ModbusEntry> load_entry(const JsonValue& json, bool is_write);
+  std::optional<std::uint32_t> load_tag(const JsonValue* json, Type type);
+  std::uint32_t add_signal(std::string_view path, const Place& place);
+
+  ModbusClientConfig& client_;
+  const Loading& loading_;
+  Problems& problems_;
+};
+
+void ClientLoader::load(const JsonValue& json) {
+  const Fields fields(json, keys::kClient, problems_);
+  if (!fields.usable()) return;
+  ModbusClientOptions& options = client_.options;
+  if ((fields["connect"] == nullptr) == (fields["serial"] == nullptr))
+    problems_.report(json, "a client has one connection; allowed: one of the keys 'connect', 'serial'");
+  if (const auto text = read_string(fields["connect"], problems_)) {
+    std::string problem;
+    options.connect = parse_endpoint(*text, problem);
+    if (!options.connect) problems_.report(*fields["connect"], problem);
+    if (options.connect && options.connect->port == 0)
+      problems_.report(*fields["connect"], "nobody can be reached at port 0; allowed: from 1 to 65535");
+  }
+  if (fields["serial"] != nullptr) options.serial = read_serial(*fields["serial"], problems_);
+  if (const auto timeout = read_duration(fields["timeout"], 1'000'000, kLongestTimeout, problems_))
+    options.timeout = std::chrono::milliseconds(*timeout / 1'000'000);
+  if (read_array(fields["devices"], problems_) == nullptr) return;
+  for (const JsonValue* const device : fields["devices"]->elements) load_device(*device);
+}
+
+int ClientLoader::read_unit(const JsonValue* json) {
+  const bool is_tcp = client_.options.connect.has_value();
+  const auto unit = read_integer(json, is_tcp ? 0 : 1, is_tcp ? kTcpUnit : kHighestUnit, problems_);
+  if (unit && *unit > kHighestUnit && *unit != kTcpUnit)
+    problems_.report(*json, json->shown() + " is no unit id; allowed: from 0 to 247, 255");
+  return static_cast<int>(unit.value_or(1));
+}
+
+void ClientLoader::load_device(const JsonValue& json) {
+  const Fields fields(json, keys::kDevice, problems_);
+  if (!fields.usable()) return;
+  ModbusDevice device;
+  device.name = read_title(fields["name"], problems_).value_or("");
+  device.unit = read_unit(fields["unit"]);
+  if (const auto cycle = read_duration(fields["cycle"], kShortestCycle, kLongestCycle, problems_))
+    device.cycle = std::chrono::nanoseconds(*cycle);
+  device.quality = load_tag(fields["quality"], Type::BOOL);
+  device.age = load_tag(fields["age"], Type::TIME);
+  device.reads = load_entries(fields["read"], false);
+  device.writes = load_entries(fields["write"], true);
+  client_.options.devices.push_back(std::move(device));
+}
+
+std::uint32_t ClientLoader::add_signal(std::string_view path, const Place& place) {
+  client_.signals.push_back({std::string(path), place.signal, place.unit});
+  return static_cast<std::uint32_t>(client_.signals.size() - 1);
+}
+
+/// A tag of a given type that the client writes.
+std::optional<std::uint32_t> ClientLoader::load_tag(const JsonValue* json, Type type) {
+  const auto path = read_string(json, problems_);
+  if (!path) return std::nullopt;
+  const auto place = loading_.find(*json, *path);
+  if (!place) return std::nullopt;
+  if (place->tag == nullptr || place->signal.value_type() != type) {
+    problems_.report(*json, quote(*path) + " is no tag of type " + std::string(type_name(type)) +
+                                "; allowed: the name of one");
+    return std::nullopt;
+  }
+  return add_signal(*path, *place);
+}
+
+std::optional<ModbusEntry> ClientLoader::load_entry(const JsonValue& json, bool is_write) {
+  const Fields fields(json, keys::kDeviceEntry, problems_);
+  if (!fields.usable()) return std::nullopt;
+  const std::size_t before = problems_.count();
+  const auto path = read_string(fields["tag"], problems_);
+  const auto place = path ? loading_.find(*fields["tag"], *path) : std::nullopt;
+  auto entry =
+      read_modbus_shape(fields, place ? std::optional(place->signal.value_type()) : std::nullopt, problems_);
+  if (!place || !entry) return std::nullopt;
+  if (const std::string reason = why_not_writable(*place); !is_write && !reason.empty())
+    problems_.report(*fields["tag"], reason);
+  if (is_write && !is_writable_table(entry->table))
+    problems_.report(*fields["table"],
+                     fields["table"]->shown() + " cannot be written; allowed: coil, holding_register");
+  if (!is_write) entry->range = written_range(*place);
+  if (problems_.count() != before) return std::nullopt;
+  entry->signal = add_signal(*path, *place);
+  return entry;
+}
+
+/// Entries that are good by themselves and together: the rules are those of a map.
+std::vector<ModbusEntry> ClientLoader::load_entries(const JsonValue* json, bool is_write) {
+  if (read_array(json, problems_) == nullptr) return {};
+  std::vector<ModbusEntry> entries;
+  std::vector<const JsonValue*> places;
+  for (const JsonValue* const element : json->elements) {
+    const auto entry = load_entry(*element, is_write);
+    if (!entry) continue;
+    entries.push_back(*entry);
+    places.push_back(element);
+  }
+  std::vector<Type> types;
+  for (const NamedSignal& signal : client_.signals) types.push_back(signal.signal.value_type());
+  const ModbusMap map(entries, types);
+  for (const ModbusMapProblem& problem : map.problems()) {
+    const JsonValue* const field = places[problem.entry]->find(problem.key);
+    problems_.report(field == nullptr ? *places[problem.entry] : *field, problem.text);
+  }
+  return entries;
+}
+
+}  // namespace
+
+void load_modbus_clients(const JsonValue* clients, const Loading& loading) {
+  if (read_array(clients, loading.problems) == nullptr) return;
+  for (const JsonValue* const client : clients->elements)
+    ClientLoader(loading.project.modbus.clients.emplace_back(), loading).load(*client);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,331 @@
+// MC_Home: direct setting of positions, homing with a mark in passing or by a motion of its own, encoder
+// adjustment.
+#include <cmath>
+
+#include "tech_objects/axis.hpp"
+
+namespace lockstep {
+namespace {
+
+bool mode_is(const Job& job, std::initializer_list<DINT> modes) noexcept {
+  for (const DINT mode : modes)
+    if (job.mode == mode) return true;
+  return false;
+}
+
+/// Modes that adjust an encoder: relative and absolute, incremental encoder.
+bool adjusts_encoder(const Job& job) noexcept {
+  return mode_is(job, {6, 7, 13});
+}
+
+constexpr DINT kPassiveAnyDirection = 2;  // Sensor[].PassiveHoming.Direction
+
+}  // namespace
+
+// ---- Taking a job over
+// ------------------------------------------------------------------------------------------
+
+ErrorId Axis::check_homing(const Job& job) const noexcept {
+  const JobClass kind = class_of(job, true);
+  if (kind == JobClass::home_cancel) return ErrorId::none;
+  const bool seeks = kind == JobClass::home_active || kind == JobClass::home_passive;
+  if ((seeks || job.mode == 13) && pending_alarm() != 0) return ErrorId::technology_alarm;
+  if (seeks && (!enabled() || locked_by_stop())) return ErrorId::locked;
+  if (adjusts_encoder(job)) {
+    const auto sensor = static_cast<std::size_t>(job.sensor > 0 ? job.sensor - 1 : 0);
+    if (!data.Sensor[sensor].Existent) return ErrorId::sensor;
+    const bool absolute = data.Sensor[sensor].Type != 0;
+    if (job.mode == 13 && absolute) return ErrorId::homing_mode_absolute;
+    if (job.mode != 13 && !absolute) return ErrorId::homing_mode_incremental;
+    if (data.StatusSensor[sensor].State != kSensorValid) return ErrorId::actual_values_invalid;
+  }
+  const Job* base = running_[kBase];
+  const JobKind running = base != nullptr ? base->kind : JobKind::MC_Halt;
+  if (kind != JobClass::home_active && !position_controlled_ && !off())
+    return ErrorId::not_position_controlled;
+  if (kind == JobClass::home_passive && running == JobKind::MC_Home) return ErrorId::locked;
+  const bool leaving = running == JobKind::MC_GearOut || running == JobKind::MC_CamOut;
+  const bool placed = running == JobKind::MC_GearInPos || running == JobKind::MC_CamIn ||
+                      (simulated_ != nullptr && simulated_->kind == JobKind::MC_CamIn);
+  const bool coupled = placed || (leaving && kind == JobClass::home_active);
+  return coupled ? ErrorId::homing_while_coupled : ErrorId::none;
+}
+
+/// Alarm for what active and passive homing need and do not find; 0: all is there.
+int Axis::missing_for_homing(const Job& job) const noexcept {
+  const JobClass kind = class_of(job, true);
+  const bool active = kind == JobClass::home_active;
+  if (!active && kind != JobClass::home_passive) return 0;
+  if (active && !(data.Homing.ApproachVelocity > 0.0 && data.Homing.ReferencingVelocity > 0.0))
+    return alarm::kHomingData;
+  if (!has_drive_) return 0;
+  const auto mark =
+      static_cast<HomingMark>(active ? data.Sensor[0].ActiveHoming.Mode : data.Sensor[0].PassiveHoming.Mode);
+  const bool zero_mark_missing = mark != HomingMark::switch_edge && !drive_settings.signals.zero_marks;
+  const bool switch_missing = mark != HomingMark::zero_mark && home_switch_missing(active);
+  return zero_mark_missing || switch_missing ? alarm::kHomingNotSupported : 0;
+}
+
+bool Axis::home_switch_missing(bool active) const noexcept {
+  const bool* const address = active ? data.Sensor[0].ActiveHoming.DigitalInputAddress
+                                     : data.Sensor[0].PassiveHoming.DigitalInputAddress;
+  return address == nullptr && !drive_settings.signals.reference_cam;
+}
+
+void Axis::home(Job& job) noexcept {
+  switch (class_of(job, true)) {
+    case JobClass::home_cancel:  // the override rules have ended what it ends
+      job.phase = JobPhase::done;
+      break;
+    case JobClass::home_passive:
+      begin_passive_homing(job);
+      break;
+    case JobClass::home_active:
+      begin_active_homing(job);
+      break;
+    default:
+      home_directly(job);
+      break;
+  }
+}
+
+// ---- Direct homing and encoder adjustment
+// -----------------------------------------------------------------------
+
+/// Setpoint and actual position are shifted together; nothing moves.
+void Axis::home_directly(Job& job) noexcept {
+  const bool to_setpoint = job.mode == 11;
+  const bool relative = mode_is(job, {1, 6, 12});
+  const double by = relative      ? job.position
+                    : to_setpoint ? shortest_distance(setpoint_.position.value, job.position, modulo_)
+                                  : position_shift(job.position);
+  if (!positions_fit(by)) return job.fail(ErrorId::position);
+  shift_positions(by);
+  if (to_setpoint || (!relative && !has_drive_)) {
+    // No following error in between: the setpoint is the given position to the last bit.
+    const AxisPosition exact = normalised({setpoint_.position.turns, job.position}, modulo_);
+    setpoint_.position.value = exact.value;
+    const bool idle = running_[kBase] == nullptr && !superimposed_.in_use();
+    if (setpoint_.standing() && motion_ == Motion::single_axis && idle) single_.stand(setpoint_);
+    if (!has_drive_) actual_ = setpoint_.position;
+  }
+  if (job.mode == 7) counted_from_ = actual_.turns;
+  if (adjusts_encoder(job)) adjust_encoder(true);
+  homed_ = true;
+  job.mark_position = relative ? actual_.value : job.position;
+  job.phase = JobPhase::done;
+}
+
+/// Whether the axis could still be used if it were shifted: inside the numeric range, and on its ring.
+bool Axis::positions_fit(double by) const noexcept {
+  const double shifted = advanced(setpoint_.position, by, modulo_).value;
+  return std::isfinite(by) && std::abs(shifted) <= kPositionRange && modulo_.contains(shifted);
+}
+
+/// The encoder is adjusted to the positions as they are now.
+/// @param store whether an offset of an absolute encoder that is kept already is replaced
+void Axis::adjust_encoder(bool store) noexcept {
+  data.StatusSensor[0].Adjusted = 1;
+  if (!absolute_encoder() || (encoder_adjustment.adjusted && !store)) return;
+  const DoubleDouble turns = modulo_.enabled
+                                 ? to_double_double(encoder_origin_.turns - counted_from_) * modulo_.length
+                                 : DoubleDouble{};
+  const DoubleDouble offset = turns + two_difference(encoder_origin_.value, encoder_start());
+  encoder_adjustment = {true, offset.rounded()};
+  data.StatusSensor[0].AbsEncoderOffset = encoder_adjustment.offset;
+}
+
+/// At the start and after a restart an absolute encoder tells where the axis is.
+void Axis::restore_encoder() noexcept {
+  if (!absolute_encoder()) return;
+  if (!encoder_adjustment.adjusted || !std::isfinite(encoder_adjustment.offset)) encoder_adjustment = {};
+  const DoubleDouble place = two_sum(encoder_start(), encoder_adjustment.offset);
+  const AxisPosition origin = normalised(0, place, modulo_);
+  shift_positions(difference(origin, encoder_origin_, modulo_).rounded());
+  encoder_origin_ = origin;
+  counted_from_ = 0;
+  homed_ = encoder_adjustment.adjusted;
+  data.StatusSensor[0].AbsEncoderOffset = encoder_adjustment.offset;
+  data.StatusSensor[0].Adjusted = encoder_adjustment.adjusted ? 1 : 0;
+}
+
+// ---- Homing with a mark
+// -----------------------------------------------------------------------------------------
+
+/// Beside whatever moves the axis.
+void Axis::begin_passive_homing(Job& job) noexcept {
+  if (job.mode == 10) job.position = data.Homing.HomePosition;
+  if (!positions_fit(position_shift(job.position))) return job.fail(ErrorId::position);
+  end_job(kPassiveHoming, JobPhase::aborted, ErrorId::none);
+  running_[kPassiveHoming] = &job;
+  job.phase = JobPhase::active;
+  homing_now_ = true;
+  if (job.mode != 2) homed_ = false;
+  const DINT direction = data.Sensor[0].PassiveHoming.Direction;
+  if (has_drive_) search_mark(false, direction == kPassiveAnyDirection ? 0 : direction == 0 ? 1 : -1);
+}
+
+void Axis::begin_active_homing(Job& job) noexcept {
+  const auto& settings = data.Sensor[0].ActiveHoming;
+  if (job.mode == 5) job.position = data.Homing.HomePosition;
+  const double mark = job.position - settings.HomePositionOffset;
+  if (!positions_fit(position_shift(mark)) || !positions_fit(position_shift(job.position)))
+    return job.fail(ErrorId::position);
+  // What acts on a coupling ends with it.
+  for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) end_job(slot, JobPhase::aborted, ErrorId::none);
+  homed_ = false;
+  homing_now_ = true;
+  homing_ = {.phase = HomingPhase::search, .direction = settings.Direction == 0 ? 1 : -1, .mark = mark};
+  job.direction = homing_.direction;
+  job.velocity = data.Homing.ReferencingVelocity;
+  if (!has_drive_) {  // it has no marks: one is taken to be where it is
+    homing_.phase = HomingPhase::travel;
+    job.mark_position = mark;
+    assign_position(actual_, mark);
+  } else if (settings.Mode != static_cast<DINT>(HomingMark::zero_mark)) {
+    homing_.phase = HomingPhase::approach;
+    job.direction = data.Homing.ApproachDirection ? -1 : 1;
+  }
+  if (homing_.phase != HomingPhase::search) job.velocity = data.Homing.ApproachVelocity;
+  if (has_drive_) search_mark(true, homing_.direction);
+  begin_base_motion(job);
+  if (!job.running()) leave_homing(job);
+}
+
+PlanResult Axis::plan_homing(const Job& job, const Dynamics& dynamics) noexcept {
+  if (homing_.phase != HomingPhase::travel)
+    return single_.run_at(setpoint_, job.direction * dynamics.velocity, dynamics);
+  return move_by(to_double_double(shortest_distance(setpoint_.position.value, job.position, modulo_)), job,
+                 dynamics);
+}
+
+void Axis::search_mark(bool active, int direction) noexcept {
+  const auto& sensor = data.Sensor[0];
+  const DINT mark = active ? sensor.ActiveHoming.Mode : sensor.PassiveHoming.Mode;
+  const BOOL positive_side = active ? sensor.ActiveHoming.SideInput : sensor.PassiveHoming.SideInput;
+  // The machine may lie the other way round than the axis counts.
+  const int sign = encoder_sign_ < 0.0 ? -1 : 1;
+  mark_search_.begin(static_cast<HomingMark>(mark), sign * direction, positive_side ? sign : -sign);
+  on_home_switch_ = false;
+  signals_watched_ = true;
+}
+
+/// Each interpolator tick of a homing, before the setpoint is made.
+void Axis::step_homing() noexcept {
+  Job* base = running_[kBase];
+  const bool active = base != nullptr && base->kind == JobKind::MC_Home;
+  if (active && homing_.phase == HomingPhase::travel) return;
+  if (!has_drive_ || (mark_search_.found() && homing_.phase != HomingPhase::back)) return take_mark();
+  if (active) guide_active_homing(*base);
+}
+
+/// From one phase of an active homing to the next.
+void Axis::guide_active_homing(Job& job) noexcept {
+  const int direction = homing_.direction;
+  if (homing_reverses() && limit_switches_[job.direction > 0 ? 1 : 0].pressed)
+    return reverse_at_limit_switch(job);
+  const auto& settings = data.Sensor[0].ActiveHoming;
+  switch (homing_.phase) {
+    case HomingPhase::approach: {
+      if (!on_home_switch_) break;
+      // An edge that is met from outside, in the homing direction, is left behind first.
+      const bool met_from_outside = settings.Mode == static_cast<DINT>(HomingMark::switch_edge) &&
+                                    (settings.SideInput ? 1 : -1) != direction;
+      if (met_from_outside) return head_for(job, HomingPhase::clear, -direction);
+      return head_for(job, HomingPhase::search, direction);
+    }
+    case HomingPhase::clear:
+      if (!on_home_switch_) head_for(job, HomingPhase::search, direction);
+      break;
+    case HomingPhase::back:
+      if (!mark_search_.found()) break;
+      search_mark(true, direction);
+      return head_for(job, HomingPhase::search, direction);
+    default:
+      break;
+  }
+}
+
+/// Once: on the way to the switch the other way is tried; a zero mark is looked for beyond, to be met in the
+/// homing direction.
+void Axis::reverse_at_limit_switch(Job& job) noexcept {
+  const bool to_zero_mark = data.Sensor[0].ActiveHoming.Mode == static_cast<DINT>(HomingMark::zero_mark);
+  const bool can_turn =
+      homing_.phase == HomingPhase::approach || (homing_.phase == HomingPhase::search && to_zero_mark);
+  if (homing_.reversed || !can_turn) return raise(alarm::kMarkNotFound);
+  homing_.reversed = true;
+  if (homing_.phase == HomingPhase::approach) return head_for(job, HomingPhase::approach, -job.direction);
+  search_mark(true, -homing_.direction);
+  head_for(job, HomingPhase::back, -homing_.direction);
+}
+
+void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
+  homing_.phase = phase;
+  job.direction = direction;
+  job.velocity =
+      phase == HomingPhase::search ? data.Homing.ReferencingVelocity : data.Homing.ApproachVelocity;
+  in_window_ticks_ = 0;
+  since_target_ticks_ = 0;
+  remember_limits();
+  if (plan(job, own_dynamics(job)) == PlanResult::ok) return;
+  end_job(kBase, JobPhase::failed, ErrorId::unspecified);
+  begin_stop(maximum_dynamics(), false);
+}
+
+/// The mark has been passed; a virtual axis has none, and takes the place where it is.
+void Axis::take_mark() noexcept {
+  const DoubleDouble way = two_difference(mark_search_.place(), drive_settings.signals.start_position);
+  const AxisPosition place = has_drive_ ? advanced(encoder_origin_, way * encoder_sign_, modulo_) : actual_;
+  mark_search_.end();
+  Job* const passive = running_[kPassiveHoming];
+  Job& job = passive != nullptr ? *passive : *running_[kBase];
+  job.mark_position = passive != nullptr ? job.position : homing_.mark;
+  if (!assign_position(place, job.mark_position)) return raise(alarm::kHomingNotPossible);
+  if (passive != nullptr) return end_job(kPassiveHoming, JobPhase::done, ErrorId::none);
+  signals_watched_ = signals_always_watched();
+  head_for(job, HomingPhase::travel, 0);
+}
+
+/// A place gets a position, and everything is shifted by the difference; the turns are counted anew.
+bool Axis::assign_position(AxisPosition place, double position) noexcept {
+  const double by = shortest_distance(place.value, position, modulo_);
+  if (!positions_fit(by)) return false;
+  shift_positions(by);
+  if (modulo_.enabled && !absolute_encoder()) {
+    const AxisPosition now = advanced(place, by, modulo_);
+    const bool first_half = now.value <= modulo_.start + 0.5 * modulo_.length;
+    counted_from_ = first_half ? now.turns : now.turns + 1;
+  }
+  homed_ = true;
+  adjust_encoder(false);
+  return true;
+}
+
+/// A running homing ends, whatever the reason.
+void Axis::leave_homing(const Job& /*job*/) noexcept {
+  mark_search_.end();
+  homing_ = {};
+  homing_now_ = false;
+  signals_watched_ = signals_always_watched();
+}
+
+// ---- Positions
+// --------------------------------------------------------------------------------------------------
+
+/// Way from the actual position to a home position; on a ring the shorter one.
+double Axis::position_shift(double home_position) const noexcept {
+  return shortest_distance(actual_.value, home_position, modulo_);
+}
+
+void Axis::shift_positions(double by) noexcept {
+  setpoint_.position = advanced(setpoint_.position, by, modulo_);
+  last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
+  base_.position = advanced(base_.position, by, modulo_);
+  actual_ = advanced(actual_, by, modulo_);
+  shift_leading(by);
+  single_.shift(by);
+  synchronous_.shift_following(by);
+  if (has_drive_) shift_servo(by);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,246 @@
+#include "hmi_bridge/modbus_client.hpp"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <functional>
+
+#include "hmi_bridge/modbus_server.hpp"
+#include "tests/hmi_bridge/modbus_machine.hpp"
+#include "tests/hmi_bridge/serial_cable.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+ModbusEntry entry(std::uint32_t signal, ModbusTable table, std::uint32_t address, Type type) {
+  ModbusEntry result;
+  result.signal = signal;
+  result.table = table;
+  result.address = address;
+  result.type = type;
+  return result;
+}
+
+/// The controller's side: tags that a client fills from the machine, which is the foreign device.
+struct Tags {
+  LREAL speed = 0.0;      // signal 0
+  LINT count = 0;         // 1
+  INT locked = 0;         // 2
+  BOOL shown = false;     // 3
+  INT out = 12;           // 4
+  BOOL quality = false;   // 5
+  std::int64_t age = -1;  // 6
+  USINT narrow = 3;       // 7
+  std::vector<Signal> signals = {{&speed, Type::LREAL, -1}, {&count, Type::LINT, -1},
+                                 {&locked, Type::INT, -1},  {&shown, Type::BOOL, -1},
+                                 {&out, Type::INT, -1},     {&quality, Type::BOOL, -1},
+                                 {&age, Type::TIME, -1},    {&narrow, Type::USINT, -1}};
+  ProcessImage image{signals};
+  std::int64_t ticks = -1;
+
+  void tick() {
+    image.take_writes();
+    image.publish(++ticks);
+  }
+  /// Ticks until something holds; the test fails if it never does.
+  void expect(const std::function<bool()>& condition) {
+    const auto deadline = Clock::now() + 20s;
+    while (!condition() && Clock::now() < deadline) {
+      tick();
+      std::this_thread::yield();
+    }
+    EXPECT_TRUE(condition());
+  }
+};
+
+ModbusDevice plain_device() {
+  ModbusDevice device;
+  device.name = "machine";
+  device.cycle = 5ms;
+  device.quality = 5;
+  device.age = 6;
+  device.reads = {entry(0, ModbusTable::holding_register, 10, Type::REAL),
+                  entry(1, ModbusTable::holding_register, 20, Type::LINT),
+                  entry(2, ModbusTable::holding_register, 32, Type::INT),
+                  entry(3, ModbusTable::coil, 1, Type::BOOL)};
+  device.writes = {entry(4, ModbusTable::holding_register, 200, Type::INT)};
+  return device;
+}
+
+class Client : public ::testing::Test {
+ protected:
+  void serve(std::uint16_t port = 0) {
+    ModbusServerOptions at;
+    at.listen = {{"127.0.0.1", port}};
+    server = std::make_unique<ModbusServer>(at, machine.map, machine.image);
+    ASSERT_EQ(server->start(), "");
+  }
+  void poll(std::vector<ModbusDevice> devices, std::uint16_t port) {
+    ModbusClientOptions options;
+    options.connect = Endpoint{"127.0.0.1", port};
+    options.timeout = 20s;
+    options.first_retry = 5ms;
+    options.longest_retry = 20ms;
+    options.devices = std::move(devices);
+    start(options);
+  }
+  void start(const ModbusClientOptions& options) {
+    client = std::make_unique<ModbusClient>(options, tags.image);
+    client->start();
+  }
+
+  ModbusMachine machine;
+  Tags tags;
+  std::unique_ptr<ModbusServer> server;
+  std::unique_ptr<ModbusClient> client;
+};
+
+TEST_F(Client, ReadsADevicesValuesIntoTagsAndWritesTagsToIt) {
+  serve();
+  poll({plain_device()}, server->port());
+  tags.expect([&] { return tags.quality; });
+  EXPECT_EQ(tags.speed, 200.0);
+  EXPECT_EQ(tags.locked, 77);
+  EXPECT_TRUE(tags.shown);
+  machine.tick();
+  EXPECT_EQ(machine.row[0], 12);
+  machine.speed = 2.5;
+  machine.count = -5;
+  tags.out = 13;
+  machine.tick();
+  tags.expect([&] { return tags.speed == 2.5 && tags.count == -5; });
+  tags.expect([&] {
+    machine.tick();
+    return machine.row[0] == 13;
+  });
+  EXPECT_EQ(client->counters().failed, 0u);
+}
+
+TEST_F(Client, TheAgeOfGoodValuesIsNextToNothingAndGrowsWhenTheDeviceIsGone) {
+  serve();
+  const std::uint16_t port = server->port();
+  poll({plain_device()}, port);
+  tags.expect([&] { return tags.quality && tags.age == 0; });
+  server->stop();
+  tags.expect([&] { return !tags.quality; });
+  EXPECT_EQ(tags.locked, 77) << "the last value stays";
+  tags.expect([&] { return tags.age > 100'000'000; });
+  machine.locked = 78;
+  machine.tick();
+  serve(port);
+  tags.expect([&] { return tags.quality && tags.age == 0 && tags.locked == 78; });
+  EXPECT_GE(client->counters().connections, 2u);
+  EXPECT_GE(client->counters().unreachable, 1u);
+}
+
+TEST_F(Client, NeighboursGoInOneRequest) {
+  serve();
+  ModbusDevice device;
+  device.cycle = 1h;
+  device.quality = 5;
+  device.reads = {entry(2, ModbusTable::holding_register, 31, Type::INT),
+                  entry(4, ModbusTable::holding_register, 32, Type::INT),
+                  entry(7, ModbusTable::holding_register, 30, Type::UINT)};
+  machine.word = WORD{200};
+  machine.tick();
+  poll({device}, server->port());
+  tags.expect([&] { return tags.quality; });
+  EXPECT_EQ(client->counters().requests, 1u);
+  EXPECT_EQ(tags.locked, -3);
+  EXPECT_EQ(tags.out, 77);
+  EXPECT_EQ(tags.narrow, 200);
+}
+
+TEST_F(Client, AnExceptionSpoilsTheQualityAndNotTheOtherValues) {
+  serve();
+  ModbusDevice device = plain_device();
+  device.reads.push_back(entry(7, ModbusTable::input_register, 500, Type::UINT));
+  poll({device}, server->port());
+  tags.expect([&] { return tags.locked == 77 && client->counters().refused >= 2; });
+  EXPECT_FALSE(tags.quality);
+  EXPECT_EQ(client->counters().failed, 0u);
+  EXPECT_EQ(client->counters().connections, 1u);
+}
+
+TEST_F(Client, AValueThatItsTagCannotHoldIsNotTaken) {
+  serve();
+  ModbusDevice device = plain_device();
+  device.reads.push_back(entry(7, ModbusTable::holding_register, 30, Type::UINT));  // 16#0F0F
+  poll({device}, server->port());
+  tags.expect([&] { return tags.locked == 77 && client->counters().bad_values >= 1; });
+  EXPECT_FALSE(tags.quality);
+  EXPECT_EQ(tags.narrow, 3);
+}
+
+TEST_F(Client, ADeviceThatKeepsSilentIsAskedLessAndLessOftenAndHoldsUpNoOther) {
+  // The system accepts the connection; nobody answers.
+  const int silent = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof place;
+  ASSERT_EQ(::bind(silent, reinterpret_cast<sockaddr*>(&place), size), 0);
+  ASSERT_EQ(::listen(silent, 5), 0);
+  ::getsockname(silent, reinterpret_cast<sockaddr*>(&place), &size);
+  ModbusClientOptions options;
+  options.connect = Endpoint{"127.0.0.1", ntohs(place.sin_port)};
+  options.timeout = 20ms;
+  options.first_retry = 100ms;
+  options.devices = {plain_device()};
+  tags.quality = true;
+  start(options);
+  tags.expect([&] { return !tags.quality && tags.age > 800'000'000; });
+  // At 0, 120, 340, 760 ms; without pauses there would be some forty attempts.
+  EXPECT_GE(client->counters().failed, 2u);
+  EXPECT_LE(client->counters().failed, 4u);
+  const auto before = Clock::now();
+  client->stop();
+  EXPECT_LT(Clock::now() - before, 5s);
+  ::close(silent);
+}
+
+TEST_F(Client, AConnectionThatTheDeviceEndsBetweenTwoCyclesIsMadeAnewInTime) {
+  ModbusServerOptions at;
+  at.listen = {{"127.0.0.1", 0}};
+  at.idle_limit = 50ms;
+  server = std::make_unique<ModbusServer>(at, machine.map, machine.image);
+  ASSERT_EQ(server->start(), "");
+  ModbusDevice device = plain_device();
+  device.cycle = 400ms;
+  poll({device}, server->port());
+  tags.expect([&] { return tags.quality; });
+  bool was_good = true;
+  tags.expect([&] {
+    was_good &= tags.quality;
+    return client->counters().connections >= 3;
+  });
+  EXPECT_TRUE(was_good);
+  EXPECT_EQ(client->counters().failed, 0u);
+}
+
+TEST_F(Client, PollsOverASerialLine) {
+  const SerialCable cable;
+  ModbusServerOptions line;
+  line.serial = SerialOptions{};
+  line.serial->device = cable.left();
+  line.serial_unit = 4;
+  ModbusServer on_the_line(line, machine.map, machine.image);
+  ASSERT_EQ(on_the_line.start(), "");
+  ModbusClientOptions options;
+  options.serial.device = cable.right();
+  options.timeout = 20s;
+  options.devices = {plain_device()};
+  options.devices[0].unit = 4;
+  start(options);
+  tags.expect([&] { return tags.quality; });
+  EXPECT_EQ(tags.locked, 77);
+  client->stop();
+}
+
+}  // namespace
+}  // namespace lockstep
