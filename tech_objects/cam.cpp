@@ -96,6 +96,7 @@ void Cam::configure(double /*servo_period*/, int /*ratio*/) {
 // ----------------------------------------------------------------------------------------
 
 void Cam::submit(Job& job) noexcept {
+  if (job.kind == JobKind::MC_Reset) return TechnologyObject::submit(job);
   if (in_use()) return job.fail(ErrorId::cam_in_use);
   if (job_ != nullptr) return job.fail(ErrorId::cam_in_interpolation);
   take_definition();

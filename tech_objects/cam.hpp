@@ -59,8 +59,8 @@ class Cam final : public TechnologyObject {
   bool in_use() const noexcept { return used_ || in_use_; }
 
   /// MC_InterpolateCam: takes the definition as it stands. Fails with 16#80AB if the cam is in use, 16#80E8
-  /// if it is being interpolated already.
-  void submit(Job& job) noexcept;
+  /// if it is being interpolated already. MC_Reset: a cam has no alarms, so nothing is to be done.
+  void submit(Job& job) noexcept override;
 
   // ---- Cycle: called by the scheduler
 

@@ -43,7 +43,8 @@ inline constexpr ObjectKinds kAnyCam = ObjectKind::TO_Cam | ObjectKind::TO_Cam_1
 inline constexpr ObjectKinds kLeading = kAnyAxis | ObjectKind::TO_ExternalEncoder;
 inline constexpr ObjectKinds kMeasuringInput = static_cast<ObjectKinds>(ObjectKind::TO_MeasuringInput);
 /// What MC_Reset acknowledges.
-inline constexpr ObjectKinds kResettable = kLeading | ObjectKind::TO_MeasuringInput;
+inline constexpr ObjectKinds kResettable =
+    kLeading | ObjectKind::TO_MeasuringInput | ObjectKind::TO_Cam | ObjectKind::TO_Cam_10k;
 
 /// A published type and what it is, for messages and `describe`.
 struct ObjectKindText {

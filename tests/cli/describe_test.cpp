@@ -67,7 +67,7 @@ TEST(Describe, WithoutANameListsEveryBlockAndObject) {
   ASSERT_EQ(list["function_blocks"].size(), block_types().size());
   for (std::size_t i = 0; i < block_types().size(); ++i)
     EXPECT_EQ(list["function_blocks"][i]["name"], block_types()[i].name);
-  EXPECT_EQ(list["technology_objects"].size(), 2u);
+  EXPECT_EQ(list["technology_objects"].size(), kObjectKinds.size());
   const Ended text = lockstep({"describe"});
   for (const BlockType& type : block_types())
     EXPECT_NE(text.out.find("\n" + std::string(type.name) + " "), std::string::npos) << type.name;

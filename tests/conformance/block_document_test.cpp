@@ -34,9 +34,8 @@ std::string default_text(Subject& block, const Pin& pin) {
 std::string type_text(const Pin& pin) {
   if (pin.type != Type::AXIS) return std::string(type_name(pin.type));
   std::string text;
-  for (const ObjectKind kind : {ObjectKind::TO_PositioningAxis, ObjectKind::TO_SynchronousAxis})
-    if ((pin.objects & static_cast<ObjectKinds>(kind)) != 0)
-      text += (text.empty() ? "" : ", ") + std::string(kind_name(kind));
+  for (const ObjectKindText& known : kObjectKinds)
+    if (among(known.kind, pin.objects)) text += (text.empty() ? "" : ", ") + std::string(known.name);
   return text;
 }
 

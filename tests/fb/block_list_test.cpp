@@ -35,8 +35,12 @@ constexpr ExtraPin kExtraPins[] = {
 };
 
 // The kinds of technology object there are; a kind that the catalogue names beyond these does not count.
-constexpr ObjectKind kKinds[] = {ObjectKind::TO_PositioningAxis, ObjectKind::TO_SynchronousAxis,
-                                 ObjectKind::TO_ExternalEncoder, ObjectKind::TO_MeasuringInput};
+constexpr ObjectKind kKinds[] = {ObjectKind::TO_PositioningAxis,
+                                 ObjectKind::TO_SynchronousAxis,
+                                 ObjectKind::TO_ExternalEncoder,
+                                 ObjectKind::TO_MeasuringInput,
+                                 ObjectKind::TO_Cam,
+                                 ObjectKind::TO_Cam_10k};
 
 std::map<std::string, Json> read_catalogues() {
   std::map<std::string, Json> blocks;
