@@ -94,7 +94,7 @@ struct MC_CamIn final : ExecuteBlock {
       in<&MC_CamIn::SyncProfileReference>("SyncProfileReference", Unit::kNone, kAny, "way of synchronizing",
                                           {.error = ErrorId::sync_profile_reference, .choices = kProfiles}),
       in<&MC_CamIn::MasterStartDistance>(
-          "MasterStartDistance", Unit::kLeading, {std::numeric_limits<double>::min(), kFinite.highest},
+          "MasterStartDistance", Unit::kLeading, {std::numeric_limits<double>::denorm_min(), kFinite.highest},
           "profiles 1, 3, 4, 6: leading distance over which the axis is synchronized, > 0",
           {.error = ErrorId::leading_distance, .relevant = &over_distance}),
       pin::velocity<MC_CamIn>("profile 0: velocity of the following axis while synchronizing; < 0: default",

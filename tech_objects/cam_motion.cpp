@@ -51,6 +51,7 @@ void CamFollowing::set_start(const CamFunction& function, const CamUse& use, std
   following_ = following;
   backward_ = use.master_scaling < 0.0;
   scaling_ = std::abs(use.master_scaling);
+  per_scaling_ = 1.0 / scaling_;
   first_ = function.start_leading_value();
   pass_ = two_difference(function.end_leading_value(), first_) * scaling_;
   slope_ = use.slave_scaling / use.master_scaling;
@@ -152,14 +153,14 @@ AxisPosition CamFollowing::raised(double following_value, const Lift& lift) cons
 CamPlace CamFollowing::joined_at(AxisPosition leading, int direction) const noexcept {
   const Pass pass = pass_at(leading);
   const AxisPosition position =
-      raised(function_->value(first_ + pass.rest.hi / scaling_).position, lift_of(pass.number));
+      raised(function_->value(first_ + pass.rest.hi * per_scaling_).position, lift_of(pass.number));
   const bool along = (direction > 0) != backward_;
   double beside = pass.rest.hi + (along ? kBeside : -kBeside) * pass_.hi;
   if (use_.mode != CamMode::once) {
     if (beside < 0.0) beside += pass_.hi;
     if (beside >= pass_.hi) beside -= pass_.hi;
   }
-  const CamValue value = function_->value(first_ + beside / scaling_);
+  const CamValue value = function_->value(first_ + beside * per_scaling_);
   return {position, value.first_derivative * slope_, value.second_derivative * curvature_};
 }
 

@@ -70,7 +70,7 @@ class CamFollowing {
     DoubleDouble rest = rest_in(base_, from_start(leading.value));
     if (turn != turn_ || !(rest.hi > 0.0 && rest.hi < pass_.hi)) rest = enter_pass(leading, turn);
     last_rest_ = rest.hi;
-    return place_of(function_->value(first_ + rest.hi / scaling_, hint_));
+    return place_of(function_->value(first_ + rest.hi * per_scaling_, hint_));
   }
 
   /// The same seen from the side from which a leading axis comes that moves in `direction` (1, -1) beyond the
@@ -141,12 +141,13 @@ class CamFollowing {
   const CamFunction* function_ = nullptr;
   DoubleDouble start_;  // leading position of the start of the cam, less its turns
   std::int64_t start_turns_ = 0;
-  std::int64_t turn_ = 0;   // leading turns from there for which base_ counts
-  DoubleDouble base_;       // way from the start of the pass to the start of the cam in that turn
-  DoubleDouble pass_;       // one pass [leading u] > 0
-  double scaling_ = 1.0;    // magnitude of MasterScaling
-  double first_ = 0.0;      // leading value at which the curve begins
-  double last_rest_ = 0.0;  // to tell arrival at an end from departure
+  std::int64_t turn_ = 0;     // leading turns from there for which base_ counts
+  DoubleDouble base_;         // way from the start of the pass to the start of the cam in that turn
+  DoubleDouble pass_;         // one pass [leading u] > 0
+  double scaling_ = 1.0;      // magnitude of MasterScaling
+  double per_scaling_ = 1.0;  // 1 / scaling_
+  double first_ = 0.0;        // leading value at which the curve begins
+  double last_rest_ = 0.0;    // to tell arrival at an end from departure
   CamHint hint_;
   bool backward_ = false;  // negative MasterScaling
   CamEnd ended_ = CamEnd::none;

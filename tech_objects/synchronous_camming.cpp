@@ -290,18 +290,18 @@ bool SynchronousMotion::meets_cam_out(const Job& job, const Setpoint& last, cons
   if (!additive_->in_use) leading_last_ = leading_->source->last_leading_state(leading_->coupling);
   const bool over_distance = job.mode == 1;
   const double distance = job.master_start_distance;
-  const auto braking = [&](const Setpoint& own, const Setpoint& leading) noexcept {
+  const double leading_step =
+      difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
+  const auto braking = [&](const Setpoint& own, AxisPosition leading) noexcept {
     if (!over_distance) return stopping_way(own, heading, dynamics);
     // The least curved way to rest: its velocity is a cubic of the leading distance.
-    const double speed = std::abs(leading.velocity);
-    if (speed == 0.0) return std::nan("");
-    const double slope = own.velocity / speed;
-    const double curvature =
-        (own.acceleration - own.velocity / leading.velocity * leading.acceleration) / speed / speed;
-    return heading * (0.5 * slope * distance + curvature * distance * distance / 12.0);
+    const AxisPosition shifted = advanced(leading, phase_.value(), leading_modulo_);
+    const CamPlace place = follow_.joined_at(shifted, sign(leading_step));
+    const double slope = sign(leading_step) * place.slope;
+    return heading * (0.5 * slope * distance + place.curvature * distance * distance / 12.0);
   };
-  const double before = braking(last, leading_last_);
-  const double change = std::abs(step) + braking(candidate, leading_now_) - before;
+  const double before = braking(last, leading_last_.position);
+  const double change = std::abs(step) + braking(candidate, leading_now_.position) - before;
   const double target = normalised({0, job.position}, following_).value;
   double spare = heading * (target - last.position.value) - before;
   if (following_.enabled) {
@@ -310,9 +310,7 @@ bool SynchronousMotion::meets_cam_out(const Job& job, const Setpoint& last, cons
   }
   if (!(change > 0.0) || !(spare >= 0.0 && spare <= change) || !(before + spare > 0.0)) return false;
   out_way_ = heading * (before + spare);
-  const double leading_way =
-      std::abs(difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded());
-  out_distance_ = distance + spare / change * leading_way;
+  out_distance_ = distance + spare / change * std::abs(leading_step);
   set_out_position(last, target);
   return true;
 }

@@ -77,7 +77,7 @@ TEST(CamProject, ProgramsChangePointsAndInterpolateAnew) {
   EXPECT_EQ(machine.read("Profile.StatusWord.X5"), 0.0);
   machine.run_for(std::chrono::milliseconds(100));
   EXPECT_EQ(machine.read("Profile.StatusWord.X4"), 1.0);
-  EXPECT_EQ(machine.read("cam_in.ErrorID"), 0x8001);  // it came before the cam
+  EXPECT_EQ(machine.read("Feeder.ErrorDetail.Number"), 612.0);  // MC_CamIn came before the cam
   machine.write("start", 1.0);
   machine.step();
   EXPECT_EQ(machine.read("interpolate.Busy"), 1.0);

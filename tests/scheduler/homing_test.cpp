@@ -30,7 +30,9 @@ struct Machine : Rig {
         run_at(block<MC_MoveVelocity>()),
         halt(block<MC_Halt>()),
         reset(block<MC_Reset>()) {
-    power.Axis = home.Axis = passive.Axis = run_at.Axis = halt.Axis = reset.Axis = &slide;
+    power.Axis = home.Axis = passive.Axis = &slide;
+    reset.Axis = &slide;
+    run_at.Axis = halt.Axis = &slide;
     power.Enable = true;
     Rig::run(10 * ratio);
   }

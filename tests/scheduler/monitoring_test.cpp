@@ -60,7 +60,9 @@ struct Limited : Rig {
     a.drive_settings = {.time_constant = 0.002, .dead_time = 0.001, .resolution = 0.0};
     lead(a, l);
     power_l.Axis = run_l.Axis = &l;
-    power.Axis = home.Axis = move.Axis = relative.Axis = run_a.Axis = jog.Axis = halt.Axis = reset.Axis = &a;
+    power.Axis = home.Axis = &a;
+    reset.Axis = &a;
+    move.Axis = relative.Axis = run_a.Axis = jog.Axis = halt.Axis = &a;
     gear.Master = &l;
     gear.Slave = &a;
     power_l.Enable = power.Enable = true;
