@@ -118,9 +118,11 @@ constexpr Rejection kRejections[] = {
      },
      ErrorId::locked, "MC_Stop locks the axis (A07); an additive leading value moves nothing by itself"},
     {[](const Pair& pair, const Situation& situation, OverrideEffect) {
-       const bool coupled = pair.running.block == "MC_GearInPos" || pair.running.block == "MC_GearOut";
-       return homes_actively(pair.new_job) && coupled && pair.running.state == "active" &&
-              situation.position_controlled;
+       const bool leaving = pair.running.block == "MC_GearOut" || pair.running.block == "MC_CamOut";
+       const bool coupled =
+           pair.running.block == "MC_GearInPos" || pair.running.block == "MC_CamIn" || leaving;
+       return homes_actively(pair.new_job) && situation.position_controlled &&
+              ((coupled && pair.running.state == "active") || situation.moves_with_cam);
      },
      ErrorId::homing_while_coupled, "an axis that MC_GearInPos couples, or that is leaving it, is not homed"},
     {[](const Pair& pair, const Situation&, OverrideEffect effect) {

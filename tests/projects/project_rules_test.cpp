@@ -234,7 +234,7 @@ INSTANTIATE_TEST_SUITE_P(
     Objects, Rules,
     testing::ValuesIn(std::vector<Rule>{
         at("/technology_objects/More", "{}", "'type' is missing"),
-        {"/technology_objects/More", R"({"type": "TO_Cam"})", "/technology_objects/More/type",
+        {"/technology_objects/More", R"({"type": "TO_CamTrack"})", "/technology_objects/More/type",
          "not yet supported"},
         {"/technology_objects/More", R"({"type": "TO_SynchronAxis"})", "/technology_objects/More/type",
          "(did you mean 'TO_SynchronousAxis'?)"},

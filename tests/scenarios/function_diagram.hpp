@@ -65,6 +65,7 @@ inline std::string signals_of(const Json& diagram, const Json& project) {
   for (const Json& step : diagram["steps"])
     for (const auto& [signal, value] : step["observed"].items()) add(signal);
   for (const auto& [axis, object] : project["technology_objects"].items()) {
+    if (object.value("type", "").starts_with("TO_Cam")) continue;
     add(axis + ".Position");
     add(axis + ".Velocity");
   }

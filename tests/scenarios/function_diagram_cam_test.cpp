@@ -118,8 +118,10 @@ TEST(FunctionDiagram, CamIn3BeginsWhereTheLeadingAxisIs) {
     EXPECT_NEAR(leading[rows[1]], facts["synchronous_at"].get<double>(), step);
     const double offset = table["TO_Slave.StatusSynchronizedMotion.MasterOffset"][rows[1]];
     EXPECT_NEAR(offset, facts.value("master_offset", 0.0), step);
-    for (std::size_t i = rows[1]; i < table.rows; ++i)
+    std::size_t i = rows[1];
+    for (; i < table.rows && !(leading[i] >= 269.9 && leading[i] < 280.0); ++i)  // there it begins anew
       ASSERT_NEAR(table["TO_Slave.Position"][i], sine(20.0, leading[i] - offset), 1e-9);
+    EXPECT_GT(i, rows[1] + 100);
     expect_no_steps(table);
   }
 }

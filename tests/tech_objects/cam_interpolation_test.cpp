@@ -368,7 +368,8 @@ TEST(CamInterpolation, TheStatusShowsTheRangeAndTheValidElements) {
 TEST(CamInterpolation, UnknownSettingsAreRefused) {
   for (const auto& [mode, boundary] : {std::pair{-1, 0}, {3, 0}, {0, -1}, {0, 2}}) {
     Cam cam;
-    EXPECT_EQ(cam.mode(mode, boundary).point(0.0, 0.0).point(1.0, 1.0).interpolate(), ErrorId::cam_elements_wrong);
+    EXPECT_EQ(cam.mode(mode, boundary).point(0.0, 0.0).point(1.0, 1.0).interpolate(),
+              ErrorId::cam_elements_wrong);
   }
 }
 
