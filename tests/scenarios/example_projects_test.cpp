@@ -89,7 +89,8 @@ INSTANTIATE_TEST_SUITE_P(
     Examples, StoredTrace,
     testing::Values(Stored{"01_positioning", "5s", 25}, Stored{"02_rotary_knife", "5s", 20},
                     Stored{"03_line_shaft", "5s", 25}, Stored{"04_cross_cutter", "5s", 25},
-                    Stored{"06_encoder_conveyor", "8s", 25}, Stored{"07_emergency_door", "16s", 40}),
+                    Stored{"05_press_feeder", "8s", 40}, Stored{"06_encoder_conveyor", "8s", 25},
+                    Stored{"07_emergency_door", "16s", 40}),
     [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
@@ -315,6 +316,36 @@ struct Roll {
   double numerator;
   double denominator;
 };
+
+TEST(PressFeeder, FeedsTheLengthOfItsCamInEveryStrokeAndChangesItBetweenTwo) {
+  const CsvTable table =
+      simulate(example("05_press_feeder"), "60s",
+               {"--signals",
+                "Press.Position,Press.Velocity,Feeder.Position,Feeder.Velocity,long,alarm,"
+                "first.Error,to_long.Error,to_short.Error,to_long.InSync,to_short.InSync"});
+  for (const char* name : {"alarm", "first.Error", "to_long.Error", "to_short.Error"})
+    expect_never(table, name);
+  double expected = 0.0;
+  int strokes = 0;
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    if (table["Press.Position"][i] > table["Press.Position"][i - 1] - 180.0) continue;
+    // The press has come by 0°: a stroke has ended, with the cam that was in effect in it.
+    expected += table["to_long.InSync"][i - 1] != 0.0 ? 125.0 : 80.0;
+    ASSERT_NEAR(table["Feeder.Position"][i], expected, 1e-9) << table["t"][i];
+    ++strokes;
+  }
+  EXPECT_GT(strokes, 50);
+  EXPECT_GT(expected, 80.0 * strokes) << "some were long";
+  const auto& speed = table["Feeder.Velocity"];
+  const auto& position = table["Feeder.Position"];
+  const double period = table["t"][1] - table["t"][0];
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    ASSERT_LE(std::abs(speed[i] - speed[i - 1]), 8000.0 * period) << table["t"][i];
+    ASSERT_NEAR(position[i] - position[i - 1], 0.5 * (speed[i] + speed[i - 1]) * period,
+                8000.0 * period * period)
+        << table["t"][i];
+  }
+}
 
 TEST(EmergencyDoor, KeepsTheCouplingWhileTheDriveIsOffAndGoesOnInStep) {
   const CsvTable table =
