@@ -2,13 +2,11 @@
 #include "fb/bistable.hpp"
 #include "fb/block.hpp"
 #include "fb/cam_in.hpp"
-#include "fb/cam_out.hpp"
 #include "fb/cam_value.hpp"
 #include "fb/counters.hpp"
 #include "fb/edge.hpp"
 #include "fb/gear_in.hpp"
 #include "fb/gear_in_velocity.hpp"
-#include "fb/gear_out.hpp"
 #include "fb/home.hpp"
 #include "fb/interpolate_cam.hpp"
 #include "fb/jog.hpp"
@@ -21,6 +19,7 @@
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
 #include "fb/superimposed.hpp"
+#include "fb/sync_out.hpp"
 #include "fb/timers.hpp"
 
 namespace lockstep {

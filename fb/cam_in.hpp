@@ -1,8 +1,6 @@
 /// Camming: MC_CamIn.
 #pragma once
 
-#include <limits>
-
 #include "fb/execute_block.hpp"
 #include "tech_objects/cam.hpp"
 
@@ -94,7 +92,7 @@ struct MC_CamIn final : ExecuteBlock {
       in<&MC_CamIn::SyncProfileReference>("SyncProfileReference", Unit::kNone, kAny, "way of synchronizing",
                                           {.error = ErrorId::sync_profile_reference, .choices = kProfiles}),
       in<&MC_CamIn::MasterStartDistance>(
-          "MasterStartDistance", Unit::kLeading, {std::numeric_limits<double>::denorm_min(), kFinite.highest},
+          "MasterStartDistance", Unit::kLeading, kPositive,
           "profiles 1, 3, 4, 6: leading distance over which the axis is synchronized, > 0",
           {.error = ErrorId::leading_distance, .relevant = &over_distance}),
       pin::velocity<MC_CamIn>("profile 0: velocity of the following axis while synchronizing; < 0: default",

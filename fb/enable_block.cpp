@@ -5,26 +5,21 @@ namespace lockstep {
 void EnableBlock::call(std::int64_t /*now*/) noexcept {
   const bool rising = Enable && !last_enable_;
   last_enable_ = Enable;
-  const bool ended = phase_ >= JobPhase::done;
+  const bool ended = phase() >= JobPhase::done;
   if (rising) {
     start();
   } else if (ended && !Enable) {
-    phase_ = JobPhase::idle;  // it was shown for a call at least
-  } else if (!ended && phase_ != JobPhase::idle) {
+    set_phase(JobPhase::idle, ErrorId::none);  // it was shown for a call at least
+  } else if (!ended && phase() != JobPhase::idle) {
     go_on();
   }
-  Busy = phase_ >= JobPhase::handed_over && phase_ <= JobPhase::reached;
-  CommandAborted = phase_ == JobPhase::aborted;
-  Error = phase_ == JobPhase::failed;
-  ErrorID = static_cast<WORD>(Error ? error_ : ErrorId::none);
 }
 
 /// A job that has been let go in this very tick and still runs is taken up again.
 void EnableBlock::start() noexcept {
-  error_ = check_inputs();
-  phase_ = JobPhase::failed;
-  if (error_ != ErrorId::none) {
-    job_.input_error = error_;
+  if (const ErrorId error = check_inputs(); error != ErrorId::none) {
+    job_.input_error = error;
+    set_phase(JobPhase::failed, error);
     return;
   }
   const bool running = job_.running();
@@ -33,32 +28,24 @@ void EnableBlock::start() noexcept {
   job_.hold = true;
   job_.input_error = ErrorId::none;
   if (!running) target()->submit(job_);
-  phase_ = job_.phase;
-  error_ = job_.error;
+  set_phase(job_.phase, job_.error);
 }
 
 /// The inputs of this call. A job that has ended shows how, if it was not let go meanwhile.
 void EnableBlock::go_on() noexcept {
-  phase_ = job_.phase;
-  error_ = job_.error;
+  set_phase(job_.phase, job_.error);
   if (!job_.running()) return;
   if (!Enable) {
     job_.hold = false;
-    phase_ = JobPhase::idle;
+    set_phase(JobPhase::idle, ErrorId::none);
     return;
   }
   if (const ErrorId error = check_inputs(); error != ErrorId::none) {
-    job_.input_error = error_ = error;
-    phase_ = JobPhase::failed;
+    job_.input_error = error;
+    set_phase(JobPhase::failed, error);
     return;
   }
   request(job_);
-}
-
-ErrorId EnableBlock::check_inputs() const noexcept {
-  for (const Pin& pin : pin_table())
-    if (pin.error != ErrorId::none && !pin.allows(*this)) return pin.error;
-  return target() == nullptr ? ErrorId::no_technology_object : ErrorId::none;
 }
 
 }  // namespace lockstep

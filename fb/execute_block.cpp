@@ -5,28 +5,22 @@ namespace lockstep {
 void ExecuteBlock::call(std::int64_t /*now*/) noexcept {
   const bool rising = Execute && !last_execute_;
   last_execute_ = Execute;
-  const bool ended = phase_ >= JobPhase::done;
+  const bool ended = phase() >= JobPhase::done;
   if (rising) {
     start();
   } else if (ended && !Execute) {
-    phase_ = JobPhase::idle;  // it was shown for a call at least
-  } else if (!ended && job_ != nullptr && phase_ != JobPhase::idle) {
-    phase_ = job_->phase;
-    error_ = job_->error;
+    set_phase(JobPhase::idle, ErrorId::none);  // it was shown for a call at least
+  } else if (!ended && phase() != JobPhase::idle) {
+    set_phase(job_->phase, job_->error);
   }
-  Busy = phase_ >= JobPhase::handed_over && phase_ <= JobPhase::reached;
-  Done = phase_ == JobPhase::done;
-  CommandAborted = phase_ == JobPhase::aborted;
-  Error = phase_ == JobPhase::failed;
-  ErrorID = static_cast<WORD>(Error ? error_ : ErrorId::none);
-  show(phase_);
+  Done = phase() == JobPhase::done;
+  show(phase());
 }
 
 void ExecuteBlock::start() noexcept {
   if (const ErrorId error = check_inputs(); error != ErrorId::none) {
     job_ = nullptr;  // a job of this instance that still runs goes on, but is no longer shown
-    phase_ = JobPhase::failed;
-    error_ = error;
+    set_phase(JobPhase::failed, error);
     return;
   }
   const bool pending = job_ != nullptr && job_->phase == JobPhase::handed_over;
@@ -37,18 +31,11 @@ void ExecuteBlock::start() noexcept {
   request(job);
   job_ = &job;
   if (!pending) hand_over(job);
-  phase_ = job.phase;
-  error_ = job.error;
+  set_phase(job.phase, job.error);
 }
 
 void ExecuteBlock::hand_over(Job& job) noexcept {
   target()->submit(job);
-}
-
-ErrorId ExecuteBlock::check_inputs() const noexcept {
-  for (const Pin& pin : pin_table())
-    if (pin.error != ErrorId::none && !pin.allows(*this)) return pin.error;
-  return wired() ? ErrorId::none : ErrorId::no_technology_object;
 }
 
 Job& ExecuteBlock::free_job() noexcept {

@@ -5,35 +5,21 @@
 
 #include <array>
 
-#include "fb/block.hpp"
-#include "tech_objects/axis.hpp"
+#include "fb/job_block.hpp"
 
 namespace lockstep {
 
-/// A rising edge of Execute takes the inputs over and hands a job to the object. The outputs derive from one
-/// stored phase, so that Busy, Done, CommandAborted and Error exclude each other. Done, CommandAborted and
+/// A rising edge of Execute takes the inputs over and hands a job to the object. Done, CommandAborted and
 /// Error last while Execute is TRUE and at least for one call. A new edge starts a new job, which the outputs
 /// show from then on.
-class ExecuteBlock : public Block {
+class ExecuteBlock : public JobBlock {
  public:
   BOOL Execute{};
   BOOL Done{};
-  BOOL Busy{};
-  BOOL CommandAborted{};
-  BOOL Error{};
-  WORD ErrorID{};
 
   void call(std::int64_t now) noexcept final;
 
  protected:
-  /// The block's own table of pins, from which the inputs are checked.
-  virtual std::span<const Pin> pin_table() const noexcept = 0;
-  /// Writes the inputs, which are permitted, into the job.
-  virtual void request(Job& job) const noexcept = 0;
-  /// The object that gets the job; nullptr if the pin is not wired.
-  virtual TechnologyObject* target() const noexcept = 0;
-  /// Whether the technology object that gets the job is wired.
-  virtual bool wired() const noexcept { return target() != nullptr; }
   /// Carries the job out or hands it over. The default submits it to the target.
   virtual void hand_over(Job& job) noexcept;
   /// Shows the phase at outputs of the block's own.
@@ -43,14 +29,11 @@ class ExecuteBlock : public Block {
 
  private:
   void start() noexcept;
-  ErrorId check_inputs() const noexcept;
   Job& free_job() noexcept;
 
   // The job that moves the axis, one that waits and one that is being handed over may be three.
   std::array<Job, 3> jobs_{};
   Job* job_ = nullptr;  // the one that the outputs show
-  JobPhase phase_ = JobPhase::idle;
-  ErrorId error_ = ErrorId::none;
   bool last_execute_ = false;
 };
 
@@ -60,17 +43,7 @@ namespace pin {
 inline constexpr Pin kExecute =
     in<&ExecuteBlock::Execute>("Execute", Unit::kNone, kAny, "a rising edge starts the job");
 inline constexpr Pin kDone = out<&ExecuteBlock::Done>("Done", "the job is complete");
-inline constexpr Pin kBusy = out<&ExecuteBlock::Busy>("Busy", "the job is in process");
-inline constexpr Pin kCommandAborted =
-    out<&ExecuteBlock::CommandAborted>("CommandAborted", "another job or disabling has ended the job");
-inline constexpr Pin kError =
-    out<&ExecuteBlock::Error>("Error", "the job was rejected or has failed; ErrorID tells why");
-inline constexpr Pin kErrorID = out<&ExecuteBlock::ErrorID>("ErrorID", "identifier of the error");
 
-template <class T>
-constexpr Pin axis() {
-  return object<&T::Axis>("Axis", kAnyAxis, "axis that carries out the job");
-}
 template <class T>
 constexpr Pin velocity(std::string_view text, InputFacts facts = {.error = ErrorId::velocity}) {
   return in<&T::Velocity>("Velocity", Unit::kVelocity, kNotZero, text, facts);
@@ -106,11 +79,6 @@ template <class T>
 constexpr Pin buffer_mode() {
   return in<&T::BufferMode>("BufferMode", Unit::kNone, kAny, "MC_BUFFER_MODE: when the job begins",
                             {.error = ErrorId::mode, .choices = kBufferModes});
-}
-template <class T>
-constexpr Pin position_controlled() {
-  return in<&T::PositionControlled>("PositionControlled", Unit::kNone, kAny,
-                                    "whether the axis is position-controlled from now on");
 }
 
 }  // namespace pin

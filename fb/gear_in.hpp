@@ -96,7 +96,7 @@ struct MC_GearInPos final : ExecuteBlock {
           "SyncProfileReference", Unit::kNone, kAny, "way of synchronizing",
           {.error = ErrorId::sync_profile_reference, .choices = kProfiles}),
       in<&MC_GearInPos::MasterStartDistance>(
-          "MasterStartDistance", Unit::kLeading, {std::numeric_limits<double>::min(), kFinite.highest},
+          "MasterStartDistance", Unit::kLeading, kPositive,
           "profiles 1, 3: leading distance over which the axis is synchronized, > 0",
           {.error = ErrorId::leading_distance, .relevant = &over_distance}),
       pin::velocity<MC_GearInPos>(

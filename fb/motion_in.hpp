@@ -25,8 +25,8 @@ struct MC_MotionInVelocity final : EnableBlock {
            in<&MC_MotionInVelocity::Acceleration>("Acceleration", Unit::kAcceleration, kGiven,
                                                   "acceleration from which a job that takes over goes on",
                                                   {.error = ErrorId::acceleration}),
-           pin::position_controlled<MC_MotionInVelocity>(), pin::kEnabledBusy, pin::kEnabledCommandAborted,
-           pin::kEnabledError, pin::kEnabledErrorID);
+           pin::position_controlled<MC_MotionInVelocity>(), pin::kBusy, pin::kCommandAborted, pin::kError,
+           pin::kErrorID);
 
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }
@@ -58,7 +58,7 @@ struct MC_MotionInPosition final : EnableBlock {
            in<&MC_MotionInPosition::Acceleration>("Acceleration", Unit::kAcceleration, kGiven,
                                                   "acceleration from which a job that takes over goes on",
                                                   {.error = ErrorId::acceleration}),
-           pin::kEnabledBusy, pin::kEnabledCommandAborted, pin::kEnabledError, pin::kEnabledErrorID);
+           pin::kBusy, pin::kCommandAborted, pin::kError, pin::kErrorID);
 
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }

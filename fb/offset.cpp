@@ -2,8 +2,7 @@
 
 namespace lockstep {
 
-void MC_OffsetRelative::request(Job& job) const noexcept {
-  job.kind = JobKind::MC_OffsetRelative;
+void OffsetBlock::request(Job& job) const noexcept {
   job.position = Offset;
   job.mode = ProfileReference;
   job.master_start_distance = OffsetDistance;
@@ -11,22 +10,23 @@ void MC_OffsetRelative::request(Job& job) const noexcept {
   job.direction = Direction;
 }
 
+void MC_OffsetRelative::request(Job& job) const noexcept {
+  OffsetBlock::request(job);
+  job.kind = JobKind::MC_OffsetRelative;
+}
+
 void MC_OffsetRelative::show(JobPhase phase) noexcept {
-  StartOffset = phase == JobPhase::active;
+  OffsetBlock::show(phase);
   if (job() != nullptr) CoveredOffset = job()->covered;
 }
 
 void MC_OffsetAbsolute::request(Job& job) const noexcept {
+  OffsetBlock::request(job);
   job.kind = JobKind::MC_OffsetAbsolute;
-  job.position = Offset;
-  job.mode = ProfileReference;
-  job.master_start_distance = OffsetDistance;
-  job.start_position = StartPosition;
-  job.direction = Direction;
 }
 
 void MC_OffsetAbsolute::show(JobPhase phase) noexcept {
-  StartOffset = phase == JobPhase::active;
+  OffsetBlock::show(phase);
   if (job() != nullptr) AbsoluteOffset = job()->covered;
 }
 

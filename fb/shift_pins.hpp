@@ -1,9 +1,7 @@
 /// What the pins of leading and following value offsets have in common.
 #pragma once
 
-#include <limits>
-
-#include "fb/pin.hpp"
+#include "fb/block.hpp"
 
 namespace lockstep::shift_pins {
 
@@ -19,11 +17,41 @@ inline constexpr Choice kOffsetProfiles[] = {
 inline constexpr Choice kDirections[] = {{1, "while the leading value moves in positive direction"},
                                          {2, "while the leading value moves in negative direction"},
                                          {3, "in the current direction of the leading value"}};
-inline constexpr Range kPositive{std::numeric_limits<double>::min(), kFinite.highest};
 
-/// Whether a profile is made over a leading distance.
-constexpr bool over_distance(DINT profile) noexcept {
+/// Whether the profile of T, which has ProfileReference, is made over a leading distance.
+template <class T>
+bool over_distance(const Block& block) noexcept {
+  const DINT profile = static_cast<const T&>(block).ProfileReference;
   return profile == 1 || profile == 2;
+}
+template <class T>
+bool from_position(const Block& block) noexcept {
+  return static_cast<const T&>(block).ProfileReference == 2;
+}
+
+template <class T>
+constexpr Pin profile(std::span<const Choice> profiles) {
+  return in<&T::ProfileReference>("ProfileReference", Unit::kNone, kAny, "way of offsetting",
+                                  {.error = ErrorId::profile_reference, .choices = profiles});
+}
+template <auto Member>
+constexpr Pin distance(std::string_view name, ErrorId error) {
+  using T = pin_detail::MemberOf<decltype(Member)>::Block;
+  return in<Member>(name, Unit::kLeading, kPositive,
+                    "profiles 1, 2: leading distance over which the offset is made, > 0",
+                    {.error = error, .relevant = &over_distance<T>});
+}
+template <class T>
+constexpr Pin start_position() {
+  return in<&T::StartPosition>("StartPosition", Unit::kLeading, kFinite,
+                               "profile 2: leading position from which the offset is made",
+                               {.error = ErrorId::start_position, .relevant = &from_position<T>});
+}
+template <class T>
+constexpr Pin direction() {
+  return in<&T::Direction>(
+      "Direction", Unit::kNone, kAny, "profiles 1, 2: direction of the leading value",
+      {.error = ErrorId::direction, .choices = kDirections, .relevant = &over_distance<T>});
 }
 
 }  // namespace lockstep::shift_pins

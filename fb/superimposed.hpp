@@ -95,7 +95,7 @@ struct MC_MotionInSuperimposed final : EnableBlock {
            in<&MC_MotionInSuperimposed::AccelerationDiff>(
                "AccelerationDiff", Unit::kAcceleration, kGiven,
                "acceleration from which a job that takes over goes on", {.error = ErrorId::acceleration}),
-           pin::kEnabledBusy, pin::kEnabledCommandAborted, pin::kEnabledError, pin::kEnabledErrorID);
+           pin::kBusy, pin::kCommandAborted, pin::kError, pin::kErrorID);
 
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }

@@ -25,8 +25,7 @@ bool positions(const Job& job) noexcept {
 bool Axis::buffer(Job& job) noexcept {
   const Job* base = running_[kBase];
   if (base == nullptr && !simulating()) return false;
-  const bool own = base != nullptr && motion_ == Motion::single_axis && base->kind != JobKind::MC_GearOut &&
-                   base->kind != JobKind::MC_CamOut;
+  const bool own = base != nullptr && motion_ == Motion::single_axis && !leaves(base->kind);
   if (!own) {
     job.fail(ErrorId::mode);
     return true;

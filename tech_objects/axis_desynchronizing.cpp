@@ -7,8 +7,7 @@
 namespace lockstep {
 namespace {
 
-constexpr DINT kOverDistance = 1;   // SyncProfileReference
-constexpr DINT kCancelWaiting = 5;  // SyncProfileReference
+constexpr DINT kOverDistance = 1;  // SyncProfileReference
 
 /// Value of FunctionState and WaitingFunctionState.
 DINT out_state(const Job& job) noexcept {
@@ -23,9 +22,8 @@ DINT out_state(const Job& job) noexcept {
 /// What waits has been cancelled by the override rules; an active gear (cam) is left when the start is met.
 void Axis::begin_sync_out(Job& job) noexcept {
   const Job* base = running_[kBase];
-  const bool leaves =
-      base != nullptr && led() && (base->kind == JobKind::MC_CamIn) == (job.kind == JobKind::MC_CamOut);
-  if (job.mode == kCancelWaiting || !leaves) {
+  const bool follows = base != nullptr && led() && of_cam(base->kind) == of_cam(job.kind);
+  if (job.mode == kCancelWaiting || !follows) {
     job.phase = JobPhase::done;
     return;
   }

@@ -44,10 +44,9 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
   if (kind != JobClass::home_active && !position_controlled_ && !off())
     return ErrorId::not_position_controlled;
   if (kind == JobClass::home_passive && running == JobKind::MC_Home) return ErrorId::locked;
-  const bool leaving = running == JobKind::MC_GearOut || running == JobKind::MC_CamOut;
-  const bool placed = running == JobKind::MC_GearInPos || running == JobKind::MC_CamIn ||
-                      (simulated_ != nullptr && simulated_->kind == JobKind::MC_CamIn);
-  const bool coupled = placed || (leaving && kind == JobClass::home_active);
+  const bool placed =
+      couples_at_position(running) || (simulated_ != nullptr && simulated_->kind == JobKind::MC_CamIn);
+  const bool coupled = placed || (leaves(running) && kind == JobClass::home_active);
   return coupled ? ErrorId::homing_while_coupled : ErrorId::none;
 }
 

@@ -15,32 +15,6 @@ int stop_rank(DINT mode) noexcept {
   return mode == 0 ? 3 : mode == 2 ? 2 : 1;
 }
 
-bool couples(JobKind kind) noexcept {
-  return kind == JobKind::MC_GearIn || kind == JobKind::MC_GearInPos || kind == JobKind::MC_GearInVelocity ||
-         kind == JobKind::MC_CamIn;
-}
-
-/// Whether a synchronous job waits for its start.
-bool waits(JobKind kind) noexcept {
-  return kind == JobKind::MC_GearInPos || kind == JobKind::MC_CamIn;
-}
-
-bool leaves(JobKind kind) noexcept {
-  return kind == JobKind::MC_GearOut || kind == JobKind::MC_CamOut;
-}
-
-bool is_phasing(JobKind kind) noexcept {
-  return kind == JobKind::MC_PhasingAbsolute || kind == JobKind::MC_PhasingRelative;
-}
-
-bool is_shift(JobKind kind) noexcept {
-  return is_phasing(kind) || kind == JobKind::MC_OffsetAbsolute || kind == JobKind::MC_OffsetRelative;
-}
-
-/// Profile 5 of shifts, MC_GearOut and MC_CamOut: only cancels what waits.
-constexpr DINT kCancelWaiting = 5;
-constexpr DINT kAtCamEnd = 5;  // of MC_CamIn
-
 /// What a job shows that another one forbids.
 ErrorId rejection(JobClass new_job, JobClass running) noexcept {
   if (running == JobClass::gear_in_velocity) return ErrorId::velocity_gear_active;
@@ -101,7 +75,7 @@ ErrorId Axis::check_synchronous(const Job& job) const noexcept {
   if (couples(job.kind)) {
     if (job.master == this) return ErrorId::recursive_coupling;
     // A waiting job couples nothing yet; it is looked at again when it would become active.
-    const bool recursive = !waits(job.kind) && led_by_this(job.master);
+    const bool recursive = !couples_at_position(job.kind) && led_by_this(job.master);
     if (recursive) return ErrorId::recursive_coupling;
     return job.kind == JobKind::MC_CamIn ? check_cam(job) : ErrorId::none;
   }
@@ -125,9 +99,7 @@ ErrorId Axis::check_cam(const Job& job) const noexcept {
 
 /// Whether a gear (a cam) runs, waits or is about to be left.
 bool Axis::runs_or_waits(bool cam) const noexcept {
-  const auto of_kind = [cam](const Job* job) {
-    return job != nullptr && cam == (job->kind == JobKind::MC_CamIn || job->kind == JobKind::MC_CamOut);
-  };
+  const auto of_kind = [cam](const Job* job) { return job != nullptr && of_cam(job->kind) == cam; };
   const Job* base = running_[kBase];
   const bool runs = of_kind(base) && couples(base->kind);
   return runs || of_kind(running_[kWaiting]) || of_kind(running_[kWaitingOut]);

@@ -239,9 +239,7 @@ void Axis::follow_changes(Job& job) noexcept {
   const bool limits_changed =
       data.Override.Velocity != planned_override_ || velocity_limit() != planned_velocity_limit_;
   if (!inputs_changed && !limits_changed) return;
-  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || job.kind == JobKind::MC_GearOut ||
-      job.kind == JobKind::MC_CamOut)
-    return;
+  if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || leaves(job.kind)) return;
   remember_limits();
   Dynamics dynamics = own_dynamics(job);
   if (advancing_base_) leave_to_superimposed(dynamics);

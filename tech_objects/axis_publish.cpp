@@ -152,7 +152,7 @@ void Axis::publish_status() noexcept {
 
   Bits word2;
   word2.show(Status2Bit::StopCommand, locked_by_stop());
-  word2.show(Status2Bit::DesynchronizingCommand, kind == JobKind::MC_GearOut || kind == JobKind::MC_CamOut);
+  word2.show(Status2Bit::DesynchronizingCommand, leaves(kind));
   word2.show(Status2Bit::PhasingCommandWaiting, in_phase(running_[kPhasing], JobPhase::waiting));
   word2.show(Status2Bit::OffsetCommand, in_phase(running_[kOffset], JobPhase::active));
   word2.show(Status2Bit::OffsetCommandWaiting, in_phase(running_[kOffset], JobPhase::waiting));

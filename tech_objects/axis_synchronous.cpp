@@ -7,8 +7,6 @@
 namespace lockstep {
 namespace {
 
-constexpr DINT kAtCamEnd = 5;  // SyncProfileReference of MC_CamIn
-
 /// Value of StatusSynchronizedMotion.FunctionState and WaitingFunctionState for a job.
 DINT function_state(JobKind kind) noexcept {
   switch (kind) {
@@ -200,7 +198,7 @@ void Axis::take_additive() noexcept {
 
 /// MC_Phasing… and MC_Offset…
 void Axis::begin_shift(Job& job) noexcept {
-  const bool phasing = job.kind == JobKind::MC_PhasingAbsolute || job.kind == JobKind::MC_PhasingRelative;
+  const bool phasing = is_phasing(job.kind);
   const bool relative = job.kind == JobKind::MC_PhasingRelative || job.kind == JobKind::MC_OffsetRelative;
   Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
   Dynamics dynamics = phasing && job.mode == 0 ? effective_dynamics(job) : maximum_dynamics();

@@ -56,6 +56,9 @@ inline constexpr Range kAny{};
 /// A dynamic value: > 0 is used, < 0 means the default of the technology object, 0 is not permitted.
 inline constexpr Range kNotZero{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), 0.0};
 inline constexpr Range kFinite{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+/// Greater than 0.
+inline constexpr Range kPositive{std::numeric_limits<double>::denorm_min(),
+                                 std::numeric_limits<double>::max()};
 
 /// One value of an enumeration and what it means.
 struct Choice {

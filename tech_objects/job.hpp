@@ -44,6 +44,34 @@ enum class JobKind : std::uint8_t {
   MC_InterpolateCam
 };
 
+/// Whether it couples the axis to a leading value.
+constexpr bool couples(JobKind kind) noexcept {
+  return kind == JobKind::MC_GearIn || kind == JobKind::MC_GearInPos || kind == JobKind::MC_GearInVelocity ||
+         kind == JobKind::MC_CamIn;
+}
+/// Whether it couples the axis at positions of both axes, and so may wait for its start.
+constexpr bool couples_at_position(JobKind kind) noexcept {
+  return kind == JobKind::MC_GearInPos || kind == JobKind::MC_CamIn;
+}
+/// Whether it leaves synchronous operation and rests at a position.
+constexpr bool leaves(JobKind kind) noexcept {
+  return kind == JobKind::MC_GearOut || kind == JobKind::MC_CamOut;
+}
+/// Whether it has to do with a cam.
+constexpr bool of_cam(JobKind kind) noexcept {
+  return kind == JobKind::MC_CamIn || kind == JobKind::MC_CamOut;
+}
+constexpr bool is_phasing(JobKind kind) noexcept {
+  return kind == JobKind::MC_PhasingAbsolute || kind == JobKind::MC_PhasingRelative;
+}
+/// Whether it shifts the leading or the following value.
+constexpr bool is_shift(JobKind kind) noexcept {
+  return is_phasing(kind) || kind == JobKind::MC_OffsetAbsolute || kind == JobKind::MC_OffsetRelative;
+}
+
+inline constexpr DINT kCancelWaiting = 5;  ///< profile of shifts, MC_GearOut and MC_CamOut: end what waits
+inline constexpr DINT kAtCamEnd = 5;       ///< profile of MC_CamIn: at the end of the running cam
+
 /// When a job begins that finds another one running.
 /// @source PLCopen Motion Control Part 1 v2.0, 2.4.2 (MC_BUFFER_MODE)
 enum class BufferMode : std::uint8_t {

@@ -18,8 +18,7 @@ enum Profile : DINT {
   kAhead = 1,
   kDirect = 2,
   kSubsequent = 3,
-  kSubsequentFromHere = 4,
-  kAtCamEnd = 5,
+  kSubsequentFromHere = 4,  // and 5: kAtCamEnd
   kAheadFromHere = 6
 };
 

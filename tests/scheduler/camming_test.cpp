@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "fb/cam_in.hpp"
-#include "fb/cam_out.hpp"
 #include "fb/cam_value.hpp"
 #include "fb/gear_in.hpp"
 #include "fb/home.hpp"
@@ -14,6 +13,7 @@
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
+#include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {

@@ -10,7 +10,6 @@
 #include <random>
 
 #include "fb/gear_in.hpp"
-#include "fb/gear_out.hpp"
 #include "fb/home.hpp"
 #include "fb/leading_value.hpp"
 #include "fb/move.hpp"
@@ -18,6 +17,7 @@
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
+#include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {

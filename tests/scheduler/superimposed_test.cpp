@@ -8,7 +8,6 @@
 #include <random>
 
 #include "fb/gear_in.hpp"
-#include "fb/gear_out.hpp"
 #include "fb/home.hpp"
 #include "fb/jog.hpp"
 #include "fb/leading_value.hpp"
@@ -16,6 +15,7 @@
 #include "fb/offset.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
+#include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {

@@ -6,7 +6,6 @@
 
 #include "fb/gear_in.hpp"
 #include "fb/gear_in_velocity.hpp"
-#include "fb/gear_out.hpp"
 #include "fb/home.hpp"
 #include "fb/leading_value.hpp"
 #include "fb/move.hpp"
@@ -14,6 +13,7 @@
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
+#include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {

@@ -1,9 +1,9 @@
-#include "fb/gear_out.hpp"
+#include "fb/sync_out.hpp"
 
 namespace lockstep {
 
-void MC_GearOut::request(Job& job) const noexcept {
-  job.kind = JobKind::MC_GearOut;
+void SyncOutBlock::request(Job& job) const noexcept {
+  job.kind = kind();
   job.position = SlavePosition;
   job.mode = SyncProfileReference;
   job.master_start_distance = MasterStopDistance;
