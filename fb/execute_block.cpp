@@ -5,6 +5,7 @@ namespace lockstep {
 void ExecuteBlock::call(std::int64_t /*now*/) noexcept {
   const bool rising = Execute && !last_execute_;
   last_execute_ = Execute;
+  if (!rising && phase() == JobPhase::idle) return;
   const bool ended = phase() >= JobPhase::done;
   if (rising) {
     start();

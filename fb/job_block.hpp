@@ -1,5 +1,5 @@
-/// What all blocks that hand jobs to technology objects have in common: the check of their inputs, and outputs
-/// that derive from the phase of the job.
+/// What all blocks that hand jobs to technology objects have in common: the check of their inputs, and
+/// outputs that derive from the phase of the job.
 /// @source S7-1500T programming, function-block contract
 #pragma once
 

@@ -10,7 +10,7 @@ void MC_Power::call(std::int64_t /*now*/) noexcept {
     Axis->power.start_mode = StartMode;
     Axis->power.stop_mode = StopMode;
     Status = Enable && Axis->enabled();
-    Busy = Enable || Axis->power_busy();
+    Busy = Enable || !Axis->off();
     if (Enable && Axis->enable_removed()) error = ErrorId::technology_alarm;
   } else {
     Status = false;

@@ -30,23 +30,24 @@ struct SyncOutBlock : ExecuteBlock {
   }
   static bool leaves(const Block& block) noexcept { return over_time(block) || over_distance(block); }
 
-static constexpr auto kPins = pins(
-    object<&SyncOutBlock::Slave>("Slave", kSynchronousAxis, "following axis"), pin::kExecute,
-    in<&SyncOutBlock::SlavePosition>("SlavePosition", Unit::kPosition, kFinite, "stop position",
-                                     {.error = ErrorId::slave_position}),
-    in<&SyncOutBlock::SyncProfileReference>("SyncProfileReference", Unit::kNone, kAny,
-                                            "way of desynchronizing",
-                                            {.error = ErrorId::sync_profile_reference, .choices = kProfiles}),
-    in<&SyncOutBlock::MasterStopDistance>("MasterStopDistance", Unit::kLeading, kPositive,
-                                          "profile 1: leading distance over which the axis comes to rest, > 0",
-                                          {.error = ErrorId::leading_distance, .relevant = &over_distance}),
-    pin::deceleration<SyncOutBlock>({.error = ErrorId::deceleration, .relevant = &over_time}),
-    pin::jerk<SyncOutBlock>({.error = ErrorId::jerk, .relevant = &over_time}),
-    in<&SyncOutBlock::SyncOutDirection>(
-        "SyncOutDirection", Unit::kNone, kAny, "direction of desynchronizing",
-        {.error = ErrorId::direction, .choices = kDirections, .relevant = &leaves}),
-    out<&SyncOutBlock::StartSyncOut>("StartSyncOut", "the following axis is being desynchronized"),
-    pin::kDone, pin::kBusy, pin::kCommandAborted, pin::kError, pin::kErrorID);
+  static constexpr auto kPins =
+      pins(object<&SyncOutBlock::Slave>("Slave", kSynchronousAxis, "following axis"), pin::kExecute,
+           in<&SyncOutBlock::SlavePosition>("SlavePosition", Unit::kPosition, kFinite, "stop position",
+                                            {.error = ErrorId::slave_position}),
+           in<&SyncOutBlock::SyncProfileReference>(
+               "SyncProfileReference", Unit::kNone, kAny, "way of desynchronizing",
+               {.error = ErrorId::sync_profile_reference, .choices = kProfiles}),
+           in<&SyncOutBlock::MasterStopDistance>(
+               "MasterStopDistance", Unit::kLeading, kPositive,
+               "profile 1: leading distance over which the axis comes to rest, > 0",
+               {.error = ErrorId::leading_distance, .relevant = &over_distance}),
+           pin::deceleration<SyncOutBlock>({.error = ErrorId::deceleration, .relevant = &over_time}),
+           pin::jerk<SyncOutBlock>({.error = ErrorId::jerk, .relevant = &over_time}),
+           in<&SyncOutBlock::SyncOutDirection>(
+               "SyncOutDirection", Unit::kNone, kAny, "direction of desynchronizing",
+               {.error = ErrorId::direction, .choices = kDirections, .relevant = &leaves}),
+           out<&SyncOutBlock::StartSyncOut>("StartSyncOut", "the following axis is being desynchronized"),
+           pin::kDone, pin::kBusy, pin::kCommandAborted, pin::kError, pin::kErrorID);
 
  protected:
   std::span<const Pin> pin_table() const noexcept final { return kPins; }

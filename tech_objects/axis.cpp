@@ -45,10 +45,6 @@ std::int64_t Axis::ticks_of(double seconds) const noexcept {
 // ---- Power
 // ------------------------------------------------------------------------------------------------------
 
-bool Axis::power_busy() const noexcept {
-  return power_state_ != PowerState::off;
-}
-
 void Axis::step_power() noexcept {
   switch (power_state_) {
     case PowerState::off:

@@ -22,6 +22,7 @@
 #include "tech_objects/override.hpp"
 #include "tech_objects/setpoint_filter.hpp"
 #include "tech_objects/single_axis_motion.hpp"
+#include "tech_objects/standstill.hpp"
 #include "tech_objects/superimposed.hpp"
 #include "tech_objects/synchronous_motion.hpp"
 #include "tech_objects/variable.hpp"
@@ -89,8 +90,6 @@ class Axis final : public LeadingObject {
   /// once. The job stays where it is until it has ended.
   void submit(Job& job) noexcept override;
 
-  bool power_busy() const noexcept override;
-
   AdditiveRequest additive_request;
   SimulationRequest simulation_request;
   bool simulating() const noexcept { return simulated_ != nullptr; }
@@ -140,9 +139,6 @@ class Axis final : public LeadingObject {
   bool measured_in_servo() const noexcept override { return has_drive_; }
   DoubleDouble measured_line() const noexcept override { return encoder_position_; }
 
-  bool enabled() const noexcept override { return power_state_ == PowerState::on; }
-  bool off() const noexcept { return power_state_ == PowerState::off; }
-  bool enable_removed() const noexcept override { return enable_removed_; }
   /// Whether this axis is `leading` or follows, over any number of couplings, one that is.
   bool led_by_this(const LeadingObject* leading) const noexcept;
   /// Largest distance between actual position and synchronous function while synchronous [u], for the summary
@@ -154,7 +150,6 @@ class Axis final : public LeadingObject {
   /// Value of StatusSensor.State: the actual value is valid.
   static constexpr DINT kSensorValid = 2;
 
-  enum class PowerState : std::uint8_t { off, switching_on, on, braking };
   /// What generates the setpoint.
   enum class Motion : std::uint8_t { none, single_axis, given, synchronizing, synchronous, desynchronizing };
   /// Places of running jobs: the base motion, synchronous and desynchronizing jobs that wait, shifts, what is
@@ -254,6 +249,12 @@ class Axis final : public LeadingObject {
   void shift_positions(double by) noexcept;
 
   // axis_switches.cpp: signals of the machine, hardware limit switches
+  struct LimitSwitch {
+    bool pressed = false;
+    bool beyond = false;   // pressed, or overrun and not yet come back over
+    bool locked = false;   // approached in the wrong direction: until a restart
+    double entered = 0.0;  // where it was met [u] on the scale of the machine
+  };
   bool signals_always_watched() const noexcept;
   void watch_signals(const DoubleDouble& position) noexcept;
   /// After which way the machine is where it was [u]; 0: never.
@@ -383,7 +384,6 @@ class Axis final : public LeadingObject {
   void approach_limit(double way, AxisPosition limit, Dynamics dynamics) noexcept;
   double permissible_following_error(double velocity) const noexcept;
   void watch_following_error(double velocity) noexcept;
-  bool stands_still() noexcept;
 
   // axis_publish.cpp: the data block
   void publish_motion() noexcept;
@@ -395,23 +395,26 @@ class Axis final : public LeadingObject {
   // Hot: touched in every interpolator cycle.
   double period_ = 0.001;  // of the interpolator [s]
   Motion motion_ = Motion::none;
-  PowerState power_state_ = PowerState::off;
   bool homed_ = false;
   bool has_drive_ = false;
-  bool enable_removed_ = false;
   std::array<Job*, kSlots> running_{};
-  std::size_t new_count_ = 0;          // of new_jobs_
-  Job* stop_ = nullptr;                // the MC_Stop that may lock the axis
-  std::int64_t standstill_ticks_ = 0;  // within the standstill window
-  bool standstill_ = false;
+  std::size_t new_count_ = 0;  // of new_jobs_
+  Job* stop_ = nullptr;        // the MC_Stop that may lock the axis
+  Standstill standstill_;
   std::int8_t limit_side_ = 0;  // software limit switch approached or passed: 1, -1; 0: none
   bool homing_now_ = false;     // a mark is being looked for, or an active homing is under way
   bool signals_watched_ = false;
+  bool beyond_limit_switch_ = false;
+  std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
+  int servo_tick_ = 0;                           // since the last interpolator tick
+  std::int64_t counted_from_ = 0;                // turn that ModuloCycle shows as 0
+  Job* simulated_ = nullptr;                     // the gear that is simulated
   AxisPosition actual_;
   double actual_velocity_ = 0.0;  // [u/s]
   double largest_deviation_ = 0.0;
   bool was_synchronous_ = false;
   bool advancing_base_ = false;  // `setpoint_` is that of the base motion alone, within a step
+  AdditiveLeadingValues additive_;
   SynchronousMotion synchronous_;
   SingleAxisMotion single_;
 
@@ -437,29 +440,17 @@ class Axis final : public LeadingObject {
   static constexpr std::size_t kNewJobs = 16;
   std::array<Job*, kNewJobs> new_jobs_{};  // handed over, in order
   SynchronousMotion awaited_;              // what the waiting job prepares
-  AdditiveLeadingValues additive_;
-  Job* simulated_ = nullptr;  // the gear that is simulated
-  Setpoint ghost_;            // where it would have the axis
+  Setpoint ghost_;                         // where it would have the axis
   AxisData start_values_;
 
-  // Homing and hardware limit switches.
-  struct LimitSwitch {
-    bool pressed = false;
-    bool beyond = false;   // pressed, or overrun and not yet come back over
-    bool locked = false;   // approached in the wrong direction: until a restart
-    double entered = 0.0;  // where it was met [u] on the scale of the machine
-  };
+  // Homing.
   Homing homing_;
   MarkSearch mark_search_;
-  std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
-  bool beyond_limit_switch_ = false;
   bool on_home_switch_ = false;
-  std::int64_t counted_from_ = 0;  // turn that ModuloCycle shows as 0
 
   // Servo.
   double servo_period_ = 0.001;  // [s]
   int ratio_ = 1;
-  int servo_tick_ = 0;             // since the last interpolator tick
   AxisPosition encoder_origin_;    // position where the drive is where it was at the beginning
   DoubleDouble encoder_position_;  // way of the drive from there [u], as it counts
   double setpoint_sign_ = 1.0;     // -1: the drive turns the other way round

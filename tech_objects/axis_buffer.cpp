@@ -74,7 +74,7 @@ void Axis::plan_blending() noexcept {
   const Job& next = *running_[kBuffered];
   const Dynamics dynamics = single_.dynamics();
   const Blending blending = blending_into(next);
-  const double way = difference(single_.target(), base_setpoint().position, modulo_).rounded();
+  const double way = rounded_difference(single_.target(), base_setpoint().position, modulo_);
   const double wanted =
       wanted_blending_velocity(next.buffer_mode, dynamics.velocity, blending.dynamics.velocity);
   if (way == 0.0 || wanted <= 0.0 || !(blending.way * way > 0.0)) return;
@@ -111,7 +111,7 @@ Axis::Blending Axis::blending_into(const Job& next) noexcept {
       blending.endless = true;
       break;
     default:  // MC_Halt: wherever the axis comes to rest, but in the direction in which it goes
-      blending.way = difference(single_.target(), base_setpoint().position, modulo_).rounded();
+      blending.way = rounded_difference(single_.target(), base_setpoint().position, modulo_);
       blending.endless = true;
       blending.dynamics.velocity = 0.0;
       break;

@@ -123,7 +123,7 @@ void Axis::begin_simulation() noexcept {
 
 /// The setpoints of the gear count again, once they agree with where the axis is.
 void Axis::end_simulation() noexcept {
-  const double away = std::abs(difference(ghost_.position, base_setpoint().position, modulo_).rounded());
+  const double away = std::abs(rounded_difference(ghost_.position, base_setpoint().position, modulo_));
   const bool agrees = away <= data.PositioningMonitoring.Window && base_setpoint().standing();
   if (!enabled() || !agrees) {
     simulation_request.error = enabled() ? ErrorId::position : ErrorId::locked;

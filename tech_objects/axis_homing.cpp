@@ -140,7 +140,7 @@ void Axis::restore_encoder() noexcept {
   if (!encoder_adjustment.adjusted || !std::isfinite(encoder_adjustment.offset)) encoder_adjustment = {};
   const DoubleDouble place = two_sum(encoder_start(), encoder_adjustment.offset);
   const AxisPosition origin = normalised(0, place, modulo_);
-  shift_positions(difference(origin, encoder_origin_, modulo_).rounded());
+  shift_positions(rounded_difference(origin, encoder_origin_, modulo_));
   encoder_origin_ = origin;
   counted_from_ = 0;
   homed_ = encoder_adjustment.adjusted;

@@ -11,10 +11,6 @@ namespace {
 /// What positions and ways may be apart by rounding, relative to their size.
 constexpr double kRounding = 1e-12;
 
-/// How far the velocity has to rise above the threshold to end a standstill: without it the signal would
-/// flicker while an axis trembles at the threshold.
-constexpr double kStandstillHysteresis = 1.05;
-
 /// The state of motion as seen in one direction.
 struct Heading {
   double velocity;
@@ -134,7 +130,7 @@ void Axis::show_limit(const PositionLimits& limits) noexcept {
 bool Axis::keep_within(int side, double limit) noexcept {
   if (!std::isfinite(limit)) return true;
   const AxisPosition border{last_setpoint_.position.turns, limit};
-  const double room = side * difference(border, setpoint_.position, modulo_).rounded();
+  const double room = side * rounded_difference(border, setpoint_.position, modulo_);
   const Dynamics dynamics = limit_dynamics();
   if (most_stopping_way({setpoint_, side}, dynamics) <= room) return true;
   const double slack = kRounding * (1.0 + std::abs(limit));
@@ -181,7 +177,7 @@ void Axis::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexce
   const Setpoint made = setpoint_;
   setpoint_ = last_setpoint_;
   cut_acceleration();
-  const double room = side * difference(limit, setpoint_.position, modulo_).rounded();
+  const double room = side * rounded_difference(limit, setpoint_.position, modulo_);
   const bool possible = find_braking(side, room, dynamics);
   raise(alarm::kSoftwareLimitReached, reaction);
   absorb_superimposed();
@@ -193,7 +189,7 @@ void Axis::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexce
   } else {
     setpoint_ = made;  // it brakes already
   }
-  if (side * difference(setpoint_.position, limit, modulo_).rounded() > 0.0)
+  if (side * rounded_difference(setpoint_.position, limit, modulo_) > 0.0)
     raise(alarm::kSoftwareLimitPassed, data.PositionLimits_SW.LimitExceededBehavior == 1
                                            ? AlarmReaction::stop_emergency
                                            : AlarmReaction::remove_enable);
@@ -240,16 +236,5 @@ void Axis::watch_following_error(double velocity) noexcept {
 
 // ---- Standstill
 // ---------------------------------------------------------------------------------------------------
-
-/// Whether the actual velocity has kept within the standstill window for the dwell time.
-bool Axis::stands_still() noexcept {
-  const auto& signal = data.StandstillSignal;
-  const double hysteresis = standstill_ ? kStandstillHysteresis : 1.0;
-  const bool within = std::abs(actual_velocity_) <= signal.VelocityThreshold * hysteresis;
-  standstill_ticks_ = within ? standstill_ticks_ + 1 : 0;
-  const double dwelt = static_cast<double>(standstill_ticks_ - 1) * period_;
-  standstill_ = within && dwelt >= signal.MinDwellTime - 1e-9 * period_;
-  return standstill_;
-}
 
 }  // namespace lockstep

@@ -296,7 +296,7 @@ void Axis::watch_positioning() noexcept {
   const auto& monitoring = data.PositioningMonitoring;
   // While a superimposed motion goes on, the axis cannot be there; its base motion has come to rest.
   const double away =
-      superimposed_.resting() ? std::abs(difference(actual_, setpoint_.position, modulo_).rounded()) : 0.0;
+      superimposed_.resting() ? std::abs(rounded_difference(actual_, setpoint_.position, modulo_)) : 0.0;
   ++since_target_ticks_;
   if (away > monitoring.Window && in_window_ticks_ > 0) return raise(alarm::kPositioning);
   in_window_ticks_ = away <= monitoring.Window ? in_window_ticks_ + 1 : 0;

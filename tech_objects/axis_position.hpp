@@ -67,6 +67,11 @@ inline DoubleDouble difference(AxisPosition to, AxisPosition from, const Modulo&
   return to_double_double(turns) * modulo.length + values;
 }
 
+/// The same rounded to a double.
+inline double rounded_difference(AxisPosition to, AxisPosition from, const Modulo& modulo) noexcept {
+  return to.turns == from.turns ? to.value - from.value : difference(to, from, modulo).rounded();
+}
+
 /// Way [u] from a position to a target on the ring in one direction: positive in [0, length], negative in
 /// [-length, 0]; length itself only where less than half an ulp is missing to a whole turn. The target may
 /// lie outside the ring and is brought onto it. Linear axis: target - from, whatever its sign. Any thread.

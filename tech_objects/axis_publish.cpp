@@ -59,7 +59,7 @@ void Axis::publish_motion() noexcept {
   }
   const bool positioning = motion_ == Motion::single_axis && single_.aim() == SingleAxisMotion::Aim::position;
   data.StatusPositioning.Distance =
-      positioning ? difference(single_.target(), base_setpoint().position, modulo_).rounded() : 0.0;
+      positioning ? rounded_difference(single_.target(), base_setpoint().position, modulo_) : 0.0;
 }
 
 /// Not coupled yet: the additive leading value, and the leading value that a waiting job looks at.
@@ -106,7 +106,7 @@ void Axis::publish_synchronous() noexcept {
       superimposed_.in_use() ? advanced(synchronous_.following_position(), superimposed_.value(), modulo_)
                              : synchronous_.following_position();
   const double deviation = has_drive_ ? std::abs(data.StatusPositioning.FollowingError)
-                                      : std::abs(difference(actual_, following, modulo_).rounded());
+                                      : std::abs(rounded_difference(actual_, following, modulo_));
   if (deviation > largest_deviation_) largest_deviation_ = deviation;
 }
 
@@ -131,7 +131,7 @@ void Axis::publish_status() noexcept {
   word.show(StatusBit::HomingDone, homed_);
   word.show(StatusBit::OnlineStartValuesChanged, start_values_changed);
   word.show(StatusBit::Done, on && idle);
-  word.show(StatusBit::Standstill, stands_still());
+  word.show(StatusBit::Standstill, standstill_.watch(actual_velocity_, data.StandstillSignal, period_));
   word.show(StatusBit::PositioningCommand,
             kind == JobKind::MC_MoveAbsolute || kind == JobKind::MC_MoveRelative);
   word.show(StatusBit::JogCommand, kind == JobKind::MC_MoveJog);

@@ -94,7 +94,7 @@ void Axis::servo() noexcept {
 
 /// The setpoint of this servo tick: between the last two interpolator results, one interpolator cycle later.
 void Axis::control_position() noexcept {
-  const double way = difference(setpoint_.position, last_setpoint_.position, modulo_).rounded();
+  const double way = rounded_difference(setpoint_.position, last_setpoint_.position, modulo_);
   const double part = static_cast<double>(servo_tick_) / ratio_;
   const bool whole = servo_tick_ >= ratio_;
   const FineSetpoint fine = fine_setpoint(way, last_setpoint_.velocity, setpoint_.velocity, period_, part);
@@ -144,7 +144,7 @@ void Axis::reset_servo(const ServoSetpoint& setpoint) noexcept {
 void Axis::delay_following_error(const PositionControlled& controlled) noexcept {
   const double time = data.FollowingError.AdditionalSetpointDelayTime;
   if (time != following_lag_.time_constant()) following_lag_.tune(time, servo_period_);
-  following_lag_.step(difference(controlled.balanced, last_balanced_, modulo_).rounded());
+  following_lag_.step(rounded_difference(controlled.balanced, last_balanced_, modulo_));
   data.StatusPositioning.FollowingError -= following_lag_.behind();
 }
 

@@ -73,7 +73,7 @@ void Axis::take_position_control() noexcept {
   if (position_controlled_) return;
   const AxisPosition before = setpoint_.position;
   set_position_control(true);
-  const double by = difference(setpoint_.position, before, modulo_).rounded();
+  const double by = rounded_difference(setpoint_.position, before, modulo_);
   single_.shift(by);
   base_.position = advanced(base_.position, by, modulo_);
 }

@@ -103,7 +103,7 @@ PositionControlled PositionController::step(AxisPosition setpoint, double veloci
     result.balanced = advanced(result.balanced, difference(older, result.balanced, modulo) * part_, modulo);
   }
   ++cycle_;
-  result.control_difference = difference(result.balanced, actual, modulo).rounded();
+  result.control_difference = rounded_difference(result.balanced, actual, modulo);
   const double wanted = 0.01 * settings_.kpc * velocity + settings_.kv * result.control_difference;
   result.velocity = std::clamp(wanted, -settings_.max_velocity, settings_.max_velocity);
   result.limited = result.velocity != wanted;

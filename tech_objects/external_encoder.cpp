@@ -13,9 +13,6 @@ namespace {
 constexpr DINT kSensorInvalid = 0;
 constexpr DINT kSensorValid = 2;
 
-/// A standing encoder leaves its standstill signal this much above the threshold, as an axis does.
-constexpr double kStandstillHysteresis = 1.05;
-
 }  // namespace
 
 ExternalEncoder::ExternalEncoder(std::string object_name, DB_ANY object_number)
@@ -98,23 +95,15 @@ void ExternalEncoder::fault(int alarm_number) noexcept {
 void ExternalEncoder::step() noexcept {
   source_.interpolated();
   new_jobs_.take([this](Job& job) { start(job); });
-  const double velocity = difference(actual_, last_actual_, modulo_).rounded() / period_;
+  const double velocity = rounded_difference(actual_, last_actual_, modulo_) / period_;
   data.ActualAcceleration = (velocity - actual_velocity_) / period_;
   actual_velocity_ = velocity;
   last_actual_ = actual_;
   if (leads_by_actual_value()) extrapolate(actual_, actual_velocity_, data.Extrapolation);
-  enabled_ = power.enable && actual_values_valid();
-  watch_standstill();
+  power_state_ = power.enable && actual_values_valid() ? PowerState::on : PowerState::off;
+  enable_removed_ = faulty();
+  standstill_.watch(actual_velocity_, data.StandstillSignal, period_);
   publish();
-}
-
-void ExternalEncoder::watch_standstill() noexcept {
-  const auto& signal = data.StandstillSignal;
-  const double hysteresis = standstill_ ? kStandstillHysteresis : 1.0;
-  const bool within = std::abs(actual_velocity_) <= signal.VelocityThreshold * hysteresis;
-  standstill_ticks_ = within ? standstill_ticks_ + 1 : 0;
-  const double dwelt = static_cast<double>(standstill_ticks_ - 1) * period_;
-  standstill_ = within && dwelt >= signal.MinDwellTime - 1e-9 * period_;
 }
 
 void ExternalEncoder::publish() noexcept {
@@ -127,12 +116,12 @@ void ExternalEncoder::publish() noexcept {
   data.StatusSensor.Position = actual_.value;
   data.StatusSensor.Velocity = actual_velocity_;
   data.StatusSensor.ModuloCycle = data.ActualModuloCycle;
-  set_bit(data.StatusWord, StatusBit::Enable, enabled_);
+  set_bit(data.StatusWord, StatusBit::Enable, enabled());
   set_bit(data.StatusWord, StatusBit::Error, faulty());
   set_bit(data.StatusWord, StatusBit::OnlineStartValuesChanged, start_values_changed);
   set_bit(data.StatusWord, StatusBit::HomingDone, homed_);
-  set_bit(data.StatusWord, StatusBit::Done, enabled_);
-  set_bit(data.StatusWord, StatusBit::Standstill, standstill_);
+  set_bit(data.StatusWord, StatusBit::Done, enabled());
+  set_bit(data.StatusWord, StatusBit::Standstill, standstill_.stands());
   if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
 }
 

@@ -14,6 +14,7 @@
 #include "tech_objects/encoder_source.hpp"
 #include "tech_objects/leading_object.hpp"
 #include "tech_objects/new_jobs.hpp"
+#include "tech_objects/standstill.hpp"
 
 namespace lockstep {
 
@@ -49,11 +50,8 @@ class ExternalEncoder final : public LeadingObject {
   /// material does.
   DoubleDouble true_line() const noexcept { return true_line_; }
   DoubleDouble last_true_line() const noexcept { return last_true_line_; }
-  bool leading_value_stands() const noexcept override { return standstill_; }
+  bool leading_value_stands() const noexcept override { return standstill_.stands(); }
 
-  bool enabled() const noexcept override { return enabled_; }
-  bool power_busy() const noexcept override { return enabled_; }
-  bool enable_removed() const noexcept override { return faulty(); }
   /// Whether those that follow have to look at it: it has been restarted or has failed since the last time.
   bool lost() noexcept { return std::exchange(lost_, false); }
 
@@ -67,14 +65,12 @@ class ExternalEncoder final : public LeadingObject {
   ErrorId reset(bool restart) noexcept;
   ErrorId home(const Job& job) noexcept;
   void shift(double by) noexcept;
-  void watch_standstill() noexcept;
   void publish() noexcept;
 
   double period_ = 0.001;  // of the interpolator [s]
   SimulatedEncoder source_;
   NewJobs new_jobs_;
   bool begun_ = false;
-  bool enabled_ = false;
   bool homed_ = false;
   bool lost_ = false;
   DoubleDouble line_;  // of the encoder, in the direction of the object [u]
@@ -84,8 +80,7 @@ class ExternalEncoder final : public LeadingObject {
   AxisPosition actual_;
   AxisPosition last_actual_;      // of the last interpolator tick
   double actual_velocity_ = 0.0;  // [u/s]
-  std::int64_t standstill_ticks_ = 0;
-  bool standstill_ = false;
+  Standstill standstill_;
   ExternalEncoderData start_values_;
 };
 

@@ -62,7 +62,7 @@ double Extrapolation::leading_axis_time(const TO_Struct_Extrapolation& settings)
 const ExtrapolatedValues& Extrapolation::step(AxisPosition actual, double velocity,
                                               const TO_Struct_Extrapolation& settings) noexcept {
   tune(settings);
-  position_filter_.step(difference(actual, actual_, modulo_).rounded());
+  position_filter_.step(rounded_difference(actual, actual_, modulo_));
   velocity_filter_.step(velocity - velocity_);
   actual_ = actual;
   velocity_ = velocity;
@@ -77,7 +77,7 @@ const ExtrapolatedValues& Extrapolation::step(AxisPosition actual, double veloci
   pass_hysteresis(advanced(actual, values_.filtered_velocity * time - behind, modulo_),
                   not_negative(settings.Hysteresis.Value));
   values_.velocity = settings.Settings.ExtrapolatedVelocityMode == 1
-                         ? difference(values_.position, last, modulo_).rounded() / period_
+                         ? rounded_difference(values_.position, last, modulo_) / period_
                          : values_.filtered_velocity;
   return values_;
 }
@@ -115,7 +115,7 @@ void Extrapolation::pass_tolerance_band(double velocity, double range) noexcept 
 /// stands until that has come back by the hysteresis, and then follows at this distance. So it never steps. A
 /// hysteresis that becomes smaller counts when the distance has been used up.
 void Extrapolation::pass_hysteresis(AxisPosition position, double hysteresis) noexcept {
-  const double way = difference(position, values_.position, modulo_).rounded();
+  const double way = rounded_difference(position, values_.position, modulo_);
   const double width = std::max(hysteresis, held_);
   if (direction_ == 0 || width == 0.0) direction_ = way > 0.0 ? 1 : way < 0.0 ? -1 : direction_;
   const double back = -direction_ * way;

@@ -52,11 +52,10 @@ class LeadingObject : public TechnologyObject {
   bool position_controlled() const noexcept { return position_controlled_; }
 
   PowerRequest power;
-  virtual bool enabled() const noexcept = 0;
-  /// Whether switching off (or on) is still under way, for MC_Power.Busy.
-  virtual bool power_busy() const noexcept = 0;
+  bool enabled() const noexcept { return power_state_ == PowerState::on; }
+  bool off() const noexcept { return power_state_ == PowerState::off; }
   /// Whether an alarm has removed the enable, until it is acknowledged.
-  virtual bool enable_removed() const noexcept = 0;
+  bool enable_removed() const noexcept { return enable_removed_; }
 
   /// The actual position, as it is called now.
   virtual AxisPosition actual_position() const noexcept = 0;
@@ -82,6 +81,8 @@ class LeadingObject : public TechnologyObject {
   void lead_by_actual_value() noexcept { leads_by_actual_value_ = true; }
 
  protected:
+  enum class PowerState : std::uint8_t { off, switching_on, on, braking };
+
   /// Takes the start values over; positions have to be configured.
   void configure_leading(double period, TO_Struct_Extrapolation& settings) noexcept;
   void reset_leading(AxisPosition actual) noexcept;
@@ -97,6 +98,8 @@ class LeadingObject : public TechnologyObject {
   Setpoint last_setpoint_;
   Modulo modulo_;
   bool position_controlled_ = true;
+  PowerState power_state_ = PowerState::off;
+  bool enable_removed_ = false;
   std::uint32_t restarts_ = 0;
 
  private:

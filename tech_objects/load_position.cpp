@@ -24,7 +24,7 @@ AxisPosition LoadPosition::fine_position() const noexcept {
   const Setpoint& to = object_->setpoint();
   if (tick_ >= ratio_) return to.position;
   const Modulo modulo = object_->modulo();
-  const double way = difference(to.position, from.position, modulo).rounded();
+  const double way = rounded_difference(to.position, from.position, modulo);
   const double part = static_cast<double>(tick_) / ratio_;
   return advanced(from.position, fine_setpoint(way, from.velocity, to.velocity, period_, part).way, modulo);
 }

@@ -5,6 +5,11 @@
 
 namespace lockstep {
 
+/// Direction of a way or a velocity: 1, -1, or 0 (also for NaN).
+constexpr int sign(double value) noexcept {
+  return value > 0.0 ? 1 : value < 0.0 ? -1 : 0;
+}
+
 /// Position, velocity and acceleration of one tick.
 struct Setpoint {
   AxisPosition position;

@@ -60,7 +60,7 @@ void DynamicFilter::shift(double by) noexcept {
 ServoSetpoint DynamicFilter::step(const ServoSetpoint& setpoint,
                                   const TO_Struct_DynamicFilter& settings) noexcept {
   tune(settings);
-  position_.step(difference(setpoint.position, last_.position, modulo_).rounded());
+  position_.step(rounded_difference(setpoint.position, last_.position, modulo_));
   velocity_.step(setpoint.velocity - last_.velocity);
   last_ = setpoint;
   filtered_[cycle_ % kKept] = {advanced(setpoint.position, -position_.behind(), modulo_),

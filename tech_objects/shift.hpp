@@ -18,7 +18,7 @@ struct LeadingStep {
   Setpoint now;
   Modulo modulo;
 
-  double way() const noexcept { return difference(now.position, last.position, modulo).rounded(); }
+  double way() const noexcept { return rounded_difference(now.position, last.position, modulo); }
 };
 
 /// What is asked of a shift.
@@ -83,6 +83,7 @@ class Shift {
 
   Phase phase_ = Phase::resting;
   bool in_use_ = false;
+  bool settling_ = false;  // a shift that was moving comes to rest while the next one waits
   DoubleDouble value_;
   double velocity_ = 0.0;
   double acceleration_ = 0.0;
@@ -93,8 +94,7 @@ class Shift {
   double covered_ = 0.0;   // leading distance since the start [u]
   Remainder remainder_;    // target - value over the leading distance, negative
   bool planned_ = false;
-  Profile profile_;        // profile 0, and coming to rest: value from `base_`
-  bool settling_ = false;  // a shift that was moving comes to rest while the next one waits
+  Profile profile_;  // profile 0, and coming to rest: value from `base_`
   DoubleDouble base_;
   double period_ = 0.001;
   std::int64_t ticks_ = 0;

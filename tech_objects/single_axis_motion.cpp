@@ -126,7 +126,7 @@ PlanResult SingleAxisMotion::replan(const Setpoint& from, const Dynamics& dynami
         target_velocity_ = 0.0;
         return result;
       }
-      return move_to(from, target_, difference(target_, from.position, modulo_).rounded(), dynamics);
+      return move_to(from, target_, rounded_difference(target_, from.position, modulo_), dynamics);
     case Aim::velocity:
       return run_at(from, wanted_velocity_, dynamics);
     case Aim::stand:

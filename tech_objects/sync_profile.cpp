@@ -118,7 +118,7 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
 }
 
 double SyncProfile::covered(AxisPosition leading) const noexcept {
-  const double way = difference(leading, leading_start_, leading_).rounded();
+  const double way = rounded_difference(leading, leading_start_, leading_);
   return backward_ ? -way : way;
 }
 

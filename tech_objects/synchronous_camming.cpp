@@ -22,10 +22,6 @@ enum Profile : DINT {
   kAheadFromHere = 6
 };
 
-int sign(double value) noexcept {
-  return value > 0.0 ? 1 : value < 0.0 ? -1 : 0;
-}
-
 /// A position that no axis can take (FALSE for NaN).
 bool possible(double position) noexcept {
   return std::abs(position) <= kPositionRange;
@@ -102,7 +98,7 @@ SynchronousMotion::Start SynchronousMotion::watch_cam(const Setpoint& own,
     synchronous_ = true;
     return Start::synchronous;
   }
-  direction_ = sign(difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded());
+  direction_ = sign(rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_));
   if (direction_ == 0) return Start::not_yet;
   const Start start = profile_reference_ == kDynamics ? watch_time(own) : watch_cam_distance(own);
   if (start != Start::synchronizing) direction_ = 0;
@@ -146,7 +142,7 @@ SynchronousMotion::Start SynchronousMotion::watch_cam_distance(const Setpoint& o
   if (profile_reference_ == kAhead) way = way_to(master_sync_position_ - direction_ * start_distance_);
   if (profile_reference_ == kSubsequent) way = way_to(master_sync_position_);
   const double step =
-      direction_ * difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
+      direction_ * rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_);
   if (way < 0.0 || way > step) return Start::not_yet;
 
   profile_way_ = way + start_distance_;
@@ -282,7 +278,7 @@ bool SynchronousMotion::rests_at_cam_end() const noexcept {
 /// the tick.
 bool SynchronousMotion::meets_cam_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
                                       const Dynamics& dynamics) noexcept {
-  const double step = difference(candidate.position, last.position, following_).rounded();
+  const double step = rounded_difference(candidate.position, last.position, following_);
   const int heading = sign(step);
   if (heading == 0 || (job.direction == 1 && heading < 0) || (job.direction == 2 && heading > 0))
     return false;
@@ -290,7 +286,7 @@ bool SynchronousMotion::meets_cam_out(const Job& job, const Setpoint& last, cons
   const bool over_distance = job.mode == 1;
   const double distance = job.master_start_distance;
   const double leading_step =
-      difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
+      rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_);
   const auto braking = [&](const Setpoint& own, AxisPosition leading) noexcept {
     if (!over_distance) return stopping_way(own, heading, dynamics);
     // The least curved way to rest: its velocity is a cubic of the leading distance.

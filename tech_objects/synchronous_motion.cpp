@@ -16,10 +16,6 @@ constexpr double kSamePlace = 1e-14;
 /// multiple of that way: the quintic then stays within some ten times the way.
 constexpr double kSteepest = 100.0;
 
-int sign(double value) noexcept {
-  return value > 0.0 ? 1 : value < 0.0 ? -1 : 0;
-}
-
 bool same_place(double distance, double position) noexcept {
   return std::abs(distance) <= kSamePlace * std::max(1.0, std::abs(position));
 }
@@ -99,11 +95,6 @@ void SynchronousMotion::add_offset(Setpoint& setpoint) const noexcept {
   setpoint.acceleration += offset_.acceleration();
 }
 
-double SynchronousMotion::function_leading_position() const noexcept {
-  if (!phase_.in_use()) return leading_now_.position.value;
-  return advanced(leading_now_.position, phase_.value(), leading_modulo_).value;
-}
-
 Shift::Event SynchronousMotion::advance_phase_shift() noexcept {
   look_at_leading();
   return phase_.advance(leading_step());
@@ -133,7 +124,7 @@ void SynchronousMotion::change_ratio(DINT numerator, DINT denominator) noexcept 
 /// Over a distance the progress is the very place at which the profile is read, so that a leading axis homed
 /// backwards counts as the reversal that it is for the profile.
 void SynchronousMotion::watch_reversal() noexcept {
-  const double step = difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
+  const double step = rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_);
   if (direction_ == 0) direction_ = sign(step);
   progress_ = way_ == Way::velocity ? progress_ + direction_ * step : covered();
   furthest_ = std::max(furthest_, progress_);
@@ -165,7 +156,7 @@ void SynchronousMotion::advance_velocity(Setpoint& setpoint) noexcept {
 
 /// Leading distance since the start of the profile, in its direction [u].
 double SynchronousMotion::covered() const noexcept {
-  return direction_ * difference(leading_now_.position, leading_start_, leading_modulo_).rounded();
+  return direction_ * rounded_difference(leading_now_.position, leading_start_, leading_modulo_);
 }
 
 /// MC_GearInPos: the function of this tick plus what the axis is ahead of it.
@@ -206,91 +197,6 @@ void SynchronousMotion::shift_following(double by) noexcept {
       phase_.in_use() ? advanced(function_.position, -(gear_.ratio() * phase_.value()), following_)
                       : function_.position;
   gear_.set(numerator_, denominator_, leading_now_.position, without_phase, leading_modulo_, following_);
-}
-
-// ---- Desynchronizing
-// --------------------------------------------------------------------------------------------
-
-bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
-                                       const Dynamics& dynamics) noexcept {
-  if (cam_ != nullptr) return meets_cam_out(job, last, candidate, dynamics);
-  const double step = difference(candidate.position, last.position, following_).rounded();
-  const int heading = sign(step);
-  if (heading == 0 || (job.direction == 1 && heading < 0) || (job.direction == 2 && heading > 0))
-    return false;
-  const double target = normalised({0, job.position}, following_).value;
-  const double braking = job.mode == 1 ? 0.5 * std::abs(ratio_) * job.master_start_distance
-                                       : stopping_way(last, heading, dynamics);
-  if (!std::isfinite(braking)) return false;
-  // Way to the stop position; on a ring as many turns more as braking needs.
-  double spare = heading * (target - last.position.value) - braking;
-  if (following_.enabled) {
-    spare = std::fmod(spare, following_.length);
-    if (spare < 0.0) spare += following_.length;
-  }
-  if (spare < 0.0 || spare > std::abs(step)) return false;
-  out_way_ = heading * (braking + spare);
-  out_distance_ = job.master_start_distance + spare / std::abs(ratio_);
-  set_out_position(last, target);
-  return true;
-}
-
-void SynchronousMotion::set_out_position(const Setpoint& last, double target) noexcept {
-  out_position_ = advanced(last.position, out_way_, following_);
-  if (following_.enabled) {
-    // The way is rounded: at the end of the ring the turn may be the neighbour's.
-    const double off = out_position_.value - target;
-    if (off > 0.5 * following_.length) ++out_position_.turns;
-    if (off < -0.5 * following_.length) --out_position_.turns;
-  }
-  out_position_.value = target;
-}
-
-/// Way that the axis needs to stop in the direction it is heading [u]; NaN if that cannot be planned.
-double SynchronousMotion::stopping_way(const Setpoint& from, int heading,
-                                       const Dynamics& dynamics) const noexcept {
-  Profile profile;
-  const double velocity = std::max(std::abs(from.velocity), dynamics.velocity);
-  const ProfileLimits limits{.velocity_max = velocity,
-                             .velocity_min = -velocity,
-                             .acceleration = dynamics.deceleration,
-                             .deceleration = dynamics.deceleration,
-                             .jerk = dynamics.jerk};
-  const MotionState state{0.0, from.velocity, from.acceleration};
-  if (plan_stop(state, limits, PresentAcceleration::keep, profile) != PlanResult::ok) return std::nan("");
-  return heading * profile.target().position;
-}
-
-void SynchronousMotion::begin_sync_out(const Setpoint& last) noexcept {
-  way_ = Way::out;
-  synchronous_ = false;
-  reversed_ = false;
-  desynchronized_ = false;
-  look_at_leading();
-  direction_ = sign(leading_step().way());
-  progress_ = 0.0;
-  furthest_ = 0.0;
-  leading_start_ = leading_last_.position;
-  SyncOffset start{.position = -out_way_};
-  const double way_velocity = direction_ * leading_last_.velocity;
-  if (way_velocity > 0.0) {
-    start.slope = last.velocity / way_velocity;
-    start.curvature = (last.acceleration - start.slope * direction_ * leading_last_.acceleration) /
-                      (way_velocity * way_velocity);
-  }
-  out_remainder_.set(start, out_distance_);
-}
-
-/// MC_GearOut profile 1: what is left of the way to the stop position.
-void SynchronousMotion::advance_out(Setpoint& setpoint) noexcept {
-  const double way = covered();
-  const SyncOffset left = out_remainder_.value(way);
-  desynchronized_ = out_remainder_.complete(way);
-  setpoint.position = advanced(out_position_, left.position, following_);
-  setpoint.velocity = left.velocity(direction_ * leading_now_.velocity);
-  setpoint.acceleration =
-      left.acceleration(direction_ * leading_now_.velocity, direction_ * leading_now_.acceleration);
-  function_ = setpoint;
 }
 
 // ---- Beginning
@@ -376,7 +282,7 @@ SynchronousMotion::Start SynchronousMotion::watch(const Setpoint& own,
     synchronous_ = true;
     return Start::synchronous;
   }
-  direction_ = sign(difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded());
+  direction_ = sign(rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_));
   if (direction_ == 0) return Start::not_yet;
   const Start start = profile_reference_ == 0 ? watch_time(own) : watch_distance(own);
   if (start != Start::synchronizing) direction_ = 0;
@@ -422,7 +328,7 @@ SynchronousMotion::Start SynchronousMotion::watch_distance(const Setpoint& own) 
       in_advance ? master_sync_position_ - direction_ * start_distance_ : master_sync_position_;
   const double way = way_to(start_place);
   const double step =
-      direction_ * difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
+      direction_ * rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_);
   if (way < 0.0 || way > step) return Start::not_yet;
 
   const double way_to_sync = in_advance ? way + start_distance_ : way;
@@ -475,7 +381,7 @@ SynchronousMotion::Start SynchronousMotion::watch_time(const Setpoint& own) noex
     return reject(ErrorId::direction);
 
   const double step =
-      direction_ * difference(leading_now_.position, leading_last_.position, leading_modulo_).rounded();
+      direction_ * rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_);
   Profile now, next;
   if (way < 0.0 || !plan_time(own, leading_last_, way, 0.0, now)) return Start::not_yet;
   const double speed = std::abs(leading_last_.velocity);

@@ -135,7 +135,10 @@ class SynchronousMotion {
     return offset_.in_use() ? advanced(function_.position, offset_.value(), following_) : function_.position;
   }
   /// Effective leading position and phase shift [u].
-  double function_leading_position() const noexcept;
+  double function_leading_position() const noexcept {
+    return phase_.in_use() ? advanced(leading_now_.position, phase_.value(), leading_modulo_).value
+                           : leading_now_.position.value;
+  }
 
   /// Shifts the following side of the function without motion, for homing [u].
   void shift_following(double by) noexcept;

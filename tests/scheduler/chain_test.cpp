@@ -1,5 +1,6 @@
 // The chain of a synchronous axis under leading motion at random: whatever the leading axis does and
-// whichever shifts are under way, Position is the function of the same tick's values, exactly.
+// whichever shifts and superimposed motions are under way, Position is the function of the same tick's
+// values, exactly.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
+#include "fb/superimposed.hpp"
 #include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
@@ -34,7 +36,7 @@ constexpr int kSequences = 1000;
 constexpr int kSoakSequences = 100000;
 constexpr int kShifts = 1000;
 constexpr int kSoakShifts = 100000;
-constexpr int kActions = 14;
+constexpr int kActions = 16;
 
 bool soak() {
   return std::getenv("LOCKSTEP_SOAK") != nullptr;
@@ -68,11 +70,13 @@ struct Chain : Rig {
         phase_to(block<MC_PhasingAbsolute>()),
         offset(block<MC_OffsetRelative>()),
         offset_to(block<MC_OffsetAbsolute>()),
-        additive(block<MC_LeadingValueAdditive>()) {
+        additive(block<MC_LeadingValueAdditive>()),
+        superimpose(block<MC_MoveSuperimposed>()),
+        halt_superimposed(block<MC_HaltSuperimposed>()) {
     lead(f, l);
     continuity[0].velocity = continuity[1].velocity = false;  // watched here, with what is published
     power_l.Axis = home_l.Axis = run_l.Axis = halt_l.Axis = &l;
-    power_f.Axis = additive.Axis = &f;
+    power_f.Axis = additive.Axis = superimpose.Axis = halt_superimposed.Axis = &f;
     gear.Master = phase.Master = phase_to.Master = &l;
     gear.Slave = phase.Slave = phase_to.Slave = offset.Slave = offset_to.Slave = &f;
     gear.RatioNumerator = numerator;
@@ -103,25 +107,31 @@ struct Chain : Rig {
     following_start = unrolled(f.setpoint().position, f.modulo());
   }
 
-  /// How far Position is from F(EffectiveLeadingValue + PhaseShift) + Offset, in units of what is permitted.
+  /// How far Position is from F(EffectiveLeadingValue + PhaseShift) + Offset + superimposed part, in units of
+  /// what is permitted. Of the superimposed part the data block shows the size; it has either sign.
   double deviation() const {
     const auto& status = f.data.StatusSynchronizedMotion;
     const auto geared = [&](Wide way) { return way * gear.RatioNumerator / gear.RatioDenominator; };
     const Wide leading_part = geared(effective() - leading_start);
     const Wide phase_part = geared(status.PhaseShift);
-    const Wide expected = following_start + leading_part + phase_part + status.Offset;
+    const LREAL superimposed = f.data.StatusPositioning.SuperimposedDistance;
+    const Wide led = following_start + leading_part + phase_part + status.Offset;
     const Wide position = unrolled(f.setpoint().position, f.modulo());
+    const Wide off =
+        std::min(magnitude(position - led - superimposed), magnitude(position - led + superimposed));
     // On a ring far from zero a position has no finer steps than those of its own size.
     double largest = std::max({f.modulo().length, std::abs(f.modulo().start), std::abs(f.modulo().end())});
     if (!f.modulo().enabled) {
       largest = 0.0;
-      for (const Wide term : {following_start, leading_part, phase_part, static_cast<Wide>(status.Offset),
-                              geared(effective()), geared(leading_start), position})
+      for (const Wide term :
+           {following_start, leading_part, phase_part, static_cast<Wide>(status.Offset),
+            static_cast<Wide>(superimposed), geared(effective()), geared(leading_start), position})
         largest = std::max(largest, static_cast<double>(magnitude(term)));
     }
     // The shifts are shown rounded; the chain has them with their rounding error.
-    const double shown = 0.5 * (std::abs(ratio()) * ulp(status.PhaseShift) + ulp(status.Offset));
-    return static_cast<double>(magnitude(position - expected)) / (4.0 * ulp(largest) + shown);
+    const double shown =
+        0.5 * (std::abs(ratio()) * ulp(status.PhaseShift) + ulp(status.Offset) + ulp(superimposed));
+    return static_cast<double>(off) / (4.0 * ulp(largest) + shown);
   }
 
   double ratio() const { return static_cast<double>(gear.RatioNumerator) / gear.RatioDenominator; }
@@ -139,6 +149,8 @@ struct Chain : Rig {
   MC_OffsetRelative& offset;
   MC_OffsetAbsolute& offset_to;
   MC_LeadingValueAdditive& additive;
+  MC_MoveSuperimposed& superimpose;
+  MC_HaltSuperimposed& halt_superimposed;
   Wide leading_start{};
   Wide following_start{};
   double added = 0.0;  ///< additive leading value of this tick
@@ -148,7 +160,7 @@ struct Chain : Rig {
 // ----------------------------------------------------------------------------------------
 
 struct Seen {
-  int ticks = 0, shifted = 0, wraps = 0, homed = 0, added = 0, reversed = 0;
+  int ticks = 0, shifted = 0, wraps = 0, homed = 0, added = 0, reversed = 0, superimposed = 0, halted = 0;
   double worst = 0.0;  // deviation, of what is permitted
 };
 
@@ -205,7 +217,9 @@ class Sequence {
   }
 
   void act() {
-    const int kind = pick(10);
+    const int kind = pick(13);
+    if (kind == 10) return start(chain_.halt_superimposed);
+    if (kind > 10) return superimpose();
     if (kind < 3) return run_at(chance(0.2) ? 0.0 : uniform(-120.0, 120.0));
     if (kind == 3) return start(chain_.halt_l);
     if (kind == 4) return home();
@@ -237,6 +251,16 @@ class Sequence {
     chain_.additive.Enable = chance(0.7);
     step_until_ = ticks_ + 2;
     ++seen_.added;
+  }
+
+  void superimpose() {
+    chain_.superimpose.Distance = uniform(-20.0, 20.0);
+    chain_.superimpose.VelocityDiff = uniform(5.0, 50.0);
+    // Less than what a jerk may make of an acceleration within a tick: without jerk it comes and goes there.
+    chain_.superimpose.Acceleration = uniform(50.0, 400.0);
+    chain_.superimpose.Deceleration = uniform(50.0, 400.0);
+    chain_.superimpose.Jerk = chance(0.3) ? 0.0 : uniform(500.0, 20000.0);
+    start(chain_.superimpose);
   }
 
   template <class B>
@@ -279,6 +303,8 @@ class Sequence {
     ++seen_.ticks;
     seen_.shifted += chain_.phase.StartPhasing || chain_.phase_to.StartPhasing || chain_.offset.StartOffset ||
                      chain_.offset_to.StartOffset;
+    seen_.superimposed += chain_.superimpose.Busy;
+    seen_.halted += chain_.halt_superimposed.Busy;
     seen_.wraps += chain_.l.setpoint().position.turns != turn;
     const bool reverses = (reversals() & ~had_reversed) != 0;
     seen_.reversed += reverses;
@@ -294,7 +320,7 @@ class Sequence {
   void expect_no_step(const Setpoint& before, const Setpoint& now) {
     const double T = chain_.period();
     const double change = std::abs(now.acceleration - before.acceleration);
-    const double highest_jerk = 2e5 * (1.0 + std::abs(chain_.ratio()));
+    const double highest_jerk = 2e5 * (2.0 + std::abs(chain_.ratio()));
     const double way = difference(now.position, before.position, chain_.f.modulo()).rounded();
     const double rounding = 8.0 * ulp(std::max(std::abs(now.position.value), chain_.f.modulo().length));
     ASSERT_NEAR(way, 0.5 * (before.velocity + now.velocity) * T,
@@ -325,11 +351,12 @@ TEST(Chain, IsExactInEveryTickUnderLeadingMotionAtRandom) {
   }
   std::printf(
       "%d sequences from seed %llu: %d ticks, %d in a shift, %d wraps, %d homings, %d additive values, "
-      "%d reversals; worst %.2f of what is permitted\n",
+      "%d reversals, %d while superimposed, %d of these halting; worst %.2f of what is permitted\n",
       count, static_cast<unsigned long long>(first), seen.ticks, seen.shifted, seen.wraps, seen.homed,
-      seen.added, seen.reversed, seen.worst);
+      seen.added, seen.reversed, seen.superimposed, seen.halted, seen.worst);
   if (only != nullptr) return;
-  for (const int happened : {seen.shifted, seen.wraps, seen.homed, seen.added, seen.reversed})
+  for (const int happened :
+       {seen.shifted, seen.wraps, seen.homed, seen.added, seen.reversed, seen.superimposed, seen.halted})
     EXPECT_GT(happened, count / 10) << "a test of what does not happen";
 }
 

@@ -1,0 +1,90 @@
+// Out of a gear or cam to rest at a position: MC_GearOut, and what MC_CamOut shares with it.
+#include <cmath>
+
+#include "tech_objects/axis.hpp"
+#include "tech_objects/synchronous_motion.hpp"
+
+namespace lockstep {
+bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
+                                       const Dynamics& dynamics) noexcept {
+  if (cam_ != nullptr) return meets_cam_out(job, last, candidate, dynamics);
+  const double step = rounded_difference(candidate.position, last.position, following_);
+  const int heading = sign(step);
+  if (heading == 0 || (job.direction == 1 && heading < 0) || (job.direction == 2 && heading > 0))
+    return false;
+  const double target = normalised({0, job.position}, following_).value;
+  const double braking = job.mode == 1 ? 0.5 * std::abs(ratio_) * job.master_start_distance
+                                       : stopping_way(last, heading, dynamics);
+  if (!std::isfinite(braking)) return false;
+  // Way to the stop position; on a ring as many turns more as braking needs.
+  double spare = heading * (target - last.position.value) - braking;
+  if (following_.enabled) {
+    spare = std::fmod(spare, following_.length);
+    if (spare < 0.0) spare += following_.length;
+  }
+  if (spare < 0.0 || spare > std::abs(step)) return false;
+  out_way_ = heading * (braking + spare);
+  out_distance_ = job.master_start_distance + spare / std::abs(ratio_);
+  set_out_position(last, target);
+  return true;
+}
+
+void SynchronousMotion::set_out_position(const Setpoint& last, double target) noexcept {
+  out_position_ = advanced(last.position, out_way_, following_);
+  if (following_.enabled) {
+    // The way is rounded: at the end of the ring the turn may be the neighbour's.
+    const double off = out_position_.value - target;
+    if (off > 0.5 * following_.length) ++out_position_.turns;
+    if (off < -0.5 * following_.length) --out_position_.turns;
+  }
+  out_position_.value = target;
+}
+
+/// Way that the axis needs to stop in the direction it is heading [u]; NaN if that cannot be planned.
+double SynchronousMotion::stopping_way(const Setpoint& from, int heading,
+                                       const Dynamics& dynamics) const noexcept {
+  Profile profile;
+  const double velocity = std::max(std::abs(from.velocity), dynamics.velocity);
+  const ProfileLimits limits{.velocity_max = velocity,
+                             .velocity_min = -velocity,
+                             .acceleration = dynamics.deceleration,
+                             .deceleration = dynamics.deceleration,
+                             .jerk = dynamics.jerk};
+  const MotionState state{0.0, from.velocity, from.acceleration};
+  if (plan_stop(state, limits, PresentAcceleration::keep, profile) != PlanResult::ok) return std::nan("");
+  return heading * profile.target().position;
+}
+
+void SynchronousMotion::begin_sync_out(const Setpoint& last) noexcept {
+  way_ = Way::out;
+  synchronous_ = false;
+  reversed_ = false;
+  desynchronized_ = false;
+  look_at_leading();
+  direction_ = sign(leading_step().way());
+  progress_ = 0.0;
+  furthest_ = 0.0;
+  leading_start_ = leading_last_.position;
+  SyncOffset start{.position = -out_way_};
+  const double way_velocity = direction_ * leading_last_.velocity;
+  if (way_velocity > 0.0) {
+    start.slope = last.velocity / way_velocity;
+    start.curvature = (last.acceleration - start.slope * direction_ * leading_last_.acceleration) /
+                      (way_velocity * way_velocity);
+  }
+  out_remainder_.set(start, out_distance_);
+}
+
+/// MC_GearOut profile 1: what is left of the way to the stop position.
+void SynchronousMotion::advance_out(Setpoint& setpoint) noexcept {
+  const double way = covered();
+  const SyncOffset left = out_remainder_.value(way);
+  desynchronized_ = out_remainder_.complete(way);
+  setpoint.position = advanced(out_position_, left.position, following_);
+  setpoint.velocity = left.velocity(direction_ * leading_now_.velocity);
+  setpoint.acceleration =
+      left.acceleration(direction_ * leading_now_.velocity, direction_ * leading_now_.acceleration);
+  function_ = setpoint;
+}
+
+}  // namespace lockstep
