@@ -51,6 +51,7 @@ using ElementOf = std::remove_cvref_t<decltype(std::declval<Array&>()[0])>;
 
 // What the tables declare, for `data_block_of`.
 const DataBlock& axis_data_block() noexcept;
+const DataBlock& positioning_axis_data_block();
 const DataBlock& encoder_data_block() noexcept;
 const DataBlock& measuring_input_data_block() noexcept;
 const DataBlock& cam_data_block() noexcept;

@@ -26,6 +26,12 @@ constexpr BitNames only(const BitNames& names, std::initializer_list<unsigned> b
   return result;
 }
 
+/// The names of a word but those that a kind of object has not.
+constexpr BitNames without(BitNames names, std::initializer_list<unsigned> bits) noexcept {
+  for (const unsigned bit : bits) names[bit] = {};
+  return names;
+}
+
 inline constexpr BitNames kEncoderStatusBitNames = only(kStatusBitNames, {0, 1, 2, 3, 5, 6, 7, 11});
 inline constexpr BitNames kEncoderErrorBitNames = only(kErrorBitNames, {0, 1, 2, 3, 5, 7, 10, 13, 15});
 inline constexpr BitNames kEncoderWarningBitNames = only(kWarningBitNames, {0, 1, 2, 3, 5, 7, 10, 13, 15});

@@ -66,9 +66,10 @@ int bit_number(std::string_view suffix) {
 
 const DataBlock& data_block_of(ObjectKind kind) noexcept {
   switch (kind) {
-    case ObjectKind::TO_PositioningAxis:
     case ObjectKind::TO_SynchronousAxis:
       break;
+    case ObjectKind::TO_PositioningAxis:
+      return positioning_axis_data_block();
     case ObjectKind::TO_ExternalEncoder:
       return encoder_data_block();
     case ObjectKind::TO_MeasuringInput:

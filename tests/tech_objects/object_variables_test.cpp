@@ -152,6 +152,33 @@ TEST_P(ObjectVariables, AreSetByTheProjectUnlessTheRuntimeComputesThem) {
     EXPECT_EQ(variable.computed, variable.path == "Extrapolation.LeadingAxisDependentTime") << variable.path;
 }
 
+// A positioning axis has what a synchronous axis has, but for what only a follower needs.
+TEST(PositioningAxis, HasTheVariablesOfASynchronousAxisWithoutWhatOnlyAFollowerNeeds) {
+  const Json less =
+      Json::parse(std::ifstream(LOCKSTEP_TEST_DATA "/to_other.json")).at("notOfPositioningAxis");
+  const auto removed = [&](std::string_view path) {
+    for (const Json& structure : less.at("structures"))
+      if (path.starts_with(structure.get<std::string>() + ".")) return true;
+    return false;
+  };
+  std::size_t left_out = 0;
+  for (const auto variables : data_block_of(ObjectKind::TO_SynchronousAxis).lists())
+    for (const Variable& variable : variables) {
+      if (variable.count != 0) continue;
+      const Variable* own = find_variable(ObjectKind::TO_PositioningAxis, variable.path).variable;
+      EXPECT_EQ(own == nullptr, removed(variable.path)) << variable.path;
+      left_out += own == nullptr;
+      if (own == nullptr || variable.bits == nullptr) continue;
+      EXPECT_EQ(own->offset, variable.offset);
+      for (std::size_t bit = 0; bit < variable.bits->size(); ++bit) {
+        const Json gone = less.at("bits").value(std::string(variable.path), Json::array());
+        const bool reserved = std::find(gone.begin(), gone.end(), bit) != gone.end();
+        EXPECT_EQ((*own->bits)[bit], reserved ? "" : (*variable.bits)[bit]) << variable.path << ".X" << bit;
+      }
+    }
+  EXPECT_GT(left_out, 0u);
+}
+
 std::vector<ObjectKind> kinds_of_the_catalogue() {
   std::vector<ObjectKind> kinds;
   const Json file = Json::parse(std::ifstream(LOCKSTEP_TEST_DATA "/to_other.json"));
