@@ -49,8 +49,8 @@ class Shift {
     in_use_ = value.hi != 0.0;
   }
 
-  /// At a value in the next tick, with the motion of a shift that ends there; then it comes to rest, without a
-  /// job.
+  /// At a value in the next tick, with the motion of a shift that ends there; then it comes to rest, without
+  /// a job.
   void settle_at(DoubleDouble value, const Shift& moving, const ProfileLimits& limits,
                  double period) noexcept;
 
