@@ -53,7 +53,7 @@ std::string real_literal(double value) {
 }
 
 std::string literal(Value value, Type type) {
-  if (type == Type::AXIS || type == Type::TAG) return "";
+  if (type >= Type::AXIS) return "";
   if (type == Type::BOOL) return value.u != 0 ? "TRUE" : "FALSE";
   if (is_real(type)) return real_literal(type == Type::REAL ? static_cast<float>(value.r) : value.r);
   if (is_bit_string(type)) return fmt::format("16#{:X}", value.u);
@@ -94,7 +94,7 @@ std::vector<std::string> choice_lines(Type type, std::span<const Choice> choices
 }
 
 nlohmann::ordered_json json_value(Value value, Type type) {
-  if (type == Type::AXIS || type == Type::TAG) return nullptr;
+  if (type >= Type::AXIS) return nullptr;
   if (type == Type::BOOL) return value.u != 0;
   if (is_real(type)) return value.r;
   if (type == Type::TIME) return literal(value, type);

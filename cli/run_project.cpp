@@ -87,8 +87,7 @@ class Surroundings {
       const FoundPlace found = project_.names.find(name);
       if (!found.place) throw CouldNotStart("--signals: " + found.problem);
       const Type type = found.place->signal.type;
-      if (type == Type::AXIS || type == Type::TAG)
-        throw CouldNotStart("--signals: " + name + " has no value to record");
+      if (type >= Type::AXIS) throw CouldNotStart("--signals: " + name + " has no value to record");
       signals_.push_back({name, found.place->signal, found.place->unit});
     }
   }
@@ -298,6 +297,11 @@ int run_in_real_time(Project& project, Display& display, std::int64_t duration) 
 void tell_counters(const Controller& controller) {
   if (const auto zero = controller.counters().evaluation.integer_divisions_by_zero; zero != 0)
     tell(fmt::format("warning: {} integer divisions by zero gave 0", zero));
+  if (const auto outside = controller.counters().evaluation.indices_out_of_range; outside != 0)
+    tell(
+        fmt::format("warning: {} indices of arrays were out of range; what was read there counted as 0, what "
+                    "was to be written is lost",
+                    outside));
   std::uint64_t refused = 0;
   for (const Program& program : controller.programs) refused += program.refused_assignments();
   if (refused != 0)

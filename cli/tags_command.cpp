@@ -97,6 +97,8 @@ std::string tags_text(const Project& project, const Entries& entries, std::size_
       table.row(std::move(next));
     }
   }
+  for (const ArrayTag& tag : project.controller->arrays)
+    table.row({tag.name, array_type_name(tag.array), "", "", "", "", "", "", printable(tag.comment)});
   return table.empty() ? "" : "\n" + table.text(0, width);
 }
 
@@ -170,6 +172,14 @@ nlohmann::ordered_json project_json(const Project& project) {
   auto& tags = json["tags"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < project.controller->tags.size(); ++i)
     tags.push_back(tag_json(project.controller->tags[i], entries.of_tags[i]));
+  auto& arrays = json["arrays"] = nlohmann::ordered_json::array();
+  for (const ArrayTag& tag : project.controller->arrays)
+    arrays.push_back({{"name", tag.name},
+                      {"type", array_type_name(tag.array)},
+                      {"lower", tag.array.lower},
+                      {"upper", tag.array.upper},
+                      {"of", tag.array.element->name},
+                      {"comment", tag.comment}});
   auto& others = json["other_modbus"] = nlohmann::ordered_json::array();
   for (const Entry& entry : entries.others) {
     nlohmann::ordered_json other{{"name", entry.name}, {"type", type_name(entry.type)}};

@@ -17,6 +17,7 @@ bool same_name(std::string_view a, std::string_view b) {
 bool Pin::allows(const Block& block) const noexcept {
   const Value value = signal(const_cast<Block&>(block)).load();
   if (type == Type::AXIS) return value.u != 0;
+  if (type == Type::ARRAY) return true;
   const double number = as_double(value, type);
   if (is_real(type) && !std::isfinite(number)) return false;
   if (relevant != nullptr && !relevant(block)) return true;

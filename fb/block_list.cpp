@@ -3,6 +3,7 @@
 #include "fb/block.hpp"
 #include "fb/cam_in.hpp"
 #include "fb/cam_value.hpp"
+#include "fb/copy_cam_data.hpp"
 #include "fb/counters.hpp"
 #include "fb/edge.hpp"
 #include "fb/gear_in.hpp"
@@ -60,6 +61,7 @@ constexpr BlockType kTypes[] = {
     block_type<MC_InterpolateCam>(),
     block_type<MC_GetCamLeadingValue>(),
     block_type<MC_GetCamFollowingValue>(),
+    block_type<MC_CopyCamData>(),
     block_type<R_TRIG>(),
     block_type<F_TRIG>(),
     block_type<SR>(),

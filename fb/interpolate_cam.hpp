@@ -20,7 +20,8 @@ struct CamBlock : ExecuteBlock {
 /// Makes the curve of a cam from its valid points and segments. It takes effect at one interpolator tick: in
 /// a simulation at the next one after the call, in real time when another thread has made it.
 /// @source S7-1500T synchronous operation V7, 12.2.1; 8.3.4
-/// @errors 16#80AA empty; 16#80AB in use; 16#80AC elements wrong; 16#80E8 being interpolated already
+/// @errors 16#80AA empty; 16#80AB in use; 16#80AC elements wrong; 16#80E7 being copied into; 16#80E8 being
+///         interpolated already; 16#800D restarting
 struct MC_InterpolateCam final : CamBlock {
   static constexpr std::string_view kName = "MC_InterpolateCam";
   static constexpr std::string_view kText = "Interpolates a cam from its points and segments.";

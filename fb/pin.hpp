@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tech_objects/alarms.hpp"
+#include "tech_objects/array.hpp"
 #include "tech_objects/declaration.hpp"
 #include "tech_objects/technology_object.hpp"
 #include "tech_objects/types.hpp"
@@ -15,7 +16,7 @@ namespace lockstep {
 
 class Block;
 
-enum class PinClass : std::uint8_t { input, output };
+enum class PinClass : std::uint8_t { input, output, in_out };
 
 /// One pin of a block. Its default is the value that a newly made block holds.
 struct Pin {
@@ -29,6 +30,7 @@ struct Pin {
   std::span<const Choice> choices{};         ///< the permitted values, where they are an enumeration
   bool (*relevant)(const Block&) = nullptr;  ///< whether the value counts, given the others; nullptr: always
   ObjectKinds objects = 0;                   ///< kinds that a technology-object pin accepts
+  const ElementType* element = nullptr;      ///< of the arrays that an array pin takes
   void* (*address)(Block&) = nullptr;        ///< where the value lives in an instance
 
   Signal signal(Block& block) const { return {address(block), type, -1}; }
@@ -86,6 +88,19 @@ constexpr Pin object(std::string_view name, ObjectKinds objects, std::string_vie
           .text = text,
           .error = ErrorId::no_technology_object,
           .objects = objects,
+          .address = &member_address<Member, typename M::Block>};
+}
+
+/// Declares what a block takes by reference: an array of a type of elements, of any bounds. It may stay
+/// unwired; what that means is the block's matter.
+template <auto Member>
+constexpr Pin array(std::string_view name, const ElementType& element, std::string_view text) {
+  using M = pin_detail::MemberOf<decltype(Member)>;
+  return {.name = name,
+          .pin_class = PinClass::in_out,
+          .type = Type::ARRAY,
+          .text = text,
+          .element = &element,
           .address = &member_address<Member, typename M::Block>};
 }
 

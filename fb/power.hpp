@@ -57,7 +57,9 @@ struct MC_Power final : Block {
 
 /// Acknowledges technology alarms, or restarts a technology object.
 /// @source S7-1500T axis functions, MC_Reset
-/// @errors 16#800E restart of an enabled axis
+/// @errors 16#800E restart of an enabled axis; restart of a cam: 16#80AB in use, 16#80E7 being copied into,
+/// 16#80E8
+///         being interpolated, 16#800D restarting already, 16#80AC start values that make no curve
 struct MC_Reset final : ExecuteBlock {
   TechnologyObject* Axis{};
   BOOL Restart{};
@@ -68,7 +70,8 @@ struct MC_Reset final : ExecuteBlock {
   static constexpr auto kPins = pins(
       object<&MC_Reset::Axis>("Axis", kResettable, "object that is acknowledged or restarted"), pin::kExecute,
       in<&MC_Reset::Restart>("Restart", Unit::kNone, kAny,
-                             "TRUE: take over the start values anew; an axis or encoder has to be disabled"),
+                             "TRUE: take over the start values anew; an axis or encoder has to be disabled, "
+                             "a cam must not be in use"),
       pin::kDone, pin::kBusy, pin::kCommandAborted, pin::kError, pin::kErrorID);
 
  protected:

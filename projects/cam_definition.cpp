@@ -194,8 +194,9 @@ std::vector<std::string_view> law_names() {
   return names;
 }
 
-/// A transition; none if it is left to the interpolation of the cam.
-std::optional<CamTransition> read_transition(const JsonValue& json, Problems& problems) {
+/// A transition; none if it is left to the interpolation of the cam, of which the comment stays.
+std::optional<CamTransition> read_transition(const JsonValue& json, std::string& gap_comment,
+                                             Problems& problems) {
   CamTransition transition;
   const Fields fields(json, keys_of<CamTransition>(cam_fields::kTransition, cam_fields::kTransitionMembers),
                       problems);
@@ -205,6 +206,7 @@ std::optional<CamTransition> read_transition(const JsonValue& json, Problems& pr
     for (const auto& [name, value] : json.members)
       if (name != "type" && name != "method" && name != "comment")
         problems.report(*value, quote(name) + " has no meaning with the method 'system'");
+    read_text(fields["comment"], gap_comment, problems);
     return std::nullopt;
   }
   read_numbers<CamTransition>(json, cam_fields::kTransition, transition, problems);
@@ -248,19 +250,21 @@ void read_elements(const JsonValue& array, CamDesign& design, Places& places, Pr
     const auto kind = read_word(type, cam_words::kElements, problems);
     if (!kind) continue;
     if (*kind != cam_words::kTransition) {
-      design.elements.push_back({read_shape(*kind, *json, problems), "", std::nullopt});
+      design.elements.push_back({read_shape(*kind, *json, problems), "", std::nullopt, ""});
       read_text(json->find("comment"), design.elements.back().comment, problems);
       places.elements.push_back(json);
       places.transitions.push_back(nullptr);
       behind_transition = false;
       continue;
     }
-    auto transition = read_transition(*json, problems);
+    std::string gap_comment;
+    auto transition = read_transition(*json, gap_comment, problems);
     if (behind_transition) {
       problems.report(*json, "a transition has to stand between two elements");
       continue;
     }
     design.elements.back().transition = std::move(transition);
+    design.elements.back().gap_comment = std::move(gap_comment);
     places.transitions.back() = json;
     behind_transition = true;
   }

@@ -95,6 +95,10 @@ Json json_of(const std::vector<CamElement>& elements) {
     if (!element.comment.empty()) json["comment"] = element.comment;
     list.push_back(std::move(json));
     if (element.transition) list.push_back(json_of(*element.transition));
+    if (!element.gap_comment.empty())
+      list.push_back({{"type", cam_words::kElements[cam_words::kTransition]},
+                      {"method", cam_words::kMethods[0]},
+                      {"comment", element.gap_comment}});
   }
   return list;
 }

@@ -27,6 +27,9 @@ void emit(const Term& term, ExpressionBuilder& code) {
     case Term::Form::kSignal:
       code.signal(term.signal);
       break;
+    case Term::Form::kElement:
+      code.element(term.signal, term.elements);
+      break;
     case Term::Form::kConversion:
       code.convert(term.from, term.to);
       break;

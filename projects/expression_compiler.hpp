@@ -16,7 +16,8 @@ namespace lockstep {
 /// What a reference stands for: a signal, or why there is none.
 struct Reference {
   std::optional<Signal> signal;
-  std::string error;  ///< what is wrong and what is allowed, if there is no signal
+  std::string error;        ///< what is wrong and what is allowed, if there is no signal
+  ElementRange elements{};  ///< of a path with "[]": `signal` is the first of them
 };
 
 /// What the names in an expression stand for.
@@ -25,8 +26,9 @@ class Scope {
   virtual ~Scope() = default;
   /// Finds `name` (a tag, an instance, a technology object; in any case) and within it `path`, which is what
   /// follows the name, without the point: "" (a tag), "Done", "StatusSynchronizedMotion.StatusWord",
-  /// "Sensor[1].Position", "[3]". A bit .Xn at the end is resolved by the compiler, unless the path with it
-  /// names a variable. The signal has to outlive what is compiled.
+  /// "Sensor[1].Position", "[3]", "[].x" (the element is chosen by an index at run time). A bit .Xn at the
+  /// end is resolved by the compiler, unless the path with it names a variable. The signal has to outlive
+  /// what is compiled.
   virtual Reference resolve(std::string_view name, std::string_view path) const = 0;
 };
 

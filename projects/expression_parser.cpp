@@ -180,20 +180,31 @@ class Parser {
         node.text += "." + token_.text;
         advance();
       } else if (at("[")) {
-        node.text += index();
+        index(node);
       } else {
         return node;
       }
     }
   }
 
-  std::string index() {
+  /// An index that is a literal goes into the text; any other expression is evaluated at run time.
+  void index(Syntax& node) {
+    const Level level(*this);
+    const int column = token_.column;
     advance();
-    if (token_.kind != Token::Kind::kInteger) throw unexpected("an index, a number without fraction,");
-    std::string text = "[" + decimal(token_.integer) + "]";
-    advance();
+    if (at("]")) throw unexpected("an index");
+    Syntax inner = binary(1);
     expect("]");
-    return text;
+    const bool negative = inner.kind == Syntax::Kind::kOperator && inner.text == "-" &&
+                          inner.operands.size() == 1 && inner.operands[0].kind == Syntax::Kind::kInteger;
+    if (negative || inner.kind == Syntax::Kind::kInteger) {
+      node.text += "[" + decimal(negative ? -inner.operands[0].integer : inner.integer) + "]";
+      return;
+    }
+    if (!node.operands.empty()) throw SyntaxError{column, "only one index may be an expression"};
+    node.text += "[]";
+    node.operands.push_back(std::move(inner));
+    measure(node);
   }
 
   Syntax call(Syntax node) {

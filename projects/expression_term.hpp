@@ -32,6 +32,7 @@ struct Term {
   enum class Form {
     kLiteral,      ///< `integer`, or `value` (a real, or of `type`)
     kSignal,       ///< `signal`
+    kElement,      ///< of `elements` from `signal` on the one with the index operands[0]
     kOperation,    ///< `operation` on `operands`
     kConversion,   ///< `operands[0]` from the representation of `from` to that of `to`
     kSelection,    ///< SEL: operands IN0, IN1, G
@@ -46,6 +47,7 @@ struct Term {
   Type to = Type::BOOL;
   Value value{};
   Signal signal;
+  ElementRange elements;
   Operation operation = Operation::kAdd;
   std::vector<Term> operands;
   WideInteger integer = 0;  ///< of an integer literal

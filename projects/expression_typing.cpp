@@ -77,7 +77,17 @@ Term Typing::type(const Syntax& syntax) {
 }
 
 Term Typing::reference(const Syntax& syntax) {
-  const std::string_view text = syntax.text;
+  std::string whole_text = syntax.text;
+  Term index;
+  if (!syntax.operands.empty()) {
+    index = type(syntax.operands[0]);
+    if (!index.faulty && is_integer_literal(index) && index.divisions_by_zero == 0)
+      whole_text.replace(whole_text.find("[]") + 1, 0, decimal(index.integer));
+    else
+      settling_.settle(index, Type::LINT);
+    if (index.faulty) return faulty(syntax.column);
+  }
+  const std::string_view text = whole_text;
   const std::size_t end = std::min(text.find_first_of(".["), text.size());
   const auto path_of = [&](std::string_view whole) {
     std::string_view path = whole.substr(end);
@@ -97,6 +107,11 @@ Term Typing::reference(const Syntax& syntax) {
   term.form = Term::Form::kSignal;
   term.column = syntax.column;
   term.signal = *found.signal;
+  if (found.elements.count > 0) {
+    term.form = Term::Form::kElement;
+    term.elements = found.elements;
+    term.operands.push_back(std::move(index));
+  }
   term.type = found.signal->value_type();
   if (term.type > Type::DB_ANY) {
     settling_.error(syntax.column, quoted(text) + " is a reference to an object or a tag, not a value");

@@ -95,7 +95,8 @@ void MapLoader::finish() {
 /// Whether a client may write: tags where the table allows it, a variable only if the entry asks for it.
 bool MapLoader::read_access(const JsonValue* json, const Place& place, ModbusTable table) {
   const auto word = read_word(json, words::kAccesses, problems_);
-  if (!word) return place.tag != nullptr && is_writable_table(table);
+  const bool tag = place.tag != nullptr || place.array != nullptr;
+  if (!word) return tag && is_writable_table(table);
   if (*word == 0) return false;
   const std::string reason = why_not_writable(place);
   if (!reason.empty()) problems_.report(*json, reason);

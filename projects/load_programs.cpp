@@ -71,17 +71,21 @@ class ProgramLoader {
   void load_call(const JsonValue& json);
   void load_branch(const JsonValue& json);
   void load_set(const JsonValue& json);
+  void load_element(const Fields& fields, std::string_view path, std::size_t open, std::size_t close);
+  void assign(const JsonValue& to, const Place& place, std::optional<Expression> index);
   void load_set_start(const JsonValue& json);
   void check_range(const JsonValue& json, const Expression& expression, const Place& place);
   void load_block(const JsonValue& json);
   void load_pins(const JsonValue* in, const JsonValue& call, Instance& instance);
   void load_pin(const std::string& name, const JsonValue& json, Instance& instance);
+  void load_array_pin(const JsonValue& json, const Pin& pin, Instance& instance);
   void load_object_pin(const JsonValue& json, const Pin& pin, Instance& instance);
   void check_constants(const Instance& instance);
   void check_leading_value(const JsonValue& in, Instance& instance);
 
   /// What the place of a type gets: a JSON boolean or number, or an expression; none if it is reported.
   std::optional<Expression> compile(const JsonValue* json, Type type);
+  std::optional<Expression> compile_text(const JsonValue& json, std::string_view expression, Type type);
   static std::optional<Value> constant_value(const Expression& expression);
 
   Program& program_;
@@ -118,13 +122,18 @@ std::optional<Expression> ProgramLoader::compile(const JsonValue* json, Type typ
     const auto value = read_plain_constant(*json, type, problems_);
     return value ? std::optional<Expression>(std::in_place, type, *value) : std::nullopt;
   }
-  CompiledExpression compiled = compile_expression(json->text, type, loading_.names());
+  return compile_text(*json, json->text, type);
+}
+
+std::optional<Expression> ProgramLoader::compile_text(const JsonValue& json, std::string_view expression,
+                                                      Type type) {
+  CompiledExpression compiled = compile_expression(expression, type, loading_.names());
   const auto text = [](const ExpressionError& error) {
     return error.message + " (column " + std::to_string(error.column) + ")";
   };
   for (const ExpressionError& error : compiled.errors)
-    if (error.message.find(Names::kKnownProblem) == std::string::npos) problems_.report(*json, text(error));
-  for (const ExpressionError& warning : compiled.warnings) problems_.warn(*json, text(warning));
+    if (error.message.find(Names::kKnownProblem) == std::string::npos) problems_.report(json, text(error));
+  for (const ExpressionError& warning : compiled.warnings) problems_.warn(json, text(warning));
   return std::move(compiled.expression);
 }
 
@@ -149,15 +158,47 @@ void ProgramLoader::load_set(const JsonValue& json) {
   const Fields fields(json, keys::kSet, problems_);
   const auto path = read_string(fields["set"], problems_);
   if (!path) return;
+  const std::size_t open = path->find('[');
+  const std::size_t close = path->rfind(']');
+  if (open != path->npos && close != path->npos && open < close)
+    return load_element(fields, *path, open, close);
   const auto place = loading_.find(*fields["set"], *path);
   if (!place) return;
   if (const std::string reason = why_not_writable(*place); !reason.empty())
     return problems_.report(*fields["set"], reason);
-  auto expression = compile(fields["to"], place->signal.value_type());
+  if (fields["to"] != nullptr) assign(*fields["to"], *place, std::nullopt);
+}
+
+/// An element: its index is a constant, or an expression of any integer type.
+void ProgramLoader::load_element(const Fields& fields, std::string_view path, std::size_t open,
+                                 std::size_t close) {
+  const JsonValue& set = *fields["set"];
+  auto index = compile_text(set, path.substr(open + 1, close - open - 1), Type::LINT);
+  if (!index) return;
+  std::string whole(path.substr(0, open + 1));
+  const auto constant = constant_value(*index);
+  if (constant) whole += std::to_string(constant->i);
+  whole += path.substr(close);
+  const auto place = loading_.find_elements(set, whole);
+  if (!place) return;
+  if (const std::string reason = why_not_writable(*place); !reason.empty())
+    return problems_.report(set, reason);
+  if (constant) index.reset();
+  if (fields["to"] != nullptr) assign(*fields["to"], *place, std::move(index));
+}
+
+/// @param index chooses the element; none: the place is fixed
+void ProgramLoader::assign(const JsonValue& to, const Place& place, std::optional<Expression> index) {
+  auto expression = compile(&to, place.signal.value_type());
   if (!expression) return;
-  if (place->variable == nullptr) return program_.add_assignment(std::move(*expression), place->signal);
-  check_range(*fields["to"], *expression, *place);
-  program_.add_assignment(std::move(*expression), place->signal, *place->variable);
+  if (place.variable != nullptr) check_range(to, *expression, place);
+  if (index)
+    program_.add_assignment(std::move(*expression), place.signal, place.variable, std::move(*index),
+                            place.elements);
+  else if (place.variable == nullptr)
+    program_.add_assignment(std::move(*expression), place.signal);
+  else
+    program_.add_assignment(std::move(*expression), place.signal, *place.variable);
 }
 
 /// Warns of a constant that the variable will not take.
@@ -216,10 +257,10 @@ void ProgramLoader::load_pins(const JsonValue* in, const JsonValue& call, Instan
 void ProgramLoader::load_pin(const std::string& name, const JsonValue& json, Instance& instance) {
   const BlockType& type = *instance.type;
   const Pin* const pin = type.find_pin(name);
-  if (pin == nullptr || pin->name != name || pin->pin_class != PinClass::input) {
+  if (pin == nullptr || pin->name != name || pin->pin_class == PinClass::output) {
     std::vector<std::string_view> inputs;
     for (const Pin& candidate : type.pins)
-      if (candidate.pin_class == PinClass::input) inputs.push_back(candidate.name);
+      if (candidate.pin_class != PinClass::output) inputs.push_back(candidate.name);
     if (pin != nullptr && pin->pin_class == PinClass::output)
       return problems_.report(json, quote(name) + " is an output of " + std::string(type.name) +
                                         "; it is read as " + instance.name + "." + std::string(pin->name) +
@@ -228,6 +269,7 @@ void ProgramLoader::load_pin(const std::string& name, const JsonValue& json, Ins
                                       did_you_mean(name, inputs) + "; allowed: " + list_of(inputs));
   }
   if (pin->type == Type::AXIS) return load_object_pin(json, *pin, instance);
+  if (pin->type == Type::ARRAY) return load_array_pin(json, *pin, instance);
   auto expression = compile(&json, pin->type);
   if (!expression) return;
   if (const auto value = constant_value(*expression)) {
@@ -243,6 +285,20 @@ void ProgramLoader::load_object_pin(const JsonValue& json, const Pin& pin, Insta
   if (object == nullptr) return;
   Value address{};
   address.u = reinterpret_cast<std::uintptr_t>(object);
+  pin.signal(*instance.block).store(address);
+}
+
+void ProgramLoader::load_array_pin(const JsonValue& json, const Pin& pin, Instance& instance) {
+  if (json.kind != JsonKind::string) return report_kind(json, "the name of an array tag", problems_);
+  const Names::FoundArray found = loading_.names().find_array(json.text);
+  if (!found.problem.empty()) problems_.report(json, found.problem);
+  if (found.array == nullptr) return;
+  const Array& array = found.array->array;
+  if (array.element != pin.element)
+    return problems_.report(json, json.shown() + " is an " + array_type_name(array) +
+                                      "; allowed: ARRAY[…] OF " + std::string(pin.element->name));
+  Value address{};
+  address.u = reinterpret_cast<std::uintptr_t>(&array);
   pin.signal(*instance.block).store(address);
 }
 

@@ -1,6 +1,7 @@
 // Tags and stimuli: the named values of a project and their changes in a simulation.
 #include <algorithm>
 
+#include "projects/array_type.hpp"
 #include "projects/constant.hpp"
 #include "projects/loader.hpp"
 
@@ -12,20 +13,48 @@ std::optional<Type> read_type(const JsonValue* json, Problems& problems) {
   const auto text = read_string(json, problems);
   if (!text) return std::nullopt;
   if (const auto type = tag_type(*text)) return type;
-  if (text->starts_with("STRING") || text->starts_with("ARRAY")) {
+  if (text->starts_with("STRING")) {
     problems.report(*json, "the type " + quote(*text) + " is not yet supported");
     return std::nullopt;
   }
   std::vector<std::string_view> names;
   for (int type = 0; type <= static_cast<int>(Type::TIME); ++type)
     names.push_back(type_name(static_cast<Type>(type)));
-  problems.report(
-      *json, "unknown type " + quote(*text) + did_you_mean(*text, names) + "; allowed: " + list_of(names));
+  problems.report(*json, "unknown type " + quote(*text) + did_you_mean(*text, names) +
+                             "; allowed: " + list_of(names) +
+                             ", ARRAY[lower..upper] OF one of them or of a structure of cams");
   return std::nullopt;
+}
+
+/// Memory for all arrays of a project, so that no file takes the machine down [byte].
+constexpr std::size_t kMostArrayMemory = 64u << 20;
+
+void load_array(const std::string& name, const JsonValue& json, const Loading& loading, bool named) {
+  const Fields fields(json, keys::kTag, loading.problems);
+  const auto array = read_array_type(*fields["type"], loading.problems);
+  const auto comment = read_string(fields["comment"], loading.problems);
+  if (const JsonValue* const retain = fields["retain"];
+      retain != nullptr && read_bool(retain, loading.problems).value_or(false))
+    loading.problems.report(*retain, "arrays are not retained yet; allowed: false");
+  if (!array) return;
+  std::size_t memory = array->count() * array->element->size;
+  for (const ArrayTag& other : loading.controller().arrays)
+    memory += other.memory.size() * sizeof(std::uint64_t);
+  if (memory > kMostArrayMemory)
+    return loading.problems.report(*fields["type"], "the arrays of the project take more than " +
+                                                        std::to_string(kMostArrayMemory >> 20) +
+                                                        " MiB; that is all there is for them");
+  ArrayTag& tag = loading.controller().add_array(name, *array);
+  tag.comment = comment.value_or("");
+  if (const JsonValue* const init = fields["init"]) read_array_values(*init, tag.array, loading.problems);
+  if (named) loading.names().define(name, &tag);
 }
 
 void load_tag(const std::string& name, const JsonValue& json, const Loading& loading) {
   const bool named = loading.add_name(json, name, {});
+  const JsonValue* const declared = json.kind == JsonKind::object ? json.find("type") : nullptr;
+  if (declared != nullptr && declared->kind == JsonKind::string && is_array_type(declared->text))
+    return load_array(name, json, loading, named);
   const Fields fields(json, keys::kTag, loading.problems);
   if (!fields.usable()) return;
   const auto type = read_type(fields["type"], loading.problems);
@@ -46,7 +75,7 @@ void load_stimulus(const JsonValue& json, const Loading& loading) {
   for (const auto& [path, json_value] : set->members) {
     const auto place = loading.find(*json_value, path);
     if (!place) continue;
-    if (place->tag == nullptr) {
+    if (place->tag == nullptr && place->array == nullptr) {
       loading.problems.report(*json_value, quote(path) + " is no tag; a stimulus sets tags");
       continue;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include "projects/problem.hpp"
 
@@ -141,18 +142,85 @@ FoundPlace find_pin(const Instance& instance, std::string_view path) {
   if (pin == nullptr) {
     std::vector<std::string_view> names;
     for (const Pin& candidate : instance.type->pins)
-      if (candidate.type != Type::AXIS) names.push_back(candidate.name);
+      if (candidate.type != Type::AXIS && candidate.type != Type::ARRAY) names.push_back(candidate.name);
     const std::string what = "'" + instance.name + "' is an instance of " + std::string(instance.type->name);
     if (whole.empty()) return refuse(what + "; one of its pins has to follow: " + list_of(names));
     return refuse(what + ", which has no pin " + quote(whole) + did_you_mean(whole, names) +
                   "; allowed: " + list_of(names));
   }
+  if (pin->type == Type::ARRAY)
+    return refuse("the pin '" + std::string(pin->name) + "' takes an array and has no value");
   if (pin->type == Type::AXIS)
     return refuse("the pin '" + std::string(pin->name) + "' takes a technology object and has no value");
   return with_bit({.signal = pin->signal(*instance.block), .unit = pin->unit, .pin = pin}, bit, path);
 }
 
+/// What follows the index of an array: a member, and perhaps a bit.
+FoundPlace find_member(const ArrayTag& tag, Place place, std::string_view path) {
+  const ElementType& element = *tag.array.element;
+  const std::string what = "'" + tag.name + "' is an " + array_type_name(tag.array);
+  int bit = -1;
+  if (element.members.empty()) {
+    if (path.starts_with('.')) {
+      std::string_view rest = path.substr(1);
+      bit = take_bit(rest);
+      if (bit >= 0 && rest.empty()) path = "";
+    }
+    if (!path.empty()) return refuse(what + ", whose elements have no part " + quote(path));
+    return with_bit(place, bit, tag.name + "[]");
+  }
+  std::vector<std::string_view> names;
+  for (const ElementMember& member : element.members) names.push_back(member.name);
+  if (!path.starts_with('.'))
+    return refuse(what + "; one of the members of an element has to follow: " + list_of(names));
+  const ElementMember* const member = element.find(path.substr(1));
+  if (member == nullptr)
+    return refuse(what + ", whose elements have no member " + quote(path.substr(1)) +
+                  did_you_mean(path.substr(1), names) + "; allowed: " + list_of(names));
+  place.signal.address = static_cast<char*>(place.signal.address) + member->offset;
+  place.signal.type = member->type;
+  place.unit = member->unit;
+  return {place, "", false};
+}
+
+FoundPlace find_element(const ArrayTag& tag, std::string_view path) {
+  const Array& array = tag.array;
+  const std::string what = "'" + tag.name + "' is an " + array_type_name(array);
+  const auto close = path.find(']');
+  if (!path.starts_with('[') || close == path.npos)
+    return refuse(what + "; an index has to follow, as in " + tag.name + "[" + std::to_string(array.lower) +
+                  "]");
+  const std::string_view text = path.substr(1, close - 1);
+  Place place{.signal = {array.memory, array.element->type}, .array = &tag};
+  if (text.empty()) {
+    place.elements = {array.lower, static_cast<std::uint32_t>(array.count()),
+                      static_cast<std::uint32_t>(array.element->size)};
+    return find_member(tag, place, path.substr(close + 1));
+  }
+  std::int64_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc{} || end != text.data() + text.size() || !array.holds(index))
+    return refuse(what + " and has no element [" + shown(text) +
+                  "]; allowed: " + std::to_string(array.lower) + " to " + std::to_string(array.upper));
+  place.signal.address = array.at(index);
+  return find_member(tag, place, path.substr(close + 1));
+}
+
+/// The elements of a variable of which a path with "[]" leaves the index open.
+FoundPlace find_variable_of(TechnologyObject& object, std::string_view path);
+FoundPlace find_variables_of(TechnologyObject& object, std::string_view path, std::size_t brackets) {
+  std::string first(path);
+  first.insert(brackets + 1, "1");
+  FoundPlace found = find_variable_of(object, first);
+  if (found.place && found.place->variable != nullptr)
+    found.place->elements = {1, static_cast<std::uint32_t>(found.place->variable->count),
+                             static_cast<std::uint32_t>(found.place->variable->stride)};
+  return found;
+}
+
 FoundPlace find_variable_of(TechnologyObject& object, std::string_view path) {
+  if (const auto brackets = path.find("[]"); brackets != path.npos)
+    return find_variables_of(object, path, brackets);
   void* const data = object.data_block();
   const VariablePlace place = find_variable(object.kind, path);
   if (place.variable != nullptr) {
@@ -205,7 +273,7 @@ std::string kind_names(ObjectKinds kinds) {
 }
 
 std::string why_not_writable(const Place& place) {
-  if (place.tag != nullptr) return "";
+  if (place.tag != nullptr || place.array != nullptr) return "";
   if (place.pin != nullptr)
     return "a pin cannot be written from outside its call; allowed: tags, and variables that take effect at "
            "run time "
@@ -298,13 +366,32 @@ FoundPlace Names::find_within(const Entry& entry, std::string_view path) const {
     if (!path.empty()) return refuse("the tag '" + entry.name + "' has no part " + quote(whole));
     return with_bit({.signal = (*tag)->signal, .tag = *tag}, bit, entry.name);
   }
+  if (const auto* array = std::get_if<const ArrayTag*>(&entry.entity)) return find_element(**array, path);
   if (const auto* instance = std::get_if<const Instance*>(&entry.entity)) return find_pin(**instance, path);
   if (TechnologyObject* const* const object = std::get_if<TechnologyObject*>(&entry.entity))
     return find_variable_of(**object, path);
   return {std::nullopt, quote(entry.name) + " " + std::string(kKnownProblem), true};
 }
 
+Names::FoundArray Names::find_array(std::string_view name) const {
+  const Entity* const entity = find_entity(name);
+  if (entity == nullptr) return {nullptr, "there is no tag " + quote(name) + nearest_name(name)};
+  if (std::holds_alternative<std::monostate>(*entity)) return {};
+  if (const auto* array = std::get_if<const ArrayTag*>(entity)) return {*array, ""};
+  return {nullptr, quote(name) + " is no array; allowed: the name of a tag of type ARRAY"};
+}
+
 FoundPlace Names::find(std::string_view path) const {
+  FoundPlace found = find_elements(path);
+  if (found.place && found.place->elements.count > 0)
+    return refuse(
+        "the index is missing in " + quote(path) +
+        "; allowed: " + std::to_string(found.place->elements.lower) + " to " +
+        std::to_string(found.place->elements.lower + std::int64_t{found.place->elements.count} - 1));
+  return found;
+}
+
+FoundPlace Names::find_elements(std::string_view path) const {
   const auto end = path.find_first_of(".[");
   const std::string_view name = path.substr(0, end);
   const Entry* const found = entry(name);
@@ -319,7 +406,7 @@ Reference Names::resolve(std::string_view name, std::string_view path) const {
   const Entry* const found = entry(name);
   FoundPlace place = found == nullptr ? unknown(name) : find_within(*found, path);
   if (!place.place) return {std::nullopt, std::move(place.problem)};
-  return {place.place->signal, ""};
+  return {place.place->signal, "", place.place->elements};
 }
 
 }  // namespace lockstep

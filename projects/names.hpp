@@ -24,14 +24,16 @@ std::string identifier_problem(std::string_view name);
 /// The published names of kinds, for messages: "TO_PositioningAxis, TO_SynchronousAxis".
 std::string kind_names(ObjectKinds kinds);
 
-/// A value of the project, found by its path. Exactly one of tag, pin and variable is set.
+/// A value of the project, found by its path. Exactly one of tag, array, pin and variable is set.
 struct Place {
   Signal signal;
   Unit unit = Unit::kNone;
   const Tag* tag = nullptr;
+  const ArrayTag* array = nullptr;  ///< of which it is an element
   const Pin* pin = nullptr;
   const Variable* variable = nullptr;
   TechnologyObject* object = nullptr;  ///< whose variable it is
+  ElementRange elements{};             ///< of a path with "[]": `signal` is the first of them
 };
 
 /// A place, or what is wrong with the path.
@@ -52,7 +54,8 @@ std::string why_no_start_value(const Place& place);
 class Names final : public Scope {
  public:
   /// What a name stands for; monostate: something whose declaration is faulty.
-  using Entity = std::variant<std::monostate, const Tag*, const Instance*, TechnologyObject*>;
+  using Entity =
+      std::variant<std::monostate, const Tag*, const ArrayTag*, const Instance*, TechnologyObject*>;
 
   /// Adds a name. A name that is added twice stands for something faulty from then on.
   /// @return what is wrong with it: no identifier, or taken already; empty if nothing is.
@@ -70,8 +73,17 @@ class Names final : public Scope {
   /// @param kinds that are allowed
   FoundObject find_object(std::string_view name, ObjectKinds kinds) const;
 
+  /// The array of a name, or what is wrong.
+  struct FoundArray {
+    const ArrayTag* array = nullptr;
+    std::string problem;  ///< empty if there is an array, or if the problem is known already
+  };
+  FoundArray find_array(std::string_view name) const;
+
   /// The place to which a path leads, in any case.
   FoundPlace find(std::string_view path) const;
+  /// The same; an index may be missing, as in "points[].x": then the place tells what it may choose from.
+  FoundPlace find_elements(std::string_view path) const;
 
   /// For the compiler of expressions.
   Reference resolve(std::string_view name, std::string_view path) const override;

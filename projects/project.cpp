@@ -60,6 +60,12 @@ std::optional<Place> Loading::find(const JsonValue& at, std::string_view path) c
   return found.place;
 }
 
+std::optional<Place> Loading::find_elements(const JsonValue& at, std::string_view path) const {
+  const FoundPlace found = names().find_elements(path);
+  if (!found.place && !found.known_problem) problems.report(at, found.problem);
+  return found.place;
+}
+
 TechnologyObject* Loading::find_object(const JsonValue* name, ObjectKinds kinds) const {
   const auto text = read_string(name, problems);
   if (!text) return nullptr;

@@ -355,8 +355,13 @@ Json root_schema() {
       object(keys::kClock, {{"servo_cycle", duration("period of MC_Servo")},
                             {"interpolator_ratio", integer("servo cycles per interpolator cycle", 1, 32)},
                             {"overrun", words("what three overruns in a row do", words::kOverrun)}});
-  const Json tag = object(keys::kTag, {{"type", words("elementary type", tag_type_names())},
-                                       {"init", value("value at the start")},
+  const Json type = {
+      {"description", "elementary type, or ARRAY[lower..upper] OF one or of a structure of cams"},
+      {"anyOf", {words("elementary type", tag_type_names()), text("array")}}};
+  const Json init = described("value at the start; of an array [element, ...] from the first one on",
+                              {{"type", {"boolean", "number", "string", "array"}}});
+  const Json tag = object(keys::kTag, {{"type", type},
+                                       {"init", init},
                                        {"retain", {{"type", "boolean"}, {"description", "kept across runs"}}},
                                        {"comment", text("for the reader")}});
   const Json stimulus = object(keys::kStimulus, {{"at", duration("time since the start")},

@@ -13,6 +13,16 @@ Tag& Controller::add_tag(Tag tag) {
   return tags.back();
 }
 
+ArrayTag& Controller::add_array(std::string name, Array array) {
+  constexpr std::size_t kWord = sizeof(std::uint64_t);
+  ArrayTag& tag = arrays.emplace_back();
+  tag.name = std::move(name);
+  tag.memory.resize((array.count() * array.element->size + kWord - 1) / kWord);
+  array.memory = tag.memory.data();
+  tag.array = array;
+  return tag;
+}
+
 TechnologyObject& Controller::add_object(ObjectKind kind, std::string name) {
   const auto number = static_cast<DB_ANY>(objects.size() + 1);
   switch (kind) {

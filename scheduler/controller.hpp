@@ -12,6 +12,7 @@
 #include "scheduler/process_image.hpp"
 #include "scheduler/program.hpp"
 #include "scheduler/trace_ring.hpp"
+#include "tech_objects/array.hpp"
 #include "tech_objects/axis.hpp"
 #include "tech_objects/cam.hpp"
 #include "tech_objects/coupling_order.hpp"
@@ -37,6 +38,14 @@ struct Tag {
   bool retain = false;
   std::string comment;
   Signal signal{};  ///< where it lives, set by `Controller::add_tag`
+};
+
+/// A named array of the project.
+struct ArrayTag {
+  std::string name;
+  std::string comment;
+  Array array;
+  std::vector<std::uint64_t> memory;  ///< of the array, aligned for any element
 };
 
 /// An instance of a function block with its name.
@@ -83,6 +92,7 @@ class Controller {
   std::vector<MeasuringInput*> measuring_inputs;           ///< those that are measuring inputs
   std::vector<Cam*> cams;                                  ///< those of them that are cams
   std::deque<Tag> tags;
+  std::deque<ArrayTag> arrays;
   std::deque<Instance> instances;
   std::deque<Program> programs;
   std::vector<Stimulus> stimuli;
@@ -93,6 +103,8 @@ class Controller {
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
 
   Tag& add_tag(Tag tag);
+  /// An array tag whose elements are 0. `array.memory` is set here.
+  ArrayTag& add_array(std::string name, Array array);
   /// Adds an object of any kind; its number is its place among all.
   TechnologyObject& add_object(ObjectKind kind, std::string name);
   Axis& add_axis(ObjectKind kind, std::string name);

@@ -99,6 +99,18 @@ void ExpressionBuilder::signal(const Signal& signal) {
        load_instruction(signal, Mode::kPlain), false);
 }
 
+/// Two instructions: the index becomes the way from the first element, and that the value. The range has room
+/// in what the first does not need.
+void ExpressionBuilder::element(const Signal& first, const ElementRange& range) {
+  const auto packed = std::uint64_t{static_cast<std::uint32_t>(range.lower)} << 32 | range.count;
+  code_.push_back(instruction(expression_steps::index(), packed, range.stride));
+  Instruction load = instruction(expression_steps::element(first), 0, 0,
+                                 static_cast<std::size_t>(std::max<int>(first.bit, 0)));
+  load.operand.address = first.address;
+  code_.push_back(load);
+  values_.back().constant = false;
+}
+
 void ExpressionBuilder::constant(Value value) {
   push(expression_steps::constant(Mode::kPlain), expression_steps::constant(Mode::kResting),
        instruction(nullptr, std::bit_cast<std::uint64_t>(value)), true);

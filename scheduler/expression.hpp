@@ -10,6 +10,7 @@
 /// - integers wrap at the width of their type; a division truncates, MOD has the sign of the dividend, the
 ///   least number divided by -1 wraps; a division by zero gives 0 and is counted;
 /// - REAL is rounded to single precision after each operation; a real division gives infinity or NaN;
+/// - an element of an array whose index is out of range is 0 or FALSE, which is counted;
 /// - with a NaN every comparison but <> is FALSE, and MIN, MAX and LIMIT give NaN;
 /// - a real becomes an integer by rounding to the nearest, a half to the even one; out of range it becomes
 /// the
@@ -27,6 +28,7 @@
 #include <utility>
 #include <vector>
 
+#include "tech_objects/array.hpp"
 #include "tech_objects/types.hpp"
 
 namespace lockstep {
@@ -34,6 +36,7 @@ namespace lockstep {
 /// What evaluation counts; owned by the cycle, which reports it.
 struct EvaluationCounters {
   std::uint64_t integer_divisions_by_zero = 0;  ///< `/` and MOD of integers, TIME / integer
+  std::uint64_t indices_out_of_range = 0;       ///< of arrays, read or written
 };
 
 /// What an instruction computes. The first group has two operands, the second one.
@@ -98,7 +101,8 @@ struct Instruction {
   };
   Step step;
   Operand operand;     ///< where a value is loaded from, or the constant right operand
-  std::uint16_t slot;  ///< where the left operand rests, or where the accumulator is put first
+  std::uint16_t slot;  ///< where the left operand rests, or where the accumulator is put first; of an index:
+                       ///< distance of two elements
   std::uint16_t bit;   ///< bit to load, or number of inputs
 };
 
@@ -141,6 +145,9 @@ class ExpressionBuilder {
 
   void signal(const Signal& signal);
   void constant(Value value);
+  /// Replaces the last value, an index (LINT), by the element that it chooses.
+  /// @param first the element with the lowest index, or a bit of it  @param range stride < 65536
+  void element(const Signal& first, const ElementRange& range);
   /// Applies an operation to the last one or two values. `type` is that of the operands (of the left one for
   /// shifts, whose count is a LINT). Returns whether the operation exists for the type.
   [[nodiscard]] bool apply(Operation operation, Type type);

@@ -62,6 +62,25 @@ Word load_bit(const Instruction* at, Word accumulator, Word* slots, EvaluationCo
     return next(at, bit, slots, counters);
 }
 
+Word take_index(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
+  const Word packed = at->operand.constant;
+  const ElementRange range{static_cast<DINT>(packed >> 32), static_cast<std::uint32_t>(packed), at->slot};
+  const Word way = range.offset_of(static_cast<std::int64_t>(accumulator));
+  if (way == ElementRange::kOutside) ++counters.indices_out_of_range;
+  return next(at, way, slots, counters);
+}
+
+template <class T, bool one_bit>
+Word load_element(const Instruction* at, Word way, Word* slots, EvaluationCounters& counters) noexcept {
+  if (way == ElementRange::kOutside) return next(at, 0, slots, counters);
+  T value;
+  std::memcpy(&value, static_cast<const char*>(at->operand.address) + way, sizeof value);
+  if constexpr (one_bit)
+    return next(at, (static_cast<Word>(value) >> at->bit) & 1u, slots, counters);
+  else
+    return next(at, encode(value), slots, counters);
+}
+
 template <Mode mode>
 Word take_constant(const Instruction* at, Word accumulator, Word* slots,
                    EvaluationCounters& counters) noexcept {
@@ -193,6 +212,7 @@ Step visit(Type type, Visitor visitor) {
       return visitor.template operator()<double>();
     case Type::AXIS:
     case Type::TAG:
+    case Type::ARRAY:
       break;
   }
   return nullptr;
@@ -373,6 +393,18 @@ Step unary(Operation operation, Type type) noexcept {
 
 Step conversion(Type from, Type to) noexcept {
   return visit(from, [to]<class From>() -> Step { return conversion_from<From>(to); });
+}
+
+Step index() noexcept {
+  return take_index;
+}
+
+Step element(const Signal& first) noexcept {
+  return visit(first.type, [&]<class T>() -> Step {
+    if constexpr (Integer<T>)
+      if (first.bit >= 0) return load_element<T, true>;
+    return load_element<T, false>;
+  });
 }
 
 Step bits_of_real() noexcept {

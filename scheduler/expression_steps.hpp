@@ -16,6 +16,9 @@ enum class Mode {
 
 Instruction::Step load(const Signal& signal, Mode mode) noexcept;
 Instruction::Step constant(Mode mode) noexcept;
+/// An index in the accumulator becomes the way to its element [byte]; `element` loads what is there.
+Instruction::Step index() noexcept;
+Instruction::Step element(const Signal& first) noexcept;
 /// Two operands: `slot` and the accumulator, or, with `constant_right`, the accumulator and `constant`.
 Instruction::Step binary(Operation operation, Type type, bool constant_right) noexcept;
 /// One operand. Functions of reals compute in double precision; REAL has to be rounded by a conversion after.

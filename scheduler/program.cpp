@@ -29,6 +29,12 @@ void Program::add_assignment(Expression expression, Signal place, const Variable
       &places_.emplace_back(Place{place, &variable});
 }
 
+void Program::add_assignment(Expression expression, Signal first, const Variable* variable, Expression index,
+                             const ElementRange& range) {
+  instructions_.emplace_back(Op::assign_element, keep(std::move(expression))).place =
+      &places_.emplace_back(Place{first, variable, keep(std::move(index)), range});
+}
+
 void Program::add_call(Block& block) {
   instructions_.emplace_back(Op::call).block = &block;
 }
@@ -66,6 +72,9 @@ void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept
       case Op::assign_variable:
         assign_variable(*instruction.place, instruction.expression->evaluate(counters));
         break;
+      case Op::assign_element:
+        assign_element(*instruction.place, instruction.expression->evaluate(counters), counters);
+        break;
       case Op::jump:
         at = first + instruction.target;
         break;
@@ -74,6 +83,20 @@ void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept
         break;
     }
   }
+}
+
+void Program::assign_element(const Place& place, Value value, EvaluationCounters& counters) const noexcept {
+  const std::uint64_t way = place.range.offset_of(place.index->evaluate(counters).i);
+  if (way == ElementRange::kOutside) {
+    ++counters.indices_out_of_range;
+    return;
+  }
+  Place chosen = place;
+  chosen.signal.address = static_cast<char*>(place.signal.address) + way;
+  if (place.variable == nullptr)
+    chosen.signal.store(value);
+  else
+    assign_variable(chosen, value);
 }
 
 void Program::assign_variable(const Place& place, Value value) const noexcept {

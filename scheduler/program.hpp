@@ -37,6 +37,11 @@ class Program {
   /// Assigns to a variable of a technology object: an LREAL out of its range is brought to its limit, any
   /// other value that is not permitted is refused and counted, and the variable keeps what it had.
   void add_assignment(Expression expression, Signal place, const Variable& variable);
+  /// Assigns to the element that an index (LINT) chooses when the assignment runs; `first` is the one with
+  /// the lowest index. An index out of range is counted and nothing is assigned.
+  /// @param variable of a technology object of which `first` is an element; nullptr: an array tag
+  void add_assignment(Expression expression, Signal first, const Variable* variable, Expression index,
+                      const ElementRange& range);
   void add_call(Block& block);
   /// Begins what runs only if the BOOL expression is TRUE; returns a mark for `end_branch`.
   std::size_t begin_branch(Expression condition);
@@ -51,10 +56,20 @@ class Program {
   std::uint64_t refused_assignments() const noexcept { return refused_; }
 
  private:
-  enum class Op : std::uint8_t { call, assign_flag, assign, assign_variable, jump, jump_unless };
+  enum class Op : std::uint8_t {
+    call,
+    assign_flag,
+    assign,
+    assign_variable,
+    assign_element,
+    jump,
+    jump_unless
+  };
   struct Place {
     Signal signal;
     const Variable* variable = nullptr;
+    const Expression* index = nullptr;  // of an element
+    ElementRange range{};
   };
   /// One step; which members count is known from `op`.
   struct Instruction {
@@ -72,6 +87,7 @@ class Program {
 
   const Expression* keep(Expression expression);
   void assign_variable(const Place& place, Value value) const noexcept;
+  void assign_element(const Place& place, Value value, EvaluationCounters& counters) const noexcept;
 
   std::string name_;
   Ob ob_;

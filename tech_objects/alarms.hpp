@@ -75,7 +75,16 @@ enum class ErrorId : std::uint16_t {
   cam_in_use = 0x80AB,
   cam_elements_wrong = 0x80AC,
   outside_cam = 0x80AD,
+  start_point_cam = 0x80E1,
+  start_segment_cam = 0x80E2,
+  start_point_array = 0x80E3,
+  start_segment_array = 0x80E4,
+  number_of_points = 0x80E5,
+  number_of_segments = 0x80E6,
+  cam_being_copied = 0x80E7,
   cam_in_interpolation = 0x80E8,
+  points_array = 0x80E9,
+  segments_array = 0x80EA,
   unspecified = 0x8FFF
 };
 

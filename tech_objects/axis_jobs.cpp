@@ -91,6 +91,7 @@ ErrorId Axis::check_synchronous(const Job& job) const noexcept {
 }
 
 ErrorId Axis::check_cam(const Job& job) const noexcept {
+  if (job.cam->restarting()) return ErrorId::restarting;
   if (job.cam->in_interpolation()) return ErrorId::cam_in_interpolation;
   const Job* base = running_[kBase];
   const bool camming = base != nullptr && base->kind == JobKind::MC_CamIn && motion_ == Motion::synchronous;

@@ -83,15 +83,22 @@ void Axis::activate_waiting(Motion motion) noexcept {
     coupling_changed = true;
     return;
   }
-  // The new cam continues the following position of the old one, with what is superimposed on it.
+  // The new cam continues the following position of the old one, with what is superimposed on it; what still
+  // moves of that goes on by itself, to rest.
+  const bool moves = at_cam_end && superimposed_.in_use() && !superimposed_.resting();
   const DoubleDouble superimposed =
-      at_cam_end && superimposed_.in_use() ? superimposed_.value() : DoubleDouble{};
-  absorb_superimposed();
+      at_cam_end && superimposed_.in_use() && !moves ? superimposed_.value() : DoubleDouble{};
+  if (!moves) absorb_superimposed();
+  if (moves) end_job(kSuperimposed, JobPhase::aborted, ErrorId::none);
+  if (moves && superimposed_.stop(maximum_dynamics(), false) != PlanResult::ok) superimposed_.rest();
   running_[kBase] = &job;
   job.phase = motion == Motion::synchronous ? JobPhase::reached : JobPhase::active;
   set_position_control(true);
+  if (at_cam_end) {
+    awaited_.raise_cam(superimposed);
+    awaited_.settle_shifts(synchronous_, maximum_dynamics());
+  }
   synchronous_ = awaited_;
-  if (at_cam_end) synchronous_.raise_cam(superimposed);
   show_coupling(job, motion);
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "tech_objects/array.hpp"
 #include "tech_objects/cam_data.hpp"
 #include "tech_objects/cam_function.hpp"
 #include "tech_objects/cam_interpolation.hpp"
@@ -17,12 +18,29 @@
 
 namespace lockstep {
 
+/// What MC_CopyCamData copies from where to where. Indices of the cam count from 1, those of an array as it
+/// is declared.
+struct CamCopy {
+  const Array* points = nullptr;    ///< ARRAY OF TO_Cam_Struct_PointData; nullptr: none
+  const Array* segments = nullptr;  ///< ARRAY OF TO_Cam_Struct_SegmentData; nullptr: none
+  DINT start_point_cam = 1;
+  DINT start_segment_cam = 1;
+  DINT start_point_array = 1;
+  DINT start_segment_array = 1;
+  DINT number_of_points = 0;
+  DINT number_of_segments = 0;
+  bool keep = false;  ///< Mode 1: elements that are valid stay valid
+};
+
 /// TO_Cam and TO_Cam_10k.
 ///
 /// An interpolation by MC_InterpolateCam goes through three hands. The cycle takes a copy of the definition
 /// (`submit`); another thread, or the cycle itself where there is none, makes the curve (`work`); the cycle
 /// brings it into effect at one interpolator tick (`step`). In between nobody waits: the copy and the spare
 /// curve belong to whoever `stage_` says.
+///
+/// Copying by MC_CopyCamData and a restart by MC_Reset move a part of the elements per interpolator tick. One
+/// of the three runs at a time.
 class Cam final : public TechnologyObject {
  public:
   Cam(ObjectKind kind, std::string name, DB_ANY number);
@@ -52,14 +70,20 @@ class Cam final : public TechnologyObject {
   /// The curve in effect. It does not change while the cam is in use.
   const CamFunction& function() const noexcept { return functions_.active(); }
   bool interpolated() const noexcept { return functions_.active().interpolated(); }
-  bool in_interpolation() const noexcept { return job_ != nullptr; }
+  bool in_interpolation() const noexcept { return runs(JobKind::MC_InterpolateCam); }
+  bool copying() const noexcept { return runs(JobKind::MC_CopyCamData); }
+  bool restarting() const noexcept { return runs(JobKind::MC_Reset); }
 
   /// An axis that follows the cam, or waits to do so, says so in every interpolator tick.
   void show_use() noexcept { used_ = true; }
   bool in_use() const noexcept { return used_ || in_use_; }
 
-  /// MC_InterpolateCam: takes the definition as it stands. Fails with 16#80AB if the cam is in use, 16#80E8
-  /// if it is being interpolated already. MC_Reset: a cam has no alarms, so nothing is to be done.
+  /// MC_InterpolateCam: takes the definition as it stands. MC_CopyCamData: copies what `Job::copy` says.
+  /// MC_Reset with Restart: takes over the start values and interpolates them, as when the project is loaded;
+  /// without it there is nothing to be done, since a cam has no alarms.
+  ///
+  /// Fails with 16#80AB if the cam is in use (but for copying), 16#80E7 if it is being copied into, 16#80E8
+  /// if it is being interpolated, 16#800D if it is restarting, and with the errors of what is to be copied.
   void submit(Job& job) noexcept override;
 
   // ---- Cycle: called by the scheduler
@@ -96,6 +120,11 @@ class Cam final : public TechnologyObject {
 
   enum class Stage : std::uint8_t { idle, wanted, ready };
 
+  bool runs(JobKind job) const noexcept { return job_ != nullptr && job_->kind == job; }
+  ErrorId check(const Job& job) const noexcept;
+  ErrorId check_copy(const CamCopy& copy) const noexcept;
+  void copy_part() noexcept;
+  void restore_part() noexcept;
   void take_definition() noexcept;
   void take_curve() noexcept;
   bool definition_differs() noexcept;
@@ -110,6 +139,8 @@ class Cam final : public TechnologyObject {
   Block taken_;  // the definition of the curve in effect, or of the one that is being made
   Block start_;
   std::size_t compared_ = 0;            // elements that have been compared in this round
+  CamCopy copy_;                        // that is being carried out
+  std::size_t moved_ = 0;               // points that it, or the restart, has moved so far
   ErrorId error_ = ErrorId::none;       // of the curve that is ready
   TO_Cam_Struct_StatusCam status_cam_;  // of the curve that is ready
   CamFunctionPair functions_;

@@ -103,6 +103,9 @@ bool CamBuilder::finish(double end, double following_value) noexcept {
     return false;
   }
   f_.start_ = f_.pieces_[0].start;
+  // What start_following_value() reads, whatever the shape.
+  if (f_.pieces_[0].shape == CamFunction::Shape::segment)
+    f_.pieces_[0].c[0] = f_.curved_value(f_.pieces_[0], f_.start_).position;
   f_.end_ = end;
   f_.pieces_[f_.count_] = {kInfinity, {}, CamFunction::Shape::polynomial, 0};
   // The end is a piece of its own, so that the value there is the defined one to the last bit. Until it is

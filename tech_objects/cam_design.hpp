@@ -116,6 +116,7 @@ struct CamElement {
   CamShape shape;
   std::string comment;
   std::optional<CamTransition> transition;  ///< to the next element
+  std::string gap_comment{};                ///< of a transition that is left to the interpolation of the cam
 };
 
 struct CamDesign {

@@ -26,10 +26,12 @@ std::uint32_t CamFunction::bucket_of(double x) const noexcept {
 }
 
 std::uint32_t CamFunction::find(double x, std::uint32_t near) const noexcept {
-  // Mostly the next piece or the one before.
+  // There are as many buckets as pieces: where these are spread evenly, the bucket's number is the piece's.
+  const std::uint32_t bucket = bucket_of(x);
+  if (x >= pieces_[bucket].start && x < pieces_[bucket + 1].start) return bucket;
+  // Else mostly the next piece or the one before.
   if (near < count_ && x >= pieces_[near + 1].start && x < pieces_[near + 2].start) return near + 1;
   if (near > 0 && near <= count_ && x >= pieces_[near - 1].start && x < pieces_[near].start) return near - 1;
-  const std::uint32_t bucket = bucket_of(x);
   std::uint32_t low = bucket > 0 ? buckets_[bucket - 1] : 0;  // begins at x or before
   std::uint32_t high = buckets_[bucket] + 1;                  // begins after x
   while (high - low > 1) {

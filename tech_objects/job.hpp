@@ -11,6 +11,7 @@ namespace lockstep {
 
 class Cam;
 class LeadingObject;
+struct CamCopy;
 
 /// The instruction that a job comes from.
 enum class JobKind : std::uint8_t {
@@ -41,7 +42,8 @@ enum class JobKind : std::uint8_t {
   MC_MeasuringInput,
   MC_MeasuringInputCyclic,
   MC_AbortMeasuringInput,
-  MC_InterpolateCam
+  MC_InterpolateCam,
+  MC_CopyCamData
 };
 
 /// Whether it couples the axis to a leading value.
@@ -141,7 +143,8 @@ struct Job {
   DINT application_mode{};
   BOOL update{};  ///< MC_GearInVelocity: the ratio counts in every cycle
 
-  BOOL limited{};  ///< MC_MeasuringInput…: only from start_position to position
+  const CamCopy* copy{};  ///< MC_CopyCamData: what is copied; read when the job is handed over
+  BOOL limited{};         ///< MC_MeasuringInput…: only from start_position to position
 
   // Written by the axis, or by the object that measures.
   MeasuredEdges measured;

@@ -105,6 +105,7 @@ JobClass class_of(const Job& job, bool active) noexcept {
     case JobKind::MC_MeasuringInputCyclic:
     case JobKind::MC_AbortMeasuringInput:
     case JobKind::MC_InterpolateCam:
+    case JobKind::MC_CopyCamData:
       break;  // stand beside the tables
   }
   return JobClass::home_direct;

@@ -36,6 +36,21 @@ ErrorId Shift::begin(const ShiftRequest& request, double period) noexcept {
   return ErrorId::none;
 }
 
+void Shift::settle_at(DoubleDouble value, const Shift& moving, const ProfileLimits& limits,
+                      double period) noexcept {
+  const MotionState from{0.0, moving.velocity_, moving.acceleration_};
+  start_at(value);
+  if (from.velocity == 0.0 && from.acceleration == 0.0) return;
+  if (plan_stop(from, limits, PresentAcceleration::keep, profile_) != PlanResult::ok) return;
+  velocity_ = from.velocity;
+  acceleration_ = from.acceleration;
+  base_ = value;
+  period_ = period;
+  ticks_ = -1;  // the next tick shows the value
+  settling_ = true;
+  in_use_ = true;
+}
+
 void Shift::halt() noexcept {
   phase_ = Phase::resting;
   settling_ = false;

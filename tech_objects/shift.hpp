@@ -49,6 +49,11 @@ class Shift {
     in_use_ = value.hi != 0.0;
   }
 
+  /// At a value in the next tick, with the motion of a shift that ends there; then it comes to rest, without
+  /// a job.
+  void settle_at(DoubleDouble value, const Shift& moving, const ProfileLimits& limits,
+                 double period) noexcept;
+
   /// Begins to wait or to run. A shift that is running goes on from its value, velocity and acceleration.
   /// @return an error if no profile can be planned
   ErrorId begin(const ShiftRequest& request, double period) noexcept;

@@ -22,6 +22,17 @@ enum Profile : DINT {
   kAheadFromHere = 6
 };
 
+/// A shift as it will be in this tick.
+Shift one_tick_on(const Shift& shift, const LeadingStep& step) noexcept {
+  Shift moved = shift;
+  moved.advance(step);
+  return moved;
+}
+
+bool moves(const Shift& shift) noexcept {
+  return shift.phase() != Shift::Phase::resting || shift.settling();
+}
+
 /// A position that no axis can take (FALSE for NaN).
 bool possible(double position) noexcept {
   return std::abs(position) <= kPositionRange;
@@ -226,7 +237,11 @@ SynchronousMotion::Start SynchronousMotion::watch_cam_end(const SynchronousMotio
   if (!camming) return reject(ErrorId::no_camming);
   const DoubleDouble phase = active->phase_.value();
   const CamFollowing& old = active->follow_;
-  const CamEnd end = old.end_before(advanced(leading_now_.position, phase, leading_modulo_));
+  // The active motion has not been advanced yet: what its phase shift will be decides whether it is at the
+  // end.
+  const DoubleDouble now =
+      moves(active->phase_) ? one_tick_on(active->phase_, leading_step()).value() : phase;
+  const CamEnd end = old.end_before(advanced(leading_now_.position, now, leading_modulo_));
   if (end == CamEnd::none) return Start::not_yet;
   const CamFollowing::LeadingPlace place = old.end_place(end);
   const DoubleDouble leading = place.value - phase;
@@ -243,6 +258,24 @@ SynchronousMotion::Start SynchronousMotion::watch_cam_end(const SynchronousMotio
   master_offset_ = normalised(0, leading, leading_modulo_).value - cam_sync_way_ - cam_start();
   synchronous_ = true;
   return Start::synchronous;
+}
+
+/// The new cam absorbs the position of both from the tick before; their velocities are no matter of either
+/// cam and must not step. In this tick both go on as they would have, then they come to rest.
+void SynchronousMotion::settle_shifts(const SynchronousMotion& ended, const Dynamics& dynamics) noexcept {
+  const ProfileLimits limits{.velocity_max = dynamics.velocity,
+                             .velocity_min = -dynamics.velocity,
+                             .acceleration = dynamics.acceleration,
+                             .deceleration = dynamics.deceleration,
+                             .jerk = dynamics.jerk};
+  if (moves(ended.phase_)) {
+    const Shift phase = one_tick_on(ended.phase_, leading_step());
+    phase_.settle_at(phase.value() - ended.phase_.value(), phase, limits, period_);
+  }
+  if (moves(ended.offset_)) {
+    const Shift offset = one_tick_on(ended.offset_, leading_step());
+    offset_.settle_at(offset_.value() + (offset.value() - ended.offset_.value()), offset, limits, period_);
+  }
 }
 
 // ---- Every tick

@@ -98,6 +98,9 @@ class SynchronousMotion {
     offset_.start_at(offset_.value() + by);
     slave_offset_ = offset_.value().hi;
   }
+  /// A cam that takes over at the end of another: phase shift and offset that still move there come to rest
+  /// on this one.
+  void settle_shifts(const SynchronousMotion& ended, const Dynamics& dynamics) noexcept;
   /// Offsets in effect when the job became active.
   double master_offset() const noexcept { return master_offset_; }
   double slave_offset() const noexcept { return slave_offset_; }

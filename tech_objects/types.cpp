@@ -7,10 +7,10 @@
 namespace lockstep {
 namespace {
 
-constexpr std::array<std::string_view, 19> kNames = {
+constexpr std::array<std::string_view, 20> kNames = {
     "BOOL", "SINT",  "INT",   "DINT", "LINT",  "USINT", "UINT",   "UDINT", "ULINT", "BYTE",
-    "WORD", "DWORD", "LWORD", "REAL", "LREAL", "TIME",  "DB_ANY", "AXIS",  "TAG"};
-constexpr std::array<int, 19> kSizes = {1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 4, 8, 8};
+    "WORD", "DWORD", "LWORD", "REAL", "LREAL", "TIME",  "DB_ANY", "AXIS",  "TAG",   "ARRAY"};
+constexpr std::array<int, 20> kSizes = {1, 1, 2, 4, 8, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 8, 4, 8, 8, 8};
 
 template <class T>
 T read(const void* address) noexcept {
@@ -106,6 +106,7 @@ Value Signal::load() const noexcept {
     case Type::LWORD:
     case Type::AXIS:
     case Type::TAG:
+    case Type::ARRAY:
       value.u = read<std::uint64_t>(address);
       break;
     case Type::REAL:

@@ -9,6 +9,8 @@
 
 namespace lockstep {
 
+struct Array;
+
 using BOOL = bool;
 using SINT = std::int8_t;
 using INT = std::int16_t;
@@ -51,7 +53,8 @@ enum class Type : std::uint8_t {
   TIME,
   DB_ANY,  ///< number of a technology object
   AXIS,    ///< pin that takes a technology object by its name; holds an `Axis*`
-  TAG      ///< variable that takes a tag by its name (VREF); holds the address of a BOOL
+  TAG,     ///< variable that takes a tag by its name (VREF); holds the address of a BOOL
+  ARRAY    ///< pin that takes an array by the name of its tag; holds a `const Array*`
 };
 
 /// Published name of a type, such as "LREAL".
@@ -113,6 +116,8 @@ consteval Type type_of() {
     return Type::DB_ANY;
   else if constexpr (std::is_same_v<T, const bool*>)
     return Type::TAG;
+  else if constexpr (std::is_same_v<T, const Array*>)
+    return Type::ARRAY;
   else if constexpr (std::is_pointer_v<T>)
     return Type::AXIS;
   else

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "bench/measure.hpp"
 #include "projects/expression_compiler.hpp"
 #include "projects/project.hpp"
+#include "tech_objects/cam.hpp"
 #include "tech_objects/cam_interpolation.hpp"
 #include "tech_objects/cam_motion.hpp"
 #include "tech_objects/gear_function.hpp"
@@ -95,9 +97,9 @@ Part gear(std::string name, const Modulo& leading, const Modulo& following) {
           100'000};
 }
 
-/// A cam of 10,000 points, which is moved along, alone or applied to a pair of axes.
-CamFunction long_cam() {
-  const auto made = std::make_unique<CamData10k>();
+/// A definition of 10,000 points of cubic splines.
+std::shared_ptr<CamData10k> long_definition() {
+  auto made = std::make_shared<CamData10k>();
   CamData10k& data = *made;
   for (std::size_t i = 0; i < data.Point.size(); ++i) {
     const double x = 360.0 * static_cast<double>(i) / 9999.0;
@@ -105,11 +107,70 @@ CamFunction long_cam() {
   }
   data.ValidPoint.fill(true);
   data.InterpolationSettings.InterpolationMode = 1;
-  CamFunction function(kCam10kPoints);
-  CamInterpolator interpolator(kCam10kPoints);
+  return made;
+}
+
+void interpolate(CamInterpolator& interpolator, const CamData10k& data, CamFunction& function) {
   if (interpolator.interpolate(elements_of(data), function) != ErrorId::none)
     throw std::runtime_error("no cam");
+}
+
+/// The cam, which is moved along, alone or applied to a pair of axes.
+CamFunction long_cam() {
+  CamFunction function(kCam10kPoints);
+  CamInterpolator interpolator(kCam10kPoints);
+  interpolate(interpolator, *long_definition(), function);
   return function;
+}
+
+Part cam_interpolation() {
+  auto data = long_definition();
+  auto function = std::make_shared<CamFunction>(kCam10kPoints);
+  auto interpolator = std::make_shared<CamInterpolator>(kCam10kPoints);
+  return {"cam of 10,000 points: interpolation by cubic splines",
+          [data, function, interpolator](int calls) {
+            for (int i = 0; i < calls; ++i) interpolate(*interpolator, *data, *function);
+          },
+          10};
+}
+
+Part cam_anywhere() {
+  auto function = std::make_shared<CamFunction>(long_cam());
+  auto places = std::make_shared<std::vector<double>>();
+  std::minstd_rand random(1);
+  for (int i = 0; i < 100'000; ++i)
+    places->push_back(360.0 * static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()));
+  return {"cam of 10,000 points: value and derivatives, anywhere",
+          [function, places, hint = CamHint{}, next = std::size_t{0}](int calls) mutable {
+            for (int i = 0; i < calls; ++i) {
+              keep(function->value((*places)[next], hint));
+              next = next + 1 < places->size() ? next + 1 : 0;
+            }
+          },
+          100'000};
+}
+
+/// The part of MC_CopyCamData that one interpolator cycle carries out, with the rest of the cam's tick.
+Part cam_copy() {
+  auto cam = std::make_shared<Cam>(ObjectKind::TO_Cam_10k, "Cam", DB_ANY{1});
+  auto data = long_definition();
+  auto job = std::make_shared<Job>();
+  auto points = std::make_shared<Array>(Array{&kCamPointElement, 1, 10000, data->Point.data()});
+  return {"cam of 10,000 points: a cycle of MC_CopyCamData",
+          [cam, data, job, points](int calls) {
+            const CamCopy copy{.points = points.get(), .number_of_points = 10000};
+            for (int i = 0; i < calls; ++i) {
+              if (!cam->copying()) {
+                *job = Job{};
+                job->kind = JobKind::MC_CopyCamData;
+                job->copy = &copy;
+                cam->submit(*job);
+              }
+              cam->step(nullptr);
+              cam->publish();
+            }
+          },
+          1000};
 }
 
 Part cam_curve() {
@@ -189,6 +250,9 @@ std::vector<Part> parts(bool quick) {
           gear("gear function: linear after linear axis, and a step of the leading axis", line, line),
           gear("gear function: modulo after modulo axis, and a step of the leading axis", ring, ring),
           cam_curve(),
+          cam_anywhere(),
+          cam_interpolation(),
+          cam_copy(),
           cam_applied(),
           expression("start", Type::BOOL),
           expression("start AND NOT stop", Type::BOOL),

@@ -52,7 +52,7 @@ void expect_choices(const json& object, std::span<const Choice> choices, const s
 }
 
 void expect_value(const json& shown, Value value, Type type, const std::string& what) {
-  if (type == Type::AXIS || type == Type::TAG)
+  if (type >= Type::AXIS)
     EXPECT_TRUE(shown.is_null()) << what;
   else if (type == Type::BOOL)
     EXPECT_EQ(shown, value.u != 0) << what;
@@ -83,7 +83,10 @@ TEST(Describe, TellsEveryPinOfEveryBlockAsItIsDeclared) {
       const json& own = shown["pins"][i];
       const std::string what = std::string(type.name) + "." + std::string(pin.name);
       EXPECT_EQ(own["name"], pin.name);
-      EXPECT_EQ(own["class"], pin.pin_class == PinClass::input ? "input" : "output") << what;
+      EXPECT_EQ(own["class"], pin.pin_class == PinClass::input    ? "input"
+                              : pin.pin_class == PinClass::output ? "output"
+                                                                  : "in_out")
+          << what;
       EXPECT_EQ(own["type"], pin.type == Type::AXIS ? "object" : type_name(pin.type)) << what;
       EXPECT_EQ(own.value("unit", ""), unit_text(pin.unit)) << what;
       EXPECT_EQ(own["text"], pin.text) << what;

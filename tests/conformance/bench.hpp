@@ -78,8 +78,10 @@ class Bench {
   /// A block on the bench: its object pins are wired, a leading axis where one is asked for.
   Subject& add(const BlockType& type) {
     Subject& subject = subjects_.emplace_back(type);
-    for (const Pin& pin : type.pins)
+    for (const Pin& pin : type.pins) {
       if (pin.type == Type::AXIS) subject.wire(pin, object_for(pin));
+      if (pin.type == Type::ARRAY) subject.wire_array(pin, array_for(pin));
+    }
     return subject;
   }
 
@@ -89,6 +91,11 @@ class Bench {
     if (among(ObjectKind::TO_SynchronousAxis, pin.objects))
       return pin.name == "Master" ? &leading : &following;
     return &input;
+  }
+
+  /// An array of the elements that the pin takes.
+  const Array* array_for(const Pin& pin) const noexcept {
+    return pin.element == &kCamPointElement ? &points_array : &segments_array;
   }
 
   /// Leading axis running, following axis homed and at rest.
@@ -197,6 +204,10 @@ class Bench {
   MC_GearIn gear_following;
   MC_CamIn cam_following;
   MC_MoveSuperimposed superimposed_following;
+  std::vector<TO_Cam_Struct_PointData> points = std::vector<TO_Cam_Struct_PointData>(21);
+  std::vector<TO_Cam_Struct_SegmentData> segments = std::vector<TO_Cam_Struct_SegmentData>(21);
+  Array points_array{&kCamPointElement, 0, 20, points.data()};
+  Array segments_array{&kCamSegmentElement, 0, 20, segments.data()};
   std::uint64_t allocations = 0;
   std::string first_fault;
   /// Whether a coupled axis is held to have no steps, too: with synchronizing distances of many cycles only.

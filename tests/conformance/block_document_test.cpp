@@ -22,7 +22,7 @@ std::string number_text(double number) {
 
 std::string default_text(Subject& block, const Pin& pin) {
   const double number = block.number(pin);
-  if (pin.type == Type::AXIS) return "";
+  if (pin.type >= Type::AXIS) return "";
   if (pin.type == Type::BOOL) return number != 0.0 ? "TRUE" : "FALSE";
   if (pin.type == Type::WORD) return "16#0000";
   if (pin.type == Type::TIME) return "T#" + number_text(number) + "s";
@@ -32,6 +32,7 @@ std::string default_text(Subject& block, const Pin& pin) {
 }
 
 std::string type_text(const Pin& pin) {
+  if (pin.type == Type::ARRAY) return "ARRAY[*] OF " + std::string(pin.element->name);
   if (pin.type != Type::AXIS) return std::string(type_name(pin.type));
   std::string text;
   for (const ObjectKindText& known : kObjectKinds)
@@ -55,8 +56,9 @@ void write_block(std::ostream& out, const BlockType& type) {
   out << "\n## " << type.name << "\n\n" << type.text << "\nSource: " << type.source << ".\n\n";
   out << "| pin | class | type | default | unit | meaning (error for a value that is not permitted) |\n";
   out << "|---|---|---|---|---|---|\n";
+  constexpr const char* kClasses[] = {"input", "output", "in and out"};
   for (const Pin& pin : type.pins)
-    out << "| " << pin.name << " | " << (pin.pin_class == PinClass::input ? "input" : "output") << " | "
+    out << "| " << pin.name << " | " << kClasses[static_cast<std::size_t>(pin.pin_class)] << " | "
         << type_text(pin) << " | " << (pin.pin_class == PinClass::input ? default_text(block, pin) : "")
         << " | " << unit_text(pin.unit) << " | " << meaning_text(pin) << " |\n";
 }

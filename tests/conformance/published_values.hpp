@@ -59,21 +59,57 @@ class PublishedValues {
     if (!relevant(subject, pin, modulo)) return Verdict::accepted;
     const auto found = pins_.find(std::string(pin.name));
     if (found == pins_.end() || !found->second.contains("allowed")) return Verdict::not_said;
-    bool only_values = true;
+    bool all_said = true;
     Verdict verdict = Verdict::not_said;
     for (const auto& rule : found->second.at("allowed")) {
-      only_values &= rule.contains("value");
-      if (!rule.contains("valid") || !matches(rule, number)) continue;
+      all_said &= rule.contains("value") || of_arrays(rule);
+      if (!rule.contains("valid") || !matches(rule, subject, number)) continue;
       // "0 is not permitted" stands beside the range that holds it.
       if (verdict != Verdict::rejected)
         verdict = rule.at("valid").get<bool>() ? Verdict::accepted : Verdict::rejected;
     }
-    if (verdict == Verdict::not_said && only_values) return Verdict::rejected;
+    if (verdict == Verdict::not_said && all_said) return Verdict::rejected;
     return verdict;
   }
 
  private:
-  static bool matches(const nlohmann::json& rule, double number) {
+  /// Rules of MC_CopyCamData, which name the kind of cam or bounds of arrays.
+  static bool of_arrays(const nlohmann::json& rule) {
+    if (rule.contains("rule")) return true;
+    const std::string when = rule.value("when", "");
+    return when.starts_with("TO_Cam") || when.starts_with("lower bound of ");
+  }
+
+  static const Array& array_of(Subject& subject, const std::string& pin) {
+    const Pin& found = *subject.type().find_pin(pin);
+    return *reinterpret_cast<const Array*>(found.signal(subject.block()).load().u);
+  }
+
+  /// The cam of the bench is a TO_Cam.
+  static bool matches_array(const nlohmann::json& rule, Subject& subject, double number) {
+    const std::string when = rule.value("when", "");
+    if (when == "TO_Cam_10k") return false;
+    if (rule.contains("range"))
+      return number >= rule.at("range").at(0).get<double>() && number <= rule.at("range").at(1).get<double>();
+    char words[3][32] = {};
+    if (std::sscanf(when.c_str(), "lower bound of %31s <= value", words[0]) == 1) {
+      const Array& array = array_of(subject, words[0]);
+      return number >= array.lower && number <= array.upper;
+    }
+    const std::string text = rule.value("rule", "");
+    int above = 0;
+    if (std::sscanf(text.c_str(), "value <= number of %31s in %31s and 0 <= value <= %d - %31s", words[0],
+                    words[1], &above, words[2]) != 4) {
+      ADD_FAILURE() << "a rule that this test cannot read: " << rule;
+      return false;
+    }
+    const double start = subject.number(*subject.type().find_pin(words[2]));
+    return number >= 0.0 && number <= above - start &&
+           number <= static_cast<double>(array_of(subject, words[1]).count());
+  }
+
+  static bool matches(const nlohmann::json& rule, Subject& subject, double number) {
+    if (of_arrays(rule)) return matches_array(rule, subject, number);
     if (rule.contains("range"))
       return number >= rule.at("range").at(0).get<double>() && number <= rule.at("range").at(1).get<double>();
     if (rule.contains("value")) {

@@ -54,13 +54,7 @@ class Sequence {
   }
 
   void tick() {
-    // Additive velocities and positions need not fit each other; what follows them shows it. A cam scaled at
-    // random steps where it is set on or changed directly, and where its ends do not fit each other.
-    const bool additive = std::any_of(following_.begin(), following_.end(), [](Subject* s) {
-      const std::string_view name = s->type().name;
-      return s->busy() && (name == "MC_LeadingValueAdditive" || name == "MC_CamIn" || name == "MC_CamOut");
-    });
-    bench_.watch_coupled = !additive;
+    bench_.watch_coupled = std::none_of(following_.begin(), following_.end(), steps_what_follows);
     for (const auto* subjects : {&following_, &leading_})
       for (Subject* s : *subjects)
         if (s->type().name.starts_with("MC_MotionIn") && (s->busy() || s->on_start())) bench_.allow_jumps(3);
@@ -71,6 +65,17 @@ class Sequence {
       if (in_effect > 1 && !bench_.following.simulating())
         bench_.fault("two jobs on one axis have met their aims at once");
     }
+  }
+
+  /// Additive velocities and positions need not fit each other; what follows them shows it. A cam scaled at
+  /// random steps where it is set on or changed directly: published for profiles 2 and 5, until they are
+  /// InSync.
+  static bool steps_what_follows(Subject* s) {
+    if (!s->busy()) return false;
+    if (s->type().name == "MC_LeadingValueAdditive") return true;
+    if (s->type().name != "MC_CamIn" || s->in_effect()) return false;
+    const double profile = s->number(*s->type().find_pin("SyncProfileReference"));
+    return profile == 2.0 || profile == 5.0;
   }
 
   void act() {

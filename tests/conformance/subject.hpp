@@ -99,6 +99,9 @@ class Subject {
   void wire(const Pin& pin, TechnologyObject* object) noexcept {
     std::memcpy(pin.address(*block_), &object, sizeof object);
   }
+  void wire_array(const Pin& pin, const Array* array) noexcept {
+    std::memcpy(pin.address(*block_), &array, sizeof array);
+  }
 
   bool busy() noexcept { return on(busy_); }
   /// MC_CamIn has no Done: it ends without an error at the end of a cam that is passed once.

@@ -49,6 +49,8 @@ inline constexpr Setting kSettings[] = {
     {"MC_CamIn", "MasterSyncPosition", 50.0},
     {"MC_CamIn", "MasterStartDistance", 30.0},
     {"MC_CamIn", "ApplicationMode", 1.0},
+    {"MC_CopyCamData", "NumberOfPoints", 1.0},
+    {"MC_CopyCamData", "NumberOfSegments", 1.0},
     {"MC_CamOut", "SlavePosition", 300.0},
     {"MC_CamOut", "MasterStopDistance", 50.0},
 };
@@ -65,7 +67,8 @@ inline const std::set<std::string_view> kGivesSetpoints = {"MC_MotionInSuperimpo
                                                            "MC_MotionInPosition"};
 // Blocks that also act on a disabled axis.
 inline const std::set<std::string_view> kOnDisabledAxis = {
-    "MC_Home", "MC_Reset", "MC_InterpolateCam", "MC_GetCamLeadingValue", "MC_GetCamFollowingValue"};
+    "MC_Home",       "MC_Reset", "MC_InterpolateCam", "MC_GetCamLeadingValue", "MC_GetCamFollowingValue",
+    "MC_CopyCamData"};
 // Blocks that rename positions, so that these may step.
 inline const std::set<std::string_view> kRenamesPositions = {"MC_Home", "MC_Reset"};
 // Published values that are not supported and are refused with the error of their pin.
@@ -212,7 +215,7 @@ struct Trial {
   void restore_defaults() {
     Subject fresh(subject->type());
     for (const Pin& pin : subject->type().pins)
-      if (pin.pin_class == PinClass::input && pin.type != Type::AXIS && pin.type != Type::BOOL)
+      if (pin.pin_class == PinClass::input && pin.type < Type::AXIS && pin.type != Type::BOOL)
         subject->store(pin, fresh.number(pin));
   }
 

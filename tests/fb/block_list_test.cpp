@@ -120,8 +120,14 @@ void expect_value(const BlockType& type, const Pin& pin, const Json& published) 
 
 void expect_pin(const BlockType& type, const Pin& pin, const Json& published) {
   EXPECT_EQ(pin.name, published.at("name").get<std::string>());
-  EXPECT_EQ(pin.pin_class == PinClass::input ? "INPUT" : "OUTPUT",
-            published.at("declaration").get<std::string>());
+  const char* const classes[] = {"INPUT", "OUTPUT", "INOUT"};
+  EXPECT_EQ(classes[static_cast<std::size_t>(pin.pin_class)], published.at("declaration").get<std::string>());
+  if (published.at("dataType").is_string() &&
+      published.at("dataType").get<std::string>().starts_with("ARRAY[*] OF ")) {
+    ASSERT_EQ(pin.type, Type::ARRAY);
+    EXPECT_EQ("ARRAY[*] OF " + std::string(pin.element->name), published.at("dataType").get<std::string>());
+    return;
+  }
   if (names_objects(published.at("dataType")))
     expect_objects(pin, published.at("dataType"));
   else

@@ -48,7 +48,7 @@ constexpr char kEverything[] = R"({
      "inclination": 0.05},
     {"type": "transition", "law": "quadratic parabola", "ca": 7.1, "start_continuity": "velocity"},
     {"type": "polynomial", "start": 140, "end": 150, "coefficients": [40, -0.1, 1e-4, 0, 1e-9]},
-    {"type": "transition", "method": "system"},
+    {"type": "transition", "method": "system", "comment": "left to the interpolation"},
     {"type": "polynomial", "start": 160, "end": 170, "start_value": 1, "start_velocity": 0, "start_acceleration": 0,
      "start_jerk": 0, "end_value": 4, "end_velocity": 0, "end_acceleration": 0, "end_jerk": 0.01},
     {"type": "polynomial", "start": 175, "end": 180, "start_value": 1, "start_velocity": 0, "end_value": 4,
@@ -153,6 +153,8 @@ TEST(CamFile, EveryElementGoesThroughAFileWithoutALostBit) {
                           "continuity",
                           "cyclic"})
     EXPECT_NE(text.find("\"" + std::string(key) + "\":"), std::string::npos) << key;
+  EXPECT_NE(text.find("left to the interpolation"), std::string::npos)
+      << "the comment of a transition by the system";
 }
 
 TEST(CamFile, TheDataBlockGoesThroughJsonAndTablesWithoutALostBit) {

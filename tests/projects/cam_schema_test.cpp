@@ -2,53 +2,23 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "projects/cam_file.hpp"
+#include "schema_check.hpp"
 
 namespace lockstep {
 namespace {
 
 using nlohmann::json;
 
-const std::string kProjects = LOCKSTEP_SOURCE_DIR "/projects";
-
-std::string read(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-class CamSchema : public testing::Test {
+class CamSchema : public SchemaCheck {
  protected:
-  CamSchema() {
-    const json document = json::parse(cam_schema());
-    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-        .populateSchema(valijson::adapters::NlohmannJsonAdapter(document), schema_);
-  }
-
-  bool accepts(const json& cam) {
-    return valijson::Validator().validate(schema_, valijson::adapters::NlohmannJsonAdapter(cam), nullptr);
-  }
-
-  valijson::Schema schema_;
+  CamSchema() : SchemaCheck(cam_schema()) {}
 };
 
-// LOCKSTEP_UPDATE=1 writes the file.
 TEST_F(CamSchema, ShipsAsItIsMade) {
-  const std::string path = kProjects + "/cam.schema.json";
-  if (std::getenv("LOCKSTEP_UPDATE") != nullptr) std::ofstream(path) << cam_schema();
-  EXPECT_TRUE(read(path) == cam_schema())
-      << "a declaration has changed: run LOCKSTEP_UPDATE=1 projects_tests --gtest_filter=CamSchema.*";
+  expect_shipped("cam.schema.json", cam_schema());
 }
 
 TEST_F(CamSchema, AcceptsEveryExampleAndWhatIsWritten) {

@@ -2,54 +2,24 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "example_project.hpp"
 #include "projects/project.hpp"
+#include "schema_check.hpp"
 
 namespace lockstep {
 namespace {
 
 using nlohmann::json;
 
-const std::string kProjects = LOCKSTEP_SOURCE_DIR "/projects";
-
-std::string read(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-class Schema : public testing::Test {
+class Schema : public SchemaCheck {
  protected:
-  Schema() {
-    const json document = json::parse(project_schema());
-    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-        .populateSchema(valijson::adapters::NlohmannJsonAdapter(document), schema_);
-  }
-
-  bool accepts(const json& project) {
-    return valijson::Validator().validate(schema_, valijson::adapters::NlohmannJsonAdapter(project), nullptr);
-  }
-
-  valijson::Schema schema_;
+  Schema() : SchemaCheck(project_schema()) {}
 };
 
-// LOCKSTEP_UPDATE=1 writes the file.
 TEST_F(Schema, ShipsAsItIsMade) {
-  const std::string path = kProjects + "/project.schema.json";
-  if (std::getenv("LOCKSTEP_UPDATE") != nullptr) std::ofstream(path) << project_schema();
-  EXPECT_TRUE(read(path) == project_schema())
-      << "a declaration has changed: run LOCKSTEP_UPDATE=1 projects_tests --gtest_filter=Schema.*";
+  expect_shipped("project.schema.json", project_schema());
 }
 
 TEST_F(Schema, UsesNothingThatLargeTextsOrValidatorsStumbleOver) {

@@ -8,11 +8,13 @@
 #include "fb/gear_in.hpp"
 #include "fb/home.hpp"
 #include "fb/interpolate_cam.hpp"
+#include "fb/leading_value.hpp"
 #include "fb/move.hpp"
 #include "fb/offset.hpp"
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
+#include "fb/superimposed.hpp"
 #include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
@@ -462,6 +464,57 @@ TEST(MC_CamIn, Profile5TakesOverFromACamThatIsPassedOnceAndNeedsCamming) {
   }
 }
 
+// The end of a cam takes phase shift, offset and superimposed jobs away; what they still move comes to rest.
+TEST(MC_CamIn, Profile5DropsNoMotionOfWhatStillMoves) {
+  for (const int what : {0, 1, 2}) {
+    CamPair rig(ring, [](AxisData& data) {
+      data.DynamicLimits.MaxAcceleration = data.DynamicLimits.MaxDeceleration = 4000.0;
+      data.DynamicLimits.MaxJerk = 1e6;
+    });
+    auto& phasing = rig.block<MC_PhasingRelative>();
+    auto& offset = rig.block<MC_OffsetRelative>();
+    auto& superimposed = rig.block<MC_MoveSuperimposed>();
+    phasing.Master = &rig.l;
+    phasing.Slave = offset.Slave = superimposed.Axis = &rig.f;
+    phasing.ProfileReference = 1;
+    phasing.PhaseShift = offset.Offset = 20.0;
+    phasing.PhasingDistance = offset.OffsetDistance = 100.0;
+    superimposed.Distance = 1000.0;
+    rig.couple(360.0);
+    // The same cam once more: whatever steps is not the cam's. It is as smooth at its ends as inside.
+    rig.next.Cam = &rig.wave;
+    rig.next.SyncProfileReference = 5;
+    rig.next.ApplicationMode = 1;
+    rig.next.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return rig.leading() > 300.0 && rig.leading() < 301.0; }));
+    (what == 0 ? phasing.Execute : what == 1 ? offset.Execute : superimposed.Execute) = true;
+    rig.tick();
+    rig.continuity[1].highest_acceleration = 20000.0;
+    rig.continuity[1].acceleration = false;
+    ASSERT_TRUE(rig.run_until([&] { return rig.next.InSync; }, 200)) << what;
+    EXPECT_TRUE(what == 0   ? phasing.CommandAborted
+                : what == 1 ? offset.CommandAborted
+                            : superimposed.CommandAborted)
+        << what;
+    const double before = rig.f.setpoint().position.value;
+    rig.run(2000);
+    ASSERT_TRUE(rig.next.InSync);
+    EXPECT_NE(rig.f.setpoint().position.value, before);
+    const double phase = rig.status().PhaseShift;
+    EXPECT_EQ(phase != 0.0, what == 0);
+    const double start = rig.status().MasterOffset;
+    double reached = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+      rig.tick();
+      const double place = std::fmod(rig.leading() + rig.status().PhaseShift - start + 720.0, 360.0);
+      const double rest = rig.f.setpoint().position.value - rig.wave.function().value(place).position;
+      if (i == 0) reached = rest;
+      ASSERT_NEAR(rest, reached, 1e-9) << what << ": at rest on the cam";
+      ASSERT_EQ(rig.status().PhaseShift, phase);
+    }
+  }
+}
+
 // ---- Phase shift and offset
 // ---------------------------------------------------------------------------------------
 
@@ -495,6 +548,35 @@ TEST(MC_CamIn, IsShiftedByPhasingAndOffset) {
     ASSERT_NEAR(rig.f.setpoint().position.value, rig.wave.function().value(u).position + 7.0, 1e-10);
     ASSERT_NEAR(rig.status().FunctionLeadingValue.Position, u, 1e-9);
   }
+}
+
+TEST(MC_CamIn, FollowsTheAdditiveLeadingValueAndCarriesASuperimposedMotion) {
+  CamPair rig;
+  auto& additive = rig.block<MC_LeadingValueAdditive>();
+  auto& superimposed = rig.block<MC_MoveSuperimposed>();
+  additive.Axis = superimposed.Axis = &rig.f;
+  superimposed.Distance = 40.0;
+  superimposed.VelocityDiff = 100.0;
+  rig.couple(360.0);
+  rig.continuity[1].velocity = false;  // the velocity of what is added is not told
+  additive.Enable = true;
+  superimposed.Execute = true;
+  double added = 0.0;  // in effect
+  double carried = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    additive.Position = 30.0 * std::sin(0.002 * i);
+    rig.tick();
+    const double u = std::fmod(rig.leading() + added + 360.0, 360.0);
+    added = additive.Position;
+    const double rest = rig.f.setpoint().position.value - rig.wave.function().value(u).position;
+    ASSERT_NEAR(rig.status().EffectiveLeadingValue.Position, u, 1e-9);
+    ASSERT_GE(rest, carried - 1e-9) << i;
+    ASSERT_NEAR(rest, rig.f.data.StatusPositioning.SuperimposedDistance, 1e-9);
+    carried = rest;
+    ASSERT_TRUE(rig.in.InSync);
+  }
+  EXPECT_TRUE(superimposed.Done);
+  EXPECT_NEAR(carried, 40.0, 1e-9);
 }
 
 // ---- Refusals

@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 CamElement element(CamShape shape) {
-  return {std::move(shape), "", std::nullopt};
+  return {std::move(shape), "", std::nullopt, ""};
 }
 
 CamElement followed_by(CamShape shape, MotionLawKind law) {
@@ -253,6 +253,67 @@ TEST(CamDesign, TakesOfTheDataBlockWhatTheConsumptionTableSays) {
     EXPECT_EQ(cam.stretches[1].points, 0u);
     EXPECT_EQ(cam.segments.size(), 2 + row.segments);
   }
+}
+
+// The rows without two dwells or slopes beside a law, and those of elements.
+TEST(CamDesign, TakesOfTheDataBlockWhatTheConsumptionTableSaysBesideReversalsAndOfElements) {
+  using enum MotionLawKind;
+  const CamPointElement rest{0.0, 0.0, {}, {}, {}};
+  const CamPointElement rest_behind{100.0, 50.0, {}, {}, {}};
+  const CamPointElement reversal{0.0, 0.0, 0.0, 0.02, {}};
+  const CamPointElement reversal_behind{100.0, 50.0, 0.0, -0.02, {}};
+  struct Law {
+    MotionLawKind law;
+    bool from_rest;
+    std::size_t points, segments;
+  };
+  for (const Law& row :
+       {Law{harmonic_combination, true, 0, 3}, Law{harmonic_combination, false, 0, 3},
+        Law{double_harmonic_transition, true, 32, 0}, Law{double_harmonic_transition, false, 32, 0},
+        Law{modified_acceleration_trapezoid, true, 0, 5},
+        Law{modified_acceleration_trapezoid, false, 0, 5}}) {
+    const DesignedCam cam = made(design_of({followed_by(row.from_rest ? rest : reversal, row.law),
+                                            element(row.from_rest ? reversal_behind : rest_behind)}));
+    EXPECT_EQ(cam.points.size(), row.points) << motion_law_name(row.law) << row.from_rest;
+    EXPECT_EQ(cam.segments.size(), row.segments) << motion_law_name(row.law) << row.from_rest;
+  }
+  for (const MotionLawKind law : {sine, inclined_sine, polynomial}) {
+    CamElement first = followed_by(dwell(0.0, 60.0, 0.0), law);
+    first.transition->lambda = 0.5;
+    const DesignedCam cam = made(design_of({first, element(dwell(180.0, 240.0, 50.0))}));
+    EXPECT_EQ(cam.segments.size(), 3u) << motion_law_name(law) << ": 0.5 is where it is anyway";
+  }
+  CamPolynomial flat;
+  flat.start = 0.0;
+  flat.end = 100.0;
+  flat.start_value = flat.start_velocity = flat.start_acceleration = 0.0;
+  flat.end_value = 50.0;
+  flat.end_velocity = flat.end_acceleration = 0.0;
+  CamPolynomial seventh = flat;
+  seventh.start_jerk = seventh.end_jerk = 0.0;
+  CamPointGroup group;
+  for (int i = 0; i < 5; ++i) group.points.push_back({25.0 * i, 10.0 * (i % 2)});
+  CamPointGroup segments = group;
+  segments.as_segments = true;
+  struct Row {
+    CamShape shape;
+    std::size_t points, segments;
+  };
+  const Row rows[] = {{group, 32, 0},
+                      {segments, 0, 31},
+                      {sloped(0.0, 100.0, 0.0, 1.0), 0, 1},
+                      {CamSine{0.0, 100.0, {1.0, 0.0, 360.0, {}, {}}, 0.0, {}, {}, {}}, 0, 1},
+                      {flat, 0, 1},
+                      {seventh, 0, 2},
+                      {CamInverseSine{0.0, 100.0, 20.0, 80.0, false, -0.8, 0.8, 32, {}}, 32, 0}};
+  for (const Row& row : rows) {
+    const DesignedCam cam = made(design_of({element(row.shape)}));
+    EXPECT_EQ(cam.points.size(), row.points) << cam_shape_name(row.shape);
+    EXPECT_EQ(cam.segments.size(), row.segments) << cam_shape_name(row.shape);
+  }
+  const DesignedCam cam = made(design_of({element(rest), element(rest_behind)}));
+  EXPECT_EQ(cam.points.size(), 2u);
+  EXPECT_TRUE(cam.segments.empty()) << "the transition is left to the interpolation";
 }
 
 TEST(CamDesign, PointsAtALawTakeNothingAndALawOfTwoSinesBecomesPoints) {

@@ -93,6 +93,21 @@ TEST(CamFunction, TheValuesAtStartAndEndAreThoseOfTheElementsToTheLastBit) {
     }
 }
 
+TEST(CamFunction, ACamThatBeginsOrEndsWithASegmentKnowsItsValuesThere) {
+  Cam cam;
+  TO_Cam_Struct_SegmentData s;
+  s.xmin = 20.0;
+  s.xmax = 60.0;
+  s.a0 = -5.0;
+  s.a1 = 0.75;
+  cam.segment(s);
+  ASSERT_EQ(cam.interpolate(), ErrorId::none);
+  EXPECT_EQ(cam.f.start_following_value(), 10.0);
+  EXPECT_EQ(cam.f.start_following_value(), cam.f.value(20.0).position);
+  EXPECT_EQ(cam.f.end_following_value(), 40.0);
+  EXPECT_EQ(cam.f.end_following_value(), cam.f.value(60.0).position);
+}
+
 TEST(CamFunction, IsContinuousAcrossEveryPiece) {
   for (const DINT mode : {0, 1, 2}) {
     Cam cam;

@@ -1,0 +1,24 @@
+#include "fb/copy_cam_data.hpp"
+
+namespace lockstep {
+
+void MC_CopyCamData::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_CopyCamData;
+}
+
+void MC_CopyCamData::hand_over(Job& job) noexcept {
+  const CamCopy copy{.points = ArrayOfPoints,
+                     .segments = ArrayOfSegments,
+                     .start_point_cam = StartPointCam,
+                     .start_segment_cam = StartSegmentCam,
+                     .start_point_array = StartPointArray,
+                     .start_segment_array = StartSegmentArray,
+                     .number_of_points = NumberOfPoints,
+                     .number_of_segments = NumberOfSegments,
+                     .keep = Mode == 1};
+  job.copy = &copy;
+  Cam->submit(job);
+  job.copy = nullptr;
+}
+
+}  // namespace lockstep
