@@ -68,7 +68,7 @@ TEST(RetainCrash, AfterEveryPrefixAndEveryLossTheFileHoldsTheLastSnapshotToldOrT
   const unsigned seed = soak() ? std::random_device{}() : 20260711u;
   std::cout << "seed " << seed << "\n";
   std::mt19937 random(seed);
-  const int snapshots = soak() ? 100 : 12;
+  const int snapshots = soak() ? 30 : 12;
   const int subsets = soak() ? 40 : 8;
   const Recorded recorded = record(snapshots);
   ASSERT_GT(recorded.operations.size(), 8u * static_cast<unsigned>(snapshots));
