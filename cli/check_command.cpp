@@ -5,9 +5,9 @@
 
 namespace lockstep::cli {
 
-std::optional<Project> load_or_tell(const std::string& path, int& status) {
+std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare) {
   try {
-    LoadedProject loaded = load_project_file(path);
+    LoadedProject loaded = load_project_file(path, prepare);
     for (const Problem& problem : loaded.problems)
       std::fprintf(stderr, "%s\n", to_string(path, problem).c_str());
     for (Problem warning : loaded.warnings) {

@@ -34,7 +34,8 @@ void add_cam_command(CLI::App& app, Action& action);
 
 /// Loads a project and tells its problems and warnings on standard error.
 /// @param status the exit status if there is no project
-std::optional<Project> load_or_tell(const std::string& path, int& status);
+/// @param prepare see `load_project`
+std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare = {});
 
 /// Writes a text to standard error, as far as that takes it. A closed terminal, a pipe without reader or a
 /// full disk is no reason to end a run, and one that takes nothing, such as a stopped terminal, holds nothing

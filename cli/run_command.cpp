@@ -14,7 +14,7 @@ void add_run_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<RunOptions>();
   auto duration = std::make_shared<std::string>();
   command->add_option("FILE", options->file, "the project file")->required();
-  command->add_flag(
+  auto* simulate = command->add_flag(
       "--simulate", options->simulate,
       "virtual time, as fast as the machine can; the same file gives the same trace, bit for bit");
   command->add_option("--duration", *duration,
@@ -31,10 +31,17 @@ void add_run_command(CLI::App& app, Action& action) {
   command->add_flag("--no-modbus", options->no_modbus, "no Modbus server")->excludes(modbus);
   auto* lcm = command->add_option("--lcm", options->lcm, "publish on this URL instead of the project's");
   command->add_flag("--no-lcm", options->no_lcm, "no LCM")->excludes(lcm);
+  auto* retain =
+      command->add_option("--retain", options->retain, "keep values in this file instead of the project's")
+          ->excludes(simulate);
+  command->add_flag("--no-retain", options->no_retain, "begin with init values and keep nothing")
+      ->excludes(retain);
   command->footer(
       "Without --simulate it runs in real time until SIGINT or SIGTERM (or --duration), then brings its axes "
       "to\n"
       "rest. A closed terminal does not end it. With --simulate, Modbus and LCM are off unless asked for.\n"
+      "Values that are kept stand, unless named, beside the project file or in the state directory of "
+      "systemd.\n"
       "Exit status: 0 ended as asked, 1 project not valid, 2 could not start, 3 stopped by an internal fault "
       "or by\n"
       "the overrun policy");
@@ -47,11 +54,7 @@ void add_run_command(CLI::App& app, Action& action) {
         throw CLI::ValidationError("--duration", *duration + ": has to be longer than nothing");
       options->duration = *value;
     }
-    action = [options] {
-      int status = kOk;
-      std::optional<Project> project = load_or_tell(options->file, status);
-      return project ? run_project(std::move(*project), *options) : status;
-    };
+    action = [options] { return run_project(*options); };
   });
 }
 

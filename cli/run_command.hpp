@@ -22,10 +22,12 @@ struct RunOptions {
   bool no_modbus = false;
   std::string lcm;  ///< URL; empty: as the project says
   bool no_lcm = false;
+  std::string retain;  ///< file; empty: as the project says
+  bool no_retain = false;
 };
 
-/// Carries the run out; gives the exit status.
-int run_project(Project project, const RunOptions& options);
+/// Loads the project and carries the run out; gives the exit status.
+int run_project(const RunOptions& options);
 
 /// Live values on a terminal; nothing in a pipe. Used by one thread, never the cycle's.
 class Display {

@@ -9,6 +9,7 @@
 
 #include "cli/command.hpp"
 #include "cli/run_command.hpp"
+#include "cli/run_retain.hpp"
 #include "hmi_bridge/csv_trace.hpp"
 #include "hmi_bridge/lcm_log.hpp"
 #include "hmi_bridge/lcm_publisher.hpp"
@@ -56,18 +57,28 @@ struct CouldNotStart : std::runtime_error {
 /// Everything around the cycle: crossings, server, recorder. Ends in the reverse order of its making.
 class Surroundings {
  public:
-  Surroundings(Project& project, const RunOptions& options) : project_(project), options_(options) {
+  Surroundings(Project& project, const RunOptions& options, std::unique_ptr<RetainWriter> keeper)
+      : project_(project), options_(options), keeper_(std::move(keeper)) {
     choose_signals();
     start_trace();
     start_modbus();
     start_clients();
+    if (keeper_) project_.controller->images.push_back(&keeper_->image());
+    if (keeper_) keeper_->start();
   }
 
   const std::vector<NamedSignal>& signals() const { return signals_; }
   TraceRing* ring() { return ring_.get(); }
 
-  /// Ends server, clients and recorder and tells what is missing.
+  /// Tells what has gone wrong lately, or is well again.
+  void look() {
+    if (!keeper_) return;
+    if (const std::string news = keeper_->news(); !news.empty()) tell("warning: " + news);
+  }
+
+  /// Ends server, clients, recorder and the keeping of values, and tells what is missing.
   void stop() {
+    stop_keeper();
     if (server_) server_->stop();
     if (server_) tell_refused_clients();
     for (const auto& client : clients_) client->stop();
@@ -78,6 +89,14 @@ class Surroundings {
   }
 
  private:
+  /// The values of the last tick.
+  void stop_keeper() {
+    if (!keeper_) return;
+    keeper_->stop();
+    look();
+    if (keeper_->failing()) tell("warning: the last values are not kept");
+  }
+
   void choose_signals() {
     if (options_.signals.empty()) {
       signals_ = project_.trace.signals;
@@ -231,6 +250,7 @@ class Surroundings {
 
   Project& project_;
   const RunOptions& options_;
+  std::unique_ptr<RetainWriter> keeper_;
   std::vector<NamedSignal> signals_;
   std::unique_ptr<TraceRing> ring_;
   std::unique_ptr<TraceRecorder> recorder_;
@@ -271,7 +291,7 @@ std::string trouble(const RealTimeStatus& status) {
 }
 
 /// Real time, on a thread of its own; this one only looks and tells.
-int run_in_real_time(Project& project, Display& display, std::int64_t duration) {
+int run_in_real_time(Project& project, Surroundings& surroundings, Display& display, std::int64_t duration) {
   const OverrunPolicy policy = project.stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
   RealTimeRun run(*project.controller, policy, duration);
   for (const std::string& warning : run.start()) tell("warning: " + warning);
@@ -280,6 +300,7 @@ int run_in_real_time(Project& project, Display& display, std::int64_t duration) 
     std::this_thread::sleep_for(kRefresh);
     if (end_requested != 0) run.stop();
     display.show(status.time.load(), trouble(status));
+    surroundings.look();
   }
   run.wait();
   display.close();
@@ -308,28 +329,38 @@ void tell_counters(const Controller& controller) {
     tell(fmt::format("warning: {} assignments of values that are not permitted were refused", refused));
 }
 
-}  // namespace
-
-int run_project(Project project, const RunOptions& options) {
+int run_project(Project& project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options) {
   take_signals();
   project.controller->apply_stimuli = options.simulate || options.stimuli;
+  Surroundings surroundings(project, options, std::move(keeper));
+  Display display(project, surroundings.signals(), options.duration);
+  int status = kOk;
+  if (options.simulate) {
+    simulate(project, surroundings, display, options.duration);
+  } else {
+    status = run_in_real_time(project, surroundings, display, options.duration);
+  }
+  surroundings.stop();
+  tell_axes(*project.controller);
+  tell_counters(*project.controller);
+  return status;
+}
+
+}  // namespace
+
+int run_project(const RunOptions& options) {
   try {
-    Surroundings surroundings(project, options);
-    Display display(project, surroundings.signals(), options.duration);
+    std::unique_ptr<RetainWriter> keeper;
     int status = kOk;
-    if (options.simulate) {
-      simulate(project, surroundings, display, options.duration);
-    } else {
-      status = run_in_real_time(project, display, options.duration);
-    }
-    surroundings.stop();
-    tell_axes(*project.controller);
-    tell_counters(*project.controller);
-    return status;
+    std::optional<Project> project =
+        load_or_tell(options.file, status, [&](Project& loaded) { keeper = restore_kept(loaded, options); });
+    return project ? run_project(*project, std::move(keeper), options) : status;
   } catch (const CouldNotStart& error) {
     tell(error.what());
-    return kCouldNotStart;
+  } catch (const RetainFileError& error) {
+    tell(error.what());
   }
+  return kCouldNotStart;
 }
 
 }  // namespace lockstep::cli

@@ -60,12 +60,34 @@ bool count_fits(std::span<const std::uint8_t> bytes, std::size_t offset, std::si
   return count <= INT32_MAX && count * element <= bytes.size() - offset - 4;
 }
 
+/// Goes over a string: its length with the 0 at its end, then the bytes; false if the message does not hold
+/// it.
+bool pass_string(std::span<const std::uint8_t> bytes, std::size_t& offset) noexcept {
+  if (bytes.size() < offset + 4) return false;
+  const std::uint64_t length = big_endian(bytes, offset, 4);
+  offset += 4;
+  if (length == 0 || length > bytes.size() - offset) return false;
+  offset += length;
+  return bytes[offset - 1] == 0;
+}
+
+// The generated decoder takes the length of a string as it comes: one below 0 would have it read gigabytes.
+bool strings_fit(std::span<const std::uint8_t> bytes, std::size_t count) noexcept {
+  constexpr std::size_t kProject = 8 + 4 + 8;  // hash, n and id stand before it
+  std::size_t offset = kProject;
+  if (!pass_string(bytes, offset) || !pass_string(bytes, offset)) return false;
+  offset += 8;  // period
+  for (std::size_t i = 0; i < 3 * count; ++i)
+    if (!pass_string(bytes, offset)) return false;
+  return true;
+}
+
 template <class Message>
 bool decode(Message& message, std::span<const std::uint8_t> bytes) {
   const auto size = static_cast<int>(bytes.size());
   try {
     return message.decode(bytes.data(), 0, size) == size;
-  } catch (const std::exception&) {  // the generated code takes a string's length as it comes
+  } catch (const std::exception&) {  // such as no memory
     return false;
   }
 }
@@ -132,7 +154,9 @@ LcmDecoder::Message LcmDecoder::accept_header(std::span<const std::uint8_t> byte
   constexpr std::size_t kOffsetOfN = 8;
   constexpr std::size_t kLeastSignal = 3 * 5 + 4;  // three empty strings and an index
   trace_header_t header;
-  if (!count_fits(bytes, kOffsetOfN, kLeastSignal) || !decode(header, bytes)) return Message::kDamaged;
+  if (!count_fits(bytes, kOffsetOfN, kLeastSignal) || !strings_fit(bytes, big_endian(bytes, kOffsetOfN, 4)) ||
+      !decode(header, bytes))
+    return Message::kDamaged;
   std::vector<TraceSignal> signals;
   int n_exact = 0;
   for (int i = 0; i < header.n; ++i) {

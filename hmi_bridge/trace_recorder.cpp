@@ -1,26 +1,15 @@
 #include "hmi_bridge/trace_recorder.hpp"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <algorithm>
 #include <exception>
 #include <utility>
+
+#include "hmi_bridge/write_signals.hpp"
 
 namespace lockstep {
 namespace {
 
 constexpr std::size_t kBatch = 256;  // rows given back to the writer at a time
-
-// A write to a closed pipe and one beyond the file size limit signal the writing thread; blocked there, they
-// are the errors EPIPE and EFBIG of the call and leave the rest of the process alone.
-void block_write_signals() noexcept {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGPIPE);
-  sigaddset(&signals, SIGXFSZ);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-}
 
 template <class Call>
 void guarded(TraceSink& sink, std::uint64_t rows, Call call) noexcept {

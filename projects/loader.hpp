@@ -51,5 +51,7 @@ void load_stimuli(const JsonValue& stimuli, const Loading& loading);
 
 void load_modbus(const JsonValue* modbus, const Loading& loading);
 void load_trace(const JsonValue& trace, const Loading& loading);
+/// When tags and objects are loaded.
+void load_retain(const JsonValue* retain, const Loading& loading);
 
 }  // namespace lockstep

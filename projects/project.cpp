@@ -43,6 +43,7 @@ void load_root(const JsonValue& root, const Loading& loading) {
   if (const auto* const stimuli = fields["stimuli"]) load_stimuli(*stimuli, loading);
   load_modbus(fields["modbus"], loading);
   if (const auto* const trace = fields["trace"]) load_trace(*trace, loading);
+  load_retain(fields["retain"], loading);
   warn_of_unused(root, loading);
 }
 
@@ -85,7 +86,7 @@ void load_clock(const JsonValue& clock, const Loading& loading) {
       read_word(fields["overrun"], words::kOverrun, loading.problems).value_or(0) == 1;
 }
 
-LoadedProject load_project(std::string_view text, const std::string& folder) {
+LoadedProject load_project(std::string_view text, const std::string& folder, const Prepare& prepare) {
   LoadedProject result;
   const JsonDocument document(text);
   result.problems = document.problems();
@@ -99,14 +100,15 @@ LoadedProject load_project(std::string_view text, const std::string& folder) {
   result.problems.insert(result.problems.end(), found.begin(), found.end());
   result.warnings = problems.take_warnings();
   if (!result.problems.empty()) return result;
+  if (prepare) prepare(project);
   project.controller->finish();
   result.project = std::move(project);
   return result;
 }
 
-LoadedProject load_project_file(const std::string& path) {
+LoadedProject load_project_file(const std::string& path, const Prepare& prepare) {
   return load_project(read_text_file(path, JsonDocument::kLongest),
-                      std::filesystem::path(path).parent_path().string());
+                      std::filesystem::path(path).parent_path().string(), prepare);
 }
 
 }  // namespace lockstep

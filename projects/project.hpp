@@ -2,8 +2,10 @@
 /// @source contract of the project file, sections 1, 2, 5, 6
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -11,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/kept_value.hpp"
 #include "hmi_bridge/modbus_client.hpp"
 #include "hmi_bridge/modbus_map.hpp"
 #include "hmi_bridge/modbus_server.hpp"
@@ -70,6 +73,13 @@ struct TraceConfig {
   std::vector<NamedSignal> signals;  ///< each name once
 };
 
+/// What is kept across runs.
+struct RetainConfig {
+  std::vector<KeptValue> values;  ///< tags with "retain", and adjustments of absolute encoders
+  std::string file;               ///< empty: the project does not say
+  std::chrono::nanoseconds interval = std::chrono::seconds(1);  ///< between two writes
+};
+
 /// A loaded project.
 struct Project {
   std::string name;
@@ -79,6 +89,7 @@ struct Project {
   bool stop_on_overrun = false;  ///< "overrun": "stop"
   ModbusConfig modbus;
   TraceConfig trace;
+  RetainConfig retain;
 };
 
 /// What loading gives: a project if there are no problems, else all problems. Warnings there may be either
@@ -89,13 +100,18 @@ struct LoadedProject {
   std::vector<Problem> warnings;
 };
 
-/// Loads a project from its text. Never fails but through problems. Allocates; not for the thread of the
-/// cycle.
+/// What to do with a valid project before its objects take over their start values, such as giving kept
+/// values back.
+using Prepare = std::function<void(Project&)>;
+
+/// Loads a project from its text. Never fails but through problems, and as `prepare` does. Allocates; not for
+/// the thread of the cycle.
 /// @param folder to which names of files in it are relative; empty: the current one
-LoadedProject load_project(std::string_view text, const std::string& folder = "");
+LoadedProject load_project(std::string_view text, const std::string& folder = "",
+                           const Prepare& prepare = {});
 
 /// Loads a project from a file, of which it reads no more than `JsonDocument::kLongest` and a byte.
 /// @throws UnreadableFile
-LoadedProject load_project_file(const std::string& path);
+LoadedProject load_project_file(const std::string& path, const Prepare& prepare = {});
 
 }  // namespace lockstep

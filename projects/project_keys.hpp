@@ -31,7 +31,8 @@ inline constexpr Key kProject[] = {{"lockstep", kRequired},
                                    {"programs"},
                                    {"stimuli"},
                                    {"modbus"},
-                                   {"trace"}};
+                                   {"trace"},
+                                   {"retain"}};
 inline constexpr Key kClock[] = {{"servo_cycle", kRequired}, {"interpolator_ratio"}, {"overrun"}};
 inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
 inline constexpr Key kEncoderObject[] = {{"type", kRequired}, {"config"}, {"encoder", kRequired}};
@@ -87,6 +88,7 @@ inline constexpr Key kMapEntry[] = {{"tag"},
                                     {"offset"},
                                     {"access"}};
 inline constexpr Key kTrace[] = {{"lcm"}, {"signals"}};
+inline constexpr Key kRetain[] = {{"file"}, {"interval"}};
 inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}};
 
 }  // namespace keys

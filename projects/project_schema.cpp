@@ -364,6 +364,9 @@ Json root_schema() {
                                        {"init", init},
                                        {"retain", {{"type", "boolean"}, {"description", "kept across runs"}}},
                                        {"comment", text("for the reader")}});
+  const Json retain =
+      object(keys::kRetain, {{"file", text("where kept values stand, relative to the project file")},
+                             {"interval", duration("between two writes of changed values (1s)")}});
   const Json stimulus = object(keys::kStimulus, {{"at", duration("time since the start")},
                                                  {"set", map("tag: value", value("constant"))}});
   return object(keys::kProject, {{"lockstep", described("version of the format", {{"enum", {1}}})},
@@ -375,7 +378,8 @@ Json root_schema() {
                                  {"programs", programs_schema()},
                                  {"stimuli", array("changes of tags in a simulation", stimulus)},
                                  {"modbus", modbus_schema()},
-                                 {"trace", trace_schema()}});
+                                 {"trace", trace_schema()},
+                                 {"retain", retain}});
 }
 
 }  // namespace

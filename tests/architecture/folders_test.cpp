@@ -34,6 +34,7 @@ constexpr Library kLibraries[] = {
     {"unsupported/Eigen/", "tech_objects"},
     {"modbus", "hmi_bridge"},
     {"lcm/", "hmi_bridge"},
+    {"sqlite3", "hmi_bridge"},
     {"lockstep/", "hmi_bridge"},  // generated from hmi_bridge/trace.lcm
     {"fmt/", "hmi_bridge"},
     {"iostream", "hmi_bridge"},

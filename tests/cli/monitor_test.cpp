@@ -1,10 +1,13 @@
 // lockstep monitor, with `lockstep run` on a network that the test makes for itself.
 #include <gtest/gtest.h>
+#include <lcm/eventlog.h>
 #include <poll.h>
 #include <pty.h>
 
 #include <chrono>
+#include <random>
 
+#include "hmi_bridge/lcm_messages.hpp"
 #include "tests/cli/command_run.hpp"
 
 namespace lockstep::cli {
@@ -69,6 +72,62 @@ TEST(Monitor, WithoutAMulticastRouteOrWithAWrongUrlExitsWith2) {
   const Ended wrong = lockstep({"monitor", "--once", "--lcm", "tcp://localhost"});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_NE(wrong.err.find("unknown network"), std::string::npos) << wrong.err;
+}
+
+/// An event log of anything that may be on a network, and among it a good trace on channel GOOD.
+void write_hostile_log(const std::string& path, std::uint32_t seed) {
+  lcm_eventlog_t* const log = lcm_eventlog_create(path.c_str(), "w");
+  ASSERT_NE(log, nullptr);
+  std::mt19937 random(seed);
+  std::int64_t time = 0;
+  const auto put = [&](std::string channel, std::span<const std::uint8_t> bytes) {
+    std::vector<std::uint8_t> data(bytes.begin(), bytes.end());
+    lcm_eventlog_event_t event{};
+    event.timestamp = time += 200;
+    event.channellen = static_cast<std::int32_t>(channel.size());
+    event.channel = channel.data();
+    event.datalen = static_cast<std::int32_t>(data.size());
+    event.data = data.data();
+    lcm_eventlog_write_event(log, &event);
+  };
+  LcmEncoder good({"knife", "GOOD", 1'000'000, 0}, std::vector<TraceSignal>{{"x", Type::LREAL, "u"}});
+  LcmEncoder evil({"\033[2J\033]0;gone\007", "EVIL", 1'000'000, 0},
+                  std::vector<TraceSignal>{{"\033[31mred\r\n", Type::DINT, "\x9b"}, {"", Type::TIME, ""}});
+  for (int i = 0; i < 2000; ++i) {
+    Value value{};
+    value.r = 12.25;
+    put("GOOD_HEADER", good.header());
+    put("GOOD", good.row({i * 1'000'000, static_cast<std::uint64_t>(i), 0, std::span(&value, 1)}));
+    std::vector<std::uint8_t> bytes(1 + random() % 300);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    put(i % 2 == 0 ? "RANDOM_HEADER" : "GOOD", bytes);
+    const Value nothing[2]{};
+    for (const auto whole : {evil.header(), evil.row({i, 0, 0, nothing})}) {
+      bytes.assign(whole.begin(), whole.end());
+      for (unsigned times = random() % 4; times > 0; --times)
+        bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+      if (random() % 5 == 0) bytes.resize(8 + random() % (bytes.size() - 7));
+      put("EVIL\033[1m" + std::to_string(random() % 40) + (i % 2 == 0 ? "_HEADER" : ""), bytes);
+    }
+  }
+  lcm_eventlog_destroy(log);
+}
+
+TEST(Monitor, HostileMessagesNeitherEndItNorHideATraceNorReachTheTerminal) {
+  const std::uint32_t seed = 20260715;
+  std::printf("seed %u\n", seed);
+  const Folder folder;
+  write_hostile_log(folder.file("hostile.lcm"), seed);
+  const std::string play = "(while lcm-logplayer --lcm-url='udpm://239.255.76.67:7667?ttl=0' " +
+                           quoted(folder.file("hostile.lcm")) + " >/dev/null 2>&1; do :; done) & player=$!; ";
+  const Ended ended =
+      run(in_own_network(std::string(kNetwork) + play + "timeout -s INT 5 " + quoted(LOCKSTEP_EXECUTABLE) +
+                         " monitor --lcm 'udpm://239.255.76.67:7667?ttl=0'; status=$?; kill $player; "
+                         "test $status -eq 124 -o $status -eq 0"));
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.out.find("GOOD: knife"), std::string::npos) << ended.out.substr(0, 2000);
+  EXPECT_NE(ended.out.find(" 12.2500"), std::string::npos) << ended.out.substr(0, 2000);
+  EXPECT_EQ(ended.out.find_first_of("\033\007\r"), std::string::npos) << "control characters got through";
 }
 
 /// A program on a terminal of its own.

@@ -54,6 +54,21 @@ TEST(LcmMessages, AStrangerReadsTheValuesWithTheGeneratedTypesAlone) {
   EXPECT_EQ(row.exact, (std::vector<std::int64_t>{1'500'000'000}));
 }
 
+TEST(LcmMessages, AStringOfAnImpossibleLengthIsDamage) {
+  Sample sample;
+  constexpr std::size_t kProjectLength = 8 + 4 + 8;
+  const std::size_t channel_length = kProjectLength + 4 + std::string("rotary_knife").size() + 1;
+  for (const std::size_t place : {kProjectLength, channel_length}) {
+    for (const std::uint32_t length : {0u, 0x80000000u, 0x80000001u, 0xFFFFFFFFu, 0x7FFFFFFFu, 12345u, 2u}) {
+      std::vector<std::uint8_t> bytes = sample.header;
+      for (std::size_t i = 0; i < 4; ++i)
+        bytes[place + i] = static_cast<std::uint8_t>(length >> (24 - 8 * i));
+      LcmDecoder decoder;
+      EXPECT_EQ(decoder.accept(bytes), Message::kDamaged) << length;
+    }
+  }
+}
+
 TEST(LcmMessages, NoValueOfAnyTypeLosesABit) {
   constexpr std::uint64_t kSeed = 99;
   Sample sample;

@@ -58,6 +58,15 @@ Rule missing(const std::string& key, std::string parent, std::string part) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
+    Retain, Rules,
+    testing::Values(at("/retain", "[]", "allowed: an object"),
+                    Rule{"/retain", R"({"files": "x"})", "/retain/files", "file"},
+                    Rule{"/retain", R"({"file": ""})", "/retain/file", "is no name of a file"},
+                    Rule{"/retain", R"({"file": 1})", "/retain/file", "allowed: a string"},
+                    Rule{"/retain", R"({"interval": "10us"})", "/retain/interval", "1ms"},
+                    Rule{"/retain", R"({"interval": "2h"})", "/retain/interval", "h"}));
+
+INSTANTIATE_TEST_SUITE_P(
     Project, Rules,
     testing::ValuesIn(std::vector<Rule>{
         at("", "[]", "an array is not allowed here; allowed: an object"), at("", "3", "allowed: an object"),

@@ -1,0 +1,62 @@
+#include "cli/run_retain.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "cli/command.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kEnding = ".retain";
+
+/// What the file holds beside what the project keeps.
+void tell_strangers(const RetainFile& file, const Project& project) {
+  for (const KeptRow& row : file.rows()) {
+    bool known = false;
+    for (const KeptValue& value : project.retain.values)
+      known |= file.find(value.name) == file.find(row.name);
+    if (!known)
+      write_message(
+          fmt::format("lockstep: warning: retain file {}: {} ({}) is kept there and not in the "
+                      "project; it stays in the file\n",
+                      file.path(), row.name, row.value));
+  }
+  if (!file.rows().empty()) return;
+  for (const std::string& other : file.other_projects())
+    write_message(
+        fmt::format("lockstep: warning: retain file {}: it has values of project '{}' and none of "
+                    "'{}': they begin with their init values\n",
+                    file.path(), other, project.name));
+}
+
+}  // namespace
+
+std::string retain_path(const Project& project, const RunOptions& options) {
+  if (!options.retain.empty()) return options.retain;
+  if (!project.retain.file.empty()) return project.retain.file;
+  const fs::path own = fs::path(options.file).replace_extension(kEnding);
+  // Several directories are separated by colons; the first one is ours.
+  const char* const state = std::getenv("STATE_DIRECTORY");
+  if (state == nullptr || *state == '\0') return own.string();
+  const std::string_view directories = state;
+  return (fs::path(directories.substr(0, directories.find(':'))) / own.filename()).string();
+}
+
+std::unique_ptr<RetainWriter> restore_kept(Project& project, const RunOptions& options) {
+  if (options.simulate || options.no_retain || project.retain.values.empty()) return nullptr;
+  RetainFile file(retain_path(project, options), project.name);
+  for (const std::string& remark : restore(file, project.retain.values))
+    write_message("lockstep: warning: " + remark + "\n");
+  tell_strangers(file, project);
+  write_message(file.rows().empty()
+                    ? fmt::format("lockstep: values are kept in {}, which is new\n", file.path())
+                    : fmt::format("lockstep: {} kept values from {}\n", file.rows().size(), file.path()));
+  return std::make_unique<RetainWriter>(std::move(file), project.retain.values, project.retain.interval);
+}
+
+}  // namespace lockstep::cli

@@ -1,0 +1,68 @@
+#include "hmi_bridge/kept_value.hpp"
+
+#include <array>
+#include <charconv>
+#include <limits>
+#include <system_error>
+
+namespace lockstep {
+namespace {
+
+template <class Number>
+std::string text_of(Number number) {
+  std::array<char, 40> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number);
+  return {text.data(), end.ptr};
+}
+
+template <class Number>
+std::optional<Number> number_of(std::string_view text) {
+  Number number{};
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (end.ec != std::errc{} || end.ptr != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+bool is_signed(Type type) {
+  return is_signed_integer(type) || type == Type::TIME;
+}
+
+}  // namespace
+
+std::string kept_text(Value value, Type type) {
+  if (type == Type::BOOL) return value.u != 0 ? "TRUE" : "FALSE";
+  if (is_real(type) && value.r != value.r) return "nan";  // its sign depends on the processor
+  if (type == Type::REAL) return text_of(static_cast<float>(value.r));
+  if (type == Type::LREAL) return text_of(value.r);
+  return is_signed(type) ? text_of(value.i) : text_of(value.u);
+}
+
+std::optional<Value> kept_value(std::string_view text, Type type) {
+  Value value{};
+  if (type == Type::BOOL) {
+    value.u = text == "TRUE" ? 1 : 0;
+    return text == "TRUE" || text == "FALSE" ? std::optional(value) : std::nullopt;
+  }
+  if (type == Type::REAL) {
+    const auto number = number_of<float>(text);
+    value.r = number.value_or(0.0F);
+    return number ? std::optional(value) : std::nullopt;
+  }
+  if (type == Type::LREAL) {
+    const auto number = number_of<double>(text);
+    value.r = number.value_or(0.0);
+    return number ? std::optional(value) : std::nullopt;
+  }
+  if (is_signed(type)) {
+    const auto number = number_of<std::int64_t>(text);
+    value.i = number.value_or(0);
+    const bool fits = type == Type::TIME ||
+                      (value.i >= lowest(type) && value.i <= static_cast<std::int64_t>(highest(type)));
+    return number && fits ? std::optional(value) : std::nullopt;
+  }
+  const auto number = number_of<std::uint64_t>(text);
+  value.u = number.value_or(0);
+  return number && value.u <= highest(type) ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,76 @@
+// What is kept across runs: tags with "retain", and the adjustments of absolute encoders.
+#include <algorithm>
+#include <filesystem>
+
+#include "projects/loader.hpp"
+#include "tech_objects/variable.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kShortestInterval = 1'000'000;         // [ns]
+constexpr std::int64_t kLongestInterval = 3'600'000'000'000;  // [ns]
+
+/// Structures of the data block on which the meaning of an encoder's value depends.
+constexpr std::string_view kScales[] = {"Sensor[]", "LoadGear.",  "Mechanics.", "Modulo.",
+                                        "Units.",   "UnitFactor", "Properties."};
+
+bool scales(const Variable& variable) {
+  if (variable.type == Type::TAG || variable.type == Type::AXIS) return false;
+  if (variable.path.find("Homing") != std::string_view::npos) return false;
+  return variable.path == "Actor.InverseDirection" ||
+         std::any_of(std::begin(kScales), std::end(kScales),
+                     [&](std::string_view scale) { return variable.path.starts_with(scale); });
+}
+
+/// The settings with which the value of an absolute encoder is a position, those that are not the default.
+std::string scale_of(Axis& axis) {
+  std::string text;
+  for (const Variable& variable : data_block_of(axis.kind).configuration) {
+    if (!scales(variable)) continue;
+    const Signal place{static_cast<char*>(axis.data_block()) + variable.offset, variable.type, -1};
+    const std::string value = kept_text(place.load(), variable.type);
+    if (value == kept_text(variable.start_value(), variable.type)) continue;
+    std::string path(variable.path);
+    if (const auto element = path.find("[]"); element != std::string::npos) path.insert(element + 1, "1");
+    text += (text.empty() ? "" : " ") + path + "=" + value;
+  }
+  return text;
+}
+
+bool keeps_adjustment(const Axis& axis) {
+  const auto type = axis.data.Sensor[0].Type;
+  return !axis.is_virtual() && (type == 1 || type == 2);
+}
+
+KeptValue adjustment_of(Axis& axis) {
+  EncoderAdjustment& adjustment = axis.encoder_adjustment;
+  return {.name = axis.name + ".StatusSensor[1].AbsEncoderOffset",
+          .signal = {&adjustment.offset, Type::LREAL, -1},
+          .present = Signal{&adjustment.adjusted, Type::BOOL, -1},
+          .basis = scale_of(axis)};
+}
+
+}  // namespace
+
+void load_retain(const JsonValue* retain, const Loading& loading) {
+  RetainConfig& config = loading.project.retain;
+  for (const Tag& tag : loading.controller().tags)
+    if (tag.retain) config.values.push_back({.name = tag.name, .signal = tag.signal});
+  for (Axis* axis : loading.controller().axes)
+    if (keeps_adjustment(*axis)) config.values.push_back(adjustment_of(*axis));
+  if (retain == nullptr) return;
+  const Fields fields(*retain, keys::kRetain, loading.problems);
+  if (const auto file = read_string(fields["file"], loading.problems)) {
+    if (file->empty() || file->find('\0') != std::string_view::npos)
+      loading.problems.report(*fields["file"],
+                              fields["file"]->shown() + " is no name of a file; allowed: a path");
+    else
+      config.file = (std::filesystem::path(loading.folder) / *file).string();
+  }
+  if (const auto interval =
+          read_duration(fields["interval"], kShortestInterval, kLongestInterval, loading.problems))
+    config.interval = std::chrono::nanoseconds(*interval);
+}
+
+}  // namespace lockstep

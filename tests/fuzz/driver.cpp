@@ -1,0 +1,199 @@
+// Drives a fuzz target with seeded random changes of its seeds: the same inputs on every machine, no compiler
+// but g++. FUZZ_TARGET [NUMBER [SEED]]; a single input: FUZZ_TARGET --input FILE; the seeds: --seeds FOLDER.
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <random>
+#include <string_view>
+
+#include "tests/fuzz/fuzz_target.hpp"
+
+namespace lockstep::fuzz {
+namespace {
+
+constexpr std::size_t kLongest = 1 << 16;
+constexpr unsigned kPatience = 60;  // [s] for one input, also under a sanitizer
+
+constexpr std::string_view kPieces[] = {"\"",
+                                        "{",
+                                        "}",
+                                        "[",
+                                        "]",
+                                        ",",
+                                        ":",
+                                        "-",
+                                        "1e999",
+                                        "0.5",
+                                        "null",
+                                        "true",
+                                        "\\u0000",
+                                        "\\ud800",
+                                        "\"\"",
+                                        "T#1s",
+                                        "16#",
+                                        "(*",
+                                        "AND",
+                                        "NOT",
+                                        "(",
+                                        ")",
+                                        "\xff",
+                                        "\n",
+                                        "nan",
+                                        "inf",
+                                        "1e308",
+                                        "-0",
+                                        "\x00",
+                                        "\x7f\xff",
+                                        "99999999999999999999",
+                                        "\r\n"};
+
+/// Makes inputs out of the seeds.
+class Mutator {
+ public:
+  Mutator(std::vector<std::string> seeds, std::uint64_t seed) : seeds_(std::move(seeds)), random_(seed) {}
+
+  std::string next() {
+    std::string text = seeds_[below(seeds_.size())];
+    const std::size_t times = below(8);
+    for (std::size_t i = 0; i < times; ++i) change(text);
+    if (text.size() > kLongest) text.resize(kLongest);
+    return text;
+  }
+
+ private:
+  std::size_t below(std::size_t end) {
+    return std::uniform_int_distribution<std::size_t>(0, end - 1)(random_);
+  }
+
+  void change(std::string& text) {
+    const std::size_t at = below(text.size() + 1);
+    const std::size_t length = std::min(text.size() - at, 1 + below(48));
+    const std::string& other = seeds_[below(seeds_.size())];
+    switch (below(9)) {
+      case 0:
+        if (at < text.size()) text[at] = static_cast<char>(below(256));
+        break;
+      case 1:
+        if (at < text.size()) text[at] = static_cast<char>(text[at] ^ (1 << below(8)));
+        break;
+      case 2:
+        text.erase(at, length);
+        break;
+      case 3:
+        text.insert(below(text.size() + 1), text.substr(at, length));
+        break;
+      case 4:
+        text.insert(at, kPieces[below(std::size(kPieces))]);
+        break;
+      case 5:
+        text.resize(at);
+        break;
+      case 6:  // a part of a seed
+        if (!other.empty()) text.replace(at, length, other.substr(below(other.size()), 1 + below(64)));
+        break;
+      case 7:  // the end of a seed
+        if (!other.empty()) text.replace(at, std::string::npos, other.substr(below(other.size())));
+        break;
+      default:
+        if (at < text.size()) text.replace(at, 1, std::to_string(static_cast<std::int64_t>(random_())));
+    }
+  }
+
+  std::vector<std::string> seeds_;
+  std::mt19937_64 random_;
+};
+
+/// Where the input stands that is being looked at, so that it is there when the program is not.
+class Witness {
+ public:
+  explicit Witness(const std::string& path) : path_(path) {
+    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    if (file < 0 || ::ftruncate(file, kLongest + 8) != 0) return;
+    void* const memory = ::mmap(nullptr, kLongest + 8, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    ::close(file);
+    if (memory != MAP_FAILED) memory_ = static_cast<char*>(memory);
+  }
+  ~Witness() { ::unlink(path_.c_str()); }
+  Witness(const Witness&) = delete;
+  Witness& operator=(const Witness&) = delete;
+  void note(const std::string& input) {
+    if (memory_ == nullptr) return;
+    const std::uint64_t size = input.size();
+    std::memcpy(memory_, &size, 8);
+    std::memcpy(memory_ + 8, input.data(), input.size());
+  }
+
+ private:
+  std::string path_;
+  char* memory_ = nullptr;
+};
+
+void look_at(const std::string& input) {
+  // A copy of exactly this size, so that reading beyond its end is seen.
+  const std::vector<std::uint8_t> bytes(input.begin(), input.end());
+  LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+}
+
+int look_at_file(const char* path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string input{std::istreambuf_iterator<char>(file), {}};
+  if (std::string_view(path).ends_with(".witness") && input.size() >= 8) {
+    std::uint64_t size = 0;
+    std::memcpy(&size, input.data(), 8);
+    input = input.substr(8, size);
+  }
+  look_at(input);
+  return 0;
+}
+
+int write_seeds(const std::string& folder) {
+  int number = 0;
+  for (const std::string& seed : seeds())
+    std::ofstream(folder + "/seed_" + std::to_string(++number), std::ios::binary) << seed;
+  return 0;
+}
+
+int run(const char* name, std::uint64_t inputs, std::uint64_t seed) {
+  std::cout << "seed " << seed << ", " << inputs << " inputs" << std::endl;
+  const std::string witness = std::string(name) + ".witness";
+  std::cout << "if it ends early: " << name << " --input " << witness << std::endl;
+  Mutator mutator(seeds(), seed);
+  Witness place(witness);
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::uint64_t i = 0; i < inputs; ++i) {
+    const std::string input = mutator.next();
+    place.note(input);
+    ::alarm(kPatience);
+    look_at(input);
+  }
+  ::alarm(0);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  std::cout << spent.count() << " s" << std::endl;
+  return 0;
+}
+
+}  // namespace
+}  // namespace lockstep::fuzz
+
+int main(int argc, char** argv) {
+  using namespace lockstep::fuzz;
+  const std::string_view first = argc > 1 ? argv[1] : "";
+  if (first == "--input" && argc > 2) return look_at_file(argv[2]);
+  if (first == "--seeds" && argc > 2) return write_seeds(argv[2]);
+  for (const std::string& seed : seeds()) look_at(seed);
+  const bool soak = std::getenv("LOCKSTEP_SOAK") != nullptr;
+  std::uint64_t inputs = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000;
+  if (soak) inputs *= 100;
+  const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10)
+                             : soak   ? std::random_device{}()
+                                      : 20260714;
+  return run(argv[0], inputs, seed);
+}

@@ -1,0 +1,57 @@
+// Any LCM event log, as lockstep plot reads it.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "hmi_bridge/lcm_log.hpp"
+#include "hmi_bridge/lcm_trace_reader.hpp"
+#include "tests/fuzz/texts.hpp"
+
+namespace lockstep::fuzz {
+namespace {
+
+/// A file in memory, with a path.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string_view content = "") : file_(::memfd_create("fuzz", MFD_CLOEXEC)) {
+    require(file_ >= 0 && ::write(file_, content.data(), content.size()) == std::ssize(content),
+            "a file in memory");
+  }
+  ~MemoryFile() { ::close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
+
+ private:
+  int file_;
+};
+
+}  // namespace
+
+std::vector<std::string> seeds() {
+  const MemoryFile file;
+  const std::vector<TraceSignal> signals{
+      {"on", Type::BOOL, ""}, {"x", Type::LREAL, "u"}, {"n", Type::LINT, ""}};
+  const std::vector<Value> values(signals.size());
+  {
+    LcmLog log(file.path(), {"knife", "KNIFE", 1'000'000, 0});
+    log.begin(signals);
+    for (int i = 0; i < 3; ++i) log.row({i * 1'000'000, static_cast<std::uint64_t>(i), 0, values});
+    log.end();
+  }
+  std::ifstream stream(file.path(), std::ios::binary);
+  return {{std::istreambuf_iterator<char>(stream), {}}};
+}
+}  // namespace lockstep::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace lockstep;
+  const fuzz::MemoryFile file(fuzz::text_of(data, size));
+  try {
+    const TraceTable table = read_lcm_trace(file.path());
+    for (const auto& column : table.columns)
+      fuzz::require(column.size() == table.t.size(), "columns of one length");
+  } catch (const TraceFormatError& error) {
+    fuzz::require(std::string_view(error.what()).starts_with(file.path()), "an error names its file");
+  }
+  return 0;
+}

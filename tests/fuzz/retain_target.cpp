@@ -1,0 +1,45 @@
+// Any retain file: it is taken with values that can be read, or is refused.
+#include <new>
+
+#include "hmi_bridge/retain_writer.hpp"
+#include "tests/fuzz/fuzz_target.hpp"
+#include "tests/hmi_bridge/memory_disk.hpp"
+
+namespace lockstep::fuzz {
+namespace {
+
+constexpr const char* kFile = "values";
+
+}  // namespace
+
+std::vector<std::string> seeds() {
+  test::MemoryDisk disk;
+  {
+    RetainFile file(kFile, "p", disk.name());
+    const std::vector<KeptRow> rows{
+        {"a", "DINT", "7", ""}, {"b", "LREAL", "1.5", ""}, {"c", "BOOL", "TRUE", "x=1"}};
+    require(file.write(rows).empty(), "a file can be written");
+  }
+  return {disk.content[kFile]};
+}
+}  // namespace lockstep::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace lockstep;
+  test::MemoryDisk disk({{fuzz::kFile, std::string(data, data + size)}});
+  std::int32_t a = 1;
+  double b = 2.0;
+  bool c = false;
+  const std::vector<KeptValue> values{{.name = "a", .signal = {&a, Type::DINT, -1}},
+                                      {.name = "b", .signal = {&b, Type::LREAL, -1}},
+                                      {.name = "c", .signal = {&c, Type::BOOL, -1}, .basis = "x=1"}};
+  try {
+    RetainFile file(fuzz::kFile, "p", disk.name());
+    restore(file, values);
+    fuzz::require(file.rows().empty() || (a == 7 && b == 1.5 && c), "all that was written, or nothing");
+  } catch (const RetainFileError& error) {
+    fuzz::require(std::string_view(error.what()).find(fuzz::kFile) != std::string_view::npos,
+                  "an error names its file");
+  }
+  return 0;
+}

@@ -1,0 +1,298 @@
+// Values that are kept across runs: their texts, their file, and the thread that writes them.
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <thread>
+
+#include "hmi_bridge/retain_writer.hpp"
+#include "tests/hmi_bridge/memory_disk.hpp"
+
+namespace lockstep::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kDeadline = 30s;
+
+template <class Condition>
+bool wait_until(Condition condition) {
+  const auto deadline = std::chrono::steady_clock::now() + kDeadline;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(1ms);
+  }
+  return true;
+}
+
+/// A retain file on a real disk, gone with the test.
+struct OnDisk : testing::Test {
+  std::string path = testing::TempDir() + "lockstep_" + std::to_string(::getpid()) + ".retain";
+  void SetUp() override { TearDown(); }
+  void TearDown() override {
+    std::filesystem::remove(path);
+    std::filesystem::remove(path + "-journal");
+  }
+  std::string refusal(const std::string& project = "p") const {
+    try {
+      const RetainFile file(path, project);
+    } catch (const RetainFileError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+using RetainFileTest = OnDisk;
+using RetainWriterTest = OnDisk;
+
+bool same(Value a, Value b) {
+  return a.u == b.u;
+}
+Value integer(std::int64_t i) {
+  Value value{};
+  value.i = i;
+  return value;
+}
+Value real(double r) {
+  Value value{};
+  value.r = r;
+  return value;
+}
+
+TEST(KeptText, GivesTheSameBitsBack) {
+  for (int number = 0; number <= static_cast<int>(Type::TIME); ++number) {
+    const auto type = static_cast<Type>(number);
+    std::vector<Value> values{integer(0), integer(1)};
+    if (is_real(type)) {
+      values = {real(0.0), real(-0.0), real(0.1F), real(-1e30F), real(INFINITY), real(-INFINITY)};
+      if (type == Type::LREAL)
+        for (const double r : {0.1, 1e-310, 1.0 / 3.0, std::numeric_limits<double>::max()})
+          values.push_back(real(r));
+    } else if (type == Type::TIME) {
+      values.insert(values.end(), {integer(INT64_MAX), integer(INT64_MIN)});
+    } else if (type != Type::BOOL) {
+      values.push_back(integer(lowest(type)));
+      values.push_back(std::bit_cast<Value>(highest(type)));
+    }
+    for (const Value value : values) {
+      const std::string text = kept_text(value, type);
+      const auto back = kept_value(text, type);
+      ASSERT_TRUE(back.has_value()) << type_name(type) << " " << text;
+      EXPECT_TRUE(same(*back, value)) << type_name(type) << " " << text;
+    }
+  }
+  EXPECT_TRUE(std::isnan(kept_value(kept_text(real(NAN), Type::LREAL), Type::LREAL)->r));
+}
+
+TEST(KeptText, OfNoValueOfTheTypeIsNone) {
+  for (const auto& [text, type] :
+       std::initializer_list<std::pair<const char*, Type>>{{"128", Type::SINT},
+                                                           {"-129", Type::SINT},
+                                                           {"-1", Type::UINT},
+                                                           {"65536", Type::WORD},
+                                                           {"1.5", Type::INT},
+                                                           {"", Type::LREAL},
+                                                           {"1 ", Type::LREAL},
+                                                           {"1", Type::BOOL},
+                                                           {"true", Type::BOOL},
+                                                           {"9223372036854775808", Type::TIME},
+                                                           {"x", Type::ULINT}})
+    EXPECT_FALSE(kept_value(text, type).has_value()) << text;
+}
+
+TEST_F(RetainFileTest, GivesBackWhatWasWrittenUnderNamesInAnyCase) {
+  {
+    RetainFile file(path, "p");
+    EXPECT_TRUE(file.rows().empty());
+    EXPECT_EQ(file.write(std::vector<KeptRow>{{"Speed", "LREAL", "1.5", ""}, {"on", "BOOL", "TRUE", "b"}}),
+              "");
+    EXPECT_EQ(file.write(std::vector<KeptRow>{{"Speed", "LREAL", "2.5", ""}}), "");
+    EXPECT_EQ(file.commits(), 2u);
+    EXPECT_EQ(file.write(std::vector<KeptRow>{{"Speed", "LREAL", "2.5", ""}}), "");
+    EXPECT_EQ(file.commits(), 2u) << "nothing new";
+  }
+  const RetainFile file(path, "p");
+  ASSERT_NE(file.find("SPEED"), nullptr);
+  EXPECT_EQ(file.find("speed")->value, "2.5");
+  EXPECT_EQ(file.find("on")->basis, "b");
+  EXPECT_EQ(file.find("off"), nullptr);
+}
+
+TEST_F(RetainFileTest, HoldsProjectsApart) {
+  {
+    RetainFile file(path, "one");
+    EXPECT_EQ(file.write(std::vector<KeptRow>{{"a", "INT", "1", ""}}), "");
+  }
+  {
+    RetainFile file(path, "two");
+    EXPECT_TRUE(file.rows().empty());
+    EXPECT_EQ(file.other_projects(), std::vector<std::string>{"one"});
+    EXPECT_EQ(file.write(std::vector<KeptRow>{{"a", "INT", "2", ""}}), "");
+  }
+  EXPECT_EQ(RetainFile(path, "one").find("a")->value, "1");
+}
+
+TEST_F(RetainFileTest, IsForOneRunAtATime) {
+  const RetainFile first(path, "p");
+  EXPECT_NE(refusal().find("in use by another run"), std::string::npos) << refusal();
+}
+
+TEST_F(RetainFileTest, ThatCannotBeMadeIsToldWithItsPlace) {
+  path = testing::TempDir() + "no_such_directory_here/x.retain";
+  EXPECT_NE(refusal().find(path), std::string::npos) << refusal();
+}
+
+TEST_F(RetainFileTest, OfSomethingElseIsRefusedAndLeftAlone) {
+  const std::string text(5000, 'x');
+  std::ofstream(path) << text;
+  EXPECT_NE(refusal().find("damaged"), std::string::npos) << refusal();
+  EXPECT_EQ(std::filesystem::file_size(path), text.size());
+  std::filesystem::remove(path);
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  sqlite3_exec(database, "CREATE TABLE recipes (name)", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  EXPECT_NE(refusal().find("another program"), std::string::npos) << refusal();
+}
+
+TEST_F(RetainFileTest, ChangedByHandOrByANewerVersionIsRefused) {
+  { EXPECT_EQ(RetainFile(path, "p").write(std::vector<KeptRow>{{"a", "INT", "1", ""}}), ""); }
+  const auto change = [this](const char* text) {
+    sqlite3* database = nullptr;
+    sqlite3_open(path.c_str(), &database);
+    EXPECT_EQ(sqlite3_exec(database, text, nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(database);
+  };
+  change("UPDATE kept SET value = '2'");
+  EXPECT_NE(refusal().find("not those that were written"), std::string::npos) << refusal();
+  change("UPDATE kept SET value = '1'");
+  EXPECT_EQ(refusal(), "");
+  change("DELETE FROM state");
+  EXPECT_NE(refusal().find("damaged"), std::string::npos) << refusal();
+  change("PRAGMA user_version = 2");
+  EXPECT_NE(refusal().find("version 2"), std::string::npos) << refusal();
+}
+
+/// Two values that always change together, and an adjustment.
+struct Machine {
+  std::int32_t count = 7;
+  double triple = 21.0;
+  bool adjusted = false;
+  double offset = 0.0;
+
+  std::vector<KeptValue> values(const std::string& basis = "Gear=2") {
+    return {{.name = "count", .signal = {&count, Type::DINT, -1}},
+            {.name = "triple", .signal = {&triple, Type::LREAL, -1}},
+            {.name = "offset",
+             .signal = {&offset, Type::LREAL, -1},
+             .present = Signal{&adjusted, Type::BOOL, -1},
+             .basis = basis}};
+  }
+  void set(int value) {
+    count = value;
+    triple = 3.0 * value;
+  }
+};
+
+TEST_F(RetainWriterTest, KeepsAllValuesOfTheLastTickAndGivesThemBack) {
+  {
+    Machine machine;
+    RetainWriter writer(RetainFile(path, "p"), machine.values(), 1h);
+    writer.start();
+    for (int tick = 0; tick < 100; ++tick) {
+      machine.set(tick);
+      writer.image().publish(tick);
+    }
+    writer.stop();
+    EXPECT_LE(writer.commits(), 2u) << "once at the start, once at the end";
+  }
+  Machine machine;
+  EXPECT_TRUE(restore(RetainFile(path, "p"), machine.values()).empty());
+  EXPECT_EQ(machine.count, 99);
+  EXPECT_EQ(machine.triple, 297.0);
+  EXPECT_FALSE(machine.adjusted) << "there was nothing to keep";
+}
+
+TEST_F(RetainWriterTest, WritesWhileTheCycleRunsAlwaysOneInstant) {
+  Machine machine;
+  {
+    RetainWriter writer(RetainFile(path, "p"), machine.values(), 1ms);
+    writer.start();
+    machine.adjusted = true;
+    for (int tick = 1; writer.commits() < 20; ++tick) {
+      machine.set(tick);
+      machine.offset = -tick;
+      writer.image().publish(tick);
+      std::this_thread::yield();
+    }
+    writer.stop();
+  }
+  Machine next;
+  EXPECT_TRUE(restore(RetainFile(path, "p"), next.values()).empty());
+  EXPECT_EQ(next.count, machine.count);
+  EXPECT_EQ(next.triple, 3.0 * next.count);
+  EXPECT_TRUE(next.adjusted);
+  EXPECT_EQ(next.offset, -next.count);
+}
+
+TEST_F(RetainWriterTest, TellsOnceThatTheDiskIsFullAndOnceThatItIsNoLonger) {
+  MemoryDisk disk;
+  Machine machine;
+  RetainFile file("full.retain", "p", disk.name());
+  disk.space = 0;
+  RetainWriter writer(std::move(file), machine.values(), 1ms);
+  writer.start();
+  std::string news;
+  ASSERT_TRUE(wait_until([&] { return !(news = writer.news()).empty(); }));
+  EXPECT_NE(news.find("full"), std::string::npos) << news;
+  EXPECT_TRUE(writer.failing());
+  std::this_thread::sleep_for(20ms);
+  EXPECT_EQ(writer.news(), "") << "told again";
+  disk.space = SIZE_MAX;
+  ASSERT_TRUE(wait_until([&] { return !(news = writer.news()).empty(); }));
+  EXPECT_NE(news.find("again"), std::string::npos) << news;
+  EXPECT_FALSE(writer.failing());
+  writer.stop();
+}
+
+TEST_F(RetainWriterTest, AValueOfAnotherTypeIsToldAndNotTaken) {
+  { EXPECT_EQ(RetainFile(path, "p").write(std::vector<KeptRow>{{"count", "REAL", "1.5", ""}}), ""); }
+  Machine machine;
+  const auto remarks = restore(RetainFile(path, "p"), machine.values());
+  ASSERT_EQ(remarks.size(), 1u);
+  for (const char* part : {"count", "REAL", "1.5", "DINT"})
+    EXPECT_NE(remarks[0].find(part), std::string::npos) << remarks[0];
+  EXPECT_EQ(machine.count, 7);
+}
+
+TEST_F(RetainWriterTest, AnAdjustmentOfAnEncoderWithOtherSettingsIsToldNotTakenAndLeftInTheFile) {
+  { EXPECT_EQ(RetainFile(path, "p").write(std::vector<KeptRow>{{"offset", "LREAL", "12", "Gear=2"}}), ""); }
+  Machine machine;
+  {
+    RetainFile file(path, "p");
+    const auto remarks = restore(file, machine.values("Gear=3"));
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_NE(remarks[0].find("Gear=2; it is: Gear=3"), std::string::npos) << remarks[0];
+    EXPECT_FALSE(machine.adjusted);
+    RetainWriter writer(std::move(file), machine.values("Gear=3"), 1ms);
+    writer.start();
+    writer.stop();
+  }
+  EXPECT_TRUE(restore(RetainFile(path, "p"), machine.values()).empty());
+  EXPECT_EQ(machine.offset, 12.0);
+}
+
+TEST_F(RetainWriterTest, ATextThatIsNoValueOfItsTypeIsDamage) {
+  { EXPECT_EQ(RetainFile(path, "p").write(std::vector<KeptRow>{{"count", "DINT", "seven", ""}}), ""); }
+  Machine machine;
+  EXPECT_THROW(restore(RetainFile(path, "p"), machine.values()), RetainFileError);
+}
+
+}  // namespace
+}  // namespace lockstep::test

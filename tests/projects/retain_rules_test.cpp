@@ -1,0 +1,53 @@
+// What a project keeps across runs.
+#include <gtest/gtest.h>
+
+#include "changed_project.hpp"
+#include "projects/project.hpp"
+
+namespace lockstep {
+namespace {
+
+TEST(ProjectRetain, ListsTagsAndTheAdjustmentsOfAbsoluteEncoders) {
+  Json json = Json::parse(kExampleProject);
+  json["tags"]["other"] = {{"type", "INT"}, {"retain", true}};
+  json["technology_objects"]["Knife"]["config"]["Sensor[1]"] = {{"Type", 2}};
+  json["technology_objects"]["Knife"]["config"]["LoadGear"] = {{"Numerator", 3}};
+  json["retain"] = {{"file", "values"}, {"interval", "10s"}};
+  const LoadedProject loaded = load_project(json.dump(), "/somewhere");
+  ASSERT_TRUE(loaded.project.has_value()) << lines(loaded.problems);
+  const RetainConfig& retain = loaded.project->retain;
+  ASSERT_EQ(retain.values.size(), 3u);
+  EXPECT_EQ(retain.values[0].name, "speed");
+  EXPECT_EQ(retain.values[1].name, "other");
+  EXPECT_EQ(retain.values[2].name, "Knife.StatusSensor[1].AbsEncoderOffset");
+  EXPECT_NE(retain.values[2].basis.find("LoadGear.Numerator=3"), std::string::npos) << retain.values[2].basis;
+  EXPECT_NE(retain.values[2].basis.find("Sensor[1].Type=2"), std::string::npos) << retain.values[2].basis;
+  EXPECT_EQ(retain.file, "/somewhere/values");
+  EXPECT_EQ(retain.interval, std::chrono::seconds(10));
+}
+
+TEST(ProjectRetain, HasADefaultInterval) {
+  const LoadedProject loaded = load_project(kExampleProject);
+  ASSERT_TRUE(loaded.project.has_value());
+  EXPECT_EQ(loaded.project->retain.values.size(), 1u);
+  EXPECT_EQ(loaded.project->retain.file, "");
+  EXPECT_EQ(loaded.project->retain.interval, std::chrono::seconds(1));
+}
+
+TEST(ProjectRetain, ValuesGivenBackBeforeTheStartAreThoseTheAxisBeginsWith) {
+  Json json = Json::parse(kExampleProject);
+  json["technology_objects"]["Knife"]["config"]["Sensor[1]"] = {{"Type", 1}};
+  const LoadedProject loaded = load_project(json.dump(), "", [](Project& project) {
+    Value offset{};
+    offset.r = 90.0;
+    project.retain.values.back().signal.store(offset);
+    Value present{};
+    present.u = 1;
+    project.retain.values.back().present->store(present);
+  });
+  ASSERT_TRUE(loaded.project.has_value()) << lines(loaded.problems);
+  EXPECT_EQ(loaded.project->controller->axes[1]->data.ActualPosition, 90.0);
+}
+
+}  // namespace
+}  // namespace lockstep

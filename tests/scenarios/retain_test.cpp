@@ -1,0 +1,206 @@
+// Values that are kept across runs, through the command line: also when a run is killed.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <random>
+#include <regex>
+
+#include "hmi_bridge/retain_file.hpp"
+#include "tests/scenarios/modbus_client.hpp"
+#include "tests/scenarios/small_project.hpp"
+
+namespace lockstep::test {
+namespace {
+
+/// Two tags that change together in every millisecond, and go on from what was kept.
+Json counting() {
+  Json project = empty_project();
+  project["tags"] = {{"count", {{"type", "DINT"}, {"init", 5}, {"retain", true}}},
+                     {"triple", {{"type", "LREAL"}, {"init", 15.0}, {"retain", true}}},
+                     {"passing", {{"type", "DINT"}}}};
+  project["programs"].push_back(
+      {{"name", "Main"},
+       {"ob", "Main"},
+       {"cycle", "1ms"},
+       {"calls",
+        {assignment("count", "count + 1"), assignment("triple", "TO_LREAL(count) * 3.0"),
+         assignment("passing", "TO_DINT(count)")}}});
+  project["retain"] = {{"interval", "1ms"}};
+  return project;
+}
+
+std::vector<std::string> quietly(const std::string& project, std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"run", project, "--no-modbus", "--no-lcm"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// What the file beside a project holds; -1: no count.
+int kept_count(const std::string& file) {
+  const RetainFile opened(file, "small");
+  const KeptRow* const count = opened.find("count");
+  if (count == nullptr) return -1;
+  EXPECT_EQ(std::stod(opened.find("triple")->value), 3.0 * std::stod(count->value)) << "two instants mixed";
+  EXPECT_EQ(opened.find("passing"), nullptr);
+  return std::stoi(count->value);
+}
+
+TEST(Retain, ARunGoesOnWhereTheOneBeforeEnded) {
+  const Directory directory;
+  const std::string project = directory.write("project.json", counting().dump());
+  const Ended first = lockstep(quietly(project, {"--duration", "100ms"}));
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_NE(first.err.find("project.retain, which is new"), std::string::npos) << first.err;
+  const int count = kept_count(directory.file("project.retain"));
+  EXPECT_GT(count, 5);
+  EXPECT_LE(count, 105);
+  const Ended second = lockstep(quietly(project, {"--duration", "50ms"}));
+  ASSERT_EQ(second.status, 0) << second.err;
+  EXPECT_NE(second.err.find("2 kept values from"), std::string::npos) << second.err;
+  EXPECT_GT(kept_count(directory.file("project.retain")), count);
+}
+
+TEST(Retain, ASignalThatEndsARunKeepsTheValuesOfItsLastTick) {
+  const Directory directory;
+  Json json = counting();
+  json["retain"] = {{"interval", "1h"}, {"file", "state/kept.db"}};
+  json["tags"]["speed"] = {{"type", "LREAL"}, {"init", 1.0}, {"retain", true}};
+  json["modbus"]["map"] = {
+      {{"tag", "speed"}, {"table", "holding_register"}, {"address", 0}, {"type", "REAL"}}};
+  const std::string project = directory.write("project.json", json.dump());
+  std::filesystem::create_directory(directory.file("state"));
+  RunningLockstep run(project);
+  ModbusClient(run.port()).write_float(0, 42.5F);
+  run.send(SIGTERM);
+  ASSERT_EQ(run.status(), 0) << run.err();
+  EXPECT_EQ(RetainFile(directory.file("state/kept.db"), "small").find("speed")->value, "42.5");
+}
+
+TEST(Retain, KilledAtAnyTimeARunLosesNothingOlderThanItsIntervalAndMixesNothing) {
+  const bool soak = std::getenv("LOCKSTEP_SOAK") != nullptr;
+  const unsigned seed = soak ? std::random_device{}() : 20260713u;
+  const int kills = soak ? 3000 : 30;
+  std::cout << "seed " << seed << ", " << kills << " kills\n";
+  std::mt19937 random(seed);
+  const Directory directory;
+  const std::string project = directory.write("project.json", counting().dump());
+  const std::string file = directory.file("project.retain");
+  int before = -1;
+  int grown = 0;
+  for (int i = 0; i < kills; ++i) {
+    Process run(lockstep_command(quietly(project)));
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 120'000));
+    run.send(SIGKILL);
+    run.status();
+    const int now = kept_count(file);
+    ASSERT_GE(now, before) << "kill " << i << ": an older state came back";
+    if (now > before) ++grown;
+    before = now;
+  }
+  EXPECT_GT(grown, kills / 4) << "too few of the runs came to writing anything";
+}
+
+TEST(Retain, ASimulationNeitherReadsNorWrites) {
+  const Directory directory;
+  const std::string project = directory.write("project.json", counting().dump());
+  const auto simulate = [&] {
+    const CsvTable table = test::simulate(project, "10ms", {"--signals", "count"});
+    return table["count"].back();
+  };
+  EXPECT_EQ(simulate(), 15.0);
+  EXPECT_FALSE(std::filesystem::exists(directory.file("project.retain")));
+  ASSERT_EQ(lockstep(quietly(project, {"--duration", "100ms"})).status, 0);
+  const std::string kept = content(directory.file("project.retain"));
+  EXPECT_EQ(simulate(), 15.0);
+  EXPECT_EQ(content(directory.file("project.retain")), kept);
+  EXPECT_EQ(lockstep({"run", project, "--simulate", "--retain", "x"}).status, 2);
+}
+
+TEST(Retain, TheCommandLineNamesAnotherFileOrNone) {
+  const Directory directory;
+  const std::string project = directory.write("project.json", counting().dump());
+  const std::string other = directory.file("other");
+  ASSERT_EQ(lockstep(quietly(project, {"--duration", "20ms", "--retain", other})).status, 0);
+  EXPECT_GT(kept_count(other), 5);
+  ASSERT_EQ(lockstep(quietly(project, {"--duration", "20ms", "--no-retain"})).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(directory.file("project.retain")));
+}
+
+TEST(Retain, ADamagedFileIsNoPlaceToStartFrom) {
+  const Directory directory;
+  const std::string project = directory.write("project.json", counting().dump());
+  directory.write("project.retain", std::string(8192, 'x'));
+  const Ended ended = lockstep(quietly(project, {"--duration", "20ms"}));
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_NE(ended.err.find("project.retain: it is damaged"), std::string::npos) << ended.err;
+  EXPECT_EQ(content(directory.file("project.retain")), std::string(8192, 'x')) << "it is not touched";
+}
+
+TEST(Retain, AFileInUseByAnotherRunIsNotShared) {
+  const Directory directory;
+  Json json = counting();
+  json["modbus"]["map"] = {{{"tag", "count"}, {"table", "input_register"}, {"address", 0}}};
+  const std::string project = directory.write("project.json", json.dump());
+  RunningLockstep run(project);
+  const Ended second = lockstep(quietly(project, {"--duration", "20ms"}));
+  EXPECT_EQ(second.status, 2);
+  EXPECT_NE(second.err.find("in use by another run"), std::string::npos) << second.err;
+  run.send(SIGTERM);
+  EXPECT_EQ(run.status(), 0);
+}
+
+TEST(Retain, ATagOfAnotherTypeAndOneThatIsGoneAreTold) {
+  const Directory directory;
+  const std::string project = directory.write("project.json", counting().dump());
+  ASSERT_EQ(lockstep(quietly(project, {"--duration", "20ms"})).status, 0);
+  Json changed = counting();
+  changed["tags"]["count"]["type"] = "LINT";
+  changed["tags"]["triple"]["retain"] = false;
+  directory.write("project.json", changed.dump());
+  const Ended ended = lockstep(quietly(project, {"--duration", "20ms"}));
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_TRUE(std::regex_search(ended.err, std::regex("count was kept as DINT \\([0-9]+\\) and is LINT now")))
+      << ended.err;
+  EXPECT_TRUE(std::regex_search(ended.err, std::regex("triple \\([0-9.]+\\) is kept there and not in the")))
+      << ended.err;
+}
+
+TEST(Retain, AnAdjustedEncoderKnowsWhereItIsInTheNextRun) {
+  const Directory directory;
+  Json json = empty_project();
+  json["technology_objects"]["Slide"] = {{"type", "TO_PositioningAxis"},
+                                         {"config", {{"Sensor[1]", {{"Type", 1}}}}},
+                                         {"drive", {{"model", "simulated"}, {"start_position", 40.0}}}};
+  json["tags"]["go"] = {{"type", "BOOL"}, {"init", true}};
+  json["programs"].push_back(
+      {{"name", "Main"},
+       {"ob", "Main"},
+       {"cycle", "1ms"},
+       {"calls",
+        {call("MC_Power", "power", {{"Axis", "Slide"}, {"Enable", true}}),
+         call("MC_Home", "home",
+              {{"Axis", "Slide"}, {"Execute", "power.Status AND go"}, {"Mode", 7}, {"Position", 1000.0}})}}});
+  const std::string project = directory.write("project.json", json.dump());
+  const auto last = [&](const std::string& signal) {
+    const std::string trace = directory.file("t.csv");
+    const Ended ended =
+        lockstep(quietly(project, {"--duration", "100ms", "--trace", trace, "--signals", signal}));
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return read_csv(trace)[signal].back();
+  };
+  EXPECT_EQ(last("Slide.StatusSensor[1].AbsEncoderOffset"), 960.0);
+  json["tags"]["go"]["init"] = false;
+  directory.write("project.json", json.dump());
+  EXPECT_EQ(last("Slide.ActualPosition"), 1000.0);
+  EXPECT_EQ(last("Slide.StatusWord.X5"), 1.0) << "homed";
+  // With another gear the value of the encoder means another place.
+  json["technology_objects"]["Slide"]["config"]["LoadGear"] = {{"Numerator", 2}};
+  directory.write("project.json", json.dump());
+  const Ended other = lockstep(quietly(project, {"--duration", "50ms"}));
+  EXPECT_NE(other.err.find("LoadGear.Numerator=2"), std::string::npos) << other.err;
+  EXPECT_EQ(last("Slide.StatusWord.X5"), 0.0) << "nobody knows where it is";
+}
+
+}  // namespace
+}  // namespace lockstep::test
