@@ -5,6 +5,7 @@
 #include "fb/cam_value.hpp"
 #include "fb/copy_cam_data.hpp"
 #include "fb/counters.hpp"
+#include "fb/drive_words.hpp"
 #include "fb/edge.hpp"
 #include "fb/gear_in.hpp"
 #include "fb/gear_in_velocity.hpp"
@@ -16,12 +17,14 @@
 #include "fb/motion_in.hpp"
 #include "fb/move.hpp"
 #include "fb/offset.hpp"
+#include "fb/parameter.hpp"
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
 #include "fb/superimposed.hpp"
 #include "fb/sync_out.hpp"
 #include "fb/timers.hpp"
+#include "fb/torque.hpp"
 
 namespace lockstep {
 namespace {
@@ -62,6 +65,12 @@ constexpr BlockType kTypes[] = {
     block_type<MC_GetCamLeadingValue>(),
     block_type<MC_GetCamFollowingValue>(),
     block_type<MC_CopyCamData>(),
+    block_type<MC_SetSensor>(),
+    block_type<MC_SetAxisSTW>(),
+    block_type<MC_WriteParameter>(),
+    block_type<MC_TorqueLimiting>(),
+    block_type<MC_TorqueRange>(),
+    block_type<MC_TorqueAdditive>(),
     block_type<R_TRIG>(),
     block_type<F_TRIG>(),
     block_type<SR>(),

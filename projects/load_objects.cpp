@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "projects/load_drive.hpp"
 #include "projects/loader.hpp"
 
 namespace lockstep {
@@ -125,6 +126,11 @@ void load_drive(const JsonValue& json, Axis& axis, const Loading& loading) {
   if (const auto resolution = read_number(fields["encoder_resolution"], 0.0, kCoarsest, problems))
     drive.resolution = *resolution;
   if (const auto inverted = read_bool(fields["inverted"], problems)) drive.inverted = *inverted;
+  constexpr double kHardest = 1e12;  // [u/s²]
+  if (const auto stop = read_number(fields["quick_stop_deceleration"], 0.0, kHardest, problems))
+    drive.quick_stop = *stop;
+  if (const JsonValue* const plant = fields["plant"]) load_plant(*plant, drive, loading);
+  if (const JsonValue* const faults = fields["faults"]) load_faults(*faults, drive.faults, loading);
   load_signals(fields, drive.signals, loading);
 }
 

@@ -43,9 +43,23 @@ inline constexpr Key kMeasuringInputObject[] = {
 inline constexpr Key kMarks[] = {{"period", kRequired}, {"offset"}, {"width"}};
 inline constexpr Key kCam[] = {{"type", kRequired}, {"config"},   {"elements"}, {"optimization"},
                                {"points"},          {"segments"}, {"file"}};
-inline constexpr Key kDrive[] = {
-    {"model", kRequired}, {"time_constant"}, {"dead_time"},     {"encoder_resolution"}, {"inverted"},
-    {"start_position"},   {"zero_marks"},    {"reference_cam"}, {"limit_switches"},     {"digital_inputs"}};
+inline constexpr Key kDrive[] = {{"model", kRequired},
+                                 {"time_constant"},
+                                 {"dead_time"},
+                                 {"encoder_resolution"},
+                                 {"inverted"},
+                                 {"start_position"},
+                                 {"zero_marks"},
+                                 {"reference_cam"},
+                                 {"limit_switches"},
+                                 {"digital_inputs"},
+                                 {"quick_stop_deceleration"},
+                                 {"plant"},
+                                 {"faults"}};
+inline constexpr Key kPlant[] = {
+    {"inertia", kRequired}, {"friction"}, {"load_torque"}, {"maximum_torque"}, {"fixed_stop"}};
+inline constexpr Key kFixedStop[] = {{"position", kRequired}, {"stiffness", kRequired}, {"direction"}};
+inline constexpr Key kFaults[] = {{"drive"}, {"encoder"}, {"communication"}, {"blocked"}};
 inline constexpr Key kZeroMarks[] = {{"position", kRequired}, {"period"}};
 inline constexpr Key kLimitSwitches[] = {{"min"}, {"max"}};
 inline constexpr Key kDigitalInput[] = {{"tag", kRequired}, {"range", kRequired}};
@@ -106,6 +120,7 @@ inline constexpr auto kObjectTypes = [] {
   return names;
 }();
 inline constexpr std::string_view kModels[] = {"simulated"};
+inline constexpr std::string_view kDirections[] = {"positive", "negative"};
 inline constexpr std::string_view kCouplings[] = {"setpoint", "actual"};
 inline constexpr std::string_view kObs[] = {"MC_PreServo", "MC_PostServo", "MC_PreInterpolator", "Cyclic",
                                             "Main"};

@@ -189,6 +189,22 @@ Json objects_schema() {
   const Json digital_input =
       object(keys::kDigitalInput, {{"tag", text("BOOL tag that the machine writes in every servo cycle")},
                                    {"range", range("positions in which it is TRUE")}});
+  const Json fixed_stop = object(
+      keys::kFixedStop, {{"position", place("on the scale of the machine, where it is touched [u]")},
+                         {"stiffness", number("torque at the motor per way into it [Nm/u]", 1e-12, 1e12)},
+                         {"direction", words("of the motion that meets it", words::kDirections)}});
+  const Json plant = object(
+      keys::kPlant,
+      {{"inertia", number("of all that moves, at the motor [kg m²; of a linear motor N s²/u]", 1e-12, 1e12)},
+       {"friction", number("dry friction, as torque at the motor", 0.0, 1e12)},
+       {"load_torque", number("pushes the machine, at the motor; positive: forwards", -1e12, 1e12)},
+       {"maximum_torque", number("of the drive", 1e-12, 1e12)},
+       {"fixed_stop", described("something immovable in the way", fixed_stop)}});
+  const Json faults =
+      object(keys::kFaults, {{"drive", text("BOOL tag: while TRUE the drive has a fault")},
+                             {"encoder", text("BOOL tag: while TRUE the encoder tells nothing")},
+                             {"communication", text("BOOL tag: while TRUE the drive is not heard")},
+                             {"blocked", text("BOOL tag: while TRUE the machine cannot move")}});
   const Json drive = object(
       keys::kDrive, {{"model", words("kind of the drive", words::kModels)},
                      {"time_constant", duration("lag of the velocity loop")},
@@ -201,7 +217,11 @@ Json objects_schema() {
                      {"zero_marks", zero_marks},
                      {"reference_cam", range("positions in which the reference cam is active")},
                      {"limit_switches", limit_switches},
-                     {"digital_inputs", array("switches that are tags", digital_input)}});
+                     {"digital_inputs", array("switches that are tags", digital_input)},
+                     {"quick_stop_deceleration",
+                      number("of a quick stop (OFF3) [u/s²]; 0: as hard as the drive can", 0.0, 1e12)},
+                     {"plant", described("what the drive moves", plant)},
+                     {"faults", described("what goes wrong, and when", faults)}});
   const Json type = words("published type", words::kObjectTypes);
   const Json config = {{"anyOf",
                         {reference("config"), reference("encoder_config"),

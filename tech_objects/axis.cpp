@@ -13,7 +13,6 @@ void Axis::configure(double servo_period, int ratio) {
   ratio_ = ratio;
   period_ = servo_period * ratio;
   start_values_ = data;
-  has_drive_ = !is_virtual();
   take_start_values();
   setpoint_ = Setpoint{};
   setpoint_.position = normalised({0, 0.0}, modulo_);
@@ -23,12 +22,15 @@ void Axis::configure(double servo_period, int ratio) {
   reset_leading(actual_);
   for (const LeadingValue& leading : leading_values)
     if (leading.coupling == Coupling::actual) leading.source->lead_by_actual_value();
-  if (has_drive_) configure_servo();
+  if (!is_virtual()) configure_servo();
   show_sensor();
   publish();
 }
 
 void Axis::take_start_values() noexcept {
+  const bool simulated = data.Simulation.Mode == 1 && !is_virtual();
+  has_drive_ = !is_virtual() && !simulated;
+  set_bit(data.StatusWord, StatusBit::AxisSimulation, simulated);
   modulo_ = {data.Modulo.Enable, data.Modulo.Length, data.Modulo.StartValue};
   single_.configure(modulo_, period_);
   superimposed_.configure(period_);
@@ -51,7 +53,13 @@ void Axis::step_power() noexcept {
       if (power.enable && !enable_removed_) switch_on();
       break;
     case PowerState::switching_on:
-      if (drive_running_) take_up_motion();
+      if (drive_running_) {
+        take_up_motion();
+      } else if (!power.enable) {
+        switch_off();
+      } else if (drive_inhibited_) {
+        switch_on();  // it has stopped by itself meanwhile
+      }
       break;
     case PowerState::on:
       if (!power.enable) begin_braking(power.stop_mode);
@@ -59,12 +67,16 @@ void Axis::step_power() noexcept {
     case PowerState::braking:
       if (single_.finished()) switch_off();
       break;
+    case PowerState::drive_stops:
+      if (drive_inhibited_ || drive_in_trouble_) power_state_ = PowerState::off;
+      break;
   }
 }
 
 void Axis::switch_on() noexcept {
   if (has_drive_) {
-    drive_.enable(true);
+    control_drive(kControlOff);  // a drive that has stopped by itself wants to be told
+    control_drive(kControlOn);
     power_state_ = PowerState::switching_on;
     return;
   }
@@ -77,7 +89,9 @@ void Axis::take_up_motion() noexcept {
   power_state_ = PowerState::on;
   position_controlled_ = power.start_mode == 1;
   motion_ = Motion::single_axis;
-  if (has_drive_) setpoint_ = {actual_, moving(actual_velocity_) ? actual_velocity_ : 0.0, 0.0};
+  const bool at_once = power.start_mode == 0 || data.PositionControl.VelocityModePowerOn == 1;
+  const bool ramps = moving(actual_velocity_) && !at_once;
+  if (has_drive_) setpoint_ = {actual_, ramps ? actual_velocity_ : 0.0, 0.0};
   const AxisPosition here = setpoint_.position;
   if (has_drive_) reset_servo({here, 0.0});
   if (setpoint_.standing() || single_.move_to(setpoint_, here, 0.0, maximum_dynamics()) != PlanResult::ok) {
@@ -89,9 +103,11 @@ void Axis::take_up_motion() noexcept {
 
 void Axis::begin_braking(INT stop_mode) noexcept {
   end_all_jobs(JobPhase::aborted, ErrorId::none);
-  const bool drive_stops = has_drive_ && (stop_mode == 1 || stop_mode == 3);
-  if (drive_stops) {
+  if (has_drive_ && (stop_mode == 1 || stop_mode == 3)) {
+    const bool stops = stop_mode == 1 && power_state_ != PowerState::switching_on;
     switch_off();
+    control_drive(stop_mode == 1 ? kControlQuickStop : kControlCoast);
+    if (stops) power_state_ = PowerState::drive_stops;
     return;
   }
   power_state_ = PowerState::braking;
@@ -100,7 +116,7 @@ void Axis::begin_braking(INT stop_mode) noexcept {
 
 void Axis::switch_off() noexcept {
   absorb_superimposed();
-  if (has_drive_) drive_.enable(false);
+  if (has_drive_) control_drive(kControlOff);
   power_state_ = PowerState::off;
   motion_ = Motion::none;
   setpoint_.velocity = 0.0;
@@ -171,6 +187,7 @@ ErrorId Axis::reset(bool restart) noexcept {
   data.ErrorDetail = {};
   enable_removed_ = false;
   if (restart) this->restart();
+  if (has_drive_ && (sensor_lost_ || drive_.in_trouble())) acknowledge_drive();
   return ErrorId::none;
 }
 
@@ -190,7 +207,8 @@ void Axis::restart() noexcept {
   counted_from_ = 0;
   limit_switches_ = {};
   beyond_limit_switch_ = false;
-  if (has_drive_) restart_servo();
+  free_bits_ = {};
+  if (!is_virtual()) restart_servo();
   show_sensor();
   restarted = true;
   ++restarts_;
@@ -206,11 +224,12 @@ void Axis::watch_leading_object() noexcept {
   if (led_by_lost || (waiting != nullptr && lost(*waiting->master))) raise(alarm::kLeadingAxis);
 }
 
-/// What there is of an encoder: it is simulated, so it always works.
+/// What there is of an encoder, as long as nothing is wrong with it.
 void Axis::show_sensor() noexcept {
   data.OperativeSensor = 1;
-  data.StatusSensor[0].State = kSensorValid;
+  data.StatusSensor[0].State = sensor_lost_ ? 0 : kSensorValid;
   data.StatusSensor[0].CommunicationOK = true;
+  data.StatusSensor[0].Control = true;
   data.StatusDrive.CommunicationOK = true;
 }
 
@@ -220,6 +239,7 @@ void Axis::show_sensor() noexcept {
 void Axis::step() noexcept {
   last_setpoint_ = setpoint_;
   servo_tick_ = 0;
+  if (has_drive_) step_forces();
   if (power_state_ != PowerState::on || !power.enable) step_power();
   if (additive_request.owner != nullptr || additive_.in_use) take_additive();
   if (simulation_request.owner != nullptr) watch_simulation();

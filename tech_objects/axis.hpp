@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "tech_objects/axis_forces.hpp"
 #include "tech_objects/axis_position.hpp"
 #include "tech_objects/drive.hpp"
 #include "tech_objects/job.hpp"
@@ -94,6 +95,20 @@ class Axis final : public LeadingObject {
   SimulationRequest simulation_request;
   bool simulating() const noexcept { return simulated_ != nullptr; }
 
+  /// Requests of the torque blocks, which write them only when nothing is refused, and what has become of
+  /// them.
+  AxisForces& forces() noexcept { return forces_; }
+  ErrorId torque_limiting_refusal(DINT mode) const noexcept;
+  ErrorId torque_range_refusal() const noexcept;
+  ErrorId torque_additive_refusal() const noexcept;
+  /// Drives bits of the control words that the axis does not use itself: STW1 8, 9, 11 to 15, STW2 0 to 11.
+  /// They stay until the next call or a restart.
+  ErrorId set_control_bits(WORD stw1, WORD stw1_mask, WORD stw2, WORD stw2_mask) noexcept;
+  /// What MC_WriteParameter may write at run time.
+  ErrorId activate_limit_switches(bool active) noexcept;
+  /// MC_SetSensor, at once. @param sensor, reference 1 to 4
+  ErrorId set_sensor(DINT sensor, DINT mode, DINT reference) noexcept;
+
   /// Number of the alarm with a reaction that is pending; 0: none.
   int pending_alarm() const noexcept { return static_cast<int>(data.ErrorDetail.Number); }
 
@@ -139,6 +154,12 @@ class Axis final : public LeadingObject {
   bool measured_in_servo() const noexcept override { return has_drive_; }
   DoubleDouble measured_line() const noexcept override { return encoder_position_; }
 
+  bool stopping() const noexcept {
+    return power_state_ == PowerState::braking || power_state_ == PowerState::drive_stops;
+  }
+  /// False while encoder or communication are lost, until that is acknowledged.
+  bool actual_values_valid() const noexcept override { return !sensor_lost_; }
+  const SimulatedDrive& drive() const noexcept { return drive_; }
   /// Whether this axis is `leading` or follows, over any number of couplings, one that is.
   bool led_by_this(const LeadingObject* leading) const noexcept;
   /// Largest distance between actual position and synchronous function while synchronous [u], for the summary
@@ -366,6 +387,36 @@ class Axis final : public LeadingObject {
   void delay_following_error(const PositionControlled& controlled) noexcept;
   void shift_servo(double by) noexcept;
 
+  void idle_servo() noexcept;
+
+  // axis_backlash.cpp
+  double pass_backlash() noexcept;
+  double backlash_offset() const noexcept { return data.Sensor[0].Backlash.Enable ? backlash_.passed : 0.0; }
+
+  double motor_angle_per_unit() const noexcept;
+
+  // axis_forces.cpp: torque limiting, torque data, fixed stop
+  void step_forces() noexcept;
+  void show_forces() noexcept;
+  double limit_at_motor() const noexcept;
+  TorqueBand torque_band() const noexcept;
+  bool position_monitoring_off() const noexcept;
+  bool pushes_against_a_stop() const noexcept;
+  void watch_fixed_stop() noexcept;
+  void freeze_setpoint() noexcept;
+  void watch_clamping() noexcept;
+  void leave_fixed_stop() noexcept;
+  ErrorId check_at_fixed_stop(const Job& job) const noexcept;
+  static ErrorId away_from_stop(double way, int side) noexcept;
+
+  // axis_faults.cpp: drive and encoder that fail, control words
+  void watch_drive(const DriveActual& now) noexcept;
+  void raise_drive_alarms(const DriveActual& now) noexcept;
+  void lose_sensor() noexcept;
+  void regain_sensor() noexcept;
+  void acknowledge_drive() noexcept;
+  void control_drive(std::uint16_t stw1) noexcept;
+
   // axis_monitoring.cpp: software limit switches, following error, standstill
   struct PositionLimits {
     double least;     // [u]
@@ -461,6 +512,24 @@ class Axis final : public LeadingObject {
   DynamicFilter setpoint_filter_;
   FirstOrderLag following_lag_;  // FollowingError.AdditionalSetpointDelayTime
   AxisPosition last_balanced_;
+
+  // Forces, faults and control words: seldom of account.
+  struct ControlBits {
+    std::uint16_t stw1 = 0;
+    std::uint16_t stw2 = 0;
+  };
+  double actual_torque_ = 0.0;  // at the motor, in the direction of the axis
+  bool drive_in_trouble_ = false;
+  bool drive_inhibited_ = false;
+  bool sensor_lost_ = false;
+  std::uint16_t sent_stw1_ = kControlOff;
+  ControlBits free_bits_;  // of MC_SetAxisSTW
+  struct Backlash {
+    double passed = 0.0;        // of the play, by the motor: 0 … Size [u]
+    std::int8_t direction = 0;  // of the last motion; 0: none yet
+  };
+  Backlash backlash_;
+  AxisForces forces_;
 };
 
 }  // namespace lockstep

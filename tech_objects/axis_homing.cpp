@@ -274,7 +274,8 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
 /// The mark has been passed; a virtual axis has none, and takes the place where it is.
 void Axis::take_mark() noexcept {
   const DoubleDouble way = two_difference(mark_search_.place(), drive_settings.signals.start_position);
-  const AxisPosition place = has_drive_ ? advanced(encoder_origin_, way * encoder_sign_, modulo_) : actual_;
+  const DoubleDouble load_way = way * encoder_sign_ - DoubleDouble{backlash_offset(), 0.0};
+  const AxisPosition place = has_drive_ ? advanced(encoder_origin_, load_way, modulo_) : actual_;
   mark_search_.end();
   Job* const passive = running_[kPassiveHoming];
   Job& job = passive != nullptr ? *passive : *running_[kBase];

@@ -47,6 +47,8 @@ void Axis::start(Job& job) noexcept {
     return;
   }
   if (const ErrorId error = check(job); error != ErrorId::none) return job.fail(error);
+  if (forces_.stop_side != 0)
+    if (const ErrorId error = check_at_fixed_stop(job); error != ErrorId::none) return job.fail(error);
   if (const int alarm_number = missing_precondition(job); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);

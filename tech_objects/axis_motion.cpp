@@ -298,11 +298,12 @@ void Axis::watch_positioning() noexcept {
   const double away =
       superimposed_.resting() ? std::abs(rounded_difference(actual_, setpoint_.position, modulo_)) : 0.0;
   ++since_target_ticks_;
-  if (away > monitoring.Window && in_window_ticks_ > 0) return raise(alarm::kPositioning);
+  const bool silent = has_drive_ && position_monitoring_off();
+  if (away > monitoring.Window && in_window_ticks_ > 0 && !silent) return raise(alarm::kPositioning);
   in_window_ticks_ = away <= monitoring.Window ? in_window_ticks_ + 1 : 0;
   if (in_window_ticks_ > ticks_of(monitoring.MinDwellTime)) {
     end_job(kBase, JobPhase::done, ErrorId::none);
-  } else if (in_window_ticks_ == 0 && since_target_ticks_ > ticks_of(monitoring.ToleranceTime)) {
+  } else if (in_window_ticks_ == 0 && since_target_ticks_ > ticks_of(monitoring.ToleranceTime) && !silent) {
     raise(alarm::kPositioning);
   }
 }

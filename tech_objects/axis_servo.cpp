@@ -1,4 +1,6 @@
 // MC_Servo of an axis with a drive: actual values, fine interpolation, position control.
+#include <algorithm>
+
 #include "tech_objects/axis.hpp"
 #include "tech_objects/fine_interpolation.hpp"
 
@@ -6,6 +8,7 @@ namespace lockstep {
 /// The encoder goes on from where it is, at the position that the axis has now.
 void Axis::restart_servo() noexcept {
   take_servo_settings();
+  backlash_ = {};
   encoder_origin_ = advanced(actual_, -(encoder_position_ * encoder_sign_), modulo_);
   restore_encoder();
   reset_servo({setpoint_.position, 0.0});
@@ -22,7 +25,7 @@ void Axis::take_servo_settings() noexcept {
 }
 
 void Axis::configure_servo() {
-  drive_.configure(drive_settings, servo_period_);
+  drive_.configure(drive_settings, servo_period_, motor_angle_per_unit());
   take_servo_settings();
   controller_.configure(control_settings(), servo_period_);
   encoder_origin_ = setpoint_.position;
@@ -65,16 +68,39 @@ double Axis::way_per_motor_turn() const noexcept {
   return load_turns * (data.Properties.MotionType == 1 ? 360.0 : data.Mechanics.LeadScrew);
 }
 
+/// Of the motor in a plant [rad/u]; a linear motor moves as the axis does.
+double Axis::motor_angle_per_unit() const noexcept {
+  constexpr double kTurn = 6.283185307179586;
+  return data.Actor.MotorType == 1 ? 1.0 : kTurn / way_per_motor_turn();
+}
+
+/// Simulated, the axis leaves its drive alone.
+void Axis::idle_servo() noexcept {
+  encoder_position_ = drive_.read().position;
+  drive_.write(0.0);
+}
+
 void Axis::servo() noexcept {
+  if (!has_drive_) return idle_servo();
   DriveActual now = drive_.read();
+  if (now.trouble || drive_in_trouble_) watch_drive(now);
   encoder_position_ = now.position;
   if (signals_watched_) watch_signals(now.position);
   if (encoder_sign_ < 0.0) {
     now.position = -now.position;
     now.velocity = -now.velocity;
   }
-  drive_running_ = now.enabled;
-  actual_ = advanced(encoder_origin_, now.position, modulo_);
+  drive_running_ = now.enabled && !now.silent;
+  drive_inhibited_ = now.inhibited;
+  actual_torque_ = setpoint_sign_ * now.torque;
+  if (data.Actor.Interface.EnableTorqueData) data.StatusTorqueData.ActualTorque = actual_torque_;
+  if (sensor_lost_)
+    now.velocity = 0.0;
+  else
+    actual_ = advanced(
+        encoder_origin_,
+        data.Sensor[0].Backlash.Enable ? now.position - DoubleDouble{backlash_.passed, 0.0} : now.position,
+        modulo_);
   data.ActualAcceleration = (now.velocity - actual_velocity_) / servo_period_;
   actual_velocity_ = now.velocity;
   data.StatusSensor[0].Position = actual_.value;
@@ -82,7 +108,7 @@ void Axis::servo() noexcept {
   data.ActualSpeed = actual_velocity_ / way_per_motor_turn() * 60.0;
 
   ++servo_tick_;
-  if (power_state_ == PowerState::off || power_state_ == PowerState::switching_on) {
+  if (power_state_ <= PowerState::drive_stops) {
     data.VelocitySetpoint = 0.0;
     data.StatusPositioning.FollowingError = 0.0;
     data.StatusServo.ControlDifference = 0.0;
@@ -120,6 +146,9 @@ void Axis::control_position() noexcept {
   controller_.configure(settings, servo_period_);
   const PositionControlled controlled = controller_.step(position, velocity, actual_, modulo_);
   data.VelocitySetpoint = controlled.velocity;
+  if (data.Sensor[0].Backlash.Enable)
+    data.VelocitySetpoint =
+        std::clamp(controlled.velocity + pass_backlash(), -settings.max_velocity, settings.max_velocity);
   data.StatusServo.BalancedPosition = controlled.balanced.value;
   data.StatusServo.ControlDifference = controlled.control_difference;
   data.StatusPositioning.FollowingError = controlled.control_difference;
@@ -127,7 +156,7 @@ void Axis::control_position() noexcept {
     delay_following_error(controlled);
   last_balanced_ = controlled.balanced;
   if (controlled.limited) raise(alarm::kSpeedSetpointLimited);
-  if (data.FollowingError.EnableMonitoring) watch_following_error(velocity);
+  if (data.FollowingError.EnableMonitoring && !position_monitoring_off()) watch_following_error(velocity);
 }
 
 /// Position control begins anew from a setpoint that has moved at its velocity until now.
@@ -149,6 +178,7 @@ void Axis::delay_following_error(const PositionControlled& controlled) noexcept 
 }
 
 void Axis::shift_servo(double by) noexcept {
+  forces_.clamped_at = advanced(forces_.clamped_at, by, modulo_);
   setpoint_filter_.shift(by);
   last_balanced_ = advanced(last_balanced_, by, modulo_);
   encoder_origin_ = advanced(encoder_origin_, by, modulo_);

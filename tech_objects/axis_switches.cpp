@@ -49,6 +49,22 @@ bool Axis::limit_switch_pressed(int side, double place) const noexcept {
   return drive_settings.signals.limit_max && place >= *drive_settings.signals.limit_max;
 }
 
+/// PositionLimits_HW.Active at run time, until a restart.
+ErrorId Axis::activate_limit_switches(bool active) noexcept {
+  const auto& limits = data.PositionLimits_HW;
+  const MachineSignals& machine = drive_settings.signals;
+  const bool configured = limits.MinSwitchAddress != nullptr || limits.MaxSwitchAddress != nullptr ||
+                          machine.limit_min.has_value() || machine.limit_max.has_value();
+  if (!has_drive_ || !configured) return ErrorId::limit_switches_missing;
+  data.PositionLimits_HW.Active = active;
+  if (!active) {
+    limit_switches_ = {};
+    beyond_limit_switch_ = false;
+  }
+  signals_watched_ = signals_always_watched() || mark_search_.active();
+  return ErrorId::none;
+}
+
 AlarmReaction Axis::limit_switch_reaction() const noexcept {
   const auto& limits = data.PositionLimits_HW;
   const bool keeps_enable = limits.Mode == 0 && limits.ApproachBehavior == 1;

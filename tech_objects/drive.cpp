@@ -22,14 +22,37 @@ Cycles cycles_of(double delay, double servo_cycle, std::size_t most) noexcept {
   return {static_cast<std::size_t>(whole), cycles - whole};
 }
 
+/// A stop of the drive's own: at rest once this part of the velocity is left, given up after [s].
+constexpr double kRest = 1e-3;
+constexpr double kLongestStop = 10.0;
+
+bool is_on(const bool* cause) noexcept {
+  return cause != nullptr && *cause;
+}
+
 }  // namespace
 
-void SimulatedDrive::configure(const SimulatedDriveSettings& settings, double servo_cycle) noexcept {
+void SimulatedDrive::configure(const SimulatedDriveSettings& settings, double servo_cycle,
+                               double motor_angle) noexcept {
   written_.fill(0.0);
   cycle_ = 0;
   position_ = reported_ = {};
   velocity_ = 0.0;
-  enabled_ = false;
+  states_ = {};
+  told_ = {};
+  torque_ = {};
+  stw1_ = kControlOff;
+  stw2_ = 0;
+  blocked_ = false;
+  stopping_cycles_ = 0;
+  ramp_ = last_setpoint_ = stop_velocity_ = 0.0;
+  quick_stop_ = std::max(0.0, settings.quick_stop);
+  most_stop_cycles_ = kLongestStop / servo_cycle;
+  faults_ = settings.faults;
+  has_faults_ = faults_.drive != nullptr || faults_.encoder != nullptr || faults_.communication != nullptr ||
+                faults_.blocked != nullptr;
+  plant_.configure(settings.plant, motor_angle, settings.signals.start_position, settings.time_constant,
+                   servo_cycle);
   const Cycles dead = cycles_of(settings.dead_time, servo_cycle, kDelay - 2);
   const double time_constant = std::max(0.0, settings.time_constant);
   servo_cycle_ = servo_cycle;
@@ -54,22 +77,116 @@ void SimulatedDrive::run(const Piece& piece, double velocity) noexcept {
 }
 
 void SimulatedDrive::write(double velocity) noexcept {
-  written_[cycle_ % kDelay] = enabled_ ? velocity : 0.0;
+  if (has_faults_) watch_causes();
+  if (states_.operation()) last_setpoint_ = velocity;
+  written_[cycle_ % kDelay] = states_.operation() ? velocity : quick_stop_setpoint();
+  const DoubleDouble position_before = position_;
+  const double velocity_before = velocity_;
   // The setpoint written `whole_cycles_` ago arrives after the broken part of the dead time.
   run(before_, written_[(cycle_ + kDelay - whole_cycles_ - 1) % kDelay]);
   run(after_, written_[(cycle_ + kDelay - whole_cycles_) % kDelay]);
   ++cycle_;
+  if (plant_.exists() || blocked_) move_plant(position_before, velocity_before);
+  if (states_.stopping()) watch_stop();
+}
+
+/// Off, or on the way there: 0, or down the ramp of OFF3.
+double SimulatedDrive::quick_stop_setpoint() noexcept {
+  if (quick_stop_ <= 0.0 || states_.state() != DriveStates::State::quick_stop) return 0.0;
+  const double step = quick_stop_ * servo_cycle_;
+  ramp_ -= std::clamp(ramp_, -step, step);
+  return ramp_;
+}
+
+void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velocity_before) noexcept {
+  if (blocked_) {
+    plant_.hold(velocity_, torque_.band);
+    position_ = position_before;
+    velocity_ = 0.0;
+    return;
+  }
+  const MachinePlant::Motion wanted{(position_ - position_before).rounded(), velocity_};
+  const MachinePlant::Motion made = plant_.step({position_before.rounded(), velocity_before}, wanted,
+                                                states_.pulses(), torque_.band, torque_.additive);
+  if (made.way != wanted.way) position_ = position_before + made.way;
+  velocity_ = made.velocity;
+}
+
+/// A stop of the drive's own ends at rest; or, if something keeps the machine going, after a while.
+void SimulatedDrive::watch_stop() noexcept {
+  if (stopping_cycles_++ == 0) stop_velocity_ = std::abs(velocity_);
+  const bool rests = std::abs(velocity_) <= kRest * stop_velocity_ && ramp_ == 0.0;
+  if (!rests && stopping_cycles_ < most_stop_cycles_) return;
+  stopping_cycles_ = 0;
+  states_.stopped();
+}
+
+// ---- States and faults
+// --------------------------------------------------------------------------------------------
+
+void SimulatedDrive::control(std::uint16_t stw1, std::uint16_t stw2) noexcept {
+  if (is_on(faults_.communication)) return;
+  stw1_ = stw1;
+  stw2_ = stw2;
+  const DriveStates::State before = states_.state();
+  states_.control(stw1);
+  if (states_.stopping() && states_.state() != before) {
+    stopping_cycles_ = 0;
+    ramp_ = states_.state() == DriveStates::State::quick_stop && quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
+  }
+  if (!states_.operation() && !states_.stopping()) last_setpoint_ = 0.0;
+}
+
+/// Each servo cycle of a drive to which something can happen.
+void SimulatedDrive::watch_causes() noexcept {
+  const bool drive = is_on(faults_.drive) || is_on(faults_.encoder);
+  const bool silent = is_on(faults_.communication);
+  blocked_ = is_on(faults_.blocked);
+  states_.hold_fault(drive || silent);
+  if (drive) {
+    states_.fail(false);
+  } else if (silent && !states_.fault()) {
+    states_.fail(true);
+    stopping_cycles_ = 0;
+    ramp_ = quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
+  }
+}
+
+bool SimulatedDrive::in_trouble() const noexcept {
+  return states_.fault() || is_on(faults_.drive) || is_on(faults_.encoder) || is_on(faults_.communication);
 }
 
 DriveActual SimulatedDrive::read() noexcept {
-  if (resolution_ == 0.0) return {position_, velocity_, enabled_};
+  if (has_faults_ && is_on(faults_.communication)) {
+    told_.silent = told_.trouble = true;
+    return told_;
+  }
+  DriveActual now{.velocity = velocity_,
+                  .enabled = states_.operation(),
+                  .torque = plant_.torque(),
+                  .fault = states_.fault(),
+                  .inhibited = states_.state() == DriveStates::State::inhibited};
+  if (has_faults_ && is_on(faults_.encoder)) {
+    now.position = told_.position;
+    now.velocity = 0.0;
+    now.encoder_failed = true;
+  } else {
+    read_encoder(now);
+  }
+  now.trouble = now.fault || now.encoder_failed;
+  if (has_faults_) told_ = now;
+  return now;
+}
+
+void SimulatedDrive::read_encoder(DriveActual& now) noexcept {
+  now.position = position_;
+  if (resolution_ == 0.0) return;
   const DoubleDouble increments = position_ / resolution_ + 0.5;
   double count = std::floor(increments.hi);
   if (count == increments.hi && increments.lo < 0.0) count -= 1.0;
-  const DoubleDouble position = two_product(count, resolution_);
-  const double velocity = (position - reported_).rounded() / servo_cycle_;
-  reported_ = position;
-  return {position, velocity, enabled_};
+  now.position = two_product(count, resolution_);
+  now.velocity = (now.position - reported_).rounded() / servo_cycle_;
+  reported_ = now.position;
 }
 
 void PositionController::configure(const PositionControlSettings& settings, double servo_cycle) noexcept {

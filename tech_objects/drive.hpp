@@ -7,15 +7,29 @@
 
 #include "tech_objects/axis_position.hpp"
 #include "tech_objects/double_double.hpp"
+#include "tech_objects/machine_plant.hpp"
 #include "tech_objects/machine_signals.hpp"
+#include "tech_objects/profidrive.hpp"
 
 namespace lockstep {
 
 /// What a drive reports.
 struct DriveActual {
-  DoubleDouble position;  ///< [u] on a line, from where the drive was switched on; never wraps
-  double velocity = 0.0;  ///< [u/s]
-  bool enabled = false;
+  DoubleDouble position{};      ///< [u] on a line, from where the drive was switched on; never wraps
+  double velocity = 0.0;        ///< [u/s]
+  bool enabled = false;         ///< ZSW1: it follows its setpoint
+  double torque = 0.0;          ///< of the motor, in the direction of the machine
+  bool trouble = false;         ///< one of the three below
+  bool fault = false;           ///< ZSW1: a fault of the drive waits to be acknowledged
+  bool encoder_failed = false;  ///< position and velocity are those of before
+  bool silent = false;          ///< no communication: everything is as it was before
+  bool inhibited = false;       ///< ZSW1: it has to be told OFF1 before it can be switched on
+};
+
+/// What a motor may make, and what is added to its torque, in the direction of the machine.
+struct TorqueCommand {
+  TorqueBand band{};
+  double additive = 0.0;
 };
 
 /// A drive with a velocity setpoint. In every servo cycle: `read` once, then `write` once. The cycle's
@@ -27,33 +41,60 @@ class Drive {
   virtual DriveActual read() noexcept = 0;
   /// [u/s] Velocity setpoint from this cycle on; what is written while the drive is off does not count.
   virtual void write(double velocity) noexcept = 0;
-  /// Switches the drive on or off from the next `write` on.
-  virtual void enable(bool on) noexcept = 0;
+  /// Control words 1 and 2: switching on, off and acknowledging, from the next `write` on.
+  virtual void control(std::uint16_t stw1, std::uint16_t stw2) noexcept = 0;
+  /// Counts from the next `write` on.
+  virtual void command_torque(const TorqueCommand& command) noexcept = 0;
+  /// Switches the drive on or off (OFF1) from the next `write` on.
+  void enable(bool on) noexcept { control(on ? kControlOn : kControlOff, 0); }
+};
+
+/// What goes wrong at a simulated drive while the BOOL is TRUE; nullptr: nothing ever does.
+struct SimulatedFaults {
+  const bool* drive = nullptr;          ///< a fault of the drive: it loses its torque
+  const bool* encoder = nullptr;        ///< no position any more
+  const bool* communication = nullptr;  ///< neither setpoints nor actual values; the drive stops by itself
+  const bool* blocked = nullptr;        ///< nothing moves, whatever the torque
 };
 
 /// A simulated drive and its encoder.
 struct SimulatedDriveSettings {
-  double time_constant = 0.0;  ///< [s] ≥ 0, of the velocity loop as a first-order lag; 0: follows at once
-  double dead_time = 0.0;      ///< [s] 0 … 254 servo cycles, whole or not; more counts as that
-  double resolution = 0.0;     ///< [u] ≥ 0, increment of the encoder; 0: reports the position itself
-  bool inverted = false;       ///< motor and its encoder turn the other way round than the machine
-  MachineSignals signals{};    ///< what stands along its way; the drive itself takes no notice of it
+  double time_constant = 0.0;    ///< [s] ≥ 0, of the velocity loop as a first-order lag; 0: follows at once
+  double dead_time = 0.0;        ///< [s] 0 … 254 servo cycles, whole or not; more counts as that
+  double resolution = 0.0;       ///< [u] ≥ 0, increment of the encoder; 0: reports the position itself
+  bool inverted = false;         ///< motor and its encoder turn the other way round than the machine
+  MachineSignals signals{};      ///< what stands along its way; the drive itself takes no notice of it
+  MachinePlantSettings plant{};  ///< what it moves; of no effect without inertia
+  double quick_stop = 0.0;       ///< [u/s²] ≥ 0, deceleration of OFF3; 0: as hard as the drive can
+  SimulatedFaults faults{};
 };
 
 /// Velocity loop as dead time and first-order lag, position as its integral, both exact for a setpoint that
-/// is held from cycle to cycle. Switched off it takes 0 as its setpoint and so coasts to rest. Deterministic:
-/// the only transcendental numbers are made in `configure`, by additions and multiplications.
+/// is held from cycle to cycle; with a plant the torque that this takes, and what happens when it is not
+/// there. Switched off (without plant) it takes 0 as its setpoint and so coasts to rest. Deterministic: the
+/// only transcendental numbers are made in `configure`, by additions and multiplications.
 class SimulatedDrive final : public Drive {
  public:
   static constexpr std::size_t kDelay = 256;  ///< servo cycles kept
 
   SimulatedDrive() noexcept { configure({}, 0.001); }
   /// Standing at position 0, switched off. `servo_cycle` [s] > 0. While loading.
-  void configure(const SimulatedDriveSettings& settings, double servo_cycle) noexcept;
+  /// @param motor_angle of the motor per way of the machine [rad/u], for the plant; of a linear motor 1
+  void configure(const SimulatedDriveSettings& settings, double servo_cycle,
+                 double motor_angle = 1.0) noexcept;
 
   DriveActual read() noexcept override;
   void write(double velocity) noexcept override;
-  void enable(bool on) noexcept override { enabled_ = on; }
+  void control(std::uint16_t stw1, std::uint16_t stw2) noexcept override;
+  void command_torque(const TorqueCommand& command) noexcept override { torque_ = command; }
+
+  /// Whether a cause of a fault is there, or one waits to be acknowledged.
+  bool in_trouble() const noexcept;
+  const DriveStates& states() const noexcept { return states_; }
+  /// Whether it knows what torque it makes.
+  bool has_plant() const noexcept { return plant_.exists(); }
+  std::uint16_t stw1() const noexcept { return stw1_; }
+  std::uint16_t stw2() const noexcept { return stw2_; }
 
   /// [s] By what a setpoint of constant velocity is ahead of the actual position: dead time, time constant,
   /// and half a servo cycle for the setpoint being held.
@@ -70,6 +111,11 @@ class SimulatedDrive final : public Drive {
   };
   static Piece piece(double duration, double time_constant) noexcept;
   void run(const Piece& piece, double velocity) noexcept;
+  void read_encoder(DriveActual& now) noexcept;
+  double quick_stop_setpoint() noexcept;
+  void watch_causes() noexcept;
+  void move_plant(const DoubleDouble& position_before, double velocity_before) noexcept;
+  void watch_stop() noexcept;
 
   std::array<double, kDelay> written_{};  // velocity setpoints, by cycle
   std::size_t cycle_ = 0;
@@ -83,7 +129,23 @@ class SimulatedDrive final : public Drive {
   DoubleDouble position_;
   double velocity_ = 0.0;
   DoubleDouble reported_;
-  bool enabled_ = false;
+  DriveStates states_;
+
+  // Seldom of account.
+  bool has_faults_ = false;
+  bool blocked_ = false;
+  std::uint16_t stw1_ = kControlOff;
+  std::uint16_t stw2_ = 0;
+  int stopping_cycles_ = 0;     // of a stop of its own
+  double stop_velocity_ = 0.0;  // at its begin [u/s]
+  double quick_stop_ = 0.0;     // [u/s²]
+  double ramp_ = 0.0;           // setpoint of a quick stop [u/s]
+  double last_setpoint_ = 0.0;  // heard last [u/s]
+  double most_stop_cycles_ = 0.0;
+  TorqueCommand torque_;
+  SimulatedFaults faults_;
+  MachinePlant plant_;
+  DriveActual told_;  // last, for a drive that falls silent
 };
 
 /// @source S7-1500T synchronous operation V7, 13.2 (PositionControl)

@@ -81,7 +81,8 @@ class LeadingObject : public TechnologyObject {
   void lead_by_actual_value() noexcept { leads_by_actual_value_ = true; }
 
  protected:
-  enum class PowerState : std::uint8_t { off, switching_on, on, braking };
+  /// `drive_stops`: switched off, and the drive comes to rest by itself.
+  enum class PowerState : std::uint8_t { off, switching_on, drive_stops, on, braking };
 
   /// Takes the start values over; positions have to be configured.
   void configure_leading(double period, TO_Struct_Extrapolation& settings) noexcept;

@@ -45,7 +45,9 @@ class Bench {
         straight(make_cam("Straight", {{0.0, 0.0}, {50.0, 50.0}, {100.0, 100.0}})) {
     if (driven) {
       following.data.VirtualAxis.Mode = 0;
+      following.data.Actor.Interface.EnableTorqueData = true;
       following.drive_settings.signals.zero_marks = ZeroMarks{1e6, 0.0};
+      following.drive_settings.signals.limit_min = -1e9;
     }
     controller.clock = {BenchLimits::kPeriod, 1};
     input.measured = &leading;

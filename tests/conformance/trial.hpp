@@ -27,6 +27,7 @@ struct Setting {
 };
 inline constexpr Setting kSettings[] = {
     {"MC_MoveAbsolute", "Position", 60.0},
+    {"MC_WriteParameter", "ParameterNumber", 1000.0},
     {"MC_MoveRelative", "Distance", 60.0},
     {"MC_MoveVelocity", "Velocity", 120.0},
     {"MC_MoveJog", "Velocity", 120.0},
@@ -67,8 +68,11 @@ inline const std::set<std::string_view> kGivesSetpoints = {"MC_MotionInSuperimpo
                                                            "MC_MotionInPosition"};
 // Blocks that also act on a disabled axis.
 inline const std::set<std::string_view> kOnDisabledAxis = {
-    "MC_Home",       "MC_Reset", "MC_InterpolateCam", "MC_GetCamLeadingValue", "MC_GetCamFollowingValue",
-    "MC_CopyCamData"};
+    "MC_Home",           "MC_Reset",          "MC_SetSensor",          "MC_SetAxisSTW",
+    "MC_WriteParameter", "MC_InterpolateCam", "MC_GetCamLeadingValue", "MC_GetCamFollowingValue", "MC_CopyCamData"};
+// Blocks that act on a drive.
+inline const std::set<std::string_view> kOnDrive = {
+    "MC_TorqueLimiting", "MC_TorqueRange", "MC_TorqueAdditive", "MC_SetAxisSTW", "MC_WriteParameter"};
 // Blocks that rename positions, so that these may step.
 inline const std::set<std::string_view> kRenamesPositions = {"MC_Home", "MC_Reset"};
 // Published values that are not supported and are refused with the error of their pin.
@@ -78,6 +82,10 @@ struct Unsupported {
   std::set<double> values;
 };
 inline const std::vector<Unsupported> kUnsupported;  // none
+// Permitted values that do not go together with the default of another pin.
+inline const std::vector<Unsupported> kUnfit = {{"MC_TorqueRange", "UpperLimit", {-1e12}},
+                                                {"MC_TorqueRange", "LowerLimit", {1e12}},
+                                                {"MC_SetSensor", "Mode", {3}}};
 
 // ---- The table of results
 // ---------------------------------------------------------------------------------------
@@ -137,7 +145,9 @@ inline constexpr int kTicksOfATrial = 1'000'000;
 /// A bench with the block under test on it, ready to be started.
 struct Trial {
   Trial(const BlockType& type, const char* check_name, bool modulo = false, bool enabled = true)
-      : subject_type(type), check(check_name), bench(modulo, enabled && type.name != "MC_Power") {
+      : subject_type(type),
+        check(check_name),
+        bench(modulo, enabled && type.name != "MC_Power", kOnDrive.contains(type.name)) {
     subject = &bench.add(type);
     apply_settings(*subject);
     if (kRenamesPositions.contains(type.name)) bench.allow_position_steps(kTicksOfATrial);

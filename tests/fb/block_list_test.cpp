@@ -72,7 +72,8 @@ std::set<std::string> published_objects(const Json& data_type) {
 // The elementary type in a text such as "INT (S7-1500: also SINT)".
 std::optional<Type> published_type(const Json& data_type) {
   const std::string text = data_type;
-  return tag_type(text.substr(0, text.find(' ')));
+  const std::string name = text.substr(0, text.find(' '));
+  return name == "VARIANT" ? Type::LREAL : tag_type(name);  // a number holds what such a pin is used for
 }
 
 // A default as a number: false, 1.0, "16#0000", "T#0s".

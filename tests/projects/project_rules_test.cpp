@@ -281,6 +281,25 @@ INSTANTIATE_TEST_SUITE_P(
          kKnife + "/drive/digital_inputs/0/tag", "the name of a BOOL tag"},
         {kKnife + "/drive/digital_inputs", R"([{"tag": "nowhere", "range": [0, 1]}])",
          kKnife + "/drive/digital_inputs/0/tag", "nowhere"},
+        at(kKnife + "/drive/quick_stop_deceleration", "-1", "from 0 to"),
+        {kKnife + "/drive/plant", "{}", kKnife + "/drive/plant", "'inertia' is missing"},
+        {kKnife + "/drive/plant", R"({"inertia": 0})", kKnife + "/drive/plant/inertia", "from 1e-12 to"},
+        {kKnife + "/drive/plant", R"({"inertia": 1, "friction": -1})", kKnife + "/drive/plant/friction",
+         "from 0 to"},
+        {kKnife + "/drive/plant", R"({"inertia": 1, "maximum_torque": 0})",
+         kKnife + "/drive/plant/maximum_torque", "from 1e-12 to"},
+        {kKnife + "/drive/plant", R"({"inertia": 1, "mass": 1})", kKnife + "/drive/plant/mass",
+         "allowed: inertia, friction"},
+        {kKnife + "/drive/plant", R"({"inertia": 1, "fixed_stop": {"position": 1}})",
+         kKnife + "/drive/plant/fixed_stop", "'stiffness' is missing"},
+        {kKnife + "/drive/plant",
+         R"({"inertia": 1, "fixed_stop": {"position": 1, "stiffness": 1, "direction": "up"}})",
+         kKnife + "/drive/plant/fixed_stop/direction", "positive, negative"},
+        {kKnife + "/drive/faults", R"({"drive": "speed"})", kKnife + "/drive/faults/drive",
+         "the name of a BOOL tag"},
+        {kKnife + "/drive/faults", R"({"encoder": 1})", kKnife + "/drive/faults/encoder", "a string"},
+        {kKnife + "/drive/faults", R"({"brake": "start"})", kKnife + "/drive/faults/brake",
+         "allowed: drive, encoder"},
         at(kKnife + "/drive", "true", "allowed: an object"),
         at(kConveyor + "/leading_values", R"([{"to": "Knife"}])", "allowed with: TO_SynchronousAxis"),
         at(kKnife + "/leading_values", "{}", "allowed: an array"),
@@ -615,7 +634,7 @@ INSTANTIATE_TEST_SUITE_P(
         Rule{kNew, R"({"set": "Knife.Override.Velocity", "to": 300})", kNew + "/to",
              "allowed: from 0 to 200"},
         Rule{kNew, R"({"set": "speed", "to": "1 / 2"})", kNew + "/to", "(column"},
-        Rule{kConfig + "/Actor", R"({"Efficiency": 0.5})", kConfig + "/Actor/Efficiency", "no effect yet"}}));
+        Rule{kConfig + "/Actor", R"({"Type": 0})", kConfig + "/Actor/Type", "no effect yet"}}));
 
 }  // namespace
 }  // namespace lockstep

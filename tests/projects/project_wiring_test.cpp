@@ -240,6 +240,28 @@ TEST(Drive, TakesTheMarksAndSwitchesOfItsMachine) {
   EXPECT_EQ(signals.digital_inputs[0].range.from, -1.0);
 }
 
+TEST(Drive, TakesWhatItMovesAndWhatGoesWrong) {
+  const Project project = load(
+      R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"}, "tags": {"f": {"type": "BOOL"}, "g": {"type": "BOOL"}},
+          "technology_objects": {"A": {"type": "TO_PositioningAxis", "drive": {"model": "simulated", "quick_stop_deceleration": 500,
+            "plant": {"inertia": 0.5, "friction": 1, "load_torque": -2, "maximum_torque": 30,
+                      "fixed_stop": {"position": -7.5, "stiffness": 400, "direction": "negative"}},
+            "faults": {"drive": "f", "blocked": "g"}}}}})");
+  const SimulatedDriveSettings& drive = project.controller->axes[0]->drive_settings;
+  EXPECT_EQ(drive.quick_stop, 500.0);
+  EXPECT_EQ(drive.plant.inertia, 0.5);
+  EXPECT_EQ(drive.plant.friction, 1.0);
+  EXPECT_EQ(drive.plant.load_torque, -2.0);
+  EXPECT_EQ(drive.plant.maximum_torque, 30.0);
+  ASSERT_TRUE(drive.plant.has_stop);
+  EXPECT_EQ(drive.plant.stop.position, -7.5);
+  EXPECT_EQ(drive.plant.stop.side, -1);
+  EXPECT_EQ(drive.plant.stop.stiffness, 400.0);
+  EXPECT_EQ(drive.faults.drive, project.controller->tags[0].signal.address);
+  EXPECT_EQ(drive.faults.blocked, project.controller->tags[1].signal.address);
+  EXPECT_EQ(drive.faults.encoder, nullptr);
+}
+
 TEST(ModbusMapping, WritesAVariableOnlyIfTheEntryAsksForIt) {
   const Project project = load(
       R"({"lockstep": 1, "name": "t", "clock": {"servo_cycle": "1ms"},
