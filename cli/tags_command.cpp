@@ -97,8 +97,13 @@ std::string tags_text(const Project& project, const Entries& entries, std::size_
       table.row(std::move(next));
     }
   }
+  return table.empty() ? "" : "\n" + table.text(0, width);
+}
+
+std::string arrays_text(const Project& project, std::size_t width) {
+  Table table({"Array", "Type", "Comment"});
   for (const ArrayTag& tag : project.controller->arrays)
-    table.row({tag.name, array_type_name(tag.array), "", "", "", "", "", "", printable(tag.comment)});
+    table.row({tag.name, array_type_name(tag.array), printable(tag.comment)});
   return table.empty() ? "" : "\n" + table.text(0, width);
 }
 
@@ -127,7 +132,7 @@ std::string project_text(const Project& project, std::size_t width) {
   std::string text = printable(project.name) + "\n";
   if (!project.description.empty()) text += paragraph(printable(project.description), 2, width);
   for (const std::string& place : server_places(project)) text += "  Modbus server on " + place + "\n";
-  text += tags_text(project, entries, width) + others_text(entries, width);
+  text += tags_text(project, entries, width) + arrays_text(project, width) + others_text(entries, width);
   Table objects({"Number", "Technology object", "Type"});
   for (const auto& object : project.controller->objects)
     objects.row({std::to_string(static_cast<std::uint32_t>(object->number)), object->name,

@@ -127,7 +127,7 @@ class MotionLawMaker {
       case MotionLawKind::line:
         return make_line();
       case MotionLawKind::polynomial:
-        return request_.lambda ? make_two_polynomials() : make_polynomial();
+        return make_polynomial();
       case MotionLawKind::double_harmonic_transition:
         return make_double_harmonic();
       case MotionLawKind::sine_line_combination:
@@ -180,8 +180,19 @@ class MotionLawMaker {
     }
   }
 
+  /// Whether the polynomial, of a degree that one segment holds, has its inflection point in the middle.
+  bool turns_in_the_middle() const noexcept {
+    const MotionBoundary& start = request_.start;
+    const MotionBoundary& end = request_.end;
+    return start.velocity && end.velocity && start_velocity_ == end_velocity_ &&
+           start.acceleration.has_value() == end.acceleration.has_value() &&
+           start.acceleration.value_or(0.0) == -end.acceleration.value_or(0.0) && !start.jerk && !end.jerk;
+  }
+
+  /// A lambda of 0.5 asks for nothing where the inflection point is in the middle anyway: one segment.
   MotionLawError make_polynomial() noexcept {
-    if (has_parameter()) return MotionLawError::parameter;
+    if (request_.lambda && !(*request_.lambda == 0.5 && turns_in_the_middle())) return make_two_polynomials();
+    if (request_.ca || request_.ca_star) return MotionLawError::parameter;
     double c[8];
     if (!polynomial_between(conditions(request_.start, length_), conditions(request_.end, length_), c))
       return MotionLawError::boundary;

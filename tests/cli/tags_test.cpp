@@ -58,6 +58,26 @@ TEST(Tags, TellsWhatIsOnModbusAsCsv) {
     EXPECT_NE(ended.out.find(line), std::string::npos) << line << ended.out;
 }
 
+TEST(Tags, TellsArraysAndTheElementsThatAreOnModbus) {
+  const Folder folder;
+  json project = json::parse(kProject);
+  project["tags"]["curve"] = {{"type", "array[0..4] of TO_Cam_Struct_PointData"}, {"comment", "of a cam"}};
+  project["modbus"]["map"].push_back(
+      {{"tag", "curve[2].y"}, {"table", "holding_register"}, {"address", 40}, {"type", "REAL"}});
+  const std::string file = folder.write("project.json", project.dump());
+  const json shown = json::parse(lockstep({"tags", file, "--json"}).out);
+  EXPECT_EQ(shown["arrays"],
+            json::parse(R"([{"name": "curve", "type": "ARRAY[0..4] OF TO_Cam_Struct_PointData",
+      "lower": 0, "upper": 4, "of": "TO_Cam_Struct_PointData", "comment": "of a cam"}])"));
+  bool found = false;
+  for (const json& other : shown["other_modbus"])
+    found |= other["name"] == "curve[2].y" && other["modbus"]["access"] == "write" && other["unit"] == "u";
+  EXPECT_TRUE(found) << shown["other_modbus"];
+  const std::string text = lockstep({"tags", file}).out;
+  EXPECT_NE(text.find("curve"), std::string::npos);
+  EXPECT_NE(text.find("ARRAY[0..4]"), std::string::npos) << text;
+}
+
 TEST(Tags, TellsTagsWithTheirAddressesAndWhatElseIsOnModbusAndTheNumbersOfObjects) {
   const Folder folder;
   const Ended ended = lockstep({"tags", folder.write("project.json", kProject), "--json"});

@@ -42,6 +42,8 @@ std::optional<double> ring(const std::string& name) {
   if (name == "Belt.Position") return 400.0;
   if (name == "Delivery.Position") return 1000.0;
   if (name == "Web.Position") return 300.0;
+  if (name == "Material.Position") return 1200.0;
+  if (name == "Nozzle.Position" || name == "Saw.Position" || name == "Feeder.Position") return std::nullopt;
   if (name.find("Encoder.") == 0 && name.find("Position") != std::string::npos) return 200.0;
   const bool position = name.find("Position") != std::string::npos && name.find("Slide") != 0 &&
                         name.find("FollowingError") == std::string::npos;
@@ -90,7 +92,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Stored{"01_positioning", "5s", 25}, Stored{"02_rotary_knife", "5s", 20},
                     Stored{"03_line_shaft", "5s", 25}, Stored{"04_cross_cutter", "5s", 25},
                     Stored{"05_press_feeder", "8s", 40}, Stored{"06_encoder_conveyor", "8s", 25},
-                    Stored{"07_emergency_door", "16s", 40}),
+                    Stored{"07_emergency_door", "16s", 40}, Stored{"08_filling_line", "11s", 40},
+                    Stored{"09_flying_saw", "12s", 40}),
     [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
@@ -345,6 +348,96 @@ TEST(PressFeeder, FeedsTheLengthOfItsCamInEveryStrokeAndChangesItBetweenTwo) {
                 8000.0 * period * period)
         << table["t"][i];
   }
+}
+
+/// What the program of the filling line computes, in closed form.
+double nozzle_at(double angle, double depth, double level) {
+  const auto rise = [](double u) { return u * u * u * (10.0 - 15.0 * u + 6.0 * u * u); };
+  if (angle <= 40.0 || angle >= 320.0) return 0.0;
+  if (angle <= 100.0) return -depth * rise((angle - 40.0) / 60.0);
+  if (angle <= 260.0) return level * rise((angle - 100.0) / 160.0) - depth;
+  return (level - depth) * rise((320.0 - angle) / 60.0);
+}
+
+TEST(FillingLine, FillsEveryBottleByItsOwnCurveAndChangesItBetweenTwo) {
+  const CsvTable table = simulate(example("08_filling_line"), "20s",
+                                  {"--signals",
+                                   "Line.Position,Line.Velocity,Nozzle.Position,Nozzle.Velocity,step,on_a,d,"
+                                   "alarm,refused,bottles,Profile_A.StatusWord.X5,Profile_B.StatusWord.X5"});
+  for (const char* name : {"alarm", "refused"}) expect_never(table, name);
+  EXPECT_EQ(table["Profile_A.StatusWord.X5"][0], 0.0) << "the project has no cam";
+  struct Bottle {
+    double depth, level;
+  };
+  const Bottle kinds[] = {{150.0, 120.0}, {220.0, 190.0}, {90.0, 60.0}};
+  std::size_t kind = 0;
+  std::size_t changes = 0;
+  double furthest = 0.0;
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    if (table["on_a"][i] != table["on_a"][i - 1]) {
+      kind = changes++;
+      // The line stands at the first one; the others come when a bottle is done.
+      EXPECT_LT(table["Line.Position"][i], 1.0) << table["t"][i];
+      EXPECT_NEAR(table["Nozzle.Position"][i], 0.0, 0.01);
+    }
+    if (changes == 0) continue;
+    const double curve = nozzle_at(table["Line.Position"][i], kinds[kind].depth, kinds[kind].level);
+    furthest = std::max(furthest, std::abs(table["Nozzle.Position"][i] - curve));
+    const double period = table["t"][i] - table["t"][i - 1];
+    const double mean = 0.5 * (table["Nozzle.Velocity"][i] + table["Nozzle.Velocity"][i - 1]) * period;
+    ASSERT_NEAR(table["Nozzle.Position"][i] - table["Nozzle.Position"][i - 1], mean, 0.02) << table["t"][i];
+  }
+  EXPECT_EQ(changes, 3u);
+  EXPECT_LT(furthest, 0.05) << "what the splines between the points make";
+  EXPECT_GT(table["bottles"].back(), 8.0);
+}
+
+TEST(FillingLine, RefusesABottleThatCannotBe) {
+  for (const double level : {0.0, 150.0, 300.0}) {
+    Json project = example_json("08_filling_line");
+    project["tags"]["level"]["init"] = level;
+    project["stimuli"] = Json::array();
+    const CsvTable table = simulate(project, "1s", "refused,step,Line.Velocity");
+    EXPECT_EQ(table["refused"].back(), 1.0);
+    EXPECT_EQ(table["step"].back(), 0.0);
+    EXPECT_EQ(table["Line.Velocity"].back(), 0.0) << "nothing moves without a cam";
+  }
+}
+
+TEST(FlyingSaw, RunsAlongWithTheMaterialWhileTheBladeIsDown) {
+  const CsvTable table =
+      simulate(example("09_flying_saw"), "30s",
+               {"--signals",
+                "Material.Position,Material.Velocity,Saw.Position,Saw.Velocity,Saw.Acceleration,"
+                "blade,cuts,alarm,cut,follow.Error,leave.Error,follow.InSync,leave.Done"});
+  for (const char* name : {"alarm", "follow.Error", "leave.Error"}) expect_never(table, name);
+  const auto& saw = table["Saw.Position"];
+  const auto& speed = table["Saw.Velocity"];
+  const double period = table["t"][1] - table["t"][0];
+  std::size_t sawing = 0;
+  double furthest = 0.0;
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    furthest = std::max(furthest, saw[i]);
+    ASSERT_GE(saw[i], -1e-9);
+    ASSERT_NEAR(saw[i] - saw[i - 1], 0.5 * (speed[i] + speed[i - 1]) * period, 0.05) << table["t"][i];
+    ASSERT_LE(std::abs(speed[i] - speed[i - 1]), 30000.0 * period) << table["t"][i];
+    if (table["blade"][i] == 0.0) continue;
+    ++sawing;
+    ASSERT_NEAR(saw[i], table["Material.Position"][i] - 200.0, 1e-9);
+    ASSERT_NEAR(speed[i], table["Material.Velocity"][i], 1e-9);
+  }
+  EXPECT_GT(sawing, 1000u);
+  EXPECT_NEAR(furthest, 480.0, 0.01);
+  const std::size_t parked = table.first("leave.Done", 1.0);
+  const std::size_t wanted = table.first("cut", 1.0, table.first("cut", 0.0));
+  ASSERT_LT(parked, wanted);
+  ASSERT_LT(wanted, table.rows);
+  for (std::size_t i = parked; i < wanted; ++i) {
+    ASSERT_EQ(saw[i], 0.0) << table["t"][i];
+    ASSERT_GT(table["Material.Velocity"][i], 0.0) << "the material runs on";
+  }
+  EXPECT_EQ(table["follow.InSync"].back(), 1.0) << "taken up again";
+  EXPECT_GT(table["cuts"].back(), 6.0);
 }
 
 TEST(EmergencyDoor, KeepsTheCouplingWhileTheDriveIsOffAndGoesOnInStep) {

@@ -159,5 +159,70 @@ TEST(FunctionDiagram, CamOut1LeavesACyclicCamInOneDirection) {
   expect_no_steps(table);
 }
 
+// ---- Shifts on a cam: at 1 s over a distance from where the leading axis is, at 3 s from a start position
+// on
+// -----------------
+
+constexpr double kShiftDistance = 60.0;   // [°] of the leading axis
+constexpr double kStartPosition = 200.0;  // [°]
+
+class ShiftOnACam : public testing::TestWithParam<const char*> {};
+
+Json shift_project(const Json& facts) {
+  const std::string block = facts["instruction"];
+  const bool phasing = block.starts_with("MC_Phasing");
+  Json first = cam_in("Cam_1", "exe_1", 1);
+  first["MasterSyncPosition"] = 60.0;
+  first["MasterStartDistance"] = 50.0;
+  Json shift{{"Slave", "TO_Slave"},
+             {"Execute", "exe_2"},
+             {"ProfileReference", "profile"},
+             {"StartPosition", kStartPosition},
+             {phasing ? "PhaseShift" : "Offset", "shift"},
+             {phasing ? "PhasingDistance" : "OffsetDistance", kShiftDistance}};
+  if (phasing) shift["Master"] = "TO_Master";
+  Json project = project_with(first, block, shift, "1s");
+  project["tags"]["profile"] = {{"type", "DINT"}, {"init", facts["profile"]}};
+  project["tags"]["shift"] = {{"type", "LREAL"}, {"init", 25.0}};
+  for (const Json& later :
+       {stimulus("2500ms", "exe_2", false), stimulus("2600ms", "profile", 2), stimulus("3s", "exe_2", true)})
+    project["stimuli"].push_back(later);
+  if (block.ends_with("Absolute")) project["stimuli"].push_back(stimulus("2600ms", "shift", 60.0));
+  return project;
+}
+
+TEST_P(ShiftOnACam, ShowsItsStepsInOrderAndKeepsTheChain) {
+  const Json facts = diagram(GetParam());
+  const Json project = shift_project(facts);
+  const std::string status = "TO_Slave.StatusSynchronizedMotion.";
+  std::string signals = signals_of(facts, project);
+  for (const char* name : {"PhaseShift", "Offset"})
+    if (signals.find(status + name) == std::string::npos) signals += "," + status + name;
+  const CsvTable table = simulate(project, "7s", signals);
+  const auto rows = rows_of_steps(facts, table, project);
+  ASSERT_EQ(rows.size(), 5u);
+  const auto& leading = table["TO_Master.Position"];
+  const double step = kVelocity * kPeriod;
+  EXPECT_NEAR(table["t"][rows[0]], 1.0, 3.0 * kPeriod) << "at once";
+  EXPECT_NEAR((table["t"][rows[1]] - table["t"][rows[0]]) * kVelocity, kShiftDistance, 2.0 * step);
+  EXPECT_NEAR(leading[rows[3]], kStartPosition, 3.0 * step);
+  EXPECT_NEAR(leading[rows[4]], kStartPosition + kShiftDistance, 3.0 * step);
+  for (std::size_t i = rows[0]; i < table.rows; ++i) {
+    const double function = sine(20.0, leading[i] + table[status + "PhaseShift"][i]);
+    ASSERT_NEAR(table["TO_Slave.Position"][i], function + table[status + "Offset"][i], 1e-9) << table["t"][i];
+    ASSERT_NEAR(table["TO_Master.Velocity"][i], kVelocity, 1e-9) << "the leading axis is not affected";
+  }
+  expect_no_steps(table);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shifts, ShiftOnACam,
+                         testing::Values("PhasingRelative-2", "PhasingAbsolute-2", "OffsetRelative-2",
+                                         "OffsetAbsolute-2"),
+                         [](const auto& shift) {
+                           std::string name = shift.param;
+                           name[name.find('-')] = '_';
+                           return name;
+                         });
+
 }  // namespace
 }  // namespace lockstep::test

@@ -1,5 +1,5 @@
 // The published function diagrams of what acts on a gear: shifts, desynchronizing, additive leading values
-// and a changing ratio. The diagrams of shifts in camming are shown in gearing.
+// and a changing ratio. Those of shifts on a cam are in function_diagram_cam_test.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,6 @@ namespace {
 constexpr double kPeriod = 1e-3;     // of the interpolator [s]
 constexpr double kVelocity = 100.0;  // of the leading axis [u/s]
 constexpr double kDistance = 60.0;   // of shifts and of desynchronizing [u] of the leading axis
-constexpr double kStartPosition = 500.0;
 constexpr double kSyncPosition = 20.0;
 constexpr double kSlaveSyncPosition = 10.0;
 constexpr double kRatio = 1.5;
@@ -75,27 +74,20 @@ std::string with_chain(std::string signals) {
 
 class ShiftDiagram : public testing::TestWithParam<const char*> {};
 
-/// Started at 1 s and at 3 s. The second diagram of each block: profile 1, then 2.
+/// Started at 1 s and at 3 s.
 Json shift_project(const Json& facts) {
   const std::string block = facts["instruction"];
-  const std::string id = facts["id"];
   const bool phasing = block.starts_with("MC_Phasing");
-  const bool relative = block.ends_with("Relative");
-  const bool twice = id.ends_with("-2");
   std::vector<Json> calls;
   Json project = machine(calls);
   project["tags"]["profile"] = {{"type", "DINT"}, {"init", facts["profile"]}};
-  const double first = twice ? 25.0 : phasing ? 50.0 : 90.0;
-  project["tags"]["shift"] = {{"type", "LREAL"}, {"init", first}};
+  project["tags"]["shift"] = {{"type", "LREAL"}, {"init", phasing ? 50.0 : 90.0}};
   project["stimuli"] = {stimulus("10ms", "exe_1", true), stimulus("1s", "exe_2", true),
                         stimulus("2500ms", "exe_2", false), stimulus("3s", "exe_2", true)};
-  if (twice) project["stimuli"].push_back(stimulus("2600ms", "profile", 2));
-  if (twice && !relative) project["stimuli"].push_back(stimulus("2600ms", "shift", 60.0));
   calls.push_back(gear_in_pos(kSyncPosition, 15.0, "exe_1"));
   Json pins{{"Slave", "TO_Slave"},
             {"Execute", "exe_2"},
             {"ProfileReference", "profile"},
-            {"StartPosition", kStartPosition},
             {phasing ? "PhaseShift" : "Offset", "shift"},
             {phasing ? "PhasingDistance" : "OffsetDistance", kDistance}};
   if (phasing)
@@ -119,10 +111,6 @@ TEST_P(ShiftDiagram, ShowsItsStepsInOrderAndKeepsTheChain) {
   if (facts["profile"] == 1) {
     EXPECT_NEAR(leading[rows[1]] - leading[rows[0]], kDistance, 2.0 * step);
   }
-  if (rows.size() == 5) {
-    EXPECT_NEAR(leading[rows[3]], kStartPosition, 3.0 * step);
-    EXPECT_NEAR(leading[rows[4]], kStartPosition + kDistance, 3.0 * step);
-  }
   for (std::size_t i = rows[0]; i < table.rows; ++i) {
     ASSERT_NEAR(off_function(table, i), 0.0, 1e-9) << table["t"][i];
     ASSERT_EQ(table["TO_Master.Velocity"][i], kVelocity) << "the leading axis is not affected";
@@ -136,9 +124,8 @@ TEST_P(ShiftDiagram, ShowsItsStepsInOrderAndKeepsTheChain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shifts, ShiftDiagram,
-                         testing::Values("PhasingRelative-1", "PhasingRelative-2", "PhasingAbsolute-1",
-                                         "PhasingAbsolute-2", "OffsetRelative-1", "OffsetRelative-2",
-                                         "OffsetAbsolute-1", "OffsetAbsolute-2"),
+                         testing::Values("PhasingRelative-1", "PhasingAbsolute-1", "OffsetRelative-1",
+                                         "OffsetAbsolute-1"),
                          [](const auto& shift) {
                            std::string name = shift.param;
                            name[name.find('-')] = '_';
