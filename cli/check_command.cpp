@@ -1,6 +1,4 @@
 // lockstep check: tells every problem of a project file.
-#include <cstdio>
-
 #include "cli/command.hpp"
 
 namespace lockstep::cli {
@@ -8,16 +6,15 @@ namespace lockstep::cli {
 std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare) {
   try {
     LoadedProject loaded = load_project_file(path, prepare);
-    for (const Problem& problem : loaded.problems)
-      std::fprintf(stderr, "%s\n", to_string(path, problem).c_str());
+    for (const Problem& problem : loaded.problems) tell_line(to_string(path, problem), Gravity::error);
     for (Problem warning : loaded.warnings) {
       warning.text = "warning: " + warning.text;
-      std::fprintf(stderr, "%s\n", to_string(path, warning).c_str());
+      tell_line(to_string(path, warning), Gravity::warning);
     }
     status = kNotValid;
     return std::move(loaded.project);
   } catch (const UnreadableFile& error) {
-    std::fprintf(stderr, "lockstep: %s\n", error.what());
+    tell(error.what(), Gravity::error);
     status = kCouldNotStart;
     return std::nullopt;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -41,5 +42,13 @@ std::optional<Project> load_or_tell(const std::string& path, int& status, const 
 /// full disk is no reason to end a run, and one that takes nothing, such as a stopped terminal, holds nothing
 /// up for longer than `patience` [ms].
 void write_message(const std::string& text, int patience = 500) noexcept;
+
+/// How grave a message is. Where standard error is the journal of systemd, it is told that.
+enum class Gravity : std::uint8_t { error = 3, warning = 4, information = 6 };
+
+/// Writes one line to standard error: "lockstep: " and the text, which begins with "warning: " for a warning.
+void tell(const std::string& text, Gravity gravity = Gravity::information) noexcept;
+/// The same without the name of the program.
+void tell_line(const std::string& text, Gravity gravity) noexcept;
 
 }  // namespace lockstep::cli

@@ -7,14 +7,6 @@
 #include <limits>
 
 namespace lockstep::cli {
-namespace {
-
-void tell(const std::string& text) {
-  write_message("lockstep: " + text + "\n");
-}
-
-}  // namespace
-
 void add_panel_options(CLI::App& command, PanelOptions& options) {
   command.add_option("ADDRESS", options.place, "HOST:PORT where the project runs")->required();
   command.add_option("--project", options.project, "the project file, whose map says where the names stand")

@@ -45,10 +45,6 @@ void take_signals() {
   sigaction(SIGPIPE, &action, nullptr);
 }
 
-void tell(const std::string& text) {
-  write_message("lockstep: " + text + "\n");
-}
-
 /// What could not be started; its text says what and why.
 struct CouldNotStart : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -290,6 +286,14 @@ std::string trouble(const RealTimeStatus& status) {
   return overruns + missed == 0 ? "" : fmt::format("  overruns {}  missed ticks {}", overruns, missed);
 }
 
+/// Axes that could not be brought to rest in the time that there is for it.
+void tell_moving(const Controller& controller) {
+  for (const Axis* axis : controller.axes)
+    if (!axis->off())
+      tell("warning: " + axis->name +
+           " was not at rest when the time for it was over; nothing brakes it now");
+}
+
 /// Real time, on a thread of its own; this one only looks and tells.
 int run_in_real_time(Project& project, Surroundings& surroundings, Display& display, std::int64_t duration) {
   const OverrunPolicy policy = project.stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
@@ -310,8 +314,10 @@ int run_in_real_time(Project& project, Surroundings& surroundings, Display& disp
       static_cast<double>(status.time.load()) * 1e-9, status.ticks.load(), status.overruns.load(),
       status.missed_ticks.load(), static_cast<double>(status.worst_lateness.load()) * 1e-3,
       static_cast<double>(status.longest_tick.load()) * 1e-3));
+  tell_moving(*project.controller);
   if (!status.stopped_by_overrun.load()) return kOk;
-  tell("stopped: three interpolator cycles in a row were not over in time (clock.overrun is \"stop\")");
+  tell("stopped: three interpolator cycles in a row were not over in time (clock.overrun is \"stop\")",
+       Gravity::error);
   return kStoppedByFault;
 }
 
@@ -356,9 +362,9 @@ int run_project(const RunOptions& options) {
         load_or_tell(options.file, status, [&](Project& loaded) { keeper = restore_kept(loaded, options); });
     return project ? run_project(*project, std::move(keeper), options) : status;
   } catch (const CouldNotStart& error) {
-    tell(error.what());
+    tell(error.what(), Gravity::error);
   } catch (const RetainFileError& error) {
-    tell(error.what());
+    tell(error.what(), Gravity::error);
   }
   return kCouldNotStart;
 }

@@ -21,16 +21,16 @@ void tell_strangers(const RetainFile& file, const Project& project) {
     for (const KeptValue& value : project.retain.values)
       known |= file.find(value.name) == file.find(row.name);
     if (!known)
-      write_message(
-          fmt::format("lockstep: warning: retain file {}: {} ({}) is kept there and not in the "
-                      "project; it stays in the file\n",
+      tell(
+          fmt::format("warning: retain file {}: {} ({}) is kept there and not in the "
+                      "project; it stays in the file",
                       file.path(), row.name, row.value));
   }
   if (!file.rows().empty()) return;
   for (const std::string& other : file.other_projects())
-    write_message(
-        fmt::format("lockstep: warning: retain file {}: it has values of project '{}' and none of "
-                    "'{}': they begin with their init values\n",
+    tell(
+        fmt::format("warning: retain file {}: it has values of project '{}' and none of "
+                    "'{}': they begin with their init values",
                     file.path(), other, project.name));
 }
 
@@ -50,12 +50,10 @@ std::string retain_path(const Project& project, const RunOptions& options) {
 std::unique_ptr<RetainWriter> restore_kept(Project& project, const RunOptions& options) {
   if (options.simulate || options.no_retain || project.retain.values.empty()) return nullptr;
   RetainFile file(retain_path(project, options), project.name);
-  for (const std::string& remark : restore(file, project.retain.values))
-    write_message("lockstep: warning: " + remark + "\n");
+  for (const std::string& remark : restore(file, project.retain.values)) tell("warning: " + remark);
   tell_strangers(file, project);
-  write_message(file.rows().empty()
-                    ? fmt::format("lockstep: values are kept in {}, which is new\n", file.path())
-                    : fmt::format("lockstep: {} kept values from {}\n", file.rows().size(), file.path()));
+  tell(file.rows().empty() ? fmt::format("values are kept in {}, which is new", file.path())
+                           : fmt::format("{} kept values from {}", file.rows().size(), file.path()));
   return std::make_unique<RetainWriter>(std::move(file), project.retain.values, project.retain.interval);
 }
 

@@ -12,10 +12,6 @@ struct Assignment {
   Value value;
 };
 
-void tell(const std::string& text) {
-  write_message("lockstep: " + text + "\n");
-}
-
 /// Reads "NAME=VALUE", or tells what is wrong with it.
 std::optional<Assignment> assignment(const ModbusPanel& panel, const std::string& text) {
   const auto equals = text.find('=');

@@ -90,6 +90,7 @@ void RealTimeRun::interpolate_cams() noexcept {
 }
 
 void RealTimeRun::run() noexcept {
+  pthread_setname_np(pthread_self(), "cycle");  // for top and strace
   const std::int64_t cycle = controller_.clock.servo_cycle;
   const std::int64_t start = clock_now() + cycle;
   bool shutting_down = false;

@@ -2,14 +2,6 @@
 // test makes, so that no network of the machine is needed and none is disturbed.
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
-#include <net/if.h>
-#include <net/route.h>
-#include <netinet/in.h>
-#include <sys/ioctl.h>
-#include <sys/prctl.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -22,104 +14,18 @@
 #include "hmi_bridge/lcm_log.hpp"
 #include "hmi_bridge/lcm_publisher.hpp"
 #include "hmi_bridge/lcm_trace_reader.hpp"
+#include "tests/hmi_bridge/own_network.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 
 namespace lockstep {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 // A receiver asks for a larger socket buffer (the system grants what it allows): a burst has to wait there.
 constexpr char kReceiveUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
-constexpr char kInside[] = "LOCKSTEP_TEST_IN_OWN_NETWORK";
-constexpr std::chrono::seconds kDeadline{60};
 
 const std::vector<TraceSignal> kSignals(25, {"x", Type::LREAL, "u"});  // a row is a message of 256 bytes
 const LcmTraceIdentity kIdentity{"rotary_knife", "KNIFE", 100'000, 0};
-
-/// A program that ends with this object, or with this process.
-class Program {
- public:
-  explicit Program(std::vector<std::string> command) {
-    pid_ = ::fork();
-    if (pid_ != 0) return;
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    std::vector<char*> arguments;
-    for (std::string& argument : command) arguments.push_back(argument.data());
-    arguments.push_back(nullptr);
-    ::execvp(arguments[0], arguments.data());
-    ::_exit(127);
-  }
-  ~Program() {
-    if (!ended_) ::kill(pid_, SIGKILL);
-    status();
-  }
-  void interrupt() { ::kill(pid_, SIGINT); }
-  bool running() {
-    if (!ended_) ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
-    return !ended_;
-  }
-  /// Waits for its end; the exit status, or -1 when a signal ended it.
-  int status() {
-    if (!ended_) ended_ = ::waitpid(pid_, &status_, 0) == pid_;
-    return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
-  }
-
- private:
-  pid_t pid_ = -1;
-  int status_ = 0;
-  bool ended_ = false;
-};
-
-bool wait_until(const std::function<bool()>& condition, std::chrono::seconds limit = kDeadline) {
-  const auto deadline = Clock::now() + limit;
-  while (!condition()) {
-    if (Clock::now() > deadline) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
-
-// Brings up the loopback device of this network, able to multicast, with a route for all of it.
-void bring_up_network() {
-  const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
-  ifreq device{};
-  std::snprintf(device.ifr_name, sizeof device.ifr_name, "lo");
-  device.ifr_flags = IFF_UP | IFF_RUNNING | IFF_LOOPBACK | IFF_MULTICAST;
-  ASSERT_EQ(::ioctl(fd, SIOCSIFFLAGS, &device), 0) << std::strerror(errno);
-  rtentry route{};
-  const auto address = [](sockaddr& place, std::uint32_t number) {
-    sockaddr_in in{};
-    in.sin_family = AF_INET;
-    in.sin_addr.s_addr = htonl(number);
-    std::memcpy(&place, &in, sizeof in);
-  };
-  address(route.rt_dst, 0xE0000000);      // 224.0.0.0
-  address(route.rt_genmask, 0xF0000000);  // /4
-  route.rt_flags = RTF_UP;
-  route.rt_dev = device.ifr_name;
-  ASSERT_EQ(::ioctl(fd, SIOCADDRT, &route), 0) << std::strerror(errno);
-  ::close(fd);
-}
-
-/// Runs the body of a test in a network of its own: the test starts its own program again under `unshare`, as
-/// root or else as the root of a user namespace, with itself as the only test.
-void in_own_network(const std::function<void()>& body) {
-  if (std::getenv(kInside) != nullptr) return body();
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string filter = std::string("--gtest_filter=") + test->test_suite_name() + "." + test->name();
-  const std::string options = ::geteuid() == 0 ? "-n" : "-Urn";
-  ASSERT_EQ(Program({"unshare", options, "true"}).status(), 0)
-      << "This test needs a network of its own: root, or user namespaces open to everybody (unshare "
-      << options << ").";
-  ::setenv(kInside, "1", 1);
-  Program inside({"unshare", options, std::filesystem::read_symlink("/proc/self/exe"), filter});
-  ::unsetenv(kInside);
-  ASSERT_TRUE(wait_until([&inside] { return !inside.running(); }, 4 * kDeadline))
-      << "the test inside did not end";
-  EXPECT_EQ(inside.status(), 0) << "the test inside failed, its output is above";
-}
 
 std::vector<Value> row_values(std::uint64_t tick) {
   std::vector<Value> values;
@@ -199,7 +105,8 @@ TEST(LcmNetwork, LcmLoggerRecordsEveryRow) {
     const TraceDirectory directory;
     const std::string path = directory.file("logged.lcm");
     LcmPublisher publisher(kUrl, kIdentity);
-    Program logger({"lcm-logger", "-q", "--flush-interval=1", std::string("--lcm-url=") + kReceiveUrl, path});
+    ForeignProgram logger(
+        {"lcm-logger", "-q", "--flush-interval=1", std::string("--lcm-url=") + kReceiveUrl, path});
     // Sends a mark until it stands in the file, and all that was sent before it with it. The logger looks
     // whether to write its file out whenever a message comes.
     const auto logged = [&](std::uint64_t number) {
@@ -237,9 +144,10 @@ std::uint64_t heard_in_a_second() {
   Listener listener;
   LcmPublisher publisher(kUrl, kIdentity);
   publisher.begin(kSignals);
-  auto due = Clock::now();
+  auto due = std::chrono::steady_clock::now();
   for (std::uint64_t tick = 0; tick < kRows; ++tick) {
-    due = std::max(due + std::chrono::microseconds(100), Clock::now() - std::chrono::milliseconds(2));
+    due = std::max(due + std::chrono::microseconds(100),
+                   std::chrono::steady_clock::now() - std::chrono::milliseconds(2));
     std::this_thread::sleep_until(due);
     publisher.row({0, tick, 0, row_values(tick)});
   }
@@ -274,7 +182,7 @@ TEST(LcmNetwork, LcmLogplayerReplaysALogToASubscriber) {
     ASSERT_EQ(log.reason(), "");
 
     Listener listener;
-    Program player({"lcm-logplayer", std::string("--lcm-url=") + kUrl, path});
+    ForeignProgram player({"lcm-logplayer", std::string("--lcm-url=") + kUrl, path});
     EXPECT_TRUE(wait_until([&] {
       listener.listen(100);
       return !player.running();

@@ -53,6 +53,13 @@ std::string slow_to_brake(const Directory& directory) {
   return directory.write("project.json", project.dump());
 }
 
+/// A line of the shell with arguments; its exit status.
+int lockstep_shell(const std::string& line, const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{"sh", "-c", line, "sh"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return Process(command).status();
+}
+
 bool running_at_200(ModbusClient& client) {
   return wait_until([&] { return client.input_float(0) == 200.0F; });
 }
@@ -82,6 +89,45 @@ TEST_P(EndedBySignal, BringsItsAxesToRestAndEndsWith0) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, EndedBySignal, testing::Values(SIGINT, SIGTERM),
                          [](const auto& signal) { return signal.param == SIGINT ? "SIGINT" : "SIGTERM"; });
+
+TEST(RealTime, AnAxisThatCannotBeBrakedInTimeHoldsNoEndUpForLongerThanTenSecondsAndIsTold) {
+  const Directory directory;
+  Json json = Json::parse(content(slow_to_brake(directory)));
+  Json& config = json["technology_objects"]["A"]["config"];
+  config["DynamicLimits"]["MaxDeceleration"] = 2.0;
+  config["DynamicDefaults"]["Deceleration"] = 2.0;
+  config["DynamicDefaults"]["EmergencyDeceleration"] = 2.0;
+  RunningLockstep run(directory.write("slower.json", json.dump()));
+  ModbusClient client(run.port());
+  ASSERT_TRUE(running_at_200(client));
+  const auto asked = Clock::now();
+  run.send(SIGTERM);
+  EXPECT_EQ(run.status(), 0) << run.err();
+  EXPECT_GT(Clock::now() - asked, std::chrono::seconds(9));
+  EXPECT_NE(run.err().find("warning: A was not at rest"), std::string::npos) << run.err();
+}
+
+TEST(RealTime, ToTheJournalWarningsAndErrorsHaveTheirGravity) {
+  const Directory directory;
+  const std::string project = slow_to_brake(directory);
+  // systemd announces the stream that is standard error by its device and inode.
+  const auto to_journal = [&](const std::string& file) {
+    return lockstep_shell(
+        "exec 2>\"$1/journal\"; JOURNAL_STREAM=$(stat -L -c %d:%i /proc/self/fd/2) exec \"$2\" run \"$3\" "
+        "--duration 20ms --no-modbus --no-lcm",
+        {directory.file(""), LOCKSTEP_PROGRAM, file});
+  };
+  EXPECT_EQ(to_journal(project), 0);
+  std::string journal = content(directory.file("journal"));
+  EXPECT_EQ(journal.find('\033'), std::string::npos) << journal;
+  EXPECT_EQ(journal.find('\r'), std::string::npos) << "progress in a log: " << journal;
+  EXPECT_EQ(to_journal(directory.file("missing.json")), 2);
+  journal = content(directory.file("journal"));
+  EXPECT_EQ(journal.find("<3>lockstep: "), 0u) << journal;
+  EXPECT_EQ(to_journal(directory.write("wrong.json", "{}")), 1);
+  journal = content(directory.file("journal"));
+  EXPECT_EQ(journal.find("<3>" + directory.file("wrong.json")), 0u) << journal;
+}
 
 TEST(RealTime, ADurationEndsItAndTheAxesAreBroughtToRestAfterIt) {
   const Directory directory;

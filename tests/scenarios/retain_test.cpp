@@ -127,6 +127,18 @@ TEST(Retain, TheCommandLineNamesAnotherFileOrNone) {
   EXPECT_FALSE(std::filesystem::exists(directory.file("project.retain")));
 }
 
+TEST(Retain, AServiceKeepsItsValuesInTheStateDirectoryThatSystemdGivesIt) {
+  const Directory directory;
+  const std::string project = directory.write("project.json", counting().dump());
+  std::filesystem::create_directory(directory.file("state"));
+  std::vector<std::string> command{"env", "STATE_DIRECTORY=" + directory.file("state") + ":/var/empty"};
+  for (const std::string& word : lockstep_command(quietly(project, {"--duration", "20ms"})))
+    command.push_back(word);
+  EXPECT_EQ(Process(command).status(), 0);
+  EXPECT_GT(kept_count(directory.file("state/project.retain")), 5);
+  EXPECT_FALSE(std::filesystem::exists(directory.file("project.retain")));
+}
+
 TEST(Retain, ADamagedFileIsNoPlaceToStartFrom) {
   const Directory directory;
   const std::string project = directory.write("project.json", counting().dump());

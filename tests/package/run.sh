@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Builds the Debian package and looks at what is in it: run.sh SOURCES BUILD WORK.
+set -euo pipefail
+sources=$1 build=$2 work=$3
+fail() { echo "FAILED: $*" >&2; exit 1; }
+expect() { [[ $1 == *"$2"* ]] || fail "'$2' is missing in: $1"; }
+
+rm -rf "$work"
+mkdir -p "$work"
+(cd "$build" && cpack -G DEB -B "$work/cpack") >"$work/cpack.log" || fail "cpack: $(tail -n 20 "$work/cpack.log")"
+package=$(echo "$work"/cpack/lockstep_*.deb)
+dpkg-deb -x "$package" "$work/root"
+
+echo "what it says of itself"
+control=$(dpkg-deb -f "$package")
+expect "$control" "Package: lockstep"
+depends=$(dpkg-deb -f "$package" Depends)
+for library in libc6 libstdc++6 libmodbus5 libsqlite3-0 liblcm1; do expect "$depends" "$library"; done
+
+echo "what is in it"
+for path in bin/lockstep share/man/man1/lockstep.1 share/man/man5/lockstep-project.5 \
+  lib/systemd/system/lockstep@.service include/lockstep/projects/simulation.hpp \
+  share/lockstep/project.schema.json share/lockstep/projects/02_rotary_knife/project.json \
+  share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/RETAIN.md; do
+  [[ -s $work/root/usr/$path ]] || fail "usr/$path is not in the package"
+done
+[[ -n $(find "$work/root/usr/lib" -name LockstepConfig.cmake) ]] || fail "no CMake package"
+[[ -z $(find "$work/root" -perm /022 ! -type l) ]] || fail "others may write: $(find "$work/root" -perm /022 ! -type l)"
+[[ -z $(find "$work/root" -mindepth 1 -maxdepth 1 ! -name usr) ]] || fail "it has more than usr/"
+! grep -rIl "$sources" "$work/root/usr/lib" "$work/root/usr/share" "$work/root/usr/include" || fail "paths of the build"
+
+echo "its program runs"
+lockstep=$work/root/usr/bin/lockstep
+"$lockstep" check "$work/root/usr/share/lockstep/projects/02_rotary_knife/project.json"
+
+echo "its man pages are well formed and complete"
+for page in man1/lockstep.1 man5/lockstep-project.5; do
+  complaints=$(groff -k -man -Tutf8 -ww -z "$work/root/usr/share/man/$page" 2>&1)
+  [[ -z $complaints ]] || fail "$page: $complaints"
+done
+text=$(groff -k -man -Tascii -P-c -P-b -P-u "$work/root/usr/share/man/man1/lockstep.1" 2>/dev/null)
+for word in $("$lockstep" run --help | grep -o '^  --[a-z-]*'); do expect "$text" "$word"; done
+for command in check run describe tags read write plot monitor cam; do expect "$text" "lockstep $command"; done
+text=$(groff -k -man -Tascii -P-c -P-b -P-u "$work/root/usr/share/man/man5/lockstep-project.5" 2>/dev/null)
+for key in servo_cycle technology_objects programs retain listen; do expect "$text" "$key"; done
+
+echo "its unit is one"
+unit=$work/lockstep@.service
+sed "s|=lockstep |=$lockstep |" "$work/root/usr/lib/systemd/system/lockstep@.service" >"$unit"
+complaints=$(systemd-analyze verify --man=no "$unit" 2>&1 | grep -v "^$" || true)
+[[ -z $complaints ]] || fail "systemd-analyze verify: $complaints"
+exposure=$(systemd-analyze security --offline=yes --threshold=30 "$unit" 2>&1 | tail -n 1) || fail "too exposed: $exposure"
+echo "$exposure"
+
+echo "what the unit forbids is not needed: system calls of a run with everything on"
+systemd-analyze syscall-filter @system-service >"$work/allowed_sets"
+allowed() { # the calls of a set and of the sets in it
+  systemd-analyze syscall-filter "$1" | sed -e '/#/d' -e 1d | while read -r name; do
+    case $name in '') ;; @*) allowed "$name" ;; *) echo "$name" ;; esac
+  done
+}
+allowed @system-service | sort -u >"$work/allowed"
+cp -r "$sources/projects/02_rotary_knife" "$work/knife"
+strace -f -qq -e trace=all -o "$work/trace" "$lockstep" run "$work/knife/project.json" --duration 1s --stimuli \
+  --modbus 127.0.0.1:0 --trace "$work/knife.csv" --retain "$work/knife.retain" 2>"$work/run.log" ||
+  fail "the run: $(cat "$work/run.log")"
+sed -E 's/^[0-9]+ +//' "$work/trace" | grep -oE '^[a-z_0-9]+\(' | tr -d '(' | sort -u >"$work/used"
+forbidden=$(comm -23 "$work/used" "$work/allowed")
+[[ -z $forbidden ]] || fail "the unit forbids what a run needs: $forbidden"
+echo "$(wc -l <"$work/used") system calls used, all allowed"
