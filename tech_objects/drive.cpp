@@ -22,8 +22,10 @@ Cycles cycles_of(double delay, double servo_cycle, std::size_t most) noexcept {
   return {static_cast<std::size_t>(whole), cycles - whole};
 }
 
-/// A stop of the drive's own: at rest once this part of the velocity is left, given up after [s].
+/// A stop of the drive's own: at rest once this part of the velocity, or this velocity [u/s], is left; given
+/// up after [s].
 constexpr double kRest = 1e-3;
+constexpr double kRestVelocity = 0.01;
 constexpr double kLongestStop = 10.0;
 
 bool is_on(const bool* cause) noexcept {
@@ -115,7 +117,7 @@ void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velo
 /// A stop of the drive's own ends at rest; or, if something keeps the machine going, after a while.
 void SimulatedDrive::watch_stop() noexcept {
   if (stopping_cycles_++ == 0) stop_velocity_ = std::abs(velocity_);
-  const bool rests = std::abs(velocity_) <= kRest * stop_velocity_ && ramp_ == 0.0;
+  const bool rests = std::abs(velocity_) <= std::max(kRest * stop_velocity_, kRestVelocity) && ramp_ == 0.0;
   if (!rests && stopping_cycles_ < most_stop_cycles_) return;
   stopping_cycles_ = 0;
   states_.stopped();

@@ -33,6 +33,7 @@ double tolerance(const std::string& name) {
   for (const char* velocity : {".Velocity", ".ActualVelocity", ".FilteredVelocity"})
     if (ends(velocity)) return 1e-5;
   if (ends(".Acceleration")) return 1e-3;
+  if (ends(".ActualTorque")) return 1e-4;
   return 0.0;
 }
 
@@ -46,7 +47,7 @@ std::optional<double> ring(const std::string& name) {
   if (name == "Nozzle.Position" || name == "Saw.Position" || name == "Feeder.Position") return std::nullopt;
   if (name.find("Encoder.") == 0 && name.find("Position") != std::string::npos) return 200.0;
   const bool position = name.find("Position") != std::string::npos && name.find("Slide") != 0 &&
-                        name.find("FollowingError") == std::string::npos;
+                        name.find("Jaw") != 0 && name.find("FollowingError") == std::string::npos;
   return position ? std::optional<double>(360.0) : std::nullopt;
 }
 
@@ -93,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Stored{"03_line_shaft", "5s", 25}, Stored{"04_cross_cutter", "5s", 25},
                     Stored{"05_press_feeder", "8s", 40}, Stored{"06_encoder_conveyor", "8s", 25},
                     Stored{"07_emergency_door", "16s", 40}, Stored{"08_filling_line", "11s", 40},
-                    Stored{"09_flying_saw", "12s", 40}),
+                    Stored{"09_flying_saw", "12s", 40}, Stored{"10_fixed_stop", "16s", 40}),
     [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
@@ -472,6 +473,49 @@ TEST(EmergencyDoor, KeepsTheCouplingWhileTheDriveIsOffAndGoesOnInStep) {
   }
   EXPECT_GT(furthest, 15.0) << "the press was inched away meanwhile";
   expect_smooth(table, "Press", 185.0, 1000.0);
+}
+
+TEST(FixedStopProject, HoldsEachPartWithTheTorqueThatIsAskedFor) {
+  const CsvTable table =
+      simulate(example("10_fixed_stop"), "10s",
+               {"--signals",
+                "Jaw.Position,Jaw.ActualPosition,Jaw.StatusTorqueData.ActualTorque,"
+                "grip.InClamping,grip.InLimitation,close.CommandAborted,torque,parts,alarm,"
+                "found_at"});
+  expect_never(table, "alarm");
+  EXPECT_GE(table["parts"].back(), 3.0);
+  EXPECT_NEAR(table["found_at"].back(), 62.5, 0.1) << "into the part by torque over stiffness";
+  std::size_t held = 0;
+  std::size_t settled = 0;
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    if (table["grip.InClamping"][i] == 0.0 || table["grip.InClamping"][i - 1] == 0.0) continue;
+    ++held;
+    if (table["Jaw.Position"][i] != table["Jaw.Position"][i - 1]) continue;  // it opens already
+    EXPECT_GT(table["Jaw.Position"][i], 63.0) << "the following error is kept";
+    if (i < 300 || table["grip.InClamping"][i - 300] == 0.0 || table["torque"][i] != table["torque"][i - 300])
+      continue;
+    EXPECT_EQ(table["Jaw.StatusTorqueData.ActualTorque"][i], table["torque"][i]) << table["t"][i];
+    EXPECT_EQ(table["grip.InLimitation"][i], 1.0);
+    ++settled;
+  }
+  EXPECT_GT(held, 1500u);
+  EXPECT_GT(settled, 600u);
+}
+
+TEST(FixedStopProject, GoesOnAfterAFaultOfItsDriveHasBeenAcknowledged) {
+  const CsvTable table = simulate(
+      example("10_fixed_stop"), "20s",
+      {"--signals",
+       "alarm,Jaw.ErrorDetail.Number,Jaw.ErrorWord.X4,Jaw.StatusDrive.Error,drive_fault,reset,parts,step"});
+  const std::size_t failed = table.first("drive_fault", 1.0);
+  const std::size_t alarm = table.first("Jaw.ErrorWord.X4", 1.0);
+  ASSERT_LT(failed, table.rows);
+  EXPECT_LE(alarm - failed, 3u);
+  EXPECT_EQ(table["Jaw.ErrorDetail.Number"][alarm], 421.0);
+  const std::size_t reset = table.first("reset", 1.0);
+  EXPECT_EQ(table["Jaw.ErrorDetail.Number"][reset], 421.0) << "the fault is over, and waits";
+  EXPECT_LE(table.first("Jaw.ErrorWord.X4", 0.0, reset) - reset, 6u);
+  EXPECT_GT(table["parts"].back(), table["parts"][reset] + 1.0);
 }
 
 TEST(LineShaft, EveryRollKeepsItsRatioWhileItIsSynchronous) {

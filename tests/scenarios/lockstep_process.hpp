@@ -67,6 +67,15 @@ inline std::string example(const std::string& name) {
   return std::string(LOCKSTEP_SOURCE_DIR) + "/projects/" + name + "/project.json";
 }
 
+/// All example projects.
+inline std::vector<std::string> example_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(LOCKSTEP_SOURCE_DIR) + "/projects"))
+    if (std::filesystem::exists(entry.path() / "project.json")) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 /// A program that runs; it ends with this object, or with this process.
 class Process {
  public:

@@ -143,9 +143,7 @@ TEST(RealTime, ADurationEndsItAndTheAxesAreBroughtToRestAfterIt) {
 }
 
 TEST(RealTime, TheExamplesRunWithoutAlarms) {
-  for (const char* name :
-       {"01_positioning", "02_rotary_knife", "03_line_shaft", "04_cross_cutter", "05_press_feeder",
-        "06_encoder_conveyor", "07_emergency_door", "08_filling_line", "09_flying_saw"}) {
+  for (const std::string& name : example_names()) {
     const Ended ended =
         lockstep({"run", example(name), "--stimuli", "--duration", "1s", "--no-modbus", "--no-lcm"});
     EXPECT_EQ(ended.status, 0) << name << "\n" << ended.err;
