@@ -82,6 +82,7 @@ class ProgramLoader {
   void load_object_pin(const JsonValue& json, const Pin& pin, Instance& instance);
   void check_constants(const Instance& instance);
   void check_leading_value(const JsonValue& in, Instance& instance);
+  void check_copied(const JsonValue& in, const Instance& instance, std::string_view what);
 
   /// What the place of a type gets: a JSON boolean or number, or an expression; none if it is reported.
   std::optional<Expression> compile(const JsonValue* json, Type type);
@@ -252,6 +253,8 @@ void ProgramLoader::load_pins(const JsonValue* in, const JsonValue& call, Instan
   if (in == nullptr) return;
   check_constants(instance);
   check_leading_value(*in, instance);
+  if (instance.type->name == "MC_CopyCamData")
+    for (const std::string_view what : {"Point", "Segment"}) check_copied(*in, instance, what);
 }
 
 void ProgramLoader::load_pin(const std::string& name, const JsonValue& json, Instance& instance) {
@@ -329,6 +332,33 @@ void ProgramLoader::check_leading_value(const JsonValue& in, Instance& instance)
     return;
   problems_.warn(*master, master->shown() + " is not among the leading_values of '" + following->name +
                               "'; the job of '" + instance.name + "' will fail");
+}
+
+/// Warns of elements that are to be copied and that the array does not have, as far as that is constant.
+void ProgramLoader::check_copied(const JsonValue& in, const Instance& instance, std::string_view what) {
+  const std::string element(what);
+  const auto constant = [&](const std::string& name) -> std::optional<std::int64_t> {
+    const Pin& pin = *instance.type->find_pin(name);
+    const auto is_it = [&](const auto& known) { return known.first == &pin; };
+    if (in.find(name) != nullptr && std::none_of(constants_.begin(), constants_.end(), is_it))
+      return std::nullopt;
+    return pin.signal(*instance.block).load().i;
+  };
+  const JsonValue* const number_json = in.find("NumberOf" + element + "s");
+  const auto number = constant("NumberOf" + element + "s");
+  const auto start = constant("Start" + element + "Array");
+  if (number_json == nullptr || !number || *number <= 0 || !start) return;
+  const std::string pin = "ArrayOf" + element + "s";
+  if (in.find(pin) == nullptr)
+    return problems_.warn(*number_json, pin + " is not given; the block will report an error");
+  Block& block = *instance.block;
+  const auto* const array =
+      reinterpret_cast<const Array*>(instance.type->find_pin(pin)->signal(block).load().u);
+  if (array == nullptr || (array->holds(*start) && *number <= std::int64_t{array->upper} - *start + 1))
+    return;
+  problems_.warn(*number_json, std::to_string(*number) + " from " + std::to_string(*start) +
+                                   " on are more than " + in.find(pin)->shown() + " has, an " +
+                                   array_type_name(*array) + "; the block will report an error");
 }
 
 /// A cycle of a program, which is there where its organization block needs one.

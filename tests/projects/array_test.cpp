@@ -223,6 +223,27 @@ TEST(ArrayProblems, AreToldOfPins) {
       std::string::npos);
 }
 
+TEST(ArrayProblems, WarnOfElementsThatAnArrayDoesNotHave) {
+  const auto warned = [](const std::string& pins) {
+    std::string all;
+    const std::string call =
+        R"({ "fb": "MC_CopyCamData", "name": "copy", "in": { "Cam": "Profile", )" + pins + " } }";
+    for (const Problem& warning : load_project(project(kArrays, call)).warnings)
+      if (warning.place.starts_with("/programs")) all += warning.place + ": " + warning.text + "\n";
+    return all;
+  };
+  EXPECT_EQ(warned(R"("NumberOfPoints": 4, "ArrayOfPoints": "points")"), "");
+  EXPECT_EQ(warned(R"("NumberOfPoints": "i", "ArrayOfPoints": "points")"), "");
+  EXPECT_EQ(warned(R"("NumberOfPoints": 4, "StartPointArray": "i", "ArrayOfPoints": "points")"), "");
+  EXPECT_EQ(
+      warned(R"("NumberOfPoints": 4, "StartPointArray": 2, "ArrayOfPoints": "points")"),
+      "/programs/0/calls/0/in/NumberOfPoints: 4 from 2 on are more than 'points' has, an ARRAY[1..4] OF "
+      "TO_Cam_Struct_PointData; the block will report an error\n");
+  EXPECT_EQ(warned(R"("NumberOfSegments": 1)"),
+            "/programs/0/calls/0/in/NumberOfSegments: ArrayOfSegments is not given; the block will report an "
+            "error\n");
+}
+
 // ---- A cam that a program computes
 // --------------------------------------------------------------------------------------
 
