@@ -71,6 +71,11 @@ template <class T>
 constexpr Pin axis() {
   return object<&T::Axis>("Axis", kAnyAxis, "axis that carries out the job");
 }
+/// Of a job that needs no position.
+template <class T>
+constexpr Pin any_axis() {
+  return object<&T::Axis>("Axis", kAnyDrivenAxis, "axis that carries out the job");
+}
 template <class T>
 constexpr Pin velocity(std::string_view text, InputFacts facts = {.error = ErrorId::velocity}) {
   return in<&T::Velocity>("Velocity", Unit::kVelocity, kNotZero, text, facts);

@@ -6,7 +6,9 @@
 namespace lockstep {
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
-    : LeadingObject(object_kind, std::move(object_name), object_number) {}
+    : LeadingObject(object_kind, std::move(object_name), object_number) {
+  if (!has_position()) data.Units.VelocityUnit = kTurnsPerMinute;
+}
 
 void Axis::configure(double servo_period, int ratio) {
   servo_period_ = servo_period;
@@ -14,6 +16,7 @@ void Axis::configure(double servo_period, int ratio) {
   period_ = servo_period * ratio;
   start_values_ = data;
   has_drive_ = !is_virtual();
+  position_controlled_ = has_position();
   take_start_values();
   setpoint_ = Setpoint{};
   setpoint_.position = normalised({0, 0.0}, modulo_);
@@ -30,6 +33,8 @@ void Axis::configure(double servo_period, int ratio) {
 
 void Axis::take_start_values() noexcept {
   modulo_ = {data.Modulo.Enable, data.Modulo.Length, data.Modulo.StartValue};
+  // Without a position it may turn for ever.
+  if (!has_position()) modulo_ = {true, 1e6, 0.0};
   single_.configure(modulo_, period_);
   superimposed_.configure(period_);
   const double tolerance = data.Synchronization.MasterReversionTolerance;
@@ -79,7 +84,7 @@ void Axis::switch_on() noexcept {
 /// to it.
 void Axis::take_up_motion() noexcept {
   power_state_ = PowerState::on;
-  position_controlled_ = power.start_mode == 1;
+  position_controlled_ = power.start_mode == 1 && has_position();
   motion_ = Motion::single_axis;
   if (has_drive_) setpoint_ = {actual_, moving(actual_velocity_) ? actual_velocity_ : 0.0, 0.0};
   const AxisPosition here = setpoint_.position;
@@ -121,6 +126,7 @@ void Axis::follow_actual() noexcept {
 /// Taken up anew, position control begins where the axis is: with the setpoint ahead by what the drive is
 /// late.
 void Axis::set_position_control(bool on) noexcept {
+  if (!has_position()) return;
   if (on && !position_controlled_ && has_drive_) {
     setpoint_.position = advanced(actual_, actual_velocity_ * setpoint_delay(), modulo_);
     last_setpoint_.position = setpoint_.position;
@@ -139,6 +145,7 @@ void Axis::raise(int alarm_number) noexcept {
 /// For alarms whose reaction is a matter of configuration.
 void Axis::raise(int alarm_number, AlarmReaction reaction) noexcept {
   const Alarm* alarm = find_alarm(alarm_number);
+  alarm_notes.raised(alarm_number, static_cast<int>(reaction));
   if (reaction == AlarmReaction::none) {
     set_bit(data.WarningWord, static_cast<unsigned>(alarm->warning_bit), true);
     return;
@@ -173,6 +180,7 @@ ErrorId Axis::reset(bool restart) noexcept {
   data.ErrorWord = DWORD{};
   data.WarningWord = DWORD{};
   data.ErrorDetail = {};
+  alarm_notes.acknowledged();
   enable_removed_ = false;
   if (restart) this->restart();
   return ErrorId::none;
