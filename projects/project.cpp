@@ -43,6 +43,7 @@ void load_root(const JsonValue& root, const Loading& loading) {
   if (const auto* const stimuli = fields["stimuli"]) load_stimuli(*stimuli, loading);
   load_modbus(fields["modbus"], loading);
   if (const auto* const trace = fields["trace"]) load_trace(*trace, loading);
+  if (const auto* const recorder = fields["flight_recorder"]) load_flight_recorder(*recorder, loading);
   warn_of_unused(root, loading);
 }
 
