@@ -97,8 +97,9 @@ TEST(RealTime, ADurationEndsItAndTheAxesAreBroughtToRestAfterIt) {
 }
 
 TEST(RealTime, TheExamplesRunWithoutAlarms) {
-  for (const char* name : {"01_positioning", "02_rotary_knife", "03_line_shaft", "04_cross_cutter",
-                           "05_press_feeder", "06_encoder_conveyor", "07_emergency_door"}) {
+  for (const char* name :
+       {"01_positioning", "02_rotary_knife", "03_line_shaft", "04_cross_cutter", "05_press_feeder",
+        "06_encoder_conveyor", "07_emergency_door", "11_pick_and_place"}) {
     const Ended ended =
         lockstep({"run", example(name), "--stimuli", "--duration", "1s", "--no-modbus", "--no-lcm"});
     EXPECT_EQ(ended.status, 0) << name << "\n" << ended.err;
