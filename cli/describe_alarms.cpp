@@ -4,33 +4,14 @@
 #include "cli/describe_subject.hpp"
 #include "cli/describe_table.hpp"
 #include "cli/describe_values.hpp"
+#include "tech_objects/alarm_reactions.hpp"
 #include "tech_objects/status_bits.hpp"
 
 namespace lockstep::cli {
 namespace {
 
-/// Values of ErrorDetail.Reaction in words.
-/// @source S7-1500/S7-1500T alarms and error IDs
-constexpr std::string_view kReactions[] = {"none",
-                                           "stop with the dynamic values of the running job",
-                                           "stop with maximum dynamic values",
-                                           "stop with the emergency ramp",
-                                           "remove the enable",
-                                           "track the setpoints",
-                                           "end the processing of the output cam",
-                                           "end the processing of the cam track",
-                                           "end the processing of the measuring input",
-                                           "end the processing of the cam",
-                                           "end the processing of the external encoder",
-                                           "kinematics: stop on the path",
-                                           "kinematics: stop with maximum dynamics of the axes",
-                                           "end the processing of the leading axis proxy",
-                                           "interpreter: stop the program, diagnostics possible",
-                                           "interpreter: stop and recompile"};
-
 std::string reaction_text(const Alarm& alarm) {
-  const auto index = static_cast<std::size_t>(alarm.reaction);
-  return index < std::size(kReactions) ? std::string(kReactions[index]) : "";
+  return std::string(alarm_reaction_text(alarm.reaction));
 }
 
 std::string_view class_text(AlarmClass alarm_class) {
@@ -114,8 +95,8 @@ std::string alarms_text(std::size_t width) {
   text += paragraph("ErrorDetail.Number of an object; lockstep describe NUMBER tells more.", 2, width) + "\n";
   text += table.text(0, width) + "\n";
   Table reactions({"Reaction", "Meaning"});
-  for (std::size_t i = 0; i < std::size(kReactions); ++i)
-    reactions.row({std::to_string(i), std::string(kReactions[i])});
+  for (std::size_t i = 0; i < std::size(kAlarmReactions); ++i)
+    reactions.row({std::to_string(i), std::string(kAlarmReactions[i])});
   return text + reactions.text(0, width);
 }
 

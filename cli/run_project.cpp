@@ -1,6 +1,7 @@
 // lockstep run: puts the parts together, runs them and tells how it went.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -9,12 +10,15 @@
 
 #include "cli/command.hpp"
 #include "cli/run_command.hpp"
+#include "cli/run_events.hpp"
 #include "cli/run_retain.hpp"
 #include "hmi_bridge/csv_trace.hpp"
+#include "hmi_bridge/flight_recorder.hpp"
 #include "hmi_bridge/lcm_log.hpp"
 #include "hmi_bridge/lcm_publisher.hpp"
 #include "hmi_bridge/modbus_client.hpp"
 #include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/trace_channel.hpp"
 #include "hmi_bridge/trace_recorder.hpp"
 #include "scheduler/real_time.hpp"
 
@@ -24,8 +28,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kTraceRows = 1 << 14;  // of the ring: seconds of a trace that a slow disk may hold up
-constexpr auto kRefresh = 100ms;             // of the display
-constexpr std::uint64_t kTicksBetweenLooks = 4096;  // of a simulation, at the clock and for signals
+constexpr std::size_t kTraceValues = std::size_t{1} << 23;  // in the ring at most, 64 MiB
+constexpr auto kRefresh = 100ms;                            // of the display
+constexpr std::uint64_t kTicksBetweenLooks = 4096;          // of a simulation, at the clock and for signals
 
 volatile std::sig_atomic_t end_requested = 0;
 
@@ -64,7 +69,12 @@ class Surroundings {
   }
 
   const std::vector<NamedSignal>& signals() const { return signals_; }
-  TraceRing* ring() { return ring_.get(); }
+
+  /// Between two ticks of virtual time: waits until the recorder has room; false if it takes nothing more.
+  bool wait_for_recorder() const { return ring_->wait_for_space() && events_.wait_for_space(); }
+
+  /// Writes out what has been recorded, so that what is told of it stands before what comes at the end.
+  void finish_trace() { recorder_->stop(); }
 
   /// Tells what has gone wrong lately, or is well again.
   void look() {
@@ -81,6 +91,8 @@ class Surroundings {
     for (const auto& client : clients_) tell_failures(*client);
     if (!recorder_) return;
     recorder_->stop();
+    if (flight_ != nullptr)
+      for (const std::string& file : flight_->written()) tell("flight recorder: wrote " + file);
     for (const std::string& loss : recorder_->losses()) tell("warning: " + loss);
   }
 
@@ -107,6 +119,12 @@ class Surroundings {
     }
   }
 
+  LcmTraceIdentity identity(const std::string& channel) const {
+    LcmTraceIdentity named = identity();
+    named.channel = channel;
+    return named;
+  }
+
   LcmTraceIdentity identity() const {
     const auto wall = std::chrono::system_clock::now().time_since_epoch();
     const std::int64_t epoch = std::chrono::duration_cast<std::chrono::microseconds>(wall).count();
@@ -116,14 +134,46 @@ class Surroundings {
             .epoch = options_.simulate ? 0 : epoch};
   }
 
-  void add_trace_file(std::vector<std::unique_ptr<TraceSink>>& sinks) {
+  /// The column of a signal in the ring; it is added if it is not there yet.
+  std::size_t column_of(const NamedSignal& signal) {
+    const auto same = [&](const NamedSignal& other) { return other.name == signal.name; };
+    const auto found = std::find_if(columns_.begin(), columns_.end(), same);
+    if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
+    columns_.push_back(signal);
+    return columns_.size() - 1;
+  }
+
+  std::vector<std::size_t> columns_of(const std::vector<NamedSignal>& signals) {
+    std::vector<std::size_t> columns;
+    for (const NamedSignal& signal : signals) columns.push_back(column_of(signal));
+    return columns;
+  }
+
+  /// A sink that gets the signals of the trace.
+  void add_whole(std::unique_ptr<TraceSink> sink) {
+    sinks_.push_back(std::make_unique<TraceChannel>(std::move(sink), columns_of(signals_)));
+  }
+
+  void add_part(std::unique_ptr<TraceSink> sink, const TraceChannelConfig& config) {
+    std::optional<std::size_t> occasion;
+    if (config.occasion) occasion = column_of(*config.occasion);
+    sinks_.push_back(std::make_unique<TraceChannel>(std::move(sink), columns_of(config.signals),
+                                                    config.selection, occasion));
+  }
+
+  void add_trace_file() {
     const std::string& path = options_.trace_file;
     if (path.empty()) return;
     try {
       if (path.ends_with(".csv")) {
-        sinks.push_back(std::make_unique<CsvTrace>(path));
+        add_whole(std::make_unique<CsvTrace>(path));
       } else if (path.ends_with(".lcm")) {
-        sinks.push_back(std::make_unique<LcmLog>(path, identity()));
+        auto log = std::make_unique<LcmLog>(path, identity());
+        for (const TraceChannelConfig& channel : project_.trace.channels)
+          add_part(log->add_channel(identity(channel.channel)), channel);
+        add_whole(std::move(log));
+        project_.controller->tell_jobs();
+        jobs_told_ = true;
       } else {
         throw CouldNotStart("--trace: '" + path + "' has to end in .csv or .lcm");
       }
@@ -132,33 +182,52 @@ class Surroundings {
     }
   }
 
-  void add_lcm(std::vector<std::unique_ptr<TraceSink>>& sinks) {
+  void add_lcm() {
     const bool asked = !options_.lcm.empty();
     const bool wanted = asked || (!options_.simulate && !options_.no_lcm && !project_.trace.url.empty());
     if (!wanted) return;
     const std::string url = asked ? options_.lcm : project_.trace.url;
     try {
-      sinks.push_back(std::make_unique<LcmPublisher>(url, identity()));
+      add_whole(std::make_unique<LcmPublisher>(url, identity()));
+      for (const TraceChannelConfig& channel : project_.trace.channels)
+        add_part(std::make_unique<LcmPublisher>(url, identity(channel.channel), false), channel);
+      if (!jobs_told_) project_.controller->tell_jobs();
     } catch (const std::exception& error) {
       if (asked) throw CouldNotStart(std::string("--lcm: ") + error.what());
       tell(std::string("warning: no traces over LCM: ") + error.what());
     }
   }
 
+  void add_flight_recorder() {
+    if (!project_.flight_recorder) return;
+    const FlightRecorderConfig& config = *project_.flight_recorder;
+    auto recorder = std::make_unique<FlightRecorder>(config.options, columns_of(config.signals),
+                                                     project_.controller->clock.interpolator_cycle());
+    flight_ = recorder.get();
+    sinks_.push_back(std::move(recorder));
+  }
+
+  /// Alarms are told in any case; rows are recorded only for somebody.
   void start_trace() {
-    std::vector<std::unique_ptr<TraceSink>> sinks;
-    add_trace_file(sinks);
-    add_lcm(sinks);
-    if (sinks.empty()) return;
+    add_trace_file();
+    add_lcm();
+    add_flight_recorder();
+    const bool rows = !sinks_.empty();
+    sinks_.insert(sinks_.begin(), std::make_unique<AlarmMessages>(options_.simulate ? 500 : 0));
     std::vector<Signal> places;
     std::vector<TraceSignal> columns;
-    for (const NamedSignal& signal : signals_) {
+    for (const NamedSignal& signal : columns_) {
       places.push_back(signal.signal);
       columns.push_back({signal.name, signal.signal.value_type(), std::string(unit_text(signal.unit))});
     }
-    ring_ = std::make_unique<TraceRing>(std::move(places), kTraceRows);
-    project_.controller->trace = ring_.get();
-    recorder_ = std::make_unique<TraceRecorder>(*ring_, std::move(columns), std::move(sinks));
+    const std::size_t fitting = kTraceValues / (places.size() + 1);
+    ring_ = std::make_unique<TraceRing>(std::move(places),
+                                        rows ? std::clamp<std::size_t>(fitting, 1 << 10, kTraceRows) : 2);
+    if (rows) project_.controller->trace = ring_.get();
+    project_.controller->events = &events_;
+    recorder_ =
+        std::make_unique<TraceRecorder>(*ring_, std::move(columns), std::move(sinks_),
+                                        EventSource{&events_, EventTexts(*project_.controller), rows});
   }
 
   /// What is served where: as the project says, or at the one place that the command line names.
@@ -247,7 +316,12 @@ class Surroundings {
   Project& project_;
   const RunOptions& options_;
   std::unique_ptr<RetainWriter> keeper_;
-  std::vector<NamedSignal> signals_;
+  std::vector<NamedSignal> signals_;  // of the trace
+  std::vector<NamedSignal> columns_;  // of the ring: those, and what else somebody asks for
+  std::vector<std::unique_ptr<TraceSink>> sinks_;
+  const FlightRecorder* flight_ = nullptr;
+  bool jobs_told_ = false;
+  EventQueue events_;
   std::unique_ptr<TraceRing> ring_;
   std::unique_ptr<TraceRecorder> recorder_;
   std::unique_ptr<ProcessImage> image_;
@@ -262,7 +336,7 @@ void simulate(Project& project, Surroundings& surroundings, Display& display, st
   const auto begin = std::chrono::steady_clock::now();
   auto next_look = begin;
   for (std::uint64_t tick = 0; duration < 0 || controller.now() < duration; ++tick) {
-    if (surroundings.ring() != nullptr && !surroundings.ring()->wait_for_space()) break;
+    if (!surroundings.wait_for_recorder()) break;
     controller.tick();
     if (tick % kTicksBetweenLooks != 0) continue;
     if (end_requested != 0) break;
@@ -272,8 +346,9 @@ void simulate(Project& project, Surroundings& surroundings, Display& display, st
     next_look = now + kRefresh;
   }
   controller.take_summary();
-  display.close();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  surroundings.finish_trace();
+  display.close();
   const double simulated = static_cast<double>(controller.now()) * 1e-9;
   write_message(fmt::format("simulated {:.3f} s in {:.3f} s ({:.0f} × real time), {} ticks\n", simulated,
                             spent.count(), simulated / spent.count(), controller.counters().ticks));
@@ -307,6 +382,7 @@ int run_in_real_time(Project& project, Surroundings& surroundings, Display& disp
     surroundings.look();
   }
   run.wait();
+  surroundings.finish_trace();
   display.close();
   write_message(fmt::format(
       "ran {:.3f} s: {} ticks, {} overruns, {} missed ticks, worst lateness {:.1f} µs, longest tick "

@@ -17,6 +17,7 @@
 #include "fb/motion_in.hpp"
 #include "fb/move.hpp"
 #include "fb/offset.hpp"
+#include "fb/output_cam.hpp"
 #include "fb/parameter.hpp"
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
@@ -61,6 +62,8 @@ constexpr BlockType kTypes[] = {
     block_type<MC_MeasuringInput>(),
     block_type<MC_MeasuringInputCyclic>(),
     block_type<MC_AbortMeasuringInput>(),
+    block_type<MC_OutputCam>(),
+    block_type<MC_CamTrack>(),
     block_type<MC_InterpolateCam>(),
     block_type<MC_GetCamLeadingValue>(),
     block_type<MC_GetCamFollowingValue>(),

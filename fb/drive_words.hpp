@@ -20,7 +20,7 @@ struct MC_SetAxisSTW final : ExecuteBlock {
   static constexpr std::string_view kText = "Drives bits of the control words that the axis does not use.";
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_SetAxisSTW";
   static constexpr auto kPins =
-      pins(object<&MC_SetAxisSTW::Axis>("Axis", kAnyAxis, "axis whose drive gets them"), pin::kExecute,
+      pins(object<&MC_SetAxisSTW::Axis>("Axis", kAnyDrivenAxis, "axis whose drive gets them"), pin::kExecute,
            in<&MC_SetAxisSTW::STW1>("STW1", Unit::kNone, kAny, "values for control word 1"),
            in<&MC_SetAxisSTW::STW1BitMask>("STW1BitMask", Unit::kNone, kAny,
                                            "which bits of it to drive, of 8, 9 and 11 to 15",

@@ -51,6 +51,11 @@ template <class T>
 constexpr Pin axis() {
   return object<&T::Axis>("Axis", kAnyAxis, "axis that carries out the job");
 }
+/// Of a job that needs no position.
+template <class T>
+constexpr Pin any_axis() {
+  return object<&T::Axis>("Axis", kAnyDrivenAxis, "axis that carries out the job");
+}
 template <class T>
 constexpr Pin position_controlled() {
   return in<&T::PositionControlled>("PositionControlled", Unit::kNone, kAny,

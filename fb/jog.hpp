@@ -29,7 +29,7 @@ struct MC_MoveJog final : Block {
   static constexpr std::string_view kText = "Moves the axis while an input is held.";
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_MoveJog";
   static constexpr auto kPins =
-      pins(pin::axis<MC_MoveJog>(),
+      pins(pin::any_axis<MC_MoveJog>(),
            in<&MC_MoveJog::JogForward>("JogForward", Unit::kNone, kAny, "TRUE: move in positive direction"),
            in<&MC_MoveJog::JogBackward>("JogBackward", Unit::kNone, kAny, "TRUE: move in negative direction"),
            in<&MC_MoveJog::Velocity>("Velocity", Unit::kVelocity, kFinite,

@@ -19,7 +19,7 @@ struct MC_MotionInVelocity final : EnableBlock {
   static constexpr std::string_view kText = "Gives the axis a velocity in every call.";
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_MotionInVelocity";
   static constexpr auto kPins =
-      pins(pin::axis<MC_MotionInVelocity>(), pin::kEnable,
+      pins(pin::any_axis<MC_MotionInVelocity>(), pin::kEnable,
            in<&MC_MotionInVelocity::Velocity>("Velocity", Unit::kVelocity, kGiven, "velocity setpoint",
                                               {.error = ErrorId::velocity}),
            in<&MC_MotionInVelocity::Acceleration>("Acceleration", Unit::kAcceleration, kGiven,

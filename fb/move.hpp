@@ -100,7 +100,7 @@ struct MC_MoveVelocity final : ExecuteBlock {
   static constexpr Choice kDirections[] = {
       {0, "the sign of Velocity decides"}, {1, "positive direction"}, {2, "negative direction"}};
   static constexpr auto kPins = pins(
-      pin::axis<MC_MoveVelocity>(), pin::kExecute,
+      pin::any_axis<MC_MoveVelocity>(), pin::kExecute,
       in<&MC_MoveVelocity::Velocity>("Velocity", Unit::kVelocity, kFinite,
                                      "velocity; 0 is permitted and brakes; no default for negative values",
                                      {.error = ErrorId::velocity}),

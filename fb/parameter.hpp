@@ -18,7 +18,7 @@ struct MC_WriteParameter final : ExecuteBlock {
   static constexpr std::string_view kText = "Changes selected configuration values at run time.";
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_WriteParameter";
   static constexpr auto kPins = pins(
-      object<&MC_WriteParameter::Axis>("Axis", kLeading, "object whose value is written"), pin::kExecute,
+      object<&MC_WriteParameter::Axis>("Axis", kPowered, "object whose value is written"), pin::kExecute,
       in<&MC_WriteParameter::ParameterNumber>("ParameterNumber", Unit::kNone, kAny,
                                               "1000: PositionLimits_HW.Active; 1010 to 1012: "
                                               "communication times, which are refused",

@@ -32,7 +32,7 @@ struct MC_Power final : Block {
                                           {2, "maximum dynamics: DynamicLimits.MaxDeceleration and MaxJerk"},
                                           {3, "coast down"}};
   static constexpr auto kPins =
-      pins(object<&MC_Power::Axis>("Axis", kLeading, "axis or encoder that is enabled"),
+      pins(object<&MC_Power::Axis>("Axis", kPowered, "axis or encoder that is enabled"),
            in<&MC_Power::Enable>("Enable", Unit::kNone, kAny, "TRUE: enable; FALSE: stop and disable"),
            in<&MC_Power::StartMode>("StartMode", Unit::kNone, kAny, "control mode taken at enabling",
                                     {.error = ErrorId::mode, .choices = kStartModes}),

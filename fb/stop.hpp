@@ -19,7 +19,7 @@ struct MC_Halt final : ExecuteBlock {
   static constexpr std::string_view kText = "Brakes the axis to standstill.";
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_Halt";
   static constexpr auto kPins =
-      pins(pin::axis<MC_Halt>(), pin::kExecute, pin::deceleration<MC_Halt>(), pin::jerk<MC_Halt>(),
+      pins(pin::any_axis<MC_Halt>(), pin::kExecute, pin::deceleration<MC_Halt>(), pin::jerk<MC_Halt>(),
            pin::abort_acceleration<MC_Halt>(), pin::buffer_mode<MC_Halt>(), pin::kDone, pin::kBusy,
            pin::kCommandAborted, pin::kError, pin::kErrorID);
 
@@ -51,7 +51,7 @@ struct MC_Stop final : ExecuteBlock {
     return static_cast<const MC_Stop&>(block).Mode == 3;
   }
   static constexpr auto kPins = pins(
-      pin::axis<MC_Stop>(), pin::kExecute,
+      pin::any_axis<MC_Stop>(), pin::kExecute,
       in<&MC_Stop::Mode>("Mode", Unit::kNone, kAny, "stop ramp", {.error = ErrorId::mode, .choices = kModes}),
       pin::deceleration<MC_Stop>({.error = ErrorId::deceleration, .relevant = &given_dynamics}),
       pin::jerk<MC_Stop>({.error = ErrorId::jerk, .relevant = &given_dynamics}),

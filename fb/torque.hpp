@@ -47,7 +47,7 @@ namespace pin {
 
 inline constexpr Range kTorques{-1e12, 1e12};
 inline constexpr Pin kTorqueAxis =
-    object<&TorqueBlock::Axis>("Axis", kAnyAxis, "axis on whose drive it acts");
+    object<&TorqueBlock::Axis>("Axis", kAnyDrivenAxis, "axis on whose drive it acts");
 inline constexpr Pin kTorqueEnable = in<&TorqueBlock::Enable>(
     "Enable", Unit::kNone, kAny, "TRUE: the function is on; its inputs count in every call");
 inline constexpr Pin kTorqueBusy = out<&TorqueBlock::Busy>("Busy", "the function is active");

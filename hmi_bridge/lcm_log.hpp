@@ -30,11 +30,18 @@ class LcmLog final : public TraceSink {
 
   void begin(std::span<const TraceSignal> signals) override;
   void row(const TraceRow& row) override;
+  void event(const TraceEvent& event) override;
   void flush() override;
   void end() override;
   std::string_view name() const noexcept override { return path_; }
 
+  /// A further channel in the same file. It has to be begun and ended before this one ends, and events are on
+  /// this one's channel alone.
+  /// @throws std::invalid_argument for a channel that is empty or too long
+  std::unique_ptr<TraceSink> add_channel(LcmTraceIdentity identity);
+
  private:
+  class Channel;
   struct Destroy {
     void operator()(lcm_eventlog_t* log) const noexcept { lcm_eventlog_destroy(log); }
   };
@@ -45,6 +52,7 @@ class LcmLog final : public TraceSink {
   const LcmTraceIdentity identity_;
   std::string channel_;
   std::string header_channel_;
+  std::string events_channel_;
   const std::unique_ptr<lcm_eventlog_t, Destroy> log_;
   TraceFile file_;
   std::optional<LcmEncoder> encoder_;

@@ -142,6 +142,23 @@ std::span<const std::uint8_t> LcmEncoder::row(const TraceRow& row) {
   return encode(row_);
 }
 
+std::span<const std::uint8_t> LcmEncoder::event(const TraceEvent& event) {
+  event_t message{};
+  message.utime = identity_.utime(event.t);
+  message.t = event.t;
+  message.tick = static_cast<std::int64_t>(event.tick);
+  message.lost = static_cast<std::int64_t>(event.lost);
+  message.kind = event_kind_text(event.kind);
+  message.source = event.source;
+  message.type = event.type;
+  message.number = event.number;
+  message.text = event.text;
+  message.reaction = event.reaction;
+  message.reaction_text = event.reaction_text;
+  bytes_.resize(std::max(bytes_.size(), static_cast<std::size_t>(message.getEncodedSize())));
+  return encode(message);
+}
+
 LcmDecoder::Message LcmDecoder::accept(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 8 || bytes.size() > INT32_MAX) return Message::kForeign;
   const auto hash = static_cast<std::int64_t>(big_endian(bytes, 0, 8));

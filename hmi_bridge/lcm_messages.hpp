@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hmi_bridge/trace_sink.hpp"
+#include "lockstep/event_t.hpp"
 #include "lockstep/trace_header_t.hpp"
 #include "lockstep/trace_row_t.hpp"
 
@@ -18,6 +19,9 @@ namespace lockstep {
 inline constexpr std::size_t kLongestTraceChannel = 56;
 /// What is appended to the channel of the rows to name the channel of their header.
 inline constexpr std::string_view kHeaderSuffix = "_HEADER";
+
+/// … and the channel of the events.
+inline constexpr std::string_view kEventsSuffix = "_EVENTS";
 
 /// What a trace is, apart from its signals.
 struct LcmTraceIdentity {
@@ -43,6 +47,7 @@ class LcmEncoder {
   /// The encoded message; valid until the next call.
   std::span<const std::uint8_t> header();
   std::span<const std::uint8_t> row(const TraceRow& row);
+  std::span<const std::uint8_t> event(const TraceEvent& event);
 
   std::size_t header_size() const { return static_cast<std::size_t>(header_.getEncodedSize()); }
   std::size_t row_size() const { return static_cast<std::size_t>(row_.getEncodedSize()); }

@@ -62,10 +62,12 @@ lcm_t* join(const std::string& url) {
 
 }  // namespace
 
-LcmPublisher::LcmPublisher(const std::string& url, LcmTraceIdentity identity)
+LcmPublisher::LcmPublisher(const std::string& url, LcmTraceIdentity identity, bool events)
     : url_(url),
       identity_(std::move(identity)),
       header_channel_(identity_.channel + std::string(kHeaderSuffix)),
+      events_channel_(identity_.channel + std::string(kEventsSuffix)),
+      events_(events),
       lcm_((check_channel(identity_.channel), join(url))) {}
 
 void LcmPublisher::begin(std::span<const TraceSignal> signals) {
@@ -76,6 +78,10 @@ void LcmPublisher::begin(std::span<const TraceSignal> signals) {
 void LcmPublisher::row(const TraceRow& row) {
   if (std::chrono::steady_clock::now() >= next_header_) publish_header();
   publish(identity_.channel, encoder_.value().row(row), 1);
+}
+
+void LcmPublisher::event(const TraceEvent& event) {
+  if (events_) publish(events_channel_, encoder_.value().event(event), 0);
 }
 
 void LcmPublisher::flush() {

@@ -25,10 +25,12 @@ class LcmPublisher final : public TraceSink {
   /// @param url `udpm://ADDRESS:PORT?ttl=N`, or `memq://` for subscribers of `instance()` alone
   /// @throws std::runtime_error that names the URL: no multicast route, an address that is none;
   ///     std::invalid_argument for a channel that is empty or too long
-  LcmPublisher(const std::string& url, LcmTraceIdentity identity);
+  /// @param events whether events are published as well, on CHANNEL_EVENTS
+  LcmPublisher(const std::string& url, LcmTraceIdentity identity, bool events = true);
 
   void begin(std::span<const TraceSignal> signals) override;
   void row(const TraceRow& row) override;
+  void event(const TraceEvent& event) override;
   void flush() override;
   void end() override;
   std::string_view name() const noexcept override { return url_; }
@@ -46,6 +48,8 @@ class LcmPublisher final : public TraceSink {
   const std::string url_;
   const LcmTraceIdentity identity_;
   const std::string header_channel_;
+  const std::string events_channel_;
+  const bool events_;
   const std::unique_ptr<lcm_t, Destroy> lcm_;
   std::optional<LcmEncoder> encoder_;
   std::chrono::steady_clock::time_point next_header_;

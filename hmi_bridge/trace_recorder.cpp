@@ -40,8 +40,12 @@ void TraceSink::lose(std::uint64_t rows, std::string_view reason) noexcept {
 }
 
 TraceRecorder::TraceRecorder(TraceRing& ring, std::vector<TraceSignal> signals,
-                             std::vector<std::unique_ptr<TraceSink>> sinks)
-    : ring_(ring), signals_(std::move(signals)), sinks_(std::move(sinks)), thread_([this] { record(); }) {}
+                             std::vector<std::unique_ptr<TraceSink>> sinks, EventSource events)
+    : ring_(ring),
+      signals_(std::move(signals)),
+      sinks_(std::move(sinks)),
+      events_(std::move(events)),
+      thread_([this] { record(); }) {}
 
 TraceRecorder::~TraceRecorder() {
   stop();
@@ -61,6 +65,9 @@ std::vector<std::string> TraceRecorder::losses() const {
   std::vector<std::string> texts;
   if (const std::uint64_t dropped = ring_.dropped(); dropped > 0)
     texts.push_back(loss_text(dropped, "the trace buffer", "the recorder could not keep up with the run"));
+  if (const std::uint64_t lost = events_.queue != nullptr ? events_.queue->lost() : 0; lost > 0)
+    texts.push_back("list of events incomplete: " + std::to_string(lost) +
+                    " lost: the recorder could not keep up with the run");
   const std::lock_guard lock(mutex_);
   for (const Loss& loss : losses_) texts.push_back(loss_text(loss.rows, loss.name, loss.reason));
   return texts;
@@ -82,10 +89,12 @@ void TraceRecorder::record() {
     }
     report();
   }
+  finishing_ = true;
   while (drain()) continue;  // the last rows came before stop_, so they are visible now
   end_sinks();
   report();
   ring_.close();
+  if (events_.queue != nullptr) events_.queue->close();
 }
 
 void TraceRecorder::begin_sinks() noexcept {
@@ -94,13 +103,25 @@ void TraceRecorder::begin_sinks() noexcept {
 
 bool TraceRecorder::drain() noexcept {
   const std::size_t rows = std::min(ring_.readable(), kBatch);
-  if (rows == 0) return false;
+  // Looked at after the rows, so that the events of their ticks are there.
+  const std::size_t events = events_.queue != nullptr ? events_.queue->readable() : 0;
+  std::size_t given = 0;
   for (std::size_t i = 0; i < rows; ++i) {
     const TraceRow row = ring_.row(i);
+    while (given < events && events_.queue->event(given).t <= row.t)
+      give_event(events_.queue->event(given++));
     for (const auto& sink : sinks_) guarded(*sink, 1, [&row](TraceSink& s) { s.row(row); });
   }
   ring_.pop(rows);
-  return true;
+  if (rows < kBatch && (finishing_ || !events_.rows_follow))
+    while (given < events) give_event(events_.queue->event(given++));
+  if (given > 0) events_.queue->pop(given);
+  return rows > 0 || given > 0;
+}
+
+void TraceRecorder::give_event(const Event& event) noexcept {
+  const auto give = [&](TraceSink& sink) { sink.event(events_.texts.of(event, events_.queue->lost())); };
+  for (const auto& sink : sinks_) guarded(*sink, 0, give);
 }
 
 void TraceRecorder::flush_sinks() noexcept {

@@ -15,6 +15,13 @@
 
 namespace lockstep {
 
+/// Where the recorder finds events, and what it knows of their sources.
+struct EventSource {
+  EventQueue* queue = nullptr;  ///< nullptr: none; it must outlive the recorder
+  EventTexts texts;
+  bool rows_follow = true;  ///< an event waits for the row of its tick, so that both have one order
+};
+
 /// Drains a ring into sinks until it is stopped. The cycle neither wakes it nor waits for it: it looks every
 /// few milliseconds. Writing to a closed pipe or beyond a file size limit is an error of the sink, not a
 /// signal.
@@ -29,7 +36,7 @@ class TraceRecorder {
   /// Starts the thread. `signals` describes the ring's columns, in their order.
   /// The ring must outlive the recorder.
   TraceRecorder(TraceRing& ring, std::vector<TraceSignal> signals,
-                std::vector<std::unique_ptr<TraceSink>> sinks);
+                std::vector<std::unique_ptr<TraceSink>> sinks, EventSource events = {});
   TraceRecorder(const TraceRecorder&) = delete;
   TraceRecorder& operator=(const TraceRecorder&) = delete;
   ~TraceRecorder();  ///< stops
@@ -53,6 +60,7 @@ class TraceRecorder {
   void record();
   void begin_sinks() noexcept;
   bool drain() noexcept;
+  void give_event(const Event& event) noexcept;
   void flush_sinks() noexcept;
   void end_sinks() noexcept;
   void report() noexcept;
@@ -60,6 +68,8 @@ class TraceRecorder {
   TraceRing& ring_;
   const std::vector<TraceSignal> signals_;
   const std::vector<std::unique_ptr<TraceSink>> sinks_;
+  const EventSource events_;
+  bool finishing_ = false;  // no more rows will follow
 
   mutable std::mutex mutex_;  // guards the three below; the cycle never takes it
   std::condition_variable wake_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "hmi_bridge/trace_event.hpp"
 #include "scheduler/trace_ring.hpp"
 #include "tech_objects/types.hpp"
 
@@ -32,6 +33,8 @@ class TraceSink {
   /// What the rows will hold; once, before the first row.
   virtual void begin(std::span<const TraceSignal> signals) = 0;
   virtual void row(const TraceRow& row) = 0;
+  /// Something has happened; before the row of its tick.
+  virtual void event(const TraceEvent& /*event*/) {}
   /// Hands over what is held back; called several times a second, whether there are rows or not.
   virtual void flush() = 0;
   /// Flushes and closes; once, after the last row.
@@ -41,10 +44,10 @@ class TraceSink {
   virtual std::string_view name() const noexcept = 0;
 
   /// Rows that were given to the sink and did not get through.
-  std::uint64_t lost() const noexcept { return lost_; }
+  virtual std::uint64_t lost() const noexcept { return lost_; }
   /// Why the first of them was lost; empty while nothing has failed. May be set without a lost row,
   /// when only a header or the closing of a file failed.
-  const std::string& reason() const noexcept { return reason_; }
+  virtual const std::string& reason() const noexcept { return reason_; }
 
   /// Counts rows as lost. The first reason is kept: later ones are its consequences.
   void lose(std::uint64_t rows, std::string_view reason) noexcept;

@@ -65,7 +65,7 @@ void load_lcm(const JsonValue& json, TraceConfig& trace, Problems& problems) {
   }
 }
 
-void load_signals(const JsonValue& json, TraceConfig& trace, const Loading& loading) {
+void load_signals(const JsonValue& json, std::vector<NamedSignal>& signals, const Loading& loading) {
   if (read_array(&json, loading.problems) == nullptr) return;
   std::unordered_set<std::string> seen;
   for (const JsonValue* const element : json.elements) {
@@ -77,8 +77,97 @@ void load_signals(const JsonValue& json, TraceConfig& trace, const Loading& load
       loading.problems.report(*element, element->shown() + " is there twice; each signal is allowed once");
       continue;
     }
-    trace.signals.push_back({std::string(*path), place->signal, place->unit});
+    signals.push_back({std::string(*path), place->signal, place->unit});
   }
+}
+
+constexpr std::int64_t kLongestBefore = 600'000'000'000;  // [ns]
+constexpr std::int64_t kLongestAfter = 3'600'000'000'000;
+constexpr std::int64_t kMostRows = 1'000'000'000;
+
+void load_trigger(const JsonValue& json, TraceChannelConfig& channel, const Loading& loading) {
+  Problems& problems = loading.problems;
+  const Fields fields(json, keys::kTrigger, problems);
+  const auto kind = read_word(fields["on"], words::kTriggers, problems);
+  TraceSelection& selection = channel.selection;
+  if (const auto time = read_duration(fields["before"], 0, kLongestBefore, problems))
+    selection.before = *time;
+  if (const auto time = read_duration(fields["after"], 0, kLongestAfter, problems)) selection.after = *time;
+  if (const auto level = read_number(fields["level"], -1e300, 1e300, problems)) selection.level = *level;
+  if (!kind) return;
+  selection.trigger = static_cast<TriggerKind>(*kind + 1);
+  const JsonValue* const signal = fields["signal"];
+  if (selection.trigger == TriggerKind::alarm) {
+    for (const JsonValue* const other : {signal, fields["level"]})
+      if (other != nullptr)
+        problems.report(*other,
+                        "an alarm has no signal and no level; allowed with: above, below, rising, falling");
+    return;
+  }
+  if (signal == nullptr) {
+    if (json.kind == JsonKind::object)
+      problems.report(json, "'signal' is missing; it is required with: above, below, rising, falling");
+    return;
+  }
+  const auto path = read_string(signal, problems);
+  const auto place = path ? loading.find(*signal, *path) : std::nullopt;
+  if (!place) return;
+  const Type type = place->signal.value_type();
+  if (type == Type::AXIS || type == Type::TAG)
+    return problems.report(*signal, signal->shown() + " has no value to look at");
+  channel.occasion = NamedSignal{std::string(*path), place->signal, place->unit};
+}
+
+std::optional<std::string> read_channel(const JsonValue* json, Problems& problems) {
+  const auto channel = read_title(json, problems);
+  if (!channel) return std::nullopt;
+  if (channel->size() <= kLongestTraceChannel) return std::string(*channel);
+  problems.report(*json, json->shown() + " is too long; allowed: up to " +
+                             std::to_string(kLongestTraceChannel) + " characters");
+  return std::nullopt;
+}
+
+void load_channel(const JsonValue& json, TraceConfig& trace, const Loading& loading) {
+  Problems& problems = loading.problems;
+  const Fields fields(json, keys::kTraceChannel, problems);
+  TraceChannelConfig& channel = trace.channels.emplace_back();
+  if (const auto name = read_channel(fields["channel"], problems)) {
+    const auto same = [&](const TraceChannelConfig& other) {
+      return &other != &channel && other.channel == *name;
+    };
+    if (*name == trace.channel || std::any_of(trace.channels.begin(), trace.channels.end(), same))
+      problems.report(*fields["channel"],
+                      fields["channel"]->shown() + " is there twice; each channel is allowed once");
+    channel.channel = *name;
+  }
+  if (const JsonValue* const signals = fields["signals"]) load_signals(*signals, channel.signals, loading);
+  if (const auto every = read_integer(fields["every"], 1, kMostRows, problems))
+    channel.selection.every = *every;
+  if (const JsonValue* const trigger = fields["trigger"]) load_trigger(*trigger, channel, loading);
+}
+
+/// Whatever may change: tags, pins, and what the runtime computes of the objects.
+std::vector<NamedSignal> all_signals(const Loading& loading) {
+  std::vector<NamedSignal> all;
+  const auto add = [&](const std::string& name) {
+    const FoundPlace found = loading.names().find(name);
+    if (!found.place) return;
+    const Type type = found.place->signal.value_type();
+    if (type != Type::AXIS && type != Type::TAG)
+      all.push_back({name, found.place->signal, found.place->unit});
+  };
+  for (const Tag& tag : loading.controller().tags) add(tag.name);
+  for (const Instance& instance : loading.controller().instances)
+    for (const Pin& pin : instance.type->pins) add(instance.name + "." + std::string(pin.name));
+  for (const auto& object : loading.controller().objects)
+    for (const Variable& variable : data_block_of(object->kind).status)
+      for (std::size_t i = 0; i < std::max<std::size_t>(variable.count, 1); ++i) {
+        std::string path(variable.path);
+        if (const auto open = path.find("[]"); open != path.npos)
+          path.replace(open, 2, "[" + std::to_string(i + 1) + "]");
+        if (!variable.later) add(object->name + "." + path);
+      }
+  return all;
 }
 
 }  // namespace
@@ -127,7 +216,35 @@ void load_trace(const JsonValue& trace, const Loading& loading) {
   const Fields fields(trace, keys::kTrace, loading.problems);
   TraceConfig& config = loading.project.trace;
   if (const JsonValue* const lcm = fields["lcm"]) load_lcm(*lcm, config, loading.problems);
-  if (const JsonValue* const signals = fields["signals"]) load_signals(*signals, config, loading);
+  if (const JsonValue* const signals = fields["signals"]) load_signals(*signals, config.signals, loading);
+  const JsonValue* const channels = fields["channels"];
+  if (read_array(channels, loading.problems) == nullptr) return;
+  for (const JsonValue* const channel : channels->elements) load_channel(*channel, config, loading);
+}
+
+void load_flight_recorder(const JsonValue& json, const Loading& loading) {
+  Problems& problems = loading.problems;
+  const Fields fields(json, keys::kFlightRecorder, problems);
+  FlightRecorderConfig config;
+  if (const auto time = read_duration(fields["before"], 1, kLongestBefore, problems))
+    config.options.before = *time;
+  if (const auto time = read_duration(fields["after"], 0, kLongestAfter, problems))
+    config.options.after = *time;
+  if (const auto file = read_title(fields["file"], problems)) config.options.file = *file;
+  if (const auto files = read_integer(fields["files"], 1, 1000, problems))
+    config.options.files = static_cast<int>(*files);
+  if (const JsonValue* const signals = fields["signals"])
+    load_signals(*signals, config.signals, loading);
+  else
+    config.signals = all_signals(loading);
+  constexpr std::int64_t kMostValues = std::int64_t{1} << 26;  // 512 MiB
+  const std::int64_t rows = config.options.before / loading.controller().clock.interpolator_cycle();
+  const auto columns = static_cast<std::int64_t>(config.signals.size());
+  if (const JsonValue* const before = fields["before"];
+      before != nullptr && columns > 0 && rows > kMostValues / columns)
+    problems.report(*before, std::to_string(columns) + " signals for " + before->shown() +
+                                 " take more than 512 MiB; allowed: a shorter time or fewer 'signals'");
+  loading.project.flight_recorder = std::move(config);
 }
 
 }  // namespace lockstep

@@ -13,8 +13,7 @@ constexpr std::int64_t kMostDeadCycles = 254;         // of MC_Servo, as dead ti
 constexpr double kSecond = 1e9;                       // [ns]
 
 /// Published types that are not there yet.
-constexpr std::string_view kLaterTypes[] = {"TO_CamTrack", "TO_Kinematics", "TO_LeadingAxisProxy",
-                                            "TO_OutputCam", "TO_SpeedAxis"};
+constexpr std::string_view kLaterTypes[] = {"TO_Kinematics", "TO_LeadingAxisProxy"};
 
 bool known(std::span<const std::string_view> words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -205,6 +204,7 @@ void load_axis(const JsonValue& json, Axis& axis, const Loading& loading) {
 
 void load_object(const JsonValue& json, TechnologyObject& object, const Loading& loading) {
   switch (object.kind) {
+    case ObjectKind::TO_SpeedAxis:
     case ObjectKind::TO_PositioningAxis:
     case ObjectKind::TO_SynchronousAxis:
       return load_axis(json, static_cast<Axis&>(object), loading);
@@ -212,6 +212,10 @@ void load_object(const JsonValue& json, TechnologyObject& object, const Loading&
       return load_encoder(json, static_cast<ExternalEncoder&>(object), loading);
     case ObjectKind::TO_MeasuringInput:
       return load_measuring_input(json, static_cast<MeasuringInput&>(object), loading);
+    case ObjectKind::TO_OutputCam:
+      return load_output_cam(json, static_cast<OutputCam&>(object), loading);
+    case ObjectKind::TO_CamTrack:
+      return load_cam_track(json, static_cast<CamTrack&>(object), loading);
     case ObjectKind::TO_Cam:
     case ObjectKind::TO_Cam_10k:
       return load_cam(json, static_cast<Cam&>(object), loading);
@@ -234,6 +238,7 @@ void load_objects(const JsonValue& objects, const Loading& loading) {
     load_object(*json, **object, loading);
     ++object;
   }
+  check_outputs(objects, loading);
 }
 
 }  // namespace lockstep

@@ -39,6 +39,11 @@ void load_objects(const JsonValue& objects, const Loading& loading);
 /// What an encoder measures; what a measuring input sees, and of what it measures the position.
 void load_encoder(const JsonValue& json, ExternalEncoder& encoder, const Loading& loading);
 void load_measuring_input(const JsonValue& json, MeasuringInput& input, const Loading& loading);
+/// What switches an output, by whose position, and where the times of its edges stand.
+void load_output_cam(const JsonValue& json, OutputCam& cam, const Loading& loading);
+void load_cam_track(const JsonValue& json, CamTrack& track, const Loading& loading);
+/// Outputs that several cams switch; when all have been loaded.
+void check_outputs(const JsonValue& objects, const Loading& loading);
 /// Defines a cam and interpolates it.
 void load_cam(const JsonValue& json, Cam& cam, const Loading& loading);
 /// Sets the start values of one object.
@@ -53,5 +58,6 @@ void load_modbus(const JsonValue* modbus, const Loading& loading);
 void load_trace(const JsonValue& trace, const Loading& loading);
 /// When tags and objects are loaded.
 void load_retain(const JsonValue* retain, const Loading& loading);
+void load_flight_recorder(const JsonValue& json, const Loading& loading);
 
 }  // namespace lockstep

@@ -44,6 +44,7 @@ void load_root(const JsonValue& root, const Loading& loading) {
   load_modbus(fields["modbus"], loading);
   if (const auto* const trace = fields["trace"]) load_trace(*trace, loading);
   load_retain(fields["retain"], loading);
+  if (const auto* const recorder = fields["flight_recorder"]) load_flight_recorder(*recorder, loading);
   warn_of_unused(root, loading);
 }
 

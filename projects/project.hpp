@@ -13,11 +13,13 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/flight_recorder.hpp"
 #include "hmi_bridge/kept_value.hpp"
 #include "hmi_bridge/modbus_client.hpp"
 #include "hmi_bridge/modbus_map.hpp"
 #include "hmi_bridge/modbus_server.hpp"
 #include "hmi_bridge/network.hpp"
+#include "hmi_bridge/trace_channel.hpp"
 #include "projects/names.hpp"
 #include "projects/problem.hpp"
 #include "projects/text_file.hpp"
@@ -67,9 +69,24 @@ struct ModbusConfig {
   NamedSignal signal_of(const ModbusEntry& entry) const;
 };
 
+/// A channel of its own with some of the signals, fewer of the rows, or only those around an occasion.
+struct TraceChannelConfig {
+  std::string channel;
+  std::vector<NamedSignal> signals;  ///< each name once
+  TraceSelection selection;
+  std::optional<NamedSignal> occasion;  ///< the signal of the trigger; none: an alarm, or no trigger
+};
+
 struct TraceConfig {
   std::string url;  ///< empty: the project has no LCM trace
   std::string channel;
+  std::vector<NamedSignal> signals;  ///< each name once
+  std::vector<TraceChannelConfig> channels;
+};
+
+/// What is kept for the time before an alarm.
+struct FlightRecorderConfig {
+  FlightRecorderOptions options;
   std::vector<NamedSignal> signals;  ///< each name once
 };
 
@@ -90,6 +107,7 @@ struct Project {
   ModbusConfig modbus;
   TraceConfig trace;
   RetainConfig retain;
+  std::optional<FlightRecorderConfig> flight_recorder;  ///< none: the project has none
 };
 
 /// What loading gives: a project if there are no problems, else all problems. Warnings there may be either

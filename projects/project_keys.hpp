@@ -32,7 +32,8 @@ inline constexpr Key kProject[] = {{"lockstep", kRequired},
                                    {"stimuli"},
                                    {"modbus"},
                                    {"trace"},
-                                   {"retain"}};
+                                   {"retain"},
+                                   {"flight_recorder"}};
 inline constexpr Key kClock[] = {{"servo_cycle", kRequired}, {"interpolator_ratio"}, {"overrun"}};
 inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
 inline constexpr Key kEncoderObject[] = {{"type", kRequired}, {"config"}, {"encoder", kRequired}};
@@ -40,6 +41,9 @@ inline constexpr Key kEncoder[] = {{"model", kRequired}, {"follows"}, {"ratio"},
                                    {"resolution"},       {"noise"}};
 inline constexpr Key kMeasuringInputObject[] = {
     {"type", kRequired}, {"config"}, {"assigned_to", kRequired}, {"marks"}};
+inline constexpr Key kOutputCamObject[] = {
+    {"type", kRequired}, {"config"}, {"assigned_to", kRequired}, {"switching_times"}};
+inline constexpr Key kSwitchingTimes[] = {{"on"}, {"off"}};
 inline constexpr Key kMarks[] = {{"period", kRequired}, {"offset"}, {"width"}};
 inline constexpr Key kCam[] = {{"type", kRequired}, {"config"},   {"elements"}, {"optimization"},
                                {"points"},          {"segments"}, {"file"}};
@@ -101,7 +105,12 @@ inline constexpr Key kMapEntry[] = {{"tag"},
                                     {"scale"},
                                     {"offset"},
                                     {"access"}};
-inline constexpr Key kTrace[] = {{"lcm"}, {"signals"}};
+inline constexpr Key kTrace[] = {{"lcm"}, {"signals"}, {"channels"}};
+inline constexpr Key kTraceChannel[] = {
+    {"channel", kRequired}, {"signals", kRequired}, {"every"}, {"trigger"}};
+inline constexpr Key kTrigger[] = {{"on", kRequired}, {"signal"}, {"level"}, {"before"}, {"after"}};
+inline constexpr Key kFlightRecorder[] = {
+    {"before", kRequired}, {"after"}, {"file", kRequired}, {"files"}, {"signals"}};
 inline constexpr Key kRetain[] = {{"file"}, {"interval"}};
 inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}};
 
@@ -128,6 +137,7 @@ inline constexpr std::string_view kTables[] = {"coil", "discrete_input", "input_
                                                "holding_register"};
 inline constexpr std::string_view kWordOrders[] = {"big", "little"};
 inline constexpr std::string_view kParities[] = {"none", "even", "odd"};
+inline constexpr std::string_view kTriggers[] = {"above", "below", "rising", "falling", "alarm"};
 inline constexpr std::string_view kAccesses[] = {"read", "write"};
 
 }  // namespace words

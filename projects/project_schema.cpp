@@ -167,6 +167,18 @@ Json measuring_input_schema(const Json& type, const Json& config) {
                  {"marks", described("print marks that the input sees", marks)}});
 }
 
+Json output_cam_schema(const Json& type, const Json& config) {
+  const Json times = object(
+      keys::kSwitchingTimes,
+      {{"on", text("LREAL tag: when the output has gone on last [s], more finely than in servo cycles")},
+       {"off", text("LREAL tag: when it has gone off last [s]")}});
+  return object(keys::kOutputCamObject,
+                {{"type", type},
+                 {"config", config},
+                 {"assigned_to", text("axis or external encoder whose position switches, or is measured")},
+                 {"switching_times", times}});
+}
+
 Json objects_schema() {
   const Json leading_value =
       object(keys::kLeadingValue, {{"to", text("name of the leading axis")},
@@ -224,8 +236,9 @@ Json objects_schema() {
                      {"faults", described("what goes wrong, and when", faults)}});
   const Json type = words("published type", words::kObjectTypes);
   const Json config = {{"anyOf",
-                        {reference("config"), reference("encoder_config"),
-                         reference("measuring_input_config"), reference("cam_config")}}};
+                        {reference("config"), reference("speed_axis_config"), reference("encoder_config"),
+                         reference("measuring_input_config"), reference("output_cam_config"),
+                         reference("cam_track_config"), reference("cam_config")}}};
   const Json axis =
       object(keys::kObject, {{"type", type},
                              {"config", config},
@@ -241,7 +254,8 @@ Json objects_schema() {
                           {"segments", definition["segments"]},
                           {"file", text("cam file beside the project, instead of what else defines a cam")}});
   Json any = axis;
-  for (const Json& other : {encoder_schema(type, config), measuring_input_schema(type, config), cam})
+  for (const Json& other : {encoder_schema(type, config), measuring_input_schema(type, config),
+                            output_cam_schema(type, config), cam})
     any["properties"].update(other["properties"]);
   return map("name: technology object", any);
 }
@@ -365,9 +379,35 @@ Json modbus_schema() {
 Json trace_schema() {
   const Json lcm = object(keys::kLcm, {{"url", text("network, such as udpm://239.255.76.67:7667?ttl=0")},
                                        {"channel", text("channel of the rows")}});
-  return object(
-      keys::kTrace,
-      {{"lcm", lcm}, {"signals", array("columns of the trace", text("tag, instance.Pin, variable"))}});
+  const Json signal = text("tag, instance.Pin, variable");
+  const Json trigger = object(
+      keys::kTrigger,
+      {{"on", words("above, below: rows with the signal beyond the level; rising, falling: around the row in "
+                    "which it passes the level; alarm: around an alarm",
+                    words::kTriggers)},
+       {"signal", signal},
+       {"level", number("of the signal (0.5)", -1e300, 1e300)},
+       {"before", duration("of which the rows before count as well (none)")},
+       {"after", duration("of which the rows after count as well (none)")}});
+  const Json channel =
+      object(keys::kTraceChannel, {{"channel", text("channel of the rows")},
+                                   {"signals", array("columns", signal)},
+                                   {"every", integer("only each n-th row (1)", 1, 1'000'000'000)},
+                                   {"trigger", described("only the rows at an occasion", trigger)}});
+  return object(keys::kTrace,
+                {{"lcm", lcm},
+                 {"signals", array("columns of the trace", signal)},
+                 {"channels", array("further channels of LCM, each with a part of the trace", channel)}});
+}
+
+Json flight_recorder_schema() {
+  return object(keys::kFlightRecorder,
+                {{"before", duration("how much is kept for the time before an alarm")},
+                 {"after", duration("how much is added behind it (none)")},
+                 {"file", text("FILE_1.csv, FILE_2.csv … are written, one for each alarm")},
+                 {"files", integer("at most so many in a run (10)", 1, 1000)},
+                 {"signals", array("what is kept; everything that may change if missing",
+                                   text("tag, instance.Pin, variable"))}});
 }
 
 Json root_schema() {
@@ -399,6 +439,8 @@ Json root_schema() {
                                  {"stimuli", array("changes of tags in a simulation", stimulus)},
                                  {"modbus", modbus_schema()},
                                  {"trace", trace_schema()},
+                                 {"flight_recorder",
+                                  described("keeps what happened before an alarm", flight_recorder_schema())},
                                  {"retain", retain}});
 }
 
@@ -413,9 +455,12 @@ std::string project_schema() {
     definitions[name] = described(text, config);
   };
   add_configuration("config", ObjectKind::TO_SynchronousAxis, "start values of the technology data block");
+  add_configuration("speed_axis_config", ObjectKind::TO_SpeedAxis, "start values of a speed axis");
   add_configuration("encoder_config", ObjectKind::TO_ExternalEncoder, "start values of an external encoder");
   add_configuration("measuring_input_config", ObjectKind::TO_MeasuringInput,
                     "start values of a measuring input");
+  add_configuration("output_cam_config", ObjectKind::TO_OutputCam, "start values of an output cam");
+  add_configuration("cam_track_config", ObjectKind::TO_CamTrack, "start values of a cam track");
   add_configuration("cam_config", ObjectKind::TO_Cam_10k, "start values of the data block of a cam");
   definitions["call"] = call_schema();
   definitions.update(cam_schema_definitions());

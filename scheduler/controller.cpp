@@ -26,6 +26,7 @@ ArrayTag& Controller::add_array(std::string name, Array array) {
 TechnologyObject& Controller::add_object(ObjectKind kind, std::string name) {
   const auto number = static_cast<DB_ANY>(objects.size() + 1);
   switch (kind) {
+    case ObjectKind::TO_SpeedAxis:
     case ObjectKind::TO_PositioningAxis:
     case ObjectKind::TO_SynchronousAxis:
       objects.push_back(std::make_unique<Axis>(kind, std::move(name), number));
@@ -36,6 +37,12 @@ TechnologyObject& Controller::add_object(ObjectKind kind, std::string name) {
       break;
     case ObjectKind::TO_MeasuringInput:
       measuring_inputs.push_back(add<MeasuringInput>(std::move(name), number));
+      break;
+    case ObjectKind::TO_OutputCam:
+      output_cams.push_back(add<OutputCam>(std::move(name), number));
+      break;
+    case ObjectKind::TO_CamTrack:
+      cam_tracks.push_back(add<CamTrack>(std::move(name), number));
       break;
     case ObjectKind::TO_Cam:
     case ObjectKind::TO_Cam_10k:
@@ -55,6 +62,27 @@ Instance& Controller::add_instance(const BlockType& type, std::string name) {
   return instances.back();
 }
 
+/// Cams with the same address switch one output.
+void Controller::wire_outputs() {
+  const auto wire = [this](const bool* tag, bool all, const BOOL& state) {
+    auto* const address = const_cast<bool*>(tag);  // variables hold addresses for reading; a tag is written
+    const auto same = [&](const SwitchedOutput& output) { return output.address == address; };
+    auto found = std::find_if(outputs_.begin(), outputs_.end(), same);
+    if (found == outputs_.end()) found = outputs_.insert(found, SwitchedOutput{address, all, {}});
+    found->states.push_back(&state);
+  };
+  for (const OutputCam* cam : output_cams) {
+    const auto& interface = cam->data.Interface;
+    if (interface.EnableOutput && interface.Address != nullptr)
+      wire(interface.Address, interface.LogicOperation == 1, cam->data.CamOutput);
+  }
+  for (const CamTrack* track : cam_tracks) {
+    const auto& interface = track->data.Interface;
+    if (interface.EnableOutput && interface.Address != nullptr)
+      wire(interface.Address, false, track->data.TrackOutput);
+  }
+}
+
 void Controller::finish() {
   const double servo_period = static_cast<double>(clock.servo_cycle) * 1e-9;
   for (auto& object : objects) object->configure(servo_period, clock.interpolator_ratio);
@@ -64,6 +92,7 @@ void Controller::finish() {
   for (const Cam* cam : cams) most_points = std::max(most_points, cam->point_count());
   if (most_points > 0) interpolator_ = std::make_unique<CamInterpolator>(most_points);
   summary_.resize(axes.size());
+  wire_outputs();
   order_.set_axes(axes);
   order_.rebuild();
   for (Program& program : programs) schedule_.push_back(&program);
@@ -74,12 +103,21 @@ void Controller::finish() {
                    [](const Stimulus& a, const Stimulus& b) { return a.at < b.at; });
 }
 
+void Controller::tell_jobs() {
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const JobWatch watch(*instances[i].type, *instances[i].block, static_cast<std::uint32_t>(i));
+    if (watch.usable()) job_watches_.push_back(watch);
+  }
+}
+
 void Controller::skip(std::int64_t ticks) noexcept {
   next_tick_ += ticks;
   counters_.missed_ticks += static_cast<std::uint64_t>(ticks);
   for (Axis* axis : driven_) axis->skip_servo(ticks);
   for (ExternalEncoder* encoder : encoders) encoder->skip_servo(ticks);
   for (MeasuringInput* input : measuring_inputs) input->skip_servo(ticks);
+  for (OutputCam* cam : output_cams) cam->skip_servo(ticks);
+  for (CamTrack* track : cam_tracks) track->skip_servo(ticks);
 }
 
 void Controller::shut_down() noexcept {

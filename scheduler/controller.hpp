@@ -9,15 +9,18 @@
 #include <vector>
 
 #include "fb/block.hpp"
+#include "scheduler/events.hpp"
 #include "scheduler/process_image.hpp"
 #include "scheduler/program.hpp"
 #include "scheduler/trace_ring.hpp"
 #include "tech_objects/array.hpp"
 #include "tech_objects/axis.hpp"
 #include "tech_objects/cam.hpp"
+#include "tech_objects/cam_track.hpp"
 #include "tech_objects/coupling_order.hpp"
 #include "tech_objects/external_encoder.hpp"
 #include "tech_objects/measuring_input.hpp"
+#include "tech_objects/output_cam.hpp"
 
 namespace lockstep {
 
@@ -90,6 +93,8 @@ class Controller {
   std::vector<Axis*> axes;                                 ///< those of them that are axes, in this order
   std::vector<ExternalEncoder*> encoders;                  ///< those that are encoders
   std::vector<MeasuringInput*> measuring_inputs;           ///< those that are measuring inputs
+  std::vector<OutputCam*> output_cams;                     ///< those that are output cams
+  std::vector<CamTrack*> cam_tracks;                       ///< those that are cam tracks
   std::vector<Cam*> cams;                                  ///< those of them that are cams
   std::deque<Tag> tags;
   std::deque<ArrayTag> arrays;
@@ -101,6 +106,10 @@ class Controller {
   bool cams_interpolated_elsewhere = false;
   std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
+
+  EventQueue* events = nullptr;  ///< crossing of alarms, jobs and overruns; nullptr: none
+  /// Has jobs told as well, which costs a look at each instance in every tick. After all instances.
+  void tell_jobs();
 
   Tag& add_tag(Tag tag);
   /// An array tag whose elements are 0. `array.memory` is set here.
@@ -132,7 +141,7 @@ class Controller {
     return {&(counters_.*member), Type::ULINT, -1};
   }
   /// Notes that an interpolator cycle was not over in time. Thread: the cycle.
-  void count_overrun() noexcept { ++counters_.overruns; }
+  void count_overrun() noexcept;
 
   /// Brings every axis to rest with maximum dynamics and then off, as at the end of a run; whether all are at
   /// rest is told by `at_rest`. Programs no longer run.
@@ -153,13 +162,18 @@ class Controller {
   void run_programs(Ob ob, std::int64_t now) noexcept;
   void run_due_programs(std::int64_t now) noexcept;
   bool due(std::int64_t cycle, std::int64_t now) const noexcept;
-  void servo() noexcept;
+  void servo(std::int64_t now) noexcept;
+  void wire_outputs();
   void interpolate() noexcept;
+  void tell_events(std::int64_t now) noexcept;
+  void tell(EventKind kind, std::size_t source, int number, int reaction, std::int64_t now) noexcept;
   void show(std::int64_t now, bool interpolator_tick) noexcept;
 
   std::deque<Value> tag_memory_;
-  std::vector<Program*> schedule_;  // sorted by organization block, then priority
-  std::vector<Axis*> driven_;       // axes with a drive, which MC_Servo serves
+  std::vector<Program*> schedule_;       // sorted by organization block, then priority
+  std::vector<Axis*> driven_;            // axes with a drive, which MC_Servo serves
+  std::vector<SwitchedOutput> outputs_;  // that cams switch
+  std::vector<JobWatch> job_watches_;    // none unless jobs are told
   CouplingOrder order_;
   std::unique_ptr<CamInterpolator> interpolator_;  // for the largest cam; none without cams
   std::size_t next_stimulus_ = 0;

@@ -10,7 +10,7 @@ void Controller::tick() noexcept {
   take_inputs(t);
 
   run_programs(Ob::MC_PreServo, t);
-  servo();
+  servo(t);
   run_programs(Ob::MC_PostServo, t);
 
   if (interpolator_tick) {
@@ -20,6 +20,7 @@ void Controller::tick() noexcept {
 
   run_due_programs(t);
 
+  if (events != nullptr) tell_events(t);
   show(t, interpolator_tick);
 
   last_time_ = t;
@@ -40,10 +41,14 @@ void Controller::take_inputs(std::int64_t t) noexcept {
     stimuli[next_stimulus_].place.store(stimuli[next_stimulus_].value);
 }
 
-void Controller::servo() noexcept {
+/// Axes, what measures them, and what switches outputs by their positions.
+void Controller::servo(std::int64_t t) noexcept {
   for (Axis* axis : driven_) axis->servo();
   for (ExternalEncoder* encoder : encoders) encoder->servo();
   for (MeasuringInput* input : measuring_inputs) input->servo();
+  for (OutputCam* cam : output_cams) cam->servo(t);
+  for (CamTrack* track : cam_tracks) track->servo(t);
+  for (const SwitchedOutput& output : outputs_) output.write();
 }
 
 /// Encoders, which depend on no axis; then start_jobs → step (leading before following), guarded → publish.
@@ -55,6 +60,8 @@ void Controller::interpolate() noexcept {
     changed |= encoder->lost();
   }
   for (MeasuringInput* input : measuring_inputs) input->interpolated();
+  for (OutputCam* cam : output_cams) cam->interpolated();
+  for (CamTrack* track : cam_tracks) track->interpolated();
   for (Axis* axis : order_.axes()) {
     if (shutting_down_) axis->power.enable = false;
     if (axis->has_new_jobs()) axis->start_jobs();
@@ -88,6 +95,30 @@ void Controller::run_due_programs(std::int64_t t) noexcept {
   if (shutting_down_) return;
   for (const Program* program : schedule_)
     if (program->ob() >= Ob::Cyclic && due(program->cycle(), t)) program->run(t, counters_.evaluation);
+}
+
+/// Alarms and jobs of this tick.
+void Controller::tell_events(std::int64_t t) noexcept {
+  for (const auto& object : objects) {
+    if (!object->alarm_notes.any()) continue;
+    const auto source = static_cast<std::size_t>(object->number) - 1;
+    object->alarm_notes.take([&](const AlarmNote& note) {
+      tell(note.number == 0 ? EventKind::acknowledged : EventKind::alarm, source, note.number, note.reaction,
+           t);
+    });
+  }
+  for (JobWatch& watch : job_watches_)
+    watch.look([&](EventKind kind, int number) { tell(kind, watch.instance(), number, 0, t); });
+}
+
+void Controller::tell(EventKind kind, std::size_t source, int number, int reaction, std::int64_t t) noexcept {
+  events->push({kind, static_cast<std::int16_t>(reaction), static_cast<std::uint32_t>(source), number, t,
+                static_cast<std::uint64_t>(next_tick_)});
+}
+
+void Controller::count_overrun() noexcept {
+  ++counters_.overruns;
+  if (events != nullptr) tell(EventKind::overrun, 0, 0, 0, last_time_);
 }
 
 /// The image for Modbus, and on interpolator ticks the trace row.

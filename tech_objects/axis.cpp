@@ -6,13 +6,16 @@
 namespace lockstep {
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
-    : LeadingObject(object_kind, std::move(object_name), object_number) {}
+    : LeadingObject(object_kind, std::move(object_name), object_number) {
+  if (!has_position()) data.Units.VelocityUnit = kTurnsPerMinute;
+}
 
 void Axis::configure(double servo_period, int ratio) {
   servo_period_ = servo_period;
   ratio_ = ratio;
   period_ = servo_period * ratio;
   start_values_ = data;
+  position_controlled_ = has_position();
   take_start_values();
   setpoint_ = Setpoint{};
   setpoint_.position = normalised({0, 0.0}, modulo_);
@@ -32,6 +35,8 @@ void Axis::take_start_values() noexcept {
   has_drive_ = !is_virtual() && !simulated;
   set_bit(data.StatusWord, StatusBit::AxisSimulation, simulated);
   modulo_ = {data.Modulo.Enable, data.Modulo.Length, data.Modulo.StartValue};
+  // Without a position it may turn for ever.
+  if (!has_position()) modulo_ = {true, 1e6, 0.0};
   single_.configure(modulo_, period_);
   superimposed_.configure(period_);
   const double tolerance = data.Synchronization.MasterReversionTolerance;
@@ -87,7 +92,7 @@ void Axis::switch_on() noexcept {
 /// to it.
 void Axis::take_up_motion() noexcept {
   power_state_ = PowerState::on;
-  position_controlled_ = power.start_mode == 1;
+  position_controlled_ = power.start_mode == 1 && has_position();
   motion_ = Motion::single_axis;
   const bool at_once = power.start_mode == 0 || data.PositionControl.VelocityModePowerOn == 1;
   const bool ramps = moving(actual_velocity_) && !at_once;
@@ -133,6 +138,7 @@ void Axis::follow_actual() noexcept {
 /// Taken up anew, position control begins where the axis is: with the setpoint ahead by what the drive is
 /// late.
 void Axis::set_position_control(bool on) noexcept {
+  if (!has_position()) return;
   if (on && !position_controlled_ && has_drive_) {
     setpoint_.position = advanced(actual_, actual_velocity_ * setpoint_delay(), modulo_);
     last_setpoint_.position = setpoint_.position;
@@ -151,6 +157,7 @@ void Axis::raise(int alarm_number) noexcept {
 /// For alarms whose reaction is a matter of configuration.
 void Axis::raise(int alarm_number, AlarmReaction reaction) noexcept {
   const Alarm* alarm = find_alarm(alarm_number);
+  alarm_notes.raised(alarm_number, static_cast<int>(reaction));
   if (reaction == AlarmReaction::none) {
     set_bit(data.WarningWord, static_cast<unsigned>(alarm->warning_bit), true);
     return;
@@ -185,6 +192,7 @@ ErrorId Axis::reset(bool restart) noexcept {
   data.ErrorWord = DWORD{};
   data.WarningWord = DWORD{};
   data.ErrorDetail = {};
+  alarm_notes.acknowledged();
   enable_removed_ = false;
   if (restart) this->restart();
   if (has_drive_ && (sensor_lost_ || drive_.in_trouble())) acknowledge_drive();

@@ -1,4 +1,5 @@
-/// An axis: TO_PositioningAxis and TO_SynchronousAxis. It owns its motion; a function block only asks.
+/// An axis: TO_SpeedAxis, TO_PositioningAxis and TO_SynchronousAxis. It owns its motion; a function block
+/// only asks.
 ///
 /// In the interpolator each axis goes through start_jobs → step → guard → publish, leading axes before
 /// following ones. All functions below "Cycle" run in the thread of the cycle; they neither allocate nor
@@ -83,6 +84,9 @@ class Axis final : public LeadingObject {
   void* start_values() noexcept override { return &start_values_; }
 
   bool is_virtual() const noexcept { return data.VirtualAxis.Mode == 1; }
+  /// A TO_SpeedAxis has none: it is moved without position control, and its user unit is the turn of the load
+  /// per unit of time (Units.VelocityUnit) and second.
+  bool has_position() const noexcept { return kind != ObjectKind::TO_SpeedAxis; }
 
   // ---- Cycle: called by blocks
   // ------------------------------------------------------------------------------------
@@ -168,6 +172,9 @@ class Axis final : public LeadingObject {
   bool was_synchronous() const noexcept { return was_synchronous_; }
 
  private:
+  // Values of Units.VelocityUnit of a speed axis.
+  static constexpr UDINT kTurnsPerSecond = 1082;
+  static constexpr UDINT kTurnsPerMinute = 1083;
   /// Value of StatusSensor.State: the actual value is valid.
   static constexpr DINT kSensorValid = 2;
 
@@ -379,6 +386,7 @@ class Axis final : public LeadingObject {
   void take_servo_settings() noexcept;
   PositionControlSettings control_settings() const noexcept;
   double way_per_motor_turn() const noexcept;
+  void limit_speed() noexcept;
   void control_position() noexcept;
   void show_execution_time() noexcept;
   double setpoint_delay() const noexcept;

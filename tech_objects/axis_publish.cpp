@@ -24,6 +24,9 @@ class Bits {
   std::uint32_t bits_ = 0;
 };
 
+/// The bits of the StatusWord that a speed axis has.
+constexpr std::uint32_t kOfSpeedAxis = 0x0E00765F;
+
 }  // namespace
 
 void Axis::publish() noexcept {
@@ -149,6 +152,8 @@ void Axis::publish_status() noexcept {
   word.show(StatusBit::PhasingCommand, in_phase(running_[kPhasing], JobPhase::active));
   word.show(StatusBit::NonPositionControlled, on && !position_controlled_);
   data.StatusWord = word.in(data.StatusWord);
+  if (!has_position())
+    data.StatusWord = static_cast<DWORD>(static_cast<std::uint32_t>(data.StatusWord) & kOfSpeedAxis);
 
   Bits word2;
   word2.show(Status2Bit::StopCommand, locked_by_stop());

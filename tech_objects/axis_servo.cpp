@@ -65,6 +65,11 @@ PositionControlSettings Axis::control_settings() const noexcept {
 double Axis::way_per_motor_turn() const noexcept {
   const double load_turns =
       static_cast<double>(data.LoadGear.Denominator) / static_cast<double>(data.LoadGear.Numerator);
+  if (!has_position()) {
+    constexpr double kSecondsPerMinute = 60.0, kSecondsPerHour = 3600.0;
+    if (data.Units.VelocityUnit == kTurnsPerSecond) return load_turns;
+    return load_turns * (data.Units.VelocityUnit == kTurnsPerMinute ? kSecondsPerMinute : kSecondsPerHour);
+  }
   return load_turns * (data.Properties.MotionType == 1 ? 360.0 : data.Mechanics.LeadScrew);
 }
 
@@ -128,6 +133,7 @@ void Axis::control_position() noexcept {
   double velocity = whole ? setpoint_.velocity : fine.velocity;
   if (!position_controlled_) {
     data.VelocitySetpoint = velocity;
+    if (!has_position()) limit_speed();
     data.StatusPositioning.FollowingError = 0.0;
     data.StatusServo.ControlDifference = 0.0;
     return;
@@ -157,6 +163,14 @@ void Axis::control_position() noexcept {
   last_balanced_ = controlled.balanced;
   if (controlled.limited) raise(alarm::kSpeedSetpointLimited);
   if (data.FollowingError.EnableMonitoring && !position_monitoring_off()) watch_following_error(velocity);
+}
+
+/// The speed setpoint of a speed axis keeps to what its motor can do.
+void Axis::limit_speed() noexcept {
+  const double most = data.Actor.DriveParameter.MaxSpeed / 60.0 * way_per_motor_turn();
+  if (std::abs(data.VelocitySetpoint) <= most) return;
+  data.VelocitySetpoint = std::copysign(most, data.VelocitySetpoint);
+  raise(alarm::kSpeedSetpointLimited);
 }
 
 /// Position control begins anew from a setpoint that has moved at its velocity until now.

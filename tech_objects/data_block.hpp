@@ -458,6 +458,15 @@ struct Lockstep_Struct_Synchronization {
   LREAL MasterReversionTolerance{};
 };
 
+/// What only a TO_SpeedAxis has.
+struct Lockstep_Struct_SpeedAxis {
+  UDINT MassUnit = 1088;
+  UDINT IneritaUnit = 1118;
+  WORD RemoveEnableReaction = WORD{7};
+  DB_ANY Interpreter{};
+  DWORD InterpreterStatusWord{};
+};
+
 /// The whole technology data block of an axis.
 struct AxisData {
   LREAL Position{};
@@ -512,6 +521,7 @@ struct AxisData {
   TO_Struct_ErrorDetail ErrorDetail{};
   DWORD WarningWord{};
   Lockstep_Struct_Synchronization Synchronization{};
+  Lockstep_Struct_SpeedAxis SpeedAxis{};
 };
 
 }  // namespace lockstep

@@ -86,7 +86,7 @@ void ExternalEncoder::fault(int alarm_number) noexcept {
   homed_ = false;
   data.StatusSensor.State = kSensorInvalid;
   data.StatusSensor.Error = alarm_number == alarm::kEncoder;
-  raise_alarm(alarm_number, ProcessingEnd::external_encoder, data);
+  raise_alarm(alarm_number, ProcessingEnd::external_encoder, *this, data);
 }
 
 // ---- MC_Interpolator
@@ -140,9 +140,7 @@ ErrorId ExternalEncoder::reset(bool restart) noexcept {
   if (restart && power.enable) return ErrorId::restart_refused;
   // It is where it was seen last.
   if (faulty()) origin_ = advanced(actual_, -line_, modulo_);
-  data.ErrorWord = DWORD{};
-  data.WarningWord = DWORD{};
-  data.ErrorDetail = {};
+  clear_alarms(*this, data);
   data.StatusSensor.Error = false;
   if (!restart) return ErrorId::none;
   data = start_values_;

@@ -13,7 +13,8 @@ namespace lockstep {
 class LoadPosition {
  public:
   /// @param servo_period [s] > 0  @param ratio servo ticks per interpolator tick
-  void watch(const LeadingObject& object, double servo_period, int ratio) noexcept;
+  /// @param setpoint whether its setpoint counts, although it may have a drive
+  void watch(const LeadingObject& object, double servo_period, int ratio, bool setpoint = false) noexcept;
 
   /// Once in each servo tick, behind the object's own; the first call begins.
   void servo() noexcept;
@@ -29,16 +30,22 @@ class LoadPosition {
   DoubleDouble line() const noexcept { return line_; }
   /// What it has moved since the servo tick before [u].
   DoubleDouble way() const noexcept { return way_; }
+  /// Whether it is an actual position that is read here.
+  bool measured() const noexcept { return !setpoint_ && object_->measured_in_servo(); }
+  /// Of a setpoint its velocity at this place [u/s]; of an actual position 0.
+  double setpoint_velocity() const noexcept { return velocity_; }
 
  private:
-  AxisPosition fine_position() const noexcept;
+  AxisPosition fine_position() noexcept;
   DoubleDouble virtual_way(AxisPosition now) const noexcept;
 
   const LeadingObject* object_ = nullptr;
   double period_ = 0.001;  // of the interpolator [s]
   int ratio_ = 1;
   int tick_ = 0;  // since the last interpolator tick
+  bool setpoint_ = false;
   bool begun_ = false;
+  double velocity_ = 0.0;  // [u/s]
   AxisPosition position_;
   DoubleDouble line_;
   DoubleDouble way_;

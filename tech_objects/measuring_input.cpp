@@ -60,7 +60,7 @@ void MeasuringInput::servo() noexcept {
   const Edges seen = edges();
   remember();
   if (job_ != nullptr && !measured->actual_values_valid()) {
-    raise_alarm(alarm::kPositionInvalid, ProcessingEnd::measuring_input, data);
+    raise_alarm(alarm::kPositionInvalid, ProcessingEnd::measuring_input, *this, data);
     end_in_error(ErrorId::technology_alarm);
   }
   if (job_ != nullptr) {
@@ -184,7 +184,7 @@ void MeasuringInput::measure_once(const Edges& seen) noexcept {
     if (++captured_ == values_of(job_->mode)) return end(JobPhase::done, ErrorId::none);
   }
   if (!range_passed()) return;
-  raise_alarm(alarm::kMeasuringRangePassed, ProcessingEnd::measuring_input, data);
+  raise_alarm(alarm::kMeasuringRangePassed, ProcessingEnd::measuring_input, *this, data);
   end_in_error(ErrorId::measuring_range);
 }
 
@@ -291,7 +291,7 @@ void MeasuringInput::end_in_error(ErrorId error) noexcept {
 }
 
 void MeasuringInput::reset(bool restart) noexcept {
-  clear_alarms(data);
+  clear_alarms(*this, data);
   if (!restart) return;
   end(JobPhase::aborted, ErrorId::none);
   data = start_values_;

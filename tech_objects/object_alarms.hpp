@@ -3,6 +3,7 @@
 
 #include "tech_objects/alarms.hpp"
 #include "tech_objects/status_bits.hpp"
+#include "tech_objects/technology_object.hpp"
 
 namespace lockstep {
 
@@ -18,8 +19,9 @@ enum class ProcessingEnd : std::uint8_t {
 /// Shows an alarm in the words of a data block. The first alarm with a reaction stays in ErrorDetail until it
 /// is acknowledged. Thread: the cycle.
 template <class Data>
-void raise_alarm(int number, ProcessingEnd reaction, Data& data) noexcept {
+void raise_alarm(int number, ProcessingEnd reaction, TechnologyObject& object, Data& data) noexcept {
   const Alarm* const alarm = find_alarm(number);
+  object.alarm_notes.raised(number, alarm->reaction == 0 ? 0 : static_cast<int>(reaction));
   if (alarm->error_bit >= 0) set_bit(data.ErrorWord, static_cast<unsigned>(alarm->error_bit), true);
   if (alarm->warning_bit >= 0) set_bit(data.WarningWord, static_cast<unsigned>(alarm->warning_bit), true);
   if (alarm->error_bit < 0) return;
@@ -30,7 +32,8 @@ void raise_alarm(int number, ProcessingEnd reaction, Data& data) noexcept {
 }
 
 template <class Data>
-void clear_alarms(Data& data) noexcept {
+void clear_alarms(TechnologyObject& object, Data& data) noexcept {
+  object.alarm_notes.acknowledged();
   data.ErrorWord = DWORD{};
   data.WarningWord = DWORD{};
   data.ErrorDetail = {};

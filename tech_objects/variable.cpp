@@ -74,6 +74,12 @@ const DataBlock& data_block_of(ObjectKind kind) noexcept {
       return encoder_data_block();
     case ObjectKind::TO_MeasuringInput:
       return measuring_input_data_block();
+    case ObjectKind::TO_SpeedAxis:
+      return speed_axis_data_block();
+    case ObjectKind::TO_OutputCam:
+      return output_cam_data_block();
+    case ObjectKind::TO_CamTrack:
+      return cam_track_data_block();
     case ObjectKind::TO_Cam:
       return cam_data_block();
     case ObjectKind::TO_Cam_10k:

@@ -50,7 +50,7 @@ class Bench {
       following.drive_settings.signals.limit_min = -1e9;
     }
     controller.clock = {BenchLimits::kPeriod, 1};
-    input.measured = &leading;
+    input.measured = output_cam.assigned = cam_track.assigned = &leading;
     input.marks = PrintMarks{.period = 10.0, .offset = 3.0, .width = 4.0};
     following.leading_values.push_back({&leading, Coupling::setpoint});
     following.data.Modulo.Length = 360.0;
@@ -92,6 +92,8 @@ class Bench {
     if (pin.objects == kAnyCam) return &cam;
     if (among(ObjectKind::TO_SynchronousAxis, pin.objects))
       return pin.name == "Master" ? &leading : &following;
+    if (pin.objects == kOutputCam) return &output_cam;
+    if (pin.objects == kCamTrack) return &cam_track;
     return &input;
   }
 
@@ -196,6 +198,9 @@ class Bench {
   Axis& following;
   MeasuringInput& input =
       static_cast<MeasuringInput&>(controller.add_object(ObjectKind::TO_MeasuringInput, "Input"));
+  OutputCam& output_cam =
+      static_cast<OutputCam&>(controller.add_object(ObjectKind::TO_OutputCam, "OutputCam"));
+  CamTrack& cam_track = static_cast<CamTrack&>(controller.add_object(ObjectKind::TO_CamTrack, "CamTrack"));
   Cam& cam;
   Cam& straight;
   MC_Power power_leading, power_following;

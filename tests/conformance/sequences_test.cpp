@@ -55,6 +55,7 @@ class Sequence {
 
   void tick() {
     bench_.watch_coupled = std::none_of(following_.begin(), following_.end(), steps_what_follows);
+    if (falls_off_a_cam()) bench_.allow_jumps(1);
     for (const auto* subjects : {&following_, &leading_})
       for (Subject* s : *subjects)
         if (s->type().name.starts_with("MC_MotionIn") && (s->busy() || s->on_start())) bench_.allow_jumps(3);
@@ -76,6 +77,15 @@ class Sequence {
     if (s->type().name != "MC_CamIn" || s->in_effect()) return false;
     const double profile = s->number(*s->type().find_pin("SyncProfileReference"));
     return profile == 2.0 || profile == 5.0;
+  }
+
+  /// An additive leading value may take the axis over the end of a cam that is passed once, where it stands.
+  bool falls_off_a_cam() {
+    const auto busy = [&](std::string_view name) {
+      return std::any_of(following_.begin(), following_.end(),
+                         [&](Subject* s) { return s->type().name == name && s->busy(); });
+    };
+    return busy("MC_LeadingValueAdditive") && busy("MC_CamIn");
   }
 
   void act() {

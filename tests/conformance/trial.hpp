@@ -54,6 +54,8 @@ inline constexpr Setting kSettings[] = {
     {"MC_CopyCamData", "NumberOfSegments", 1.0},
     {"MC_CamOut", "SlavePosition", 300.0},
     {"MC_CamOut", "MasterStopDistance", 50.0},
+    {"MC_OutputCam", "OnPosition", 20.0},
+    {"MC_OutputCam", "OffPosition", 40.0},
 };
 // Blocks that act on an axis which moves.
 inline const std::set<std::string_view> kOnMovingAxis = {"MC_Halt", "MC_Stop"};

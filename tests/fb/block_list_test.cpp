@@ -35,11 +35,10 @@ constexpr ExtraPin kExtraPins[] = {
 };
 
 // The kinds of technology object there are; a kind that the catalogue names beyond these does not count.
-constexpr ObjectKind kKinds[] = {ObjectKind::TO_PositioningAxis,
-                                 ObjectKind::TO_SynchronousAxis,
-                                 ObjectKind::TO_ExternalEncoder,
-                                 ObjectKind::TO_MeasuringInput,
-                                 ObjectKind::TO_Cam,
+constexpr ObjectKind kKinds[] = {ObjectKind::TO_PositioningAxis, ObjectKind::TO_SynchronousAxis,
+                                 ObjectKind::TO_ExternalEncoder, ObjectKind::TO_MeasuringInput,
+                                 ObjectKind::TO_SpeedAxis,       ObjectKind::TO_OutputCam,
+                                 ObjectKind::TO_CamTrack,        ObjectKind::TO_Cam,
                                  ObjectKind::TO_Cam_10k};
 
 std::map<std::string, Json> read_catalogues() {

@@ -42,7 +42,7 @@ TEST(ProjectProblems, AreAllToldAtOnce) {
 
 TEST(ProjectProblems, DoNotRepeatThemselvesWhereAFaultyObjectIsUsed) {
   Json project = Json::parse(kExampleProject);
-  project["technology_objects"]["Knife"]["type"] = "TO_OutputCam";
+  project["technology_objects"]["Knife"]["type"] = "TO_Kinematics";
   const LoadedProject loaded = load_project(project.dump());
   ASSERT_EQ(loaded.problems.size(), 1u) << lines(loaded.problems);
   EXPECT_EQ(loaded.problems[0].place, "/technology_objects/Knife/type");

@@ -189,6 +189,91 @@ INSTANTIATE_TEST_SUITE_P(
         {kInput, input(R"(, "assigned_to": "Knife", "marks": {"period": 10}, "config": {"Status": 1})"),
          kInput + "/config/Status", "computed by the runtime"}}));
 
+INSTANTIATE_TEST_SUITE_P(
+    TraceChannel, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        {"/trace/channels", "{}", "/trace/channels", "allowed: an array"},
+        {"/trace/channels", R"([{"signals": []}])", "/trace/channels/0", "'channel' is missing"},
+        {"/trace/channels", R"([{"channel": "A"}])", "/trace/channels/0", "'signals' is missing"},
+        {"/trace/channels", R"([{"channel": "A", "signals": []}, {"channel": "A", "signals": []}])",
+         "/trace/channels/1/channel", "each channel is allowed once"},
+        {"/trace/channels", R"([{"channel": "A", "signals": ["nothing"]}])", "/trace/channels/0/signals/0",
+         "unknown name"},
+        {"/trace/channels", R"([{"channel": "A", "signals": [], "every": 0}])", "/trace/channels/0/every",
+         "from 1"},
+        {"/trace/channels", R"([{"channel": "A", "signals": [], "trigger": {}}])",
+         "/trace/channels/0/trigger", "'on' is missing"},
+        {"/trace/channels", R"([{"channel": "A", "signals": [], "trigger": {"on": "rising"}}])",
+         "/trace/channels/0/trigger", "'signal' is missing"},
+        {"/trace/channels", R"([{"channel": "A", "signals": [], "trigger": {"on": "never"}}])",
+         "/trace/channels/0/trigger/on", "allowed: above, below, rising, falling, alarm"},
+        {"/trace/channels", R"([{"channel": "A", "signals": [], "trigger": {"on": "alarm", "level": 1}}])",
+         "/trace/channels/0/trigger/level", "an alarm has no signal and no level"},
+        {"/trace/channels",
+         R"([{"channel": "A", "signals": [], "trigger": {"on": "alarm", "before": "11min"}}])",
+         "/trace/channels/0/trigger/before", "to 10min"},
+        {"/flight_recorder", R"({"file": "a"})", "/flight_recorder", "'before' is missing"},
+        {"/flight_recorder", R"({"before": "1s"})", "/flight_recorder", "'file' is missing"},
+        {"/flight_recorder", R"({"before": "0s", "file": "a"})", "/flight_recorder/before", "from 1ns"},
+        {"/flight_recorder", R"({"before": "1s", "file": ""})", "/flight_recorder/file", "1 to 128 bytes"},
+        {"/flight_recorder", R"({"before": "1s", "file": "a", "files": 0})", "/flight_recorder/files",
+         "from 1"},
+        {"/flight_recorder", R"({"before": "1s", "file": "a", "signals": ["nothing"]})",
+         "/flight_recorder/signals/0", "unknown name"}}));
+
+const std::string kOutputCamObject = "/technology_objects/Glue";
+
+std::string output_cam(const std::string& rest) {
+  return R"({"type": "TO_OutputCam")" + rest + "}";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OutputCam, Rules,
+    testing::ValuesIn(std::vector<Rule>{
+        {kOutputCamObject, output_cam(""), kOutputCamObject, "'assigned_to' is missing"},
+        {kOutputCamObject, R"({"type": "TO_CamTrack"})", kOutputCamObject, "'assigned_to' is missing"},
+        {kOutputCamObject, output_cam(R"(, "assigned_to": "speed")"), kOutputCamObject + "/assigned_to",
+         "is no technology object"},
+        {kOutputCamObject, output_cam(R"(, "assigned_to": "Knife", "marks": {})"),
+         kOutputCamObject + "/marks", "unknown key 'marks'"},
+        {kOutputCamObject, output_cam(R"(, "assigned_to": "Knife", "switching_times": {"on": "start"})"),
+         kOutputCamObject + "/switching_times/on", "an LREAL tag"},
+        {kOutputCamObject, output_cam(R"(, "assigned_to": "Knife", "switching_times": {"at": "speed"})"),
+         kOutputCamObject + "/switching_times/at", "unknown key 'at'"},
+        {kOutputCamObject,
+         output_cam(R"(, "assigned_to": "Knife", "config": {"Interface": {"Address": "speed"}})"),
+         kOutputCamObject + "/config/Interface/Address", "the name of a BOOL tag"},
+        {kOutputCamObject,
+         output_cam(R"(, "assigned_to": "Knife", "config": {"Parameter": {"OutputCamType": 2}})"),
+         kOutputCamObject + "/config/Parameter/OutputCamType", "not supported; allowed: 0"},
+        {kOutputCamObject, output_cam(R"(, "assigned_to": "Knife", "config": {"CamOutput": true})"),
+         kOutputCamObject + "/config/CamOutput", "computed by the runtime"}}));
+
+TEST(OutputCamProject, OfAnEncoderCountsItsActualPosition) {
+  Json project = Json::parse(kExampleProject);
+  auto& objects = project["technology_objects"];
+  objects["Encoder"] = Json::parse(encoder(R"({"model": "simulated", "follows": "Conveyor"})"));
+  objects["Glue"] = Json::parse(output_cam(R"(, "assigned_to": "Encoder")"));
+  EXPECT_TRUE(load_project(project.dump()).project.has_value());
+  objects["Glue"]["config"] = Json::parse(R"({"Parameter": {"PositionType": 0}})");
+  const LoadedProject refused = load_project(project.dump());
+  ASSERT_EQ(refused.problems.size(), 1u) << lines(refused.problems);
+  EXPECT_NE(refused.problems[0].text.find("no setpoint; allowed: 1"), std::string::npos);
+}
+
+TEST(OutputCamProject, CamsOnOneOutputAgreeOnItsLogic) {
+  Json project = Json::parse(kExampleProject);
+  auto& objects = project["technology_objects"];
+  objects["A"] = Json::parse(output_cam(
+      R"(, "assigned_to": "Knife", "config": {"Interface": {"Address": "start", "LogicOperation": 1}})"));
+  objects["B"] = objects["A"];
+  EXPECT_TRUE(load_project(project.dump()).project.has_value());
+  objects["B"]["config"]["Interface"]["LogicOperation"] = 0;
+  const LoadedProject refused = load_project(project.dump());
+  ASSERT_EQ(refused.problems.size(), 1u) << lines(refused.problems);
+  EXPECT_NE(refused.problems[0].text.find("one LogicOperation"), std::string::npos);
+}
+
 TEST(EncoderProject, LeadsAFollowingAxisByItsActualValueAlone) {
   Json project = Json::parse(kExampleProject);
   project["technology_objects"]["Encoder"] =
@@ -244,7 +329,7 @@ INSTANTIATE_TEST_SUITE_P(
     Objects, Rules,
     testing::ValuesIn(std::vector<Rule>{
         at("/technology_objects/More", "{}", "'type' is missing"),
-        {"/technology_objects/More", R"({"type": "TO_CamTrack"})", "/technology_objects/More/type",
+        {"/technology_objects/More", R"({"type": "TO_Kinematics"})", "/technology_objects/More/type",
          "not yet supported"},
         {"/technology_objects/More", R"({"type": "TO_SynchronAxis"})", "/technology_objects/More/type",
          "(did you mean 'TO_SynchronousAxis'?)"},

@@ -28,7 +28,7 @@ double tolerance(const std::string& name) {
     return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
   };
   for (const char* position : {".Position", ".ActualPosition", ".ExtrapolatedPosition", ".FollowingError",
-                               ".MeasuredValue1", ".PhaseShift", "error"})
+                               ".MeasuredValue1", ".PhaseShift", "error", "off", "laid"})
     if (ends(position)) return 1e-6;
   for (const char* velocity : {".Velocity", ".ActualVelocity", ".FilteredVelocity"})
     if (ends(velocity)) return 1e-5;
@@ -46,6 +46,7 @@ std::optional<double> ring(const std::string& name) {
   if (name == "Material.Position") return 1200.0;
   if (name == "Nozzle.Position" || name == "Saw.Position" || name == "Feeder.Position") return std::nullopt;
   if (name.find("Encoder.") == 0 && name.find("Position") != std::string::npos) return 200.0;
+  if (name.find("X.") == 0 || name.find("Z.") == 0) return std::nullopt;
   const bool position = name.find("Position") != std::string::npos && name.find("Slide") != 0 &&
                         name.find("Jaw") != 0 && name.find("FollowingError") == std::string::npos;
   return position ? std::optional<double>(360.0) : std::nullopt;
@@ -94,7 +95,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Stored{"03_line_shaft", "5s", 25}, Stored{"04_cross_cutter", "5s", 25},
                     Stored{"05_press_feeder", "8s", 40}, Stored{"06_encoder_conveyor", "8s", 25},
                     Stored{"07_emergency_door", "16s", 40}, Stored{"08_filling_line", "11s", 40},
-                    Stored{"09_flying_saw", "12s", 40}, Stored{"10_fixed_stop", "16s", 40}),
+                    Stored{"09_flying_saw", "12s", 40}, Stored{"10_fixed_stop", "16s", 40},
+                    Stored{"11_pick_and_place", "8s", 40}),
     [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
@@ -147,6 +149,51 @@ TEST(Positioning, LaysThreePartsDownAndHaltsWhereTheSensorSeesTheNextRoundAfterR
   }
   EXPECT_GE(laid, 60u);
   EXPECT_GE(halted, 20u);
+}
+
+TEST(PickAndPlace, LaysEveryPartDownWhereItBelongsAlthoughTheTrayHasGrown) {
+  const CsvTable table = simulate(example("11_pick_and_place"), "29s",
+                                  {"--signals",
+                                   "X.Position,X.Velocity,Z.Position,Z.Velocity,off,laid,placed,part,alarm,"
+                                   "X.ActualPosition,grip,ready"});
+  expect_never(table, "alarm");
+  expect_smooth(table, "Z", 600.0, 10000.0);
+  EXPECT_GE(table["placed"].back(), 10.0);
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    if (table["placed"][i] == table["placed"][i - 1]) continue;
+    const double part = table["part"][i - 1];
+    EXPECT_NEAR(table["off"][i], 0.7 * part, 1e-6);
+    EXPECT_NEAR(table["laid"][i], 600.0, 0.011) << "within the positioning window";
+    EXPECT_NEAR(table["X.ActualPosition"][i], 600.0 - 0.7 * part, 0.011);
+  }
+}
+
+TEST(PickAndPlace, WithoutCorrectionThePartsLieBesideTheirPlace) {
+  Json project = example_json("11_pick_and_place");
+  project["tags"]["correct"]["init"] = false;
+  const CsvTable table = simulate(project, "12s", "off,laid,placed,part");
+  std::size_t beside = 0;
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    if (table["placed"][i] == table["placed"][i - 1]) continue;
+    EXPECT_NEAR(table["laid"][i], 600.0 + 0.7 * table["part"][i - 1], 0.011);
+    if (table["part"][i - 1] > 0.0) ++beside;
+  }
+  EXPECT_GE(beside, 2u);
+}
+
+TEST(PickAndPlace, AMissingPartStopsTheGantryUntilItIsReset) {
+  Json project = example_json("11_pick_and_place");
+  project["technology_objects"]["Eye"]["marks"]["period"] = 103.5;
+  project["stimuli"].push_back(stimulus("20s", "reset", true));
+  const CsvTable table =
+      simulate(project, "22s", "alarm,placed,start,step,Eye.ErrorDetail.Number,measure.ErrorID");
+  const std::size_t raised = table.first("alarm", 1.0);
+  ASSERT_LT(raised, table.rows);
+  EXPECT_EQ(table["Eye.ErrorDetail.Number"][raised], 752.0);
+  EXPECT_EQ(table["placed"][raised], 3.0);
+  EXPECT_EQ(table["start"][raised], 0.0);
+  EXPECT_EQ(table["alarm"].back(), 0.0);
+  EXPECT_EQ(table["step"].back(), 10.0);
 }
 
 TEST(Positioning, AnAlarmTakesStartBackAndAResetMakesItReadyAgain) {

@@ -1,0 +1,46 @@
+#include "tech_objects/alarm_notes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace lockstep {
+namespace {
+
+std::vector<int> numbers(AlarmNotes& notes) {
+  std::vector<int> all;
+  notes.take([&](const AlarmNote& note) { all.push_back(note.number); });
+  return all;
+}
+
+TEST(AlarmNotes, TellEachAlarmOnceUntilItIsAcknowledged) {
+  AlarmNotes notes;
+  EXPECT_FALSE(notes.any());
+  notes.raised(541, 4);
+  notes.raised(541, 4);
+  notes.raised(501, 0);
+  EXPECT_EQ(numbers(notes), (std::vector<int>{541, 501}));
+  notes.raised(541, 4);
+  EXPECT_FALSE(notes.any());
+  notes.acknowledged();
+  notes.acknowledged();
+  notes.raised(541, 4);
+  EXPECT_EQ(numbers(notes), (std::vector<int>{0, 541}));
+}
+
+TEST(AlarmNotes, AcknowledgeNothingWithoutAnAlarm) {
+  AlarmNotes notes;
+  notes.acknowledged();
+  EXPECT_FALSE(notes.any());
+}
+
+TEST(AlarmNotes, CountWhatDoesNotFit) {
+  AlarmNotes notes;
+  for (int number = 1; number <= 10; ++number) notes.raised(number, 0);
+  EXPECT_EQ(numbers(notes).size(), 8u);
+  EXPECT_EQ(notes.lost(), 2u);
+  EXPECT_FALSE(notes.any());
+}
+
+}  // namespace
+}  // namespace lockstep
