@@ -46,5 +46,17 @@ TEST(CommandLine, AWrongOneExitsWith2AndSaysSoOnStandardError) {
   }
 }
 
+TEST(CommandLine, ARunTellsHowManyIndicesWereOutOfRange) {
+  const Folder folder;
+  const std::string file = folder.write("project.json", R"({
+    "lockstep": 1, "name": "outside", "clock": { "servo_cycle": "1ms" },
+    "tags": { "a": { "type": "ARRAY[1..2] OF INT" }, "i": { "type": "INT", "init": 3 } },
+    "programs": [ { "name": "Main", "ob": "Main", "cycle": "1ms", "calls": [
+      { "set": "a[i]", "to": "a[i + 1]" } ] } ] })");
+  const Ended ended = lockstep({"run", file, "--simulate", "--duration", "10ms"});
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_NE(ended.err.find("20 indices of arrays were out of range"), std::string::npos) << ended.err;
+}
+
 }  // namespace
 }  // namespace lockstep::cli
