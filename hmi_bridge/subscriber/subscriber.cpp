@@ -30,13 +30,13 @@ struct Screen {
     std::cout << static_cast<double>(row->t) * 1e-9 << " s";
     for (int i = 0; i < row->n; ++i)
       std::cout << "  " << header.names[i] << " " << row->values[i] << header.units[i];
-    std::cout << "\n";
+    std::cout << std::endl;
   }
   void on_event(const lcm::ReceiveBuffer* /*buffer*/, const std::string& /*channel*/,
                 const lockstep::event_t* event) {
     std::cout << static_cast<double>(event->t) * 1e-9 << " s  " << event->kind << ": " << event->source;
     if (event->number != 0) std::cout << " " << event->number << " " << event->text;
-    std::cout << "\n";
+    std::cout << std::endl;
   }
 };
 

@@ -249,9 +249,8 @@ TEST(TraceChannels, ShowPartsOfTheTraceEachInItsWay) {
                          [&](double t) { return t >= at - before - 1e-9 && t <= at + after + 1e-9; });
   };
   const auto rows = static_cast<long>(std::lround(0.05 / period)) + 1;
-  EXPECT_EQ(around(0.5, 0.02, 0.03), rows);
   EXPECT_EQ(around(5.0, 0.02, 0.03), rows);
-  EXPECT_EQ(static_cast<long>(edge.size()), 2 * rows);
+  EXPECT_EQ(static_cast<long>(edge.size()), rows) << "start is TRUE from the beginning, which is no edge";
 
   const CsvTable table = simulate(file, "8s", {"--signals", "start,Slide.Velocity,Slide.ErrorDetail.Number"});
   std::size_t fast = 0, falls = 0;

@@ -185,6 +185,7 @@ TEST(PickAndPlace, AMissingPartStopsTheGantryUntilItIsReset) {
   Json project = example_json("11_pick_and_place");
   project["technology_objects"]["Eye"]["marks"]["period"] = 103.5;
   project["stimuli"].push_back(stimulus("20s", "reset", true));
+  project["stimuli"].push_back(stimulus("20.1s", "reset", false));
   const CsvTable table =
       simulate(project, "22s", "alarm,placed,start,step,Eye.ErrorDetail.Number,measure.ErrorID");
   const std::size_t raised = table.first("alarm", 1.0);

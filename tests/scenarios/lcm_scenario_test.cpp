@@ -112,5 +112,20 @@ TEST(LcmScenario, WithoutAMulticastRouteTheProjectsTraceIsAWarningAndOneAskedFor
   EXPECT_NE(asked.err().find("no multicast route"), std::string::npos) << asked.err();
 }
 
+// The example of LCM.md, compiled beside the product.
+TEST(LcmScenario, AForeignSubscriberShowsRowsAndEvents) {
+  const Directory directory;
+  const std::string out = directory.file("seen");
+  const std::string program = LOCKSTEP_PROGRAM;
+  const std::string subscriber = program.substr(0, program.rfind('/')) + "/hmi_bridge/lcm_subscriber";
+  const std::string script =
+      "timeout 30 " + subscriber + " ROTARY_KNIFE 1000 > " + out + " & reader=$!\nsleep 0.5\n" + kLockstep +
+      "--no-modbus --stimuli --duration 4s\nkill $reader || true\nwait $reader || true\n";
+  ASSERT_EQ(in_own_network(script), 0);
+  const std::string seen = content(out);
+  EXPECT_NE(seen.find("  Knife.Position "), std::string::npos) << seen.substr(0, 2000);
+  EXPECT_NE(seen.find("job started: "), std::string::npos) << seen.substr(0, 2000);
+}
+
 }  // namespace
 }  // namespace lockstep::test
