@@ -61,6 +61,11 @@ class Sequence {
       return s->busy() && (name == "MC_LeadingValueAdditive" || name == "MC_CamIn" || name == "MC_CamOut");
     });
     bench_.watch_coupled = !additive;
+    // A step of the additive value may bring the axis to the end of a cam that is passed once, where it
+    // stands.
+    const bool on_cam = std::any_of(following_.begin(), following_.end(),
+                                    [](Subject* s) { return s->busy() && s->type().name == "MC_CamIn"; });
+    if (on_cam && bench_.following.additive_request.owner != nullptr) bench_.allow_jumps(2);
     for (const auto* subjects : {&following_, &leading_})
       for (Subject* s : *subjects)
         if (s->type().name.starts_with("MC_MotionIn") && (s->busy() || s->on_start())) bench_.allow_jumps(3);
