@@ -533,7 +533,7 @@ class Axis final : public LeadingObject {
   std::uint16_t sent_stw1_ = kControlOff;
   ControlBits free_bits_;  // of MC_SetAxisSTW
   struct Backlash {
-    double passed = 0.0;        // of the play, by the motor: 0 … Size [u]
+    double passed = 0.0;        // way of the motor that the load has not made: 0, or ∓Size [u]
     std::int8_t direction = 0;  // of the last motion; 0: none yet
   };
   Backlash backlash_;

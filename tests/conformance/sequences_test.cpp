@@ -55,7 +55,7 @@ class Sequence {
 
   void tick() {
     bench_.watch_coupled = std::none_of(following_.begin(), following_.end(), steps_what_follows);
-    if (falls_off_a_cam()) bench_.allow_jumps(1);
+    if (falls_off_a_cam()) bench_.allow_jumps(2);
     for (const auto* subjects : {&following_, &leading_})
       for (Subject* s : *subjects)
         if (s->type().name.starts_with("MC_MotionIn") && (s->busy() || s->on_start())) bench_.allow_jumps(3);
@@ -81,11 +81,9 @@ class Sequence {
 
   /// An additive leading value may take the axis over the end of a cam that is passed once, where it stands.
   bool falls_off_a_cam() {
-    const auto busy = [&](std::string_view name) {
-      return std::any_of(following_.begin(), following_.end(),
-                         [&](Subject* s) { return s->type().name == name && s->busy(); });
-    };
-    return busy("MC_LeadingValueAdditive") && busy("MC_CamIn");
+    const bool on_cam = std::any_of(following_.begin(), following_.end(),
+                                    [](Subject* s) { return s->busy() && s->type().name == "MC_CamIn"; });
+    return on_cam && bench_.following.additive_request.owner != nullptr;
   }
 
   void act() {
