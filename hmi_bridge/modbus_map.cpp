@@ -213,10 +213,27 @@ std::optional<Value> decode(const ModbusEntry& entry, Type signal,
   return value;
 }
 
+namespace {
+
+bool bits_as_they_are(const ModbusEntry& entry, Type signal) noexcept {
+  const bool whole = !is_bit_table(entry.table) && entry.bit < 0 && entry.counter == nullptr;
+  const bool sixteen = signal == Type::INT || signal == Type::UINT || signal == Type::WORD;
+  return whole && sixteen && entry.type == signal && !entry.is_scaled && entry.byte_order == ByteOrder::big &&
+         entry.range.unbounded();
+}
+
+}  // namespace
+
 ModbusMap::ModbusMap(std::vector<ModbusEntry> entries, std::span<const Type> signals)
-    : entries_(std::move(entries)), signals_(signals.begin(), signals.end()), next_(entries_.size(), kNone) {
+    : entries_(std::move(entries)),
+      signals_(signals.begin(), signals.end()),
+      plain_(entries_.size()),
+      next_(entries_.size(), kNone) {
   for (std::size_t i = 0; i < entries_.size(); ++i)
-    if (check(i)) place(i);
+    if (check(i)) {
+      place(i);
+      plain_[i] = bits_as_they_are(entries_[i], signal_type(entries_[i])) ? 1 : 0;
+    }
 }
 
 void ModbusMap::report(std::size_t index, std::string_view key, std::string text) {
@@ -315,12 +332,6 @@ void ModbusMap::chain(std::size_t index, std::uint32_t first) {
 const ModbusEntry* ModbusMap::next(const ModbusEntry& entry) const noexcept {
   const std::uint32_t index = next_[static_cast<std::size_t>(&entry - entries_.data())];
   return index == kNone ? nullptr : &entries_[index];
-}
-
-const ModbusEntry* ModbusMap::find(ModbusTable table, std::uint32_t address) const noexcept {
-  const std::vector<std::uint32_t>& at = at_[static_cast<std::size_t>(table)];
-  if (address >= at.size() || at[address] == kNone) return nullptr;
-  return &entries_[at[address]];
 }
 
 }  // namespace lockstep

@@ -90,7 +90,15 @@ class ModbusMap {
   const std::vector<ModbusEntry>& entries() const noexcept { return entries_; }
 
   /// The entry that covers an address, or nullptr; of several bits in a register the first one.
-  const ModbusEntry* find(ModbusTable table, std::uint32_t address) const noexcept;
+  const ModbusEntry* find(ModbusTable table, std::uint32_t address) const noexcept {
+    const std::vector<std::uint32_t>& at = at_[static_cast<std::size_t>(table)];
+    return address >= at.size() || at[address] == kNone ? nullptr : &entries_[at[address]];
+  }
+  /// Whether the one register of an entry has the 16 bits of its signal as they are, and takes any: such
+  /// registers need neither `encode` nor `decode`.
+  bool is_plain(const ModbusEntry& entry) const noexcept {
+    return plain_[static_cast<std::size_t>(&entry - entries_.data())] != 0;
+  }
   /// The next bit in the same register, or nullptr.
   const ModbusEntry* next(const ModbusEntry& entry) const noexcept;
   /// Type of the values of the signal of an entry.
@@ -112,6 +120,7 @@ class ModbusMap {
   std::vector<Type> signals_;
   std::vector<ModbusMapProblem> problems_;
   std::array<std::vector<std::uint32_t>, 4> at_;  ///< per table and address: index of the entry or kNone
+  std::vector<std::uint8_t> plain_;               ///< per entry: see `is_plain`
   std::vector<std::uint32_t> next_;               ///< per entry: the next bit in its register or kNone
 };
 

@@ -174,6 +174,10 @@ ModbusException ModbusResponder::check_write(ModbusTable table, std::uint32_t ad
   while (address < end) {
     const ModbusEntry* const entry = map_->find(table, address);
     if (entry == nullptr || entry->address != address) return ModbusException::illegal_data_address;
+    if (map_->is_plain(*entry) && entry->writable) {
+      ++address;
+      continue;
+    }
     for (const ModbusEntry* part = entry; part != nullptr; part = map_->next(*part))
       if (!part->writable) return ModbusException::illegal_data_address;
     address += modbus_span(*entry);
@@ -219,6 +223,10 @@ ModbusException ModbusResponder::read_registers(ModbusTable table, std::uint32_t
   for (std::uint32_t i = address; i < address + count;) {
     const ModbusEntry* const entry = map_->find(table, i);
     if (entry == nullptr) return ModbusException::illegal_data_address;
+    if (map_->is_plain(*entry)) {
+      registers[i++] = static_cast<std::uint16_t>(image_.value(entry->signal).u);
+      continue;
+    }
     const ModbusWords words = words_of(*entry);
     const std::uint32_t end = std::min(address + count, entry->address + modbus_span(*entry));
     for (; i < end; ++i) registers[i] = words[i - entry->address];
@@ -246,6 +254,17 @@ ModbusException ModbusResponder::stage_registers(std::uint32_t address, Bytes wo
   batch_.clear();
   for (std::uint32_t i = address; i < end;) {
     const ModbusEntry& entry = *map_->find(ModbusTable::holding_register, i);
+    if (map_->is_plain(entry)) {
+      const std::uint16_t word = word_at(words, 2 * (i - address));
+      Value value{};
+      if (entry.type == Type::INT)
+        value.i = static_cast<std::int16_t>(word);
+      else
+        value.u = word;
+      batch_.push_back({entry.signal, value});
+      ++i;
+      continue;
+    }
     if (entry.bit >= 0) {
       if (const auto bad = stage_bits(entry, word_at(words, 2 * (i - address))); bad != ModbusException::none)
         return bad;
