@@ -79,7 +79,7 @@ struct Selection {
   std::vector<const Variable*> variables;
   int bit = -1;
   bool whole = false;     // a single variable, named in full
-  ObjectKinds kinds = 0;  // of the objects that have them
+  ObjectKinds kinds = 0;  // of the objects that have them, where none is named
 };
 
 /// Takes the index out of a path, and the brackets with it. @return the index; 0 if there is none
@@ -93,26 +93,17 @@ std::size_t take_index(std::string& path) {
   return index;
 }
 
-/// The kinds that share the data block of one.
-ObjectKinds same_block(ObjectKind kind) {
-  ObjectKinds kinds = 0;
-  for (const ObjectKindText& known : kObjectKinds)
-    if (&data_block_of(known.kind) == &data_block_of(kind)) kinds = kinds | known.kind;
-  return kinds;
-}
-
 Selection select(ObjectKind kind, std::string_view path) {
   Selection selection;
-  selection.kinds = same_block(kind);
   if (const VariablePlace place = find_variable(kind, path); place.variable != nullptr)
-    return {{place.variable}, place.bit, true, selection.kinds};
+    return {{place.variable}, place.bit, true, 0};
   std::string wanted = fold(path);
   const std::size_t index = take_index(wanted);
   for (const auto list : data_block_of(kind).lists()) {
     for (const Variable& variable : list) {
       std::string name = fold(variable.path);
       take_index(name);
-      if (name == wanted && index == 0) return {{&variable}, -1, true, selection.kinds};
+      if (name == wanted && index == 0) return {{&variable}, -1, true, 0};
       const bool below = wanted.empty() || name.starts_with(wanted + ".");
       if (below && index <= variable.count) selection.variables.push_back(&variable);
     }
@@ -120,15 +111,38 @@ Selection select(ObjectKind kind, std::string_view path) {
   return selection;
 }
 
-std::string_view group_of(const Variable& variable) {
-  const auto end = variable.path.find_first_of(".[");
-  return end == variable.path.npos ? std::string_view{} : variable.path.substr(0, end);
-}
-
 std::string bit_name(const Variable& variable, int bit) {
   const std::string_view name =
       variable.bits == nullptr ? std::string_view{} : (*variable.bits)[static_cast<std::size_t>(bit)];
   return name.empty() ? "reserved" : std::string(name);
+}
+
+/// What a path names in objects of any kind. The synchronous axis answers for those that have less of the
+/// same.
+Selection select(std::string_view path) {
+  Selection selection;
+  ObjectKinds kinds = 0;
+  for (const ObjectKindText& known : kObjectKinds) {
+    Selection found = select(known.kind, path);
+    if (found.variables.empty()) continue;
+    const bool reserved = found.bit >= 0 && bit_name(*found.variables.front(), found.bit) == "reserved";
+    if (!reserved) kinds = kinds | known.kind;
+    if (selection.variables.empty() || known.kind == ObjectKind::TO_SynchronousAxis)
+      selection = std::move(found);
+  }
+  selection.kinds = kinds;
+  return selection;
+}
+
+ObjectKind kind_called(std::string_view name) {
+  for (const ObjectKindText& known : kObjectKinds)
+    if (known.name == name) return known.kind;
+  return ObjectKind::TO_SynchronousAxis;  // never: the name is one of the list
+}
+
+std::string_view group_of(const Variable& variable) {
+  const auto end = variable.path.find_first_of(".[");
+  return end == variable.path.npos ? std::string_view{} : variable.path.substr(0, end);
 }
 
 std::vector<std::string> bit_lines(const Variable& variable) {
@@ -208,13 +222,13 @@ std::string single_text(const Variable& variable, std::size_t width) {
 std::string selection_text(const std::string& title, const std::string& about, const Selection& selection,
                            std::size_t width) {
   std::string text = title + "\n";
+  if (!about.empty()) text += paragraph(about, 2, width);
   if (selection.bit >= 0) {
     const Variable& word = *selection.variables.front();
     return text + paragraph(bit_name(word, selection.bit), 2, width) +
            paragraph("BOOL, a bit of " + shown_path(word) + ": " + std::string(word.text), 2, width);
   }
   if (selection.whole) return text + single_text(*selection.variables.front(), width);
-  if (!about.empty()) text += paragraph(about, 2, width);
   return text + list_text(selection.variables, width) + legend(width);
 }
 
@@ -255,22 +269,17 @@ nlohmann::ordered_json selection_json(std::string_view object, const Selection& 
 }  // namespace
 
 Subject variables_subject(std::string_view object, std::string_view path) {
-  Selection selection;
   std::string about;
-  for (const ObjectKindText& known : kObjectKinds) {
-    if (!object.empty() && object != known.name) continue;
-    about = known.text;
-    selection = select(known.kind, path);
-    if (!selection.variables.empty()) break;
-  }
+  for (const ObjectKindText& known : kObjectKinds)
+    if (object == known.name) about = known.text;
+  const Selection selection = object.empty() ? select(path) : select(kind_called(object), path);
   if (selection.variables.empty()) return {};
   std::string title(object);
   if (!path.empty()) {
     std::string name = selection.whole ? shown_path(*selection.variables.front()) : std::string(path);
     if (selection.bit >= 0) name += ".X" + std::to_string(selection.bit);
     title += (title.empty() ? "" : ".") + name;
-    if (object.empty()) title += "  (of every " + kind_names(selection.kinds) + ")";
-    about.clear();
+    about = object.empty() ? "of every " + kind_names(selection.kinds) : "";
   }
   return {[=](std::size_t width) { return selection_text(title, about, selection, width); },
           [object = std::string(object), selection] { return selection_json(object, selection); }};

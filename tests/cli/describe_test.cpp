@@ -153,6 +153,7 @@ TEST(Describe, FindsAPartOfAnObjectInAnySpelling) {
   EXPECT_EQ(described({"Sensor[2].Type"})["variables"][0]["path"], "Sensor[].Type");
   EXPECT_EQ(described({"Sensor.Existent"})["variables"][0]["default"].size(), 4u);
   EXPECT_EQ(described({"StatusWord.X5"})["name"], "HomingDone");
+  EXPECT_EQ(described({"StatusWord.X22"})["objects"], json::array({"TO_SynchronousAxis"}));
   EXPECT_EQ(described({"mc_gearinpos.insync"})["pins"][0]["name"], "InSync");
   const Ended word = lockstep({"describe", "StatusWord"});
   EXPECT_NE(word.out.find("X22 Synchronous"), std::string::npos);

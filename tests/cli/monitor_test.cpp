@@ -29,7 +29,7 @@ std::string quoted(const std::string& text) {
 
 /// Runs the knife in the background for as long as the rest of the line takes.
 std::string with_knife(const std::string& line) {
-  return std::string(kNetwork) + quoted(LOCKSTEP_EXECUTABLE) + " run " + quoted(kKnife) +
+  return std::string(kNetwork) + quoted(LOCKSTEP_EXECUTABLE) + " run " + quoted(kKnife) + " --no-retain" +
          " --no-modbus --lcm 'udpm://239.255.76.67:7667?ttl=0' --stimuli >/dev/null 2>&1 & knife=$!; " +
          line + "; status=$?; kill $knife; wait $knife; exit $status";
 }

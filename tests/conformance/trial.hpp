@@ -71,7 +71,8 @@ inline const std::set<std::string_view> kGivesSetpoints = {"MC_MotionInSuperimpo
 // Blocks that also act on a disabled axis.
 inline const std::set<std::string_view> kOnDisabledAxis = {
     "MC_Home",           "MC_Reset",          "MC_SetSensor",          "MC_SetAxisSTW",
-    "MC_WriteParameter", "MC_InterpolateCam", "MC_GetCamLeadingValue", "MC_GetCamFollowingValue", "MC_CopyCamData"};
+    "MC_WriteParameter", "MC_InterpolateCam", "MC_GetCamLeadingValue", "MC_GetCamFollowingValue",
+    "MC_CopyCamData"};
 // Blocks that act on a drive.
 inline const std::set<std::string_view> kOnDrive = {
     "MC_TorqueLimiting", "MC_TorqueRange", "MC_TorqueAdditive", "MC_SetAxisSTW", "MC_WriteParameter"};

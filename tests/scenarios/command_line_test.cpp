@@ -94,9 +94,9 @@ TEST(CommandLine, AWrongOneEndsWith2) {
       {"run", knife, "--simulate", "--duration", "1s", "--trace", "knife.txt"},
       {"run", knife, "--simulate", "--duration", "1s", "--trace", "/nowhere/at/all/knife.csv"},
       {"run", knife, "--simulate", "--duration", "1s", "--signals", "Knife.Positon"},
-      {"run", knife, "--duration", "1s", "--modbus", "127.0.0.1:65536"},
-      {"run", knife, "--duration", "1s", "--modbus", "127.0.0.1:0", "--no-modbus"},
-      {"run", knife, "--duration", "1s", "--no-modbus", "--lcm", "tcpq://127.0.0.1:1"}};
+      {"run", knife, "--no-retain", "--duration", "1s", "--modbus", "127.0.0.1:65536"},
+      {"run", knife, "--no-retain", "--duration", "1s", "--modbus", "127.0.0.1:0", "--no-modbus"},
+      {"run", knife, "--no-retain", "--duration", "1s", "--no-modbus", "--lcm", "tcpq://127.0.0.1:1"}};
   for (const auto& arguments : wrong) {
     const Ended ended = lockstep(arguments);
     EXPECT_EQ(ended.status, 2) << testing::PrintToString(arguments) << "\n" << ended.err;

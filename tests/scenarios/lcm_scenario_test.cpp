@@ -56,7 +56,8 @@ Rows rows_of(const std::string& path) {
 TEST(LcmScenario, LcmLoggerRecordsTheRunningKnifeAndTheLogShowsItsMotion) {
   const Directory directory;
   const std::string log = directory.file("knife.lcm");
-  ASSERT_EQ(in_own_network(logged(log, kLockstep + "--no-modbus --stimuli --duration 3500ms")), 0);
+  ASSERT_EQ(in_own_network(logged(log, kLockstep + "--no-modbus --no-retain --stimuli --duration 3500ms")),
+            0);
   const Rows rows = rows_of(log);
   // Multicast may lose a row on a busy machine, and the first ones come before the logger listens.
   EXPECT_GT(rows.size(), 100u) << "of 1750";
@@ -102,7 +103,7 @@ TEST(LcmScenario, LcmLogplayerReplaysATraceFileToTheNetworkAsItWas) {
 TEST(LcmScenario, WithoutAMulticastRouteTheProjectsTraceIsAWarningAndOneAskedForIsAnError) {
   const Directory directory;
   const std::string options = ::geteuid() == 0 ? "-n" : "-Urn";
-  const std::string run = kLockstep + "--no-modbus --duration 100ms";
+  const std::string run = kLockstep + "--no-modbus --no-retain --duration 100ms";
   Process project({"unshare", options, "sh", "-c", run});
   EXPECT_EQ(project.status(), 0);
   EXPECT_NE(project.err().find("warning: no traces over LCM: "), std::string::npos) << project.err();
@@ -120,7 +121,7 @@ TEST(LcmScenario, AForeignSubscriberShowsRowsAndEvents) {
   const std::string subscriber = program.substr(0, program.rfind('/')) + "/hmi_bridge/lcm_subscriber";
   const std::string script =
       "timeout 30 " + subscriber + " ROTARY_KNIFE 1000 > " + out + " & reader=$!\nsleep 0.5\n" + kLockstep +
-      "--no-modbus --stimuli --duration 4s\nkill $reader || true\nwait $reader || true\n";
+      "--no-modbus --no-retain --stimuli --duration 4s\nkill $reader || true\nwait $reader || true\n";
   ASSERT_EQ(in_own_network(script), 0);
   const std::string seen = content(out);
   EXPECT_NE(seen.find("  Knife.Position "), std::string::npos) << seen.substr(0, 2000);

@@ -71,7 +71,8 @@ inline std::string example(const std::string& name) {
 /// All example projects.
 inline std::vector<std::string> example_names() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(LOCKSTEP_SOURCE_DIR) + "/projects"))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(LOCKSTEP_SOURCE_DIR) + "/projects"))
     if (std::filesystem::exists(entry.path() / "project.json")) names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
@@ -190,6 +191,8 @@ class RunningLockstep : public Process {
   static std::vector<std::string> command(const std::string& project,
                                           const std::vector<std::string>& options) {
     std::vector<std::string> arguments{"run", project, "--modbus", "127.0.0.1:0", "--no-lcm"};
+    // An example that keeps values would do so in the sources, one run at a time.
+    if (project.starts_with(LOCKSTEP_SOURCE_DIR)) arguments.push_back("--no-retain");
     arguments.insert(arguments.end(), options.begin(), options.end());
     return lockstep_command(std::move(arguments));
   }

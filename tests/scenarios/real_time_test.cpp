@@ -144,8 +144,8 @@ TEST(RealTime, ADurationEndsItAndTheAxesAreBroughtToRestAfterIt) {
 
 TEST(RealTime, TheExamplesRunWithoutAlarms) {
   for (const std::string& name : example_names()) {
-    const Ended ended =
-        lockstep({"run", example(name), "--stimuli", "--duration", "1s", "--no-modbus", "--no-lcm"});
+    const Ended ended = lockstep(
+        {"run", example(name), "--stimuli", "--duration", "1s", "--no-modbus", "--no-lcm", "--no-retain"});
     EXPECT_EQ(ended.status, 0) << name << "\n" << ended.err;
     EXPECT_EQ(ended.err.find("alarm"), std::string::npos) << name << "\n" << ended.err;
     EXPECT_EQ(ended.err.find("not enabled"), std::string::npos) << name << "\n" << ended.err;
