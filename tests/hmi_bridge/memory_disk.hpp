@@ -4,6 +4,7 @@
 
 #include <sqlite3.h>
 
+#include <atomic>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -73,8 +74,9 @@ class MemoryDisk {
   DiskContent content;
   std::vector<DiskOperation> operations;
   bool recording = false;
-  std::size_t space = SIZE_MAX;  ///< of all files together [byte]
-  bool broken = false;           ///< every write and sync fails with an input/output error
+  std::atomic<std::size_t> space =
+      SIZE_MAX;         ///< of all files together [byte]; changed while another thread writes
+  bool broken = false;  ///< every write and sync fails with an input/output error
 
  private:
   struct File {
