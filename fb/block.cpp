@@ -27,6 +27,12 @@ bool Pin::allows(const Block& block) const noexcept {
                      [&](const Choice& choice) { return static_cast<double>(choice.value) == number; });
 }
 
+ErrorId first_error(std::span<const Pin> pins, const Block& block) noexcept {
+  for (const Pin& pin : pins)
+    if (pin.error != ErrorId::none && !pin.allows(block)) return pin.error;
+  return ErrorId::none;
+}
+
 const Pin* BlockType::find_pin(std::string_view pin_name) const noexcept {
   for (const Pin& pin : pins)
     if (same_name(pin.name, pin_name)) return &pin;

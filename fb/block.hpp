@@ -25,6 +25,9 @@ class Block {
   Block() = default;
 };
 
+/// The error of the first input whose present value is not permitted; none if all are.
+ErrorId first_error(std::span<const Pin> pins, const Block& block) noexcept;
+
 /// A type of function block, as the project file and `lockstep describe` see it.
 struct BlockType {
   std::string_view name;    ///< published name

@@ -3,8 +3,7 @@
 namespace lockstep {
 
 ErrorId JobBlock::check_inputs() const noexcept {
-  for (const Pin& pin : pin_table())
-    if (pin.error != ErrorId::none && !pin.allows(*this)) return pin.error;
+  if (const ErrorId error = first_error(pin_table(), *this); error != ErrorId::none) return error;
   return wired() ? ErrorId::none : ErrorId::no_technology_object;
 }
 

@@ -37,8 +37,7 @@ void MC_MoveJog::call(std::int64_t /*now*/) noexcept {
 }
 
 ErrorId MC_MoveJog::check() const noexcept {
-  for (const Pin& pin : kPins)
-    if (pin.error != ErrorId::none && !pin.allows(*this)) return pin.error;
+  if (const ErrorId error = first_error(kPins, *this); error != ErrorId::none) return error;
   return ErrorId::none;
 }
 

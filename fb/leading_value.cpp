@@ -23,8 +23,7 @@ void MC_LeadingValueAdditive::call(std::int64_t /*now*/) noexcept {
 }
 
 ErrorId MC_LeadingValueAdditive::check() const noexcept {
-  for (const Pin& pin : kPins)
-    if (pin.error != ErrorId::none && !pin.allows(*this)) return pin.error;
+  if (const ErrorId error = first_error(kPins, *this); error != ErrorId::none) return error;
   return Axis->enabled() || Axis->simulating() ? ErrorId::none : ErrorId::locked;
 }
 

@@ -3,12 +3,6 @@
 namespace lockstep {
 namespace {
 
-ErrorId first_error(std::span<const Pin> pins, const Block& block) noexcept {
-  for (const Pin& pin : pins)
-    if (pin.error != ErrorId::none && !pin.allows(block)) return pin.error;
-  return ErrorId::none;
-}
-
 /// Of another instance that is in charge.
 template <class Request>
 bool taken(const Request& request, const void* by) noexcept {

@@ -23,8 +23,7 @@ void MC_Power::call(std::int64_t /*now*/) noexcept {
 ErrorId MC_Power::check() noexcept {
   const Modes modes{StartMode, StopMode};
   if (Axis == nullptr || permitted_ != modes) {
-    for (const Pin& pin : kPins)
-      if (pin.error != ErrorId::none && !pin.allows(*this)) return pin.error;
+    if (const ErrorId error = first_error(kPins, *this); error != ErrorId::none) return error;
     permitted_ = modes;
   }
   const bool other = Axis->power.owner != nullptr && Axis->power.owner != this;

@@ -36,8 +36,7 @@ ErrorId TorqueBlock::disabled() noexcept {
 }
 
 ErrorId TorqueBlock::check_inputs() const noexcept {
-  for (const Pin& pin : pin_table())
-    if (pin.error != ErrorId::none && !pin.allows(*this)) return pin.error;
+  if (const ErrorId error = first_error(pin_table(), *this); error != ErrorId::none) return error;
   return check_together();
 }
 
