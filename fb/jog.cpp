@@ -37,8 +37,7 @@ void MC_MoveJog::call(std::int64_t /*now*/) noexcept {
 }
 
 ErrorId MC_MoveJog::check() const noexcept {
-  if (const ErrorId error = first_error(kPins, *this); error != ErrorId::none) return error;
-  return ErrorId::none;
+  return first_error(kPins, *this);
 }
 
 /// The inputs of a running job count in every call; the axis compares them with what it has planned.

@@ -14,8 +14,8 @@
 #include "fb/power.hpp"
 #include "fb/superimposed.hpp"
 #include "scheduler/controller.hpp"
-#include "tests/conformance/allocations.hpp"
 #include "tests/conformance/subject.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace lockstep::test {
 

@@ -4,52 +4,13 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <new>
 #include <random>
 #include <thread>
 
 #include "hmi_bridge/modbus_server.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
-
-namespace {
-
-// Of the one thread that counts; the others may allocate.
-thread_local bool is_counting = false;
-thread_local std::uint64_t allocations = 0;
-
-void* allocate(std::size_t size) {
-  if (is_counting) ++allocations;
-  void* const memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-void release(void* memory) noexcept {
-  if (is_counting && memory != nullptr) ++allocations;
-  std::free(memory);
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return allocate(size);
-}
-void* operator new[](std::size_t size) {
-  return allocate(size);
-}
-void operator delete(void* memory) noexcept {
-  release(memory);
-}
-void operator delete[](void* memory) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  release(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-  release(memory);
-}
+#include "tests/support/counting_operators.hpp"
 
 namespace lockstep {
 namespace {
@@ -144,12 +105,13 @@ TEST_F(Flood, WithThirtyTwoClientsTheCycleNeitherWaitsNorAllocatesAndEveryAnswer
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
   long waited = 0;
   std::uint64_t ticks = 0;
-  allocations = 0;
+  const std::uint64_t allocated = test::allocations_counted();
   while (good_left > 0 && std::chrono::steady_clock::now() < deadline) {
     const long before = waits();
-    is_counting = true;
-    for (int i = 0; i < 1000; ++i) machine.tick();
-    is_counting = false;
+    {
+      const test::CountAllocations count;
+      for (int i = 0; i < 1000; ++i) machine.tick();
+    }
     waited += waits() - before;
     ticks += 1000;
     std::this_thread::yield();  // the pause of a cycle, so that the others get on
@@ -157,7 +119,7 @@ TEST_F(Flood, WithThirtyTwoClientsTheCycleNeitherWaitsNorAllocatesAndEveryAnswer
   machine.tick();
   EXPECT_EQ(good_left, 0) << "in two minutes";
   EXPECT_EQ(waited, 0);
-  EXPECT_EQ(allocations, 0u);
+  EXPECT_EQ(test::allocations_counted(), allocated);
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(server->counters().malformed, 0u);
   EXPECT_GE(server->counters().requests, std::uint64_t{2} * kGood * kRounds);
@@ -166,13 +128,13 @@ TEST_F(Flood, WithThirtyTwoClientsTheCycleNeitherWaitsNorAllocatesAndEveryAnswer
   RecordProperty("ticks", std::to_string(ticks));
 }
 
-TEST_F(Flood, TheCountOfAllocationsSeesThem) {
-  is_counting = true;
-  auto* const memory = new std::vector<int>(10);
-  is_counting = false;
-  delete memory;
-  EXPECT_GE(allocations, 2u);
-  allocations = 0;
+TEST(Allocations, TheCountOfAllocationsSeesThem) {
+  const std::uint64_t before = test::allocations_counted();
+  {
+    const test::CountAllocations count;
+    delete new std::vector<int>(10);
+  }
+  EXPECT_GE(test::allocations_counted(), before + 2);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
-#include <new>
 #include <random>
 #include <thread>
 
@@ -22,45 +21,7 @@
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
 #include "tests/hmi_bridge/own_network.hpp"
 #include "tests/scenarios/small_project.hpp"
-
-namespace {
-
-// Of the one thread that counts; the others may allocate.
-thread_local bool is_counting = false;
-thread_local std::uint64_t allocations = 0;
-
-void* allocate(std::size_t size) {
-  if (is_counting) ++allocations;
-  void* const memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-void release(void* memory) noexcept {
-  if (is_counting && memory != nullptr) ++allocations;
-  std::free(memory);
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return allocate(size);
-}
-void* operator new[](std::size_t size) {
-  return allocate(size);
-}
-void operator delete(void* memory) noexcept {
-  release(memory);
-}
-void operator delete[](void* memory) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  release(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-  release(memory);
-}
+#include "tests/support/counting_operators.hpp"
 
 namespace lockstep::test {
 namespace {
@@ -241,20 +202,19 @@ TEST(FloodedMachine, ItsCycleNeitherWaitsNorAllocatesAndEveryAnswerIsRightAndOfO
     Controller& controller = *machine.project.controller;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     long waited = 0;
-    std::uint64_t allocated = 0;
+    const std::uint64_t allocated = allocations_counted();
     while (clients.good_left > 0 && std::chrono::steady_clock::now() < deadline) {
       const long before = waits();
-      allocations = 0;
-      is_counting = true;
-      for (int i = 0; i < kTicksInARow; ++i) controller.tick();
-      is_counting = false;
-      allocated += allocations;
+      {
+        const CountAllocations count;
+        for (int i = 0; i < kTicksInARow; ++i) controller.tick();
+      }
       waited += waits() - before;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     EXPECT_EQ(clients.good_left, 0) << "in two minutes";
     EXPECT_EQ(waited, 0);
-    EXPECT_EQ(allocated, 0u);
+    EXPECT_EQ(allocations_counted(), allocated);
     EXPECT_EQ(clients.wrong, 0);
     EXPECT_EQ(clients.torn, 0) << "answers of two instants";
     EXPECT_EQ(machine.server->counters().faults, 0u);
@@ -271,11 +231,12 @@ TEST(FloodedMachine, ItsCycleNeitherWaitsNorAllocatesAndEveryAnswerIsRightAndOfO
 }
 
 TEST(FloodedMachine, TheCountOfAllocationsSeesThem) {
-  is_counting = true;
-  auto* const memory = new std::vector<int>(10);
-  is_counting = false;
-  delete memory;
-  EXPECT_GE(allocations, 2u);
+  const std::uint64_t before = allocations_counted();
+  {
+    const CountAllocations count;
+    delete new std::vector<int>(10);
+  }
+  EXPECT_GE(allocations_counted(), before + 2);
 }
 
 /// The thread of a process with a name; 0: none.

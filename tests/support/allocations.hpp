@@ -1,14 +1,14 @@
-/// Counts what the program takes from the heap; the operators themselves stand in allocation_test.cpp.
+/// Counts what the program takes from the heap; the operators themselves are in counting_operators.hpp.
 #pragma once
 
 #include <cstdint>
 
 namespace lockstep::test {
 
-/// Allocations and releases seen while a scope of CountAllocations was open.
+/// Allocations and releases that this thread has made while a scope of CountAllocations was open in it.
 std::uint64_t allocations_counted() noexcept;
 
-/// Counts allocations from construction to destruction. One thread only, as the cycle is.
+/// Counts those of this thread from construction to destruction; other threads may allocate.
 class CountAllocations {
  public:
   CountAllocations() noexcept;
