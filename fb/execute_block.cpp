@@ -11,7 +11,7 @@ void ExecuteBlock::call(std::int64_t /*now*/) noexcept {
     start();
   } else if (ended && !Execute) {
     set_phase(JobPhase::idle, ErrorId::none);  // it was shown for a call at least
-  } else if (!ended && phase() != JobPhase::idle) {
+  } else if (!ended) {
     set_phase(job_->phase, job_->error);
   }
   Done = phase() == JobPhase::done;

@@ -3,12 +3,12 @@
 namespace lockstep {
 
 void MC_Power::call(std::int64_t /*now*/) noexcept {
-  ErrorId error = check();
+  ErrorId error = in_charge() ? ErrorId::none : take_charge();
   if (error == ErrorId::none) {
-    Axis->power.owner = this;
-    Axis->power.enable = Enable;
-    Axis->power.start_mode = StartMode;
-    Axis->power.stop_mode = StopMode;
+    PowerRequest& power = Axis->power;
+    power.enable = Enable;
+    power.start_mode = StartMode;
+    power.stop_mode = StopMode;
     Status = Enable && Axis->enabled();
     Busy = Enable || !Axis->off();
     if (Enable && Axis->enable_removed()) error = ErrorId::technology_alarm;
@@ -20,14 +20,16 @@ void MC_Power::call(std::int64_t /*now*/) noexcept {
   ErrorID = static_cast<WORD>(error);
 }
 
-ErrorId MC_Power::check() noexcept {
-  const Modes modes{StartMode, StopMode};
-  if (Axis == nullptr || permitted_ != modes) {
-    if (const ErrorId error = first_error(kPins, *this); error != ErrorId::none) return error;
-    permitted_ = modes;
-  }
-  const bool other = Axis->power.owner != nullptr && Axis->power.owner != this;
-  return other ? ErrorId::one_instance_only : ErrorId::none;
+bool MC_Power::in_charge() const noexcept {
+  return Axis != nullptr && Axis->power.owner == this && permitted_ == Modes{StartMode, StopMode};
+}
+
+ErrorId MC_Power::take_charge() noexcept {
+  if (const ErrorId error = first_error(kPins, *this); error != ErrorId::none) return error;
+  permitted_ = {StartMode, StopMode};
+  if (Axis->power.owner != nullptr && Axis->power.owner != this) return ErrorId::one_instance_only;
+  Axis->power.owner = this;
+  return ErrorId::none;
 }
 
 void MC_Reset::request(Job& job) const noexcept {

@@ -1,8 +1,6 @@
 /// Enabling and resetting technology objects: MC_Power and MC_Reset.
 #pragma once
 
-#include <optional>
-
 #include "fb/execute_block.hpp"
 
 namespace lockstep {
@@ -50,9 +48,11 @@ struct MC_Power final : Block {
     bool operator==(const Modes&) const = default;
   };
 
-  ErrorId check() noexcept;
+  /// Whether the inputs are those that the table of pins has permitted, and the object is this instance's.
+  bool in_charge() const noexcept;
+  ErrorId take_charge() noexcept;
 
-  std::optional<Modes> permitted_;  // by the table of pins; looked up again only when they change
+  Modes permitted_{-1, -1};  // looked up again only when they change
 };
 
 /// Acknowledges technology alarms, or restarts a technology object.

@@ -449,7 +449,10 @@ class Axis final : public LeadingObject {
   void show_cam_use() const noexcept;
   void publish_awaited() noexcept;
   void publish_synchronous() noexcept;
+  void watch_deviation() noexcept;
   void publish_status() noexcept;
+  std::uint32_t pace_bits() const noexcept;
+  std::uint32_t bits_when_on() const noexcept;
 
   // Hot: touched in every interpolator cycle.
   double period_ = 0.001;  // of the interpolator [s]
@@ -510,9 +513,11 @@ class Axis final : public LeadingObject {
   // Servo.
   double servo_period_ = 0.001;  // [s]
   int ratio_ = 1;
-  AxisPosition encoder_origin_;    // position where the drive is where it was at the beginning
-  DoubleDouble encoder_position_;  // way of the drive from there [u], as it counts
-  double setpoint_sign_ = 1.0;     // -1: the drive turns the other way round
+  AxisPosition encoder_origin_;      // position where the drive is where it was at the beginning
+  DoubleDouble encoder_position_;    // way of the drive from there [u], as it counts
+  double way_per_motor_turn_ = 1.0;  // [u]
+  double motor_limit_ = 0.0;         // what the motor can do [u/s]
+  double setpoint_sign_ = 1.0;       // -1: the drive turns the other way round
   double encoder_sign_ = 1.0;
   bool drive_running_ = false;
   SimulatedDrive drive_;

@@ -7,22 +7,54 @@
 namespace lockstep {
 namespace {
 
-/// Puts a word together without a branch per bit. Bits that are not shown here keep what they are.
-class Bits {
- public:
-  template <class Bit>
-  constexpr void show(Bit bit, bool value) noexcept {
-    shown_ |= std::uint32_t{1} << static_cast<unsigned>(bit);
-    if (value) bits_ |= std::uint32_t{1} << static_cast<unsigned>(bit);
-  }
-  constexpr DWORD in(DWORD word) const noexcept {
-    return static_cast<DWORD>((static_cast<std::uint32_t>(word) & ~shown_) | bits_);
-  }
+/// A word of these bits.
+template <class... Bit>
+constexpr std::uint32_t word_of(Bit... bits) noexcept {
+  return (std::uint32_t{0} | ... | (std::uint32_t{1} << static_cast<unsigned>(bits)));
+}
 
- private:
-  std::uint32_t shown_ = 0;
-  std::uint32_t bits_ = 0;
-};
+/// A word of one bit, without a branch.
+template <class Bit>
+constexpr std::uint32_t when(bool value, Bit bit) noexcept {
+  return static_cast<std::uint32_t>(value) << static_cast<unsigned>(bit);
+}
+
+/// Of `word`, the shown bits anew; the others keep what they are.
+constexpr DWORD renewed(DWORD word, std::uint32_t shown, std::uint32_t bits) noexcept {
+  return static_cast<DWORD>((static_cast<std::uint32_t>(word) & ~shown) | bits);
+}
+
+/// What the base motion's job shows in the StatusWord.
+constexpr std::uint32_t command_bits(JobKind kind) noexcept {
+  switch (kind) {
+    case JobKind::MC_MoveAbsolute:
+    case JobKind::MC_MoveRelative:
+      return word_of(StatusBit::PositioningCommand);
+    case JobKind::MC_MoveJog:
+      return word_of(StatusBit::JogCommand);
+    case JobKind::MC_MoveVelocity:
+      return word_of(StatusBit::VelocityCommand);
+    default:
+      return 0;
+  }
+}
+
+/// Bits that publish_status shows; others are of the functions that they belong to.
+constexpr std::uint32_t kStatusBits =
+    word_of(StatusBit::Enable, StatusBit::Error, StatusBit::HomingDone, StatusBit::OnlineStartValuesChanged,
+            StatusBit::Done, StatusBit::Standstill, StatusBit::PositioningCommand, StatusBit::JogCommand,
+            StatusBit::VelocityCommand, StatusBit::HomingCommand, StatusBit::ConstantVelocity,
+            StatusBit::Accelerating, StatusBit::Decelerating, StatusBit::SWLimitMinActive,
+            StatusBit::SWLimitMaxActive, StatusBit::HWLimitMinActive, StatusBit::HWLimitMaxActive,
+            StatusBit::Synchronizing, StatusBit::Synchronous, StatusBit::PhasingCommand,
+            StatusBit::NonPositionControlled);
+constexpr std::uint32_t kStatus2Bits =
+    word_of(Status2Bit::StopCommand, Status2Bit::DesynchronizingCommand, Status2Bit::PhasingCommandWaiting,
+            Status2Bit::OffsetCommand, Status2Bit::OffsetCommandWaiting);
+constexpr std::uint32_t kSynchronizedMotionBits =
+    word_of(SynchronizedMotionBit::MaxVelocityExceeded, SynchronizedMotionBit::MaxAccelerationExceeded,
+            SynchronizedMotionBit::MaxDecelerationExceeded, SynchronizedMotionBit::InSimulation,
+            SynchronizedMotionBit::LeadingValueAdditiveCommand);
 
 /// The bits of the StatusWord that a speed axis has.
 constexpr std::uint32_t kOfSpeedAxis = 0x0E00765F;
@@ -68,9 +100,9 @@ void Axis::publish_motion() noexcept {
 /// Not coupled yet: the additive leading value, and the leading value that a waiting job looks at.
 void Axis::publish_awaited() noexcept {
   auto& status = data.StatusSynchronizedMotion;
-  Bits word;
-  word.show(SynchronizedMotionBit::LeadingValueAdditiveCommand, additive_request.owner != nullptr);
-  status.StatusWord = word.in(status.StatusWord);
+  constexpr auto kAdditive = SynchronizedMotionBit::LeadingValueAdditiveCommand;
+  status.StatusWord =
+      renewed(status.StatusWord, word_of(kAdditive), when(additive_request.owner != nullptr, kAdditive));
   if (running_[kWaiting] == nullptr) return;
   const Setpoint& effective = awaited_.effective_leading_value();
   status.EffectiveLeadingValue.Position = effective.position.value;
@@ -94,76 +126,84 @@ void Axis::publish_synchronous() noexcept {
 
   const double speed = std::abs(setpoint_.velocity);
   const double push = setpoint_.velocity < 0.0 ? -setpoint_.acceleration : setpoint_.acceleration;
-  Bits word;
-  word.show(SynchronizedMotionBit::MaxVelocityExceeded, speed > data.DynamicLimits.MaxVelocity);
-  word.show(SynchronizedMotionBit::MaxAccelerationExceeded, push > data.DynamicLimits.MaxAcceleration);
-  word.show(SynchronizedMotionBit::MaxDecelerationExceeded, -push > data.DynamicLimits.MaxDeceleration);
-  word.show(SynchronizedMotionBit::InSimulation, simulating());
-  word.show(SynchronizedMotionBit::LeadingValueAdditiveCommand, additive_request.owner != nullptr);
-  status.StatusWord = word.in(status.StatusWord);
+  const auto& limits = data.DynamicLimits;
+  status.StatusWord = renewed(
+      status.StatusWord, kSynchronizedMotionBits,
+      when(speed > limits.MaxVelocity, SynchronizedMotionBit::MaxVelocityExceeded) |
+          when(push > limits.MaxAcceleration, SynchronizedMotionBit::MaxAccelerationExceeded) |
+          when(-push > limits.MaxDeceleration, SynchronizedMotionBit::MaxDecelerationExceeded) |
+          when(simulating(), SynchronizedMotionBit::InSimulation) |
+          when(additive_request.owner != nullptr, SynchronizedMotionBit::LeadingValueAdditiveCommand));
 
   if (motion_ != Motion::synchronous) return;
   was_synchronous_ = true;
-  // A drive follows later; there the balanced difference tells how far the axis is from where it should be.
+  watch_deviation();
+}
+
+/// How far the axis is from where the function has it. A drive follows later; there the balanced difference
+/// tells.
+void Axis::watch_deviation() noexcept {
   const AxisPosition following =
       superimposed_.in_use() ? advanced(synchronous_.following_position(), superimposed_.value(), modulo_)
                              : synchronous_.following_position();
+  if (!has_drive_ && actual_ == following) return;
   const double deviation = has_drive_ ? std::abs(data.StatusPositioning.FollowingError)
                                       : std::abs(rounded_difference(actual_, following, modulo_));
   if (deviation > largest_deviation_) largest_deviation_ = deviation;
 }
 
+/// What changes seldom is asked in branches, which the processor foresees; what changes often, without.
 void Axis::publish_status() noexcept {
-  const Job* base = running_[kBase];
-  const bool idle = base == nullptr && running_[kWaiting] == nullptr && running_[kSuperimposed] == nullptr;
-  const JobKind kind = base != nullptr ? base->kind : JobKind::MC_Halt;  // neither shows at a bit
   const bool on = power_state_ == PowerState::on;
-  bool accelerating = false;
-  bool decelerating = false;
-  if (setpoint_.acceleration != 0.0) {
-    const double push = setpoint_.velocity * setpoint_.acceleration;
-    accelerating = push > 0.0 || setpoint_.velocity == 0.0;
-    decelerating = push < 0.0;
+  std::uint32_t word =
+      when(data.ErrorDetail.Number != 0, StatusBit::Error) | when(homed_, StatusBit::HomingDone) |
+      when(start_values_changed, StatusBit::OnlineStartValuesChanged) |
+      when(standstill_.watch(actual_velocity_, data.StandstillSignal, period_), StatusBit::Standstill);
+  if (motion_ == Motion::synchronous) word |= word_of(StatusBit::Synchronous);
+  if (motion_ == Motion::synchronizing) word |= word_of(StatusBit::Synchronizing);
+  if (setpoint_.acceleration != 0.0) word |= pace_bits();
+  if (on) word |= bits_when_on();
+  if (homing_now_) word |= word_of(StatusBit::HomingCommand);
+  if (limit_side_ != 0)
+    word |= word_of(limit_side_ < 0 ? StatusBit::SWLimitMinActive : StatusBit::SWLimitMaxActive);
+  if (limit_switches_[0].beyond) word |= word_of(StatusBit::HWLimitMinActive);
+  if (limit_switches_[1].beyond) word |= word_of(StatusBit::HWLimitMaxActive);
+
+  std::uint32_t word2 = 0;
+  if (const Job* const base = running_[kBase]) {
+    word |= command_bits(base->kind);
+    word2 = when(leaves(base->kind), Status2Bit::DesynchronizingCommand);
   }
+  if (locked_by_stop()) word2 |= word_of(Status2Bit::StopCommand);
+  if (const Job* const phasing = running_[kPhasing]) {
+    word |= when(phasing->phase == JobPhase::active, StatusBit::PhasingCommand);
+    word2 |= when(phasing->phase == JobPhase::waiting, Status2Bit::PhasingCommandWaiting);
+  }
+  if (const Job* const offset = running_[kOffset])
+    word2 |= when(offset->phase == JobPhase::active, Status2Bit::OffsetCommand) |
+             when(offset->phase == JobPhase::waiting, Status2Bit::OffsetCommandWaiting);
 
-  const auto in_phase = [](const Job* job, JobPhase phase) { return job != nullptr && job->phase == phase; };
-
-  Bits word;
-  word.show(StatusBit::Enable, on && power.enable);
-  word.show(StatusBit::Error, data.ErrorDetail.Number != 0);
-  word.show(StatusBit::HomingDone, homed_);
-  word.show(StatusBit::OnlineStartValuesChanged, start_values_changed);
-  word.show(StatusBit::Done, on && idle);
-  word.show(StatusBit::Standstill, standstill_.watch(actual_velocity_, data.StandstillSignal, period_));
-  word.show(StatusBit::PositioningCommand,
-            kind == JobKind::MC_MoveAbsolute || kind == JobKind::MC_MoveRelative);
-  word.show(StatusBit::JogCommand, kind == JobKind::MC_MoveJog);
-  word.show(StatusBit::VelocityCommand, kind == JobKind::MC_MoveVelocity);
-  word.show(StatusBit::HomingCommand, homing_now_);
-  word.show(StatusBit::ConstantVelocity, on && setpoint_.acceleration == 0.0);
-  word.show(StatusBit::Accelerating, accelerating);
-  word.show(StatusBit::Decelerating, decelerating);
-  word.show(StatusBit::SWLimitMinActive, limit_side_ < 0);
-  word.show(StatusBit::SWLimitMaxActive, limit_side_ > 0);
-  word.show(StatusBit::HWLimitMinActive, limit_switches_[0].beyond);
-  word.show(StatusBit::HWLimitMaxActive, limit_switches_[1].beyond);
-  word.show(StatusBit::Synchronizing, motion_ == Motion::synchronizing);
-  word.show(StatusBit::Synchronous, motion_ == Motion::synchronous);
-  word.show(StatusBit::PhasingCommand, in_phase(running_[kPhasing], JobPhase::active));
-  word.show(StatusBit::NonPositionControlled, on && !position_controlled_);
-  data.StatusWord = word.in(data.StatusWord);
+  data.StatusWord = renewed(data.StatusWord, kStatusBits, word);
   if (!has_position())
     data.StatusWord = static_cast<DWORD>(static_cast<std::uint32_t>(data.StatusWord) & kOfSpeedAxis);
-
-  Bits word2;
-  word2.show(Status2Bit::StopCommand, locked_by_stop());
-  word2.show(Status2Bit::DesynchronizingCommand, leaves(kind));
-  word2.show(Status2Bit::PhasingCommandWaiting, in_phase(running_[kPhasing], JobPhase::waiting));
-  word2.show(Status2Bit::OffsetCommand, in_phase(running_[kOffset], JobPhase::active));
-  word2.show(Status2Bit::OffsetCommandWaiting, in_phase(running_[kOffset], JobPhase::waiting));
-  data.StatusWord2 = word2.in(data.StatusWord2);
+  data.StatusWord2 = renewed(data.StatusWord2, kStatus2Bits, word2);
   data.StatusDrive.InOperation = has_drive_ ? drive_running_ : on;
   data.StatusDrive.Disabled = power_state_ == PowerState::off;
+}
+
+/// Whether the acceleration of the setpoint makes it quicker or slower.
+std::uint32_t Axis::pace_bits() const noexcept {
+  const double push = setpoint_.velocity * setpoint_.acceleration;
+  return when(push > 0.0 || setpoint_.velocity == 0.0, StatusBit::Accelerating) |
+         when(push < 0.0, StatusBit::Decelerating);
+}
+
+std::uint32_t Axis::bits_when_on() const noexcept {
+  const bool idle =
+      running_[kBase] == nullptr && running_[kWaiting] == nullptr && running_[kSuperimposed] == nullptr;
+  return when(power.enable, StatusBit::Enable) | when(idle, StatusBit::Done) |
+         when(setpoint_.acceleration == 0.0, StatusBit::ConstantVelocity) |
+         when(!position_controlled_, StatusBit::NonPositionControlled);
 }
 
 }  // namespace lockstep

@@ -20,13 +20,16 @@ void Axis::take_servo_settings() noexcept {
   const bool inverted = drive_settings.inverted;
   setpoint_sign_ = data.Actor.InverseDirection != inverted ? -1.0 : 1.0;
   encoder_sign_ = data.Sensor[0].InverseDirection != inverted ? -1.0 : 1.0;
+  way_per_motor_turn_ = way_per_motor_turn();
+  motor_limit_ = data.Actor.MotorType == 1 ? data.Actor.LinearMotorDriveParameter.MaxVelocity
+                                           : data.Actor.DriveParameter.MaxSpeed / 60.0 * way_per_motor_turn_;
   setpoint_filter_.configure(modulo_, servo_period_);
   signals_watched_ = signals_always_watched();
 }
 
 void Axis::configure_servo() {
-  drive_.configure(drive_settings, servo_period_, motor_angle_per_unit());
   take_servo_settings();
+  drive_.configure(drive_settings, servo_period_, motor_angle_per_unit());
   controller_.configure(control_settings(), servo_period_);
   encoder_origin_ = setpoint_.position;
   restore_encoder();
@@ -56,9 +59,7 @@ PositionControlSettings Axis::control_settings() const noexcept {
   return {.kv = data.PositionControl.Kv,
           .kpc = data.PositionControl.Kpc,
           .delay = control_delay(),
-          .max_velocity = data.Actor.MotorType == 1
-                              ? data.Actor.LinearMotorDriveParameter.MaxVelocity
-                              : data.Actor.DriveParameter.MaxSpeed / 60.0 * way_per_motor_turn()};
+          .max_velocity = motor_limit_};
 }
 
 /// What the axis moves in one turn of the motor, through load gear and lead screw [u].
@@ -76,7 +77,7 @@ double Axis::way_per_motor_turn() const noexcept {
 /// Of the motor in a plant [rad/u]; a linear motor moves as the axis does.
 double Axis::motor_angle_per_unit() const noexcept {
   constexpr double kTurn = 6.283185307179586;
-  return data.Actor.MotorType == 1 ? 1.0 : kTurn / way_per_motor_turn();
+  return data.Actor.MotorType == 1 ? 1.0 : kTurn / way_per_motor_turn_;
 }
 
 /// Simulated, the axis leaves its drive alone.
@@ -110,7 +111,7 @@ void Axis::servo() noexcept {
   actual_velocity_ = now.velocity;
   data.StatusSensor[0].Position = actual_.value;
   data.StatusSensor[0].Velocity = actual_velocity_;
-  data.ActualSpeed = actual_velocity_ / way_per_motor_turn() * 60.0;
+  data.ActualSpeed = actual_velocity_ / way_per_motor_turn_ * 60.0;
 
   ++servo_tick_;
   if (power_state_ <= PowerState::drive_stops) {
@@ -149,7 +150,7 @@ void Axis::control_position() noexcept {
   data.StatusServo.PositionAfterDynamicFilter = position.value;
   const PositionControlSettings settings = control_settings();
   data.StatusPositioning.SetpointExecutionTime = period_ + filter_delay + settings.delay;
-  controller_.configure(settings, servo_period_);
+  if (settings != controller_.settings()) controller_.configure(settings, servo_period_);
   const PositionControlled controlled = controller_.step(position, velocity, actual_, modulo_);
   data.VelocitySetpoint = controlled.velocity;
   if (data.Sensor[0].Backlash.Enable)
@@ -167,9 +168,8 @@ void Axis::control_position() noexcept {
 
 /// The speed setpoint of a speed axis keeps to what its motor can do.
 void Axis::limit_speed() noexcept {
-  const double most = data.Actor.DriveParameter.MaxSpeed / 60.0 * way_per_motor_turn();
-  if (std::abs(data.VelocitySetpoint) <= most) return;
-  data.VelocitySetpoint = std::copysign(most, data.VelocitySetpoint);
+  if (std::abs(data.VelocitySetpoint) <= motor_limit_) return;
+  data.VelocitySetpoint = std::copysign(motor_limit_, data.VelocitySetpoint);
   raise(alarm::kSpeedSetpointLimited);
 }
 

@@ -1,6 +1,7 @@
 #include "tech_objects/drive.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "tech_objects/decay.hpp"
@@ -59,6 +60,7 @@ void SimulatedDrive::configure(const SimulatedDriveSettings& settings, double se
   const double time_constant = std::max(0.0, settings.time_constant);
   servo_cycle_ = servo_cycle;
   whole_cycles_ = dead.whole;
+  ring_ = std::bit_ceil(dead.whole + 2);
   before_ = piece(dead.part * servo_cycle, time_constant);
   after_ = piece((1.0 - dead.part) * servo_cycle, time_constant);
   resolution_ = std::max(0.0, settings.resolution);
@@ -81,12 +83,12 @@ void SimulatedDrive::run(const Piece& piece, double velocity) noexcept {
 void SimulatedDrive::write(double velocity) noexcept {
   if (has_faults_) watch_causes();
   if (states_.operation()) last_setpoint_ = velocity;
-  written_[cycle_ % kDelay] = states_.operation() ? velocity : quick_stop_setpoint();
+  written_[kept(cycle_)] = states_.operation() ? velocity : quick_stop_setpoint();
   const DoubleDouble position_before = position_;
   const double velocity_before = velocity_;
   // The setpoint written `whole_cycles_` ago arrives after the broken part of the dead time.
-  run(before_, written_[(cycle_ + kDelay - whole_cycles_ - 1) % kDelay]);
-  run(after_, written_[(cycle_ + kDelay - whole_cycles_) % kDelay]);
+  if (before_.duration > 0.0) run(before_, written_[kept(cycle_ - whole_cycles_ - 1)]);
+  run(after_, written_[kept(cycle_ - whole_cycles_)]);
   ++cycle_;
   if (plant_.exists() || blocked_) move_plant(position_before, velocity_before);
   if (states_.stopping()) watch_stop();

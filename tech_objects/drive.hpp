@@ -111,6 +111,9 @@ class SimulatedDrive final : public Drive {
   };
   static Piece piece(double duration, double time_constant) noexcept;
   void run(const Piece& piece, double velocity) noexcept;
+  /// Place in `written_` of what is written in a cycle. Only as much memory is touched as the dead time
+  /// needs.
+  std::size_t kept(std::size_t cycle) const noexcept { return cycle & (ring_ - 1); }
   void read_encoder(DriveActual& now) noexcept;
   double quick_stop_setpoint() noexcept;
   void watch_causes() noexcept;
@@ -118,6 +121,7 @@ class SimulatedDrive final : public Drive {
   void watch_stop() noexcept;
 
   std::array<double, kDelay> written_{};  // velocity setpoints, by cycle
+  std::size_t ring_ = 1;                  // of these, as many as are kept; a power of two
   std::size_t cycle_ = 0;
   std::size_t whole_cycles_ = 0;  // of dead time
   Piece before_;                  // of a cycle: with the setpoint one older
@@ -154,6 +158,8 @@ struct PositionControlSettings {
   double kpc = 100.0;  ///< [%] 0 … 150, velocity precontrol
   double delay = 0.0;  ///< [s] 0 … 254 servo cycles: of what is controlled
   double max_velocity = std::numeric_limits<double>::infinity();  ///< [u/s] > 0, at the drive
+
+  bool operator==(const PositionControlSettings&) const = default;
 };
 
 /// What one cycle of position control gives.
@@ -174,6 +180,7 @@ class PositionController {
 
   /// `servo_cycle` [s] > 0. The history of setpoints stays. Kv and Kpc may change at run time.
   void configure(const PositionControlSettings& settings, double servo_cycle) noexcept;
+  const PositionControlSettings& settings() const noexcept { return settings_; }
 
   /// Begins anew from a standing setpoint: before the first step, and after switching on.
   void reset(AxisPosition setpoint) noexcept;

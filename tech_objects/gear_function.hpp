@@ -31,12 +31,9 @@ class GearFunction {
   /// bounded number more (below a microsecond) for a jump over several turns. The cycle's thread.
   AxisPosition value(AxisPosition leading) noexcept;
 
-  /// [u/s], [u/s²], [u/s³] of the following axis: ratio times the leading quantity, rounded once.
-  double velocity(double leading_velocity) const noexcept { return (ratio_ * leading_velocity).rounded(); }
-  double acceleration(double leading_acceleration) const noexcept {
-    return (ratio_ * leading_acceleration).rounded();
-  }
-  double jerk(double leading_jerk) const noexcept { return (ratio_ * leading_jerk).rounded(); }
+  /// [u/s], [u/s²] of the following axis: ratio times the leading quantity, within one ulp.
+  double velocity(double leading_velocity) const noexcept { return geared(leading_velocity); }
+  double acceleration(double leading_acceleration) const noexcept { return geared(leading_acceleration); }
 
   /// numerator / denominator, within 2^-103 of it.
   DoubleDouble ratio() const noexcept { return ratio_; }
@@ -58,6 +55,7 @@ class GearFunction {
   Place negative(const Place& a) const noexcept;
   Place multiple(std::uint64_t times, Place a) const noexcept;
   Place geared(Units way, bool negative_way) const noexcept;
+  double geared(double quantity) const noexcept { return ratio_.hi * quantity + ratio_.lo * quantity; }
 
   void turn_to(std::int64_t turn) noexcept;
   void anchor_at(double way) noexcept;
