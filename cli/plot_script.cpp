@@ -35,7 +35,7 @@ constexpr double kCharacter = 7.2;  // width of one in the legend
 constexpr double kStateCharacter = 8.0;
 
 /// A text as a string of gnuplot. Nothing in it can end the string: names come from files.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "'";
   for (const char c : printable(text)) result += c == '\'' ? "''" : std::string(1, c);
   return result + "'";
@@ -90,7 +90,7 @@ class Script {
       add("set terminal svg noenhanced size {},{} dynamic font 'DejaVu Sans,12' background '#FFFFFF'", kWidth,
           height_);
     add("set multiplot");
-    add("set label 1 {} at screen {},{} left font ',14'", quoted(picture_.title), kLeft / kWidth,
+    add("set label 1 {} at screen {},{} left font ',14'", in_quotes(picture_.title), kLeft / kWidth,
         1.0 - 0.5 * kTop / height_);
     add("set xrange [{}:{}]\nset lmargin at screen {}\nset rmargin at screen {}", picture_.begin,
         picture_.end, kLeft / kWidth, (kWidth - right_) / kWidth);
@@ -105,13 +105,13 @@ class Script {
     add("set key at screen {},{} left top vertical Left reverse samplen 2.4 spacing 1.15",
         (kWidth - right_ + kLegendGap) / kWidth, 1.0 - (top + 2) / height_);
     if (lowest)
-      add("set format x '%g'\nset xlabel {}", quoted(picture_.axis_label));
+      add("set format x '%g'\nset xlabel {}", in_quotes(picture_.axis_label));
     else
       add("set format x ''\nunset xlabel");
   }
 
   void write_diagram(const Diagram& diagram) {
-    add("set label 2 {} at screen {},graph 0.5 center rotate by 90", quoted(diagram.label), kLabel / kWidth);
+    add("set label 2 {} at screen {},graph 0.5 center rotate by 90", in_quotes(diagram.label), kLabel / kWidth);
     add("set yrange [{}:{}]\nset format y '%g'", diagram.lowest, diagram.highest);
     std::string plots;
     for (const Curve& curve : diagram.curves) {
@@ -129,7 +129,7 @@ class Script {
                fmt::format(" with {} lw {} dt {} lc rgb '{}' title {}", curve.steps ? "steps" : "lines",
                            kThin + (kThick - kThin) * above / others,
                            kDashes[static_cast<std::size_t>(curve.dash) % std::size(kDashes)],
-                           curve.dash == 0 ? kColors[color] : kShades[color], quoted(curve.name));
+                           curve.dash == 0 ? kColors[color] : kShades[color], in_quotes(curve.name));
     }
     add("{}", plots);
     add("unset label");
@@ -148,7 +148,7 @@ class Script {
     std::string tics;
     for (const Lane& lane : picture_.lanes) {
       low -= 1.0;
-      tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", quoted(lane.name), low + 0.5);
+      tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", in_quotes(lane.name), low + 0.5);
       add("set arrow from graph 0,first {} to graph 1,first {} nohead lw 0.6 lc rgb '#DDDDDD' back", low,
           low);
       std::swap(text_, lane.flag ? flags : states);
@@ -171,7 +171,7 @@ class Script {
       const std::string value = fmt::format("{}", interval.value);
       if ((interval.end - interval.begin) / pixel < kStateCharacter * static_cast<double>(value.size() + 1))
         continue;
-      add("set label {} at first {},{} center front font ',9'", quoted(value),
+      add("set label {} at first {},{} center front font ',9'", in_quotes(value),
           0.5 * (interval.begin + interval.end), middle);
     }
   }
