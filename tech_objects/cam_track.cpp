@@ -4,9 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "tech_objects/object_alarms.hpp"
-#include "tech_objects/object_bits.hpp"
-
 namespace lockstep {
 namespace {
 
@@ -19,28 +16,10 @@ constexpr DINT kAtOnce = 0;
 constexpr DINT kNextTrack = 1;
 constexpr DINT kAlwaysOn = 2;
 
-constexpr double kMillisecond = 1e-3;  // [s]
-
 }  // namespace
 
 CamTrack::CamTrack(std::string object_name, DB_ANY object_number)
-    : TechnologyObject(ObjectKind::TO_CamTrack, std::move(object_name), object_number) {}
-
-void CamTrack::configure(double servo_period, int ratio) {
-  servo_period_ = servo_period;
-  ratio_ = ratio;
-  start_values_ = data;
-  if (assigned == nullptr) return;
-  watch();
-  publish();
-}
-
-/// An external encoder has no setpoint.
-void CamTrack::watch() noexcept {
-  const bool actual = data.Parameter.PositionType == 1 || assigned->kind == ObjectKind::TO_ExternalEncoder;
-  path_.watch(*assigned, actual, servo_period_, ratio_);
-  restarts_ = assigned->restarts();
-}
+    : SwitchingObject(ObjectKind::TO_CamTrack, std::move(object_name), object_number) {}
 
 // ---- Data
 // -------------------------------------------------------------------------------------------------------
@@ -80,12 +59,10 @@ SwitchingShape CamTrack::shape(std::size_t cam) const noexcept {
 
 /// Why the track cannot be processed; 0: it can.
 int CamTrack::alarm_of() const noexcept {
-  if (!assigned->actual_values_valid() || restarts_ != assigned->restarts()) return alarm::kPositionInvalid;
+  if (!position_valid()) return alarm::kPositionInvalid;
   if (!data_fit(active_data_) || (waiting_ && !data_fit(waiting_data_))) return alarm::kCamTrackData;
-  const Stretch& way = path_.stretch();
   const double lead = std::max(active_data_.OnCompensation, active_data_.OffCompensation) * kMillisecond;
-  const double furthest = std::max(std::abs(way.from_velocity), std::abs(way.to_velocity)) * lead;
-  return furthest <= kPositionRange ? 0 : alarm::kSwitchingPosition;
+  return leads_within_range(lead) ? 0 : alarm::kSwitchingPosition;
 }
 
 /// What the last calls have asked for. Data count when they differ from those by which the track runs.
@@ -112,21 +89,22 @@ void CamTrack::servo(std::int64_t now) noexcept {
   if (!faulty() && (request.enable || goes_on)) {
     take_data();
     const int alarm_number = alarm_of();
-    if (alarm_number == 0) {
+    if (alarm_number == 0)
       process(edges);
-    } else {
-      raise_alarm(alarm_number, ProcessingEnd::cam_track, *this, data);
-      restarts_ = assigned->restarts();
-      path_.begin_anew();
-    }
+    else
+      raise(alarm_number);
   } else if (active_) {
     stop(path_.time(), edges);
   }
   if (faulty()) stop(path_.time(), edges);
   inverted_ = active_ && request.invert;
   show(edges);
-  new_jobs_.take([this](Job& job) { start(job); });
-  publish();
+  finish();
+}
+
+void CamTrack::end() noexcept {
+  Edges edges;
+  stop(path_.time(), edges);
 }
 
 void CamTrack::stop(double time, Edges& edges) noexcept {
@@ -147,8 +125,7 @@ double CamTrack::place_of(double position) const noexcept {
 }
 
 void CamTrack::process(Edges& edges) noexcept {
-  const bool setpoint = data.Parameter.PositionType == 0 && assigned->kind != ObjectKind::TO_ExternalEncoder;
-  if (setpoint && !assigned->position_controlled()) return stop(path_.time(), edges);
+  if (!has_position()) return stop(path_.time(), edges);
   const Stretch& way = path_.stretch();
   const bool at_once = waiting_ && request.mode != kNextTrack;
   if (!active_ || !path_.moved() || at_once) {
@@ -249,53 +226,28 @@ void CamTrack::Edges::add(std::size_t cam, const SwitchingEdges& edges) noexcept
 }
 
 /// The state of the output at this tick, and when it has changed since the one before.
-void CamTrack::show(Edges& edges) noexcept {
-  const auto note = [this](double time, bool to) {
-    double* const place = to ? switching_times.on : switching_times.off;
-    if (place != nullptr) *place = time;
-  };
+void CamTrack::show(const Edges& edges) noexcept {
   const bool always = active_ && request.mode == kAlwaysOn;
-  bool output = data.TrackOutput;
+  bool last = output();
   for (std::size_t i = 0; i < edges.count; ++i) {
     const Edges::Edge& edge = edges.list[i];
     const std::uint32_t bit = std::uint32_t{1} << edge.cam;
     shown_ = edge.on ? shown_ | bit : shown_ & ~bit;
     const bool to = active_ && (always || (shown_ != 0) != inverted_);
-    if (to != output) note(edge.time, to);
-    output = to;
+    if (to != last) note(edge.time, to);
+    last = to;
   }
   shown_ = 0;
   for (std::size_t i = 0; i < kCams; ++i) shown_ |= cams_[i].on() ? std::uint32_t{1} << i : 0u;
-  const bool now = active_ && (always || (shown_ != 0) != inverted_);
-  if (now != output) note(path_.time(), now);
-  data.TrackOutput = now;
+  switch_output(active_ && (always || (shown_ != 0) != inverted_), last);
 }
 
-void CamTrack::start(Job& job) noexcept {
-  if (job.kind != JobKind::MC_Reset) return job.fail(ErrorId::no_technology_object);
-  clear_alarms(*this, data);
-  job.phase = JobPhase::done;
-  if (job.mode != 1) return;
-  const BOOL output = data.TrackOutput;
-  data = start_values_;
-  data.TrackOutput = output;  // until the next tick
-  start_values_changed = false;
-  Edges edges;
-  stop(path_.time(), edges);
-  watch();
-}
-
-void CamTrack::publish() noexcept {
+void CamTrack::show_processing() noexcept {
   data.Status = !active_ ? kInactive : waiting_ ? kWaitsForNextCycle : kActive;
   data.SingleCamState = static_cast<DWORD>(shown_);
   data.TrackPosition = active_ ? place_ : 0.0;
   data.MatchPosition = 0.0;
   if (active_) data.MatchPosition = advanced({0, path_.position()}, -place_, path_.modulo()).value;
-  set_bit(data.StatusWord, InputOutputBit::Control, active_);
-  set_bit(data.StatusWord, InputOutputBit::Error, data.ErrorDetail.Number != 0);
-  set_bit(data.StatusWord, InputOutputBit::OnlineStartValuesChanged, start_values_changed);
-  set_bit(data.StatusWord, InputOutputBit::OutputInverted, inverted_);
-  set_bit(data.StatusWord, InputOutputBit::CommunicationOK, true);
 }
 
 }  // namespace lockstep

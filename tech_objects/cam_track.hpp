@@ -1,5 +1,4 @@
 /// A cam track: TO_CamTrack. Up to 32 cams switch one output along a track that repeats in both directions.
-/// All of it runs in MC_Servo, behind axes and encoders.
 /// @source S7-1500/S7-1500T measuring input and output cam functions, cam track
 #pragma once
 
@@ -7,10 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tech_objects/data_block_output_cam.hpp"
-#include "tech_objects/new_jobs.hpp"
-#include "tech_objects/single_cam.hpp"
-#include "tech_objects/switched_output.hpp"
+#include "tech_objects/switching_object.hpp"
 
 namespace lockstep {
 
@@ -23,33 +19,16 @@ struct CamTrackRequest {
   BOOL called{};  ///< the data of the object are to be taken over
 };
 
-class CamTrack final : public TechnologyObject {
+class CamTrack final : public SwitchingObject<CamTrackData, ProcessingEnd::cam_track> {
  public:
   static constexpr std::size_t kCams = 32;
 
   CamTrack(std::string name, DB_ANY number);
 
-  // ---- Load time
-
-  CamTrackData data;
-  const LeadingObject* assigned = nullptr;  ///< whose position switches
-  SwitchingTimes switching_times;
-
-  void configure(double servo_period, int ratio) override;
-  void* data_block() noexcept override { return &data; }
-  void* start_values() noexcept override { return &start_values_; }
-
-  // ---- Cycle
-
-  void submit(Job& job) noexcept override { new_jobs_.submit(job); }  ///< MC_Reset
   CamTrackRequest request;
-  /// Whether the track is processed, which with Mode 1 goes on to its end.
-  bool active() const noexcept { return active_; }
-  bool faulty() const noexcept { return data.ErrorDetail.Reaction != 0; }
 
+  /// With Mode 1 the processing goes on to the end of the track.
   void servo(std::int64_t now) noexcept;
-  void skip_servo(std::int64_t ticks) noexcept { path_.skip(ticks); }
-  void interpolated() noexcept { path_.interpolated(); }
 
  private:
   /// All edges of a servo cycle; what does not fit leaves the state at its end right.
@@ -65,7 +44,8 @@ class CamTrack final : public TechnologyObject {
     void add(std::size_t cam, const SwitchingEdges& edges) noexcept;
   };
 
-  void watch() noexcept;
+  void end() noexcept override;
+  void show_processing() noexcept override;
   int alarm_of() const noexcept;
   bool data_fit(const TO_Struct_CamTrack_Parameter& parameter) const noexcept;
   bool counts(const TO_Struct_CamTrack_Parameter& parameter, std::size_t cam) const noexcept;
@@ -77,24 +57,14 @@ class CamTrack final : public TechnologyObject {
   void step_to_border(Edges& edges, const Stretch& way) noexcept;
   double place_of(double position) const noexcept;
   void stop(double time, Edges& edges) noexcept;
-  void show(Edges& edges) noexcept;
-  void start(Job& job) noexcept;
-  void publish() noexcept;
+  void show(const Edges& edges) noexcept;
 
-  double servo_period_ = 0.001;  // [s]
-  int ratio_ = 1;
-  std::uint32_t restarts_ = 0;  // of what is assigned
-  SwitchingPath path_;
   std::array<SingleCam, kCams> cams_{};
   TO_Struct_CamTrack_Parameter active_data_;   // by which the track runs
   TO_Struct_CamTrack_Parameter waiting_data_;  // with the next track
   bool waiting_ = false;
-  bool active_ = false;
-  bool inverted_ = false;
   double place_ = 0.0;       // in the track [u], at this tick
   std::uint32_t shown_ = 0;  // cams that are on, as shown at the tick before
-  NewJobs new_jobs_;
-  CamTrackData start_values_;
 };
 
 }  // namespace lockstep

@@ -22,34 +22,30 @@ struct Stored {
   std::size_t every;  // of the rows is stored
 };
 
+bool ends_with(const std::string& name, const std::string& end) {
+  return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+}
+
 /// How far a value may be from the stored one; the runs themselves are identical to the bit.
 double tolerance(const std::string& name) {
-  const auto ends = [&](const std::string& end) {
-    return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-  };
-  for (const char* position : {".Position", ".ActualPosition", ".ExtrapolatedPosition", ".FollowingError",
-                               ".MeasuredValue1", ".PhaseShift", "error", "off", "laid"})
-    if (ends(position)) return 1e-6;
-  for (const char* velocity : {".Velocity", ".ActualVelocity", ".FilteredVelocity"})
-    if (ends(velocity)) return 1e-5;
-  if (ends(".Acceleration")) return 1e-3;
-  if (ends(".ActualTorque")) return 1e-4;
+  for (const char* position :
+       {"Position", ".FollowingError", ".MeasuredValue1", ".PhaseShift", "error", "off", "laid"})
+    if (ends_with(name, position)) return 1e-6;
+  if (ends_with(name, "Velocity")) return 1e-5;
+  if (ends_with(name, ".Acceleration")) return 1e-3;
+  if (ends_with(name, ".ActualTorque")) return 1e-4;
   return 0.0;
 }
 
-/// Length of the ring on which a column goes round; none: a line, or no position.
-std::optional<double> ring(const std::string& name) {
-  if (name == "Conveyor.Position") return 240.0;
-  if (name == "Belt.Position") return 400.0;
-  if (name == "Delivery.Position") return 1000.0;
-  if (name == "Web.Position") return 300.0;
-  if (name == "Material.Position") return 1200.0;
-  if (name == "Nozzle.Position" || name == "Saw.Position" || name == "Feeder.Position") return std::nullopt;
-  if (name.find("Encoder.") == 0 && name.find("Position") != std::string::npos) return 200.0;
-  if (name.find("X.") == 0 || name.find("Z.") == 0) return std::nullopt;
-  const bool position = name.find("Position") != std::string::npos && name.find("Slide") != 0 &&
-                        name.find("Jaw") != 0 && name.find("FollowingError") == std::string::npos;
-  return position ? std::optional<double>(360.0) : std::nullopt;
+/// Length of the ring on which a column of an example goes round, as its Modulo says; none: a line, or no
+/// position.
+std::optional<double> ring(const char* project, const std::string& column) {
+  if (!ends_with(column, "Position")) return std::nullopt;
+  const Json objects = example_json(project)["technology_objects"];
+  const Json object = objects.value(column.substr(0, column.find('.')), Json::object());
+  const Json modulo = object.value("config", Json::object()).value("Modulo", Json::object());
+  if (!modulo.value("Enable", false)) return std::nullopt;
+  return modulo.value("Length", 360.0);
 }
 
 void renew(const std::string& path, const std::string& trace, std::size_t every) {
@@ -78,10 +74,10 @@ TEST_P(StoredTrace, IsRepeatedWithinATolerancePerColumn) {
   ASSERT_EQ((now.rows + stored.every - 1) / stored.every, before.rows);
   for (std::size_t column = 0; column < now.names.size(); ++column) {
     const std::string& name = now.names[column];
+    const auto length = ring(stored.project, name);
     for (std::size_t row = 0; row < before.rows; ++row) {
       const double is = now.columns[column][row * stored.every];
       const double was = before.columns[column][row];
-      const auto length = ring(name);
       const double distance = length ? ring_distance(is, was, *length) : is - was;
       ASSERT_LE(std::abs(distance), tolerance(name))
           << name << " at " << before["t"][row] << ": " << is << ", stored " << was;
@@ -103,10 +99,11 @@ INSTANTIATE_TEST_SUITE_P(
 // -------------------------------------------------------------------------------------------------
 
 /// No position steps by more than its velocity allows, and no velocity by more than `acceleration` allows.
-void expect_smooth(const CsvTable& table, const std::string& axis, double velocity, double acceleration) {
+void expect_smooth(const char* project, const CsvTable& table, const std::string& axis, double velocity,
+                   double acceleration) {
   const auto& position = table[axis + ".Position"];
   const auto& speed = table[axis + ".Velocity"];
-  const auto length = ring(axis + ".Position");
+  const auto length = ring(project, axis + ".Position");
   const double period = table["t"][1] - table["t"][0];
   for (std::size_t i = 1; i < table.rows; ++i) {
     const double step = position[i] - position[i - 1];
@@ -131,7 +128,7 @@ TEST(Positioning, LaysThreePartsDownAndHaltsWhereTheSensorSeesTheNextRoundAfterR
   expect_never(table, "alarm");
   expect_never(table, "lay_down.Error");
   EXPECT_GE(table["rounds"].back(), 20.0);
-  expect_smooth(table, "Slide", 400.0, 5000.0);
+  expect_smooth("01_positioning", table, "Slide", 400.0, 5000.0);
   std::size_t laid = 0;
   std::size_t halted = 0;
   for (std::size_t i = 1; i < table.rows; ++i) {
@@ -157,7 +154,7 @@ TEST(PickAndPlace, LaysEveryPartDownWhereItBelongsAlthoughTheTrayHasGrown) {
                                    "X.Position,X.Velocity,Z.Position,Z.Velocity,off,laid,placed,part,alarm,"
                                    "X.ActualPosition,grip,ready"});
   expect_never(table, "alarm");
-  expect_smooth(table, "Z", 600.0, 10000.0);
+  expect_smooth("11_pick_and_place", table, "Z", 600.0, 10000.0);
   EXPECT_GE(table["placed"].back(), 10.0);
   for (std::size_t i = 1; i < table.rows; ++i) {
     if (table["placed"][i] == table["placed"][i - 1]) continue;
@@ -235,8 +232,8 @@ std::size_t expect_synchronous_function(const CsvTable& table) {
 TEST(RotaryKnifeTrace, InSyncMeansThatTheKnifeIsWhereTheSynchronousFunctionSays) {
   const CsvTable table = simulate(example("02_rotary_knife"), "60s");
   EXPECT_GT(expect_synchronous_function(table), table.rows * 3 / 4);
-  expect_smooth(table, "Conveyor", 300.0, 400.0);
-  expect_smooth(table, "Knife", 450.0 * 1.02, 5000.0);
+  expect_smooth("02_rotary_knife", table, "Conveyor", 300.0, 400.0);
+  expect_smooth("02_rotary_knife", table, "Knife", 450.0 * 1.02, 5000.0);
 }
 
 TEST(RotaryKnifeTrace, WaitsSynchronizesAndIsSynchronousAfterEveryStartAndParksAfterEveryStop) {
@@ -279,8 +276,8 @@ TEST(RotaryKnifeTrace, MayBeStoppedAndStartedAgainInEachOfItsPhases) {
       expect_never(table, "alarm");
       expect_never(table, "gear.Error");
       expect_synchronous_function(table);
-      expect_smooth(table, "Conveyor", 200.0, 400.0);
-      expect_smooth(table, "Knife", 700.0, 8000.0);
+      expect_smooth("02_rotary_knife", table, "Conveyor", 200.0, 400.0);
+      expect_smooth("02_rotary_knife", table, "Knife", 700.0, 8000.0);
       EXPECT_EQ(table["gear.InSync"].back(), 1.0);
       EXPECT_GT(table["cuts"].back(), 0.0);
     }
@@ -520,7 +517,7 @@ TEST(EmergencyDoor, KeepsTheCouplingWhileTheDriveIsOffAndGoesOnInStep) {
     }
   }
   EXPECT_GT(furthest, 15.0) << "the press was inched away meanwhile";
-  expect_smooth(table, "Press", 185.0, 1000.0);
+  expect_smooth("07_emergency_door", table, "Press", 185.0, 1000.0);
 }
 
 TEST(FixedStopProject, HoldsEachPartWithTheTorqueThatIsAskedFor) {
@@ -579,6 +576,8 @@ TEST(LineShaft, EveryRollKeepsItsRatioWhileItIsSynchronous) {
     const auto& synchronous = table[std::string(roll.following) + ".StatusWord.X22"];
     const std::string following = std::string(roll.following) + ".Position";
     const std::string leading = std::string(roll.leading) + ".Position";
+    const double following_ring = *ring("03_line_shaft", following);
+    const double leading_ring = *ring("03_line_shaft", leading);
     // Ways since the roll became synchronous, added up over the turns of the rings.
     double following_way = 0.0;
     double leading_way = 0.0;
@@ -589,17 +588,17 @@ TEST(LineShaft, EveryRollKeepsItsRatioWhileItIsSynchronous) {
         following_way = leading_way = 0.0;
         continue;
       }
-      following_way += ring_distance(table[following][i], table[following][i - 1], *ring(following));
+      following_way += ring_distance(table[following][i], table[following][i - 1], following_ring);
       if (following == "Impression.Position") following_way -= offset[i] - offset[i - 1];
-      leading_way += ring_distance(table[leading][i], table[leading][i - 1], *ring(leading));
+      leading_way += ring_distance(table[leading][i], table[leading][i - 1], leading_ring);
       largest = std::max(largest, std::abs(following_way - leading_way * roll.numerator / roll.denominator));
       ++rows;
     }
     EXPECT_LT(largest, 1e-7) << roll.following;
     EXPECT_GT(rows, table.rows / 2) << roll.following;
-    expect_smooth(table, roll.following, 2000.0, 2000.0);
+    expect_smooth("03_line_shaft", table, roll.following, 2000.0, 2000.0);
   }
-  expect_smooth(table, "Shaft", 360.0, 240.0);
+  expect_smooth("03_line_shaft", table, "Shaft", 360.0, 240.0);
 }
 
 TEST(LineShaft, TheRegisterIsCorrectedByWhatIsAskedForOverHalfATurnOfTheShaft) {
