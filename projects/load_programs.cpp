@@ -353,7 +353,7 @@ void ProgramLoader::check_copied(const JsonValue& in, const Instance& instance, 
     return problems_.warn(*number_json, pin + " is not given; the block will report an error");
   Block& block = *instance.block;
   const auto* const array =
-      reinterpret_cast<const Array*>(instance.type->find_pin(pin)->signal(block).load().u);
+      *static_cast<const Array* const*>(instance.type->find_pin(pin)->signal(block).address);
   if (array == nullptr || (array->holds(*start) && *number <= std::int64_t{array->upper} - *start + 1))
     return;
   problems_.warn(*number_json, std::to_string(*number) + " from " + std::to_string(*start) +
