@@ -166,8 +166,11 @@ TEST(ArrayProblems, AreToldOfValues) {
   EXPECT_EQ(told(points, "[ 1 ]").find("/tags/a/init/0: "), 0u);
   EXPECT_EQ(told(points, R"([ [ true, 2 ] ])").find("/tags/a/init/0/0: "), 0u);
   EXPECT_EQ(problems(project(R"("a": { "type": "ARRAY[1..2] OF INT", "retain": true, "none": 1 })")),
-            "/tags/a/none: unknown key 'none'; allowed: type, init, retain, comment\n"
-            "/tags/a/retain: arrays are not retained yet; allowed: false\n");
+            "/tags/a/none: unknown key 'none'; allowed: type, init, retain, comment\n");
+  const std::string kept = R"(": { "type": "ARRAY[1..3000] OF TO_Cam_Struct_PointData", "retain": true })";
+  EXPECT_EQ(problems(project("\"a" + kept + ", \"b" + kept)),
+            "/tags/b/retain: with the 6000 values of this array 12000 values of arrays are kept; allowed are "
+            "10000 in all arrays of the project\n");
 }
 
 TEST(ArrayProblems, AreToldOfPlaces) {
