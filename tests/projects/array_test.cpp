@@ -320,5 +320,52 @@ TEST(CamData, StartValuesThatAProgramChangesCountWithARestart) {
   EXPECT_EQ(cam.function().value(100.0).position, 80.0);
 }
 
+// Point by point, as a program writes all else.
+TEST(CamData, StartValuesTakeComputedIndicesToo) {
+  const std::string text = R"({ "lockstep": 1, "name": "restart", "clock": { "servo_cycle": "1ms" },
+    "technology_objects": { "Profile": { "type": "TO_Cam", "points": [ [0.0, 0.0], [50.0, 9.0], [100.0, 50.0] ] } },
+    "tags": { "k": { "type": "INT" }, "change": { "type": "BOOL" }, "again": { "type": "BOOL" } },
+    "programs": [ { "name": "Main", "ob": "Main", "cycle": "1ms", "calls": [
+      { "if": "change", "then": [ { "set_start": "Profile.Point[k + 1].y", "to": "TO_LREAL(k) * 10.0" } ] },
+      { "fb": "MC_Reset", "name": "reset", "in": { "Axis": "Profile", "Execute": "again", "Restart": true } } ] } ] })";
+  Simulation machine = Simulation::from_text(text);
+  machine.write("change", 1.0);
+  for (const double k : {0.0, 1.0, 2.0}) {
+    machine.write("k", k);
+    machine.step();
+  }
+  const auto out_of_range = [&] {
+    return machine.project().controller->counters().evaluation.indices_out_of_range;
+  };
+  EXPECT_EQ(out_of_range(), 0u);
+  for (const double k : {-1.0, 1000.0}) {
+    machine.write("k", k);
+    machine.step();
+  }
+  EXPECT_EQ(out_of_range(), 2u) << "counted, and nothing is written";
+  machine.write("change", 0.0);
+  EXPECT_EQ(machine.read("Profile.Point[3].y"), 50.0);
+  EXPECT_EQ(machine.read("Profile.StatusWord.X3"), 1.0);
+  machine.write("again", 1.0);
+  machine.run_for(std::chrono::milliseconds(4));
+  EXPECT_EQ(machine.read("reset.Done"), 1.0);
+  EXPECT_EQ(machine.read("Profile.Point[1].y"), 0.0);
+  EXPECT_EQ(machine.read("Profile.Point[2].y"), 10.0);
+  EXPECT_EQ(machine.read("Profile.Point[3].y"), 20.0);
+  EXPECT_EQ(static_cast<Cam&>(*machine.project().controller->objects[0]).function().value(100.0).position,
+            20.0);
+}
+
+TEST(CamData, StartValuesAtAnIndexThatCannotBeAreToldWhenTheProjectIsLoaded) {
+  const auto told = [](const std::string& path) {
+    return problems(project(kArrays, R"({ "set_start": ")" + path + R"(", "to": 1.0 })"));
+  };
+  EXPECT_NE(told("Profile.Point[1001].y").find("/programs/0/calls/0/set_start: "), std::string::npos);
+  EXPECT_NE(told("Profile.Point[value].y").find("LREAL does not fit where LINT is expected"),
+            std::string::npos);
+  EXPECT_NE(told("numbers[i]").find("only variables of technology objects have start values"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace lockstep
