@@ -3,8 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <unordered_set>
 
 namespace lockstep::cli {
 void add_panel_options(CLI::App& command, PanelOptions& options) {
@@ -18,38 +20,83 @@ void add_panel_options(CLI::App& command, PanelOptions& options) {
 }
 
 ModbusPanel::ModbusPanel(const Project& project, const PanelOptions& options)
-    : project_(project), options_(options) {}
-
-std::vector<PanelEntry> ModbusPanel::all() const {
-  std::vector<PanelEntry> places;
+    : project_(project), options_(options) {
   for (const ModbusMapConfig& map : project_.modbus.maps)
     for (const ModbusEntry& entry : map.map.entries()) {
-      PanelEntry place{project_.modbus.signal_of(entry).name, map.unit ? int{*map.unit} : options_.unit,
-                       &map.map, &entry};
-      if (std::none_of(places.begin(), places.end(),
-                       [&](const PanelEntry& other) { return same_name(other.name, place.name); }))
-        places.push_back(std::move(place));
+      const PanelEntry place = place_of(map, entry);
+      Places& known = places_.try_emplace(fold(place.name), Places{place, std::nullopt}).first->second;
+      if (entry.writable && !known.writable) known.writable = place;
     }
-  return places;
 }
 
-std::optional<PanelEntry> ModbusPanel::find(const std::string& name, bool to_write) const {
-  bool is_known = false;
-  std::vector<std::string> names;
-  for (const ModbusMapConfig& map : project_.modbus.maps)
-    for (const ModbusEntry& entry : map.map.entries()) {
-      const std::string own = project_.modbus.signal_of(entry).name;
-      names.push_back(own);
-      if (!same_name(own, name)) continue;
-      is_known = true;
-      if (entry.writable || !to_write)
-        return PanelEntry{own, map.unit ? int{*map.unit} : options_.unit, &map.map, &entry};
+PanelEntry ModbusPanel::place_of(const ModbusMapConfig& map, const ModbusEntry& entry) const {
+  return {project_.modbus.signal_of(entry).name, map.unit ? int{*map.unit} : options_.unit, &map.map, &entry};
+}
+
+std::vector<PanelName> ModbusPanel::all() const {
+  std::vector<PanelName> names;
+  std::unordered_set<std::string> known;
+  const auto add = [&](PanelName name) {
+    if (known.insert(fold(name.name)).second) names.push_back(std::move(name));
+  };
+  for (const ModbusMapConfig& map : project_.modbus.maps) {
+    auto array = map.arrays.begin();
+    const auto& entries = map.map.entries();
+    for (std::size_t i = 0; i < entries.size();) {
+      const bool is_array = array != map.arrays.end() && array->first == i;
+      const std::size_t end = i + (is_array ? array->elements.count() : 1);
+      PanelName name{is_array ? array->elements.name : "", {}, is_array};
+      for (; i < end; ++i) name.entries.push_back(place_of(map, entries[i]));
+      if (!is_array) name.name = name.entries.front().name;
+      if (is_array) ++array;
+      add(std::move(name));
     }
+  }
+  return names;
+}
+
+std::optional<PanelEntry> ModbusPanel::place_of(const std::string& name, bool to_write) const {
+  const auto known = places_.find(fold(name));
+  if (known == places_.end()) return std::nullopt;
+  return to_write ? known->second.writable : known->second.first;
+}
+
+bool ModbusPanel::tell_unknown(const std::string& name) const {
+  if (places_.contains(fold(name))) {
+    tell(quote(name) + " is read-only on Modbus");
+    return false;
+  }
+  std::vector<std::string> names;
+  for (const PanelName& one : all()) names.push_back(one.name);
   const std::vector<std::string_view> views(names.begin(), names.end());
-  tell(is_known ? quote(name) + " is read-only on Modbus"
-                : "the Modbus map has no " + quote(name) + did_you_mean(name, views) +
-                      "; it has: " + list_of(views));
-  return std::nullopt;
+  tell("the Modbus map has no " + quote(name) + did_you_mean(name, views) + "; it has: " + list_of(views));
+  return false;
+}
+
+std::optional<PanelName> ModbusPanel::find(const std::string& name, bool to_write) const {
+  const FoundElements found = find_several(project_.names, name);
+  if (!found.problem.empty()) {
+    tell(found.problem);
+    return std::nullopt;
+  }
+  if (!found.elements) {
+    const auto place = place_of(name, to_write);
+    if (!place && !tell_unknown(name)) return std::nullopt;
+    return PanelName{place->name, {*place}, false};
+  }
+  const ElementPath& elements = *found.elements;
+  PanelName result{name, {}, true};
+  std::optional<std::string> missing;
+  for (std::int64_t index = elements.first; index <= elements.last; ++index) {
+    const auto place = place_of(elements.name_of(index), to_write);
+    if (place)
+      result.entries.push_back(*place);
+    else if (!missing)
+      missing = elements.name_of(index);
+  }
+  const bool is_enough = elements.is_all ? !result.entries.empty() : !missing.has_value();
+  if (!is_enough && !tell_unknown(*missing)) return std::nullopt;
+  return result;
 }
 
 bool ModbusPanel::connect() {
@@ -69,16 +116,64 @@ bool ModbusPanel::tell_failure(const PanelEntry& place) const {
   return false;
 }
 
-std::optional<Value> ModbusPanel::read(const PanelEntry& place) {
-  ModbusWords words{};
-  const auto own = std::span(words).first(modbus_span(*place.entry));
-  if (!master_->read(place.unit, place.entry->table, place.entry->address, own)) {
-    tell_failure(place);
-    return std::nullopt;
+/// Entries for one request; of bits of a register, those of this register.
+struct ModbusPanel::Block {
+  std::uint32_t address;
+  std::uint32_t count;
+  std::size_t begin, end;  // of the entries
+};
+
+std::vector<ModbusPanel::Block> ModbusPanel::blocks_of(std::span<const PanelEntry> entries, bool to_write) {
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const ModbusEntry& entry = *entries[i].entry;
+    const std::uint32_t span = modbus_span(entry);
+    const std::uint32_t most = is_bit_table(entry.table)
+                                   ? (to_write ? kMostBitsWritten : kMostBitsRead)
+                                   : (to_write ? kMostRegistersWritten : kMostRegistersRead);
+    if (i > 0 && entries[i - 1].unit == entries[i].unit && entries[i - 1].entry->table == entry.table &&
+        (entries[i - 1].entry->bit >= 0) == (entry.bit >= 0)) {
+      Block& block = blocks.back();
+      const std::uint32_t end = block.address + block.count;
+      const bool is_same = entry.bit >= 0 && entry.address + 1 == end;
+      const bool is_next = entry.address == end && (entry.bit < 0 || !to_write);
+      if (is_same || (is_next && block.count + span <= most)) {
+        block.count = entry.address + span - block.address;
+        block.end = i + 1;
+        continue;
+      }
+    }
+    blocks.push_back({entry.address, span, i, i + 1});
   }
+  return blocks;
+}
+
+std::optional<std::vector<Value>> ModbusPanel::read(const PanelName& name) {
+  std::vector<Value> values;
+  std::array<std::uint16_t, kMostBitsRead> words{};
+  for (const Block& block : blocks_of(name.entries, false)) {
+    const PanelEntry& first = name.entries[block.begin];
+    const auto all = std::span(words).first(block.count);
+    if (!master_->read(first.unit, first.entry->table, block.address, all)) {
+      tell_failure(first);
+      return std::nullopt;
+    }
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      const ModbusEntry& entry = *name.entries[i].entry;
+      const auto value =
+          value_of(name.entries[i], all.subspan(entry.address - block.address, modbus_span(entry)));
+      if (!value) return std::nullopt;
+      values.push_back(*value);
+    }
+  }
+  return values;
+}
+
+std::optional<Value> ModbusPanel::value_of(const PanelEntry& place,
+                                           std::span<const std::uint16_t> words) const {
   ModbusEntry shown = *place.entry;
   shown.range = kAny;  // that of writes
-  if (const auto value = decode(shown, place.type(), own)) return value;
+  if (const auto value = decode(shown, place.type(), words)) return value;
   if (is_real(place.type())) {  // beyond the range of REAL, or no number
     Value value{};
     value.r = std::numeric_limits<double>::quiet_NaN();
@@ -88,14 +183,24 @@ std::optional<Value> ModbusPanel::read(const PanelEntry& place) {
   return std::nullopt;
 }
 
-bool ModbusPanel::write(const PanelEntry& place, Value value) {
-  const ModbusEntry& entry = *place.entry;
-  const ModbusWords words = encode(entry, place.type(), value);
-  const bool is_good = entry.bit >= 0
-                           ? master_->write_bits(place.unit, entry.address, modbus_bit(entry), words[0])
-                           : master_->write(place.unit, entry.table, entry.address,
-                                            std::span(words).first(modbus_span(entry)));
-  return is_good || tell_failure(place);
+bool ModbusPanel::write(const PanelName& name, std::span<const Value> values) {
+  std::array<std::uint16_t, kMostBitsWritten> words{};
+  for (const Block& block : blocks_of(name.entries, true)) {
+    const PanelEntry& first = name.entries[block.begin];
+    const auto all = std::span(words).first(block.count);
+    std::fill(all.begin(), all.end(), std::uint16_t{0});
+    std::uint16_t mask = 0;
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      const ModbusEntry& entry = *name.entries[i].entry;
+      const ModbusWords own = encode(entry, name.entries[i].type(), values[i]);
+      for (std::uint32_t k = 0; k < modbus_span(entry); ++k) all[entry.address - block.address + k] |= own[k];
+      if (entry.bit >= 0) mask |= modbus_bit(entry);
+    }
+    const bool is_good = mask != 0 ? master_->write_bits(first.unit, block.address, mask, all[0])
+                                   : master_->write(first.unit, first.entry->table, block.address, all);
+    if (!is_good) return tell_failure(first);
+  }
+  return true;
 }
 
 std::string write_problem(const PanelEntry& place, Value value) {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
+#include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -31,6 +34,15 @@ struct PanelEntry {
   Type type() const { return map->signal_type(*entry); }
 };
 
+/// What a name stands for: a value, or elements that follow each other.
+struct PanelName {
+  std::string name;
+  std::vector<PanelEntry> entries;  ///< of a value one, of elements one each
+  bool is_list = false;
+
+  Type type() const { return entries.front().type(); }
+};
+
 /// Adds the options to a command.
 void add_panel_options(CLI::App& command, PanelOptions& options);
 
@@ -40,21 +52,36 @@ class ModbusPanel {
   /// @param project outlives it
   ModbusPanel(const Project& project, const PanelOptions& options);
 
-  /// The place of a name, or nothing: then that is told. @param to_write a place that can be written
-  std::optional<PanelEntry> find(const std::string& name, bool to_write) const;
-  /// All places of the project, each name once.
-  std::vector<PanelEntry> all() const;
+  /// What a name stands for, or nothing: then that is told. Of "heights" and "heights[*]" those elements
+  /// count that the map has; of "heights[2..5]" it has to have all.
+  /// @param to_write places that can be written
+  std::optional<PanelName> find(const std::string& name, bool to_write) const;
+  /// All names of the project, each once.
+  std::vector<PanelName> all() const;
   /// Connects; false if that cannot be, which is told.
   bool connect();
-  /// Each tells what goes wrong, and gives nothing or false.
-  std::optional<Value> read(const PanelEntry& place);
-  bool write(const PanelEntry& place, Value value);
+  /// Each tells what goes wrong, and gives nothing or false. What stands side by side goes in one request, as
+  /// far as one may carry it.
+  std::optional<std::vector<Value>> read(const PanelName& name);
+  bool write(const PanelName& name, std::span<const Value> values);
 
  private:
+  struct Places {
+    PanelEntry first;
+    std::optional<PanelEntry> writable;
+  };
+  struct Block;
+
+  std::optional<PanelEntry> place_of(const std::string& name, bool to_write) const;
+  PanelEntry place_of(const ModbusMapConfig& map, const ModbusEntry& entry) const;
+  bool tell_unknown(const std::string& name) const;
   bool tell_failure(const PanelEntry& place) const;
+  static std::vector<Block> blocks_of(std::span<const PanelEntry> entries, bool to_write);
+  std::optional<Value> value_of(const PanelEntry& place, std::span<const std::uint16_t> words) const;
 
   const Project& project_;
   const PanelOptions& options_;
+  std::unordered_map<std::string, Places> places_;  // by folded name
   std::optional<ModbusMaster> master_;
 };
 

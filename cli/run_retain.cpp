@@ -24,7 +24,7 @@ void tell_strangers(const RetainFile& file, const Project& project) {
       tell(
           fmt::format("warning: retain file {}: {} ({}) is kept there and not in the "
                       "project; it stays in the file",
-                      file.path(), row.name, row.value));
+                      file.path(), row.name, shown(row.value)));
   }
   if (!file.rows().empty()) return;
   for (const std::string& other : file.other_projects())

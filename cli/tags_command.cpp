@@ -1,6 +1,7 @@
 // lockstep tags: the tags of a project, where they stand on Modbus, and the numbers of its objects.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -11,52 +12,81 @@
 namespace lockstep::cli {
 namespace {
 
-/// An entry of the Modbus map with the name of its signal.
+/// An entry of the Modbus map with the name of its signal, or those of elements that follow each other.
 struct Entry {
   std::string name;
-  Type type;  ///< of the signal
+  std::string type;  ///< of the signal
   Unit unit;
-  const ModbusEntry* place;
+  const ModbusEntry* place;  ///< the first one
   const ModbusMapConfig* map;
+  std::uint32_t span;  ///< addresses of all
+
+  std::uint32_t elements = 0;  ///< 0: a single value
 };
 
 /// The Modbus map, sorted by what it names.
 struct Entries {
-  std::vector<std::vector<Entry>> of_tags;  ///< for each tag of the controller
-  std::vector<Entry> others;                ///< pins, variables, bits of tags
+  std::vector<std::vector<Entry>> of_tags;    ///< for each tag of the controller
+  std::vector<std::vector<Entry>> of_arrays;  ///< for each array of the controller, of all its elements
+  std::vector<Entry> others;                  ///< pins, variables, bits of tags, some elements of arrays
 };
 
-void sort_map(const Project& project, const ModbusMapConfig& map, Entries& entries) {
+/// The tag or array that is shown as it is, in `tags` or `arrays`; else the entry is one of the others.
+void sort_entry(const Project& project, Entry entry, Entries& entries) {
   const auto& tags = project.controller->tags;
-  for (const ModbusEntry& place : map.map.entries()) {
-    const NamedSignal signal = project.modbus.signal_of(place);
-    const Entry entry{signal.name, map.map.signal_type(place), signal.unit, &place, &map};
-    const FoundPlace found = project.names.find(signal.name);
-    bool is_tag = false;
-    for (std::size_t i = 0; i < tags.size() && found.place && signal.signal.bit < 0; ++i) {
-      if (found.place->tag != &tags[i]) continue;
-      entries.of_tags[i].push_back(entry);
-      is_tag = true;
+  const auto& arrays = project.controller->arrays;
+  for (std::size_t i = 0; i < arrays.size() && entry.elements > 0; ++i)
+    if (same_name(arrays[i].name, entry.name)) return entries.of_arrays[i].push_back(std::move(entry));
+  const FoundPlace found = entry.elements > 0 ? FoundPlace{} : project.names.find(entry.name);
+  for (std::size_t i = 0; i < tags.size() && found.place && found.place->signal.bit < 0; ++i)
+    if (found.place->tag == &tags[i]) return entries.of_tags[i].push_back(std::move(entry));
+  entries.others.push_back(std::move(entry));
+}
+
+void sort_map(const Project& project, const ModbusMapConfig& map, Entries& entries) {
+  auto array = map.arrays.begin();
+  const auto& places = map.map.entries();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const ModbusEntry& place = places[i];
+    if (array != map.arrays.end() && array->first == i) {
+      const ElementPath& elements = array->elements;
+      const ModbusEntry& last = places[i + elements.count() - 1];
+      sort_entry(
+          project,
+          {elements.name, elements.type, elements.place.unit, &place, &map,
+           last.address + modbus_span(last) - place.address, static_cast<std::uint32_t>(elements.count())},
+          entries);
+      i += elements.count() - 1;
+      ++array;
+      continue;
     }
-    if (!is_tag) entries.others.push_back(entry);
+    const NamedSignal signal = project.modbus.signal_of(place);
+    sort_entry(project,
+               {signal.name, std::string(type_name(map.map.signal_type(place))), signal.unit, &place, &map,
+                modbus_span(place)},
+               entries);
   }
 }
 
 Entries sort_entries(const Project& project) {
   Entries entries;
   entries.of_tags.resize(project.controller->tags.size());
+  entries.of_arrays.resize(project.controller->arrays.size());
   for (const ModbusMapConfig& map : project.modbus.maps) sort_map(project, map, entries);
   return entries;
 }
 
-std::string address_text(const ModbusEntry& place) {
-  const std::uint32_t last = place.address + modbus_span(place) - 1;
-  return last == place.address ? std::to_string(last) : fmt::format("{}-{}", place.address, last);
+std::string address_text(const Entry& entry) {
+  const std::uint32_t first = entry.place->address;
+  const std::uint32_t last = first + entry.span - 1;
+  return last == first ? std::to_string(last) : fmt::format("{}-{}", first, last);
 }
 
 /// Type on the wire; bit, orders and scale only where there is something unusual.
-std::string wire_text(const ModbusEntry& place) {
-  std::string text(type_name(place.type));
+std::string wire_text(const Entry& entry) {
+  const ModbusEntry& place = *entry.place;
+  std::string text = entry.elements > 0 ? fmt::format("{} ", entry.elements) : "";
+  text += type_name(place.type);
   if (place.bit >= 0) text += fmt::format(" bit {}", place.bit);
   if (place.word_order == WordOrder::little) text += " little";
   if (place.byte_order == ByteOrder::little) text += " swapped";
@@ -75,43 +105,56 @@ std::string table_text(const Entry& entry) {
 
 /// The cells of an entry: table, address, type, access.
 std::vector<std::string> cells(const Entry& entry) {
-  const ModbusEntry& place = *entry.place;
-  return {table_text(entry), address_text(place), wire_text(place), place.writable ? "write" : "read"};
+  return {table_text(entry), address_text(entry), wire_text(entry), entry.place->writable ? "write" : "read"};
+}
+
+bool is_kept(const Project& project, const ArrayTag& tag) {
+  const auto& arrays = project.retain.arrays;
+  return std::find(arrays.begin(), arrays.end(), &tag) != arrays.end();
+}
+
+/// A row with the first of some places, and one more for each further place; the comment stands last.
+void add_rows(Table& table, std::vector<std::string> row, const std::vector<Entry>& places,
+              const std::string& comment) {
+  const std::size_t before = row.size();
+  for (std::string& cell : places.empty() ? std::vector<std::string>(4) : cells(places.front()))
+    row.push_back(std::move(cell));
+  row.push_back(printable(comment));
+  table.row(std::move(row));
+  for (std::size_t more = 1; more < places.size(); ++more) {
+    std::vector<std::string> next(before);
+    for (std::string& cell : cells(places[more])) next.push_back(std::move(cell));
+    next.emplace_back();
+    table.row(std::move(next));
+  }
 }
 
 std::string tags_text(const Project& project, const Entries& entries, std::size_t width) {
   Table table({"Tag", "Type", "Initial", "Retain", "Modbus", "Address", "As", "Access", "Comment"});
   for (std::size_t i = 0; i < project.controller->tags.size(); ++i) {
     const Tag& tag = project.controller->tags[i];
-    std::vector<std::string> row{tag.name, std::string(type_name(tag.type)), literal(tag.initial, tag.type),
-                                 tag.retain ? "retain" : ""};
-    const auto& places = entries.of_tags[i];
-    for (std::string& cell : places.empty() ? std::vector<std::string>(4) : cells(places.front()))
-      row.push_back(std::move(cell));
-    row.push_back(printable(tag.comment));
-    table.row(std::move(row));
-    for (std::size_t more = 1; more < places.size(); ++more) {
-      std::vector<std::string> next{"", "", "", ""};
-      for (std::string& cell : cells(places[more])) next.push_back(std::move(cell));
-      next.emplace_back();
-      table.row(std::move(next));
-    }
+    add_rows(table,
+             {tag.name, std::string(type_name(tag.type)), literal(tag.initial, tag.type),
+              tag.retain ? "retain" : ""},
+             entries.of_tags[i], tag.comment);
   }
   return table.empty() ? "" : "\n" + table.text(0, width);
 }
 
-std::string arrays_text(const Project& project, std::size_t width) {
-  Table table({"Array", "Type", "Comment"});
-  for (const ArrayTag& tag : project.controller->arrays)
-    table.row({tag.name, array_type_name(tag.array), printable(tag.comment)});
+std::string arrays_text(const Project& project, const Entries& entries, std::size_t width) {
+  Table table({"Array", "Type", "Retain", "Modbus", "Address", "As", "Access", "Comment"});
+  for (std::size_t i = 0; i < project.controller->arrays.size(); ++i) {
+    const ArrayTag& tag = project.controller->arrays[i];
+    add_rows(table, {tag.name, array_type_name(tag.array), is_kept(project, tag) ? "retain" : ""},
+             entries.of_arrays[i], tag.comment);
+  }
   return table.empty() ? "" : "\n" + table.text(0, width);
 }
 
 std::string others_text(const Entries& entries, std::size_t width) {
   Table table({"Also on Modbus", "Type", "Unit", "Modbus", "Address", "As", "Access", ""});
   for (const Entry& entry : entries.others) {
-    std::vector<std::string> row{entry.name, std::string(type_name(entry.type)),
-                                 std::string(unit_text(entry.unit))};
+    std::vector<std::string> row{entry.name, entry.type, std::string(unit_text(entry.unit))};
     for (std::string& cell : cells(entry)) row.push_back(std::move(cell));
     row.emplace_back();
     table.row(std::move(row));
@@ -132,7 +175,8 @@ std::string project_text(const Project& project, std::size_t width) {
   std::string text = printable(project.name) + "\n";
   if (!project.description.empty()) text += paragraph(printable(project.description), 2, width);
   for (const std::string& place : server_places(project)) text += "  Modbus server on " + place + "\n";
-  text += tags_text(project, entries, width) + arrays_text(project, width) + others_text(entries, width);
+  text +=
+      tags_text(project, entries, width) + arrays_text(project, entries, width) + others_text(entries, width);
   Table objects({"Number", "Technology object", "Type"});
   for (const auto& object : project.controller->objects)
     objects.row({std::to_string(static_cast<std::uint32_t>(object->number)), object->name,
@@ -144,10 +188,11 @@ nlohmann::ordered_json place_json(const Entry& entry) {
   const ModbusEntry& place = *entry.place;
   nlohmann::ordered_json json{{"table", modbus_table_name(place.table)},
                               {"address", place.address},
-                              {is_bit_table(place.table) ? "bits" : "registers", modbus_span(place)},
+                              {is_bit_table(place.table) ? "bits" : "registers", entry.span},
                               {"type", type_name(place.type)},
                               {"word_order", place.word_order == WordOrder::big ? "big" : "little"},
                               {"access", place.writable ? "write" : "read"}};
+  if (entry.elements > 0) json["elements"] = entry.elements;
   if (place.byte_order == ByteOrder::little) json["byte_order"] = "little";
   if (place.bit >= 0) json["bit"] = place.bit;
   if (place.is_scaled) json["scale"] = place.scale;
@@ -157,14 +202,19 @@ nlohmann::ordered_json place_json(const Entry& entry) {
   return json;
 }
 
+nlohmann::ordered_json places_json(const std::vector<Entry>& places) {
+  auto json = nlohmann::ordered_json::array();
+  for (const Entry& entry : places) json.push_back(place_json(entry));
+  return json;
+}
+
 nlohmann::ordered_json tag_json(const Tag& tag, const std::vector<Entry>& places) {
   nlohmann::ordered_json json{{"name", tag.name},
                               {"type", type_name(tag.type)},
                               {"initial", json_value(tag.initial, tag.type)},
                               {"retain", tag.retain},
                               {"comment", tag.comment}};
-  auto& modbus = json["modbus"] = nlohmann::ordered_json::array();
-  for (const Entry& entry : places) modbus.push_back(place_json(entry));
+  json["modbus"] = places_json(places);
   return json;
 }
 
@@ -178,16 +228,20 @@ nlohmann::ordered_json project_json(const Project& project) {
   for (std::size_t i = 0; i < project.controller->tags.size(); ++i)
     tags.push_back(tag_json(project.controller->tags[i], entries.of_tags[i]));
   auto& arrays = json["arrays"] = nlohmann::ordered_json::array();
-  for (const ArrayTag& tag : project.controller->arrays)
+  for (std::size_t i = 0; i < project.controller->arrays.size(); ++i) {
+    const ArrayTag& tag = project.controller->arrays[i];
     arrays.push_back({{"name", tag.name},
                       {"type", array_type_name(tag.array)},
                       {"lower", tag.array.lower},
                       {"upper", tag.array.upper},
                       {"of", tag.array.element->name},
-                      {"comment", tag.comment}});
+                      {"retain", is_kept(project, tag)},
+                      {"comment", tag.comment},
+                      {"modbus", places_json(entries.of_arrays[i])}});
+  }
   auto& others = json["other_modbus"] = nlohmann::ordered_json::array();
   for (const Entry& entry : entries.others) {
-    nlohmann::ordered_json other{{"name", entry.name}, {"type", type_name(entry.type)}};
+    nlohmann::ordered_json other{{"name", entry.name}, {"type", entry.type}};
     if (entry.unit != Unit::kNone) other["unit"] = unit_text(entry.unit);
     other["modbus"] = place_json(entry);
     others.push_back(std::move(other));
@@ -208,7 +262,8 @@ std::string csv_cell(const std::string& text) {
   return quoted + "\"";
 }
 
-/// One line for each place on Modbus, for the import of HMI systems.
+/// One line for each place on Modbus, for the import of HMI systems; an array is one of ARRAY type, with the
+/// addresses of all its elements.
 std::string project_csv(const Project& project) {
   std::string text =
       "name,type,unit,table,address,length,wire_type,word_order,byte_order,bit,scale,offset,access,server,"
@@ -218,8 +273,8 @@ std::string project_csv(const Project& project) {
     const ModbusEntry& place = *entry.place;
     const auto order = [](bool is_big) { return is_big ? "big" : "little"; };
     text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(entry.name), type_name(entry.type),
-        unit_text(entry.unit), modbus_table_name(place.table), place.address, modbus_span(place),
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(entry.name), csv_cell(entry.type),
+        unit_text(entry.unit), modbus_table_name(place.table), place.address, entry.span,
         type_name(place.type), order(place.word_order == WordOrder::big),
         order(place.byte_order == ByteOrder::big), place.bit >= 0 ? std::to_string(place.bit) : "",
         place.is_scaled ? fmt::format("{}", place.scale) : "",
@@ -229,6 +284,8 @@ std::string project_csv(const Project& project) {
   };
   for (std::size_t i = 0; i < entries.of_tags.size(); ++i)
     for (const Entry& entry : entries.of_tags[i]) line(entry, project.controller->tags[i].comment);
+  for (std::size_t i = 0; i < entries.of_arrays.size(); ++i)
+    for (const Entry& entry : entries.of_arrays[i]) line(entry, project.controller->arrays[i].comment);
   for (const Entry& entry : entries.others) line(entry, "");
   return text;
 }
@@ -259,7 +316,8 @@ void add_tags_command(CLI::App& app, Action& action) {
   command->add_flag("--csv", *csv, "what is on Modbus as CSV, for HMI systems")->excludes(as_json);
   command->footer(
       "Address: zero-based, first to last. As: the type on the wire, most significant word first unless it\n"
-      "says little. Access: what a client may do. Number: what ActualMaster shows.\n"
+      "says little, with the number of elements of an array. Access: what a client may do. Number: what\n"
+      "ActualMaster shows.\n"
       "Exit status: 0, 1 project not valid, 2 cannot be read");
   command->callback([&action, file, json, csv] {
     action = [file, json, csv] {

@@ -8,31 +8,63 @@ namespace {
 
 /// What is to be written where.
 struct Assignment {
-  PanelEntry place;
-  Value value;
+  PanelName name;
+  std::vector<Value> values;
 };
 
-/// Reads "NAME=VALUE", or tells what is wrong with it.
+/// The parts of "[1.0, MAX(2, 3)]"; of anything else itself.
+std::vector<std::string> parts_of(const std::string& text, bool is_list) {
+  if (!is_list || !text.starts_with('[') || !text.ends_with(']')) return {text};
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  for (const char c : text.substr(1, text.size() - 2)) {
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (c == ',' && depth == 0)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// A value for a place, or nothing: then that is told.
+std::optional<Value> value_for(const PanelEntry& place, std::string text) {
+  JsonValue json;
+  json.kind = JsonKind::string;
+  json.text = std::move(text);
+  Problems problems;
+  const auto value = read_constant(json, place.type(), problems);
+  for (const Problem& problem : problems.take_errors()) tell(place.name + ": " + problem.text);
+  if (!value) return std::nullopt;
+  if (const std::string problem = write_problem(place, *value); !problem.empty()) {
+    tell(problem);
+    return std::nullopt;
+  }
+  return value;
+}
+
+/// Reads "NAME=VALUE" or "NAME=[VALUE, …]", or tells what is wrong with it.
 std::optional<Assignment> assignment(const ModbusPanel& panel, const std::string& text) {
   const auto equals = text.find('=');
   if (equals == text.npos || equals == 0) {
     tell(quote(text) + " is not NAME=VALUE");
     return std::nullopt;
   }
-  const auto place = panel.find(text.substr(0, equals), true);
-  if (!place) return std::nullopt;
-  JsonValue json;
-  json.kind = JsonKind::string;
-  json.text = text.substr(equals + 1);
-  Problems problems;
-  const auto value = read_constant(json, place->type(), problems);
-  for (const Problem& problem : problems.take_errors()) tell(place->name + ": " + problem.text);
-  if (!value) return std::nullopt;
-  if (const std::string problem = write_problem(*place, *value); !problem.empty()) {
-    tell(problem);
+  auto name = panel.find(text.substr(0, equals), true);
+  if (!name) return std::nullopt;
+  const std::string given = text.substr(equals + 1);
+  const std::vector<std::string> parts = parts_of(given, name->is_list);
+  const std::size_t count = name->entries.size();
+  if (name->is_list && (!given.starts_with('[') || !given.ends_with(']') || parts.size() != count)) {
+    tell(name->name + ": " + quote(given) + " are not the values of " + std::to_string(count) +
+         " elements; allowed: [VALUE, …] with one for each");
     return std::nullopt;
   }
-  return Assignment{*place, *value};
+  std::vector<Value> values;
+  for (std::size_t i = 0; i < count; ++i)
+    if (const auto value = value_for(name->entries[i], parts[i])) values.push_back(*value);
+  if (values.size() != count) return std::nullopt;
+  return Assignment{std::move(*name), std::move(values)};
 }
 
 int write_values(const PanelOptions& options) {
@@ -42,11 +74,11 @@ int write_values(const PanelOptions& options) {
   ModbusPanel panel(*project, options);
   std::vector<Assignment> assignments;
   for (const std::string& text : options.names)
-    if (const auto one = assignment(panel, text)) assignments.push_back(*one);
+    if (auto one = assignment(panel, text)) assignments.push_back(std::move(*one));
   if (assignments.size() != options.names.size()) return kNotValid;
   if (!panel.connect()) return kCouldNotStart;
   for (const Assignment& one : assignments)
-    if (!panel.write(one.place, one.value)) return kCouldNotStart;
+    if (!panel.write(one.name, one.values)) return kCouldNotStart;
   return kOk;
 }
 
@@ -57,11 +89,13 @@ void add_write_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<PanelOptions>();
   add_panel_options(*command, *options);
   command
-      ->add_option("VALUES", options->names, "NAME=VALUE, such as speed=250 start=TRUE wait=1.5s mask=16#FF")
+      ->add_option("VALUES", options->names,
+                   "NAME=VALUE, such as speed=250 start=TRUE wait=1.5s mask=16#FF; of arrays heights[3]=7.5, "
+                   "'heights=[5, 7.5, 10]', 'heights[2..3]=[5, 7.5]'")
       ->required();
   command->footer(
       "Nothing is written unless every name and value is good; then they go out in their order, each in a\n"
-      "request of its own.\n"
+      "request of its own, an array in as many as its registers need, 123 in each.\n"
       "Exit status: 0, 1 project not valid, no such name or value, 2 nobody answers, or refuses");
   command->callback([&action, options] { action = [options] { return write_values(*options); }; });
 }

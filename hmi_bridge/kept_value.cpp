@@ -1,5 +1,6 @@
 #include "hmi_bridge/kept_value.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
@@ -63,6 +64,32 @@ std::optional<Value> kept_value(std::string_view text, Type type) {
   const auto number = number_of<std::uint64_t>(text);
   value.u = number.value_or(0);
   return number && value.u <= highest(type) ? std::optional(value) : std::nullopt;
+}
+
+std::string KeptValue::type() const {
+  return elements.empty() ? std::string(type_name(signal.value_type())) : array_type;
+}
+
+std::string kept_texts(std::span<const Value> values, std::span<const Signal> signals) {
+  std::string text;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    if (i > 0) text += ',';
+    text += kept_text(values[i], signals[i].value_type());
+  }
+  return text;
+}
+
+std::optional<std::vector<Value>> kept_values(std::string_view text, std::span<const Signal> signals) {
+  std::vector<Value> values;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const std::size_t end = i + 1 < signals.size() ? text.find(',') : text.size();
+    if (end == text.npos) return std::nullopt;
+    const auto value = kept_value(text.substr(0, end), signals[i].value_type());
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return values;
 }
 
 }  // namespace lockstep

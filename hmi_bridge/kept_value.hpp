@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tech_objects/types.hpp"
 
@@ -12,11 +14,20 @@ namespace lockstep {
 /// A value of a project that is kept across runs.
 struct KeptValue {
   std::string name;  ///< as the project spells it; a file knows it without regard to case
-  Signal signal;     ///< a whole value, no bit
+  Signal signal;     ///< a whole value, no bit; of an array its first one
   /// BOOL: whether there is a value to keep; none: always.
   std::optional<Signal> present{};
   /// What the value only holds with, such as the settings of an encoder; empty: nothing.
   std::string basis{};
+  /// Of an array: its elements, of structures all members of each, in their order; empty: a single value.
+  std::vector<Signal> elements{};
+  std::string array_type{};  ///< "ARRAY[1..100] OF LREAL"
+
+  std::span<const Signal> signals() const noexcept {
+    return elements.empty() ? std::span(&signal, 1) : std::span(elements);
+  }
+  /// Published name of its type.
+  std::string type() const;
 };
 
 /// The value as it stands in a file; reading it back gives the same bits, but for those of a NaN. BOOL is
@@ -25,5 +36,12 @@ std::string kept_text(Value value, Type type);
 
 /// The value of such a text; none if it is no value of that type.
 std::optional<Value> kept_value(std::string_view text, Type type);
+
+/// Several values as one text: those texts, separated by commas. As many values as signals, whose types
+/// count.
+std::string kept_texts(std::span<const Value> values, std::span<const Signal> signals);
+
+/// The values of such a text; none if it is not one of these types and this number.
+std::optional<std::vector<Value>> kept_values(std::string_view text, std::span<const Signal> signals);
 
 }  // namespace lockstep

@@ -2,7 +2,10 @@
 
 #include <sys/stat.h>
 
+#include <array>
 #include <cerrno>
+#include <cstdio>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -11,6 +14,20 @@ namespace lockstep {
 namespace {
 
 constexpr std::int64_t kEventHead = 28;  // mark, number, time and two lengths stand before channel and data
+constexpr std::uint32_t kMark = 0xEDA1DA01;
+constexpr std::size_t kChannelLength = 20, kDataLength = 24;  // where they stand in the head
+
+std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
+  std::uint32_t number = 0;
+  for (const std::uint8_t byte : bytes.subspan(at, 4)) number = number << 8 | byte;
+  return number;
+}
+
+/// 0 for what has no size, such as a pipe.
+std::int64_t size_of_file(std::FILE* file) noexcept {
+  struct stat status {};
+  return ::fstat(::fileno(file), &status) == 0 && S_ISREG(status.st_mode) ? std::int64_t{status.st_size} : 0;
+}
 
 }  // namespace
 
@@ -29,6 +46,7 @@ void LcmTraceReader::open() {
     throw TraceFormatError(path_ + ": " + std::generic_category().message(EISDIR));
   event_ = -1;
   offset_ = 0;
+  size_ = size_of_file(log_->f);
 }
 
 void LcmTraceReader::find_header() {
@@ -73,7 +91,21 @@ LcmDecoder::Message LcmTraceReader::accept(const lcm_eventlog_event_t& event) {
       {static_cast<const std::uint8_t*>(event.data), static_cast<std::size_t>(event.datalen)});
 }
 
+/// Whether an event begins here whose channel and data the file holds. The library believes what the lengths
+/// of an event claim: it takes memory for up to 2 GiB and passes over all that is in the way to the next
+/// mark.
+bool LcmTraceReader::is_whole_event_next() {
+  std::array<std::uint8_t, kEventHead> head;
+  if (std::fread(head.data(), 1, head.size(), log_->f) != head.size() || number_at(head, 0) != kMark)
+    return false;
+  const std::int64_t end =
+      offset_ + kEventHead + number_at(head, kChannelLength) + number_at(head, kDataLength);
+  if (end > size_) size_ = size_of_file(log_->f);  // it may be growing
+  return end <= size_ && ::fseeko(log_->f, offset_, SEEK_SET) == 0;
+}
+
 LcmTraceReader::Event LcmTraceReader::next_event() {
+  if (!is_whole_event_next()) return nullptr;
   Event event(lcm_eventlog_read_next_event(log_.get()));
   if (event) {
     ++event_;
@@ -85,8 +117,7 @@ LcmTraceReader::Event LcmTraceReader::next_event() {
 void LcmTraceReader::end_of_log() {
   if (!remark_.empty()) return;
   if (early_ > 0) remark_ = std::to_string(early_) + " rows of a trace with another header are left out";
-  struct stat status {};
-  if (::fstat(::fileno(log_->f), &status) != 0 || status.st_size == offset_) return;
+  if (size_of_file(log_->f) == offset_) return;
   if (!remark_.empty()) remark_ += "; ";
   remark_ += "the log is cut short or damaged behind event " + std::to_string(event_);
 }

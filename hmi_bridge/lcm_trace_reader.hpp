@@ -42,6 +42,7 @@ class LcmTraceReader {
   };
   using Event = std::unique_ptr<lcm_eventlog_event_t, Destroy>;
 
+  bool is_whole_event_next();
   Event next_event();
   void open();
   void find_header();
@@ -55,6 +56,7 @@ class LcmTraceReader {
   LcmDecoder decoder_;
   std::int64_t event_ = -1;  // number of the event read last
   std::int64_t offset_ = 0;  // behind it
+  std::int64_t size_ = 0;    // of the file, as far as it is known [byte]
   std::int64_t event_time_ = 0;
   std::uint64_t early_ = 0;
   std::string remark_;

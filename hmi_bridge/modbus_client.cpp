@@ -11,11 +11,26 @@
 namespace lockstep {
 namespace {
 
+constexpr int kCyclesApart = 100;  // for which lines are asked for alone after a refusal
+
 /// The thread that starts the client may be one of the cycle's: nothing of its priority is passed on.
 void step_back() noexcept {
   const sched_param ordinary{};
   ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary);
   ::pthread_setname_np(::pthread_self(), "modbus_client");
+}
+
+/// Entries whose line nobody has said are lines of their own.
+std::vector<ModbusEntry> numbered(std::vector<ModbusEntry> entries) {
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    if (entries[i].line == ModbusEntry::kOwnLine) entries[i].line = static_cast<std::uint32_t>(i);
+  return entries;
+}
+
+std::size_t lines_of(const std::vector<ModbusEntry>& entries) {
+  std::size_t count = 0;
+  for (const ModbusEntry& entry : entries) count = std::max(count, entry.line + std::size_t{1});
+  return count;
 }
 
 }  // namespace
@@ -26,10 +41,10 @@ std::string ModbusClientOptions::place() const {
 
 ModbusClient::ModbusClient(ModbusClientOptions options, ProcessImage& image)
     : options_(std::move(options)), image_(image), words_(kMostBitsRead) {
-  for (const ModbusDevice& device : options_.devices)
-    devices_.push_back({.options = &device,
-                        .reads = blocks_of(device.reads, kMostRegistersRead, kMostBitsRead),
-                        .writes = blocks_of(device.writes, kMostRegistersWritten, kMostBitsWritten)});
+  for (const ModbusDevice& device : options_.devices) {
+    devices_.push_back({.options = &device, .reads = {}, .writes = {}});
+    make_blocks(devices_.back());
+  }
   master_ = options_.connect ? std::make_unique<ModbusMaster>(*options_.connect, options_.timeout)
                              : std::make_unique<ModbusMaster>(options_.serial, options_.timeout);
 }
@@ -59,6 +74,32 @@ std::vector<ModbusClient::Block> ModbusClient::blocks_of(std::vector<ModbusEntry
     block.entries.push_back(entry);
   }
   return blocks;
+}
+
+/// Everything together as far as it may go; what is known of the lines stays.
+void ModbusClient::make_blocks(Device& device) const {
+  const std::vector<ModbusEntry> reads = numbered(device.options->reads);
+  const std::vector<ModbusEntry> writes = numbered(device.options->writes);
+  device.lines[0].resize(lines_of(reads));
+  device.lines[1].resize(lines_of(writes));
+  device.reads = blocks_of(reads, kMostRegistersRead, kMostBitsRead);
+  device.writes = blocks_of(writes, kMostRegistersWritten, kMostBitsWritten);
+  device.cycles_apart = 0;
+}
+
+/// A block for each line; lines that share a register stay together.
+std::vector<ModbusClient::Block> ModbusClient::parts_of(const Block& block) {
+  std::vector<Block> parts;
+  for (const ModbusEntry& entry : block.entries) {
+    const std::uint32_t end = entry.address + modbus_span(entry);
+    const bool goes_on = !parts.empty() && (parts.back().entries.back().line == entry.line ||
+                                            entry.address < parts.back().address + parts.back().count);
+    if (!goes_on) parts.push_back({entry.table, entry.address, 0, {}});
+    Block& part = parts.back();
+    part.count = std::max(part.count, end - part.address);
+    part.entries.push_back(entry);
+  }
+  return parts;
 }
 
 void ModbusClient::start() {
@@ -91,7 +132,11 @@ bool ModbusClient::wait_until(Clock::time_point time) {
 void ModbusClient::run() noexcept {
   step_back();
   const Clock::time_point begin = Clock::now();
-  for (Device& device : devices_) device.next = device.last_good = begin;
+  for (Device& device : devices_) {
+    device.next = device.last_good = begin;
+    for (auto& lines : device.lines)
+      for (Line& line : lines) line.last_good = begin;
+  }
   while (!devices_.empty()) {
     Device& device = *std::min_element(devices_.begin(), devices_.end(),
                                        [](const Device& a, const Device& b) { return a.next < b.next; });
@@ -113,6 +158,8 @@ void ModbusClient::run() noexcept {
 void ModbusClient::turn(Device& device) {
   const Clock::time_point now = Clock::now();
   batch_.clear();
+  for (auto& lines : device.lines)
+    for (Line& line : lines) line.is_good = false;
   bool is_good = false;
   if (now >= device.retry.at && is_reachable(now)) {
     is_good = exchange(device);
@@ -146,46 +193,71 @@ void ModbusClient::put_off(Retry& retry, Clock::time_point now) const {
   retry.at = now + retry.pause;
 }
 
-/// One cycle of a device. An exception spoils the cycle and not what else it does; silence ends it.
+/// One cycle of a device. An exception spoils what it refuses and not what else it does; silence ends it.
 bool ModbusClient::exchange(Device& device) {
-  bool is_good = true;
-  image_.refresh();  // the one instant that goes out
-  for (const Block& block : device.writes) {
-    if (!master_->is_connected()) return false;
-    is_good &= write_block(device, block);
-  }
-  for (const Block& block : device.reads) {
-    if (!master_->is_connected()) return false;
-    is_good &= read_block(device, block);
-  }
-  return is_good && master_->is_connected();
+  if (device.cycles_apart > 0 && --device.cycles_apart == 0) make_blocks(device);
+  for (auto& lines : device.lines)
+    for (Line& line : lines) line.is_good = true;  // until one of its entries is not
+  image_.refresh();                                // the one instant that goes out
+  const bool is_written = exchange(device, device.writes, true);
+  const bool is_read = exchange(device, device.reads, false);
+  return is_written && is_read && master_->is_connected();
 }
 
-bool ModbusClient::count(bool is_good) {
-  if (is_good)
-    ++counters_.requests;
-  else
-    ++(master_->was_refused() ? counters_.refused : counters_.failed);
+bool ModbusClient::exchange(Device& device, std::vector<Block>& blocks, bool is_write) {
+  bool is_good = true;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Outcome outcome = !master_->is_connected() ? Outcome::failed
+                            : is_write               ? write_block(device, blocks[i])
+                                                     : read_block(device, blocks[i]);
+    if (outcome == Outcome::refused && take_apart(blocks, i)) {
+      device.cycles_apart = kCyclesApart;
+      --i;  // its parts follow
+      continue;
+    }
+    if (outcome == Outcome::refused || outcome == Outcome::failed)
+      for (const ModbusEntry& entry : blocks[i].entries) device.lines[is_write][entry.line].is_good = false;
+    is_good &= outcome == Outcome::good;
+  }
   return is_good;
 }
 
-bool ModbusClient::read_block(const Device& device, const Block& block) {
+/// Puts a request for each line in the place of one that was refused; false if it has only one.
+bool ModbusClient::take_apart(std::vector<Block>& blocks, std::size_t index) {
+  const std::vector<Block> parts = parts_of(blocks[index]);
+  if (parts.size() < 2) return false;
+  const auto place = blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(index));
+  blocks.insert(place, parts.begin(), parts.end());
+  return true;
+}
+
+ModbusClient::Outcome ModbusClient::count(bool is_good) {
+  if (is_good) {
+    ++counters_.requests;
+    return Outcome::good;
+  }
+  ++(master_->was_refused() ? counters_.refused : counters_.failed);
+  return master_->was_refused() ? Outcome::refused : Outcome::failed;
+}
+
+ModbusClient::Outcome ModbusClient::read_block(Device& device, const Block& block) {
   const auto words = std::span(words_).first(block.count);
-  if (!count(master_->read(device.options->unit, block.table, block.address, words))) return false;
-  bool is_good = true;
+  Outcome outcome = count(master_->read(device.options->unit, block.table, block.address, words));
+  if (outcome != Outcome::good) return outcome;
   for (const ModbusEntry& entry : block.entries) {
     const auto own = words.subspan(entry.address - block.address, modbus_span(entry));
     if (const auto value = decode(entry, image_.type(entry.signal), own)) {
       batch_.push_back({entry.signal, *value});
     } else {
       ++counters_.bad_values;
-      is_good = false;
+      device.lines[0][entry.line].is_good = false;
+      outcome = Outcome::bad_value;
     }
   }
-  return is_good;
+  return outcome;
 }
 
-bool ModbusClient::write_block(const Device& device, const Block& block) {
+ModbusClient::Outcome ModbusClient::write_block(const Device& device, const Block& block) {
   const auto words = std::span(words_).first(block.count);
   std::fill(words.begin(), words.end(), std::uint16_t{0});
   for (const ModbusEntry& entry : block.entries) {
@@ -197,12 +269,23 @@ bool ModbusClient::write_block(const Device& device, const Block& block) {
 }
 
 /// What was read enters the signals together with what is known of it.
-void ModbusClient::show(const Device& device, bool is_good, Clock::time_point now) {
-  Value value{};
-  value.u = is_good ? 1 : 0;
-  if (device.options->quality) batch_.push_back({*device.options->quality, value});
-  value.i = std::chrono::nanoseconds(now - device.last_good).count();
-  if (device.options->age) batch_.push_back({*device.options->age, value});
+void ModbusClient::show(Device& device, bool is_good, Clock::time_point now) {
+  const auto post = [&](std::optional<std::uint32_t> quality, std::optional<std::uint32_t> age, bool good,
+                        Clock::time_point last_good) {
+    Value value{};
+    value.u = good ? 1 : 0;
+    if (quality) batch_.push_back({*quality, value});
+    value.i = std::chrono::nanoseconds(now - last_good).count();
+    if (age) batch_.push_back({*age, value});
+  };
+  post(device.options->quality, device.options->age, is_good, device.last_good);
+  for (auto& lines : device.lines)
+    for (Line& line : lines)
+      if (line.is_good) line.last_good = now;
+  for (const ModbusLineState& state : device.options->lines) {
+    const Line& line = device.lines[state.is_write].at(state.line);
+    post(state.quality, state.age, line.is_good, line.last_good);
+  }
   if (!batch_.empty()) image_.post(batch_);
 }
 

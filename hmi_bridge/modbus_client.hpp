@@ -1,6 +1,7 @@
 /// Polls and writes foreign Modbus devices on a schedule.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -18,6 +19,14 @@
 
 namespace lockstep {
 
+/// What is shown of the entries of one line: of a value, of an array, alone.
+struct ModbusLineState {
+  bool is_write = false;                 ///< a line of the write entries, else of the read entries
+  std::uint32_t line = 0;                ///< `ModbusEntry::line` of its entries
+  std::optional<std::uint32_t> quality;  ///< BOOL: all of its entries went well in the last cycle
+  std::optional<std::uint32_t> age;      ///< TIME since the last cycle in which they did, or the start
+};
+
 /// A device and what goes to and fro. The signals of the entries are those of the client's image.
 struct ModbusDevice {
   std::string name;
@@ -27,6 +36,7 @@ struct ModbusDevice {
   std::vector<ModbusEntry> writes;              ///< from signals to the device's coils and holding registers
   std::optional<std::uint32_t> quality;         ///< BOOL: all of the last cycle went well
   std::optional<std::uint32_t> age;             ///< TIME since the last cycle that went well, or the start
+  std::vector<ModbusLineState> lines;           ///< those of which something is shown alone
 };
 
 /// A connection with the devices behind it.
@@ -56,9 +66,10 @@ struct ModbusClientCounters {
 /// A client on a thread of its own. In each cycle of a device the values of its write entries, all of one
 /// instant, go out; then all its read entries are read, neighbours in one request, and enter their signals at
 /// one tick, with quality and age. What was read in a cycle that failed half-way enters as far as it came;
-/// the other signals keep their values. A device that does not answer is asked again after a pause that
-/// doubles, so that it does not hold up the others behind the same connection; so it is with the connection
-/// itself.
+/// the other signals keep their values. Where a device refuses a request for several lines, each is asked for
+/// alone, so that only what it refuses is bad; they go together again after a hundred cycles. A device that
+/// does not answer is asked again after a pause that doubles, so that it does not hold up the others behind
+/// the same connection; so it is with the connection itself.
 class ModbusClient {
  public:
   /// `image` outlives it; the client is the image's thread of the bridge.
@@ -91,9 +102,18 @@ class ModbusClient {
     Clock::time_point at{};
     std::chrono::milliseconds pause{0};
   };
+  /// How a request ended: refused by the device with an exception, failed without a good answer.
+  enum class Outcome : std::uint8_t { good, bad_value, refused, failed };
+  /// A line of entries; number and direction as in `ModbusLineState`.
+  struct Line {
+    bool is_good = false;  ///< in the cycle at hand
+    Clock::time_point last_good{};
+  };
   struct Device {
     const ModbusDevice* options;
     std::vector<Block> reads, writes;
+    std::array<std::vector<Line>, 2> lines{};  ///< of reads and writes, by number
+    int cycles_apart = 0;                      ///< until refused requests go together again; 0: they do
     Clock::time_point next{};
     Clock::time_point last_good{};
     Retry retry{};
@@ -106,11 +126,15 @@ class ModbusClient {
   bool wait_until(Clock::time_point time);
   bool is_reachable(Clock::time_point now);
   bool exchange(Device& device);
-  bool read_block(const Device& device, const Block& block);
-  bool write_block(const Device& device, const Block& block);
-  bool count(bool is_good);
+  void make_blocks(Device& device) const;
+  static std::vector<Block> parts_of(const Block& block);
+  bool exchange(Device& device, std::vector<Block>& blocks, bool is_write);
+  static bool take_apart(std::vector<Block>& blocks, std::size_t index);
+  Outcome read_block(Device& device, const Block& block);
+  Outcome write_block(const Device& device, const Block& block);
+  Outcome count(bool is_good);
   void put_off(Retry& retry, Clock::time_point now) const;
-  void show(const Device& device, bool is_good, Clock::time_point now);
+  void show(Device& device, bool is_good, Clock::time_point now);
 
   const ModbusClientOptions options_;
   ProcessImage& image_;

@@ -225,19 +225,19 @@ bool bits_as_they_are(const ModbusEntry& entry, Type signal) noexcept {
 }  // namespace
 
 ModbusMap::ModbusMap(std::vector<ModbusEntry> entries, std::span<const Type> signals)
-    : entries_(std::move(entries)),
-      signals_(signals.begin(), signals.end()),
-      plain_(entries_.size()),
-      next_(entries_.size(), kNone) {
+    : entries_(std::move(entries)), signals_(signals.begin(), signals.end()), next_(entries_.size(), kNone) {
   for (std::size_t i = 0; i < entries_.size(); ++i)
-    if (check(i)) {
-      place(i);
-      plain_[i] = bits_as_they_are(entries_[i], signal_type(entries_[i])) ? 1 : 0;
-    }
+    if (check(i)) place(i);
 }
 
 void ModbusMap::report(std::size_t index, std::string_view key, std::string text) {
   problems_.push_back({index, key, std::move(text)});
+}
+
+/// As a message calls an entry.
+std::string ModbusMap::line_of(std::size_t index) const {
+  const std::uint32_t line = entries_[index].line;
+  return std::to_string(line == ModbusEntry::kOwnLine ? index : line);
 }
 
 bool ModbusMap::check(std::size_t index) {
@@ -310,9 +310,13 @@ void ModbusMap::place(std::size_t index) {
       return report(index, "address",
                     "address " + std::to_string(address) + " of the table " +
                         std::string(modbus_table_name(entry.table)) + " is taken by entry " +
-                        std::to_string(at[address]) + " of the map already");
+                        line_of(at[address]) + " of the map already");
   if (at.size() < end) at.resize(end, kNone);
   std::fill(at.begin() + entry.address, at.begin() + end, static_cast<std::uint32_t>(index));
+  if (!bits_as_they_are(entry, signal_type(entry))) return;
+  std::vector<std::uint32_t>& plain = plain_[static_cast<std::size_t>(entry.table)];
+  if (plain.size() < end) plain.resize(end, kNone);
+  plain[entry.address] = entry.signal;
 }
 
 /// Adds a bit to those that share its register.
@@ -321,8 +325,8 @@ void ModbusMap::chain(std::size_t index, std::uint32_t first) {
     if (modbus_bit(entries_[other]) == modbus_bit(entries_[index]))
       return report(index, "bit",
                     "bit " + std::to_string(entries_[index].bit) + " of address " +
-                        std::to_string(entries_[index].address) + " is taken by entry " +
-                        std::to_string(other) + " of the map already");
+                        std::to_string(entries_[index].address) + " is taken by entry " + line_of(other) +
+                        " of the map already");
     if (next_[other] != kNone) continue;
     next_[other] = static_cast<std::uint32_t>(index);
     return;

@@ -55,6 +55,10 @@ struct ModbusEntry {
   double scale = 1.0;               ///< finite, not 0
   double offset = 0.0;              ///< finite
   ModbusCounter counter = nullptr;  ///< shows this counter of the server, an ULINT, instead of a signal
+  /// Number of its line in the project's map, where one line may be an entry for each element of an array;
+  /// kOwnLine: as it stands among the entries.
+  std::uint32_t line = kOwnLine;
+  static constexpr std::uint32_t kOwnLine = ~0U;
 };
 
 /// The registers of a value, in the order of the wire; what the type does not need is 0.
@@ -94,10 +98,12 @@ class ModbusMap {
     const std::vector<std::uint32_t>& at = at_[static_cast<std::size_t>(table)];
     return address >= at.size() || at[address] == kNone ? nullptr : &entries_[at[address]];
   }
-  /// Whether the one register of an entry has the 16 bits of its signal as they are, and takes any: such
-  /// registers need neither `encode` nor `decode`.
-  bool is_plain(const ModbusEntry& entry) const noexcept {
-    return plain_[static_cast<std::size_t>(&entry - entries_.data())] != 0;
+  static constexpr std::uint32_t kNone = ~0U;
+  /// The signal of which the register at an address has the 16 bits as they are, and takes any: such
+  /// registers need neither `encode` nor `decode`. kNone: there is another one, or none.
+  std::uint32_t plain_signal(ModbusTable table, std::uint32_t address) const noexcept {
+    const std::vector<std::uint32_t>& plain = plain_[static_cast<std::size_t>(table)];
+    return address >= plain.size() ? kNone : plain[address];
   }
   /// The next bit in the same register, or nullptr.
   const ModbusEntry* next(const ModbusEntry& entry) const noexcept;
@@ -107,21 +113,20 @@ class ModbusMap {
   }
 
  private:
-  static constexpr std::uint32_t kNone = ~0U;
-
   bool check(std::size_t index);
   bool check_type(std::size_t index);
   bool check_shape(std::size_t index);
   void place(std::size_t index);
   void chain(std::size_t index, std::uint32_t first);
   void report(std::size_t index, std::string_view key, std::string text);
+  std::string line_of(std::size_t index) const;
 
   std::vector<ModbusEntry> entries_;
   std::vector<Type> signals_;
   std::vector<ModbusMapProblem> problems_;
-  std::array<std::vector<std::uint32_t>, 4> at_;  ///< per table and address: index of the entry or kNone
-  std::vector<std::uint8_t> plain_;               ///< per entry: see `is_plain`
-  std::vector<std::uint32_t> next_;               ///< per entry: the next bit in its register or kNone
+  std::array<std::vector<std::uint32_t>, 4> at_;     ///< per table and address: index of the entry or kNone
+  std::array<std::vector<std::uint32_t>, 4> plain_;  ///< per table and address: see `plain_signal`
+  std::vector<std::uint32_t> next_;                  ///< per entry: the next bit in its register or kNone
 };
 
 /// The maps of one place where clients ask: which one answers depends on the unit id. The maps outlive it.

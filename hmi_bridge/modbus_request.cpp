@@ -1,17 +1,14 @@
 #include "hmi_bridge/modbus_request.hpp"
 
 #include <modbus.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <utility>
 
 namespace lockstep {
 namespace {
 
 constexpr std::size_t kLengthEnd = 6;  ///< end of the MBAP header's length; what it counts begins here
-constexpr std::uint32_t kAddresses = 65536;
 constexpr std::uint8_t kIdentify = 43;
 
 std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) noexcept {
@@ -34,90 +31,47 @@ std::optional<std::size_t> modbus_frame_length(std::span<const std::uint8_t> byt
   return kLengthEnd + counted;
 }
 
-/// The library writes its answer to a socket, and expects that to take all of it at once. So it gets the one
-/// end of a pair that never leaves this thread; the other end gives the answer back.
-struct ModbusResponder::Library {
-  Library() {
-    context = modbus_new_tcp("127.0.0.1", 0);
-    mapping = modbus_mapping_new(kAddresses, kAddresses, kAddresses, kAddresses);
-    if (context == nullptr || mapping == nullptr ||
-        socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, pair) != 0) {
-      release();
-      throw std::runtime_error("no memory or no socket left for the Modbus server");
-    }
-    modbus_set_socket(context, pair[0]);
-  }
-  ~Library() { release(); }
-  Library(const Library&) = delete;
-  Library& operator=(const Library&) = delete;
-
-  void release() noexcept {
-    for (const int end : pair)
-      if (end >= 0) ::close(end);
-    modbus_mapping_free(mapping);
-    modbus_free(context);
-  }
-
-  modbus_t* context = nullptr;
-  modbus_mapping_t* mapping = nullptr;
-  int pair[2] = {-1, -1};
-};
-
 ModbusResponder::ModbusResponder(const ModbusUnits& units, ProcessImage& image, ModbusIdentity identity,
                                  const ModbusCounters* counters)
-    : units_(units),
-      map_(units.every),
-      image_(image),
-      identity_(std::move(identity)),
-      counters_(counters),
-      library_(std::make_unique<Library>()) {
+    : units_(units), map_(units.every), image_(image), identity_(std::move(identity)), counters_(counters) {
   batch_.reserve(MODBUS_MAX_WRITE_BITS);
 }
 
-ModbusResponder::~ModbusResponder() = default;
-
 std::span<const std::uint8_t> ModbusResponder::answer(std::span<const std::uint8_t> frame) {
-  const std::uint8_t function = frame[kModbusHeader];
-  if (function == kIdentify) return answer_identity(frame);
+  const Bytes pdu = frame.subspan(kModbusHeader);
   image_.refresh();  // the one instant that this request sees
   map_ = &units_.of(frame[kModbusHeader - 1]);
-  exception_ = perform(frame.subspan(kModbusHeader));
-  Library& library = *library_;
+  exception_ = perform(pdu);
+  reply_[kModbusHeader] = pdu[0];
   if (exception_ != ModbusException::none) {
-    modbus_reply_exception(library.context, frame.data(), static_cast<unsigned>(exception_));
-  } else if (function == MODBUS_FC_WRITE_AND_READ_REGISTERS) {
-    // The answer is that of a read. Asked for both, the library would show the registers as they were written
-    // and not as the signals hold them: an LREAL that a REAL has rounded.
-    std::array<std::uint8_t, kModbusHeader + 5> read;
-    std::copy_n(frame.begin(), read.size(), read.begin());
-    read[kModbusHeader] = MODBUS_FC_READ_HOLDING_REGISTERS;
-    modbus_reply(library.context, read.data(), static_cast<int>(read.size()), library.mapping);
-  } else {
-    modbus_reply(library.context, frame.data(), static_cast<int>(frame.size()), library.mapping);
-  }
-  const ssize_t size = ::recv(library.pair[1], reply_.data(), reply_.size(), MSG_DONTWAIT);
-  if (size < static_cast<ssize_t>(kModbusHeader + 2)) return {};
-  // The library adds 128 to the function, which would make no exception of one to a function above 127.
-  reply_[kModbusHeader] =
-      exception_ == ModbusException::none ? function : static_cast<std::uint8_t>(function | 0x80);
-  return std::span(reply_).first(static_cast<std::size_t>(size));
-}
-
-/// The library knows no identification.
-std::span<const std::uint8_t> ModbusResponder::answer_identity(std::span<const std::uint8_t> frame) {
-  const std::span<std::uint8_t> pdu = std::span(reply_).subspan(kModbusHeader);
-  const ModbusIdentification found = identify(identity_, frame.subspan(kModbusHeader), pdu);
-  exception_ = static_cast<ModbusException>(found.exception);
-  std::size_t size = found.size;
-  if (exception_ != ModbusException::none) {
-    pdu[0] = kIdentify | 0x80;
-    pdu[1] = found.exception;
-    size = 2;
+    reply_[kModbusHeader] = static_cast<std::uint8_t>(pdu[0] | 0x80);
+    reply_[kModbusHeader + 1] = static_cast<std::uint8_t>(exception_);
+    size_ = 2;
   }
   std::copy_n(frame.begin(), kModbusHeader, reply_.begin());
-  reply_[kLengthEnd - 2] = static_cast<std::uint8_t>((size + 1) >> 8);
-  reply_[kLengthEnd - 1] = static_cast<std::uint8_t>(size + 1);
-  return std::span(reply_).first(kModbusHeader + size);
+  reply_[kLengthEnd - 2] = static_cast<std::uint8_t>((size_ + 1) >> 8);
+  reply_[kLengthEnd - 1] = static_cast<std::uint8_t>(size_ + 1);
+  return std::span(reply_).first(kModbusHeader + size_);
+}
+
+ModbusException ModbusResponder::identify_us(Bytes pdu) {
+  const ModbusIdentification found = identify(identity_, pdu, std::span(reply_).subspan(kModbusHeader));
+  size_ = found.size;
+  return static_cast<ModbusException>(found.exception);
+}
+
+/// The beginning of an answer that is function, number of bytes and these bytes.
+std::uint8_t* ModbusResponder::begin_list(std::size_t bytes) {
+  reply_[kModbusHeader + 1] = static_cast<std::uint8_t>(bytes);
+  size_ = 2 + bytes;
+  return &reply_[kModbusHeader + 2];
+}
+
+/// An answer that repeats a part of the request, function first.
+ModbusException ModbusResponder::echo(Bytes part) {
+  std::copy(part.begin(), part.end(), reply_.begin() + kModbusHeader);
+  size_ = part.size();
+  return ModbusException::none;
 }
 
 ModbusException ModbusResponder::perform(Bytes pdu) {
@@ -135,30 +89,52 @@ ModbusException ModbusResponder::perform(Bytes pdu) {
       if (!has_two_words) return kBadValue;
       return read_registers(ModbusTable::input_register, word_at(pdu, 1), word_at(pdu, 3));
     case MODBUS_FC_WRITE_SINGLE_COIL:
-      if (!has_two_words || pdu[4] != 0 || (pdu[3] != 0 && pdu[3] != 0xFF)) return kBadValue;
-      return write_bits(word_at(pdu, 1), 1, pdu.subspan(3, 1));
+      return has_two_words ? write_one_bit(pdu) : kBadValue;
     case MODBUS_FC_WRITE_SINGLE_REGISTER:
-      return has_two_words ? write_registers(word_at(pdu, 1), pdu.subspan(3, 2)) : kBadValue;
-    case MODBUS_FC_WRITE_MULTIPLE_COILS: {
-      if (pdu.size() < 6) return kBadValue;
-      const std::uint32_t count = word_at(pdu, 3);
-      if (!is_list(pdu.subspan(5), count, MODBUS_MAX_WRITE_BITS, (count + 7) / 8)) return kBadValue;
-      return write_bits(word_at(pdu, 1), count, pdu.subspan(6));
-    }
-    case MODBUS_FC_WRITE_MULTIPLE_REGISTERS: {
-      if (pdu.size() < 6) return kBadValue;
-      const std::uint32_t count = word_at(pdu, 3);
-      if (!is_list(pdu.subspan(5), count, MODBUS_MAX_WRITE_REGISTERS, 2 * count)) return kBadValue;
-      return write_registers(word_at(pdu, 1), pdu.subspan(6));
-    }
-    case MODBUS_FC_MASK_WRITE_REGISTER:
+      return has_two_words ? write_one_register(pdu) : kBadValue;
+    case MODBUS_FC_WRITE_MULTIPLE_COILS:
+      return pdu.size() < 6 ? kBadValue : write_many_bits(pdu);
+    case MODBUS_FC_WRITE_MULTIPLE_REGISTERS:
+      return pdu.size() < 6 ? kBadValue : write_many_registers(pdu);
+    case MODBUS_FC_MASK_WRITE_REGISTER: {
       if (pdu.size() != 7) return kBadValue;
-      return mask_register(word_at(pdu, 1), word_at(pdu, 3), word_at(pdu, 5));
+      const ModbusException bad = mask_register(word_at(pdu, 1), word_at(pdu, 3), word_at(pdu, 5));
+      return bad == ModbusException::none ? echo(pdu) : bad;
+    }
     case MODBUS_FC_WRITE_AND_READ_REGISTERS:
       return pdu.size() < 10 ? kBadValue : write_and_read_registers(pdu);
+    case kIdentify:
+      return identify_us(pdu);
     default:
       return ModbusException::illegal_function;
   }
+}
+
+ModbusException ModbusResponder::write_one_bit(Bytes pdu) {
+  if (pdu[4] != 0 || (pdu[3] != 0 && pdu[3] != 0xFF)) return ModbusException::illegal_data_value;
+  const ModbusException bad = write_bits(word_at(pdu, 1), 1, pdu.subspan(3, 1));
+  return bad == ModbusException::none ? echo(pdu) : bad;
+}
+
+ModbusException ModbusResponder::write_many_bits(Bytes pdu) {
+  const std::uint32_t count = word_at(pdu, 3);
+  if (!is_list(pdu.subspan(5), count, MODBUS_MAX_WRITE_BITS, (count + 7) / 8))
+    return ModbusException::illegal_data_value;
+  const ModbusException bad = write_bits(word_at(pdu, 1), count, pdu.subspan(6));
+  return bad == ModbusException::none ? echo(pdu.first(5)) : bad;
+}
+
+ModbusException ModbusResponder::write_one_register(Bytes pdu) {
+  const ModbusException bad = write_registers(word_at(pdu, 1), pdu.subspan(3, 2));
+  return bad == ModbusException::none ? echo(pdu) : bad;
+}
+
+ModbusException ModbusResponder::write_many_registers(Bytes pdu) {
+  const std::uint32_t count = word_at(pdu, 3);
+  if (!is_list(pdu.subspan(5), count, MODBUS_MAX_WRITE_REGISTERS, 2 * count))
+    return ModbusException::illegal_data_value;
+  const ModbusException bad = write_registers(word_at(pdu, 1), pdu.subspan(6));
+  return bad == ModbusException::none ? echo(pdu.first(5)) : bad;
 }
 
 ModbusException ModbusResponder::check_read(ModbusTable table, std::uint32_t address,
@@ -174,7 +150,7 @@ ModbusException ModbusResponder::check_write(ModbusTable table, std::uint32_t ad
   while (address < end) {
     const ModbusEntry* const entry = map_->find(table, address);
     if (entry == nullptr || entry->address != address) return ModbusException::illegal_data_address;
-    if (map_->is_plain(*entry) && entry->writable) {
+    if (map_->plain_signal(table, address) != ModbusMap::kNone && entry->writable) {
       ++address;
       continue;
     }
@@ -206,30 +182,35 @@ ModbusException ModbusResponder::read_bits(ModbusTable table, Bytes pdu) {
   const std::uint32_t count = word_at(pdu, 3);
   if (count < 1 || count > MODBUS_MAX_READ_BITS) return ModbusException::illegal_data_value;
   if (const auto bad = check_read(table, address, count); bad != ModbusException::none) return bad;
-  modbus_mapping_t& mapping = *library_->mapping;
-  std::uint8_t* bits = table == ModbusTable::coil ? mapping.tab_bits : mapping.tab_input_bits;
-  for (std::uint32_t i = address; i < address + count; ++i)
-    bits[i] = image_.value(map_->find(table, i)->signal).u != 0 ? 1 : 0;
+  std::uint8_t* const bytes = begin_list((count + 7) / 8);
+  std::fill_n(bytes, (count + 7) / 8, std::uint8_t{0});
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (image_.value(map_->find(table, address + i)->signal).u != 0)
+      bytes[i / 8] |= static_cast<std::uint8_t>(1u << (i % 8));
   return ModbusException::none;
 }
 
 ModbusException ModbusResponder::read_registers(ModbusTable table, std::uint32_t address,
                                                 std::uint32_t count) {
   if (count < 1 || count > MODBUS_MAX_READ_REGISTERS) return ModbusException::illegal_data_value;
-  modbus_mapping_t& mapping = *library_->mapping;
-  std::uint16_t* registers =
-      table == ModbusTable::holding_register ? mapping.tab_registers : mapping.tab_input_registers;
+  std::uint8_t* byte = begin_list(2 * count);
+  const auto put = [&byte](std::uint16_t word) {
+    *byte++ = static_cast<std::uint8_t>(word >> 8);
+    *byte++ = static_cast<std::uint8_t>(word);
+  };
   // A value that begins before the range or ends behind it gives the part that was asked for.
   for (std::uint32_t i = address; i < address + count;) {
-    const ModbusEntry* const entry = map_->find(table, i);
-    if (entry == nullptr) return ModbusException::illegal_data_address;
-    if (map_->is_plain(*entry)) {
-      registers[i++] = static_cast<std::uint16_t>(image_.value(entry->signal).u);
+    const std::uint32_t plain = map_->plain_signal(table, i);
+    if (plain != ModbusMap::kNone) {
+      put(static_cast<std::uint16_t>(image_.value(plain).u));
+      ++i;
       continue;
     }
+    const ModbusEntry* const entry = map_->find(table, i);
+    if (entry == nullptr) return ModbusException::illegal_data_address;
     const ModbusWords words = words_of(*entry);
     const std::uint32_t end = std::min(address + count, entry->address + modbus_span(*entry));
-    for (; i < end; ++i) registers[i] = words[i - entry->address];
+    for (; i < end; ++i) put(words[i - entry->address]);
   }
   return ModbusException::none;
 }
@@ -254,7 +235,7 @@ ModbusException ModbusResponder::stage_registers(std::uint32_t address, Bytes wo
   batch_.clear();
   for (std::uint32_t i = address; i < end;) {
     const ModbusEntry& entry = *map_->find(ModbusTable::holding_register, i);
-    if (map_->is_plain(entry)) {
+    if (map_->plain_signal(ModbusTable::holding_register, i) != ModbusMap::kNone) {
       const std::uint16_t word = word_at(words, 2 * (i - address));
       Value value{};
       if (entry.type == Type::INT)

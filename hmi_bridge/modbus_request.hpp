@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,33 +39,36 @@ class ModbusResponder {
  public:
   /// The maps, the image and the counters outlive it. The signals of the maps are those of the image.
   /// @param counters of the server, for the entries that show them; nullptr: they show 0
-  /// @throws std::runtime_error if the system has no memory or no socket left
   ModbusResponder(const ModbusUnits& units, ProcessImage& image, ModbusIdentity identity = {},
                   const ModbusCounters* counters = nullptr);
-  ~ModbusResponder();
   ModbusResponder(const ModbusResponder&) = delete;
   ModbusResponder& operator=(const ModbusResponder&) = delete;
 
-  /// Carries out a request and gives the frame to answer with, valid until the next call; empty if it could
-  /// not be made, which no request causes. `frame` is one whole frame, by modbus_frame_length.
+  /// Carries out a request and gives the frame to answer with, valid until the next call. `frame` is one
+  /// whole frame, by modbus_frame_length.
   std::span<const std::uint8_t> answer(std::span<const std::uint8_t> frame);
 
   /// What the last answer said.
   ModbusException exception() const noexcept { return exception_; }
 
  private:
-  struct Library;  ///< the library's context and mapping
   using Bytes = std::span<const std::uint8_t>;
 
   ModbusException perform(Bytes pdu);
   ModbusException read_bits(ModbusTable table, Bytes pdu);
   ModbusException read_registers(ModbusTable table, std::uint32_t address, std::uint32_t count);
+  ModbusException write_one_bit(Bytes pdu);
+  ModbusException write_many_bits(Bytes pdu);
+  ModbusException write_one_register(Bytes pdu);
+  ModbusException write_many_registers(Bytes pdu);
   ModbusException write_bits(std::uint32_t address, std::uint32_t count, Bytes bits);
   ModbusException write_registers(std::uint32_t address, Bytes words);
   ModbusException mask_register(std::uint32_t address, std::uint16_t and_mask, std::uint16_t or_mask);
   ModbusException mask_bits(const ModbusEntry& first, std::uint16_t and_mask, std::uint16_t or_mask);
   ModbusException write_and_read_registers(Bytes pdu);
-  std::span<const std::uint8_t> answer_identity(std::span<const std::uint8_t> frame);
+  ModbusException identify_us(Bytes pdu);
+  std::uint8_t* begin_list(std::size_t bytes);
+  ModbusException echo(Bytes part);
 
   ModbusException check_read(ModbusTable table, std::uint32_t address, std::uint32_t count) const;
   ModbusException check_write(ModbusTable table, std::uint32_t address, std::uint32_t count) const;
@@ -80,9 +82,9 @@ class ModbusResponder {
   ProcessImage& image_;
   const ModbusIdentity identity_;
   const ModbusCounters* counters_;
-  std::unique_ptr<Library> library_;
   std::vector<SignalWrite> batch_;
   std::array<std::uint8_t, kModbusFrame> reply_{};
+  std::size_t size_ = 0;  ///< of what the reply has behind its header [byte]
   ModbusException exception_ = ModbusException::none;
 };
 

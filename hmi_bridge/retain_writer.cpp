@@ -11,26 +11,45 @@ namespace {
 
 std::vector<Signal> signals_of(const std::vector<KeptValue>& values) {
   std::vector<Signal> signals;
-  for (const KeptValue& value : values) signals.push_back(value.signal);
+  for (const KeptValue& value : values) {
+    const std::span<const Signal> own = value.signals();
+    signals.insert(signals.end(), own.begin(), own.end());
+  }
   for (const KeptValue& value : values)
     if (value.present) signals.push_back(*value.present);
   return signals;
 }
 
+/// The beginning of a text that may be that of a long array.
+std::string beginning_of(const std::string& text) {
+  constexpr std::size_t kMost = 200;
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "…";
+}
+
+/// What there is to say of a row of another type; that of an array is put aside.
+std::string other_type(const KeptRow& row, const std::string& type, std::vector<KeptRow>& aside) {
+  std::string text = "was kept as " + row.type + " (" + beginning_of(row.value) + ") and is " + type +
+                     " now: it begins with its init value";
+  if (row.type.starts_with("ARRAY")) {
+    aside.push_back({row.name + "@" + row.type, row.type, row.value, row.basis});
+    text += "; what was kept stays in the file as '" + aside.back().name + "'";
+  }
+  return text;
+}
+
 }  // namespace
 
-std::vector<std::string> restore(const RetainFile& file, const std::vector<KeptValue>& values) {
+std::vector<std::string> restore(RetainFile& file, const std::vector<KeptValue>& values) {
   std::vector<std::string> remarks;
+  std::vector<KeptRow> aside;
   const auto remark = [&](const KeptValue& value, const std::string& text) {
     remarks.push_back("retain file " + file.path() + ": " + value.name + " " + text);
   };
   for (const KeptValue& value : values) {
     const KeptRow* const row = file.find(value.name);
     if (row == nullptr) continue;
-    const Type type = value.signal.value_type();
-    if (row->type != type_name(type)) {
-      remark(value, "was kept as " + row->type + " (" + row->value + ") and is " +
-                        std::string(type_name(type)) + " now: it begins with its init value");
+    if (row->type != value.type()) {
+      remark(value, other_type(*row, value.type(), aside));
       continue;
     }
     if (row->basis != value.basis) {
@@ -40,20 +59,30 @@ std::vector<std::string> restore(const RetainFile& file, const std::vector<KeptV
                  row->basis + "; it is: " + value.basis);
       continue;
     }
-    const std::optional<Value> kept = kept_value(row->value, type);
+    const std::span<const Signal> signals = value.signals();
+    const auto kept = kept_values(row->value, signals);
     if (!kept)
       throw RetainFileError("retain file " + file.path() + ": it is damaged (" + value.name + " is '" +
-                            row->value + "', which is no " + row->type + ")");
-    value.signal.store(*kept);
+                            beginning_of(row->value) + "', which is no " + row->type + ")");
+    for (std::size_t i = 0; i < signals.size(); ++i) signals[i].store((*kept)[i]);
     Value present{};
     present.u = 1;
     if (value.present) value.present->store(present);
   }
+  if (const std::string problem = aside.empty() ? "" : file.write(aside); !problem.empty())
+    throw RetainFileError("retain file " + file.path() + ": arrays of another type cannot be put aside: " +
+                          problem + "; nothing has been changed");
   return remarks;
 }
 
 RetainWriter::RetainWriter(RetainFile file, std::vector<KeptValue> values, std::chrono::nanoseconds interval)
-    : file_(std::move(file)), values_(std::move(values)), interval_(interval), image_(signals_of(values_)) {}
+    : file_(std::move(file)),
+      values_(std::move(values)),
+      interval_(interval),
+      image_(signals_of(values_)),
+      seen_(image_.size()),
+      texts_(values_.size()),
+      is_old_(values_.size(), true) {}
 
 RetainWriter::~RetainWriter() {
   stop();
@@ -111,26 +140,47 @@ bool RetainWriter::wait(std::chrono::steady_clock::duration time) {
   return !wake_.wait_for(lock, time, [this] { return stop_; });
 }
 
-/// Takes the newest snapshot; whether it holds anything else than the one before.
+/// Takes the newest snapshot; whether it holds anything else than the one before. Texts are made when they
+/// are to be written only: those of large arrays take their time.
 bool RetainWriter::look() {
   image_.refresh();
-  std::vector<KeptRow> rows;
-  std::size_t place = values_.size();
+  bool changed = false;
+  std::size_t place = 0;
+  const auto is_new = [&](std::size_t signal) {
+    const Value value = image_.value(signal);
+    return std::exchange(seen_[signal].u, value.u) != value.u;
+  };
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    const KeptValue& value = values_[i];
-    if (value.present && image_.value(place++).u == 0) continue;
-    const Type type = image_.type(i);
-    rows.push_back({value.name, std::string(type_name(type)), kept_text(image_.value(i), type), value.basis});
+    bool own = false;
+    for (std::size_t k = 0; k < values_[i].signals().size(); ++k) own |= is_new(place++);
+    if (own) is_old_[i] = true;
+    changed |= own;
   }
-  if (rows == rows_) return false;
-  rows_ = std::move(rows);
-  return true;
+  while (place < image_.size()) changed |= is_new(place++);
+  return changed;
+}
+
+/// The values that are there, as the last look saw them.
+std::vector<KeptRow> RetainWriter::rows() {
+  std::vector<KeptRow> present;
+  std::size_t place = 0;
+  std::size_t presence = image_.size();
+  for (const KeptValue& value : values_) presence -= value.present ? 1 : 0;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const std::span<const Signal> signals = values_[i].signals();
+    if (is_old_[i]) texts_[i] = kept_texts(std::span(seen_).subspan(place, signals.size()), signals);
+    is_old_[i] = false;
+    place += signals.size();
+    if (values_[i].present && seen_[presence++].u == 0) continue;
+    present.push_back({values_[i].name, values_[i].type(), texts_[i], values_[i].basis});
+  }
+  return present;
 }
 
 void RetainWriter::write() {
   std::string problem;
   try {
-    problem = file_.write(rows_);
+    problem = file_.write(rows());
   } catch (const std::exception& error) {
     problem = error.what();
   }

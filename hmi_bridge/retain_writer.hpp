@@ -14,10 +14,12 @@
 
 namespace lockstep {
 
-/// Gives kept values back to their signals. Before the first tick, in the thread that loads.
+/// Gives kept values back to their signals. Before the first tick, in the thread that loads. An array that
+/// was kept with another type, and an array's values kept under the name of what is another now, stay in the
+/// file as "NAME@TYPE": nobody could type them in again from a message.
 /// @return what could not be given back and why, as plain texts; those values stay as they are
 /// @throws RetainFileError for a text that is no value of its type: the file is damaged
-std::vector<std::string> restore(const RetainFile& file, const std::vector<KeptValue>& values);
+std::vector<std::string> restore(RetainFile& file, const std::vector<KeptValue>& values);
 
 /// Writes the values to their file whenever they have changed, each time those of one tick; between two
 /// writes there is an interval. The cycle never waits for it and never wakes it. A write that fails is tried
@@ -51,14 +53,17 @@ class RetainWriter {
   void run();
   bool wait(std::chrono::steady_clock::duration time);
   bool look();
+  std::vector<KeptRow> rows();
   void write();
 
   RetainFile file_;
   const std::vector<KeptValue> values_;
   const std::chrono::nanoseconds interval_;
-  ProcessImage image_;         // all values, then whether those are present that need not be
-  std::vector<KeptRow> rows_;  // as the last look saw them
-  bool changed_ = false;       // since the last write that went well
+  ProcessImage image_;              // all values, then whether those are present that need not be
+  std::vector<Value> seen_;         // what the last look saw in it
+  std::vector<std::string> texts_;  // of each value
+  std::vector<bool> is_old_;        // of each text: the value has changed since
+  bool changed_ = false;            // since the last write that went well
 
   mutable std::mutex mutex_;  // guards those below
   std::condition_variable wake_;

@@ -13,6 +13,8 @@ constexpr std::int64_t kHighestRate = 1'000'000;
 constexpr std::int64_t kShortestIdle = 1'000'000'000;      // [ns]
 constexpr std::int64_t kLongestIdle = 86'400'000'000'000;  // [ns]
 constexpr double kMost = std::numeric_limits<double>::max();
+constexpr std::uint64_t kAddresses = 65536;
+constexpr std::size_t kMostSignals = 100'000;  // of arrays, so that no file takes the machine down
 
 /// A number of the run that a map may show, besides the counters of the server.
 struct CycleDiagnostic {
@@ -43,10 +45,12 @@ class MapLoader {
     std::optional<std::uint8_t> unit;
     std::vector<ModbusEntry> entries;
     std::vector<const JsonValue*> places;  // of the entries in the file
+    std::vector<ModbusArray> arrays;
   };
 
-  void load_entry(const JsonValue& json, Draft& draft);
-  std::optional<ModbusEntry> load_source(const Fields& fields);
+  void load_line(const JsonValue& json, std::uint32_t line, Draft& draft);
+  void load_entry(const Fields& fields, std::uint32_t line, Draft& draft);
+  void load_tag(const Fields& fields, std::uint32_t line, Draft& draft);
   std::optional<ModbusEntry> load_diagnostic(const JsonValue& json, const Fields& fields);
   bool read_access(const JsonValue* json, const Place& place, ModbusTable table);
 
@@ -58,9 +62,10 @@ class MapLoader {
 
 void MapLoader::load(const JsonValue* map, std::optional<std::size_t> server,
                      std::optional<std::uint8_t> unit) {
-  Draft& draft = drafts_.emplace_back(Draft{server, unit, {}, {}});
+  Draft& draft = drafts_.emplace_back(Draft{server, unit, {}, {}, {}});
   if (read_array(map, problems_) == nullptr) return;
-  for (const JsonValue* const entry : map->elements) load_entry(*entry, draft);
+  for (std::uint32_t line = 0; line < map->elements.size(); ++line)
+    load_line(*map->elements[line], line, draft);
 }
 
 void MapLoader::load_units(const JsonValue* units, std::optional<std::size_t> server) {
@@ -82,13 +87,9 @@ void MapLoader::finish() {
   std::vector<Type> types;
   for (const NamedSignal& signal : modbus_.signals) types.push_back(signal.signal.value_type());
   for (Draft& draft : drafts_) {
-    const ModbusMapConfig& made = modbus_.maps.emplace_back(
-        ModbusMapConfig{draft.server, draft.unit, {std::move(draft.entries), types}});
-    for (const ModbusMapProblem& problem : made.map.problems()) {
-      const JsonValue& entry = *draft.places[problem.entry];
-      const JsonValue* const field = entry.find(problem.key);
-      problems_.report(field == nullptr ? entry : *field, problem.text);
-    }
+    const ModbusMapConfig& made = modbus_.maps.emplace_back(ModbusMapConfig{
+        draft.server, draft.unit, {std::move(draft.entries), types}, std::move(draft.arrays)});
+    report_modbus_problems(made.map, draft.places, problems_);
   }
 }
 
@@ -124,34 +125,42 @@ std::optional<ModbusEntry> MapLoader::load_diagnostic(const JsonValue& json, con
   return entry;
 }
 
-std::optional<ModbusEntry> MapLoader::load_source(const Fields& fields) {
+void MapLoader::load_tag(const Fields& fields, std::uint32_t line, Draft& draft) {
+  const std::size_t before = problems_.count();
+  const JsonValue& tag = *fields["tag"];
+  const auto path = read_string(&tag, problems_);
+  const auto source = path ? find_modbus_source(tag, *path, loading_) : std::nullopt;
+  auto entry = read_modbus_shape(fields, source ? std::optional(source->type()) : std::nullopt, problems_);
+  if (!source || !entry) return;
+  entry->writable = read_access(fields["access"], source->place, entry->table);
+  entry->range = written_range(source->place);
+  entry->line = line;
+  if (problems_.count() != before) return;
+  if (source->elements) draft.arrays.push_back({*source->elements, draft.entries.size()});
+  add_modbus_entries(*entry, *source, *path, fields, problems_, draft.entries, modbus_.signals);
+}
+
+void MapLoader::load_entry(const Fields& fields, std::uint32_t line, Draft& draft) {
   const JsonValue* const tag = fields["tag"];
   const JsonValue* const diagnostic = fields["diagnostic"];
   if (tag != nullptr && diagnostic != nullptr)
     problems_.report(*diagnostic, "an entry shows a tag or a diagnostic; allowed: one of the two keys");
   if (tag == nullptr && diagnostic == nullptr)
     problems_.report(fields.value(), "the key 'tag' is missing, or 'diagnostic' in its place");
-  if (tag == nullptr && diagnostic != nullptr) return load_diagnostic(*diagnostic, fields);
-  const auto path = read_string(tag, problems_);
-  const auto place = path ? loading_.find(*tag, *path) : std::nullopt;
-  auto entry =
-      read_modbus_shape(fields, place ? std::optional(place->signal.value_type()) : std::nullopt, problems_);
-  if (!place || !entry) return std::nullopt;
-  entry->writable = read_access(fields["access"], *place, entry->table);
-  entry->range = written_range(*place);
-  entry->signal = static_cast<std::uint32_t>(modbus_.signals.size());
-  modbus_.signals.push_back({std::string(*path), place->signal, place->unit});
-  return entry;
+  if (tag != nullptr && diagnostic == nullptr) return load_tag(fields, line, draft);
+  if (tag != nullptr || diagnostic == nullptr) return;
+  const std::size_t before = problems_.count();
+  auto entry = load_diagnostic(*diagnostic, fields);
+  if (!entry || problems_.count() != before) return;
+  entry->line = line;
+  draft.entries.push_back(*entry);
 }
 
-void MapLoader::load_entry(const JsonValue& json, Draft& draft) {
+void MapLoader::load_line(const JsonValue& json, std::uint32_t line, Draft& draft) {
   const Fields fields(json, keys::kMapEntry, problems_);
   if (!fields.usable()) return;
-  const std::size_t before = problems_.count();
-  const auto entry = load_source(fields);
-  if (!entry || problems_.count() != before) return;
-  draft.entries.push_back(*entry);
-  draft.places.push_back(&json);
+  load_entry(fields, line, draft);
+  draft.places.resize(draft.entries.size(), &json);
 }
 
 void load_listen(const JsonValue& json, ModbusServerOptions& options, Problems& problems) {
@@ -331,6 +340,74 @@ std::optional<ModbusEntry> read_modbus_shape(const Fields& fields, std::optional
   entry.bit = static_cast<std::int8_t>(bit.value_or(-1));
   if (problems.count() != before) return std::nullopt;
   return entry;
+}
+
+std::optional<ModbusSource> find_modbus_source(const JsonValue& at, std::string_view path,
+                                               const Loading& loading) {
+  FoundElements found = find_several(loading.names(), path);
+  if (!found.problem.empty()) {
+    if (!found.known_problem) loading.problems.report(at, found.problem);
+    return std::nullopt;
+  }
+  if (found.elements) return ModbusSource{found.elements->place, std::move(found.elements)};
+  const auto place = loading.find(at, path);
+  if (!place) return std::nullopt;
+  return ModbusSource{*place, std::nullopt};
+}
+
+std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& source, std::string_view path,
+                               const Fields& fields, Problems& problems, std::vector<ModbusEntry>& entries,
+                               std::vector<NamedSignal>& signals) {
+  ModbusEntry entry = shape;
+  const auto add = [&](std::string name, const Signal& signal) {
+    entry.signal = static_cast<std::uint32_t>(signals.size());
+    entries.push_back(entry);
+    signals.push_back({std::move(name), signal, source.place.unit});
+  };
+  if (!source.elements) {
+    add(std::string(path), source.place.signal);
+    return 1;
+  }
+  const ElementPath& elements = *source.elements;
+  const bool is_bit = shape.bit >= 0;
+  const std::uint64_t addresses = is_bit
+                                      ? (static_cast<std::uint64_t>(shape.bit) + elements.count() + 15) / 16
+                                      : elements.count() * modbus_span(shape);
+  if (shape.address + addresses > kAddresses) {
+    problems.report(*fields["address"], std::to_string(elements.count()) + " elements on " +
+                                            std::to_string(addresses) + " addresses from " +
+                                            std::to_string(shape.address) + " on go beyond 65535");
+    return 0;
+  }
+  if (signals.size() + elements.count() > kMostSignals) {
+    problems.report(*fields["tag"], "with the " + std::to_string(elements.count()) + " elements of " +
+                                        quote(path) + " there are more than " + std::to_string(kMostSignals) +
+                                        " values on Modbus; allowed are these");
+    return 0;
+  }
+  for (std::int64_t index = elements.first; index <= elements.last; ++index) {
+    add(elements.name_of(index), elements.signal_of(index));
+    if (!is_bit) {
+      entry.address += modbus_span(shape);
+    } else if (++entry.bit > 15) {
+      entry.bit = 0;
+      ++entry.address;
+    }
+  }
+  return elements.count();
+}
+
+void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* const> places,
+                            Problems& problems) {
+  const JsonValue* told = nullptr;
+  for (const ModbusMapProblem& problem : map.problems()) {
+    const JsonValue& entry = *places[problem.entry];
+    const JsonValue* const field = entry.find(problem.key);
+    const JsonValue& place = field == nullptr ? entry : *field;
+    if (told == &place) continue;  // of the elements of an array the first one
+    told = &place;
+    problems.report(place, problem.text);
+  }
 }
 
 ModbusUnits ModbusConfig::units_of(std::size_t server) const {

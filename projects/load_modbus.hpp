@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "hmi_bridge/modbus_map.hpp"
 #include "projects/loader.hpp"
@@ -13,6 +15,32 @@ namespace lockstep {
 /// @param signal type of its value; none: not known, since its name is faulty; then there is no entry
 std::optional<ModbusEntry> read_modbus_shape(const Fields& fields, std::optional<Type> signal,
                                              Problems& problems);
+
+/// What an entry shows: a value, or several elements.
+struct ModbusSource {
+  Place place;  ///< of the value, or of the first element
+  std::optional<ElementPath> elements;
+
+  Type type() const noexcept { return place.signal.value_type(); }
+};
+
+/// The value or the elements to which a path leads, or none: then that is reported, unless the problem is
+/// known already.
+std::optional<ModbusSource> find_modbus_source(const JsonValue& at, std::string_view path,
+                                               const Loading& loading);
+
+/// Adds an entry, or one for each element at the addresses that follow, and their signals. What goes beyond
+/// the addresses or the signals that there may be is reported.
+/// @param shape of the first entry; its signal is not looked at
+/// @return how many were added
+std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& source, std::string_view path,
+                               const Fields& fields, Problems& problems, std::vector<ModbusEntry>& entries,
+                               std::vector<NamedSignal>& signals);
+
+/// Reports what a map says of its entries, once for each key of the project file.
+/// @param places of the entries in the file
+void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* const> places,
+                            Problems& problems);
 
 /// Reads the keys of a serial line.
 SerialOptions read_serial(const JsonValue& json, Problems& problems);

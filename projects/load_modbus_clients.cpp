@@ -23,8 +23,8 @@ class ClientLoader {
  private:
   void load_device(const JsonValue& json);
   int read_unit(const JsonValue* json);
-  std::vector<ModbusEntry> load_entries(const JsonValue* json, bool is_write);
-  std::optional<ModbusEntry> load_entry(const JsonValue& json, bool is_write);
+  std::vector<ModbusEntry> load_entries(const JsonValue* json, bool is_write, ModbusDevice& device);
+  void load_entry(const JsonValue& json, ModbusLineState& state, std::vector<ModbusEntry>& entries);
   std::optional<std::uint32_t> load_tag(const JsonValue* json, Type type);
   std::uint32_t add_signal(std::string_view path, const Place& place);
 
@@ -71,8 +71,8 @@ void ClientLoader::load_device(const JsonValue& json) {
     device.cycle = std::chrono::nanoseconds(*cycle);
   device.quality = load_tag(fields["quality"], Type::BOOL);
   device.age = load_tag(fields["age"], Type::TIME);
-  device.reads = load_entries(fields["read"], false);
-  device.writes = load_entries(fields["write"], true);
+  device.reads = load_entries(fields["read"], false, device);
+  device.writes = load_entries(fields["write"], true, device);
   client_.options.devices.push_back(std::move(device));
 }
 
@@ -87,7 +87,7 @@ std::optional<std::uint32_t> ClientLoader::load_tag(const JsonValue* json, Type 
   if (!path) return std::nullopt;
   const auto place = loading_.find(*json, *path);
   if (!place) return std::nullopt;
-  if (place->tag == nullptr || place->signal.value_type() != type) {
+  if ((place->tag == nullptr && place->array == nullptr) || place->signal.value_type() != type) {
     problems_.report(*json, quote(*path) + " is no tag of type " + std::string(type_name(type)) +
                                 "; allowed: the name of one");
     return std::nullopt;
@@ -95,44 +95,44 @@ std::optional<std::uint32_t> ClientLoader::load_tag(const JsonValue* json, Type 
   return add_signal(*path, *place);
 }
 
-std::optional<ModbusEntry> ClientLoader::load_entry(const JsonValue& json, bool is_write) {
+void ClientLoader::load_entry(const JsonValue& json, ModbusLineState& state,
+                              std::vector<ModbusEntry>& entries) {
   const Fields fields(json, keys::kDeviceEntry, problems_);
-  if (!fields.usable()) return std::nullopt;
+  if (!fields.usable()) return;
+  const bool is_write = state.is_write;
   const std::size_t before = problems_.count();
   const auto path = read_string(fields["tag"], problems_);
-  const auto place = path ? loading_.find(*fields["tag"], *path) : std::nullopt;
-  auto entry =
-      read_modbus_shape(fields, place ? std::optional(place->signal.value_type()) : std::nullopt, problems_);
-  if (!place || !entry) return std::nullopt;
-  if (const std::string reason = why_not_writable(*place); !is_write && !reason.empty())
+  const auto source = path ? find_modbus_source(*fields["tag"], *path, loading_) : std::nullopt;
+  auto entry = read_modbus_shape(fields, source ? std::optional(source->type()) : std::nullopt, problems_);
+  if (!source || !entry) return;
+  if (const std::string reason = why_not_writable(source->place); !is_write && !reason.empty())
     problems_.report(*fields["tag"], reason);
   if (is_write && !is_writable_table(entry->table))
     problems_.report(*fields["table"],
                      fields["table"]->shown() + " cannot be written; allowed: coil, holding_register");
-  if (!is_write) entry->range = written_range(*place);
-  if (problems_.count() != before) return std::nullopt;
-  entry->signal = add_signal(*path, *place);
-  return entry;
+  if (!is_write) entry->range = written_range(source->place);
+  state.quality = load_tag(fields["quality"], Type::BOOL);
+  state.age = load_tag(fields["age"], Type::TIME);
+  if (problems_.count() != before) return;
+  add_modbus_entries(*entry, *source, *path, fields, problems_, entries, client_.signals);
 }
 
 /// Entries that are good by themselves and together: the rules are those of a map.
-std::vector<ModbusEntry> ClientLoader::load_entries(const JsonValue* json, bool is_write) {
+std::vector<ModbusEntry> ClientLoader::load_entries(const JsonValue* json, bool is_write,
+                                                    ModbusDevice& device) {
   if (read_array(json, problems_) == nullptr) return {};
   std::vector<ModbusEntry> entries;
   std::vector<const JsonValue*> places;
-  for (const JsonValue* const element : json->elements) {
-    const auto entry = load_entry(*element, is_write);
-    if (!entry) continue;
-    entries.push_back(*entry);
-    places.push_back(element);
+  for (std::uint32_t line = 0; line < json->elements.size(); ++line) {
+    ModbusLineState state{.is_write = is_write, .line = line, .quality = {}, .age = {}};
+    load_entry(*json->elements[line], state, entries);
+    if (entries.size() > places.size() && (state.quality || state.age)) device.lines.push_back(state);
+    for (std::size_t i = places.size(); i < entries.size(); ++i) entries[i].line = line;
+    places.resize(entries.size(), json->elements[line]);
   }
   std::vector<Type> types;
   for (const NamedSignal& signal : client_.signals) types.push_back(signal.signal.value_type());
-  const ModbusMap map(entries, types);
-  for (const ModbusMapProblem& problem : map.problems()) {
-    const JsonValue* const field = places[problem.entry]->find(problem.key);
-    problems_.report(field == nullptr ? *places[problem.entry] : *field, problem.text);
-  }
+  report_modbus_problems(ModbusMap(entries, types), places, problems_);
   return entries;
 }
 

@@ -71,9 +71,10 @@ class ProgramLoader {
   void load_call(const JsonValue& json);
   void load_branch(const JsonValue& json);
   void load_set(const JsonValue& json);
-  void load_element(const Fields& fields, std::string_view path, std::size_t open, std::size_t close);
   void assign(const JsonValue& to, const Place& place, std::optional<Expression> index);
   void load_set_start(const JsonValue& json);
+  struct Target;
+  std::optional<Target> read_target(const JsonValue& json, std::string_view path);
   void check_range(const JsonValue& json, const Expression& expression, const Place& place);
   void load_block(const JsonValue& json);
   void load_pins(const JsonValue* in, const JsonValue& call, Instance& instance);
@@ -155,37 +156,42 @@ void ProgramLoader::load_branch(const JsonValue& json) {
   program_.end_branch(alternative);
 }
 
-void ProgramLoader::load_set(const JsonValue& json) {
-  const Fields fields(json, keys::kSet, problems_);
-  const auto path = read_string(fields["set"], problems_);
-  if (!path) return;
-  const std::size_t open = path->find('[');
-  const std::size_t close = path->rfind(']');
-  if (open != path->npos && close != path->npos && open < close)
-    return load_element(fields, *path, open, close);
-  const auto place = loading_.find(*fields["set"], *path);
-  if (!place) return;
-  if (const std::string reason = why_not_writable(*place); !reason.empty())
-    return problems_.report(*fields["set"], reason);
-  if (fields["to"] != nullptr) assign(*fields["to"], *place, std::nullopt);
-}
+/// Where something is to be set.
+struct ProgramLoader::Target {
+  Place place;
+  std::optional<Expression> index;  ///< chooses the element; none: the place is fixed
+};
 
-/// An element: its index is a constant, or an expression of any integer type.
-void ProgramLoader::load_element(const Fields& fields, std::string_view path, std::size_t open,
-                                 std::size_t close) {
-  const JsonValue& set = *fields["set"];
-  auto index = compile_text(set, path.substr(open + 1, close - open - 1), Type::LINT);
-  if (!index) return;
+/// An index is a constant, or an expression of any integer type.
+std::optional<ProgramLoader::Target> ProgramLoader::read_target(const JsonValue& json,
+                                                                std::string_view path) {
+  const std::size_t open = path.find('[');
+  const std::size_t close = path.rfind(']');
+  if (open == path.npos || close == path.npos || open > close) {
+    const auto place = loading_.find(json, path);
+    if (!place) return std::nullopt;
+    return Target{*place, std::nullopt};
+  }
+  auto index = compile_text(json, path.substr(open + 1, close - open - 1), Type::LINT);
+  if (!index) return std::nullopt;
   std::string whole(path.substr(0, open + 1));
   const auto constant = constant_value(*index);
   if (constant) whole += std::to_string(constant->i);
   whole += path.substr(close);
-  const auto place = loading_.find_elements(set, whole);
-  if (!place) return;
-  if (const std::string reason = why_not_writable(*place); !reason.empty())
-    return problems_.report(set, reason);
+  const auto place = loading_.find_elements(json, whole);
+  if (!place) return std::nullopt;
   if (constant) index.reset();
-  if (fields["to"] != nullptr) assign(*fields["to"], *place, std::move(index));
+  return Target{*place, std::move(index)};
+}
+
+void ProgramLoader::load_set(const JsonValue& json) {
+  const Fields fields(json, keys::kSet, problems_);
+  const auto path = read_string(fields["set"], problems_);
+  auto target = path ? read_target(*fields["set"], *path) : std::nullopt;
+  if (!target) return;
+  if (const std::string reason = why_not_writable(target->place); !reason.empty())
+    return problems_.report(*fields["set"], reason);
+  if (fields["to"] != nullptr) assign(*fields["to"], target->place, std::move(target->index));
 }
 
 /// @param index chooses the element; none: the place is fixed
@@ -215,19 +221,17 @@ void ProgramLoader::check_range(const JsonValue& json, const Expression& express
 void ProgramLoader::load_set_start(const JsonValue& json) {
   const Fields fields(json, keys::kSetStart, problems_);
   const auto path = read_string(fields["set_start"], problems_);
-  if (!path) return;
-  auto place = loading_.find(*fields["set_start"], *path);
-  if (!place) return;
-  if (const std::string reason = why_no_start_value(*place); !reason.empty())
+  auto target = path ? read_target(*fields["set_start"], *path) : std::nullopt;
+  if (!target) return;
+  Place& place = target->place;
+  if (const std::string reason = why_no_start_value(place); !reason.empty())
     return problems_.report(*fields["set_start"], reason);
-  auto expression = compile(fields["to"], place->signal.type);
-  if (!expression) return;
-  check_range(*fields["to"], *expression, *place);
-  TechnologyObject& object = *place->object;
+  TechnologyObject& object = *place.object;
   const std::ptrdiff_t offset =
-      static_cast<char*>(place->signal.address) - static_cast<char*>(object.data_block());
-  place->signal.address = static_cast<char*>(object.start_values()) + offset;
-  program_.add_assignment(std::move(*expression), place->signal, *place->variable);
+      static_cast<char*>(place.signal.address) - static_cast<char*>(object.data_block());
+  place.signal.address = static_cast<char*>(object.start_values()) + offset;
+  if (fields["to"] == nullptr) return;
+  assign(*fields["to"], place, std::move(target->index));
   program_.add_assignment(Expression(Type::BOOL, Value{.u = 1}), {&object.start_values_changed, Type::BOOL});
 }
 

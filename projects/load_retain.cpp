@@ -51,12 +51,27 @@ KeptValue adjustment_of(Axis& axis) {
           .basis = scale_of(axis)};
 }
 
+KeptValue array_of(const ArrayTag& tag) {
+  const Array& array = tag.array;
+  KeptValue kept{.name = tag.name, .signal = {array.memory, array.element->type, -1}};
+  kept.array_type = array_type_name(array);
+  for (std::int64_t index = array.lower; index <= array.upper; ++index) {
+    char* const element = array.at(index);
+    for (const ElementMember& member : array.element->members)
+      kept.elements.push_back({element + member.offset, member.type, -1});
+    if (array.element->members.empty()) kept.elements.push_back({element, array.element->type, -1});
+  }
+  kept.signal = kept.elements.front();
+  return kept;
+}
+
 }  // namespace
 
 void load_retain(const JsonValue* retain, const Loading& loading) {
   RetainConfig& config = loading.project.retain;
   for (const Tag& tag : loading.controller().tags)
     if (tag.retain) config.values.push_back({.name = tag.name, .signal = tag.signal});
+  for (const ArrayTag* const tag : config.arrays) config.values.push_back(array_of(*tag));
   for (Axis* axis : loading.controller().axes)
     if (keeps_adjustment(*axis)) config.values.push_back(adjustment_of(*axis));
   if (retain == nullptr) return;

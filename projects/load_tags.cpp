@@ -29,13 +29,29 @@ std::optional<Type> read_type(const JsonValue* json, Problems& problems) {
 /// Memory for all arrays of a project, so that no file takes the machine down [byte].
 constexpr std::size_t kMostArrayMemory = 64u << 20;
 
+/// Values in arrays that are kept: each is copied at the end of every tick.
+constexpr std::size_t kMostKept = 10'000;
+
+std::size_t values_of(const Array& array) {
+  return array.count() * std::max<std::size_t>(array.element->members.size(), 1);
+}
+
+void retain_array(const ArrayTag& tag, const JsonValue& json, const Loading& loading) {
+  std::size_t kept = values_of(tag.array);
+  for (const ArrayTag* const other : loading.project.retain.arrays) kept += values_of(other->array);
+  if (kept > kMostKept)
+    return loading.problems.report(json, "with the " + std::to_string(values_of(tag.array)) +
+                                             " values of this array " + std::to_string(kept) +
+                                             " values of arrays are kept; allowed are " +
+                                             std::to_string(kMostKept) + " in all arrays of the project");
+  loading.project.retain.arrays.push_back(&tag);
+}
+
 void load_array(const std::string& name, const JsonValue& json, const Loading& loading, bool named) {
   const Fields fields(json, keys::kTag, loading.problems);
   const auto array = read_array_type(*fields["type"], loading.problems);
   const auto comment = read_string(fields["comment"], loading.problems);
-  if (const JsonValue* const retain = fields["retain"];
-      retain != nullptr && read_bool(retain, loading.problems).value_or(false))
-    loading.problems.report(*retain, "arrays are not retained yet; allowed: false");
+  const bool retain = read_bool(fields["retain"], loading.problems).value_or(false);
   if (!array) return;
   std::size_t memory = array->count() * array->element->size;
   for (const ArrayTag& other : loading.controller().arrays)
@@ -47,6 +63,7 @@ void load_array(const std::string& name, const JsonValue& json, const Loading& l
   ArrayTag& tag = loading.controller().add_array(name, *array);
   tag.comment = comment.value_or("");
   if (const JsonValue* const init = fields["init"]) read_array_values(*init, tag.array, loading.problems);
+  if (retain) retain_array(tag, *fields["retain"], loading);
   if (named) loading.names().define(name, &tag);
 }
 

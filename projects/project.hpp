@@ -20,6 +20,7 @@
 #include "hmi_bridge/modbus_server.hpp"
 #include "hmi_bridge/network.hpp"
 #include "hmi_bridge/trace_channel.hpp"
+#include "projects/element_path.hpp"
 #include "projects/names.hpp"
 #include "projects/problem.hpp"
 #include "projects/text_file.hpp"
@@ -43,11 +44,18 @@ std::optional<Endpoint> parse_endpoint(std::string_view text, std::string& probl
 /// `memq://`.
 std::string lcm_url_problem(std::string_view url);
 
+/// The entries of a map that one of its lines has made, one for each element of an array.
+struct ModbusArray {
+  ElementPath elements;
+  std::size_t first;  ///< index of the first element's entry in the map; the others follow
+};
+
 /// A map, and for whom it is.
 struct ModbusMapConfig {
   std::optional<std::size_t> server;  ///< index of the server whose own it is; none: of those without any
   std::optional<std::uint8_t> unit;   ///< none: of all unit ids that have none of their own
   ModbusMap map;
+  std::vector<ModbusArray> arrays{};
 };
 
 /// A client with the signals of its image.
@@ -92,8 +100,9 @@ struct FlightRecorderConfig {
 
 /// What is kept across runs.
 struct RetainConfig {
-  std::vector<KeptValue> values;  ///< tags with "retain", and adjustments of absolute encoders
-  std::string file;               ///< empty: the project does not say
+  std::vector<KeptValue> values;  ///< tags and arrays with "retain", and adjustments of absolute encoders
+  std::vector<const ArrayTag*> arrays;                          ///< those among the values
+  std::string file;                                             ///< empty: the project does not say
   std::chrono::nanoseconds interval = std::chrono::seconds(1);  ///< between two writes
 };
 

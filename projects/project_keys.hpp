@@ -92,7 +92,9 @@ inline constexpr Key kDeviceEntry[] = {{"tag", kRequired},
                                        {"byte_order"},
                                        {"bit"},
                                        {"scale"},
-                                       {"offset"}};
+                                       {"offset"},
+                                       {"quality"},
+                                       {"age"}};
 inline constexpr Key kUnit[] = {{"unit", kRequired}, {"map", kRequired}};
 inline constexpr Key kMapEntry[] = {{"tag"},
                                     {"diagnostic"},

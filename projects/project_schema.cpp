@@ -303,34 +303,39 @@ Json one_or_many(Json one, std::string_view description) {
 }
 
 Json modbus_entry_schema() {
-  return object(keys::kMapEntry,
-                {{"tag", text("signal: tag, instance.Pin or Object.Variable")},
-                 {"diagnostic",
-                  text("in place of a tag: a number of the run, such as ticks, overruns, alarms, refused")},
-                 {"table", words("table of Modbus", words::kTables)},
-                 {"address", integer("zero-based address of the first register or of the bit", 0, 65535)},
-                 {"type", words("type on the wire; it may narrow that of the signal", tag_type_names())},
-                 {"word_order", words("big: most significant register first", words::kWordOrders)},
-                 {"byte_order", words("big: more significant byte of a register first", words::kWordOrders)},
-                 {"bit", integer("a BOOL as this bit of a register, which several may share", 0, 15)},
-                 {"scale", described("of a REAL or LREAL as an integer: value = integer * scale + offset",
-                                     {{"type", "number"}})},
-                 {"offset", described("see scale", {{"type", "number"}})},
-                 {"access", words("whether a client may write", words::kAccesses)}});
+  return object(
+      keys::kMapEntry,
+      {{"tag", text("signal: tag, instance.Pin or Object.Variable; elements of an array side by side: "
+                    "array, array[*], array[2..5]")},
+       {"diagnostic",
+        text("in place of a tag: a number of the run, such as ticks, overruns, alarms, refused")},
+       {"table", words("table of Modbus", words::kTables)},
+       {"address", integer("zero-based address of the first register or of the bit", 0, 65535)},
+       {"type", words("type on the wire; it may narrow that of the signal", tag_type_names())},
+       {"word_order", words("big: most significant register first", words::kWordOrders)},
+       {"byte_order", words("big: more significant byte of a register first", words::kWordOrders)},
+       {"bit", integer("a BOOL as this bit of a register, which several may share", 0, 15)},
+       {"scale", described("of a REAL or LREAL as an integer: value = integer * scale + offset",
+                           {{"type", "number"}})},
+       {"offset", described("see scale", {{"type", "number"}})},
+       {"access", words("whether a client may write", words::kAccesses)}});
 }
 
 Json modbus_client_schema(const Json& serial) {
   const Json served = modbus_entry_schema();
   const Json& shapes = served["properties"];
-  const Json entry = object(keys::kDeviceEntry, {{"tag", text("tag or variable")},
-                                                 {"table", shapes["table"]},
-                                                 {"address", shapes["address"]},
-                                                 {"type", shapes["type"]},
-                                                 {"word_order", shapes["word_order"]},
-                                                 {"byte_order", shapes["byte_order"]},
-                                                 {"bit", shapes["bit"]},
-                                                 {"scale", shapes["scale"]},
-                                                 {"offset", shapes["offset"]}});
+  const Json entry =
+      object(keys::kDeviceEntry, {{"tag", text("tag or variable, or elements of an array as in a map")},
+                                  {"table", shapes["table"]},
+                                  {"address", shapes["address"]},
+                                  {"type", shapes["type"]},
+                                  {"word_order", shapes["word_order"]},
+                                  {"byte_order", shapes["byte_order"]},
+                                  {"bit", shapes["bit"]},
+                                  {"scale", shapes["scale"]},
+                                  {"offset", shapes["offset"]},
+                                  {"quality", text("BOOL tag: this entry went well in the last cycle")},
+                                  {"age", text("TIME tag: since the last cycle in which it did")}});
   const Json device =
       object(keys::kDevice, {{"name", text("for messages")},
                              {"unit", integer("unit id (1)", 0, 255)},

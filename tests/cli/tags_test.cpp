@@ -1,6 +1,7 @@
 // lockstep tags on a small project.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/command_run.hpp"
@@ -58,6 +59,36 @@ TEST(Tags, TellsWhatIsOnModbusAsCsv) {
     EXPECT_NE(ended.out.find(line), std::string::npos) << line << ended.out;
 }
 
+TEST(Tags, TellsArraysOnModbusAsOneLineEach) {
+  const Folder folder;
+  json project = json::parse(kProject);
+  project["tags"]["heights"] = {{"type", "ARRAY[0..3] OF LREAL"}, {"comment", "of parts"}, {"retain", true}};
+  project["tags"]["lamps"] = {{"type", "ARRAY[1..20] OF BOOL"}};
+  project["modbus"]["map"] = json::parse(R"([
+    { "tag": "heights", "table": "holding_register", "address": 40, "type": "REAL" },
+    { "tag": "heights[1..2]", "table": "input_register", "address": 80 },
+    { "tag": "lamps", "table": "holding_register", "address": 60, "bit": 14 } ])");
+  const std::string file = folder.write("project.json", project.dump());
+  const std::string csv = lockstep({"tags", file, "--csv"}).out;
+  for (const char* line :
+       {"heights,ARRAY[0..3] OF LREAL,,holding_register,40,8,REAL,big,big,,,,write,,,of parts\r\n",
+        "heights[1..2],ARRAY[1..2] OF LREAL,,input_register,80,8,LREAL,big,big,,,,read,,,\r\n",
+        "lamps,ARRAY[1..20] OF BOOL,,holding_register,60,3,BOOL,big,big,14,,,write,,,\r\n"})
+    EXPECT_NE(csv.find(line), std::string::npos) << line << csv;
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
+  const json shown = json::parse(lockstep({"tags", file, "--json"}).out);
+  EXPECT_EQ(shown["arrays"][0]["retain"], true);
+  const json& place = shown["arrays"][0]["modbus"][0];
+  EXPECT_EQ(place["elements"], 4);
+  EXPECT_EQ(place["registers"], 8);
+  EXPECT_EQ(place["type"], "REAL");
+  EXPECT_EQ(shown["other_modbus"][0]["name"], "heights[1..2]");
+  const std::string text = lockstep({"tags", file}).out;
+  EXPECT_NE(text.find("40-47"), std::string::npos) << text;
+  EXPECT_NE(text.find("4 REAL"), std::string::npos) << text;
+  EXPECT_NE(text.find("60-62"), std::string::npos) << text;
+}
+
 TEST(Tags, TellsArraysAndTheElementsThatAreOnModbus) {
   const Folder folder;
   json project = json::parse(kProject);
@@ -68,7 +99,8 @@ TEST(Tags, TellsArraysAndTheElementsThatAreOnModbus) {
   const json shown = json::parse(lockstep({"tags", file, "--json"}).out);
   EXPECT_EQ(shown["arrays"],
             json::parse(R"([{"name": "curve", "type": "ARRAY[0..4] OF TO_Cam_Struct_PointData",
-      "lower": 0, "upper": 4, "of": "TO_Cam_Struct_PointData", "comment": "of a cam"}])"));
+      "lower": 0, "upper": 4, "of": "TO_Cam_Struct_PointData", "retain": false, "comment": "of a cam",
+      "modbus": []}])"));
   bool found = false;
   for (const json& other : shown["other_modbus"])
     found |= other["name"] == "curve[2].y" && other["modbus"]["access"] == "write" && other["unit"] == "u";

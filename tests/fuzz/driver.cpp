@@ -1,5 +1,7 @@
 // Drives a fuzz target with seeded random changes of its seeds: the same inputs on every machine, no compiler
-// but g++. FUZZ_TARGET [NUMBER [SEED]]; a single input: FUZZ_TARGET --input FILE; the seeds: --seeds FOLDER.
+// but g++. FUZZ_TARGET [NUMBER [SEED]]; a single input: FUZZ_TARGET --input FILE; seeds and corpus, to begin
+// with:
+// --seeds FOLDER.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -8,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -142,9 +145,25 @@ void look_at(const std::string& input) {
   LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
 }
 
-int look_at_file(const char* path) {
+std::string content(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string input{std::istreambuf_iterator<char>(file), {}};
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What has been found once, in files of tests/fuzz/corpus; there need not be any.
+std::vector<std::string> corpus() {
+  std::vector<std::filesystem::path> paths;
+  std::error_code none;
+  for (const auto& file : std::filesystem::directory_iterator(LOCKSTEP_CORPUS, none))
+    paths.push_back(file.path());
+  std::sort(paths.begin(), paths.end());
+  std::vector<std::string> inputs;
+  for (const auto& path : paths) inputs.push_back(content(path));
+  return inputs;
+}
+
+int look_at_file(const char* path) {
+  std::string input = content(path);
   if (std::string_view(path).ends_with(".witness") && input.size() >= 8) {
     std::uint64_t size = 0;
     std::memcpy(&size, input.data(), 8);
@@ -158,6 +177,8 @@ int write_seeds(const std::string& folder) {
   int number = 0;
   for (const std::string& seed : seeds())
     std::ofstream(folder + "/seed_" + std::to_string(++number), std::ios::binary) << seed;
+  for (const std::string& found : corpus())
+    std::ofstream(folder + "/found_" + std::to_string(++number), std::ios::binary) << found;
   return 0;
 }
 
@@ -189,6 +210,10 @@ int main(int argc, char** argv) {
   if (first == "--input" && argc > 2) return look_at_file(argv[2]);
   if (first == "--seeds" && argc > 2) return write_seeds(argv[2]);
   for (const std::string& seed : seeds()) look_at(seed);
+  for (const std::string& found : corpus()) {
+    ::alarm(kPatience);
+    look_at(found);
+  }
   const bool soak = std::getenv("LOCKSTEP_SOAK") != nullptr;
   std::uint64_t inputs = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000;
   if (soak) inputs *= 100;

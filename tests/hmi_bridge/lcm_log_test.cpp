@@ -119,6 +119,42 @@ TEST(LcmTraceReader, ALogThatWasCutShortGivesItsWholeRowsAndARemark) {
   EXPECT_EQ(table.remark, "the log is cut short or damaged behind event 11");
 }
 
+TEST(LcmTraceReader, AnEventThatClaimsMoreThanTheFileHasEndsTheLog) {
+  const TraceDirectory directory;
+  const std::string path = directory.file("run.lcm");
+  write_log(path, kIdentity, sample_rows(10, 3));
+  constexpr std::uint8_t kTwoGigabytes[] = {0x7F, 0xFF, 0xFF, 0xFF};
+  std::string bytes = content(path);
+  constexpr std::size_t kDataLength = 24;
+  const std::size_t last = bytes.rfind("\xED\xA1\xDA\x01");
+  std::copy(std::begin(kTwoGigabytes), std::end(kTwoGigabytes),
+            bytes.begin() + static_cast<std::ptrdiff_t>(last + kDataLength));
+  std::ofstream(path, std::ios::binary) << bytes;
+
+  const TraceTable table = read_lcm_trace(path);
+  EXPECT_EQ(table.t.size(), 9u);
+  EXPECT_EQ(table.remark, "the log is cut short or damaged behind event 11");
+
+  // Such a claim of the first event already.
+  std::ofstream(path, std::ios::binary) << bytes.substr(last);
+  EXPECT_EQ(message_of(path), path + ": is not an LCM event log");
+}
+
+TEST(LcmTraceReader, ALogThatGrowsWhileItIsReadIsReadToItsEnd) {
+  const TraceDirectory directory;
+  const std::string path = directory.file("run.lcm");
+  write_log(path, kIdentity, sample_rows(10, 3));
+  const std::string bytes = content(path);
+  std::ofstream(path, std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  LcmTraceReader reader(path);
+  ASSERT_TRUE(reader.next());
+  std::ofstream(path, std::ios::binary | std::ios::app) << bytes.substr(bytes.size() / 2);
+  int rows = 1;
+  while (reader.next()) ++rows;
+  EXPECT_EQ(rows, 10);
+  EXPECT_EQ(reader.remark(), "");
+}
+
 TEST(LcmTraceReader, RowsThatTheRunDroppedAreRemarked) {
   const TraceDirectory directory;
   {

@@ -28,18 +28,23 @@ ModbusEntry entry(std::uint32_t signal, ModbusTable table, std::uint32_t address
 
 /// The controller's side: tags that a client fills from the machine, which is the foreign device.
 struct Tags {
-  LREAL speed = 0.0;      // signal 0
-  LINT count = 0;         // 1
-  INT locked = 0;         // 2
-  BOOL shown = false;     // 3
-  INT out = 12;           // 4
-  BOOL quality = false;   // 5
-  std::int64_t age = -1;  // 6
-  USINT narrow = 3;       // 7
-  std::vector<Signal> signals = {{&speed, Type::LREAL, -1}, {&count, Type::LINT, -1},
-                                 {&locked, Type::INT, -1},  {&shown, Type::BOOL, -1},
-                                 {&out, Type::INT, -1},     {&quality, Type::BOOL, -1},
-                                 {&age, Type::TIME, -1},    {&narrow, Type::USINT, -1}};
+  LREAL speed = 0.0;            // signal 0
+  LINT count = 0;               // 1
+  INT locked = 0;               // 2
+  BOOL shown = false;           // 3
+  INT out = 12;                 // 4
+  BOOL quality = false;         // 5
+  std::int64_t age = -1;        // 6
+  USINT narrow = 3;             // 7
+  BOOL one_good = false;        // 8
+  std::int64_t one_age = -1;    // 9
+  BOOL other_good = false;      // 10
+  std::int64_t other_age = -1;  // 11
+  std::vector<Signal> signals = {
+      {&speed, Type::LREAL, -1},  {&count, Type::LINT, -1},      {&locked, Type::INT, -1},
+      {&shown, Type::BOOL, -1},   {&out, Type::INT, -1},         {&quality, Type::BOOL, -1},
+      {&age, Type::TIME, -1},     {&narrow, Type::USINT, -1},    {&one_good, Type::BOOL, -1},
+      {&one_age, Type::TIME, -1}, {&other_good, Type::BOOL, -1}, {&other_age, Type::TIME, -1}};
   ProcessImage image{signals};
   std::int64_t ticks = -1;
 
@@ -175,6 +180,113 @@ TEST_F(Client, AValueThatItsTagCannotHoldIsNotTaken) {
   tags.expect([&] { return tags.locked == 77 && client->counters().bad_values >= 1; });
   EXPECT_FALSE(tags.quality);
   EXPECT_EQ(tags.narrow, 3);
+}
+
+/// Two neighbours that go in one request; of each is told how it is.
+ModbusDevice device_of_two(const ModbusEntry& one, const ModbusEntry& other) {
+  ModbusDevice device;
+  device.cycle = 5ms;
+  device.quality = 5;
+  device.age = 6;
+  device.reads = {one, other};
+  device.lines = {{false, 0, 8, 9}, {false, 1, 10, 11}};
+  return device;
+}
+
+TEST_F(Client, AnEntryWhoseValueIsBadIsBadAlone) {
+  serve();
+  // 77 fits; -3 beside it does not.
+  poll({device_of_two(entry(2, ModbusTable::holding_register, 32, Type::INT),
+                      entry(7, ModbusTable::holding_register, 31, Type::INT))},
+       server->port());
+  tags.expect([&] { return tags.one_good && client->counters().bad_values >= 2; });
+  EXPECT_FALSE(tags.other_good);
+  EXPECT_FALSE(tags.quality) << "not all of the cycle went well";
+  EXPECT_EQ(tags.locked, 77);
+  EXPECT_EQ(tags.one_age, 0);
+  tags.expect([&] { return tags.other_age > 50'000'000 && tags.age > 50'000'000; });
+  EXPECT_EQ(tags.narrow, 3) << "the last value stays";
+  machine.small = 9;
+  machine.tick();
+  tags.expect([&] { return tags.other_good && tags.quality && tags.narrow == 9; });
+  EXPECT_EQ(tags.other_age, 0);
+}
+
+TEST_F(Client, AnEntryThatTheDeviceRefusesIsBadAloneAndItsNeighboursAreReadWithoutIt) {
+  serve();
+  // At 33 the device has nothing: it refuses the request for both.
+  poll({device_of_two(entry(2, ModbusTable::holding_register, 32, Type::INT),
+                      entry(7, ModbusTable::holding_register, 33, Type::UINT))},
+       server->port());
+  tags.expect([&] { return tags.one_good; });
+  EXPECT_FALSE(tags.other_good);
+  EXPECT_FALSE(tags.quality);
+  EXPECT_EQ(tags.locked, 77);
+  machine.locked = 78;
+  machine.tick();
+  tags.expect([&] { return tags.locked == 78 && tags.other_age > 50'000'000; });
+  EXPECT_EQ(tags.one_age, 0);
+  EXPECT_EQ(client->counters().failed, 0u);
+  EXPECT_EQ(client->counters().connections, 1u);
+}
+
+TEST_F(Client, EntriesThatWereRefusedTogetherAreAskedForTogetherAgainLater) {
+  serve();
+  ModbusDevice device = device_of_two(entry(2, ModbusTable::holding_register, 32, Type::INT),
+                                      entry(7, ModbusTable::holding_register, 33, Type::UINT));
+  device.cycle = 1ms;
+  poll({device}, server->port());
+  // In the first cycle both together are refused, then the second alone: one good answer, two exceptions. In
+  // each of the next hundred there is one of each, then both are asked for together again.
+  const auto& counters = client->counters();
+  tags.expect([&] { return counters.requests >= 150; });
+  client->stop();
+  EXPECT_EQ(counters.refused - counters.requests, 2u);
+}
+
+TEST_F(Client, AnEntryThatTheDeviceDoesNotLetWriteIsBadAlone) {
+  serve();
+  ModbusDevice device;
+  device.cycle = 5ms;
+  device.quality = 5;
+  // 31 can be written, 32 cannot.
+  device.writes = {entry(7, ModbusTable::holding_register, 31, Type::INT),
+                   entry(4, ModbusTable::holding_register, 32, Type::INT)};
+  device.lines = {{true, 0, 8, 9}, {true, 1, 10, 11}};
+  poll({device}, server->port());
+  tags.expect([&] { return tags.one_good && tags.other_age > 20'000'000; });
+  EXPECT_FALSE(tags.other_good);
+  EXPECT_FALSE(tags.quality);
+  machine.tick();
+  EXPECT_EQ(machine.small, 3);
+  EXPECT_EQ(machine.locked, 77);
+}
+
+TEST_F(Client, TheQualityOfEveryEntryFallsWithTheDevice) {
+  serve();
+  poll({device_of_two(entry(2, ModbusTable::holding_register, 32, Type::INT),
+                      entry(3, ModbusTable::coil, 1, Type::BOOL))},
+       server->port());
+  tags.expect([&] { return tags.one_good && tags.other_good && tags.quality; });
+  server->stop();
+  tags.expect([&] { return !tags.one_good && !tags.other_good && !tags.quality; });
+  tags.expect([&] { return tags.one_age > 50'000'000 && tags.other_age > 50'000'000; });
+}
+
+TEST_F(Client, TheElementsOfALineAreGoodTogetherOrNot) {
+  serve();
+  ModbusDevice device;
+  device.cycle = 5ms;
+  device.reads = {entry(2, ModbusTable::holding_register, 32, Type::INT),
+                  entry(7, ModbusTable::holding_register, 31, Type::INT)};
+  device.reads[0].line = device.reads[1].line = 4;
+  device.lines = {{false, 4, 8, 9}};
+  poll({device}, server->port());
+  tags.expect([&] { return tags.locked == 77 && tags.one_age > 20'000'000; });
+  EXPECT_FALSE(tags.one_good);
+  machine.small = 9;
+  machine.tick();
+  tags.expect([&] { return tags.one_good && tags.narrow == 9; });
 }
 
 TEST_F(Client, ADeviceThatKeepsSilentIsAskedLessAndLessOftenAndHoldsUpNoOther) {

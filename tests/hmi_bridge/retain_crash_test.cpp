@@ -27,6 +27,15 @@ std::vector<KeptRow> snapshot(int number) {
     const int value = i % 3 == 0 ? number : i;
     rows.push_back({"value_" + std::to_string(i), "DINT", std::to_string(value), i % 5 == 0 ? "Gear=2" : ""});
   }
+  // Arrays: of a few elements that change, and of more than a page of the file, which do so now and then.
+  const auto add_array = [&rows](int elements, int first) {
+    std::string text;
+    for (int i = 0; i < elements; ++i) text += (i > 0 ? "," : "") + std::to_string(first + 1000 * i);
+    const std::string size = std::to_string(elements);
+    rows.push_back({"array_" + size, "ARRAY[1.." + size + "] OF DINT", text, ""});
+  };
+  add_array(3, number);
+  add_array(700, number / 5);
   return rows;
 }
 
@@ -133,7 +142,7 @@ TEST(RetainCrash, AFileWithAChangedByteIsRefusedOrHoldsWhatWasWritten) {
   EXPECT_GT(refused, 20);
 }
 
-TEST(RetainCrash, AFileCutShortIsRefused) {
+TEST(RetainCrash, AFileCutShortIsRefusedUnlessWhatIsMissingIsEmpty) {
   MemoryDisk disk;
   {
     RetainFile file(kFile, kProject, disk.name());
@@ -142,7 +151,14 @@ TEST(RetainCrash, AFileCutShortIsRefused) {
   for (std::size_t size = 1; size < disk.content[kFile].size(); size += soak() ? 1 : 97) {
     DiskContent cut = disk.content;
     cut[kFile].resize(size);
-    EXPECT_THROW(held(cut, 3), RetainFileError) << size;
+    // The last page may end with room that nothing has used.
+    const std::string& whole = disk.content[kFile];
+    const bool is_empty = whole.find_first_not_of('\0', size) == whole.npos;
+    if (is_empty) {
+      EXPECT_EQ(held(cut, 3), 3) << size;
+    } else {
+      EXPECT_THROW(held(cut, 3), RetainFileError) << size;
+    }
   }
 }
 

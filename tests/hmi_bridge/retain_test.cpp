@@ -39,6 +39,11 @@ struct OnDisk : testing::Test {
     std::filesystem::remove(path);
     std::filesystem::remove(path + "-journal");
   }
+  /// What there is to say of values that have been given back.
+  std::vector<std::string> restored(const std::vector<KeptValue>& values) const {
+    RetainFile file(path, "p");
+    return restore(file, values);
+  }
   std::string refusal(const std::string& project = "p") const {
     try {
       const RetainFile file(path, project);
@@ -213,7 +218,7 @@ TEST_F(RetainWriterTest, KeepsAllValuesOfTheLastTickAndGivesThemBack) {
     EXPECT_LE(writer.commits(), 2u) << "once at the start, once at the end";
   }
   Machine machine;
-  EXPECT_TRUE(restore(RetainFile(path, "p"), machine.values()).empty());
+  EXPECT_TRUE(restored(machine.values()).empty());
   EXPECT_EQ(machine.count, 99);
   EXPECT_EQ(machine.triple, 297.0);
   EXPECT_FALSE(machine.adjusted) << "there was nothing to keep";
@@ -234,7 +239,7 @@ TEST_F(RetainWriterTest, WritesWhileTheCycleRunsAlwaysOneInstant) {
     writer.stop();
   }
   Machine next;
-  EXPECT_TRUE(restore(RetainFile(path, "p"), next.values()).empty());
+  EXPECT_TRUE(restored(next.values()).empty());
   EXPECT_EQ(next.count, machine.count);
   EXPECT_EQ(next.triple, 3.0 * next.count);
   EXPECT_TRUE(next.adjusted);
@@ -264,11 +269,131 @@ TEST_F(RetainWriterTest, TellsOnceThatTheDiskIsFullAndOnceThatItIsNoLonger) {
 TEST_F(RetainWriterTest, AValueOfAnotherTypeIsToldAndNotTaken) {
   { EXPECT_EQ(RetainFile(path, "p").write(std::vector<KeptRow>{{"count", "REAL", "1.5", ""}}), ""); }
   Machine machine;
-  const auto remarks = restore(RetainFile(path, "p"), machine.values());
+  const auto remarks = restored(machine.values());
   ASSERT_EQ(remarks.size(), 1u);
   for (const char* part : {"count", "REAL", "1.5", "DINT"})
     EXPECT_NE(remarks[0].find(part), std::string::npos) << remarks[0];
   EXPECT_EQ(machine.count, 7);
+}
+
+/// An array as a tag is one.
+struct KeptArray {
+  explicit KeptArray(std::size_t count, double first = 0.0) : numbers(count, first) {}
+  std::vector<double> numbers;
+
+  KeptValue value(const std::string& type) {
+    KeptValue kept{.name = "recipe", .signal = {numbers.data(), Type::LREAL, -1}};
+    for (double& number : numbers) kept.elements.push_back({&number, Type::LREAL, -1});
+    kept.array_type = type;
+    return kept;
+  }
+};
+
+TEST_F(RetainWriterTest, KeepsArraysWithAllTheirElementsOfOneTick) {
+  KeptArray array(1000);
+  Machine machine;
+  {
+    std::vector<KeptValue> values = machine.values();
+    values.insert(values.begin() + 1, array.value("ARRAY[1..1000] OF LREAL"));
+    RetainWriter writer(RetainFile(path, "p"), values, 1ms);
+    writer.start();
+    machine.adjusted = true;
+    for (int tick = 1; writer.commits() < 20; ++tick) {
+      machine.set(tick);
+      machine.offset = -tick;
+      for (std::size_t i = 0; i < array.numbers.size(); ++i)
+        array.numbers[i] = tick + 0.001 * static_cast<double>(i);
+      writer.image().publish(tick);
+      std::this_thread::yield();
+    }
+    writer.stop();
+  }
+  KeptArray next(1000);
+  Machine other;
+  std::vector<KeptValue> values = other.values();
+  values.push_back(next.value("ARRAY[1..1000] OF LREAL"));
+  EXPECT_TRUE(restored(values).empty());
+  EXPECT_EQ(next.numbers, array.numbers) << "the same bits";
+  EXPECT_EQ(other.count, machine.count);
+  EXPECT_EQ(other.offset, machine.offset);
+  EXPECT_EQ(next.numbers.front(), other.count);
+}
+
+TEST_F(RetainWriterTest, AnElementThatChangesAloneIsWritten) {
+  KeptArray array(3, 1.5);
+  const std::vector<KeptValue> values{array.value("ARRAY[0..2] OF LREAL")};
+  {
+    RetainWriter writer(RetainFile(path, "p"), values, 1ms);
+    writer.start();
+    ASSERT_TRUE(wait_until([&] { return writer.commits() == 1; }));
+    array.numbers[1] = 2.5;
+    writer.image().publish(0);
+    ASSERT_TRUE(wait_until([&] { return writer.commits() == 2; }));
+    writer.stop();
+    EXPECT_EQ(writer.commits(), 2u);
+  }
+  const RetainFile file(path, "p");
+  EXPECT_EQ(file.find("recipe")->value, "1.5,2.5,1.5");
+  EXPECT_EQ(file.find("recipe")->type, "ARRAY[0..2] OF LREAL");
+}
+
+TEST_F(RetainWriterTest, AnArrayOfAnotherShapeIsToldNotTakenAndPutAside) {
+  {
+    EXPECT_EQ(
+        RetainFile(path, "p").write(std::vector<KeptRow>{{"recipe", "ARRAY[0..1] OF LREAL", "5,7.5", ""}}),
+        "");
+  }
+  KeptArray array(3, 1.0);
+  const std::string type = "ARRAY[0..2] OF LREAL";
+  {
+    RetainFile file(path, "p");
+    const auto remarks = restore(file, {array.value(type)});
+    ASSERT_EQ(remarks.size(), 1u);
+    for (const char* part :
+         {"recipe was kept as ARRAY[0..1] OF LREAL (5,7.5) and is ARRAY[0..2] OF LREAL now",
+          "begins with its init value", "stays in the file as 'recipe@ARRAY[0..1] OF LREAL'"})
+      EXPECT_NE(remarks[0].find(part), std::string::npos) << remarks[0];
+    EXPECT_EQ(array.numbers, std::vector<double>(3, 1.0));
+    RetainWriter writer(std::move(file), {array.value(type)}, 1ms);
+    writer.start();
+    writer.stop();
+  }
+  {
+    const RetainFile file(path, "p");
+    EXPECT_EQ(file.find("recipe")->value, "1,1,1");
+    EXPECT_EQ(file.find("recipe@ARRAY[0..1] OF LREAL")->value, "5,7.5");
+  }
+  EXPECT_TRUE(restored({array.value(type)}).empty()) << "told once";
+  // Of other bounds with as many elements, and of an array that has become a value.
+  EXPECT_EQ(restored({array.value("ARRAY[1..3] OF LREAL")}).size(), 1u);
+  double number = 3.0;
+  EXPECT_EQ(restored({KeptValue{.name = "recipe", .signal = {&number, Type::LREAL, -1}}}).size(), 1u);
+  EXPECT_EQ(number, 3.0);
+}
+
+TEST_F(RetainWriterTest, AnArrayThatCannotBePutAsideForWantOfSpaceEndsTheStart) {
+  MemoryDisk disk;
+  RetainFile file("full.retain", "p", disk.name());
+  ASSERT_EQ(
+      file.write(std::vector<KeptRow>{{"recipe", "ARRAY[0..1] OF LREAL", std::string(9000, '1') + ",1", ""}}),
+      "");
+  disk.space = 0;
+  KeptArray array(3, 1.0);
+  EXPECT_THROW(restore(file, {array.value("ARRAY[0..2] OF LREAL")}), RetainFileError);
+  EXPECT_NE(file.find("recipe"), nullptr);
+}
+
+TEST_F(RetainWriterTest, ATextOfAnArrayWithMoreOrFewerOrOtherValuesIsDamage) {
+  KeptArray array(2, 1.0);
+  for (const char* text : {"1", "1,2,3", "1,x", "", "1,", "1 ,2"}) {
+    {
+      EXPECT_EQ(
+          RetainFile(path, "p").write(std::vector<KeptRow>{{"recipe", "ARRAY[0..1] OF LREAL", text, ""}}),
+          "");
+    }
+    EXPECT_THROW(restored({array.value("ARRAY[0..1] OF LREAL")}), RetainFileError) << text;
+    EXPECT_EQ(array.numbers, std::vector<double>(2, 1.0)) << "all of them or none";
+  }
 }
 
 TEST_F(RetainWriterTest, AnAdjustmentOfAnEncoderWithOtherSettingsIsToldNotTakenAndLeftInTheFile) {
@@ -284,14 +409,14 @@ TEST_F(RetainWriterTest, AnAdjustmentOfAnEncoderWithOtherSettingsIsToldNotTakenA
     writer.start();
     writer.stop();
   }
-  EXPECT_TRUE(restore(RetainFile(path, "p"), machine.values()).empty());
+  EXPECT_TRUE(restored(machine.values()).empty());
   EXPECT_EQ(machine.offset, 12.0);
 }
 
 TEST_F(RetainWriterTest, ATextThatIsNoValueOfItsTypeIsDamage) {
   { EXPECT_EQ(RetainFile(path, "p").write(std::vector<KeptRow>{{"count", "DINT", "seven", ""}}), ""); }
   Machine machine;
-  EXPECT_THROW(restore(RetainFile(path, "p"), machine.values()), RetainFileError);
+  EXPECT_THROW(restored(machine.values()), RetainFileError);
 }
 
 }  // namespace

@@ -166,8 +166,11 @@ TEST(ArrayProblems, AreToldOfValues) {
   EXPECT_EQ(told(points, "[ 1 ]").find("/tags/a/init/0: "), 0u);
   EXPECT_EQ(told(points, R"([ [ true, 2 ] ])").find("/tags/a/init/0/0: "), 0u);
   EXPECT_EQ(problems(project(R"("a": { "type": "ARRAY[1..2] OF INT", "retain": true, "none": 1 })")),
-            "/tags/a/none: unknown key 'none'; allowed: type, init, retain, comment\n"
-            "/tags/a/retain: arrays are not retained yet; allowed: false\n");
+            "/tags/a/none: unknown key 'none'; allowed: type, init, retain, comment\n");
+  const std::string kept = R"(": { "type": "ARRAY[1..3000] OF TO_Cam_Struct_PointData", "retain": true })";
+  EXPECT_EQ(problems(project("\"a" + kept + ", \"b" + kept)),
+            "/tags/b/retain: with the 6000 values of this array 12000 values of arrays are kept; allowed are "
+            "10000 in all arrays of the project\n");
 }
 
 TEST(ArrayProblems, AreToldOfPlaces) {
@@ -315,6 +318,53 @@ TEST(CamData, StartValuesThatAProgramChangesCountWithARestart) {
   EXPECT_EQ(machine.read("Profile.StatusWord.X3"), 0.0);
   EXPECT_EQ(machine.read("Profile.Point[2].y"), 80.0);
   EXPECT_EQ(cam.function().value(100.0).position, 80.0);
+}
+
+// Point by point, as a program writes all else.
+TEST(CamData, StartValuesTakeComputedIndicesToo) {
+  const std::string text = R"({ "lockstep": 1, "name": "restart", "clock": { "servo_cycle": "1ms" },
+    "technology_objects": { "Profile": { "type": "TO_Cam", "points": [ [0.0, 0.0], [50.0, 9.0], [100.0, 50.0] ] } },
+    "tags": { "k": { "type": "INT" }, "change": { "type": "BOOL" }, "again": { "type": "BOOL" } },
+    "programs": [ { "name": "Main", "ob": "Main", "cycle": "1ms", "calls": [
+      { "if": "change", "then": [ { "set_start": "Profile.Point[k + 1].y", "to": "TO_LREAL(k) * 10.0" } ] },
+      { "fb": "MC_Reset", "name": "reset", "in": { "Axis": "Profile", "Execute": "again", "Restart": true } } ] } ] })";
+  Simulation machine = Simulation::from_text(text);
+  machine.write("change", 1.0);
+  for (const double k : {0.0, 1.0, 2.0}) {
+    machine.write("k", k);
+    machine.step();
+  }
+  const auto out_of_range = [&] {
+    return machine.project().controller->counters().evaluation.indices_out_of_range;
+  };
+  EXPECT_EQ(out_of_range(), 0u);
+  for (const double k : {-1.0, 1000.0}) {
+    machine.write("k", k);
+    machine.step();
+  }
+  EXPECT_EQ(out_of_range(), 2u) << "counted, and nothing is written";
+  machine.write("change", 0.0);
+  EXPECT_EQ(machine.read("Profile.Point[3].y"), 50.0);
+  EXPECT_EQ(machine.read("Profile.StatusWord.X3"), 1.0);
+  machine.write("again", 1.0);
+  machine.run_for(std::chrono::milliseconds(4));
+  EXPECT_EQ(machine.read("reset.Done"), 1.0);
+  EXPECT_EQ(machine.read("Profile.Point[1].y"), 0.0);
+  EXPECT_EQ(machine.read("Profile.Point[2].y"), 10.0);
+  EXPECT_EQ(machine.read("Profile.Point[3].y"), 20.0);
+  EXPECT_EQ(static_cast<Cam&>(*machine.project().controller->objects[0]).function().value(100.0).position,
+            20.0);
+}
+
+TEST(CamData, StartValuesAtAnIndexThatCannotBeAreToldWhenTheProjectIsLoaded) {
+  const auto told = [](const std::string& path) {
+    return problems(project(kArrays, R"({ "set_start": ")" + path + R"(", "to": 1.0 })"));
+  };
+  EXPECT_NE(told("Profile.Point[1001].y").find("/programs/0/calls/0/set_start: "), std::string::npos);
+  EXPECT_NE(told("Profile.Point[value].y").find("LREAL does not fit where LINT is expected"),
+            std::string::npos);
+  EXPECT_NE(told("numbers[i]").find("only variables of technology objects have start values"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -26,6 +26,27 @@ TEST(ProjectRetain, ListsTagsAndTheAdjustmentsOfAbsoluteEncoders) {
   EXPECT_EQ(retain.interval, std::chrono::seconds(10));
 }
 
+TEST(ProjectRetain, ListsArraysWithAllTheirElementsAndMembers) {
+  Json json = Json::parse(kExampleProject);
+  json["tags"]["recipe"] = {{"type", "ARRAY[-1..1] OF INT"}, {"retain", true}, {"init", {7, 8}}};
+  json["tags"]["curve"] = {{"type", "ARRAY[1..2] OF TO_Cam_Struct_PointData"},
+                           {"retain", true},
+                           {"init", {{1.0, 2.0}, {3.0, 4.0}}}};
+  json["tags"]["passing"] = {{"type", "ARRAY[1..2] OF INT"}};
+  const LoadedProject loaded = load_project(json.dump());
+  ASSERT_TRUE(loaded.project.has_value()) << lines(loaded.problems);
+  const std::vector<KeptValue>& values = loaded.project->retain.values;
+  ASSERT_EQ(values.size(), 3u);
+  EXPECT_EQ(values[1].name, "recipe");
+  EXPECT_EQ(values[1].type(), "ARRAY[-1..1] OF INT");
+  ASSERT_EQ(values[1].signals().size(), 3u);
+  EXPECT_EQ(values[1].signals()[1].load().i, 8);
+  EXPECT_EQ(values[2].type(), "ARRAY[1..2] OF TO_Cam_Struct_PointData");
+  ASSERT_EQ(values[2].signals().size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(values[2].signals()[i].load().r, static_cast<double>(i + 1)) << "x, y, x, y";
+}
+
 TEST(ProjectRetain, HasADefaultInterval) {
   const LoadedProject loaded = load_project(kExampleProject);
   ASSERT_TRUE(loaded.project.has_value());

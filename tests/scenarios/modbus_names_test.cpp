@@ -91,6 +91,129 @@ TEST_F(Panel, TellsNamesAndValuesThatAreWrongAndWritesNothing) {
   EXPECT_EQ(call("read", {"speeed"}, run.port()).status, 1);
 }
 
+/// Registers as they are.
+class Registers {
+ public:
+  explicit Registers(int port) : client_(modbus_new_tcp("127.0.0.1", port)) {
+    modbus_set_response_timeout(client_, 20, 0);
+    EXPECT_EQ(modbus_connect(client_), 0) << modbus_strerror(errno);
+  }
+  ~Registers() {
+    modbus_close(client_);
+    modbus_free(client_);
+  }
+  Registers(const Registers&) = delete;
+  Registers& operator=(const Registers&) = delete;
+
+  std::vector<std::uint16_t> inputs(int address, int count) {
+    std::vector<std::uint16_t> words(static_cast<std::size_t>(count));
+    EXPECT_EQ(modbus_read_input_registers(client_, address, count, words.data()), count)
+        << modbus_strerror(errno);
+    return words;
+  }
+  bool write(int address, const std::vector<std::uint16_t>& words) {
+    return modbus_write_registers(client_, address, static_cast<int>(words.size()), words.data()) ==
+           static_cast<int>(words.size());
+  }
+
+ private:
+  modbus_t* client_;
+};
+
+/// "rising" counts in all its elements at once; the rest is the operator's.
+class ArrayPanel : public Panel {
+ protected:
+  ArrayPanel() {
+    Json project = empty_project();
+    project["tags"] = Json::parse(R"({
+      "heights": {"type": "ARRAY[0..3] OF LREAL", "init": [5.0, 7.5]}, "on": {"type": "ARRAY[1..20] OF BOOL"},
+      "rising": {"type": "ARRAY[1..200] OF DINT"}, "k": {"type": "DINT"},
+      "points": {"type": "ARRAY[1..3] OF TO_Cam_Struct_PointData"}})");
+    Json calls = Json::array({assignment("k", "k + 1")});
+    for (int i = 1; i <= 200; ++i) calls.push_back(assignment("rising[" + std::to_string(i) + "]", "k"));
+    project["programs"] = {{{"name", "P"}, {"ob", "Main"}, {"cycle", "1ms"}, {"calls", calls}}};
+    project["modbus"]["map"] = {
+        entry("heights", "holding_register", 10, {{"type", "REAL"}, {"word_order", "little"}}),
+        entry("on", "holding_register", 40, {{"bit", 14}}), entry("on[3..4]", "coil", 0),
+        entry("rising", "input_register", 100),
+        entry("points[1..2].y", "holding_register", 60, {{"type", "INT"}, {"scale", 0.1}})};
+    file = directory.write("arrays.json", project.dump());
+  }
+};
+
+TEST_F(ArrayPanel, ReadsAndWritesElementsRangesAndAll) {
+  RunningLockstep run(file);
+  const auto read = [&](const std::string& name) { return call("read", {name}, run.port()).out; };
+  EXPECT_EQ(read("heights"), "heights = [5.0, 7.5, 0.0, 0.0]\n");
+  Ended ended =
+      call("write", {"heights[2]=1.25", "heights[0..1]=[-1, MAX(2.0, 3.0)]", "points[*].y=[1.0, 2.5]"},
+           run.port());
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(read("HEIGHTS[*]"), "HEIGHTS[*] = [-1.0, 3.0, 1.25, 0.0]\n");
+  EXPECT_EQ(read("heights[1..2]"), "heights[1..2] = [3.0, 1.25]\n");
+  EXPECT_EQ(read("heights[3]"), "heights[3] = 0.0\n");
+  EXPECT_EQ(read("points[2].y"), "points[2].y = 2.5\n");
+  std::string all = "[TRUE";
+  for (int i = 2; i <= 20; ++i) all += i % 3 == 1 ? ", TRUE" : ", FALSE";
+  ended = call("write", {"on=" + all + "]"}, run.port());
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(read("on"), "on = " + all + "]\n");
+  ended = call("write", {"on[3..4]=[TRUE, FALSE]"}, run.port());
+  EXPECT_EQ(read("on[2..5]"), "on[2..5] = [FALSE, TRUE, FALSE, FALSE]\n");
+  const Json json = Json::parse(call("read", {"--json"}, run.port()).out);
+  EXPECT_EQ(json["heights"], Json::parse("[-1.0, 3.0, 1.25, 0.0]"));
+  EXPECT_EQ(json["on"].size(), 20u);
+  EXPECT_EQ(json["rising"].size(), 200u);
+  EXPECT_EQ(json["points[1..2].y"], Json::parse("[1.0, 2.5]"));
+}
+
+TEST_F(ArrayPanel, ARequestSeesAllElementsAtOneInstant) {
+  RunningLockstep run(file);
+  Registers client(run.port());
+  int before = 0;
+  for (int i = 0; i < 300; ++i) {
+    const std::vector<std::uint16_t> words = client.inputs(100, 124);
+    const int first = words[0] << 16 | words[1];
+    for (std::size_t k = 2; k < words.size(); k += 2) ASSERT_EQ(words[k] << 16 | words[k + 1], first);
+    EXPECT_GE(first, before);
+    before = first;
+  }
+  EXPECT_GT(before, 0);
+}
+
+TEST_F(ArrayPanel, WritingAPartChangesThisPartAndHalfAnElementIsRefused) {
+  RunningLockstep run(file);
+  Registers client(run.port());
+  EXPECT_TRUE(client.write(12, {0x0000, 0x4120}));  // heights[1] = 10, its low word first
+  EXPECT_EQ(call("read", {"heights"}, run.port()).out, "heights = [5.0, 10.0, 0.0, 0.0]\n");
+  EXPECT_FALSE(client.write(12, {0x0000})) << "half of an element";
+  EXPECT_FALSE(client.write(11, {0x0000, 0x4120})) << "halves of two elements";
+  EXPECT_FALSE(client.write(12, {0x0000, 0x4120, 0x0000, 0x7F80})) << "infinity in the second";
+  EXPECT_EQ(call("read", {"heights"}, run.port()).out, "heights = [5.0, 10.0, 0.0, 0.0]\n");
+}
+
+TEST_F(ArrayPanel, TellsNamesAndValuesThatAreWrongAndWritesNothing) {
+  RunningLockstep run(file);
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"heights=[1, 2, 3]", "are not the values of 4 elements; allowed: [VALUE, …] with one for each"},
+      {"heights=1", "are not the values of 4 elements"},
+      {"heights[1]=[1]", "heights[1]: "},
+      {"heights[4]=1", "the Modbus map has no 'heights[4]'"},
+      {"heights[2..4]=[1, 2, 3]",
+       "goes beyond the elements that there are; allowed: [*], or a range within [0..3]"},
+      {"heights[0..1]=[1, x]", "heights[1]: "},
+      {"heights[0..1]=[1, 1e39]", "heights[1]: the value does not fit REAL on Modbus"},
+      {"points[1..3].y=[1, 2, 3]", "the Modbus map has no 'points[3].y'"},
+      {"points[*].x=[1, 2, 3]", "the Modbus map has no 'points[1].x'"},
+      {"rising[1..2]=[1, 2]", "'rising[1]' is read-only on Modbus"}};
+  for (const auto& [argument, part] : wrong) {
+    const Ended ended = call("write", {"heights[0]=9", argument}, run.port());
+    EXPECT_EQ(ended.status, 1) << argument;
+    EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
+  }
+  EXPECT_EQ(call("read", {"heights"}, run.port()).out, "heights = [5.0, 7.5, 0.0, 0.0]\n");
+}
+
 TEST_F(Panel, WhereNobodyAnswersItSaysSo) {
   const Ended ended = call("read", {"speed"}, 1);
   EXPECT_EQ(ended.status, 2);

@@ -13,11 +13,12 @@
 namespace lockstep::test {
 namespace {
 
-/// Two tags that change together in every millisecond, and go on from what was kept.
+/// Two tags and an array that change together in every millisecond, and go on from what was kept.
 Json counting() {
   Json project = empty_project();
   project["tags"] = {{"count", {{"type", "DINT"}, {"init", 5}, {"retain", true}}},
                      {"triple", {{"type", "LREAL"}, {"init", 15.0}, {"retain", true}}},
+                     {"row", {{"type", "ARRAY[1..3] OF DINT"}, {"init", {5, 5, 5}}, {"retain", true}}},
                      {"passing", {{"type", "DINT"}}}};
   project["programs"].push_back(
       {{"name", "Main"},
@@ -25,6 +26,7 @@ Json counting() {
        {"cycle", "1ms"},
        {"calls",
         {assignment("count", "count + 1"), assignment("triple", "TO_LREAL(count) * 3.0"),
+         assignment("row[1]", "count"), assignment("row[2]", "row[2] + 1"), assignment("row[3]", "count"),
          assignment("passing", "TO_DINT(count)")}}});
   project["retain"] = {{"interval", "1ms"}};
   return project;
@@ -42,6 +44,8 @@ int kept_count(const std::string& file) {
   const KeptRow* const count = opened.find("count");
   if (count == nullptr) return -1;
   EXPECT_EQ(std::stod(opened.find("triple")->value), 3.0 * std::stod(count->value)) << "two instants mixed";
+  EXPECT_EQ(opened.find("row")->value, count->value + "," + count->value + "," + count->value)
+      << "two instants mixed, or an element not given back";
   EXPECT_EQ(opened.find("passing"), nullptr);
   return std::stoi(count->value);
 }
@@ -57,7 +61,7 @@ TEST(Retain, ARunGoesOnWhereTheOneBeforeEnded) {
   EXPECT_LE(count, 105);
   const Ended second = lockstep(quietly(project, {"--duration", "50ms"}));
   ASSERT_EQ(second.status, 0) << second.err;
-  EXPECT_NE(second.err.find("2 kept values from"), std::string::npos) << second.err;
+  EXPECT_NE(second.err.find("3 kept values from"), std::string::npos) << second.err;
   EXPECT_GT(kept_count(directory.file("project.retain")), count);
 }
 
@@ -99,6 +103,24 @@ TEST(Retain, KilledAtAnyTimeARunLosesNothingOlderThanItsIntervalAndMixesNothing)
     before = now;
   }
   EXPECT_GT(grown, kills / 4) << "too few of the runs came to writing anything";
+}
+
+TEST(Retain, AnArrayOfAnotherShapeIsToldAndStaysInTheFile) {
+  const Directory directory;
+  const std::string project = directory.write("project.json", counting().dump());
+  ASSERT_EQ(lockstep(quietly(project, {"--duration", "50ms"})).status, 0);
+  Json json = counting();
+  json["tags"]["row"]["type"] = "ARRAY[0..4] OF DINT";
+  directory.write("project.json", json.dump());
+  Ended ended = lockstep(quietly(project, {"--duration", "50ms"}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.err.find("row was kept as ARRAY[1..3] OF DINT ("), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("and is ARRAY[0..4] OF DINT now: it begins with its init value"),
+            std::string::npos);
+  ended = lockstep(quietly(project, {"--duration", "50ms"}));
+  EXPECT_EQ(ended.err.find("row was kept"), std::string::npos) << "told once: " << ended.err;
+  EXPECT_NE(ended.err.find("row@ARRAY[1..3] OF DINT ("), std::string::npos) << ended.err;
+  EXPECT_NE(RetainFile(directory.file("project.retain"), "small").find("row@ARRAY[1..3] OF DINT"), nullptr);
 }
 
 TEST(Retain, ASimulationNeitherReadsNorWrites) {
