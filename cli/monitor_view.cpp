@@ -240,6 +240,7 @@ std::string keys(const Model& model) {
   if (!model.prompt.empty()) return model.prompt + ": " + model.answer + "_  (Enter does it, Esc does not)";
   if (model.searching) return "/" + model.search + "_  (Enter ends the search, Esc shows all)";
   if (!model.remark.empty()) return model.remark;
+  if (model.panel) return "Tab axis  e d on/off  left right jog  Space stop  h home  x reset  [] ovr ? help";
   constexpr const char* orders[] = {"sort", "sort: by name", "sort: moving first"};
   std::string text = model.search.empty() ? "/ search" : "/" + model.search;
   text += fmt::format("  s {}  g plot  j jobs  a alarms  p pause  r record  ? help  q ends",

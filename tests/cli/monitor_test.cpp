@@ -243,7 +243,7 @@ class OnTerminal {
     ::_exit(127);
   }
   ~OnTerminal() {
-    if (!ended_) ::kill(pid_, SIGKILL);
+    if (!ended_) ::kill(-pid_, SIGKILL);  // what it has started too: they are one process group
     status();
     ::close(fd_);
   }

@@ -264,9 +264,10 @@ TEST(MonitorPanel, WithoutItNoKeyCommandsAnything) {
   Monitored monitored;
   monitored.run(1);
   monitored.hear("KNIFE_PANEL", encoded(axis_state()));
-  for (int letter = 0x20; letter < 0x7F; ++letter)
-    if (letter != '/')
-      EXPECT_FALSE(monitored.press(std::string(1, static_cast<char>(letter))).command) << letter;
+  for (int letter = 0x20; letter < 0x7F; ++letter) {
+    if (letter == '/') continue;  // what follows would be a search
+    EXPECT_FALSE(monitored.press(std::string(1, static_cast<char>(letter))).command) << letter;
+  }
   for (const KeyKind kind : {KeyKind::left, KeyKind::right, KeyKind::tab, KeyKind::enter})
     EXPECT_FALSE(monitored.press(kind).command);
   EXPECT_FALSE(monitored.shows("PANEL"));
@@ -280,6 +281,8 @@ TEST(MonitorPanel, SaysThatItIsActiveAndSendsWhatTheKeysMean) {
   monitored.run(1);
   monitored.hear("KNIFE_PANEL", encoded(axis_state()));
   EXPECT_TRUE(monitored.shows("PANEL ACTIVE  Knife: enabled, homed  12.5000")) << monitored.text();
+  EXPECT_TRUE(
+      monitored.shows("Tab axis  e d on/off  left right jog  Space stop  h home  x reset  [] ovr ? help"));
   const auto sent = [&](const Wish& wish, std::int32_t action, double value) {
     ASSERT_TRUE(wish.command);
     EXPECT_EQ(wish.command->channel, "KNIFE_CMD");
