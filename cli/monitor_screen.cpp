@@ -1,104 +1,156 @@
-// lockstep monitor: the terminal.
-#include <fmt/format.h>
+#include "cli/monitor_screen.hpp"
+
+#define NCURSES_WIDECHAR 1
+#include <langinfo.h>
+#include <ncurses.h>
 #include <poll.h>
-#include <sys/ioctl.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
-
-#include "cli/describe_table.hpp"
-#include "cli/monitor_traces.hpp"
+#include <clocale>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace lockstep::cli {
 namespace {
 
-constexpr char kEnter[] = "\033[?1049h\033[?25l";  // alternate screen, no cursor
-constexpr char kLeave[] = "\033[?25h\033[?1049l";
-constexpr std::size_t kUsualHeight = 24;
+constexpr int kEscapeDelay = 25;  // [ms] within which the rest of a function key comes
 
-termios before{};  // of the terminal; one screen at a time
-
-void put(const std::string& text) {
-  for (std::size_t written = 0; written < text.size();) {
-    const ssize_t taken = write(STDOUT_FILENO, text.data() + written, text.size() - written);
-    if (taken <= 0) return;  // a terminal that is gone ends the program by a signal
-    written += static_cast<std::size_t>(taken);
+attr_t attributes_of(Look look) {
+  switch (look) {
+    case Look::title:
+    case Look::keys:
+      return A_REVERSE;
+    case Look::panel:
+      return A_REVERSE | A_BOLD;
+    case Look::heading:
+    case Look::alarm:
+    case Look::chosen:
+      return A_BOLD;
+    case Look::plain:
+      return A_NORMAL;
   }
+  return A_NORMAL;
+}
+
+KeyKind kind_of(int code) {
+  switch (code) {
+    case KEY_UP:
+      return KeyKind::up;
+    case KEY_DOWN:
+      return KeyKind::down;
+    case KEY_LEFT:
+      return KeyKind::left;
+    case KEY_RIGHT:
+      return KeyKind::right;
+    case KEY_PPAGE:
+      return KeyKind::page_up;
+    case KEY_NPAGE:
+      return KeyKind::page_down;
+    case KEY_HOME:
+    case KEY_FIND:
+      return KeyKind::first;
+    case KEY_END:
+    case KEY_SELECT:
+      return KeyKind::last;
+    case KEY_ENTER:
+      return KeyKind::enter;
+    case KEY_BACKSPACE:
+      return KeyKind::erase;
+    default:
+      return KeyKind::other;
+  }
+}
+
+/// Keys that come as a character.
+Key key_of(wint_t character) {
+  constexpr wint_t kInterrupt = 3, kEnd = 4, kBackspace = 8, kEscape = 27, kDelete = 127;
+  switch (character) {
+    case kInterrupt:
+    case kEnd:
+      return {KeyKind::interrupt, ""};
+    case '\r':
+    case '\n':
+      return {KeyKind::enter, ""};
+    case '\t':
+      return {KeyKind::tab, ""};
+    case kEscape:
+      return {KeyKind::escape, ""};
+    case kBackspace:
+    case kDelete:
+      return {KeyKind::erase, ""};
+    default:
+      break;
+  }
+  char bytes[16];  // MB_CUR_MAX of any locale of glibc
+  if (character < 0x20 || MB_CUR_MAX > sizeof bytes) return {};
+  const int length = std::wctomb(bytes, static_cast<wchar_t>(character));
+  return length > 0 ? Key{KeyKind::text, std::string(bytes, static_cast<std::size_t>(length))} : Key{};
 }
 
 }  // namespace
 
-Screen::Screen() : keys_(tcgetattr(STDIN_FILENO, &before) == 0) {
-  if (keys_) {
-    termios raw = before;
-    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | ISIG);  // Ctrl-C is a key
-    tcsetattr(STDIN_FILENO, TCSANOW, &raw);
-  }
-  put(kEnter);
+struct Screen::State {
+  SCREEN* screen = nullptr;
+};
+
+Screen::Screen() : state_(std::make_unique<State>()) {
+  std::setlocale(LC_CTYPE, "");
+  if (std::string_view(nl_langinfo(CODESET)) == "UTF-8") characters_ = Characters::blocks;
+  const char* const terminal = std::getenv("TERM");
+  state_->screen = newterm(nullptr, stdout, stdin);
+  if (state_->screen == nullptr)
+    throw std::runtime_error("the terminal '" + std::string(terminal == nullptr ? "" : terminal) +
+                             "' is unknown; allowed in TERM: what terminfo has, such as xterm or vt100");
+  set_escdelay(kEscapeDelay);
+  raw();  // Ctrl-C is a key, so that the end is the same for all
+  noecho();
+  nonl();
+  curs_set(0);
+  keypad(stdscr, TRUE);
+  nodelay(stdscr, TRUE);
 }
 
 Screen::~Screen() {
-  put(kLeave);
-  if (keys_) tcsetattr(STDIN_FILENO, TCSANOW, &before);
+  curs_set(1);
+  endwin();
+  delscreen(state_->screen);
 }
 
-std::size_t Screen::width() const {
-  return output_width();
+ViewSize Screen::size() const {
+  return {static_cast<std::size_t>(std::max(COLS, 1)), static_cast<std::size_t>(std::max(LINES, 1))};
 }
 
-std::size_t Screen::height() const {
-  winsize size{};
-  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 0;
-  return known ? std::max<std::size_t>(size.ws_row, 4) : kUsualHeight;
-}
-
-void Screen::show(const std::string& title, const std::vector<std::string>& lines) {
-  page_ = height() - 2;
-  const std::size_t lowest = lines.size() > page_ ? lines.size() - page_ : 0;
-  top_ = std::min(top_, lowest);
-  const std::size_t last = std::min(top_ + page_, lines.size());
-  std::string text = "\033[H\033[7m" + padded(title.substr(0, width()), width()) + "\033[0m\r\n";
-  for (std::size_t i = top_; i < top_ + page_; ++i) text += (i < last ? lines[i] : "") + "\033[K\r\n";
-  std::string foot = "q ends";
-  if (lines.size() > page_)
-    foot = fmt::format("lines {} to {} of {}; arrows, PgUp, PgDn, Home, End scroll; ", top_ + 1, last,
-                       lines.size()) +
-           foot;
-  put(text + foot.substr(0, width()) + "\033[K");
-}
-
-void Screen::act(const std::string& key) {
-  constexpr std::size_t kEnd = 1'000'000'000;  // `show` cuts it to what there is
-  if (key == "q" || key == "Q" || key == "\x03" || key == "\x04") end_ = true;
-  if (key == "\033[A" || key == "\033OA" || key == "k") top_ -= std::min<std::size_t>(top_, 1);
-  if (key == "\033[B" || key == "\033OB" || key == "j") ++top_;
-  if (key == "\033[5~") top_ -= std::min(top_, page_);
-  if (key == "\033[6~" || key == " ") top_ += page_;
-  if (key == "\033[H" || key == "\033OH" || key == "\033[1~") top_ = 0;
-  if (key == "\033[F" || key == "\033OF" || key == "\033[4~") top_ = kEnd;
-}
-
-bool Screen::take_keys() {
-  pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-  while (keys_ && !end_ && poll(&input, 1, 0) == 1) {
-    char bytes[64];
-    const ssize_t got = read(STDIN_FILENO, bytes, sizeof bytes);
-    if (got <= 0) {
-      end_ = true;  // the terminal is gone
-      break;
-    }
-    std::string key;
-    for (ssize_t i = 0; i < got; ++i) {
-      key += bytes[i];
-      const bool opening = key == "\033" || key == "\033[" || key == "\033O";
-      const bool number = key.size() > 2 && key[0] == '\033' && bytes[i] >= '0' && bytes[i] <= '9';
-      if (opening || number) continue;
-      act(key);
-      key.clear();
-    }
+void Screen::show(const std::vector<ViewLine>& lines) {
+  erase();
+  for (std::size_t i = 0; i < lines.size() && i < size().height; ++i) {
+    const ViewLine& line = lines[i];
+    attrset(static_cast<int>(attributes_of(line.look)));
+    mvaddstr(static_cast<int>(i), 0, line.text.c_str());
+    const bool bar = line.look == Look::title || line.look == Look::keys || line.look == Look::panel;
+    while (bar && getcurx(stdscr) > 0 && getcury(stdscr) == static_cast<int>(i) && getcurx(stdscr) < COLS - 1)
+      addch(' ');
   }
-  return !end_;
+  attrset(A_NORMAL);
+  refresh();
+}
+
+std::vector<Key> Screen::keys(bool& ended) {
+  std::vector<Key> pressed;
+  wint_t code = 0;
+  int found = ERR;
+  while ((found = get_wch(&code)) != ERR) {
+    if (found == KEY_CODE_YES)
+      pressed.push_back({kind_of(static_cast<int>(code)), ""});
+    else
+      pressed.push_back(key_of(code));
+  }
+  // Without a key there is nothing to read, unless nobody is at the other end any more.
+  pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+  ended = poll(&input, 1, 0) == 1 && (input.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0;
+  return pressed;
 }
 
 }  // namespace lockstep::cli

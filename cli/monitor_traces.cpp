@@ -22,28 +22,6 @@ double seconds(HeardTrace::Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
-std::string value_text(Value value, Type type) {
-  if (type == Type::BOOL) return value.u != 0 ? "TRUE" : "FALSE";
-  if (type == Type::TIME) return fmt::format("{:.3f}", as_double(value, type));
-  if (is_bit_string(type)) return fmt::format("16#{:X}", value.u);
-  if (!is_real(type))
-    return is_signed_integer(type) ? fmt::format("{}", value.i) : fmt::format("{}", value.u);
-  const double size = std::abs(value.r);
-  const bool plain = size == 0.0 || (size >= 0.01 && size < 1e9);
-  return plain ? fmt::format("{:.4f}", value.r) : fmt::format("{:.4e}", value.r);
-}
-
-std::string cut(const std::string& text, std::size_t width) {
-  std::string result;
-  std::size_t shown = 0;
-  for (const char c : text) {
-    const bool begins = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-    if (begins && ++shown > width) break;
-    result += c;
-  }
-  return result;
-}
-
 std::string heading(const std::string& channel, const HeardTrace& trace, HeardTrace::Clock::time_point now) {
   const std::string line = printable(channel) + ": " + printable(trace.project());
   if (!trace.has_row()) return line + "  no rows yet";
@@ -60,9 +38,38 @@ std::string counts_text(const HeardTrace& trace, HeardTrace::Clock::time_point n
 
 }  // namespace
 
+std::string signal_value_text(Value value, Type type) {
+  if (type == Type::BOOL) return value.u != 0 ? "TRUE" : "FALSE";
+  if (type == Type::TIME) return fmt::format("{:.3f}", as_double(value, type));
+  if (is_bit_string(type)) return fmt::format("16#{:X}", value.u);
+  if (!is_real(type))
+    return is_signed_integer(type) ? fmt::format("{}", value.i) : fmt::format("{}", value.u);
+  const double size = std::abs(value.r);
+  const bool plain = size == 0.0 || (size >= 0.01 && size < 1e9);
+  return plain ? fmt::format("{:.4f}", value.r) : fmt::format("{:.4e}", value.r);
+}
+
+std::string cut_to(const std::string& text, std::size_t width) {
+  std::string result;
+  std::size_t shown = 0;
+  for (const char c : text) {
+    const bool begins = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+    if (begins && ++shown > width) break;
+    result += c;
+  }
+  return result;
+}
+
+std::string trace_heading(const std::string& channel, const HeardTrace& trace,
+                          HeardTrace::Clock::time_point now) {
+  const std::string line = heading(channel, trace, now);
+  return trace.has_row() ? line + counts_text(trace, now) : line;
+}
+
 void HeardTrace::accept(std::span<const std::uint8_t> bytes, Clock::time_point now) {
   switch (decoder_.accept(bytes)) {
     case LcmDecoder::Message::kHeader:
+      header_message_.assign(bytes.begin(), bytes.end());
       take_header();
       break;
     case LcmDecoder::Message::kRow:
@@ -137,8 +144,8 @@ std::vector<std::string> trace_lines(const HeardTraces& traces, HeardTrace::Cloc
   std::vector<std::string> lines;
   for (const auto& [channel, trace] : traces.all()) {
     if (!lines.empty()) lines.emplace_back();
-    lines.push_back(cut(heading(channel, trace, now), width));
-    if (trace.has_row()) lines.push_back(cut(counts_text(trace, now), width));
+    lines.push_back(cut_to(heading(channel, trace, now), width));
+    if (trace.has_row()) lines.push_back(cut_to(counts_text(trace, now), width));
     const auto& signals = trace.signals();
     std::size_t longest = 0;
     for (const TraceSignal& signal : signals)
@@ -146,11 +153,11 @@ std::vector<std::string> trace_lines(const HeardTraces& traces, HeardTrace::Cloc
     longest = std::min(longest, width > kValue + 16 ? width - kValue - 16 : 8);
     const TraceRow row = trace.row();
     for (std::size_t i = 0; i < signals.size(); ++i) {
-      const std::string value = trace.has_row() ? value_text(row.values[i], signals[i].type) : "-";
-      const std::string name = padded(cut(printable(signals[i].name), longest), longest);
+      const std::string value = trace.has_row() ? signal_value_text(row.values[i], signals[i].type) : "-";
+      const std::string name = padded(cut_to(printable(signals[i].name), longest), longest);
       std::string line = fmt::format("  {}  {:>{}}", name, value, kValue);
       if (!signals[i].unit.empty()) line += " " + printable(signals[i].unit);
-      lines.push_back(cut(line, width));
+      lines.push_back(cut_to(line, width));
     }
   }
   return lines;

@@ -28,6 +28,10 @@ class HeardTrace {
   /// The last row; its values are as many as the signals.
   TraceRow row() const noexcept { return {t_, 0, dropped_, values_}; }
 
+  std::uint64_t rows() const noexcept { return rows_; }  ///< that have come since the description
+  /// The message of the description, as it came.
+  const std::vector<std::uint8_t>& header_message() const noexcept { return header_message_; }
+
   double rate(Clock::time_point now) const;              ///< rows in a second, over the last two seconds
   double age(Clock::time_point now) const;               ///< of the last row [s]
   std::uint64_t lost() const noexcept { return lost_; }  ///< rows that did not come through the network
@@ -38,7 +42,8 @@ class HeardTrace {
   void take_row(Clock::time_point now);
 
   LcmDecoder decoder_;
-  std::int64_t id_ = 0;        // of the header
+  std::int64_t id_ = 0;  // of the header
+  std::vector<std::uint8_t> header_message_;
   std::vector<Value> values_;  // of the last row; the decoder's own are gone with the next header
   bool described_ = false;
   std::uint64_t rows_ = 0;
@@ -71,29 +76,14 @@ class HeardTraces {
 std::vector<std::string> trace_lines(const HeardTraces& traces, HeardTrace::Clock::time_point now,
                                      std::size_t width);
 
-/// Shows lines on the terminal of standard output, on its alternate screen, and takes keys. Restores the
-/// terminal when it ends. Any one thread; one at a time.
-class Screen {
- public:
-  Screen();
-  ~Screen();
-  Screen(const Screen&) = delete;
-  Screen& operator=(const Screen&) = delete;
+/// A value as its type reads: TRUE, 16#2A, 12.5000.
+std::string signal_value_text(Value value, Type type);
 
-  /// Draws the title, as many lines as there is room for, and a line on the keys.
-  void show(const std::string& title, const std::vector<std::string>& lines);
-  /// Takes the keys that have been pressed. @return false if one of them asks for the end
-  bool take_keys();
-  std::size_t width() const;
+/// What a trace is and how it comes: channel, project, time, rows in a second, age, rows missing. One line.
+std::string trace_heading(const std::string& channel, const HeardTrace& trace,
+                          HeardTrace::Clock::time_point now);
 
- private:
-  void act(const std::string& key);
-  std::size_t height() const;
-
-  std::size_t top_ = 0;   // first line shown
-  std::size_t page_ = 1;  // lines that there is room for
-  bool keys_ = false;     // standard input is a terminal
-  bool end_ = false;
-};
+/// The first columns of a UTF-8 text.
+std::string cut_to(const std::string& text, std::size_t width);
 
 }  // namespace lockstep::cli

@@ -10,6 +10,7 @@
 
 #include "cli/command.hpp"
 #include "cli/run_command.hpp"
+#include "cli/run_commands.hpp"
 #include "cli/run_events.hpp"
 #include "cli/run_retain.hpp"
 #include "hmi_bridge/csv_trace.hpp"
@@ -64,6 +65,7 @@ class Surroundings {
     start_trace();
     start_modbus();
     start_clients();
+    start_commands();
     if (keeper_) project_.controller->images.push_back(&keeper_->image());
     if (keeper_) keeper_->start();
   }
@@ -89,6 +91,7 @@ class Surroundings {
     if (server_) tell_refused_clients();
     for (const auto& client : clients_) client->stop();
     for (const auto& client : clients_) tell_failures(*client);
+    if (commands_) commands_->stop();
     if (!recorder_) return;
     recorder_->stop();
     if (flight_ != nullptr)
@@ -282,6 +285,17 @@ class Surroundings {
     for (const auto& client : clients_) client->start();
   }
 
+  /// Nobody jogs in virtual time.
+  void start_commands() {
+    if (options_.simulate || options_.no_lcm || project_.commands.axes.empty()) return;
+    const std::string url = options_.lcm.empty() ? project_.trace.url : options_.lcm;
+    try {
+      commands_ = std::make_unique<RunCommands>(project_, url, identity());
+    } catch (const std::exception& error) {
+      tell(std::string("warning: no commands over LCM: ") + error.what());
+    }
+  }
+
   static void tell_failures(const ModbusClient& client) {
     const ModbusClientCounters& counters = client.counters();
     const auto warn = [&](const std::atomic<std::uint64_t>& count, std::string_view text) {
@@ -328,6 +342,7 @@ class Surroundings {
   std::unique_ptr<ModbusServer> server_;
   std::vector<std::unique_ptr<ProcessImage>> client_images_;
   std::vector<std::unique_ptr<ModbusClient>> clients_;
+  std::unique_ptr<RunCommands> commands_;
 };
 
 /// Virtual time: as fast as the machine can; waits for the disk, never for the clock.

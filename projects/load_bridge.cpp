@@ -215,7 +215,10 @@ std::string lcm_url_problem(std::string_view url) {
 void load_trace(const JsonValue& trace, const Loading& loading) {
   const Fields fields(trace, keys::kTrace, loading.problems);
   TraceConfig& config = loading.project.trace;
-  if (const JsonValue* const lcm = fields["lcm"]) load_lcm(*lcm, config, loading.problems);
+  if (const JsonValue* const lcm = fields["lcm"]) {
+    load_lcm(*lcm, config, loading.problems);
+    if (const JsonValue* const commands = lcm->find("commands")) load_commands(*commands, loading);
+  }
   if (const JsonValue* const signals = fields["signals"]) load_signals(*signals, config.signals, loading);
   const JsonValue* const channels = fields["channels"];
   if (read_array(channels, loading.problems) == nullptr) return;

@@ -56,6 +56,8 @@ void load_stimuli(const JsonValue& stimuli, const Loading& loading);
 
 void load_modbus(const JsonValue* modbus, const Loading& loading);
 void load_trace(const JsonValue& trace, const Loading& loading);
+/// The axes that take commands: makes the instances that carry them out. When programs are loaded.
+void load_commands(const JsonValue& commands, const Loading& loading);
 /// When tags and objects are loaded.
 void load_retain(const JsonValue* retain, const Loading& loading);
 void load_flight_recorder(const JsonValue& json, const Loading& loading);

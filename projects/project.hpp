@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/command_desk.hpp"
 #include "hmi_bridge/flight_recorder.hpp"
 #include "hmi_bridge/kept_value.hpp"
 #include "hmi_bridge/modbus_client.hpp"
@@ -92,6 +93,20 @@ struct TraceConfig {
   std::vector<TraceChannelConfig> channels;
 };
 
+/// What commands write of one axis, and what of it has been carried out. Only the cycle touches it.
+struct PanelInputs {
+  BOOL Enable{}, Forward{}, Backward{};
+  UDINT Beat{}, Homings{}, Resets{}, Overrides{};  ///< counts, which ask by changing
+  LREAL JogVelocity{}, HomePosition{}, Override{};
+  UDINT SeenBeat{}, SeenHomings{}, SeenResets{}, SeenOverrides{};
+};
+
+/// Axes that take commands over LCM; none unless the project says so.
+struct CommandsConfig {
+  std::vector<CommandAxis> axes;
+  std::deque<PanelInputs> inputs;  ///< of the axes; where they are they stay
+};
+
 /// What is kept for the time before an alarm.
 struct FlightRecorderConfig {
   FlightRecorderOptions options;
@@ -115,6 +130,7 @@ struct Project {
   bool stop_on_overrun = false;  ///< "overrun": "stop"
   ModbusConfig modbus;
   TraceConfig trace;
+  CommandsConfig commands;
   RetainConfig retain;
   std::optional<FlightRecorderConfig> flight_recorder;  ///< none: the project has none
 };

@@ -114,7 +114,9 @@ inline constexpr Key kTrigger[] = {{"on", kRequired}, {"signal"}, {"level"}, {"b
 inline constexpr Key kFlightRecorder[] = {
     {"before", kRequired}, {"after"}, {"file", kRequired}, {"files"}, {"signals"}};
 inline constexpr Key kRetain[] = {{"file"}, {"interval"}};
-inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}};
+inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}, {"commands"}};
+inline constexpr Key kCommands[] = {{"axes", kRequired}};
+inline constexpr Key kCommandAxis[] = {{"jog_velocity"}};
 
 }  // namespace keys
 

@@ -35,7 +35,7 @@ constexpr Library kLibraries[] = {
     {"modbus", "hmi_bridge"},
     {"lcm/", "hmi_bridge"},
     {"sqlite3", "hmi_bridge"},
-    {"lockstep/", "hmi_bridge"},  // generated from hmi_bridge/trace.lcm
+    {"lockstep/", "hmi_bridge"},  // generated from the .lcm files of hmi_bridge
     {"fmt/", "hmi_bridge"},
     {"iostream", "hmi_bridge"},
     {"sstream", "hmi_bridge"},
@@ -43,6 +43,8 @@ constexpr Library kLibraries[] = {
     {"nlohmann/", "projects"},
     {"valijson/", "projects"},
     {"CLI/", "cli"},
+    {"ncurses", "cli"},
+    {"curses", "cli"},
 };
 
 constexpr std::string_view kEmptyNames[] = {"util",     "utils",  "common",  "core", "manager",

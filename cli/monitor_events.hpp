@@ -1,0 +1,49 @@
+/// Jobs and alarms, as they are told on the channels of events.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+
+#include "lockstep/event_t.hpp"
+
+namespace lockstep::cli {
+
+/// A line of a list: what has happened when.
+struct ToldEvent {
+  std::string channel;
+  event_t event;
+};
+
+/// What events say of one network. Anything may come: the lists have an end.
+class HeardEvents {
+ public:
+  static constexpr std::size_t kMostAlarms = 200;
+  static constexpr std::size_t kMostJobs = 500;
+  static constexpr std::size_t kMostAnswers = 20;
+
+  void accept(const std::string& channel, const event_t& event);
+
+  /// Alarms and acknowledgements, newest first.
+  const std::deque<ToldEvent>& alarms() const noexcept { return alarms_; }
+  /// Alarms that have not been acknowledged since.
+  std::size_t pending() const;
+  /// Jobs that run, by channel and instance, as far as their start was heard.
+  const std::map<std::pair<std::string, std::string>, event_t>& running() const noexcept { return running_; }
+  /// Jobs that have ended lately, newest first.
+  const std::deque<ToldEvent>& ended() const noexcept { return ended_; }
+  /// What has become of commands, newest first.
+  const std::deque<ToldEvent>& answers() const noexcept { return answers_; }
+  std::int64_t overruns() const noexcept { return overruns_; }
+
+ private:
+  static void put(std::deque<ToldEvent>& list, ToldEvent told, std::size_t most);
+
+  std::deque<ToldEvent> alarms_, ended_, answers_;
+  std::map<std::pair<std::string, std::string>, event_t> running_;
+  std::map<std::string, std::int64_t> times_;  // of the last event by channel, to see that a run is new
+  std::int64_t overruns_ = 0;
+};
+
+}  // namespace lockstep::cli

@@ -1,0 +1,24 @@
+/// lockstep run: commands of operators' panels.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "hmi_bridge/command_listener.hpp"
+#include "projects/project.hpp"
+
+namespace lockstep::cli {
+
+/// Takes the commands of a project that allows them, and tells at the end what was refused.
+class RunCommands {
+ public:
+  /// Joins the network; the run must not have begun. @throws as CommandListener
+  RunCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity);
+  void stop();
+
+ private:
+  ProcessImage image_;
+  CommandListener listener_;
+};
+
+}  // namespace lockstep::cli

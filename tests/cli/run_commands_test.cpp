@@ -1,0 +1,177 @@
+// lockstep run with a panel: a client on the network enables, jogs and lets go.
+#include <gtest/gtest.h>
+
+#include "hmi_bridge/lcm_commands.hpp"
+#include "hmi_bridge/lcm_publisher.hpp"
+#include "tests/cli/command_run.hpp"
+#include "tests/hmi_bridge/own_network.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
+
+/// A machine with one axis that no program moves.
+std::string project(const std::string& commands) {
+  return R"({ "lockstep": 1, "name": "panel", "clock": { "servo_cycle": "2ms" },
+    "technology_objects": { "Slide": { "type": "TO_PositioningAxis", "config": { "VirtualAxis": { "Mode": 1 },
+      "DynamicDefaults": { "Velocity": 40.0, "Acceleration": 1000.0, "Deceleration": 1000.0, "Jerk": 0.0 } } } },
+    "trace": { "lcm": { "url": "udpm://239.255.76.67:7667?ttl=0", "channel": "SLIDE")" +
+         commands + R"( }, "signals": [ "Slide.Position", "Slide.VelocitySetpoint" ] } })";
+}
+
+/// A panel of its own, with what it hears.
+class Client {
+ public:
+  Client() : joined_(kUrl, LcmTraceIdentity{"client", "CLIENT", 0, 0}, false) {
+    auto* const subscription = lcm_subscribe(joined_.instance(), "SLIDE.*", &Client::take, this);
+    lcm_subscription_set_queue_capacity(subscription, 10'000);
+  }
+  /// Listens until something holds; false at the deadline.
+  bool hear_until(const std::function<bool()>& condition, std::chrono::milliseconds limit = kDeadline) {
+    const auto deadline = SteadyClock::now() + limit;
+    while (!condition() && SteadyClock::now() < deadline) lcm_handle_timeout(joined_.instance(), 10);
+    return condition();
+  }
+  void send(std::int32_t action, double value = 0.0) {
+    command_t command{};
+    command.run = state.run;
+    command.beat = state.beat;
+    command.sender = 5;
+    command.sequence = ++sequence_;
+    command.action = action;
+    command.value = value;
+    command.axis = "Slide";
+    send(encoded(command));
+  }
+  void send(const std::vector<std::uint8_t>& bytes) {
+    last = bytes;
+    lcm_publish(joined_.instance(), "SLIDE_CMD", bytes.data(), static_cast<unsigned>(bytes.size()));
+  }
+  /// Waits for an answer or another event of a kind with a part in its text. @return the event
+  event_t event(const std::string& kind, const std::string& part = "") {
+    const auto fits = [&](const event_t& event) {
+      return event.kind == kind && (event.text + event.type).find(part) != std::string::npos;
+    };
+    const auto found = [&] { return std::find_if(events.begin(), events.end(), fits); };
+    EXPECT_TRUE(hear_until([&] { return found() != events.end(); })) << "no " << kind << " " << part;
+    if (found() == events.end()) return {};
+    event_t taken = *found();
+    events.erase(found());
+    return taken;
+  }
+
+  panel_t state{};
+  std::uint64_t states = 0, rows = 0;
+  std::vector<event_t> events;
+  std::vector<std::uint8_t> last;
+
+ private:
+  static void take(const lcm_recv_buf_t* buffer, const char* channel, void* self) {
+    auto& client = *static_cast<Client*>(self);
+    const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
+    if (const auto event = decode_event(bytes)) client.events.push_back(*event);
+    if (std::string(channel) == "SLIDE") ++client.rows;
+    const auto state = decode_panel(bytes);
+    if (!state) return;
+    client.state = *state;
+    ++client.states;
+  }
+
+  LcmPublisher joined_;
+  std::int64_t sequence_ = 0;
+};
+
+std::vector<std::string> run_of(const std::string& file, const std::string& errors) {
+  return {"sh", "-c",  "exec \"$0\" run \"$1\" --no-modbus --no-retain 2>\"$2\"", LOCKSTEP_EXECUTABLE,
+          file, errors};
+}
+
+TEST(RunCommands, APanelEnablesJogsHomesAndTheJogStopsWhenItFallsSilent) {
+  in_own_network([] {
+    bring_up_network();
+    const cli::Folder folder;
+    const std::string file = folder.write(
+        "project.json", project(R"(, "commands": { "axes": { "Slide": { "jog_velocity": 20.0 } } })"));
+    ForeignProgram run(run_of(file, folder.file("err")));
+    Client client;
+    ASSERT_TRUE(client.hear_until([&] { return client.states > 0; })) << cli::content_of(folder.file("err"));
+    EXPECT_EQ(client.state.axis, "Slide");
+    EXPECT_EQ(client.state.jog_velocity, 20.0);
+
+    client.send(command_t::JOG_FORWARD, 10.0);  // not enabled: the block says so
+    EXPECT_EQ(client.event("job failed", "MC_MoveJog").number, 0x800F);
+    const std::int64_t then = client.state.t;  // until that jog has been let go
+    ASSERT_TRUE(client.hear_until([&] { return client.state.t > then + 600'000'000; }));
+
+    client.send(command_t::ENABLE);
+    EXPECT_EQ(client.event("command accepted", "enable").source, "Slide");
+    ASSERT_TRUE(client.hear_until([&] { return (client.state.status_word & 1) != 0; }));
+
+    // Held: a command every 50 ms.
+    ASSERT_TRUE(client.hear_until([&, due = SteadyClock::now()]() mutable {
+      if (SteadyClock::now() >= due) {
+        client.send(command_t::JOG_FORWARD, 10.0);
+        due += 50ms;
+      }
+      return client.state.velocity == 10.0;
+    }));
+    EXPECT_EQ(client.event("job started", "MC_MoveJog").source, "panel.Slide.jog");
+    // Let go without a word: it stands after 300 ms and the ramp, of which the states tell within 100 ms.
+    ASSERT_TRUE(client.hear_until([&] { return client.state.velocity == 0.0; }, 30s));
+    const double rest = client.state.position;
+    EXPECT_GT(rest, 0.0);
+    const std::uint64_t seen = client.states;
+    ASSERT_TRUE(client.hear_until([&] { return client.states > seen + 5; }));
+    EXPECT_EQ(client.state.position, rest);
+
+    client.send(command_t::HOME, -7.5);
+    ASSERT_TRUE(client.hear_until([&] { return client.state.position == -7.5; }));
+    client.send(command_t::OVERRIDE, 60.0);
+    ASSERT_TRUE(client.hear_until([&] { return client.state.speed == 60.0; }));
+    const std::vector<std::uint8_t> once = client.last;
+    client.send(once);
+    client.event("command refused", "repeated");
+    client.send(command_t::JOG_FORWARD, 20.5);
+    client.event("command refused", "velocity 20.5 is not permitted; allowed: above 0, up to 20");
+    client.send(std::vector<std::uint8_t>(100, 'x'));
+    client.event("command refused", "not a command");
+    client.send(command_t::DISABLE);
+    ASSERT_TRUE(client.hear_until([&] { return (client.state.status_word & 1) == 0; }));
+
+    run.interrupt();
+    EXPECT_EQ(run.status(), 0);
+    const std::string told = cli::content_of(folder.file("err"));
+    EXPECT_NE(told.find("commands from panels on udpm://239.255.76.67:7667?ttl=0, channel SLIDE_CMD: Slide"),
+              std::string::npos)
+        << told;
+    for (const char* const part :
+         {"1 refused: not a command", "1 refused: of another run, too old or repeated",
+          "1 refused: an axis, action or value"})
+      EXPECT_NE(told.find(part), std::string::npos) << told;
+  });
+}
+
+TEST(RunCommands, AProjectThatDoesNotSaySoHearsNoCommand) {
+  in_own_network([] {
+    bring_up_network();
+    const cli::Folder folder;
+    ForeignProgram run(run_of(folder.write("project.json", project("")), folder.file("err")));
+    Client client;
+    ASSERT_TRUE(client.hear_until([&] { return client.rows > 0; })) << cli::content_of(folder.file("err"));
+    const std::uint64_t before = client.rows;
+    for (int i = 0; i < 10; ++i) client.send(command_t::ENABLE);
+    ASSERT_TRUE(client.hear_until([&] { return client.rows > before + 500; }));
+    EXPECT_EQ(client.states, 0u);
+    for (const event_t& event : client.events) EXPECT_EQ(event.kind, "overrun") << "of a busy machine";
+    run.interrupt();
+    EXPECT_EQ(run.status(), 0);
+    EXPECT_EQ(cli::content_of(folder.file("err")).find("commands"), std::string::npos);
+  });
+}
+
+}  // namespace
+}  // namespace lockstep
