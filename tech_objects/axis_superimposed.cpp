@@ -13,6 +13,20 @@ double rest_of(double limit, double used) noexcept {
   return std::max(limit - used, 0.0);
 }
 
+Dynamics half(const Dynamics& whole) noexcept {
+  const double acceleration = 0.5 * std::min(whole.acceleration, whole.deceleration);
+  return {whole.velocity, acceleration, acceleration, 0.5 * whole.jerk};
+}
+
+/// What is wanted, but no more than there is; a jerk of 0 is none that limits.
+Dynamics braking(const Dynamics& wanted, const Dynamics& most, double velocity) noexcept {
+  const bool jerk_limited = wanted.jerk > 0.0 && most.jerk > 0.0;
+  return {.velocity = velocity,
+          .acceleration = std::min(wanted.acceleration, most.acceleration),
+          .deceleration = std::min(wanted.deceleration, most.deceleration),
+          .jerk = jerk_limited ? std::min(wanted.jerk, most.jerk) : std::max(wanted.jerk, most.jerk)};
+}
+
 }  // namespace
 
 // ---- Beginning
@@ -57,10 +71,13 @@ ErrorId Axis::begin_superimposed_part(Job& job) noexcept {
   superimposed_room_ = superimposed_room();
   Dynamics room = superimposed_room_;
   if (!superimposed_.resting() && (room.acceleration <= 0.0 || room.deceleration <= 0.0)) {
-    // Values given until now have taken more than there is: it has to brake all the same.
-    const double velocity = room.velocity;
-    room = superimposed_wanted_;
-    room.velocity = velocity;
+    // The base motion leaves nothing, at least of the jerk, but this has to brake all the same: by what its
+    // profile has had until now. Values that were given had no room of their own: half of the limits, and the
+    // base motion is planned anew with the other half.
+    const bool planned = superimposed_.planned();
+    room = braking(superimposed_wanted_, planned ? superimposed_.dynamics() : half(maximum_dynamics()),
+                   room.velocity);
+    if (!planned) planned_override_ = std::numeric_limits<double>::quiet_NaN();
   }
   room = quick_enough(room);
   const PlanResult result =
@@ -144,8 +161,10 @@ void Axis::leave_to_superimposed(Dynamics& dynamics) noexcept {
   const auto curb = [](double& value, double left) {
     if (left > 0.0) value = std::min(value, left);
   };
-  curb(dynamics.acceleration, most.acceleration - used.acceleration);
-  curb(dynamics.deceleration, most.deceleration - used.deceleration);
+  // The one may brake the way in which the other speeds up.
+  const double most_used = std::max(used.acceleration, used.deceleration);
+  curb(dynamics.acceleration, most.acceleration - most_used);
+  curb(dynamics.deceleration, most.deceleration - most_used);
   if (dynamics.jerk > 0.0 && used.jerk > 0.0) curb(dynamics.jerk, most.jerk - used.jerk);
   base_curbed_ |= dynamics != whole;
 }

@@ -448,6 +448,56 @@ TEST(MC_HaltSuperimposed, KeepsTheVelocityLimitWhateverJerkItIsGiven) {
   }
 }
 
+/// Halts beside a base motion that speeds up with nearly all of the acceleration, which the sum keeps.
+void halt_beside_a_hard_base_motion(Machine& m) {
+  ASSERT_NE(m.axis_.data.StatusPositioning.SuperimposedDistance, 0.0);
+  ASSERT_GT(std::abs(m.axis_.data.Acceleration), 4500.0);
+  m.halt_superimposed.Execute = true;
+  int braking = 0;
+  for (int i = 0; i < 1000 && !m.halt_superimposed.Done; ++i, ++braking) {
+    m.tick();
+    ASSERT_LE(std::abs(m.axis_.data.Acceleration), 5000.0 * (1 + 1e-12)) << i;
+  }
+  EXPECT_TRUE(m.halt_superimposed.Done);
+  EXPECT_GT(braking, 3);
+}
+
+TEST(MC_HaltSuperimposed, KeepsTheAccelerationOfTheSumBesideABaseMotionThatLeavesNoJerk) {
+  Machine m;
+  m.continuity[1].acceleration = false;
+  m.relative.Distance = -189.0;
+  m.relative.Velocity = 465.0;
+  m.relative.Acceleration = 4800.0;
+  m.relative.Jerk = 100000.0;
+  m.relative.Execute = true;
+  m.run(5);
+  m.move.Distance = 190.0;
+  m.move.Jerk = 0.0;
+  m.move.Execute = true;
+  m.run(60);
+  halt_beside_a_hard_base_motion(m);
+}
+
+TEST(MC_HaltSuperimposed, IsLeftHalfOfTheAccelerationBehindValuesThatWereGiven) {
+  Machine m;
+  m.continuity[1] = {false, false, 5000.0, 100000.0};
+  m.run_velocity.Velocity = 500.0;
+  m.run_velocity.Acceleration = 5000.0;
+  m.run_velocity.Jerk = 100000.0;
+  m.run_velocity.Execute = true;
+  m.given.Enable = true;
+  m.given.VelocityDiff = -40.0;
+  for (int i = 1; i <= 70; ++i) {
+    m.given.Distance = -0.04 * i;
+    m.tick();
+  }
+  m.halt_superimposed.Deceleration = 5000.0;
+  m.halt_superimposed.Jerk = 100000.0;
+  halt_beside_a_hard_base_motion(m);
+  ASSERT_TRUE(m.run_until([&] { return m.run_velocity.InVelocity; }));
+  EXPECT_EQ(m.velocity(), 500.0);
+}
+
 // ---- MC_MotionInSuperimposed
 // -----------------------------------------------------------------------------------
 
