@@ -32,7 +32,45 @@ const bool* read_cause(const JsonValue* json, const Loading& loading) {
   return static_cast<const bool*>(found->signal.address);
 }
 
+void load_sensor(const JsonValue& json, Axis& axis, const Loading& loading) {
+  Problems& problems = loading.problems;
+  const Fields fields(json, keys::kSensor, problems);
+  const JsonValue* const number = fields["sensor"];
+  const auto index = read_integer(number, 2, Axis::kSensors, problems);
+  SimulatedSensor sensor{.exists = true};
+  const JsonValue* const ratio = fields["ratio"];
+  if (const auto value = read_number(ratio, -kMost, kMost, problems)) {
+    sensor.ratio = *value;
+    if (*value == 0.0) problems.report(*ratio, "0 is not allowed; allowed: any other number");
+  }
+  if (const auto value = read_number(fields["resolution"], 0.0, kMost, problems)) sensor.resolution = *value;
+  if (const auto value = read_bool(fields["inverted"], problems)) sensor.inverted = *value;
+  if (const auto value = read_number(fields["start_position"], -kMost, kMost, problems))
+    sensor.start_position = *value;
+  sensor.fault = read_cause(fields["fault"], loading);
+  if (!index) return;
+  SimulatedSensor& place = axis.drive_settings.sensors[static_cast<std::size_t>(*index - 2)];
+  if (place.exists) return problems.report(*number, "there is an encoder " + number->shown() + " already");
+  if (!axis.data.Sensor[*index - 1].Existent)
+    return problems.report(
+        *number, "the axis has no such encoder; allowed: one with \"config\": { \"Sensor[" + number->shown() +
+                     "]\": { \"Existent\": true } }");
+  place = sensor;
+}
+
 }  // namespace
+
+void load_sensors(const JsonValue& json, Axis& axis, const Loading& loading) {
+  if (read_array(&json, loading.problems) == nullptr) return;
+  for (const JsonValue* const sensor : json.elements) load_sensor(*sensor, axis, loading);
+}
+
+void check_operative_sensor(const JsonValue& json, const Axis& axis, const Loading& loading) {
+  const UDINT first = axis.data.PositionControl.InitialOperativeSensor;
+  if (first < 2 || first > Axis::kSensors || axis.drive_settings.sensors[first - 2].exists) return;
+  loading.problems.report(json, "PositionControl.InitialOperativeSensor is " + std::to_string(first) +
+                                    ", but 'sensors' has no such encoder");
+}
 
 void load_plant(const JsonValue& json, SimulatedDriveSettings& drive, const Loading& loading) {
   Problems& problems = loading.problems;

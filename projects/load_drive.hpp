@@ -1,4 +1,5 @@
-/// What a simulated drive moves, and what goes wrong with it: keys `plant` and `faults` of a drive.
+/// Parts of a simulated drive: what it moves, what goes wrong with it, further encoders, and what stands
+/// along its way.
 #pragma once
 
 #include "projects/loader.hpp"
@@ -7,5 +8,13 @@ namespace lockstep {
 
 void load_plant(const JsonValue& json, SimulatedDriveSettings& drive, const Loading& loading);
 void load_faults(const JsonValue& json, SimulatedFaults& faults, const Loading& loading);
+void load_sensors(const JsonValue& json, Axis& axis, const Loading& loading);
+/// Position control begins with an encoder that is there. @param json the drive
+void check_operative_sensor(const JsonValue& json, const Axis& axis, const Loading& loading);
+
+/// Keys `zero_marks` and `reference_cam`.
+void load_homing_marks(const Fields& fields, MachineSignals& signals, const Loading& loading);
+/// These, and all other signals of the machine of a drive.
+void load_signals(const Fields& fields, MachineSignals& signals, const Loading& loading);
 
 }  // namespace lockstep

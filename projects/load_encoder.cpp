@@ -1,6 +1,7 @@
 // External encoders: what they measure.
 #include <algorithm>
 
+#include "projects/load_drive.hpp"
 #include "projects/loader.hpp"
 
 namespace lockstep {
@@ -66,6 +67,7 @@ void load_encoder(const JsonValue& json, ExternalEncoder& encoder, const Loading
     encoder.source_settings.resolution = *resolution;
   if (const auto noise = read_number(fields["noise"], 0.0, kLargest, problems))
     encoder.source_settings.noise = *noise;
+  load_homing_marks(fields, encoder.source_settings.signals, loading);
 }
 
 }  // namespace lockstep

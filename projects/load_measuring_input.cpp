@@ -40,6 +40,15 @@ void check_correction(const JsonValue& config, const MeasuringInput& input, cons
                                      " ms, which are 254 servo cycles");
 }
 
+/// One that watches another is of a later version of the technology.
+void check_type(const JsonValue& config, const MeasuringInput& input, const Loading& loading) {
+  if (input.data.Parameter.MeasuringInputType != 2) return;
+  const JsonValue* const type = config.find("Parameter")->find("MeasuringInputType");
+  loading.problems.report(
+      *type,
+      "a measuring input that watches another is not supported; allowed: 0 (time stamp), 1 (telegram)");
+}
+
 }  // namespace
 
 void load_measuring_input(const JsonValue& json, MeasuringInput& input, const Loading& loading) {
@@ -50,6 +59,7 @@ void load_measuring_input(const JsonValue& json, MeasuringInput& input, const Lo
   if (config != nullptr) load_configuration(*config, input, loading);
   const bool sure = problems.count() == before;
   if (sure && config != nullptr) check_correction(*config, input, loading);
+  if (sure && config != nullptr) check_type(*config, input, loading);
   if (const JsonValue* const assigned = fields["assigned_to"])
     input.measured = static_cast<LeadingObject*>(loading.find_object(assigned, kLeading));
   const JsonValue* const marks = fields["marks"];

@@ -24,7 +24,7 @@ bool scales(const Variable& variable) {
 }
 
 /// The settings with which the value of an absolute encoder is a position, those that are not the default.
-std::string scale_of(Axis& axis) {
+std::string scale_of(Axis& axis, std::size_t sensor) {
   std::string text;
   for (const Variable& variable : data_block_of(axis.kind).configuration) {
     if (!scales(variable)) continue;
@@ -32,23 +32,25 @@ std::string scale_of(Axis& axis) {
     const std::string value = kept_text(place.load(), variable.type);
     if (value == kept_text(variable.start_value(), variable.type)) continue;
     std::string path(variable.path);
-    if (const auto element = path.find("[]"); element != std::string::npos) path.insert(element + 1, "1");
+    if (const auto element = path.find("[]"); element != std::string::npos)
+      path.insert(element + 1, std::to_string(sensor + 1));
     text += (text.empty() ? "" : " ") + path + "=" + value;
   }
   return text;
 }
 
-bool keeps_adjustment(const Axis& axis) {
-  const auto type = axis.data.Sensor[0].Type;
+bool keeps_adjustment(const Axis& axis, std::size_t sensor) {
+  const auto type = axis.data.Sensor[sensor].Type;
+  if (sensor > 0 && !axis.drive_settings.sensors[sensor - 1].exists) return false;
   return !axis.is_virtual() && (type == 1 || type == 2);
 }
 
-KeptValue adjustment_of(Axis& axis) {
-  EncoderAdjustment& adjustment = axis.encoder_adjustment;
-  return {.name = axis.name + ".StatusSensor[1].AbsEncoderOffset",
+KeptValue adjustment_of(Axis& axis, std::size_t sensor) {
+  EncoderAdjustment& adjustment = axis.encoder_adjustments[sensor];
+  return {.name = axis.name + ".StatusSensor[" + std::to_string(sensor + 1) + "].AbsEncoderOffset",
           .signal = {&adjustment.offset, Type::LREAL, -1},
           .present = Signal{&adjustment.adjusted, Type::BOOL, -1},
-          .basis = scale_of(axis)};
+          .basis = scale_of(axis, sensor)};
 }
 
 KeptValue array_of(const ArrayTag& tag) {
@@ -73,7 +75,8 @@ void load_retain(const JsonValue* retain, const Loading& loading) {
     if (tag.retain) config.values.push_back({.name = tag.name, .signal = tag.signal});
   for (const ArrayTag* const tag : config.arrays) config.values.push_back(array_of(*tag));
   for (Axis* axis : loading.controller().axes)
-    if (keeps_adjustment(*axis)) config.values.push_back(adjustment_of(*axis));
+    for (std::size_t sensor = 0; sensor < Axis::kSensors; ++sensor)
+      if (keeps_adjustment(*axis, sensor)) config.values.push_back(adjustment_of(*axis, sensor));
   if (retain == nullptr) return;
   const Fields fields(*retain, keys::kRetain, loading.problems);
   if (const auto file = read_string(fields["file"], loading.problems)) {

@@ -37,8 +37,9 @@ inline constexpr Key kProject[] = {{"lockstep", kRequired},
 inline constexpr Key kClock[] = {{"servo_cycle", kRequired}, {"interpolator_ratio"}, {"overrun"}};
 inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
 inline constexpr Key kEncoderObject[] = {{"type", kRequired}, {"config"}, {"encoder", kRequired}};
-inline constexpr Key kEncoder[] = {{"model", kRequired}, {"follows"}, {"ratio"}, {"signal"}, {"wrap"},
-                                   {"resolution"},       {"noise"}};
+inline constexpr Key kEncoder[] = {
+    {"model", kRequired}, {"follows"}, {"ratio"},      {"signal"},       {"wrap"},
+    {"resolution"},       {"noise"},   {"zero_marks"}, {"reference_cam"}};
 inline constexpr Key kMeasuringInputObject[] = {
     {"type", kRequired}, {"config"}, {"assigned_to", kRequired}, {"marks"}};
 inline constexpr Key kOutputCamObject[] = {
@@ -59,7 +60,11 @@ inline constexpr Key kDrive[] = {{"model", kRequired},
                                  {"digital_inputs"},
                                  {"quick_stop_deceleration"},
                                  {"plant"},
-                                 {"faults"}};
+                                 {"faults"},
+                                 {"position_cycle"},
+                                 {"sensors"}};
+inline constexpr Key kSensor[] = {{"sensor", kRequired}, {"ratio"},          {"resolution"},
+                                  {"inverted"},          {"start_position"}, {"fault"}};
 inline constexpr Key kPlant[] = {
     {"inertia", kRequired}, {"friction"}, {"load_torque"}, {"maximum_torque"}, {"fixed_stop"}};
 inline constexpr Key kFixedStop[] = {{"position", kRequired}, {"stiffness", kRequired}, {"direction"}};

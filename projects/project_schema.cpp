@@ -141,6 +141,39 @@ Json number(std::string_view description, double lowest, double highest) {
   return described(description, {{"type", "number"}, {"minimum", lowest}, {"maximum", highest}});
 }
 
+Json place(std::string_view description) {
+  return described(description, {{"type", "number"}, {"minimum", -1e12}, {"maximum", 1e12}});
+}
+
+Json range(std::string_view description) {
+  Json schema = array(description, place("[u]"));
+  schema["minItems"] = schema["maxItems"] = 2;
+  return schema;
+}
+
+Json zero_marks_schema() {
+  return object(keys::kZeroMarks,
+                {{"position", place("of a zero mark [u]")},
+                 {"period", number("after which the next one follows [u]; 0: there is one only", 0, 1e12)}});
+}
+
+Json reference_cam_schema() {
+  return range("positions in which the reference cam is active");
+}
+
+/// The encoders of an axis beside that of the drive.
+Json sensors_schema() {
+  return array(
+      "encoders beside that of the drive",
+      object(keys::kSensor,
+             {{"sensor", number("its number, of Sensor[2] to Sensor[4]", 2, 4)},
+              {"ratio", number("user units that it tells per unit of the machine, not 0", -1e12, 1e12)},
+              {"resolution", number("increment [u]; 0: none", 0.0, 1e12)},
+              {"inverted", described("it turns the other way round than the machine", {{"type", "boolean"}})},
+              {"start_position", place("what it tells at the beginning, of an absolute one [u]")},
+              {"fault", text("BOOL tag: while TRUE it tells nothing")}}));
+}
+
 Json encoder_schema(const Json& type, const Json& config) {
   const Json encoder =
       object(keys::kEncoder,
@@ -150,7 +183,9 @@ Json encoder_schema(const Json& type, const Json& config) {
               {"signal", text("number whose value is the position: tag, instance.Pin or Object.Variable")},
               {"wrap", number("length at which the signal wraps [u]", 0.001, 1e12)},
               {"resolution", number("increment of the encoder [u]; 0: none", 0.0, 1e12)},
-              {"noise", number("largest deviation of a reading to either side [u]", 0.0, 1e12)}});
+              {"noise", number("largest deviation of a reading to either side [u]", 0.0, 1e12)},
+              {"zero_marks", zero_marks_schema()},
+              {"reference_cam", reference_cam_schema()}});
   return object(keys::kEncoderObject, {{"type", type}, {"config", config}, {"encoder", encoder}});
 }
 
@@ -183,18 +218,6 @@ Json objects_schema() {
   const Json leading_value =
       object(keys::kLeadingValue, {{"to", text("name of the leading axis")},
                                    {"coupling", words("how its value is taken", words::kCouplings)}});
-  const auto place = [](std::string_view description) {
-    return described(description, {{"type", "number"}, {"minimum", -1e12}, {"maximum", 1e12}});
-  };
-  const auto range = [&](std::string_view description) {
-    Json schema = array(description, place("[u]"));
-    schema["minItems"] = schema["maxItems"] = 2;
-    return schema;
-  };
-  const Json zero_marks = object(
-      keys::kZeroMarks, {{"position", place("of a zero mark [u]")},
-                         {"period", described("after which the next one follows [u]; 0: there is one only",
-                                              {{"type", "number"}, {"minimum", 0}, {"maximum", 1e12}})}});
   const Json limit_switches =
       object(keys::kLimitSwitches, {{"min", place("from here downwards the negative one is pressed [u]")},
                                     {"max", place("from here upwards the positive one is pressed [u]")}});
@@ -226,14 +249,16 @@ Json objects_schema() {
                      {"inverted", described("motor and encoder turn the other way round than the machine",
                                             {{"type", "boolean"}})},
                      {"start_position", place("of the machine, on its own scale [u]")},
-                     {"zero_marks", zero_marks},
-                     {"reference_cam", range("positions in which the reference cam is active")},
+                     {"zero_marks", zero_marks_schema()},
+                     {"reference_cam", reference_cam_schema()},
                      {"limit_switches", limit_switches},
                      {"digital_inputs", array("switches that are tags", digital_input)},
                      {"quick_stop_deceleration",
                       number("of a quick stop (OFF3) [u/s²]; 0: as hard as the drive can", 0.0, 1e12)},
                      {"plant", described("what the drive moves", plant)},
-                     {"faults", described("what goes wrong, and when", faults)}});
+                     {"faults", described("what goes wrong, and when", faults)},
+                     {"position_cycle", duration("cycle of the position loop in the drive (DSC)")},
+                     {"sensors", sensors_schema()}});
   const Json type = words("published type", words::kObjectTypes);
   const Json config = {{"anyOf",
                         {reference("config"), reference("speed_axis_config"), reference("encoder_config"),

@@ -87,6 +87,7 @@ enum class ErrorId : std::uint16_t {
   leading_value_reversed = 0x808C,
   homing_while_coupled = 0x80A1,
   measuring_range = 0x80A2,
+  measuring_while_homing = 0x80A3,
   measuring_range_start = 0x80A5,
   measuring_range_end = 0x80A6,
   outside_measuring_range = 0x80A7,
@@ -182,7 +183,11 @@ inline constexpr int kSwitchingPosition = 700;
 inline constexpr int kPositionInvalid = 702;
 inline constexpr int kCamTrackData = 703;
 inline constexpr int kOutputCamData = 704;
+inline constexpr int kMeasuringWhileHoming = 750;
 inline constexpr int kMeasuringRangePassed = 752;
+inline constexpr int kProbeInUse = 753;
+inline constexpr int kProbeConfiguration = 754;
+inline constexpr int kMeasuringNotPossible = 755;
 inline constexpr int kCamNotInterpolated = 612;
 inline constexpr int kInternal = 203;
 }  // namespace alarm

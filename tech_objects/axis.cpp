@@ -232,15 +232,6 @@ void Axis::watch_leading_object() noexcept {
   if (led_by_lost || (waiting != nullptr && lost(*waiting->master))) raise(alarm::kLeadingAxis);
 }
 
-/// What there is of an encoder, as long as nothing is wrong with it.
-void Axis::show_sensor() noexcept {
-  data.OperativeSensor = 1;
-  data.StatusSensor[0].State = sensor_lost_ ? 0 : kSensorValid;
-  data.StatusSensor[0].CommunicationOK = true;
-  data.StatusSensor[0].Control = true;
-  data.StatusDrive.CommunicationOK = true;
-}
-
 // ---- One interpolator cycle
 // -------------------------------------------------------------------------------------
 

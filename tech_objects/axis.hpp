@@ -19,6 +19,7 @@
 #include "tech_objects/axis_forces.hpp"
 #include "tech_objects/axis_position.hpp"
 #include "tech_objects/drive.hpp"
+#include "tech_objects/homing_marks.hpp"
 #include "tech_objects/job.hpp"
 #include "tech_objects/leading_object.hpp"
 #include "tech_objects/override.hpp"
@@ -53,7 +54,7 @@ struct SimulationRequest {
 struct EncoderAdjustment {
   bool adjusted = false;
   double offset =
-      0.0;  ///< [u] StatusSensor[1].AbsEncoderOffset: position of the axis less that of the encoder
+      0.0;  ///< [u] StatusSensor[].AbsEncoderOffset: position of the axis less that of the encoder
 };
 
 class Axis final : public LeadingObject {
@@ -73,9 +74,10 @@ class Axis final : public LeadingObject {
   /// Model of the simulated drive; counts unless the axis is virtual.
   SimulatedDriveSettings drive_settings;
 
-  /// The adjustment of the absolute encoder that is kept: may be set before `configure`, and read at any time
-  /// in the thread of the cycle. Counts for Sensor[1].Type 1 and 2. A restart of the object keeps it.
-  EncoderAdjustment encoder_adjustment;
+  /// The adjustments of absolute encoders that are kept: may be set before `configure`, and read at any time
+  /// in the thread of the cycle. Count for Sensor[].Type 1 and 2. A restart of the object keeps them.
+  static constexpr std::size_t kSensors = 4;
+  std::array<EncoderAdjustment, kSensors> encoder_adjustments;
 
   /// Takes over the start values. Call once, after `data` is set and before the first tick.
   /// @param servo_period period of MC_Servo [s]  @param ratio servo ticks per interpolator tick, 1 to 32
@@ -163,6 +165,7 @@ class Axis final : public LeadingObject {
   }
   /// False while encoder or communication are lost, until that is acknowledged.
   bool actual_values_valid() const noexcept override { return !sensor_lost_; }
+  bool homing() const noexcept override { return homing_now_; }
   const SimulatedDrive& drive() const noexcept { return drive_; }
   /// Whether this axis is `leading` or follows, over any number of couplings, one that is.
   bool led_by_this(const LeadingObject* leading) const noexcept;
@@ -211,7 +214,6 @@ class Axis final : public LeadingObject {
   void react(AlarmReaction reaction) noexcept;
   ErrorId reset(bool restart) noexcept;
   void restart() noexcept;
-  void show_sensor() noexcept;
   void step_base() noexcept;
   void guard() noexcept;
 
@@ -249,7 +251,7 @@ class Axis final : public LeadingObject {
   };
   ErrorId check_homing(const Job& job) const noexcept;
   int missing_for_homing(const Job& job) const noexcept;
-  bool home_switch_missing(bool active) const noexcept;
+  HomeSwitch home_switch(bool active) const noexcept;
   void home(Job& job) noexcept;
   void home_directly(Job& job) noexcept;
   void begin_passive_homing(Job& job) noexcept;
@@ -268,13 +270,46 @@ class Axis final : public LeadingObject {
            data.Homing.AutoReversal;
   }
   void leave_homing(const Job& job) noexcept;
-  void adjust_encoder(bool store) noexcept;
-  /// What an absolute encoder reports where the machine is at the beginning [u].
-  double encoder_start() const noexcept { return encoder_sign_ * drive_settings.signals.start_position; }
-  void restore_encoder() noexcept;
-  bool absolute_encoder() const noexcept { return has_drive_ && data.Sensor[0].Type != 0; }
+  void home_sensor_beside(Job& job) noexcept;
+  std::size_t sensor_of(const Job& job) const noexcept;
+  void shift_sensors_beside(double by) noexcept;
+  void adjust_encoder(std::size_t sensor, bool store) noexcept;
+  double encoder_start(std::size_t sensor) const noexcept;
+  void restore_encoder(std::size_t sensor) noexcept;
+  bool absolute_encoder(std::size_t sensor) const noexcept {
+    return has_drive_ && data.Sensor[sensor].Type != 0;
+  }
+  bool absolute_encoder() const noexcept { return absolute_encoder(operative_); }
   double position_shift(double home_position) const noexcept;
   void shift_positions(double by) noexcept;
+
+  // axis_sensors.cpp: the encoders
+  /// An encoder; of the operative one, origin and sign are `encoder_origin_` and `encoder_sign_`.
+  struct Encoder {
+    AxisPosition origin;    // position where it shows 0
+    AxisPosition seen;      // that it shows
+    DoubleDouble reading;   // what it has counted, as it lies [u]; of the drive's own: `encoder_position_`
+    double sign = 1.0;      // -1: it turns the other way round
+    double velocity = 0.0;  // as it lies [u/s]
+    double lent = 0.0;      // by what MC_SetSensor has shifted an absolute one, until it is left [u]
+    bool failed = false;
+  };
+  void take_sensors() noexcept;
+  void begin_sensors(AxisPosition here) noexcept;
+  bool sensor_exists(std::size_t sensor) const noexcept;
+  /// @param sensor 1 to 3: those beside the drive's own
+  const SimulatedSensor& sensor_model(std::size_t sensor) const noexcept {
+    return drive_settings.sensors[sensor - 1];
+  }
+  double encoder_ratio() const noexcept;
+  DoubleDouble travel(std::size_t sensor) const noexcept;
+  void show_sensor() noexcept;
+  void read_sensors(DriveActual& now) noexcept;
+  void show_beside(std::size_t sensor, bool failed) noexcept;
+  AxisPosition sensor_position(std::size_t sensor) const noexcept;
+  void place_sensor(std::size_t sensor, AxisPosition place) noexcept;
+  void switch_sensor(std::size_t sensor, bool aligned) noexcept;
+  void deviate(AxisPosition place) noexcept;
 
   // axis_switches.cpp: signals of the machine, hardware limit switches
   struct LimitSwitch {
@@ -396,10 +431,14 @@ class Axis final : public LeadingObject {
   void shift_servo(double by) noexcept;
 
   void idle_servo() noexcept;
+  /// Dynamic servo control: the drive closes the position loop, on its own encoder.
+  bool loop_in_drive() const noexcept { return data.PositionControl.EnableDSC && operative_ == 0; }
 
   // axis_backlash.cpp
   double pass_backlash() noexcept;
   double backlash_offset() const noexcept { return data.Sensor[0].Backlash.Enable ? backlash_.passed : 0.0; }
+  /// The play lies between the motor, with its encoder, and the load: another encoder sees it by itself.
+  bool passes_backlash() const noexcept { return data.Sensor[0].Backlash.Enable && operative_ == 0; }
 
   double motor_angle_per_unit() const noexcept;
 
@@ -519,7 +558,12 @@ class Axis final : public LeadingObject {
   double motor_limit_ = 0.0;         // what the motor can do [u/s]
   double setpoint_sign_ = 1.0;       // -1: the drive turns the other way round
   double encoder_sign_ = 1.0;
+  std::size_t operative_ = 0;      // encoder, from 0
+  bool several_encoders_ = false;  // there are others
   bool drive_running_ = false;
+  double xerr_ = 0.0;  // control difference for the position loop of the drive [u]
+  std::array<Encoder, kSensors> encoders_;
+  FirstOrderLag smoothing_;  // of what MC_SetSensor has changed
   SimulatedDrive drive_;
   PositionController controller_;
   DynamicFilter setpoint_filter_;

@@ -16,7 +16,7 @@ void Axis::watch_drive(const DriveActual& now) noexcept {
   drive_in_trouble_ = now.trouble;
   data.StatusDrive.Error = now.fault;
   data.StatusDrive.CommunicationOK = !now.silent && !now.fault;
-  auto& sensor = data.StatusSensor[0];
+  auto& sensor = data.StatusSensor[operative_];
   sensor.Error = now.encoder_failed;
   sensor.CommunicationOK = !now.silent;
   if (now.silent || now.encoder_failed) lose_sensor();
@@ -34,7 +34,7 @@ void Axis::raise_drive_alarms(const DriveActual& now) noexcept {
 void Axis::lose_sensor() noexcept {
   if (sensor_lost_) return;
   sensor_lost_ = true;
-  data.StatusSensor[0].State = 0;
+  data.StatusSensor[operative_].State = 0;
   coupling_changed = true;  // axes that follow are told
   if (!absolute_encoder()) homed_ = false;
 }
@@ -42,11 +42,9 @@ void Axis::lose_sensor() noexcept {
 /// The axis goes on from where it was seen last; an absolute encoder knows better.
 void Axis::regain_sensor() noexcept {
   sensor_lost_ = false;
-  data.StatusSensor[0].State = kSensorValid;
+  data.StatusSensor[operative_].State = kSensorValid;
   encoder_position_ = drive_.read().position;
-  if (absolute_encoder()) return;
-  const DoubleDouble moved = encoder_position_ * encoder_sign_ - DoubleDouble{backlash_offset(), 0.0};
-  encoder_origin_ = advanced(actual_, -moved, modulo_);
+  if (!absolute_encoder()) encoder_origin_ = advanced(actual_, -travel(operative_), modulo_);
 }
 
 /// MC_Reset at the drive. What is still wrong is told again at once.
@@ -56,19 +54,9 @@ void Axis::acknowledge_drive() noexcept {
   control_drive(off | bit_mask(stw1::kAcknowledgeFault));
   control_drive(off);
   DriveActual now = drive_.read();
+  if (several_encoders_) read_sensors(now);
   if (!now.silent && !now.encoder_failed && sensor_lost_) regain_sensor();
   watch_drive(now);
-}
-
-/// There is one encoder, which is operative from the start; others are configured without having values.
-ErrorId Axis::set_sensor(DINT sensor, DINT mode, DINT reference) noexcept {
-  const auto exists = [this](DINT number) { return data.Sensor[number - 1].Existent; };
-  constexpr DINT kCopyFromReference = 3;
-  if (!exists(sensor)) return ErrorId::sensor;
-  if (mode == kCopyFromReference && (!exists(reference) || reference == sensor))
-    return ErrorId::reference_sensor;
-  if (homing_now_) return ErrorId::homing_active;
-  return sensor == 1 && !sensor_lost_ ? ErrorId::none : ErrorId::actual_values_invalid;
 }
 
 void Axis::control_drive(std::uint16_t stw1) noexcept {

@@ -18,8 +18,6 @@ bool adjusts_encoder(const Job& job) noexcept {
   return mode_is(job, {6, 7, 13});
 }
 
-constexpr DINT kPassiveAnyDirection = 2;  // Sensor[].PassiveHoming.Direction
-
 }  // namespace
 
 // ---- Taking a job over
@@ -32,7 +30,7 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
   if ((seeks || job.mode == 13) && pending_alarm() != 0) return ErrorId::technology_alarm;
   if (seeks && (!enabled() || locked_by_stop())) return ErrorId::locked;
   if (adjusts_encoder(job)) {
-    const auto sensor = static_cast<std::size_t>(job.sensor > 0 ? job.sensor - 1 : 0);
+    const std::size_t sensor = sensor_of(job);
     if (!data.Sensor[sensor].Existent) return ErrorId::sensor;
     const bool absolute = data.Sensor[sensor].Type != 0;
     if (job.mode == 13 && absolute) return ErrorId::homing_mode_absolute;
@@ -58,17 +56,15 @@ int Axis::missing_for_homing(const Job& job) const noexcept {
   if (active && !(data.Homing.ApproachVelocity > 0.0 && data.Homing.ReferencingVelocity > 0.0))
     return alarm::kHomingData;
   if (!has_drive_) return 0;
-  const auto mark =
-      static_cast<HomingMark>(active ? data.Sensor[0].ActiveHoming.Mode : data.Sensor[0].PassiveHoming.Mode);
-  const bool zero_mark_missing = mark != HomingMark::switch_edge && !drive_settings.signals.zero_marks;
-  const bool switch_missing = mark != HomingMark::zero_mark && home_switch_missing(active);
-  return zero_mark_missing || switch_missing ? alarm::kHomingNotSupported : 0;
+  const auto mark = static_cast<HomingMark>(active ? data.Sensor[operative_].ActiveHoming.Mode
+                                                   : data.Sensor[operative_].PassiveHoming.Mode);
+  return has_mark(mark, home_switch(active), drive_settings.signals) ? 0 : alarm::kHomingNotSupported;
 }
 
-bool Axis::home_switch_missing(bool active) const noexcept {
-  const bool* const address = active ? data.Sensor[0].ActiveHoming.DigitalInputAddress
-                                     : data.Sensor[0].PassiveHoming.DigitalInputAddress;
-  return address == nullptr && !drive_settings.signals.reference_cam;
+HomeSwitch Axis::home_switch(bool active) const noexcept {
+  const auto& sensor = data.Sensor[operative_];
+  if (active) return {sensor.ActiveHoming.DigitalInputAddress, sensor.ActiveHoming.SwitchLevel};
+  return {sensor.PassiveHoming.DigitalInputAddress, sensor.PassiveHoming.SwitchLevel};
 }
 
 void Axis::home(Job& job) noexcept {
@@ -93,6 +89,7 @@ void Axis::home(Job& job) noexcept {
 
 /// Setpoint and actual position are shifted together; nothing moves.
 void Axis::home_directly(Job& job) noexcept {
+  if (adjusts_encoder(job) && sensor_of(job) != operative_) return home_sensor_beside(job);
   const bool to_setpoint = job.mode == 11;
   const bool relative = mode_is(job, {1, 6, 12});
   const double by = relative      ? job.position
@@ -100,6 +97,7 @@ void Axis::home_directly(Job& job) noexcept {
                                   : position_shift(job.position);
   if (!positions_fit(by)) return job.fail(ErrorId::position);
   shift_positions(by);
+  if (!adjusts_encoder(job)) shift_sensors_beside(by);
   if (to_setpoint || (!relative && !has_drive_)) {
     // No following error in between: the setpoint is the given position to the last bit.
     const AxisPosition exact = normalised({setpoint_.position.turns, job.position}, modulo_);
@@ -109,7 +107,7 @@ void Axis::home_directly(Job& job) noexcept {
     if (!has_drive_) actual_ = setpoint_.position;
   }
   if (job.mode == 7) counted_from_ = actual_.turns;
-  if (adjusts_encoder(job)) adjust_encoder(true);
+  if (adjusts_encoder(job)) adjust_encoder(operative_, true);
   homed_ = true;
   job.mark_position = relative ? actual_.value : job.position;
   job.phase = JobPhase::done;
@@ -121,31 +119,74 @@ bool Axis::positions_fit(double by) const noexcept {
   return std::isfinite(by) && std::abs(shifted) <= kPositionRange && modulo_.contains(shifted);
 }
 
+/// Modes 6, 7, 13 at an encoder that is not operative: only what that one tells changes.
+void Axis::home_sensor_beside(Job& job) noexcept {
+  const std::size_t sensor = sensor_of(job);
+  Encoder& encoder = encoders_[sensor];
+  const double by =
+      job.mode == 6 ? job.position : shortest_distance(encoder.seen.value, job.position, modulo_);
+  if (!std::isfinite(by) || !modulo_.contains(advanced(encoder.seen, by, modulo_).value))
+    return job.fail(ErrorId::position);
+  encoder.origin = advanced(encoder.origin, by - encoder.lent, modulo_);
+  encoder.seen = advanced(encoder.seen, by, modulo_);
+  encoder.lent = 0.0;
+  adjust_encoder(sensor, true);
+  job.mark_position = job.mode == 6 ? encoder.seen.value : job.position;
+  job.phase = JobPhase::done;
+}
+
+/// The encoder that a job is about; 0: the operative one.
+std::size_t Axis::sensor_of(const Job& job) const noexcept {
+  return job.sensor > 0 ? static_cast<std::size_t>(job.sensor - 1) : operative_;
+}
+
+void Axis::shift_sensors_beside(double by) noexcept {
+  if (!several_encoders_) return;
+  for (std::size_t i = 0; i < kSensors; ++i) {
+    if (i == operative_) continue;
+    encoders_[i].origin = advanced(encoders_[i].origin, by, modulo_);
+    encoders_[i].seen = advanced(encoders_[i].seen, by, modulo_);
+  }
+}
+
 /// The encoder is adjusted to the positions as they are now.
 /// @param store whether an offset of an absolute encoder that is kept already is replaced
-void Axis::adjust_encoder(bool store) noexcept {
-  data.StatusSensor[0].Adjusted = 1;
-  if (!absolute_encoder() || (encoder_adjustment.adjusted && !store)) return;
-  const DoubleDouble turns = modulo_.enabled
-                                 ? to_double_double(encoder_origin_.turns - counted_from_) * modulo_.length
-                                 : DoubleDouble{};
-  const DoubleDouble offset = turns + two_difference(encoder_origin_.value, encoder_start());
-  encoder_adjustment = {true, offset.rounded()};
-  data.StatusSensor[0].AbsEncoderOffset = encoder_adjustment.offset;
+void Axis::adjust_encoder(std::size_t sensor, bool store) noexcept {
+  data.StatusSensor[sensor].Adjusted = 1;
+  EncoderAdjustment& kept = encoder_adjustments[sensor];
+  if (!absolute_encoder(sensor) || (kept.adjusted && !store)) return;
+  const AxisPosition origin = sensor == operative_ ? encoder_origin_ : encoders_[sensor].origin;
+  const DoubleDouble turns =
+      modulo_.enabled ? to_double_double(origin.turns - counted_from_) * modulo_.length : DoubleDouble{};
+  const DoubleDouble offset = turns + two_difference(origin.value, encoder_start(sensor));
+  kept = {true, offset.rounded()};
+  data.StatusSensor[sensor].AbsEncoderOffset = kept.offset;
+}
+
+/// What an absolute encoder reports where the machine is at the beginning [u].
+double Axis::encoder_start(std::size_t sensor) const noexcept {
+  const double sign = sensor == operative_ ? encoder_sign_ : encoders_[sensor].sign;
+  return sign * (sensor == 0 ? drive_settings.signals.start_position : sensor_model(sensor).start_position);
 }
 
 /// At the start and after a restart an absolute encoder tells where the axis is.
-void Axis::restore_encoder() noexcept {
-  if (!absolute_encoder()) return;
-  if (!encoder_adjustment.adjusted || !std::isfinite(encoder_adjustment.offset)) encoder_adjustment = {};
-  const DoubleDouble place = two_sum(encoder_start(), encoder_adjustment.offset);
+void Axis::restore_encoder(std::size_t sensor) noexcept {
+  if (!absolute_encoder(sensor)) return;
+  EncoderAdjustment& kept = encoder_adjustments[sensor];
+  if (!kept.adjusted || !std::isfinite(kept.offset)) kept = {};
+  const DoubleDouble place = two_sum(encoder_start(sensor), kept.offset);
   const AxisPosition origin = normalised(0, place, modulo_);
-  shift_positions(rounded_difference(origin, encoder_origin_, modulo_));
+  data.StatusSensor[sensor].AbsEncoderOffset = kept.offset;
+  data.StatusSensor[sensor].Adjusted = kept.adjusted ? 1 : 0;
+  if (sensor != operative_) {
+    encoders_[sensor].origin = origin;
+    return;
+  }
+  const double by = rounded_difference(origin, encoder_origin_, modulo_);
+  shift_positions(by);
   encoder_origin_ = origin;
   counted_from_ = 0;
-  homed_ = encoder_adjustment.adjusted;
-  data.StatusSensor[0].AbsEncoderOffset = encoder_adjustment.offset;
-  data.StatusSensor[0].Adjusted = encoder_adjustment.adjusted ? 1 : 0;
+  homed_ = kept.adjusted;
 }
 
 // ---- Homing with a mark
@@ -160,12 +201,11 @@ void Axis::begin_passive_homing(Job& job) noexcept {
   job.phase = JobPhase::active;
   homing_now_ = true;
   if (job.mode != 2) homed_ = false;
-  const DINT direction = data.Sensor[0].PassiveHoming.Direction;
-  if (has_drive_) search_mark(false, direction == kPassiveAnyDirection ? 0 : direction == 0 ? 1 : -1);
+  if (has_drive_) search_mark(false, passive_direction(data.Sensor[operative_].PassiveHoming.Direction));
 }
 
 void Axis::begin_active_homing(Job& job) noexcept {
-  const auto& settings = data.Sensor[0].ActiveHoming;
+  const auto& settings = data.Sensor[operative_].ActiveHoming;
   if (job.mode == 5) job.position = data.Homing.HomePosition;
   const double mark = job.position - settings.HomePositionOffset;
   if (!positions_fit(position_shift(mark)) || !positions_fit(position_shift(job.position)))
@@ -199,12 +239,12 @@ PlanResult Axis::plan_homing(const Job& job, const Dynamics& dynamics) noexcept 
 }
 
 void Axis::search_mark(bool active, int direction) noexcept {
-  const auto& sensor = data.Sensor[0];
+  const auto& sensor = data.Sensor[operative_];
   const DINT mark = active ? sensor.ActiveHoming.Mode : sensor.PassiveHoming.Mode;
   const BOOL positive_side = active ? sensor.ActiveHoming.SideInput : sensor.PassiveHoming.SideInput;
   // The machine may lie the other way round than the axis counts.
-  const int sign = encoder_sign_ < 0.0 ? -1 : 1;
-  mark_search_.begin(static_cast<HomingMark>(mark), sign * direction, positive_side ? sign : -sign);
+  begin_search(mark_search_, static_cast<HomingMark>(mark), direction, positive_side,
+               encoder_sign_ * encoder_ratio() < 0.0);
   on_home_switch_ = false;
   signals_watched_ = true;
 }
@@ -223,7 +263,7 @@ void Axis::guide_active_homing(Job& job) noexcept {
   const int direction = homing_.direction;
   if (homing_reverses() && limit_switches_[job.direction > 0 ? 1 : 0].pressed)
     return reverse_at_limit_switch(job);
-  const auto& settings = data.Sensor[0].ActiveHoming;
+  const auto& settings = data.Sensor[operative_].ActiveHoming;
   switch (homing_.phase) {
     case HomingPhase::approach: {
       if (!on_home_switch_) break;
@@ -248,7 +288,8 @@ void Axis::guide_active_homing(Job& job) noexcept {
 /// Once: on the way to the switch the other way is tried; a zero mark is looked for beyond, to be met in the
 /// homing direction.
 void Axis::reverse_at_limit_switch(Job& job) noexcept {
-  const bool to_zero_mark = data.Sensor[0].ActiveHoming.Mode == static_cast<DINT>(HomingMark::zero_mark);
+  const bool to_zero_mark =
+      data.Sensor[operative_].ActiveHoming.Mode == static_cast<DINT>(HomingMark::zero_mark);
   const bool can_turn =
       homing_.phase == HomingPhase::approach || (homing_.phase == HomingPhase::search && to_zero_mark);
   if (homing_.reversed || !can_turn) return raise(alarm::kMarkNotFound);
@@ -274,7 +315,8 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
 /// The mark has been passed; a virtual axis has none, and takes the place where it is.
 void Axis::take_mark() noexcept {
   const DoubleDouble way = two_difference(mark_search_.place(), drive_settings.signals.start_position);
-  const DoubleDouble load_way = way * encoder_sign_ - DoubleDouble{backlash_offset(), 0.0};
+  const double backlash = operative_ == 0 ? backlash_offset() : 0.0;
+  const DoubleDouble load_way = way * (encoder_ratio() * encoder_sign_) - DoubleDouble{backlash, 0.0};
   const AxisPosition place = has_drive_ ? advanced(encoder_origin_, load_way, modulo_) : actual_;
   mark_search_.end();
   Job* const passive = running_[kPassiveHoming];
@@ -291,13 +333,12 @@ bool Axis::assign_position(AxisPosition place, double position) noexcept {
   const double by = shortest_distance(place.value, position, modulo_);
   if (!positions_fit(by)) return false;
   shift_positions(by);
+  shift_sensors_beside(by);
   if (modulo_.enabled && !absolute_encoder()) {
-    const AxisPosition now = advanced(place, by, modulo_);
-    const bool first_half = now.value <= modulo_.start + 0.5 * modulo_.length;
-    counted_from_ = first_half ? now.turns : now.turns + 1;
+    counted_from_ = first_turn(advanced(place, by, modulo_), modulo_);
   }
   homed_ = true;
-  adjust_encoder(false);
+  adjust_encoder(operative_, false);
   return true;
 }
 

@@ -9,8 +9,7 @@ namespace lockstep {
 void Axis::restart_servo() noexcept {
   take_servo_settings();
   backlash_ = {};
-  encoder_origin_ = advanced(actual_, -(encoder_position_ * encoder_sign_), modulo_);
-  restore_encoder();
+  begin_sensors(actual_);
   reset_servo({setpoint_.position, 0.0});
   show_execution_time();
 }
@@ -19,20 +18,20 @@ void Axis::restart_servo() noexcept {
 void Axis::take_servo_settings() noexcept {
   const bool inverted = drive_settings.inverted;
   setpoint_sign_ = data.Actor.InverseDirection != inverted ? -1.0 : 1.0;
-  encoder_sign_ = data.Sensor[0].InverseDirection != inverted ? -1.0 : 1.0;
   way_per_motor_turn_ = way_per_motor_turn();
   motor_limit_ = data.Actor.MotorType == 1 ? data.Actor.LinearMotorDriveParameter.MaxVelocity
                                            : data.Actor.DriveParameter.MaxSpeed / 60.0 * way_per_motor_turn_;
+  take_sensors();
   setpoint_filter_.configure(modulo_, servo_period_);
   signals_watched_ = signals_always_watched();
 }
 
 void Axis::configure_servo() {
+  encoders_ = {};
   take_servo_settings();
   drive_.configure(drive_settings, servo_period_, motor_angle_per_unit());
   controller_.configure(control_settings(), servo_period_);
-  encoder_origin_ = setpoint_.position;
-  restore_encoder();
+  begin_sensors(setpoint_.position);
   reset_servo({setpoint_.position, 0.0});
   show_execution_time();
 }
@@ -59,7 +58,8 @@ PositionControlSettings Axis::control_settings() const noexcept {
   return {.kv = data.PositionControl.Kv,
           .kpc = data.PositionControl.Kpc,
           .delay = control_delay(),
-          .max_velocity = motor_limit_};
+          .max_velocity = motor_limit_,
+          .lead = loop_in_drive() ? drive_.dead_time() : -1.0};
 }
 
 /// What the axis moves in one turn of the motor, through load gear and lead screw [u].
@@ -89,9 +89,10 @@ void Axis::idle_servo() noexcept {
 void Axis::servo() noexcept {
   if (!has_drive_) return idle_servo();
   DriveActual now = drive_.read();
-  if (now.trouble || drive_in_trouble_) watch_drive(now);
   encoder_position_ = now.position;
-  if (signals_watched_) watch_signals(now.position);
+  if (several_encoders_) read_sensors(now);
+  if (now.trouble || drive_in_trouble_) watch_drive(now);
+  if (signals_watched_) watch_signals(encoder_position_);
   if (encoder_sign_ < 0.0) {
     now.position = -now.position;
     now.velocity = -now.velocity;
@@ -103,14 +104,13 @@ void Axis::servo() noexcept {
   if (sensor_lost_)
     now.velocity = 0.0;
   else
-    actual_ = advanced(
-        encoder_origin_,
-        data.Sensor[0].Backlash.Enable ? now.position - DoubleDouble{backlash_.passed, 0.0} : now.position,
-        modulo_);
+    actual_ = advanced(encoder_origin_,
+                       passes_backlash() ? now.position - DoubleDouble{backlash_.passed, 0.0} : now.position,
+                       modulo_);
   data.ActualAcceleration = (now.velocity - actual_velocity_) / servo_period_;
   actual_velocity_ = now.velocity;
-  data.StatusSensor[0].Position = actual_.value;
-  data.StatusSensor[0].Velocity = actual_velocity_;
+  data.StatusSensor[operative_].Position = actual_.value;
+  data.StatusSensor[operative_].Velocity = actual_velocity_;
   data.ActualSpeed = actual_velocity_ / way_per_motor_turn_ * 60.0;
 
   ++servo_tick_;
@@ -121,7 +121,13 @@ void Axis::servo() noexcept {
   } else {
     control_position();
   }
-  drive_.write(setpoint_sign_ * data.VelocitySetpoint);
+  if (power_state_ > PowerState::drive_stops && position_controlled_ && loop_in_drive())
+    drive_.write_position({.velocity = setpoint_sign_ * data.VelocitySetpoint,
+                           .xerr = setpoint_sign_ * xerr_,
+                           .kpc = data.PositionControl.Kv,
+                           .most = control_settings().max_velocity});
+  else
+    drive_.write(setpoint_sign_ * data.VelocitySetpoint);
 }
 
 /// The setpoint of this servo tick: between the last two interpolator results, one interpolator cycle later.
@@ -151,14 +157,22 @@ void Axis::control_position() noexcept {
   const PositionControlSettings settings = control_settings();
   data.StatusPositioning.SetpointExecutionTime = period_ + filter_delay + settings.delay;
   if (settings != controller_.settings()) controller_.configure(settings, servo_period_);
-  const PositionControlled controlled = controller_.step(position, velocity, actual_, modulo_);
+  const double smoothed = smoothing_.behind();  // what MC_SetSensor has changed and control is not to see yet
+  if (smoothed != 0.0) smoothing_.step(0.0);
+  const AxisPosition seen = smoothed == 0.0 ? actual_ : advanced(actual_, -smoothed, modulo_);
+  const PositionControlled controlled = controller_.step(position, velocity, seen, modulo_);
   data.VelocitySetpoint = controlled.velocity;
-  if (data.Sensor[0].Backlash.Enable)
+  if (loop_in_drive()) {  // the drive adds what the control difference asks for
+    const double precontrol = 0.01 * settings.kpc * velocity;
+    data.VelocitySetpoint = std::clamp(precontrol, -settings.max_velocity, settings.max_velocity);
+    xerr_ = controlled.xerr;
+  }
+  if (passes_backlash())
     data.VelocitySetpoint =
-        std::clamp(controlled.velocity + pass_backlash(), -settings.max_velocity, settings.max_velocity);
+        std::clamp(data.VelocitySetpoint + pass_backlash(), -settings.max_velocity, settings.max_velocity);
   data.StatusServo.BalancedPosition = controlled.balanced.value;
   data.StatusServo.ControlDifference = controlled.control_difference;
-  data.StatusPositioning.FollowingError = controlled.control_difference;
+  data.StatusPositioning.FollowingError = controlled.control_difference - smoothed;
   if (data.FollowingError.AdditionalSetpointDelayTime > 0.0 || following_lag_.behind() != 0.0)
     delay_following_error(controlled);
   last_balanced_ = controlled.balanced;
@@ -179,6 +193,7 @@ void Axis::reset_servo(const ServoSetpoint& setpoint) noexcept {
   const double behind = setpoint.velocity * setpoint_filter_.delay(data.SetpointFilter.DynamicFilter);
   last_balanced_ = advanced(setpoint.position, -behind, modulo_);
   following_lag_.set_behind(0.0);
+  smoothing_.set_behind(0.0);
   if (setpoint.velocity == 0.0) return controller_.reset(last_balanced_);
   controller_.reset(last_balanced_, setpoint.velocity * servo_period_, modulo_);
 }

@@ -25,14 +25,7 @@ void Axis::watch_signals(const DoubleDouble& position) noexcept {
 
 /// Whether the reference cam, or the switch at the digital input, is active.
 bool Axis::on_home_switch(double place) const noexcept {
-  const auto& sensor = data.Sensor[0];
-  const bool active = homing_.phase != HomingPhase::none;
-  const bool* const address =
-      active ? sensor.ActiveHoming.DigitalInputAddress : sensor.PassiveHoming.DigitalInputAddress;
-  if (address != nullptr)
-    return *address == (active ? sensor.ActiveHoming.SwitchLevel : sensor.PassiveHoming.SwitchLevel);
-  const auto& cam = drive_settings.signals.reference_cam;
-  return cam && cam->contains(place, turn());
+  return home_switch(homing_.phase != HomingPhase::none).active(drive_settings.signals, place, turn());
 }
 
 // ---- Hardware limit switches

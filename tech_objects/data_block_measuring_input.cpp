@@ -23,7 +23,7 @@ constexpr Choice kErrorDetailReaction[] = {{0, "no reaction"}, {8, "processing o
 
 constexpr Variable kConfigurationVariables[] = {
     VARIABLE(Parameter.MeasuringInputType, RON, kNone, between(0.0, 2.0), "kind of measuring",
-             .choices = kType, .later = true),
+             .choices = kType),
     VARIABLE(Parameter.PROFIdriveProbeNumber, RES, kNone, between(1.0, 2.0), "probe number in the telegram",
              .later = true),
     VARIABLE(Parameter.MeasuringRangeActivationTime, RON, kMilliseconds, between(0.0, 1e12),

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tech_objects/decay.hpp"
+#include "tech_objects/encoder_source.hpp"
 
 namespace lockstep {
 namespace {
@@ -29,6 +30,9 @@ constexpr double kRest = 1e-3;
 constexpr double kRestVelocity = 0.01;
 constexpr double kLongestStop = 10.0;
 
+/// Steps of the drive's own position loop in a servo cycle, at most.
+constexpr int kMostSteps = 256;
+
 bool is_on(const bool* cause) noexcept {
   return cause != nullptr && *cause;
 }
@@ -39,6 +43,9 @@ void SimulatedDrive::configure(const SimulatedDriveSettings& settings, double se
                                double motor_angle) noexcept {
   written_.fill(0.0);
   cycle_ = 0;
+  targets_.fill({});
+  next_target_ = {};
+  loop_cycles_ = 0;
   position_ = reported_ = {};
   velocity_ = 0.0;
   states_ = {};
@@ -63,6 +70,10 @@ void SimulatedDrive::configure(const SimulatedDriveSettings& settings, double se
   ring_ = std::bit_ceil(dead.whole + 2);
   before_ = piece(dead.part * servo_cycle, time_constant);
   after_ = piece((1.0 - dead.part) * servo_cycle, time_constant);
+  arrival_ = dead.part * servo_cycle;
+  const double steps = servo_cycle / std::max(settings.position_cycle, servo_cycle / kMostSteps);
+  steps_ = std::max(1, static_cast<int>(std::floor(steps + 0.5)));
+  step_ = piece(servo_cycle / steps_, time_constant);
   resolution_ = std::max(0.0, settings.resolution);
   transport_delay_ = (static_cast<double>(dead.whole) + dead.part + 0.5) * servo_cycle;
   known_delay_ = transport_delay_ + time_constant;
@@ -86,12 +97,43 @@ void SimulatedDrive::write(double velocity) noexcept {
   written_[kept(cycle_)] = states_.operation() ? velocity : quick_stop_setpoint();
   const DoubleDouble position_before = position_;
   const double velocity_before = velocity_;
-  // The setpoint written `whole_cycles_` ago arrives after the broken part of the dead time.
-  if (before_.duration > 0.0) run(before_, written_[kept(cycle_ - whole_cycles_ - 1)]);
-  run(after_, written_[kept(cycle_ - whole_cycles_)]);
+  if (loop_cycles_ > 0) {
+    run_position_loop();
+  } else {
+    // The setpoint written `whole_cycles_` ago arrives after the broken part of the dead time.
+    if (before_.duration > 0.0) run(before_, written_[kept(cycle_ - whole_cycles_ - 1)]);
+    run(after_, written_[kept(cycle_ - whole_cycles_)]);
+  }
   ++cycle_;
   if (plant_.exists() || blocked_) move_plant(position_before, velocity_before);
   if (states_.stopping()) watch_stop();
+}
+
+void SimulatedDrive::write_position(const PositionCommand& command) noexcept {
+  next_target_ = {reported_ + command.xerr, command.kpc, command.most};
+  loop_cycles_ = kDelay;
+  write(command.velocity);
+}
+
+/// The position loop of the drive: in steps of its own, with the position of each of them. Between two
+/// commands the target goes on with the velocity that is told with it.
+void SimulatedDrive::run_position_loop() noexcept {
+  targets_[kept(cycle_)] = states_.operation() ? next_target_ : Target{};
+  next_target_ = {};
+  --loop_cycles_;
+  for (int i = 0; i < steps_; ++i) {
+    const double since = static_cast<double>(i) * step_.duration - arrival_;
+    const bool newer = since >= -1e-9 * servo_cycle_;
+    const std::size_t slot = kept(cycle_ - whole_cycles_ - (newer ? 0 : 1));
+    const Target& target = targets_[slot];
+    double velocity = written_[slot];
+    if (target.kpc > 0.0) {
+      const double age = newer ? since : since + servo_cycle_;
+      const double difference = (target.position - position_).rounded() + velocity * age;
+      velocity = std::clamp(velocity + target.kpc * difference, -target.most, target.most);
+    }
+    run(step_, velocity);
+  }
 }
 
 /// Off, or on the way there: 0, or down the ramp of OFF3.
@@ -184,12 +226,10 @@ DriveActual SimulatedDrive::read() noexcept {
 
 void SimulatedDrive::read_encoder(DriveActual& now) noexcept {
   now.position = position_;
-  if (resolution_ == 0.0) return;
-  const DoubleDouble increments = position_ / resolution_ + 0.5;
-  double count = std::floor(increments.hi);
-  if (count == increments.hi && increments.lo < 0.0) count -= 1.0;
-  now.position = two_product(count, resolution_);
-  now.velocity = (now.position - reported_).rounded() / servo_cycle_;
+  if (resolution_ > 0.0) {
+    now.position = quantised(position_, resolution_);
+    now.velocity = (now.position - reported_).rounded() / servo_cycle_;
+  }
   reported_ = now.position;
 }
 
@@ -198,6 +238,10 @@ void PositionController::configure(const PositionControlSettings& settings, doub
   whole_cycles_ = delay.whole;
   part_ = delay.part;
   settings_ = settings;
+  if (settings.lead < 0.0) return;
+  const Cycles ahead = cycles_of(settings.delay - settings.lead, servo_cycle, kDelay - 2);
+  whole_ahead_ = ahead.whole;
+  part_ahead_ = ahead.part;
 }
 
 void PositionController::reset(AxisPosition setpoint) noexcept {
@@ -214,15 +258,22 @@ void PositionController::shift(double by, const Modulo& modulo) noexcept {
   for (AxisPosition& setpoint : setpoints_) setpoint = advanced(setpoint, by, modulo);
 }
 
+/// The setpoint some cycles ago, between two of them on a straight line.
+AxisPosition PositionController::delayed(std::size_t whole, double part,
+                                         const Modulo& modulo) const noexcept {
+  const AxisPosition newer = setpoints_[(cycle_ + kDelay - whole) % kDelay];
+  if (part <= 0.0) return newer;
+  const AxisPosition older = setpoints_[(cycle_ + kDelay - whole - 1) % kDelay];
+  return advanced(newer, difference(older, newer, modulo) * part, modulo);
+}
+
 PositionControlled PositionController::step(AxisPosition setpoint, double velocity, AxisPosition actual,
                                             const Modulo& modulo) noexcept {
   setpoints_[cycle_ % kDelay] = setpoint;
   PositionControlled result;
-  result.balanced = setpoints_[(cycle_ + kDelay - whole_cycles_) % kDelay];
-  if (part_ > 0.0) {
-    const AxisPosition older = setpoints_[(cycle_ + kDelay - whole_cycles_ - 1) % kDelay];
-    result.balanced = advanced(result.balanced, difference(older, result.balanced, modulo) * part_, modulo);
-  }
+  result.balanced = delayed(whole_cycles_, part_, modulo);
+  if (settings_.lead >= 0.0)
+    result.xerr = rounded_difference(delayed(whole_ahead_, part_ahead_, modulo), actual, modulo);
   ++cycle_;
   result.control_difference = rounded_difference(result.balanced, actual, modulo);
   const double wanted = 0.01 * settings_.kpc * velocity + settings_.kv * result.control_difference;

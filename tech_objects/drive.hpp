@@ -32,6 +32,15 @@ struct TorqueCommand {
   double additive = 0.0;
 };
 
+/// What a drive gets that closes the position loop itself, on its own encoder: in words of telegram 105.
+/// @source PROFIdrive, dynamic servo control
+struct PositionCommand {
+  double velocity = 0.0;  ///< [u/s] NSOLL_B, the precontrol
+  double xerr = 0.0;      ///< [u] XERR, control difference at the position that has been read in this cycle
+  double kpc = 0.0;       ///< [1/s] KPC; 0: velocity counts alone
+  double most = std::numeric_limits<double>::infinity();  ///< [u/s] > 0, limit of the velocity
+};
+
 /// A drive with a velocity setpoint. In every servo cycle: `read` once, then `write` once. The cycle's
 /// thread.
 class Drive {
@@ -41,6 +50,8 @@ class Drive {
   virtual DriveActual read() noexcept = 0;
   /// [u/s] Velocity setpoint from this cycle on; what is written while the drive is off does not count.
   virtual void write(double velocity) noexcept = 0;
+  /// In place of `write`: DSC.
+  virtual void write_position(const PositionCommand& command) noexcept = 0;
   /// Control words 1 and 2: switching on, off and acknowledging, from the next `write` on.
   virtual void control(std::uint16_t stw1, std::uint16_t stw2) noexcept = 0;
   /// Counts from the next `write` on.
@@ -57,6 +68,16 @@ struct SimulatedFaults {
   const bool* blocked = nullptr;        ///< nothing moves, whatever the torque
 };
 
+/// A further encoder of a simulated machine, beside that of the drive.
+struct SimulatedSensor {
+  bool exists = false;
+  double ratio = 1.0;           ///< [u] that it tells per [u] of the machine, not 0
+  double resolution = 0.0;      ///< [u] ≥ 0, its increment; 0: none
+  bool inverted = false;        ///< it turns the other way round than the machine
+  double start_position = 0.0;  ///< [u] what it tells at the beginning, of an absolute one
+  const bool* fault = nullptr;  ///< BOOL tag: while TRUE it tells nothing; nullptr: it never fails
+};
+
 /// A simulated drive and its encoder.
 struct SimulatedDriveSettings {
   double time_constant = 0.0;    ///< [s] ≥ 0, of the velocity loop as a first-order lag; 0: follows at once
@@ -67,6 +88,8 @@ struct SimulatedDriveSettings {
   MachinePlantSettings plant{};  ///< what it moves; of no effect without inertia
   double quick_stop = 0.0;       ///< [u/s²] ≥ 0, deceleration of OFF3; 0: as hard as the drive can
   SimulatedFaults faults{};
+  double position_cycle = 0.000125;          ///< [s] > 0, of the drive's own position loop (DSC)
+  std::array<SimulatedSensor, 3> sensors{};  ///< Sensor[2] to Sensor[4]
 };
 
 /// Velocity loop as dead time and first-order lag, position as its integral, both exact for a setpoint that
@@ -85,6 +108,7 @@ class SimulatedDrive final : public Drive {
 
   DriveActual read() noexcept override;
   void write(double velocity) noexcept override;
+  void write_position(const PositionCommand& command) noexcept override;
   void control(std::uint16_t stw1, std::uint16_t stw2) noexcept override;
   void command_torque(const TorqueCommand& command) noexcept override { torque_ = command; }
 
@@ -101,6 +125,10 @@ class SimulatedDrive final : public Drive {
   double known_delay() const noexcept { return known_delay_; }
   /// [s] The part of it that is no lag: dead time and half a servo cycle.
   double transport_delay() const noexcept { return transport_delay_; }
+  /// [s] After which a setpoint arrives.
+  double dead_time() const noexcept { return transport_delay_ - 0.5 * servo_cycle_; }
+  /// [u] Where the machine truly is, on the line of the drive's encoder.
+  const DoubleDouble& machine_position() const noexcept { return position_; }
 
  private:
   /// A piece of a servo cycle in which the setpoint at the lag does not change.
@@ -109,11 +137,18 @@ class SimulatedDrive final : public Drive {
     double decay = 0.0;     // 1 - exp(-duration / time constant)
     double lag = 0.0;       // [s] time constant · decay
   };
+  /// Of the position loop in the drive.
+  struct Target {
+    DoubleDouble position;  // [u]
+    double kpc = 0.0;       // [1/s]; 0: the velocity counts alone
+    double most = 0.0;      // [u/s]
+  };
   static Piece piece(double duration, double time_constant) noexcept;
   void run(const Piece& piece, double velocity) noexcept;
-  /// Place in `written_` of what is written in a cycle. Only as much memory is touched as the dead time
-  /// needs.
+  /// Place in `written_` and `targets_` of what is written in a cycle. Only as much memory is touched as the
+  /// dead time needs.
   std::size_t kept(std::size_t cycle) const noexcept { return cycle & (ring_ - 1); }
+  void run_position_loop() noexcept;
   void read_encoder(DriveActual& now) noexcept;
   double quick_stop_setpoint() noexcept;
   void watch_causes() noexcept;
@@ -146,6 +181,12 @@ class SimulatedDrive final : public Drive {
   double ramp_ = 0.0;           // setpoint of a quick stop [u/s]
   double last_setpoint_ = 0.0;  // heard last [u/s]
   double most_stop_cycles_ = 0.0;
+  std::array<Target, kDelay> targets_{};  // by cycle, as the velocity setpoints
+  Target next_target_;
+  std::size_t loop_cycles_ = 0;  // in which such a target may still be under way
+  int steps_ = 1;                // of the position loop in a servo cycle
+  Piece step_;
+  double arrival_ = 0.0;  // [s] of a setpoint, from the beginning of its servo cycle
   TorqueCommand torque_;
   SimulatedFaults faults_;
   MachinePlant plant_;
@@ -158,6 +199,7 @@ struct PositionControlSettings {
   double kpc = 100.0;  ///< [%] 0 … 150, velocity precontrol
   double delay = 0.0;  ///< [s] 0 … 254 servo cycles: of what is controlled
   double max_velocity = std::numeric_limits<double>::infinity();  ///< [u/s] > 0, at the drive
+  double lead = -1.0;  ///< [s] ≥ 0: by what `xerr` is taken earlier than that; negative: it is not wanted
 
   bool operator==(const PositionControlSettings&) const = default;
 };
@@ -169,6 +211,7 @@ struct PositionControlled {
       0.0;                ///< [u] StatusServo.ControlDifference: balanced setpoint - actual position
   AxisPosition balanced;  ///< StatusServo.BalancedPosition
   bool limited = false;   ///< the velocity was cut
+  double xerr = 0.0;      ///< [u] control difference for a position loop in the drive
 };
 
 /// Proportional position control with velocity precontrol. The setpoint is delayed by what is known of the
@@ -196,10 +239,14 @@ class PositionController {
                           const Modulo& modulo) noexcept;
 
  private:
+  AxisPosition delayed(std::size_t whole, double part, const Modulo& modulo) const noexcept;
+
   std::array<AxisPosition, kDelay> setpoints_{};
   std::size_t cycle_ = 0;
   std::size_t whole_cycles_ = 0;
   double part_ = 0.0;  // of a cycle
+  std::size_t whole_ahead_ = 0;
+  double part_ahead_ = 0.0;
   PositionControlSettings settings_;
 };
 

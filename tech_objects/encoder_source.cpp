@@ -3,17 +3,13 @@
 #include <cmath>
 
 namespace lockstep {
-namespace {
 
-/// The multiple of the increment that is nearest.
 DoubleDouble quantised(DoubleDouble position, double increment) noexcept {
   const DoubleDouble increments = position / increment + 0.5;
   double count = std::floor(increments.hi);
   if (count == increments.hi && increments.lo < 0.0) count -= 1.0;
   return two_product(count, increment);
 }
-
-}  // namespace
 
 void SimulatedEncoder::configure(const SimulatedEncoderSettings& settings, double servo_period, int ratio,
                                  std::uint64_t seed) noexcept {

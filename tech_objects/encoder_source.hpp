@@ -5,6 +5,7 @@
 
 #include "tech_objects/double_double.hpp"
 #include "tech_objects/load_position.hpp"
+#include "tech_objects/machine_signals.hpp"
 #include "tech_objects/types.hpp"
 
 namespace lockstep {
@@ -17,7 +18,11 @@ struct SimulatedEncoderSettings {
   double wrap = 0.0;                       ///< [u] > 0: length at which the signal wraps; 0: it does not
   double resolution = 0.0;                 ///< [u] ≥ 0, increment that it reports; 0: the position itself
   double noise = 0.0;                      ///< [u] ≥ 0, largest deviation of a reading to either side
+  MachineSignals signals{};  ///< homing marks, at positions of the encoder as it lies, from where it began
 };
+
+/// The multiple of an increment [u] > 0 that is nearest to a position [u].
+DoubleDouble quantised(DoubleDouble position, double increment) noexcept;
 
 /// What the encoder shows in one servo cycle.
 struct EncoderReading {

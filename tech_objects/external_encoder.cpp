@@ -5,6 +5,7 @@
 
 #include "tech_objects/object_alarms.hpp"
 #include "tech_objects/object_bits.hpp"
+#include "tech_objects/override.hpp"
 
 namespace lockstep {
 namespace {
@@ -51,6 +52,10 @@ void ExternalEncoder::servo() noexcept {
   }
   if (!follow(line)) return;
   data.StatusSensor.Position = actual_.value;
+  if (!mark_search_.active()) return;
+  const double place = reading.true_position.rounded();
+  mark_search_.step(place, home_switch().active(source_settings.signals, place, turn()),
+                    source_settings.signals.zero_marks);
 }
 
 /// The first reading is where the encoder is; nothing has moved.
@@ -84,6 +89,8 @@ bool ExternalEncoder::follow(DoubleDouble line) noexcept {
 void ExternalEncoder::fault(int alarm_number) noexcept {
   lost_ |= !faulty();
   homed_ = false;
+  data.StatusSensor.Adjusted = 0;
+  end_passive_homing(JobPhase::failed, ErrorId::technology_alarm);
   data.StatusSensor.State = kSensorInvalid;
   data.StatusSensor.Error = alarm_number == alarm::kEncoder;
   raise_alarm(alarm_number, ProcessingEnd::external_encoder, *this, data);
@@ -95,12 +102,14 @@ void ExternalEncoder::fault(int alarm_number) noexcept {
 void ExternalEncoder::step() noexcept {
   source_.interpolated();
   new_jobs_.take([this](Job& job) { start(job); });
+  if (mark_search_.found()) take_mark();
   const double velocity = rounded_difference(actual_, last_actual_, modulo_) / period_;
   data.ActualAcceleration = (velocity - actual_velocity_) / period_;
   actual_velocity_ = velocity;
   last_actual_ = actual_;
   if (leads_by_actual_value()) extrapolate(actual_, actual_velocity_, data.Extrapolation);
   power_state_ = power.enable && actual_values_valid() ? PowerState::on : PowerState::off;
+  if (!enabled()) end_passive_homing(JobPhase::aborted, ErrorId::none);
   enable_removed_ = faulty();
   standstill_.watch(actual_velocity_, data.StandstillSignal, period_);
   publish();
@@ -109,7 +118,7 @@ void ExternalEncoder::step() noexcept {
 void ExternalEncoder::publish() noexcept {
   data.ActualPosition = actual_.value;
   data.ActualVelocity = actual_velocity_;
-  data.ActualModuloCycle = static_cast<DINT>(actual_.turns);
+  data.ActualModuloCycle = static_cast<DINT>(actual_.turns - counted_from_);
   data.StatusSensor.State = actual_values_valid() ? kSensorValid : kSensorInvalid;
   data.StatusSensor.CommunicationOK = true;
   data.StatusSensor.Control = true;
@@ -120,6 +129,7 @@ void ExternalEncoder::publish() noexcept {
   set_bit(data.StatusWord, StatusBit::Error, faulty());
   set_bit(data.StatusWord, StatusBit::OnlineStartValuesChanged, start_values_changed);
   set_bit(data.StatusWord, StatusBit::HomingDone, homed_);
+  set_bit(data.StatusWord, StatusBit::HomingCommand, homing());
   set_bit(data.StatusWord, StatusBit::Done, enabled());
   set_bit(data.StatusWord, StatusBit::Standstill, standstill_.stands());
   if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
@@ -133,7 +143,7 @@ void ExternalEncoder::start(Job& job) noexcept {
   if (job.kind == JobKind::MC_Reset) error = reset(job.mode == 1);
   if (job.kind == JobKind::MC_Home) error = home(job);
   if (error != ErrorId::none) return job.fail(error);
-  job.phase = JobPhase::done;
+  if (passive_ != &job) job.phase = JobPhase::done;
 }
 
 ErrorId ExternalEncoder::reset(bool restart) noexcept {
@@ -143,6 +153,8 @@ ErrorId ExternalEncoder::reset(bool restart) noexcept {
   clear_alarms(*this, data);
   data.StatusSensor.Error = false;
   if (!restart) return ErrorId::none;
+  end_passive_homing(JobPhase::aborted, ErrorId::none);
+  counted_from_ = 0;
   data = start_values_;
   start_values_changed = false;
   homed_ = false;
@@ -155,18 +167,81 @@ ErrorId ExternalEncoder::reset(bool restart) noexcept {
   return ErrorId::none;
 }
 
-/// Direct homing: the position is called by another name.
-ErrorId ExternalEncoder::home(const Job& job) noexcept {
+// ---- Homing
+// -----------------------------------------------------------------------------------------------------
+
+ErrorId ExternalEncoder::home(Job& job) noexcept {
+  const JobClass kind = class_of(job, true);
+  if (kind == JobClass::home_cancel) {
+    end_passive_homing(JobPhase::aborted, ErrorId::none);
+    return ErrorId::none;
+  }
   if (!actual_values_valid()) return ErrorId::actual_values_invalid;
+  if (kind == JobClass::home_passive) return begin_passive_homing(job);
   if (job.mode == 6 || job.mode == 7) return ErrorId::homing_mode_incremental;
-  if (job.mode != 0 && job.mode != 1) return ErrorId::mode;
-  const double by = job.mode == 0 ? shortest_distance(actual_.value, job.position, modulo_) : job.position;
-  const double homed_at = advanced(actual_, by, modulo_).value;
-  if (!std::isfinite(by) || !(std::abs(homed_at) <= kPositionRange) || !modulo_.contains(homed_at))
-    return ErrorId::position;
+  const bool adjusts = job.mode == 13;
+  if (job.mode != 0 && job.mode != 1 && !adjusts) return ErrorId::mode;
+  const double by = job.mode == 1 ? job.position : shortest_distance(actual_.value, job.position, modulo_);
+  if (!fits(by)) return ErrorId::position;
   shift(by);
   homed_ = true;
+  if (adjusts) data.StatusSensor.Adjusted = 1;
+  job.mark_position = job.mode == 1 ? actual_.value : job.position;
   return ErrorId::none;
+}
+
+/// Beside whatever moves the encoder.
+ErrorId ExternalEncoder::begin_passive_homing(Job& job) noexcept {
+  if (!enabled()) return ErrorId::locked;
+  if (job.mode == 10) job.position = data.Homing.HomePosition;
+  if (!fits(shortest_distance(actual_.value, job.position, modulo_))) return ErrorId::position;
+  const auto& settings = data.Sensor.PassiveHoming;
+  const auto mark = static_cast<HomingMark>(settings.Mode);
+  if (!has_mark(mark, home_switch(), source_settings.signals)) {
+    fault(alarm::kHomingNotSupported);
+    return ErrorId::technology_alarm;
+  }
+  end_passive_homing(JobPhase::aborted, ErrorId::none);
+  passive_ = &job;
+  job.phase = JobPhase::active;
+  if (job.mode != 2) homed_ = false;
+  begin_search(mark_search_, mark, passive_direction(settings.Direction), settings.SideInput,
+               data.Sensor.InverseDirection);
+  return ErrorId::none;
+}
+
+/// The mark has been passed: its place gets the home position, and the turns are counted anew.
+void ExternalEncoder::take_mark() noexcept {
+  const double place = mark_search_.place();
+  const AxisPosition mark =
+      advanced(origin_, to_double_double(data.Sensor.InverseDirection ? -place : place), modulo_);
+  const double by = shortest_distance(mark.value, passive_->position, modulo_);
+  if (!fits(by)) return fault(alarm::kHomingNotPossible);
+  shift(by);
+  if (modulo_.enabled) counted_from_ = first_turn(advanced(mark, by, modulo_), modulo_);
+  homed_ = true;
+  data.StatusSensor.Adjusted = 1;
+  passive_->mark_position = passive_->position;
+  end_passive_homing(JobPhase::done, ErrorId::none);
+}
+
+void ExternalEncoder::end_passive_homing(JobPhase phase, ErrorId error) noexcept {
+  mark_search_.end();
+  if (passive_ == nullptr) return;
+  passive_->phase = phase;
+  passive_->error = error;
+  passive_ = nullptr;
+}
+
+/// Whether it could still be used if it were called by another name: in the numeric range, and on its ring.
+bool ExternalEncoder::fits(double by) const noexcept {
+  const double shifted = advanced(actual_, by, modulo_).value;
+  return std::isfinite(by) && std::abs(shifted) <= kPositionRange && modulo_.contains(shifted);
+}
+
+HomeSwitch ExternalEncoder::home_switch() const noexcept {
+  const auto& settings = data.Sensor.PassiveHoming;
+  return {settings.DigitalInputAddress, settings.SwitchLevel};
 }
 
 void ExternalEncoder::shift(double by) noexcept {

@@ -12,6 +12,7 @@
 
 #include "tech_objects/data_block_encoder.hpp"
 #include "tech_objects/encoder_source.hpp"
+#include "tech_objects/homing_marks.hpp"
 #include "tech_objects/leading_object.hpp"
 #include "tech_objects/new_jobs.hpp"
 #include "tech_objects/standstill.hpp"
@@ -51,6 +52,7 @@ class ExternalEncoder final : public LeadingObject {
   DoubleDouble true_line() const noexcept { return true_line_; }
   DoubleDouble last_true_line() const noexcept { return last_true_line_; }
   bool leading_value_stands() const noexcept override { return standstill_.stands(); }
+  bool homing() const noexcept override { return passive_ != nullptr; }
 
   /// Whether those that follow have to look at it: it has been restarted or has failed since the last time.
   bool lost() noexcept { return std::exchange(lost_, false); }
@@ -63,7 +65,14 @@ class ExternalEncoder final : public LeadingObject {
   void fault(int alarm_number) noexcept;
   void start(Job& job) noexcept;
   ErrorId reset(bool restart) noexcept;
-  ErrorId home(const Job& job) noexcept;
+  ErrorId home(Job& job) noexcept;
+  ErrorId begin_passive_homing(Job& job) noexcept;
+  void take_mark() noexcept;
+  void end_passive_homing(JobPhase phase, ErrorId error) noexcept;
+  bool fits(double by) const noexcept;
+  HomeSwitch home_switch() const noexcept;
+  /// After which way the encoder is where it was [u]; 0: never.
+  double turn() const noexcept { return modulo_.enabled ? modulo_.length : 0.0; }
   void shift(double by) noexcept;
   void publish() noexcept;
 
@@ -81,6 +90,9 @@ class ExternalEncoder final : public LeadingObject {
   AxisPosition last_actual_;      // of the last interpolator tick
   double actual_velocity_ = 0.0;  // [u/s]
   Standstill standstill_;
+  Job* passive_ = nullptr;  // passive homing
+  MarkSearch mark_search_;
+  std::int64_t counted_from_ = 0;  // turn that ActualModuloCycle shows as 0
   ExternalEncoderData start_values_;
 };
 

@@ -66,6 +66,10 @@ class LeadingObject : public TechnologyObject {
   virtual DoubleDouble measured_line() const noexcept = 0;
   /// False once a sensor has failed, until that is acknowledged.
   virtual bool actual_values_valid() const noexcept { return true; }
+  /// Whether a homing waits for its mark, so that the zero mark or probe of the encoder's telegram is taken.
+  virtual bool homing() const noexcept { return false; }
+  /// The measuring input that measures by the telegram of the encoder at present; nullptr: none.
+  const void* telegram_probe = nullptr;
   /// By how much homing has changed the names of positions since the start [u].
   DoubleDouble renamed() const noexcept { return renamed_; }
   /// Restarts since the start.

@@ -30,6 +30,10 @@ int values_of(DINT mode) noexcept {
   return mode >= 2 ? 2 : 1;
 }
 
+/// Servo cycles that one-time measuring by telegram takes at least, for one edge and for two.
+constexpr std::size_t kTelegramOneEdge = 7;
+constexpr std::size_t kTelegramTwoEdges = 13;
+
 }  // namespace
 
 MeasuringInput::MeasuringInput(std::string object_name, DB_ANY object_number)
@@ -63,6 +67,7 @@ void MeasuringInput::servo() noexcept {
     raise_alarm(alarm::kPositionInvalid, ProcessingEnd::measuring_input, *this, data);
     end_in_error(ErrorId::technology_alarm);
   }
+  if (job_ != nullptr && by_telegram()) watch_homing();
   if (job_ != nullptr) {
     if (cyclic(*job_))
       measure_cyclically(seen);
@@ -169,7 +174,8 @@ bool MeasuringInput::range_passed() const noexcept {
 
 void MeasuringInput::measure_once(const Edges& seen) noexcept {
   const double correction = data.Parameter.CorrectionTime * kMilliseconds / servo_period_;
-  for (std::size_t i = 0; i < seen.count; ++i) {
+  const int wanted = values_of(job_->mode);
+  for (std::size_t i = 0; i < seen.count && captured_ < wanted; ++i) {
     const Edge& edge = seen.list[i];
     if (!wanted_once(edge.rising)) continue;
     const double position = position_at(1.0 - edge.part + correction);
@@ -181,7 +187,11 @@ void MeasuringInput::measure_once(const Edges& seen) noexcept {
     job_->measured.value[captured_] = position;
     if (captured_ == 0) first_rising_ = edge.rising;
     data.Status = kCaptured;
-    if (++captured_ == values_of(job_->mode)) return end(JobPhase::done, ErrorId::none);
+    ++captured_;
+  }
+  if (captured_ == wanted) {
+    if (may_tell()) end(JobPhase::done, ErrorId::none);
+    return;
   }
   if (!range_passed()) return;
   raise_alarm(alarm::kMeasuringRangePassed, ProcessingEnd::measuring_input, *this, data);
@@ -265,12 +275,16 @@ ErrorId MeasuringInput::begin(Job& job) noexcept {
   if (data.ErrorDetail.Reaction != 0) return ErrorId::technology_alarm;
   if (!measured->actual_values_valid()) return ErrorId::actual_values_invalid;
   const MeasuringRange running = range_;
-  if (const ErrorId error = take_range(job); error != ErrorId::none) {
+  ErrorId error = take_range(job);
+  if (error == ErrorId::none && by_telegram()) error = take_telegram(job);
+  if (error != ErrorId::none) {
     range_ = running;
     return error;
   }
   end(JobPhase::aborted, ErrorId::none);
   job_ = &job;
+  started_ = tick_;
+  if (by_telegram()) measured->telegram_probe = this;
   job.phase = JobPhase::active;
   captured_ = 0;
   data.Status = kWaits;
@@ -278,11 +292,43 @@ ErrorId MeasuringInput::begin(Job& job) noexcept {
   return ErrorId::none;
 }
 
+// ---- Measuring by the telegram of the encoder
+// ------------------------------------------------------------------------------
+
+/// One job at a time; the zero mark of a homing needs the same words of the telegram.
+ErrorId MeasuringInput::take_telegram(const Job& job) noexcept {
+  if (!measured->measured_in_servo()) return refuse(alarm::kProbeConfiguration);
+  if (cyclic(job)) return refuse(alarm::kMeasuringNotPossible);
+  if (measured->homing()) return ErrorId::measuring_while_homing;
+  const void* const in_use = measured->telegram_probe;
+  if (in_use != nullptr && in_use != this) return refuse(alarm::kProbeInUse);
+  return ErrorId::none;
+}
+
+ErrorId MeasuringInput::refuse(int alarm_number) noexcept {
+  raise_alarm(alarm_number, ProcessingEnd::measuring_input, *this, data);
+  end_in_error(ErrorId::technology_alarm);
+  return ErrorId::technology_alarm;
+}
+
+void MeasuringInput::watch_homing() noexcept {
+  if (!measured->homing()) return;
+  raise_alarm(alarm::kMeasuringWhileHoming, ProcessingEnd::measuring_input, *this, data);
+  end_in_error(ErrorId::measuring_while_homing);
+}
+
+/// Values come over the telegram, which takes its time.
+bool MeasuringInput::may_tell() const noexcept {
+  if (!by_telegram()) return true;
+  return tick_ - started_ >= (values_of(job_->mode) == 1 ? kTelegramOneEdge : kTelegramTwoEdges);
+}
+
 void MeasuringInput::end(JobPhase phase, ErrorId error) noexcept {
   if (job_ == nullptr) return;
   job_->phase = phase;
   job_->error = error;
   job_ = nullptr;
+  if (measured->telegram_probe == this) measured->telegram_probe = nullptr;
 }
 
 void MeasuringInput::end_in_error(ErrorId error) noexcept {

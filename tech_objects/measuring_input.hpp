@@ -22,8 +22,8 @@ class MeasuringInput final : public TechnologyObject {
   // ---- Load time
 
   MeasuringInputData data;
-  const LeadingObject* measured = nullptr;  ///< whose position is measured
-  std::optional<PrintMarks> marks;          ///< what the input sees; none: the tag of Interface.Address
+  LeadingObject* measured = nullptr;  ///< whose position is measured
+  std::optional<PrintMarks> marks;    ///< what the input sees; none: the tag of Interface.Address
 
   /// [ms] Longest Parameter.CorrectionTime with a servo period [s].
   static double longest_correction(double servo_period) noexcept;
@@ -58,6 +58,11 @@ class MeasuringInput final : public TechnologyObject {
   void start(Job& job) noexcept;
   ErrorId begin(Job& job) noexcept;
   ErrorId take_range(const Job& job) noexcept;
+  bool by_telegram() const noexcept { return data.Parameter.MeasuringInputType == 1; }
+  ErrorId take_telegram(const Job& job) noexcept;
+  ErrorId refuse(int alarm_number) noexcept;
+  void watch_homing() noexcept;
+  bool may_tell() const noexcept;
   void reset(bool restart) noexcept;
   void end(JobPhase phase, ErrorId error) noexcept;
   void end_in_error(ErrorId error) noexcept;
@@ -90,6 +95,7 @@ class MeasuringInput final : public TechnologyObject {
   double last_position_ = 0.0;                    // in the servo tick before [u]
   std::array<DoubleDouble, kHistory> history_{};  // lines, by servo tick
   std::size_t tick_ = 0;
+  std::size_t started_ = 0;  // tick in which the job began
   MeasuringInputData start_values_;
 };
 

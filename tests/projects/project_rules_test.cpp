@@ -158,6 +158,10 @@ INSTANTIATE_TEST_SUITE_P(
          "is of type BOOL; allowed: a number"},
         {kEncoder, encoder(R"({"model": "simulated", "signal": "nothing"})"), kEncoder + "/encoder/signal",
          "unknown name 'nothing'"},
+        {kEncoder, encoder(R"({"model": "simulated", "follows": "Knife", "zero_marks": {}})"),
+         kEncoder + "/encoder/zero_marks", "'position' is missing"},
+        {kEncoder, encoder(R"({"model": "simulated", "follows": "Knife", "reference_cam": [2, 1]})"),
+         kEncoder + "/encoder/reference_cam", "from is greater than to"},
         {kEncoder, encoder(R"({"model": "simulated", "follows": "Knife", "noise": -1})"),
          kEncoder + "/encoder/noise", "-1 is not allowed"},
         {kEncoder, encoder(R"({"model": "simulated", "follows": "Knife", "resolution": "fine"})"),
@@ -174,6 +178,10 @@ INSTANTIATE_TEST_SUITE_P(
         {kInput, input(R"(, "assigned_to": "speed", "marks": {"period": 10})"), kInput + "/assigned_to",
          "is no technology object"},
         {kInput, input(R"(, "assigned_to": "Knife", "marks": {})"), kInput + "/marks", "'period' is missing"},
+        {kInput,
+         input(
+             R"(, "assigned_to": "Knife", "marks": {"period": 10}, "config": {"Parameter": {"MeasuringInputType": 2}})"),
+         kInput + "/config/Parameter/MeasuringInputType", "not supported; allowed: 0 (time stamp)"},
         {kInput, input(R"(, "assigned_to": "Knife", "marks": {"period": 0})"), kInput + "/marks/period",
          "from 0.001"},
         {kInput, input(R"(, "assigned_to": "Knife", "marks": {"period": 10, "width": 10})"),
@@ -248,6 +256,24 @@ INSTANTIATE_TEST_SUITE_P(
          kOutputCamObject + "/config/Parameter/OutputCamType", "not supported; allowed: 0"},
         {kOutputCamObject, output_cam(R"(, "assigned_to": "Knife", "config": {"CamOutput": true})"),
          kOutputCamObject + "/config/CamOutput", "computed by the runtime"}}));
+
+TEST(SensorsOfADrive, AreLoadedAndCheckedOneByOne) {
+  Json project = Json::parse(kExampleProject);
+  Json& knife = project["technology_objects"]["Knife"];
+  knife["config"]["Sensor[2]"] = Json::parse(R"({"Existent": true})");
+  knife["config"]["PositionControl"]["InitialOperativeSensor"] = 2;
+  knife["drive"]["sensors"] =
+      Json::parse(R"([{"sensor": 2, "ratio": 1.5, "inverted": true, "fault": "start"}])");
+  knife["drive"]["position_cycle"] = "250us";
+  const LoadedProject loaded = load_project(project.dump());
+  ASSERT_TRUE(loaded.project.has_value()) << lines(loaded.problems);
+  knife["drive"]["sensors"] =
+      Json::parse(R"([{"sensor": 2, "ratio": 0}, {"sensor": 2}, {"sensor": 3, "fault": "speed"}])");
+  const std::string problems = lines(load_project(project.dump()).problems);
+  for (const char* text : {"/sensors/0/ratio", "any other number", "/sensors/1/sensor", "already",
+                           "/sensors/2/sensor", "/sensors/2/fault", "the name of a BOOL tag"})
+    EXPECT_NE(problems.find(text), std::string::npos) << text << " in\n" << problems;
+}
 
 TEST(OutputCamProject, OfAnEncoderCountsItsActualPosition) {
   Json project = Json::parse(kExampleProject);
@@ -345,6 +371,14 @@ INSTANTIATE_TEST_SUITE_P(
         at(kKnife + "/drive/encoder_resolution", "-0.1", "from 0 to"),
         at(kKnife + "/drive/encoder_resolution", "\"1\"", "a number"),
         at(kKnife + "/drive/inertance", "1", "unknown key"),
+        at(kKnife + "/drive/position_cycle", "\"1us\"", "to 1s"),
+        at(kKnife + "/drive/sensors", "{}", "an array"),
+        {kKnife + "/drive/sensors", "[{}]", kKnife + "/drive/sensors/0", "'sensor' is missing"},
+        {kKnife + "/drive/sensors", R"([{"sensor": 5}])", kKnife + "/drive/sensors/0/sensor", "from 2 to 4"},
+        {kKnife + "/drive/sensors", R"([{"sensor": 2}])", kKnife + "/drive/sensors/0/sensor",
+         "the axis has no such encoder"},
+        {kKnife + "/config/PositionControl", R"({"InitialOperativeSensor": 2})", kKnife + "/drive",
+         "no such encoder"},
         at(kKnife + "/drive/start_position", "1e13", "a number from -1e+12 to 1e+12"),
         at(kKnife + "/drive/zero_marks", "[]", "an object"),
         {kKnife + "/drive/zero_marks", R"({"period": 10})", kKnife + "/drive/zero_marks",

@@ -413,6 +413,171 @@ TEST(EncoderHoming, RefusesModesThatAnIncrementalEncoderDoesNotHave) {
   }
 }
 
+/// A conveyor whose encoder is homed in passing. The machine has zero marks at 3, 13, 23 …, and a cam from 40
+/// to 50.
+struct Passing : Line {
+  explicit Passing(const std::function<void(ExternalEncoder&)>& set = {})
+      : Line([&](ExternalEncoder& e) {
+          e.source_settings.signals.zero_marks = ZeroMarks{3.0, 10.0};
+          e.source_settings.signals.reference_cam = PositionRange{40.0, 50.0};
+          e.data.Homing.HomePosition = 77.0;
+          if (set) set(e);
+        }),
+        other(block<MC_Home>()) {
+    other.Axis = &e;
+  }
+  void start(MC_Home& home, INT mode, double position) {
+    home.Execute = false;
+    run(2);
+    home.Mode = mode;
+    home.Position = position;
+    home.Execute = true;
+    run(3);
+  }
+  /// The position that a place of the machine has got.
+  double position_of(double place) const {
+    const double on_its_line = e.data.Sensor.InverseDirection ? -place : place;
+    return e.data.ActualPosition - (e.true_line().rounded() - on_its_line);
+  }
+  bool shows(StatusBit bit) const { return has_bit(e.data.StatusWord, bit); }
+
+  MC_Home& other;
+};
+
+TEST(EncoderPassiveHoming, GivesTheNextZeroMarkItsPosition) {
+  Passing line;
+  ASSERT_TRUE(line.shows(StatusBit::HomingDone));
+  line.start(line.home_e, 8, 1000.0);
+  EXPECT_TRUE(line.home_e.Busy);
+  EXPECT_TRUE(line.shows(StatusBit::HomingCommand));
+  EXPECT_FALSE(line.shows(StatusBit::HomingDone)) << "Mode 8 begins anew";
+  line.run_conveyor(50.0);
+  ASSERT_TRUE(line.run_until([&] { return line.home_e.Done; }, 1000));
+  EXPECT_NEAR(line.position_of(3.0), 1000.0, 1e-9);
+  EXPECT_EQ(line.home_e.ReferenceMarkPosition, 1000.0);
+  EXPECT_EQ(line.e.data.StatusSensor.Adjusted, 1);
+  line.tick();
+  EXPECT_TRUE(line.shows(StatusBit::HomingDone));
+  EXPECT_FALSE(line.shows(StatusBit::HomingCommand));
+  EXPECT_NEAR(line.e.data.ActualVelocity, line.c.data.ActualVelocity, 1.0) << "a name is no motion";
+}
+
+TEST(EncoderPassiveHoming, Mode2KeepsHomingDoneAndMode10TakesHomePosition) {
+  Passing line;
+  line.start(line.home_e, 2, 5.0);
+  EXPECT_TRUE(line.shows(StatusBit::HomingDone));
+  line.run_conveyor(50.0);
+  ASSERT_TRUE(line.run_until([&] { return line.home_e.Done; }, 1000));
+  EXPECT_NEAR(line.position_of(3.0), 5.0, 1e-9);
+  line.start(line.home_e, 10, 5.0);
+  ASSERT_TRUE(line.run_until([&] { return line.home_e.Done; }, 1000));
+  EXPECT_NEAR(line.position_of(13.0), 77.0, 1e-9);
+  EXPECT_EQ(line.home_e.ReferenceMarkPosition, 77.0);
+}
+
+TEST(EncoderPassiveHoming, TakesOnlyMarksThatArePassedInItsDirection) {
+  Passing line([](ExternalEncoder& e) { e.data.Sensor.PassiveHoming.Direction = 1; });
+  line.start(line.home_e, 8, 0.0);
+  line.run_conveyor(50.0);
+  line.run(500);
+  EXPECT_TRUE(line.home_e.Busy);
+  line.run_c.Direction = 2;
+  line.run_conveyor(50.0);
+  ASSERT_TRUE(line.run_until([&] { return line.home_e.Done; }, 2000));
+  const double marks = (line.e.true_line().rounded() - line.e.data.ActualPosition - 3.0) / 10.0;
+  EXPECT_NEAR(marks, std::round(marks), 1e-9);
+}
+
+TEST(EncoderPassiveHoming, CountsTheOtherWayRoundWithInverseDirection) {
+  Passing line([](ExternalEncoder& e) {
+    e.data.Sensor.InverseDirection = true;
+    e.data.Sensor.PassiveHoming.Direction = 0;
+  });
+  line.start(line.home_e, 8, 1000.0);
+  line.run_conveyor(50.0);
+  line.run(300);
+  EXPECT_TRUE(line.home_e.Busy) << "the encoder counts down, and only marks on the way up count";
+  line.run_c.Direction = 2;
+  line.run_conveyor(50.0);
+  ASSERT_TRUE(line.run_until([&] { return line.home_e.Done; }, 2000));
+  const double marks = (line.position_of(3.0) - 1000.0) / 10.0;
+  EXPECT_NEAR(marks, std::round(marks), 1e-9);
+}
+
+TEST(EncoderPassiveHoming, WaitsForTheZeroMarkBehindTheReferenceCam) {
+  Passing line([](ExternalEncoder& e) { e.data.Sensor.PassiveHoming.Mode = 1; });
+  line.start(line.home_e, 8, 0.0);
+  line.run_conveyor(100.0);
+  ASSERT_TRUE(line.run_until([&] { return line.home_e.Done; }, 2000));
+  EXPECT_NEAR(line.position_of(53.0), 0.0, 1e-9);
+}
+
+TEST(EncoderPassiveHoming, TakesTheConfiguredEdgeOfADigitalInputWithItsLevel) {
+  bool input = true;
+  Passing line([&](ExternalEncoder& e) {
+    e.data.Sensor.PassiveHoming.Mode = 2;
+    e.data.Sensor.PassiveHoming.DigitalInputAddress = &input;  // active while FALSE
+    e.data.Sensor.PassiveHoming.SideInput = true;
+  });
+  line.start(line.home_e, 8, 0.0);
+  line.run_conveyor(100.0);
+  line.run(500);
+  input = false;
+  line.run(100);
+  EXPECT_TRUE(line.home_e.Busy) << "the other edge";
+  input = true;
+  const double here = line.e.true_line().rounded();
+  line.run(3);
+  EXPECT_TRUE(line.home_e.Done);
+  EXPECT_NEAR(line.position_of(here), 0.0, 0.11) << "to a servo cycle";
+}
+
+TEST(EncoderPassiveHoming, EndsByMode9ByAnotherOneAndWithTheEnable) {
+  Passing line;
+  line.start(line.home_e, 8, 0.0);
+  line.start(line.other, 9, 0.0);
+  EXPECT_TRUE(line.other.Done);
+  EXPECT_TRUE(line.home_e.CommandAborted);
+  line.start(line.home_e, 8, 0.0);
+  line.start(line.other, 8, 0.0);
+  EXPECT_TRUE(line.home_e.CommandAborted);
+  EXPECT_TRUE(line.other.Busy);
+  line.power_e.Enable = false;
+  line.run(3);
+  EXPECT_TRUE(line.other.CommandAborted);
+  line.start(line.home_e, 8, 0.0);
+  EXPECT_EQ(line.home_e.ErrorID, static_cast<WORD>(ErrorId::locked));
+  line.start(line.home_e, 3, 0.0);
+  EXPECT_EQ(line.home_e.ErrorID, static_cast<WORD>(ErrorId::mode)) << "it moves nothing";
+}
+
+TEST(EncoderPassiveHoming, WithoutSuchAMarkIsAlarm343) {
+  Passing line([](ExternalEncoder& e) { e.source_settings.signals.zero_marks.reset(); });
+  line.start(line.home_e, 8, 0.0);
+  EXPECT_EQ(line.home_e.ErrorID, static_cast<WORD>(ErrorId::technology_alarm));
+  EXPECT_EQ(line.e.data.ErrorDetail.Number, static_cast<UDINT>(alarm::kHomingNotSupported));
+  EXPECT_FALSE(line.shows(StatusBit::HomingCommand));
+  line.reset_e.Execute = true;
+  line.run(3);
+  EXPECT_EQ(line.e.data.ErrorDetail.Number, 0u);
+}
+
+TEST(EncoderPassiveHoming, CountsTheTurnsOfItsRingAnew) {
+  for (const auto& [position, turns] : {std::pair{20.0, 0}, {80.0, -1}}) {
+    Passing line([](ExternalEncoder& e) {
+      e.data.Modulo.Enable = true;
+      e.data.Modulo.Length = 100.0;
+      e.data.Sensor.PassiveHoming.Mode = 1;
+    });
+    line.run_conveyor(100.0);
+    line.run(4000);
+    line.start(line.home_e, 8, position);
+    ASSERT_TRUE(line.run_until([&] { return line.home_e.Done; }, 2000));
+    line.tick();
+    EXPECT_EQ(line.e.data.ActualModuloCycle, turns);
+  }
+}
+
 TEST(EncoderStatus, TellsOfStandstillAndOfItsEnable) {
   Line line;
   line.run(50);

@@ -516,7 +516,7 @@ struct Absolute : Machine {
   explicit Absolute(EncoderAdjustment kept = {})
       : Machine([&](Axis& axis) {
           axis.data.Sensor[0].Type = 1;
-          axis.encoder_adjustment = kept;
+          axis.encoder_adjustments[0] = kept;
         }) {}
   void restart() {
     power.Enable = false;
@@ -559,16 +559,16 @@ TEST(AbsoluteEncoder, BeginsWithAnAdjustmentThatWasKept) {
   EXPECT_TRUE(machine.bit(StatusBit::HomingDone));
   machine.continuity[0].velocity = false;
   machine.start(machine.home, 6, -1.0);
-  EXPECT_EQ(machine.slide.encoder_adjustment.offset, 959.0);
+  EXPECT_EQ(machine.slide.encoder_adjustments[0].offset, 959.0);
 }
 
 TEST(AbsoluteEncoder, KeepsAStoredOffsetWhenItIsHomedWithAMark) {
   Absolute fresh;
   ASSERT_TRUE(fresh.home_with(3, 0.0));
-  EXPECT_NEAR(fresh.slide.encoder_adjustment.offset, -43.0, 1e-9) << "none was stored";
+  EXPECT_NEAR(fresh.slide.encoder_adjustments[0].offset, -43.0, 1e-9) << "none was stored";
   Absolute adjusted({true, 960.0});
   ASSERT_TRUE(adjusted.home_with(3, 0.0));
-  EXPECT_EQ(adjusted.slide.encoder_adjustment.offset, 960.0);
+  EXPECT_EQ(adjusted.slide.encoder_adjustments[0].offset, 960.0);
   EXPECT_NEAR(adjusted.slide.data.ActualPosition, 0.0, 1e-6);
 }
 

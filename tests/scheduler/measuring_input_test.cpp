@@ -374,5 +374,133 @@ TEST(MeasuringWithAnEncoder, TellsWhereTheEncoderSawTheMark) {
   EXPECT_GT(line.cyclic.MeasuredValue1Counter, 10u);
 }
 
+// ---- Measuring by the telegram of a drive or encoder
+// --------------------------------------------------------------------------------------
+
+/// An axis with a drive, and two inputs at its encoder.
+struct Telegram : Rig {
+  explicit Telegram(bool driven = true)
+      : c(axis("Slide",
+               [driven](AxisData& data) {
+                 data.VirtualAxis.Mode = driven ? 0 : 1;
+                 data.Sensor[0].PassiveHoming.Direction = 2;
+               })),
+        input(add("Input")),
+        second(add("Second")),
+        power(block<MC_Power>()),
+        once(block<MC_MeasuringInput>()),
+        at_second(block<MC_MeasuringInput>()),
+        cyclic(block<MC_MeasuringInputCyclic>()),
+        passive(block<MC_Home>()),
+        reset(block<MC_Reset>()) {
+    c.drive_settings.signals.zero_marks = ZeroMarks{1e6, 0.0};
+    power.Axis = passive.Axis = &c;
+    once.MeasuringInput = cyclic.MeasuringInput = &input;
+    at_second.MeasuringInput = &second;
+    reset.Axis = &input;
+    passive.Mode = 8;
+    power.Enable = true;
+    run(10);
+  }
+  MeasuringInput& add(const std::string& name) {
+    auto& made = static_cast<MeasuringInput&>(controller.add_object(ObjectKind::TO_MeasuringInput, name));
+    made.measured = &c;
+    made.data.Interface.Address = &level;
+    made.data.Parameter.MeasuringInputType = 1;
+    return made;
+  }
+  /// Servo cycles from the start of a job until it is done.
+  int cycles_of(DINT mode, int edges) {
+    once.Mode = mode;
+    once.Execute = true;
+    int cycles = 0;
+    for (; cycles < 40 && !once.Done; ++cycles) {
+      tick();
+      if (cycles >= 2 && edges > 0 && cycles % 2 == 0) {
+        level = !level;
+        --edges;
+      }
+    }
+    return cycles;
+  }
+
+  bool level = false;
+  Axis& c;
+  MeasuringInput& input;
+  MeasuringInput& second;
+  MC_Power& power;
+  MC_MeasuringInput& once;
+  MC_MeasuringInput& at_second;
+  MC_MeasuringInputCyclic& cyclic;
+  MC_Home& passive;
+  MC_Reset& reset;
+};
+
+TEST(MeasuringByTelegram, TakesSevenServoCyclesForOneEdgeAndThirteenForTwo) {
+  Telegram one;
+  one.run(5);
+  EXPECT_GE(one.cycles_of(0, 1), 7);
+  EXPECT_TRUE(one.once.Done);
+  Telegram two;
+  two.run(5);
+  EXPECT_GE(two.cycles_of(3, 2), 13);
+  EXPECT_TRUE(two.once.Done);
+  Telegram by_time;
+  by_time.input.data.Parameter.MeasuringInputType = 0;
+  by_time.run(5);
+  EXPECT_LT(by_time.cycles_of(0, 1), 7) << "a time stamp is there at once";
+}
+
+TEST(MeasuringByTelegram, IsOneJobAtATimeForAnEncoder) {
+  Telegram rig;
+  rig.at_second.Execute = true;
+  rig.run(3);
+  ASSERT_TRUE(rig.at_second.Busy);
+  rig.once.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.once.ErrorID, static_cast<WORD>(ErrorId::technology_alarm));
+  EXPECT_EQ(rig.input.data.ErrorDetail.Number, static_cast<UDINT>(alarm::kProbeInUse));
+  EXPECT_EQ(rig.input.data.ErrorDetail.Reaction, 8);
+  EXPECT_TRUE(rig.at_second.Busy);
+  rig.level = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.at_second.Done; }, 20));
+  rig.reset.Execute = true;
+  rig.run(3);
+  rig.once.Execute = false;
+  rig.level = false;
+  rig.run(3);
+  rig.once.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.once.Busy) << "the telegram is free again";
+}
+
+TEST(MeasuringByTelegram, AndHomingExcludeEachOther) {
+  Telegram rig;
+  rig.once.Execute = true;
+  rig.run(3);
+  ASSERT_TRUE(rig.once.Busy);
+  rig.passive.Execute = true;
+  rig.run(3);
+  ASSERT_TRUE(rig.passive.Busy);
+  EXPECT_EQ(rig.once.ErrorID, static_cast<WORD>(ErrorId::measuring_while_homing));
+  EXPECT_EQ(rig.input.data.ErrorDetail.Number, static_cast<UDINT>(alarm::kMeasuringWhileHoming));
+  rig.at_second.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.at_second.ErrorID, static_cast<WORD>(ErrorId::measuring_while_homing));
+  EXPECT_EQ(rig.second.data.ErrorDetail.Number, 0u) << "a rejected job needs no acknowledgement";
+}
+
+TEST(MeasuringByTelegram, IsNeitherCyclicNorPossibleWithoutADrive) {
+  Telegram rig;
+  rig.cyclic.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.cyclic.ErrorID, static_cast<WORD>(ErrorId::technology_alarm));
+  EXPECT_EQ(rig.input.data.ErrorDetail.Number, static_cast<UDINT>(alarm::kMeasuringNotPossible));
+  Telegram virtual_axis(false);
+  virtual_axis.once.Execute = true;
+  virtual_axis.run(3);
+  EXPECT_EQ(virtual_axis.input.data.ErrorDetail.Number, static_cast<UDINT>(alarm::kProbeConfiguration));
+}
+
 }  // namespace
 }  // namespace lockstep
