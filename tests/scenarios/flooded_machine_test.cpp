@@ -35,7 +35,8 @@ constexpr int kFirstOwn = 100;     // register of the first good client
 constexpr int kPair = 200;         // registers of two values that belong together
 constexpr int kTicksInARow = 100;  // between two pauses of the cycle
 
-/// Six axes on a line shaft, with a register for each client and two values that change in each tick.
+/// Six axes on a line shaft, with a register for each client, two values and an array that change in each
+/// tick; all of them are kept.
 std::string flooded_project() {
   Json json = example_json("03_line_shaft");
   Json& map = json["modbus"]["map"];
@@ -46,11 +47,15 @@ std::string flooded_project() {
     map.push_back({{"tag", tag}, {"table", "holding_register"}, {"address", kFirstOwn + i}});
   }
   for (const char* tag : {"beat", "triple"}) json["tags"][tag] = {{"type", "DINT"}, {"retain", true}};
+  json["tags"]["beats"] = {{"type", "ARRAY[0..99] OF DINT"}, {"retain", true}};
+  map.push_back({{"tag", "beats"}, {"table", "input_register"}, {"address", kPair}});
   map.push_back({{"tag", "beat"}, {"table", "holding_register"}, {"address", kPair}});
   map.push_back({{"tag", "triple"}, {"table", "holding_register"}, {"address", kPair + 2}});
   json["programs"].push_back({{"name", "Beat"},
                               {"ob", "MC_PreServo"},
-                              {"calls", {assignment("beat", "beat + 1"), assignment("triple", "3 * beat")}}});
+                              {"calls",
+                               {assignment("beat", "beat + 1"), assignment("triple", "3 * beat"),
+                                assignment("beats[beat MOD 100]", "beat")}}});
   return json.dump();
 }
 

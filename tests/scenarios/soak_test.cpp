@@ -1,10 +1,13 @@
 // A day of virtual time with everything on: memory stays as it is. CI runs five minutes of it.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 
+#include "hmi_bridge/retain_writer.hpp"
+#include "projects/project.hpp"
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
 
@@ -54,6 +57,69 @@ TEST_P(Soak, ADayOfVirtualTimeTakesNoMoreMemoryThanItsFirstHours) {
   ASSERT_TRUE(wait_until([&] { return !run.running(); }, std::chrono::hours(12)));
   EXPECT_EQ(run.status(), 0) << run.err();
   EXPECT_EQ(run.err().find("alarm"), std::string::npos) << run.err();
+}
+
+/// Adds a tag that changes in every millisecond and an array of which one element after the other does, both
+/// kept. Of an array that is not changed at all nothing is to be written again.
+Json with_kept_values(Json json) {
+  json["tags"]["beat"] = {{"type", "DINT"}, {"retain", true}};
+  json["tags"]["beats"] = {{"type", "ARRAY[0..499] OF DINT"}, {"retain", true}};
+  json["tags"]["recipe"] = {
+      {"type", "ARRAY[1..50] OF TO_Cam_Struct_PointData"}, {"init", {{1.0, 2.5}}}, {"retain", true}};
+  json["programs"].push_back(
+      {{"name", "Beat"},
+       {"ob", "Main"},
+       {"cycle", "1ms"},
+       {"calls", {assignment("beat", "beat + 1"), assignment("beats[beat MOD 500]", "beat")}}});
+  return json;
+}
+
+// A simulation keeps nothing, so this one has the writer beside a controller in virtual time, which ends and
+// goes on every hour.
+TEST(SoakOfKeptValues, ADayOfVirtualTimeTakesNoMoreMemoryAndEndsWithTheValuesOfItsLastTick) {
+  const bool soak = std::getenv("LOCKSTEP_SOAK") != nullptr;
+  const int parts = soak ? 24 : 6;
+  const int ticks = soak ? 3'600'000 : 50'000;  // of each part
+  const Directory directory;
+  const std::string file = directory.file("kept");
+  const std::string text = with_kept_values(example_json("05_press_feeder")).dump();
+  long early = 0;
+  std::int64_t beat = 0;
+  for (int part = 0; part < parts; ++part) {
+    LoadedProject loaded = load_project(text, "", [&](Project& project) {
+      RetainFile kept(file, project.name);
+      EXPECT_TRUE(restore(kept, project.retain.values).empty());
+    });
+    ASSERT_TRUE(loaded.project.has_value()) << loaded.problems[0].place << loaded.problems[0].text;
+    Project& project = *loaded.project;
+    ASSERT_EQ(project.retain.values.size(), 3u);
+    ASSERT_EQ(project.retain.values[0].signals()[0].load().i, beat) << "what the part before has kept";
+    {
+      RetainWriter writer(RetainFile(file, project.name), project.retain.values,
+                          std::chrono::milliseconds(1));
+      project.controller->images = {&writer.image()};
+      writer.start();
+      for (int tick = 0; tick < ticks; ++tick) project.controller->tick();
+      writer.stop();
+      EXPECT_FALSE(writer.failing());
+      EXPECT_GT(writer.commits(), 2u) << "not at the end alone";
+    }
+    beat += ticks;
+    const RetainFile kept(file, project.name);
+    ASSERT_EQ(kept.find("beat")->value, std::to_string(beat));
+    const auto beats = kept_values(kept.find("beats")->value, project.retain.values[1].signals());
+    ASSERT_TRUE(beats.has_value());
+    for (std::int64_t element = 0; element < 500; ++element)
+      ASSERT_EQ((*beats)[static_cast<std::size_t>(element)].i, beat - (beat - element) % 500) << element;
+    EXPECT_EQ(kept.find("recipe")->value.substr(0, 6), "1,2.5,");
+    const long now = resident(::getpid());
+    if (part == parts / 5) early = now;
+    if (part >= parts / 5) {
+      EXPECT_LE(now, early + 512) << "part " << part;
+    }
+  }
+  std::cout << early << " KiB after a fifth, " << resident(::getpid()) << " KiB at the end, "
+            << std::filesystem::file_size(file) << " bytes in the file after " << parts << " parts\n";
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, Soak, testing::Values("03_line_shaft", "05_press_feeder"),
