@@ -50,7 +50,8 @@ class Bench {
       following.drive_settings.signals.limit_min = -1e9;
     }
     controller.clock = {BenchLimits::kPeriod, 1};
-    input.measured = output_cam.assigned = cam_track.assigned = &leading;
+    input.measured = &leading;
+    output_cam.assigned = cam_track.assigned = &leading;
     input.marks = PrintMarks{.period = 10.0, .offset = 3.0, .width = 4.0};
     following.leading_values.push_back({&leading, Coupling::setpoint});
     following.data.Modulo.Length = 360.0;
