@@ -111,7 +111,8 @@ class Script {
   }
 
   void write_diagram(const Diagram& diagram) {
-    add("set label 2 {} at screen {},graph 0.5 center rotate by 90", in_quotes(diagram.label), kLabel / kWidth);
+    add("set label 2 {} at screen {},graph 0.5 center rotate by 90", in_quotes(diagram.label),
+        kLabel / kWidth);
     add("set yrange [{}:{}]\nset format y '%g'", diagram.lowest, diagram.highest);
     std::string plots;
     for (const Curve& curve : diagram.curves) {
