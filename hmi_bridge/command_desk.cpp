@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "hmi_bridge/csv_number.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -14,10 +16,8 @@ constexpr double kHighestSpeed = 200;  // override [%]
 constexpr std::size_t kLongestName = 128;
 
 std::string number_text(double number) {
-  std::string text = std::to_string(number);
-  if (text.find('.') != text.npos) text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
+  char text[kNumberLength];
+  return {text, print_value(text, Value{.r = number}, Type::LREAL)};
 }
 
 bool is_jog(std::int32_t action) noexcept {

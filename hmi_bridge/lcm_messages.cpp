@@ -1,9 +1,10 @@
 #include "hmi_bridge/lcm_messages.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <stdexcept>
 #include <utility>
+
+#include "hmi_bridge/lcm_wire.hpp"
 
 namespace lockstep {
 namespace {
@@ -46,50 +47,27 @@ std::int64_t fingerprint(const trace_header_t& header) noexcept {
   return id.value();
 }
 
-std::uint64_t big_endian(std::span<const std::uint8_t> bytes, std::size_t offset, int width) noexcept {
-  std::uint64_t number = 0;
-  for (int i = 0; i < width; ++i) number = number << 8 | bytes[offset + i];
-  return number;
+/// Whether a header holds all that it says.
+bool header_fits(std::span<const std::uint8_t> bytes) noexcept {
+  constexpr std::size_t kLeastSignal = 3 * 5 + 4;  // three empty strings and an index
+  LcmWalk walk(bytes);
+  walk.skip(8);  // hash
+  const std::uint64_t signals = walk.count(kLeastSignal);
+  walk.skip(8);  // id
+  walk.string();
+  walk.string();
+  walk.skip(8);  // period
+  for (std::uint64_t i = 0; i < 3 * signals && walk.good(); ++i) walk.string();
+  return walk.good();
 }
 
-// The generated decoders make room for as many elements as a message says before they look whether it holds
-// them; so the counts are compared with the size of the message first.
-bool count_fits(std::span<const std::uint8_t> bytes, std::size_t offset, std::size_t element) noexcept {
-  if (bytes.size() < offset + 4) return false;
-  const std::uint64_t count = big_endian(bytes, offset, 4);
-  return count <= INT32_MAX && count * element <= bytes.size() - offset - 4;
-}
-
-/// Goes over a string: its length with the 0 at its end, then the bytes; false if the message does not hold
-/// it.
-bool pass_string(std::span<const std::uint8_t> bytes, std::size_t& offset) noexcept {
-  if (bytes.size() < offset + 4) return false;
-  const std::uint64_t length = big_endian(bytes, offset, 4);
-  offset += 4;
-  if (length == 0 || length > bytes.size() - offset) return false;
-  offset += length;
-  return bytes[offset - 1] == 0;
-}
-
-// The generated decoder takes the length of a string as it comes: one below 0 would have it read gigabytes.
-bool strings_fit(std::span<const std::uint8_t> bytes, std::size_t count) noexcept {
-  constexpr std::size_t kProject = 8 + 4 + 8;  // hash, n and id stand before it
-  std::size_t offset = kProject;
-  if (!pass_string(bytes, offset) || !pass_string(bytes, offset)) return false;
-  offset += 8;  // period
-  for (std::size_t i = 0; i < 3 * count; ++i)
-    if (!pass_string(bytes, offset)) return false;
-  return true;
-}
-
-template <class Message>
-bool decode(Message& message, std::span<const std::uint8_t> bytes) {
-  const auto size = static_cast<int>(bytes.size());
-  try {
-    return message.decode(bytes.data(), 0, size) == size;
-  } catch (const std::exception&) {  // such as no memory
-    return false;
-  }
+/// Whether a row does.
+bool row_fits(std::span<const std::uint8_t> bytes) noexcept {
+  LcmWalk walk(bytes);
+  walk.skip(6 * 8);
+  walk.skip(8 * walk.count(8));
+  walk.count(8);
+  return walk.good();
 }
 
 }  // namespace
@@ -161,19 +139,15 @@ std::span<const std::uint8_t> LcmEncoder::event(const TraceEvent& event) {
 
 LcmDecoder::Message LcmDecoder::accept(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 8 || bytes.size() > INT32_MAX) return Message::kForeign;
-  const auto hash = static_cast<std::int64_t>(big_endian(bytes, 0, 8));
+  const auto hash = static_cast<std::int64_t>(LcmWalk(bytes).number(8));
   if (hash == trace_header_t::getHash()) return accept_header(bytes);
   if (hash == trace_row_t::getHash()) return accept_row(bytes);
   return Message::kForeign;
 }
 
 LcmDecoder::Message LcmDecoder::accept_header(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kOffsetOfN = 8;
-  constexpr std::size_t kLeastSignal = 3 * 5 + 4;  // three empty strings and an index
   trace_header_t header;
-  if (!count_fits(bytes, kOffsetOfN, kLeastSignal) || !strings_fit(bytes, big_endian(bytes, kOffsetOfN, 4)) ||
-      !decode(header, bytes))
-    return Message::kDamaged;
+  if (!header_fits(bytes) || !decode(header, bytes)) return Message::kDamaged;
   std::vector<TraceSignal> signals;
   int n_exact = 0;
   for (int i = 0; i < header.n; ++i) {
@@ -189,10 +163,7 @@ LcmDecoder::Message LcmDecoder::accept_header(std::span<const std::uint8_t> byte
 }
 
 LcmDecoder::Message LcmDecoder::accept_row(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kOffsetOfN = 6 * 8;
-  if (!count_fits(bytes, kOffsetOfN, 8)) return Message::kDamaged;
-  const std::size_t offset_of_exact = kOffsetOfN + 4 + 8 * big_endian(bytes, kOffsetOfN, 4);
-  if (!count_fits(bytes, offset_of_exact, 8) || !decode(row_, bytes)) return Message::kDamaged;
+  if (!row_fits(bytes) || !decode(row_, bytes)) return Message::kDamaged;
   if (!has_header_ || row_.header_id != header_.id) return Message::kEarly;
   if (row_.values.size() != signals_.size()) return Message::kDamaged;
   for (std::size_t i = 0; i < signals_.size(); ++i) {

@@ -244,5 +244,31 @@ TEST(LinearMotor, LimitsTheSetpointToItsMaximumVelocity) {
   EXPECT_TRUE(has_bit(machine.slide.data.WarningWord, WarningBit::DynamicWarning));
 }
 
+TEST(Mechanics, CountAnewAfterARestart) {
+  Driven machine([](Axis& axis) {
+    axis.data.Mechanics.LeadScrew = 10.0;
+    axis.data.FollowingError.EnableMonitoring = false;
+  });
+  auto& reset = machine.block<MC_Reset>();
+  reset.Axis = &machine.slide;
+  reset.Restart = true;
+  machine.power.Enable = false;
+  machine.run_until([&] { return machine.slide.off(); });
+  auto& start = *static_cast<AxisData*>(machine.slide.start_values());
+  start.Mechanics.LeadScrew = 5.0;
+  start.LoadGear = {2, 1};
+  start.Actor.DriveParameter.MaxSpeed = 1200.0;  // 600 turns of the load: 3,000 mm a minute
+  reset.Execute = true;
+  machine.run(10);
+  ASSERT_TRUE(reset.Done);
+  machine.power.Enable = true;
+  machine.run(20);
+  machine.run_at.Velocity = 100.0;
+  machine.run_at.Execute = true;
+  machine.run(1000);
+  EXPECT_EQ(machine.slide.data.VelocitySetpoint, 50.0);
+  EXPECT_NEAR(machine.slide.data.ActualSpeed, 1200.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace lockstep

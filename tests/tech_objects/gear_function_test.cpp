@@ -131,6 +131,25 @@ TEST(GearFunction, TheExamplesOfTheManualHold) {
   EXPECT_EQ(gear.acceleration(-2.0), 6.0);
 }
 
+TEST(GearFunction, VelocityAndAccelerationAreWithinOneUlpOfTheExactRatio) {
+  std::mt19937_64 random(20261121);
+  std::uniform_int_distribution<std::int32_t> ratio(1, 2147483647);
+  std::uniform_real_distribution<double> quantity(-1e6, 1e6);
+  GearFunction gear;
+  for (int i = 0; i < 20'000; ++i) {
+    const std::int32_t numerator = ratio(random);
+    const std::int32_t denominator = ratio(random);
+    gear.set(i % 2 == 0 ? numerator : -numerator, denominator, {}, {}, kRing, kRing);
+    const double leading = quantity(random);
+    // The product of 31 and 53 bits over 31 bits, in 64 bits: far below an ulp of a double beside it.
+    const long double exact =
+        (i % 2 == 0 ? 1.0L : -1.0L) * numerator * static_cast<long double>(leading) / denominator;
+    for (const double geared : {gear.velocity(leading), gear.acceleration(leading)})
+      ASSERT_LE(std::abs(geared - exact), ulp(static_cast<double>(exact)))
+          << numerator << ":" << denominator << " of " << leading;
+  }
+}
+
 TEST(GearFunction, ChangingTheDirectionMakesNoStep) {
   GearFunction gear;
   gear.set(-7, 3, {0, 350.0}, {0, 2.0}, kRing, kRing);
