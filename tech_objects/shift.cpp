@@ -5,7 +5,8 @@
 namespace lockstep {
 namespace {
 
-/// Most that a shift's own velocity may make of its way over the leading distance, as a multiple of that way.
+/// Most that a shift's own velocity, and its acceleration, may make of its way over the leading distance, as
+/// a multiple of that way.
 constexpr double kSteepest = 20.0;
 
 }  // namespace
@@ -74,11 +75,23 @@ Shift::Event Shift::advance(const LeadingStep& step) noexcept {
 /// Whether the leading value can lead a moving shift on. One that stands, turns or creeps cannot: over its
 /// distance the shift would have to shoot far beyond its target. Then it comes to rest first.
 bool Shift::can_lead_on(const LeadingStep& step) const noexcept {
-  const double way_velocity = std::abs(step.last.velocity);
-  const double to_go = std::abs((request_.target - value_).rounded());
+  if (!(step.way() * step.last.velocity > 0.0)) return false;
+  const SyncOffset start = remainder_at_start(step);
   const double distance = to_start_ + request_.distance;
-  return step.way() * step.last.velocity > 0.0 &&
-         std::abs(velocity_) * distance <= kSteepest * to_go * way_velocity;
+  const double most = kSteepest * std::abs(start.position);
+  return std::abs(start.slope) * distance <= most && std::abs(start.curvature) * distance * distance <= most;
+}
+
+/// What is left of the shift at the last tick, over the way of the leading value.
+SyncOffset Shift::remainder_at_start(const LeadingStep& step) const noexcept {
+  SyncOffset start{.position = (value_ - request_.target).rounded()};
+  const double heading = std::copysign(1.0, step.way());
+  const double way_velocity = heading * step.last.velocity;
+  if (!(way_velocity > 0.0)) return start;
+  start.slope = velocity_ / way_velocity;
+  start.curvature =
+      (acceleration_ - start.slope * heading * step.last.acceleration) / (way_velocity * way_velocity);
+  return start;
 }
 
 /// Profile 1 starts where it is, if the leading value stands or moves the right way; profile 2 at the last
@@ -103,14 +116,7 @@ bool Shift::may_start(const LeadingStep& step) noexcept {
 
 /// From the shift of the last tick, with its velocity and acceleration, to the target.
 void Shift::start_over_distance(const LeadingStep& step) noexcept {
-  SyncOffset start{.position = (value_ - request_.target).rounded()};
-  const double way_velocity = heading_ * step.last.velocity;
-  if (way_velocity > 0.0) {
-    start.slope = velocity_ / way_velocity;
-    start.curvature =
-        (acceleration_ - start.slope * heading_ * step.last.acceleration) / (way_velocity * way_velocity);
-  }
-  remainder_.set(start, to_start_ + request_.distance);
+  remainder_.set(remainder_at_start(step), to_start_ + request_.distance);
   covered_ = 0.0;
   planned_ = true;
 }

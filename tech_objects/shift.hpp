@@ -80,6 +80,7 @@ class Shift {
  private:
   bool may_start(const LeadingStep& step) noexcept;
   bool can_lead_on(const LeadingStep& step) const noexcept;
+  SyncOffset remainder_at_start(const LeadingStep& step) const noexcept;
   void start_over_distance(const LeadingStep& step) noexcept;
   Event follow_leading(const LeadingStep& step) noexcept;
   Event follow_time() noexcept;
