@@ -57,6 +57,34 @@ inline AxisPosition advanced(AxisPosition position, double increment, const Modu
   return advanced(position, to_double_double(increment), modulo);
 }
 
+/// A place that ways are counted from. It turns along with the positions asked for, a whole turn at a time,
+/// so that a motion has to be brought onto the ring only where it passes the ring's end. Thread: the cycle.
+class WayOrigin {
+ public:
+  void set(AxisPosition place) noexcept {
+    turns_ = place.turns;
+    value_ = to_double_double(place.value);
+  }
+
+  void shift(double by) noexcept { value_ = value_ + by; }
+
+  /// The position after a way [u] from the place: exact, then rounded once.
+  AxisPosition after(double way, const Modulo& modulo) noexcept {
+    const DoubleDouble value = value_ + way;
+    if (modulo.contains(value.hi)) return {turns_, value.rounded()};
+    const AxisPosition position = normalised(turns_, value, modulo);
+    const auto passed = static_cast<std::int64_t>(static_cast<std::uint64_t>(position.turns) -
+                                                  static_cast<std::uint64_t>(turns_));
+    value_ = value_ - to_double_double(passed) * modulo.length;
+    turns_ = position.turns;
+    return position;
+  }
+
+ private:
+  std::int64_t turns_ = 0;
+  DoubleDouble value_;  // the place, seen from the ring of these turns [u]
+};
+
 /// Way from `from` to `to` [u] with the turns (the shorter way round where these wrap), within 2^-103 of it.
 /// Any thread.
 inline DoubleDouble difference(AxisPosition to, AxisPosition from, const Modulo& modulo) noexcept {

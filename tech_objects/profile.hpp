@@ -45,6 +45,16 @@ class Profile {
     double begin{};       ///< [s] from the start of the profile
     MotionState state{};  ///< at `begin`
     double jerk{};        ///< [u/s³] 0 in all phases of a trapezoidal profile
+
+    /// The state at a time of the profile within the phase [s].
+    MotionState at(double t) const noexcept {
+      const double dt = t - begin;
+      const double half_jerk = jerk * 0.5;
+      const double half_acceleration = state.acceleration * 0.5;
+      return {
+          state.position + dt * (state.velocity + dt * (half_acceleration + dt * half_jerk * (1.0 / 3.0))),
+          state.velocity + dt * (state.acceleration + dt * half_jerk), state.acceleration + dt * jerk};
+    }
   };
 
   /// Enough for every profile: the way to a = 0, two changes of velocity with a limit that changes at

@@ -46,8 +46,9 @@ void SingleAxisMotion::configure(const Modulo& modulo, double period) noexcept {
 void SingleAxisMotion::begin(const Setpoint& from, Aim aim, const Dynamics& dynamics) noexcept {
   aim_ = aim;
   dynamics_ = dynamics;
-  origin_ = from.position;
+  origin_.set(from.position);
   ticks_ = 0;
+  walk_.begin();
   finished_ = false;
 }
 
@@ -110,7 +111,7 @@ PlanResult SingleAxisMotion::stop(const Setpoint& from, const Dynamics& dynamics
   begin(from, Aim::stand, dynamics);
   exact_target_ = false;
   target_velocity_ = 0.0;
-  target_ = advanced(origin_, profile_.target().position, modulo_);
+  target_ = advanced(from.position, profile_.target().position, modulo_);
   return result;
 }
 
@@ -142,7 +143,7 @@ void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
     return;
   }
   const double t = static_cast<double>(++ticks_) * period_;
-  const MotionState state = profile_.at(t);
+  const MotionState state = walk_.at(profile_, t);
   setpoint.velocity = state.velocity;
   setpoint.acceleration = state.acceleration;
   const bool over = t >= profile_.duration();
@@ -150,7 +151,7 @@ void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
   if (over && exact_target_ && !passes) {
     setpoint.position = target_;
   } else {
-    setpoint.position = advanced(origin_, state.position, modulo_);
+    setpoint.position = origin_.after(state.position, modulo_);
   }
   if (!over) return;
   finished_ =
@@ -181,7 +182,7 @@ double SingleAxisMotion::way_left(int direction) const noexcept {
 }
 
 void SingleAxisMotion::shift(double by) noexcept {
-  origin_ = advanced(origin_, by, modulo_);
+  origin_.shift(by);
   target_ = advanced(target_, by, modulo_);
 }
 

@@ -1,7 +1,7 @@
 /// Motion of one axis along a profile: positioning, endless motion and stopping, retargeted on the fly.
 #pragma once
 
-#include "tech_objects/profile.hpp"
+#include "tech_objects/profile_walk.hpp"
 #include "tech_objects/setpoint.hpp"
 
 namespace lockstep {
@@ -58,12 +58,13 @@ class SingleAxisMotion {
   Aim aim_ = Aim::stand;
   bool finished_ = true;
   bool exact_target_ = false;  // whether `target_` was given; else it is where the stop ends
+  std::int64_t ticks_ = 0;     // since the profile began
+  WayOrigin origin_;           // where the profile's position is 0
+  ProfileWalk walk_;           // along the profile
   Profile profile_;
-  AxisPosition origin_;  // where the profile's position is 0
   AxisPosition target_;
   double target_velocity_ = 0.0;
   double wanted_velocity_ = 0.0;  // before the limit
-  std::int64_t ticks_ = 0;        // since the profile began
   Dynamics dynamics_;
 };
 
