@@ -185,7 +185,7 @@ void Axis::meet_cam_end() noexcept {
   }
   setpoint_ = last_setpoint_;
   cut_acceleration();
-  const Dynamics dynamics = effective_dynamics(Job{});
+  const Dynamics dynamics = own_dynamics(Job{});
   begin_stop(zero_limit(dynamics) == 0 ? dynamics : maximum_dynamics(), false);
   step_single_axis();
 }

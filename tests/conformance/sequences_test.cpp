@@ -79,11 +79,15 @@ class Sequence {
     return profile == 2.0 || profile == 5.0;
   }
 
-  /// An additive leading value may take the axis over the end of a cam that is passed once, where it stands.
+  /// An additive leading value, or a leading axis that is homed, may take the axis over the end of a cam that
+  /// is passed once, where it stands.
   bool falls_off_a_cam() {
-    const bool on_cam = std::any_of(following_.begin(), following_.end(),
-                                    [](Subject* s) { return s->busy() && s->type().name == "MC_CamIn"; });
-    return on_cam && bench_.following.additive_request.owner != nullptr;
+    const auto busy_with = [](const std::vector<Subject*>& subjects, std::string_view name) {
+      return std::any_of(subjects.begin(), subjects.end(),
+                         [&](Subject* s) { return s->busy() && s->type().name == name; });
+    };
+    return busy_with(following_, "MC_CamIn") &&
+           (bench_.following.additive_request.owner != nullptr || busy_with(leading_, "MC_Home") || homes_);
   }
 
   void act() {
@@ -109,6 +113,7 @@ class Sequence {
   /// Starts a block with inputs at random, starts it anew in mid-job, or drops its request.
   void use(Subject& subject, bool follows) {
     if (may_step(subject)) bench_.allow_position_steps(4);
+    homes_ = subject.type().name == "MC_Home";
     if (subject.number(*subject.start_pin()) != 0.0) {
       subject.start(false);
       if (chance(0.5)) return;
@@ -193,6 +198,7 @@ class Sequence {
 
   std::mt19937_64 random_;
   bool told_;
+  bool homes_ = false;  // with the block used last
   Bench bench_;
   std::vector<Subject*> following_, leading_;
 };

@@ -411,6 +411,34 @@ TEST(MC_CamIn, ACamThatEndsWithASlopeIsLeftWithTheDefaultDynamics) {
   EXPECT_LT(rig.f.setpoint().position.value, 45.0);
 }
 
+/// With the default jerk it would take its acceleration away only far beyond the velocity limit.
+TEST(MC_CamIn, ACamThatEndsWithASlopeAndBendsIsLeftWithinTheVelocityLimit) {
+  CamPair rig;
+  rig.in.Cam = &rig.cam("Valley", {{0, 0}, {300, 20}}, 0);
+  auto& data = *static_cast<CamData1k*>(rig.in.Cam->data_block());
+  data.Segment[0] = {
+      .xmin = 340.0, .xmax = 360.0, .a0 = 6498.0125, .a1 = -36.05, .a2 = 0.05};  // 0.05 (x - 360.5)²
+  data.ValidSegment[0] = true;
+  CamInterpolator interpolator(kCamPoints);
+  ASSERT_EQ(rig.in.Cam->interpolate(interpolator), ErrorId::none);
+  rig.f.data.DynamicDefaults.Jerk = 20.0;
+  rig.f.data.DynamicLimits.Velocity = 500.0;
+  rig.start_leading(300.0);
+  rig.in.MasterStartDistance = 60.0;
+  rig.in.MasterSyncPosition = 20.0;
+  rig.in.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.in.InSync; }));
+  ASSERT_TRUE(rig.run_until([&] { return rig.in.EndOfProfile; }, 2000));
+  double fastest = 0.0;
+  ASSERT_TRUE(rig.run_until(
+      [&] {
+        fastest = std::max(fastest, std::abs(rig.f.setpoint().velocity));
+        return rig.f.setpoint().standing();
+      },
+      200000));
+  EXPECT_LE(fastest, 500.0);
+}
+
 TEST(MC_CamIn, Profile5ChangesTheCamAtItsEndWithoutAStep) {
   CamPair rig;
   rig.couple();
