@@ -6,6 +6,7 @@ namespace lockstep {
 namespace {
 
 constexpr double kCloses = 1e-9;     // of the stroke: how far both ends of a cyclic cam may be apart
+constexpr double kRests = 1e-9;      // of the stroke per pass: slope of a cam at rest
 constexpr double kBeside = 0x1p-40;  // of a pass: how far beside a corner its slope is read
 
 /// A whole number of times a value, as exactly as the value is known.
@@ -161,7 +162,8 @@ CamPlace CamFollowing::joined_at(AxisPosition leading, int direction) const noex
     if (beside >= pass_.hi) beside -= pass_.hi;
   }
   const CamValue value = function_->value(first_ + beside * per_scaling_);
-  return {position, value.first_derivative * slope_, value.second_derivative * curvature_};
+  const double slope = steepness(value) <= kRests ? 0.0 : value.first_derivative;
+  return {position, slope * slope_, value.second_derivative * curvature_};
 }
 
 CamFollowing::LeadingPlace CamFollowing::end_place(CamEnd end) const noexcept {
@@ -175,11 +177,15 @@ AxisPosition CamFollowing::end_position(CamEnd end) const noexcept {
                 lift_);
 }
 
-double CamFollowing::end_steepness(CamEnd end) const noexcept {
+bool CamFollowing::rests_at(CamEnd end) const noexcept {
+  return steepness(function_->value(end == CamEnd::at_end ? function_->end_leading_value() : first_)) <=
+         kRests;
+}
+
+double CamFollowing::steepness(const CamValue& value) const noexcept {
   const double stroke = function_->highest_following_value() - function_->lowest_following_value();
   if (!(stroke > 0.0)) return 0.0;
-  const double at = end == CamEnd::at_end ? function_->end_leading_value() : first_;
-  return std::abs(function_->value(at).first_derivative) * (function_->end_leading_value() - first_) / stroke;
+  return std::abs(value.first_derivative) * (function_->end_leading_value() - first_) / stroke;
 }
 
 double CamFollowing::way(AxisPosition leading) const noexcept {

@@ -91,8 +91,8 @@ class CamFollowing {
   LeadingPlace end_place(CamEnd end) const noexcept;
   /// Following position there.
   AxisPosition end_position(CamEnd end) const noexcept;
-  /// Slope there times one pass, as a share of the stroke: how much the axis still moves.
-  double end_steepness(CamEnd end) const noexcept;
+  /// Whether the cam has no slope there, but for rounding.
+  bool rests_at(CamEnd end) const noexcept;
 
   /// Way from the start of the cam at a leading position, of all passes [leading u].
   double way(AxisPosition leading) const noexcept;
@@ -102,6 +102,9 @@ class CamFollowing {
   const CamFunction* function() const noexcept { return function_; }
 
  private:
+  /// Slope times one pass, as a share of the stroke.
+  double steepness(const CamValue& value) const noexcept;
+
   static std::int64_t wrapped(std::int64_t a, std::int64_t b) noexcept {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
   }

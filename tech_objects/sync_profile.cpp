@@ -10,6 +10,10 @@ namespace {
 /// What rounding of the planned quantities may amount to, against the length of a turn.
 constexpr double kRounding = 1e-13;
 
+/// How far a profile in one direction may go, as a multiple of the ways that the slopes and curvatures at its
+/// ends make over the leading distance: beyond it no turns are added any more.
+constexpr double kFarthest = 2.0;
+
 /// The positive root of t⁴ + 2t³ - 2pt - q, q ≥ 0: there is one (Descartes), and Newton's iteration falls on
 /// it from above because the quartic is convex there.
 double quartic_root(double p, double q) noexcept {
@@ -101,7 +105,10 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
       const double least =
           least_monotone_way(to * slope * distance, to * curvature * distance * distance,
                              to * end_slope * distance, to * target.curvature * distance * distance);
-      if (!(least < 0x1p52 * length)) return SyncPlan::kAxisMovesTheOtherWay;
+      const double natural = (std::abs(slope) + std::abs(end_slope)) * distance +
+                             (std::abs(curvature) + std::abs(target.curvature)) * distance * distance;
+      if (!(least <= std::min(kFarthest * natural, 0x1p52 * length) + length))
+        return SyncPlan::kAxisMovesTheOtherWay;
       turns = to * std::ceil((least - to * way.hi) / length - kRounding * (1.0 + std::abs(least / length)));
     }
     ahead = ahead - two_product(turns, length);

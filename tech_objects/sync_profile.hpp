@@ -38,7 +38,8 @@ struct SyncTarget {
 
 enum class SyncPlan : std::uint8_t {
   kReady,
-  kAxisMovesTheOtherWay,     ///< the following axis runs, or speeds up, against SyncDirection
+  kAxisMovesTheOtherWay,  ///< the following axis runs or speeds up against SyncDirection, or so nearly does
+                          ///< that it would shoot ahead before the end
   kFunctionRunsTheOtherWay,  ///< the synchronous function runs against SyncDirection
 };
 

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kShortestPass = 1e-6;  // [leading u]
 constexpr double kSamePlace = 1e-12;    // of a pass: rounding of a position given at an end of the cam
-constexpr double kRests = 1e-9;         // share of the stroke per pass: slope of a cam that ends at rest
 
 enum Profile : DINT {
   kDynamics = 0,
@@ -183,10 +182,11 @@ SynchronousMotion::Start SynchronousMotion::watch_cam_distance(const Setpoint& o
                         .following = own.position,
                         .velocity = own.velocity,
                         .acceleration = own.acceleration};
-  const SyncTarget target{.at_start = tangent(0.0).position, .slope = ratio_, .curvature = curvature_};
-  const SyncPlan plan =
-      distance_profile_.plan(start, target, profile_way_, direction_ < 0,
-                             static_cast<SyncDirection>(sync_direction_), leading_modulo_, following_);
+  SyncPlan plan = plan_along_tangent(start);
+  if (plan == SyncPlan::kAxisMovesTheOtherWay && curvature_ != 0.0) {
+    curvature_ = 0.0;  // only the acceleration of the cam stands against SyncDirection: it steps there
+    plan = plan_along_tangent(start);
+  }
   if (plan != SyncPlan::kReady) return reject(ErrorId::direction);
   // A profile within one tick is over before it is looked at.
   if (profile_way_ > step && shoots_beyond(distance_profile_.value(0.0), profile_way_))
@@ -194,6 +194,12 @@ SynchronousMotion::Start SynchronousMotion::watch_cam_distance(const Setpoint& o
   follow_.add_turns(distance_profile_.turns());
   joint_.turns += distance_profile_.turns();
   return begin_profile(Way::distance);
+}
+
+SyncPlan SynchronousMotion::plan_along_tangent(const SyncStart& start) noexcept {
+  const SyncTarget target{.at_start = tangent(0.0).position, .slope = ratio_, .curvature = curvature_};
+  return distance_profile_.plan(start, target, profile_way_, direction_ < 0,
+                                static_cast<SyncDirection>(sync_direction_), leading_modulo_, following_);
 }
 
 /// Profile 0: the parabola that touches the cam in the synchronous position. Its bend counts as far as the
@@ -300,8 +306,7 @@ void SynchronousMotion::evaluate_cam(Setpoint& result) noexcept {
 }
 
 bool SynchronousMotion::rests_at_cam_end() const noexcept {
-  return follow_.end_steepness(follow_.ended()) <= kRests && phase_.velocity() == 0.0 &&
-         offset_.velocity() == 0.0;
+  return follow_.rests_at(follow_.ended()) && phase_.velocity() == 0.0 && offset_.velocity() == 0.0;
 }
 
 // ---- Desynchronizing

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tech_objects/axis.hpp"
 
@@ -356,7 +357,8 @@ SynchronousMotion::Start SynchronousMotion::watch_distance(const Setpoint& own) 
 /// Whether velocity and acceleration of the axis, led on by a leading axis that creeps, would carry it far
 /// beyond the way that it has to make.
 bool SynchronousMotion::shoots_beyond(const SyncOffset& start, double distance) const noexcept {
-  const double natural = std::abs(start.position) + std::abs(ratio_) * distance;
+  const double turn = following_.enabled ? following_.length : std::numeric_limits<double>::infinity();
+  const double natural = std::min(std::abs(start.position), turn) + std::abs(ratio_) * distance;
   const double own = std::abs(start.slope) * distance + std::abs(start.curvature) * distance * distance;
   return own > kSteepest * natural;
 }

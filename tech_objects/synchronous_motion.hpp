@@ -179,6 +179,7 @@ class SynchronousMotion {
   Start set_on_cam(const Setpoint& own) noexcept;
   bool place_cam_here(AxisPosition leading) noexcept;
   void place_cam(AxisPosition leading) noexcept;
+  SyncPlan plan_along_tangent(const SyncStart& start) noexcept;
   void aim_at_cam(double way) noexcept;
   void take_joint(const CamPlace& place, std::int64_t turns) noexcept;
   double cam_start() const noexcept;

@@ -364,6 +364,39 @@ TEST(MC_CamIn, AReversingLeadingAxisStopsSynchronizing) {
   EXPECT_EQ(rig.f.pending_alarm(), alarm::kSynchronizing);
 }
 
+/// The cam turns back where it becomes synchronous: no profile in one direction bends as it does. Rounding of
+/// its slope there must neither refuse the job nor make the axis catch up over thousands of turns.
+TEST(MC_CamIn, OneWaySynchronizingWithACamThatTurnsBackNeitherShootsNorDependsOnRounding) {
+  for (const DINT direction : {1, 2})
+    for (const DINT profile : {1, 3, 4, 6})
+      for (const double place : {0.0, 1e-9, 0.01, 90.0, 180.0, 270.0}) {
+        SCOPED_TRACE(::testing::Message()
+                     << "direction " << direction << " profile " << profile << " at " << place);
+        CamPair rig(ring, ring);
+        rig.in.Cam = &rig.cam("Peak", {{0, 0}, {180, 50}, {360, 0}}, 1);
+        CamInterpolator interpolator(kCamPoints);
+        ASSERT_EQ(rig.in.Cam->interpolate(interpolator), ErrorId::none);
+        rig.in.ApplicationMode = 1;
+        rig.in.SyncProfileReference = profile;
+        rig.in.SyncDirection = direction;
+        rig.in.MasterSyncPosition = place;
+        rig.in.MasterStartDistance = 60.0;
+        rig.start_leading(300.0);
+        rig.continuity[1].velocity = false;  // the acceleration steps to that of the cam
+        rig.in.Execute = true;
+        double fastest = 0.0;
+        ASSERT_TRUE(rig.run_until(
+            [&] {
+              fastest = std::max(fastest, std::abs(rig.f.setpoint().velocity));
+              return rig.in.InSync || rig.in.Error;
+            },
+            4000));
+        EXPECT_LT(fastest, 300.0 * 2.0 * 360.0 / 60.0 * 2.0);
+        const bool rests = place == 0.0 || place == 180.0;
+        EXPECT_TRUE(rig.in.InSync || !rests || profile == 3 || profile == 4);
+      }
+}
+
 // ---- Ends
 // -------------------------------------------------------------------------------------------------------
 

@@ -123,6 +123,7 @@ TEST(SyncProfile, OneWaySynchronizingTakesTheFewestTurnsThatNeverReverse) {
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   int more_than_one = 0;
+  int refused = 0;
   for (int i = 0; i < 1000; ++i) {
     const bool backward = i % 2 == 0;
     const double to = i % 4 < 2 ? 1.0 : -1.0;
@@ -136,7 +137,12 @@ TEST(SyncProfile, OneWaySynchronizingTakesTheFewestTurnsThatNeverReverse) {
     const double distance = 1.0 + 200.0 * any(random);
     const auto direction = to > 0.0 ? SyncDirection::kPositive : SyncDirection::kNegative;
     SyncProfile profile;
-    ASSERT_EQ(profile.plan(start, target, distance, backward, direction, kLine, kRing), SyncPlan::kReady);
+    if (profile.plan(start, target, distance, backward, direction, kLine, kRing) != SyncPlan::kReady) {
+      // One that all but stands and brakes hard: it would have to go for hundreds of turns.
+      EXPECT_LT(to * start.acceleration / std::abs(start.velocity), -5.0) << "seed " << kSeed << " row " << i;
+      ++refused;
+      continue;
+    }
     const double scale = std::abs(end_slope) + std::abs(start.velocity) / 10.0;
     EXPECT_GE(least_slope(profile, end_slope, to), -1e-9 * scale) << "seed " << kSeed << " row " << i;
     // With one turn less it would reverse, or there would be no way left to go.
@@ -151,6 +157,25 @@ TEST(SyncProfile, OneWaySynchronizingTakesTheFewestTurnsThatNeverReverse) {
     more_than_one += std::abs(end_slope * distance - profile.value(0.0).position) > 720.0 ? 1 : 0;
   }
   EXPECT_GT(more_than_one, 50);
+  EXPECT_LT(refused, 20);
+}
+
+/// What the end asks for is as large as what rounding leaves of a slope: catching up has a limit.
+TEST(SyncProfile, OneWaySynchronizingDoesNotShootIntoAFunctionThatAllButTurnsBack) {
+  for (const double slope : {0.0, 1e-300, 1e-17, 1e-9, 1e-5, 1e-3, 0.1})
+    for (const double curvature : {-0.5, -0.01, -1e-17, 0.0, 1e-17, 0.01, 0.5}) {
+      SyncStart start;
+      start.leading_velocity = 10.0;
+      SyncProfile profile;
+      const SyncTarget target{{0, 5.0}, slope, curvature};
+      if (profile.plan(start, target, 50.0, false, SyncDirection::kPositive, kLine, kRing) !=
+          SyncPlan::kReady)
+        continue;
+      const double way = 50.0 * slope - 0.5 * curvature * 2500.0 - profile.value(0.0).position;
+      EXPECT_GE(way, -1e-9) << slope << ' ' << curvature;
+      EXPECT_LT(way, 2.0 * (50.0 * slope + 2500.0 * std::abs(curvature)) + 720.0)
+          << slope << ' ' << curvature;
+    }
 }
 
 TEST(SyncProfile, OneWaySynchronizingIsRejectedWhereItIsImpossible) {
