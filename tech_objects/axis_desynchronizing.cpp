@@ -100,6 +100,7 @@ void Axis::watch_simulation() noexcept {
   request.error = ErrorId::none;
   if (request.enable && !simulating()) begin_simulation();
   if (simulating()) {
+    synchronous_.look_at_leading();
     synchronous_.advance(ghost_);
     if (!request.enable) end_simulation();
   }

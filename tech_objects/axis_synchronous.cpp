@@ -131,6 +131,7 @@ void Axis::clear_cam_status() noexcept {
 void Axis::step_synchronous() noexcept {
   Job* job = running_[kBase];
   if (job->update) synchronous_.change_ratio(job->numerator, job->denominator);
+  synchronous_.look_at_leading();
   if (running_[kPhasing] != nullptr)
     advance_shift(kPhasing);
   else if (synchronous_.phase_shift().settling())

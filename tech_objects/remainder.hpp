@@ -26,6 +26,7 @@ class Remainder {
   /// @param start at λ = 0  @param distance D > 0 [leading u]
   void set(const SyncOffset& start, double distance) noexcept {
     distance_ = distance;
+    per_distance_ = 1.0 / distance;
     a_ = start.position;
     b_ = start.slope * distance + 3.0 * a_;
     c_ = 0.5 * start.curvature * distance * distance + 3.0 * b_ - 3.0 * a_;
@@ -37,17 +38,18 @@ class Remainder {
   /// y and its derivatives; exactly 0 from λ = D on; λ < 0 continues the quintic.
   SyncOffset value(double way) const noexcept {
     if (complete(way)) return {};
-    const double u = way / distance_;
-    const double v = (distance_ - way) / distance_;  // exact to the end, unlike 1 - u
+    const double u = way * per_distance_;
+    const double v = (distance_ - way) / distance_;  // exact at both ends, unlike 1 - u
     const double q = a_ + u * (b_ + u * c_);
     const double dq = b_ + 2.0 * u * c_;
     return {.position = v * v * v * q,
-            .slope = v * v * (v * dq - 3.0 * q) / distance_,
-            .curvature = 2.0 * v * (v * (v * c_ - 3.0 * dq) + 3.0 * q) / distance_ / distance_};
+            .slope = v * v * (v * dq - 3.0 * q) * per_distance_,
+            .curvature = 2.0 * v * (v * (v * c_ - 3.0 * dq) + 3.0 * q) * per_distance_ * per_distance_};
   }
 
  private:
   double distance_ = 0.0;
+  double per_distance_ = 0.0;
   double a_ = 0.0;  // y = (1 - u)³ (a + b u + c u²), u = λ / D
   double b_ = 0.0;
   double c_ = 0.0;

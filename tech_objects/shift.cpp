@@ -133,7 +133,7 @@ Shift::Event Shift::follow_leading(const LeadingStep& step) noexcept {
   covered_ += heading_ * way;
   if (remainder_.complete(covered_)) return arrive();
   const SyncOffset left = remainder_.value(covered_);
-  value_ = request_.target + DoubleDouble{left.position, 0.0};
+  value_ = request_.target + left.position;
   velocity_ = left.velocity(heading_ * step.now.velocity);
   acceleration_ = left.acceleration(heading_ * step.now.velocity, heading_ * step.now.acceleration);
   return Event::none;
@@ -147,7 +147,7 @@ Shift::Event Shift::follow_time() noexcept {
 bool Shift::follow_profile() noexcept {
   const double t = static_cast<double>(++ticks_) * period_;
   const MotionState state = profile_.at(t);
-  value_ = base_ + DoubleDouble{state.position, 0.0};
+  value_ = base_ + state.position;
   velocity_ = state.velocity;
   acceleration_ = state.acceleration;
   return t < profile_.duration();

@@ -12,11 +12,12 @@
 
 namespace lockstep {
 
-/// The way of the effective leading value from one tick to the next.
+/// The way of the effective leading value from one tick to the next, seen where it is kept: copying it while
+/// it is being made would cost more than looking.
 struct LeadingStep {
-  Setpoint last;
-  Setpoint now;
-  Modulo modulo;
+  const Setpoint& last;
+  const Setpoint& now;
+  const Modulo& modulo;
 
   double way() const noexcept { return rounded_difference(now.position, last.position, modulo); }
 };

@@ -39,7 +39,6 @@ LeadingObject* SynchronousMotion::leading_object() const noexcept {
 // -------------------------------------------------------------------------------------------------
 
 void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
-  look_at_leading();
   if (synchronous_ && !velocity_only_) {
     evaluate_function(setpoint);
     if (offset_.in_use()) add_offset(setpoint);
@@ -77,16 +76,18 @@ void SynchronousMotion::add_additive(Setpoint& leading, const AdditiveLeadingVal
 /// share of the shift is added behind the gear, where nothing is rounded in between.
 void SynchronousMotion::evaluate_function(Setpoint& result) noexcept {
   if (cam_ != nullptr) return evaluate_cam(result);
-  const AxisPosition position = gear_.value(leading_now_.position);
+  AxisPosition position = gear_.value(leading_now_.position);
+  double velocity = gear_.velocity(leading_now_.velocity);
+  double acceleration = gear_.acceleration(leading_now_.acceleration);
+  if (phase_.in_use()) {
+    position = advanced(position, geared_phase_.of(phase_.value(), gear_.ratio()), following_);
+    velocity += gear_.velocity(phase_.velocity());
+    acceleration += gear_.acceleration(phase_.acceleration());
+  }
   result.position.turns = function_.position.turns = position.turns;
   result.position.value = function_.position.value = position.value;
-  result.velocity = function_.velocity = gear_.velocity(leading_now_.velocity);
-  result.acceleration = function_.acceleration = gear_.acceleration(leading_now_.acceleration);
-  if (!phase_.in_use()) return;
-  function_.position = advanced(position, gear_.ratio() * phase_.value(), following_);
-  function_.velocity += gear_.velocity(phase_.velocity());
-  function_.acceleration += gear_.acceleration(phase_.acceleration());
-  result = function_;
+  result.velocity = function_.velocity = velocity;
+  result.acceleration = function_.acceleration = acceleration;
 }
 
 /// function → + offset
@@ -97,12 +98,10 @@ void SynchronousMotion::add_offset(Setpoint& setpoint) const noexcept {
 }
 
 Shift::Event SynchronousMotion::advance_phase_shift() noexcept {
-  look_at_leading();
   return phase_.advance(leading_step());
 }
 
 Shift::Event SynchronousMotion::advance_following_offset() noexcept {
-  look_at_leading();
   return offset_.advance(leading_step());
 }
 

@@ -66,6 +66,9 @@ class SynchronousMotion {
   /// Why `watch` has rejected the job.
   ErrorId rejection() const noexcept { return rejection_; }
 
+  /// Takes up the leading value of this tick; before all that advances.
+  void look_at_leading() noexcept;
+
   /// The setpoint of this tick from the leading value of this tick.
   void advance(Setpoint& setpoint) noexcept;
 
@@ -147,8 +150,23 @@ class SynchronousMotion {
   void shift_following(double by) noexcept;
 
  private:
+  /// A phase shift behind the gear; most of the time both are those of the tick before.
+  class GearedPhase {
+   public:
+    DoubleDouble of(DoubleDouble phase, DoubleDouble ratio) noexcept {
+      if (phase == phase_ && ratio == ratio_) return product_;
+      phase_ = phase;
+      ratio_ = ratio;
+      return product_ = ratio * phase;
+    }
+
+   private:
+    DoubleDouble phase_;
+    DoubleDouble ratio_;
+    DoubleDouble product_;
+  };
+
   void couple(const LeadingValue& leading, const Job& job, const Dynamics& dynamics) noexcept;
-  void look_at_leading() noexcept;
   void evaluate_function(Setpoint& result) noexcept;
   void evaluate_cam(Setpoint& result) noexcept;
   void add_additive(Setpoint& leading, const AdditiveLeadingValue& additive) const noexcept;
@@ -208,6 +226,7 @@ class SynchronousMotion {
   Setpoint leading_last_;
   Setpoint function_;
   GearFunction gear_;
+  GearedPhase geared_phase_;
   const AdditiveLeadingValues* additive_ = nullptr;
   bool velocity_only_ = false;  // MC_GearInVelocity
   Shift phase_;

@@ -79,7 +79,7 @@ std::vector<MachinePlan> plans(const Options& options) {
   const std::vector<int> sizes = options.quick ? std::vector{1, 8} : std::vector{1, 8, 32, 128, 1000};
   const int varied = options.quick ? 8 : 128;
   std::vector<MachinePlan> result;
-  for (const Motion motion : {Motion::gear, Motion::cam, Motion::positioning, Motion::idle})
+  for (const Motion motion : {Motion::gear, Motion::shifted, Motion::cam, Motion::positioning, Motion::idle})
     for (const bool drives : {false, true})
       for (const int axes : sizes)
         for (const int ratio : {1, 4})

@@ -28,7 +28,7 @@ std::string quoted(std::string_view text) {
 }
 
 bool follows(const MachinePlan& plan) {
-  return plan.motion == Motion::gear || plan.motion == Motion::cam;
+  return plan.motion == Motion::gear || plan.motion == Motion::shifted || plan.motion == Motion::cam;
 }
 
 /// A parabola up and down, ten thousand points long, that begins and ends alike.
@@ -81,11 +81,21 @@ std::string axis_calls(const MachinePlan& plan, int number) {
   const std::string enabled = "power" + n + ".Status";
   const std::string power = call("MC_Power", "power" + n, "Axis", axis, R"("Enable": true)");
   if (plan.motion == Motion::idle) return power;
-  if (plan.motion == Motion::gear) {
+  if (plan.motion == Motion::gear || plan.motion == Motion::shifted) {
     const std::string inputs = joined({R"("Master": "Leading", "RatioNumerator": )",
                                        number % 2 == 0 ? "3" : "-7", R"(, "RatioDenominator": )",
                                        std::to_string(1 + number % 11), R"(, "Execute": )", quoted(enabled)});
-    return joined({power, ",\n", call("MC_GearIn", "gear" + n, "Slave", axis, inputs)});
+    const std::string gear = call("MC_GearIn", "gear" + n, "Slave", axis, inputs);
+    if (plan.motion == Motion::gear) return joined({power, ",\n", gear});
+    const std::string phase =
+        call("MC_PhasingRelative", "phase" + n, "Slave", axis,
+             joined({R"("Master": "Leading", "PhaseShift": 5.0, "ProfileReference": 0, "Execute": )",
+                     quoted("gear" + n + ".InGear")}));
+    const std::string offset =
+        call("MC_OffsetRelative", "offset" + n, "Slave", axis,
+             joined({R"("Offset": 1000.0, "ProfileReference": 1, "OffsetDistance": 1.0E9, "Execute": )",
+                     quoted("phase" + n + ".Done")}));
+    return joined({power, ",\n", gear, ",\n", phase, ",\n", offset});
   }
   if (plan.motion == Motion::cam) {
     const std::string inputs = joined(
@@ -124,6 +134,8 @@ std::string_view name_of(Motion motion) {
   switch (motion) {
     case Motion::gear:
       return "gear";
+    case Motion::shifted:
+      return "gear shifted";
     case Motion::cam:
       return "cam";
     case Motion::positioning:
@@ -187,10 +199,15 @@ void Machine::check() const {
   const StatusBit wanted = follows(plan_)                        ? StatusBit::Synchronous
                            : plan_.motion == Motion::positioning ? StatusBit::PositioningCommand
                                                                  : StatusBit::Standstill;
+  const auto runs = [&](const AxisData& data) {
+    const bool shifts = has_bit(data.StatusWord2, Status2Bit::OffsetCommand) &&
+                        data.StatusSynchronizedMotion.PhaseShift != 0.0;
+    return has_bit(data.StatusWord, wanted) && (plan_.motion != Motion::shifted || shifts);
+  };
   int right = 0;
   for (const auto& axis : project_.controller->axes) {
     if (axis->pending_alarm() != 0) throw std::runtime_error(plan_.name() + ": alarm at " + axis->name);
-    if (has_bit(axis->data.StatusWord, wanted)) ++right;
+    if (runs(axis->data)) ++right;
   }
   // While one positioning is over and the next not yet begun, an axis shows none.
   const int least = plan_.motion == Motion::positioning ? plan_.axes - plan_.axes / 4 - 1 : plan_.axes;

@@ -13,6 +13,8 @@ namespace lockstep::bench {
 /// What the axes do while they are measured.
 enum class Motion {
   gear,         ///< follow one leading axis: MC_Power and MC_GearIn each, called in every cycle
+  shifted,      ///< the same while a phase shift is in effect and an offset runs: MC_PhasingRelative and
+                ///< MC_OffsetRelative as well, which exclude each other while they move
   cam,          ///< follow one leading axis on one cam of 10,000 points: MC_Power and MC_CamIn each
   positioning,  ///< move back and forth: MC_Power and two MC_MoveRelative each, called in every cycle
   idle          ///< enabled and standing: MC_Power each, called in every cycle

@@ -13,31 +13,41 @@ constexpr double kPeriod = 0.001;  // [s]
 constexpr ProfileLimits kLimits{
     .velocity_max = 1e4, .velocity_min = -1e4, .acceleration = 5e3, .deceleration = 5e3, .jerk = 2e5};
 
-LeadingStep way_from(double position, double velocity, double acceleration) {
-  LeadingStep step;
-  step.last = {{0, position}, velocity, acceleration};
-  step.now = {{0, position + velocity * kPeriod + 0.5 * acceleration * kPeriod * kPeriod},
-              velocity + acceleration * kPeriod,
-              acceleration};
-  return step;
-}
+/// A leading value that is pulled.
+struct Leading {
+  void tick() {
+    last = now;
+    const double a = now.velocity < -100.0 ? 0.0 : acceleration;
+    now = {{0, last.position.value + (last.velocity + 0.5 * a * kPeriod) * kPeriod},
+           last.velocity + a * kPeriod,
+           a};
+  }
+  LeadingStep step() const { return {last, now, kLine}; }
+
+  static constexpr Modulo kLine{};
+  double acceleration = 0.0;
+  Setpoint last{};
+  Setpoint now{};
+};
 
 /// The greatest amount of a shift from 0 to 5 whose target becomes 8 over a distance of 50 after some ticks;
 /// the leading value stands until some more ticks are over, then it speeds up.
 double greatest_amount(int ticks_before, int ticks_of_rest) {
   Shift shift;
   EXPECT_EQ(shift.begin({.target = {5.0, 0.0}, .profile = 0, .limits = kLimits}, kPeriod), ErrorId::none);
-  LeadingStep step = way_from(0.0, 0.0, 0.0);
-  for (int i = 0; i < ticks_before; ++i) shift.advance(step);
+  Leading leading;
+  for (int i = 0; i < ticks_before; ++i) shift.advance(leading.step());
   EXPECT_EQ(shift.begin({.target = {8.0, 0.0}, .distance = 50.0, .direction = 2, .limits = kLimits}, kPeriod),
             ErrorId::none);
   double most = 0.0;
   for (int i = 0; i < 3000; ++i) {
-    shift.advance(step);
+    if (i == ticks_of_rest) {
+      leading.now.velocity = -0.2;
+      leading.acceleration = -400.0;
+    }
+    leading.tick();
+    shift.advance(leading.step());
     most = std::max(most, std::abs(shift.value().rounded()));
-    if (i == ticks_of_rest) step = way_from(0.0, -0.2, -400.0);
-    if (i > ticks_of_rest)
-      step = way_from(step.now.position.value, step.now.velocity, step.now.velocity < -100.0 ? 0.0 : -400.0);
   }
   EXPECT_EQ(shift.phase(), Shift::Phase::resting) << "it has not arrived";
   EXPECT_EQ(shift.value().rounded(), 8.0);
