@@ -330,8 +330,9 @@ bool SynchronousMotion::meets_cam_out(const Job& job, const Setpoint& last, cons
     // The least curved way to rest: its velocity is a cubic of the leading distance.
     const AxisPosition shifted = advanced(leading, phase_.value(), leading_modulo_);
     const CamPlace place = follow_.joined_at(shifted, sign(leading_step));
-    const double slope = sign(leading_step) * place.slope;
-    return heading * (0.5 * slope * distance + place.curvature * distance * distance / 12.0);
+    const double slope = heading * sign(leading_step) * place.slope;
+    const double curvature = without_turning_back(heading * place.curvature, slope, distance);
+    return 0.5 * slope * distance + curvature * distance * distance / 12.0;
   };
   const double before = braking(last, leading_last_.position);
   const double change = std::abs(step) + braking(candidate, leading_now_.position) - before;

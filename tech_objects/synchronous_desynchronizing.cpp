@@ -1,4 +1,5 @@
 // Out of a gear or cam to rest at a position: MC_GearOut, and what MC_CamOut shares with it.
+#include <algorithm>
 #include <cmath>
 
 #include "tech_objects/axis.hpp"
@@ -55,6 +56,13 @@ double SynchronousMotion::stopping_way(const Setpoint& from, int heading,
   return heading * profile.target().position;
 }
 
+/// The velocity of the least curved way to rest is (1 - u)² (s + (2 s + c) u), with the slope and the
+/// curvature at its beginning over the distance: it does not change its sign where c ≥ -3 s. What a function
+/// is bent beyond that the acceleration steps.
+double SynchronousMotion::without_turning_back(double curvature, double slope, double distance) noexcept {
+  return std::max(curvature, -3.0 * std::max(slope, 0.0) / distance);
+}
+
 void SynchronousMotion::begin_sync_out(const Setpoint& last) noexcept {
   way_ = Way::out;
   synchronous_ = false;
@@ -72,6 +80,9 @@ void SynchronousMotion::begin_sync_out(const Setpoint& last) noexcept {
     start.curvature = (last.acceleration - start.slope * direction_ * leading_last_.acceleration) /
                       (way_velocity * way_velocity);
   }
+  const double heading = out_way_ < 0.0 ? -1.0 : 1.0;
+  start.curvature =
+      heading * without_turning_back(heading * start.curvature, heading * start.slope, out_distance_);
   out_remainder_.set(start, out_distance_);
 }
 

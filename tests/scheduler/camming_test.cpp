@@ -723,6 +723,38 @@ TEST(MC_CamOut, BringsTheAxisToRestAtItsPosition) {
   }
 }
 
+/// Over a distance that is long against the cam's waves it would turn back and come from the other side.
+TEST(MC_CamOut, OverALongDistanceDoesNotTurnBackWithTheCam) {
+  CamPair rig(line, ring);
+  rig.in.Cam = &rig.cam("Staircase", {{0, 0}, {100, 200}}, 0);
+  auto& data = *static_cast<CamData1k*>(rig.in.Cam->data_block());
+  data.ValidPoint = {};
+  data.Segment[0] = {.xmin = 0.0, .xmax = 100.0, .a0 = 25.0, .a1 = 2.0};
+  data.Segment[0].sineAmplitude = -25.0;
+  data.Segment[0].sinePeriod = 0.02 * std::acos(-1.0);
+  data.Segment[0].sinePhase = 0.5 * std::acos(-1.0);
+  data.ValidSegment[0] = true;
+  CamInterpolator interpolator(kCamPoints);
+  ASSERT_EQ(rig.in.Cam->interpolate(interpolator), ErrorId::none);
+  rig.in.SyncProfileReference = 2;
+  rig.in.ApplicationMode = 2;
+  rig.in.SlaveScaling = -2.0;
+  rig.in.Execute = true;
+  rig.start_leading(60.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.in.InSync; }));
+  rig.run(300);
+  rig.out.SyncProfileReference = 1;
+  rig.out.SlavePosition = 10.0;
+  rig.out.MasterStopDistance = 200.0;
+  rig.out.SyncOutDirection = 2;
+  rig.out.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.out.StartSyncOut; }));
+  while (!rig.out.Done && !HasFailure()) {
+    rig.tick();
+    ASSERT_LE(rig.f.setpoint().velocity, 1e-6);
+  }
+}
+
 TEST(MC_CamOut, LeavesGearsAloneAndCancelsWhatWaits) {
   CamPair rig;
   rig.out.MasterStopDistance = 10.0;
