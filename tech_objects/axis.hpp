@@ -394,7 +394,9 @@ class Axis final : public LeadingObject {
   Dynamics superimposed_room() const noexcept;
   Dynamics left_by_base() const noexcept;
   Dynamics quick_enough(Dynamics room) noexcept;
+  Dynamics first_room() noexcept;
   void follow_room() noexcept;
+  void replan_stop() noexcept;
   void leave_to_superimposed(Dynamics& dynamics) noexcept;
   void step_superimposed() noexcept;
   void advance_superimposed() noexcept;
