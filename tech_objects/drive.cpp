@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "tech_objects/bool_tag.hpp"
 #include "tech_objects/decay.hpp"
 #include "tech_objects/encoder_source.hpp"
 
@@ -32,10 +33,6 @@ constexpr double kLongestStop = 10.0;
 
 /// Steps of the drive's own position loop in a servo cycle, at most.
 constexpr int kMostSteps = 256;
-
-bool is_on(const bool* cause) noexcept {
-  return cause != nullptr && *cause;
-}
 
 }  // namespace
 

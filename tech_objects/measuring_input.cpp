@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tech_objects/bool_tag.hpp"
 #include "tech_objects/external_encoder.hpp"
 #include "tech_objects/object_alarms.hpp"
 #include "tech_objects/object_bits.hpp"
@@ -87,7 +88,7 @@ Edges MeasuringInput::edges() noexcept {
   const DoubleDouble to = encoder_ != nullptr ? encoder_->true_line() : load_.line();
   Edges seen;
   if (!marks) {
-    const bool level = data.Interface.Address != nullptr && *data.Interface.Address;
+    const bool level = is_on(data.Interface.Address);
     if (begun)
       probe_.sample(level, seen);
     else
