@@ -564,6 +564,7 @@ class Axis final : public LeadingObject {
   bool several_encoders_ = false;  // there are others
   bool drive_running_ = false;
   double xerr_ = 0.0;  // control difference for the position loop of the drive [u]
+  double pace_ = 0.0;  // velocity of what that loop is to follow [u/s]
   std::array<Encoder, kSensors> encoders_;
   FirstOrderLag smoothing_;  // of what MC_SetSensor has changed
   SimulatedDrive drive_;
