@@ -23,6 +23,8 @@ TEST(FollowingErrorMonitoring, RemovesTheEnableWhenADriveDoesNotFollow) {
   rig.run_a.Velocity = 700.0;
   rig.run_a.Execute = true;
   rig.continuity[1].velocity = false;  // the setpoint follows the drive that runs out
+  EXPECT_EQ(find_alarm(alarm::kFollowingErrorWarning)->warning_bit,
+            static_cast<int>(WarningBit::FollowingErrorWarning));
   bool warned = false;
   double greatest = 0.0;
   double velocity = 0.0;

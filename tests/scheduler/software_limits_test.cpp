@@ -200,6 +200,45 @@ TEST(SoftwareLimits, OfAnAxisThatStandsOutsideAreWhereItStandsUntilItIsBackInsid
   EXPECT_EQ(rig.position(), 100.0);
 }
 
+/// A program may write them in any order, or wrongly.
+TEST(SoftwareLimits, ThatContradictEachOtherStopTheAxisWithAlarm104) {
+  for (const bool homed : {true, false}) {
+    Limited rig;
+    if (!homed) {
+      rig.reset.Restart = true;
+      rig.power.Enable = false;
+      rig.run(50);
+      rig.acknowledge();
+      rig.power.Enable = true;
+      rig.run(10);
+    }
+    rig.run_a.Velocity = 20.0;
+    rig.run_a.Execute = true;
+    rig.run(100);
+    rig.a.data.PositionLimits_SW.MinPosition = 50.0;
+    rig.a.data.PositionLimits_SW.MaxPosition = 50.0;
+    rig.run(1);
+    EXPECT_EQ(rig.a.pending_alarm(), 0) << "no way is left, but nothing contradicts";
+    rig.a.data.PositionLimits_SW.MinPosition = 60.0;
+    rig.run(200);
+    EXPECT_EQ(rig.a.pending_alarm(), alarm::kSoftwareLimits);
+    EXPECT_EQ(rig.a.data.ErrorDetail.Reaction, 2);
+    EXPECT_TRUE(rig.run_a.Error);
+    EXPECT_TRUE(rig.a.setpoint().standing());
+    rig.reset.Restart = false;
+    rig.acknowledge();
+    EXPECT_EQ(rig.a.pending_alarm(), alarm::kSoftwareLimits) << "its cause is still there";
+    rig.a.data.PositionLimits_SW.MinPosition = -100.0;
+    rig.a.data.PositionLimits_SW.MaxPosition = 100.0;
+    rig.acknowledge();
+    EXPECT_EQ(rig.a.pending_alarm(), 0);
+    rig.jog.Velocity = 10.0;
+    rig.jog.JogForward = true;
+    rig.run(100);
+    EXPECT_FALSE(rig.a.setpoint().standing());
+  }
+}
+
 struct Passed {
   DINT behavior;
   DINT reaction;
