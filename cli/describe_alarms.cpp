@@ -47,6 +47,7 @@ nlohmann::ordered_json alarm_json(const Alarm& alarm) {
                               {"class", class_name(alarm.alarm_class)}};
   if (alarm.error_bit >= 0) json["error_bit"] = alarm.error_bit;
   if (alarm.warning_bit >= 0) json["warning_bit"] = alarm.warning_bit;
+  if (!alarm.not_raised.empty()) json["not_raised"] = alarm.not_raised;
   return json;
 }
 
@@ -56,6 +57,7 @@ std::string alarm_text(const Alarm& alarm, std::size_t width) {
   table.row({"Shown in", "ErrorDetail.Number, ErrorDetail.Reaction" +
                              (bit_text(alarm).empty() ? "" : ", " + bit_text(alarm))});
   table.row({"Class", std::string(class_text(alarm.alarm_class))});
+  if (!alarm.not_raised.empty()) table.row({"Never raised", std::string(alarm.not_raised)});
   return "Alarm " + std::to_string(alarm.number) + "\n" + paragraph(alarm.text, 2, width) + "\n" +
          table.text(2, width);
 }

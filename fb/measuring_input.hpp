@@ -33,7 +33,8 @@ constexpr Pin range_end() {
 /// Measures the position at one edge or at two.
 /// @source S7-1500/S7-1500T measuring input and output cam functions, MC_MeasuringInput
 /// @errors 16#800A Mode; 16#8016 actual values invalid; 16#80A2 range passed without edge, or unfit for the
-/// ring; 16#80A5, 16#80A6 range; 16#80A7 edge outside the range
+/// ring; 16#80A3 a homing looks for its mark, with measuring by telegram; 16#80A5, 16#80A6 range; 16#80A7
+/// edge outside the range
 struct MC_MeasuringInput final : ExecuteBlock {
   lockstep::MeasuringInput* MeasuringInput{};
   DINT Mode{};

@@ -145,6 +145,7 @@ struct Alarm {
   int error_bit;    ///< bit of ErrorWord; -1: none
   int warning_bit;  ///< bit of WarningWord; -1: none
   AlarmClass alarm_class;
+  std::string_view not_raised{};  ///< why nothing raises it here; empty: something does
 };
 
 /// The alarm with a number; nullptr if there is none.
@@ -153,6 +154,7 @@ std::span<const Alarm> alarms() noexcept;
 
 /// Numbers of the alarms that the runtime raises.
 namespace alarm {
+inline constexpr int kSoftwareLimits = 104;
 inline constexpr int kVelocityLimitZero = 304;
 inline constexpr int kAccelerationLimitZero = 305;
 inline constexpr int kPositionRangeExceeded = 308;

@@ -394,7 +394,9 @@ class Axis final : public LeadingObject {
   Dynamics superimposed_room() const noexcept;
   Dynamics left_by_base() const noexcept;
   Dynamics quick_enough(Dynamics room) noexcept;
+  Dynamics first_room() noexcept;
   void follow_room() noexcept;
+  void replan_stop() noexcept;
   void leave_to_superimposed(Dynamics& dynamics) noexcept;
   void step_superimposed() noexcept;
   void advance_superimposed() noexcept;
@@ -562,6 +564,7 @@ class Axis final : public LeadingObject {
   bool several_encoders_ = false;  // there are others
   bool drive_running_ = false;
   double xerr_ = 0.0;  // control difference for the position loop of the drive [u]
+  double pace_ = 0.0;  // velocity of what that loop is to follow [u/s]
   std::array<Encoder, kSensors> encoders_;
   FirstOrderLag smoothing_;  // of what MC_SetSensor has changed
   SimulatedDrive drive_;

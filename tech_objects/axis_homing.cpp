@@ -68,7 +68,8 @@ HomeSwitch Axis::home_switch(bool active) const noexcept {
 }
 
 void Axis::home(Job& job) noexcept {
-  switch (class_of(job, true)) {
+  const JobClass kind = class_of(job, true);
+  switch (kind) {
     case JobClass::home_cancel:  // the override rules have ended what it ends
       job.phase = JobPhase::done;
       break;
@@ -82,6 +83,7 @@ void Axis::home(Job& job) noexcept {
       home_directly(job);
       break;
   }
+  if (kind != JobClass::home_direct && job.phase != JobPhase::failed) ++homings_;
 }
 
 // ---- Direct homing and encoder adjustment

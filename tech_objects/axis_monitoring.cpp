@@ -87,11 +87,13 @@ Axis::PositionLimits Axis::position_limits() const noexcept {
 /// Each cycle in which the limits are active, after the setpoint has been made: where the next one could no
 /// longer stop in front of a limit, the axis has to brake from the last one on.
 void Axis::watch_position_limits() noexcept {
-  if (!homed_) {
+  const PositionLimits limits = position_limits();
+  const bool contradict = limits.least > limits.greatest;  // a program may have written them
+  if (contradict) raise(alarm::kSoftwareLimits);
+  if (!homed_ || contradict) {
     limit_side_ = 0;
     return;
   }
-  const PositionLimits limits = position_limits();
   // A setpoint that has just been taken up does not come out of the last one.
   const bool controlled = power_state_ == PowerState::on || power_state_ == PowerState::braking;
   const bool generated = controlled && was_controlled_;

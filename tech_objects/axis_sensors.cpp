@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tech_objects/axis.hpp"
+#include "tech_objects/bool_tag.hpp"
 #include "tech_objects/encoder_source.hpp"
 
 namespace lockstep {
@@ -15,10 +16,6 @@ enum SensorMode : DINT {
   kCopyFromAxis,       // no switch-over
   kCopyFromReference,  // no switch-over
 };
-
-bool is_on(const bool* cause) noexcept {
-  return cause != nullptr && *cause;
-}
 
 }  // namespace
 

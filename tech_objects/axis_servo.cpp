@@ -125,6 +125,7 @@ void Axis::servo() noexcept {
     drive_.write_position({.velocity = setpoint_sign_ * data.VelocitySetpoint,
                            .xerr = setpoint_sign_ * xerr_,
                            .kpc = data.PositionControl.Kv,
+                           .pace = setpoint_sign_ * pace_,
                            .most = control_settings().max_velocity});
   else
     drive_.write(setpoint_sign_ * data.VelocitySetpoint);
@@ -166,10 +167,14 @@ void Axis::control_position() noexcept {
     const double precontrol = 0.01 * settings.kpc * velocity;
     data.VelocitySetpoint = std::clamp(precontrol, -settings.max_velocity, settings.max_velocity);
     xerr_ = controlled.xerr;
+    pace_ = velocity;
   }
-  if (passes_backlash())
+  if (passes_backlash()) {
+    const double passing = pass_backlash();
     data.VelocitySetpoint =
-        std::clamp(data.VelocitySetpoint + pass_backlash(), -settings.max_velocity, settings.max_velocity);
+        std::clamp(data.VelocitySetpoint + passing, -settings.max_velocity, settings.max_velocity);
+    pace_ += passing;
+  }
   data.StatusServo.BalancedPosition = controlled.balanced.value;
   data.StatusServo.ControlDifference = controlled.control_difference;
   data.StatusPositioning.FollowingError = controlled.control_difference - smoothed;

@@ -13,9 +13,14 @@ double rest_of(double limit, double used) noexcept {
   return std::max(limit - used, 0.0);
 }
 
-Dynamics half(const Dynamics& whole) noexcept {
-  const double acceleration = 0.5 * std::min(whole.acceleration, whole.deceleration);
-  return {whole.velocity, acceleration, acceleration, 0.5 * whole.jerk};
+/// What a superimposed motion that comes to rest is left at least of the limits, and what it is given if the
+/// base motion leaves it less.
+constexpr double kLeastPart = 0.1;
+constexpr double kHalf = 0.5;
+
+Dynamics part_of(const Dynamics& whole, double part) noexcept {
+  const double acceleration = part * std::min(whole.acceleration, whole.deceleration);
+  return {whole.velocity, acceleration, acceleration, part * whole.jerk};
 }
 
 /// What is wanted, but no more than there is; a jerk of 0 is none that limits.
@@ -68,21 +73,36 @@ ErrorId Axis::begin_superimposed_part(Job& job) noexcept {
   superimposed_wanted_.velocity = job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity;
   const bool halts = job.kind == JobKind::MC_HaltSuperimposed;
   if (halts) superimposed_wanted_.velocity = velocity_limit();
-  superimposed_room_ = superimposed_room();
-  Dynamics room = superimposed_room_;
-  if (!superimposed_.resting() && (room.acceleration <= 0.0 || room.deceleration <= 0.0)) {
-    // The base motion leaves nothing, at least of the jerk, but this has to brake all the same: by what its
-    // profile has had until now. Values that were given had no room of their own: half of the limits, and the
-    // base motion is planned anew with the other half.
-    const bool planned = superimposed_.planned();
-    room = braking(superimposed_wanted_, planned ? superimposed_.dynamics() : half(maximum_dynamics()),
-                   room.velocity);
-    if (!planned) planned_override_ = std::numeric_limits<double>::quiet_NaN();
-  }
-  room = quick_enough(room);
+  const Dynamics room = quick_enough(first_room());
   const PlanResult result =
       halts ? superimposed_.stop(room, job.abort_acceleration) : superimposed_.move_by(job.position, room);
   return result == PlanResult::ok ? ErrorId::none : ErrorId::unspecified;
+}
+
+/// Dynamic values with which a superimposed motion begins. One that is under way has to brake even if the
+/// base motion leaves nothing, at least of the jerk: by what its profile has had until now. Values that were
+/// given had no room of their own: if there is next to none, half of the limits, and the base motion is
+/// planned anew with the other half, which gives way no faster than its own jerk.
+Dynamics Axis::first_room() noexcept {
+  superimposed_room_ = superimposed_room();
+  const Dynamics& room = superimposed_room_;
+  if (superimposed_.resting()) return room;
+  if (superimposed_.planned()) {
+    if (room.acceleration > 0.0 && room.deceleration > 0.0) return room;
+    return braking(superimposed_wanted_, superimposed_.dynamics(), room.velocity);
+  }
+  const Dynamics most = maximum_dynamics();
+  const Dynamics least = braking(superimposed_wanted_, part_of(most, kLeastPart), room.velocity);
+  const bool enough = room.acceleration >= least.acceleration && room.deceleration >= least.deceleration &&
+                      (room.jerk <= 0.0 || room.jerk >= least.jerk);
+  if (enough) return room;
+  Dynamics share = braking(superimposed_wanted_, part_of(most, kHalf), room.velocity);
+  const double jerk = single_.dynamics().jerk;
+  if (jerk > 0.0) share.jerk = std::min(share.jerk, jerk);
+  superimposed_.cut_acceleration(
+      rest_of(std::min(most.acceleration, most.deceleration), std::abs(base_.acceleration)));
+  planned_override_ = std::numeric_limits<double>::quiet_NaN();
+  return share;
 }
 
 /// A motion that goes on without position control goes on from where the axis is.
@@ -169,6 +189,23 @@ void Axis::leave_to_superimposed(Dynamics& dynamics) noexcept {
   base_curbed_ |= dynamics != whole;
 }
 
+/// A halt, or a stop for which no job asks any more, makes room as other base motions do, but does not turn
+/// back: where it runs its deceleration down already, it keeps the jerk that it needs for that.
+void Axis::replan_stop() noexcept {
+  Job* const job = running_[kBase];
+  if (job != nullptr && job->kind != JobKind::MC_Halt) return;
+  remember_limits();
+  if (motion_ != Motion::single_axis || single_.aim() != SingleAxisMotion::Aim::stand || single_.finished())
+    return;
+  const double jerk = single_.dynamics().jerk;
+  Dynamics dynamics = job != nullptr ? own_dynamics(*job) : single_.dynamics();
+  leave_to_superimposed(dynamics);
+  const double v = setpoint_.velocity, a = setpoint_.acceleration;
+  if (dynamics.jerk > 0.0 && a * v < 0.0)
+    dynamics.jerk = std::max(dynamics.jerk, std::min(jerk, a * a / (2.0 * std::abs(v))));
+  static_cast<void>(single_.stop(setpoint_, dynamics, false));  // else it goes on as it is
+}
+
 // ---- One cycle
 // --------------------------------------------------------------------------------------------------
 
@@ -177,6 +214,7 @@ void Axis::step_superimposed() noexcept {
   advance_superimposed();
   setpoint_ = base_;
   advancing_base_ = true;
+  if (std::isnan(planned_override_)) replan_stop();
   step_base();
   if (advancing_base_) add_superimposed();
   if (!superimposed_.in_use()) return;
@@ -221,7 +259,8 @@ void Axis::follow_given_superimposed(Job& job) noexcept {
   if (job.input_error != ErrorId::none) {
     end_job(kSuperimposed, JobPhase::failed, job.input_error);
     superimposed_.cut_acceleration(maximum_dynamics().acceleration);
-    if (superimposed_.stop(maximum_dynamics(), true) != PlanResult::ok) superimposed_.rest();
+    superimposed_wanted_ = maximum_dynamics();
+    if (superimposed_.stop(first_room(), true) != PlanResult::ok) superimposed_.rest();
     return superimposed_.advance();
   }
   if (!job.hold) {

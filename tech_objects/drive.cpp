@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "tech_objects/bool_tag.hpp"
 #include "tech_objects/decay.hpp"
 #include "tech_objects/encoder_source.hpp"
 
@@ -32,10 +33,6 @@ constexpr double kLongestStop = 10.0;
 
 /// Steps of the drive's own position loop in a servo cycle, at most.
 constexpr int kMostSteps = 256;
-
-bool is_on(const bool* cause) noexcept {
-  return cause != nullptr && *cause;
-}
 
 }  // namespace
 
@@ -110,13 +107,14 @@ void SimulatedDrive::write(double velocity) noexcept {
 }
 
 void SimulatedDrive::write_position(const PositionCommand& command) noexcept {
-  next_target_ = {reported_ + command.xerr, command.kpc, command.most};
+  next_target_ = {reported_ + command.xerr, command.kpc, command.pace, command.most};
   loop_cycles_ = kDelay;
   write(command.velocity);
 }
 
 /// The position loop of the drive: in steps of its own, with the position of each of them. Between two
-/// commands the target goes on with the velocity that is told with it.
+/// commands the target goes on with its own velocity, however much of that is precontrolled: one that stood
+/// would make the velocity rise and fall with each of them.
 void SimulatedDrive::run_position_loop() noexcept {
   targets_[kept(cycle_)] = states_.operation() ? next_target_ : Target{};
   next_target_ = {};
@@ -129,7 +127,7 @@ void SimulatedDrive::run_position_loop() noexcept {
     double velocity = written_[slot];
     if (target.kpc > 0.0) {
       const double age = newer ? since : since + servo_cycle_;
-      const double difference = (target.position - position_).rounded() + velocity * age;
+      const double difference = (target.position - position_).rounded() + target.pace * age;
       velocity = std::clamp(velocity + target.kpc * difference, -target.most, target.most);
     }
     run(step_, velocity);

@@ -38,6 +38,9 @@ struct PositionCommand {
   double velocity = 0.0;  ///< [u/s] NSOLL_B, the precontrol
   double xerr = 0.0;      ///< [u] XERR, control difference at the position that has been read in this cycle
   double kpc = 0.0;       ///< [1/s] KPC; 0: velocity counts alone
+  /// [u/s] At which what XERR refers to goes on until the next command. The telegram has no word for it: a
+  /// drive takes it from one XERR to the next.
+  double pace = 0.0;
   double most = std::numeric_limits<double>::infinity();  ///< [u/s] > 0, limit of the velocity
 };
 
@@ -141,6 +144,7 @@ class SimulatedDrive final : public Drive {
   struct Target {
     DoubleDouble position;  // [u]
     double kpc = 0.0;       // [1/s]; 0: the velocity counts alone
+    double pace = 0.0;      // [u/s]
     double most = 0.0;      // [u/s]
   };
   static Piece piece(double duration, double time_constant) noexcept;

@@ -174,6 +174,7 @@ ErrorId ExternalEncoder::home(Job& job) noexcept {
   const JobClass kind = class_of(job, true);
   if (kind == JobClass::home_cancel) {
     end_passive_homing(JobPhase::aborted, ErrorId::none);
+    ++homings_;
     return ErrorId::none;
   }
   if (!actual_values_valid()) return ErrorId::actual_values_invalid;
@@ -202,6 +203,7 @@ ErrorId ExternalEncoder::begin_passive_homing(Job& job) noexcept {
     return ErrorId::technology_alarm;
   }
   end_passive_homing(JobPhase::aborted, ErrorId::none);
+  ++homings_;
   passive_ = &job;
   job.phase = JobPhase::active;
   if (job.mode != 2) homed_ = false;

@@ -72,6 +72,9 @@ class LeadingObject : public TechnologyObject {
   const void* telegram_probe = nullptr;
   /// By how much homing has changed the names of positions since the start [u].
   DoubleDouble renamed() const noexcept { return renamed_; }
+  /// Jobs of MC_Home so far that end what measures here: those that look for a mark, and mode 9.
+  /// @source S7-1500T synchronous operation V7, 12.3.3
+  std::uint32_t homings() const noexcept { return homings_; }
   /// Restarts since the start.
   std::uint32_t restarts() const noexcept { return restarts_; }
 
@@ -106,6 +109,7 @@ class LeadingObject : public TechnologyObject {
   PowerState power_state_ = PowerState::off;
   bool enable_removed_ = false;
   std::uint32_t restarts_ = 0;
+  std::uint32_t homings_ = 0;
 
  private:
   bool leads_by_actual_value_ = false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tech_objects/bool_tag.hpp"
 #include "tech_objects/external_encoder.hpp"
 #include "tech_objects/object_alarms.hpp"
 #include "tech_objects/object_bits.hpp"
@@ -67,7 +68,8 @@ void MeasuringInput::servo() noexcept {
     raise_alarm(alarm::kPositionInvalid, ProcessingEnd::measuring_input, *this, data);
     end_in_error(ErrorId::technology_alarm);
   }
-  if (job_ != nullptr && by_telegram()) watch_homing();
+  if (job_ != nullptr && homings_ != measured->homings()) abort();
+  homings_ = measured->homings();
   if (job_ != nullptr) {
     if (cyclic(*job_))
       measure_cyclically(seen);
@@ -87,7 +89,7 @@ Edges MeasuringInput::edges() noexcept {
   const DoubleDouble to = encoder_ != nullptr ? encoder_->true_line() : load_.line();
   Edges seen;
   if (!marks) {
-    const bool level = data.Interface.Address != nullptr && *data.Interface.Address;
+    const bool level = is_on(data.Interface.Address);
     if (begun)
       probe_.sample(level, seen);
     else
@@ -263,8 +265,7 @@ void MeasuringInput::start(Job& job) noexcept {
     return;
   }
   if (job.kind == JobKind::MC_AbortMeasuringInput) {
-    end(JobPhase::aborted, ErrorId::none);
-    data.Status = kNoMeasurement;
+    abort();
     job.phase = JobPhase::done;
     return;
   }
@@ -299,7 +300,10 @@ ErrorId MeasuringInput::begin(Job& job) noexcept {
 ErrorId MeasuringInput::take_telegram(const Job& job) noexcept {
   if (!measured->measured_in_servo()) return refuse(alarm::kProbeConfiguration);
   if (cyclic(job)) return refuse(alarm::kMeasuringNotPossible);
-  if (measured->homing()) return ErrorId::measuring_while_homing;
+  if (measured->homing()) {
+    refuse(alarm::kMeasuringWhileHoming);
+    return ErrorId::measuring_while_homing;
+  }
   const void* const in_use = measured->telegram_probe;
   if (in_use != nullptr && in_use != this) return refuse(alarm::kProbeInUse);
   return ErrorId::none;
@@ -309,12 +313,6 @@ ErrorId MeasuringInput::refuse(int alarm_number) noexcept {
   raise_alarm(alarm_number, ProcessingEnd::measuring_input, *this, data);
   end_in_error(ErrorId::technology_alarm);
   return ErrorId::technology_alarm;
-}
-
-void MeasuringInput::watch_homing() noexcept {
-  if (!measured->homing()) return;
-  raise_alarm(alarm::kMeasuringWhileHoming, ProcessingEnd::measuring_input, *this, data);
-  end_in_error(ErrorId::measuring_while_homing);
 }
 
 /// Values come over the telegram, which takes its time.
@@ -329,6 +327,12 @@ void MeasuringInput::end(JobPhase phase, ErrorId error) noexcept {
   job_->error = error;
   job_ = nullptr;
   if (measured->telegram_probe == this) measured->telegram_probe = nullptr;
+}
+
+/// By MC_AbortMeasuringInput, or a homing.
+void MeasuringInput::abort() noexcept {
+  end(JobPhase::aborted, ErrorId::none);
+  data.Status = kNoMeasurement;
 }
 
 void MeasuringInput::end_in_error(ErrorId error) noexcept {

@@ -61,10 +61,10 @@ class MeasuringInput final : public TechnologyObject {
   bool by_telegram() const noexcept { return data.Parameter.MeasuringInputType == 1; }
   ErrorId take_telegram(const Job& job) noexcept;
   ErrorId refuse(int alarm_number) noexcept;
-  void watch_homing() noexcept;
   bool may_tell() const noexcept;
   void reset(bool restart) noexcept;
   void end(JobPhase phase, ErrorId error) noexcept;
+  void abort() noexcept;
   void end_in_error(ErrorId error) noexcept;
   Edges edges() noexcept;
   double position_at(double age) const noexcept;
@@ -88,6 +88,7 @@ class MeasuringInput final : public TechnologyObject {
   ProbeSignal probe_;
   NewJobs new_jobs_;
   std::uint32_t restarts_ = 0;  // of what is measured
+  std::uint32_t homings_ = 0;   // there, that end what measures
   Job* job_ = nullptr;          // that measures
   int captured_ = 0;            // values of a one-time job
   bool first_rising_ = false;   // edge of its first value

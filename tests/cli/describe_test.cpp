@@ -164,6 +164,8 @@ TEST(Describe, TellsEveryAlarmAndError) {
   EXPECT_EQ(described({"errors"})["errors"].size(), error_texts().size());
   EXPECT_EQ(described({"608"})["text"], find_alarm(608)->text);
   EXPECT_EQ(described({"608"})["reaction"], find_alarm(608)->reaction);
+  EXPECT_FALSE(described({"608"}).contains("not_raised"));
+  EXPECT_EQ(described({"701"})["not_raised"], find_alarm(701)->not_raised);
   EXPECT_EQ(described({"16#8026"})["text"], error_text(ErrorId::leading_distance));
   EXPECT_EQ(described({"0x8026"}), described({"32806"}));
   const json pins = described({"16#8026"})["pins"];

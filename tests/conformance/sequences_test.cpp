@@ -40,6 +40,7 @@ class Sequence {
     for (int i = 0; i < kActions && bench_.first_fault.empty(); ++i) {
       act();
       for (int wait = pick(25); wait >= 0; --wait) tick();
+      expect_no_function_where_none_is_declared();
     }
     finish();
     if (bench_.allocations != 0) bench_.fault("memory was allocated or released in the cycle");
@@ -165,6 +166,17 @@ class Sequence {
 
   /// Disabled, both axes come to rest and no block is left with a running job, unless a simulated synchronous
   /// motion outlives the enable.
+  /// A variable whose function is declared to be missing keeps its start value.
+  void expect_no_function_where_none_is_declared() {
+    for (const Variable& variable : data_block_of(bench_.following.kind).status) {
+      if (!variable.later) continue;
+      const VariablePlace place{&variable, variable.offset};
+      const Value value = place.signal(&bench_.following.data).load();
+      if (as_double(value, variable.type) != as_double(variable.start_value(), variable.type))
+        bench_.fault(std::string(variable.path) + " has a function");
+    }
+  }
+
   void finish() {
     for (const auto* subjects : {&following_, &leading_})
       for (Subject* subject : *subjects)

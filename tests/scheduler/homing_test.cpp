@@ -439,6 +439,18 @@ TEST(PassiveHoming, FindsTheEdgeOfTheConfiguredSide) {
   }
 }
 
+TEST(PassiveHoming, OfAMarkBehindWhichNoPositionIsLeftEndsWithAlarm323) {
+  Machine machine;
+  machine.continuity[0].velocity = false;   // without enable the setpoint follows the coasting drive
+  machine.start(machine.passive, 8, 1e12);  // where the mark is; the axis is beyond it when it is known
+  EXPECT_TRUE(machine.passive.Busy);
+  machine.run_at.Velocity = 100.0;
+  machine.run_at.Execute = true;
+  ASSERT_TRUE(machine.run_until([&] { return !machine.passive.Busy; }, 2000));
+  EXPECT_EQ(machine.slide.pending_alarm(), alarm::kHomingNotPossible);
+  EXPECT_EQ(machine.passive.ErrorID, static_cast<WORD>(ErrorId::technology_alarm));
+}
+
 TEST(PassiveHoming, IsEndedByModeNineAndReplacedByAnother) {
   Machine machine;
   machine.start(machine.passive, 8);

@@ -394,6 +394,7 @@ struct Telegram : Rig {
         passive(block<MC_Home>()),
         reset(block<MC_Reset>()) {
     c.drive_settings.signals.zero_marks = ZeroMarks{1e6, 0.0};
+    c.drive_settings.faults.encoder = &encoder_fails;
     power.Axis = passive.Axis = &c;
     once.MeasuringInput = cyclic.MeasuringInput = &input;
     at_second.MeasuringInput = &second;
@@ -425,6 +426,7 @@ struct Telegram : Rig {
   }
 
   bool level = false;
+  bool encoder_fails = false;
   Axis& c;
   MeasuringInput& input;
   MeasuringInput& second;
@@ -474,7 +476,7 @@ TEST(MeasuringByTelegram, IsOneJobAtATimeForAnEncoder) {
   EXPECT_TRUE(rig.once.Busy) << "the telegram is free again";
 }
 
-TEST(MeasuringByTelegram, AndHomingExcludeEachOther) {
+TEST(MeasuringByTelegram, EndsWhenAHomingBeginsAndDoesNotBeginWhileOneLooksForItsMark) {
   Telegram rig;
   rig.once.Execute = true;
   rig.run(3);
@@ -482,12 +484,43 @@ TEST(MeasuringByTelegram, AndHomingExcludeEachOther) {
   rig.passive.Execute = true;
   rig.run(3);
   ASSERT_TRUE(rig.passive.Busy);
-  EXPECT_EQ(rig.once.ErrorID, static_cast<WORD>(ErrorId::measuring_while_homing));
-  EXPECT_EQ(rig.input.data.ErrorDetail.Number, static_cast<UDINT>(alarm::kMeasuringWhileHoming));
+  EXPECT_TRUE(rig.once.CommandAborted);
+  EXPECT_EQ(rig.input.data.Status, 0);
+  EXPECT_EQ(rig.input.data.ErrorDetail.Number, 0u);
   rig.at_second.Execute = true;
   rig.run(3);
   EXPECT_EQ(rig.at_second.ErrorID, static_cast<WORD>(ErrorId::measuring_while_homing));
-  EXPECT_EQ(rig.second.data.ErrorDetail.Number, 0u) << "a rejected job needs no acknowledgement";
+  EXPECT_EQ(rig.second.data.ErrorDetail.Number, static_cast<UDINT>(alarm::kMeasuringWhileHoming));
+}
+
+/// Mode 9 begins no homing, and ends what measures all the same.
+TEST(MeasuringByTelegram, EndsByTheModeThatEndsPassiveHoming) {
+  Telegram rig;
+  rig.once.Execute = true;
+  rig.run(3);
+  ASSERT_TRUE(rig.once.Busy);
+  rig.passive.Mode = 9;
+  rig.passive.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.passive.Done);
+  EXPECT_TRUE(rig.once.CommandAborted);
+  rig.at_second.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.at_second.Busy) << "the words of the telegram are free";
+}
+
+TEST(MeasuringByTelegram, EndsWithAlarm702WhenThePositionIsLost) {
+  Telegram rig;
+  rig.once.Execute = true;
+  rig.run(3);
+  ASSERT_TRUE(rig.once.Busy);
+  rig.encoder_fails = true;
+  rig.run(3);
+  EXPECT_EQ(rig.input.data.ErrorDetail.Number, static_cast<UDINT>(alarm::kPositionInvalid));
+  EXPECT_EQ(rig.once.ErrorID, static_cast<WORD>(ErrorId::technology_alarm));
+  rig.at_second.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.at_second.ErrorID, static_cast<WORD>(ErrorId::actual_values_invalid));
 }
 
 TEST(MeasuringByTelegram, IsNeitherCyclicNorPossibleWithoutADrive) {

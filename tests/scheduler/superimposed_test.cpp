@@ -11,6 +11,7 @@
 #include "fb/home.hpp"
 #include "fb/jog.hpp"
 #include "fb/leading_value.hpp"
+#include "fb/motion_in.hpp"
 #include "fb/move.hpp"
 #include "fb/offset.hpp"
 #include "fb/power.hpp"
@@ -496,6 +497,178 @@ TEST(MC_HaltSuperimposed, IsLeftHalfOfTheAccelerationBehindValuesThatWereGiven) 
   halt_beside_a_hard_base_motion(m);
   ASSERT_TRUE(m.run_until([&] { return m.run_velocity.InVelocity; }));
   EXPECT_EQ(m.velocity(), 500.0);
+}
+
+TEST(MC_HaltSuperimposed, TakesWhatABaseMotionLeavesOfWhichItTakesNothing) {
+  Machine m, without;
+  for (Machine* machine : {&m, &without}) {
+    machine->continuity[1] = {false, false, 5000.0, 100000.0};
+    machine->relative.Distance = 300.0;
+    machine->relative.Velocity = 400.0;
+    machine->relative.Acceleration = machine->relative.Deceleration = 4000.0;
+    machine->relative.Jerk = 80000.0;
+    machine->relative.Execute = true;
+  }
+  m.given.Enable = true;
+  m.given.VelocityDiff = 40.0;
+  int moving = 0;
+  for (int i = 0; i < 1500; ++i) {
+    if (i < 100) m.given.Distance = 0.04 * (i + 1);
+    if (i == 100) m.halt_superimposed.Execute = true;
+    m.tick();
+    without.tick();
+    if (i < 102 || m.relative.Done) continue;  // when both are complete, they are one
+    ASSERT_NEAR(m.position() - without.position(), m.superimposed(), 1e-9) << i;
+    moving += m.halt_superimposed.Busy;
+  }
+  EXPECT_GT(moving, 40) << "40 u/s with 1000 u/s²";
+  EXPECT_TRUE(m.relative.Done);
+}
+
+/// A halt from full velocity with all of the limits, and values that are given on top of it.
+void give_on_a_halt(Machine& m, double velocity) {
+  m.run_at(500.0);
+  m.continuity[1] = {false, false, 5000.0, 100000.0};
+  m.halt.Deceleration = 5000.0;
+  m.halt.Jerk = 100000.0;
+  m.halt.Execute = true;
+  m.given.Enable = true;
+  m.given.VelocityDiff = velocity;
+  for (int i = 1; i <= 60; ++i) {
+    m.given.Distance = 0.001 * velocity * i;
+    m.tick();
+  }
+  ASSERT_TRUE(m.given.Busy);
+  ASSERT_TRUE(m.halt.Busy);
+}
+
+TEST(MC_HaltSuperimposed, IsLeftHalfOfTheAccelerationByAHaltToo) {
+  Machine m;
+  give_on_a_halt(m, 40.0);
+  m.halt_superimposed.Deceleration = 5000.0;
+  m.halt_superimposed.Jerk = 100000.0;
+  halt_beside_a_hard_base_motion(m);
+  m.halt_superimposed.Execute = false;
+  double last = m.position();
+  ASSERT_TRUE(m.run_until([&] {
+    EXPECT_GE(m.position(), last) << "a halt does not turn back";
+    last = m.position();
+    return m.halt.Done;
+  }));
+}
+
+TEST(MC_HaltSuperimposed, LeavesTheEndOfAHaltItsJerkSoThatItDoesNotTurnBack) {
+  Machine m;
+  give_on_a_halt(m, 40.0);
+  ASSERT_TRUE(m.run_until([&] { return std::abs(m.axis_.data.Acceleration) < 4000.0; }));
+  const double rest = m.velocity() - 40.0;  // of the halt, which runs its deceleration down
+  EXPECT_NEAR(rest, 0.5 * 4000.0 * 4000.0 / 100000.0, 5.0);
+  m.halt_superimposed.Deceleration = 5000.0;
+  m.halt_superimposed.Jerk = 100000.0;
+  m.halt_superimposed.Execute = true;
+  double last = m.position();
+  ASSERT_TRUE(m.run_until([&] {
+    EXPECT_LE(std::abs(m.axis_.data.Acceleration), 5000.0 * (1 + 1e-12));
+    EXPECT_GE(m.position(), last);
+    last = m.position();
+    return m.halt.Done && m.halt_superimposed.Done;
+  }));
+}
+
+TEST(MC_HaltSuperimposed, IsLeftHalfByAStopThatNoJobAsksForAnyMore) {
+  Machine m;
+  MC_MotionInVelocity& base = m.block<MC_MotionInVelocity>();
+  base.Axis = &m.axis_;
+  m.continuity[1] = {false, false, 5000.0, 100000.0};
+  base.Velocity = 500.0;
+  base.Enable = true;
+  m.run(5);
+  base.Velocity = kNaN;  // which stops it with maximum dynamics
+  m.run(2);
+  m.given.Enable = true;
+  m.given.VelocityDiff = 40.0;
+  for (int i = 1; i <= 60; ++i) {
+    m.given.Distance = 0.04 * i;
+    m.tick();
+  }
+  ASSERT_TRUE(base.Error);
+  halt_beside_a_hard_base_motion(m);
+}
+
+TEST(MC_MotionInSuperimposed, StopsOnAValueThatIsNoneWithWhatTheBaseMotionLeaves) {
+  for (const bool halts : {true, false}) {
+    Machine m;
+    if (halts) {
+      give_on_a_halt(m, 40.0);
+    } else {
+      m.continuity[1] = {false, false, 5000.0, 100000.0};
+      m.run_velocity.Velocity = 500.0;
+      m.run_velocity.Acceleration = 5000.0;
+      m.run_velocity.Jerk = 100000.0;
+      m.run_velocity.Execute = true;
+      m.given.Enable = true;
+      m.given.VelocityDiff = -40.0;
+      m.run(70);
+    }
+    m.given.VelocityDiff = kNaN;
+    for (int i = 0; i < 1000; ++i) {
+      m.tick();
+      ASSERT_LE(std::abs(m.axis_.data.Acceleration), 5000.0 * (1 + 1e-12)) << i;
+    }
+    EXPECT_TRUE(m.given.Error);
+    EXPECT_EQ(m.velocity(), halts ? 0.0 : 500.0);
+  }
+}
+
+/// Whatever the base motion does when values that were given come to rest.
+TEST(MC_HaltSuperimposed, KeepsTheAccelerationOfTheSumAtRandom) {
+  constexpr unsigned kSeed = 43;
+  std::mt19937 random(kSeed);
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int braked = 0;
+  for (int round = 0; round < 300; ++round) {
+    Machine m;
+    m.continuity[1] = {false, false, 5000.0, 100000.0};
+    const double most = uniform(1000.0, 5000.0);
+    m.axis_.data.DynamicLimits.MaxAcceleration = m.axis_.data.DynamicLimits.MaxDeceleration = most;
+    const bool halts = round % 2 == 0;
+    if (halts) m.run_at(uniform(50.0, 450.0));
+    auto set = [&](auto& job) {
+      job.Deceleration = uniform(500.0, 8000.0);
+      job.Jerk = uniform(10000.0, 100000.0);
+      job.Execute = true;
+    };
+    if (halts) {
+      set(m.halt);
+    } else {
+      m.relative.Distance = uniform(-200.0, 200.0);
+      m.relative.Velocity = uniform(10.0, 450.0);
+      m.relative.Acceleration = uniform(500.0, 8000.0);
+      set(m.relative);
+    }
+    m.given.Enable = true;
+    m.given.VelocityDiff = uniform(-300.0, 300.0);
+    const int ticks = static_cast<int>(uniform(3.0, 150.0));
+    for (int i = 1; i <= ticks; ++i) {
+      m.given.Distance = 0.001 * m.given.VelocityDiff * i;
+      m.tick();
+    }
+    if (round % 4 < 2) {
+      set(m.halt_superimposed);
+    } else {
+      m.given.VelocityDiff = kNaN;
+    }
+    for (int i = 0; i < 1500; ++i) {
+      m.tick();
+      ASSERT_LE(std::abs(m.axis_.data.Acceleration), most * (1 + 1e-9)) << "round " << round << ' ' << i;
+      if (testing::Test::HasFatalFailure()) return;
+    }
+    braked += m.halt_superimposed.Done || m.given.Error;
+  }
+  EXPECT_EQ(braked, 300);
 }
 
 // ---- MC_MotionInSuperimposed

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -19,6 +22,11 @@ using Json = nlohmann::json;
 const Json& catalogue() {
   static const Json file = Json::parse(std::ifstream(LOCKSTEP_TEST_DATA "/alarms.json"));
   return file;
+}
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 // A bit as it is printed, "X11"; -1 for none.
@@ -89,14 +97,52 @@ TEST(Alarms, HaveTheReactionsThatAnAxisKnowsAndThoseOfOtherObjects) {
     EXPECT_TRUE(known.contains(static_cast<int>(reaction)));
 }
 
-TEST(Alarms, ThatTheRuntimeRaisesStandInTheTable) {
-  for (const int number :
-       {alarm::kVelocityLimitZero, alarm::kAccelerationLimitZero, alarm::kPositionRangeExceeded,
-        alarm::kNotHomed, alarm::kVelocityLimited, alarm::kAccelerationLimited, alarm::kJerkLimited,
-        alarm::kSpeedSetpointLimited, alarm::kFollowingError, alarm::kSoftwareLimitReached,
-        alarm::kSoftwareLimitPassed, alarm::kPositioning, alarm::kLeadingAxis,
-        alarm::kLeadingAxisNotPositionControlled, alarm::kSynchronizing, alarm::kInternal})
-    EXPECT_NE(find_alarm(number), nullptr) << number;
+/// Numbers of namespace `alarm`, by their constants.
+std::map<int, std::string> constants() {
+  std::map<int, std::string> names;
+  const std::string header = contents(LOCKSTEP_SOURCE_DIR "/tech_objects/alarms.hpp");
+  const std::regex constant(R"(inline constexpr int (k\w+) = (\d+);)");
+  for (std::sregex_iterator found(header.begin(), header.end(), constant), end; found != end; ++found)
+    names[std::stoi((*found)[2])] = (*found)[1];
+  return names;
+}
+
+/// Sources below a folder, one behind the other.
+std::string sources(const std::string& folder, const std::string& but = "") {
+  std::string all;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(LOCKSTEP_SOURCE_DIR "/" + folder))
+    if (file.path().extension() == ".cpp" && file.path().filename() != but) all += contents(file.path());
+  return all;
+}
+
+std::set<std::string> matches(const std::string& text, const std::regex& pattern) {
+  std::set<std::string> all;
+  for (std::sregex_iterator found(text.begin(), text.end(), pattern), end; found != end; ++found)
+    all.insert(found->str());
+  return all;
+}
+
+/// What tests look for: constants of alarms, and numbers beside a word that tells of alarms.
+std::set<std::string> looked_for(const std::string& tests) {
+  std::set<std::string> all = matches(tests, std::regex(R"(alarm::k\w+)"));
+  for (const std::string& line : matches(tests, std::regex(R"((larm|Number)[^\n]*)")))
+    all.merge(matches(line, std::regex(R"(\b\d{3}(?=u?\b))")));
+  return all;
+}
+
+TEST(Alarms, AreRaisedAndTestedOrSayWhyTheyAreNot) {
+  const std::map<int, std::string> names = constants();
+  const std::string runtime = sources("tech_objects") + sources("fb") + sources("scheduler");
+  const std::set<std::string> tested = looked_for(sources("tests", "alarms_test.cpp"));
+  for (const Alarm& alarm : alarms()) {
+    const auto name = names.find(alarm.number);
+    const bool raised = name != names.end() && runtime.find("alarm::" + name->second) != std::string::npos;
+    EXPECT_EQ(alarm.not_raised.empty(), raised) << alarm.number << " tells: " << alarm.not_raised;
+    EXPECT_TRUE(!raised || tested.contains("alarm::" + name->second) ||
+                tested.contains(std::to_string(alarm.number)))
+        << alarm.number << " has no test";
+  }
+  for (const auto& [number, name] : names) EXPECT_NE(find_alarm(number), nullptr) << name;
 }
 
 TEST(ErrorIds, AreThoseOfTheCatalogue) {
