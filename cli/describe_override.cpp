@@ -41,6 +41,8 @@ constexpr ClassText kClasses[] = {
     {JobClass::gear_out_active, "MC_GearOut", "active"},
     {JobClass::cam_out_waiting, "MC_CamOut", "waiting"},
     {JobClass::cam_out_active, "MC_CamOut", "active"},
+    {JobClass::measuring, "MC_MeasuringInput, MC_MeasuringInputCyclic", ""},
+    {JobClass::measuring_abort, "MC_AbortMeasuringInput", ""},
 };
 
 std::vector<std::string_view> instructions_of(const ClassText& text) {
@@ -93,8 +95,8 @@ std::string cell(JobClass new_job, JobClass running) {
 
 /// Line of the manual's table that has the cell; 0: it stands in none.
 int line_of(JobClass new_job, JobClass running) {
-  const bool first_table = running < JobClass::gear_in;
-  return override_rows()[static_cast<std::size_t>(new_job)].lines[first_table ? 0 : 1];
+  const std::size_t table = running == JobClass::measuring ? 2 : running < JobClass::gear_in ? 0 : 1;
+  return override_rows()[static_cast<std::size_t>(new_job)].lines[table];
 }
 
 std::string running_name(const ClassText& running) {
@@ -102,15 +104,19 @@ std::string running_name(const ClassText& running) {
          (running.which.empty() ? "" : " (" + std::string(running.which) + ")");
 }
 
-bool is_running_class(const ClassText& text) {
-  return static_cast<int>(text.job_class) < kRunningClasses;
+/// Whether a job can meet a running one: measuring inputs have jobs of their own, and only MC_Home has its
+/// row in their table and in those of axes.
+bool meets(JobClass new_job, JobClass running) {
+  if (static_cast<int>(running) >= kRunningClasses) return false;
+  if (running == JobClass::measuring) return line_of(new_job, running) != 0;
+  return new_job != JobClass::measuring && new_job != JobClass::measuring_abort;
 }
 
 std::string class_page(std::string_view instruction, const ClassText& own, std::size_t width) {
   Table table({"Running job", "Line", "What becomes of it"});
   std::vector<std::string_view> reasons;
   for (const ClassText& running : kClasses) {
-    if (!is_running_class(running)) continue;
+    if (!meets(own.job_class, running.job_class)) continue;
     const int line = line_of(own.job_class, running.job_class);
     std::vector<std::string> names = wrapped(running_name(running), 36);
     table.row({names.front(), line == 0 ? "" : std::to_string(line), cell(own.job_class, running.job_class)});
@@ -129,8 +135,8 @@ std::string class_page(std::string_view instruction, const ClassText& own, std::
 std::string instruction_text(std::string_view instruction, std::size_t width) {
   std::string text = "Override by " + std::string(instruction) + "\n";
   text += paragraph(
-      "What a new job does to those that run on the axis. Line: of the manual's text, "
-      "S7-1500T synchronous operation V7, 12.3.",
+      "What a new job does to those that run on the axis or at its measuring inputs. Line: of the "
+      "manual's text, S7-1500T synchronous operation V7, 12.3.",
       2, width);
   const auto classes = classes_of(instruction);
   const bool waits = std::any_of(classes.begin(), classes.end(),
@@ -167,7 +173,7 @@ nlohmann::ordered_json instruction_json(std::string_view instruction) {
     nlohmann::ordered_json row{{"which", own.which}};
     auto& cells = row["running_jobs"] = nlohmann::ordered_json::array();
     for (const ClassText& running : kClasses)
-      if (is_running_class(running)) cells.push_back(cell_json(own.job_class, running));
+      if (meets(own.job_class, running.job_class)) cells.push_back(cell_json(own.job_class, running));
     rows.push_back(std::move(row));
   }
   return json;
@@ -176,8 +182,8 @@ nlohmann::ordered_json instruction_json(std::string_view instruction) {
 std::string overrides_text(std::size_t width) {
   std::string text = "Override\n";
   text += paragraph(
-      "What a new job does to those that run on the axis: lockstep describe override "
-      "INSTRUCTION, with one of",
+      "What a new job does to those that run on the axis or at its measuring inputs: lockstep "
+      "describe override INSTRUCTION, with one of",
       2, width);
   for (const std::string_view name : override_names()) text += "    " + std::string(name) + "\n";
   return text;

@@ -54,7 +54,8 @@ std::unique_ptr<RetainWriter> restore_kept(Project& project, const RunOptions& o
   tell_strangers(file, project);
   tell(file.rows().empty() ? fmt::format("values are kept in {}, which is new", file.path())
                            : fmt::format("{} kept values from {}", file.rows().size(), file.path()));
-  return std::make_unique<RetainWriter>(std::move(file), project.retain.values, project.retain.interval);
+  return std::make_unique<RetainWriter>(std::move(file), project.retain.values, project.retain.interval,
+                                        &project.controller->encoder_saving);
 }
 
 }  // namespace lockstep::cli

@@ -10,6 +10,8 @@
 
 namespace lockstep {
 
+class EncoderSaving;
+
 /// An instance of a function block. Created at load time; `call` is the only thing that happens in the cycle.
 class Block {
  public:
@@ -20,6 +22,9 @@ class Block {
   /// One call of the instance, in the thread of the cycle. Outputs change only here.
   /// @param now time of the tick [ns]
   virtual void call(std::int64_t now) noexcept = 0;
+
+  /// Takes up what a controller has once for all its instances. At load time, once.
+  virtual void connect(EncoderSaving& /*saving*/) noexcept {}
 
  protected:
   Block() = default;

@@ -21,6 +21,7 @@
 #include "fb/parameter.hpp"
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
+#include "fb/save_encoder_data.hpp"
 #include "fb/stop.hpp"
 #include "fb/superimposed.hpp"
 #include "fb/sync_out.hpp"
@@ -71,6 +72,7 @@ constexpr BlockType kTypes[] = {
     block_type<MC_SetSensor>(),
     block_type<MC_SetAxisSTW>(),
     block_type<MC_WriteParameter>(),
+    block_type<MC_SaveAbsoluteEncoderData>(),
     block_type<MC_TorqueLimiting>(),
     block_type<MC_TorqueRange>(),
     block_type<MC_TorqueAdditive>(),

@@ -210,9 +210,11 @@ std::string RetainFile::write(std::span<const KeptRow> rows) {
     fresh.push_back(&row);
     after.insert_or_assign(folded(row.name), row);
   }
+  full_ = false;
   if (fresh.empty()) return "";
   const std::string problem = begin_and_write(fresh, sum_of(project_, after));
   if (!problem.empty()) {
+    full_ = problem == sqlite3_errstr(SQLITE_FULL);
     if (sqlite3_get_autocommit(database_.get()) == 0)
       sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
     return problem;

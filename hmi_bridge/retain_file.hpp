@@ -56,6 +56,8 @@ class RetainFile {
   /// an error, the disk has them. Does nothing if there is nothing new.
   /// @return what went wrong: then the file is as before; empty: nothing
   std::string write(std::span<const KeptRow> rows);
+  /// Whether the last `write` went wrong for want of space.
+  bool full() const noexcept { return full_; }
   /// How often `write` has changed the file.
   std::uint64_t commits() const noexcept { return commits_; }
 
@@ -76,6 +78,7 @@ class RetainFile {
   std::map<std::string, KeptRow> rows_;  // what the file holds, by folded name
   std::vector<std::string> others_;
   std::uint64_t commits_ = 0;
+  bool full_ = false;
   bool empty_ = false;  // it has no tables yet
 };
 

@@ -9,7 +9,13 @@
 namespace lockstep {
 namespace {
 
-std::vector<Signal> signals_of(const std::vector<KeptValue>& values) {
+std::size_t count_of(const std::vector<KeptValue>& values) {
+  std::size_t count = 0;
+  for (const KeptValue& value : values) count += value.signals().size() + (value.present ? 1 : 0);
+  return count;
+}
+
+std::vector<Signal> signals_of(const std::vector<KeptValue>& values, EncoderSaving* saving) {
   std::vector<Signal> signals;
   for (const KeptValue& value : values) {
     const std::span<const Signal> own = value.signals();
@@ -17,6 +23,10 @@ std::vector<Signal> signals_of(const std::vector<KeptValue>& values) {
   }
   for (const KeptValue& value : values)
     if (value.present) signals.push_back(*value.present);
+  if (saving == nullptr) return signals;
+  signals.push_back({&saving->asked, Type::UDINT, -1});
+  signals.push_back({&saving->answered, Type::UDINT, -1});
+  signals.push_back({&saving->error, Type::WORD, -1});
   return signals;
 }
 
@@ -75,14 +85,18 @@ std::vector<std::string> restore(RetainFile& file, const std::vector<KeptValue>&
   return remarks;
 }
 
-RetainWriter::RetainWriter(RetainFile file, std::vector<KeptValue> values, std::chrono::nanoseconds interval)
+RetainWriter::RetainWriter(RetainFile file, std::vector<KeptValue> values, std::chrono::nanoseconds interval,
+                           EncoderSaving* saving)
     : file_(std::move(file)),
       values_(std::move(values)),
       interval_(interval),
-      image_(signals_of(values_)),
-      seen_(image_.size()),
+      asked_at_(count_of(values_)),
+      image_(signals_of(values_, saving)),
+      seen_(asked_at_),
       texts_(values_.size()),
-      is_old_(values_.size(), true) {}
+      is_old_(values_.size(), true) {
+  if (saving != nullptr) saving->kept = true;
+}
 
 RetainWriter::~RetainWriter() {
   stop();
@@ -126,8 +140,10 @@ void RetainWriter::run() {
   auto next_write = std::chrono::steady_clock::now() + interval_;
   while (wait(poll)) {
     changed_ |= look();
-    if (!changed_ || std::chrono::steady_clock::now() < next_write) continue;
+    const bool due = changed_ && std::chrono::steady_clock::now() >= next_write;
+    if (!due && asked_ == answered_) continue;
     write();
+    answer();
     next_write = std::chrono::steady_clock::now() + interval_;
   }
   look();  // the last tick is over
@@ -156,7 +172,8 @@ bool RetainWriter::look() {
     if (own) is_old_[i] = true;
     changed |= own;
   }
-  while (place < image_.size()) changed |= is_new(place++);
+  while (place < asked_at_) changed |= is_new(place++);
+  if (asked_at_ < image_.size()) asked_ = image_.value(asked_at_).u;
   return changed;
 }
 
@@ -164,7 +181,7 @@ bool RetainWriter::look() {
 std::vector<KeptRow> RetainWriter::rows() {
   std::vector<KeptRow> present;
   std::size_t place = 0;
-  std::size_t presence = image_.size();
+  std::size_t presence = asked_at_;
   for (const KeptValue& value : values_) presence -= value.present ? 1 : 0;
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const std::span<const Signal> signals = values_[i].signals();
@@ -191,6 +208,20 @@ void RetainWriter::write() {
     news_ = "retain file " + file_.path() + ": values cannot be written: " + problem + "; it is tried again";
   if (problem.empty() && failing_) news_ = "retain file " + file_.path() + ": values are written again";
   failing_ = !problem.empty();
+}
+
+/// To the job that waits: the disk has what the last look saw, or why it has not.
+void RetainWriter::answer() {
+  if (asked_ == answered_) return;
+  Value number{}, error{};
+  number.u = asked_;
+  if (changed_)
+    error.u = static_cast<std::uint64_t>(file_.full() ? ErrorId::encoder_data_no_space
+                                                      : ErrorId::encoder_data_not_written);
+  const auto place = static_cast<std::uint32_t>(asked_at_);
+  const SignalWrite writes[] = {{place + 1, number}, {place + 2, error}};
+  image_.post(writes);
+  answered_ = asked_;
 }
 
 }  // namespace lockstep

@@ -11,6 +11,7 @@
 
 #include "hmi_bridge/retain_file.hpp"
 #include "scheduler/process_image.hpp"
+#include "tech_objects/encoder_saving.hpp"
 
 namespace lockstep {
 
@@ -22,14 +23,17 @@ namespace lockstep {
 std::vector<std::string> restore(RetainFile& file, const std::vector<KeptValue>& values);
 
 /// Writes the values to their file whenever they have changed, each time those of one tick; between two
-/// writes there is an interval. The cycle never waits for it and never wakes it. A write that fails is tried
-/// again after the next interval.
+/// writes there is an interval, but for a job that asks for one at once and is answered when the disk has the
+/// values. The cycle never waits for it and never wakes it. A write that fails is tried again after the next
+/// interval.
 class RetainWriter {
  public:
   static constexpr std::chrono::milliseconds kPoll{20};  ///< how often it looks at most
 
   /// The signals stay where they are for the life of the writer.
-  RetainWriter(RetainFile file, std::vector<KeptValue> values, std::chrono::nanoseconds interval);
+  /// @param saving whose jobs it answers; nullptr: there are none
+  RetainWriter(RetainFile file, std::vector<KeptValue> values, std::chrono::nanoseconds interval,
+               EncoderSaving* saving = nullptr);
   ~RetainWriter();  ///< stops
   RetainWriter(const RetainWriter&) = delete;
   RetainWriter& operator=(const RetainWriter&) = delete;
@@ -55,15 +59,19 @@ class RetainWriter {
   bool look();
   std::vector<KeptRow> rows();
   void write();
+  void answer();
 
   RetainFile file_;
   const std::vector<KeptValue> values_;
   const std::chrono::nanoseconds interval_;
-  ProcessImage image_;              // all values, then whether those are present that need not be
+  const std::size_t asked_at_;      // place in the image of EncoderSaving::asked; its end: nobody asks
+  ProcessImage image_;              // all values, whether those are present that need not be, EncoderSaving
   std::vector<Value> seen_;         // what the last look saw in it
   std::vector<std::string> texts_;  // of each value
   std::vector<bool> is_old_;        // of each text: the value has changed since
   bool changed_ = false;            // since the last write that went well
+  std::uint64_t asked_ = 0;         // number of the newest job that the last look saw
+  std::uint64_t answered_ = 0;      // … that has been answered
 
   mutable std::mutex mutex_;  // guards those below
   std::condition_variable wake_;

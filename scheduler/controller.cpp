@@ -59,6 +59,7 @@ Axis& Controller::add_axis(ObjectKind kind, std::string name) {
 
 Instance& Controller::add_instance(const BlockType& type, std::string name) {
   instances.push_back({std::move(name), &type, type.create()});
+  instances.back().block->connect(encoder_saving);
   return instances.back();
 }
 

@@ -18,6 +18,7 @@
 #include "tech_objects/cam.hpp"
 #include "tech_objects/cam_track.hpp"
 #include "tech_objects/coupling_order.hpp"
+#include "tech_objects/encoder_saving.hpp"
 #include "tech_objects/external_encoder.hpp"
 #include "tech_objects/measuring_input.hpp"
 #include "tech_objects/output_cam.hpp"
@@ -100,6 +101,7 @@ class Controller {
   std::deque<ArrayTag> arrays;
   std::deque<Instance> instances;
   std::deque<Program> programs;
+  EncoderSaving encoder_saving;  ///< what programs ask to be kept at once
   std::vector<Stimulus> stimuli;
   bool apply_stimuli = false;
   /// Whether another thread calls `interpolate_cams`; if not, a tick does it itself.

@@ -33,9 +33,10 @@ bool Controller::due(std::int64_t cycle, std::int64_t t) const noexcept {
   return last_time_ < 0 || t / cycle != last_time_ / cycle;
 }
 
-/// Writes from outside and stimuli enter the tags.
+/// Writes from outside, and what they answer, and stimuli enter the tags.
 void Controller::take_inputs(std::int64_t t) noexcept {
   for (ProcessImage* image : images) image->take_writes();
+  encoder_saving.step();
   if (!apply_stimuli) return;
   for (; next_stimulus_ < stimuli.size() && stimuli[next_stimulus_].at <= t; ++next_stimulus_)
     stimuli[next_stimulus_].place.store(stimuli[next_stimulus_].value);

@@ -107,6 +107,11 @@ enum class ErrorId : std::uint16_t {
   cam_in_interpolation = 0x80E8,
   points_array = 0x80E9,
   segments_array = 0x80EA,
+  encoder_data_no_space = 0x80EB,
+  encoder_data_not_written = 0x80EC,
+  encoder_data_instances = 0x80ED,
+  encoder_data_being_saved = 0x80EE,
+  encoder_data_protected = 0x80EF,
   unspecified = 0x8FFF
 };
 

@@ -68,8 +68,7 @@ HomeSwitch Axis::home_switch(bool active) const noexcept {
 }
 
 void Axis::home(Job& job) noexcept {
-  const JobClass kind = class_of(job, true);
-  switch (kind) {
+  switch (class_of(job, true)) {
     case JobClass::home_cancel:  // the override rules have ended what it ends
       job.phase = JobPhase::done;
       break;
@@ -83,7 +82,7 @@ void Axis::home(Job& job) noexcept {
       home_directly(job);
       break;
   }
-  if (kind != JobClass::home_direct && job.phase != JobPhase::failed) ++homings_;
+  if (job.phase != JobPhase::failed) count_homing(job);
 }
 
 // ---- Direct homing and encoder adjustment

@@ -111,6 +111,7 @@ void Axis::servo() noexcept {
   actual_velocity_ = now.velocity;
   data.StatusSensor[operative_].Position = actual_.value;
   data.StatusSensor[operative_].Velocity = actual_velocity_;
+  data.StatusSensor[operative_].ModuloCycle = static_cast<DINT>(actual_.turns - counted_from_);
   data.ActualSpeed = actual_velocity_ / way_per_motor_turn_ * 60.0;
 
   ++servo_tick_;

@@ -121,7 +121,7 @@ constexpr Variable kVariables[] = {
                       "status of the automatic transfer of the encoder parameters",
                       .choices = kStatusDriveAdaptionState, .later = true),
     COMPUTED_ELEMENTS(StatusSensor, ModuloCycle, RON, kNone, between(-2147483648.0, 2147483647.0),
-                      "number of modulo cycles", .later = true),
+                      "number of modulo cycles"),
     COMPUTED_ELEMENTS(StatusSensor, Adjusted, RON, kNone, between(0.0, 1.0), "homing status of the encoder",
                       .choices = kStatusSensorAdjusted),
     COMPUTED(StatusExtrapolation.FilteredPosition, RON, kPosition, between(-1e12, 1e12),

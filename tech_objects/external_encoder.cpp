@@ -143,6 +143,7 @@ void ExternalEncoder::start(Job& job) noexcept {
   if (job.kind == JobKind::MC_Reset) error = reset(job.mode == 1);
   if (job.kind == JobKind::MC_Home) error = home(job);
   if (error != ErrorId::none) return job.fail(error);
+  if (job.kind == JobKind::MC_Home) count_homing(job);
   if (passive_ != &job) job.phase = JobPhase::done;
 }
 
@@ -174,7 +175,6 @@ ErrorId ExternalEncoder::home(Job& job) noexcept {
   const JobClass kind = class_of(job, true);
   if (kind == JobClass::home_cancel) {
     end_passive_homing(JobPhase::aborted, ErrorId::none);
-    ++homings_;
     return ErrorId::none;
   }
   if (!actual_values_valid()) return ErrorId::actual_values_invalid;
@@ -203,7 +203,6 @@ ErrorId ExternalEncoder::begin_passive_homing(Job& job) noexcept {
     return ErrorId::technology_alarm;
   }
   end_passive_homing(JobPhase::aborted, ErrorId::none);
-  ++homings_;
   passive_ = &job;
   job.phase = JobPhase::active;
   if (job.mode != 2) homed_ = false;

@@ -1,5 +1,7 @@
 #include "tech_objects/leading_object.hpp"
 
+#include "tech_objects/override.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -33,6 +35,11 @@ void LeadingObject::shift_leading(double by) noexcept {
   extrapolation_.shift(by);
   leading_actual_.position = advanced(leading_actual_.position, by, modulo_);
   last_leading_actual_.position = advanced(last_leading_actual_.position, by, modulo_);
+}
+
+void LeadingObject::count_homing(const Job& job) noexcept {
+  const auto effect = override_effect(class_of(job, true), JobClass::measuring, position_controlled_);
+  if (effect == OverrideEffect::abort) ++homings_;
 }
 
 void LeadingObject::publish_extrapolation(TO_Struct_Extrapolation& settings,

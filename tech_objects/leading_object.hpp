@@ -97,6 +97,8 @@ class LeadingObject : public TechnologyObject {
   /// One interpolator tick of the actual value.
   void extrapolate(AxisPosition actual, double velocity, const TO_Struct_Extrapolation& settings) noexcept;
   void shift_leading(double by) noexcept;
+  /// Of a job of MC_Home that has been accepted: counts it if the override rules have it end what measures.
+  void count_homing(const Job& job) noexcept;
   void publish_extrapolation(TO_Struct_Extrapolation& settings,
                              TO_Struct_StatusExtrapolation& status) const noexcept;
   bool leads_by_actual_value() const noexcept { return leads_by_actual_value_; }

@@ -8,29 +8,32 @@ namespace {
 // a: A if the axis is position-controlled, else N.  n: . if the axis is position-controlled, else N.
 // Columns: home passive, home active, motion, stop, superimposed, motion in | gear in, gear in velocity,
 // gear in pos waiting, active, cam in waiting, active | phasing, offset, additive | gear out waiting, active,
-// cam out waiting, active. Footnote 6 (gear jobs end gear jobs, cam jobs end cam jobs) is written out.
-constexpr std::array<OverrideRow, 21> kRows = {{
-    {JobClass::home_passive, "...................", {0, 0}},
-    {JobClass::home_active, "AAA.AAAA...........", {7214, 7255}},
-    {JobClass::motion, ".AA.AAAA.A.AAA.AAAA", {7216, 7256}},
-    {JobClass::stop, "AAABAAAAAAAAAA.AAAA", {7218, 7260}},
-    {JobClass::superimposed, "....A..n...........", {7217, 7259}},
-    {JobClass::motion_in, ".AA.AAAAAAAAAA.AAAA", {7216, 7258}},
-    {JobClass::gear_in, ".AA.A.AAAAAAAA.AAAA", {7219, 7261}},
-    {JobClass::gear_in_velocity, ".AA.A.AAAAAAAA.AAAA", {7219, 7261}},
-    {JobClass::gear_in_pos_waiting, "........A.A....A.A.", {7220, 7285}},
-    {JobClass::gear_in_pos_active, ".AA.A.AaAAAAAA.AAAA", {7221, 7286}},
-    {JobClass::cam_in_waiting, "........A.A....A.A.", {7220, 7285}},
-    {JobClass::cam_in_active, ".AA.A.AaAAAAAA.AAAA", {7221, 7286}},
-    {JobClass::phasing, ".......N....AN.....", {0, 7287}},
-    {JobClass::offset, ".......N....NA.....", {0, 7288}},
-    {JobClass::leading_value_additive, "..............A....", {7222, 7289}},
-    {JobClass::gear_out_waiting, ".......NA......A...", {7223, 7290}},
-    {JobClass::gear_out_active, "....A.ANAA..AA.A...", {7227, 7291}},
-    {JobClass::cam_out_waiting, ".......N..A......A.", {7223, 7290}},
-    {JobClass::cam_out_active, "....A..N..AAAA...A.", {7227, 7291}},
-    {JobClass::home_cancel, "A..................", {7215, 0}},
-    {JobClass::home_direct, "...................", {0, 0}},
+// cam out waiting, active | measuring. Footnote 6 (gear jobs end gear jobs, cam jobs end cam jobs) is written
+// out.
+constexpr std::array<OverrideRow, 23> kRows = {{
+    {JobClass::home_passive, "...................A", {0, 0, 7317}},
+    {JobClass::home_active, "AAA.AAAA...........A", {7214, 7255, 7317}},
+    {JobClass::motion, ".AA.AAAA.A.AAA.AAAA.", {7216, 7256, 0}},
+    {JobClass::stop, "AAABAAAAAAAAAA.AAAA.", {7218, 7260, 0}},
+    {JobClass::superimposed, "....A..n............", {7217, 7259, 0}},
+    {JobClass::motion_in, ".AA.AAAAAAAAAA.AAAA.", {7216, 7258, 0}},
+    {JobClass::gear_in, ".AA.A.AAAAAAAA.AAAA.", {7219, 7261, 0}},
+    {JobClass::gear_in_velocity, ".AA.A.AAAAAAAA.AAAA.", {7219, 7261, 0}},
+    {JobClass::gear_in_pos_waiting, "........A.A....A.A..", {7220, 7285, 0}},
+    {JobClass::gear_in_pos_active, ".AA.A.AaAAAAAA.AAAA.", {7221, 7286, 0}},
+    {JobClass::cam_in_waiting, "........A.A....A.A..", {7220, 7285, 0}},
+    {JobClass::cam_in_active, ".AA.A.AaAAAAAA.AAAA.", {7221, 7286, 0}},
+    {JobClass::phasing, ".......N....AN......", {0, 7287, 0}},
+    {JobClass::offset, ".......N....NA......", {0, 7288, 0}},
+    {JobClass::leading_value_additive, "..............A.....", {7222, 7289, 0}},
+    {JobClass::gear_out_waiting, ".......NA......A....", {7223, 7290, 0}},
+    {JobClass::gear_out_active, "....A.ANAA..AA.A....", {7227, 7291, 0}},
+    {JobClass::cam_out_waiting, ".......N..A......A..", {7223, 7290, 0}},
+    {JobClass::cam_out_active, "....A..N..AAAA...A..", {7227, 7291, 0}},
+    {JobClass::measuring, "...................A", {0, 0, 7319}},
+    {JobClass::measuring_abort, "...................A", {0, 0, 7319}},
+    {JobClass::home_cancel, "A..................A", {7215, 0, 7317}},
+    {JobClass::home_direct, "....................", {0, 0, 7318}},
 }};
 
 constexpr std::string_view kOneBaseMotion =
@@ -100,10 +103,12 @@ JobClass class_of(const Job& job, bool active) noexcept {
       return active ? JobClass::gear_out_active : JobClass::gear_out_waiting;
     case JobKind::MC_CamOut:
       return active ? JobClass::cam_out_active : JobClass::cam_out_waiting;
-    case JobKind::MC_Reset:
     case JobKind::MC_MeasuringInput:
     case JobKind::MC_MeasuringInputCyclic:
+      return JobClass::measuring;
     case JobKind::MC_AbortMeasuringInput:
+      return JobClass::measuring_abort;
+    case JobKind::MC_Reset:
     case JobKind::MC_InterpolateCam:
     case JobKind::MC_CopyCamData:
       break;  // stand beside the tables
@@ -131,7 +136,7 @@ OverrideEffect override_effect(JobClass new_job, JobClass running, bool position
   }
 }
 
-std::array<OverrideRow, 21> override_rows() noexcept {
+std::array<OverrideRow, 23> override_rows() noexcept {
   return kRows;
 }
 std::array<OverrideException, 4> override_exceptions() noexcept {

@@ -1,5 +1,5 @@
 /// Which job ends which: the override tables as data.
-/// @source S7-1500T synchronous operation V7, 12.3.1 and 12.3.2
+/// @source S7-1500T synchronous operation V7, 12.3.1, 12.3.2 and 12.3.3
 #pragma once
 
 #include <array>
@@ -31,10 +31,12 @@ enum class JobClass : std::uint8_t {
   gear_out_active,
   cam_out_waiting,
   cam_out_active,
-  home_cancel,  ///< MC_Home Mode 9; never a running job
-  home_direct   ///< MC_Home Mode 0, 1, 6, 7, 11, 12, 13; in no table
+  measuring,        ///< MC_MeasuringInput, MC_MeasuringInputCyclic
+  measuring_abort,  ///< MC_AbortMeasuringInput; never a running job
+  home_cancel,      ///< MC_Home Mode 9; never a running job
+  home_direct       ///< MC_Home Mode 0, 1, 6, 7, 11, 12, 13: ends nothing; MC_Reset and jobs of cams as well
 };
-inline constexpr int kRunningClasses = 19;  ///< columns: all up to cam_out_active
+inline constexpr int kRunningClasses = 20;  ///< columns: all up to measuring
 
 /// What becomes of the running job when a new one starts.
 enum class OverrideEffect : std::uint8_t {
@@ -55,7 +57,7 @@ OverrideEffect override_effect(JobClass new_job, JobClass running, bool position
 struct OverrideRow {
   JobClass new_job;
   std::string_view codes;    ///< a letter per running class; see override.cpp
-  std::array<int, 2> lines;  ///< lines of the manual's text, in 12.3.1 and in 12.3.2; 0: none
+  std::array<int, 3> lines;  ///< lines of the manual's text, in 12.3.1, 12.3.2 and 12.3.3; 0: none
 };
 
 /// A cell in which Lockstep differs from the printed tables on purpose.
@@ -66,7 +68,7 @@ struct OverrideException {
   std::string_view reason;
 };
 
-std::array<OverrideRow, 21> override_rows() noexcept;
+std::array<OverrideRow, 23> override_rows() noexcept;
 std::array<OverrideException, 4> override_exceptions() noexcept;
 
 }  // namespace lockstep

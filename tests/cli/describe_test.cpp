@@ -178,9 +178,10 @@ TEST(Describe, TellsTheOverrideTablesAsTheyAre) {
   const json& active = gear["new_jobs"][1];
   EXPECT_EQ(gear["new_jobs"][0]["which"], "waiting");
   EXPECT_EQ(active["which"], "active");
-  ASSERT_EQ(active["running_jobs"].size(), static_cast<std::size_t>(kRunningClasses));
+  constexpr int kClassesOfAxes = static_cast<int>(JobClass::measuring);
+  ASSERT_EQ(active["running_jobs"].size(), static_cast<std::size_t>(kClassesOfAxes));
   constexpr std::string_view kNames[] = {"none", "abort", "reject", "abort_by_rank"};
-  for (int i = 0; i < kRunningClasses; ++i) {
+  for (int i = 0; i < kClassesOfAxes; ++i) {
     const auto running = static_cast<JobClass>(i);
     const json& cell = active["running_jobs"][static_cast<std::size_t>(i)];
     const auto name = [&](bool controlled) {
@@ -194,6 +195,27 @@ TEST(Describe, TellsTheOverrideTablesAsTheyAre) {
   const json all = described({"override"});
   for (const json& name : all["instructions"])
     EXPECT_GT(described({"override", name})["new_jobs"].size(), 0u) << name;
+}
+
+TEST(Describe, TellsTheOverrideTableOfMeasuringInputs) {
+  const json measuring = described({"override", "MC_MeasuringInput"});
+  ASSERT_EQ(measuring["new_jobs"].size(), 1u);
+  ASSERT_EQ(measuring["new_jobs"][0]["running_jobs"].size(), 1u) << "jobs of an axis are not its own";
+  const std::map<std::string, std::pair<std::string, int>> homing = {
+      {"Mode 2, 8, 10", {"abort", 7317}},
+      {"Mode 3, 5", {"abort", 7317}},
+      {"Mode 9", {"abort", 7317}},
+      {"Mode 0, 1, 6, 7, 11, 12, 13", {"none", 7318}}};
+  std::size_t found = 0;
+  for (const json& row : described({"override", "MC_Home"})["new_jobs"]) {
+    const json& cell = row["running_jobs"].back();
+    const auto& [effect, line] = homing.at(row["which"]);
+    EXPECT_EQ(cell["running"], json({"MC_MeasuringInput", "MC_MeasuringInputCyclic"}));
+    EXPECT_EQ(cell["effect"], effect) << row["which"];
+    EXPECT_EQ(cell["line"], line) << row["which"];
+    ++found;
+  }
+  EXPECT_EQ(found, homing.size());
 }
 
 TEST(Describe, AnUnknownNameExitsWith1AndASuggestion) {

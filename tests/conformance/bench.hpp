@@ -81,6 +81,7 @@ class Bench {
   /// A block on the bench: its object pins are wired, a leading axis where one is asked for.
   Subject& add(const BlockType& type) {
     Subject& subject = subjects_.emplace_back(type);
+    subject.block().connect(controller.encoder_saving);
     for (const Pin& pin : type.pins) {
       if (pin.type == Type::AXIS) subject.wire(pin, object_for(pin));
       if (pin.type == Type::ARRAY) subject.wire_array(pin, array_for(pin));

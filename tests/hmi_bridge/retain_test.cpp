@@ -11,6 +11,7 @@
 #include <memory>
 #include <thread>
 
+#include "fb/save_encoder_data.hpp"
 #include "hmi_bridge/retain_writer.hpp"
 #include "tests/hmi_bridge/memory_disk.hpp"
 
@@ -264,6 +265,82 @@ TEST_F(RetainWriterTest, TellsOnceThatTheDiskIsFullAndOnceThatItIsNoLonger) {
   EXPECT_NE(news.find("again"), std::string::npos) << news;
   EXPECT_FALSE(writer.failing());
   writer.stop();
+}
+
+/// A program that asks for the adjustments to be kept, tick by tick.
+struct Asking {
+  EncoderSaving saving;
+  MC_SaveAbsoluteEncoderData save;
+  std::int64_t now = 0;
+
+  Asking() { save.connect(saving); }
+  void tick(RetainWriter& writer) {
+    writer.image().take_writes();
+    saving.step();
+    save.call(now);
+    writer.image().publish(now++);
+  }
+  /// A whole job; the error that it ends with.
+  WORD ask(RetainWriter& writer) {
+    save.Execute = true;
+    tick(writer);
+    EXPECT_TRUE(save.Busy);
+    EXPECT_TRUE(wait_until([&] {
+      tick(writer);
+      return !save.Busy;
+    }));
+    const WORD error = save.ErrorID;
+    EXPECT_EQ(save.Done, error == WORD{});
+    save.Execute = false;
+    tick(writer);
+    return error;
+  }
+};
+
+TEST_F(RetainWriterTest, AnswersAJobWhenTheDiskHasTheAdjustmentsOfItsTick) {
+  Machine machine;
+  Asking program;
+  RetainWriter writer(RetainFile(path, "p"), machine.values(), 1h, &program.saving);
+  writer.start();
+  for (int round = 1; round <= 3; ++round) {
+    machine.adjusted = true;
+    machine.offset = 0.5 * round;
+    EXPECT_EQ(program.ask(writer), WORD{});
+    const std::string copy = path + ".copy";
+    std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing);
+    const RetainFile opened(copy, "p");
+    ASSERT_NE(opened.find("offset"), nullptr) << round;
+    EXPECT_EQ(opened.find("offset")->value,
+              kept_text(Signal{&machine.offset, Type::LREAL, -1}.load(), Type::LREAL));
+    std::filesystem::remove(copy);
+  }
+  const std::uint64_t commits = writer.commits();
+  EXPECT_EQ(program.ask(writer), WORD{}) << "the disk has them already";
+  EXPECT_EQ(writer.commits(), commits);
+  writer.stop();
+}
+
+TEST_F(RetainWriterTest, AnswersAJobThatItCannotWriteWithTheReason) {
+  MemoryDisk disk;
+  Machine machine;
+  Asking program;
+  RetainFile file("full.retain", "p", disk.name());
+  disk.space = 0;
+  RetainWriter writer(std::move(file), machine.values(), 1h, &program.saving);
+  writer.start();
+  EXPECT_EQ(program.ask(writer), static_cast<WORD>(ErrorId::encoder_data_no_space));
+  disk.space = SIZE_MAX;
+  EXPECT_EQ(program.ask(writer), WORD{});
+  writer.stop();
+
+  MemoryDisk broken;
+  RetainFile other("broken.retain", "p", broken.name());
+  broken.broken = true;
+  Asking next;
+  RetainWriter failing(std::move(other), machine.values(), 1h, &next.saving);
+  failing.start();
+  EXPECT_EQ(next.ask(failing), static_cast<WORD>(ErrorId::encoder_data_not_written));
+  failing.stop();
 }
 
 TEST_F(RetainWriterTest, AValueOfAnotherTypeIsToldAndNotTaken) {

@@ -247,5 +247,38 @@ TEST(Retain, AnAdjustedEncoderKnowsWhereItIsInTheNextRun) {
   EXPECT_EQ(last("Slide.StatusWord.X5"), 0.0) << "nobody knows where it is";
 }
 
+/// The interval is long, and the run is killed: all that the file has is what the job was for.
+TEST(Retain, WhatMC_SaveAbsoluteEncoderDataHasDoneOutlivesTheRun) {
+  const Directory directory;
+  Json json = empty_project();
+  json["technology_objects"]["Slide"] = {{"type", "TO_PositioningAxis"},
+                                         {"config", {{"Sensor[1]", {{"Type", 1}}}}},
+                                         {"drive", {{"model", "simulated"}, {"start_position", 40.0}}}};
+  json["programs"].push_back(
+      {{"name", "Main"},
+       {"ob", "Main"},
+       {"cycle", "1ms"},
+       {"calls",
+        {call("MC_Power", "power", {{"Axis", "Slide"}, {"Enable", true}}),
+         call("MC_Home", "home",
+              {{"Axis", "Slide"}, {"Execute", "power.Status"}, {"Mode", 7}, {"Position", 1000.0}}),
+         call("MC_SaveAbsoluteEncoderData", "save", {{"Execute", "home.Done"}})}}});
+  json["retain"] = {{"interval", "1h"}};
+  json["modbus"]["map"] = {{{"tag", "save.Done"}, {"table", "discrete_input"}, {"address", 0}}};
+  const std::string project = directory.write("project.json", json.dump());
+  RunningLockstep run(project);
+  ModbusClient client(run.port());
+  ASSERT_TRUE(wait_until([&] { return client.input(0); }));
+  run.send(SIGKILL);
+  run.status();
+  const RetainFile kept(directory.file("project.retain"), "small");
+  ASSERT_NE(kept.find("Slide.StatusSensor[1].AbsEncoderOffset"), nullptr);
+  EXPECT_EQ(kept.find("Slide.StatusSensor[1].AbsEncoderOffset")->value, "960");
+
+  const CsvTable simulated = simulate(project, "100ms", {"--signals", "save.Done,save.ErrorID"});
+  EXPECT_EQ(simulated["save.Done"].back(), 0.0);
+  EXPECT_EQ(simulated["save.ErrorID"].back(), 0x80EF) << "a simulation keeps nothing";
+}
+
 }  // namespace
 }  // namespace lockstep::test

@@ -334,6 +334,39 @@ TEST(MeasuringAMovedName, GivesThePositionAsItIsCalledNowAndLeavesTheMarksWhereT
   EXPECT_NEAR(rig.once.MeasuredValue1, 1020.0, 1e-9);
 }
 
+TEST(MeasuringAndHoming, AHomingEndsOnlyWhatMeasuresWhenItBegins) {
+  Marks rig;
+  rig.home.Execute = false;
+  rig.once.Execute = true;
+  rig.run(3);
+  rig.go(300.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.once.Done; }));
+  rig.run_c.Execute = false;
+  rig.home.Mode = 9;
+  rig.home.Execute = true;
+  rig.run(3);
+  ASSERT_TRUE(rig.home.Done);
+  EXPECT_TRUE(rig.once.Done) << "it measured no more";
+  EXPECT_EQ(rig.input.data.Status, 2) << "its value stays";
+  rig.cyclic.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.cyclic.Busy) << "the homing came before";
+}
+
+TEST(MeasuringAndHoming, AHomingThatIsRejectedEndsNothing) {
+  Marks rig;
+  rig.power.Enable = false;
+  rig.home.Execute = false;
+  rig.once.Execute = true;
+  rig.run(20);
+  ASSERT_TRUE(rig.once.Busy);
+  rig.home.Mode = 8;
+  rig.home.Execute = true;
+  rig.run(3);
+  ASSERT_EQ(rig.home.ErrorID, static_cast<WORD>(ErrorId::locked));
+  EXPECT_TRUE(rig.once.Busy);
+}
+
 TEST(MeasuringWithAnEncoder, TellsWhereTheEncoderSawTheMark) {
   struct WithEncoder : Rig {
     WithEncoder()
