@@ -127,6 +127,7 @@ void Axis::begin_base_motion(Job& job) noexcept {
   job.phase = JobPhase::active;
   leave_synchronous();
   motion_ = Motion::single_axis;
+  emergency_ramp_ = EmergencyRamp::none;
   in_window_ticks_ = 0;
   since_target_ticks_ = 0;
   remember_limits();
@@ -157,7 +158,10 @@ PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
       return single_.run_at(setpoint_, dynamics.velocity * job.direction, dynamics);
     case JobKind::MC_Stop:
       stop_ = &job;
-      if (job.mode == 0) return single_.stop(setpoint_, emergency_dynamics(), job.abort_acceleration);
+      if (job.mode == 0) {
+        ask_for_emergency_ramp();
+        return single_.stop(setpoint_, emergency_dynamics(), job.abort_acceleration);
+      }
       if (job.mode == 2) return single_.stop(setpoint_, maximum_dynamics(), job.abort_acceleration);
       [[fallthrough]];
     default:  // MC_Halt
