@@ -24,6 +24,10 @@ ErrorId SwitchingBlock::take_over() noexcept {
     return ErrorId::none;
   }
   if (refused_) return error_;
+  if (Busy && wired() && owner() != this) {  // the object itself has ended the job
+    refused_ = true;
+    return ErrorId::restarting;
+  }
   if (const ErrorId error = check(); error != ErrorId::none) {
     refused_ = !in_charge();
     return error;

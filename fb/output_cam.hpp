@@ -10,7 +10,8 @@ namespace lockstep {
 
 /// What both share. While Enable is TRUE the instance is in charge of its object and its inputs count in
 /// every call. Inputs that are not permitted are told at Error, and the last ones that were go on; at the
-/// beginning they start nothing, until Enable falls. One instance at a time per object.
+/// beginning they start nothing, until Enable falls. One instance at a time per object. A restart of what the
+/// object is assigned to ends the job: Error until Enable falls.
 class SwitchingBlock : public Block {
  public:
   BOOL Enable{};
@@ -56,7 +57,8 @@ inline constexpr Pin kSwitchingErrorID = out<&SwitchingBlock::ErrorID>("ErrorID"
 /// Switches an output at positions while Enable is TRUE; its inputs act with the next MC_Servo.
 /// @source S7-1500/S7-1500T measuring input and output cam functions, MC_OutputCam
 /// @errors 16#8040, 16#8041 positions; 16#8042 Duration of a time cam; 16#800A Mode; 16#8007 Direction;
-/// 16#800C a second instance; 16#8001 while an alarm has ended the processing
+/// 16#800C a second instance; 16#8001 while an alarm has ended the processing; 16#800D the axis or encoder
+/// has been restarted
 struct MC_OutputCam final : SwitchingBlock {
   lockstep::OutputCam* OutputCam{};
   LREAL OnPosition{};
@@ -108,7 +110,8 @@ struct MC_OutputCam final : SwitchingBlock {
 
 /// Switches an output along a cam track while Enable is TRUE; each call takes the data of the track over.
 /// @source S7-1500/S7-1500T measuring input and output cam functions, MC_CamTrack
-/// @errors 16#800A Mode; 16#800C a second instance; 16#8001 while an alarm has ended the processing
+/// @errors 16#800A Mode; 16#800C a second instance; 16#8001 while an alarm has ended the processing; 16#800D
+/// the axis or encoder has been restarted
 struct MC_CamTrack final : SwitchingBlock {
   lockstep::CamTrack* CamTrack{};
   DINT Mode = 1;

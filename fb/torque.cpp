@@ -40,6 +40,10 @@ ErrorId TorqueBlock::check_inputs() const noexcept {
   return check_together();
 }
 
+ErrorId MC_TorqueLimiting::check_together() const noexcept {
+  return Mode == 1 && Axis != nullptr && !Axis->has_position() ? ErrorId::mode : ErrorId::none;
+}
+
 ErrorId MC_TorqueLimiting::hold() const noexcept {
   return Axis->forces().in_clamping ? ErrorId::clamping : ErrorId::none;
 }

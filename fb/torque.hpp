@@ -60,8 +60,9 @@ inline constexpr Pin kTorqueErrorID = out<&TorqueBlock::ErrorID>("ErrorID", "ide
 /// Limits the torque of the drive (Mode 0), or detects a fixed stop as well and clamps the axis there
 /// (Mode 1). It stays active through alarms while Enable is TRUE.
 /// @source S7-1500T axis functions, MC_TorqueLimiting
-/// @errors 16#8044 no drive; 16#804E MC_TorqueRange is active; 16#800F Mode 1 on a disabled axis; 16#8046
-/// Enable falls while the axis is clamped; 16#800C a second instance
+/// @errors 16#8044 no drive; 16#804E MC_TorqueRange is active; 16#800F Mode 1 on a disabled axis; 16#800A
+/// Mode 1 on a speed axis, which has no following error; 16#8046 Enable falls while the axis is clamped;
+/// 16#800C a second instance
 struct MC_TorqueLimiting final : TorqueBlock {
   LREAL Limit = -1.0;
   DINT Mode{};
@@ -92,6 +93,7 @@ struct MC_TorqueLimiting final : TorqueBlock {
   std::span<const Pin> pin_table() const noexcept override { return kPins; }
   const void*& owner() const noexcept override { return Axis->forces().limiting.owner; }
   ErrorId refusal() const noexcept override { return Axis->torque_limiting_refusal(Mode); }
+  ErrorId check_together() const noexcept override;
   ErrorId hold() const noexcept override;
   void request() const noexcept override;
   void show(bool active) noexcept override;

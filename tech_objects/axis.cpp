@@ -39,6 +39,8 @@ void Axis::take_start_values() noexcept {
   if (!has_position()) modulo_ = {true, 1e6, 0.0};
   single_.configure(modulo_, period_);
   superimposed_.configure(period_);
+  hand_over_.configure(period_);
+  emergency_ramp_ = EmergencyRamp::none;
   const double tolerance = data.Synchronization.MasterReversionTolerance;
   synchronous_.configure(modulo_, period_, tolerance, additive_);
   awaited_.configure(modulo_, period_, tolerance, additive_);
@@ -117,6 +119,7 @@ void Axis::begin_braking(INT stop_mode) noexcept {
   }
   power_state_ = PowerState::braking;
   begin_stop(stop_mode == 2 ? maximum_dynamics() : emergency_dynamics(), false);
+  if (stop_mode != 2) ask_for_emergency_ramp();
 }
 
 void Axis::switch_off() noexcept {
@@ -184,7 +187,9 @@ void Axis::react(AlarmReaction reaction) noexcept {
     begin_braking(1);
     return;
   }
-  if (power_state_ == PowerState::on) begin_stop(dynamics, false);
+  if (power_state_ != PowerState::on) return;
+  begin_stop(dynamics, false);
+  if (reaction == AlarmReaction::stop_emergency) ask_for_emergency_ramp();
 }
 
 ErrorId Axis::reset(bool restart) noexcept {
@@ -243,6 +248,7 @@ void Axis::step() noexcept {
   if (additive_request.owner != nullptr || additive_.in_use) take_additive();
   if (simulation_request.owner != nullptr) watch_simulation();
   if (running_[kWaiting] != nullptr) watch_waiting();
+  if (emergency_ramp_ != EmergencyRamp::none) step_emergency_ramp();
   if (superimposed_.in_use())
     step_superimposed();
   else
@@ -254,6 +260,7 @@ void Axis::step() noexcept {
   }
   if (beyond_limit_switch_) hold_limit_switches();
   guard();
+  if (handing_over_) step_hand_over();
   if (!has_drive_) {
     // A virtual axis is where its setpoint is, in the same tick. Written part by part, as they have just been
     // computed: copied as a whole they would have to reach memory first.

@@ -154,7 +154,7 @@ class Axis final : public LeadingObject {
   /// Raises a technology alarm: shows it and has its reaction carried out.
   void raise(int alarm_number) noexcept;
 
-  bool leading_value_stands() const noexcept override { return setpoint_.velocity == 0.0; }
+  bool leading_value_stands() const noexcept override { return setpoint_.velocity == 0.0 && !handing_over_; }
 
   AxisPosition actual_position() const noexcept override { return actual_; }
   bool measured_in_servo() const noexcept override { return has_drive_; }
@@ -353,6 +353,18 @@ class Axis final : public LeadingObject {
   void watch_positioning() noexcept;
   void watch_standstill() noexcept;
 
+  // axis_emergency.cpp: the emergency ramp of an axis with a drive, from where it is
+  enum class EmergencyRamp : std::uint8_t { none, due, running };
+  void ask_for_emergency_ramp() noexcept;
+  void step_emergency_ramp() noexcept;
+  void brake_from_actual() noexcept;
+  void take_actual_state(double commanded) noexcept;
+  void stay_within_limits(const Setpoint& before) noexcept;
+  double commanded_velocity() const noexcept;
+  double smoothed_switchover(double velocity) noexcept;
+  void hand_over(const Setpoint& seen) noexcept;
+  void step_hand_over() noexcept;
+
   // axis_synchronous.cpp: motion led by another axis
   void begin_gear_in(Job& job) noexcept;
   void begin_waiting(Job& job) noexcept;
@@ -505,7 +517,8 @@ class Axis final : public LeadingObject {
   Job* stop_ = nullptr;        // the MC_Stop that may lock the axis
   Standstill standstill_;
   std::int8_t limit_side_ = 0;  // software limit switch approached or passed: 1, -1; 0: none
-  bool homing_now_ = false;     // a mark is being looked for, or an active homing is under way
+  EmergencyRamp emergency_ramp_ = EmergencyRamp::none;
+  bool homing_now_ = false;  // a mark is being looked for, or an active homing is under way
   bool signals_watched_ = false;
   bool beyond_limit_switch_ = false;
   std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
@@ -566,7 +579,9 @@ class Axis final : public LeadingObject {
   double xerr_ = 0.0;  // control difference for the position loop of the drive [u]
   double pace_ = 0.0;  // velocity of what that loop is to follow [u/s]
   std::array<Encoder, kSensors> encoders_;
-  FirstOrderLag smoothing_;  // of what MC_SetSensor has changed
+  FirstOrderLag smoothing_;   // of what MC_SetSensor has changed
+  FirstOrderLag switchover_;  // of the velocity for the drive, to the emergency ramp
+  Superimposed hand_over_;    // what is left between the setpoint and what following axes see of it
   SimulatedDrive drive_;
   PositionController controller_;
   DynamicFilter setpoint_filter_;

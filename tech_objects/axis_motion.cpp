@@ -127,6 +127,7 @@ void Axis::begin_base_motion(Job& job) noexcept {
   job.phase = JobPhase::active;
   leave_synchronous();
   motion_ = Motion::single_axis;
+  emergency_ramp_ = EmergencyRamp::none;
   in_window_ticks_ = 0;
   since_target_ticks_ = 0;
   remember_limits();
@@ -157,7 +158,10 @@ PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
       return single_.run_at(setpoint_, dynamics.velocity * job.direction, dynamics);
     case JobKind::MC_Stop:
       stop_ = &job;
-      if (job.mode == 0) return single_.stop(setpoint_, emergency_dynamics(), job.abort_acceleration);
+      if (job.mode == 0) {
+        ask_for_emergency_ramp();
+        return single_.stop(setpoint_, emergency_dynamics(), job.abort_acceleration);
+      }
       if (job.mode == 2) return single_.stop(setpoint_, maximum_dynamics(), job.abort_acceleration);
       [[fallthrough]];
     default:  // MC_Halt
@@ -308,15 +312,19 @@ void Axis::watch_positioning() noexcept {
   }
 }
 
-/// A stop under position control is done when the actual position has settled as well.
+/// A stop under position control is done when the actual position has settled as well. A drive whose torque
+/// is limited may never get there: MC_Halt is done when the axis has stood for the dwell time.
 void Axis::watch_standstill() noexcept {
   const bool settled = !has_drive_ || !moving(actual_velocity_);
-  if (!settled) return;
-  if (position_controlled_ && running_[kBase]->kind == JobKind::MC_Halt) {
-    watch_positioning();
-  } else {
-    end_job(kBase, JobPhase::done, ErrorId::none);
+  const bool halts = position_controlled_ && running_[kBase]->kind == JobKind::MC_Halt;
+  const bool limited = has_drive_ && position_monitoring_off();
+  if (halts && !limited) {
+    if (settled) watch_positioning();
+    return;
   }
+  in_window_ticks_ = settled ? in_window_ticks_ + 1 : 0;
+  if (!settled || (halts && in_window_ticks_ <= ticks_of(data.PositioningMonitoring.MinDwellTime))) return;
+  end_job(kBase, JobPhase::done, ErrorId::none);
 }
 
 }  // namespace lockstep

@@ -5,6 +5,13 @@
 #include "tech_objects/fine_interpolation.hpp"
 
 namespace lockstep {
+namespace {
+
+/// The emergency ramp is what the drive is to do, whatever precontrol other motions have [%].
+constexpr double kWholePrecontrol = 100.0;
+
+}  // namespace
+
 /// The encoder goes on from where it is, at the position that the axis has now.
 void Axis::restart_servo() noexcept {
   take_servo_settings();
@@ -56,7 +63,7 @@ double Axis::control_delay() const noexcept {
 
 PositionControlSettings Axis::control_settings() const noexcept {
   return {.kv = data.PositionControl.Kv,
-          .kpc = data.PositionControl.Kpc,
+          .kpc = emergency_ramp_ == EmergencyRamp::running ? kWholePrecontrol : data.PositionControl.Kpc,
           .delay = control_delay(),
           .max_velocity = motor_limit_,
           .lead = loop_in_drive() ? drive_.dead_time() : -1.0};
@@ -141,7 +148,7 @@ void Axis::control_position() noexcept {
   AxisPosition position = whole ? setpoint_.position : advanced(last_setpoint_.position, fine.way, modulo_);
   double velocity = whole ? setpoint_.velocity : fine.velocity;
   if (!position_controlled_) {
-    data.VelocitySetpoint = velocity;
+    data.VelocitySetpoint = smoothed_switchover(velocity);
     if (!has_position()) limit_speed();
     data.StatusPositioning.FollowingError = 0.0;
     data.StatusServo.ControlDifference = 0.0;
@@ -170,6 +177,7 @@ void Axis::control_position() noexcept {
     xerr_ = controlled.xerr;
     pace_ = velocity;
   }
+  data.VelocitySetpoint = smoothed_switchover(data.VelocitySetpoint);
   if (passes_backlash()) {
     const double passing = pass_backlash();
     data.VelocitySetpoint =
@@ -200,6 +208,7 @@ void Axis::reset_servo(const ServoSetpoint& setpoint) noexcept {
   last_balanced_ = advanced(setpoint.position, -behind, modulo_);
   following_lag_.set_behind(0.0);
   smoothing_.set_behind(0.0);
+  switchover_.set_behind(0.0);
   if (setpoint.velocity == 0.0) return controller_.reset(last_balanced_);
   controller_.reset(last_balanced_, setpoint.velocity * servo_period_, modulo_);
 }

@@ -79,6 +79,7 @@ void CamTrack::take_data() noexcept {
 
 void CamTrack::servo(std::int64_t now) noexcept {
   if (assigned == nullptr) return;
+  if (assigned_restarted()) request = {};
   path_.servo(now, data.Parameter.Hysteresis);
   Edges edges;
   if (request.enable && !faulty() && !active_ && request.called) {

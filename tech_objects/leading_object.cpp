@@ -17,6 +17,7 @@ void LeadingObject::configure_leading(double period, TO_Struct_Extrapolation& se
 }
 
 void LeadingObject::reset_leading(AxisPosition actual) noexcept {
+  handing_over_ = false;
   extrapolation_.reset(actual);
   leading_actual_ = last_leading_actual_ = {actual, 0.0, 0.0};
 }
@@ -33,6 +34,8 @@ void LeadingObject::extrapolate(AxisPosition actual, double velocity,
 void LeadingObject::shift_leading(double by) noexcept {
   renamed_ = renamed_ + by;
   extrapolation_.shift(by);
+  led_.position = advanced(led_.position, by, modulo_);
+  last_led_.position = advanced(last_led_.position, by, modulo_);
   leading_actual_.position = advanced(leading_actual_.position, by, modulo_);
   last_leading_actual_.position = advanced(last_leading_actual_.position, by, modulo_);
 }

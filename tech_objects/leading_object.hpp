@@ -37,12 +37,12 @@ class LeadingObject : public TechnologyObject {
   /// What a following axis sees, now and one interpolator tick ago.
   Setpoint leading_state(Coupling coupling) const noexcept {
     if (coupling == Coupling::actual) return leading_actual_;
-    if (position_controlled_) return setpoint_;
+    if (position_controlled_) return handing_over_ ? led_ : setpoint_;
     return {};  // [1173-1175]: without position control the leading setpoint is zero
   }
   Setpoint last_leading_state(Coupling coupling) const noexcept {
     if (coupling == Coupling::actual) return last_leading_actual_;
-    if (position_controlled_) return last_setpoint_;
+    if (position_controlled_) return handing_over_ ? last_led_ : last_setpoint_;
     return {};
   }
 
@@ -102,12 +102,19 @@ class LeadingObject : public TechnologyObject {
   void publish_extrapolation(TO_Struct_Extrapolation& settings,
                              TO_Struct_StatusExtrapolation& status) const noexcept;
   bool leads_by_actual_value() const noexcept { return leads_by_actual_value_; }
+  /// The setpoint as following axes see it at this tick, while it is not the setpoint itself.
+  void lead_by(const Setpoint& led) noexcept {
+    last_led_ = led_;
+    led_ = led;
+    handing_over_ = true;
+  }
 
   // Hot: touched in every interpolator cycle.
   Setpoint setpoint_;
   Setpoint last_setpoint_;
   Modulo modulo_;
   bool position_controlled_ = true;
+  bool handing_over_ = false;  // axes that follow the setpoint see `led_`, which is on its way to it
   PowerState power_state_ = PowerState::off;
   bool enable_removed_ = false;
   std::uint32_t restarts_ = 0;
@@ -115,6 +122,8 @@ class LeadingObject : public TechnologyObject {
 
  private:
   bool leads_by_actual_value_ = false;
+  Setpoint led_;
+  Setpoint last_led_;
   Setpoint leading_actual_;
   Setpoint last_leading_actual_;
   Extrapolation extrapolation_;

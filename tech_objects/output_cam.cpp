@@ -56,6 +56,7 @@ int OutputCam::alarm_of(const SwitchingShape& shape) const noexcept {
 
 void OutputCam::servo(std::int64_t now) noexcept {
   if (assigned == nullptr) return;
+  if (assigned_restarted()) request = {};
   path_.servo(now, data.Parameter.Hysteresis);
   SwitchingEdges edges;
   const bool wanted = request.enable && !faulty();

@@ -68,8 +68,13 @@ class SwitchingObject : public TechnologyObject {
   /// Whether there is a setpoint that would switch, if it is the setpoint that has to.
   bool has_position() const noexcept { return !by_setpoint() || assigned->position_controlled(); }
 
-  bool position_valid() const noexcept {
-    return assigned->actual_values_valid() && restarts_ == assigned->restarts();
+  bool position_valid() const noexcept { return assigned->actual_values_valid(); }
+  /// Whether what is assigned has been restarted since the last tick: its places have other names now, and
+  /// the job of the object ends.
+  bool assigned_restarted() noexcept {
+    if (restarts_ == assigned->restarts()) return false;
+    watch();
+    return true;
   }
   /// Whether what it switches ahead of its place [s] stays within the range of positions.
   bool leads_within_range(double lead) const noexcept {
@@ -78,7 +83,6 @@ class SwitchingObject : public TechnologyObject {
   }
   void raise(int alarm_number) noexcept {
     raise_alarm(alarm_number, kEnd, *this, data);
-    restarts_ = assigned->restarts();
     path_.begin_anew();
   }
 

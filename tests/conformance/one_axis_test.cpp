@@ -39,6 +39,8 @@ constexpr double kSlack = 1e-9;
 /// What is in force at the end of a tick.
 struct Seen {
   Setpoint setpoint;
+  Setpoint led;                  // the setpoint as axes see it that follow
+  double actual_velocity = 0.0;  // [u/s]
   bool enabled = false;
   bool controlled = true;
   bool clamped = false;
@@ -277,6 +279,8 @@ class OneAxis {
   void watch() {
     const Seen before = last_;
     last_.setpoint = axis_.setpoint();
+    last_.led = axis_.position_controlled() ? axis_.leading_state(Coupling::setpoint) : axis_.setpoint();
+    last_.actual_velocity = axis_.data.ActualVelocity;
     last_.enabled =
         has_bit(axis_.data.StatusWord, StatusBit::Enable) || (axis_.stopping() && follows_setpoint());
     last_.controlled = axis_.position_controlled();
@@ -312,7 +316,7 @@ class OneAxis {
     const Setpoint& s = last_.setpoint;
     const double lowered = lowered_ticks_ > 0 ? lowered_from_ : 0.0;
     const double most_v = std::max({last_.limit, lowered, std::abs(before.setpoint.velocity)});
-    if (std::abs(s.velocity) > most_v * (1 + kSlack))
+    if (std::abs(s.velocity) > most_v * (1 + kSlack) && !lands_on_actual(before))
       note("velocity " + std::to_string(s.velocity) + " beyond its limit");
     const bool speeding_up = s.velocity * s.acceleration > 0.0;
     const double most_a =
@@ -335,16 +339,29 @@ class OneAxis {
     last_.inside = inside;
   }
 
+  /// Whether the setpoint has stepped onto the actual velocity: there the emergency ramp of a driven axis
+  /// begins.
+  bool lands_on_actual(const Seen& before) const {
+    constexpr double kOfATick = kEmergency * kSeconds * (1 + kSlack) + kSlack;
+    const double v = last_.setpoint.velocity;
+    return !axis_.is_virtual() && std::abs(v - before.setpoint.velocity) > kOfATick &&
+           std::abs(v - last_.actual_velocity) <= kOfATick;
+  }
+
+  /// Such a step is none for axes that follow; without position control nobody follows.
   void watch_steps(const Seen& before) {
-    const Setpoint& s = last_.setpoint;
-    const double at_ticks = std::max(std::abs(before.setpoint.acceleration), std::abs(s.acceleration));
-    const double most = std::max(kEmergency, at_ticks) * kSeconds;
-    if (std::abs(s.velocity - before.setpoint.velocity) > most * (1 + kSlack) + kSlack)
-      note("step of the velocity from " + std::to_string(before.setpoint.velocity) + " to " +
+    if (!last_.controlled && lands_on_actual(before)) return;
+    const Setpoint& s = last_.led;
+    const double at_ticks = std::max(std::abs(before.led.acceleration), std::abs(s.acceleration));
+    // A motion on top of the ramp, which may be over within the tick.
+    const bool handed_over = s.position != last_.setpoint.position || lands_on_actual(before);
+    const double most = std::max(handed_over ? kEmergency + kAcceleration : kEmergency, at_ticks) * kSeconds;
+    if (std::abs(s.velocity - before.led.velocity) > most * (1 + kSlack) + kSlack)
+      note("step of the velocity from " + std::to_string(before.led.velocity) + " to " +
            std::to_string(s.velocity));
     if (positions_may_step_ > 0) return;
-    const double way = difference(s.position, before.setpoint.position, axis_.modulo()).rounded();
-    const double mean = 0.5 * (s.velocity + before.setpoint.velocity) * kSeconds;
+    const double way = difference(s.position, before.led.position, axis_.modulo()).rounded();
+    const double mean = 0.5 * (s.velocity + before.led.velocity) * kSeconds;
     if (std::abs(way - mean) > most * kSeconds + kSlack)
       note("step of the position by " + std::to_string(way));
   }

@@ -404,6 +404,49 @@ TEST(OutputCamAlarms, TellOfALeadBeyondTheRangeOfPositions) {
   EXPECT_EQ(rig.cam.data.ErrorDetail.Number, 700u);
 }
 
+// The job ends with the restart of its axis, and not with an alarm; a new edge begins another one.
+TEST(OutputCamAxis, RestartedEndsTheJob) {
+  Cams rig;
+  MC_Reset& restart = rig.block<MC_Reset>();
+  restart.Axis = &rig.c;
+  restart.Restart = true;
+  rig.enable(-5.0, 5.0, 3);
+  rig.run(5);
+  ASSERT_TRUE(rig.output());
+  rig.power.Enable = false;
+  rig.run(5);
+  restart.Execute = true;
+  rig.run(5);
+  ASSERT_TRUE(restart.Done);
+  EXPECT_TRUE(rig.fb.Error && !rig.fb.Busy && !rig.fb.CamOutput);
+  EXPECT_EQ(rig.fb.ErrorID, static_cast<WORD>(ErrorId::restarting));
+  EXPECT_EQ(rig.cam.data.ErrorDetail.Number, 0u);
+  EXPECT_FALSE(rig.output());
+  rig.run(20);
+  EXPECT_TRUE(rig.fb.Error && !rig.fb.Busy) << "until Enable falls";
+  rig.fb.Enable = false;
+  rig.run(3);
+  EXPECT_FALSE(rig.fb.Error);
+  rig.fb.Enable = true;
+  rig.run(5);
+  EXPECT_TRUE(rig.fb.Busy && !rig.fb.Error && rig.output());
+}
+
+TEST(OutputCamAxis, RestartedBetweenTwoJobsIsNoAlarm) {
+  Cams rig;
+  MC_Reset& restart = rig.block<MC_Reset>();
+  restart.Axis = &rig.c;
+  restart.Restart = true;
+  rig.power.Enable = false;
+  rig.run(5);
+  restart.Execute = true;
+  rig.run(5);
+  ASSERT_TRUE(restart.Done);
+  rig.enable(-5.0, 5.0, 3);
+  rig.run(5);
+  EXPECT_TRUE(rig.fb.Busy && !rig.fb.Error && rig.output());
+}
+
 TEST(OutputCamOnSetpoints, IsOffWithoutPositionControlAndFollowsADriveTheOtherWay) {
   for (const DINT type : {0, 1}) {
     Cams rig([](AxisData& data) { data.VirtualAxis.Mode = 0; },
@@ -711,6 +754,31 @@ TEST(CamTrackAlarms, TellOfWrongData) {
   rig.run(4);
   EXPECT_EQ(rig.track.data.Status, 1);
   EXPECT_FALSE(rig.fb.Error);
+}
+
+TEST(CamTrackAxis, RestartedEndsTheJob) {
+  Track rig;
+  MC_Reset& restart = rig.block<MC_Reset>();
+  restart.Axis = &rig.c;
+  restart.Restart = true;
+  rig.fb.Enable = true;
+  rig.run(5);
+  ASSERT_TRUE(rig.fb.Busy);
+  rig.power.Enable = false;
+  rig.run(5);
+  restart.Execute = true;
+  rig.run(5);
+  ASSERT_TRUE(restart.Done);
+  EXPECT_TRUE(rig.fb.Error && !rig.fb.Busy);
+  EXPECT_EQ(rig.fb.ErrorID, static_cast<WORD>(ErrorId::restarting));
+  EXPECT_EQ(rig.track.data.ErrorDetail.Number, 0u);
+  EXPECT_EQ(rig.track.data.Status, 0);
+  rig.fb.Enable = false;
+  rig.run(3);
+  rig.fb.Enable = true;
+  rig.run(5);
+  EXPECT_TRUE(rig.fb.Busy && !rig.fb.Error);
+  EXPECT_EQ(rig.track.data.Status, 1);
 }
 
 TEST(CamTrackInstances, ASecondOneIsRefused) {

@@ -6,6 +6,7 @@
 #include "fb/move.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
+#include "fb/torque.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {
@@ -113,6 +114,29 @@ TEST(SpeedAxis, JogsTakesGivenVelocitiesStopsAndIsAcknowledged) {
   rig.run(3);
   EXPECT_TRUE(rig.reset.Done);
   EXPECT_EQ(rig.fan.data.ErrorDetail.Number, 0u);
+}
+
+// It has no following error by which a fixed stop could be found.
+TEST(SpeedAxis, IsLimitedInItsTorqueButFindsNoFixedStop) {
+  Fan rig(true);
+  MC_TorqueLimiting& limiting = rig.block<MC_TorqueLimiting>();
+  limiting.Axis = &rig.fan;
+  limiting.Limit = 0.5;
+  limiting.Mode = 1;
+  limiting.Enable = true;
+  rig.run(5);
+  EXPECT_TRUE(limiting.Error && !limiting.Busy);
+  EXPECT_EQ(limiting.ErrorID, static_cast<WORD>(ErrorId::mode));
+  limiting.Enable = false;
+  limiting.Mode = 0;
+  rig.run(2);
+  limiting.Enable = true;
+  rig.run(5);
+  EXPECT_TRUE(limiting.Busy && !limiting.Error);
+  limiting.Mode = 1;
+  rig.run(5);
+  EXPECT_EQ(limiting.ErrorID, static_cast<WORD>(ErrorId::mode)) << "in every call";
+  EXPECT_EQ(rig.fan.forces().limiting.mode, 0) << "the last permitted one goes on";
 }
 
 TEST(SpeedAxis, StopsWhenItIsDisabledWhateverTheStopMode) {

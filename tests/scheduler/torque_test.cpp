@@ -132,6 +132,42 @@ TEST(TorqueLimiting, LeavesTheMonitoringOnIfItIsConfigured) {
   EXPECT_TRUE(rig.limiting.Busy) << "the limiting outlasts the alarm";
 }
 
+TEST(TorqueLimiting, LeavesMC_HaltDoneOnceTheAxisHasStoodForTheDwellTime) {
+  Press rig([](Axis& a) { a.data.PositioningMonitoring.MinDwellTime = 0.1; });
+  rig.limiting.Enable = true;
+  rig.move.Execute = true;
+  rig.run(4000);
+  rig.halt.Execute = true;
+  rig.run(90);
+  EXPECT_TRUE(rig.halt.Busy) << "not before the dwell time is over";
+  ASSERT_TRUE(rig.run_until([&] { return rig.halt.Done; }, 40));
+  EXPECT_GT(rig.a.data.StatusPositioning.FollowingError, 10.0) << "which MC_Halt leaves as it is";
+  EXPECT_EQ(rig.a.pending_alarm(), 0);
+}
+
+TEST(TorqueLimiting, LeavesMC_HaltBusyWhileTheAxisStillMoves) {
+  Press rig([](Axis& a) {
+    a.drive_settings.plant.has_stop = false;
+    a.data.PositionControl.Kv = 10.0;
+    a.data.PositionControl.Kpc = 0.0;
+    a.data.PositioningMonitoring.MinDwellTime = 0.01;
+  });
+  rig.limiting.Enable = true;
+  rig.run_v.Velocity = 100.0;
+  rig.run_v.Execute = true;
+  rig.run(2000);
+  rig.halt.Execute = true;
+  bool stood = false;
+  ASSERT_TRUE(rig.run_until(
+      [&] {
+        if (rig.halt.Busy)
+          stood = std::abs(rig.a.data.ActualVelocity) <= rig.a.data.StandstillSignal.VelocityThreshold;
+        return rig.halt.Done;
+      },
+      4000));
+  EXPECT_TRUE(stood);
+}
+
 TEST(TorqueLimiting, TakesItsDefaultAndChangesWithTheCall) {
   Press rig([](Axis& a) { a.data.TorqueLimiting.LimitDefaults.Torque = 7.0; });
   rig.limiting.Limit = -1.0;
