@@ -76,7 +76,7 @@ std::string range_text(Type type, const Range& range) {
   if (!below && !above)
     text = bound(type, range.lowest) + " to " + bound(type, range.highest);
   else if (!below)
-    text = range.lowest == std::numeric_limits<double>::min() ? "> 0.0" : "≥ " + bound(type, range.lowest);
+    text = range.lowest == kPositive.lowest ? "> 0.0" : "≥ " + bound(type, range.lowest);
   else if (!above)
     text = "≤ " + bound(type, range.highest);
   if (std::isnan(range.excluded)) return text.empty() && is_real(type) ? "any finite number" : text;

@@ -75,9 +75,10 @@ std::vector<SignalRow> Model::rows() const {
   std::vector<SignalRow> rows;
   for (const auto& [channel, trace] : shown().traces.all()) {
     const std::size_t first = rows.size();
-    for (std::size_t i = 0; i < trace.signals().size(); ++i)
-      if (matches(trace.signals()[i].name)) rows.push_back({channel, i});
-    const auto name = [&](const SignalRow& row) { return lowered(trace.signals()[row.index].name); };
+    const auto& signals = trace.signals();
+    for (std::size_t i = 0; i < signals.size(); ++i)
+      if (matches(signals[i].name)) rows.push_back({channel, i});
+    const auto name = [&](const SignalRow& row) { return lowered(signals[row.index].name); };
     const auto moves = [&](const SignalRow& row) {
       const History* const lately = history(row);
       const auto span = lately != nullptr ? lately->whole(window()) : std::nullopt;

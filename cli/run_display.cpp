@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/command.hpp"
 #include "cli/run_command.hpp"
@@ -12,6 +13,7 @@ namespace lockstep::cli {
 namespace {
 
 constexpr int kDefaultWidth = 100;  // columns, where the terminal does not tell
+constexpr double kRest = 1e-12;     // [u] below it, what position control has left of a deviation: shown as 0
 
 int terminal_width() {
   winsize size{};
@@ -78,7 +80,7 @@ void tell_axes(const Controller& controller) {
   for (std::size_t i = 0; i < controller.axes.size(); ++i) {
     const AxisSummary& axis = controller.summary()[i];
     std::string line = fmt::format("  {:<{}}  {:<14} at {:.6g}", controller.axes[i]->name, width,
-                                   state_text(axis), axis.position);
+                                   state_text(axis), std::abs(axis.position) < kRest ? 0.0 : axis.position);
     const bool followed = controller.axes[i]->was_synchronous();
     if (followed) line += fmt::format("; largest deviation while synchronous {:.3g}", axis.largest_deviation);
     write_message(line + "\n");

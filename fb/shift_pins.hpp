@@ -36,7 +36,7 @@ constexpr Pin profile(std::span<const Choice> profiles) {
 }
 template <auto Member>
 constexpr Pin distance(std::string_view name, ErrorId error) {
-  using T = pin_detail::MemberOf<decltype(Member)>::Block;
+  using T = typename pin_detail::MemberOf<decltype(Member)>::Block;
   return in<Member>(name, Unit::kLeading, kPositive,
                     "profiles 1, 2: leading distance over which the offset is made, > 0",
                     {.error = error, .relevant = &over_distance<T>});

@@ -15,7 +15,7 @@ using Members = std::vector<std::pair<std::string_view, Json>>;
 
 constexpr double kLargest = 1.0e12;
 
-Json described(std::string_view text, Json schema) {
+Json described(std::string_view text, const Json& schema) {
   Json result = {{"description", text}};
   result.update(schema);
   return result;

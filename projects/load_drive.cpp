@@ -53,8 +53,8 @@ void load_sensor(const JsonValue& json, Axis& axis, const Loading& loading) {
   if (place.exists) return problems.report(*number, "there is an encoder " + number->shown() + " already");
   if (!axis.data.Sensor[*index - 1].Existent)
     return problems.report(
-        *number, "the axis has no such encoder; allowed: one with \"config\": { \"Sensor[" + number->shown() +
-                     "]\": { \"Existent\": true } }");
+        *number, R"(the axis has no such encoder; allowed: one with "config": { "Sensor[)" + number->shown() +
+                     R"(]": { "Existent": true } })");
   place = sensor;
 }
 

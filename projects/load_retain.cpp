@@ -34,7 +34,7 @@ std::string scale_of(Axis& axis, std::size_t sensor) {
     std::string path(variable.path);
     if (const auto element = path.find("[]"); element != std::string::npos)
       path.insert(element + 1, std::to_string(sensor + 1));
-    text += (text.empty() ? "" : " ") + path + "=" + value;
+    text.append(text.empty() ? "" : " ").append(path).append("=").append(value);
   }
   return text;
 }

@@ -22,7 +22,7 @@
 #define ARRAY(array_, effect_, unit_, range_, text_, ...)                                                  \
   Variable {                                                                                               \
     .path = #array_ "[]", .type = type_of<std::remove_cvref_t<decltype(Data{}.array_[0])>>(),              \
-    .offset = offsetof(Data, array_), .count = sizeof(Data{}.array_) / sizeof(Data{}.array_[0]),           \
+    .offset = offsetof(Data, array_), .count = std::extent_v<decltype(Data{}.array_)>,                     \
     .stride = sizeof(Data{}.array_[0]), .effect = Effect::effect_, .computed = false, .unit = Unit::unit_, \
     .range = range_, .text = text_ __VA_OPT__(, ) __VA_ARGS__, .start = &start_value_in<Data>              \
   }
@@ -34,13 +34,13 @@
     .text = text_ __VA_OPT__(, ) __VA_ARGS__, .start = &start_value_in<Data>                    \
   }
 
-#define DECLARED_ELEMENTS(computed_, array_, member_, effect_, unit_, range_, text_, ...)          \
-  Variable {                                                                                       \
-    .path = #array_ "[]." #member_, .type = type_of<decltype(Data{}.array_[0].member_)>(),         \
-    .offset = offsetof(Data, array_) + offsetof(ElementOf<decltype(Data::array_)>, member_),       \
-    .count = sizeof(Data{}.array_) / sizeof(Data{}.array_[0]), .stride = sizeof(Data{}.array_[0]), \
-    .effect = Effect::effect_, .computed = computed_, .unit = Unit::unit_, .range = range_,        \
-    .text = text_ __VA_OPT__(, ) __VA_ARGS__, .start = &start_value_in<Data>                       \
+#define DECLARED_ELEMENTS(computed_, array_, member_, effect_, unit_, range_, text_, ...)    \
+  Variable {                                                                                 \
+    .path = #array_ "[]." #member_, .type = type_of<decltype(Data{}.array_[0].member_)>(),   \
+    .offset = offsetof(Data, array_) + offsetof(ElementOf<decltype(Data::array_)>, member_), \
+    .count = std::extent_v<decltype(Data{}.array_)>, .stride = sizeof(Data{}.array_[0]),     \
+    .effect = Effect::effect_, .computed = computed_, .unit = Unit::unit_, .range = range_,  \
+    .text = text_ __VA_OPT__(, ) __VA_ARGS__, .start = &start_value_in<Data>                 \
   }
 
 namespace lockstep {

@@ -139,7 +139,7 @@ TEST(Folders, AndFilesHaveNamesThatSaySomething) {
   for (const fs::directory_entry& entry : fs::directory_iterator(root))
     EXPECT_FALSE(entry.is_directory() && says_nothing(entry.path())) << entry.path();
   std::vector<std::string_view> folders(std::begin(kFolders), std::end(kFolders));
-  folders.push_back("tests");
+  folders.emplace_back("tests");
   for (const std::string_view folder : folders)
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder))
       EXPECT_FALSE(says_nothing(entry.path())) << entry.path();
@@ -147,7 +147,7 @@ TEST(Folders, AndFilesHaveNamesThatSaySomething) {
 
 // The rules themselves, on sources that break them.
 
-Source source_in(std::string folder, std::string text) {
+Source source_in(const std::string& folder, std::string text) {
   return {folder + "/file.cpp", folder, std::move(text)};
 }
 

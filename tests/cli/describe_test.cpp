@@ -107,6 +107,11 @@ TEST(Describe, NamesEveryPinInTheTextOfEveryBlock) {
   }
 }
 
+TEST(Describe, SaysThatAValueHasToBeGreaterThanZeroAsPeopleDo) {
+  const Ended text = lockstep({"describe", "MC_GearInPos.MasterStartDistance"});
+  EXPECT_NE(text.out.find("allowed: > 0.0; else"), std::string::npos) << text.out;
+}
+
 TEST(Describe, KeepsToEightyColumnsInAPipe) {
   for (const char* name : {"MC_GearInPos", "MC_Home", "alarms", "StatusWord"}) {
     const Ended text = lockstep({"describe", name});

@@ -86,7 +86,7 @@ class Client {
 };
 
 std::vector<std::string> run_of(const std::string& file, const std::string& errors) {
-  return {"sh", "-c",  "exec \"$0\" run \"$1\" --no-modbus --no-retain 2>\"$2\"", LOCKSTEP_EXECUTABLE,
+  return {"sh", "-c",  R"(exec "$0" run "$1" --no-modbus --no-retain 2>"$2")", LOCKSTEP_EXECUTABLE,
           file, errors};
 }
 

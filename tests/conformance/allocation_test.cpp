@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "tests/support/counting_operators.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace lockstep::test {
 

@@ -227,7 +227,7 @@ class OneAxis {
 
   /// Disabled and without requests, the axis comes to rest and no block is left with a job.
   void finish() {
-    for (int i = 0; i < 4; ++i) faults_[i] = false;
+    for (bool& fault : faults_) fault = false;
     for (Subject& subject : subjects_) subject.start(false);
     power_.Enable = false;
     for (int i = 0; i < 4; ++i) tick();  // what is under way, such as an MC_Reset, comes to its end

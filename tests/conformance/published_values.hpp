@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -82,7 +83,7 @@ class PublishedValues {
 
   static const Array& array_of(Subject& subject, const std::string& pin) {
     const Pin& found = *subject.type().find_pin(pin);
-    return *reinterpret_cast<const Array*>(found.signal(subject.block()).load().u);
+    return *std::bit_cast<const Array*>(found.signal(subject.block()).load().u);
   }
 
   /// The cam of the bench is a TO_Cam.

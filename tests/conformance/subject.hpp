@@ -96,12 +96,8 @@ class Subject {
   }
   double number(const Pin& pin) noexcept { return as_double(pin.signal(*block_).load(), pin.type); }
   /// A pin holds the address of an object, which is that of its base as well.
-  void wire(const Pin& pin, TechnologyObject* object) noexcept {
-    std::memcpy(pin.address(*block_), &object, sizeof object);
-  }
-  void wire_array(const Pin& pin, const Array* array) noexcept {
-    std::memcpy(pin.address(*block_), &array, sizeof array);
-  }
+  void wire(const Pin& pin, TechnologyObject* object) noexcept { point(pin, object); }
+  void wire_array(const Pin& pin, const Array* array) noexcept { point(pin, array); }
 
   bool busy() noexcept { return on(busy_); }
   /// MC_CamIn has no Done: it ends without an error at the end of a cam that is passed once.
@@ -138,6 +134,9 @@ class Subject {
   const Pin* output(std::string_view name) const noexcept {
     const Pin* pin = type_->find_pin(name);
     return pin != nullptr && pin->pin_class == PinClass::output ? pin : nullptr;
+  }
+  void point(const Pin& pin, const void* address) noexcept {
+    std::memcpy(pin.address(*block_), &address, sizeof address);
   }
   bool on(const Pin* pin) noexcept { return pin != nullptr && pin->signal(*block_).load().u != 0; }
 

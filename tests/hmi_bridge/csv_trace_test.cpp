@@ -135,7 +135,7 @@ TEST(CsvTrace, EveryDoubleReadsBackBitForBit) {
   std::vector<double> numbers = {0.0, -0.0, std::numeric_limits<double>::denorm_min(),
                                  std::numeric_limits<double>::max(), std::numeric_limits<double>::min()};
   while (numbers.size() < kRows) {
-    const double number = std::bit_cast<double>(random());
+    const auto number = std::bit_cast<double>(random());
     if (std::isfinite(number)) numbers.push_back(number);
   }
   {

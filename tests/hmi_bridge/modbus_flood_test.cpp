@@ -10,7 +10,7 @@
 #include "hmi_bridge/modbus_server.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
-#include "tests/support/counting_operators.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace lockstep {
 namespace {

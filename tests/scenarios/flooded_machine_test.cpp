@@ -21,7 +21,7 @@
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
 #include "tests/hmi_bridge/own_network.hpp"
 #include "tests/scenarios/small_project.hpp"
-#include "tests/support/counting_operators.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace lockstep::test {
 namespace {

@@ -1,4 +1,4 @@
-/// Counts what the program takes from the heap; the operators themselves are in counting_operators.hpp.
+/// Counts what the program takes from the heap, if it is built with counting_operators.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,4 @@
-/// Replaces the global allocation operators of a test program by ones that count. Included by one of its
-/// source files only.
-#pragma once
-
+// Replaces the global allocation operators of a test program that is built with it by ones that count.
 #include <cstdlib>
 #include <new>
 
