@@ -76,6 +76,7 @@ std::string text_literal(std::string_view text) {
 }
 
 std::optional<std::string> read_text_literal(std::string_view literal, std::string& problem) {
+  problem.clear();
   const bool is_quoted = literal.size() >= 2 && literal.front() == '\'' && literal.back() == '\'';
   if (!is_quoted) {
     problem = "a text stands in single quotes";
@@ -84,20 +85,19 @@ std::optional<std::string> read_text_literal(std::string_view literal, std::stri
   std::string_view rest = literal.substr(1, literal.size() - 2);
   std::string text;
   while (!rest.empty()) {
-    if (rest.front() == '$') {
+    const char first = rest.front();
+    if (first == '$') {
       rest.remove_prefix(1);
-      const auto c = take_escaped(rest);
-      if (!c) problem = "after a $ in a text are allowed: $, ', two digits such as 0A (not 00)";
-      if (!c) return std::nullopt;
-      text += *c;
-      continue;
+      const auto escaped = take_escaped(rest);
+      if (!escaped) problem = "after a $ in a text are allowed: $, ', two digits such as 0A (not 00)";
+      text += escaped.value_or('?');
+    } else {
+      const auto c = take_character(rest);
+      if (first == '\'') problem = "a quote within a text is written $'";
+      if (!c || !is_printable(*c)) problem = "a text has printable characters of ISO 8859-1 only";
+      text += static_cast<char>(c.value_or('?'));
     }
-    const bool is_quote = rest.front() == '\'';
-    const auto c = take_character(rest);
-    if (is_quote) problem = "a quote within a text is written $'";
-    else if (!c || !is_printable(*c)) problem = "a text has printable characters of ISO 8859-1 only";
     if (!problem.empty()) return std::nullopt;
-    text += static_cast<char>(*c);
   }
   return text;
 }

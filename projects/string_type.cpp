@@ -38,8 +38,8 @@ std::optional<std::string> read_text_constant(const JsonValue& json, std::size_t
     problems.report(json, json.shown() + " holds a character that no STRING has; allowed: " + allowed +
                               " of ISO 8859-1 (Latin-1)");
   else if (text->size() > room)
-    problems.report(json, json.shown() + " has " + std::to_string(text->size()) +
-                              " characters; allowed: " + allowed);
+    problems.report(
+        json, json.shown() + " has " + std::to_string(text->size()) + " characters; allowed: " + allowed);
   else
     return text;
   return std::nullopt;

@@ -22,8 +22,8 @@ struct Text {
   std::size_t room = 0;  ///< n of STRING[n], 1 to kLongestText
 
   std::string_view view() const noexcept;
-  /// Replaces the text. What has no room is cut off, the rest of the room becomes zero. `text` may be this one
-  /// itself.
+  /// Replaces the text. What has no room is cut off, the rest of the room becomes zero. `text` may be this
+  /// one itself.
   void assign(std::string_view text) const noexcept;
 };
 
@@ -49,8 +49,8 @@ struct TextComparison {
 /// "STRING[20]".
 std::string text_type_name(std::size_t room);
 
-/// The text as signals, for what carries values: two characters in a WORD, the first in its low byte; the last
-/// one of an odd room is a BYTE.
+/// The text as signals, for what carries values: two characters in a WORD, the first in its low byte; the
+/// last one of an odd room is a BYTE.
 std::vector<Signal> text_signals(const Text& text);
 /// The values of these signals that make them hold a text, and the text that they hold.
 std::vector<Value> text_values(std::string_view text, std::size_t room);
