@@ -41,8 +41,14 @@ std::vector<PanelName> ModbusPanel::all() const {
   };
   for (const ModbusMapConfig& map : project_.modbus.maps) {
     auto array = map.arrays.begin();
+    auto text = map.texts.begin();
     const auto& entries = map.map.entries();
     for (std::size_t i = 0; i < entries.size();) {
+      if (text != map.texts.end() && text->first == i) {
+        i += text->count();
+        add(name_of(map, *text++));
+        continue;
+      }
       const bool is_array = array != map.arrays.end() && array->first == i;
       const std::size_t end = i + (is_array ? array->elements.count() : 1);
       PanelName name{is_array ? array->elements.name : "", {}, is_array};
@@ -53,6 +59,23 @@ std::vector<PanelName> ModbusPanel::all() const {
     }
   }
   return names;
+}
+
+PanelName ModbusPanel::name_of(const ModbusMapConfig& map, const ModbusText& text) const {
+  PanelName name{text.tag->name, {}, false, text.tag->text.room};
+  for (std::size_t i = 0; i < text.count(); ++i)
+    name.entries.push_back(place_of(map, map.map.entries()[text.first + i]));
+  return name;
+}
+
+/// The first place of a text in the maps.
+std::optional<PanelName> ModbusPanel::find_text(const StringTag& tag, bool to_write) const {
+  for (const ModbusMapConfig& map : project_.modbus.maps)
+    for (const ModbusText& text : map.texts)
+      if (text.tag == &tag && (!to_write || map.map.entries()[text.first].writable))
+        return name_of(map, text);
+  tell_unknown(tag.name);
+  return std::nullopt;
 }
 
 std::optional<PanelEntry> ModbusPanel::place_of(const std::string& name, bool to_write) const {
@@ -74,6 +97,7 @@ bool ModbusPanel::tell_unknown(const std::string& name) const {
 }
 
 std::optional<PanelName> ModbusPanel::find(const std::string& name, bool to_write) const {
+  if (const StringTag* const text = project_.names.find_string(name)) return find_text(*text, to_write);
   const FoundElements found = find_several(project_.names, name);
   if (!found.problem.empty()) {
     tell(found.problem);

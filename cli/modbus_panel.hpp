@@ -34,11 +34,13 @@ struct PanelEntry {
   Type type() const { return map->signal_type(*entry); }
 };
 
-/// What a name stands for: a value, or elements that follow each other.
+/// What a name stands for: a value, elements that follow each other, or a text.
 struct PanelName {
   std::string name;
-  std::vector<PanelEntry> entries;  ///< of a value one, of elements one each
+  std::vector<PanelEntry>
+      entries;  ///< of a value one, of elements one each, of a text one for two characters
   bool is_list = false;
+  std::size_t room = 0;  ///< characters of a text; 0: it is none
 
   Type type() const { return entries.front().type(); }
 };
@@ -72,6 +74,8 @@ class ModbusPanel {
   };
   struct Block;
 
+  std::optional<PanelName> find_text(const StringTag& tag, bool to_write) const;
+  PanelName name_of(const ModbusMapConfig& map, const ModbusText& text) const;
   std::optional<PanelEntry> place_of(const std::string& name, bool to_write) const;
   PanelEntry place_of(const ModbusMapConfig& map, const ModbusEntry& entry) const;
   bool tell_unknown(const std::string& name) const;

@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "cli/describe_table.hpp"
 #include "cli/describe_values.hpp"
+#include "hmi_bridge/text_literal.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -21,14 +22,26 @@ struct Entry {
   const ModbusMapConfig* map;
   std::uint32_t span;  ///< addresses of all
 
-  std::uint32_t elements = 0;  ///< 0: a single value
+  std::uint32_t elements = 0;         ///< 0: a single value
+  const StringTag* string = nullptr;  ///< of a text
 };
+
+/// Type on the wire; that of a text is told as such, whatever its registers are made of.
+std::string_view wire_type(const Entry& entry) {
+  return entry.string != nullptr ? "STRING" : type_name(entry.place->type);
+}
+
+/// Of a text, which of two characters is the more significant byte.
+bool is_big_byte_order(const Entry& entry) {
+  return (entry.place->byte_order == ByteOrder::big) == (entry.string == nullptr);
+}
 
 /// The Modbus map, sorted by what it names.
 struct Entries {
-  std::vector<std::vector<Entry>> of_tags;    ///< for each tag of the controller
-  std::vector<std::vector<Entry>> of_arrays;  ///< for each array of the controller, of all its elements
-  std::vector<Entry> others;                  ///< pins, variables, bits of tags, some elements of arrays
+  std::vector<std::vector<Entry>> of_tags;     ///< for each tag of the controller
+  std::vector<std::vector<Entry>> of_arrays;   ///< for each array of the controller, of all its elements
+  std::vector<std::vector<Entry>> of_strings;  ///< for each text of the controller
+  std::vector<Entry> others;                   ///< pins, variables, bits of tags, some elements of arrays
 };
 
 /// The tag or array that is shown as it is, in `tags` or `arrays`; else the entry is one of the others.
@@ -43,11 +56,26 @@ void sort_entry(const Project& project, Entry entry, Entries& entries) {
   entries.others.push_back(std::move(entry));
 }
 
+void add_text(const Project& project, const ModbusMapConfig& map, const ModbusText& text, Entries& entries) {
+  const auto& strings = project.controller->strings;
+  for (std::size_t i = 0; i < strings.size(); ++i)
+    if (&strings[i] == text.tag)
+      entries.of_strings[i].push_back({text.tag->name, text_type_name(text.tag->text.room), Unit::kNone,
+                                       &map.map.entries()[text.first], &map,
+                                       static_cast<std::uint32_t>(text.count()), 0, text.tag});
+}
+
 void sort_map(const Project& project, const ModbusMapConfig& map, Entries& entries) {
   auto array = map.arrays.begin();
+  auto text = map.texts.begin();
   const auto& places = map.map.entries();
   for (std::size_t i = 0; i < places.size(); ++i) {
     const ModbusEntry& place = places[i];
+    if (text != map.texts.end() && text->first == i) {
+      add_text(project, map, *text, entries);
+      i += text++->count() - 1;
+      continue;
+    }
     if (array != map.arrays.end() && array->first == i) {
       const ElementPath& elements = array->elements;
       const ModbusEntry& last = places[i + elements.count() - 1];
@@ -72,6 +100,7 @@ Entries sort_entries(const Project& project) {
   Entries entries;
   entries.of_tags.resize(project.controller->tags.size());
   entries.of_arrays.resize(project.controller->arrays.size());
+  entries.of_strings.resize(project.controller->strings.size());
   for (const ModbusMapConfig& map : project.modbus.maps) sort_map(project, map, entries);
   return entries;
 }
@@ -86,10 +115,10 @@ std::string address_text(const Entry& entry) {
 std::string wire_text(const Entry& entry) {
   const ModbusEntry& place = *entry.place;
   std::string text = entry.elements > 0 ? fmt::format("{} ", entry.elements) : "";
-  text += type_name(place.type);
+  text += wire_type(entry);
   if (place.bit >= 0) text += fmt::format(" bit {}", place.bit);
   if (place.word_order == WordOrder::little) text += " little";
-  if (place.byte_order == ByteOrder::little) text += " swapped";
+  if (!is_big_byte_order(entry)) text += " swapped";
   if (place.is_scaled) text += fmt::format(" * {}", place.scale);
   if (place.is_scaled && place.offset != 0.0) text += fmt::format(" {:+}", place.offset);
   return text;
@@ -151,6 +180,17 @@ std::string arrays_text(const Project& project, const Entries& entries, std::siz
   return table.empty() ? "" : "\n" + table.text(0, width);
 }
 
+std::string strings_text(const Project& project, const Entries& entries, std::size_t width) {
+  Table table({"Text", "Type", "Initial", "Retain", "Modbus", "Address", "As", "Access", "Comment"});
+  for (std::size_t i = 0; i < project.controller->strings.size(); ++i) {
+    const StringTag& tag = project.controller->strings[i];
+    add_rows(table,
+             {tag.name, text_type_name(tag.text.room), text_literal(tag.initial), tag.retain ? "retain" : ""},
+             entries.of_strings[i], tag.comment);
+  }
+  return table.empty() ? "" : "\n" + table.text(0, width);
+}
+
 std::string others_text(const Entries& entries, std::size_t width) {
   Table table({"Also on Modbus", "Type", "Unit", "Modbus", "Address", "As", "Access", ""});
   for (const Entry& entry : entries.others) {
@@ -175,8 +215,8 @@ std::string project_text(const Project& project, std::size_t width) {
   std::string text = printable(project.name) + "\n";
   if (!project.description.empty()) text += paragraph(printable(project.description), 2, width);
   for (const std::string& place : server_places(project)) text += "  Modbus server on " + place + "\n";
-  text +=
-      tags_text(project, entries, width) + arrays_text(project, entries, width) + others_text(entries, width);
+  text += tags_text(project, entries, width) + arrays_text(project, entries, width) +
+          strings_text(project, entries, width) + others_text(entries, width);
   Table objects({"Number", "Technology object", "Type"});
   for (const auto& object : project.controller->objects)
     objects.row({std::to_string(static_cast<std::uint32_t>(object->number)), object->name,
@@ -189,11 +229,11 @@ nlohmann::ordered_json place_json(const Entry& entry) {
   nlohmann::ordered_json json{{"table", modbus_table_name(place.table)},
                               {"address", place.address},
                               {is_bit_table(place.table) ? "bits" : "registers", entry.span},
-                              {"type", type_name(place.type)},
+                              {"type", wire_type(entry)},
                               {"word_order", place.word_order == WordOrder::big ? "big" : "little"},
                               {"access", place.writable ? "write" : "read"}};
   if (entry.elements > 0) json["elements"] = entry.elements;
-  if (place.byte_order == ByteOrder::little) json["byte_order"] = "little";
+  if (!is_big_byte_order(entry)) json["byte_order"] = "little";
   if (place.bit >= 0) json["bit"] = place.bit;
   if (place.is_scaled) json["scale"] = place.scale;
   if (place.is_scaled) json["offset"] = place.offset;
@@ -218,16 +258,8 @@ nlohmann::ordered_json tag_json(const Tag& tag, const std::vector<Entry>& places
   return json;
 }
 
-nlohmann::ordered_json project_json(const Project& project) {
-  const Entries entries = sort_entries(project);
-  nlohmann::ordered_json json{{"name", project.name}, {"description", project.description}};
-  const std::vector<std::string> servers = server_places(project);
-  if (!servers.empty()) json["modbus_server"] = servers.front();
-  if (servers.size() > 1) json["modbus_servers"] = servers;
-  auto& tags = json["tags"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < project.controller->tags.size(); ++i)
-    tags.push_back(tag_json(project.controller->tags[i], entries.of_tags[i]));
-  auto& arrays = json["arrays"] = nlohmann::ordered_json::array();
+nlohmann::ordered_json arrays_json(const Project& project, const Entries& entries) {
+  auto arrays = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < project.controller->arrays.size(); ++i) {
     const ArrayTag& tag = project.controller->arrays[i];
     arrays.push_back({{"name", tag.name},
@@ -239,6 +271,34 @@ nlohmann::ordered_json project_json(const Project& project) {
                       {"comment", tag.comment},
                       {"modbus", places_json(entries.of_arrays[i])}});
   }
+  return arrays;
+}
+
+nlohmann::ordered_json strings_json(const Project& project, const Entries& entries) {
+  auto strings = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < project.controller->strings.size(); ++i) {
+    const StringTag& tag = project.controller->strings[i];
+    strings.push_back({{"name", tag.name},
+                       {"type", text_type_name(tag.text.room)},
+                       {"initial", text_to_utf8(tag.initial)},
+                       {"retain", tag.retain},
+                       {"comment", tag.comment},
+                       {"modbus", places_json(entries.of_strings[i])}});
+  }
+  return strings;
+}
+
+nlohmann::ordered_json project_json(const Project& project) {
+  const Entries entries = sort_entries(project);
+  nlohmann::ordered_json json{{"name", project.name}, {"description", project.description}};
+  const std::vector<std::string> servers = server_places(project);
+  if (!servers.empty()) json["modbus_server"] = servers.front();
+  if (servers.size() > 1) json["modbus_servers"] = servers;
+  auto& tags = json["tags"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < project.controller->tags.size(); ++i)
+    tags.push_back(tag_json(project.controller->tags[i], entries.of_tags[i]));
+  json["arrays"] = arrays_json(project, entries);
+  json["strings"] = strings_json(project, entries);
   auto& others = json["other_modbus"] = nlohmann::ordered_json::array();
   for (const Entry& entry : entries.others) {
     nlohmann::ordered_json other{{"name", entry.name}, {"type", entry.type}};
@@ -272,20 +332,22 @@ std::string project_csv(const Project& project) {
   const auto line = [&](const Entry& entry, const std::string& comment) {
     const ModbusEntry& place = *entry.place;
     const auto order = [](bool is_big) { return is_big ? "big" : "little"; };
-    text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(entry.name), csv_cell(entry.type),
-        unit_text(entry.unit), modbus_table_name(place.table), place.address, entry.span,
-        type_name(place.type), order(place.word_order == WordOrder::big),
-        order(place.byte_order == ByteOrder::big), place.bit >= 0 ? std::to_string(place.bit) : "",
-        place.is_scaled ? fmt::format("{}", place.scale) : "",
-        place.is_scaled ? fmt::format("{}", place.offset) : "", place.writable ? "write" : "read",
-        entry.map->server ? std::to_string(*entry.map->server) : "",
-        entry.map->unit ? std::to_string(*entry.map->unit) : "", csv_cell(comment));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(entry.name),
+                    csv_cell(entry.type), unit_text(entry.unit), modbus_table_name(place.table),
+                    place.address, entry.span, wire_type(entry), order(place.word_order == WordOrder::big),
+                    order(is_big_byte_order(entry)), place.bit >= 0 ? std::to_string(place.bit) : "",
+                    place.is_scaled ? fmt::format("{}", place.scale) : "",
+                    place.is_scaled ? fmt::format("{}", place.offset) : "", place.writable ? "write" : "read",
+                    entry.map->server ? std::to_string(*entry.map->server) : "",
+                    entry.map->unit ? std::to_string(*entry.map->unit) : "", csv_cell(comment));
   };
   for (std::size_t i = 0; i < entries.of_tags.size(); ++i)
     for (const Entry& entry : entries.of_tags[i]) line(entry, project.controller->tags[i].comment);
   for (std::size_t i = 0; i < entries.of_arrays.size(); ++i)
     for (const Entry& entry : entries.of_arrays[i]) line(entry, project.controller->arrays[i].comment);
+  for (std::size_t i = 0; i < entries.of_strings.size(); ++i)
+    for (const Entry& entry : entries.of_strings[i]) line(entry, project.controller->strings[i].comment);
   for (const Entry& entry : entries.others) line(entry, "");
   return text;
 }

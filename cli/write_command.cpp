@@ -1,6 +1,7 @@
 // lockstep write: values of a running project by their names, over Modbus.
 #include "cli/command.hpp"
 #include "cli/modbus_panel.hpp"
+#include "hmi_bridge/text_literal.hpp"
 #include "projects/constant.hpp"
 
 namespace lockstep::cli {
@@ -43,6 +44,19 @@ std::optional<Value> value_for(const PanelEntry& place, std::string text) {
   return value;
 }
 
+/// A text as it is, or as a literal in quotes; nothing, which is told, if the name has no room for it.
+std::optional<std::vector<Value>> values_of_text(const PanelName& name, const std::string& given) {
+  std::string problem;
+  const auto text = given.starts_with('\'') ? read_text_literal(given, problem) : text_from_utf8(given);
+  if (!text && problem.empty()) problem = "a text has printable characters of ISO 8859-1 only";
+  if (text && text->size() > name.room)
+    problem = quote(given) + " has " + std::to_string(text->size()) + " characters; allowed: up to " +
+              std::to_string(name.room);
+  if (problem.empty()) return text_values(*text, name.room);
+  tell(name.name + ": " + problem);
+  return std::nullopt;
+}
+
 /// Reads "NAME=VALUE" or "NAME=[VALUE, …]", or tells what is wrong with it.
 std::optional<Assignment> assignment(const ModbusPanel& panel, const std::string& text) {
   const auto equals = text.find('=');
@@ -53,6 +67,10 @@ std::optional<Assignment> assignment(const ModbusPanel& panel, const std::string
   auto name = panel.find(text.substr(0, equals), true);
   if (!name) return std::nullopt;
   const std::string given = text.substr(equals + 1);
+  if (name->room > 0) {
+    auto values = values_of_text(*name, given);
+    return values ? std::optional(Assignment{std::move(*name), std::move(*values)}) : std::nullopt;
+  }
   const std::vector<std::string> parts = parts_of(given, name->is_list);
   const std::size_t count = name->entries.size();
   if (name->is_list && (!given.starts_with('[') || !given.ends_with(']') || parts.size() != count)) {
@@ -91,7 +109,7 @@ void add_write_command(CLI::App& app, Action& action) {
   command
       ->add_option("VALUES", options->names,
                    "NAME=VALUE, such as speed=250 start=TRUE wait=1.5s mask=16#FF; of arrays heights[3]=7.5, "
-                   "'heights=[5, 7.5, 10]', 'heights[2..3]=[5, 7.5]'")
+                   "'heights=[5, 7.5, 10]', 'heights[2..3]=[5, 7.5]'; of texts 'kind=pale ale'")
       ->required();
   command->footer(
       "Nothing is written unless every name and value is good; then they go out in their order, each in a\n"

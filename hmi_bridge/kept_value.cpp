@@ -6,11 +6,14 @@
 #include <limits>
 #include <system_error>
 
+#include "hmi_bridge/text_literal.hpp"
+#include "scheduler/text.hpp"
+
 namespace lockstep {
 namespace {
 
 template <class Number>
-std::string text_of(Number number) {
+std::string number_text(Number number) {
   std::array<char, 40> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), number);
   return {text.data(), end.ptr};
@@ -33,9 +36,9 @@ bool is_signed(Type type) {
 std::string kept_text(Value value, Type type) {
   if (type == Type::BOOL) return value.u != 0 ? "TRUE" : "FALSE";
   if (is_real(type) && value.r != value.r) return "nan";  // its sign depends on the processor
-  if (type == Type::REAL) return text_of(static_cast<float>(value.r));
-  if (type == Type::LREAL) return text_of(value.r);
-  return is_signed(type) ? text_of(value.i) : text_of(value.u);
+  if (type == Type::REAL) return number_text(static_cast<float>(value.r));
+  if (type == Type::LREAL) return number_text(value.r);
+  return is_signed(type) ? number_text(value.i) : number_text(value.u);
 }
 
 std::optional<Value> kept_value(std::string_view text, Type type) {
@@ -68,6 +71,18 @@ std::optional<Value> kept_value(std::string_view text, Type type) {
 
 std::string KeptValue::type() const {
   return elements.empty() ? std::string(type_name(signal.value_type())) : array_type;
+}
+
+std::string KeptValue::text(std::span<const Value> values) const {
+  return room > 0 ? text_literal(text_of(values, room)) : kept_texts(values, signals());
+}
+
+std::optional<std::vector<Value>> KeptValue::values(std::string_view text) const {
+  if (room == 0) return kept_values(text, signals());
+  std::string problem;
+  const auto characters = read_text_literal(text, problem);
+  if (!characters || characters->size() > room) return std::nullopt;
+  return text_values(*characters, room);
 }
 
 std::string kept_texts(std::span<const Value> values, std::span<const Signal> signals) {

@@ -19,15 +19,21 @@ struct KeptValue {
   std::optional<Signal> present{};
   /// What the value only holds with, such as the settings of an encoder; empty: nothing.
   std::string basis{};
-  /// Of an array: its elements, of structures all members of each, in their order; empty: a single value.
+  /// Of an array: its elements, of structures all members of each, in their order; of a text its
+  /// `text_signals`; empty: a single value.
   std::vector<Signal> elements{};
-  std::string array_type{};  ///< "ARRAY[1..100] OF LREAL"
+  std::string array_type{};  ///< "ARRAY[1..100] OF LREAL", "STRING[20]"
+  std::size_t room = 0;      ///< of a text; 0: it is none
 
   std::span<const Signal> signals() const noexcept {
     return elements.empty() ? std::span(&signal, 1) : std::span(elements);
   }
   /// Published name of its type.
   std::string type() const;
+  /// How the values of its signals stand in a file, a text as a literal of IEC 61131-3.
+  std::string text(std::span<const Value> values) const;
+  /// The values of such a text; none if it is no value of that type.
+  std::optional<std::vector<Value>> values(std::string_view text) const;
 };
 
 /// The value as it stands in a file; reading it back gives the same bits, but for those of a NaN. BOOL is

@@ -314,9 +314,9 @@ void ModbusMap::place(std::size_t index) {
   if (at.size() < end) at.resize(end, kNone);
   std::fill(at.begin() + entry.address, at.begin() + end, static_cast<std::uint32_t>(index));
   if (!bits_as_they_are(entry, signal_type(entry))) return;
-  std::vector<std::uint32_t>& plain = plain_[static_cast<std::size_t>(entry.table)];
-  if (plain.size() < end) plain.resize(end, kNone);
-  plain[entry.address] = entry.signal;
+  std::vector<PlainRegister>& plain = plain_[static_cast<std::size_t>(entry.table)];
+  if (plain.size() < end) plain.resize(end);
+  plain[entry.address] = {entry.signal, entry.writable, entry.type == Type::INT};
 }
 
 /// Adds a bit to those that share its register.

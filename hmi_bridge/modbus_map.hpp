@@ -76,6 +76,23 @@ ModbusWords encode(const ModbusEntry& entry, Type signal, Value value) noexcept;
 std::optional<Value> decode(const ModbusEntry& entry, Type signal,
                             std::span<const std::uint16_t> words) noexcept;
 
+/// A register that has the 16 bits of an INT, UINT or WORD as they are and takes any, which needs neither
+/// `encode` nor `decode`.
+struct PlainRegister {
+  static constexpr std::uint32_t kNoSignal = ~0U;
+
+  bool exists() const noexcept { return signal != kNoSignal; }
+  Value value_of(std::uint16_t word) const noexcept {
+    Value value{};
+    value.i = is_signed ? static_cast<std::int16_t>(word) : word;
+    return value;
+  }
+
+  std::uint32_t signal = kNoSignal;  ///< index into the signals of the process image
+  bool writable = false;
+  bool is_signed = false;
+};
+
 /// What is wrong with a line of the map.
 struct ModbusMapProblem {
   std::size_t entry;     ///< index of the line
@@ -98,12 +115,10 @@ class ModbusMap {
     const std::vector<std::uint32_t>& at = at_[static_cast<std::size_t>(table)];
     return address >= at.size() || at[address] == kNone ? nullptr : &entries_[at[address]];
   }
-  static constexpr std::uint32_t kNone = ~0U;
-  /// The signal of which the register at an address has the 16 bits as they are, and takes any: such
-  /// registers need neither `encode` nor `decode`. kNone: there is another one, or none.
-  std::uint32_t plain_signal(ModbusTable table, std::uint32_t address) const noexcept {
-    const std::vector<std::uint32_t>& plain = plain_[static_cast<std::size_t>(table)];
-    return address >= plain.size() ? kNone : plain[address];
+  /// The plain register at an address; one without a signal if there is another one, or none.
+  PlainRegister plain(ModbusTable table, std::uint32_t address) const noexcept {
+    const std::vector<PlainRegister>& plain = plain_[static_cast<std::size_t>(table)];
+    return address >= plain.size() ? PlainRegister{} : plain[address];
   }
   /// The next bit in the same register, or nullptr.
   const ModbusEntry* next(const ModbusEntry& entry) const noexcept;
@@ -121,11 +136,13 @@ class ModbusMap {
   void report(std::size_t index, std::string_view key, std::string text);
   std::string line_of(std::size_t index) const;
 
+  static constexpr std::uint32_t kNone = ~0U;
+
   std::vector<ModbusEntry> entries_;
   std::vector<Type> signals_;
   std::vector<ModbusMapProblem> problems_;
   std::array<std::vector<std::uint32_t>, 4> at_;     ///< per table and address: index of the entry or kNone
-  std::array<std::vector<std::uint32_t>, 4> plain_;  ///< per table and address: see `plain_signal`
+  std::array<std::vector<PlainRegister>, 4> plain_;  ///< per table and address
   std::vector<std::uint32_t> next_;                  ///< per entry: the next bit in its register or kNone
 };
 

@@ -148,12 +148,12 @@ ModbusException ModbusResponder::check_write(ModbusTable table, std::uint32_t ad
                                              std::uint32_t count) const {
   const std::uint32_t end = address + count;
   while (address < end) {
-    const ModbusEntry* const entry = map_->find(table, address);
-    if (entry == nullptr || entry->address != address) return ModbusException::illegal_data_address;
-    if (map_->plain_signal(table, address) != ModbusMap::kNone && entry->writable) {
+    if (map_->plain(table, address).writable) {
       ++address;
       continue;
     }
+    const ModbusEntry* const entry = map_->find(table, address);
+    if (entry == nullptr || entry->address != address) return ModbusException::illegal_data_address;
     for (const ModbusEntry* part = entry; part != nullptr; part = map_->next(*part))
       if (!part->writable) return ModbusException::illegal_data_address;
     address += modbus_span(*entry);
@@ -200,9 +200,8 @@ ModbusException ModbusResponder::read_registers(ModbusTable table, std::uint32_t
   };
   // A value that begins before the range or ends behind it gives the part that was asked for.
   for (std::uint32_t i = address; i < address + count;) {
-    const std::uint32_t plain = map_->plain_signal(table, i);
-    if (plain != ModbusMap::kNone) {
-      put(static_cast<std::uint16_t>(image_.value(plain).u));
+    if (const PlainRegister plain = map_->plain(table, i); plain.exists()) {
+      put(static_cast<std::uint16_t>(image_.value(plain.signal).u));
       ++i;
       continue;
     }
@@ -234,18 +233,12 @@ ModbusException ModbusResponder::stage_registers(std::uint32_t address, Bytes wo
   const auto end = address + static_cast<std::uint32_t>(words.size() / 2);
   batch_.clear();
   for (std::uint32_t i = address; i < end;) {
-    const ModbusEntry& entry = *map_->find(ModbusTable::holding_register, i);
-    if (map_->plain_signal(ModbusTable::holding_register, i) != ModbusMap::kNone) {
-      const std::uint16_t word = word_at(words, 2 * (i - address));
-      Value value{};
-      if (entry.type == Type::INT)
-        value.i = static_cast<std::int16_t>(word);
-      else
-        value.u = word;
-      batch_.push_back({entry.signal, value});
+    if (const PlainRegister plain = map_->plain(ModbusTable::holding_register, i); plain.exists()) {
+      batch_.push_back({plain.signal, plain.value_of(word_at(words, 2 * (i - address)))});
       ++i;
       continue;
     }
+    const ModbusEntry& entry = *map_->find(ModbusTable::holding_register, i);
     if (entry.bit >= 0) {
       if (const auto bad = stage_bits(entry, word_at(words, 2 * (i - address))); bad != ModbusException::none)
         return bad;

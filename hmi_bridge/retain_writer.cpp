@@ -70,7 +70,7 @@ std::vector<std::string> restore(RetainFile& file, const std::vector<KeptValue>&
       continue;
     }
     const std::span<const Signal> signals = value.signals();
-    const auto kept = kept_values(row->value, signals);
+    const auto kept = value.values(row->value);
     if (!kept)
       throw RetainFileError("retain file " + file.path() + ": it is damaged (" + value.name + " is '" +
                             beginning_of(row->value) + "', which is no " + row->type + ")");
@@ -185,7 +185,7 @@ std::vector<KeptRow> RetainWriter::rows() {
   for (const KeptValue& value : values_) presence -= value.present ? 1 : 0;
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const std::span<const Signal> signals = values_[i].signals();
-    if (is_old_[i]) texts_[i] = kept_texts(std::span(seen_).subspan(place, signals.size()), signals);
+    if (is_old_[i]) texts_[i] = values_[i].text(std::span(seen_).subspan(place, signals.size()));
     is_old_[i] = false;
     place += signals.size();
     if (values_[i].present && seen_[presence++].u == 0) continue;

@@ -12,6 +12,9 @@ namespace lockstep {
 namespace {
 
 void emit(const Term& term, ExpressionBuilder& code) {
+  if (term.form == Term::Form::kTextComparison)
+    return code.compare_texts(
+        {term.operands[0].text, term.operands[1].text, term.operation == Operation::kEqual});
   for (std::size_t i = 0; i < term.operands.size(); ++i) {
     emit(term.operands[i], code);
     // MIN, MAX with many inputs: one after the other. An operation takes the type of its first operand.
@@ -40,7 +43,9 @@ void emit(const Term& term, ExpressionBuilder& code) {
       code.multiplex(static_cast<int>(term.operands.size()) - 1);
       break;
     case Term::Form::kOperation:
-    case Term::Form::kRounding:  // has become an operation
+    case Term::Form::kRounding:        // has become an operation
+    case Term::Form::kText:            // stands in comparisons only
+    case Term::Form::kTextComparison:  // see above
       break;
   }
 }
@@ -69,6 +74,23 @@ CompiledExpression compile(std::string_view text, Type wanted, const Scope& scop
 }
 
 }  // namespace
+
+CompiledText compile_text(std::string_view text, const Scope& scope) {
+  CompiledText result;
+  try {
+    Typing typing(scope);
+    Term term = typing.type(parse_expression(text));
+    if (!term.faulty && term.shape == Shape::kText)
+      result.text = std::move(term.text);
+    else if (!term.faulty)
+      typing.settling().error(
+          1, describe(term) + " is no text; allowed: a text such as 'ale', or a tag of type STRING");
+    result.errors = std::move(typing.settling().errors);
+  } catch (const SyntaxError& error) {
+    result.errors.push_back({error.column, error.message});
+  }
+  return result;
+}
 
 CompiledExpression compile_expression(std::string_view text, Type wanted, const Scope& scope) {
   CompiledExpression result;

@@ -16,8 +16,9 @@ namespace lockstep {
 /// What a reference stands for: a signal, or why there is none.
 struct Reference {
   std::optional<Signal> signal;
-  std::string error;        ///< what is wrong and what is allowed, if there is no signal
-  ElementRange elements{};  ///< of a path with "[]": `signal` is the first of them
+  std::string error;           ///< what is wrong and what is allowed, if there is no signal
+  ElementRange elements{};     ///< of a path with "[]": `signal` is the first of them
+  std::optional<Text> text{};  ///< of a tag of type STRING, in place of a signal
 };
 
 /// What the names in an expression stand for.
@@ -37,6 +38,13 @@ struct CompiledExpression {
   std::vector<ExpressionError> errors;
   std::vector<ExpressionError> warnings;
 };
+
+/// A text: a literal or a tag of type STRING.
+struct CompiledText {
+  std::optional<TextSource> text;  ///< none if there are errors
+  std::vector<ExpressionError> errors;
+};
+CompiledText compile_text(std::string_view text, const Scope& scope);
 
 /// Compiles one expression for a place of type `wanted` (a DB_ANY place takes a UDINT). Never throws on
 /// account of the text, whatever it is; a text of more than 4096 bytes or nested deeper than 64 is an error.

@@ -229,7 +229,8 @@ Term Typing::absolute(const Syntax& syntax, std::vector<Term> inputs) {
   if (input.shape == Shape::kInteger && input.form == Term::Form::kLiteral)
     return unary(input.integer < 0 ? "-" : "+", syntax.column, std::move(input));
   const Common common = common_of(input);
-  if (common.shape == Shape::kTyped ? !is_numeric(common.type) : common.shape == Shape::kBits)
+  if (common.shape == Shape::kTyped ? !is_numeric(common.type)
+                                    : common.shape == Shape::kBits || common.shape == Shape::kText)
     return no_meaning(syntax.text, syntax.column, inputs, "allowed are numbers");
   return operation(Operation::kAbsolute, syntax.column, common, std::move(inputs));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hmi_bridge/text_literal.hpp"
 #include "projects/expression_duration.hpp"
 
 namespace lockstep {
@@ -34,6 +35,7 @@ Token Lexer::next() {
   if (at_ >= text_.size()) return token;
   if (is_letter(peek())) return name(std::move(token));
   if (is_digit(peek())) return number(std::move(token));
+  if (peek() == '\'') return quoted_text(std::move(token));
   token.kind = Token::Kind::kSymbol;
   const std::string_view two = text_.substr(at_, 2);
   for (const std::string_view symbol : {"**", "<>", "<=", ">=", ":="})
@@ -241,6 +243,20 @@ Token Lexer::duration(Token token) {
   token.kind = Token::Kind::kTyped;
   token.type = Type::TIME;
   token.value.i = *value;
+  return token;
+}
+
+/// A text 'ale', in which $' does not end it.
+Token Lexer::quoted_text(Token token) {
+  const std::size_t start = at_++;
+  while (at_ < text_.size() && peek() != '\'') at_ += peek() == '$' ? 2 : 1;
+  if (at_ >= text_.size()) throw SyntaxError{token.column, "the text that begins here has no end '"};
+  ++at_;
+  std::string problem;
+  const auto characters = read_text_literal(text_.substr(start, at_ - start), problem);
+  if (!characters) throw SyntaxError{token.column, problem};
+  token.kind = Token::Kind::kText;
+  token.text = *characters;
   return token;
 }
 

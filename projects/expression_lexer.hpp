@@ -24,6 +24,7 @@ struct Token {
     kInteger,  ///< `integer`, whose type its place decides
     kReal,     ///< `value.r`
     kTyped,    ///< `value` of `type`: TRUE, INT#5, T#10ms
+    kText,     ///< `text`: the characters of 'ale'
     kSymbol    ///< `text`
   };
   Kind kind = Kind::kEnd;
@@ -49,6 +50,7 @@ class Lexer {
   Token number(Token token);
   Token typed(Token token, Type type);
   Token duration(Token token);
+  Token quoted_text(Token token);
   std::string take_digits(int base, std::string_view what);
   WideInteger take_integer();
   void end_of_literal(int column) const;

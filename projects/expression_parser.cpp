@@ -65,6 +65,7 @@ class Parser {
       case Token::Kind::kInteger:
       case Token::Kind::kReal:
       case Token::Kind::kTyped:
+      case Token::Kind::kText:
         found = "a literal";
         break;
       case Token::Kind::kEnd:
@@ -147,6 +148,10 @@ class Parser {
         break;
       case Token::Kind::kTyped:
         node.kind = Syntax::Kind::kTyped;
+        break;
+      case Token::Kind::kText:
+        node.kind = Syntax::Kind::kText;
+        node.text = token_.text;
         break;
       case Token::Kind::kName:
         return named(std::move(node));

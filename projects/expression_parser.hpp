@@ -25,6 +25,7 @@ struct Syntax {
     kInteger,    ///< `integer`
     kReal,       ///< `value.r`
     kTyped,      ///< `value` of `type`
+    kText,       ///< `text`: characters of a literal
     kReference,  ///< `text`: name, members and indices without blanks; "[]" stands for the index operands[0]
     kOperator,   ///< `operation` on one or two `operands`
     kCall        ///< function `text` (upper case) of `operands`

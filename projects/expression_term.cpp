@@ -74,6 +74,7 @@ Common common_of(const Term& term) {
 }
 
 std::optional<Common> join(const Common& a, const Common& b) {
+  if (a.shape == Shape::kText || b.shape == Shape::kText) return std::nullopt;
   if (a.shape == Shape::kTyped && b.shape == Shape::kTyped) {
     const auto type = common_type(a.type, b.type);
     return type ? std::optional(Common{Shape::kTyped, *type, 0, 0}) : std::nullopt;
@@ -108,6 +109,8 @@ std::string describe(const Common& common) {
       return "a REAL or LREAL number";
     case Shape::kBits:
       return "a bit string";
+    case Shape::kText:
+      return "a text";
   }
   return "";
 }
@@ -135,6 +138,10 @@ Term converted(Term term, Type from, Type to) {
 }
 
 void Settling::settle(Term& term) {
+  if (term.shape == Shape::kText && !term.faulty) {
+    error(term.column, describe(term) + " has no number; allowed with a text: = and <> with another one");
+    term.faulty = true;
+  }
   settle(term, default_type(term));
 }
 
@@ -152,6 +159,9 @@ void Settling::settle(Term& term, Type type) {
       break;
     case Shape::kBits:
       settle_bits(term, type);
+      break;
+    case Shape::kText:
+      refuse(term, type);
       break;
   }
   for (const Term& operand : term.operands) term.faulty = term.faulty || operand.faulty;

@@ -21,7 +21,8 @@ enum class Shape {
   kTyped,    ///< `type`, and nothing else
   kInteger,  ///< integer literals, or an operation on them alone: any number that holds them
   kReal,     ///< an operation in which a real literal has to decide: REAL or LREAL
-  kBits      ///< an operation on bits of literals: any bit string from `type` on
+  kBits,     ///< an operation on bits of literals: any bit string from `type` on
+  kText      ///< a text, which is only compared with another one, or assigned
 };
 
 /// A node of the typed tree. A literal, and an operation on nothing but literals, keeps a shape until its
@@ -30,13 +31,15 @@ enum class Shape {
 /// literals allow.
 struct Term {
   enum class Form {
-    kLiteral,      ///< `integer`, or `value` (a real, or of `type`)
-    kSignal,       ///< `signal`
-    kElement,      ///< of `elements` from `signal` on the one with the index operands[0]
-    kOperation,    ///< `operation` on `operands`
-    kConversion,   ///< `operands[0]` from the representation of `from` to that of `to`
-    kSelection,    ///< SEL: operands IN0, IN1, G
-    kMultiplexer,  ///< MUX: operands IN0, IN1, …, K
+    kLiteral,         ///< `integer`, or `value` (a real, or of `type`)
+    kSignal,          ///< `signal`
+    kElement,         ///< of `elements` from `signal` on the one with the index operands[0]
+    kOperation,       ///< `operation` on `operands`
+    kConversion,      ///< `operands[0]` from the representation of `from` to that of `to`
+    kSelection,       ///< SEL: operands IN0, IN1, G
+    kMultiplexer,     ///< MUX: operands IN0, IN1, …, K
+    kText,            ///< `text`
+    kTextComparison,  ///< `operation` (kEqual, kUnequal) on two texts
     kRounding  ///< `operation` (TRUNC, …) on a real: an integer, or in a real place the real without fraction
   };
   Shape shape = Shape::kTyped;
@@ -47,6 +50,7 @@ struct Term {
   Type to = Type::BOOL;
   Value value{};
   Signal signal;
+  TextSource text;
   ElementRange elements;
   Operation operation = Operation::kAdd;
   std::vector<Term> operands;

@@ -63,6 +63,8 @@ Term Typing::type(const Syntax& syntax) {
     case Syntax::Kind::kTyped:
       term.type = syntax.type;
       return term;
+    case Syntax::Kind::kText:
+      return text_term(syntax.column, {std::nullopt, syntax.text});
     case Syntax::Kind::kReference:
       return reference(syntax);
     case Syntax::Kind::kCall:
@@ -74,6 +76,15 @@ Term Typing::type(const Syntax& syntax) {
   if (syntax.operands.size() == 1) return unary(syntax.text, syntax.column, std::move(left));
   Term right = type(syntax.operands[1]);
   return binary(syntax.operation, syntax.text, syntax.column, std::move(left), std::move(right));
+}
+
+Term Typing::text_term(int column, TextSource source) const {
+  Term term;
+  term.shape = Shape::kText;
+  term.form = Term::Form::kText;
+  term.column = column;
+  term.text = std::move(source);
+  return term;
 }
 
 Term Typing::reference(const Syntax& syntax) {
@@ -99,6 +110,8 @@ Term Typing::reference(const Syntax& syntax) {
   const auto bit = point == std::string_view::npos ? std::nullopt : bit_number(text.substr(point + 1));
   const bool of_bit = !found.signal && bit;
   if (of_bit) found = scope_.resolve(text.substr(0, end), path_of(text.substr(0, point)));
+  if (found.text && !of_bit) return text_term(syntax.column, {found.text, {}});
+  if (found.text) found.error = quoted(text.substr(0, point)) + " is a text and has no bits";
   if (!found.signal) {
     settling_.error(syntax.column, found.error);
     return faulty(syntax.column);
@@ -304,7 +317,17 @@ Term Typing::real_operation(Operation operation, std::string_view text, int colu
 Term Typing::comparison(Operation operation, std::string_view text, int column, Term left, Term right) {
   const auto common = join(common_of(left), common_of(right));
   const bool equality = operation == Operation::kEqual || operation == Operation::kUnequal;
+  const bool texts = left.shape == Shape::kText && right.shape == Shape::kText;
   std::vector<Term> operands = pair_of(std::move(left), std::move(right));
+  if (texts && equality) {
+    Term term;
+    term.form = Term::Form::kTextComparison;
+    term.column = column;
+    term.operation = operation;
+    term.operands = std::move(operands);
+    return term;
+  }
+  if (texts) return no_meaning(text, column, operands, "texts are compared with = and <>");
   if (!common || (common->shape == Shape::kTyped && common->type == Type::BOOL && !equality))
     return no_meaning(
         text, column, operands,

@@ -47,6 +47,7 @@ class Typing {
   std::optional<std::vector<Term>> inputs_in_order(const Syntax& syntax, std::string_view names, bool more);
 
   Term faulty(int column) const;
+  Term text_term(int column, TextSource source) const;
 
   const Scope& scope_;
   Settling settling_;

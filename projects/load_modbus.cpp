@@ -46,11 +46,13 @@ class MapLoader {
     std::vector<ModbusEntry> entries;
     std::vector<const JsonValue*> places;  // of the entries in the file
     std::vector<ModbusArray> arrays;
+    std::vector<ModbusText> texts;
   };
 
   void load_line(const JsonValue& json, std::uint32_t line, Draft& draft);
   void load_entry(const Fields& fields, std::uint32_t line, Draft& draft);
   void load_tag(const Fields& fields, std::uint32_t line, Draft& draft);
+  void load_text(const Fields& fields, const StringTag& tag, std::uint32_t line, Draft& draft);
   std::optional<ModbusEntry> load_diagnostic(const JsonValue& json, const Fields& fields);
   bool read_access(const JsonValue* json, const Place& place, ModbusTable table);
 
@@ -62,7 +64,7 @@ class MapLoader {
 
 void MapLoader::load(const JsonValue* map, std::optional<std::size_t> server,
                      std::optional<std::uint8_t> unit) {
-  Draft& draft = drafts_.emplace_back(Draft{server, unit, {}, {}, {}});
+  Draft& draft = drafts_.emplace_back(Draft{server, unit, {}, {}, {}, {}});
   if (read_array(map, problems_) == nullptr) return;
   for (std::uint32_t line = 0; line < map->elements.size(); ++line)
     load_line(*map->elements[line], line, draft);
@@ -87,8 +89,11 @@ void MapLoader::finish() {
   std::vector<Type> types;
   for (const NamedSignal& signal : modbus_.signals) types.push_back(signal.signal.value_type());
   for (Draft& draft : drafts_) {
-    const ModbusMapConfig& made = modbus_.maps.emplace_back(ModbusMapConfig{
-        draft.server, draft.unit, {std::move(draft.entries), types}, std::move(draft.arrays)});
+    const ModbusMapConfig& made = modbus_.maps.emplace_back(ModbusMapConfig{draft.server,
+                                                                            draft.unit,
+                                                                            {std::move(draft.entries), types},
+                                                                            std::move(draft.arrays),
+                                                                            std::move(draft.texts)});
     report_modbus_problems(made.map, draft.places, problems_);
   }
 }
@@ -129,6 +134,8 @@ void MapLoader::load_tag(const Fields& fields, std::uint32_t line, Draft& draft)
   const std::size_t before = problems_.count();
   const JsonValue& tag = *fields["tag"];
   const auto path = read_string(&tag, problems_);
+  if (const StringTag* const text = path ? loading_.names().find_string(*path) : nullptr)
+    return load_text(fields, *text, line, draft);
   const auto source = path ? find_modbus_source(tag, *path, loading_) : std::nullopt;
   auto entry = read_modbus_shape(fields, source ? std::optional(source->type()) : std::nullopt, problems_);
   if (!source || !entry) return;
@@ -138,6 +145,17 @@ void MapLoader::load_tag(const Fields& fields, std::uint32_t line, Draft& draft)
   if (problems_.count() != before) return;
   if (source->elements) draft.arrays.push_back({*source->elements, draft.entries.size()});
   add_modbus_entries(*entry, *source, *path, fields, problems_, draft.entries, modbus_.signals);
+}
+
+void MapLoader::load_text(const Fields& fields, const StringTag& tag, std::uint32_t line, Draft& draft) {
+  auto entry = read_modbus_text(fields, problems_);
+  const auto access = read_word(fields["access"], words::kAccesses, problems_);
+  if (!entry) return;
+  entry->writable = access ? *access == 1 : is_writable_table(entry->table);
+  entry->line = line;
+  const std::size_t first = draft.entries.size();
+  if (add_modbus_text(*entry, tag, fields, problems_, draft.entries, modbus_.signals) > 0)
+    draft.texts.push_back({&tag, first});
 }
 
 void MapLoader::load_entry(const Fields& fields, std::uint32_t line, Draft& draft) {
@@ -355,6 +373,26 @@ std::optional<ModbusSource> find_modbus_source(const JsonValue& at, std::string_
   return ModbusSource{*place, std::nullopt};
 }
 
+namespace {
+
+/// Whether several elements fit behind the address of the first, and among the signals that there are.
+bool has_room(const ModbusEntry& shape, std::size_t elements, std::uint64_t addresses, std::string_view path,
+              const Fields& fields, std::size_t signals, Problems& problems) {
+  if (shape.address + addresses > kAddresses)
+    problems.report(*fields["address"], std::to_string(elements) + " elements on " +
+                                            std::to_string(addresses) + " addresses from " +
+                                            std::to_string(shape.address) + " on go beyond 65535");
+  else if (signals + elements > kMostSignals)
+    problems.report(*fields["tag"], "with the " + std::to_string(elements) + " elements of " + quote(path) +
+                                        " there are more than " + std::to_string(kMostSignals) +
+                                        " values on Modbus; allowed are these");
+  else
+    return true;
+  return false;
+}
+
+}  // namespace
+
 std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& source, std::string_view path,
                                const Fields& fields, Problems& problems, std::vector<ModbusEntry>& entries,
                                std::vector<NamedSignal>& signals) {
@@ -373,18 +411,7 @@ std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& sou
   const std::uint64_t addresses = is_bit
                                       ? (static_cast<std::uint64_t>(shape.bit) + elements.count() + 15) / 16
                                       : elements.count() * modbus_span(shape);
-  if (shape.address + addresses > kAddresses) {
-    problems.report(*fields["address"], std::to_string(elements.count()) + " elements on " +
-                                            std::to_string(addresses) + " addresses from " +
-                                            std::to_string(shape.address) + " on go beyond 65535");
-    return 0;
-  }
-  if (signals.size() + elements.count() > kMostSignals) {
-    problems.report(*fields["tag"], "with the " + std::to_string(elements.count()) + " elements of " +
-                                        quote(path) + " there are more than " + std::to_string(kMostSignals) +
-                                        " values on Modbus; allowed are these");
-    return 0;
-  }
+  if (!has_room(shape, elements.count(), addresses, path, fields, signals.size(), problems)) return 0;
   for (std::int64_t index = elements.first; index <= elements.last; ++index) {
     add(elements.name_of(index), elements.signal_of(index));
     if (!is_bit) {
@@ -395,6 +422,42 @@ std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& sou
     }
   }
   return elements.count();
+}
+
+std::optional<ModbusEntry> read_modbus_text(const Fields& fields, Problems& problems) {
+  const std::size_t before = problems.count();
+  for (const char* const key : {"type", "word_order", "bit", "scale", "offset"})
+    if (const JsonValue* const field = fields[key])
+      problems.report(*field,
+                      "a text has no '" + std::string(key) + "'; allowed: table, address, byte_order");
+  if (problems.count() != before) return std::nullopt;
+  auto entry = read_modbus_shape(fields, Type::WORD, problems);
+  if (!entry) return std::nullopt;
+  if (is_bit_table(entry->table)) {
+    problems.report(*fields["table"], "a text does not fit the one bit of the table " +
+                                          std::string(modbus_table_name(entry->table)) +
+                                          "; allowed: input_register, holding_register");
+    return std::nullopt;
+  }
+  // In memory the first character of two is the low byte of a WORD.
+  entry->byte_order = entry->byte_order == ByteOrder::big ? ByteOrder::little : ByteOrder::big;
+  return entry;
+}
+
+std::size_t add_modbus_text(const ModbusEntry& shape, const StringTag& tag, const Fields& fields,
+                            Problems& problems, std::vector<ModbusEntry>& entries,
+                            std::vector<NamedSignal>& signals) {
+  const std::vector<Signal> parts = text_signals(tag.text);
+  if (!has_room(shape, parts.size(), parts.size(), tag.name, fields, signals.size(), problems)) return 0;
+  ModbusEntry entry = shape;
+  for (const Signal& part : parts) {
+    entry.signal = static_cast<std::uint32_t>(signals.size());
+    entry.type = part.type;
+    entries.push_back(entry);
+    signals.push_back({tag.name, part, Unit::kNone});
+    ++entry.address;
+  }
+  return parts.size();
 }
 
 void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* const> places,

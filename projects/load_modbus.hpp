@@ -37,6 +37,13 @@ std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& sou
                                const Fields& fields, Problems& problems, std::vector<ModbusEntry>& entries,
                                std::vector<NamedSignal>& signals);
 
+/// The same for a text: the shape of its first entry (none: it is reported), and the entries. The first
+/// character of a register is its more significant byte, unless `byte_order` is little.
+std::optional<ModbusEntry> read_modbus_text(const Fields& fields, Problems& problems);
+std::size_t add_modbus_text(const ModbusEntry& shape, const StringTag& tag, const Fields& fields,
+                            Problems& problems, std::vector<ModbusEntry>& entries,
+                            std::vector<NamedSignal>& signals);
+
 /// Reports what a map says of its entries, once for each key of the project file.
 /// @param places of the entries in the file
 void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* const> places,

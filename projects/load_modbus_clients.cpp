@@ -102,19 +102,29 @@ void ClientLoader::load_entry(const JsonValue& json, ModbusLineState& state,
   const bool is_write = state.is_write;
   const std::size_t before = problems_.count();
   const auto path = read_string(fields["tag"], problems_);
-  const auto source = path ? find_modbus_source(*fields["tag"], *path, loading_) : std::nullopt;
-  auto entry = read_modbus_shape(fields, source ? std::optional(source->type()) : std::nullopt, problems_);
-  if (!source || !entry) return;
-  if (const std::string reason = why_not_writable(source->place); !is_write && !reason.empty())
-    problems_.report(*fields["tag"], reason);
+  const StringTag* const text = path ? loading_.names().find_string(*path) : nullptr;
+  const auto source =
+      path && text == nullptr ? find_modbus_source(*fields["tag"], *path, loading_) : std::nullopt;
+  auto entry =
+      text != nullptr
+          ? read_modbus_text(fields, problems_)
+          : read_modbus_shape(fields, source ? std::optional(source->type()) : std::nullopt, problems_);
+  if ((!source && text == nullptr) || !entry) return;
+  if (source && !is_write) {
+    if (const std::string reason = why_not_writable(source->place); !reason.empty())
+      problems_.report(*fields["tag"], reason);
+    entry->range = written_range(source->place);
+  }
   if (is_write && !is_writable_table(entry->table))
     problems_.report(*fields["table"],
                      fields["table"]->shown() + " cannot be written; allowed: coil, holding_register");
-  if (!is_write) entry->range = written_range(source->place);
   state.quality = load_tag(fields["quality"], Type::BOOL);
   state.age = load_tag(fields["age"], Type::TIME);
   if (problems_.count() != before) return;
-  add_modbus_entries(*entry, *source, *path, fields, problems_, entries, client_.signals);
+  if (text != nullptr)
+    add_modbus_text(*entry, *text, fields, problems_, entries, client_.signals);
+  else
+    add_modbus_entries(*entry, *source, *path, fields, problems_, entries, client_.signals);
 }
 
 /// Entries that are good by themselves and together: the rules are those of a map.

@@ -59,6 +59,10 @@ void declare_calls(const JsonValue* calls, const Loading& loading) {
   }
 }
 
+std::string message_of(const ExpressionError& error) {
+  return error.message + " (column " + std::to_string(error.column) + ")";
+}
+
 /// Compiles the calls of one program.
 class ProgramLoader {
  public:
@@ -72,6 +76,7 @@ class ProgramLoader {
   void load_branch(const JsonValue& json);
   void load_set(const JsonValue& json);
   void assign(const JsonValue& to, const Place& place, std::optional<Expression> index);
+  void assign_text(const JsonValue* to, const StringTag& tag);
   void load_set_start(const JsonValue& json);
   struct Target;
   std::optional<Target> read_target(const JsonValue& json, std::string_view path);
@@ -87,7 +92,9 @@ class ProgramLoader {
 
   /// What the place of a type gets: a JSON boolean or number, or an expression; none if it is reported.
   std::optional<Expression> compile(const JsonValue* json, Type type);
-  std::optional<Expression> compile_text(const JsonValue& json, std::string_view expression, Type type);
+  std::optional<Expression> compile_expression_at(const JsonValue& json, std::string_view expression,
+                                                  Type type);
+  void report(const JsonValue& json, const std::vector<ExpressionError>& errors);
   static std::optional<Value> constant_value(const Expression& expression);
 
   Program& program_;
@@ -124,18 +131,20 @@ std::optional<Expression> ProgramLoader::compile(const JsonValue* json, Type typ
     const auto value = read_plain_constant(*json, type, problems_);
     return value ? std::optional<Expression>(std::in_place, type, *value) : std::nullopt;
   }
-  return compile_text(*json, json->text, type);
+  return compile_expression_at(*json, json->text, type);
 }
 
-std::optional<Expression> ProgramLoader::compile_text(const JsonValue& json, std::string_view expression,
-                                                      Type type) {
+void ProgramLoader::report(const JsonValue& json, const std::vector<ExpressionError>& errors) {
+  for (const ExpressionError& error : errors)
+    if (error.message.find(Names::kKnownProblem) == std::string::npos)
+      problems_.report(json, message_of(error));
+}
+
+std::optional<Expression> ProgramLoader::compile_expression_at(const JsonValue& json,
+                                                               std::string_view expression, Type type) {
   CompiledExpression compiled = compile_expression(expression, type, loading_.names());
-  const auto text = [](const ExpressionError& error) {
-    return error.message + " (column " + std::to_string(error.column) + ")";
-  };
-  for (const ExpressionError& error : compiled.errors)
-    if (error.message.find(Names::kKnownProblem) == std::string::npos) problems_.report(json, text(error));
-  for (const ExpressionError& warning : compiled.warnings) problems_.warn(json, text(warning));
+  report(json, compiled.errors);
+  for (const ExpressionError& warning : compiled.warnings) problems_.warn(json, message_of(warning));
   return std::move(compiled.expression);
 }
 
@@ -172,7 +181,7 @@ std::optional<ProgramLoader::Target> ProgramLoader::read_target(const JsonValue&
     if (!place) return std::nullopt;
     return Target{*place, std::nullopt};
   }
-  auto index = compile_text(json, path.substr(open + 1, close - open - 1), Type::LINT);
+  auto index = compile_expression_at(json, path.substr(open + 1, close - open - 1), Type::LINT);
   if (!index) return std::nullopt;
   std::string whole(path.substr(0, open + 1));
   const auto constant = constant_value(*index);
@@ -187,11 +196,28 @@ std::optional<ProgramLoader::Target> ProgramLoader::read_target(const JsonValue&
 void ProgramLoader::load_set(const JsonValue& json) {
   const Fields fields(json, keys::kSet, problems_);
   const auto path = read_string(fields["set"], problems_);
+  if (const StringTag* const tag = path ? loading_.names().find_string(*path) : nullptr)
+    return assign_text(fields["to"], *tag);
   auto target = path ? read_target(*fields["set"], *path) : std::nullopt;
   if (!target) return;
   if (const std::string reason = why_not_writable(target->place); !reason.empty())
     return problems_.report(*fields["set"], reason);
   if (fields["to"] != nullptr) assign(*fields["to"], target->place, std::move(target->index));
+}
+
+/// Of texts, no longer than the tag's.
+void ProgramLoader::assign_text(const JsonValue* to, const StringTag& tag) {
+  if (to == nullptr) return;
+  if (to->kind != JsonKind::string)
+    return report_kind(*to, "a text such as \"'ale'\", or a tag of type STRING", problems_);
+  CompiledText compiled = compile_text(to->text, loading_.names());
+  report(*to, compiled.errors);
+  if (!compiled.text) return;
+  if (compiled.text->room() > tag.text.room)
+    return problems_.report(*to, to->shown() + " may have " + std::to_string(compiled.text->room()) +
+                                     " characters; allowed for '" + tag.name + "': up to " +
+                                     std::to_string(tag.text.room));
+  program_.add_assignment(std::move(*compiled.text), tag.text);
 }
 
 /// @param index chooses the element; none: the place is fixed

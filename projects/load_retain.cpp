@@ -67,6 +67,14 @@ KeptValue array_of(const ArrayTag& tag) {
   return kept;
 }
 
+KeptValue text_of(const StringTag& tag) {
+  KeptValue kept{.name = tag.name, .signal = {}, .elements = text_signals(tag.text)};
+  kept.array_type = text_type_name(tag.text.room);
+  kept.room = tag.text.room;
+  kept.signal = kept.elements.front();
+  return kept;
+}
+
 }  // namespace
 
 void load_retain(const JsonValue* retain, const Loading& loading) {
@@ -74,6 +82,8 @@ void load_retain(const JsonValue* retain, const Loading& loading) {
   for (const Tag& tag : loading.controller().tags)
     if (tag.retain) config.values.push_back({.name = tag.name, .signal = tag.signal});
   for (const ArrayTag* const tag : config.arrays) config.values.push_back(array_of(*tag));
+  for (const StringTag& tag : loading.controller().strings)
+    if (tag.retain) config.values.push_back(text_of(tag));
   for (Axis* axis : loading.controller().axes)
     for (std::size_t sensor = 0; sensor < Axis::kSensors; ++sensor)
       if (keeps_adjustment(*axis, sensor)) config.values.push_back(adjustment_of(*axis, sensor));

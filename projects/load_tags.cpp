@@ -4,47 +4,53 @@
 #include "projects/array_type.hpp"
 #include "projects/constant.hpp"
 #include "projects/loader.hpp"
+#include "projects/string_type.hpp"
 
 namespace lockstep {
 namespace {
 
-/// The type of a tag, which is looked at even if the type is one of those that are not there yet.
 std::optional<Type> read_type(const JsonValue* json, Problems& problems) {
   const auto text = read_string(json, problems);
   if (!text) return std::nullopt;
   if (const auto type = tag_type(*text)) return type;
-  if (text->starts_with("STRING")) {
-    problems.report(*json, "the type " + quote(*text) + " is not yet supported");
-    return std::nullopt;
-  }
   std::vector<std::string_view> names;
   for (int type = 0; type <= static_cast<int>(Type::TIME); ++type)
     names.push_back(type_name(static_cast<Type>(type)));
   problems.report(*json, "unknown type " + quote(*text) + did_you_mean(*text, names) +
                              "; allowed: " + list_of(names) +
-                             ", ARRAY[lower..upper] OF one of them or of a structure of cams");
+                             ", STRING[n], ARRAY[lower..upper] OF one of them or of a structure of cams");
   return std::nullopt;
 }
 
 /// Memory for all arrays of a project, so that no file takes the machine down [byte].
 constexpr std::size_t kMostArrayMemory = 64u << 20;
 
-/// Values in arrays that are kept: each is copied at the end of every tick.
+/// Values in arrays and texts that are kept: each is copied at the end of every tick.
 constexpr std::size_t kMostKept = 10'000;
+
+constexpr std::size_t kMostStrings = 10'000;
 
 std::size_t values_of(const Array& array) {
   return array.count() * std::max<std::size_t>(array.element->members.size(), 1);
 }
 
-void retain_array(const ArrayTag& tag, const JsonValue& json, const Loading& loading) {
-  std::size_t kept = values_of(tag.array);
+/// As many as two characters need.
+std::size_t values_of(const Text& text) {
+  return (text.room + 1) / 2;
+}
+
+/// Whether so many values more may be kept; if not, that is reported.
+bool may_retain(std::size_t values, const JsonValue& json, const Loading& loading) {
+  std::size_t kept = values;
   for (const ArrayTag* const other : loading.project.retain.arrays) kept += values_of(other->array);
-  if (kept > kMostKept)
-    return loading.problems.report(json, "with the " + std::to_string(values_of(tag.array)) +
-                                             " values of this array " + std::to_string(kept) +
-                                             " values of arrays are kept; allowed are " +
-                                             std::to_string(kMostKept) + " in all arrays of the project");
-  loading.project.retain.arrays.push_back(&tag);
+  for (const StringTag& other : loading.controller().strings)
+    if (other.retain) kept += values_of(other.text);
+  if (kept <= kMostKept) return true;
+  loading.problems.report(json, "with the " + std::to_string(values) + " values of this tag " +
+                                    std::to_string(kept) +
+                                    " values of arrays and texts are kept; allowed are " +
+                                    std::to_string(kMostKept) + " in all of the project");
+  return false;
 }
 
 void load_array(const std::string& name, const JsonValue& json, const Loading& loading, bool named) {
@@ -63,8 +69,26 @@ void load_array(const std::string& name, const JsonValue& json, const Loading& l
   ArrayTag& tag = loading.controller().add_array(name, *array);
   tag.comment = comment.value_or("");
   if (const JsonValue* const init = fields["init"]) read_array_values(*init, tag.array, loading.problems);
-  if (retain) retain_array(tag, *fields["retain"], loading);
+  if (retain && may_retain(values_of(tag.array), *fields["retain"], loading))
+    loading.project.retain.arrays.push_back(&tag);
   if (named) loading.names().define(name, &tag);
+}
+
+void load_string(const std::string& name, const JsonValue& json, const Loading& loading, bool named) {
+  const Fields fields(json, keys::kTag, loading.problems);
+  const auto room = read_string_type(*fields["type"], loading.problems);
+  const auto comment = read_string(fields["comment"], loading.problems);
+  const bool retain = read_bool(fields["retain"], loading.problems).value_or(false);
+  if (!room) return;
+  if (loading.controller().strings.size() == kMostStrings)
+    return loading.problems.report(*fields["type"], "there are more than " + std::to_string(kMostStrings) +
+                                                        " tags of type STRING; allowed are these");
+  StringTag tag{.name = name, .comment = std::string(comment.value_or("")), .initial = {}, .memory = {}};
+  if (const JsonValue* const init = fields["init"])
+    tag.initial = read_text_constant(*init, *room, loading.problems).value_or("");
+  StringTag& added = loading.controller().add_string(std::move(tag), *room);
+  if (retain) added.retain = may_retain(values_of(added.text), *fields["retain"], loading);
+  if (named) loading.names().define(name, &added);
 }
 
 void load_tag(const std::string& name, const JsonValue& json, const Loading& loading) {
@@ -72,6 +96,8 @@ void load_tag(const std::string& name, const JsonValue& json, const Loading& loa
   const JsonValue* const declared = json.kind == JsonKind::object ? json.find("type") : nullptr;
   if (declared != nullptr && declared->kind == JsonKind::string && is_array_type(declared->text))
     return load_array(name, json, loading, named);
+  if (declared != nullptr && declared->kind == JsonKind::string && is_string_type(declared->text))
+    return load_string(name, json, loading, named);
   const Fields fields(json, keys::kTag, loading.problems);
   if (!fields.usable()) return;
   const auto type = read_type(fields["type"], loading.problems);
@@ -84,12 +110,26 @@ void load_tag(const std::string& name, const JsonValue& json, const Loading& loa
   if (named) loading.names().define(name, &loading.controller().add_tag(std::move(tag)));
 }
 
+void load_stimulus_text(std::optional<std::int64_t> at, const StringTag& tag, const JsonValue& json,
+                        const Loading& loading) {
+  const auto text = read_text_constant(json, tag.text.room, loading.problems);
+  if (!at || !text) return;
+  const std::vector<Signal> signals = text_signals(tag.text);
+  const std::vector<Value> values = text_values(*text, tag.text.room);
+  for (std::size_t i = 0; i < signals.size(); ++i)
+    loading.controller().stimuli.push_back({*at, signals[i], values[i]});
+}
+
 void load_stimulus(const JsonValue& json, const Loading& loading) {
   const Fields fields(json, keys::kStimulus, loading.problems);
   const auto at = read_duration(fields["at"], 0, INT64_MAX, loading.problems);
   const JsonValue* const set = read_object(fields["set"], loading.problems);
   if (set == nullptr) return;
   for (const auto& [path, json_value] : set->members) {
+    if (const StringTag* const string = loading.names().find_string(path)) {
+      load_stimulus_text(at, *string, *json_value, loading);
+      continue;
+    }
     const auto place = loading.find(*json_value, path);
     if (!place) continue;
     if (place->tag == nullptr && place->array == nullptr) {

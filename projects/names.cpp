@@ -367,6 +367,11 @@ FoundPlace Names::find_within(const Entry& entry, std::string_view path) const {
     return with_bit({.signal = (*tag)->signal, .tag = *tag}, bit, entry.name);
   }
   if (const auto* array = std::get_if<const ArrayTag*>(&entry.entity)) return find_element(**array, path);
+  if (const auto* string = std::get_if<const StringTag*>(&entry.entity)) {
+    const std::string what = "'" + entry.name + "' is a " + text_type_name((*string)->text.room);
+    if (!path.empty()) return refuse(what + ", which has no part " + quote(path));
+    return refuse(what + ", a text; allowed here: a number, a bit string, a BOOL or a TIME");
+  }
   if (const auto* instance = std::get_if<const Instance*>(&entry.entity)) return find_pin(**instance, path);
   if (TechnologyObject* const* const object = std::get_if<TechnologyObject*>(&entry.entity))
     return find_variable_of(**object, path);
@@ -379,6 +384,12 @@ Names::FoundArray Names::find_array(std::string_view name) const {
   if (std::holds_alternative<std::monostate>(*entity)) return {};
   if (const auto* array = std::get_if<const ArrayTag*>(entity)) return {*array, ""};
   return {nullptr, quote(name) + " is no array; allowed: the name of a tag of type ARRAY"};
+}
+
+const StringTag* Names::find_string(std::string_view name) const {
+  const Entity* const entity = find_entity(name);
+  const auto* const string = entity == nullptr ? nullptr : std::get_if<const StringTag*>(entity);
+  return string == nullptr ? nullptr : *string;
 }
 
 FoundPlace Names::find(std::string_view path) const {
@@ -404,9 +415,11 @@ FoundPlace Names::find_elements(std::string_view path) const {
 
 Reference Names::resolve(std::string_view name, std::string_view path) const {
   const Entry* const found = entry(name);
+  if (const StringTag* const string = path.empty() ? find_string(name) : nullptr)
+    return {.signal = std::nullopt, .error = "", .elements = {}, .text = string->text};
   FoundPlace place = found == nullptr ? unknown(name) : find_within(*found, path);
   if (!place.place) return {std::nullopt, std::move(place.problem)};
-  return {place.place->signal, "", place.place->elements};
+  return {place.place->signal, "", place.place->elements, {}};
 }
 
 }  // namespace lockstep

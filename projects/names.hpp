@@ -54,8 +54,8 @@ std::string why_no_start_value(const Place& place);
 class Names final : public Scope {
  public:
   /// What a name stands for; monostate: something whose declaration is faulty.
-  using Entity =
-      std::variant<std::monostate, const Tag*, const ArrayTag*, const Instance*, TechnologyObject*>;
+  using Entity = std::variant<std::monostate, const Tag*, const ArrayTag*, const StringTag*, const Instance*,
+                              TechnologyObject*>;
 
   /// Adds a name. A name that is added twice stands for something faulty from then on.
   /// @return what is wrong with it: no identifier, or taken already; empty if nothing is.
@@ -79,6 +79,10 @@ class Names final : public Scope {
     std::string problem;  ///< empty if there is an array, or if the problem is known already
   };
   FoundArray find_array(std::string_view name) const;
+
+  /// The tag of type STRING with a name; nullptr: the name is none of one. Elsewhere such a tag is no place:
+  /// it has no value of an elementary type.
+  const StringTag* find_string(std::string_view name) const;
 
   /// The place to which a path leads, in any case.
   FoundPlace find(std::string_view path) const;

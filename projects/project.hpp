@@ -51,12 +51,21 @@ struct ModbusArray {
   std::size_t first;  ///< index of the first element's entry in the map; the others follow
 };
 
+/// The entries of a map that show a text, two characters each.
+struct ModbusText {
+  const StringTag* tag;
+  std::size_t first;  ///< index of the first entry in the map; the others follow
+
+  std::size_t count() const noexcept { return (tag->text.room + 1) / 2; }
+};
+
 /// A map, and for whom it is.
 struct ModbusMapConfig {
   std::optional<std::size_t> server;  ///< index of the server whose own it is; none: of those without any
   std::optional<std::uint8_t> unit;   ///< none: of all unit ids that have none of their own
   ModbusMap map;
   std::vector<ModbusArray> arrays{};
+  std::vector<ModbusText> texts{};
 };
 
 /// A client with the signals of its image.

@@ -328,22 +328,22 @@ Json one_or_many(Json one, std::string_view description) {
 }
 
 Json modbus_entry_schema() {
-  return object(
-      keys::kMapEntry,
-      {{"tag", text("signal: tag, instance.Pin or Object.Variable; elements of an array side by side: "
-                    "array, array[*], array[2..5]")},
-       {"diagnostic",
-        text("in place of a tag: a number of the run, such as ticks, overruns, alarms, refused")},
-       {"table", words("table of Modbus", words::kTables)},
-       {"address", integer("zero-based address of the first register or of the bit", 0, 65535)},
-       {"type", words("type on the wire; it may narrow that of the signal", tag_type_names())},
-       {"word_order", words("big: most significant register first", words::kWordOrders)},
-       {"byte_order", words("big: more significant byte of a register first", words::kWordOrders)},
-       {"bit", integer("a BOOL as this bit of a register, which several may share", 0, 15)},
-       {"scale", described("of a REAL or LREAL as an integer: value = integer * scale + offset",
-                           {{"type", "number"}})},
-       {"offset", described("see scale", {{"type", "number"}})},
-       {"access", words("whether a client may write", words::kAccesses)}});
+  return object(keys::kMapEntry,
+                {{"tag", text("signal: tag (a text: two characters in a register), instance.Pin or "
+                              "Object.Variable; elements of an array side by side: "
+                              "array, array[*], array[2..5]")},
+                 {"diagnostic",
+                  text("in place of a tag: a number of the run, such as ticks, overruns, alarms, refused")},
+                 {"table", words("table of Modbus", words::kTables)},
+                 {"address", integer("zero-based address of the first register or of the bit", 0, 65535)},
+                 {"type", words("type on the wire; it may narrow that of the signal", tag_type_names())},
+                 {"word_order", words("big: most significant register first", words::kWordOrders)},
+                 {"byte_order", words("big: more significant byte of a register first", words::kWordOrders)},
+                 {"bit", integer("a BOOL as this bit of a register, which several may share", 0, 15)},
+                 {"scale", described("of a REAL or LREAL as an integer: value = integer * scale + offset",
+                                     {{"type", "number"}})},
+                 {"offset", described("see scale", {{"type", "number"}})},
+                 {"access", words("whether a client may write", words::kAccesses)}});
 }
 
 Json modbus_client_schema(const Json& serial) {
@@ -454,8 +454,9 @@ Json root_schema() {
                             {"interpolator_ratio", integer("servo cycles per interpolator cycle", 1, 32)},
                             {"overrun", words("what three overruns in a row do", words::kOverrun)}});
   const Json type = {
-      {"description", "elementary type, or ARRAY[lower..upper] OF one or of a structure of cams"},
-      {"anyOf", {words("elementary type", tag_type_names()), text("array")}}};
+      {"description",
+       "elementary type, STRING[n], or ARRAY[lower..upper] OF an elementary type or of a structure of cams"},
+      {"anyOf", {words("elementary type", tag_type_names()), text("text of up to n characters, or array")}}};
   const Json init = described("value at the start; of an array [element, ...] from the first one on",
                               {{"type", {"boolean", "number", "string", "array"}}});
   const Json tag = object(keys::kTag, {{"type", type},

@@ -23,6 +23,14 @@ ArrayTag& Controller::add_array(std::string name, Array array) {
   return tag;
 }
 
+StringTag& Controller::add_string(StringTag tag, std::size_t room) {
+  StringTag& added = strings.emplace_back(std::move(tag));
+  added.memory.resize(room);
+  added.text = {added.memory.data(), room};
+  added.text.assign(added.initial);
+  return added;
+}
+
 TechnologyObject& Controller::add_object(ObjectKind kind, std::string name) {
   const auto number = static_cast<DB_ANY>(objects.size() + 1);
   switch (kind) {

@@ -12,6 +12,7 @@
 #include "scheduler/events.hpp"
 #include "scheduler/process_image.hpp"
 #include "scheduler/program.hpp"
+#include "scheduler/text.hpp"
 #include "scheduler/trace_ring.hpp"
 #include "tech_objects/array.hpp"
 #include "tech_objects/axis.hpp"
@@ -50,6 +51,16 @@ struct ArrayTag {
   std::string comment;
   Array array;
   std::vector<std::uint64_t> memory;  ///< of the array, aligned for any element
+};
+
+/// A tag of type STRING[n].
+struct StringTag {
+  std::string name;
+  std::string comment;
+  bool retain = false;
+  std::string initial;       ///< as the tag holds it
+  std::vector<char> memory;  ///< of the text
+  Text text{};               ///< set by `Controller::add_string`
 };
 
 /// An instance of a function block with its name.
@@ -99,6 +110,7 @@ class Controller {
   std::vector<Cam*> cams;                                  ///< those of them that are cams
   std::deque<Tag> tags;
   std::deque<ArrayTag> arrays;
+  std::deque<StringTag> strings;
   std::deque<Instance> instances;
   std::deque<Program> programs;
   EncoderSaving encoder_saving;  ///< what programs ask to be kept at once
@@ -116,6 +128,8 @@ class Controller {
   Tag& add_tag(Tag tag);
   /// An array tag whose elements are 0. `array.memory` is set here.
   ArrayTag& add_array(std::string name, Array array);
+  /// A tag of type STRING[room] with its initial text; its memory is made here.
+  StringTag& add_string(StringTag tag, std::size_t room);
   /// Adds an object of any kind; its number is its place among all.
   TechnologyObject& add_object(ObjectKind kind, std::string name);
   Axis& add_axis(ObjectKind kind, std::string name);

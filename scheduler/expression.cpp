@@ -111,6 +111,14 @@ void ExpressionBuilder::element(const Signal& first, const ElementRange& range) 
   values_.back().constant = false;
 }
 
+void ExpressionBuilder::compare_texts(TextComparison comparison) {
+  const auto& kept = texts_.emplace_back(std::make_shared<const TextComparison>(std::move(comparison)));
+  Instruction compare = instruction(nullptr);
+  compare.operand.address = kept.get();
+  push(expression_steps::compare_texts(Mode::kPlain), expression_steps::compare_texts(Mode::kResting),
+       compare, false);
+}
+
 void ExpressionBuilder::constant(Value value) {
   push(expression_steps::constant(Mode::kPlain), expression_steps::constant(Mode::kResting),
        instruction(nullptr, std::bit_cast<std::uint64_t>(value)), true);
@@ -224,9 +232,9 @@ void ExpressionBuilder::count_divisions_by_zero(int number) {
 
 Expression ExpressionBuilder::finish(Type type) && {
   if (values_.back().constant) return {type, std::bit_cast<Value>(code_.front().operand.constant)};
-  if (code_.size() == 1) return {last_signal_, type};
+  if (code_.size() == 1 && texts_.empty()) return {last_signal_, type};
   code_.push_back(instruction(expression_steps::result()));
-  return {type, std::move(code_)};
+  return {type, std::move(code_), std::move(texts_)};
 }
 
 }  // namespace lockstep

@@ -25,9 +25,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "scheduler/text.hpp"
 #include "tech_objects/array.hpp"
 #include "tech_objects/types.hpp"
 
@@ -129,10 +131,12 @@ class Expression {
  private:
   friend class ExpressionBuilder;
   Expression(const Signal& signal, Type type);
-  Expression(Type type, std::vector<Instruction> code) noexcept
-      : code_(std::move(code)), type_(type), constant_(false) {}
+  using Texts = std::vector<std::shared_ptr<const TextComparison>>;
+  Expression(Type type, std::vector<Instruction> code, Texts texts) noexcept
+      : code_(std::move(code)), texts_(std::move(texts)), type_(type), constant_(false) {}
 
   std::vector<Instruction> code_;
+  Texts texts_;  ///< to which instructions point
   Type type_;
   bool constant_;
 };
@@ -158,6 +162,8 @@ class ExpressionBuilder {
   /// MUX: the last value chooses among the `inputs` before it, from 0; below 0 the first is taken, above the
   /// last one.
   void multiplex(int inputs);
+  /// A BOOL: whether the comparison holds.
+  void compare_texts(TextComparison comparison);
   /// Adds to the count of divisions by zero at each evaluation, for those found in literals.
   void count_divisions_by_zero(int number);
 
@@ -179,6 +185,7 @@ class ExpressionBuilder {
 
   std::vector<Instruction> code_;
   std::vector<Entry> values_;
+  Expression::Texts texts_;
   Signal last_signal_;
   bool fits_ = true;
 };

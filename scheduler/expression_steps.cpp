@@ -82,6 +82,14 @@ Word load_element(const Instruction* at, Word way, Word* slots, EvaluationCounte
 }
 
 template <Mode mode>
+Word compare_step(const Instruction* at, Word accumulator, Word* slots,
+                  EvaluationCounters& counters) noexcept {
+  if constexpr (mode == Mode::kResting) slots[at->slot] = accumulator;
+  const bool holds = static_cast<const TextComparison*>(at->operand.address)->holds();
+  return next(at, encode(holds), slots, counters);
+}
+
+template <Mode mode>
 Word take_constant(const Instruction* at, Word accumulator, Word* slots,
                    EvaluationCounters& counters) noexcept {
   if constexpr (mode == Mode::kResting) slots[at->slot] = accumulator;
@@ -418,6 +426,9 @@ Step select() noexcept {
 }
 Step multiplex() noexcept {
   return multiplex_step;
+}
+Step compare_texts(Mode mode) noexcept {
+  return mode == Mode::kResting ? compare_step<Mode::kResting> : compare_step<Mode::kPlain>;
 }
 Step count() noexcept {
   return count_step;

@@ -29,6 +29,8 @@ Instruction::Step bits_of_real() noexcept;  ///< REAL to DWORD
 Instruction::Step real_of_bits() noexcept;  ///< DWORD to REAL
 Instruction::Step select() noexcept;
 Instruction::Step multiplex() noexcept;
+/// What a TextComparison says: kPlain or kResting.
+Instruction::Step compare_texts(Mode mode) noexcept;
 Instruction::Step count() noexcept;
 Instruction::Step result() noexcept;
 

@@ -1,5 +1,6 @@
 #include "scheduler/process_image.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -27,6 +28,15 @@ Value merged(Value before, Value value, std::uint64_t mask) noexcept {
   return value;
 }
 
+/// What a variable holds after a write to it: part of an integer may change its sign, a REAL is rounded.
+Value written(const Signal& variable, Value before, Value value, std::uint64_t mask) noexcept {
+  if (mask == kAllBits && variable.type != Type::REAL) return value;
+  std::uint64_t memory = 0;
+  const Signal copy{&memory, variable.type, -1};
+  copy.store(merged(before, value, mask));
+  return copy.load();
+}
+
 }  // namespace
 
 void ProcessImage::WriteSet::add(std::uint32_t variable, Value value, std::uint64_t mask) noexcept {
@@ -42,12 +52,19 @@ void ProcessImage::WriteSet::clear() noexcept {
   last = 0;
 }
 
-template <class Target>
-void ProcessImage::WriteSet::apply(Target target) const noexcept {
+void ProcessImage::WriteSet::apply(const std::vector<Signal>& variables) const noexcept {
   for (const std::uint32_t variable : touched_) {
     const Write& write = writes_[variable];
-    const Signal signal = target(variable);
+    const Signal& signal = variables[variable];
     signal.store(write.mask == kAllBits ? write.value : merged(signal.load(), write.value, write.mask));
+  }
+}
+
+void ProcessImage::WriteSet::apply(const std::vector<Signal>& variables,
+                                   std::vector<Value>& values) const noexcept {
+  for (const std::uint32_t variable : touched_) {
+    const Write& write = writes_[variable];
+    values[variable] = written(variables[variable], values[variable], write.value, write.mask);
   }
 }
 
@@ -57,10 +74,8 @@ ProcessImage::ProcessImage(std::vector<Signal> signals)
       places_(variables_of(signals_).second),
       snapshot_(first_snapshot(variables_)),
       sets_{WriteSet(variables_.size()), WriteSet(variables_.size()), WriteSet(variables_.size())},
-      shadow_(variables_.size()),
-      waiting_(variables_.size()) {
-  for (std::uint32_t i = 0; i < variables_.size(); ++i) shadow_of(i).store(snapshot_.front().values[i]);
-}
+      shadow_(snapshot_.front().values),
+      waiting_(variables_.size()) {}
 
 ProcessImage::Snapshot ProcessImage::first_snapshot(const std::vector<Signal>& variables) {
   Snapshot snapshot;
@@ -74,7 +89,7 @@ void ProcessImage::take_writes() noexcept {
   cycle_set_ = box_.exchange(cycle_set_, std::memory_order_acq_rel) & kSet;
   WriteSet& set = sets_[cycle_set_];
   if (set.last == 0) return;
-  set.apply([this](std::uint32_t variable) { return variables_[variable]; });
+  set.apply(variables_);
   applied_ = set.last;
   set.clear();
 }
@@ -87,33 +102,29 @@ void ProcessImage::publish(std::int64_t tick) noexcept {
   snapshot_.publish();
 }
 
-Signal ProcessImage::shadow_of(std::uint32_t variable) const noexcept {
-  return Signal{&shadow_[variable], variables_[variable].type, -1};
-}
-
 bool ProcessImage::refresh() noexcept {
   if (!snapshot_.refresh()) return false;
   const Snapshot& snapshot = snapshot_.front();
-  for (std::uint32_t i = 0; i < variables_.size(); ++i) shadow_of(i).store(snapshot.values[i]);
+  std::copy(snapshot.values.begin(), snapshot.values.end(), shadow_.begin());
   // What this tick did not know yet goes on top.
-  if (waiting_.last > snapshot.applied)
-    waiting_.apply([this](std::uint32_t variable) { return shadow_of(variable); });
+  if (waiting_.last > snapshot.applied) waiting_.apply(variables_, shadow_);
   return true;
 }
 
-Value ProcessImage::value(std::size_t signal) const noexcept {
-  return Signal{&shadow_[places_[signal]], signals_[signal].type, signals_[signal].bit}.load();
-}
-
-void ProcessImage::add_to(WriteSet& set, const SignalWrite& write) const noexcept {
+/// Adds a write to those on their way, and to what the bridge sees.
+void ProcessImage::add(WriteSet& set, const SignalWrite& write) noexcept {
   const Signal& signal = signals_[write.signal];
+  const std::uint32_t variable = places_[write.signal];
   Value value = write.value;
   std::uint64_t mask = write.mask;
   if (signal.bit >= 0) {
     value.u = (value.u & 1u) << signal.bit;
     mask = std::uint64_t{1} << signal.bit;
   }
-  if (mask != 0) set.add(places_[write.signal], value, mask);
+  if (mask == 0) return;
+  set.add(variable, value, mask);
+  waiting_.add(variable, value, mask);
+  shadow_[variable] = written(variables_[variable], shadow_[variable], value, mask);
 }
 
 void ProcessImage::post(std::span<const SignalWrite> batch) noexcept {
@@ -127,14 +138,10 @@ void ProcessImage::post(std::span<const SignalWrite> batch) noexcept {
   }
   WriteSet& set = sets_[bridge_set_];
   ++posted_;
-  for (const SignalWrite& write : batch) {
-    add_to(set, write);
-    add_to(waiting_, write);
-  }
+  for (const SignalWrite& write : batch) add(set, write);
   set.last = posted_;
   waiting_.last = posted_;
   bridge_set_ = box_.exchange(bridge_set_ | kFull, std::memory_order_acq_rel) & kSet;
-  waiting_.apply([this](std::uint32_t variable) { return shadow_of(variable); });
 }
 
 }  // namespace lockstep

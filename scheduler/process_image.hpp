@@ -56,7 +56,11 @@ class ProcessImage {
 
   /// Value of a signal at that tick, with the posted writes which that tick did not know yet.
   /// `signal` < size(). Thread: the bridge.
-  Value value(std::size_t signal) const noexcept;
+  Value value(std::size_t signal) const noexcept {
+    Value value = shadow_[places_[signal]];
+    if (const int bit = signals_[signal].bit; bit >= 0) value.u = value.u >> bit & 1u;
+    return value;
+  }
 
   /// Has all the writes applied, in their order, at the start of one tick. Every `signal` < size(). May turn
   /// to newer values, as `refresh` does. Thread: the bridge.
@@ -75,9 +79,9 @@ class ProcessImage {
     explicit WriteSet(std::size_t variables) : writes_(variables) { touched_.reserve(variables); }
     void add(std::uint32_t variable, Value value, std::uint64_t mask) noexcept;
     void clear() noexcept;
-    /// Applies the writes to these variables, of which `target(variable)` says where they are.
-    template <class Target>
-    void apply(Target target) const noexcept;
+    /// Writes to the variables, or to values that stand for them.
+    void apply(const std::vector<Signal>& variables) const noexcept;
+    void apply(const std::vector<Signal>& variables, std::vector<Value>& values) const noexcept;
 
     std::uint64_t last = 0;  ///< number of the last batch in it; 0: none
 
@@ -91,8 +95,7 @@ class ProcessImage {
   };
 
   static Snapshot first_snapshot(const std::vector<Signal>& variables);
-  Signal shadow_of(std::uint32_t variable) const noexcept;
-  void add_to(WriteSet& set, const SignalWrite& write) const noexcept;
+  void add(WriteSet& set, const SignalWrite& write) noexcept;
 
   // Fixed after construction. Several signals may lie in one variable: the word and its bits.
   const std::vector<Signal> signals_;
@@ -116,7 +119,7 @@ class ProcessImage {
   // The bridge's: the variables as it sees them, and its writes that the cycle had not taken when it last
   // looked.
   alignas(kCacheLine) std::uint8_t bridge_set_ = 2;
-  mutable std::vector<std::uint64_t> shadow_;
+  std::vector<Value> shadow_;
   WriteSet waiting_;
   std::uint64_t posted_ = 0;
 };

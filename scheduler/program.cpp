@@ -35,6 +35,10 @@ void Program::add_assignment(Expression expression, Signal first, const Variable
       &places_.emplace_back(Place{first, variable, keep(std::move(index)), range});
 }
 
+void Program::add_assignment(TextSource from, Text to) {
+  instructions_.emplace_back(Op::assign_text).text = &texts_.emplace_back(std::move(from), to);
+}
+
 void Program::add_call(Block& block) {
   instructions_.emplace_back(Op::call).block = &block;
 }
@@ -74,6 +78,9 @@ void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept
         break;
       case Op::assign_element:
         assign_element(*instruction.place, instruction.expression->evaluate(counters), counters);
+        break;
+      case Op::assign_text:
+        instruction.text->to.assign(instruction.text->from.view());
         break;
       case Op::jump:
         at = first + instruction.target;

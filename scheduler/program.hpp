@@ -9,6 +9,7 @@
 
 #include "fb/block.hpp"
 #include "scheduler/expression.hpp"
+#include "scheduler/text.hpp"
 #include "tech_objects/variable.hpp"
 
 namespace lockstep {
@@ -42,6 +43,8 @@ class Program {
   /// @param variable of a technology object of which `first` is an element; nullptr: an array tag
   void add_assignment(Expression expression, Signal first, const Variable* variable, Expression index,
                       const ElementRange& range);
+  /// Assigns a text to a tag.
+  void add_assignment(TextSource from, Text to);
   void add_call(Block& block);
   /// Begins what runs only if the BOOL expression is TRUE; returns a mark for `end_branch`.
   std::size_t begin_branch(Expression condition);
@@ -62,6 +65,7 @@ class Program {
     assign,
     assign_variable,
     assign_element,
+    assign_text,
     jump,
     jump_unless
   };
@@ -70,6 +74,10 @@ class Program {
     const Variable* variable = nullptr;
     const Expression* index = nullptr;  // of an element
     ElementRange range{};
+  };
+  struct TextAssignment {
+    TextSource from;
+    Text to;
   };
   /// One step; which members count is known from `op`.
   struct Instruction {
@@ -82,6 +90,7 @@ class Program {
       Block* block = nullptr;
       bool* flag;  // a whole BOOL, as most pins with an expression are
       const Place* place;
+      const TextAssignment* text;
     };
   };
 
@@ -96,6 +105,7 @@ class Program {
   std::vector<Instruction> instructions_;
   std::deque<Expression> expressions_;  // where they are they stay: instructions point at them
   std::deque<Place> places_;
+  std::deque<TextAssignment> texts_;
   mutable std::uint64_t refused_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // The Modbus server beside the one of libmodbus on the same machine: ./dev bench modbus
 #include <modbus.h>
 #include <netinet/in.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -25,13 +26,50 @@ namespace {
 constexpr char kHelp[] = R"(modbus_bench [--rounds N] [--requests N] [--quick]: Modbus TCP on the loopback
 
 One client, which is libmodbus, asks one request after the other: of this server, then of a loop of libmodbus's
-own functions, in turns. Both servers' threads are equally nice (5), so that a busy machine treats them alike. Shown are the requests per second and the times of single requests, and the ratio of
-this server to libmodbus, of the median over all rounds.
+own functions, in turns. Both servers' threads are equally nice (5), so that a busy machine treats them alike.
+
+Most of a request's time is the system's, above all that of waking a thread that sleeps, and how long that takes
+depends on where the threads are: on one core it is a switch, on another core that idles this has to be woken,
+on a virtual machine by its host. Left alone, the system puts each server's thread somewhere by chance and keeps
+it there, which can make either server look three times as quick as the other. So every work is measured with
+client and servers on one core, which shows the servers' own work best, and with both servers on a second core
+if the machine has one.
+
+Shown are the requests per second and the times of single requests, and the ratio of this server to libmodbus,
+of the median over all rounds.
 )";
 
 using Clock = std::chrono::steady_clock;
 constexpr int kRegisters = 125;
 constexpr int kNice = 5;  // of Lockstep's server
+
+/// On which processors the threads are.
+struct Placement {
+  const char* name;
+  int client;
+  int servers;  ///< and the cycle
+};
+
+/// The placements that the processors allow on which this process may run.
+std::vector<Placement> placements() {
+  cpu_set_t allowed;
+  ::sched_getaffinity(0, sizeof allowed, &allowed);
+  std::vector<int> cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(core, &allowed)) cores.push_back(core);
+  if (cores.empty()) throw std::runtime_error("no processor is known");
+  std::vector<Placement> list{{"client and servers on one core", cores[0], cores[0]}};
+  if (cores.size() > 1) list.push_back({"servers on another core than the client", cores[0], cores[1]});
+  return list;
+}
+
+/// Moves this thread, and with it those that it starts from here on.
+void move_to(int core) {
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(core, &one);
+  if (::sched_setaffinity(0, sizeof one, &one) != 0) throw std::runtime_error(std::strerror(errno));
+}
 
 /// libmodbus's own way to serve: one client, one thread.
 class LibraryServer {
@@ -202,16 +240,22 @@ class Machine {
   std::thread cycle_;
 };
 
-int run(int rounds, int requests) {
-  const Machine machine;
-  std::printf("%-20s %26s   %22s   %21s\n", "", "requests/s", "median [us]", "p99 [us]");
+void measure(const Placement& placement, int rounds, int requests) {
+  std::printf("%s\n%-20s %26s   %22s   %21s\n", placement.name, "", "requests/s", "median [us]", "p99 [us]");
   std::printf("%-20s %9s %9s %6s   %7s %7s %6s   %7s %5s %7s\n", "", "Lockstep", "libmodbus", "ratio",
               "Lockst.", "libm.", "ratio", "Lockst.", "x med", "libm.");
   for (const Work& work : kWorks) {
+    move_to(placement.servers);
+    const Machine machine;
     const LibraryServer library;
+    move_to(placement.client);
     compare(machine.port(), library.port(), work, rounds, requests);
   }
-  return 0;
+  std::puts("");
+}
+
+void run(int rounds, int requests) {
+  for (const Placement& placement : placements()) measure(placement, rounds, requests);
 }
 
 }  // namespace
@@ -233,7 +277,8 @@ int main(int count, char** arguments) {
     }
   }
   try {
-    return lockstep::bench::run(rounds, requests);
+    lockstep::bench::run(rounds, requests);
+    return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "modbus_bench: %s\n", error.what());
     return 1;

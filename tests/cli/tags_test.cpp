@@ -89,6 +89,36 @@ TEST(Tags, TellsArraysOnModbusAsOneLineEach) {
   EXPECT_NE(text.find("60-62"), std::string::npos) << text;
 }
 
+TEST(Tags, TellsTexts) {
+  const Folder folder;
+  json project = json::parse(kProject);
+  project["tags"]["kind"] = {
+      {"type", "STRING[5]"}, {"init", "it's"}, {"comment", "of bottle"}, {"retain", true}};
+  project["tags"]["note"] = {{"type", "STRING[20]"}};
+  project["modbus"]["map"] = json::parse(R"([
+    { "tag": "kind", "table": "holding_register", "address": 40 }, { "tag": "go", "table": "coil", "address": 1 },
+    { "tag": "kind", "table": "input_register", "address": 50, "byte_order": "little" } ])");
+  const std::string file = folder.write("project.json", project.dump());
+  const std::string csv = lockstep({"tags", file, "--csv"}).out;
+  for (const char* line : {"kind,STRING[5],,holding_register,40,3,STRING,big,big,,,,write,,,of bottle\r\n",
+                           "kind,STRING[5],,input_register,50,3,STRING,big,little,,,,read,,,of bottle\r\n",
+                           "go,BOOL,,coil,1,1,BOOL,big,big,,,,write,,,from the HMI\r\n"})
+    EXPECT_NE(csv.find(line), std::string::npos) << line << csv;
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
+  const json shown = json::parse(lockstep({"tags", file, "--json"}).out);
+  ASSERT_EQ(shown["strings"].size(), 2u);
+  const json& kind = shown["strings"][0];
+  EXPECT_EQ(kind["initial"], "it's");
+  EXPECT_EQ(kind["retain"], true);
+  EXPECT_EQ(kind["modbus"][0]["registers"], 3);
+  EXPECT_EQ(kind["modbus"][0]["type"], "STRING");
+  EXPECT_EQ(kind["modbus"][1]["byte_order"], "little");
+  EXPECT_TRUE(shown["other_modbus"].empty());
+  const std::string text = lockstep({"tags", file}).out;
+  for (const char* part : {"'it$'s'", "STRING[5]", "40-42", "STRING swapped", "STRING[20]"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << text;
+}
+
 TEST(Tags, TellsArraysAndTheElementsThatAreOnModbus) {
   const Folder folder;
   json project = json::parse(kProject);

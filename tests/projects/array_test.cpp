@@ -169,8 +169,9 @@ TEST(ArrayProblems, AreToldOfValues) {
             "/tags/a/none: unknown key 'none'; allowed: type, init, retain, comment\n");
   const std::string kept = R"(": { "type": "ARRAY[1..3000] OF TO_Cam_Struct_PointData", "retain": true })";
   EXPECT_EQ(problems(project("\"a" + kept + ", \"b" + kept)),
-            "/tags/b/retain: with the 6000 values of this array 12000 values of arrays are kept; allowed are "
-            "10000 in all arrays of the project\n");
+            "/tags/b/retain: with the 6000 values of this tag 12000 values of arrays and texts are kept; "
+            "allowed are "
+            "10000 in all of the project\n");
 }
 
 TEST(ArrayProblems, AreToldOfPlaces) {

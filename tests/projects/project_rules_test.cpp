@@ -328,7 +328,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"/tags/more", R"({"type": "LREALL"})", "/tags/more/type", "(did you mean 'LREAL'?)"},
         {"/tags/more", R"({"type": "bool"})", "/tags/more/type", "(did you mean 'BOOL'?)"},
         {"/tags/more", R"({"type": "DB_ANY"})", "/tags/more/type", "unknown type 'DB_ANY'"},
-        {"/tags/more", R"({"type": "STRING[20]"})", "/tags/more/type", "not yet supported"},
+        {"/tags/more", R"({"type": "STRING"})", "/tags/more/type", "allowed: STRING[n], n from 1 to 254"},
         {"/tags/more", R"({"type": "ARRAY[3..1] OF INT"})", "/tags/more/type",
          "is less than the lower bound"},
         {"/tags/more", R"({"type": 3})", "/tags/more/type", "allowed: a string"},

@@ -120,6 +120,98 @@ class Registers {
   modbus_t* client_;
 };
 
+/// "last" follows "kind", "is_ale" tells what it is.
+class TextPanel : public Panel {
+ protected:
+  TextPanel() {
+    Json project = empty_project();
+    project["tags"] = Json::parse(R"({
+      "kind": {"type": "STRING[5]", "init": "ale", "retain": true}, "last": {"type": "STRING[5]"},
+      "note": {"type": "STRING[254]"}, "is_ale": {"type": "BOOL"}})");
+    project["programs"] = {{{"name", "P"},
+                            {"ob", "Main"},
+                            {"cycle", "1ms"},
+                            {"calls", {assignment("last", "kind"), assignment("is_ale", "kind = 'ale'")}}}};
+    project["modbus"]["map"] = {entry("kind", "holding_register", 10),
+                                entry("last", "input_register", 10, {{"byte_order", "little"}}),
+                                entry("note", "holding_register", 20), entry("is_ale", "coil", 0)};
+    file = directory.write("texts.json", project.dump());
+  }
+};
+
+TEST_F(TextPanel, ReadsAndWritesTexts) {
+  RunningLockstep run(file, {"--no-retain"});
+  const auto read = [&](const std::string& name) { return call("read", {name}, run.port()).out; };
+  EXPECT_EQ(read("Kind"), "kind = 'ale'\n");
+  const std::string note(254, 'n');
+  Ended ended = call("write", {"kind=K\u00F6ln", "note=" + note}, run.port());
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_TRUE(wait_until([&] { return read("last") == "last = 'K\u00F6ln'\n"; })) << read("last");
+  EXPECT_EQ(read("note"), "note = '" + note + "'\n");
+  EXPECT_TRUE(wait_until([&] { return read("is_ale") == "is_ale = FALSE\n"; }));
+  ASSERT_EQ(call("write", {"kind='it$'s'"}, run.port()).status, 0);
+  EXPECT_EQ(read("kind"), "kind = 'it$'s'\n");
+  const Json all = Json::parse(call("read", {"--json"}, run.port()).out);
+  EXPECT_EQ(all.size(), 4u);
+  EXPECT_EQ(all["kind"], "it's");
+  EXPECT_EQ(all["note"], note);
+}
+
+TEST_F(TextPanel, IsToldOfTextsThatDoNotFit) {
+  RunningLockstep run(file, {"--no-retain"});
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"kind=porter", "'porter' has 6 characters; allowed: up to 5"},
+      {"kind='it's'", "a quote within a text is written $'"},
+      {"kind=5 \u20AC", "printable characters of ISO 8859-1 only"},
+      {"last=ale", "'last' is read-only on Modbus"},
+      {"kind[1]=a", "the Modbus map has no 'kind[1]'"}};
+  for (const auto& [argument, part] : wrong) {
+    const Ended ended = call("write", {argument}, run.port());
+    EXPECT_EQ(ended.status, 1) << part;
+    EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
+  }
+  EXPECT_EQ(call("read", {"kind"}, run.port()).out, "kind = 'ale'\n");
+}
+
+TEST_F(TextPanel, AForeignClientWritesTwoCharactersInARegister) {
+  RunningLockstep run(file, {"--no-retain"});
+  Registers client(run.port());
+  EXPECT_TRUE(client.write(10, {0x7374, 0x6F75, 0x7400}));
+  EXPECT_EQ(call("read", {"kind"}, run.port()).out, "kind = 'stout'\n");
+  EXPECT_TRUE(wait_until([&] {
+    return client.inputs(10, 3) == std::vector<std::uint16_t>{0x7473, 0x756F, 0x0074};
+  })) << "swapped";
+  EXPECT_FALSE(client.write(10, {0x7374, 0x6F75, 0x7478})) << "a sixth character";
+  EXPECT_TRUE(client.write(11, {0x0107})) << "a part, and what cannot be printed";
+  EXPECT_EQ(call("read", {"kind"}, run.port()).out, "kind = 'st$01$07t'\n");
+  EXPECT_TRUE(client.write(10, {0x616C, 0x6500})) << "what stands behind the end does not count";
+  EXPECT_EQ(call("read", {"kind"}, run.port()).out, "kind = 'ale'\n");
+  EXPECT_TRUE(wait_until([&] { return call("read", {"is_ale"}, run.port()).out == "is_ale = TRUE\n"; }));
+}
+
+TEST_F(TextPanel, WhatIsKeptComesBackInTheNextRun) {
+  for (const std::string text : {"st$$ut", "K\u00F6ln"}) {
+    RunningLockstep run(file);
+    ASSERT_EQ(call("write", {"kind='" + text + "'"}, run.port()).status, 0);
+    run.send(SIGTERM);
+    ASSERT_EQ(run.status(), 0) << run.err();
+    RunningLockstep next(file);
+    EXPECT_EQ(call("read", {"kind"}, next.port()).out, "kind = '" + text + "'\n");
+    next.send(SIGTERM);
+    ASSERT_EQ(next.status(), 0) << next.err();
+  }
+  Json json = Json::parse(content(file));
+  for (const char* tag : {"kind", "last"}) json["tags"][tag]["type"] = "STRING[9]";
+  directory.write("texts.json", json.dump());
+  RunningLockstep other(file);
+  EXPECT_EQ(call("read", {"kind"}, other.port()).out, "kind = 'ale'\n");
+  other.send(SIGTERM);
+  ASSERT_EQ(other.status(), 0);
+  EXPECT_NE(other.err().find("kind was kept as STRING[5] ('K\u00F6ln') and is STRING[9] now"),
+            std::string::npos)
+      << other.err();
+}
+
 /// "rising" counts in all its elements at once; the rest is the operator's.
 class ArrayPanel : public Panel {
  protected:

@@ -9,6 +9,8 @@
 #include <new>
 #include <vector>
 
+#include "scheduler/program.hpp"
+
 namespace {
 std::atomic<std::size_t> allocations{0};  // other tests of this program have threads
 }  // namespace
@@ -336,4 +338,25 @@ TEST(Expression, EvaluationTakesNothingFromTheHeap) {
 }
 
 }  // namespace
+TEST(Texts, AreComparedAndAssignedWithoutAllocation) {
+  std::string memory(20, '\0');
+  const Text kind{memory.data(), memory.size()};
+  ExpressionBuilder builder;
+  builder.compare_texts({{kind, {}}, {std::nullopt, "a pale ale of some length"}, true});
+  builder.compare_texts({{kind, {}}, {kind, {}}, true});
+  ASSERT_TRUE(builder.apply(Operation::kOr, Type::BOOL));
+  const Expression either = std::move(builder).finish(Type::BOOL);
+  const Expression copy = either;
+  Program program("P", Ob::Main, 1, 0);
+  program.add_assignment(TextSource{std::nullopt, "a pale ale of some length"}, kind);
+  EvaluationCounters counters;
+  const std::size_t before = allocations;
+  for (int i = 0; i < 1000; ++i) {
+    program.run(0, counters);
+    EXPECT_EQ(copy.evaluate(counters).u, 1u);
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(kind.view(), "a pale ale of some l") << "what has no room is cut off";
+}
+
 }  // namespace lockstep

@@ -115,6 +115,18 @@ TEST(ProcessImage, AWordAndItsBitsAreOneVariableForWritesOnTheirWay) {
   EXPECT_EQ(tags.word, WORD{0x8001});
 }
 
+TEST(ProcessImage, AWriteOfTheHighestBitShowsTheSignThatItMakes) {
+  INT number = 1;
+  ProcessImage image({{&number, Type::INT, -1}, {&number, Type::INT, 15}});
+  post(image, {{1, Value{.u = 1}}});
+  EXPECT_EQ(image.value(0).i, -32767);
+  image.publish(0);  // a tick that does not know it
+  EXPECT_TRUE(image.refresh());
+  EXPECT_EQ(image.value(0).i, -32767);
+  image.take_writes();
+  EXPECT_EQ(number, -32767);
+}
+
 TEST(ProcessImage, AMaskedWriteLeavesTheOtherBitsAsTheyAreAtItsTick) {
   Tags tags;
   ProcessImage image(tags.signals());

@@ -1,0 +1,59 @@
+/// Texts in the cycle: STRING[n].
+/// @source IEC 61131-3:2013, 6.4.2 (STRING), 6.6.2.5.12 (comparison of strings)
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tech_objects/types.hpp"
+
+namespace lockstep {
+
+/// The greatest n of a STRING[n].
+inline constexpr std::size_t kLongestText = 254;
+
+/// Where a text lives: characters of one byte (ISO 8859-1), up to the first zero or to the end of its room.
+struct Text {
+  char* characters = nullptr;
+  std::size_t room = 0;  ///< n of STRING[n], 1 to kLongestText
+
+  std::string_view view() const noexcept;
+  /// Replaces the text. What has no room is cut off, the rest of the room becomes zero. `text` may be this
+  /// one itself.
+  void assign(std::string_view text) const noexcept;
+};
+
+/// A text in an expression: that of a tag as it stands, or a literal.
+struct TextSource {
+  std::optional<Text> tag;  ///< none: the literal counts
+  std::string literal;
+
+  std::string_view view() const noexcept { return tag ? tag->view() : literal; }
+  /// The most characters that it may have.
+  std::size_t room() const noexcept { return tag ? tag->room : literal.size(); }
+};
+
+/// `left = right` or `left <> right`; letters of both cases differ.
+struct TextComparison {
+  TextSource left;
+  TextSource right;
+  bool is_equality = true;
+
+  bool holds() const noexcept { return (left.view() == right.view()) == is_equality; }
+};
+
+/// "STRING[20]".
+std::string text_type_name(std::size_t room);
+
+/// The text as signals, for what carries values: two characters in a WORD, the first in its low byte; the
+/// last one of an odd room is a BYTE.
+std::vector<Signal> text_signals(const Text& text);
+/// The values of these signals that make them hold a text, and the text that they hold.
+std::vector<Value> text_values(std::string_view text, std::size_t room);
+std::string text_of(std::span<const Value> values, std::size_t room);
+
+}  // namespace lockstep

@@ -1,0 +1,66 @@
+#include "scheduler/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace lockstep {
+namespace {
+
+TEST(Text, EndsAtTheFirstZeroOrWithItsRoom) {
+  std::string memory("ale\0rest", 8);
+  const Text text{memory.data(), memory.size()};
+  EXPECT_EQ(text.view(), "ale");
+  memory[3] = '!';
+  EXPECT_EQ(text.view(), "ale!rest");
+}
+
+TEST(Text, IsReplacedWhole) {
+  std::string memory(7, 'x');  // the last one is not its own
+  const Text text{memory.data(), 6};
+  text.assign("stout");
+  EXPECT_EQ(memory, std::string("stout\0x", 7));
+  text.assign("ale");
+  EXPECT_EQ(memory, std::string("ale\0\0\0x", 7));
+  text.assign("wheat beer");
+  EXPECT_EQ(memory, "wheat x");
+  text.assign(text.view().substr(2));
+  EXPECT_EQ(text.view(), "eat ");
+  text.assign("");
+  EXPECT_EQ(text.view(), "");
+}
+
+TEST(Text, IsTheSameWhateverStandsBehindItsEnd) {
+  std::string memory("ale\0stout", 9);
+  std::string other("ale\0\0", 5);
+  const Text left{memory.data(), memory.size()};
+  const Text right{other.data(), other.size()};
+  const auto holds = [](const TextSource& a, const TextSource& b, bool is_equality) {
+    return TextComparison{a, b, is_equality}.holds();
+  };
+  EXPECT_TRUE(holds({left, {}}, {right, {}}, true));
+  EXPECT_FALSE(holds({left, {}}, {right, {}}, false));
+  EXPECT_TRUE(holds({left, {}}, {std::nullopt, "ale"}, true));
+  EXPECT_FALSE(holds({left, {}}, {std::nullopt, "Ale"}, true));
+  EXPECT_TRUE(holds({left, {}}, {std::nullopt, "ale "}, false));
+}
+
+TEST(Text, GoesThroughItsSignalsInAnyRoom) {
+  for (std::size_t room = 1; room <= kLongestText; ++room)
+    for (const std::size_t size : {std::size_t{0}, room / 2, room}) {
+      std::string text;
+      for (std::size_t i = 0; i < size; ++i) text += static_cast<char>(1 + (7 * i + room) % 255);
+      const std::vector<Value> values = text_values(text, room);
+      ASSERT_EQ(values.size(), (room + 1) / 2);
+      ASSERT_EQ(text_of(values, room), text) << room;
+      std::string memory(room + 1, '#');
+      const std::vector<Signal> signals = text_signals({memory.data(), room});
+      for (std::size_t i = 0; i < signals.size(); ++i) signals[i].store(values[i]);
+      ASSERT_EQ(Text({memory.data(), room}).view(), text);
+      ASSERT_EQ(memory.back(), '#') << "nothing behind the room is touched";
+    }
+  EXPECT_EQ(text_values("ab", 3)[0].u, 0x6261u) << "the first one in the low byte";
+}
+
+}  // namespace
+}  // namespace lockstep
