@@ -25,7 +25,7 @@ std::string shown_text(const PanelName& name, const std::vector<Value>& values) 
 
 int read_values(const PanelOptions& options) {
   int status = kOk;
-  const std::optional<Project> project = load_or_tell(options.project, status);
+  const std::optional<Project> project = load_or_tell(options.project, status, {}, Warnings::kept);
   if (!project) return status;
   auto target = find_target(*project, options);
   if (!target) return kCouldNotStart;

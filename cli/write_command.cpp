@@ -69,7 +69,7 @@ std::optional<Assignment> assignment(const ModbusPanel& panel, const std::string
 
 int write_values(const PanelOptions& options) {
   int status = kOk;
-  const std::optional<Project> project = load_or_tell(options.project, status);
+  const std::optional<Project> project = load_or_tell(options.project, status, {}, Warnings::kept);
   if (!project) return status;
   auto target = find_target(*project, options);
   if (!target) return kCouldNotStart;

@@ -290,6 +290,16 @@ TEST_F(TwoServers, TheAddressTellsWhichMapCounts) {
   EXPECT_EQ(call("read", {"--server", "2"}, own).status, 2);
 }
 
+TEST_F(TwoServers, TheProjectsWarningsAreNotForWhoReadsAndWrites) {
+  EXPECT_NE(lockstep({"check", file}).err.find("warning"), std::string::npos);
+  RunningLockstep run(file);  // the first server alone, where the command line says
+  for (const std::string name : {"read", "write"}) {
+    const Ended ended = call(name, {"--server", "0", name == "read" ? "a" : "a=1"}, run.port());
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_EQ(ended.err, "");
+  }
+}
+
 TEST_F(Panel, WhereNobodyAnswersItSaysSo) {
   const Ended ended = call("read", {"speed"}, 1);
   EXPECT_EQ(ended.status, 2);
