@@ -3,10 +3,12 @@
 
 namespace lockstep::cli {
 
-std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare) {
+std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare,
+                                    Warnings warnings) {
   try {
     LoadedProject loaded = load_project_file(path, prepare);
     for (const Problem& problem : loaded.problems) tell_line(to_string(path, problem), Gravity::error);
+    if (warnings == Warnings::kept) loaded.warnings.clear();
     for (Problem warning : loaded.warnings) {
       warning.text = "warning: " + warning.text;
       tell_line(to_string(path, warning), Gravity::warning);

@@ -9,28 +9,52 @@
 #include <unordered_set>
 
 namespace lockstep::cli {
+namespace {
+
+constexpr int kHighestUnit = 247;
+
+/// The unit id by which maps for every unit id are reached: the one asked for, unless it has a map of its
+/// own.
+int unit_of_common(const std::vector<const ModbusMapConfig*>& maps, int asked) {
+  const auto is_taken = [&](int unit) {
+    return std::any_of(maps.begin(), maps.end(), [&](const auto* map) { return map->unit == unit; });
+  };
+  if (!is_taken(asked)) return asked;
+  int unit = 1;
+  while (unit < kHighestUnit && is_taken(unit)) ++unit;
+  return unit;
+}
+
+}  // namespace
+
 void add_panel_options(CLI::App& command, PanelOptions& options) {
   command.add_option("ADDRESS", options.place, "HOST:PORT where the project runs")->required();
   command.add_option("--project", options.project, "the project file, whose map says where the names stand")
       ->required();
+  command.add_option(
+      "--server", options.server,
+      "number of the server, as lockstep tags shows it, where ADDRESS is none at which it listens");
   command.add_option("--unit", options.unit, "unit id, where the map is for all of them (1)")
-      ->check(CLI::Range(0, 247));
+      ->check(CLI::Range(0, kHighestUnit));
   command.add_option("--timeout", options.timeout, "seconds to wait for an answer (2)")
       ->check(CLI::Range(0.001, 3600.0));
 }
 
-ModbusPanel::ModbusPanel(const Project& project, const PanelOptions& options)
-    : project_(project), options_(options) {
-  for (const ModbusMapConfig& map : project_.modbus.maps)
-    for (const ModbusEntry& entry : map.map.entries()) {
-      const PanelEntry place = place_of(map, entry);
+ModbusPanel::ModbusPanel(const Project& project, const PanelOptions& options, PanelTarget target)
+    : project_(project),
+      options_(options),
+      target_(std::move(target)),
+      common_unit_(unit_of_common(target_.maps, options.unit)) {
+  for (const ModbusMapConfig* map : target_.maps)
+    for (const ModbusEntry& entry : map->map.entries()) {
+      const PanelEntry place = place_of(*map, entry);
       Places& known = places_.try_emplace(fold(place.name), Places{place, std::nullopt}).first->second;
       if (entry.writable && !known.writable) known.writable = place;
     }
 }
 
 PanelEntry ModbusPanel::place_of(const ModbusMapConfig& map, const ModbusEntry& entry) const {
-  return {project_.modbus.signal_of(entry).name, map.unit ? int{*map.unit} : options_.unit, &map.map, &entry};
+  return {project_.modbus.signal_of(entry).name, map.unit ? int{*map.unit} : common_unit_, &map.map, &entry};
 }
 
 std::vector<PanelName> ModbusPanel::all() const {
@@ -39,20 +63,20 @@ std::vector<PanelName> ModbusPanel::all() const {
   const auto add = [&](PanelName name) {
     if (known.insert(fold(name.name)).second) names.push_back(std::move(name));
   };
-  for (const ModbusMapConfig& map : project_.modbus.maps) {
-    auto array = map.arrays.begin();
-    auto text = map.texts.begin();
-    const auto& entries = map.map.entries();
+  for (const ModbusMapConfig* map : target_.maps) {
+    auto array = map->arrays.begin();
+    auto text = map->texts.begin();
+    const auto& entries = map->map.entries();
     for (std::size_t i = 0; i < entries.size();) {
-      if (text != map.texts.end() && text->first == i) {
+      if (text != map->texts.end() && text->first == i) {
         i += text->count();
-        add(name_of(map, *text++));
+        add(name_of(*map, *text++));
         continue;
       }
-      const bool is_array = array != map.arrays.end() && array->first == i;
+      const bool is_array = array != map->arrays.end() && array->first == i;
       const std::size_t end = i + (is_array ? array->elements.count() : 1);
       PanelName name{is_array ? array->elements.name : "", {}, is_array};
-      for (; i < end; ++i) name.entries.push_back(place_of(map, entries[i]));
+      for (; i < end; ++i) name.entries.push_back(place_of(*map, entries[i]));
       if (!is_array) name.name = name.entries.front().name;
       if (is_array) ++array;
       add(std::move(name));
@@ -70,10 +94,10 @@ PanelName ModbusPanel::name_of(const ModbusMapConfig& map, const ModbusText& tex
 
 /// The first place of a text in the maps.
 std::optional<PanelName> ModbusPanel::find_text(const StringTag& tag, bool to_write) const {
-  for (const ModbusMapConfig& map : project_.modbus.maps)
-    for (const ModbusText& text : map.texts)
-      if (text.tag == &tag && (!to_write || map.map.entries()[text.first].writable))
-        return name_of(map, text);
+  for (const ModbusMapConfig* map : target_.maps)
+    for (const ModbusText& text : map->texts)
+      if (text.tag == &tag && (!to_write || map->map.entries()[text.first].writable))
+        return name_of(*map, text);
   tell_unknown(tag.name);
   return std::nullopt;
 }
@@ -124,14 +148,9 @@ std::optional<PanelName> ModbusPanel::find(const std::string& name, bool to_writ
 }
 
 bool ModbusPanel::connect() {
-  std::string problem;
-  const std::optional<Endpoint> endpoint = parse_endpoint(options_.place, problem);
-  if (endpoint) {
-    master_.emplace(*endpoint, std::chrono::milliseconds(static_cast<int>(options_.timeout * 1000.0)));
-    if (master_->connect()) return true;
-    problem = options_.place + ": " + master_->problem();
-  }
-  tell(problem);
+  master_.emplace(target_.endpoint, std::chrono::milliseconds(static_cast<int>(options_.timeout * 1000.0)));
+  if (master_->connect()) return true;
+  tell(options_.place + ": " + master_->problem());
   return false;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,8 +20,9 @@ struct PanelOptions {
   std::string place;    ///< HOST:PORT
   std::string project;  ///< file
   std::vector<std::string> names;
-  int unit = 1;          ///< of maps that are for every unit id
-  double timeout = 2.0;  ///< [s]
+  std::optional<std::size_t> server;  ///< index in `modbus.server`; none: the one that listens at the place
+  int unit = 1;                       ///< of maps that are for every unit id
+  double timeout = 2.0;               ///< [s]
   bool json = false;
 };
 
@@ -48,17 +50,29 @@ struct PanelName {
 /// Adds the options to a command.
 void add_panel_options(CLI::App& command, PanelOptions& options);
 
+/// Whom a panel speaks to: where, and which maps are there.
+struct PanelTarget {
+  Endpoint endpoint;
+  std::vector<const ModbusMapConfig*> maps;  ///< of the project
+};
+
+/// The target of the options, or nothing: then that is told. Unless the options name it, the server is the
+/// one that listens at this host and port, else the one that listens at this port (the host may be called by
+/// another name); where several do, or none, nothing is guessed: all servers that it might be have to have
+/// the same maps.
+std::optional<PanelTarget> find_target(const Project& project, const PanelOptions& options);
+
 /// A connection to a running project. Messages go to standard error.
 class ModbusPanel {
  public:
   /// @param project outlives it
-  ModbusPanel(const Project& project, const PanelOptions& options);
+  ModbusPanel(const Project& project, const PanelOptions& options, PanelTarget target);
 
   /// What a name stands for, or nothing: then that is told. Of "heights" and "heights[*]" those elements
   /// count that the map has; of "heights[2..5]" it has to have all.
   /// @param to_write places that can be written
   std::optional<PanelName> find(const std::string& name, bool to_write) const;
-  /// All names of the project, each once.
+  /// All names of the maps, each once.
   std::vector<PanelName> all() const;
   /// Connects; false if that cannot be, which is told.
   bool connect();
@@ -85,6 +99,8 @@ class ModbusPanel {
 
   const Project& project_;
   const PanelOptions& options_;
+  const PanelTarget target_;
+  const int common_unit_;                           // of maps that are for every unit id
   std::unordered_map<std::string, Places> places_;  // by folded name
   std::optional<ModbusMaster> master_;
 };

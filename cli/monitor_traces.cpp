@@ -96,13 +96,13 @@ void HeardTrace::take_header() {
 
 void HeardTrace::take_row(Clock::time_point now) {
   const TraceRow row = decoder_.row();
-  const auto period = static_cast<double>(decoder_.header().period);
-  const double passed = static_cast<double>(row.t) - static_cast<double>(t_);
-  if (passed < 0.0) lost_ = 0;  // a new run
-  if (rows_ != 0 && period > 0.0 && passed > 0.0 && row.dropped >= dropped_) {
-    const double missing = std::round(passed / period) - 1.0 - static_cast<double>(row.dropped - dropped_);
-    if (missing > 0.0 && missing < 1e15) lost_ += static_cast<std::uint64_t>(missing);
-  }
+  const std::int64_t number = decoder_.message().number;
+  const bool is_new_run = row.t < t_ || number <= number_;
+  if (is_new_run || rows_ == 0)
+    lost_ = 0;
+  else if (number_ >= 0)  // what a sender of anything may put there stays a count
+    lost_ += static_cast<std::uint64_t>(number - number_) - 1;
+  number_ = number;
   t_ = row.t;
   dropped_ = row.dropped;
   values_.assign(row.values.begin(), row.values.end());

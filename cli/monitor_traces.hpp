@@ -34,7 +34,7 @@ class HeardTrace {
 
   double rate(Clock::time_point now) const;              ///< rows in a second, over the last two seconds
   double age(Clock::time_point now) const;               ///< of the last row [s]
-  std::uint64_t lost() const noexcept { return lost_; }  ///< rows that did not come through the network
+  std::uint64_t lost() const noexcept { return lost_; }  ///< rows sent that did not come
   std::uint64_t damaged() const noexcept { return damaged_; }  ///< messages that contradict themselves
 
  private:
@@ -49,7 +49,8 @@ class HeardTrace {
   std::uint64_t rows_ = 0;
   std::uint64_t lost_ = 0;
   std::uint64_t damaged_ = 0;
-  std::int64_t t_ = 0;  // [ns] of the run
+  std::int64_t t_ = 0;       // [ns] of the run
+  std::int64_t number_ = 0;  // of the last row in its channel
   std::uint64_t dropped_ = 0;
   Clock::time_point last_;
   std::deque<std::pair<Clock::time_point, std::uint64_t>> counts_;  // rows at times, for the rate

@@ -28,9 +28,11 @@ std::string shown_text(const PanelName& name, const std::vector<Value>& values) 
 
 int read_values(const PanelOptions& options) {
   int status = kOk;
-  const std::optional<Project> project = load_or_tell(options.project, status);
+  const std::optional<Project> project = load_or_tell(options.project, status, {}, Warnings::kept);
   if (!project) return status;
-  ModbusPanel panel(*project, options);
+  auto target = find_target(*project, options);
+  if (!target) return kCouldNotStart;
+  ModbusPanel panel(*project, options, std::move(*target));
   std::vector<PanelName> names;
   for (const std::string& name : options.names)
     if (auto found = panel.find(name, false)) names.push_back(std::move(*found));

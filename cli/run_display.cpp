@@ -39,6 +39,13 @@ std::string state_text(const AxisSummary& axis) {
   return has_bit(axis.status_word, StatusBit::Standstill) ? "standing" : "moving";
 }
 
+/// Whether an axis was under way when its run ended and has been braked since.
+bool brought_to_rest(const AxisSummary& end, const Axis& now) {
+  const bool moved =
+      has_bit(end.status_word, StatusBit::Enable) && !has_bit(end.status_word, StatusBit::Standstill);
+  return moved && now.off();
+}
+
 }  // namespace
 
 Display::Display(Project& project, const std::vector<NamedSignal>& signals, std::int64_t duration)
@@ -81,6 +88,8 @@ void tell_axes(const Controller& controller) {
     const AxisSummary& axis = controller.summary()[i];
     std::string line = fmt::format("  {:<{}}  {:<14} at {:.6g}", controller.axes[i]->name, width,
                                    state_text(axis), std::abs(axis.position) < kRest ? 0.0 : axis.position);
+    if (brought_to_rest(axis, *controller.axes[i]))
+      line += fmt::format("; brought to rest at {:.6g}", controller.axes[i]->data.ActualPosition);
     const bool followed = controller.axes[i]->was_synchronous();
     if (followed) line += fmt::format("; largest deviation while synchronous {:.3g}", axis.largest_deviation);
     write_message(line + "\n");

@@ -87,9 +87,11 @@ std::optional<Assignment> assignment(const ModbusPanel& panel, const std::string
 
 int write_values(const PanelOptions& options) {
   int status = kOk;
-  const std::optional<Project> project = load_or_tell(options.project, status);
+  const std::optional<Project> project = load_or_tell(options.project, status, {}, Warnings::kept);
   if (!project) return status;
-  ModbusPanel panel(*project, options);
+  auto target = find_target(*project, options);
+  if (!target) return kCouldNotStart;
+  ModbusPanel panel(*project, options, std::move(*target));
   std::vector<Assignment> assignments;
   for (const std::string& text : options.names)
     if (auto one = assignment(panel, text)) assignments.push_back(std::move(*one));

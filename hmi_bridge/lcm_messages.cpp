@@ -64,7 +64,7 @@ bool header_fits(std::span<const std::uint8_t> bytes) noexcept {
 /// Whether a row does.
 bool row_fits(std::span<const std::uint8_t> bytes) noexcept {
   LcmWalk walk(bytes);
-  walk.skip(6 * 8);
+  walk.skip(7 * 8);
   walk.skip(8 * walk.count(8));
   walk.count(8);
   return walk.good();
@@ -112,6 +112,7 @@ std::span<const std::uint8_t> LcmEncoder::row(const TraceRow& row) {
   row_.utime = identity_.utime(row.t);
   row_.t = row.t;
   row_.tick = static_cast<std::int64_t>(row.tick);
+  row_.number = rows_++;
   row_.dropped = static_cast<std::int64_t>(row.dropped);
   for (std::size_t i = 0; i < types_.size(); ++i) {
     row_.values[i] = as_double(row.values[i], types_[i]);

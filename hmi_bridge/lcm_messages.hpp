@@ -46,6 +46,7 @@ class LcmEncoder {
 
   /// The encoded message; valid until the next call.
   std::span<const std::uint8_t> header();
+  /// Rows are numbered in the order of the calls.
   std::span<const std::uint8_t> row(const TraceRow& row);
   std::span<const std::uint8_t> event(const TraceEvent& event);
 
@@ -60,6 +61,7 @@ class LcmEncoder {
   std::vector<Type> types_;
   trace_header_t header_;
   trace_row_t row_;
+  std::int64_t rows_ = 0;  // encoded so far
   std::vector<std::uint8_t> bytes_;
 };
 

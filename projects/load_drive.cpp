@@ -19,19 +19,6 @@ void load_fixed_stop(const JsonValue& json, MachinePlantSettings& plant, const L
   plant.stop = {*position, *word == 0 ? 1 : -1, *stiffness};
 }
 
-const bool* read_cause(const JsonValue* json, const Loading& loading) {
-  if (json == nullptr) return nullptr;
-  const auto tag = read_string(json, loading.problems);
-  if (!tag) return nullptr;
-  const auto found = loading.find(*json, *tag);
-  if (!found) return nullptr;
-  if (found->tag == nullptr || found->signal.type != Type::BOOL) {
-    loading.problems.report(*json, json->shown() + " is not allowed here; allowed: the name of a BOOL tag");
-    return nullptr;
-  }
-  return static_cast<const bool*>(found->signal.address);
-}
-
 void load_sensor(const JsonValue& json, Axis& axis, const Loading& loading) {
   Problems& problems = loading.problems;
   const Fields fields(json, keys::kSensor, problems);
@@ -47,7 +34,7 @@ void load_sensor(const JsonValue& json, Axis& axis, const Loading& loading) {
   if (const auto value = read_bool(fields["inverted"], problems)) sensor.inverted = *value;
   if (const auto value = read_number(fields["start_position"], -kMost, kMost, problems))
     sensor.start_position = *value;
-  sensor.fault = read_cause(fields["fault"], loading);
+  sensor.fault = find_bool_tag(fields["fault"], loading);
   if (!index) return;
   SimulatedSensor& place = axis.drive_settings.sensors[static_cast<std::size_t>(*index - 2)];
   if (place.exists) return problems.report(*number, "there is an encoder " + number->shown() + " already");
@@ -59,6 +46,19 @@ void load_sensor(const JsonValue& json, Axis& axis, const Loading& loading) {
 }
 
 }  // namespace
+
+const bool* find_bool_tag(const JsonValue* json, const Loading& loading) {
+  if (json == nullptr) return nullptr;
+  const auto tag = read_string(json, loading.problems);
+  if (!tag) return nullptr;
+  const auto found = loading.find(*json, *tag);
+  if (!found) return nullptr;
+  if (found->tag == nullptr || found->signal.type != Type::BOOL) {
+    loading.problems.report(*json, json->shown() + " is not allowed here; allowed: the name of a BOOL tag");
+    return nullptr;
+  }
+  return static_cast<const bool*>(found->signal.address);
+}
 
 void load_sensors(const JsonValue& json, Axis& axis, const Loading& loading) {
   if (read_array(&json, loading.problems) == nullptr) return;
@@ -87,10 +87,10 @@ void load_plant(const JsonValue& json, SimulatedDriveSettings& drive, const Load
 
 void load_faults(const JsonValue& json, SimulatedFaults& faults, const Loading& loading) {
   const Fields fields(json, keys::kFaults, loading.problems);
-  faults.drive = read_cause(fields["drive"], loading);
-  faults.encoder = read_cause(fields["encoder"], loading);
-  faults.communication = read_cause(fields["communication"], loading);
-  faults.blocked = read_cause(fields["blocked"], loading);
+  faults.drive = find_bool_tag(fields["drive"], loading);
+  faults.encoder = find_bool_tag(fields["encoder"], loading);
+  faults.communication = find_bool_tag(fields["communication"], loading);
+  faults.blocked = find_bool_tag(fields["blocked"], loading);
 }
 
 }  // namespace lockstep

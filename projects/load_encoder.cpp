@@ -38,6 +38,10 @@ void load_source(const Fields& fields, SimulatedEncoderSettings& source, const L
     source.follows = static_cast<LeadingObject*>(loading.find_object(follows, kAnyAxis));
   if (signal != nullptr)
     if (const auto found = find_number(*signal, loading)) source.signal = *found;
+  const JsonValue* const valid = fields["valid"];
+  source.valid = find_bool_tag(valid, loading);
+  if (valid != nullptr && signal == nullptr && follows != nullptr)
+    problems.report(*valid, "'valid' is allowed with 'signal' only");
   const JsonValue* const ratio = fields["ratio"];
   if (const auto value = read_number(ratio, -kLargest, kLargest, problems)) {
     source.ratio = *value;

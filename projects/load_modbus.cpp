@@ -473,17 +473,23 @@ void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* con
   }
 }
 
+std::vector<const ModbusMapConfig*> ModbusConfig::maps_of(std::optional<std::size_t> server) const {
+  const auto is_own = [&](const ModbusMapConfig& map) { return map.server == server; };
+  if (std::none_of(maps.begin(), maps.end(), is_own)) server.reset();
+  std::vector<const ModbusMapConfig*> found;
+  for (const ModbusMapConfig& map : maps)
+    if (is_own(map)) found.push_back(&map);
+  return found;
+}
+
 ModbusUnits ModbusConfig::units_of(std::size_t server) const {
-  const bool has_own =
-      std::any_of(maps.begin(), maps.end(), [&](const ModbusMapConfig& map) { return map.server == server; });
   static const ModbusMap kEmpty({}, {});
-  ModbusUnits units(has_own ? kEmpty : maps.front().map);
-  for (const ModbusMapConfig& map : maps) {
-    if (map.server != (has_own ? std::optional(server) : std::nullopt)) continue;
-    if (map.unit)
-      units.own[*map.unit] = &map.map;
+  ModbusUnits units(kEmpty);
+  for (const ModbusMapConfig* map : maps_of(server)) {
+    if (map->unit)
+      units.own[*map->unit] = &map->map;
     else
-      units.every = &map.map;
+      units.every = &map->map;
   }
   return units;
 }

@@ -28,12 +28,14 @@ std::string scale_of(Axis& axis, std::size_t sensor) {
   std::string text;
   for (const Variable& variable : data_block_of(axis.kind).configuration) {
     if (!scales(variable)) continue;
-    const Signal place{static_cast<char*>(axis.data_block()) + variable.offset, variable.type, -1};
-    const std::string value = kept_text(place.load(), variable.type);
-    if (value == kept_text(variable.start_value(), variable.type)) continue;
     std::string path(variable.path);
-    if (const auto element = path.find("[]"); element != std::string::npos)
-      path.insert(element + 1, std::to_string(sensor + 1));
+    const auto brackets = path.find("[]");
+    const std::size_t element = brackets != std::string::npos ? sensor : 0;
+    const std::size_t offset = variable.offset + element * variable.stride;
+    const Signal place{static_cast<char*>(axis.data_block()) + offset, variable.type, -1};
+    const std::string value = kept_text(place.load(), variable.type);
+    if (value == kept_text(variable.start_value(element), variable.type)) continue;
+    if (brackets != std::string::npos) path.insert(brackets + 1, std::to_string(sensor + 1));
     text.append(text.empty() ? "" : " ").append(path).append("=").append(value);
   }
   return text;

@@ -80,6 +80,9 @@ struct ModbusConfig {
   std::vector<ModbusClientConfig> clients;
   std::deque<ModbusMapConfig> maps;  ///< the first one is the project's map of all unit ids
 
+  /// The maps that a server has: its own, else the common ones. Pointers into `maps`.
+  /// @param server index; none, or one that is not there: the common ones
+  std::vector<const ModbusMapConfig*> maps_of(std::optional<std::size_t> server) const;
   /// The maps that a server serves; this outlives them.
   ModbusUnits units_of(std::size_t server) const;
   /// The signal of an entry under its name; a diagnostic is called "diagnostic.NAME", and one of the server

@@ -38,7 +38,7 @@ inline constexpr Key kClock[] = {{"servo_cycle", kRequired}, {"interpolator_rati
 inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
 inline constexpr Key kEncoderObject[] = {{"type", kRequired}, {"config"}, {"encoder", kRequired}};
 inline constexpr Key kEncoder[] = {
-    {"model", kRequired}, {"follows"}, {"ratio"},      {"signal"},       {"wrap"},
+    {"model", kRequired}, {"follows"}, {"ratio"},      {"signal"},       {"valid"}, {"wrap"},
     {"resolution"},       {"noise"},   {"zero_marks"}, {"reference_cam"}};
 inline constexpr Key kMeasuringInputObject[] = {
     {"type", kRequired}, {"config"}, {"assigned_to", kRequired}, {"marks"}};

@@ -175,17 +175,19 @@ Json sensors_schema() {
 }
 
 Json encoder_schema(const Json& type, const Json& config) {
-  const Json encoder =
-      object(keys::kEncoder,
-             {{"model", words("kind of the encoder", words::kModels)},
-              {"follows", text("axis on whose load it sits; or 'signal'")},
-              {"ratio", number("user units of the encoder per unit of that axis, not 0", -1e12, 1e12)},
-              {"signal", text("number whose value is the position: tag, instance.Pin or Object.Variable")},
-              {"wrap", number("length at which the signal wraps [u]", 0.001, 1e12)},
-              {"resolution", number("increment of the encoder [u]; 0: none", 0.0, 1e12)},
-              {"noise", number("largest deviation of a reading to either side [u]", 0.0, 1e12)},
-              {"zero_marks", zero_marks_schema()},
-              {"reference_cam", reference_cam_schema()}});
+  const Json encoder = object(
+      keys::kEncoder,
+      {{"model", words("kind of the encoder", words::kModels)},
+       {"follows", text("axis on whose load it sits; or 'signal'")},
+       {"ratio", number("user units of the encoder per unit of that axis, not 0", -1e12, 1e12)},
+       {"signal", text("number whose value is the position: tag, instance.Pin or Object.Variable")},
+       {"valid", text("BOOL tag: whether the signal is heard of; FALSE is a fault of the encoder (411), "
+                      "but for the time before it is TRUE first. With 'signal' only")},
+       {"wrap", number("length at which the signal wraps [u]", 0.001, 1e12)},
+       {"resolution", number("increment of the encoder [u]; 0: none", 0.0, 1e12)},
+       {"noise", number("largest deviation of a reading to either side [u]", 0.0, 1e12)},
+       {"zero_marks", zero_marks_schema()},
+       {"reference_cam", reference_cam_schema()}});
   return object(keys::kEncoderObject, {{"type", type}, {"config", config}, {"encoder", encoder}});
 }
 

@@ -25,17 +25,17 @@ EncoderReading SimulatedEncoder::read() noexcept {
     load_.servo();
     position_ = load_.line() * settings_.ratio;
   } else if (!follow_signal()) {
-    return {position_, position_, false};
+    return {position_, position_, false, !begun_ && !heard_of()};
   }
   DoubleDouble shown = position_;
   if (settings_.noise > 0.0) shown = shown + settings_.noise * noise();
   if (settings_.resolution > 0.0) shown = quantised(shown, settings_.resolution);
-  return {shown, position_, true};
+  return {shown, position_, true, false};
 }
 
 /// A signal that wraps has gone the shorter way round.
 bool SimulatedEncoder::follow_signal() noexcept {
-  if (settings_.signal.address == nullptr) return false;
+  if (settings_.signal.address == nullptr || !heard_of()) return false;
   const double now = as_double(settings_.signal.load(), settings_.signal.type);
   if (!(std::abs(now) <= kPositionRange)) return false;
   if (!begun_) {

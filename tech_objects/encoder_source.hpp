@@ -15,6 +15,7 @@ struct SimulatedEncoderSettings {
   const LeadingObject* follows = nullptr;  ///< the axis on whose load it sits; nullptr: the signal counts
   double ratio = 1.0;                      ///< [u] of the encoder per [u] of that axis, not 0
   Signal signal;                           ///< a number: the position [u]
+  const bool* valid = nullptr;             ///< whether the signal is heard of; nullptr: always
   double wrap = 0.0;                       ///< [u] > 0: length at which the signal wraps; 0: it does not
   double resolution = 0.0;                 ///< [u] ≥ 0, increment that it reports; 0: the position itself
   double noise = 0.0;                      ///< [u] ≥ 0, largest deviation of a reading to either side
@@ -28,7 +29,8 @@ DoubleDouble quantised(DoubleDouble position, double increment) noexcept;
 struct EncoderReading {
   DoubleDouble position;       ///< [u] on a line; never wraps
   DoubleDouble true_position;  ///< [u] without noise and increments
-  bool valid = false;          ///< false: the signal is no number, or none that a position can have
+  bool valid = false;          ///< false: the signal is not heard of, or is none that a position can have
+  bool awaited = false;        ///< not valid since nothing has been heard of the signal so far
 };
 
 /// Deterministic: the noise comes from a generator of integers that begins with the same seed in every run.
@@ -47,6 +49,7 @@ class SimulatedEncoder {
 
  private:
   bool follow_signal() noexcept;
+  bool heard_of() const noexcept { return settings_.valid == nullptr || *settings_.valid; }
   double noise() noexcept;
 
   SimulatedEncoderSettings settings_;

@@ -40,16 +40,16 @@ void ExternalEncoder::take_start_values() noexcept {
 
 void ExternalEncoder::servo() noexcept {
   const EncoderReading reading = source_.read();
+  const bool was_heard = std::exchange(heard_, reading.valid);
+  if (reading.awaited) return;
   if (!reading.valid) return fault(alarm::kEncoder);
   const bool inverse = data.Sensor.InverseDirection;
   const DoubleDouble line = inverse ? -reading.position : reading.position;
-  last_true_line_ = begun_ ? true_line_ : inverse ? -reading.true_position : reading.true_position;
-  true_line_ = inverse ? -reading.true_position : reading.true_position;
+  const DoubleDouble true_line = inverse ? -reading.true_position : reading.true_position;
+  last_true_line_ = was_heard ? true_line_ : true_line;
+  true_line_ = true_line;
   if (!begun_) return begin(line);
-  if (faulty()) {
-    line_ = line;
-    return;
-  }
+  if (faulty() || !was_heard) return go_on_from_here(line);
   if (!follow(line)) return;
   data.StatusSensor.Position = actual_.value;
   if (!mark_search_.active()) return;
@@ -65,6 +65,12 @@ void ExternalEncoder::begin(DoubleDouble line) noexcept {
   origin_ = {};
   actual_ = last_actual_ = advanced(origin_, line, modulo_);
   reset_leading(actual_);
+}
+
+/// What it has gone unseen, or in a fault, is no way: it is where it was seen last.
+void ExternalEncoder::go_on_from_here(DoubleDouble line) noexcept {
+  line_ = line;
+  origin_ = advanced(actual_, -line_, modulo_);
 }
 
 /// Takes a reading over; false where it cannot be one.
@@ -120,7 +126,7 @@ void ExternalEncoder::publish() noexcept {
   data.ActualVelocity = actual_velocity_;
   data.ActualModuloCycle = static_cast<DINT>(actual_.turns - counted_from_);
   data.StatusSensor.State = actual_values_valid() ? kSensorValid : kSensorInvalid;
-  data.StatusSensor.CommunicationOK = true;
+  data.StatusSensor.CommunicationOK = heard_;
   data.StatusSensor.Control = true;
   data.StatusSensor.Position = actual_.value;
   data.StatusSensor.Velocity = actual_velocity_;
@@ -149,8 +155,7 @@ void ExternalEncoder::start(Job& job) noexcept {
 
 ErrorId ExternalEncoder::reset(bool restart) noexcept {
   if (restart && power.enable) return ErrorId::restart_refused;
-  // It is where it was seen last.
-  if (faulty()) origin_ = advanced(actual_, -line_, modulo_);
+  if (faulty()) go_on_from_here(line_);
   clear_alarms(*this, data);
   data.StatusSensor.Error = false;
   if (!restart) return ErrorId::none;

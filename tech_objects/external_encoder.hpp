@@ -60,6 +60,7 @@ class ExternalEncoder final : public LeadingObject {
  private:
   void take_start_values() noexcept;
   void begin(DoubleDouble line) noexcept;
+  void go_on_from_here(DoubleDouble line) noexcept;
   bool follow(DoubleDouble line) noexcept;
   bool faulty() const noexcept { return data.ErrorDetail.Number != 0; }
   void fault(int alarm_number) noexcept;
@@ -80,6 +81,7 @@ class ExternalEncoder final : public LeadingObject {
   SimulatedEncoder source_;
   NewJobs new_jobs_;
   bool begun_ = false;
+  bool heard_ = false;  // whether the last reading was valid
   bool homed_ = false;
   bool lost_ = false;
   DoubleDouble line_;  // of the encoder, in the direction of the object [u]

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "cli/describe_table.hpp"
 #include "cli/monitor_keys.hpp"
@@ -28,17 +29,14 @@ class Monitored {
     hear("KNIFE_HEADER", encoder_.header());
   }
   void run(int seconds) {
-    for (const std::int64_t end = t_ + seconds * kSecond; t_ < end; t_ += kSecond / 50) {
-      const double time = static_cast<double>(t_) * 1e-9;
-      const Value values[] = {{.r = time * 10.0},
-                              {.r = 10.0 * std::sin(time)},
-                              {.u = time >= 5.0 ? 1u : 0u},
-                              {.r = 0.5},
-                              {.i = -3}};
-      hear("KNIFE", encoder_.row({t_, static_cast<std::uint64_t>(t_ / 1'000'000), 0, values}));
-      now += 20ms;
-    }
+    for (const std::int64_t end = t_ + seconds * kSecond; t_ < end;) hear("KNIFE", next_row());
   }
+  /// Rows that are sent and not heard.
+  void lose(int rows) {
+    for (int i = 0; i < rows; ++i) next_row();
+  }
+  /// Cycles that the run leaves out.
+  void miss(int cycles) { t_ += cycles * kSecond / 50; }
   bool hear(const std::string& channel, std::span<const std::uint8_t> bytes) {
     return model.accept(channel, bytes, now);
   }
@@ -79,6 +77,18 @@ class Monitored {
 
  private:
   static constexpr std::int64_t kSecond = 1'000'000'000;
+  std::span<const std::uint8_t> next_row() {
+    const double time = static_cast<double>(t_) * 1e-9;
+    const Value values[] = {{.r = time * 10.0},
+                            {.r = 10.0 * std::sin(time)},
+                            {.u = time >= 5.0 ? 1u : 0u},
+                            {.r = 0.5},
+                            {.i = -3}};
+    const auto tick = static_cast<std::uint64_t>(t_ / 1'000'000);
+    const std::int64_t t = std::exchange(t_, t_ + kSecond / 50);
+    now += 20ms;
+    return encoder_.row({t, tick, 0, values});
+  }
   LcmEncoder encoder_{{"knife", "KNIFE", kSecond / 50, 0}, kSignals};
   std::int64_t t_ = 0;
 };
@@ -117,6 +127,18 @@ KNIFE: knife  t 9.980 s  50 rows/s  age 0.0 s  dropped 0  lost 0
 
 / search  s sort  g plot  j jobs  a alarms  p pause  r record  ? help  q ends
 )");
+}
+
+TEST(MonitorView, CountsRowsThatWereSentAndDidNotComeNotCyclesThatTheRunHasMissed) {
+  Monitored monitored;
+  monitored.run(1);
+  monitored.miss(7);
+  monitored.run(1);
+  EXPECT_TRUE(monitored.shows("lost 0\n")) << monitored.text();
+  monitored.lose(3);
+  monitored.miss(2);
+  monitored.run(1);
+  EXPECT_TRUE(monitored.shows("lost 3\n")) << monitored.text();
 }
 
 TEST(MonitorView, InALocaleWithoutUnicodeShowsTheSameInAscii) {

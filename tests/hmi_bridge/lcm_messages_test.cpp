@@ -49,9 +49,13 @@ TEST(LcmMessages, AStrangerReadsTheValuesWithTheGeneratedTypesAlone) {
   EXPECT_EQ(row.header_id, header.id);
   EXPECT_EQ(row.t, 4'000'000);
   EXPECT_EQ(row.tick, 4);
+  EXPECT_EQ(row.number, 0);
   EXPECT_EQ(row.dropped, 7);
   EXPECT_EQ(row.values, (std::vector<double>{1.0, 1.5, 0.1}));
   EXPECT_EQ(row.exact, (std::vector<std::int64_t>{1'500'000'000}));
+  const auto next = encoder.row({8'000'000, 8, 7, values});
+  ASSERT_EQ(row.decode(next.data(), 0, static_cast<int>(next.size())), next.size());
+  EXPECT_EQ(row.number, 1) << "however many ticks the run has missed";
 }
 
 TEST(LcmMessages, AStringOfAnImpossibleLengthIsDamage) {
@@ -135,10 +139,10 @@ TEST(LcmMessages, CountsAndLengthsThatAMessageCannotHoldAreRefused) {
     }
     ASSERT_EQ(decoder.accept(sample.header), Message::kHeader);
     auto row = sample.row;
-    row[48] = high;
+    row[56] = high;
     EXPECT_EQ(decoder.accept(row), Message::kDamaged);
     row = sample.row;
-    row[52 + 8 * sample_signals().size()] = high;
+    row[60 + 8 * sample_signals().size()] = high;
     EXPECT_EQ(decoder.accept(row), Message::kDamaged);
   }
 }

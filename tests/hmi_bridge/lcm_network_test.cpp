@@ -24,7 +24,7 @@ constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 // A receiver asks for a larger socket buffer (the system grants what it allows): a burst has to wait there.
 constexpr char kReceiveUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
-const std::vector<TraceSignal> kSignals(25, {"x", Type::LREAL, "u"});  // a row is a message of 256 bytes
+const std::vector<TraceSignal> kSignals(24, {"x", Type::LREAL, "u"});  // a row is a message of 256 bytes
 const LcmTraceIdentity kIdentity{"rotary_knife", "KNIFE", 100'000, 0};
 
 std::vector<Value> row_values(std::uint64_t tick) {

@@ -26,6 +26,25 @@ TEST(ProjectRetain, ListsTagsAndTheAdjustmentsOfAbsoluteEncoders) {
   EXPECT_EQ(retain.interval, std::chrono::seconds(10));
 }
 
+TEST(ProjectRetain, KeepsBesideEachEncoderTheSettingsOfThatEncoder) {
+  Json json = Json::parse(kExampleProject);
+  Json& knife = json["technology_objects"]["Knife"];
+  knife["config"]["Sensor[1]"] = {{"Type", 1}, {"InverseDirection", true}};
+  knife["config"]["Sensor[2]"] = {{"Existent", true}, {"Type", 2}, {"Parameter", {{"Resolution", 0.25}}}};
+  knife["drive"]["sensors"] = Json::parse(R"([{"sensor": 2}])");
+  const LoadedProject loaded = load_project(json.dump());
+  ASSERT_TRUE(loaded.project.has_value()) << lines(loaded.problems);
+  const std::vector<KeptValue>& values = loaded.project->retain.values;
+  ASSERT_EQ(values.size(), 3u);
+  EXPECT_EQ(values[2].name, "Knife.StatusSensor[2].AbsEncoderOffset");
+  EXPECT_NE(values[1].basis.find("Sensor[1].InverseDirection="), std::string::npos) << values[1].basis;
+  EXPECT_EQ(values[1].basis.find("Resolution"), std::string::npos) << values[1].basis;
+  EXPECT_NE(values[2].basis.find("Sensor[2].Type=2"), std::string::npos) << values[2].basis;
+  EXPECT_NE(values[2].basis.find("Sensor[2].Parameter.Resolution=0.25"), std::string::npos)
+      << values[2].basis;
+  EXPECT_EQ(values[2].basis.find("InverseDirection"), std::string::npos) << values[2].basis;
+}
+
 TEST(ProjectRetain, ListsArraysWithAllTheirElementsAndMembers) {
   Json json = Json::parse(kExampleProject);
   json["tags"]["recipe"] = {{"type", "ARRAY[-1..1] OF INT"}, {"retain", true}, {"init", {7, 8}}};

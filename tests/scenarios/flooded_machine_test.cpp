@@ -4,11 +4,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <array>
-#include <atomic>
 #include <cstdlib>
 #include <fstream>
-#include <random>
 #include <thread>
 
 #include "hmi_bridge/csv_trace.hpp"
@@ -18,46 +15,17 @@
 #include "hmi_bridge/trace_recorder.hpp"
 #include "projects/project.hpp"
 #include "tests/hmi_bridge/memory_disk.hpp"
-#include "tests/hmi_bridge/modbus_raw_client.hpp"
 #include "tests/hmi_bridge/own_network.hpp"
 #include "tests/scenarios/small_project.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/flood.hpp"
 
 namespace lockstep::test {
 namespace {
 
-using Bytes = RawClient::Bytes;
-
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
-constexpr int kGood = 16;
 constexpr int kRounds = 120;       // of each good client
-constexpr int kFirstOwn = 100;     // register of the first good client
-constexpr int kPair = 200;         // registers of two values that belong together
 constexpr int kTicksInARow = 100;  // between two pauses of the cycle
-
-/// Six axes on a line shaft, with a register for each client, two values and an array that change in each
-/// tick; all of them are kept.
-std::string flooded_project() {
-  Json json = example_json("03_line_shaft");
-  Json& map = json["modbus"]["map"];
-  Json calls = Json::array();
-  for (int i = 0; i < kGood; ++i) {
-    const std::string tag = "own_" + std::to_string(i);
-    json["tags"][tag] = {{"type", "INT"}, {"retain", true}};
-    map.push_back({{"tag", tag}, {"table", "holding_register"}, {"address", kFirstOwn + i}});
-  }
-  for (const char* tag : {"beat", "triple"}) json["tags"][tag] = {{"type", "DINT"}, {"retain", true}};
-  json["tags"]["beats"] = {{"type", "ARRAY[0..99] OF DINT"}, {"retain", true}};
-  map.push_back({{"tag", "beats"}, {"table", "input_register"}, {"address", kPair}});
-  map.push_back({{"tag", "beat"}, {"table", "holding_register"}, {"address", kPair}});
-  map.push_back({{"tag", "triple"}, {"table", "holding_register"}, {"address", kPair + 2}});
-  json["programs"].push_back({{"name", "Beat"},
-                              {"ob", "MC_PreServo"},
-                              {"calls",
-                               {assignment("beat", "beat + 1"), assignment("triple", "3 * beat"),
-                                assignment("beats[beat MOD 100]", "beat")}}});
-  return json.dump();
-}
 
 std::vector<Signal> places_of(const std::vector<NamedSignal>& signals) {
   std::vector<Signal> places;
@@ -93,87 +61,6 @@ struct Machine {
   std::unique_ptr<TraceRecorder> recorder;
 };
 
-class Clients {
- public:
-  explicit Clients(std::uint16_t port) : port_(port) {
-    for (int i = 0; i < 5; ++i) be_silent();
-    for (int i = 0; i < kGood; ++i) threads_.emplace_back([this, i] { be_good(i); });
-    for (unsigned i = 0; i < 6; ++i) threads_.emplace_back([this, i] { be_malformed(20240604 + i); });
-    for (int i = 0; i < 5; ++i) threads_.emplace_back([this] { be_slow(); });
-  }
-  ~Clients() {
-    is_over_ = true;
-    for (std::thread& thread : threads_) thread.join();
-  }
-
-  std::atomic<int> good_left{kGood};
-  std::atomic<int> wrong{0};
-  std::atomic<int> torn{0};
-
- private:
-  /// Writes its register and reads it back, and the two values that belong together.
-  void be_good(int number) {
-    RawClient client(port_);
-    const auto low = static_cast<std::uint8_t>(kFirstOwn + number);
-    for (int n = 0; n < kRounds; ++n) {
-      const auto value = static_cast<std::uint8_t>(n);
-      const Bytes write = {0, value, 0, 0, 0, 6, 1, 6, 0, low, 0, value};
-      const Bytes read = {0, value, 0, 0, 0, 6, 1, 3, 0, low, 0, 1};
-      const Bytes answer = {0, value, 0, 0, 0, 5, 1, 3, 2, 0, value};
-      if (!client.send(write) || client.receive(write.size()) != write) ++wrong;
-      if (!client.send(read) || client.receive(answer.size()) != answer) ++wrong;
-      const Bytes pair = {0, value, 0, 0, 0, 6, 1, 3, 0, kPair, 0, 4};
-      if (!client.send(pair)) ++wrong;
-      const Bytes both = client.receive(17);
-      if (both.size() != 17 || both[8] != 8) {
-        ++wrong;
-        continue;
-      }
-      const auto number_at = [&both](std::size_t i) {
-        return std::uint32_t{both[i]} << 24 | std::uint32_t{both[i + 1]} << 16 |
-               std::uint32_t{both[i + 2]} << 8 | both[i + 3];
-      };
-      if (number_at(13) != 3 * number_at(9)) ++torn;
-    }
-    --good_left;
-  }
-  void be_malformed(unsigned seed) {
-    std::mt19937 random(seed);
-    while (!is_over_) {
-      RawClient client(port_);
-      Bytes bytes = {0, 1, 0, 0, 0, 6, 1, 3, 0, 30, 0, 3};
-      for (int i = 0; i < 3; ++i) {
-        const std::size_t place = random() % bytes.size();
-        if (place != 7) bytes[place] = static_cast<std::uint8_t>(random());  // not the function: no writes
-      }
-      client.send(bytes);
-      client.end_sending();
-      client.is_hung_up_on();
-    }
-  }
-  void be_slow() {
-    RawClient client(port_);
-    const Bytes request = {0, 1, 0, 0, 0, 6, 1, 3, 0, kFirstOwn, 0, 1};
-    while (!is_over_) {
-      for (const std::uint8_t byte : request) {
-        if (is_over_ || !client.send({byte})) return;
-        std::this_thread::yield();
-      }
-      if (client.receive(11).size() != 11) ++wrong;
-    }
-  }
-  void be_silent() {
-    RawClient client(port_);
-    client.send({0, 1, 0, 0, 0, 6});
-    silent_.push_back(std::move(client));
-  }
-
-  std::uint16_t port_;
-  std::vector<std::thread> threads_;
-  std::vector<RawClient> silent_;
-  std::atomic<bool> is_over_{false};
-};
-
 /// Waits of the calling thread in the system: switches that it asked for.
 long waits() {
   rusage usage{};
@@ -190,7 +77,7 @@ TEST(FloodedMachine, ItsCycleNeitherWaitsNorAllocatesAndEveryAnswerIsRightAndOfO
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     subscriber.stop();
 
-    LoadedProject loaded = load_project(flooded_project());
+    LoadedProject loaded = load_project(flooded_project(example_json("03_line_shaft")));
     ASSERT_TRUE(loaded.project.has_value()) << loaded.problems[0].place << loaded.problems[0].text;
     Machine machine(std::move(*loaded.project));
     std::vector<std::unique_ptr<TraceSink>> sinks;
@@ -203,12 +90,12 @@ TEST(FloodedMachine, ItsCycleNeitherWaitsNorAllocatesAndEveryAnswerIsRightAndOfO
     ASSERT_EQ(machine.server->start(), "");
     machine.keeper.start();
 
-    Clients clients(machine.server->port());
+    FloodClients clients(machine.server->port(), kRounds);
     Controller& controller = *machine.project.controller;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     long waited = 0;
     const std::uint64_t allocated = allocations_counted();
-    while (clients.good_left > 0 && std::chrono::steady_clock::now() < deadline) {
+    while (clients.good_left() > 0 && std::chrono::steady_clock::now() < deadline) {
       const long before = waits();
       {
         const CountAllocations count;
@@ -217,11 +104,11 @@ TEST(FloodedMachine, ItsCycleNeitherWaitsNorAllocatesAndEveryAnswerIsRightAndOfO
       waited += waits() - before;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    EXPECT_EQ(clients.good_left, 0) << "in two minutes";
+    EXPECT_EQ(clients.good_left(), 0) << "in two minutes";
     EXPECT_EQ(waited, 0);
     EXPECT_EQ(allocations_counted(), allocated);
-    EXPECT_EQ(clients.wrong, 0);
-    EXPECT_EQ(clients.torn, 0) << "answers of two instants";
+    EXPECT_EQ(clients.wrong(), 0);
+    EXPECT_EQ(clients.torn(), 0) << "answers of two instants";
     EXPECT_EQ(machine.server->counters().faults, 0u);
     EXPECT_GT(machine.server->counters().malformed, 0u);
     EXPECT_TRUE(machine.keeper.failing()) << "the disk of the kept values is full";
@@ -257,14 +144,14 @@ pid_t thread_named(pid_t process, const std::string& name) {
 
 TEST(FloodedMachine, TheThreadOfTheCycleAsksTheSystemForNothingButTheTimeOfItsNextTick) {
   const Directory directory;
-  const std::string project = directory.write("project.json", flooded_project());
+  const std::string project = directory.write("project.json", flooded_project(example_json("03_line_shaft")));
   RunningLockstep run(project,
                       {"--stimuli", "--trace", directory.file("t.csv"), "--retain", directory.file("kept")});
   pid_t cycle = 0;
   ASSERT_TRUE(wait_until([&] { return (cycle = thread_named(run.pid(), "cycle")) != 0; }));
   const std::string calls = directory.file("calls");
   Process strace({"timeout", "-s", "INT", "3", "strace", "-qq", "-o", calls, "-p", std::to_string(cycle)});
-  Clients clients(static_cast<std::uint16_t>(run.port()));
+  const FloodClients clients(static_cast<std::uint16_t>(run.port()), kRounds);
   strace.status();
   std::ifstream lines(calls);
   int sleeps = 0;

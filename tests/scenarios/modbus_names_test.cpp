@@ -1,6 +1,11 @@
 // A running project read and written by the names of its map, and its diagnostics; a second one that polls
 // it.
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <array>
 
 #include "tests/scenarios/lockstep_process.hpp"
 #include "tests/scenarios/modbus_client.hpp"
@@ -37,6 +42,23 @@ Json panel_project() {
       Json{{"diagnostic", "alarms"}, {"table", "input_register"}, {"address", 106}, {"type", "UINT"}},
       Json{{"diagnostic", "clients"}, {"table", "input_register"}, {"address", 107}, {"type", "UINT"}}};
   return project;
+}
+
+/// Ports at which nobody listens.
+std::array<int, 2> free_ports() {
+  std::array<int, 2> sockets{};
+  std::array<int, 2> ports{};
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    sockets[i] = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{
+        .sin_family = AF_INET, .sin_port = 0, .sin_addr = {htonl(INADDR_LOOPBACK)}, .sin_zero = {}};
+    socklen_t size = sizeof address;
+    EXPECT_EQ(::bind(sockets[i], reinterpret_cast<const sockaddr*>(&address), size), 0);
+    EXPECT_EQ(::getsockname(sockets[i], reinterpret_cast<sockaddr*>(&address), &size), 0);
+    ports[i] = ntohs(address.sin_port);
+  }
+  for (const int socket : sockets) ::close(socket);
+  return ports;
 }
 
 class Panel : public ::testing::Test {
@@ -304,6 +326,70 @@ TEST_F(ArrayPanel, TellsNamesAndValuesThatAreWrongAndWritesNothing) {
     EXPECT_NE(ended.err.find(part), std::string::npos) << ended.err;
   }
   EXPECT_EQ(call("read", {"heights"}, run.port()).out, "heights = [5.0, 7.5, 0.0, 0.0]\n");
+}
+
+/// Two servers: one with the common map, one with maps of its own, in which the same addresses mean other
+/// tags.
+class TwoServers : public Panel {
+ protected:
+  TwoServers() {
+    const std::array<int, 2> free = free_ports();
+    common = free[0];
+    own = free[1];
+    write(common, own);
+  }
+  void write(int first, int second) {
+    Json project = empty_project();
+    project["tags"] = Json::parse(R"({"a": {"type": "INT", "init": 11}, "b": {"type": "INT", "init": 22},
+                                      "c": {"type": "INT", "init": 33}, "unused": {"type": "INT"}})");
+    const auto listen = [](int port) { return "127.0.0.1:" + std::to_string(port); };
+    project["modbus"]["map"] = {entry("a", "holding_register", 0), entry("b", "holding_register", 1)};
+    project["modbus"]["server"] = {
+        Json{{"listen", listen(first)}},
+        Json{{"listen", listen(second)},
+             {"map", {entry("b", "holding_register", 0)}},
+             {"units", {Json{{"unit", 1}, {"map", {entry("c", "holding_register", 0)}}}}}}};
+    file = directory.write("two.json", project.dump());
+  }
+  int common = 0;
+  int own = 0;
+};
+
+TEST_F(TwoServers, TheAddressTellsWhichMapCounts) {
+  Process run(lockstep_command({"run", file, "--no-lcm", "--no-retain"}));
+  ASSERT_TRUE(wait_until([&] { return call("read", {"a"}, common).status == 0; })) << run.err();
+  EXPECT_EQ(call("read", {}, common).out, "a = 11\nb = 22\n");
+  EXPECT_EQ(call("read", {}, own).out, "b = 22\nc = 33\n") << "the unit id 1 is taken by a map of its own";
+  const Ended unknown = call("write", {"a=99"}, own);
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_NE(unknown.err.find("has no 'a' (did you mean 'b'?); it has: b, c"), std::string::npos)
+      << unknown.err;
+  EXPECT_EQ(call("write", {"b=5", "c=6"}, own).status, 0);
+  EXPECT_EQ(call("read", {}, common).out, "a = 11\nb = 5\n");
+  EXPECT_EQ(call("read", {"c"}, own).out, "c = 6\n");
+  const Ended by_name = lockstep({"read", "localhost:" + std::to_string(own), "--project", file, "c"});
+  EXPECT_EQ(by_name.out, "c = 6\n") << by_name.err;
+
+  write(1, 2);  // as behind a tunnel: no server listens where the client connects
+  const Ended asked = call("read", {"b"}, own);
+  EXPECT_EQ(asked.status, 2);
+  EXPECT_NE(asked.err.find("allowed: an address at which one listens, or --server with one of 0 "
+                           "(127.0.0.1:1), 1 (127.0.0.1:2)"),
+            std::string::npos)
+      << asked.err;
+  EXPECT_EQ(call("read", {"--server", "1"}, own).out, "b = 5\nc = 6\n");
+  EXPECT_EQ(call("read", {"--server", "0"}, common).out, "a = 11\nb = 5\n");
+  EXPECT_EQ(call("read", {"--server", "2"}, own).status, 2);
+}
+
+TEST_F(TwoServers, TheProjectsWarningsAreNotForWhoReadsAndWrites) {
+  EXPECT_NE(lockstep({"check", file}).err.find("warning"), std::string::npos);
+  RunningLockstep run(file);  // the first server alone, where the command line says
+  for (const std::string name : {"read", "write"}) {
+    const Ended ended = call(name, {"--server", "0", name == "read" ? "a" : "a=1"}, run.port());
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_EQ(ended.err, "");
+  }
 }
 
 TEST_F(Panel, WhereNobodyAnswersItSaysSo) {

@@ -53,6 +53,16 @@ std::string slow_to_brake(const Directory& directory) {
   return directory.write("project.json", project.dump());
 }
 
+/// Tells where the axis was when the programs ended, and that it stands where braking takes it, which at 200
+/// mm/s² is 100 mm further.
+void expect_told_at_rest(const std::string& text) {
+  std::smatch match;
+  ASSERT_TRUE(
+      std::regex_search(text, match, std::regex("A +moving +at ([0-9.]+); brought to rest at ([0-9.]+)\\n")))
+      << text;
+  EXPECT_NEAR(std::stod(match[2]) - std::stod(match[1]), 100.0, 1.0) << text;
+}
+
 /// A line of the shell with arguments; its exit status.
 int lockstep_shell(const std::string& line, const std::vector<std::string>& arguments) {
   std::vector<std::string> command{"sh", "-c", line, "sh"};
@@ -85,6 +95,7 @@ TEST_P(EndedBySignal, BringsItsAxesToRestAndEndsWith0) {
   })) << "it does not brake";
   EXPECT_EQ(run.status(), 0) << run.err();
   EXPECT_GT(Clock::now() - asked, std::chrono::milliseconds(900)) << "the axis cannot stand yet";
+  expect_told_at_rest(run.err());
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, EndedBySignal, testing::Values(SIGINT, SIGTERM),
@@ -105,6 +116,7 @@ TEST(RealTime, AnAxisThatCannotBeBrakedInTimeHoldsNoEndUpForLongerThanTenSeconds
   EXPECT_EQ(run.status(), 0) << run.err();
   EXPECT_GT(Clock::now() - asked, std::chrono::seconds(9));
   EXPECT_NE(run.err().find("warning: A was not at rest"), std::string::npos) << run.err();
+  EXPECT_EQ(run.err().find("brought to rest"), std::string::npos) << run.err();
 }
 
 TEST(RealTime, ToTheJournalWarningsAndErrorsHaveTheirGravity) {
@@ -137,6 +149,7 @@ TEST(RealTime, ADurationEndsItAndTheAxesAreBroughtToRestAfterIt) {
   EXPECT_EQ(ended.status, 0) << ended.err;
   const Ticks ticks = ticks_of(ended.err);
   EXPECT_GE(ticks.executed + ticks.missed, 1490) << "500 ms and a second of braking";
+  expect_told_at_rest(ended.err);
   const CsvTable table = read_csv(trace);
   ASSERT_GT(table.rows, 0u);
   EXPECT_LT(table["t"].back(), 0.5) << "the trace ends with the duration";

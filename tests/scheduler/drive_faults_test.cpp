@@ -1,6 +1,7 @@
 // Faults of drive, encoder and communication: alarms, reactions, acknowledgement; and how a drive stops.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fb/gear_in.hpp"
@@ -283,6 +284,28 @@ TEST(EnablingInMotion, BrakesOnARampOrAtOnce) {
     EXPECT_EQ(rig.a.data.Velocity > 90.0, ramp);
     EXPECT_EQ(rig.a.data.Velocity == 0.0, !ramp);
   }
+}
+
+TEST(EnablingInMotion, ReturnsToWhereItWasEnabled) {
+  Failing rig([](Axis& a) {
+    a.drive_settings.plant.inertia = 0.01;
+    a.data.DynamicLimits.MaxDeceleration = 500.0;
+    a.data.DynamicLimits.MaxJerk = 0.0;
+  });
+  brake_by(rig, 3);
+  rig.power.Enable = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.power.Status; }, 5));
+  const double enabled_at = rig.a.data.ActualPosition;
+  double furthest = enabled_at;
+  for (int i = 0; i < 3000; ++i) {
+    rig.tick();
+    furthest = std::max(furthest, rig.a.data.Position);
+  }
+  EXPECT_NEAR(furthest, enabled_at + 10.0, 1.0) << "100 u/s braked by 500 u/s²";
+  EXPECT_NEAR(rig.a.data.Position, enabled_at, 0.25) << "within the way of a tick or two";
+  EXPECT_NEAR(rig.a.data.ActualPosition, rig.a.data.Position, 0.01);
+  EXPECT_EQ(rig.a.data.Velocity, 0.0);
+  EXPECT_EQ(rig.a.data.ErrorDetail.Number, 0u);
 }
 
 // ---- Control words

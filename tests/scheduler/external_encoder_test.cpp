@@ -326,6 +326,106 @@ TEST(EncoderOnASignal, FailsWithAlarm411WhileTheSignalIsNoNumberAndStopsWhatFoll
   EXPECT_NEAR(rig.e.data.ActualPosition, before, 1e-9) << "it goes on from where it was seen last";
 }
 
+/// A signal that comes from elsewhere, so that it may not be heard of.
+struct OnHeardSignal : OnSignal {
+  explicit OnHeardSignal(double wrap = 0.0, const std::function<void(ExternalEncoderData&)>& set = {})
+      : OnSignal(wrap, set) {
+    e.source_settings.valid = &valid;
+  }
+  /// Ticks in which the material goes on by 0.1 u each.
+  void go(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      value += 0.1;
+      tick();
+    }
+  }
+  bool valid = false;
+};
+
+TEST(EncoderOnASignal, ThatIsNotHeardOfYetIsAwaitedAndBeginsAtItsFirstValue) {
+  OnHeardSignal rig;
+  rig.run(50);
+  EXPECT_EQ(rig.e.data.ErrorDetail.Number, 0u);
+  EXPECT_EQ(rig.e.data.StatusSensor.State, 0);
+  EXPECT_FALSE(rig.e.data.StatusSensor.CommunicationOK);
+  EXPECT_FALSE(rig.power.Status);
+  rig.gear.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.gear.Error) << "there is nothing to follow yet";
+  rig.value = 4000.0;
+  rig.run(3);
+  EXPECT_EQ(rig.e.data.ActualPosition, 0.0);
+  rig.valid = true;
+  rig.tick();
+  EXPECT_EQ(rig.e.data.ActualPosition, 4000.0);
+  EXPECT_EQ(rig.e.data.ActualVelocity, 0.0);
+  EXPECT_EQ(rig.e.data.StatusSensor.State, 2);
+  EXPECT_TRUE(rig.e.data.StatusSensor.CommunicationOK);
+}
+
+TEST(EncoderOnASignal, ThatIsNotHeardOfAnyMoreFailsWithAlarm411AndLaterGoesOnFromWhereItWasSeenLast) {
+  OnHeardSignal rig;
+  rig.valid = true;
+  rig.run(5);
+  rig.gear.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear; }));
+  rig.go(300);
+  EXPECT_NEAR(rig.f.data.Velocity, 100.0, 1e-6);
+  const double seen = rig.e.data.ActualPosition;
+  rig.continuity[0].velocity = true;  // from here on without a step
+  rig.valid = false;
+  rig.go(2);
+  EXPECT_EQ(rig.e.data.ErrorDetail.Number, 411u);
+  EXPECT_TRUE(rig.e.data.StatusSensor.Error);
+  EXPECT_FALSE(rig.e.data.StatusSensor.CommunicationOK);
+  EXPECT_EQ(rig.f.pending_alarm(), 601);
+  EXPECT_FALSE(rig.gear.InGear);
+  rig.go(1000);
+  rig.valid = true;
+  rig.go(100);
+  EXPECT_EQ(rig.e.data.ErrorDetail.Number, 411u) << "until it is acknowledged";
+  EXPECT_TRUE(rig.e.data.StatusSensor.CommunicationOK);
+  EXPECT_EQ(rig.e.data.ActualPosition, seen);
+  EXPECT_EQ(rig.f.data.Velocity, 0.0);
+  rig.reset.Execute = true;
+  rig.go(3);
+  EXPECT_EQ(rig.e.data.ErrorDetail.Number, 0u);
+  const double again = rig.e.data.ActualPosition;
+  EXPECT_NEAR(again, seen, 0.3) << "what it goes from there on counts";
+  rig.go(10);
+  EXPECT_NEAR(rig.e.data.ActualPosition, again + 1.0, 1e-9);
+  EXPECT_NEAR(rig.e.data.ActualVelocity, 100.0, 1e-6);
+}
+
+/// Whenever it is acknowledged, and on a ring too: the way that nobody has seen is none.
+TEST(EncoderOnASignal, NeverStepsWhenItIsHeardOfAgain) {
+  for (const bool ring : {false, true}) {
+    for (int wait = 0; wait < 6; ++wait) {
+      SCOPED_TRACE(testing::Message() << "heard of again " << wait << " ticks after the reset");
+      OnHeardSignal rig(0.0, [&](ExternalEncoderData& data) {
+        data.Modulo.Enable = ring;
+        data.Modulo.Length = 100.0;
+      });
+      rig.valid = true;
+      rig.go(20);
+      rig.valid = false;
+      rig.run(3);
+      const double seen = rig.e.data.ActualPosition;
+      rig.value += 777.0;
+      rig.reset.Execute = true;
+      rig.run(wait);
+      rig.valid = true;
+      for (int i = 0; i < 5; ++i) {
+        rig.tick();
+        ASSERT_NEAR(rig.e.data.ActualPosition, seen, 1e-9);
+        ASSERT_NEAR(rig.e.data.ActualVelocity, 0.0, 1e-9);
+        ASSERT_NE(rig.e.data.ErrorDetail.Number, 412u);
+        ASSERT_EQ(rig.e.true_line().rounded(), rig.e.last_true_line().rounded()) << "no mark has passed";
+      }
+    }
+  }
+}
+
 TEST(EncoderOnASignal, FailsWithAlarm412BeyondHalfATurnOfItsRingInOneCycleWhereItLeads) {
   OnSignal rig(0.0, [](ExternalEncoderData& data) {
     data.Modulo.Enable = true;

@@ -1,0 +1,148 @@
+// What Modbus clients cost the tick: ./dev bench flood
+#include <pthread.h>
+#include <sched.h>
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "hmi_bridge/modbus_server.hpp"
+#include "projects/project.hpp"
+#include "tests/support/flood.hpp"
+
+namespace lockstep::bench {
+namespace {
+
+constexpr char kHelp[] = R"(flood_bench [--rounds N] [--ticks N] [--quick]: Modbus clients and the tick
+
+Six axes on a line shaft run in ticks of their servo cycle, as in real time; in turns nobody is connected, and
+thirty-two clients are at full speed, half of them malformed, slow or silent. Shown is the processor time of a tick
+(CLOCK_THREAD_CPUTIME_ID, mean of a round), median and least of all rounds, and how many requests were answered.
+)";
+
+double processor_time() {  // of this thread [µs]
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
+}
+
+/// A project that runs, with its Modbus server.
+class Machine {
+ public:
+  explicit Machine(Project loaded) : project_(std::move(loaded)), image_(places()) {
+    ModbusServerOptions options;
+    options.listen = {{"127.0.0.1", 0}};
+    server_ = std::make_unique<ModbusServer>(
+        std::vector<ModbusService>{{options, project_.modbus.units_of(0)}}, image_, ModbusIdentity{});
+    project_.controller->apply_stimuli = true;
+    project_.controller->images = {&image_};
+    if (const std::string problem = server_->start(); !problem.empty()) throw std::runtime_error(problem);
+    run(1000);
+  }
+
+  /// So many ticks on a thread of their own, as `lockstep run` has them: with real-time priority where that is
+  /// permitted, each at its time, and none made up. @return processor time of one [µs]
+  double run(int ticks) {
+    double spent = 0.0;
+    std::thread cycle([&] {
+      const sched_param priority{80};
+      pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+      const std::chrono::nanoseconds period(project_.controller->clock.servo_cycle);
+      auto due = std::chrono::steady_clock::now();
+      for (int i = 0; i < ticks; ++i) {
+        do due += period;
+        while (due < std::chrono::steady_clock::now());
+        std::this_thread::sleep_until(due);
+        const double before = processor_time();
+        project_.controller->tick();
+        spent += processor_time() - before;
+      }
+    });
+    cycle.join();
+    return spent / ticks;
+  }
+  std::uint64_t requests() const { return server_->counters().requests; }
+  std::uint16_t port() const { return server_->port(); }
+
+ private:
+  std::vector<Signal> places() const {
+    std::vector<Signal> places;
+    for (const NamedSignal& signal : project_.modbus.signals) places.push_back(signal.signal);
+    return places;
+  }
+
+  Project project_;
+  ProcessImage image_;
+  std::unique_ptr<ModbusServer> server_;
+};
+
+std::unique_ptr<Machine> line_shaft() {
+  std::ifstream file(LOCKSTEP_SOURCE_DIR "/projects/03_line_shaft/project.json");
+  LoadedProject loaded = load_project(test::flooded_project(nlohmann::ordered_json::parse(file)));
+  if (!loaded.project) throw std::runtime_error("the project of the line shaft does not load");
+  return std::make_unique<Machine>(std::move(*loaded.project));
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+void show(const char* what, const std::vector<double>& times) {
+  std::printf("%-28s %8.2f %8.2f\n", what, median(times), *std::min_element(times.begin(), times.end()));
+}
+
+void measure(int rounds, int ticks) {
+  const std::unique_ptr<Machine> machine = line_shaft();
+  std::vector<double> idle;
+  std::vector<double> flooded;
+  std::vector<double> ratios;
+  std::uint64_t answered = 0;
+  for (int round = 0; round < rounds; ++round) {
+    idle.push_back(machine->run(ticks));
+    const test::FloodClients clients(machine->port(), 0);
+    const std::uint64_t before = machine->requests();
+    flooded.push_back(machine->run(ticks));
+    answered += machine->requests() - before;
+    ratios.push_back(flooded.back() / idle.back());
+  }
+  std::printf("%-28s %8s %8s\n", "tick, processor time [µs]", "median", "least");
+  show("nobody connected", idle);
+  show("32 clients at full speed", flooded);
+  std::printf("%-28s %8.3f %8.3f  (%.1f requests in a tick)\n", "ratio, round by round", median(ratios),
+              *std::min_element(ratios.begin(), ratios.end()),
+              static_cast<double>(answered) / (static_cast<double>(rounds) * ticks));
+}
+
+}  // namespace
+}  // namespace lockstep::bench
+
+int main(int argc, char** argv) {
+  int rounds = 9;
+  int ticks = 4000;
+  for (int i = 1; i < argc; ++i) {
+    const bool has_value = i + 1 < argc;
+    if (std::strcmp(argv[i], "--quick") == 0)
+      rounds = 1, ticks = 50;
+    else if (std::strcmp(argv[i], "--rounds") == 0 && has_value)
+      rounds = std::max(1, std::atoi(argv[++i]));
+    else if (std::strcmp(argv[i], "--ticks") == 0 && has_value)
+      ticks = std::max(1, std::atoi(argv[++i]));
+    else
+      return std::fputs(lockstep::bench::kHelp, stderr), 2;
+  }
+  try {
+    lockstep::bench::measure(rounds, ticks);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "flood_bench: %s\n", error.what());
+    return 1;
+  }
+}
