@@ -1,5 +1,6 @@
-// The emergency ramp of an axis with a drive begins where the axis is, and as fast as it is: how far it really
-// goes, with a drive that lags, a following error, a torque limit, a fixed stop, and axes that follow it.
+// The emergency ramp of an axis with a drive begins where the axis is, and as fast as it is: how far it
+// really goes, with a drive that lags, a following error, a torque limit, a fixed stop, and axes that follow
+// it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -295,7 +296,8 @@ TEST(EmergencyRamp, AtAFixedStopThatHasBeenFoundKeepsTheForce) {
 
 /// An axis that follows the setpoint of a driven one which lags behind it.
 struct Following : Driven {
-  Following() : Driven(&lags_behind), f(axis("Following")), power_f(block<MC_Power>()), gear(block<MC_GearIn>()) {
+  Following()
+      : Driven(&lags_behind), f(axis("Following")), power_f(block<MC_Power>()), gear(block<MC_GearIn>()) {
     lead(f, a);
     power_f.Axis = gear.Slave = &f;
     gear.Master = &a;
