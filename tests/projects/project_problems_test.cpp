@@ -79,9 +79,9 @@ TEST(ProjectProblems, NameAPlaceOnOneLineWhateverTheKey) {
 TEST(ProjectProblems, StayShortForVeryLongNames) {
   const std::string name(1'000'000, 'n');
   const LoadedProject loaded =
-      load_project("{\"lockstep\": 1, \"name\": \"" + name + "\", \"clock\": {\"servo_cycle\": \"" + name +
-                   "\"}, \"" + name + "\": 1, \"tags\": {\"" + name + "\": {\"type\": \"" + name +
-                   "\"}}, \"trace\": {\"signals\": [\"" + name + "\", \"" + name + "." + name + "\"]}}");
+      load_project(R"({"lockstep": 1, "name": ")" + name + R"(", "clock": {"servo_cycle": ")" + name +
+                   R"("}, ")" + name + R"(": 1, "tags": {")" + name + R"(": {"type": ")" + name +
+                   R"("}}, "trace": {"signals": [")" + name + R"(", ")" + name + "." + name + R"("]}})");
   EXPECT_GE(loaded.problems.size(), 6u);
   EXPECT_LT(lines(loaded.problems).size(), 4000u) << lines(loaded.problems);
 }

@@ -50,7 +50,7 @@ const std::string kNew = "/programs/0/calls/7";  // a call behind the others
 const std::string kMap = "/modbus/map/4";        // an entry behind the others
 
 /// A change of a place whose problem is told there.
-Rule at(std::string place, std::string value, std::string part) {
+Rule at(const std::string& place, std::string value, std::string part) {
   return {place, std::move(value), place, std::move(part)};
 }
 Rule missing(const std::string& key, std::string parent, std::string part) {
