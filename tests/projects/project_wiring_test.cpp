@@ -1,6 +1,7 @@
 // A loaded project is wired as it is written.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -97,7 +98,7 @@ TEST(ExampleProject, StoresConstantPinsOnceAndObjectsByTheirAddress) {
   const Instance& gear = project.controller->instances[4];
   ASSERT_EQ(gear.name, "gear");
   const auto object = [&](std::string_view pin) {
-    return reinterpret_cast<const Axis*>(gear.type->find_pin(pin)->signal(*gear.block).load().u);
+    return std::bit_cast<const Axis*>(gear.type->find_pin(pin)->signal(*gear.block).load().u);
   };
   EXPECT_EQ(object("Master"), project.controller->axes[0]);
   EXPECT_EQ(object("Slave"), project.controller->axes[1]);
