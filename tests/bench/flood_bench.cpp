@@ -48,8 +48,8 @@ class Machine {
     run(1000);
   }
 
-  /// So many ticks on a thread of their own, as `lockstep run` has them: with real-time priority where that is
-  /// permitted, each at its time, and none made up. @return processor time of one [µs]
+  /// So many ticks on a thread of their own, as `lockstep run` has them: with real-time priority where that
+  /// is permitted, each at its time, and none made up. @return processor time of one [µs]
   double run(int ticks) {
     double spent = 0.0;
     std::thread cycle([&] {

@@ -65,8 +65,7 @@ TEST(TraceChannel, IsProlongedByAnOccasionMeanwhileAndShowsNoRowTwice) {
   EXPECT_EQ(rows_of(selection, ones_at({5, 8})), (Ticks{3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
   EXPECT_EQ(rows_of(selection, ones_at({5, 10})), (Ticks{3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14}))
       << "what comes right behind it begins where the first one ended";
-  EXPECT_EQ(rows_of(selection, ones_at({5, 20})),
-            (Ticks{3, 4, 5, 6, 7, 8, 9, 18, 19, 20, 21, 22, 23, 24}));
+  EXPECT_EQ(rows_of(selection, ones_at({5, 20})), (Ticks{3, 4, 5, 6, 7, 8, 9, 18, 19, 20, 21, 22, 23, 24}));
 }
 
 }  // namespace

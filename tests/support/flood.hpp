@@ -18,8 +18,8 @@ inline constexpr int kFloodGood = 16;
 inline constexpr int kFloodFirst = 100;  ///< register of the first good client
 inline constexpr int kFloodPair = 200;   ///< registers of two values that belong together
 
-/// The project of six axes on a line shaft with a register for each client, two values and an array that change in each
-/// tick; all of them are kept.
+/// The project of six axes on a line shaft with a register for each client, two values and an array that
+/// change in each tick; all of them are kept.
 inline std::string flooded_project(nlohmann::ordered_json json) {
   using Json = nlohmann::ordered_json;
   Json& map = json["modbus"]["map"];
@@ -39,8 +39,8 @@ inline std::string flooded_project(nlohmann::ordered_json json) {
   return json.dump();
 }
 
-/// Thirty-two clients at full speed: sixteen good ones, six that send what is malformed, five that send a byte
-/// at a time, and five that say nothing more.
+/// Thirty-two clients at full speed: sixteen good ones, six that send what is malformed, five that send a
+/// byte at a time, and five that say nothing more.
 class FloodClients {
  public:
   /// @param rounds of each good client; 0: until this object ends
