@@ -6,6 +6,9 @@
 #include <fstream>
 #include <iostream>
 
+#include "hmi_bridge/command_desk.hpp"
+#include "hmi_bridge/modbus_client.hpp"
+#include "hmi_bridge/modbus_server.hpp"
 #include "hmi_bridge/retain_writer.hpp"
 #include "projects/project.hpp"
 #include "tests/scenarios/modbus_client.hpp"
@@ -24,6 +27,18 @@ long resident(pid_t process) {
   return -1;
 }
 
+/// Adds a flight recorder, and channels with fewer rows and with those around occasions that come and go.
+void add_recorders(Json& json, const std::string& flight) {
+  const Json signal = json["trace"]["signals"][json["trace"]["signals"].size() - 1];
+  json["flight_recorder"] = {{"before", "10s"}, {"after", "1s"}, {"file", flight}};
+  json["trace"]["channels"] = Json::parse(R"([
+    {"channel": "SLOW", "signals": [], "every": 100},
+    {"channel": "EDGE", "signals": [], "every": 3,
+     "trigger": {"on": "rising", "signal": "", "before": "5s", "after": "1s"}}])");
+  for (Json& channel : json["trace"]["channels"]) channel["signals"].push_back(signal);
+  json["trace"]["channels"][1]["trigger"]["signal"] = signal;
+}
+
 class Soak : public testing::TestWithParam<const char*> {};
 
 TEST_P(Soak, ADayOfVirtualTimeTakesNoMoreMemoryThanItsFirstHours) {
@@ -33,6 +48,7 @@ TEST_P(Soak, ADayOfVirtualTimeTakesNoMoreMemoryThanItsFirstHours) {
   Json json = example_json(GetParam());
   json["modbus"]["map"].push_back(
       {{"diagnostic", "ticks"}, {"table", "input_register"}, {"address", kTicks}, {"type", "UDINT"}});
+  add_recorders(json, directory.file("flight"));
   const double period = json["clock"]["servo_cycle"] == "500us" ? 0.0005 : 0.001;
   const auto all_ticks = static_cast<std::uint32_t>(seconds / period);
   // The trace is written, but no disk has room for a day of it.
@@ -120,6 +136,100 @@ TEST(SoakOfKeptValues, ADayOfVirtualTimeTakesNoMoreMemoryAndEndsWithTheValuesOfI
   }
   std::cout << early << " KiB after a fifth, " << resident(::getpid()) << " KiB at the end, "
             << std::filesystem::file_size(file) << " bytes in the file after " << parts << " parts\n";
+}
+
+/// An axis that takes commands, a count that a client may read, and a client that does.
+Json asked_project() {
+  Json json = empty_project();
+  json["technology_objects"]["Slide"] = virtual_axis();
+  json["tags"] =
+      Json::parse(R"({"beat": {"type": "DINT"}, "seen": {"type": "DINT"}, "heard": {"type": "BOOL"}})");
+  json["programs"] = {
+      {{"name", "Beat"}, {"ob", "Main"}, {"cycle", "1ms"}, {"calls", {assignment("beat", "beat + 1")}}}};
+  json["modbus"] = Json::parse(R"({
+    "map": [{"tag": "beat", "table": "input_register", "address": 0}],
+    "clients": [{"connect": "127.0.0.1:1", "devices": [{"name": "itself", "cycle": "1ms", "quality": "heard",
+                 "read": [{"tag": "seen", "table": "input_register", "address": 0}]}]}]})");
+  json["trace"] = Json::parse(R"({"lcm": {"url": "memq://", "channel": "SOAK",
+    "commands": {"axes": {"Slide": {"jog_velocity": 10.0}}}}, "signals": ["Slide.Position"]})");
+  return json;
+}
+
+template <class Named>
+std::vector<Signal> places_of(const std::vector<Named>& signals) {
+  std::vector<Signal> places;
+  for (const Named& named : signals) places.push_back(named.signal);
+  return places;
+}
+
+/// Panels that come and go: each jogs the axis for a second of ten commands, to and fro.
+class Panels {
+ public:
+  explicit Panels(const Project& project)
+      : image(project.commands.axes[0].signals), desk(project.commands.axes, image, 1) {}
+
+  void command() {
+    image.refresh();
+    desk.beat();
+    now_ += std::chrono::milliseconds(100);
+    command_t command{};
+    command.run = 1;
+    command.beat = desk.panel(0).beat;
+    command.sequence = ++commands_;
+    command.sender = 1 + commands_ / 10;
+    command.axis = "Slide";
+    command.value = 5.0;
+    command.action = command_t::JOG_FORWARD;
+    if (command.sender % 2 == 0) command.action = command_t::JOG_BACKWARD;
+    if (commands_ % 10 < 4) command.action = command_t::ENABLE;  // until the jog of the panel before is over
+    desk.accept(encoded(command), now_);
+  }
+
+  ProcessImage image;
+  CommandDesk desk;
+
+ private:
+  CommandDesk::Clock::time_point now_{std::chrono::hours(1)};
+  std::int64_t commands_ = 0;
+};
+
+// In a simulation clients rest and nobody commands, so these two have a controller in virtual time beside
+// them.
+TEST(SoakOfClientsAndCommands, ADayOfVirtualTimeTakesNoMoreMemory) {
+  const int ticks = std::getenv("LOCKSTEP_SOAK") != nullptr ? 86'400'000 : 300'000;
+  LoadedProject loaded = load_project(asked_project().dump());
+  ASSERT_TRUE(loaded.project.has_value()) << loaded.problems[0].place << loaded.problems[0].text;
+  Project& project = *loaded.project;
+  ProcessImage served(places_of(project.modbus.signals));
+  ProcessImage polled(places_of(project.modbus.clients[0].signals));
+  Panels panels(project);
+  project.controller->images = {&served, &polled, &panels.image};
+  ModbusServerOptions place;
+  place.listen = {{"127.0.0.1", 0}};
+  ModbusServer server(std::vector<ModbusService>{{place, project.modbus.units_of(0)}}, served,
+                      ModbusIdentity{});
+  ASSERT_EQ(server.start(), "");
+  ModbusClientOptions options = project.modbus.clients[0].options;
+  options.connect = Endpoint{"127.0.0.1", server.port()};
+  lockstep::ModbusClient client(options, polled);
+  client.start();
+  ASSERT_TRUE(wait_until([&] {
+    project.controller->tick();
+    return client.counters().requests > 10;
+  }));
+  long early = 0;
+  for (int tick = 0; tick < ticks; ++tick) {
+    project.controller->tick();
+    if (tick % 100 == 0) panels.command();
+    if (tick == ticks / 5) early = resident(::getpid());
+  }
+  const long late = resident(::getpid());
+  EXPECT_LE(late, early + 512);
+  std::cout << early << " KiB after a fifth, " << late << " KiB at the end; " << client.counters().requests
+            << " requests, " << panels.desk.counters().accepted << " commands\n";
+  EXPECT_EQ(client.counters().failed, 0u);
+  EXPECT_EQ(panels.desk.counters().refused(), 0u);
+  EXPECT_GE(panels.desk.counters().accepted, static_cast<std::uint64_t>(ticks / 100));
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, Soak, testing::Values("03_line_shaft", "05_press_feeder"),
