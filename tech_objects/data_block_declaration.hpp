@@ -22,7 +22,7 @@
 #define ARRAY(array_, effect_, unit_, range_, text_, ...)                                                  \
   Variable {                                                                                               \
     .path = #array_ "[]", .type = type_of<std::remove_cvref_t<decltype(Data{}.array_[0])>>(),              \
-    .offset = offsetof(Data, array_), .count = std::extent_v<decltype(Data{}.array_)>,                     \
+    .offset = offsetof(Data, array_), .count = kElementsOf<decltype(Data::array_)>,                        \
     .stride = sizeof(Data{}.array_[0]), .effect = Effect::effect_, .computed = false, .unit = Unit::unit_, \
     .range = range_, .text = text_ __VA_OPT__(, ) __VA_ARGS__, .start = &start_value_in<Data>              \
   }
@@ -38,7 +38,7 @@
   Variable {                                                                                 \
     .path = #array_ "[]." #member_, .type = type_of<decltype(Data{}.array_[0].member_)>(),   \
     .offset = offsetof(Data, array_) + offsetof(ElementOf<decltype(Data::array_)>, member_), \
-    .count = std::extent_v<decltype(Data{}.array_)>, .stride = sizeof(Data{}.array_[0]),     \
+    .count = kElementsOf<decltype(Data::array_)>, .stride = sizeof(Data{}.array_[0]),        \
     .effect = Effect::effect_, .computed = computed_, .unit = Unit::unit_, .range = range_,  \
     .text = text_ __VA_OPT__(, ) __VA_ARGS__, .start = &start_value_in<Data>                 \
   }
@@ -48,6 +48,10 @@ namespace lockstep {
 /// Type of the elements of an array.
 template <class Array>
 using ElementOf = std::remove_cvref_t<decltype(std::declval<Array&>()[0])>;
+
+/// How many of them it has, built in or std::array.
+template <class Array>
+inline constexpr std::size_t kElementsOf = sizeof(Array) / sizeof(ElementOf<Array>);
 
 // What the tables declare, for `data_block_of`.
 const DataBlock& axis_data_block() noexcept;
