@@ -212,7 +212,8 @@ TEST(Describe, TellsTheOverrideTableOfMeasuringInputs) {
       {"Mode 9", {"abort", 7317}},
       {"Mode 0, 1, 6, 7, 11, 12, 13", {"none", 7318}}};
   std::size_t found = 0;
-  for (const json& row : described({"override", "MC_Home"})["new_jobs"]) {
+  const json by_homing = described({"override", "MC_Home"});
+  for (const json& row : by_homing["new_jobs"]) {
     const json& cell = row["running_jobs"].back();
     const auto& [effect, line] = homing.at(row["which"]);
     EXPECT_EQ(cell["running"], json({"MC_MeasuringInput", "MC_MeasuringInputCyclic"}));
