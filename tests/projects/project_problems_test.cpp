@@ -63,7 +63,8 @@ TEST(ProjectProblems, AreToldForDuplicateKeysAndWhatElseIsWrong) {
             "FILE:/lockstep: the key 'lockstep' is there twice; each key is allowed once\n"
             "FILE:/tags/a/type: unknown type 'BOL' (did you mean 'BOOL'?); allowed: BOOL, SINT, INT, DINT, "
             "LINT, USINT, "
-            "UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD, REAL, LREAL, TIME, ARRAY[lower..upper] OF one of "
+            "UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD, REAL, LREAL, TIME, STRING[n], ARRAY[lower..upper] "
+            "OF one of "
             "them or of a structure of cams\n");
 }
 
