@@ -425,6 +425,7 @@ class Axis final : public LeadingObject {
   void activate_sync_out(Job& job, const Dynamics& dynamics) noexcept;
   void end_desynchronizing() noexcept;
   void watch_simulation() noexcept;
+  bool coupling_stands(const Setpoint& setpoint) const noexcept;
   void begin_simulation() noexcept;
   void end_simulation() noexcept;
   void end_simulated_gear(JobPhase phase, ErrorId error) noexcept;

@@ -107,11 +107,17 @@ void Axis::watch_simulation() noexcept {
   if (!request.enable && !simulating()) request.owner = nullptr;
 }
 
+/// Whether a setpoint of the coupling stands; one that follows measured values does within the standstill
+/// signal.
+bool Axis::coupling_stands(const Setpoint& setpoint) const noexcept {
+  return setpoint.standing() || (synchronous_.follows_actual_value() && !moving(setpoint.velocity));
+}
+
 /// The gear goes on without the axis: only while it is synchronous and the leading axis stands. The axis has
 /// to stand as well: it may still brake with the last tick, or be shifted by an offset.
 void Axis::begin_simulation() noexcept {
   const bool leading_stands = led() && synchronous_.leading_object()->leading_value_stands();
-  if (motion_ != Motion::synchronous || !leading_stands || !base_setpoint().standing()) {
+  if (motion_ != Motion::synchronous || !leading_stands || !coupling_stands(base_setpoint())) {
     simulation_request.error = ErrorId::no_synchronous_operation;
     return;
   }
@@ -122,10 +128,12 @@ void Axis::begin_simulation() noexcept {
   single_.stand(base_setpoint());
 }
 
-/// The setpoints of the gear count again, once they agree with where the axis is.
+/// The setpoints of the gear count again, once they agree with those of the axis: both stand, at the same
+/// place.
 void Axis::end_simulation() noexcept {
-  const double away = std::abs(rounded_difference(ghost_.position, base_setpoint().position, modulo_));
-  const bool agrees = away <= data.PositioningMonitoring.Window && base_setpoint().standing();
+  const Setpoint& own = base_setpoint();
+  const double away = std::abs(rounded_difference(ghost_.position, own.position, modulo_));
+  const bool agrees = away <= data.PositioningMonitoring.Window && own.standing() && coupling_stands(ghost_);
   if (!enabled() || !agrees) {
     simulation_request.error = enabled() ? ErrorId::position : ErrorId::locked;
     return;

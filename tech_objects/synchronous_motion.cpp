@@ -35,6 +35,10 @@ LeadingObject* SynchronousMotion::leading_object() const noexcept {
   return leading_ == nullptr ? nullptr : leading_->source;
 }
 
+bool SynchronousMotion::follows_actual_value() const noexcept {
+  return leading_ != nullptr && leading_->coupling == Coupling::actual;
+}
+
 // ---- Every tick
 // -------------------------------------------------------------------------------------------------
 

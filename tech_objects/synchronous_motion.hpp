@@ -132,6 +132,8 @@ class SynchronousMotion {
   /// Whether the leading value has reversed while synchronizing by more than the tolerance.
   bool reversed() const noexcept { return reversed_; }
   LeadingObject* leading_object() const noexcept;
+  /// Whether the leading value is measured.
+  bool follows_actual_value() const noexcept;
 
   /// The chain's values of this tick, for the data block.
   const Setpoint& effective_leading_value() const noexcept { return leading_now_; }

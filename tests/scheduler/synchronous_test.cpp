@@ -452,6 +452,29 @@ TEST(MC_SynchronizedMotionSimulation, KeepsTheGearWhileTheAxisMovesAndIsDisabled
   EXPECT_EQ(rig.f.data.Velocity, 75.0);
 }
 
+TEST(MC_SynchronizedMotionSimulation, IsNotEndedByALeadingAxisThatPassesThePlace) {
+  Geared rig;
+  rig.continuity[1].highest_acceleration = 1e4;  // more than either axis is told to do
+  auto& back = rig.block<MC_MoveAbsolute>();
+  back.Axis = &rig.l;
+  rig.engage();
+  rig.simulation.Enable = true;
+  rig.run(2);
+  rig.start_leading(60.0);
+  rig.simulation.Enable = false;
+  rig.run(2);
+  EXPECT_EQ(rig.simulation.ErrorID, static_cast<WORD>(0x8009));
+  rig.start_leading(-60.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.l.data.Position < -20.0; }));
+  EXPECT_TRUE(rig.simulation.InSimulation);
+  EXPECT_EQ(rig.f.data.Position, 0.0);
+  back.Execute = true;  // to rest where the gear has the axis
+  ASSERT_TRUE(rig.run_until([&] { return back.Done; }));
+  EXPECT_FALSE(rig.simulation.InSimulation);
+  EXPECT_FALSE(rig.simulation.Error);
+  EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));
+}
+
 // ---- Published steps
 // --------------------------------------------------------------------------------------------
 
