@@ -14,6 +14,14 @@ DINT out_state(const Job& job) noexcept {
   return job.kind == JobKind::MC_CamOut ? 5 : 4;
 }
 
+/// Turns by which a position has to be moved to lie next to a place.
+std::int64_t turns_between(AxisPosition position, AxisPosition place, const Modulo& modulo) noexcept {
+  if (!modulo.enabled) return 0;
+  const double apart = position.value - place.value;
+  const std::int64_t over_the_end = apart > 0.5 * modulo.length ? -1 : apart < -0.5 * modulo.length ? 1 : 0;
+  return place.turns - position.turns + over_the_end;
+}
+
 }  // namespace
 
 // ---- MC_GearOut, MC_CamOut
@@ -129,16 +137,17 @@ void Axis::begin_simulation() noexcept {
 }
 
 /// The setpoints of the gear count again, once they agree with those of the axis: both stand, at the same
-/// place.
+/// place. On a ring the turns that one of them has made meanwhile do not count.
 void Axis::end_simulation() noexcept {
   const Setpoint& own = base_setpoint();
-  const double away = std::abs(rounded_difference(ghost_.position, own.position, modulo_));
+  const double away = std::abs(shortest_distance(own.position.value, ghost_.position.value, modulo_));
   const bool agrees = away <= data.PositioningMonitoring.Window && own.standing() && coupling_stands(ghost_);
   if (!enabled() || !agrees) {
     simulation_request.error = enabled() ? ErrorId::position : ErrorId::locked;
     return;
   }
   end_job(kBase, JobPhase::aborted, ErrorId::none);
+  synchronous_.turn_following(turns_between(ghost_.position, own.position, modulo_));
   running_[kBase] = simulated_;
   simulated_ = nullptr;
   motion_ = Motion::synchronous;

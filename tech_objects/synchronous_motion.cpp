@@ -203,6 +203,14 @@ void SynchronousMotion::shift_following(double by) noexcept {
   gear_.set(numerator_, denominator_, leading_now_.position, without_phase, leading_modulo_, following_);
 }
 
+void SynchronousMotion::turn_following(std::int64_t turns) noexcept {
+  function_.position.turns += turns;
+  if (cam_ != nullptr)
+    follow_.add_turns(turns);
+  else
+    gear_.add_turns(turns);
+}
+
 // ---- Beginning
 // --------------------------------------------------------------------------------------------------
 

@@ -150,6 +150,8 @@ class SynchronousMotion {
 
   /// Shifts the following side of the function without motion, for homing [u].
   void shift_following(double by) noexcept;
+  /// Counts the turns of the following side anew, without motion.
+  void turn_following(std::int64_t turns) noexcept;
 
  private:
   /// A phase shift behind the gear; most of the time both are those of the tick before.

@@ -475,6 +475,32 @@ TEST(MC_SynchronizedMotionSimulation, IsNotEndedByALeadingAxisThatPassesThePlace
   EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));
 }
 
+TEST(MC_SynchronizedMotionSimulation, EndsOnARingAfterAnyNumberOfTurns) {
+  for (const double way : {720.0, -720.0, 720.0 + 0.2, -720.0 - 0.2}) {
+    Geared rig(ring);
+    auto& turn = rig.block<MC_MoveRelative>();
+    turn.Axis = &rig.l;
+    turn.Distance = way;
+    turn.Velocity = 2000.0;
+    rig.engage();
+    rig.simulation.Enable = true;
+    rig.run(2);
+    turn.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return turn.Done; }));
+    rig.simulation.Enable = false;
+    rig.run(2);
+    EXPECT_FALSE(rig.simulation.InSimulation) << way;
+    EXPECT_FALSE(rig.simulation.Error) << way;
+    // The axis has made none of the turns of its function; what is left is within the positioning window.
+    const AxisPosition& there = rig.f.setpoint().position;
+    const double left = way - std::copysign(720.0, way);
+    EXPECT_NEAR(difference(there, {}, rig.f.modulo()).rounded(), 1.5 * left, 1e-9) << way;
+    rig.start_leading(100.0);
+    ASSERT_TRUE(rig.run_until([&] { return rig.f.data.ModuloCycle == 3; }));
+    EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));
+  }
+}
+
 // ---- Published steps
 // --------------------------------------------------------------------------------------------
 
