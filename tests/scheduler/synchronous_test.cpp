@@ -37,6 +37,7 @@ struct Geared : Rig {
   explicit Geared(const std::function<void(AxisData&)>& kind = line)
       : l(axis("Leading", kind)),
         f(axis("Following", kind)),
+        other(axis("Other")),
         power_l(block<MC_Power>()),
         power_f(block<MC_Power>()),
         home_l(block<MC_Home>()),
@@ -53,6 +54,7 @@ struct Geared : Rig {
         velocity(block<MC_GearInVelocity>()),
         move_f(block<MC_MoveAbsolute>()) {
     lead(f, l);
+    lead(f, other);
     power_l.Axis = home_l.Axis = run_l.Axis = &l;
     power_f.Axis = home_f.Axis = move_f.Axis = additive.Axis = &f;
     gear.Master = phase.Master = phase_to.Master = velocity.Master = &l;
@@ -91,6 +93,7 @@ struct Geared : Rig {
 
   Axis& l;
   Axis& f;
+  Axis& other;  ///< might lead as well
   MC_Power& power_l;
   MC_Power& power_f;
   MC_Home& home_l;
@@ -237,6 +240,43 @@ TEST(Shifts, NeedASynchronousAxis) {
   rig.run(3);
   EXPECT_EQ(rig.phase.ErrorID, static_cast<WORD>(0x80A9));
   EXPECT_EQ(rig.offset.ErrorID, static_cast<WORD>(0x80A9));
+}
+
+TEST(Phasing, NeedsTheLeadingAxisThatIsInEffect) {
+  for (const bool absolute : {false, true}) {
+    Geared rig;
+    PhasingBlock& phase =
+        absolute ? static_cast<PhasingBlock&>(rig.phase_to) : static_cast<PhasingBlock&>(rig.phase);
+    rig.engage();
+    phase.Master = &rig.other;
+    phase.PhaseShift = 30.0;
+    phase.Execute = true;
+    rig.run(3);
+    EXPECT_EQ(phase.ErrorID, static_cast<WORD>(0x80A9));
+    EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.PhaseShift, 0.0);
+    EXPECT_EQ(rig.f.pending_alarm(), 0);
+    EXPECT_TRUE(rig.gear.InGear);
+    phase.Execute = false;
+    rig.run(1);
+    phase.Master = &rig.l;
+    phase.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return phase.Done; }));
+    EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.PhaseShift, 30.0);
+  }
+}
+
+TEST(Phasing, OfALeadingAxisThatIsNotInterconnectedRaisesAlarm601) {
+  Geared rig;
+  rig.engage();
+  rig.f.leading_values.pop_back();
+  rig.phase.Master = &rig.other;
+  rig.phase.PhaseShift = 30.0;
+  rig.phase.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.phase.ErrorID, static_cast<WORD>(0x8001));
+  EXPECT_EQ(rig.f.pending_alarm(), 601);
+  EXPECT_TRUE(has_bit(rig.f.data.ErrorWord, ErrorBit::SynchronousError));
+  EXPECT_EQ(rig.f.data.Position, 0.0);
 }
 
 TEST(Shifts, ProfileFiveCancelsAWaitingJobOnly) {
