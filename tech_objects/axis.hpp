@@ -42,6 +42,7 @@ struct LeadingValue {
 /// enabled last.
 struct AdditiveRequest {
   const void* owner = nullptr;  ///< nullptr: none is enabled
+  bool counts = false;          ///< whether the value counts; else the job waits for the enable of the axis
   AdditiveLeadingValue value;
 };
 struct SimulationRequest {

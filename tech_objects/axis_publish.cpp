@@ -102,7 +102,7 @@ void Axis::publish_awaited() noexcept {
   auto& status = data.StatusSynchronizedMotion;
   constexpr auto kAdditive = SynchronizedMotionBit::LeadingValueAdditiveCommand;
   status.StatusWord =
-      renewed(status.StatusWord, word_of(kAdditive), when(additive_request.owner != nullptr, kAdditive));
+      renewed(status.StatusWord, word_of(kAdditive), when(additive_request.counts, kAdditive));
   if (running_[kWaiting] == nullptr) return;
   const Setpoint& effective = awaited_.effective_leading_value();
   status.EffectiveLeadingValue.Position = effective.position.value;
@@ -133,7 +133,7 @@ void Axis::publish_synchronous() noexcept {
           when(push > limits.MaxAcceleration, SynchronizedMotionBit::MaxAccelerationExceeded) |
           when(-push > limits.MaxDeceleration, SynchronizedMotionBit::MaxDecelerationExceeded) |
           when(simulating(), SynchronizedMotionBit::InSimulation) |
-          when(additive_request.owner != nullptr, SynchronizedMotionBit::LeadingValueAdditiveCommand));
+          when(additive_request.counts, SynchronizedMotionBit::LeadingValueAdditiveCommand));
 
   if (motion_ != Motion::synchronous) return;
   was_synchronous_ = true;

@@ -456,6 +456,76 @@ TEST(MC_LeadingValueAdditive, AddsToTheLeadingValueDirectlyAndIsAStepOfItsSize) 
   EXPECT_DOUBLE_EQ(rig.f.data.Position, before);
 }
 
+TEST(MC_LeadingValueAdditive, CountsOnceTheAxisIsEnabledAndNotWhileItIsNot) {
+  Geared rig;
+  const auto shown = [&] {
+    return has_bit(rig.f.data.StatusSynchronizedMotion.StatusWord,
+                   SynchronizedMotionBit::LeadingValueAdditiveCommand);
+  };
+  const auto refused = [&] {
+    return rig.additive.ErrorID == static_cast<WORD>(0x800F) && !rig.additive.Busy && !shown();
+  };
+  rig.power_f.Enable = false;
+  rig.run(5);
+  rig.additive.Position = 4.0;
+  rig.additive.Enable = true;
+  rig.run(3);
+  EXPECT_TRUE(refused());
+  for (int time = 0; time < 2; ++time) {
+    rig.power_f.Enable = true;
+    rig.run(5);
+    EXPECT_TRUE(rig.additive.Busy && !rig.additive.Error && shown());
+    rig.engage();
+    EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.EffectiveLeadingValue.Position, 4.0);
+    rig.gear.Execute = false;
+    rig.power_f.Enable = false;
+    rig.run(5);
+    EXPECT_TRUE(refused());
+  }
+  rig.additive.Enable = false;
+  rig.run(2);
+  EXPECT_FALSE(rig.additive.Error);
+}
+
+TEST(MC_LeadingValueAdditive, BeginsWithTheFirstInputsThatArePermitted) {
+  Geared rig;
+  rig.additive.Position = std::nan("");
+  rig.additive.Enable = true;
+  rig.run(2);
+  EXPECT_EQ(rig.additive.ErrorID, static_cast<WORD>(0x8009));
+  rig.additive.Position = 4.0;
+  rig.run(2);
+  EXPECT_TRUE(rig.additive.Busy);
+}
+
+TEST(MC_LeadingValueAdditive, IsEndedByAnotherInstanceAndByARestart) {
+  Geared rig;
+  auto& other = rig.block<MC_LeadingValueAdditive>();
+  auto& reset = rig.block<MC_Reset>();
+  other.Axis = &rig.f;
+  reset.Axis = &rig.f;
+  reset.Restart = true;
+  rig.additive.Enable = true;
+  rig.run(2);
+  EXPECT_TRUE(rig.additive.Busy);
+  other.Enable = true;
+  rig.run(2);
+  EXPECT_TRUE(other.Busy && !rig.additive.Busy && !rig.additive.Error);
+  rig.power_f.Enable = false;
+  rig.run(5);
+  EXPECT_TRUE(other.Error && !rig.additive.Error);
+  reset.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return reset.Done; }));
+  rig.power_f.Enable = true;
+  rig.run(5);
+  EXPECT_FALSE(other.Busy || other.Error || rig.additive.Busy || rig.additive.Error);
+  other.Enable = false;
+  rig.run(1);
+  other.Enable = true;
+  rig.run(2);
+  EXPECT_TRUE(other.Busy);
+}
+
 TEST(MC_SynchronizedMotionSimulation, KeepsTheGearWhileTheAxisMovesAndIsDisabled) {
   Geared rig;
   rig.engage();
