@@ -373,6 +373,7 @@ class Axis final : public LeadingObject {
   void activate_waiting(Motion motion) noexcept;
   void step_synchronous() noexcept;
   void leave_synchronous() noexcept;
+  void forget_coupling() noexcept;
   void show_coupling(const Job& job, Motion motion) noexcept;
   void clear_cam_status() noexcept;
   void meet_cam_end() noexcept;

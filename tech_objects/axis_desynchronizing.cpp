@@ -158,11 +158,7 @@ void Axis::end_simulated_gear(JobPhase phase, ErrorId error) noexcept {
   simulated_->phase = phase;
   simulated_->error = error;
   simulated_ = nullptr;
-  synchronous_.end();
-  coupling_changed = true;
-  data.StatusSynchronizedMotion.FunctionState = 0;
-  data.StatusSynchronizedMotion.ActualMaster = DB_ANY{};
-  clear_cam_status();
+  forget_coupling();
 }
 
 }  // namespace lockstep

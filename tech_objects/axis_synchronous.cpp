@@ -251,8 +251,12 @@ void Axis::advance_shift(Slot slot) noexcept {
 
 void Axis::leave_synchronous() noexcept {
   if (!led()) return;
-  synchronous_.end();
   motion_ = Motion::single_axis;
+  forget_coupling();
+}
+
+void Axis::forget_coupling() noexcept {
+  synchronous_.end();
   coupling_changed = true;
   auto& status = data.StatusSynchronizedMotion;
   status.FunctionState = 0;

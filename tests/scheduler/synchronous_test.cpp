@@ -611,6 +611,20 @@ TEST(MC_SynchronizedMotionSimulation, EndsOnARingAfterAnyNumberOfTurns) {
   }
 }
 
+TEST(MC_SynchronizedMotionSimulation, IsShownNoLongerOnceAnAlarmHasEndedIt) {
+  Geared rig;
+  rig.engage();
+  rig.simulation.Enable = true;
+  rig.run(2);
+  const auto& status = rig.f.data.StatusSynchronizedMotion;
+  EXPECT_TRUE(has_bit(status.StatusWord, SynchronizedMotionBit::InSimulation));
+  rig.f.raise(601);
+  rig.run(2);
+  EXPECT_FALSE(rig.simulation.InSimulation);
+  EXPECT_FALSE(has_bit(status.StatusWord, SynchronizedMotionBit::InSimulation));
+  EXPECT_EQ(status.FunctionState, 0);
+}
+
 // ---- Published steps
 // --------------------------------------------------------------------------------------------
 
