@@ -415,6 +415,40 @@ TEST(MC_GearInVelocity, FollowsAChangingRatioWhileContinuousUpdateIsActive) {
   EXPECT_EQ(rig.f.data.Velocity, 80.0);
 }
 
+TEST(MC_GearInVelocity, AStepOfTheRatioBeyondTheLimitsShowsInTheStatusWord) {
+  Geared rig;
+  rig.f.data.DynamicLimits.MaxAcceleration = 2000.0;
+  rig.f.data.DynamicLimits.MaxDeceleration = 1500.0;
+  const auto shows = [&](bool acceleration, bool deceleration) {
+    const DWORD word = rig.f.data.StatusSynchronizedMotion.StatusWord;
+    return has_bit(word, SynchronizedMotionBit::MaxAccelerationExceeded) == acceleration &&
+           has_bit(word, SynchronizedMotionBit::MaxDecelerationExceeded) == deceleration;
+  };
+  rig.velocity.ContinuousUpdate = true;
+  rig.velocity.PositionControlled = true;
+  rig.velocity.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.velocity.InSync; }));
+  rig.start_leading(1.0);
+  rig.continuity[1].velocity = false;
+  const auto change_to = [&](DINT ratio) {
+    rig.velocity.RatioNumerator = ratio;
+    rig.run(2);  // a call of the block, and a tick of the axis
+    EXPECT_EQ(rig.f.data.Velocity, ratio);
+  };
+  change_to(2);  // by 1000 u/s²
+  EXPECT_TRUE(shows(false, false));
+  change_to(5);
+  EXPECT_TRUE(shows(true, false));
+  rig.run(1);
+  EXPECT_TRUE(shows(false, false));
+  change_to(3);
+  EXPECT_TRUE(shows(false, true));
+  change_to(-3);
+  EXPECT_TRUE(shows(true, true));
+  change_to(-1);
+  EXPECT_TRUE(shows(false, true));
+}
+
 TEST(MC_GearInVelocity, WithoutPositionControlShowsPositionZero) {
   Geared rig;
   rig.start_leading(40.0);
