@@ -427,6 +427,7 @@ class Axis final : public LeadingObject {
   void activate_sync_out(Job& job, const Dynamics& dynamics) noexcept;
   void end_desynchronizing() noexcept;
   void watch_simulation() noexcept;
+  void show_passes() noexcept;
   bool coupling_stands(const Setpoint& setpoint) const noexcept;
   void begin_simulation() noexcept;
   void end_simulation() noexcept;

@@ -110,9 +110,17 @@ void Axis::watch_simulation() noexcept {
   if (simulating()) {
     synchronous_.look_at_leading();
     synchronous_.advance(ghost_);
+    show_passes();
     if (!request.enable) end_simulation();
   }
   if (!request.enable && !simulating()) request.owner = nullptr;
+}
+
+/// A cam that is passed again and again shows its ends in simulation as well.
+void Axis::show_passes() noexcept {
+  if (!synchronous_.at_cam_end() || synchronous_.passed_once()) return;
+  ++simulated_->ends;
+  synchronous_.clear_cam_end();
 }
 
 /// Whether a setpoint of the coupling stands; one that follows measured values does within the standstill

@@ -240,6 +240,27 @@ TEST(MC_CamIn, ShowsTheEndOfEachPassForOneCall) {
   EXPECT_EQ(ends, 10);
 }
 
+TEST(MC_CamIn, ShowsTheEndOfEachPassWhileItIsSimulated) {
+  CamPair rig;
+  auto& simulation = rig.block<MC_SynchronizedMotionSimulation>();
+  simulation.Slave = &rig.f;
+  rig.in.ApplicationMode = 1;
+  rig.in.MasterStartDistance = 100.0;
+  rig.in.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.in.InSync; }));
+  simulation.Enable = true;
+  rig.run(2);
+  rig.start_leading(720.0);
+  int ends = 0;
+  for (int i = 0; i < 5000; ++i) {
+    rig.tick();
+    ends += rig.in.EndOfProfile;
+  }
+  EXPECT_EQ(ends, 10);
+  EXPECT_TRUE(simulation.InSimulation);
+  EXPECT_TRUE(rig.in.InSync);
+}
+
 // ---- Ways of synchronizing; the rig watches that nothing steps
 // ----------------------------------------------
 
