@@ -3,28 +3,31 @@
 namespace lockstep {
 
 void MC_LeadingValueAdditive::call(std::int64_t /*now*/) noexcept {
-  const bool rising = Enable && !last_enable_;
-  last_enable_ = Enable;
-  const ErrorId error = Enable ? check() : ErrorId::none;
-  if (rising) overridden_ = false;
-  AdditiveRequest* request = Axis == nullptr ? nullptr : &Axis->additive_request;
-  if (rising && error == ErrorId::none) {
-    request->owner = this;  // the last one enabled counts
-  } else if (request != nullptr && request->owner != this && Enable && Busy) {
-    overridden_ = true;
-  }
-  const bool mine = request != nullptr && request->owner == this;
-  if (mine && !Enable) request->owner = nullptr;
-  if (mine && Enable && error == ErrorId::none) request->value = {Position, Velocity, Acceleration};
-  Busy = mine && Enable;
-  Error = error != ErrorId::none && !overridden_;
-  if (Error) Busy = false;
-  ErrorID = static_cast<WORD>(Error ? error : ErrorId::none);
+  ErrorId error = Enable ? first_error(kPins, *this) : ErrorId::none;
+  if (Axis != nullptr) error = act_on(Axis->additive_request, error);
+  Error = error != ErrorId::none;
+  ErrorID = static_cast<WORD>(error);
+  Busy = begun_ && !Error && Axis->additive_request.owner == this;
 }
 
-ErrorId MC_LeadingValueAdditive::check() const noexcept {
-  if (const ErrorId error = first_error(kPins, *this); error != ErrorId::none) return error;
-  return Axis->enabled() || Axis->simulating() ? ErrorId::none : ErrorId::locked;
+/// @param error of the inputs  @return that of the job, which begins with the first inputs that are permitted
+ErrorId MC_LeadingValueAdditive::act_on(AdditiveRequest& request, ErrorId error) noexcept {
+  if (!Enable) {
+    if (request.owner == this) request = {};
+    begun_ = false;
+    return ErrorId::none;
+  }
+  if (!begun_ && error == ErrorId::none) {
+    begun_ = true;
+    request = {this, false, {}};  // the last one that begins counts
+  }
+  if (begun_ && request.owner != this) return ErrorId::none;  // it has been ended
+  const bool locked = !Axis->enabled() && !Axis->simulating();
+  if (begun_) {
+    request.counts = !locked && (request.counts || error == ErrorId::none);
+    if (error == ErrorId::none) request.value = {Position, Velocity, Acceleration};
+  }
+  return error == ErrorId::none && locked ? ErrorId::locked : error;
 }
 
 void MC_SynchronizedMotionSimulation::call(std::int64_t /*now*/) noexcept {

@@ -6,9 +6,11 @@
 namespace lockstep {
 
 /// Adds position, velocity and acceleration to the leading value that a following axis sees, without any
-/// limiting. Values that are not finite show an error, and the last finite ones go on.
+/// limiting. Values that are not finite show an error, and the last finite ones go on. While the axis is
+/// neither enabled nor simulated they do not count; they do, without a new edge, once it is. Another instance
+/// that begins and a restart of the axis end the job until Enable falls.
 /// @source S7-1500T synchronous operation V7, 12.1.12; 9.2
-/// @errors 16#800F not enabled and not simulated
+/// @errors 16#800F not enabled and not simulated, as long as that lasts
 struct MC_LeadingValueAdditive final : Block {
   lockstep::Axis* Axis{};
   BOOL Enable{};
@@ -38,15 +40,14 @@ struct MC_LeadingValueAdditive final : Block {
       out<&MC_LeadingValueAdditive::ErrorID>("ErrorID", "identifier of the error"));
 
  private:
-  ErrorId check() const noexcept;
+  ErrorId act_on(AdditiveRequest& request, ErrorId error) noexcept;
 
-  bool last_enable_ = false;
-  bool overridden_ = false;  // another instance has taken over
+  bool begun_ = false;
 };
 
 /// Keeps a synchronous motion alive without the axis, so that it can be moved or disabled meanwhile.
 /// @source S7-1500T synchronous operation V7, 12.1.9; 9.1
-/// @errors 16#8075 not synchronous, or the leading axis moves; 16#8009 the position does not agree at the
+/// @errors 16#8075 not synchronous, or the leading axis moves; 16#8009 the setpoints do not agree at the
 /// end;
 ///         16#800F not enabled at the end
 struct MC_SynchronizedMotionSimulation final : Block {

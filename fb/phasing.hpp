@@ -50,7 +50,8 @@ struct PhasingBlock : ExecuteBlock {
 
 /// Adds an offset to the one in effect.
 /// @source S7-1500T synchronous operation V7, 12.1.4; 6.2.4
-/// @errors 16#80A9 not synchronous; 16#8079 MC_GearInVelocity active; 16#808A an offset runs or waits;
+/// @errors 16#80A9 not synchronous, or not with Master; 16#8001 and alarm 601 Master is not interconnected;
+///         16#8079 MC_GearInVelocity active; 16#808A an offset runs or waits;
 ///         16#808C the leading value has reversed; 16#8076 simulated; 16#800F not enabled or MC_Stop active
 struct MC_PhasingRelative final : PhasingBlock {
   LREAL CoveredPhaseShift{};
@@ -72,7 +73,8 @@ struct MC_PhasingRelative final : PhasingBlock {
 
 /// Takes the offset to an absolute one.
 /// @source S7-1500T synchronous operation V7, 12.1.5; 6.2.4
-/// @errors 16#80A9 not synchronous; 16#8079 MC_GearInVelocity active; 16#808A an offset runs or waits;
+/// @errors 16#80A9 not synchronous, or not with Master; 16#8001 and alarm 601 Master is not interconnected;
+///         16#8079 MC_GearInVelocity active; 16#808A an offset runs or waits;
 ///         16#808C the leading value has reversed; 16#8076 simulated; 16#800F not enabled or MC_Stop active
 struct MC_PhasingAbsolute final : PhasingBlock {
   LREAL AbsolutePhaseShift{};

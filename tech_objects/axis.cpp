@@ -208,6 +208,7 @@ ErrorId Axis::reset(bool restart) noexcept {
 void Axis::restart() noexcept {
   end_all_jobs(JobPhase::aborted, ErrorId::none);
   end_simulated_gear(JobPhase::aborted, ErrorId::none);
+  additive_request = {};
   data = start_values_;
   start_values_changed = false;
   homed_ = false;
@@ -245,7 +246,7 @@ void Axis::step() noexcept {
   servo_tick_ = 0;
   if (has_drive_) step_forces();
   if (power_state_ != PowerState::on || !power.enable) step_power();
-  if (additive_request.owner != nullptr || additive_.in_use) take_additive();
+  if (additive_request.counts || additive_.in_use) take_additive();
   if (simulation_request.owner != nullptr) watch_simulation();
   if (running_[kWaiting] != nullptr) watch_waiting();
   if (emergency_ramp_ != EmergencyRamp::none) step_emergency_ramp();

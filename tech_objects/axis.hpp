@@ -42,6 +42,7 @@ struct LeadingValue {
 /// enabled last.
 struct AdditiveRequest {
   const void* owner = nullptr;  ///< nullptr: none is enabled
+  bool counts = false;          ///< whether the value counts; else the job waits for the enable of the axis
   AdditiveLeadingValue value;
 };
 struct SimulationRequest {
@@ -372,6 +373,7 @@ class Axis final : public LeadingObject {
   void activate_waiting(Motion motion) noexcept;
   void step_synchronous() noexcept;
   void leave_synchronous() noexcept;
+  void forget_coupling() noexcept;
   void show_coupling(const Job& job, Motion motion) noexcept;
   void clear_cam_status() noexcept;
   void meet_cam_end() noexcept;
@@ -425,6 +427,8 @@ class Axis final : public LeadingObject {
   void activate_sync_out(Job& job, const Dynamics& dynamics) noexcept;
   void end_desynchronizing() noexcept;
   void watch_simulation() noexcept;
+  void show_passes() noexcept;
+  bool coupling_stands(const Setpoint& setpoint) const noexcept;
   void begin_simulation() noexcept;
   void end_simulation() noexcept;
   void end_simulated_gear(JobPhase phase, ErrorId error) noexcept;

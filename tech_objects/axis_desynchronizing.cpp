@@ -14,6 +14,14 @@ DINT out_state(const Job& job) noexcept {
   return job.kind == JobKind::MC_CamOut ? 5 : 4;
 }
 
+/// Turns by which a position has to be moved to lie next to a place.
+std::int64_t turns_between(AxisPosition position, AxisPosition place, const Modulo& modulo) noexcept {
+  if (!modulo.enabled) return 0;
+  const double apart = position.value - place.value;
+  const std::int64_t over_the_end = apart > 0.5 * modulo.length ? -1 : apart < -0.5 * modulo.length ? 1 : 0;
+  return place.turns - position.turns + over_the_end;
+}
+
 }  // namespace
 
 // ---- MC_GearOut, MC_CamOut
@@ -102,16 +110,30 @@ void Axis::watch_simulation() noexcept {
   if (simulating()) {
     synchronous_.look_at_leading();
     synchronous_.advance(ghost_);
+    show_passes();
     if (!request.enable) end_simulation();
   }
   if (!request.enable && !simulating()) request.owner = nullptr;
+}
+
+/// A cam that is passed again and again shows its ends in simulation as well.
+void Axis::show_passes() noexcept {
+  if (!synchronous_.at_cam_end() || synchronous_.passed_once()) return;
+  ++simulated_->ends;
+  synchronous_.clear_cam_end();
+}
+
+/// Whether a setpoint of the coupling stands; one that follows measured values does within the standstill
+/// signal.
+bool Axis::coupling_stands(const Setpoint& setpoint) const noexcept {
+  return setpoint.standing() || (synchronous_.follows_actual_value() && !moving(setpoint.velocity));
 }
 
 /// The gear goes on without the axis: only while it is synchronous and the leading axis stands. The axis has
 /// to stand as well: it may still brake with the last tick, or be shifted by an offset.
 void Axis::begin_simulation() noexcept {
   const bool leading_stands = led() && synchronous_.leading_object()->leading_value_stands();
-  if (motion_ != Motion::synchronous || !leading_stands || !base_setpoint().standing()) {
+  if (motion_ != Motion::synchronous || !leading_stands || !coupling_stands(base_setpoint())) {
     simulation_request.error = ErrorId::no_synchronous_operation;
     return;
   }
@@ -122,15 +144,18 @@ void Axis::begin_simulation() noexcept {
   single_.stand(base_setpoint());
 }
 
-/// The setpoints of the gear count again, once they agree with where the axis is.
+/// The setpoints of the gear count again, once they agree with those of the axis: both stand, at the same
+/// place. On a ring the turns that one of them has made meanwhile do not count.
 void Axis::end_simulation() noexcept {
-  const double away = std::abs(rounded_difference(ghost_.position, base_setpoint().position, modulo_));
-  const bool agrees = away <= data.PositioningMonitoring.Window && base_setpoint().standing();
+  const Setpoint& own = base_setpoint();
+  const double away = std::abs(shortest_distance(own.position.value, ghost_.position.value, modulo_));
+  const bool agrees = away <= data.PositioningMonitoring.Window && own.standing() && coupling_stands(ghost_);
   if (!enabled() || !agrees) {
     simulation_request.error = enabled() ? ErrorId::position : ErrorId::locked;
     return;
   }
   end_job(kBase, JobPhase::aborted, ErrorId::none);
+  synchronous_.turn_following(turns_between(ghost_.position, own.position, modulo_));
   running_[kBase] = simulated_;
   simulated_ = nullptr;
   motion_ = Motion::synchronous;
@@ -141,11 +166,7 @@ void Axis::end_simulated_gear(JobPhase phase, ErrorId error) noexcept {
   simulated_->phase = phase;
   simulated_->error = error;
   simulated_ = nullptr;
-  synchronous_.end();
-  coupling_changed = true;
-  data.StatusSynchronizedMotion.FunctionState = 0;
-  data.StatusSynchronizedMotion.ActualMaster = DB_ANY{};
-  clear_cam_status();
+  forget_coupling();
 }
 
 }  // namespace lockstep

@@ -89,7 +89,11 @@ ErrorId Axis::check_synchronous(const Job& job) const noexcept {
   if (job.mode == kCancelWaiting) return ErrorId::none;
   const bool in_time = is_phasing(job.kind) && job.mode == 0;
   if (in_time && base != nullptr && base->kind == JobKind::MC_CamIn) return ErrorId::phasing_in_time;
-  return motion_ == Motion::synchronous ? ErrorId::none : ErrorId::not_synchronous;
+  if (motion_ != Motion::synchronous) return ErrorId::not_synchronous;
+  // A leading axis that is not interconnected at all is an alarm.
+  const bool of_another = is_phasing(job.kind) && job.master != synchronous_.leading_object() &&
+                          find_leading_value(job.master) != nullptr;
+  return of_another ? ErrorId::not_synchronous : ErrorId::none;
 }
 
 ErrorId Axis::check_cam(const Job& job) const noexcept {
@@ -122,9 +126,11 @@ void Axis::cancel_waiting_shift(Job& job) noexcept {
 int Axis::missing_precondition(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_MoveAbsolute && !homed_) return alarm::kNotHomed;
   if (job.kind == JobKind::MC_Home) return missing_for_homing(job);
-  if (!couples(job.kind)) return 0;
+  if (!couples(job.kind) && !is_phasing(job.kind)) return 0;
   const LeadingValue* leading = find_leading_value(job.master);
-  if (leading == nullptr || !job.master->actual_values_valid()) return alarm::kLeadingAxis;
+  if (leading == nullptr) return alarm::kLeadingAxis;
+  if (is_phasing(job.kind)) return 0;
+  if (!job.master->actual_values_valid()) return alarm::kLeadingAxis;
   if (job.kind == JobKind::MC_CamIn && !job.cam->interpolated()) return alarm::kCamNotInterpolated;
   const bool controlled = job.kind == JobKind::MC_GearInVelocity || job.master->position_controlled() ||
                           leading->coupling == Coupling::actual;

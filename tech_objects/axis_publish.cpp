@@ -56,6 +56,9 @@ constexpr std::uint32_t kSynchronizedMotionBits =
             SynchronizedMotionBit::MaxDecelerationExceeded, SynchronizedMotionBit::InSimulation,
             SynchronizedMotionBit::LeadingValueAdditiveCommand);
 
+/// Share of the highest velocity by which the difference of two may be rounded up.
+constexpr double kRounding = 1e-13;
+
 /// The bits of the StatusWord that a speed axis has.
 constexpr std::uint32_t kOfSpeedAxis = 0x0E00765F;
 
@@ -102,7 +105,7 @@ void Axis::publish_awaited() noexcept {
   auto& status = data.StatusSynchronizedMotion;
   constexpr auto kAdditive = SynchronizedMotionBit::LeadingValueAdditiveCommand;
   status.StatusWord =
-      renewed(status.StatusWord, word_of(kAdditive), when(additive_request.owner != nullptr, kAdditive));
+      renewed(status.StatusWord, word_of(kAdditive), when(additive_request.counts, kAdditive));
   if (running_[kWaiting] == nullptr) return;
   const Setpoint& effective = awaited_.effective_leading_value();
   status.EffectiveLeadingValue.Position = effective.position.value;
@@ -126,14 +129,22 @@ void Axis::publish_synchronous() noexcept {
 
   const double speed = std::abs(setpoint_.velocity);
   const double push = setpoint_.velocity < 0.0 ? -setpoint_.acceleration : setpoint_.acceleration;
+  // A velocity may step where the acceleration of the function does not tell: with a changed ratio, at a
+  // corner of a cam.
+  const double change = setpoint_.velocity - last_setpoint_.velocity;
+  const double gained = sign(setpoint_.velocity) * change;
+  const double lost = -sign(last_setpoint_.velocity) * change;
   const auto& limits = data.DynamicLimits;
+  const double rounding = kRounding * limits.MaxVelocity;
   status.StatusWord = renewed(
       status.StatusWord, kSynchronizedMotionBits,
       when(speed > limits.MaxVelocity, SynchronizedMotionBit::MaxVelocityExceeded) |
-          when(push > limits.MaxAcceleration, SynchronizedMotionBit::MaxAccelerationExceeded) |
-          when(-push > limits.MaxDeceleration, SynchronizedMotionBit::MaxDecelerationExceeded) |
+          when((push > limits.MaxAcceleration) | (gained - rounding > limits.MaxAcceleration * period_),
+               SynchronizedMotionBit::MaxAccelerationExceeded) |
+          when((-push > limits.MaxDeceleration) | (lost - rounding > limits.MaxDeceleration * period_),
+               SynchronizedMotionBit::MaxDecelerationExceeded) |
           when(simulating(), SynchronizedMotionBit::InSimulation) |
-          when(additive_request.owner != nullptr, SynchronizedMotionBit::LeadingValueAdditiveCommand));
+          when(additive_request.counts, SynchronizedMotionBit::LeadingValueAdditiveCommand));
 
   if (motion_ != Motion::synchronous) return;
   was_synchronous_ = true;

@@ -197,7 +197,7 @@ void Axis::meet_cam_end() noexcept {
 /// MC_LeadingValueAdditive: what counts from this tick on.
 void Axis::take_additive() noexcept {
   additive_.last = additive_.now;
-  additive_.now = additive_request.owner != nullptr ? additive_request.value : AdditiveLeadingValue{};
+  additive_.now = additive_request.counts ? additive_request.value : AdditiveLeadingValue{};
   const auto zero = [](const AdditiveLeadingValue& value) {
     return value.position == 0.0 && value.velocity == 0.0 && value.acceleration == 0.0;
   };
@@ -251,8 +251,12 @@ void Axis::advance_shift(Slot slot) noexcept {
 
 void Axis::leave_synchronous() noexcept {
   if (!led()) return;
-  synchronous_.end();
   motion_ = Motion::single_axis;
+  forget_coupling();
+}
+
+void Axis::forget_coupling() noexcept {
+  synchronous_.end();
   coupling_changed = true;
   auto& status = data.StatusSynchronizedMotion;
   status.FunctionState = 0;

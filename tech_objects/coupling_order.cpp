@@ -30,7 +30,17 @@ void CouplingOrder::rebuild() noexcept {
   for (Axis* axis : all_) place(axis);
 }
 
-/// Depth first without recursion: an axis is placed once the axes that lead it are.
+/// Whether the couplings above an axis lead to one that is being placed, and so can only be placed after it.
+bool CouplingOrder::leads_back(Axis* axis) noexcept {
+  for (std::size_t i = 0; axis != nullptr && mark(axis) != kPlaced && i < all_.size(); ++i) {
+    if (mark(axis) == kOnPath) return true;
+    axis = axis->coupled_leading_axis();
+  }
+  return false;
+}
+
+/// Depth first without recursion: an axis is placed once the axes that lead it are. A chain of couplings is
+/// taken only as a whole, up to its first axis, so that an awaited axis never comes between two of them.
 void CouplingOrder::place(Axis* first) noexcept {
   if (mark(first) != kUnseen) return;
   path_.clear();
@@ -43,7 +53,7 @@ void CouplingOrder::place(Axis* first) noexcept {
     Axis* next = nullptr;
     if (coupled != nullptr && mark(coupled) == kUnseen) {
       next = coupled;
-    } else if (awaited != nullptr && mark(awaited) == kUnseen) {
+    } else if (awaited != nullptr && mark(awaited) == kUnseen && !leads_back(awaited)) {
       next = awaited;
     }
     if (next != nullptr) {

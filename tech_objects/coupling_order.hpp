@@ -10,7 +10,8 @@
 
 namespace lockstep {
 
-/// Built anew whenever a coupling changes: in time proportional to the number of axes, without allocation.
+/// Built anew whenever a coupling changes: without allocation, in time proportional to the number of axes,
+/// and for each axis that waits to the length of the chain that it would follow.
 class CouplingOrder {
  public:
   /// Load time: reserves all memory and puts the axes in the given order.
@@ -25,6 +26,7 @@ class CouplingOrder {
 
  private:
   void place(Axis* axis) noexcept;
+  bool leads_back(Axis* axis) noexcept;
   std::uint8_t& mark(const Axis* axis) noexcept;
 
   std::vector<Axis*> all_;

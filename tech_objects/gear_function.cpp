@@ -161,6 +161,11 @@ void GearFunction::rebase() noexcept {
   }
 }
 
+void GearFunction::add_turns(std::int64_t turns) noexcept {
+  following_start_.turns = wrapping_sum(following_start_.turns, turns);
+  turns_ = wrapping_sum(turns_, turns);
+}
+
 AxisPosition GearFunction::value(AxisPosition leading) noexcept {
   const std::int64_t turn = wrapping_difference(leading.turns, leading_turns_);
   if (turn != turn_) turn_to(turn);

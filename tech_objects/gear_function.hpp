@@ -31,6 +31,9 @@ class GearFunction {
   /// bounded number more (below a microsecond) for a jump over several turns. The cycle's thread.
   AxisPosition value(AxisPosition leading) noexcept;
 
+  /// Moves the function by whole turns of a modulo following axis.
+  void add_turns(std::int64_t turns) noexcept;
+
   /// [u/s], [u/s²] of the following axis: ratio times the leading quantity, within one ulp.
   double velocity(double leading_velocity) const noexcept { return geared(leading_velocity); }
   double acceleration(double leading_acceleration) const noexcept { return geared(leading_acceleration); }

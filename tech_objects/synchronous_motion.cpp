@@ -35,6 +35,10 @@ LeadingObject* SynchronousMotion::leading_object() const noexcept {
   return leading_ == nullptr ? nullptr : leading_->source;
 }
 
+bool SynchronousMotion::follows_actual_value() const noexcept {
+  return leading_ != nullptr && leading_->coupling == Coupling::actual;
+}
+
 // ---- Every tick
 // -------------------------------------------------------------------------------------------------
 
@@ -197,6 +201,14 @@ void SynchronousMotion::shift_following(double by) noexcept {
       phase_.in_use() ? advanced(function_.position, -(gear_.ratio() * phase_.value()), following_)
                       : function_.position;
   gear_.set(numerator_, denominator_, leading_now_.position, without_phase, leading_modulo_, following_);
+}
+
+void SynchronousMotion::turn_following(std::int64_t turns) noexcept {
+  function_.position.turns += turns;
+  if (cam_ != nullptr)
+    follow_.add_turns(turns);
+  else
+    gear_.add_turns(turns);
 }
 
 // ---- Beginning

@@ -132,6 +132,8 @@ class SynchronousMotion {
   /// Whether the leading value has reversed while synchronizing by more than the tolerance.
   bool reversed() const noexcept { return reversed_; }
   LeadingObject* leading_object() const noexcept;
+  /// Whether the leading value is measured.
+  bool follows_actual_value() const noexcept;
 
   /// The chain's values of this tick, for the data block.
   const Setpoint& effective_leading_value() const noexcept { return leading_now_; }
@@ -148,6 +150,8 @@ class SynchronousMotion {
 
   /// Shifts the following side of the function without motion, for homing [u].
   void shift_following(double by) noexcept;
+  /// Counts the turns of the following side anew, without motion.
+  void turn_following(std::int64_t turns) noexcept;
 
  private:
   /// A phase shift behind the gear; most of the time both are those of the tick before.

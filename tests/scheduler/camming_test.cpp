@@ -198,6 +198,33 @@ TEST(MC_CamIn, AppendsPassesAndSeveralAxesShareACam) {
   }
 }
 
+TEST(MC_CamIn, IsLeftByItsSimulationOnARingAfterAWholeTurn) {
+  CamPair rig(ring, ring);
+  auto& simulation = rig.block<MC_SynchronizedMotionSimulation>();
+  auto& turn = rig.block<MC_MoveRelative>();
+  simulation.Slave = &rig.f;
+  turn.Axis = &rig.l;
+  turn.Distance = 9 * 360.0;  // 9 passes of 40: one turn of the following axis
+  turn.Velocity = 5000.0;
+  rig.in.Cam = &rig.feed;
+  rig.in.ApplicationMode = 2;
+  rig.in.MasterStartDistance = 90.0;
+  rig.in.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.in.InSync; }));
+  simulation.Enable = true;
+  rig.run(2);
+  turn.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return turn.Done; }));
+  simulation.Enable = false;
+  rig.run(2);
+  EXPECT_FALSE(simulation.InSimulation);
+  EXPECT_EQ(rig.f.setpoint().position.turns, 0);
+  rig.start_leading(720.0);
+  rig.run(1000);
+  EXPECT_GT(rig.f.data.Position, 40.0);
+  EXPECT_TRUE(has_bit(rig.f.data.StatusWord, StatusBit::Synchronous));
+}
+
 TEST(MC_CamIn, ShowsTheEndOfEachPassForOneCall) {
   CamPair rig;
   rig.couple(720.0);
@@ -211,6 +238,27 @@ TEST(MC_CamIn, ShowsTheEndOfEachPassForOneCall) {
     EXPECT_TRUE(rig.in.InSync && rig.in.Busy);
   }
   EXPECT_EQ(ends, 10);
+}
+
+TEST(MC_CamIn, ShowsTheEndOfEachPassWhileItIsSimulated) {
+  CamPair rig;
+  auto& simulation = rig.block<MC_SynchronizedMotionSimulation>();
+  simulation.Slave = &rig.f;
+  rig.in.ApplicationMode = 1;
+  rig.in.MasterStartDistance = 100.0;
+  rig.in.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.in.InSync; }));
+  simulation.Enable = true;
+  rig.run(2);
+  rig.start_leading(720.0);
+  int ends = 0;
+  for (int i = 0; i < 5000; ++i) {
+    rig.tick();
+    ends += rig.in.EndOfProfile;
+  }
+  EXPECT_EQ(ends, 10);
+  EXPECT_TRUE(simulation.InSimulation);
+  EXPECT_TRUE(rig.in.InSync);
 }
 
 // ---- Ways of synchronizing; the rig watches that nothing steps

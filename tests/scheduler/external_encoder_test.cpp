@@ -9,9 +9,11 @@
 #include "fb/gear_in.hpp"
 #include "fb/gear_in_velocity.hpp"
 #include "fb/home.hpp"
+#include "fb/leading_value.hpp"
 #include "fb/move.hpp"
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
+#include "fb/stop.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {
@@ -214,6 +216,30 @@ TEST(EncoderWithNoise, ShowsTheSameBitsInEveryRun) {
     return values;
   };
   EXPECT_EQ(readings(), readings());
+}
+
+TEST(MC_SynchronizedMotionSimulation, OfACouplingToAnEncoderNeedsNoExactRest) {
+  Line line([](ExternalEncoder& e) { e.source_settings.noise = 0.0001; });
+  auto& simulation = line.block<MC_SynchronizedMotionSimulation>();
+  auto& halt = line.block<MC_Halt>();
+  simulation.Slave = &line.f;
+  halt.Axis = &line.c;
+  line.run_conveyor(50.0);
+  line.gear.Jerk = 0.0;
+  line.gear.Execute = true;
+  ASSERT_TRUE(line.run_until([&] { return line.gear.InGear; }));
+  halt.Execute = true;
+  ASSERT_TRUE(line.run_until([&] { return halt.Done; }));
+  line.run(500);
+  EXPECT_NE(line.f.data.Velocity, 0.0);  // that is the noise
+  simulation.Enable = true;
+  line.run(2);
+  EXPECT_TRUE(simulation.InSimulation);
+  EXPECT_EQ(line.f.data.Velocity, 0.0);
+  simulation.Enable = false;
+  line.run(2);
+  EXPECT_FALSE(simulation.InSimulation);
+  EXPECT_TRUE(has_bit(line.f.data.StatusWord, StatusBit::Synchronous));
 }
 
 // ---- A signal

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "fb/gear_in.hpp"
 #include "fb/home.hpp"
@@ -280,6 +281,87 @@ TEST(MC_GearIn, ChainsFollowInTheSameTickWhateverTheOrderOfTheObjects) {
   for (int i = 0; i < 500; ++i) {
     rig.tick();
     ASSERT_EQ(last.data.Position, 6.0 * first.data.Position);
+  }
+}
+
+/// A chain of gears whose first member waits for its last one, which is legal as long as it only waits; made
+/// in an order of the objects in which each of them is looked at first once.
+struct WaitingChain : Rig {
+  explicit WaitingChain(std::size_t first_made) {
+    const char* const names[] = {"A", "B", "C", "D"};
+    axes.resize(4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t place = (first_made + i) % 4;
+      axes[place] = &axis(names[place]);
+      axes[place]->data.DynamicLimits.MaxVelocity = 1e6;
+    }
+    for (std::size_t i = 1; i < 4; ++i) {
+      lead(*axes[i], *axes[i - 1]);
+      auto& gear = block<MC_GearIn>();
+      gear.Master = axes[i - 1];
+      gear.Slave = axes[i];
+      gears.push_back(&gear);
+    }
+    lead(*axes[1], *axes[3]);
+    auto& waits = block<MC_GearInPos>();
+    waits.Master = axes[3];
+    waits.Slave = axes[1];
+    waits.SyncProfileReference = 1;
+    waits.MasterSyncPosition = waits.SlaveSyncPosition = 1000.0;
+    waits.MasterStartDistance = 10.0;
+    waiting = &waits;
+    for (Axis* axis : axes) {
+      auto& power = block<MC_Power>();
+      power.Axis = axis;
+      power.Enable = true;
+      powers.push_back(&power);
+    }
+    auto& move = block<MC_MoveVelocity>();
+    move.Axis = axes[0];
+    move.Velocity = 1000.0;
+    Rig::run(3);
+    for (MC_GearIn* gear : gears) gear->Execute = true;
+    EXPECT_TRUE(run_until([&] { return gears[0]->InGear && gears[1]->InGear && gears[2]->InGear; }));
+    move.Execute = true;
+    waits.Execute = true;
+    Rig::run(5);
+    EXPECT_TRUE(waits.Busy);
+  }
+
+  std::vector<Axis*> axes;
+  std::vector<MC_GearIn*> gears;
+  std::vector<MC_Power*> powers;
+  MC_GearInPos* waiting = nullptr;
+};
+
+TEST(MC_GearInPos, ThatWaitsForAnAxisThatFollowsItsOwnDelaysNoneOfThem) {
+  for (std::size_t first_made = 0; first_made < 4; ++first_made) {
+    WaitingChain rig(first_made);
+    while (rig.axes[3]->data.Position < 900.0) {
+      rig.tick();
+      for (std::size_t i = 1; i < 4; ++i)
+        ASSERT_EQ(rig.axes[i]->data.Position, rig.axes[0]->data.Position) << first_made;
+    }
+    ASSERT_TRUE(rig.run_until([&] { return !rig.waiting->Busy; }));
+    EXPECT_EQ(rig.waiting->ErrorID, static_cast<WORD>(0x8019));
+    EXPECT_TRUE(rig.gears[2]->InGear);
+  }
+}
+
+TEST(MC_GearInPos, ThatWaitsBecomesActiveOnceTheAxisThatItAwaitsFollowsItsOwnNoLonger) {
+  WaitingChain rig(0);
+  auto& away = rig.block<MC_MoveVelocity>();  // takes the last axis out of its gear
+  away.Axis = rig.axes[3];
+  away.Velocity = 1000.0;
+  away.Execute = true;
+  rig.continuity[1].highest_acceleration = 1e6;
+  rig.continuity[1].highest_jerk = 1e9;
+  rig.continuity[2] = rig.continuity[1];
+  ASSERT_TRUE(rig.run_until([&] { return rig.waiting->InSync; }));
+  for (int i = 0; i < 100; ++i) {
+    rig.tick();
+    ASSERT_NEAR(rig.axes[1]->data.Position, rig.axes[3]->data.Position, 1e-9);
+    ASSERT_EQ(rig.axes[2]->data.Velocity, rig.axes[1]->data.Velocity);
   }
 }
 

@@ -37,6 +37,7 @@ struct Geared : Rig {
   explicit Geared(const std::function<void(AxisData&)>& kind = line)
       : l(axis("Leading", kind)),
         f(axis("Following", kind)),
+        other(axis("Other")),
         power_l(block<MC_Power>()),
         power_f(block<MC_Power>()),
         home_l(block<MC_Home>()),
@@ -53,6 +54,7 @@ struct Geared : Rig {
         velocity(block<MC_GearInVelocity>()),
         move_f(block<MC_MoveAbsolute>()) {
     lead(f, l);
+    lead(f, other);
     power_l.Axis = home_l.Axis = run_l.Axis = &l;
     power_f.Axis = home_f.Axis = move_f.Axis = additive.Axis = &f;
     gear.Master = phase.Master = phase_to.Master = velocity.Master = &l;
@@ -91,6 +93,7 @@ struct Geared : Rig {
 
   Axis& l;
   Axis& f;
+  Axis& other;  ///< might lead as well
   MC_Power& power_l;
   MC_Power& power_f;
   MC_Home& home_l;
@@ -239,6 +242,43 @@ TEST(Shifts, NeedASynchronousAxis) {
   EXPECT_EQ(rig.offset.ErrorID, static_cast<WORD>(0x80A9));
 }
 
+TEST(Phasing, NeedsTheLeadingAxisThatIsInEffect) {
+  for (const bool absolute : {false, true}) {
+    Geared rig;
+    PhasingBlock& phase =
+        absolute ? static_cast<PhasingBlock&>(rig.phase_to) : static_cast<PhasingBlock&>(rig.phase);
+    rig.engage();
+    phase.Master = &rig.other;
+    phase.PhaseShift = 30.0;
+    phase.Execute = true;
+    rig.run(3);
+    EXPECT_EQ(phase.ErrorID, static_cast<WORD>(0x80A9));
+    EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.PhaseShift, 0.0);
+    EXPECT_EQ(rig.f.pending_alarm(), 0);
+    EXPECT_TRUE(rig.gear.InGear);
+    phase.Execute = false;
+    rig.run(1);
+    phase.Master = &rig.l;
+    phase.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return phase.Done; }));
+    EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.PhaseShift, 30.0);
+  }
+}
+
+TEST(Phasing, OfALeadingAxisThatIsNotInterconnectedRaisesAlarm601) {
+  Geared rig;
+  rig.engage();
+  rig.f.leading_values.pop_back();
+  rig.phase.Master = &rig.other;
+  rig.phase.PhaseShift = 30.0;
+  rig.phase.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.phase.ErrorID, static_cast<WORD>(0x8001));
+  EXPECT_EQ(rig.f.pending_alarm(), 601);
+  EXPECT_TRUE(has_bit(rig.f.data.ErrorWord, ErrorBit::SynchronousError));
+  EXPECT_EQ(rig.f.data.Position, 0.0);
+}
+
 TEST(Shifts, ProfileFiveCancelsAWaitingJobOnly) {
   Geared rig;
   rig.engage();
@@ -375,6 +415,40 @@ TEST(MC_GearInVelocity, FollowsAChangingRatioWhileContinuousUpdateIsActive) {
   EXPECT_EQ(rig.f.data.Velocity, 80.0);
 }
 
+TEST(MC_GearInVelocity, AStepOfTheRatioBeyondTheLimitsShowsInTheStatusWord) {
+  Geared rig;
+  rig.f.data.DynamicLimits.MaxAcceleration = 2000.0;
+  rig.f.data.DynamicLimits.MaxDeceleration = 1500.0;
+  const auto shows = [&](bool acceleration, bool deceleration) {
+    const DWORD word = rig.f.data.StatusSynchronizedMotion.StatusWord;
+    return has_bit(word, SynchronizedMotionBit::MaxAccelerationExceeded) == acceleration &&
+           has_bit(word, SynchronizedMotionBit::MaxDecelerationExceeded) == deceleration;
+  };
+  rig.velocity.ContinuousUpdate = true;
+  rig.velocity.PositionControlled = true;
+  rig.velocity.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.velocity.InSync; }));
+  rig.start_leading(1.0);
+  rig.continuity[1].velocity = false;
+  const auto change_to = [&](DINT ratio) {
+    rig.velocity.RatioNumerator = ratio;
+    rig.run(2);  // a call of the block, and a tick of the axis
+    EXPECT_EQ(rig.f.data.Velocity, ratio);
+  };
+  change_to(2);  // by 1000 u/s²
+  EXPECT_TRUE(shows(false, false));
+  change_to(5);
+  EXPECT_TRUE(shows(true, false));
+  rig.run(1);
+  EXPECT_TRUE(shows(false, false));
+  change_to(3);
+  EXPECT_TRUE(shows(false, true));
+  change_to(-3);
+  EXPECT_TRUE(shows(true, true));
+  change_to(-1);
+  EXPECT_TRUE(shows(false, true));
+}
+
 TEST(MC_GearInVelocity, WithoutPositionControlShowsPositionZero) {
   Geared rig;
   rig.start_leading(40.0);
@@ -416,6 +490,76 @@ TEST(MC_LeadingValueAdditive, AddsToTheLeadingValueDirectlyAndIsAStepOfItsSize) 
   EXPECT_DOUBLE_EQ(rig.f.data.Position, before);
 }
 
+TEST(MC_LeadingValueAdditive, CountsOnceTheAxisIsEnabledAndNotWhileItIsNot) {
+  Geared rig;
+  const auto shown = [&] {
+    return has_bit(rig.f.data.StatusSynchronizedMotion.StatusWord,
+                   SynchronizedMotionBit::LeadingValueAdditiveCommand);
+  };
+  const auto refused = [&] {
+    return rig.additive.ErrorID == static_cast<WORD>(0x800F) && !rig.additive.Busy && !shown();
+  };
+  rig.power_f.Enable = false;
+  rig.run(5);
+  rig.additive.Position = 4.0;
+  rig.additive.Enable = true;
+  rig.run(3);
+  EXPECT_TRUE(refused());
+  for (int time = 0; time < 2; ++time) {
+    rig.power_f.Enable = true;
+    rig.run(5);
+    EXPECT_TRUE(rig.additive.Busy && !rig.additive.Error && shown());
+    rig.engage();
+    EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.EffectiveLeadingValue.Position, 4.0);
+    rig.gear.Execute = false;
+    rig.power_f.Enable = false;
+    rig.run(5);
+    EXPECT_TRUE(refused());
+  }
+  rig.additive.Enable = false;
+  rig.run(2);
+  EXPECT_FALSE(rig.additive.Error);
+}
+
+TEST(MC_LeadingValueAdditive, BeginsWithTheFirstInputsThatArePermitted) {
+  Geared rig;
+  rig.additive.Position = std::nan("");
+  rig.additive.Enable = true;
+  rig.run(2);
+  EXPECT_EQ(rig.additive.ErrorID, static_cast<WORD>(0x8009));
+  rig.additive.Position = 4.0;
+  rig.run(2);
+  EXPECT_TRUE(rig.additive.Busy);
+}
+
+TEST(MC_LeadingValueAdditive, IsEndedByAnotherInstanceAndByARestart) {
+  Geared rig;
+  auto& other = rig.block<MC_LeadingValueAdditive>();
+  auto& reset = rig.block<MC_Reset>();
+  other.Axis = &rig.f;
+  reset.Axis = &rig.f;
+  reset.Restart = true;
+  rig.additive.Enable = true;
+  rig.run(2);
+  EXPECT_TRUE(rig.additive.Busy);
+  other.Enable = true;
+  rig.run(2);
+  EXPECT_TRUE(other.Busy && !rig.additive.Busy && !rig.additive.Error);
+  rig.power_f.Enable = false;
+  rig.run(5);
+  EXPECT_TRUE(other.Error && !rig.additive.Error);
+  reset.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return reset.Done; }));
+  rig.power_f.Enable = true;
+  rig.run(5);
+  EXPECT_FALSE(other.Busy || other.Error || rig.additive.Busy || rig.additive.Error);
+  other.Enable = false;
+  rig.run(1);
+  other.Enable = true;
+  rig.run(2);
+  EXPECT_TRUE(other.Busy);
+}
+
 TEST(MC_SynchronizedMotionSimulation, KeepsTheGearWhileTheAxisMovesAndIsDisabled) {
   Geared rig;
   rig.engage();
@@ -450,6 +594,69 @@ TEST(MC_SynchronizedMotionSimulation, KeepsTheGearWhileTheAxisMovesAndIsDisabled
   EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));
   rig.start_leading(50.0);
   EXPECT_EQ(rig.f.data.Velocity, 75.0);
+}
+
+TEST(MC_SynchronizedMotionSimulation, IsNotEndedByALeadingAxisThatPassesThePlace) {
+  Geared rig;
+  rig.continuity[1].highest_acceleration = 1e4;  // more than either axis is told to do
+  auto& back = rig.block<MC_MoveAbsolute>();
+  back.Axis = &rig.l;
+  rig.engage();
+  rig.simulation.Enable = true;
+  rig.run(2);
+  rig.start_leading(60.0);
+  rig.simulation.Enable = false;
+  rig.run(2);
+  EXPECT_EQ(rig.simulation.ErrorID, static_cast<WORD>(0x8009));
+  rig.start_leading(-60.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.l.data.Position < -20.0; }));
+  EXPECT_TRUE(rig.simulation.InSimulation);
+  EXPECT_EQ(rig.f.data.Position, 0.0);
+  back.Execute = true;  // to rest where the gear has the axis
+  ASSERT_TRUE(rig.run_until([&] { return back.Done; }));
+  EXPECT_FALSE(rig.simulation.InSimulation);
+  EXPECT_FALSE(rig.simulation.Error);
+  EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));
+}
+
+TEST(MC_SynchronizedMotionSimulation, EndsOnARingAfterAnyNumberOfTurns) {
+  for (const double way : {720.0, -720.0, 720.0 + 0.2, -720.0 - 0.2}) {
+    Geared rig(ring);
+    auto& turn = rig.block<MC_MoveRelative>();
+    turn.Axis = &rig.l;
+    turn.Distance = way;
+    turn.Velocity = 2000.0;
+    rig.engage();
+    rig.simulation.Enable = true;
+    rig.run(2);
+    turn.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return turn.Done; }));
+    rig.simulation.Enable = false;
+    rig.run(2);
+    EXPECT_FALSE(rig.simulation.InSimulation) << way;
+    EXPECT_FALSE(rig.simulation.Error) << way;
+    // The axis has made none of the turns of its function; what is left is within the positioning window.
+    const AxisPosition& there = rig.f.setpoint().position;
+    const double left = way - std::copysign(720.0, way);
+    EXPECT_NEAR(difference(there, {}, rig.f.modulo()).rounded(), 1.5 * left, 1e-9) << way;
+    rig.start_leading(100.0);
+    ASSERT_TRUE(rig.run_until([&] { return rig.f.data.ModuloCycle == 3; }));
+    EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));
+  }
+}
+
+TEST(MC_SynchronizedMotionSimulation, IsShownNoLongerOnceAnAlarmHasEndedIt) {
+  Geared rig;
+  rig.engage();
+  rig.simulation.Enable = true;
+  rig.run(2);
+  const auto& status = rig.f.data.StatusSynchronizedMotion;
+  EXPECT_TRUE(has_bit(status.StatusWord, SynchronizedMotionBit::InSimulation));
+  rig.f.raise(601);
+  rig.run(2);
+  EXPECT_FALSE(rig.simulation.InSimulation);
+  EXPECT_FALSE(has_bit(status.StatusWord, SynchronizedMotionBit::InSimulation));
+  EXPECT_EQ(status.FunctionState, 0);
 }
 
 // ---- Published steps
