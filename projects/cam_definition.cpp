@@ -229,13 +229,7 @@ struct Places {
   const JsonValue& of(const CamFinding& finding) const {
     const auto& list = finding.transition ? transitions : elements;
     if (finding.element >= list.size() || list[finding.element] == nullptr) return *whole;
-    const JsonValue& value = *list[finding.element];
-    if (value.kind == JsonKind::array) {  // a point
-      if (finding.field == "x") return *value.elements[0];
-      if (finding.field == "y") return *value.elements[1];
-    }
-    const JsonValue* const member = value.find(finding.field);
-    return member != nullptr ? *member : value;
+    return cam_member(*list[finding.element], finding.field);
   }
 };
 
@@ -312,14 +306,9 @@ void define_by_data(const JsonValue& object, CamWithoutCurve without_curve, CamD
   auto point_data = read_points(points, problems);
   auto segment_data = read_segments(segments, problems);
   if (problems.count() != before) return;
-  definition.cam = interpolated_cam(std::move(point_data), std::move(segment_data),
-                                    definition.design.interpolation, definition.capacity);
-  if (without_curve == CamWithoutCurve::allowed)
-    std::erase_if(definition.cam.problems, [&](const CamFinding& problem) {
-      const bool fits = definition.cam.points.size() <= definition.capacity &&
-                        definition.cam.segments.size() <= kCamSegments;
-      return problem.element == CamFinding::kWhole && fits;
-    });
+  const auto make = without_curve == CamWithoutCurve::allowed ? checked_cam : interpolated_cam;
+  definition.cam = make(std::move(point_data), std::move(segment_data), definition.design.interpolation,
+                        definition.capacity);
   report_findings(definition, places, problems);
 }
 
@@ -383,6 +372,15 @@ void read_checks(const JsonValue& json, CamChecks& checks, Problems& problems) {
 }
 
 }  // namespace
+
+const JsonValue& cam_member(const JsonValue& element, std::string_view field) {
+  if (element.kind == JsonKind::array && element.elements.size() == 2) {  // a point
+    if (field == "x") return *element.elements[0];
+    if (field == "y") return *element.elements[1];
+  }
+  const JsonValue* const member = element.find(field);
+  return member != nullptr ? *member : element;
+}
 
 void read_cam_definition(const JsonValue& object, const std::string& folder, CamWithoutCurve without_curve,
                          CamDefinition& definition, Problems& problems) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "projects/json_document.hpp"
@@ -24,10 +25,10 @@ struct CamDefinition {
   DesignedCam cam;
 };
 
-/// Whether something in a definition that has no curve is a problem.
+/// Whether points and segments given as such have to make a curve by themselves.
 enum class CamWithoutCurve {
-  refused,  ///< a file has to give a curve
-  allowed   ///< the program may still write points and segments, or switch their interpolation
+  refused,  ///< those of a file have to
+  allowed   ///< the configuration, or the program, may add to them: their curve is not made here
 };
 
 /// Reads what defines a cam: `elements`, with `optimization` for their transitions by a law; or `points` and
@@ -39,6 +40,10 @@ enum class CamWithoutCurve {
 ///     interpolation
 void read_cam_definition(const JsonValue& object, const std::string& folder, CamWithoutCurve without_curve,
                          CamDefinition& definition, Problems& problems);
+
+/// The member of a point, a segment or an element of a cam that a finding means; the whole if it is no
+/// member.
+const JsonValue& cam_member(const JsonValue& element, std::string_view field);
 
 /// Reads a cam file of format "lockstep_cam".
 void read_cam_document(const JsonValue& root, CamDefinition& definition, Problems& problems);

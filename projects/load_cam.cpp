@@ -1,23 +1,33 @@
 // Cams: points and segments, curve elements or a file, as the project gives them, and the curve through them.
+#include <algorithm>
+
 #include "projects/cam_definition.hpp"
 #include "projects/loader.hpp"
+#include "tech_objects/cam_findings.hpp"
 
 namespace lockstep {
 namespace {
-
-/// Why a definition in which every single value is right makes no curve.
-std::string_view interpolation_problem(ErrorId error) {
-  if (error == ErrorId::cam_elements_wrong)
-    return "the points and segments make no curve; allowed: valid elements at two leading values at least, "
-           "segments whose slopes at both ends agree where BoundaryConditions is 1, up to 1024 periods of "
-           "sines, finite values everywhere";
-  return error_text(error);
-}
 
 void define(Cam& cam, const DesignedCam& designed) {
   for (std::size_t i = 0; i < designed.points.size(); ++i) cam.define_point(i, designed.points[i]);
   for (std::size_t i = 0; i < designed.segments.size(); ++i) cam.define_segment(i, designed.segments[i]);
   cam.set_interpolation(designed.interpolation);
+}
+
+/// Where the element stands that a finding is about: in its list, else in the configuration, else in what
+/// gives all elements.
+const JsonValue& place_of(const CamFinding& finding, const JsonValue& cam) {
+  if (finding.element == CamFinding::kWhole) return cam;
+  const JsonValue* const list = cam.find(finding.transition ? "segments" : "points");
+  if (list != nullptr && finding.element < list->elements.size())
+    return cam_member(*list->elements[finding.element], finding.field);
+  const JsonValue* const config = cam.find("config");
+  const std::string key =
+      (finding.transition ? "Segment[" : "Point[") + std::to_string(finding.element + 1) + "]";
+  if (config != nullptr && config->find(key) != nullptr) return cam_member(*config->find(key), finding.field);
+  for (const char* whole : {"elements", "file"})
+    if (const JsonValue* const value = cam.find(whole)) return *value;
+  return cam;
 }
 
 }  // namespace
@@ -35,10 +45,17 @@ void load_cam(const JsonValue& json, Cam& cam, const Loading& loading) {
   read_cam_definition(json, loading.folder, CamWithoutCurve::allowed, definition, problems);
   if (problems.count() != before) return;
   define(cam, definition.cam);
-  if (!cam.has_elements()) return;
+  const CamElements elements = cam.elements();
+  const auto valid =
+      std::ranges::count(elements.ValidPoint, true) + std::ranges::count(elements.ValidSegment, true);
+  if (valid == 0) return;
   CamInterpolator interpolator(cam.point_count());
-  if (const ErrorId error = cam.interpolate(interpolator); error != ErrorId::none)
-    problems.report(json, std::string(interpolation_problem(error)));
+  cam.interpolate(interpolator);
+  const std::size_t given = definition.cam.points.size() + definition.cam.segments.size();
+  if (definition.cam.function && static_cast<std::size_t>(valid) == given) return;  // told where they stand
+  const CamFindings findings = findings_of(elements, interpolator, cam.function());
+  for (const CamFinding& problem : findings.problems) problems.report(place_of(problem, json), problem.text);
+  for (const CamFinding& warning : findings.warnings) problems.warn(place_of(warning, json), warning.text);
 }
 
 }  // namespace lockstep

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "fb/cam_in.hpp"
 #include "projects/constant.hpp"
 #include "projects/loader.hpp"
+#include "tech_objects/cam_motion.hpp"
 
 namespace lockstep {
 namespace {
@@ -88,6 +90,7 @@ class ProgramLoader {
   void load_object_pin(const JsonValue& json, const Pin& pin, Instance& instance);
   void check_constants(const Instance& instance);
   void check_leading_value(const JsonValue& in, Instance& instance);
+  void check_closed(const JsonValue& in, const Instance& instance);
   void check_copied(const JsonValue& in, const Instance& instance, std::string_view what);
 
   /// What the place of a type gets: a JSON boolean or number, or an expression; none if it is reported.
@@ -283,6 +286,7 @@ void ProgramLoader::load_pins(const JsonValue* in, const JsonValue& call, Instan
   if (in == nullptr) return;
   check_constants(instance);
   check_leading_value(*in, instance);
+  if (instance.type->name == MC_CamIn::kName) check_closed(*in, instance);
   if (instance.type->name == "MC_CopyCamData")
     for (const std::string_view what : {"Point", "Segment"}) check_copied(*in, instance, what);
 }
@@ -362,6 +366,28 @@ void ProgramLoader::check_leading_value(const JsonValue& in, Instance& instance)
     return;
   problems_.warn(*master, master->shown() + " is not among the leading_values of '" + following->name +
                               "'; the job of '" + instance.name + "' will fail");
+}
+
+/// Warns of a cam that is to be passed again and again and does not close, as far as that is constant.
+void ProgramLoader::check_closed(const JsonValue& in, const Instance& instance) {
+  const auto& block = static_cast<const MC_CamIn&>(*instance.block);
+  const auto computed = [&](std::string_view name) {
+    const auto is_it = [&](const auto& known) { return known.first->name == name; };
+    return in.find(name) != nullptr && std::none_of(constants_.begin(), constants_.end(), is_it);
+  };
+  if (computed("ApplicationMode") || block.ApplicationMode != static_cast<DINT>(CamMode::cyclic) ||
+      computed("SlaveScaling") || block.Slave == nullptr || block.Cam == nullptr ||
+      !block.Cam->interpolated())
+    return;
+  const TO_Struct_Modulo& ring = block.Slave->data.Modulo;
+  const CamFunction& cam = block.Cam->function();
+  if (CamFollowing::closes(cam, block.SlaveScaling, {ring.Enable, ring.Length, ring.StartValue})) return;
+  problems_.warn(*in.find("ApplicationMode"),
+                 "1 needs a cam that ends as it begins, and '" + block.Cam->name + "' begins with " +
+                     value_text({.r = cam.start_following_value()}, Type::LREAL) + " and ends with " +
+                     value_text({.r = cam.end_following_value()}, Type::LREAL) +
+                     "; the block will report error 16#80AC unless MC_InterpolateCam changes the cam before; "
+                     "allowed with this cam: 0, 2");
 }
 
 /// Warns of elements that are to be copied and that the array does not have, as far as that is constant.

@@ -98,10 +98,6 @@ void Cam::define_segment(std::size_t index, const TO_Cam_Struct_SegmentData& seg
   block_.valid_segment[index] = true;
 }
 
-bool Cam::has_elements() const noexcept {
-  return std::ranges::count(block_.valid_point, true) + std::ranges::count(block_.valid_segment, true) > 0;
-}
-
 ErrorId Cam::interpolate(CamInterpolator& interpolator) noexcept {
   take_definition();
   stage_.store(Stage::wanted, std::memory_order_relaxed);

@@ -53,7 +53,7 @@ class Cam final : public TechnologyObject {
   /// Defines the element with an index from 0 and makes it valid.
   void define_point(std::size_t index, const TO_Cam_Struct_PointData& point) noexcept;
   void define_segment(std::size_t index, const TO_Cam_Struct_SegmentData& segment) noexcept;
-  bool has_elements() const noexcept;
+  CamElements elements() const noexcept { return block_.elements(); }
   const TO_Cam_Struct_InterpolationSettings& interpolation() const noexcept { return *block_.settings; }
   void set_interpolation(const TO_Cam_Struct_InterpolationSettings& settings) noexcept {
     *block_.settings = settings;

@@ -39,9 +39,14 @@ void CamBuilder::clear() noexcept {
   f_.pieces_[1] = {kInfinity, {}, CamFunction::Shape::polynomial, 0};
 }
 
+void CamBuilder::fail(double leading_value) noexcept {
+  if (!failed_) failed_at_ = leading_value;
+  failed_ = true;
+}
+
 CamFunction::Piece* CamBuilder::add(double start, CamFunction::Shape shape, std::size_t index) noexcept {
-  if (f_.count_ + 2 >= f_.pieces_.size()) failed_ = true;
-  if (f_.count_ > 0 && !(start > f_.pieces_[f_.count_ - 1].start)) failed_ = true;
+  if (f_.count_ + 2 >= f_.pieces_.size()) fail(start);
+  if (f_.count_ > 0 && !(start > f_.pieces_[f_.count_ - 1].start)) fail(start);
   if (failed_) return nullptr;
   CamFunction::Piece& piece = f_.pieces_[f_.count_++];
   piece = {start, {}, shape, static_cast<std::uint32_t>(index)};
@@ -58,7 +63,7 @@ void CamBuilder::add_cubic(double start, double c0, double c1, double c2, double
 }
 
 void CamBuilder::add_bezier(const CamBezier& curve) noexcept {
-  if (beziers_ >= f_.inverses_.size()) failed_ = true;
+  if (beziers_ >= f_.inverses_.size()) fail(curve.control[0].x);
   CamFunction::Piece* const piece = add(curve.control[0].x, CamFunction::Shape::bezier, beziers_);
   if (piece == nullptr) return;
   const auto& p = curve.control;
@@ -82,7 +87,7 @@ void CamBuilder::add_bezier(const CamBezier& curve) noexcept {
 }
 
 void CamBuilder::add_segment(const CamSegment& segment, double length) noexcept {
-  if (segments_ >= f_.segments_.size()) failed_ = true;
+  if (segments_ >= f_.segments_.size()) fail(segment.origin);
   if (failed_) return;
   f_.segments_[segments_] = segment;
   double turns[kTurns];
@@ -97,8 +102,10 @@ void CamBuilder::add_segment(const CamSegment& segment, double length) noexcept 
 }
 
 bool CamBuilder::finish(double end, double following_value) noexcept {
-  if (failed_ || f_.count_ == 0 || !(end > f_.pieces_[f_.count_ - 1].start) || !std::isfinite(end) ||
-      !std::isfinite(following_value)) {
+  if (f_.count_ == 0 || !(end > f_.pieces_[f_.count_ - 1].start) || !std::isfinite(end) ||
+      !std::isfinite(following_value))
+    fail(end);
+  if (failed_) {
     clear();
     return false;
   }
@@ -126,9 +133,11 @@ bool CamBuilder::finish(double end, double following_value) noexcept {
   f_.pieces_[f_.count_ + 1] = {kInfinity, {}, CamFunction::Shape::polynomial, 0};
   index();
   measure();
-  if (is_a_curve()) return true;
-  clear();
-  return false;
+  if (!std::isfinite(f_.buckets_per_unit_)) fail(f_.start_);
+  for (std::uint32_t i = 0; i <= f_.count_ && !failed_; ++i)
+    if (fails(i)) fail(f_.pieces_[i].start);
+  if (failed_) clear();
+  return !failed_;
 }
 
 /// Buckets of equal width over the leading range, as many as pieces: where the pieces are spread evenly, a
@@ -169,25 +178,24 @@ void CamBuilder::measure() noexcept {
   f_.tolerance_ = 1.0e-12 * std::max(std::abs(whole.lowest), std::abs(whole.highest));
 }
 
-bool CamBuilder::is_a_curve() const noexcept {
-  double sum = f_.lowest_ * 0.0 + f_.highest_ * 0.0;  // NaN as soon as one value is not finite
-  for (std::uint32_t i = 0; i <= f_.count_; ++i) {
-    const CamFunction::Piece& piece = f_.pieces_[i];
-    for (const double c : piece.c) sum += c * 0.0;
-    if (piece.shape == CamFunction::Shape::bezier) {
-      const CamFunction::Inverse& inverse = f_.inverses_[piece.index];
-      // Derivatives are largest where the curve is steepest: at an end, or where x(t) is slowest inside.
-      const double slowest = std::clamp(-inverse.b[1] / (3.0 * inverse.b[2]), 0.0, 1.0);
-      for (const double t : {0.0, slowest == slowest ? slowest : 0.5, 1.0}) {
-        const CamValue value = f_.bezier_value(piece, t);
-        sum += (value.position + value.first_derivative + value.second_derivative) * 0.0;
-      }
+/// Whether something in a piece, or in the end of the curve, is not finite.
+bool CamBuilder::fails(std::uint32_t i) const noexcept {
+  const CamFunction::Piece& piece = f_.pieces_[i];
+  double sum = 0.0;  // NaN as soon as one value is not finite
+  for (const double c : piece.c) sum += c * 0.0;
+  if (piece.shape == CamFunction::Shape::bezier) {
+    const CamFunction::Inverse& inverse = f_.inverses_[piece.index];
+    // Derivatives are largest where the curve is steepest: at an end, or where x(t) is slowest inside.
+    const double slowest = std::clamp(-inverse.b[1] / (3.0 * inverse.b[2]), 0.0, 1.0);
+    for (const double t : {0.0, slowest == slowest ? slowest : 0.5, 1.0}) {
+      const CamValue value = f_.bezier_value(piece, t);
+      sum += (value.position + value.first_derivative + value.second_derivative) * 0.0;
     }
-    if (i < f_.count_) sum += (f_.extents_[i].lowest + f_.extents_[i].highest) * 0.0;
   }
-  for (std::size_t i = 0; i < segments_; ++i)
-    for (const double c : f_.segments_[i].coefficient) sum += c * 0.0;
-  return sum == 0.0 && std::isfinite(f_.buckets_per_unit_);
+  if (piece.shape == CamFunction::Shape::segment)
+    for (const double c : f_.segments_[piece.index].coefficient) sum += c * 0.0;
+  if (i < f_.count_) sum += (f_.extents_[i].lowest + f_.extents_[i].highest) * 0.0;
+  return sum != 0.0;  // TRUE for NaN
 }
 
 }  // namespace lockstep

@@ -34,11 +34,14 @@ class CamBuilder {
   /// Ends the curve at a leading value with a following value. FALSE, and an empty curve, if it is not a
   /// curve: pieces that do not ascend, are too many or not finite.
   bool finish(double end, double following_value) noexcept;
+  /// If it is not a curve: the leading value of the first piece that is none.
+  double failed_at() const noexcept { return failed_at_; }
 
  private:
   CamFunction::Piece* add(double start, CamFunction::Shape shape, std::size_t index) noexcept;
   void clear() noexcept;
-  bool is_a_curve() const noexcept;
+  void fail(double leading_value) noexcept;
+  bool fails(std::uint32_t piece) const noexcept;
   void index() noexcept;
   void measure() noexcept;
 
@@ -46,6 +49,7 @@ class CamBuilder {
   std::size_t beziers_ = 0;
   std::size_t segments_ = 0;
   bool failed_ = false;
+  double failed_at_ = 0.0;
 };
 
 }  // namespace lockstep

@@ -168,10 +168,22 @@ class Designer {
         interpolated_cam(std::move(cam_.points), std::move(cam_.segments), design_.interpolation, capacity_);
     cam_.points = std::move(flat.points);
     cam_.segments = std::move(flat.segments);
-    cam_.problems = std::move(flat.problems);
+    for (const CamFinding& problem : flat.problems) cam_.problems.push_back(of_design(problem));
+    for (const CamFinding& warning : flat.warnings) cam_.warnings.push_back(of_design(warning));
     cam_.function = std::move(flat.function);
     if (!cam_.function) return;
     for (CamStretch& stretch : cam_.stretches) compare(stretch);
+  }
+
+  /// A finding about a point or a segment, at the element or the transition that it comes from.
+  CamFinding of_design(const CamFinding& flat) const {
+    std::size_t left = flat.element;
+    for (const CamStretch& stretch : cam_.stretches) {
+      const std::size_t count = flat.transition ? stretch.segments : stretch.points;
+      if (left < count) return {stretch.element, stretch.transition, "", flat.text};
+      left -= count;
+    }
+    return {CamFinding::kWhole, false, "", flat.text};
   }
 
   /// How far the finished cam is from a curve, and whether that is too far.
@@ -238,22 +250,26 @@ std::string_view cam_shape_name(const CamShape& shape) noexcept {
 
 ErrorId interpolate_all(std::span<const TO_Cam_Struct_PointData> points,
                         std::span<const TO_Cam_Struct_SegmentData> segments,
-                        const TO_Cam_Struct_InterpolationSettings& settings, CamFunction& function) {
+                        const TO_Cam_Struct_InterpolationSettings& settings, CamFunction& function,
+                        CamFindings* findings) {
   const std::size_t most = std::max(points.size(), segments.size());
   const std::unique_ptr<BOOL[]> valid(new BOOL[most]);
   std::fill_n(valid.get(), most, true);
+  const CamElements elements{
+      points, {valid.get(), points.size()}, segments, {valid.get(), segments.size()}, settings};
   CamInterpolator interpolator(points.size());
-  return interpolator.interpolate(
-      {points, {valid.get(), points.size()}, segments, {valid.get(), segments.size()}, settings}, function);
+  const ErrorId error = interpolator.interpolate(elements, function);
+  if (findings != nullptr) *findings = findings_of(elements, interpolator, function);
+  return error;
 }
 
 DesignedCam design_cam(const CamDesign& design, std::size_t capacity) {
   return Designer(design, capacity).make();
 }
 
-DesignedCam interpolated_cam(std::vector<TO_Cam_Struct_PointData> points,
-                             std::vector<TO_Cam_Struct_SegmentData> segments,
-                             const TO_Cam_Struct_InterpolationSettings& interpolation, std::size_t capacity) {
+DesignedCam checked_cam(std::vector<TO_Cam_Struct_PointData> points,
+                        std::vector<TO_Cam_Struct_SegmentData> segments,
+                        const TO_Cam_Struct_InterpolationSettings& interpolation, std::size_t capacity) {
   DesignedCam cam;
   cam.points = std::move(points);
   cam.segments = std::move(segments);
@@ -291,21 +307,20 @@ DesignedCam interpolated_cam(std::vector<TO_Cam_Struct_PointData> points,
   if (cam.segments.size() > kCamSegments)
     report.problem("", "the cam takes " + std::to_string(cam.segments.size()) + " segments; allowed are " +
                            std::to_string(kCamSegments));
+  return cam;
+}
+
+DesignedCam interpolated_cam(std::vector<TO_Cam_Struct_PointData> points,
+                             std::vector<TO_Cam_Struct_SegmentData> segments,
+                             const TO_Cam_Struct_InterpolationSettings& interpolation, std::size_t capacity) {
+  DesignedCam cam = checked_cam(std::move(points), std::move(segments), interpolation, capacity);
   if (!cam.problems.empty()) return cam;
   const auto function = std::make_shared<CamFunction>(cam.points.size());
-  switch (interpolate_all(cam.points, cam.segments, interpolation, *function)) {
-    case ErrorId::none:
-      cam.function = function;
-      break;
-    case ErrorId::cam_empty:
-      report.problem("", "the cam has neither points nor segments");
-      break;
-    default:
-      report.problem("",
-                     "these elements make no curve: a single leading value, more than 1024 periods of sines, "
-                     "slopes at both ends that differ although they have to be equal, or coefficients beyond "
-                     "what a number holds");
-  }
+  CamFindings findings;
+  const ErrorId error = interpolate_all(cam.points, cam.segments, interpolation, *function, &findings);
+  if (error == ErrorId::none) cam.function = function;
+  cam.problems = std::move(findings.problems);
+  cam.warnings = std::move(findings.warnings);
   return cam;
 }
 

@@ -171,8 +171,13 @@ struct DesignedCam {
 /// @param capacity points that the cam may have: kCamPoints or kCam10kPoints
 DesignedCam design_cam(const CamDesign& design, std::size_t capacity);
 
-/// Interpolates points and segments; problems name their index as element, segments by the member
-/// `transition`.
+/// Points and segments as given, with problems of single values and of their numbers; without a function.
+/// Problems name their index as element, segments by the member `transition`.
+DesignedCam checked_cam(std::vector<TO_Cam_Struct_PointData> points,
+                        std::vector<TO_Cam_Struct_SegmentData> segments,
+                        const TO_Cam_Struct_InterpolationSettings& interpolation, std::size_t capacity);
+
+/// The same, and, if nothing is wrong so far, interpolated, with what findings_of finds.
 DesignedCam interpolated_cam(std::vector<TO_Cam_Struct_PointData> points,
                              std::vector<TO_Cam_Struct_SegmentData> segments,
                              const TO_Cam_Struct_InterpolationSettings& interpolation, std::size_t capacity);

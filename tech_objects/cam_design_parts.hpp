@@ -7,6 +7,7 @@
 
 #include "tech_objects/alarms.hpp"
 #include "tech_objects/cam_design.hpp"
+#include "tech_objects/cam_findings.hpp"
 
 namespace lockstep {
 
@@ -58,8 +59,10 @@ bool build_transition(const CamTransition& transition, const CamDesign& design, 
                       const BuiltElement& right, CamReport& report, CamStretch& stretch, BuiltElement& built);
 
 /// Interpolates points and segments, all of which are valid.
+/// @param findings gets what is to be told of them; nullptr: nobody asks
 ErrorId interpolate_all(std::span<const TO_Cam_Struct_PointData> points,
                         std::span<const TO_Cam_Struct_SegmentData> segments,
-                        const TO_Cam_Struct_InterpolationSettings& settings, CamFunction& function);
+                        const TO_Cam_Struct_InterpolationSettings& settings, CamFunction& function,
+                        CamFindings* findings = nullptr);
 
 }  // namespace lockstep

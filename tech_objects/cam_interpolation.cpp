@@ -25,11 +25,13 @@ bool in_range(double value) noexcept {
   return value >= -kLargest && value <= kLargest;  // FALSE for NaN
 }
 
-bool in_range(const TO_Cam_Struct_SegmentData& s) noexcept {
+/// What is wrong with the numbers of a segment.
+CamFault fault_of(const TO_Cam_Struct_SegmentData& s, std::size_t index) noexcept {
   for (const double value :
        {s.xmin, s.xmax, s.a0, s.a1, s.a2, s.a3, s.a4, s.a5, s.a6, s.sineAmplitude, s.sinePeriod, s.sinePhase})
-    if (!in_range(value)) return false;
-  return s.xmin < s.xmax;
+    if (!in_range(value)) return {CamFault::Reason::number, true, index, value};
+  if (!(s.xmin < s.xmax)) return {CamFault::Reason::order, true, index, s.xmax, s.xmin};
+  return {};
 }
 
 /// The point a third of the way from a to b on the line through a with a slope: with it as neighbour a
@@ -46,59 +48,93 @@ double leg(CamPoint a, CamPoint b) noexcept {
 }  // namespace
 
 CamInterpolator::CamInterpolator(std::size_t points) : capacity_(points), spline_(points + 4) {
-  sorted_.reserve(points);
   points_.reserve(points);
   parts_.reserve(2 * kCamSegments);
   run_.reserve(points + 4);
   other_run_.reserve(points + 4);
 }
 
+ErrorId CamFault::error() const noexcept {
+  if (reason == Reason::none) return ErrorId::none;
+  return reason == Reason::no_element ? ErrorId::cam_empty : ErrorId::cam_elements_wrong;
+}
+
+bool CamInterpolator::fail(const CamFault& fault) noexcept {
+  fault_ = fault;
+  return false;
+}
+
+/// The curve fails at a leading value: in the segment there, or behind the point before it.
+bool CamInterpolator::fail_at(double leading_value) noexcept {
+  fault_ = {CamFault::Reason::not_held, false, points_.empty() ? 0 : points_.front().index, leading_value};
+  for (const Point& point : points_)
+    if (point.at.x <= leading_value) fault_.element = point.index;
+  for (const Part& part : parts_) {
+    if (leading_value < part.from || leading_value > part.to) continue;
+    fault_.segment = true;
+    fault_.element = part.index;
+  }
+  return false;
+}
+
 ErrorId CamInterpolator::interpolate(const CamElements& elements, CamFunction& function) noexcept {
   CamBuilder{function};  // empty until it is built
+  fault_ = {};
+  points_.clear();
+  parts_.clear();
+  make(elements, function);
+  return fault_.error();
+}
+
+bool CamInterpolator::make(const CamElements& elements, CamFunction& function) noexcept {
   const auto& settings = elements.InterpolationSettings;
   if (settings.InterpolationMode < linear || settings.InterpolationMode > bezier ||
       settings.BoundaryConditions < 0 || settings.BoundaryConditions > 1)
-    return ErrorId::cam_elements_wrong;
-  if (!collect_points(elements) || !collect_parts(elements)) return ErrorId::cam_elements_wrong;
-  if (points_.empty() && parts_.empty()) return ErrorId::cam_empty;
+    return fail({.reason = CamFault::Reason::settings});
+  if (!collect_points(elements) || !collect_parts(elements)) return false;
+  if (points_.empty() && parts_.empty()) return fail({.reason = CamFault::Reason::no_element});
   close_small_gaps();
   drop_points_in_parts();
-  if (!shift_parts(elements)) return ErrorId::cam_elements_wrong;
+  if (!shift_parts(elements)) return false;
   if (parts_.empty() && points_.size() < 2)
-    return ErrorId::cam_elements_wrong;  // one leading value is no range
+    return fail({CamFault::Reason::one_leading_value, false, points_[0].index, points_[0].at.x});
   return build(settings, function);
 }
 
 /// The valid points ascending by leading value; of equal ones the last.
 bool CamInterpolator::collect_points(const CamElements& elements) noexcept {
-  sorted_.clear();
-  points_.clear();
   for (std::size_t i = 0; i < elements.Point.size(); ++i) {
     if (!elements.ValidPoint[i]) continue;
     const auto& point = elements.Point[i];
-    if (!in_range(point.x) || !in_range(point.y) || sorted_.size() == capacity_) return false;
-    sorted_.push_back({{point.x, point.y}, static_cast<std::uint32_t>(i)});
+    for (const double value : {point.x, point.y})
+      if (!in_range(value)) return fail({CamFault::Reason::number, false, i, value});
+    if (points_.size() == capacity_) return fail({CamFault::Reason::too_many_points, false, i});
+    points_.push_back({{point.x, point.y}, static_cast<std::uint32_t>(i)});
   }
-  const auto before = [](const IndexedPoint& a, const IndexedPoint& b) {
-    return a.point.x < b.point.x || (a.point.x == b.point.x && a.index < b.index);
+  const auto before = [](const Point& a, const Point& b) {
+    return a.at.x < b.at.x || (a.at.x == b.at.x && a.index < b.index);
   };
-  if (!std::is_sorted(sorted_.begin(), sorted_.end(), before))
-    std::sort(sorted_.begin(), sorted_.end(), before);
-  for (std::size_t i = 0; i < sorted_.size(); ++i)
-    if (i + 1 == sorted_.size() || sorted_[i].point.x != sorted_[i + 1].point.x)
-      points_.push_back(sorted_[i].point);
+  if (!std::is_sorted(points_.begin(), points_.end(), before))
+    std::sort(points_.begin(), points_.end(), before);
+  auto last = points_.begin();  // of those that stay
+  for (auto point = points_.begin(); point != points_.end(); ++point) {
+    if (point->at.x != last->at.x) ++last;
+    *last = *point;
+  }
+  if (last != points_.end()) points_.erase(last + 1, points_.end());
   return true;
 }
 
 /// The stretches that segments fill, after overlaps.
 bool CamInterpolator::collect_parts(const CamElements& elements) noexcept {
-  parts_.clear();
-  if (elements.Segment.size() > kCamSegments) return false;
+  if (elements.Segment.size() > kCamSegments)
+    return fail({CamFault::Reason::too_many_segments, true, kCamSegments});
   double edges[2 * kCamSegments];
   std::size_t edge_count = 0;
   for (std::size_t i = 0; i < elements.Segment.size(); ++i) {
     if (!elements.ValidSegment[i]) continue;
-    if (!in_range(elements.Segment[i])) return false;
+    if (const CamFault fault = fault_of(elements.Segment[i], i); fault.reason != CamFault::Reason::none)
+      return fail(fault);
     edges[edge_count++] = elements.Segment[i].xmin;
     edges[edge_count++] = elements.Segment[i].xmax;
   }
@@ -130,12 +166,12 @@ void CamInterpolator::close_small_gaps() noexcept {
 /// Points on a segment or as near to one as a small gap do not count, but the ends of the cam stay.
 void CamInterpolator::drop_points_in_parts() noexcept {
   if (parts_.empty() || points_.empty()) return;
-  const double first = points_.front().x;
-  const double last = points_.back().x;
+  const double first = points_.front().at.x;
+  const double last = points_.back().at.x;
   std::size_t part = 0;
-  const auto covered = [&](const CamPoint& point) {
-    while (part < parts_.size() && !small_gap(parts_[part].to, point.x)) ++part;
-    return part < parts_.size() && small_gap(point.x, parts_[part].from);
+  const auto covered = [&](const Point& point) {
+    while (part < parts_.size() && !small_gap(parts_[part].to, point.at.x)) ++part;
+    return part < parts_.size() && small_gap(point.at.x, parts_[part].from);
   };
   std::erase_if(points_, covered);
   if (first < parts_.front().from && !head()) parts_.front().from = first;
@@ -143,31 +179,35 @@ void CamInterpolator::drop_points_in_parts() noexcept {
 }
 
 bool CamInterpolator::shift_parts(const CamElements& elements) noexcept {
-  double radians = 0.0;
+  constexpr double kTurn = 6.283185307179586;
+  CamFault fault{CamFault::Reason::periods, true};  // if there are too many of them
   for (Part& part : parts_) {
     part.segment = shifted(elements.Segment[part.index], part.from);
-    radians += std::abs(part.segment.frequency) * (part.to - part.from);
-    if (!(radians <= CamBuilder::kMaxPeriods * 6.283185307179586)) return false;
     part.at_from = part.segment.value(0.0);
     part.at_to = part.segment.value(part.to - part.from);
+    const double periods = std::abs(part.segment.frequency) * (part.to - part.from) / kTurn;
+    fault.value += periods;
+    if (periods <= fault.other) continue;
+    fault.other = periods;
+    fault.element = part.index;
   }
-  return true;
+  return fault.value <= CamBuilder::kMaxPeriods || fail(fault);
 }
 
 bool CamInterpolator::head() const noexcept {
-  return !points_.empty() && points_.front().x < parts_.front().from;
+  return !points_.empty() && points_.front().at.x < parts_.front().from;
 }
 
 bool CamInterpolator::tail() const noexcept {
-  return !points_.empty() && points_.back().x > parts_.back().to;
+  return !points_.empty() && points_.back().at.x > parts_.back().to;
 }
 
-ErrorId CamInterpolator::build(const TO_Cam_Struct_InterpolationSettings& settings,
-                               CamFunction& function) noexcept {
+bool CamInterpolator::build(const TO_Cam_Struct_InterpolationSettings& settings,
+                            CamFunction& function) noexcept {
   const DINT mode = settings.InterpolationMode;
   closed_ = settings.BoundaryConditions == 1 && mode != linear;
   free_end_slope_.reset();
-  if (closed_ && !parts_.empty() && !find_end_slopes()) return ErrorId::cam_elements_wrong;
+  if (closed_ && !parts_.empty() && !find_end_slopes()) return false;
   CamBuilder cam(function);
   for (std::size_t gap = 0; gap <= parts_.size(); ++gap) {
     fill_run(gap);
@@ -175,9 +215,9 @@ ErrorId CamInterpolator::build(const TO_Cam_Struct_InterpolationSettings& settin
     if (gap < parts_.size()) cam.add_segment(parts_[gap].segment, parts_[gap].to - parts_[gap].from);
   }
   const bool ends_in_point = parts_.empty() || tail();
-  const double end = ends_in_point ? points_.back().x : parts_.back().to;
-  const double value = ends_in_point ? points_.back().y : parts_.back().at_to.position;
-  return cam.finish(end, value) ? ErrorId::none : ErrorId::cam_elements_wrong;
+  const double end = ends_in_point ? points_.back().at.x : parts_.back().to;
+  const double value = ends_in_point ? points_.back().at.y : parts_.back().at_to.position;
+  return cam.finish(end, value) || fail_at(cam.failed_at());
 }
 
 /// With equal slopes wanted at both ends of a cam with segments: the slope a free end takes, where it does
@@ -197,8 +237,9 @@ bool CamInterpolator::find_end_slopes() noexcept {
   if (head() || tail()) return true;
   const double mean = (parts_.back().at_to.position - parts_.front().at_from.position) /
                       (parts_.back().to - parts_.front().from);
-  return std::abs(end_slope - start_slope) <=
-         kSlopeMatch * (std::abs(start_slope) + std::abs(end_slope) + std::abs(mean));
+  const double tolerance = kSlopeMatch * (std::abs(start_slope) + std::abs(end_slope) + std::abs(mean));
+  if (std::abs(end_slope - start_slope) <= tolerance) return true;
+  return fail({CamFault::Reason::end_slopes, true, parts_.back().index, end_slope, start_slope});
 }
 
 /// Fills run_ with the end of the segment before a gap, the points in it, and the start of the segment
@@ -207,13 +248,13 @@ void CamInterpolator::fill_run(std::size_t gap) noexcept {
   run_.clear();
   auto first = points_.begin();
   auto last = points_.end();
-  const auto before = [](const CamPoint& point, double x) { return point.x < x; };
+  const auto before = [](const Point& point, double x) { return point.at.x < x; };
   if (gap > 0) {
     run_.push_back({parts_[gap - 1].to, parts_[gap - 1].at_to.position});
     first = std::lower_bound(first, last, parts_[gap - 1].to, before);
   }
   if (gap < parts_.size()) last = std::lower_bound(first, last, parts_[gap].from, before);
-  run_.insert(run_.end(), first, last);
+  for (auto point = first; point != last; ++point) run_.push_back(point->at);
   if (gap < parts_.size()) run_.push_back({parts_[gap].from, parts_[gap].at_from.position});
 }
 

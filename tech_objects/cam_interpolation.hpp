@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tech_objects/alarms.hpp"
@@ -13,6 +14,32 @@
 #include "tech_objects/cam_spline.hpp"
 
 namespace lockstep {
+
+/// Why elements make no curve, which element it is, and the values that do not fit.
+struct CamFault {
+  enum class Reason : std::uint8_t {
+    none,
+    no_element,         ///< no valid one
+    settings,           ///< InterpolationMode or BoundaryConditions is unknown
+    number,             ///< `value` is not finite or beyond 1.0E12
+    order,              ///< xmax, `value`, is not above xmin, `other`
+    one_leading_value,  ///< `value` is the only one
+    periods,            ///< of all sines together: `value`; the element has the most, `other`
+    end_slopes,         ///< with BoundaryConditions 1: the last segment ends with `value`, the first begins
+                        ///< with `other`
+    too_many_points,    ///< more than the interpolator is for
+    too_many_segments,  ///< more than a cam has
+    not_held            ///< a double cannot hold the curve at leading value `value`
+  };
+
+  Reason reason = Reason::none;
+  bool segment = false;     ///< the element is a segment, not a point
+  std::size_t element = 0;  ///< index in the data block, from 0
+  double value = 0.0;
+  double other = 0.0;
+
+  ErrorId error() const noexcept;
+};
 
 /// Interpolates cams of up to a number of points, in storage of its own: one per thread that interpolates,
 /// not in the cycle (some milliseconds for 10,000 points).
@@ -48,7 +75,11 @@ class CamInterpolator {
   /// is empty. Any one thread; does not allocate.
   ErrorId interpolate(const CamElements& elements, CamFunction& function) noexcept;
 
- private:
+  /// A point of the data block.
+  struct Point {
+    CamPoint at;
+    std::uint32_t index = 0;
+  };
   /// A stretch of the leading range that a segment fills.
   struct Part {
     double from = 0.0;
@@ -58,18 +89,25 @@ class CamInterpolator {
     CamValue at_from;
     CamValue at_to;
   };
-  struct IndexedPoint {
-    CamPoint point;
-    std::uint32_t index = 0;
-  };
 
+  // Of the last interpolation, for those who tell what became of the elements. The thread that interpolates.
+
+  const CamFault& fault() const noexcept { return fault_; }
+  /// The points that count, and the stretches in which segments count; both ascending.
+  std::span<const Point> points() const noexcept { return points_; }
+  std::span<const Part> parts() const noexcept { return parts_; }
+
+ private:
+  bool fail(const CamFault& fault) noexcept;
+  bool fail_at(double leading_value) noexcept;
+  bool make(const CamElements& elements, CamFunction& function) noexcept;
   bool collect_points(const CamElements& elements) noexcept;
   bool collect_parts(const CamElements& elements) noexcept;
   void close_small_gaps() noexcept;
   void drop_points_in_parts() noexcept;
   bool shift_parts(const CamElements& elements) noexcept;
 
-  ErrorId build(const TO_Cam_Struct_InterpolationSettings& settings, CamFunction& function) noexcept;
+  bool build(const TO_Cam_Struct_InterpolationSettings& settings, CamFunction& function) noexcept;
   bool find_end_slopes() noexcept;
   void fill_run(std::size_t gap) noexcept;
   void close_gap(CamBuilder& cam, std::size_t gap, DINT mode) noexcept;
@@ -84,10 +122,10 @@ class CamInterpolator {
 
   std::size_t capacity_;  // points
   CamSpline spline_;
-  std::vector<IndexedPoint> sorted_;
-  std::vector<CamPoint> points_;  // those that count, ascending
-  std::vector<Part> parts_;       // ascending
-  std::vector<CamPoint> run_;     // what closes one gap: its points and the ends of the segments beside
+  std::vector<Point> points_;
+  std::vector<Part> parts_;
+  CamFault fault_;
+  std::vector<CamPoint> run_;  // what closes one gap: its points and the ends of the segments beside
   std::vector<CamPoint> other_run_;
   bool closed_ = false;                   // the ends of the cam are to agree
   std::optional<double> free_end_slope_;  // if so, and known before the gap is closed

@@ -4,8 +4,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/machine.hpp"
@@ -20,14 +22,16 @@ constexpr char kHelp[] = R"(lockstep_bench [OPTIONS]: what the cycle and its par
   --full           every combination of motion, axes, drives, ratio and traced signals
   --filter TEXT    only rows whose name contains TEXT
   --runs N         the best of N runs counts (5)
-  --instructions   instructions instead of time, counted by callgrind (valgrind)
+  --instructions   instructions alone, counted by callgrind (valgrind)
+  --time           time alone
   --lines          one line "nanoseconds<TAB>name" per row, for comparisons
   --quick          a look at everything, to see that it works
 
 The machines are projects, loaded as `lockstep run` loads them, with a servo cycle of 1 ms and every block
-called in every interpolator cycle. All figures are nanoseconds per axis and interpolator cycle:
+called in every interpolator cycle. All figures are per axis and interpolator cycle, times in nanoseconds:
 
   mean       processor time over at least 1,000 cycles between two readings
+  instr.     instructions, in a run under callgrind before; "-" where valgrind is not installed
   p50, p99   by the clock: of single cycles from 32 axes on; with fewer axes of 32 / axes cycles in a row,
              since reading the clock would count for too much. Cycles in which the system gave the processor
              to another thread are left out
@@ -42,6 +46,7 @@ struct Options {
   bool full = false;
   bool quick = false;
   bool instructions = false;
+  bool time = false;
   bool lines = false;
   int runs = 5;
   std::string filter;
@@ -60,6 +65,8 @@ bool read(char** arguments, Options& options) {
       options.runs = 1;
     } else if (name == "--instructions") {
       options.instructions = true;
+    } else if (name == "--time") {
+      options.time = true;
     } else if (name == "--lines") {
       options.lines = true;
     } else if (name == "--runs") {
@@ -94,23 +101,24 @@ std::vector<MachinePlan> plans(const Options& options) {
 /// Prints the rows of both tables as they are measured.
 class Report {
  public:
-  explicit Report(const Options& options) : options_(options) {}
+  /// @param instructions of each row, next to its time
+  Report(const Options& options, std::map<std::string, double> instructions)
+      : options_(options), instructions_(std::move(instructions)) {}
 
   void machines() {
     std::vector<MachinePlan> rows = plans(options_);
     std::erase_if(rows, [this](const MachinePlan& plan) { return !wanted(plan.name()); });
     if (rows.empty()) return;
     if (!options_.lines)
-      std::printf("%-12s %5s %-8s %5s %7s %8s %8s %8s %8s %9s\n", "motion", "axes", "drive", "ratio",
-                  "signals", options_.instructions ? "instr." : "mean", "p50", "p99", "load", "x real");
+      std::printf("%-12s %5s %-8s %5s %7s %8s %8s %8s %8s %8s %9s\n", "motion", "axes", "drive", "ratio",
+                  "signals", "instr.", "mean", "p50", "p99", "load", "x real");
     for (const MachinePlan& plan : rows) machine(plan);
   }
 
   void single_parts() {
     std::vector<Part> rows = parts(options_.quick);
     std::erase_if(rows, [this](const Part& part) { return !wanted(part.name); });
-    if (!rows.empty() && !options_.lines)
-      std::printf("\n%-75s %10s\n", "part", options_.instructions ? "instr." : "[ns]");
+    if (!rows.empty() && !options_.lines) std::printf("\n%-75s %10s %10s\n", "part", "instr.", "[ns]");
     for (Part& part : rows) this->part(part);
   }
 
@@ -129,8 +137,9 @@ class Report {
     if (options_.lines) return line(plan.name(), timing.mean / axes);
     const double period = 1e6 * plan.ratio;
     head(plan);
-    std::printf(" %8.1f %8.1f %8.1f %7.3f%% %9.0f\n", timing.mean / axes, timing.median / axes,
-                timing.p99 / axes, 100.0 * timing.mean / period, period / timing.mean);
+    std::printf(" %8s %8.1f %8.1f %8.1f %7.3f%% %9.0f\n", instructions_text(plan.name()).c_str(),
+                timing.mean / axes, timing.median / axes, timing.p99 / axes, 100.0 * timing.mean / period,
+                period / timing.mean);
     std::fflush(stdout);
   }
 
@@ -155,8 +164,19 @@ class Report {
       figure = measure(part.work, {.runs = options_.runs, .calls = calls, .burst = 1, .bursts = 0}).mean;
     }
     if (options_.lines) return line(part.name, figure);
-    std::printf("%-75s %10.1f\n", part.name.c_str(), figure);
+    if (options_.instructions)
+      std::printf("%-75s %10.1f\n", part.name.c_str(), figure);
+    else
+      std::printf("%-75s %10s %10.1f\n", part.name.c_str(), instructions_text(part.name).c_str(), figure);
     std::fflush(stdout);
+  }
+
+  std::string instructions_text(const std::string& name) const {
+    const auto row = instructions_.find(name);
+    if (row == instructions_.end()) return "-";
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", row->second);
+    return text;
   }
 
   static void head(const MachinePlan& plan) {
@@ -170,6 +190,7 @@ class Report {
   }
 
   const Options& options_;
+  std::map<std::string, double> instructions_;
 };
 
 int run(char** arguments) {
@@ -183,7 +204,12 @@ int run(char** arguments) {
     restart_under_callgrind(arguments);
     return 2;
   }
-  Report report(options);
+  std::map<std::string, double> instructions;
+  if (!options.time && !options.lines && !options.instructions) {
+    std::fputs("counting instructions first; --time leaves that out\n", stderr);
+    instructions = instructions_of_rows(arguments);
+  }
+  Report report(options, std::move(instructions));
   report.machines();
   report.single_parts();
   return 0;

@@ -1,6 +1,8 @@
 #include "bench/measure.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -75,6 +77,19 @@ std::uint64_t total_of(const std::string& dump) {
   return total;
 }
 
+/// Returns only if it fails.
+void execute_under_callgrind(char** arguments, const std::vector<const char*>& more) {
+  const std::string out = "--callgrind-out-file=" + dump_prefix();  // the process keeps its number
+  // Under valgrind /proc/self/exe is this program as well, so it has to be named before.
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+  std::vector<const char*> command = {"valgrind", "--tool=callgrind", "--collect-atstart=no",
+                                      "-q",       out.c_str(),        self.c_str()};
+  for (char** argument = arguments + 1; *argument != nullptr; ++argument) command.push_back(*argument);
+  command.insert(command.end(), more.begin(), more.end());
+  command.push_back(nullptr);
+  execvp(command.front(), const_cast<char* const*>(command.data()));
+}
+
 }  // namespace
 
 Timing measure(const std::function<void(int)>& work, const Effort& effort) {
@@ -111,16 +126,29 @@ std::uint64_t count_instructions(const std::function<void()>& work) {
 }
 
 void restart_under_callgrind(char** arguments) {
-  const std::string out = "--callgrind-out-file=" + dump_prefix();  // the process keeps its number
-  std::vector<const char*> command = {"valgrind", "--tool=callgrind", "--collect-atstart=no",
-                                      "-q",       out.c_str(),        "/proc/self/exe"};
-  // Under valgrind /proc/self/exe is this program as well, so it has to be named before.
-  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-  command.back() = self.c_str();
-  for (char** argument = arguments + 1; *argument != nullptr; ++argument) command.push_back(*argument);
-  command.push_back(nullptr);
-  execvp(command.front(), const_cast<char* const*>(command.data()));
+  execute_under_callgrind(arguments, {});
   std::perror("lockstep_bench: valgrind");
+}
+
+std::map<std::string, double> instructions_of_rows(char** arguments) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return {};
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(ends[1], STDOUT_FILENO);
+    dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+    execute_under_callgrind(arguments, {"--lines", "--instructions"});
+    _exit(127);
+  }
+  close(ends[1]);
+  std::map<std::string, double> rows;
+  FILE* const lines = fdopen(ends[0], "r");
+  double figure = 0.0;
+  char name[256];
+  while (std::fscanf(lines, "%lf\t%255[^\n]\n", &figure, name) == 2) rows[name] = figure;
+  std::fclose(lines);
+  if (child > 0) waitpid(child, nullptr, 0);
+  return rows;
 }
 
 }  // namespace lockstep::bench

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <string>
 
 namespace lockstep::bench {
 
@@ -33,6 +35,10 @@ std::uint64_t count_instructions(const std::function<void()>& work);
 
 /// Starts the program anew under callgrind, with the same arguments; returns only if that fails.
 void restart_under_callgrind(char** arguments);
+
+/// Instructions of each row by its name: what the program prints with --lines --instructions in a process of
+/// its own. Empty where that does not run, as without valgrind.
+std::map<std::string, double> instructions_of_rows(char** arguments);
 
 /// Keeps the compiler from leaving a result out that nobody reads.
 template <class T>

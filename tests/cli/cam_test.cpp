@@ -177,6 +177,22 @@ TEST(Cam, BrokenFilesAreToldWithTheirPlaces) {
   EXPECT_EQ(lockstep({"cam", "sample", kFeeder, "--count", "1"}).status, 2);
 }
 
+TEST(Cam, TellsElementsThatDoNotCountWithTheirPlaces) {
+  const Folder folder;
+  Ended ended = lockstep({"cam", "check", folder.write("points.csv", "0,0\n10,1\n10,2\n20,0\n")});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.err.find("points.csv:2:1: warning: does not count"), std::string::npos) << ended.err;
+  ended = lockstep({"cam", "info", folder.write("cam.json", R"({"lockstep_cam": 1, "segments": [
+    {"xmin": 0, "xmax": 5}, {"xmin": 4, "xmax": 9, "a0": 3}]})")});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.err.find("cam.json:/segments/0: warning: does not count from 4 to 5"), std::string::npos)
+      << ended.err;
+  ended = lockstep({"cam", "check", folder.write("sine.csv", "I,1,0\nS,0,1,0,0,0,0,0,0,0,1,1e6,0\n")});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.err.find("sine.csv:2:1: the sines of the cam have 159154.9"), std::string::npos)
+      << ended.err;
+}
+
 TEST(Cam, FindsTheCamOfAProject) {
   const Folder folder;
   const std::string project = folder.write("project.json", R"({"lockstep": 1, "technology_objects": {

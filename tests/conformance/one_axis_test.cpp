@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <deque>
 #include <random>
 #include <sstream>
@@ -14,6 +13,7 @@
 #include "fb/power.hpp"
 #include "scheduler/controller.hpp"
 #include "tests/conformance/subject.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep::test {
 namespace {
@@ -402,27 +402,15 @@ class OneAxis {
 };
 
 TEST(OneAxisSequences, OfJobsFaultsAndLimitsKeepTheSetpointInOrder) {
-  if (const char* seed = std::getenv("LOCKSTEP_SEED")) {
-    Counts counts;
-    EXPECT_EQ(OneAxis(std::stoull(seed), true, counts).run(), "");
-    return;
-  }
   Counts counts;
-  const char* first = std::getenv("LOCKSTEP_FIRST_SEED");
-  const std::uint64_t first_seed = first != nullptr ? std::stoull(first) : kFirstSeed;
-  const int count = std::getenv("LOCKSTEP_SOAK") != nullptr ? kSoakSeeds : kSeeds;
-  int failed = 0;
-  for (int i = 0; i < count && failed < 10; ++i) {
-    const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i);
-    const std::string fault = OneAxis(seed, false, counts).run();
-    EXPECT_EQ(fault, "") << "follow it with LOCKSTEP_SEED=" << seed;
-    if (!fault.empty()) ++failed;
-  }
-  EXPECT_GT(counts.clampings, static_cast<std::uint64_t>(count) / 10);
-  EXPECT_GT(counts.alarms, static_cast<std::uint64_t>(count));
-  EXPECT_GT(counts.done, static_cast<std::uint64_t>(count));
-  std::printf("%d sequences from seed %llu on: %llu ticks, %llu alarms, %llu clampings\n",
-              count * kSequencesOfASeed, static_cast<unsigned long long>(first_seed),
+  const Cases ran = for_each_seed(kFirstSeed, cases(kSeeds, kSoakSeeds), [&](const Case& one) {
+    EXPECT_EQ(OneAxis(one.seed, one.alone, counts).run(), "");
+  });
+  if (ran.alone) return;
+  EXPECT_GT(counts.clampings, static_cast<std::uint64_t>(ran.count) / 10);
+  EXPECT_GT(counts.alarms, static_cast<std::uint64_t>(ran.count));
+  EXPECT_GT(counts.done, static_cast<std::uint64_t>(ran.count));
+  std::printf("%d sequences: %llu ticks, %llu alarms, %llu clampings\n", ran.count * kSequencesOfASeed,
               static_cast<unsigned long long>(counts.ticks), static_cast<unsigned long long>(counts.alarms),
               static_cast<unsigned long long>(counts.clampings));
 }

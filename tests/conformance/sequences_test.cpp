@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "tests/conformance/bench.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep::test {
 namespace {
@@ -216,19 +216,8 @@ class Sequence {
 };
 
 TEST(Sequences, OfRandomJobsEndInOrderWithoutAStep) {
-  if (const char* seed = std::getenv("LOCKSTEP_SEED")) {
-    EXPECT_EQ(Sequence(std::stoull(seed), true).run(), "");
-    return;
-  }
-  const int count = std::getenv("LOCKSTEP_SOAK") != nullptr ? kSoakSequences : kSequences;
-  int failed = 0;
-  for (int i = 0; i < count && failed < 10; ++i) {
-    const std::uint64_t seed = kFirstSeed + static_cast<std::uint64_t>(i);
-    const std::string fault = Sequence(seed, false).run();
-    EXPECT_EQ(fault, "") << "follow it with LOCKSTEP_SEED=" << seed;
-    if (!fault.empty()) ++failed;
-  }
-  std::printf("%d sequences from seed %llu on\n", count, static_cast<unsigned long long>(kFirstSeed));
+  for_each_seed(kFirstSeed, cases(kSequences, kSoakSequences),
+                [](const Case& one) { EXPECT_EQ(Sequence(one.seed, one.alone).run(), ""); });
 }
 
 }  // namespace

@@ -2,22 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <iostream>
 #include <random>
 
 #include "hmi_bridge/retain_file.hpp"
 #include "tests/hmi_bridge/memory_disk.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep::test {
 namespace {
 
 constexpr const char* kFile = "machine.retain";
 constexpr const char* kProject = "press";
-
-bool soak() {
-  return std::getenv("LOCKSTEP_SOAK") != nullptr;
-}
 
 /// All values of an instant; some change, and with time there are more of them.
 std::vector<KeptRow> snapshot(int number) {
@@ -74,11 +70,9 @@ Recorded record(int snapshots) {
 }
 
 TEST(RetainCrash, AfterEveryPrefixAndEveryLossTheFileHoldsTheLastSnapshotToldOrTheNextOne) {
-  const unsigned seed = soak() ? std::random_device{}() : 20260711u;
-  std::cout << "seed " << seed << "\n";
-  std::mt19937 random(seed);
-  const int snapshots = soak() ? 30 : 12;
-  const int subsets = soak() ? 40 : 8;
+  std::mt19937 random(static_cast<std::uint32_t>(seed_of_test(20260711)));
+  const int snapshots = cases(12, 30);
+  const int subsets = cases(8, 40);
   const Recorded recorded = record(snapshots);
   ASSERT_GT(recorded.operations.size(), 8u * static_cast<unsigned>(snapshots));
   std::size_t states = 0;
@@ -124,9 +118,7 @@ TEST(RetainCrash, AFileWithAChangedByteIsRefusedOrHoldsWhatWasWritten) {
     RetainFile file(kFile, kProject, disk.name());
     for (int number = 1; number <= 3; ++number) ASSERT_EQ(file.write(snapshot(number)), "");
   }
-  const unsigned seed = soak() ? std::random_device{}() : 20260712u;
-  std::cout << "seed " << seed << "\n";
-  std::mt19937 random(seed);
+  std::mt19937 random(static_cast<std::uint32_t>(seed_of_test(20260712)));
   int refused = 0;
   const std::size_t size = disk.content[kFile].size();
   for (std::size_t place = 0; place < size; place += soak() ? 1 : 1 + random() % 8) {

@@ -90,15 +90,37 @@ TEST(CamProject, ProgramsChangePointsAndInterpolateAnew) {
   EXPECT_EQ(machine.read("read.Value"), 25.0);
 }
 
-/// The problems of a cam, one a line without its place in the file.
-std::string problems(const std::string& cam) {
+/// What is told of a cam, one a line, with the place in the cam.
+std::string lines_of(const std::vector<Problem>& told) {
   std::string text;
-  for (const Problem& problem : load_project(project(cam)).problems) {
+  for (const Problem& problem : told) {
     const std::string prefix = "/technology_objects/Profile";
     EXPECT_TRUE(problem.place.starts_with(prefix)) << problem.place;
     text += problem.place.substr(std::min(prefix.size(), problem.place.size())) + ": " + problem.text + "\n";
   }
   return text;
+}
+
+/// ApplicationMode is 2, for which a cam need not close.
+std::string appended(const std::string& cam) {
+  std::string text = project(cam);
+  const std::string mode = "\"ApplicationMode\": 1";
+  return text.replace(text.find(mode), mode.size(), "\"ApplicationMode\": 2");
+}
+
+std::string problems(const std::string& cam) {
+  return lines_of(load_project(appended(cam)).problems);
+}
+
+/// Warnings of a valid project, but for tags that nothing uses.
+std::vector<Problem> warnings_of(const std::string& text) {
+  LoadedProject loaded = load_project(text);
+  EXPECT_TRUE(loaded.problems.empty()) << lines_of(loaded.problems);
+  std::erase_if(loaded.warnings, [](const Problem& warning) { return warning.place.starts_with("/tags/"); });
+  return std::move(loaded.warnings);
+}
+std::string warnings(const std::string& cam) {
+  return lines_of(warnings_of(appended(cam)));
 }
 
 TEST(CamProject, ReportsEverythingThatIsWrongWithACam) {
@@ -131,8 +153,8 @@ TEST(CamProject, TellsAFileThatIsNotThere) {
 }
 
 TEST(CamProject, ReportsPointsThatMakeNoCurveAndTooMany) {
-  EXPECT_NE(problems(R"({ "type": "TO_Cam", "points": [ [1.0, 2.0] ] })").find("make no curve"),
-            std::string::npos);
+  EXPECT_TRUE(problems(R"({ "type": "TO_Cam", "points": [ [1.0, 2.0] ] })")
+                  .starts_with("/points/0/0: 1 is the only leading value"));
   std::string many = R"({ "type": "TO_Cam", "points": [ [0.0, 0.0])";
   for (int i = 1; i <= 1000; ++i) many += ", [" + std::to_string(i) + ".0, 0.0]";
   EXPECT_NE(problems(many + "] }").find("takes 1001 points; allowed are 1000"), std::string::npos);
@@ -140,6 +162,54 @@ TEST(CamProject, ReportsPointsThatMakeNoCurveAndTooMany) {
                 .find("/segments/0/xmax: 5 is not above xmin"),
             std::string::npos);
   EXPECT_EQ(problems(R"({ "type": "TO_Cam" })"), "");
+}
+
+TEST(CamProject, TellsAtWhichElementACurveFails) {
+  EXPECT_TRUE(
+      problems(R"({ "type": "TO_Cam", "segments": [ { "xmin": 0, "xmax": 5, "a1": 1 },
+      { "xmin": 7, "xmax": 9, "a1": 2 } ],
+      "config": { "InterpolationSettings": { "InterpolationMode": 1, "BoundaryConditions": 1 } } })")
+          .starts_with("/segments/1: the cam ends here with a slope of 2 and begins with one of 1; "));
+  EXPECT_TRUE(problems(R"({ "type": "TO_Cam",
+      "segments": [ { "xmin": 0, "xmax": 1, "sineAmplitude": 1, "sinePeriod": 1e6 } ] })")
+                  .starts_with("/segments/0/sinePeriod: the sines of the cam have 159154.9"));
+  EXPECT_TRUE(problems(R"({ "type": "TO_Cam", "config": { "Segment[2]": { "xmin": 5, "xmax": 1 },
+      "ValidSegment[2]": true } })")
+                  .starts_with("/config/Segment[2]/xmax: 1 is not above xmin, 5"));
+}
+
+TEST(CamProject, WarnsOfElementsThatDoNotCountWhereTheyStand) {
+  EXPECT_TRUE(warnings(R"({ "type": "TO_Cam", "points": [ [0, 0], [0, 1], [10, 2] ] })")
+                  .starts_with("/points/0: does not count: of the points at leading value 0 the last does"));
+  EXPECT_TRUE(
+      warnings(
+          R"({ "type": "TO_Cam", "segments": [ { "xmin": 0, "xmax": 5 } ], "points": [ [8, 1], [2, 3] ] })")
+          .starts_with("/points/1: does not count: at leading value 2 the segment from 0 to 5 does"));
+  EXPECT_TRUE(
+      warnings(
+          R"({ "type": "TO_Cam", "segments": [ { "xmin": 0, "xmax": 5 }, { "xmin": 4, "xmax": 9, "a0": 3 } ] })")
+          .starts_with("/segments/0: does not count from 4 to 5"));
+  EXPECT_TRUE(warnings(R"({ "type": "TO_Cam", "segments": [ { "xmin": 0, "xmax": 1e6, "a6": 1e12 } ] })")
+                  .starts_with("/segments/0: the following value reaches 1e+48 at leading value 1e+06"));
+  EXPECT_TRUE(warnings(R"({ "type": "TO_Cam", "points": [ [0, 0], [10, 2] ],
+      "config": { "Point[3]": { "x": 10, "y": 5 }, "ValidPoint[3]": true } })")
+                  .starts_with("/points/1: does not count"))
+      << "the configuration adds to the points";
+  EXPECT_EQ(warnings(kCam), "");
+}
+
+TEST(CamProject, WarnsOfACamThatDoesNotCloseAndIsToBePassedAgainAndAgain) {
+  const char* const open = R"({ "type": "TO_Cam", "points": [ [0, 0], [50, 50], [100, 80] ] })";
+  const std::vector<Problem> told = warnings_of(project(open));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].place, "/programs/0/calls/4/in/ApplicationMode");
+  EXPECT_NE(told[0].text.find("'Profile' begins with 0 and ends with 80"), std::string::npos) << told[0].text;
+  EXPECT_EQ(warnings_of(appended(open)).size(), 0u);
+  EXPECT_EQ(warnings_of(project(kCam)).size(), 0u) << "it closes";
+  std::string ring = project(open);  // of 80 units: the cam closes on it
+  const std::string line = R"("TO_SynchronousAxis", "config": { )";
+  ring.insert(ring.find(line) + line.size(), R"("Modulo": { "Enable": true, "Length": 80.0 }, )");
+  EXPECT_EQ(warnings_of(ring).size(), 0u);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // Damaged projects: whatever the text, loading ends with a project or with problems.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <random>
 
 #include "example_project.hpp"
 #include "projects/project.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
@@ -53,11 +53,8 @@ std::string mutated(std::string text, std::mt19937_64& random) {
 }
 
 TEST(DamagedProject, LoadsOrIsRefusedWithAReason) {
-  const bool soak = std::getenv("LOCKSTEP_SOAK") != nullptr;
-  const int cases = soak ? 200'000 : 2'000;
-  const std::uint64_t seed = soak ? std::random_device{}() : 20240521;
-  RecordProperty("seed", std::to_string(seed));
-  std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
+  const int cases = test::cases(2'000, 200'000);
+  const std::uint64_t seed = test::seed_of_test(20240521);
   std::mt19937_64 random(seed);
   int loaded_cases = 0;
   for (int i = 0; i < cases; ++i) {

@@ -1,7 +1,6 @@
 // Values that are kept across runs, through the command line: also when a run is killed.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <random>
 #include <regex>
@@ -9,6 +8,7 @@
 #include "hmi_bridge/retain_file.hpp"
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep::test {
 namespace {
@@ -88,11 +88,8 @@ std::filesystem::file_time_type written(const std::string& file) {
 }
 
 TEST(Retain, KilledAtAnyTimeARunLosesNothingOlderThanItsIntervalAndMixesNothing) {
-  const bool soak = std::getenv("LOCKSTEP_SOAK") != nullptr;
-  const unsigned seed = soak ? std::random_device{}() : 20260713u;
-  const int kills = soak ? 3000 : 30;
-  std::cout << "seed " << seed << ", " << kills << " kills\n";
-  std::mt19937 random(seed);
+  const int kills = test::cases(30, 3000);
+  std::mt19937 random(static_cast<std::uint32_t>(test::seed_of_test(20260713)));
   const Directory directory;
   const std::string project = directory.write("project.json", counting().dump());
   const std::string file = directory.file("project.retain");

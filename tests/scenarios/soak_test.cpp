@@ -13,6 +13,7 @@
 #include "projects/project.hpp"
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep::test {
 namespace {
@@ -42,8 +43,7 @@ void add_recorders(Json& json, const std::string& flight) {
 class Soak : public testing::TestWithParam<const char*> {};
 
 TEST_P(Soak, ADayOfVirtualTimeTakesNoMoreMemoryThanItsFirstHours) {
-  const bool soak = std::getenv("LOCKSTEP_SOAK") != nullptr;
-  const int seconds = soak ? 86400 : 300;
+  const int seconds = test::cases(300, 86400);
   const Directory directory;
   Json json = example_json(GetParam());
   json["modbus"]["map"].push_back(
@@ -93,9 +93,8 @@ Json with_kept_values(Json json) {
 // A simulation keeps nothing, so this one has the writer beside a controller in virtual time, which ends and
 // goes on every hour.
 TEST(SoakOfKeptValues, ADayOfVirtualTimeTakesNoMoreMemoryAndEndsWithTheValuesOfItsLastTick) {
-  const bool soak = std::getenv("LOCKSTEP_SOAK") != nullptr;
-  const int parts = soak ? 24 : 6;
-  const int ticks = soak ? 3'600'000 : 50'000;  // of each part
+  const int parts = test::cases(6, 24);
+  const int ticks = test::cases(50'000, 3'600'000);  // of each part
   const Directory directory;
   const std::string file = directory.file("kept");
   const std::string text = with_kept_values(example_json("05_press_feeder")).dump();

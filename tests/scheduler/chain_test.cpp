@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -20,6 +19,7 @@
 #include "fb/stop.hpp"
 #include "fb/superimposed.hpp"
 #include "fb/sync_out.hpp"
+#include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {
@@ -37,10 +37,6 @@ constexpr int kSoakSequences = 100000;
 constexpr int kShifts = 1000;
 constexpr int kSoakShifts = 100000;
 constexpr int kActions = 16;
-
-bool soak() {
-  return std::getenv("LOCKSTEP_SOAK") != nullptr;
-}
 
 Wide magnitude(Wide value) {
   return value < 0 ? -value : value;
@@ -340,24 +336,17 @@ class Sequence {
 
 TEST(Chain, IsExactInEveryTickUnderLeadingMotionAtRandom) {
   Seen seen;
-  const char* only = std::getenv("LOCKSTEP_SEED");
-  const std::uint64_t first = only != nullptr ? std::stoull(only) : kFirstSeed;
-  const int count = only != nullptr ? 1 : soak() ? kSoakSequences : kSequences;
-  for (int i = 0; i < count; ++i) {
-    const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
-    SCOPED_TRACE("follow it with LOCKSTEP_SEED=" + std::to_string(seed));
-    Sequence(seed, seen).run();
-    if (::testing::Test::HasFailure()) return;
-  }
+  const test::Cases ran = test::for_each_seed(kFirstSeed, test::cases(kSequences, kSoakSequences),
+                                              [&](const test::Case& one) { Sequence(one.seed, seen).run(); });
   std::printf(
-      "%d sequences from seed %llu: %d ticks, %d in a shift, %d wraps, %d homings, %d additive values, "
+      "%d ticks, %d in a shift, %d wraps, %d homings, %d additive values, "
       "%d reversals, %d while superimposed, %d of these halting; worst %.2f of what is permitted\n",
-      count, static_cast<unsigned long long>(first), seen.ticks, seen.shifted, seen.wraps, seen.homed,
-      seen.added, seen.reversed, seen.superimposed, seen.halted, seen.worst);
-  if (only != nullptr) return;
+      seen.ticks, seen.shifted, seen.wraps, seen.homed, seen.added, seen.reversed, seen.superimposed,
+      seen.halted, seen.worst);
+  if (ran.alone || HasFailure()) return;
   for (const int happened :
        {seen.shifted, seen.wraps, seen.homed, seen.added, seen.reversed, seen.superimposed, seen.halted})
-    EXPECT_GT(happened, count / 10) << "a test of what does not happen";
+    EXPECT_GT(happened, ran.count / 10) << "a test of what does not happen";
 }
 
 /// A phasing over time is replaced by one over distance while the leading axis stands.
@@ -440,7 +429,7 @@ TEST(Chain, ThePhaseShiftAfterManyShiftsOfATenthIsTheRoundedExactSum) {
   chain.phase.PhaseShift = 0.1;
   chain.phase.ProfileReference = 1;
   chain.phase.PhasingDistance = 2.0;
-  expect_exact_sums(chain, chain.phase, soak() ? kSoakShifts : kShifts,
+  expect_exact_sums(chain, chain.phase, test::cases(kShifts, kSoakShifts),
                     chain.f.data.StatusSynchronizedMotion.PhaseShift);
 }
 
@@ -449,7 +438,7 @@ TEST(Chain, TheOffsetAfterManyShiftsOfATenthIsTheRoundedExactSum) {
   chain.offset.Offset = 0.1;
   chain.offset.ProfileReference = 1;
   chain.offset.OffsetDistance = 2.0;
-  expect_exact_sums(chain, chain.offset, soak() ? kSoakShifts : kShifts,
+  expect_exact_sums(chain, chain.offset, test::cases(kShifts, kSoakShifts),
                     chain.f.data.StatusSynchronizedMotion.Offset);
 }
 

@@ -3,21 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <random>
 #include <string>
 
 #include "tech_objects/profile.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr unsigned kSeed = 20240611;
+std::uint64_t seed() {
+  static const std::uint64_t value = test::seed_of_test(20240611);
+  return value;
+}
 
 int cases() {
-  const char* const soak = std::getenv("LOCKSTEP_SOAK");
-  return soak != nullptr && std::string{soak} == "1" ? 1'000'000 : 10'000;
+  return test::cases(10'000, 1'000'000);
 }
 
 struct Request {
@@ -97,7 +99,7 @@ class Requests {
   }
 
   double decades_;
-  std::mt19937_64 random_{kSeed};
+  std::mt19937_64 random_{seed()};
 };
 
 double end_of(const Profile& profile, std::size_t phase) {
@@ -205,7 +207,7 @@ TEST_P(ProfileProperties, EveryMotionToAPositionIsContinuousKeepsItsLimitsAndMee
     ASSERT_EQ(plan_position(r.start, r.position, r.velocity, r.limits, profile), PlanResult::ok) << text(r);
     ASSERT_EQ(profile.target().position, r.position);
     expect_valid(r, profile);
-    if (HasFatalFailure()) FAIL() << "seed " << kSeed << ", case " << i << ": " << text(r);
+    if (HasFatalFailure()) FAIL() << "seed " << seed() << ", case " << i << ": " << text(r);
   }
 }
 
@@ -216,9 +218,9 @@ TEST_P(ProfileProperties, EveryChangeOfVelocityIsContinuousKeepsItsLimitsAndIsNo
     Profile profile, there;
     ASSERT_EQ(plan_velocity(r.start, r.velocity, r.limits, profile), PlanResult::ok) << text(r);
     expect_valid(r, profile);
-    if (HasFatalFailure()) FAIL() << "seed " << kSeed << ", case " << i << ": " << text(r);
+    if (HasFatalFailure()) FAIL() << "seed " << seed() << ", case " << i << ": " << text(r);
     ASSERT_EQ(plan_position(r.start, r.position, r.velocity, r.limits, there), PlanResult::ok);
-    ASSERT_GE(there.duration(), profile.duration() * (1.0 - 1e-9)) << "seed " << kSeed << ": " << text(r);
+    ASSERT_GE(there.duration(), profile.duration() * (1.0 - 1e-9)) << "seed " << seed() << ": " << text(r);
   }
 }
 
@@ -233,7 +235,7 @@ TEST_P(ProfileProperties, TheSameRequestGivesTheSameBits) {
     for (int k = 0; k < 10; ++k) {
       const double t = requests.between(0.0, first.duration());
       const MotionState a = first.at(t), b = second.at(t);
-      ASSERT_EQ(std::memcmp(&a, &b, sizeof a), 0) << "seed " << kSeed << ": " << text(r);
+      ASSERT_EQ(std::memcmp(&a, &b, sizeof a), 0) << "seed " << seed() << ": " << text(r);
     }
   }
 }
@@ -250,12 +252,12 @@ TEST_P(ProfileProperties, AMotionPlannedAnewOnItsWayTakesTheTimeThatWasLeft) {
     if (s.velocity > r.limits.velocity_max || s.velocity < r.limits.velocity_min || r.limits.jerk == 0.0)
       continue;
     ASSERT_EQ(plan_position(s, r.position, 0.0, r.limits, anew), PlanResult::ok)
-        << "seed " << kSeed << ": " << text({s, r.position, 0.0, r.limits});
+        << "seed " << seed() << ": " << text({s, r.position, 0.0, r.limits});
     // An error e of the position takes up to about (e / jerk)^(1/3) to be made good.
     const double error = 1e-14 * Scale(r, profile).position;
     const double allowed = 1e-6 * profile.duration() + 8.0 * std::cbrt(error / r.limits.jerk);
     ASSERT_NEAR(anew.duration(), profile.duration() - t, allowed)
-        << "seed " << kSeed << ", case " << i << ", t=" << t << ": " << text(r);
+        << "seed " << seed() << ", case " << i << ", t=" << t << ": " << text(r);
   }
 }
 
