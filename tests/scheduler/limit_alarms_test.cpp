@@ -162,7 +162,7 @@ TEST(Setpoint, ThatIsNoNumberIsHeldBackWithAlarm203) {
   m.gear.Execute = true;
   ASSERT_TRUE(m.run_until([&] { return m.gear.InGear; }));
   const double here = m.a.data.Position;
-  m.a.additive_request = {&m, {std::numeric_limits<double>::infinity(), 0.0, 0.0}};
+  m.a.additive_request = {&m, true, {std::numeric_limits<double>::infinity(), 0.0, 0.0}};
   m.run(3);  // the rig looks for setpoints that are not finite
   EXPECT_EQ(m.a.pending_alarm(), alarm::kInternal);
   EXPECT_EQ(m.a.data.Position, here);
