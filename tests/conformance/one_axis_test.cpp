@@ -354,7 +354,8 @@ class OneAxis {
     const Setpoint& s = last_.led;
     const double at_ticks = std::max(std::abs(before.led.acceleration), std::abs(s.acceleration));
     // A motion on top of the ramp, which may be over within the tick.
-    const bool handed_over = s.position != last_.setpoint.position || lands_on_actual(before);
+    const bool handed_over = s.position != last_.setpoint.position ||
+                             before.led.position != before.setpoint.position || lands_on_actual(before);
     const double most = std::max(handed_over ? kEmergency + kAcceleration : kEmergency, at_ticks) * kSeconds;
     if (std::abs(s.velocity - before.led.velocity) > most * (1 + kSlack) + kSlack)
       note("step of the velocity from " + std::to_string(before.led.velocity) + " to " +
