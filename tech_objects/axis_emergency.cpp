@@ -26,11 +26,15 @@ void Axis::step_emergency_ramp() noexcept {
 }
 
 /// The setpoint becomes the actual state and brakes from there; no following error is worked off any more. At
-/// a fixed stop it stays: what holds the part is the following error.
+/// a fixed stop it stays: what holds the part is the following error. An axis that rests in its positioning
+/// window has nothing to brake.
 void Axis::brake_from_actual() noexcept {
   emergency_ramp_ = EmergencyRamp::none;
   const bool stops = motion_ == Motion::single_axis && single_.aim() == SingleAxisMotion::Aim::stand;
   if (!stops || sensor_lost_ || forces_.stop_side != 0) return;
+  const double away = position_controlled_ ? rounded_difference(actual_, setpoint_.position, modulo_) : 0.0;
+  const bool rests = setpoint_.standing() && !moving(actual_velocity_);
+  if (rests && std::abs(away) <= data.PositioningMonitoring.Window) return;
   const Setpoint seen = leading_state(Coupling::setpoint);
   const double commanded = commanded_velocity();
   take_actual_state(commanded);
@@ -47,16 +51,16 @@ void Axis::brake_from_actual() noexcept {
   if (position_controlled_) hand_over(seen);
 }
 
-/// Under position control ahead by what filter and drive are late. A drive that is braking already is told of
-/// no higher velocity than it has been.
+/// Under position control ahead by what filter and drive are late: there the drive still runs on to. One that
+/// brakes already is told of no higher velocity than it has been.
 void Axis::take_actual_state(double commanded) noexcept {
   const Setpoint before = setpoint_;
   const double velocity = std::clamp(actual_velocity_, std::min(commanded, 0.0), std::max(commanded, 0.0));
   setpoint_ = {before.position, velocity, 0.0};
   if (position_controlled_) {
-    setpoint_.position = advanced(actual_, velocity * setpoint_delay(), modulo_);
+    setpoint_.position = advanced(actual_, actual_velocity_ * setpoint_delay(), modulo_);
     if (data.PositionLimits_SW.Active && homed_) stay_within_limits(before);
-    reset_servo({setpoint_.position, velocity});
+    reset_servo({setpoint_.position, actual_velocity_});
   }
   last_setpoint_ = setpoint_;
 }

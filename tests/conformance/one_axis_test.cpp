@@ -339,13 +339,13 @@ class OneAxis {
     last_.inside = inside;
   }
 
-  /// Whether the setpoint has stepped onto the actual velocity: there the emergency ramp of a driven axis
-  /// begins.
+  /// Whether the setpoint has stepped towards the actual velocity: there, or where a drive that brakes
+  /// already has been told to be, the emergency ramp of a driven axis begins.
   bool lands_on_actual(const Seen& before) const {
     constexpr double kOfATick = kEmergency * kSeconds * (1 + kSlack) + kSlack;
-    const double v = last_.setpoint.velocity;
+    const double v = last_.setpoint.velocity, actual = last_.actual_velocity;
     return !axis_.is_virtual() && std::abs(v - before.setpoint.velocity) > kOfATick &&
-           std::abs(v - last_.actual_velocity) <= kOfATick;
+           v >= std::min(actual, 0.0) - kOfATick && v <= std::max(actual, 0.0) + kOfATick;
   }
 
   /// Such a step is none for axes that follow; without position control nobody follows.
@@ -354,7 +354,8 @@ class OneAxis {
     const Setpoint& s = last_.led;
     const double at_ticks = std::max(std::abs(before.led.acceleration), std::abs(s.acceleration));
     // A motion on top of the ramp, which may be over within the tick.
-    const bool handed_over = s.position != last_.setpoint.position || lands_on_actual(before);
+    const bool handed_over = s.position != last_.setpoint.position ||
+                             before.led.position != before.setpoint.position || lands_on_actual(before);
     const double most = std::max(handed_over ? kEmergency + kAcceleration : kEmergency, at_ticks) * kSeconds;
     if (std::abs(s.velocity - before.led.velocity) > most * (1 + kSlack) + kSlack)
       note("step of the velocity from " + std::to_string(before.led.velocity) + " to " +
