@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
 
@@ -195,7 +194,7 @@ class Panels {
 // In a simulation clients rest and nobody commands, so these two have a controller in virtual time beside
 // them.
 TEST(SoakOfClientsAndCommands, ADayOfVirtualTimeTakesNoMoreMemory) {
-  const int ticks = std::getenv("LOCKSTEP_SOAK") != nullptr ? 86'400'000 : 300'000;
+  const int ticks = test::cases(300'000, 86'400'000);
   LoadedProject loaded = load_project(asked_project().dump());
   ASSERT_TRUE(loaded.project.has_value()) << loaded.problems[0].place << loaded.problems[0].text;
   Project& project = *loaded.project;
