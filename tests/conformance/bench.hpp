@@ -226,6 +226,7 @@ class Bench {
   struct Last {
     bool known = false;
     bool coupled = false;
+    double actual_velocity = 0.0;  // [u/s]
     Setpoint setpoint;
   };
 
@@ -258,6 +259,7 @@ class Bench {
     last.known = true;
     last.coupled = axis.coupled_leading_axis() != nullptr && !axis.simulating();
     last.setpoint = s;
+    last.actual_velocity = axis.data.ActualVelocity;
     if (!std::isfinite(s.position.value) || !std::isfinite(s.velocity) || !std::isfinite(s.acceleration))
       return fault(axis.name + ": setpoint not finite");
     const bool outrun = outruns_its_profile(axis);
@@ -276,7 +278,9 @@ class Bench {
                                    std::abs(before.setpoint.acceleration));
     if (std::abs(s.acceleration) > most_a * (1 + kSlack))
       fault(axis.name + ": acceleration " + std::to_string(s.acceleration) + " beyond its limit");
-    watch_steps(axis, before.setpoint, s, 1.0, 0.0);
+    // The emergency ramp of an axis with a drive begins with its actual velocity.
+    const double lag = axis.is_virtual() ? 0.0 : std::abs(before.actual_velocity - before.setpoint.velocity);
+    watch_steps(axis, before.setpoint, s, 1.0, lag);
   }
 
   /// What is planned over a way of the leading axis is as steep as that axis is fast: planned for a slow one
