@@ -27,9 +27,12 @@ void read_settings(const JsonValue& object, TO_Cam_Struct_InterpolationSettings&
 void read_project(const JsonValue& root, const std::string& folder, const std::string& name,
                   CamDefinition& definition, Problems& problems) {
   const JsonValue* const objects = root.find("technology_objects");
+  static const std::vector<JsonValue::Member>
+      kNone;  // a choice between a list and a temporary would be a copy
+  const std::vector<JsonValue::Member>& members = objects != nullptr ? objects->members : kNone;
   std::vector<std::string_view> cams;
   const JsonValue* found = nullptr;
-  for (const auto& [key, object] : objects != nullptr ? objects->members : std::vector<JsonValue::Member>{}) {
+  for (const auto& [key, object] : members) {
     const JsonValue* const type = object->find("type");
     if (type == nullptr || !type->text.starts_with("TO_Cam")) continue;
     cams.push_back(key);
