@@ -50,11 +50,7 @@ bool reaches_target(const Profile& profile) noexcept {
   double fastest = std::abs(target.velocity);
   for (const Profile::Phase& phase : profile.phases())
     fastest = std::max(fastest, std::abs(phase.state.velocity));
-  const Profile::Phase& last = profile.phases().back();
-  const double t = profile.duration() - last.begin;
-  const double reached =
-      last.state.position +
-      t * (last.state.velocity + t * (last.state.acceleration * 0.5 + t * last.jerk * (1.0 / 6.0)));
+  const double reached = profile.phases().back().at(profile.duration()).position;
   const double ways =
       std::abs(profile.start().position) + std::abs(target.position) + fastest * profile.duration();
   return std::abs(reached - target.position) <= 1e-9 * ways && ways <= std::numeric_limits<double>::max();
