@@ -7,13 +7,14 @@
 #include <string_view>
 
 #include "fb/pin.hpp"
+#include "tech_objects/cache_line.hpp"
 
 namespace lockstep {
 
 class EncoderSaving;
 
 /// An instance of a function block. Created at load time; `call` is the only thing that happens in the cycle.
-class Block {
+class alignas(kCacheLine) Block {
  public:
   virtual ~Block() = default;
   Block(const Block&) = delete;

@@ -31,10 +31,10 @@ class ExecuteBlock : public JobBlock {
   void start() noexcept;
   Job& free_job() noexcept;
 
+  bool last_execute_ = false;
+  Job* job_ = nullptr;  // the one that the outputs show
   // The job that moves the axis, one that waits and one that is being handed over may be three.
   std::array<Job, 3> jobs_{};
-  Job* job_ = nullptr;  // the one that the outputs show
-  bool last_execute_ = false;
 };
 
 /// Pins that many blocks share, spelled once.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "scheduler/large_pages.hpp"
+
 namespace lockstep {
 
 Tag& Controller::add_tag(Tag tag) {
@@ -110,6 +112,16 @@ void Controller::finish() {
   });
   std::stable_sort(stimuli.begin(), stimuli.end(),
                    [](const Stimulus& a, const Stimulus& b) { return a.at < b.at; });
+  lay_objects_into_large_pages();
+}
+
+void Controller::lay_objects_into_large_pages() const {
+  std::vector<const void*> places;
+  for (const auto& object : objects) places.push_back(object.get());
+  for (const auto& instance : instances) places.push_back(instance.block.get());
+  if (places.empty()) return;
+  const auto [lowest, highest] = std::minmax_element(places.begin(), places.end());
+  lay_into_large_pages(*lowest, *highest);
 }
 
 void Controller::tell_jobs() {

@@ -180,6 +180,7 @@ class Controller {
   bool due(std::int64_t cycle, std::int64_t now) const noexcept;
   void servo(std::int64_t now) noexcept;
   void wire_outputs();
+  void lay_objects_into_large_pages() const;
   void interpolate() noexcept;
   void tell_events(std::int64_t now) noexcept;
   void tell(EventKind kind, std::size_t source, int number, int reaction, std::int64_t now) noexcept;

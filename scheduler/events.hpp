@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fb/block.hpp"
+#include "tech_objects/cache_line.hpp"
 #include "tech_objects/types.hpp"
 
 namespace lockstep {
@@ -68,8 +69,6 @@ class EventQueue {
   void close() noexcept { closed_.store(true, std::memory_order_release); }
 
  private:
-  static constexpr std::size_t kCacheLine = 64;
-
   const std::size_t mask_;
   std::vector<Event> events_;
   alignas(kCacheLine) std::atomic<std::uint64_t> written_{0};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scheduler/triple_buffer.hpp"
+#include "tech_objects/cache_line.hpp"
 #include "tech_objects/types.hpp"
 
 namespace lockstep {
@@ -107,7 +108,6 @@ class ProcessImage {
   // Three sets: one of each side and one in the box between them, where `kFull` says that it is to be
   // applied. The cycle takes it only if it is; the bridge takes it back to add to it, so that each is applied
   // once.
-  static constexpr std::size_t kCacheLine = 64;
   static constexpr std::uint8_t kSet = 3;
   static constexpr std::uint8_t kFull = 4;
   std::array<WriteSet, 3> sets_;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "tech_objects/cache_line.hpp"
 #include "tech_objects/types.hpp"
 
 namespace lockstep {
@@ -58,7 +59,6 @@ class TraceRing {
   std::size_t columns() const noexcept { return signals_.size(); }
 
  private:
-  static constexpr std::size_t kCacheLine = 64;
   static constexpr std::size_t kPrefix = 3;  // t, tick, dropped stand before the values
 
   bool has_space() const noexcept;

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cstdint>
 
+#include "tech_objects/cache_line.hpp"
+
 namespace lockstep {
 
 /// A value that one thread writes again and again and one other thread reads; the reader always gets the
@@ -40,7 +42,6 @@ class TripleBuffer {
   const T& front() const noexcept { return slots_[front_].value; }
 
  private:
-  static constexpr std::size_t kCacheLine = 64;
   static constexpr std::uint8_t kSlot = 3;   ///< bits of `shared_` that number a slot
   static constexpr std::uint8_t kFresh = 4;  ///< bit of `shared_`: published and not yet taken
 

@@ -210,6 +210,7 @@ void Axis::restart() noexcept {
   end_simulated_gear(JobPhase::aborted, ErrorId::none);
   additive_request = {};
   data = start_values_;
+  drive_shown_ = kNothingShown;
   start_values_changed = false;
   homed_ = false;
   take_start_values();

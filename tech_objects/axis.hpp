@@ -67,7 +67,7 @@ class Axis final : public LeadingObject {
 
   /// The technology data block. The project sets start values before `configure`; afterwards DIR and CAL
   /// variables may be written in the cycle, the rest is computed.
-  AxisData data;
+  alignas(kCacheLine) AxisData data;
 
   /// The leading values with which this axis is interconnected; only these may be named by jobs.
   std::vector<LeadingValue> leading_values;
@@ -98,8 +98,6 @@ class Axis final : public LeadingObject {
   /// once. The job stays where it is until it has ended.
   void submit(Job& job) noexcept override;
 
-  AdditiveRequest additive_request;
-  SimulationRequest simulation_request;
   bool simulating() const noexcept { return simulated_ != nullptr; }
 
   /// Requests of the torque blocks, which write them only when nothing is refused, and what has become of
@@ -147,11 +145,6 @@ class Axis final : public LeadingObject {
   /// none, or an object that depends on no other.
   Axis* coupled_leading_axis() const noexcept;
   Axis* awaited_leading_axis() const noexcept;
-  /// Raised when a coupling has changed, so that the order of the axes is built anew.
-  bool coupling_changed = false;
-  /// Whether the awaited leading axis is stepped before this one; told by the order.
-  bool awaited_axis_in_order = true;
-
   /// Raises a technology alarm: shows it and has its reaction carried out.
   void raise(int alarm_number) noexcept;
 
@@ -181,6 +174,7 @@ class Axis final : public LeadingObject {
   static constexpr UDINT kTurnsPerMinute = 1083;
   /// Value of StatusSensor.State: the actual value is valid.
   static constexpr DINT kSensorValid = 2;
+  static constexpr std::uint8_t kNothingShown = 0xFF;
 
   /// What generates the setpoint.
   enum class Motion : std::uint8_t { none, single_axis, given, synchronizing, synchronous, desynchronizing };
@@ -380,6 +374,7 @@ class Axis final : public LeadingObject {
   void take_additive() noexcept;
   void begin_shift(Job& job) noexcept;
   void advance_shift(Slot slot) noexcept;
+  void advance_shifts() noexcept;
   bool led() const noexcept { return motion_ >= Motion::synchronizing; }
 
   // axis_buffer.cpp: a job that waits for the end of another, and blending
@@ -506,40 +501,58 @@ class Axis final : public LeadingObject {
   void show_cam_use() const noexcept;
   void publish_awaited() noexcept;
   void publish_synchronous() noexcept;
+  void show_shifts() noexcept;
   void watch_deviation() noexcept;
   void publish_status() noexcept;
+  void show_drive_state() noexcept;
   std::uint32_t pace_bits() const noexcept;
   std::uint32_t bits_when_on() const noexcept;
 
-  // Hot: touched in every interpolator cycle.
-  double period_ = 0.001;  // of the interpolator [s]
+  // From here to `additive_`: what every interpolator cycle touches, in lines of the cache.
+ public:
+  alignas(kCacheLine) AdditiveRequest additive_request;
+  SimulationRequest simulation_request;
+  /// Raised when a coupling has changed, so that the order of the axes is built anew.
+  bool coupling_changed = false;
+  /// Whether the awaited leading axis is stepped before this one; told by the order.
+  bool awaited_axis_in_order = true;
+
+ private:
   Motion motion_ = Motion::none;
   bool homed_ = false;
   bool has_drive_ = false;
-  std::array<Job*, kSlots> running_{};
-  std::size_t new_count_ = 0;  // of new_jobs_
-  Job* stop_ = nullptr;        // the MC_Stop that may lock the axis
-  Standstill standstill_;
   std::int8_t limit_side_ = 0;  // software limit switch approached or passed: 1, -1; 0: none
   EmergencyRamp emergency_ramp_ = EmergencyRamp::none;
   bool homing_now_ = false;  // a mark is being looked for, or an active homing is under way
-  bool signals_watched_ = false;
-  bool beyond_limit_switch_ = false;
-  std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
-  int servo_tick_ = 0;                           // since the last interpolator tick
-  std::int64_t counted_from_ = 0;                // turn that ModuloCycle shows as 0
-  Job* simulated_ = nullptr;                     // the gear that is simulated
+
+  alignas(kCacheLine) std::array<Job*, kSlots> running_{};
+
+  double period_ = 0.001;          // of the interpolator [s]
+  Job* stop_ = nullptr;            // the MC_Stop that may lock the axis
+  Job* simulated_ = nullptr;       // the gear that is simulated
+  std::int64_t counted_from_ = 0;  // turn that ModuloCycle shows as 0
   AxisPosition actual_;
   double actual_velocity_ = 0.0;  // [u/s]
+  int servo_tick_ = 0;            // since the last interpolator tick
+  std::uint8_t new_count_ = 0;    // of new_jobs_
+  bool signals_watched_ = false;
+  bool beyond_limit_switch_ = false;
+  std::uint8_t drive_shown_ = kNothingShown;  // of StatusDrive
+
+  SynchronousMotion synchronous_;
+
+  // One line, with the end of the one and the begin of the other.
+  Superimposed superimposed_;
+  Standstill standstill_;
   double largest_deviation_ = 0.0;
   bool was_synchronous_ = false;
   bool advancing_base_ = false;  // `setpoint_` is that of the base motion alone, within a step
   AdditiveLeadingValues additive_;
-  SynchronousMotion synchronous_;
+
+  std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
   SingleAxisMotion single_;
 
   // Superimposed motion.
-  Superimposed superimposed_;
   Setpoint base_;                 // the setpoint without the superimposed part, while there is one
   Dynamics superimposed_wanted_;  // what MC_MoveSuperimposed asks for, before override and limits
   Dynamics superimposed_room_;    // of that, what it has been planned with
@@ -568,47 +581,48 @@ class Axis final : public LeadingObject {
   MarkSearch mark_search_;
   bool on_home_switch_ = false;
 
-  // Servo.
-  double servo_period_ = 0.001;  // [s]
+  // What every servo cycle touches, in lines of the cache.
+  alignas(kCacheLine) double servo_period_ = 0.001;  // [s]
   int ratio_ = 1;
-  AxisPosition encoder_origin_;      // position where the drive is where it was at the beginning
-  DoubleDouble encoder_position_;    // way of the drive from there [u], as it counts
-  double way_per_motor_turn_ = 1.0;  // [u]
-  double motor_limit_ = 0.0;         // what the motor can do [u/s]
-  double setpoint_sign_ = 1.0;       // -1: the drive turns the other way round
-  double encoder_sign_ = 1.0;
-  std::size_t operative_ = 0;      // encoder, from 0
   bool several_encoders_ = false;  // there are others
   bool drive_running_ = false;
+  bool drive_in_trouble_ = false;
+  bool drive_inhibited_ = false;
+  AxisPosition encoder_origin_;    // position where the drive is where it was at the beginning
+  DoubleDouble encoder_position_;  // way of the drive from there [u], as it counts
+  double encoder_sign_ = 1.0;
+  double setpoint_sign_ = 1.0;  // -1: the drive turns the other way round
+
+  double way_per_motor_turn_ = 1.0;  // [u]
+  double motor_limit_ = 0.0;         // what the motor can do [u/s]
+  std::size_t operative_ = 0;        // encoder, from 0
+  double actual_torque_ = 0.0;       // at the motor, in the direction of the axis
+  AxisPosition last_balanced_;
+  bool sensor_lost_ = false;
+  std::uint16_t sent_stw1_ = kControlOff;
+  FirstOrderLag following_lag_;  // FollowingError.AdditionalSetpointDelayTime
+  FirstOrderLag smoothing_;      // of what MC_SetSensor has changed
+  FirstOrderLag switchover_;     // of the velocity for the drive, to the emergency ramp
+  AxisForces forces_;
+  SimulatedDrive drive_;
+  PositionController controller_;
+
+  // Servo, seldom of account.
   double xerr_ = 0.0;  // control difference for the position loop of the drive [u]
   double pace_ = 0.0;  // velocity of what that loop is to follow [u/s]
   std::array<Encoder, kSensors> encoders_;
-  FirstOrderLag smoothing_;   // of what MC_SetSensor has changed
-  FirstOrderLag switchover_;  // of the velocity for the drive, to the emergency ramp
-  Superimposed hand_over_;    // what is left between the setpoint and what following axes see of it
-  SimulatedDrive drive_;
-  PositionController controller_;
+  Superimposed hand_over_;  // what is left between the setpoint and what following axes see of it
   DynamicFilter setpoint_filter_;
-  FirstOrderLag following_lag_;  // FollowingError.AdditionalSetpointDelayTime
-  AxisPosition last_balanced_;
-
-  // Forces, faults and control words: seldom of account.
   struct ControlBits {
     std::uint16_t stw1 = 0;
     std::uint16_t stw2 = 0;
   };
-  double actual_torque_ = 0.0;  // at the motor, in the direction of the axis
-  bool drive_in_trouble_ = false;
-  bool drive_inhibited_ = false;
-  bool sensor_lost_ = false;
-  std::uint16_t sent_stw1_ = kControlOff;
   ControlBits free_bits_;  // of MC_SetAxisSTW
   struct Backlash {
     double passed = 0.0;        // way of the motor that the load has not made: 0, or ∓Size [u]
     std::int8_t direction = 0;  // of the last motion; 0: none yet
   };
   Backlash backlash_;
-  AxisForces forces_;
 };
 
 }  // namespace lockstep

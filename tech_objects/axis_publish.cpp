@@ -121,8 +121,7 @@ void Axis::publish_synchronous() noexcept {
   status.EffectiveLeadingValue.Velocity = effective.velocity;
   status.EffectiveLeadingValue.Acceleration = effective.acceleration;
   status.FunctionLeadingValue.Position = synchronous_.function_leading_position();
-  status.PhaseShift = synchronous_.phase_shift().value().rounded();
-  status.Offset = synchronous_.following_offset().value().rounded();
+  if (synchronous_.shifted()) show_shifts();
   status.FunctionFollowingValue.Position = function.position.value;
   status.FunctionFollowingValue.Velocity = function.velocity;
   status.FunctionFollowingValue.Acceleration = function.acceleration;
@@ -151,6 +150,12 @@ void Axis::publish_synchronous() noexcept {
   watch_deviation();
 }
 
+void Axis::show_shifts() noexcept {
+  const SynchronousMotion& synchronous = synchronous_;
+  data.StatusSynchronizedMotion.PhaseShift = synchronous.phase_shift().value().rounded();
+  data.StatusSynchronizedMotion.Offset = synchronous.following_offset().value().rounded();
+}
+
 /// How far the axis is from where the function has it. A drive follows later; there the balanced difference
 /// tells.
 void Axis::watch_deviation() noexcept {
@@ -177,8 +182,9 @@ void Axis::publish_status() noexcept {
   if (homing_now_) word |= word_of(StatusBit::HomingCommand);
   if (limit_side_ != 0)
     word |= word_of(limit_side_ < 0 ? StatusBit::SWLimitMinActive : StatusBit::SWLimitMaxActive);
-  if (limit_switches_[0].beyond) word |= word_of(StatusBit::HWLimitMinActive);
-  if (limit_switches_[1].beyond) word |= word_of(StatusBit::HWLimitMaxActive);
+  if (beyond_limit_switch_)
+    word |= when(limit_switches_[0].beyond, StatusBit::HWLimitMinActive) |
+            when(limit_switches_[1].beyond, StatusBit::HWLimitMaxActive);
 
   std::uint32_t word2 = 0;
   if (const Job* const base = running_[kBase]) {
@@ -198,8 +204,18 @@ void Axis::publish_status() noexcept {
   if (!has_position())
     data.StatusWord = static_cast<DWORD>(static_cast<std::uint32_t>(data.StatusWord) & kOfSpeedAxis);
   data.StatusWord2 = renewed(data.StatusWord2, kStatus2Bits, word2);
-  data.StatusDrive.InOperation = has_drive_ ? drive_running_ : on;
-  data.StatusDrive.Disabled = power_state_ == PowerState::off;
+  show_drive_state();
+}
+
+/// Written when it changes: a line of memory less in every cycle.
+void Axis::show_drive_state() noexcept {
+  const bool operating = has_drive_ ? drive_running_ : power_state_ == PowerState::on;
+  const bool disabled = power_state_ == PowerState::off;
+  const auto shown = static_cast<std::uint8_t>(int{operating} | int{disabled} << 1);
+  if (shown == drive_shown_) return;
+  drive_shown_ = shown;
+  data.StatusDrive.InOperation = operating;
+  data.StatusDrive.Disabled = disabled;
 }
 
 /// Whether the acceleration of the setpoint makes it quicker or slower.

@@ -132,14 +132,7 @@ void Axis::step_synchronous() noexcept {
   Job* job = running_[kBase];
   if (job->update) synchronous_.change_ratio(job->numerator, job->denominator);
   synchronous_.look_at_leading();
-  if (running_[kPhasing] != nullptr)
-    advance_shift(kPhasing);
-  else if (synchronous_.phase_shift().settling())
-    synchronous_.advance_phase_shift();
-  if (running_[kOffset] != nullptr)
-    advance_shift(kOffset);
-  else if (synchronous_.following_offset().settling())
-    synchronous_.advance_following_offset();
+  if (synchronous_.shifted()) advance_shifts();
   if (motion_ == Motion::synchronous && running_[kWaitingOut] == nullptr) {
     synchronous_.advance(setpoint_);
     if (synchronous_.at_cam_end()) meet_cam_end();
@@ -236,6 +229,17 @@ void Axis::begin_shift(Job& job) noexcept {
   }
   running_[phasing ? kPhasing : kOffset] = &job;
   job.phase = shift.phase() == Shift::Phase::running ? JobPhase::active : JobPhase::waiting;
+}
+
+void Axis::advance_shifts() noexcept {
+  if (running_[kPhasing] != nullptr)
+    advance_shift(kPhasing);
+  else if (synchronous_.phase_shift().settling())
+    synchronous_.advance_phase_shift();
+  if (running_[kOffset] != nullptr)
+    advance_shift(kOffset);
+  else if (synchronous_.following_offset().settling())
+    synchronous_.advance_following_offset();
 }
 
 void Axis::advance_shift(Slot slot) noexcept {

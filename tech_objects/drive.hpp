@@ -159,41 +159,45 @@ class SimulatedDrive final : public Drive {
   void move_plant(const DoubleDouble& position_before, double velocity_before) noexcept;
   void watch_stop() noexcept;
 
-  std::array<double, kDelay> written_{};  // velocity setpoints, by cycle
-  std::size_t ring_ = 1;                  // of these, as many as are kept; a power of two
+  // What every cycle touches, in lines of the cache.
+  std::size_t ring_ = 1;  // of written_, as many as are kept; a power of two
   std::size_t cycle_ = 0;
   std::size_t whole_cycles_ = 0;  // of dead time
-  Piece before_;                  // of a cycle: with the setpoint one older
-  Piece after_;
-  double servo_cycle_ = 0.001;
-  double resolution_ = 0.0;
-  double known_delay_ = 0.0;
-  double transport_delay_ = 0.0;
   DoubleDouble position_;
   double velocity_ = 0.0;
-  DoubleDouble reported_;
   DriveStates states_;
-
-  // Seldom of account.
   bool has_faults_ = false;
   bool blocked_ = false;
+
+  Piece before_;  // of a cycle: with the setpoint one older
+  Piece after_;
+  double last_setpoint_ = 0.0;   // heard last [u/s]
+  std::size_t loop_cycles_ = 0;  // in which a target of the position loop may still be under way
+
+  double servo_cycle_ = 0.001;
+  double resolution_ = 0.0;
+  DoubleDouble reported_;
+  MachinePlant plant_;
+
+  std::array<double, kDelay> written_{};  // velocity setpoints, by cycle
+
+  // Seldom of account.
+  double known_delay_ = 0.0;
+  double transport_delay_ = 0.0;
   std::uint16_t stw1_ = kControlOff;
   std::uint16_t stw2_ = 0;
   int stopping_cycles_ = 0;     // of a stop of its own
   double stop_velocity_ = 0.0;  // at its begin [u/s]
   double quick_stop_ = 0.0;     // [u/s²]
   double ramp_ = 0.0;           // setpoint of a quick stop [u/s]
-  double last_setpoint_ = 0.0;  // heard last [u/s]
   double most_stop_cycles_ = 0.0;
   std::array<Target, kDelay> targets_{};  // by cycle, as the velocity setpoints
   Target next_target_;
-  std::size_t loop_cycles_ = 0;  // in which such a target may still be under way
-  int steps_ = 1;                // of the position loop in a servo cycle
+  int steps_ = 1;  // of the position loop in a servo cycle
   Piece step_;
   double arrival_ = 0.0;  // [s] of a setpoint, from the beginning of its servo cycle
   TorqueCommand torque_;
   SimulatedFaults faults_;
-  MachinePlant plant_;
   DriveActual told_;  // last, for a drive that falls silent
 };
 
@@ -245,13 +249,13 @@ class PositionController {
  private:
   AxisPosition delayed(std::size_t whole, double part, const Modulo& modulo) const noexcept;
 
-  std::array<AxisPosition, kDelay> setpoints_{};
   std::size_t cycle_ = 0;
   std::size_t whole_cycles_ = 0;
   double part_ = 0.0;  // of a cycle
+  PositionControlSettings settings_;
   std::size_t whole_ahead_ = 0;
   double part_ahead_ = 0.0;
-  PositionControlSettings settings_;
+  std::array<AxisPosition, kDelay> setpoints_{};
 };
 
 }  // namespace lockstep

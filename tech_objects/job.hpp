@@ -110,6 +110,7 @@ struct MeasuredEdges {
 struct Job {
   JobKind kind{};
   JobPhase phase = JobPhase::idle;
+  BOOL update{};  ///< MC_GearInVelocity: the ratio counts in every cycle
   ErrorId error = ErrorId::none;
 
   LREAL position{};           ///< target, distance, home position or shift [u]
@@ -141,7 +142,6 @@ struct Job {
   LREAL master_scaling = 1.0;
   LREAL slave_scaling = 1.0;
   DINT application_mode{};
-  BOOL update{};  ///< MC_GearInVelocity: the ratio counts in every cycle
 
   const CamCopy* copy{};  ///< MC_CopyCamData: what is copied; read when the job is handed over
   BOOL limited{};         ///< MC_MeasuringInput…: only from start_position to position

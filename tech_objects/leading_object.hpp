@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tech_objects/axis_position.hpp"
+#include "tech_objects/cache_line.hpp"
 #include "tech_objects/extrapolation.hpp"
 #include "tech_objects/setpoint.hpp"
 #include "tech_objects/technology_object.hpp"
@@ -51,7 +52,6 @@ class LeadingObject : public TechnologyObject {
   const Setpoint& last_setpoint() const noexcept { return last_setpoint_; }
   bool position_controlled() const noexcept { return position_controlled_; }
 
-  PowerRequest power;
   bool enabled() const noexcept { return power_state_ == PowerState::on; }
   bool off() const noexcept { return power_state_ == PowerState::off; }
   /// Whether an alarm has removed the enable, until it is acknowledged.
@@ -68,8 +68,6 @@ class LeadingObject : public TechnologyObject {
   virtual bool actual_values_valid() const noexcept { return true; }
   /// Whether a homing waits for its mark, so that the zero mark or probe of the encoder's telegram is taken.
   virtual bool homing() const noexcept { return false; }
-  /// The measuring input that measures by the telegram of the encoder at present; nullptr: none.
-  const void* telegram_probe = nullptr;
   /// By how much homing has changed the names of positions since the start [u].
   DoubleDouble renamed() const noexcept { return renamed_; }
   /// Jobs of MC_Home so far that end what measures here: those that look for a mark, and mode 9.
@@ -81,11 +79,16 @@ class LeadingObject : public TechnologyObject {
   /// Whether it stands, so that a coupling may be taken over to its simulation.
   virtual bool leading_value_stands() const noexcept = 0;
 
-  /// Raised by a restart, after which positions may be on another ring; the cycle tells those that follow.
-  bool restarted = false;
-
   /// Load time: somebody follows the actual value, which has to be extrapolated from then on.
   void lead_by_actual_value() noexcept { leads_by_actual_value_ = true; }
+
+  // From here to the setpoints: what every interpolator cycle touches, in two lines of the cache.
+
+  alignas(kCacheLine) PowerRequest power;
+  /// The measuring input that measures by the telegram of the encoder at present; nullptr: none.
+  const void* telegram_probe = nullptr;
+  /// Raised by a restart, after which positions may be on another ring; the cycle tells those that follow.
+  bool restarted = false;
 
  protected:
   /// `drive_stops`: switched off, and the drive comes to rest by itself.
@@ -109,19 +112,19 @@ class LeadingObject : public TechnologyObject {
     handing_over_ = true;
   }
 
-  // Hot: touched in every interpolator cycle.
-  Setpoint setpoint_;
-  Setpoint last_setpoint_;
-  Modulo modulo_;
   bool position_controlled_ = true;
   bool handing_over_ = false;  // axes that follow the setpoint see `led_`, which is on its way to it
   PowerState power_state_ = PowerState::off;
   bool enable_removed_ = false;
+  bool leads_by_actual_value_ = false;
+  Modulo modulo_;
+  Setpoint setpoint_;
+  Setpoint last_setpoint_;
+
   std::uint32_t restarts_ = 0;
   std::uint32_t homings_ = 0;
 
  private:
-  bool leads_by_actual_value_ = false;
   Setpoint led_;
   Setpoint last_led_;
   Setpoint leading_actual_;

@@ -72,14 +72,14 @@ class MachinePlant {
               double additive) noexcept;
   double stop_torque(const Begin& begin, double velocity) const noexcept;
 
-  MachinePlantSettings settings_;
+  double torque_ = 0.0;   // of the motor
   double inertia_ = 0.0;  // torque per acceleration of the machine [Nm s²/u]
+  MachinePlantSettings settings_;
   double start_ = 0.0;
   double cycle_ = 0.001;
   double damping_ = 0.0;   // of the stop [Nm s/u]
   double learning_ = 0.0;  // part of a disturbance that is made up for within a cycle
   double known_ = 0.0;     // disturbance that the drive makes up for
-  double torque_ = 0.0;    // of the motor
   bool limited_ = false;
 };
 

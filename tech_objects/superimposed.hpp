@@ -61,14 +61,14 @@ class Superimposed {
  private:
   void settle() noexcept;
 
-  bool in_use_ = false;
-  bool waits_ = false;  // for room, at rest
-  bool given_ = false;  // the values are given in every cycle
   DoubleDouble anchor_;
   Setpoint local_;         // from the anchor on
   double distance_ = 0.0;  // that waits [u]
   Dynamics room_;
   SingleAxisMotion motion_;
+  bool waits_ = false;   // for room, at rest
+  bool given_ = false;   // the values are given in every cycle
+  bool in_use_ = false;  // last, beside what an axis touches in every cycle
 };
 
 }  // namespace lockstep

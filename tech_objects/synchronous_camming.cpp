@@ -228,7 +228,7 @@ SynchronousMotion::Start SynchronousMotion::set_on_cam(const Setpoint& own) noex
   const AxisPosition place = follow_.value(leading_last_.position).position;
   if (following_.enabled) follow_.add_turns(own.position.turns - place.turns);
   const DoubleDouble apart = two_difference(own.position.value, place.value);
-  offset_.start_at(apart);
+  begin_with_offset(apart);
   slave_offset_ = apart.hi;
   master_offset_ = leading_last_.position.value - cam_sync_way_ - cam_start();
   synchronous_ = true;
@@ -259,7 +259,7 @@ SynchronousMotion::Start SynchronousMotion::watch_cam_end(const SynchronousMotio
   const double at = f.start_leading_value() + cam_sync_way_ / cam_use_.master_scaling;
   const DoubleDouble apart = -two_product(f.value(at).position, cam_use_.slave_scaling) + following.value;
   follow_.add_turns(following.turns);
-  offset_.start_at(apart);
+  begin_with_offset(apart);
   slave_offset_ = apart.hi;
   master_offset_ = normalised(0, leading, leading_modulo_).value - cam_sync_way_ - cam_start();
   synchronous_ = true;
@@ -276,11 +276,12 @@ void SynchronousMotion::settle_shifts(const SynchronousMotion& ended, const Dyna
                              .jerk = dynamics.jerk};
   if (moves(ended.phase_)) {
     const Shift phase = one_tick_on(ended.phase_, leading_step());
-    phase_.settle_at(phase.value() - ended.phase_.value(), phase, limits, period_);
+    phase_shift().settle_at(phase.value() - ended.phase_.value(), phase, limits, period_);
   }
   if (moves(ended.offset_)) {
     const Shift offset = one_tick_on(ended.offset_, leading_step());
-    offset_.settle_at(offset_.value() + (offset.value() - ended.offset_.value()), offset, limits, period_);
+    following_offset().settle_at(offset_.value() + (offset.value() - ended.offset_.value()), offset, limits,
+                                 period_);
   }
 }
 
@@ -292,7 +293,7 @@ void SynchronousMotion::evaluate_cam(Setpoint& result) noexcept {
   AxisPosition leading = leading_now_.position;
   double velocity = leading_now_.velocity;
   double acceleration = leading_now_.acceleration;
-  if (phase_.in_use()) {
+  if (shifted_ && phase_.in_use()) {
     leading = advanced(leading, phase_.value(), leading_modulo_);
     velocity += phase_.velocity();
     acceleration += phase_.acceleration();

@@ -45,7 +45,7 @@ bool SynchronousMotion::follows_actual_value() const noexcept {
 void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
   if (synchronous_ && !velocity_only_) {
     evaluate_function(setpoint);
-    if (offset_.in_use()) add_offset(setpoint);
+    if (shifted_ && offset_.in_use()) add_offset(setpoint);
     return;
   }
   if (synchronous_) return advance_in_velocity(setpoint);
@@ -61,8 +61,7 @@ void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
 /// leading value → + additive → effective leading value
 void SynchronousMotion::look_at_leading() noexcept {
   leading_now_ = leading_->source->leading_state(leading_->coupling);
-  const bool steady = synchronous_ && !phase_.in_use() && !offset_.in_use() && !additive_->in_use;
-  if (steady) return;
+  if (synchronous_ && !shifted_ && !additive_->in_use) return;
   leading_last_ = leading_->source->last_leading_state(leading_->coupling);
   if (!additive_->in_use) return;
   add_additive(leading_now_, additive_->now);
@@ -83,7 +82,7 @@ void SynchronousMotion::evaluate_function(Setpoint& result) noexcept {
   AxisPosition position = gear_.value(leading_now_.position);
   double velocity = gear_.velocity(leading_now_.velocity);
   double acceleration = gear_.acceleration(leading_now_.acceleration);
-  if (phase_.in_use()) {
+  if (shifted_ && phase_.in_use()) {
     position = advanced(position, geared_phase_.of(phase_.value(), gear_.ratio()), following_);
     velocity += gear_.velocity(phase_.velocity());
     acceleration += gear_.acceleration(phase_.acceleration());
@@ -227,6 +226,7 @@ void SynchronousMotion::couple(const LeadingValue& leading, const Job& job,
   velocity_only_ = job.kind == JobKind::MC_GearInVelocity;
   phase_.reset();
   offset_.reset();
+  shifted_ = false;
   synchronous_ = false;
   reversed_ = false;
   direction_ = 0;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "tech_objects/alarms.hpp"
+#include "tech_objects/cache_line.hpp"
 #include "tech_objects/cam_motion.hpp"
 #include "tech_objects/gear_function.hpp"
 #include "tech_objects/job.hpp"
@@ -78,10 +79,18 @@ class SynchronousMotion {
   // ---- Shifts of a synchronous axis
 
   /// Leading value offset by MC_Phasing…, following value offset by MC_Offset….
-  Shift& phase_shift() noexcept { return phase_; }
-  Shift& following_offset() noexcept { return offset_; }
+  Shift& phase_shift() noexcept {
+    shifted_ = true;
+    return phase_;
+  }
+  Shift& following_offset() noexcept {
+    shifted_ = true;
+    return offset_;
+  }
   const Shift& phase_shift() const noexcept { return phase_; }
   const Shift& following_offset() const noexcept { return offset_; }
+  /// False as long as neither has been in effect, or asked for, since the coupling.
+  bool shifted() const noexcept { return shifted_; }
   /// Advances both by the leading value of this tick; before `advance`.
   Shift::Event advance_phase_shift() noexcept;
   Shift::Event advance_following_offset() noexcept;
@@ -98,7 +107,7 @@ class SynchronousMotion {
   bool rests_at_cam_end() const noexcept;
   /// Adds to the offset with which a cam begins [u].
   void raise_cam(DoubleDouble by) noexcept {
-    offset_.start_at(offset_.value() + by);
+    begin_with_offset(offset_.value() + by);
     slave_offset_ = offset_.value().hi;
   }
   /// A cam that takes over at the end of another: phase shift and offset that still move there come to rest
@@ -140,12 +149,14 @@ class SynchronousMotion {
   const Setpoint& function_value() const noexcept { return function_; }
   /// Position that the function and the following value offset ask for.
   AxisPosition following_position() const noexcept {
-    return offset_.in_use() ? advanced(function_.position, offset_.value(), following_) : function_.position;
+    return shifted_ && offset_.in_use() ? advanced(function_.position, offset_.value(), following_)
+                                        : function_.position;
   }
   /// Effective leading position and phase shift [u].
   double function_leading_position() const noexcept {
-    return phase_.in_use() ? advanced(leading_now_.position, phase_.value(), leading_modulo_).value
-                           : leading_now_.position.value;
+    return shifted_ && phase_.in_use()
+               ? advanced(leading_now_.position, phase_.value(), leading_modulo_).value
+               : leading_now_.position.value;
   }
 
   /// Shifts the following side of the function without motion, for homing [u].
@@ -175,6 +186,10 @@ class SynchronousMotion {
   void evaluate_cam(Setpoint& result) noexcept;
   void add_additive(Setpoint& leading, const AdditiveLeadingValue& additive) const noexcept;
   void add_offset(Setpoint& setpoint) const noexcept;
+  void begin_with_offset(DoubleDouble value) noexcept {
+    offset_.start_at(value);
+    shifted_ = shifted_ || offset_.in_use();
+  }
   double stopping_way(const Setpoint& from, int heading, const Dynamics& dynamics) const noexcept;
   void advance_in_velocity(Setpoint& setpoint) noexcept;
   static double without_turning_back(double curvature, double slope, double distance) noexcept;
@@ -217,25 +232,27 @@ class SynchronousMotion {
   bool plan_time(const Setpoint& own, const Setpoint& leading, double way, double ahead,
                  Profile& profile) const noexcept;
 
-  const LeadingValue* leading_ = nullptr;
+  // What every cycle touches, in lines of the cache.
+  alignas(kCacheLine) const LeadingValue* leading_ = nullptr;
   Cam* cam_ = nullptr;  // nullptr: gear_ is the function
+  const AdditiveLeadingValues* additive_ = nullptr;
   Way way_ = Way::none;
   bool synchronous_ = false;
   bool reversed_ = false;
-  Modulo leading_modulo_;
-  Modulo following_;
-  double period_ = 0.001;   // [s]
-  double tolerance_ = 0.0;  // [u] of the leading axis
-
+  bool velocity_only_ = false;  // MC_GearInVelocity
+  bool shifted_ = false;        // phase_ and offset_ are of account
   Setpoint leading_now_;
   Setpoint leading_last_;
   Setpoint function_;
   GearFunction gear_;
-  GearedPhase geared_phase_;
-  const AdditiveLeadingValues* additive_ = nullptr;
-  bool velocity_only_ = false;  // MC_GearInVelocity
   Shift phase_;
   Shift offset_;
+
+  GearedPhase geared_phase_;
+  Modulo leading_modulo_;
+  Modulo following_;
+  double period_ = 0.001;   // [s]
+  double tolerance_ = 0.0;  // [u] of the leading axis
 
   // Synchronizing.
   int direction_ = 0;           // of the leading value while synchronizing: 1, -1; 0: it has not moved yet

@@ -1,0 +1,12 @@
+/// How memory is laid out for the processor. What every cycle touches lies together, at the begin of a line:
+/// with a thousand axes the memory that has to come near, not the arithmetic, decides how long a cycle takes.
+#pragma once
+
+#include <cstddef>
+
+namespace lockstep {
+
+/// Bytes that the processor moves at a time.
+inline constexpr std::size_t kCacheLine = 64;
+
+}  // namespace lockstep
