@@ -7,11 +7,14 @@ void ExecuteBlock::call(std::int64_t /*now*/) noexcept {
   last_execute_ = Execute;
   if (!rising && phase() == JobPhase::idle) return;
   const bool ended = phase() >= JobPhase::done;
+  const bool stays = ended && Execute && !rising;
+  if (stays && settled_) return;
+  settled_ = stays;
   if (rising) {
     start();
   } else if (ended && !Execute) {
     set_phase(JobPhase::idle, ErrorId::none);  // it was shown for a call at least
-  } else if (!ended) {
+  } else if (!ended && job_->phase != phase()) {
     set_phase(job_->phase, job_->error);
   }
   Done = phase() == JobPhase::done;

@@ -32,7 +32,8 @@ class ExecuteBlock : public JobBlock {
   Job& free_job() noexcept;
 
   bool last_execute_ = false;
-  Job* job_ = nullptr;  // the one that the outputs show
+  bool settled_ = false;  // an ended job has been shown twice, and nothing changes until Execute does
+  Job* job_ = nullptr;    // the one that the outputs show
   // The job that moves the axis, one that waits and one that is being handed over may be three.
   std::array<Job, 3> jobs_{};
 };

@@ -15,6 +15,7 @@ void MC_GearInVelocity::request(Job& job) const noexcept {
 }
 
 void MC_GearInVelocity::show(JobPhase phase) noexcept {
+  if (Error && phase != JobPhase::failed) set_phase(phase, ErrorId::none);  // of a ratio in the last call
   StartSync = phase == JobPhase::active;
   InSync = phase == JobPhase::reached;
   if (Busy) update_ratio();

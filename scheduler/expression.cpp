@@ -77,6 +77,13 @@ Expression::Expression(const Signal& signal) : Expression(signal, signal.value_t
 Expression::Expression(const Signal& signal, Type type)
     : code_{load_instruction(signal, Mode::kOnly)}, type_(type), constant_(false) {}
 
+const bool* Expression::flag() const noexcept {
+  constexpr Signal kFlag{nullptr, Type::BOOL, -1};
+  const bool plain = type_ == Type::BOOL && code_.size() == 1 &&
+                     code_.front().step == expression_steps::load(kFlag, Mode::kOnly);
+  return plain ? static_cast<const bool*>(code_.front().operand.address) : nullptr;
+}
+
 Value Expression::evaluate(EvaluationCounters& counters) const noexcept {
   return std::bit_cast<Value>(run(code_.data(), counters));
 }

@@ -127,6 +127,8 @@ class Expression {
   /// Whether the value never changes and evaluating it counts nothing.
   bool constant() const noexcept { return constant_; }
   std::size_t instructions() const noexcept { return code_.size(); }
+  /// Of an expression that is a whole BOOL and nothing else: that BOOL; nullptr for all others.
+  const bool* flag() const noexcept;
 
  private:
   friend class ExpressionBuilder;

@@ -15,13 +15,18 @@ const Expression* Program::keep(Expression expression) {
 
 void Program::add_assignment(Expression expression, Signal place) {
   const bool whole_flag = place.type == Type::BOOL && place.bit < 0;
-  Instruction& instruction =
-      instructions_.emplace_back(whole_flag ? Op::assign_flag : Op::assign, keep(std::move(expression)));
-  if (whole_flag) {
-    instruction.flag = static_cast<bool*>(place.address);
-  } else {
-    instruction.place = &places_.emplace_back(Place{place, nullptr});
+  if (!whole_flag) {
+    instructions_.emplace_back(Op::assign, keep(std::move(expression))).place =
+        &places_.emplace_back(Place{place, nullptr});
+    return;
   }
+  const bool* const source = expression.flag();
+  Instruction& instruction = instructions_.emplace_back(source != nullptr ? Op::copy_flag : Op::assign_flag);
+  instruction.flag = static_cast<bool*>(place.address);
+  if (source != nullptr)
+    instruction.source = source;
+  else
+    instruction.expression = keep(std::move(expression));
 }
 
 void Program::add_assignment(Expression expression, Signal place, const Variable& variable) {
@@ -66,6 +71,9 @@ void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept
     switch (instruction.op) {
       case Op::call:
         instruction.block->call(now);
+        break;
+      case Op::copy_flag:
+        *instruction.flag = *instruction.source;
         break;
       case Op::assign_flag:
         *instruction.flag = instruction.expression->evaluate(counters).u != 0;

@@ -61,6 +61,7 @@ class Program {
  private:
   enum class Op : std::uint8_t {
     call,
+    copy_flag,
     assign_flag,
     assign,
     assign_variable,
@@ -85,7 +86,10 @@ class Program {
 
     Op op;
     std::uint32_t target = 0;  // of a jump
-    const Expression* expression;
+    union {
+      const Expression* expression;
+      const bool* source;  // of copy_flag
+    };
     union {
       Block* block = nullptr;
       bool* flag;  // a whole BOOL, as most pins with an expression are

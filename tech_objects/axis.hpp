@@ -89,7 +89,7 @@ class Axis final : public LeadingObject {
   bool is_virtual() const noexcept { return data.VirtualAxis.Mode == 1; }
   /// A TO_SpeedAxis has none: it is moved without position control, and its user unit is the turn of the load
   /// per unit of time (Units.VelocityUnit) and second.
-  bool has_position() const noexcept { return kind != ObjectKind::TO_SpeedAxis; }
+  bool has_position() const noexcept { return has_position_; }
 
   // ---- Cycle: called by blocks
   // ------------------------------------------------------------------------------------
@@ -498,10 +498,11 @@ class Axis final : public LeadingObject {
 
   // axis_publish.cpp: the data block
   void publish_motion() noexcept;
-  void show_cam_use() const noexcept;
   void publish_awaited() noexcept;
   void publish_synchronous() noexcept;
   void show_shifts() noexcept;
+  std::uint32_t bits_of_excess() const noexcept;
+  std::uint32_t bits_beyond_limits() const noexcept;
   void watch_deviation() noexcept;
   void publish_status() noexcept;
   void show_drive_state() noexcept;

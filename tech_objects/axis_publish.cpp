@@ -1,4 +1,5 @@
 // What an axis shows in its technology data block at the end of an interpolator cycle.
+#include <algorithm>
 #include <cmath>
 
 #include "tech_objects/axis.hpp"
@@ -64,23 +65,19 @@ constexpr std::uint32_t kOfSpeedAxis = 0x0E00765F;
 
 }  // namespace
 
+/// A cam that is followed, simulated or waited for is in use.
 void Axis::publish() noexcept {
   publish_motion();
-  if (led() || simulating())
+  if (led() || simulating()) {
     publish_synchronous();
-  else
-    publish_awaited();
-  show_cam_use();
-  publish_status();
-  if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
-}
-
-/// A cam that is followed, simulated or waited for is in use.
-void Axis::show_cam_use() const noexcept {
-  if (led() || simulating())
     if (Cam* const cam = synchronous_.cam()) cam->show_use();
+  } else {
+    publish_awaited();
+  }
   if (running_[kWaiting] != nullptr && running_[kWaiting]->cam != nullptr)
     running_[kWaiting]->cam->show_use();
+  publish_status();
+  if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
 }
 
 void Axis::publish_motion() noexcept {
@@ -126,28 +123,41 @@ void Axis::publish_synchronous() noexcept {
   status.FunctionFollowingValue.Velocity = function.velocity;
   status.FunctionFollowingValue.Acceleration = function.acceleration;
 
-  const double speed = std::abs(setpoint_.velocity);
+  status.StatusWord =
+      renewed(status.StatusWord, kSynchronizedMotionBits,
+              bits_of_excess() | when(simulating(), SynchronizedMotionBit::InSimulation) |
+                  when(additive_request.counts, SynchronizedMotionBit::LeadingValueAdditiveCommand));
+
+  if (motion_ != Motion::synchronous) return;
+  was_synchronous_ = true;
+  watch_deviation();
+}
+
+/// Which limits the setpoint exceeds: none, most of the time.
+std::uint32_t Axis::bits_of_excess() const noexcept {
+  const auto& limits = data.DynamicLimits;
+  const double steepest = std::min(limits.MaxAcceleration, limits.MaxDeceleration);
+  const double change = setpoint_.velocity - last_setpoint_.velocity;
+  const bool within = std::abs(setpoint_.velocity) <= limits.MaxVelocity &&
+                      std::abs(setpoint_.acceleration) <= steepest && std::abs(change) <= steepest * period_;
+  return within ? 0 : bits_beyond_limits();
+}
+
+std::uint32_t Axis::bits_beyond_limits() const noexcept {
+  const auto& limits = data.DynamicLimits;
   const double push = setpoint_.velocity < 0.0 ? -setpoint_.acceleration : setpoint_.acceleration;
   // A velocity may step where the acceleration of the function does not tell: with a changed ratio, at a
   // corner of a cam.
   const double change = setpoint_.velocity - last_setpoint_.velocity;
   const double gained = sign(setpoint_.velocity) * change;
   const double lost = -sign(last_setpoint_.velocity) * change;
-  const auto& limits = data.DynamicLimits;
   const double rounding = kRounding * limits.MaxVelocity;
-  status.StatusWord = renewed(
-      status.StatusWord, kSynchronizedMotionBits,
-      when(speed > limits.MaxVelocity, SynchronizedMotionBit::MaxVelocityExceeded) |
-          when((push > limits.MaxAcceleration) | (gained - rounding > limits.MaxAcceleration * period_),
-               SynchronizedMotionBit::MaxAccelerationExceeded) |
-          when((-push > limits.MaxDeceleration) | (lost - rounding > limits.MaxDeceleration * period_),
-               SynchronizedMotionBit::MaxDecelerationExceeded) |
-          when(simulating(), SynchronizedMotionBit::InSimulation) |
-          when(additive_request.counts, SynchronizedMotionBit::LeadingValueAdditiveCommand));
-
-  if (motion_ != Motion::synchronous) return;
-  was_synchronous_ = true;
-  watch_deviation();
+  const bool too_quick =
+      push > limits.MaxAcceleration || gained - rounding > limits.MaxAcceleration * period_;
+  const bool too_hard = -push > limits.MaxDeceleration || lost - rounding > limits.MaxDeceleration * period_;
+  return when(std::abs(setpoint_.velocity) > limits.MaxVelocity, SynchronizedMotionBit::MaxVelocityExceeded) |
+         when(too_quick, SynchronizedMotionBit::MaxAccelerationExceeded) |
+         when(too_hard, SynchronizedMotionBit::MaxDecelerationExceeded);
 }
 
 void Axis::show_shifts() noexcept {
@@ -177,7 +187,10 @@ void Axis::publish_status() noexcept {
       when(standstill_.watch(actual_velocity_, data.StandstillSignal, period_), StatusBit::Standstill);
   if (motion_ == Motion::synchronous) word |= word_of(StatusBit::Synchronous);
   if (motion_ == Motion::synchronizing) word |= word_of(StatusBit::Synchronizing);
-  if (setpoint_.acceleration != 0.0) word |= pace_bits();
+  if (setpoint_.acceleration != 0.0)
+    word |= pace_bits();
+  else
+    word |= when(on, StatusBit::ConstantVelocity);
   if (on) word |= bits_when_on();
   if (homing_now_) word |= word_of(StatusBit::HomingCommand);
   if (limit_side_ != 0)
@@ -229,7 +242,6 @@ std::uint32_t Axis::bits_when_on() const noexcept {
   const bool idle =
       running_[kBase] == nullptr && running_[kWaiting] == nullptr && running_[kSuperimposed] == nullptr;
   return when(power.enable, StatusBit::Enable) | when(idle, StatusBit::Done) |
-         when(setpoint_.acceleration == 0.0, StatusBit::ConstantVelocity) |
          when(!position_controlled_, StatusBit::NonPositionControlled);
 }
 

@@ -248,7 +248,7 @@ void Axis::advance_shift(Slot slot) noexcept {
   const Shift::Event event =
       slot == kPhasing ? synchronous_.advance_phase_shift() : synchronous_.advance_following_offset();
   job.phase = shift.phase() == Shift::Phase::waiting ? JobPhase::waiting : JobPhase::active;
-  job.covered = (shift.value() - job.shift_base).rounded();
+  job.covered = rounded_difference(shift.value(), job.shift_base);
   if (event == Shift::Event::done) end_job(slot, JobPhase::done, ErrorId::none);
   if (event == Shift::Event::reversed) end_job(slot, JobPhase::failed, ErrorId::leading_value_reversed);
 }

@@ -85,6 +85,12 @@ constexpr DoubleDouble operator-(DoubleDouble a, double b) noexcept {
   return a + -b;
 }
 
+/// a - b as a double, within an ulp of it.
+constexpr double rounded_difference(DoubleDouble a, DoubleDouble b) noexcept {
+  const DoubleDouble high = two_difference(a.hi, b.hi);
+  return high.hi + (high.lo + (a.lo - b.lo));
+}
+
 constexpr DoubleDouble operator*(DoubleDouble a, double b) noexcept {
   const DoubleDouble product = two_product(a.hi, b);
   return quick_two_sum(product.hi, product.lo + a.lo * b);

@@ -117,6 +117,7 @@ class LeadingObject : public TechnologyObject {
   PowerState power_state_ = PowerState::off;
   bool enable_removed_ = false;
   bool leads_by_actual_value_ = false;
+  const bool has_position_ = kind != ObjectKind::TO_SpeedAxis;
   Modulo modulo_;
   Setpoint setpoint_;
   Setpoint last_setpoint_;

@@ -14,7 +14,7 @@ constexpr double kSteepest = 20.0;
 ErrorId Shift::begin(const ShiftRequest& request, double period) noexcept {
   const MotionState from{0.0, velocity_, acceleration_};
   const bool over_time = request.profile == 0;
-  const bool moving = velocity_ != 0.0 || acceleration_ != 0.0;
+  const bool moving = moves();
   Profile profile;
   PlanResult result = PlanResult::ok;
   if (over_time) {
@@ -29,7 +29,7 @@ ErrorId Shift::begin(const ShiftRequest& request, double period) noexcept {
   period_ = period;
   base_ = value_;
   ticks_ = 0;
-  heading_ = 0;
+  heading_ = 0.0;
   covered_ = 0.0;
   planned_ = false;
   in_use_ = true;
@@ -41,7 +41,7 @@ void Shift::settle_at(DoubleDouble value, const Shift& moving, const ProfileLimi
                       double period) noexcept {
   const MotionState from{0.0, moving.velocity_, moving.acceleration_};
   start_at(value);
-  if (from.velocity == 0.0 && from.acceleration == 0.0) return;
+  if (!moving.moves()) return;
   if (plan_stop(from, limits, PresentAcceleration::keep, profile_) != PlanResult::ok) return;
   velocity_ = from.velocity;
   acceleration_ = from.acceleration;
@@ -59,7 +59,7 @@ void Shift::halt() noexcept {
   acceleration_ = 0.0;
 }
 
-Shift::Event Shift::advance(const LeadingStep& step) noexcept {
+Shift::Event Shift::wait_or_follow_time(const LeadingStep& step) noexcept {
   if (phase_ == Phase::waiting && may_start(step)) {
     phase_ = Phase::running;
     if (can_lead_on(step)) settling_ = false;
@@ -123,8 +123,10 @@ void Shift::start_over_distance(const LeadingStep& step) noexcept {
 
 Shift::Event Shift::follow_leading(const LeadingStep& step) noexcept {
   const double way = step.way();
-  if (heading_ == 0) heading_ = way > 0.0 ? 1 : way < 0.0 ? -1 : 0;
-  if (heading_ == 0) return Event::none;
+  if (heading_ == 0.0) {
+    if (!(way != 0.0)) return Event::none;
+    heading_ = std::copysign(1.0, way);
+  }
   if (!planned_) start_over_distance(step);
   if (heading_ * way < 0.0) {
     halt();

@@ -66,7 +66,10 @@ class Shift {
   void cancel() noexcept { phase_ = Phase::resting; }
 
   /// One tick.
-  Event advance(const LeadingStep& step) noexcept;
+  Event advance(const LeadingStep& step) noexcept {
+    const bool led = phase_ == Phase::running && !settling_ && request_.profile != 0;
+    return led ? follow_leading(step) : wait_or_follow_time(step);
+  }
 
   Phase phase() const noexcept { return phase_; }
   /// Whether it is coming to rest, also without a job.
@@ -74,7 +77,8 @@ class Shift {
   /// Whether there is any shift, or one is coming.
   bool in_use() const noexcept { return in_use_; }
 
-  DoubleDouble value() const noexcept { return value_; }          ///< [u]
+  DoubleDouble value() const noexcept { return value_; }  ///< [u]
+  bool moves() const noexcept { return velocity_ != 0.0 || acceleration_ != 0.0; }
   double velocity() const noexcept { return velocity_; }          ///< [u/s]
   double acceleration() const noexcept { return acceleration_; }  ///< [u/s²]
 
@@ -83,6 +87,7 @@ class Shift {
   bool can_lead_on(const LeadingStep& step) const noexcept;
   SyncOffset remainder_at_start(const LeadingStep& step) const noexcept;
   void start_over_distance(const LeadingStep& step) noexcept;
+  Event wait_or_follow_time(const LeadingStep& step) noexcept;
   Event follow_leading(const LeadingStep& step) noexcept;
   Event follow_time() noexcept;
   bool follow_profile() noexcept;
@@ -97,7 +102,7 @@ class Shift {
 
   ShiftRequest request_;
   double to_start_ = 0.0;  // leading way from the last tick to the start [u]
-  int heading_ = 0;        // of the leading value while running: 1, -1; 0: it has not moved yet
+  double heading_ = 0.0;   // of the leading value while running: 1, -1; 0: it has not moved yet
   double covered_ = 0.0;   // leading distance since the start [u]
   Remainder remainder_;    // target - value over the leading distance, negative
   bool planned_ = false;

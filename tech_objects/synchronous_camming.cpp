@@ -28,7 +28,7 @@ Shift one_tick_on(const Shift& shift, const LeadingStep& step) noexcept {
   return moved;
 }
 
-bool moves(const Shift& shift) noexcept {
+bool under_way(const Shift& shift) noexcept {
   return shift.phase() != Shift::Phase::resting || shift.settling();
 }
 
@@ -246,7 +246,7 @@ SynchronousMotion::Start SynchronousMotion::watch_cam_end(const SynchronousMotio
   // The active motion has not been advanced yet: what its phase shift will be decides whether it is at the
   // end.
   const DoubleDouble now =
-      moves(active->phase_) ? one_tick_on(active->phase_, leading_step()).value() : phase;
+      under_way(active->phase_) ? one_tick_on(active->phase_, leading_step()).value() : phase;
   const CamEnd end = old.end_before(advanced(leading_now_.position, now, leading_modulo_));
   if (end == CamEnd::none) return Start::not_yet;
   const CamFollowing::LeadingPlace place = old.end_place(end);
@@ -274,11 +274,11 @@ void SynchronousMotion::settle_shifts(const SynchronousMotion& ended, const Dyna
                              .acceleration = dynamics.acceleration,
                              .deceleration = dynamics.deceleration,
                              .jerk = dynamics.jerk};
-  if (moves(ended.phase_)) {
+  if (under_way(ended.phase_)) {
     const Shift phase = one_tick_on(ended.phase_, leading_step());
     phase_shift().settle_at(phase.value() - ended.phase_.value(), phase, limits, period_);
   }
-  if (moves(ended.offset_)) {
+  if (under_way(ended.offset_)) {
     const Shift offset = one_tick_on(ended.offset_, leading_step());
     following_offset().settle_at(offset_.value() + (offset.value() - ended.offset_.value()), offset, limits,
                                  period_);

@@ -84,8 +84,10 @@ void SynchronousMotion::evaluate_function(Setpoint& result) noexcept {
   double acceleration = gear_.acceleration(leading_now_.acceleration);
   if (shifted_ && phase_.in_use()) {
     position = advanced(position, geared_phase_.of(phase_.value(), gear_.ratio()), following_);
-    velocity += gear_.velocity(phase_.velocity());
-    acceleration += gear_.acceleration(phase_.acceleration());
+    if (phase_.moves()) {
+      velocity += gear_.velocity(phase_.velocity());
+      acceleration += gear_.acceleration(phase_.acceleration());
+    }
   }
   result.position.turns = function_.position.turns = position.turns;
   result.position.value = function_.position.value = position.value;
@@ -94,18 +96,10 @@ void SynchronousMotion::evaluate_function(Setpoint& result) noexcept {
 }
 
 /// function → + offset
-void SynchronousMotion::add_offset(Setpoint& setpoint) const noexcept {
-  setpoint.position = advanced(setpoint.position, offset_.value(), following_);
+void SynchronousMotion::add_offset(Setpoint& setpoint) noexcept {
+  setpoint.position = followed_ = advanced(setpoint.position, offset_.value(), following_);
   setpoint.velocity += offset_.velocity();
   setpoint.acceleration += offset_.acceleration();
-}
-
-Shift::Event SynchronousMotion::advance_phase_shift() noexcept {
-  return phase_.advance(leading_step());
-}
-
-Shift::Event SynchronousMotion::advance_following_offset() noexcept {
-  return offset_.advance(leading_step());
 }
 
 /// MC_GearInVelocity: the velocity follows, whatever the position.
@@ -117,11 +111,17 @@ void SynchronousMotion::advance_in_velocity(Setpoint& setpoint) noexcept {
   function_ = setpoint;
 }
 
+/// Both positions belong together from now on.
+void SynchronousMotion::place_gear(AxisPosition leading, AxisPosition following) noexcept {
+  gear_.set(numerator_, denominator_, leading, following, leading_modulo_, following_);
+  geared_phase_.forget();
+}
+
 void SynchronousMotion::change_ratio(DINT numerator, DINT denominator) noexcept {
   if (!synchronous_ || (numerator == numerator_ && denominator == denominator_)) return;
   numerator_ = numerator;
   denominator_ = denominator;
-  gear_.set(numerator_, denominator_, {}, {}, leading_modulo_, following_);
+  place_gear({}, {});
 }
 
 /// Over a distance the progress is the very place at which the profile is read, so that a leading axis homed
@@ -151,9 +151,7 @@ void SynchronousMotion::advance_velocity(Setpoint& setpoint) noexcept {
   setpoint.acceleration = step.acceleration;
   function_ = setpoint;
   if (!step.synchronous || holding) return;
-  if (!velocity_only_)
-    gear_.set(numerator_, denominator_, leading_now_.position, setpoint.position, leading_modulo_,
-              following_);
+  if (!velocity_only_) place_gear(leading_now_.position, setpoint.position);
   synchronous_ = true;
 }
 
@@ -199,7 +197,7 @@ void SynchronousMotion::shift_following(double by) noexcept {
   const AxisPosition without_phase =
       phase_.in_use() ? advanced(function_.position, -(gear_.ratio() * phase_.value()), following_)
                       : function_.position;
-  gear_.set(numerator_, denominator_, leading_now_.position, without_phase, leading_modulo_, following_);
+  place_gear(leading_now_.position, without_phase);
 }
 
 void SynchronousMotion::turn_following(std::int64_t turns) noexcept {
@@ -238,7 +236,7 @@ void SynchronousMotion::begin_gear_in(const LeadingValue& leading, const Job& jo
                                       const Dynamics& dynamics) noexcept {
   couple(leading, job, dynamics);
   way_ = Way::velocity;
-  gear_.set(numerator_, denominator_, {}, {}, leading_modulo_, following_);  // for its ratio; placed when met
+  place_gear({}, {});  // for its ratio; placed when met
 }
 
 ErrorId SynchronousMotion::begin_waiting(const LeadingValue& leading, const Job& job,
@@ -316,8 +314,7 @@ double SynchronousMotion::way_to(double place) const noexcept {
 /// tick.
 void SynchronousMotion::anchor(double way_to_sync_position, AxisPosition following) noexcept {
   following.value = slave_sync_position_;
-  gear_.set(numerator_, denominator_, leading_at(way_to_sync_position), following, leading_modulo_,
-            following_);
+  place_gear(leading_at(way_to_sync_position), following);
 }
 
 /// The synchronous position of the leading axis, a way ahead of the last tick.

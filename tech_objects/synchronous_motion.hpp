@@ -92,8 +92,8 @@ class SynchronousMotion {
   /// False as long as neither has been in effect, or asked for, since the coupling.
   bool shifted() const noexcept { return shifted_; }
   /// Advances both by the leading value of this tick; before `advance`.
-  Shift::Event advance_phase_shift() noexcept;
-  Shift::Event advance_following_offset() noexcept;
+  Shift::Event advance_phase_shift() noexcept { return phase_.advance(leading_step()); }
+  Shift::Event advance_following_offset() noexcept { return offset_.advance(leading_step()); }
 
   // ---- Cams
 
@@ -149,8 +149,7 @@ class SynchronousMotion {
   const Setpoint& function_value() const noexcept { return function_; }
   /// Position that the function and the following value offset ask for.
   AxisPosition following_position() const noexcept {
-    return shifted_ && offset_.in_use() ? advanced(function_.position, offset_.value(), following_)
-                                        : function_.position;
+    return shifted_ && offset_.in_use() ? followed_ : function_.position;
   }
   /// Effective leading position and phase shift [u].
   double function_leading_position() const noexcept {
@@ -165,19 +164,21 @@ class SynchronousMotion {
   void turn_following(std::int64_t turns) noexcept;
 
  private:
-  /// A phase shift behind the gear; most of the time both are those of the tick before.
+  /// A phase shift behind the gear; most of the time it is that of the tick before.
   class GearedPhase {
    public:
     DoubleDouble of(DoubleDouble phase, DoubleDouble ratio) noexcept {
-      if (phase == phase_ && ratio == ratio_) return product_;
+      if (known_ && phase == phase_) return product_;
+      known_ = true;
       phase_ = phase;
-      ratio_ = ratio;
       return product_ = ratio * phase;
     }
+    /// The gear has changed.
+    void forget() noexcept { known_ = false; }
 
    private:
+    bool known_ = false;
     DoubleDouble phase_;
-    DoubleDouble ratio_;
     DoubleDouble product_;
   };
 
@@ -185,7 +186,8 @@ class SynchronousMotion {
   void evaluate_function(Setpoint& result) noexcept;
   void evaluate_cam(Setpoint& result) noexcept;
   void add_additive(Setpoint& leading, const AdditiveLeadingValue& additive) const noexcept;
-  void add_offset(Setpoint& setpoint) const noexcept;
+  void add_offset(Setpoint& setpoint) noexcept;
+  void place_gear(AxisPosition leading, AxisPosition following) noexcept;
   void begin_with_offset(DoubleDouble value) noexcept {
     offset_.start_at(value);
     shifted_ = shifted_ || offset_.in_use();
@@ -249,6 +251,7 @@ class SynchronousMotion {
   Shift offset_;
 
   GearedPhase geared_phase_;
+  AxisPosition followed_;  // function and offset
   Modulo leading_modulo_;
   Modulo following_;
   double period_ = 0.001;   // [s]
