@@ -26,6 +26,13 @@ void add_run_command(CLI::App& app, Action& action) {
                    "record these signals instead of the project's, comma separated")
       ->delimiter(',');
   command->add_flag("--stimuli", options->stimuli, "apply the project's stimuli in real time too");
+  command
+      ->add_option(
+          "--cpu", options->cpu,
+          "keep the cycle on this processor, from 0, and everything else off it: what Modbus clients "
+          "and traces cost is not felt in a tick")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(simulate);
   auto* modbus = command->add_option("--modbus", options->modbus,
                                      "listen on HOST:PORT instead of where the project says");
   command->add_flag("--no-modbus", options->no_modbus, "no Modbus server")->excludes(modbus);

@@ -18,6 +18,7 @@ struct RunOptions {
   std::string trace_file;      ///< empty: none
   std::vector<std::string> signals;
   bool stimuli = false;
+  int cpu = -1;        ///< processor of the cycle; negative: any
   std::string modbus;  ///< HOST:PORT; empty: as the project says
   bool no_modbus = false;
   std::string lcm;  ///< URL; empty: as the project says

@@ -21,6 +21,7 @@
 #include "hmi_bridge/modbus_server.hpp"
 #include "hmi_bridge/trace_channel.hpp"
 #include "hmi_bridge/trace_recorder.hpp"
+#include "scheduler/processor.hpp"
 #include "scheduler/real_time.hpp"
 
 namespace lockstep::cli {
@@ -385,9 +386,10 @@ void tell_moving(const Controller& controller) {
 }
 
 /// Real time, on a thread of its own; this one only looks and tells.
-int run_in_real_time(Project& project, Surroundings& surroundings, Display& display, std::int64_t duration) {
+int run_in_real_time(Project& project, Surroundings& surroundings, Display& display,
+                     const RunOptions& options) {
   const OverrunPolicy policy = project.stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
-  RealTimeRun run(*project.controller, policy, duration);
+  RealTimeRun run(*project.controller, policy, options.duration, options.cpu);
   for (const std::string& warning : run.start()) tell("warning: " + warning);
   const RealTimeStatus& status = run.status();
   while (!status.over.load(std::memory_order_acquire)) {
@@ -428,6 +430,9 @@ void tell_counters(const Controller& controller) {
 
 int run_project(Project& project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options) {
   take_signals();
+  if (options.cpu >= 0)
+    if (const std::string problem = leave_processor(options.cpu); !problem.empty())
+      throw CouldNotStart("--cpu: " + problem);
   project.controller->apply_stimuli = options.simulate || options.stimuli;
   Surroundings surroundings(project, options, std::move(keeper));
   Display display(project, surroundings.signals(), options.duration);
@@ -435,7 +440,7 @@ int run_project(Project& project, std::unique_ptr<RetainWriter> keeper, const Ru
   if (options.simulate) {
     simulate(project, surroundings, display, options.duration);
   } else {
-    status = run_in_real_time(project, surroundings, display, options.duration);
+    status = run_in_real_time(project, surroundings, display, options);
   }
   surroundings.stop();
   tell_axes(*project.controller);

@@ -12,6 +12,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "scheduler/processor.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -49,8 +51,8 @@ void raise_to(std::atomic<T>& place, T value) noexcept {
 
 }  // namespace
 
-RealTimeRun::RealTimeRun(Controller& controller, OverrunPolicy policy, std::int64_t duration)
-    : controller_(controller), policy_(policy), duration_(duration) {}
+RealTimeRun::RealTimeRun(Controller& controller, OverrunPolicy policy, std::int64_t duration, int processor)
+    : controller_(controller), policy_(policy), duration_(duration), processor_(processor) {}
 
 RealTimeRun::~RealTimeRun() {
   stop();
@@ -68,6 +70,10 @@ std::vector<std::string> RealTimeRun::start() {
   if (!lock_memory())
     warnings.push_back(std::string("memory cannot be locked (") + std::strerror(errno) +
                        "): a page fault may delay a tick");
+  if (processor_ >= 0)
+    if (const int error = keep_on_processor(thread_.native_handle(), processor_); error != 0)
+      warnings.push_back("the cycle cannot be kept on processor " + std::to_string(processor_) + " (" +
+                         std::strerror(error) + "): it runs on the others");
   const sched_param parameters{kPriority};
   if (const int error = pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &parameters); error != 0)
     warnings.push_back(std::string("real-time priority is not permitted (") + std::strerror(error) +

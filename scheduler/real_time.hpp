@@ -33,7 +33,8 @@ struct RealTimeStatus {
 class RealTimeRun {
  public:
   /// @param duration runs the ticks with t < duration [ns]; negative: until `stop`
-  RealTimeRun(Controller& controller, OverrunPolicy policy, std::int64_t duration);
+  /// @param processor of the cycle, which others have left (`leave_processor`); negative: any
+  RealTimeRun(Controller& controller, OverrunPolicy policy, std::int64_t duration, int processor = -1);
   ~RealTimeRun();
   RealTimeRun(const RealTimeRun&) = delete;
   RealTimeRun& operator=(const RealTimeRun&) = delete;
@@ -56,6 +57,7 @@ class RealTimeRun {
   Controller& controller_;
   OverrunPolicy policy_;
   std::int64_t duration_;
+  int processor_;
   std::atomic<bool> stop_requested_{false};
   RealTimeStatus status_;
   int overruns_in_a_row_ = 0;

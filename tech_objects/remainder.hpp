@@ -39,7 +39,8 @@ class Remainder {
   SyncOffset value(double way) const noexcept {
     if (complete(way)) return {};
     const double u = way * per_distance_;
-    const double v = (distance_ - way) * per_distance_;  // to the last bit at its end, unlike 1 - u
+    // Exact at both ends, without a division.
+    const double v = u < 0.5 ? 1.0 - u : (distance_ - way) * per_distance_;
     const double q = a_ + u * (b_ + u * c_);
     const double dq = b_ + 2.0 * u * c_;
     return {.position = v * v * v * q,

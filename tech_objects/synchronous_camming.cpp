@@ -71,7 +71,7 @@ ErrorId SynchronousMotion::begin_cam(const Job& job) noexcept {
   master_sync_position_ = normalised({0, sync}, leading_modulo_).value;
   const double following = f.value(f.start_leading_value() + place).position * cam_use_.slave_scaling;
   slave_sync_position_ = normalised({0, following + slave_offset_}, following_).value;
-  offset_.start_at(to_double_double(slave_offset_));
+  begin_with_offset(to_double_double(slave_offset_));
   if (job.mode == kSubsequentFromHere && !place_cam_here(leading_now_.position)) return ErrorId::outside_cam;
   return ErrorId::none;
 }

@@ -16,16 +16,19 @@
 
 #include "hmi_bridge/modbus_server.hpp"
 #include "projects/project.hpp"
+#include "scheduler/processor.hpp"
 #include "tests/support/flood.hpp"
 
 namespace lockstep::bench {
 namespace {
 
-constexpr char kHelp[] = R"(flood_bench [--rounds N] [--ticks N] [--quick]: Modbus clients and the tick
+constexpr char kHelp[] =
+    R"(flood_bench [--rounds N] [--ticks N] [--share] [--quick]: Modbus clients and the tick
 
 Six axes on a line shaft run in ticks of their servo cycle, as in real time; in turns nobody is connected, and
 thirty-two clients are at full speed, half of them malformed, slow or silent. Shown is the processor time of a tick
-(CLOCK_THREAD_CPUTIME_ID, mean of a round), median and least of all rounds, and how many requests were answered.
+(CLOCK_THREAD_CPUTIME_ID, mean of a round), median and least of all rounds, and how many requests were answered. The
+cycle has the last processor for itself, as with `lockstep run --cpu`; with --share it shares all with the rest.
 )";
 
 double processor_time() {  // of this thread [µs]
@@ -37,7 +40,9 @@ double processor_time() {  // of this thread [µs]
 /// A project that runs, with its Modbus server.
 class Machine {
  public:
-  explicit Machine(Project loaded) : project_(std::move(loaded)), image_(places()) {
+  /// @param processor of the cycle; negative: any
+  Machine(Project loaded, int processor)
+      : project_(std::move(loaded)), image_(places()), processor_(processor) {
     ModbusServerOptions options;
     options.listen = {{"127.0.0.1", 0}};
     server_ = std::make_unique<ModbusServer>(
@@ -55,6 +60,7 @@ class Machine {
     std::thread cycle([&] {
       const sched_param priority{80};
       pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+      if (processor_ >= 0) keep_on_processor(pthread_self(), processor_);
       const std::chrono::nanoseconds period(project_.controller->clock.servo_cycle);
       auto due = std::chrono::steady_clock::now();
       for (int i = 0; i < ticks; ++i) {
@@ -81,14 +87,15 @@ class Machine {
 
   Project project_;
   ProcessImage image_;
+  int processor_;
   std::unique_ptr<ModbusServer> server_;
 };
 
-std::unique_ptr<Machine> line_shaft() {
+std::unique_ptr<Machine> line_shaft(int processor) {
   std::ifstream file(LOCKSTEP_SOURCE_DIR "/projects/03_line_shaft/project.json");
   LoadedProject loaded = load_project(test::flooded_project(nlohmann::ordered_json::parse(file)));
   if (!loaded.project) throw std::runtime_error("the project of the line shaft does not load");
-  return std::make_unique<Machine>(std::move(*loaded.project));
+  return std::make_unique<Machine>(std::move(*loaded.project), processor);
 }
 
 double median(std::vector<double> values) {
@@ -100,8 +107,17 @@ void show(const char* what, const std::vector<double>& times) {
   std::printf("%-28s %8.2f %8.2f\n", what, median(times), *std::min_element(times.begin(), times.end()));
 }
 
-void measure(int rounds, int ticks) {
-  const std::unique_ptr<Machine> machine = line_shaft();
+/// The last processor, which everything else leaves; negative where that cannot be.
+int processor_of_its_own() {
+  const auto last = static_cast<int>(std::thread::hardware_concurrency()) - 1;
+  const std::string problem = leave_processor(last);
+  if (problem.empty()) return last;
+  std::printf("the cycle shares its processor: %s\n", problem.c_str());
+  return -1;
+}
+
+void measure(int rounds, int ticks, bool share) {
+  const std::unique_ptr<Machine> machine = line_shaft(share ? -1 : processor_of_its_own());
   std::vector<double> idle;
   std::vector<double> flooded;
   std::vector<double> ratios;
@@ -128,10 +144,13 @@ void measure(int rounds, int ticks) {
 int main(int argc, char** argv) {
   int rounds = 9;
   int ticks = 4000;
+  bool share = false;
   for (int i = 1; i < argc; ++i) {
     const bool has_value = i + 1 < argc;
     if (std::strcmp(argv[i], "--quick") == 0)
       rounds = 1, ticks = 50;
+    else if (std::strcmp(argv[i], "--share") == 0)
+      share = true;
     else if (std::strcmp(argv[i], "--rounds") == 0 && has_value)
       rounds = std::max(1, std::atoi(argv[++i]));
     else if (std::strcmp(argv[i], "--ticks") == 0 && has_value)
@@ -140,7 +159,7 @@ int main(int argc, char** argv) {
       return std::fputs(lockstep::bench::kHelp, stderr), 2;
   }
   try {
-    lockstep::bench::measure(rounds, ticks);
+    lockstep::bench::measure(rounds, ticks, share);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "flood_bench: %s\n", error.what());
     return 1;
