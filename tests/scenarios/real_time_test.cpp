@@ -2,8 +2,12 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <sched.h>
 #include <sys/socket.h>
 
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <regex>
 #include <string>
 
@@ -153,6 +157,55 @@ TEST(RealTime, ADurationEndsItAndTheAxesAreBroughtToRestAfterIt) {
   const CsvTable table = read_csv(trace);
   ASSERT_GT(table.rows, 0u);
   EXPECT_LT(table["t"].back(), 0.5) << "the trace ends with the duration";
+}
+
+/// Of each thread of a process, by its name: the processors that it may use, as Linux writes them.
+std::multimap<std::string, std::string> processors_of_threads(pid_t process) {
+  std::multimap<std::string, std::string> threads;
+  for (const auto& thread :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+    std::ifstream status(thread.path() / "status");
+    std::string name, processors;
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("Name:\t")) name = line.substr(6);
+      if (line.starts_with("Cpus_allowed_list:\t")) processors = line.substr(19);
+    }
+    threads.emplace(name, processors);
+  }
+  return threads;
+}
+
+TEST(RealTime, OnAProcessorOfItsOwnTheCycleIsAloneAndEverythingElseElsewhere) {
+  cpu_set_t permitted;
+  ASSERT_EQ(sched_getaffinity(0, sizeof permitted, &permitted), 0);
+  if (CPU_COUNT(&permitted) < 2) GTEST_SKIP() << "there is one processor";
+  int first = 0;
+  while (!CPU_ISSET(static_cast<unsigned>(first), &permitted)) ++first;
+  const std::string own = std::to_string(first);
+  const Directory directory;
+  RunningLockstep run(slow_to_brake(directory), {"--cpu", own});
+  ModbusClient client(run.port());
+  ASSERT_TRUE(running_at_200(client));
+  int cycles = 0;
+  for (const auto& [name, processors] : processors_of_threads(run.pid())) {
+    if (name == "cycle") {
+      ++cycles;
+      EXPECT_EQ(processors, own);
+    } else {
+      EXPECT_NE(processors, own) << name;
+      EXPECT_FALSE(processors.starts_with(own + "-") || processors.starts_with(own + ","))
+          << name << " may use " << processors;
+    }
+  }
+  EXPECT_EQ(cycles, 1);
+}
+
+TEST(RealTime, AProcessorThatThereIsNotCannotBeTheCycles) {
+  const Directory directory;
+  const Ended ended = lockstep({"run", slow_to_brake(directory), "--cpu", "1000", "--duration", "1s"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(std::regex_search(ended.err, std::regex("processor 1000: this process may use [0-9]")))
+      << ended.err;
 }
 
 TEST(RealTime, TheExamplesRunWithoutAlarms) {
