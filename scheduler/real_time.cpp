@@ -67,13 +67,13 @@ std::vector<std::string> RealTimeRun::start() {
     interpolation_ = std::thread([this] { interpolate_cams(); });
   }
   thread_ = std::thread([this] { run(); });
-  if (!lock_memory())
-    warnings.push_back(std::string("memory cannot be locked (") + std::strerror(errno) +
-                       "): a page fault may delay a tick");
   if (processor_ >= 0)
     if (const int error = keep_on_processor(thread_.native_handle(), processor_); error != 0)
       warnings.push_back("the cycle cannot be kept on processor " + std::to_string(processor_) + " (" +
                          std::strerror(error) + "): it runs on the others");
+  if (!lock_memory())
+    warnings.push_back(std::string("memory cannot be locked (") + std::strerror(errno) +
+                       "): a page fault may delay a tick");
   const sched_param parameters{kPriority};
   if (const int error = pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &parameters); error != 0)
     warnings.push_back(std::string("real-time priority is not permitted (") + std::strerror(error) +
