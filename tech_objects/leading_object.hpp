@@ -54,6 +54,8 @@ class LeadingObject : public TechnologyObject {
   PowerRequest power;
   bool enabled() const noexcept { return power_state_ == PowerState::on; }
   bool off() const noexcept { return power_state_ == PowerState::off; }
+  /// Whether a drive is not led by the setpoint, which tracks the actual value then.
+  bool setpoint_is_actual() const noexcept { return power_state_ < PowerState::on; }
   /// Whether an alarm has removed the enable, until it is acknowledged.
   bool enable_removed() const noexcept { return enable_removed_; }
 

@@ -36,7 +36,8 @@ LeadingObject* SynchronousMotion::leading_object() const noexcept {
 }
 
 bool SynchronousMotion::follows_actual_value() const noexcept {
-  return leading_ != nullptr && leading_->coupling == Coupling::actual;
+  return leading_ != nullptr &&
+         (leading_->coupling == Coupling::actual || leading_->source->setpoint_is_actual());
 }
 
 // ---- Every tick

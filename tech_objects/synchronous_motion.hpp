@@ -132,7 +132,7 @@ class SynchronousMotion {
   /// Whether the leading value has reversed while synchronizing by more than the tolerance.
   bool reversed() const noexcept { return reversed_; }
   LeadingObject* leading_object() const noexcept;
-  /// Whether the leading value is measured.
+  /// Whether the leading value is measured: by the coupling, or as the leading axis is switched off.
   bool follows_actual_value() const noexcept;
 
   /// The chain's values of this tick, for the data block.
