@@ -101,7 +101,7 @@ void Axis::switch_on() noexcept {
 /// The position at this moment becomes the setpoint. A moving axis brakes with maximum dynamics and returns
 /// to it.
 void Axis::take_up_motion() noexcept {
-  const Setpoint seen = leading_state(Coupling::setpoint);
+  const Setpoint seen = led_setpoint();
   const bool was_controlled = position_controlled_;
   power_state_ = PowerState::on;
   position_controlled_ = power.start_mode == 1 && has_position();
@@ -116,7 +116,9 @@ void Axis::take_up_motion() noexcept {
     setpoint_.acceleration = 0.0;
     single_.stand(setpoint_);
   }
-  if (was_controlled && position_controlled_) hand_over(seen, setpoint_);
+  Setpoint now = setpoint_;
+  if (!was_controlled || !position_controlled_) now.position = seen.position;  // of which nobody knows
+  hand_over(seen, now);
 }
 
 void Axis::begin_braking(INT stop_mode) noexcept {

@@ -35,7 +35,7 @@ void Axis::brake_from_actual() noexcept {
   const double away = position_controlled_ ? rounded_difference(actual_, setpoint_.position, modulo_) : 0.0;
   const bool rests = setpoint_.standing() && !moving(actual_velocity_);
   if (rests && std::abs(away) <= data.PositioningMonitoring.Window) return;
-  const Setpoint seen = leading_state(Coupling::setpoint);
+  const Setpoint seen = led_setpoint();
   const double commanded = commanded_velocity();
   take_actual_state(commanded);
   if (single_.stop(setpoint_, emergency_dynamics(), false) != PlanResult::ok) {
@@ -48,7 +48,7 @@ void Axis::brake_from_actual() noexcept {
     switchover_.tune(time, servo_period_);
     switchover_.set_behind(setpoint_.velocity - commanded);
   }
-  if (position_controlled_) hand_over(seen, setpoint_);
+  hand_over(seen, setpoint_);
 }
 
 /// Under position control ahead by what filter and drive are late: there the drive still runs on to. One that

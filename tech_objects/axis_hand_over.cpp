@@ -20,13 +20,13 @@ void Axis::hand_over(const Setpoint& seen, const Setpoint& now) noexcept {
 }
 
 /// Switched off, the setpoint has just gone over to the actual value, or that has been given another name:
-/// what it was one tick ago nobody has seen.
+/// what it was one tick ago nobody has seen. Without position control the velocity alone is followed.
 void Axis::hand_over_to_actual() noexcept {
   hand_over_due_ = false;
-  if (!position_controlled_) return;
-  const Setpoint seen = handing_over_ ? leading_state(Coupling::setpoint) : last_setpoint_;
+  const Setpoint seen = handing_over_ ? led_setpoint() : last_setpoint_;
   Setpoint now = setpoint_;
-  now.position = advanced(now.position, -now.velocity * period_, modulo_);
+  now.position =
+      position_controlled_ ? advanced(now.position, -now.velocity * period_, modulo_) : seen.position;
   hand_over(seen, now);
 }
 

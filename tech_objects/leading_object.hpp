@@ -46,6 +46,9 @@ class LeadingObject : public TechnologyObject {
     return {};
   }
 
+  /// The setpoint as axes see it that follow its velocity: with or without position control.
+  const Setpoint& led_setpoint() const noexcept { return handing_over_ ? led_ : setpoint_; }
+
   /// The setpoint of the last interpolator tick, and the one before it.
   const Setpoint& setpoint() const noexcept { return setpoint_; }
   const Setpoint& last_setpoint() const noexcept { return last_setpoint_; }

@@ -173,6 +173,7 @@ class SynchronousMotion {
   void couple(const LeadingValue& leading, const Job& job, const Dynamics& dynamics) noexcept;
   void evaluate_function(Setpoint& result) noexcept;
   void evaluate_cam(Setpoint& result) noexcept;
+  void look_at_velocity() noexcept;
   void add_additive(Setpoint& leading, const AdditiveLeadingValue& additive) const noexcept;
   void add_offset(Setpoint& setpoint) const noexcept;
   double stopping_way(const Setpoint& from, int heading, const Dynamics& dynamics) const noexcept;

@@ -393,6 +393,47 @@ TEST_P(SwitchedOnAgain, ToTheSetpointOfAnAxisSwitchedOnWhileItCoastsIsNoStepForA
   rig.expect_in_place();
 }
 
+// ---- Velocity alone
+// --------------------------------------------------------------------------------------------------
+
+TEST(MC_GearInVelocity, FollowsALeadingAxisWhateverTheModeOfThat) {
+  Led rig(By::velocity);
+  for (const bool controlled : {false, true, false}) {
+    rig.run_l.PositionControlled = controlled;
+    rig.run_leading(kSpeed);
+    ASSERT_EQ(rig.l.position_controlled(), controlled);
+    EXPECT_TRUE(rig.velocity.InSync);
+    EXPECT_NEAR(rig.f.setpoint().velocity, 2.0 * kSpeed, 1e-9);
+  }
+  EXPECT_NEAR(rig.f.data.StatusSynchronizedMotion.EffectiveLeadingValue.Velocity, kSpeed, 1e-9);
+  rig.velocity.Execute = false;
+  rig.run(1);
+  rig.velocity.RatioNumerator = 1;
+  rig.velocity.Execute = true;  // synchronizes with an axis without position control
+  rig.run(500);
+  EXPECT_TRUE(rig.velocity.InSync);
+  EXPECT_NEAR(rig.f.setpoint().velocity, kSpeed, 1e-9);
+}
+
+TEST(MC_GearInVelocity, MakesNoStepWhenALeadingAxisWithoutPositionControlIsSwitchedOffAndOn) {
+  for (const Off how : {Off::stop_mode_0, Off::stop_mode_1, Off::stop_mode_2, Off::stop_mode_3})
+    for (const bool controlled : {true, false}) {
+      Led rig(By::velocity);
+      rig.run_l.PositionControlled = false;
+      rig.run_leading(0.0);
+      rig.run_l.Acceleration = kMaximum;
+      rig.run_leading(kSpeed, 30);
+      ASSERT_GT(rig.l.setpoint().velocity - rig.l.data.ActualVelocity, 40.0);
+      rig.switch_off(how);
+      ASSERT_TRUE(rig.run_until([&] { return rig.l.off(); }, 500));
+      rig.power.StartMode = controlled ? 1 : 0;
+      rig.switch_on();  // at once: with StopMode 3 in motion
+      rig.run(1000);
+      EXPECT_TRUE(rig.power.Status);
+      rig.expect_in_place();
+    }
+}
+
 // ---- Beside it
 // --------------------------------------------------------------------------------------------------
 
