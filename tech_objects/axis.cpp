@@ -1,9 +1,16 @@
 #include "tech_objects/axis.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace lockstep {
+namespace {
+
+/// Below this share of VelocityThreshold an axis that is switched off rests.
+constexpr double kRest = 0.01;
+
+}  // namespace
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
     : LeadingObject(object_kind, std::move(object_name), object_number) {
@@ -40,6 +47,7 @@ void Axis::take_start_values() noexcept {
   single_.configure(modulo_, period_);
   superimposed_.configure(period_);
   hand_over_.configure(period_);
+  hand_over_due_ = false;
   emergency_ramp_ = EmergencyRamp::none;
   const double tolerance = data.Synchronization.MasterReversionTolerance;
   synchronous_.configure(modulo_, period_, tolerance, additive_);
@@ -93,6 +101,8 @@ void Axis::switch_on() noexcept {
 /// The position at this moment becomes the setpoint. A moving axis brakes with maximum dynamics and returns
 /// to it.
 void Axis::take_up_motion() noexcept {
+  const Setpoint seen = led_setpoint();
+  const bool was_controlled = position_controlled_;
   power_state_ = PowerState::on;
   position_controlled_ = power.start_mode == 1 && has_position();
   motion_ = Motion::single_axis;
@@ -106,6 +116,9 @@ void Axis::take_up_motion() noexcept {
     setpoint_.acceleration = 0.0;
     single_.stand(setpoint_);
   }
+  Setpoint now = setpoint_;
+  if (!was_controlled || !position_controlled_) now.position = seen.position;  // of which nobody knows
+  hand_over(seen, now);
 }
 
 void Axis::begin_braking(INT stop_mode) noexcept {
@@ -126,16 +139,21 @@ void Axis::switch_off() noexcept {
   absorb_superimposed();
   if (has_drive_) control_drive(kControlOff);
   power_state_ = PowerState::off;
+  hand_over_due_ |= has_drive_ && motion_ != Motion::none;
   motion_ = Motion::none;
-  setpoint_.velocity = 0.0;
+  if (!has_drive_) setpoint_.velocity = 0.0;
   setpoint_.acceleration = 0.0;
   single_.stand(setpoint_);
 }
 
-/// Switched off, the setpoint tracks the actual value.
+/// Switched off, the setpoint tracks the actual value. Its velocity fades to none far below the threshold of
+/// the standstill signal, without a step.
 void Axis::follow_actual() noexcept {
   if (!has_drive_) return;
-  setpoint_ = {actual_, moving(actual_velocity_) ? actual_velocity_ : 0.0, 0.0};
+  const double speed = std::abs(actual_velocity_);
+  const double faded = std::max(2.0 * speed - kRest * data.StandstillSignal.VelocityThreshold, 0.0);
+  setpoint_ = {actual_, std::copysign(std::min(speed, faded), actual_velocity_), 0.0};
+  if (hand_over_due_) hand_over_to_actual();
 }
 
 /// Taken up anew, position control begins where the axis is: with the setpoint ahead by what the drive is

@@ -148,7 +148,10 @@ class Axis final : public LeadingObject {
   /// Raises a technology alarm: shows it and has its reaction carried out.
   void raise(int alarm_number) noexcept;
 
-  bool leading_value_stands() const noexcept override { return setpoint_.velocity == 0.0 && !handing_over_; }
+  bool leading_value_stands() const noexcept override {
+    const bool stands = setpoint_is_actual() ? !moving(setpoint_.velocity) : setpoint_.velocity == 0.0;
+    return stands && !handing_over_;
+  }
 
   AxisPosition actual_position() const noexcept override { return actual_; }
   bool measured_in_servo() const noexcept override { return has_drive_; }
@@ -357,7 +360,10 @@ class Axis final : public LeadingObject {
   void stay_within_limits(const Setpoint& before) noexcept;
   double commanded_velocity() const noexcept;
   double smoothed_switchover(double velocity) noexcept;
-  void hand_over(const Setpoint& seen) noexcept;
+
+  // axis_hand_over.cpp: the setpoint as following axes see it where it goes over to another course
+  void hand_over(const Setpoint& seen, const Setpoint& now) noexcept;
+  void hand_over_to_actual() noexcept;
   void step_hand_over() noexcept;
 
   // axis_synchronous.cpp: motion led by another axis
@@ -612,7 +618,8 @@ class Axis final : public LeadingObject {
   double xerr_ = 0.0;  // control difference for the position loop of the drive [u]
   double pace_ = 0.0;  // velocity of what that loop is to follow [u/s]
   std::array<Encoder, kSensors> encoders_;
-  Superimposed hand_over_;  // what is left between the setpoint and what following axes see of it
+  Superimposed hand_over_;      // what is left between the setpoint and what following axes see of it
+  bool hand_over_due_ = false;  // switched off: with the next setpoint, which is the actual value
   DynamicFilter setpoint_filter_;
   struct ControlBits {
     std::uint16_t stw1 = 0;

@@ -35,7 +35,7 @@ void Axis::brake_from_actual() noexcept {
   const double away = position_controlled_ ? rounded_difference(actual_, setpoint_.position, modulo_) : 0.0;
   const bool rests = setpoint_.standing() && !moving(actual_velocity_);
   if (rests && std::abs(away) <= data.PositioningMonitoring.Window) return;
-  const Setpoint seen = leading_state(Coupling::setpoint);
+  const Setpoint seen = led_setpoint();
   const double commanded = commanded_velocity();
   take_actual_state(commanded);
   if (single_.stop(setpoint_, emergency_dynamics(), false) != PlanResult::ok) {
@@ -48,7 +48,7 @@ void Axis::brake_from_actual() noexcept {
     switchover_.tune(time, servo_period_);
     switchover_.set_behind(setpoint_.velocity - commanded);
   }
-  if (position_controlled_) hand_over(seen);
+  hand_over(seen, setpoint_);
 }
 
 /// Under position control ahead by what filter and drive are late: there the drive still runs on to. One that
@@ -97,33 +97,6 @@ double Axis::smoothed_switchover(double velocity) noexcept {
   if (switchover_.behind() == 0.0) return velocity;
   switchover_.step(0.0);
   return velocity - switchover_.behind();
-}
-
-// ---- Following axes
-// ---------------------------------------------------------------------------------------------
-
-/// For those that follow the setpoint there is no step: what they see of it goes from where it has been over
-/// to the setpoint, with maximum dynamics.
-void Axis::hand_over(const Setpoint& seen) noexcept {
-  const double way = rounded_difference(seen.position, setpoint_.position, modulo_);
-  const double velocity = seen.velocity - setpoint_.velocity;
-  if (way == 0.0 && velocity == 0.0) return;
-  hand_over_.begin();
-  hand_over_.begin_giving();
-  hand_over_.give(way, velocity, 0.0);
-  Dynamics dynamics = maximum_dynamics();
-  if (dynamics.velocity <= 0.0) dynamics.velocity = data.DynamicLimits.MaxVelocity;
-  if (hand_over_.move_by(-way, dynamics) == PlanResult::ok) lead_by(seen);
-}
-
-void Axis::step_hand_over() noexcept {
-  if (hand_over_.finished()) {
-    handing_over_ = false;
-    return;
-  }
-  hand_over_.advance();
-  lead_by({advanced(setpoint_.position, hand_over_.value(), modulo_),
-           setpoint_.velocity + hand_over_.velocity(), setpoint_.acceleration + hand_over_.acceleration()});
 }
 
 }  // namespace lockstep

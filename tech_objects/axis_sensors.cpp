@@ -191,6 +191,7 @@ void Axis::switch_sensor(std::size_t sensor, bool aligned) noexcept {
 void Axis::deviate(AxisPosition place) noexcept {
   const double by = rounded_difference(place, actual_, modulo_);
   actual_ = place;
+  hand_over_due_ |= motion_ == Motion::none;  // the setpoint is there as well
   const double time = data.PositionControl.SmoothingTimeByChangeDifference;
   if (time <= 0.0) return smoothing_.set_behind(0.0);
   smoothing_.tune(time, servo_period_);

@@ -47,6 +47,9 @@ class LeadingObject : public TechnologyObject {
     return {};
   }
 
+  /// The setpoint as axes see it that follow its velocity: with or without position control.
+  const Setpoint& led_setpoint() const noexcept { return handing_over_ ? led_ : setpoint_; }
+
   /// The setpoint of the last interpolator tick, and the one before it.
   const Setpoint& setpoint() const noexcept { return setpoint_; }
   const Setpoint& last_setpoint() const noexcept { return last_setpoint_; }
@@ -54,6 +57,8 @@ class LeadingObject : public TechnologyObject {
 
   bool enabled() const noexcept { return power_state_ == PowerState::on; }
   bool off() const noexcept { return power_state_ == PowerState::off; }
+  /// Whether a drive is not led by the setpoint, which tracks the actual value then.
+  bool setpoint_is_actual() const noexcept { return power_state_ < PowerState::on; }
   /// Whether an alarm has removed the enable, until it is acknowledged.
   bool enable_removed() const noexcept { return enable_removed_; }
 

@@ -36,7 +36,8 @@ LeadingObject* SynchronousMotion::leading_object() const noexcept {
 }
 
 bool SynchronousMotion::follows_actual_value() const noexcept {
-  return leading_ != nullptr && leading_->coupling == Coupling::actual;
+  return leading_ != nullptr &&
+         (leading_->coupling == Coupling::actual || leading_->source->setpoint_is_actual());
 }
 
 // ---- Every tick
@@ -102,8 +103,17 @@ void SynchronousMotion::add_offset(Setpoint& setpoint) noexcept {
   setpoint.acceleration += offset_.acceleration();
 }
 
+/// MC_GearInVelocity: a leading axis without position control has a velocity all the same.
+void SynchronousMotion::look_at_velocity() noexcept {
+  const LeadingObject& source = *leading_->source;
+  if (leading_->coupling == Coupling::actual || source.position_controlled()) return;
+  leading_now_.velocity += source.led_setpoint().velocity;
+  leading_now_.acceleration += source.led_setpoint().acceleration;
+}
+
 /// MC_GearInVelocity: the velocity follows, whatever the position.
 void SynchronousMotion::advance_in_velocity(Setpoint& setpoint) noexcept {
+  look_at_velocity();
   const double last = setpoint.velocity;
   setpoint.velocity = gear_.velocity(leading_now_.velocity);
   setpoint.acceleration = gear_.acceleration(leading_now_.acceleration);
@@ -136,6 +146,7 @@ void SynchronousMotion::watch_reversal() noexcept {
 
 /// MC_GearIn: towards velocity and acceleration of the function; where both are met, the function begins.
 void SynchronousMotion::advance_velocity(Setpoint& setpoint) noexcept {
+  if (velocity_only_) look_at_velocity();
   const bool holding = progress_ < furthest_;  // reversed within the tolerance
   const double velocity = holding ? 0.0 : gear_.velocity(leading_now_.velocity);
   const double acceleration = holding ? 0.0 : gear_.acceleration(leading_now_.acceleration);

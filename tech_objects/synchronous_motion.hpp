@@ -141,7 +141,7 @@ class SynchronousMotion {
   /// Whether the leading value has reversed while synchronizing by more than the tolerance.
   bool reversed() const noexcept { return reversed_; }
   LeadingObject* leading_object() const noexcept;
-  /// Whether the leading value is measured.
+  /// Whether the leading value is measured: by the coupling, or as the leading axis is switched off.
   bool follows_actual_value() const noexcept;
 
   /// The chain's values of this tick, for the data block.
@@ -185,6 +185,7 @@ class SynchronousMotion {
   void couple(const LeadingValue& leading, const Job& job, const Dynamics& dynamics) noexcept;
   void evaluate_function(Setpoint& result) noexcept;
   void evaluate_cam(Setpoint& result) noexcept;
+  void look_at_velocity() noexcept;
   void add_additive(Setpoint& leading, const AdditiveLeadingValue& additive) const noexcept;
   void add_offset(Setpoint& setpoint) noexcept;
   void place_gear(AxisPosition leading, AxisPosition following) noexcept;

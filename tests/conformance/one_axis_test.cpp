@@ -295,7 +295,8 @@ class OneAxis {
     // A drive that is off leads its setpoint; position control is taken up where the axis is; and a fixed
     // stop freezes the setpoint.
     const bool driven = !axis_.is_virtual();
-    if (driven && (!before.enabled || !last_.enabled || before.controlled != last_.controlled)) return;
+    if (driven && (!before.enabled || !last_.enabled || before.controlled != last_.controlled))
+      return watch_hand_over(before);
     if (axis_.forces().stop_side != 0 || before.clamped) return;
     watch_limits(before);
     watch_steps(before);
@@ -365,6 +366,16 @@ class OneAxis {
     const double mean = 0.5 * (s.velocity + before.led.velocity) * kSeconds;
     if (std::abs(way - mean) > most * kSeconds + kSlack)
       note("step of the position by " + std::to_string(way));
+  }
+
+  /// Where the setpoint goes over to the actual value and back, axes that follow see no step. A machine that
+  /// is blocked stands at once: half of its way within a tick.
+  void watch_hand_over(const Seen& before) {
+    if (!before.controlled || !last_.controlled || positions_may_step_ > 0) return;
+    const double way = difference(last_.led.position, before.led.position, axis_.modulo()).rounded();
+    const double mean = 0.5 * (last_.led.velocity + before.led.velocity) * kSeconds;
+    if (std::abs(way - mean) > 0.5 * kVelocity * kSeconds)
+      note("step of the leading position by " + std::to_string(way - mean));
   }
 
   double now() const { return static_cast<double>(controller_.now()) * 1e-9; }
