@@ -331,6 +331,7 @@ class Axis final : public LeadingObject {
   double wanted_velocity(const Job& job) const noexcept;
   Dynamics effective_dynamics(const Job& job) noexcept;
   Dynamics own_dynamics(const Job& job) noexcept;
+  void keep_below_limit(Dynamics& dynamics) const noexcept;
   double room_to_limit() const noexcept;
   double tolerable_acceleration() const noexcept;
   void cut_acceleration() noexcept { setpoint_.acceleration = tolerable_acceleration(); }
@@ -413,7 +414,9 @@ class Axis final : public LeadingObject {
   void follow_room() noexcept;
   void replan_stop() noexcept;
   void leave_to_superimposed(Dynamics& dynamics) noexcept;
+  bool superimposed_runs_down() const noexcept;
   void step_superimposed() noexcept;
+  void advance_superimposed_in_view() noexcept;
   void advance_superimposed() noexcept;
   void follow_given_superimposed(Job& job) noexcept;
   void add_superimposed() noexcept;
@@ -560,10 +563,12 @@ class Axis final : public LeadingObject {
   SingleAxisMotion single_;
 
   // Superimposed motion.
-  Setpoint base_;                 // the setpoint without the superimposed part, while there is one
-  Dynamics superimposed_wanted_;  // what MC_MoveSuperimposed asks for, before override and limits
-  Dynamics superimposed_room_;    // of that, what it has been planned with
-  bool base_curbed_ = false;      // the base motion has been planned with less, for what is superimposed
+  Setpoint base_;                    // the setpoint without the superimposed part, while there is one
+  Dynamics superimposed_wanted_;     // what MC_MoveSuperimposed asks for, before override and limits
+  Dynamics superimposed_room_;       // of that, what it has been planned with
+  bool base_curbed_ = false;         // the base motion has been planned with less, for what is superimposed
+  bool curbed_for_a_while_ = false;  // by what that runs down yet
+  Dynamics superimposed_uses_;       // of the limits, in this cycle and from it on
 
   // Positioning and limits.
   bool was_controlled_ = false;      // in the last cycle, for the software limit switches

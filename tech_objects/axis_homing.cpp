@@ -308,7 +308,9 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
   in_window_ticks_ = 0;
   since_target_ticks_ = 0;
   remember_limits();
-  if (plan(job, own_dynamics(job)) == PlanResult::ok) return;
+  Dynamics dynamics = own_dynamics(job);
+  if (advancing_base_) leave_to_superimposed(dynamics);
+  if (plan(job, dynamics) == PlanResult::ok) return;
   end_job(kBase, JobPhase::failed, ErrorId::unspecified);
   begin_stop(maximum_dynamics(), false);
 }

@@ -70,15 +70,22 @@ Dynamics Axis::effective_dynamics(const Job& job) noexcept {
 /// a present acceleration is run down.
 Dynamics Axis::own_dynamics(const Job& job) noexcept {
   Dynamics dynamics = effective_dynamics(job);
-  const double a = setpoint_.acceleration;
-  if (dynamics.jerk > 0.0 && a * a > 2.0 * dynamics.jerk * room_to_limit())
-    dynamics.jerk = std::min(a * a / (2.0 * room_to_limit()), data.DynamicLimits.MaxJerk);
+  keep_below_limit(dynamics);
   return dynamics;
 }
 
-/// Velocity that is left, in the direction of the present acceleration, up to the limit [u/s] ≥ 0.
+void Axis::keep_below_limit(Dynamics& dynamics) const noexcept {
+  const double a = setpoint_.acceleration;
+  if (dynamics.jerk > 0.0 && a * a > 2.0 * dynamics.jerk * room_to_limit())
+    dynamics.jerk = std::min(a * a / (2.0 * room_to_limit()), data.DynamicLimits.MaxJerk);
+}
+
+/// Velocity that is left, in the direction of the present acceleration, up to the limit [u/s] ≥ 0; to a base
+/// motion beside what is superimposed.
 double Axis::room_to_limit() const noexcept {
-  const double towards = setpoint_.acceleration < 0.0 ? -setpoint_.velocity : setpoint_.velocity;
+  const double direction = setpoint_.acceleration < 0.0 ? -1.0 : 1.0;
+  double towards = direction * setpoint_.velocity;
+  if (advancing_base_) towards += std::max(direction * superimposed_.velocity(), 0.0);
   return std::max(velocity_limit() - towards, 0.0);
 }
 
@@ -245,6 +252,7 @@ void Axis::follow_changes(Job& job) noexcept {
   if (!inputs_changed && !limits_changed) return;
   if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || leaves(job.kind)) return;
   remember_limits();
+  if (inputs_changed) cut_acceleration();
   Dynamics dynamics = own_dynamics(job);
   if (advancing_base_) leave_to_superimposed(dynamics);
   PlanResult result = PlanResult::ok;

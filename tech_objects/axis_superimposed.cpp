@@ -13,8 +13,8 @@ double rest_of(double limit, double used) noexcept {
   return std::max(limit - used, 0.0);
 }
 
-/// What a superimposed motion that comes to rest is left at least of the limits, and what it is given if the
-/// base motion leaves it less.
+/// What a superimposed motion that comes to rest is left at least of the limits, or leaves; and what it is
+/// given if the base motion leaves it less.
 constexpr double kLeastPart = 0.1;
 constexpr double kHalf = 0.5;
 
@@ -92,6 +92,11 @@ Dynamics Axis::first_room() noexcept {
     return braking(superimposed_wanted_, superimposed_.dynamics(), room.velocity);
   }
   const Dynamics most = maximum_dynamics();
+  if (motion_ == Motion::single_axis) {
+    const double whole = std::min(most.acceleration, most.deceleration);
+    superimposed_.cut_acceleration(
+        rest_of(whole, std::max(std::abs(base_.acceleration), kLeastPart * whole)));
+  }
   const Dynamics least = braking(superimposed_wanted_, part_of(most, kLeastPart), room.velocity);
   const bool enough = room.acceleration >= least.acceleration && room.deceleration >= least.deceleration &&
                       (room.jerk <= 0.0 || room.jerk >= least.jerk);
@@ -99,8 +104,6 @@ Dynamics Axis::first_room() noexcept {
   Dynamics share = braking(superimposed_wanted_, part_of(most, kHalf), room.velocity);
   const double jerk = single_.dynamics().jerk;
   if (jerk > 0.0) share.jerk = std::min(share.jerk, jerk);
-  superimposed_.cut_acceleration(
-      rest_of(std::min(most.acceleration, most.deceleration), std::abs(base_.acceleration)));
   planned_override_ = std::numeric_limits<double>::quiet_NaN();
   return share;
 }
@@ -135,27 +138,25 @@ Dynamics Axis::superimposed_room() const noexcept {
 }
 
 /// What the limits leave beside a base motion of the axis' own, from now until its end: as long as it changes
-/// its velocity, all but the dynamic values that it has. At a constant velocity it may have to change it
-/// again, and is left half of the limits, or what it was started with.
+/// its velocity, all but the dynamic values that it has, or what it has taken over beyond them and runs down.
+/// At a constant velocity it may have to change it again, and is left half of the limits, or what it was
+/// started with.
 Dynamics Axis::left_by_base() const noexcept {
   Dynamics left = maximum_dynamics();
   left.acceleration = left.deceleration = std::min(left.acceleration, left.deceleration);
-  double speed = std::abs(base_.velocity);
+  const double speed = std::abs(base_.velocity);
   if (motion_ != Motion::single_axis || (single_.finished() && running_[kBase] == nullptr)) {
     left.velocity = rest_of(left.velocity, speed);
     return left;
   }
-  const Dynamics& own = single_.dynamics();
+  const Dynamics used = single_.demand(base_);
   const bool changes = !single_.finished();
-  const bool faster = base_.velocity * base_.acceleration > 0.0;  // until the acceleration has been run down
-  if (faster && own.jerk > 0.0) speed += base_.acceleration * base_.acceleration / (2.0 * own.jerk);
-  const auto share = [changes](double limit, double used) {
-    return changes ? rest_of(limit, used) : std::max(limit - used, 0.5 * limit);
+  const auto share = [changes](double limit, double part) {
+    return changes ? rest_of(limit, part) : std::max(limit - part, 0.5 * limit);
   };
-  left.velocity = rest_of(left.velocity, changes ? std::max(own.velocity, speed) : speed);
-  left.acceleration = share(left.acceleration, std::max(own.acceleration, own.deceleration));
-  left.deceleration = left.acceleration;
-  left.jerk = share(left.jerk, own.jerk);
+  left.velocity = rest_of(left.velocity, changes ? used.velocity : speed);
+  left.acceleration = left.deceleration = share(left.acceleration, used.acceleration);
+  left.jerk = share(left.jerk, used.jerk);
   return left;
 }
 
@@ -171,22 +172,45 @@ Dynamics Axis::quick_enough(Dynamics room) noexcept {
   return room;
 }
 
-/// A base motion that is planned anew keeps to what the superimposed motion under way leaves.
+/// A base motion that is planned anew keeps to what the superimposed motion under way leaves, within a step.
+/// What that only runs down yet it is given back later.
 void Axis::leave_to_superimposed(Dynamics& dynamics) noexcept {
-  if (!superimposed_.planned() || led()) return;
+  const Dynamics& used = superimposed_uses_;
+  if (used.acceleration <= 0.0 || led()) return;
   const Dynamics whole = dynamics;
-  const Dynamics& used = superimposed_.dynamics();
   const Dynamics most = maximum_dynamics();
   dynamics.velocity = std::min(dynamics.velocity, rest_of(most.velocity, used.velocity));
   const auto curb = [](double& value, double left) {
     if (left > 0.0) value = std::min(value, left);
   };
   // The one may brake the way in which the other speeds up.
-  const double most_used = std::max(used.acceleration, used.deceleration);
-  curb(dynamics.acceleration, most.acceleration - most_used);
-  curb(dynamics.deceleration, most.deceleration - most_used);
+  curb(dynamics.acceleration, most.acceleration - used.acceleration);
+  curb(dynamics.deceleration, most.deceleration - used.acceleration);
   if (dynamics.jerk > 0.0 && used.jerk > 0.0) curb(dynamics.jerk, most.jerk - used.jerk);
+  keep_below_limit(dynamics);
   base_curbed_ |= dynamics != whole;
+  curbed_for_a_while_ = base_curbed_ && superimposed_runs_down();
+}
+
+/// Whether the superimposed motion uses more than its dynamic values.
+bool Axis::superimposed_runs_down() const noexcept {
+  const Dynamics& own = superimposed_.dynamics();
+  return superimposed_uses_.velocity > own.velocity ||
+         superimposed_uses_.acceleration > std::max(own.acceleration, own.deceleration);
+}
+
+/// Beside a base motion counts what the superimposed motion uses from the last setpoint on, also in the tick
+/// in which it ends, and what it does once it has been advanced.
+void Axis::advance_superimposed_in_view() noexcept {
+  const bool planned = superimposed_.planned();
+  const Dynamics before = planned ? superimposed_.demand() : Dynamics{};
+  advance_superimposed();
+  superimposed_uses_ = planned || superimposed_.planned() ? superimposed_.demand() : Dynamics{};
+  superimposed_uses_.velocity = std::max(superimposed_uses_.velocity, before.velocity);
+  superimposed_uses_.acceleration = std::max(superimposed_uses_.acceleration, before.acceleration);
+  if (!curbed_for_a_while_ || superimposed_runs_down()) return;
+  curbed_for_a_while_ = false;
+  planned_override_ = std::numeric_limits<double>::quiet_NaN();  // the base motion may have more again
 }
 
 /// A halt, or a stop for which no job asks any more, makes room as other base motions do, but does not turn
@@ -211,7 +235,7 @@ void Axis::replan_stop() noexcept {
 
 /// The base motion goes on by itself; then what is superimposed is added.
 void Axis::step_superimposed() noexcept {
-  advance_superimposed();
+  advance_superimposed_in_view();
   setpoint_ = base_;
   advancing_base_ = true;
   if (std::isnan(planned_override_)) replan_stop();
@@ -228,7 +252,7 @@ void Axis::step_superimposed() noexcept {
   }
   if (!superimposed_.finished()) return;
   if (base_curbed_) planned_override_ = std::numeric_limits<double>::quiet_NaN();  // it may have all again
-  base_curbed_ = false;
+  base_curbed_ = curbed_for_a_while_ = false;
   const bool base_rests = motion_ == Motion::single_axis && running_[kBase] == nullptr && single_.finished();
   if (!base_rests || simulating()) return;
   absorb_superimposed();
@@ -291,7 +315,7 @@ void Axis::absorb_superimposed() noexcept {
   advancing_base_ = false;
   end_job(kSuperimposed, JobPhase::aborted, ErrorId::none);
   superimposed_.reset();
-  base_curbed_ = false;
+  base_curbed_ = curbed_for_a_while_ = false;
   data.StatusPositioning.SuperimposedDistance = 0.0;
 }
 

@@ -163,6 +163,17 @@ void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
   }
 }
 
+Dynamics SingleAxisMotion::demand(const Setpoint& now) const noexcept {
+  const double v = now.velocity, a = now.acceleration;
+  const double run_down = dynamics_.jerk > 0.0 ? a * std::abs(a) / (2.0 * dynamics_.jerk) : 0.0;
+  const double own = std::max(dynamics_.acceleration, dynamics_.deceleration);
+  const double most = std::abs(a) > own ? std::max(own, std::abs(profile_.start().acceleration)) : own;
+  return {.velocity = std::max({dynamics_.velocity, std::abs(v), std::abs(v + run_down)}),
+          .acceleration = most,
+          .deceleration = most,
+          .jerk = dynamics_.jerk};
+}
+
 double SingleAxisMotion::way_left(int direction) const noexcept {
   if (direction * target_velocity_ > 0.0) return std::numeric_limits<double>::infinity();
   const double now = static_cast<double>(ticks_) * period_;

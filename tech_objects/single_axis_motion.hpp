@@ -49,6 +49,9 @@ class SingleAxisMotion {
   AxisPosition target() const noexcept { return target_; }
   double target_velocity() const noexcept { return target_velocity_; }
   const Dynamics& dynamics() const noexcept { return dynamics_; }
+  /// What the motion may yet use of the limits, from a setpoint of it on: its dynamic values, or what it has
+  /// taken over beyond them and still runs down. Acceleration and deceleration are the greater of both.
+  Dynamics demand(const Setpoint& now) const noexcept;
 
  private:
   void begin(const Setpoint& from, Aim aim, const Dynamics& dynamics) noexcept;

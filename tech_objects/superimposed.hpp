@@ -49,6 +49,8 @@ class Superimposed {
   bool resting() const noexcept { return local_.standing(); }
   /// Dynamic values that the motion under way may use.
   const Dynamics& dynamics() const noexcept { return room_; }
+  /// What that motion may yet use of the limits, with what it still runs down.
+  Dynamics demand() const noexcept { return motion_.demand(local_); }
   /// Whether it moves by a profile.
   bool planned() const noexcept { return !given_ && !waits_ && !motion_.finished(); }
   /// The way that it still makes in a direction, 1 or -1 [u] ≥ 0.

@@ -317,7 +317,7 @@ class OneAxis {
     const Setpoint& s = last_.setpoint;
     const double lowered = lowered_ticks_ > 0 ? lowered_from_ : 0.0;
     const double most_v = std::max({last_.limit, lowered, std::abs(before.setpoint.velocity)});
-    if (std::abs(s.velocity) > most_v * (1 + kSlack) && !lands_on_actual(before))
+    if (std::abs(s.velocity) > most_v * (1 + kSlack) && !lands_on_actual(before) && !brakes_from_actual())
       note("velocity " + std::to_string(s.velocity) + " beyond its limit");
     const bool speeding_up = s.velocity * s.acceleration > 0.0;
     const double most_a =
@@ -347,6 +347,15 @@ class OneAxis {
     const double v = last_.setpoint.velocity, actual = last_.actual_velocity;
     return !axis_.is_virtual() && std::abs(v - before.setpoint.velocity) > kOfATick &&
            v >= std::min(actual, 0.0) - kOfATick && v <= std::max(actual, 0.0) + kOfATick;
+  }
+
+  /// Whether the emergency ramp of a driven axis is no faster than that already is: it begins with the actual
+  /// velocity, which is beyond the limit where a drive that was held back comes after its setpoint.
+  bool brakes_from_actual() const {
+    const Setpoint& s = last_.setpoint;
+    return !axis_.is_virtual() && s.velocity * s.acceleration < 0.0 &&
+           std::abs(s.acceleration) == kEmergency && s.velocity * last_.actual_velocity > 0.0 &&
+           std::abs(s.velocity) <= std::abs(last_.actual_velocity);
   }
 
   /// Such a step is none for axes that follow; without position control nobody follows.
