@@ -1,4 +1,4 @@
-// What holds for every profile, on seeded random requests. LOCKSTEP_SOAK=1 raises their number.
+// What holds for every profile, on seeded random requests.
 #include <gtest/gtest.h>
 
 #include <algorithm>
