@@ -124,7 +124,7 @@ void measure(int rounds, int ticks, bool share) {
   std::uint64_t answered = 0;
   for (int round = 0; round < rounds; ++round) {
     idle.push_back(machine->run(ticks));
-    const test::FloodClients clients(machine->port(), 0);
+    const test::FloodClients clients(machine->port(), 0, 20240604);
     const std::uint64_t before = machine->requests();
     flooded.push_back(machine->run(ticks));
     answered += machine->requests() - before;

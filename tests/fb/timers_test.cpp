@@ -5,6 +5,8 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/property.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -47,13 +49,11 @@ TYPED_TEST(AnyTimer, RestsUntilItsInputIsTrue) {
 }
 
 TYPED_TEST(AnyTimer, NeverShowsATimeOutsideZeroToThePreset) {
-  const unsigned seed = 20210;
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed_of_test(20210));
   TypeParam timer;
   set_preset(timer, 20);
   std::int64_t now = 0;
-  for (int call = 0; call < 20'000; ++call) {
+  for (int call = 0; call < test::cases(20'000, 2'000'000); ++call) {
     now += std::uniform_int_distribution<std::int64_t>(0, 12)(random);
     const Result result = at(timer, now, std::uniform_int_distribution(0, 3)(random) < 2);
     ASSERT_GE(result.et, 0) << "call " << call;

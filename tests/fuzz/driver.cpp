@@ -1,6 +1,5 @@
 // Drives a fuzz target with seeded random changes of its seeds: the same inputs on every machine, no compiler
-// but g++. FUZZ_TARGET [NUMBER [SEED]]; a single input: FUZZ_TARGET --input FILE; seeds and corpus, to begin
-// with:
+// but g++. FUZZ_TARGET [NUMBER]; a single input: FUZZ_TARGET --input FILE; seeds and corpus, to begin with:
 // --seeds FOLDER.
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -18,6 +17,7 @@
 #include <string_view>
 
 #include "tests/fuzz/fuzz_target.hpp"
+#include "tests/support/seeds.hpp"
 
 namespace lockstep::fuzz {
 namespace {
@@ -182,14 +182,13 @@ int write_seeds(const std::string& folder) {
   return 0;
 }
 
-int run(const char* name, std::uint64_t inputs, std::uint64_t seed) {
-  std::cout << "seed " << seed << ", " << inputs << " inputs" << std::endl;
+int run(const char* name, int inputs) {
   const std::string witness = std::string(name) + ".witness";
   std::cout << "if it ends early: " << name << " --input " << witness << std::endl;
-  Mutator mutator(seeds(), seed);
+  Mutator mutator(seeds(), test::seed_of_run(20260714));
   Witness place(witness);
   const auto begin = std::chrono::steady_clock::now();
-  for (std::uint64_t i = 0; i < inputs; ++i) {
+  for (int i = 0; i < inputs; ++i) {
     const std::string input = mutator.next();
     place.note(input);
     ::alarm(kPatience);
@@ -197,7 +196,7 @@ int run(const char* name, std::uint64_t inputs, std::uint64_t seed) {
   }
   ::alarm(0);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  std::cout << spent.count() << " s" << std::endl;
+  std::cout << inputs << " inputs, " << spent.count() << " s" << std::endl;
   return 0;
 }
 
@@ -214,11 +213,6 @@ int main(int argc, char** argv) {
     ::alarm(kPatience);
     look_at(found);
   }
-  const bool soak = std::getenv("LOCKSTEP_SOAK") != nullptr;
-  std::uint64_t inputs = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000;
-  if (soak) inputs *= 100;
-  const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10)
-                             : soak   ? std::random_device{}()
-                                      : 20260714;
-  return run(argv[0], inputs, seed);
+  const int inputs = argc > 1 ? std::atoi(argv[1]) : 1000;
+  return run(argv[0], lockstep::test::cases(inputs, 100 * inputs));
 }

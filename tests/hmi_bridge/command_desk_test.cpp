@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/property.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -208,13 +210,11 @@ TEST_F(Commands, PanelsThatAreTooManyAreRefusedUntilOthersAreSilent) {
 }
 
 TEST_F(Commands, AnyBytesAreCountedAndMoveNothing) {
-  const std::uint32_t seed = 20261122;
-  std::printf("seed %u\n", seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed_of_test(20261122));
   const auto good = encoded(command(command_t::ENABLE));
   for (std::size_t size = 0; size < good.size(); ++size) desk_.accept(std::span(good).first(size), now_);
   EXPECT_EQ(desk_.counters().malformed, good.size());
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < test::cases(20'000, 2'000'000); ++i) {
     auto bytes = encoded(command(static_cast<std::int32_t>(random() % 8), 1.0));
     for (unsigned times = 1 + random() % 4; times > 0; --times)
       bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());

@@ -12,6 +12,7 @@
 #include "hmi_bridge/csv_number.hpp"
 #include "hmi_bridge/csv_reader.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
@@ -102,13 +103,11 @@ TEST(CsvNumber, TimesAreExactDecimalSeconds) {
 }
 
 TEST(CsvNumber, ATimeReadsBackAsTheDoubleNearestToIt) {
-  constexpr std::uint64_t kSeed = 20240117;
-  std::mt19937_64 random(kSeed);
-  for (int i = 0; i < 100'000; ++i) {
+  std::mt19937_64 random(test::seed_of_test(20240117));
+  for (int i = 0; i < test::cases(100'000, 10'000'000); ++i) {
     const auto t =
         static_cast<std::int64_t>(random() >> (11 + random() % 50));  // below 2^53: exact as a double
-    ASSERT_EQ(std::strtod(seconds(t).c_str(), nullptr), static_cast<double>(t) / 1e9)
-        << "seed " << kSeed << ", t " << t;
+    ASSERT_EQ(std::strtod(seconds(t).c_str(), nullptr), static_cast<double>(t) / 1e9) << "t " << t;
   }
 }
 
@@ -127,11 +126,10 @@ TEST(CsvNumber, WhatIsNoFiniteNumberIsWrittenWithoutASignOfNan) {
 
 // Doubles of every exponent, subnormal ones among them.
 TEST(CsvTrace, EveryDoubleReadsBackBitForBit) {
-  constexpr std::uint64_t kSeed = 4711;
   constexpr std::size_t kRows = 20'000;
   const TraceDirectory directory;
   const std::string path = directory.file("run.csv");
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(test::seed_of_test(4711));
   std::vector<double> numbers = {0.0, -0.0, std::numeric_limits<double>::denorm_min(),
                                  std::numeric_limits<double>::max(), std::numeric_limits<double>::min()};
   while (numbers.size() < kRows) {
@@ -155,7 +153,7 @@ TEST(CsvTrace, EveryDoubleReadsBackBitForBit) {
   for (std::size_t i = 0; i < kRows; ++i) {
     ASSERT_EQ(table.t[i], static_cast<double>(i * 250'000) / 1e9) << i;
     ASSERT_EQ(std::bit_cast<std::uint64_t>(table.columns[0][i]), std::bit_cast<std::uint64_t>(numbers[i]))
-        << "seed " << kSeed << ", number " << i;
+        << "number " << i;
   }
 }
 

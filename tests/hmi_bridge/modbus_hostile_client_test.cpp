@@ -10,6 +10,7 @@
 #include "hmi_bridge/modbus_server.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
@@ -263,11 +264,9 @@ TEST_F(Hostile, ClientsThatComeAndGoLeaveNothingBehind) {
 
 TEST_F(Hostile, AnyStreamOfBytesLeavesTheServerAtItsWork) {
   serve();
-  const unsigned seed = 20240603;
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed_of_test(20240603));
   RawClient bystander(server->port());
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < test::cases(300, 10'000); ++round) {
     RawClient client(server->port());
     Bytes bytes(random() % 600);
     for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random() % 3 == 0 ? random() : random() % 8);

@@ -8,20 +8,14 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/property.hpp"
+#include "tests/support/values.hpp"
+
 namespace lockstep {
 namespace {
 
-Value integer(std::int64_t i) {
-  Value value{};
-  value.i = i;
-  return value;
-}
-
-Value real(double r) {
-  Value value{};
-  value.r = r;
-  return value;
-}
+using test::integer;
+using test::real;
 
 ModbusEntry as(Type wire, WordOrder order = WordOrder::big) {
   return {0, ModbusTable::holding_register, 0, wire, order, true, kAny};
@@ -136,10 +130,8 @@ TEST(ModbusMap, AnEntryMayAllowASmallerRange) {
 }
 
 TEST(ModbusMap, WhatIsWrittenInItsOwnTypeIsReadBackTheSame) {
-  const unsigned seed = 20240601;
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
-  for (int i = 0; i < 20'000; ++i) {
+  std::mt19937_64 random(test::seed_of_test(20240601));
+  for (int i = 0; i < test::cases(20'000, 2'000'000); ++i) {
     const auto type = static_cast<Type>(random() % (static_cast<unsigned>(Type::TIME) + 1));
     const ModbusEntry entry = as(type, random() % 2 == 0 ? WordOrder::big : WordOrder::little);
     ModbusWords words{};

@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "hmi_bridge/modbus_request.hpp"
+#include "tests/support/values.hpp"
 
 namespace lockstep {
 namespace {
+
+using test::real;
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -37,12 +40,6 @@ ModbusEntry scaled_entry(Type type, double scale, double offset) {
   result.scale = scale;
   result.offset = offset;
   return result;
-}
-
-Value real(double r) {
-  Value value{};
-  value.r = r;
-  return value;
 }
 
 TEST(ByteOrder, LittleSwapsTheBytesOfEveryRegister) {

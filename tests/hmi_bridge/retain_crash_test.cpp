@@ -70,7 +70,7 @@ Recorded record(int snapshots) {
 }
 
 TEST(RetainCrash, AfterEveryPrefixAndEveryLossTheFileHoldsTheLastSnapshotToldOrTheNextOne) {
-  std::mt19937 random(static_cast<std::uint32_t>(seed_of_test(20260711)));
+  std::mt19937 random(seed_of_test(20260711));
   const int snapshots = cases(12, 30);
   const int subsets = cases(8, 40);
   const Recorded recorded = record(snapshots);
@@ -118,7 +118,7 @@ TEST(RetainCrash, AFileWithAChangedByteIsRefusedOrHoldsWhatWasWritten) {
     RetainFile file(kFile, kProject, disk.name());
     for (int number = 1; number <= 3; ++number) ASSERT_EQ(file.write(snapshot(number)), "");
   }
-  std::mt19937 random(static_cast<std::uint32_t>(seed_of_test(20260712)));
+  std::mt19937 random(seed_of_test(20260712));
   int refused = 0;
   const std::size_t size = disk.content[kFile].size();
   for (std::size_t place = 0; place < size; place += soak() ? 1 : 1 + random() % 8) {

@@ -14,9 +14,13 @@
 #include "fb/save_encoder_data.hpp"
 #include "hmi_bridge/retain_writer.hpp"
 #include "tests/hmi_bridge/memory_disk.hpp"
+#include "tests/support/values.hpp"
 
 namespace lockstep::test {
 namespace {
+
+using test::integer;
+using test::real;
 
 using namespace std::chrono_literals;
 
@@ -60,17 +64,6 @@ using RetainWriterTest = OnDisk;
 bool same(Value a, Value b) {
   return a.u == b.u;
 }
-Value integer(std::int64_t i) {
-  Value value{};
-  value.i = i;
-  return value;
-}
-Value real(double r) {
-  Value value{};
-  value.r = r;
-  return value;
-}
-
 TEST(KeptText, GivesTheSameBitsBack) {
   for (int number = 0; number <= static_cast<int>(Type::TIME); ++number) {
     const auto type = static_cast<Type>(number);

@@ -13,8 +13,12 @@
 #include <vector>
 
 #include "hmi_bridge/trace_sink.hpp"
+#include "tests/support/values.hpp"
 
 namespace lockstep {
+
+using test::integer;
+using test::real;
 
 /// A directory of one test, gone with it.
 class TraceDirectory {
@@ -35,13 +39,6 @@ inline std::string content(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
-}
-
-inline Value real(double number) {
-  return {.r = number};
-}
-inline Value integer(std::int64_t number) {
-  return {.i = number};
 }
 
 /// One signal of each kind.

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "projects/cam_table.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
@@ -171,9 +172,7 @@ TEST(CamFile, TheDataBlockGoesThroughJsonAndTablesWithoutALostBit) {
 }
 
 TEST(CamFile, RandomDataBlocksGoThroughTablesWithoutALostBit) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test::seed_of_test(1));
   std::uniform_real_distribution<double> value(-1e3, 1e3);
   CamDefinition definition;
   for (int i = 0; i < 500; ++i)
@@ -329,28 +328,26 @@ TEST(CamFile, EveryExampleIsValid) {
 
 // Files cut short and with bytes changed end in problems or a cam with a curve, never in anything else.
 TEST(CamFile, DamagedFilesEndInProblemsOrACurve) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
   const LoadedCam whole = loaded(kEverything);
   const std::string texts[] = {kEverything, cam_document(*whole.definition, true),
                                cam_element_table(*whole.definition, ',')};
   constexpr char kBytes[] = "0123456789eE+-.,:{}[]\"\t\n truefalsnPSI\xff";
-  for (int trial = 0; trial < 600; ++trial) {
-    std::string text = texts[trial % 3];
-    for (unsigned changes = random() % 4; changes > 0; --changes)
+  test::for_each_seed(1, test::cases(600, 60'000), [&](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    std::string text = texts[one.seed % 3];
+    for (auto changes = random() % 4; changes > 0; --changes)
       text[random() % text.size()] = kBytes[random() % (sizeof kBytes - 1)];
     if (random() % 3 == 0) text.resize(random() % text.size());
     const LoadedCam cam = load_cam(text, "", "", kCam10kPoints);
     EXPECT_NE(cam.definition.has_value(), !cam.problems.empty());
-    if (!cam.definition) continue;
+    if (!cam.definition) return;
     ASSERT_TRUE(cam.definition->cam.function);
     const CamFunction& f = *cam.definition->cam.function;
     for (int k = 0; k <= 20; ++k)
       EXPECT_TRUE(std::isfinite(
           f.value(f.start_leading_value() + (f.end_leading_value() - f.start_leading_value()) * k / 20.0)
               .position));
-  }
+  });
 }
 
 }  // namespace

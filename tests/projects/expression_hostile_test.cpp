@@ -3,6 +3,7 @@
 
 #include "projects/expression_parser.hpp"
 #include "tests/projects/expression_scope.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
@@ -84,16 +85,14 @@ TEST_F(HostileExpression, LongNamesAreShortenedInMessages) {
 }
 
 TEST_F(HostileExpression, RandomWordsNeverDoMoreThanFail) {
-  const std::uint32_t seed = 20240611;
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed_of_test(20240611));
   const std::vector<std::string> words = {
       "flag", "lreal", "dint",  "word", "time", "1",       "2.5",  "16#FF", "T#1s", "(",   ")",
       ",",    "+",     "-",     "*",    "/",    "MOD",     "**",   "AND",   "OR",   "NOT", "<",
       "=",    "<>",    "SQRT(", "MAX(", "SEL(", "TO_INT(", "ROL(", ".X1",   "[1]",  ":=",  "IN",
       "TRUE", "INT#5", "(*",    "*)",   "\x01", "TRUNC(",  "MUX(", "LIMIT("};
   std::size_t compiled = 0;
-  for (int i = 0; i < 100'000; ++i) {
+  for (int i = 0; i < test::cases(100'000, 10'000'000); ++i) {
     std::string text;
     const std::size_t length = 1 + random() % 12;
     for (std::size_t k = 0; k < length; ++k) text += words[random() % words.size()] + " ";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/projects/expression_scope.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
@@ -23,7 +24,7 @@ struct Case {
 
 class RandomExpressions {
  public:
-  RandomExpressions(std::uint32_t seed, TestScope& scope) : random_(seed), scope_(scope) {}
+  RandomExpressions(std::uint64_t seed, TestScope& scope) : random_(seed), scope_(scope) {}
 
   void new_values() {
     scope_.flag = chance(2);
@@ -263,13 +264,11 @@ class RandomExpressions {
 };
 
 TEST(RandomExpressions, AgreeWithAnIndependentEvaluator) {
-  const std::uint32_t seed = 31415;
-  SCOPED_TRACE("seed " + std::to_string(seed));
   TestScope scope;
-  RandomExpressions random(seed, scope);
+  RandomExpressions random(test::seed_of_test(31415), scope);
   int reals = 0;
   std::uint64_t divisions = 0;
-  for (int i = 0; i < 60'000; ++i) {
+  for (int i = 0; i < test::cases(60'000, 6'000'000); ++i) {
     random.new_values();
     const Case expected = random.any_case(1 + i % 5);
     const CompiledExpression compiled = compile_expression(expected.text, expected.type, scope);
@@ -298,12 +297,10 @@ TEST(RandomExpressions, AgreeWithAnIndependentEvaluator) {
 
 /// The same text with literals in place of tags is computed while loading, and comes to the same.
 TEST(RandomExpressions, ComputeTheSameWhileLoadingAndInTheCycle) {
-  const std::uint32_t seed = 27182;
-  SCOPED_TRACE("seed " + std::to_string(seed));
   TestScope scope;
-  RandomExpressions random(seed, scope);
+  RandomExpressions random(test::seed_of_test(27182), scope);
   const auto literal = [](const std::string& type, auto value) { return type + "#" + std::to_string(value); };
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < test::cases(20'000, 2'000'000); ++i) {
     random.new_values();
     const Case integer = random.integer(1 + i % 4);
     std::string text;

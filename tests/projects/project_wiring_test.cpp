@@ -8,9 +8,13 @@
 
 #include "changed_project.hpp"
 #include "projects/project.hpp"
+#include "tests/support/values.hpp"
 
 namespace lockstep {
 namespace {
+
+using test::integer;
+using test::real;
 
 Project load(std::string_view text) {
   LoadedProject loaded = load_project(text);
@@ -28,17 +32,6 @@ void store(const Project& project, std::string_view path, Value value) {
   const FoundPlace found = project.names.find(path);
   ASSERT_TRUE(found.place.has_value()) << found.problem;
   found.place->signal.store(value);
-}
-
-Value whole(std::int64_t number) {
-  Value value{};
-  value.i = number;
-  return value;
-}
-Value real(double number) {
-  Value value{};
-  value.r = number;
-  return value;
 }
 
 void run(const Project& project, std::int64_t now = 0) {
@@ -106,10 +99,10 @@ TEST(ExampleProject, StoresConstantPinsOnceAndObjectsByTheirAddress) {
 
 TEST(ExampleProject, MovesExpressionsToPinsAndOutputsToTags) {
   const Project project = load(kExampleProject);
-  store(project, "start", whole(1));
+  store(project, "start", integer(1));
   store(project, "speed", real(123.0));
-  store(project, "power_c.Status", whole(1));
-  store(project, "gear.InSync", whole(1));
+  store(project, "power_c.Status", integer(1));
+  store(project, "gear.InSync", integer(1));
   run(project);
   EXPECT_EQ(value_of(project, "run.Velocity").r, 123.0);
   EXPECT_EQ(value_of(project, "gear.Execute").u, 0u) << "home_k.Done is FALSE";
@@ -154,7 +147,7 @@ TEST(Program, RunsTheBranchThatTheConditionChooses) {
   EXPECT_EQ(value_of(project, "i").i, 2);
   EXPECT_EQ(value_of(project, "w").u, 0u);
   EXPECT_EQ(value_of(project, "t").i, 5'000'000);
-  store(project, "b", whole(1));
+  store(project, "b", integer(1));
   run(project);
   EXPECT_EQ(value_of(project, "i").i, 1);
   EXPECT_EQ(value_of(project, "w").u, 255u);

@@ -19,6 +19,7 @@
 #include "tests/scenarios/small_project.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/flood.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep::test {
 namespace {
@@ -90,7 +91,7 @@ TEST(FloodedMachine, ItsCycleNeitherWaitsNorAllocatesAndEveryAnswerIsRightAndOfO
     ASSERT_EQ(machine.server->start(), "");
     machine.keeper.start();
 
-    FloodClients clients(machine.server->port(), kRounds);
+    FloodClients clients(machine.server->port(), kRounds, seed_of_test(20240604));
     Controller& controller = *machine.project.controller;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     long waited = 0;
@@ -151,7 +152,7 @@ TEST(FloodedMachine, TheThreadOfTheCycleAsksTheSystemForNothingButTheTimeOfItsNe
   ASSERT_TRUE(wait_until([&] { return (cycle = thread_named(run.pid(), "cycle")) != 0; }));
   const std::string calls = directory.file("calls");
   Process strace({"timeout", "-s", "INT", "3", "strace", "-qq", "-o", calls, "-p", std::to_string(cycle)});
-  const FloodClients clients(static_cast<std::uint16_t>(run.port()), kRounds);
+  const FloodClients clients(static_cast<std::uint16_t>(run.port()), kRounds, seed_of_test(20240604));
   strace.status();
   std::ifstream lines(calls);
   int sleeps = 0;

@@ -192,7 +192,7 @@ TEST(MC_CamIn, AppendsPassesAndSeveralAxesShareACam) {
   const auto first = rig.l.setpoint().position.turns;
   for (int i = 0; i < 3000; ++i) {
     rig.tick();
-    const double passes = static_cast<double>(rig.l.setpoint().position.turns - first);
+    const auto passes = static_cast<double>(rig.l.setpoint().position.turns - first);
     ASSERT_NEAR(rig.f.setpoint().position.value,
                 rig.feed.function().value(rig.leading()).position + 40.0 * passes, 1e-9);
   }

@@ -93,7 +93,7 @@ struct Chain : Rig {
     const double shown = f.data.StatusSynchronizedMotion.EffectiveLeadingValue.Position;
     if (!l.modulo().enabled) return shown;
     const Wide about = unrolled(l.setpoint().position, l.modulo()) + added;
-    const double turns = static_cast<double>((about - shown) / l.modulo().length);
+    const auto turns = static_cast<double>((about - shown) / l.modulo().length);
     return shown + static_cast<Wide>(std::nearbyint(turns)) * l.modulo().length;
   }
 
@@ -314,16 +314,16 @@ class Sequence {
 
   /// Position and velocity are the integrals of what the axis shows, up to a jerk between the ticks.
   void expect_no_step(const Setpoint& before, const Setpoint& now) {
-    const double T = chain_.period();
+    const double dt = chain_.period();
     const double change = std::abs(now.acceleration - before.acceleration);
     const double highest_jerk = 2e5 * (2.0 + std::abs(chain_.ratio()));
     const double way = difference(now.position, before.position, chain_.f.modulo()).rounded();
     const double rounding = 8.0 * ulp(std::max(std::abs(now.position.value), chain_.f.modulo().length));
-    ASSERT_NEAR(way, 0.5 * (before.velocity + now.velocity) * T,
-                T * T * (change + highest_jerk * T) + rounding)
+    ASSERT_NEAR(way, 0.5 * (before.velocity + now.velocity) * dt,
+                dt * dt * (change + highest_jerk * dt) + rounding)
         << "step of the position at " << ticks_;
-    ASSERT_NEAR(now.velocity - before.velocity, 0.5 * (before.acceleration + now.acceleration) * T,
-                T * (change + highest_jerk * T) + 1e-9)
+    ASSERT_NEAR(now.velocity - before.velocity, 0.5 * (before.acceleration + now.acceleration) * dt,
+                dt * (change + highest_jerk * dt) + 1e-9)
         << "step of the velocity at " << ticks_;
   }
 

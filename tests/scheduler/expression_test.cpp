@@ -7,9 +7,11 @@
 #include <cstdlib>
 #include <limits>
 #include <new>
+#include <optional>
 #include <vector>
 
 #include "scheduler/program.hpp"
+#include "tests/support/values.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};  // other tests of this program have threads
@@ -31,16 +33,8 @@ void operator delete(void* memory, std::size_t) noexcept {
 namespace lockstep {
 namespace {
 
-Value of(std::int64_t number) {
-  Value value{};
-  value.i = number;
-  return value;
-}
-Value of_real(double number) {
-  Value value{};
-  value.r = number;
-  return value;
-}
+using test::integer;
+using test::real;
 
 template <class T>
 Signal signal_of(T& place) {
@@ -68,14 +62,14 @@ class Forms {
     left_ = left;
     ExpressionBuilder code;
     code.signal(signal_of(left_));
-    code.constant(of(right));
+    code.constant(integer(right));
     EXPECT_TRUE(code.apply(operation_, type_of<T>()));
     return std::move(code).finish(result_).evaluate(counters).i;
   }
   std::int64_t of_constants(T left, T right, EvaluationCounters& counters) const {
     ExpressionBuilder code;
-    code.constant(of(left));
-    code.constant(of(right));
+    code.constant(integer(left));
+    code.constant(integer(right));
     EXPECT_TRUE(code.apply(operation_, type_of<T>()));
     return std::move(code).finish(result_).evaluate(counters).i;
   }
@@ -177,8 +171,8 @@ TEST(Expression, OperationsExistForTheTypesThatTheirDeclarationNamesOnly) {
     const auto type = static_cast<Type>(t);
     const auto exists = [&](Operation operation) {
       ExpressionBuilder code;
-      code.constant(of(1));
-      code.constant(of(1));
+      code.constant(integer(1));
+      code.constant(integer(1));
       return code.apply(operation, type);
     };
     const bool value = type <= Type::DB_ANY;
@@ -202,9 +196,9 @@ TEST(Expression, RealIsRoundedToSinglePrecisionAfterEachOperation) {
   EvaluationCounters counters;
   ExpressionBuilder code;
   code.signal(signal_of(a));
-  code.constant(of_real(1.0));
+  code.constant(real(1.0));
   ASSERT_TRUE(code.apply(Operation::kAdd, Type::REAL));
-  code.constant(of_real(1.0));
+  code.constant(real(1.0));
   ASSERT_TRUE(code.apply(Operation::kAdd, Type::REAL));
   EXPECT_EQ(std::move(code).finish(Type::REAL).evaluate(counters).r, 16777216.0);
   for (const Operation operation : {Operation::kSquareRoot, Operation::kSine, Operation::kNaturalLog}) {
@@ -279,7 +273,7 @@ TEST(Expression, AConstantSaysSo) {
   EvaluationCounters counters;
   EXPECT_TRUE(Expression().constant());
   EXPECT_EQ(Expression().evaluate(counters).u, 0u);
-  const Expression constant(Type::LREAL, of_real(2.5));
+  const Expression constant(Type::LREAL, real(2.5));
   EXPECT_TRUE(constant.constant());
   EXPECT_EQ(constant.type(), Type::LREAL);
   EXPECT_EQ(constant.evaluate(counters).r, 2.5);
@@ -310,7 +304,7 @@ TEST(Expression, EvaluationTakesNothingFromTheHeap) {
   std::vector<Expression> expressions;
   ExpressionBuilder product;
   product.signal(signal_of(speed));
-  product.constant(of_real(1.5));
+  product.constant(real(1.5));
   ASSERT_TRUE(product.apply(Operation::kMultiply, Type::LREAL));
   product.signal(signal_of(speed));
   ASSERT_TRUE(product.apply(Operation::kSine, Type::LREAL));
@@ -320,7 +314,7 @@ TEST(Expression, EvaluationTakesNothingFromTheHeap) {
   ExpressionBuilder choice;
   for (int i = 0; i < 3; ++i) choice.signal(signal_of(number));
   choice.signal(signal_of(number));
-  choice.constant(of(0));
+  choice.constant(integer(0));
   ASSERT_TRUE(choice.apply(Operation::kDivide, Type::DINT));
   choice.multiplex(3);
   expressions.push_back(std::move(choice).finish(Type::DINT));
@@ -345,8 +339,9 @@ TEST(Texts, AreComparedAndAssignedWithoutAllocation) {
   builder.compare_texts({{kind, {}}, {std::nullopt, "a pale ale of some length"}, true});
   builder.compare_texts({{kind, {}}, {kind, {}}, true});
   ASSERT_TRUE(builder.apply(Operation::kOr, Type::BOOL));
-  const Expression either = std::move(builder).finish(Type::BOOL);
-  const Expression copy = either;
+  std::optional<Expression> either = std::move(builder).finish(Type::BOOL);
+  const Expression copy = *either;
+  either.reset();  // a copy does not need what it is of
   Program program("P", Ob::Main, 1, 0);
   program.add_assignment(TextSource{std::nullopt, "a pale ale of some length"}, kind);
   EvaluationCounters counters;

@@ -121,8 +121,8 @@ TEST_P(EncoderOnAnAxis, SeesAVirtualAxisFineInterpolatedOneInterpolatorCycleLate
   line.run(2000 - 2000 % GetParam());
   for (int i = 0; i < 200; ++i) {
     line.tick();
-    const double ticks = static_cast<double>(line.controller.now() / 1'000'000 - 1);
-    const double since = std::fmod(ticks, GetParam()) * 1e-3;
+    const std::int64_t ticks = line.controller.now() / 1'000'000 - 1;
+    const double since = static_cast<double>(ticks % GetParam()) * 1e-3;
     const double expected = line.c.data.Position + 240.0 * (since - line.period());
     ASSERT_NEAR(line.e.actual_position().value, expected, 1e-9);
   }
@@ -132,11 +132,11 @@ TEST_P(EncoderOnAnAxis, SeesAVirtualAxisFineInterpolatedOneInterpolatorCycleLate
 struct Reference {
   double period, t1, t2, v1, v2;
   double p1 = 0, p2 = 0, w1 = 0, w2 = 0, last_p = 0, last_f1 = 0, last_v = 0, last_g1 = 0;
-  static double lag(double& y, double from, double to, double T, double h) {
-    if (T == 0.0) return y = to;
-    const double decay = std::exp(-h / T);
+  static double lag(double& y, double from, double to, double time, double h) {
+    if (time == 0.0) return y = to;
+    const double decay = std::exp(-h / time);
     const double slope = (to - from) / h;
-    return y = to - slope * T + (y - from + slope * T) * decay;
+    return y = to - slope * time + (y - from + slope * time) * decay;
   }
   double step(double p, double v) {
     const double f1 = lag(p1, last_p, p, t1, period);

@@ -288,7 +288,7 @@ TEST(MeasuringJobs, OutliveTheEnableOfTheAxis) {
 
 TEST(MeasuringJobs, EndWith16_800DWhenTheAxisIsRestarted) {
   Marks rig;
-  MC_Reset& restart = rig.block<MC_Reset>();
+  auto& restart = rig.block<MC_Reset>();
   restart.Axis = &rig.c;
   restart.Restart = true;
   rig.once.Execute = true;

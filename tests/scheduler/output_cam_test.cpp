@@ -407,7 +407,7 @@ TEST(OutputCamAlarms, TellOfALeadBeyondTheRangeOfPositions) {
 // The job ends with the restart of its axis, and not with an alarm; a new edge begins another one.
 TEST(OutputCamAxis, RestartedEndsTheJob) {
   Cams rig;
-  MC_Reset& restart = rig.block<MC_Reset>();
+  auto& restart = rig.block<MC_Reset>();
   restart.Axis = &rig.c;
   restart.Restart = true;
   rig.enable(-5.0, 5.0, 3);
@@ -434,7 +434,7 @@ TEST(OutputCamAxis, RestartedEndsTheJob) {
 
 TEST(OutputCamAxis, RestartedBetweenTwoJobsIsNoAlarm) {
   Cams rig;
-  MC_Reset& restart = rig.block<MC_Reset>();
+  auto& restart = rig.block<MC_Reset>();
   restart.Axis = &rig.c;
   restart.Restart = true;
   rig.power.Enable = false;
@@ -758,7 +758,7 @@ TEST(CamTrackAlarms, TellOfWrongData) {
 
 TEST(CamTrackAxis, RestartedEndsTheJob) {
   Track rig;
-  MC_Reset& restart = rig.block<MC_Reset>();
+  auto& restart = rig.block<MC_Reset>();
   restart.Axis = &rig.c;
   restart.Restart = true;
   rig.fb.Enable = true;

@@ -10,20 +10,14 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/property.hpp"
+#include "tests/support/values.hpp"
+
 namespace lockstep {
 namespace {
 
-Value integer(std::int64_t i) {
-  Value value{};
-  value.i = i;
-  return value;
-}
-
-Value real(double r) {
-  Value value{};
-  value.r = r;
-  return value;
-}
+using test::integer;
+using test::real;
 
 void post(ProcessImage& image, const std::vector<SignalWrite>& batch) {
   image.post(batch);
@@ -189,9 +183,7 @@ WORD written(WORD word, const std::vector<SignalWrite>& batch) {
 }
 
 TEST(ProcessImage, MergedWritesGiveAndShowWhatTheyWouldOneByOne) {
-  const unsigned seed = 20240604;
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed_of_test(20240604));
   Tags tags;
   ProcessImage image(tags.signals());
   WORD view = tags.word;      // what the bridge has to see
@@ -203,7 +195,7 @@ TEST(ProcessImage, MergedWritesGiveAndShowWhatTheyWouldOneByOne) {
     ASSERT_EQ(WORD{static_cast<std::uint16_t>(image.value(kWord).u)}, view);
     expected = written(expected, batch);
   };
-  for (int tick = 0; tick < 10'000; ++tick) {
+  for (int tick = 0; tick < test::cases(10'000, 1'000'000); ++tick) {
     for (auto posts = random() % 3; posts > 0; --posts) post_any();
     image.take_writes();
     ASSERT_EQ(tags.word, expected) << "tick " << tick;

@@ -119,7 +119,7 @@ TEST(SpeedAxis, JogsTakesGivenVelocitiesStopsAndIsAcknowledged) {
 // It has no following error by which a fixed stop could be found.
 TEST(SpeedAxis, IsLimitedInItsTorqueButFindsNoFixedStop) {
   Fan rig(true);
-  MC_TorqueLimiting& limiting = rig.block<MC_TorqueLimiting>();
+  auto& limiting = rig.block<MC_TorqueLimiting>();
   limiting.Axis = &rig.fan;
   limiting.Limit = 0.5;
   limiting.Mode = 1;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "fb/leading_value.hpp"
+#include "tests/support/property.hpp"
 #include "tests/support/superimposing.hpp"
 
 namespace lockstep {
@@ -107,7 +108,7 @@ TEST(MC_MoveSuperimposed, EndsByItselfAndSoDoesThePositioningBelowIt) {
 TEST(MC_MoveSuperimposed, CountsAFurtherDistanceFromThePresentPoint) {
   Machine m;
   m.run_at(10.0);
-  MC_MoveSuperimposed& second = m.block<MC_MoveSuperimposed>();
+  auto& second = m.block<MC_MoveSuperimposed>();
   second.Axis = &m.axis_;
   m.move.Distance = 100.0;
   m.move.Execute = true;
@@ -490,7 +491,7 @@ TEST(MC_HaltSuperimposed, LeavesTheEndOfAHaltItsJerkSoThatItDoesNotTurnBack) {
 
 TEST(MC_HaltSuperimposed, IsLeftHalfByAStopThatNoJobAsksForAnyMore) {
   Machine m;
-  MC_MotionInVelocity& base = m.block<MC_MotionInVelocity>();
+  auto& base = m.block<MC_MotionInVelocity>();
   base.Axis = &m.axis_;
   m.continuity[1] = {false, false, 5000.0, 100000.0};
   base.Velocity = 500.0;
@@ -535,19 +536,17 @@ TEST(MC_MotionInSuperimposed, StopsOnAValueThatIsNoneWithWhatTheBaseMotionLeaves
 
 /// Whatever the base motion does when values that were given come to rest.
 TEST(MC_HaltSuperimposed, KeepsTheAccelerationOfTheSumAtRandom) {
-  constexpr unsigned kSeed = 43;
-  std::mt19937 random(kSeed);
-  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
   int braked = 0;
-  for (int round = 0; round < 300; ++round) {
+  const test::Cases ran = test::for_each_seed(43, test::cases(300, 30'000), [&](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    const auto uniform = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
     Machine m;
     m.continuity[1] = {false, false, 5000.0, 100000.0};
     const double most = uniform(1000.0, 5000.0);
     m.axis_.data.DynamicLimits.MaxAcceleration = m.axis_.data.DynamicLimits.MaxDeceleration = most;
-    const bool halts = round % 2 == 0;
+    const bool halts = one.seed % 2 == 0;
     if (halts) m.run_at(uniform(50.0, 450.0));
     auto set = [&](auto& job) {
       job.Deceleration = uniform(500.0, 8000.0);
@@ -569,19 +568,18 @@ TEST(MC_HaltSuperimposed, KeepsTheAccelerationOfTheSumAtRandom) {
       m.given.Distance = 0.001 * m.given.VelocityDiff * i;
       m.tick();
     }
-    if (round % 4 < 2) {
+    if (one.seed % 4 < 2) {
       set(m.halt_superimposed);
     } else {
       m.given.VelocityDiff = kNaN;
     }
     for (int i = 0; i < 1500; ++i) {
       m.tick();
-      ASSERT_LE(std::abs(m.axis_.data.Acceleration), most * (1 + 1e-9)) << "round " << round << ' ' << i;
-      if (testing::Test::HasFatalFailure()) return;
+      ASSERT_LE(std::abs(m.axis_.data.Acceleration), most * (1 + 1e-9)) << i;
     }
     braked += m.halt_superimposed.Done || m.given.Error;
-  }
-  EXPECT_EQ(braked, 300);
+  });
+  EXPECT_EQ(braked, ran.count);
 }
 
 // ---- MC_MotionInSuperimposed
@@ -716,7 +714,7 @@ TEST(SuperimposedOnAGear, IsExactlyTheLastTermOfTheChain) {
   m.offset.Offset = 3.3;
   m.offset.OffsetDistance = 20.0;
   m.offset.Execute = true;
-  std::mt19937 random(20261);
+  std::mt19937 random(test::seed_of_test(20261));
   std::uniform_real_distribution<double> distances(-20.0, 20.0);
   double worst = 0.0;
   int moving = 0;
@@ -794,7 +792,7 @@ TEST(SuperimposedOnAGear, CountsForTheStopPositionOfMC_GearOut) {
 TEST(SuperimposedOnAGear, IsNotSeenByTheLeadingAxisButMovesWhatItFollows) {
   Machine m;
   m.couple(50.0);
-  MC_MoveSuperimposed& on_leading = m.block<MC_MoveSuperimposed>();
+  auto& on_leading = m.block<MC_MoveSuperimposed>();
   on_leading.Axis = &m.leading;
   on_leading.Distance = 10.0;
   on_leading.Execute = true;
@@ -816,14 +814,12 @@ TEST(SuperimposedOnAGear, IsNotSeenByTheLeadingAxisButMovesWhatItFollows) {
 /// Jobs, override and jogging at random on an axis of its own: the sum keeps within the limits in every
 /// cycle.
 TEST(Superimposed, KeepsTheSumWithinTheLimitsUnderJobsAtRandom) {
-  constexpr unsigned kSeed = 41;
-  std::mt19937 random(kSeed);
-  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
   int superimposed_ticks = 0;
-  for (int round = 0; round < 60; ++round) {
+  const test::Cases ran = test::for_each_seed(41, test::cases(60, 6000), [&](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    const auto uniform = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
     Machine m;
     for (test::Continuity& rule : m.continuity) rule = {true, true, 5000.0 * 1.0001, 2e5};
     for (int action = 0; action < 25; ++action) {
@@ -863,13 +859,13 @@ TEST(Superimposed, KeepsTheSumWithinTheLimitsUnderJobsAtRandom) {
       for (int i = static_cast<int>(random() % 150); i >= 0; --i) {
         m.tick();
         superimposed_ticks += m.shows(StatusBit::MoveSuperimposedCommand) && m.superimposed() > 0.0;
-        ASSERT_LE(std::abs(m.velocity()), 500.0 * (1 + 1e-9)) << "round " << round;
-        ASSERT_LE(std::abs(m.axis_.data.Acceleration), 5000.0 * (1 + 1e-9)) << "round " << round;
-        if (testing::Test::HasFatalFailure()) return;
+        ASSERT_LE(std::abs(m.velocity()), 500.0 * (1 + 1e-9));
+        ASSERT_LE(std::abs(m.axis_.data.Acceleration), 5000.0 * (1 + 1e-9));
       }
     }
-  }
-  EXPECT_GT(superimposed_ticks, 10000);
+  });
+  if (ran.alone) return;
+  EXPECT_GT(superimposed_ticks, ran.count * 10'000 / 60);
 }
 
 }  // namespace

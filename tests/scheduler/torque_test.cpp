@@ -203,7 +203,7 @@ TEST(TorqueLimiting, AtTheLoadGoesThroughGearLeadScrewAndEfficiency) {
 
 TEST(TorqueLimiting, IsOneFunctionOfOneInstance) {
   Press rig;
-  MC_TorqueLimiting& second = rig.block<MC_TorqueLimiting>();
+  auto& second = rig.block<MC_TorqueLimiting>();
   second.Axis = &rig.a;
   rig.limiting.Enable = true;
   rig.run(2);
@@ -225,8 +225,8 @@ TEST(TorqueLimiting, IsOneFunctionOfOneInstance) {
 TEST(TorqueLimiting, OfAnAxisWithoutDriveIsRefused) {
   Rig rig;
   Axis& axis = rig.axis("Virtual");
-  MC_TorqueLimiting& limiting = rig.block<MC_TorqueLimiting>();
-  MC_TorqueRange& range = rig.block<MC_TorqueRange>();
+  auto& limiting = rig.block<MC_TorqueLimiting>();
+  auto& range = rig.block<MC_TorqueRange>();
   limiting.Axis = range.Axis = &axis;
   limiting.Enable = range.Enable = true;
   rig.run(2);
@@ -384,9 +384,9 @@ TEST(FixedStop, IsNotFoundByAMotionThatIsMerelyLate) {
 
 TEST(FixedStop, EndsAGearAsWell) {
   Press rig;
-  MC_Power& power = rig.block<MC_Power>();
-  MC_MoveVelocity& lead = rig.block<MC_MoveVelocity>();
-  MC_GearIn& gear = rig.block<MC_GearIn>();
+  auto& power = rig.block<MC_Power>();
+  auto& lead = rig.block<MC_MoveVelocity>();
+  auto& gear = rig.block<MC_GearIn>();
   power.Axis = lead.Axis = &rig.leading;
   power.Enable = true;
   gear.Master = &rig.leading;

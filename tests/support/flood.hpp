@@ -44,10 +44,12 @@ inline std::string flooded_project(nlohmann::ordered_json json) {
 class FloodClients {
  public:
   /// @param rounds of each good client; 0: until this object ends
-  FloodClients(std::uint16_t port, int rounds) : port_(port), rounds_(rounds) {
+  /// @param first register of the first good client, at most 240
+  FloodClients(std::uint16_t port, int rounds, std::uint64_t seed, int first = kFloodFirst)
+      : port_(port), rounds_(rounds), first_(first) {
     for (int i = 0; i < 5; ++i) be_silent();
     for (int i = 0; i < kFloodGood; ++i) threads_.emplace_back([this, i] { be_good(i); });
-    for (unsigned i = 0; i < 6; ++i) threads_.emplace_back([this, i] { be_malformed(20240604 + i); });
+    for (unsigned i = 0; i < 6; ++i) threads_.emplace_back([this, seed, i] { be_malformed(seed + i); });
     for (int i = 0; i < 5; ++i) threads_.emplace_back([this] { be_slow(); });
   }
   ~FloodClients() {
@@ -66,7 +68,7 @@ class FloodClients {
   /// Writes its register and reads it back, and the two values that belong together.
   void be_good(int number) {
     RawClient client(port_);
-    const auto low = static_cast<std::uint8_t>(kFloodFirst + number);
+    const auto low = static_cast<std::uint8_t>(first_ + number);
     for (int n = 0; rounds_ == 0 ? !is_over_ : n < rounds_; ++n) {
       const auto value = static_cast<std::uint8_t>(n);
       const Bytes write = {0, value, 0, 0, 0, 6, 1, 6, 0, low, 0, value};
@@ -89,7 +91,8 @@ class FloodClients {
     }
     --good_left_;
   }
-  void be_malformed(unsigned seed) {
+  /// Comes again and again with bytes that are no Modbus, or not quite.
+  void be_malformed(std::uint64_t seed) {
     std::mt19937 random(seed);
     while (!is_over_) {
       RawClient client(port_);
@@ -103,9 +106,10 @@ class FloodClients {
       client.is_hung_up_on();
     }
   }
+  /// A whole request, a byte at a time, without end.
   void be_slow() {
     RawClient client(port_);
-    const Bytes request = {0, 1, 0, 0, 0, 6, 1, 3, 0, kFloodFirst, 0, 1};
+    const Bytes request = {0, 1, 0, 0, 0, 6, 1, 3, 0, static_cast<std::uint8_t>(first_), 0, 1};
     while (!is_over_) {
       for (const std::uint8_t byte : request) {
         if (is_over_ || !client.send({byte})) return;
@@ -114,6 +118,7 @@ class FloodClients {
       if (client.receive(11).size() != 11) ++wrong_;
     }
   }
+  /// Half a request, and then nothing: needs no thread.
   void be_silent() {
     RawClient client(port_);
     client.send({0, 1, 0, 0, 0, 6});
@@ -124,6 +129,7 @@ class FloodClients {
 
   const std::uint16_t port_;
   const int rounds_;
+  const int first_;
   std::atomic<int> good_left_{kFloodGood};
   std::atomic<int> wrong_{0};
   std::atomic<int> torn_{0};

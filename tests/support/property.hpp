@@ -1,47 +1,21 @@
-/// Tests with random cases: which seeds they have, how many, and how a failing one is followed. By the
-/// environment:
-///   LOCKSTEP_SOAK          the numbers of `./dev soak`
-///   LOCKSTEP_FIRST_SEED=N  begin with another seed
-///   LOCKSTEP_SEED=N        this seed alone, told as it runs where a test can do that
+/// Tests with random cases: which seeds they have, how many, and how a failing one is followed.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <optional>
-#include <random>
 #include <string>
+
+#include "tests/support/seeds.hpp"
 
 namespace lockstep::test {
 
-/// Whether random tests are to run for long.
-inline bool soak() {
-  return std::getenv("LOCKSTEP_SOAK") != nullptr;
-}
-
-/// A number of cases: that of CI, or in a soak the other.
-inline int cases(int usual, int in_a_soak) {
-  return soak() ? in_a_soak : usual;
-}
-
-/// A seed of the environment, if there is one.
-inline std::optional<std::uint64_t> seed_of(const char* variable) {
-  const char* const text = std::getenv(variable);
-  if (text == nullptr) return std::nullopt;
-  return std::strtoull(text, nullptr, 10);
-}
-
-/// The seed of a test with one generator for all its cases, printed: that of the environment; else in a soak
-/// a new one, `usual` otherwise.
+/// The seed of a test with one generator for all its cases, printed.
 inline std::uint64_t seed_of_test(std::uint64_t usual) {
-  auto seed = seed_of("LOCKSTEP_SEED");
-  if (!seed) seed = seed_of("LOCKSTEP_FIRST_SEED");
-  if (!seed) seed = soak() ? std::random_device{}() : usual;
-  std::printf("seed %llu; follow it with LOCKSTEP_SEED\n", static_cast<unsigned long long>(*seed));
-  testing::Test::RecordProperty("seed", std::to_string(*seed));
-  return *seed;
+  const std::uint64_t seed = seed_of_run(usual);
+  testing::Test::RecordProperty("seed", std::to_string(seed));
+  return seed;
 }
 
 /// One case of a test whose cases have seeds of their own.

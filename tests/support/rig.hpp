@@ -102,19 +102,19 @@ class Rig {
                 std::isfinite(now.acceleration))
         << axis.name << " at " << controller.now();
     if (last.known && controller.counters().interpolator_ticks != seen_ && rule.velocity) {
-      const double T = period();
+      const double dt = period();
       const double way = difference(now.position, last.setpoint.position, axis.modulo()).rounded();
-      const double mean = 0.5 * (now.velocity + last.setpoint.velocity) * T;
-      const double slack = rule.highest_acceleration * T * T + 1e-9;
+      const double mean = 0.5 * (now.velocity + last.setpoint.velocity) * dt;
+      const double slack = rule.highest_acceleration * dt * dt + 1e-9;
       const bool renamed = rule.homing && homed && !last.homed;
       ASSERT_TRUE(renamed || std::abs(way - mean) <= slack)
           << axis.name << ": step of the position by " << way - mean << " at " << controller.now();
       ASSERT_LE(std::abs(now.velocity - last.setpoint.velocity),
-                rule.highest_acceleration * T * (1 + 1e-9) + 1e-9)
+                rule.highest_acceleration * dt * (1 + 1e-9) + 1e-9)
           << axis.name << ": step of the velocity at " << controller.now();
       if (rule.acceleration) {
         ASSERT_LE(std::abs(now.acceleration - last.setpoint.acceleration),
-                  rule.highest_jerk * T * (1 + 1e-9) + 1e-6)
+                  rule.highest_jerk * dt * (1 + 1e-9) + 1e-6)
             << axis.name << ": step of the acceleration at " << controller.now();
       }
     }

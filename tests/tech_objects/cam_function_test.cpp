@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tech_objects/cam_sine.hpp"
+#include "tests/support/property.hpp"
 #include "tests/tech_objects/cam_cases.hpp"
 
 namespace lockstep {
@@ -23,8 +24,7 @@ bool same(const CamValue& a, const CamValue& b) {
 }
 
 /// A cam with every kind of piece.
-void fill_mixed(Cam& cam, DINT mode, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
+void fill_mixed(Cam& cam, DINT mode, std::mt19937_64& random) {
   std::uniform_real_distribution<double> part(0.0, 1.0);
   cam.mode(mode);
   for (int i = 0; i < 40; ++i) cam.point(i * 5.0 + 4.0 * part(random), 10.0 * part(random));
@@ -38,12 +38,10 @@ void fill_mixed(Cam& cam, DINT mode, std::uint64_t seed) {
 }
 
 TEST(CamFunction, AnyHintGivesTheSameBits) {
-  const std::uint64_t seed = 99;
-  RecordProperty("seed", std::to_string(seed));
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test::seed_of_test(99));
   for (const DINT mode : {0, 1, 2}) {
     Cam cam;
-    fill_mixed(cam, mode, seed);
+    fill_mixed(cam, mode, random);
     ASSERT_EQ(cam.interpolate(), ErrorId::none);
     CamHint moving;
     for (int k = 0; k < 20000; ++k) {
@@ -78,10 +76,10 @@ TEST(CamFunction, BeforeTheFirstInterpolationItIsZeroAndDefinedNowhere) {
 }
 
 TEST(CamFunction, TheValuesAtStartAndEndAreThoseOfTheElementsToTheLastBit) {
-  std::mt19937_64 random(4);
+  std::mt19937_64 random(test::seed_of_test(4));
   std::uniform_real_distribution<double> part(0.0, 1.0);
   for (const DINT mode : {0, 1, 2})
-    for (int run = 0; run < 100; ++run) {
+    for (int run = 0; run < test::cases(100, 10'000); ++run) {
       Cam cam;
       cam.mode(mode, run % 2);
       for (int i = 0; i < 20; ++i) cam.point(i + 0.9 * part(random), part(random));
@@ -109,9 +107,10 @@ TEST(CamFunction, ACamThatBeginsOrEndsWithASegmentKnowsItsValuesThere) {
 }
 
 TEST(CamFunction, IsContinuousAcrossEveryPiece) {
+  std::mt19937_64 random(test::seed_of_test(17));
   for (const DINT mode : {0, 1, 2}) {
     Cam cam;
-    fill_mixed(cam, mode, 17);
+    fill_mixed(cam, mode, random);
     ASSERT_EQ(cam.interpolate(), ErrorId::none);
     CamHint hint;
     double last = cam.f.start_following_value();
@@ -171,14 +170,11 @@ TEST(CamFunction, AFollowingValueARoundingBeyondAnExtremumHasItsLeadingValue) {
 }
 
 TEST(CamFunction, TheNearestLeadingValueIsNeverFartherThanAnyThatAScanFinds) {
-  const std::uint64_t seed = 5150;
-  RecordProperty("seed", std::to_string(seed));
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> part(0.0, 1.0);
-  for (int run = 0; run < 120; ++run) {
-    SCOPED_TRACE(testing::Message() << "seed " << seed << ", run " << run);
+  test::for_each_seed(5150, test::cases(120, 12'000), [](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    std::uniform_real_distribution<double> part(0.0, 1.0);
     Cam cam;
-    fill_mixed(cam, run % 3, seed + run);
+    fill_mixed(cam, static_cast<DINT>(one.seed % 3), random);
     ASSERT_EQ(cam.interpolate(), ErrorId::none);
     const double start = cam.f.start_leading_value();
     const double length = cam.f.end_leading_value() - start;
@@ -201,7 +197,7 @@ TEST(CamFunction, TheNearestLeadingValueIsNeverFartherThanAnyThatAScanFinds) {
       }
       EXPECT_LE(std::abs(*found - near), scanned + length / 4000.0);
     }
-  }
+  });
 }
 
 TEST(CamFunction, APairShowsTheSpareOnlyAfterTheSwap) {
@@ -220,9 +216,9 @@ TEST(CamFunction, APairShowsTheSpareOnlyAfterTheSwap) {
 }
 
 TEST(CamSine, AgreesWithTheLibraryToTwoUlpOfOne) {
-  std::mt19937_64 random(11);
+  std::mt19937_64 random(test::seed_of_test(11));
   std::uniform_real_distribution<double> part(-1.0, 1.0);
-  for (int k = 0; k < 200000; ++k) {
+  for (int k = 0; k < test::cases(200'000, 20'000'000); ++k) {
     const double angle = part(random) * (k % 2 == 0 ? 4.0 : 1.0e5);
     const SineCosine found = sine_cosine(angle);
     ASSERT_NEAR(found.sine, static_cast<double>(std::sin(static_cast<long double>(angle))), 4.5e-16) << angle;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tech_objects/cam_interpolation.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
@@ -93,11 +94,11 @@ TEST(CamFollowing, DoesNotDriftInAnyNumberOfTurns) {
   const double scaling = 0.1;  // as a double a little more, so that ten passes are not quite a turn
   ASSERT_NE(two_product(scaling, 360.0).lo, 0.0);
   CamFollowing cam = applied(f, {scaling, 1.0, CamMode::cyclic}, kRing, kLine);
-  std::mt19937_64 random(1);
+  std::mt19937_64 random(test::seed_of_test(1));
   std::uniform_real_distribution<double> place(0.0, 360.0);
   for (const std::int64_t turn : {std::int64_t{0}, std::int64_t{1}, std::int64_t{100'000},
                                   std::int64_t{-100'000}, std::int64_t{1} << 40, std::int64_t{100'001}}) {
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < test::cases(200, 20'000); ++i) {
       const double value = std::ldexp(std::floor(std::ldexp(place(random), 40)), -40);
       const double reference = f.value(exact_leading_value(turn, value, scaling)).position;
       EXPECT_NEAR(cam.value({turn, value}).position.value, reference, 50.0 * 1e-12)
@@ -217,28 +218,25 @@ TEST(CamFollowing, SeesACornerFromTheSideWhereItGoes) {
 }
 
 TEST(CamFollowing, IsContinuousAcrossPassesWithRandomScaling) {
-  constexpr unsigned kSeed = 20240611;
-  SCOPED_TRACE(kSeed);
-  std::mt19937 random(kSeed);
   const CamFunction f = feed();
-  std::uniform_real_distribution<double> scale(0.01, 3.0);
-  for (int run = 0; run < 200; ++run) {
+  test::for_each_seed(20240611, test::cases(200, 20'000), [&](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    std::uniform_real_distribution<double> scale(0.01, 3.0);
     CamUse use{scale(random), scale(random), CamMode::appended};
-    if (run % 3 == 0) use.master_scaling = -use.master_scaling;
-    if (run % 2 == 0) use.slave_scaling = -use.slave_scaling;
+    if (one.seed % 3 == 0) use.master_scaling = -use.master_scaling;
+    if (one.seed % 2 == 0) use.slave_scaling = -use.slave_scaling;
     CamFollowing cam = applied(f, use, kRing, kRing);
     AxisPosition leading{0, 0.0};
-    const double step = (run % 5 == 0 ? -1.0 : 1.0) * std::abs(use.master_scaling) * 0.7;
+    const double step = (one.seed % 5 == 0 ? -1.0 : 1.0) * std::abs(use.master_scaling) * 0.7;
     AxisPosition last = cam.value(leading).position;
     const double steepest = 0.6 * std::abs(use.slave_scaling / use.master_scaling);
     for (int i = 0; i < 3000; ++i) {
       leading = advanced(leading, step, kRing);
       const AxisPosition now = cam.value(leading).position;
-      ASSERT_LE(std::abs(difference(now, last, kRing).rounded()), steepest * std::abs(step))
-          << run << ' ' << i;
+      ASSERT_LE(std::abs(difference(now, last, kRing).rounded()), steepest * std::abs(step)) << i;
       last = now;
     }
-  }
+  });
 }
 
 }  // namespace

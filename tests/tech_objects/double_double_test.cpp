@@ -5,23 +5,22 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/property.hpp"
+
 namespace lockstep {
 namespace {
 
 TEST(DoubleDouble, SumsAndProductsOfDoublesLoseNothing) {
-  constexpr unsigned kSeed = 11;
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(test::seed_of_test(11));
   std::uniform_int_distribution<std::int64_t> numbers(-(1LL << 53), 1LL << 53);
   __extension__ using Wide = __int128;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::cases(100'000, 10'000'000); ++i) {
     const std::int64_t a = numbers(random);
     const std::int64_t b = numbers(random);
     const DoubleDouble sum = two_sum(static_cast<double>(a), static_cast<double>(b));
-    ASSERT_EQ(static_cast<std::int64_t>(sum.hi) + static_cast<std::int64_t>(sum.lo), a + b)
-        << "seed " << kSeed;
+    ASSERT_EQ(static_cast<std::int64_t>(sum.hi) + static_cast<std::int64_t>(sum.lo), a + b);
     const DoubleDouble product = two_product(static_cast<double>(a), static_cast<double>(b));
-    ASSERT_TRUE(static_cast<Wide>(product.hi) + static_cast<Wide>(product.lo) == static_cast<Wide>(a) * b)
-        << "seed " << kSeed;
+    ASSERT_TRUE(static_cast<Wide>(product.hi) + static_cast<Wide>(product.lo) == static_cast<Wide>(a) * b);
   }
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tech_objects/decay.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
@@ -105,14 +106,12 @@ TEST(DecayWithin, IsThatOfTheLibraryWithinAFewUlp) {
 }
 
 TEST(ExtrapolationFilters, AgreeWithTheClosedSolutionForAnyInput) {
-  const std::uint64_t seed = 20240611;
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> exponent(-5.0, 0.5);
-  std::normal_distribution<double> noise;
-  for (int round = 0; round < 40; ++round) {
+  test::for_each_seed(20240611, test::cases(40, 4000), [](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    std::uniform_real_distribution<double> exponent(-5.0, 0.5);
+    std::normal_distribution<double> noise;
     std::array<double, 4> t{};
-    for (double& value : t) value = round % 5 == 0 ? 0.0 : std::pow(10.0, exponent(random));
+    for (double& value : t) value = one.seed % 5 == 0 ? 0.0 : std::pow(10.0, exponent(random));
     const auto settings = settings_of(t[0], t[1], t[2], t[3]);
     OnLine extrapolation;
     ReferencePt2 position(t[0], t[1]);
@@ -130,7 +129,7 @@ TEST(ExtrapolationFilters, AgreeWithTheClosedSolutionForAnyInput) {
       ASSERT_NEAR(values.position.value, static_cast<double>(p_ref + v_ref * time), 1e-9);
       ASSERT_EQ(values.velocity, values.filtered_velocity);
     }
-  }
+  });
 }
 
 // ---- Extrapolation
@@ -198,9 +197,7 @@ TEST(Extrapolation, AtConstantAccelerationIsLateAsItsFiltersAre) {
 }
 
 TEST(Extrapolation, WithNoiseStaysWithinBandHysteresisAndFilteredNoise) {
-  const std::uint64_t seed = 77;
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test::seed_of_test(77));
   std::uniform_real_distribution<double> noise(-1.0, 1.0);
   auto settings = settings_of(0.006, 0.004, 0.05, 0.03);
   settings.VelocityTolerance.Range = 4.0;
@@ -215,8 +212,8 @@ TEST(Extrapolation, WithNoiseStaysWithinBandHysteresisAndFilteredNoise) {
       const double np = 0.01 * noise(random);
       const double nv = 10.0 * noise(random);
       const double seen = extrapolation.position(v * seconds(i) + np, v + nv, settings);
-      const double p = static_cast<double>(std::abs(noise_of_position.step(np)));
-      const double w = static_cast<double>(std::abs(noise_of_velocity.step(nv)));
+      const auto p = static_cast<double>(std::abs(noise_of_position.step(np)));
+      const auto w = static_cast<double>(std::abs(noise_of_velocity.step(nv)));
       if (i < 1500) continue;
       const double error = std::abs(seen - v * (seconds(i) + kPeriod + 0.003));
       ASSERT_LE(error, 2.0 * time + 0.02 + p + w * time + 1e-9) << v << " at " << i;
@@ -252,9 +249,7 @@ TEST(ExtrapolationToleranceBand, MovesOnlyWhenTheVelocityLeavesItAndStaysHalfIts
 }
 
 TEST(ExtrapolationToleranceBand, OfTheWidthOfTheNoiseHidesTheNoise) {
-  const std::uint64_t seed = 5;
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test::seed_of_test(5));
   std::uniform_real_distribution<double> noise(-1.0, 1.0);
   TO_Struct_Extrapolation settings;
   settings.VelocityTolerance.Range = 2.0;
@@ -294,9 +289,7 @@ TEST(ExtrapolationHysteresis, TakesTheFirstMotionAsTheOneThatIsNotHeldBack) {
 }
 
 TEST(ExtrapolationHysteresis, NeverReversesForNoiseSmallerThanItself) {
-  const std::uint64_t seed = 9;
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(test::seed_of_test(9));
   std::uniform_real_distribution<double> noise(-0.5, 0.5);
   TO_Struct_Extrapolation settings;
   settings.Hysteresis.Value = 1.0;

@@ -19,11 +19,6 @@ namespace {
 
 constexpr double kShortest = 0.01;  // below it rounding of the velocity is felt in the comparison
 
-std::uint64_t seed() {
-  static const std::uint64_t value = test::seed_of_test(5318008);
-  return value;
-}
-
 int cases() {
   return test::cases(20'000, 1'000'000);
 }
@@ -136,7 +131,7 @@ class Oracle {
 
  private:
   bool equal_;
-  std::mt19937_64 random_{seed()};
+  std::mt19937_64 random_{test::seed_of_test(5318008)};
 };
 
 /// Duration of the planned motion. A target next to it counts as well: the quickest motions end at an edge of
@@ -172,7 +167,7 @@ TEST_P(ProfileOracle, NoMotionThatKeepsTheLimitsIsQuicker) {
                   "{0, %.17g, %.17g} -> %.17g, %.17g; limits %.17g %.17g %.17g %.17g %.17g", s.velocity,
                   s.acceleration, motion.state().position, motion.state().velocity, l.velocity_max,
                   l.velocity_min, l.acceleration, l.deceleration, l.jerk);
-    ASSERT_LE(duration, motion.time() * (1 + 1e-6)) << "seed " << seed() << ", case " << i << ": " << text;
+    ASSERT_LE(duration, motion.time() * (1 + 1e-6)) << "case " << i << ": " << text;
   }
   // The comparison means something only if it is made, and met, often.
   EXPECT_GT(compared, cases() / 10);

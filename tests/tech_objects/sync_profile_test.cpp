@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tech_objects/gear_function.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
@@ -23,12 +24,11 @@ double least_slope(const SyncProfile& profile, double end_slope, double to) {
 }
 
 TEST(SyncProfile, BeginsWithTheMotionOfTheAxisAndEndsOnTheFunctionToTheLastBit) {
-  constexpr unsigned kSeed = 3;
-  std::mt19937_64 random(kSeed);
-  std::uniform_real_distribution<double> any(-1.0, 1.0);
-  for (int i = 0; i < 2000; ++i) {
+  test::for_each_seed(3, test::cases(2000, 200'000), [](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
     SyncStart start;
-    const bool backward = i % 2 == 0;
+    const bool backward = one.seed % 2 == 0;
     start.leading = {0, any(random) * 1000.0};
     start.leading_velocity = (backward ? -1.0 : 1.0) * (1.0 + 99.0 * std::abs(any(random)));
     start.leading_acceleration = any(random) * 100.0;
@@ -43,7 +43,7 @@ TEST(SyncProfile, BeginsWithTheMotionOfTheAxisAndEndsOnTheFunctionToTheLastBit) 
     const double way_velocity = std::abs(start.leading_velocity);
     const double way_acceleration = (backward ? -1.0 : 1.0) * start.leading_acceleration;
     const SyncOffset begin = profile.value(0.0);
-    EXPECT_EQ(begin.position, start.following.value - target.at_start.value) << "seed " << kSeed;
+    EXPECT_EQ(begin.position, start.following.value - target.at_start.value);
     EXPECT_NEAR(target.slope * start.leading_velocity + begin.velocity(way_velocity), start.velocity, 1e-9);
     EXPECT_NEAR(
         target.slope * start.leading_acceleration + begin.acceleration(way_velocity, way_acceleration),
@@ -59,7 +59,7 @@ TEST(SyncProfile, BeginsWithTheMotionOfTheAxisAndEndsOnTheFunctionToTheLastBit) 
     EXPECT_LE(std::abs(near.position), scale * 1e-18);
     EXPECT_LE(std::abs(near.slope) * distance, scale * 1e-12);
     EXPECT_LE(std::abs(near.curvature) * distance * distance, scale * 1e-6);
-  }
+  });
 }
 
 TEST(SyncProfile, SlopeAndCurvatureAreTheDerivatives) {
@@ -119,19 +119,18 @@ TEST(SyncProfile, TheShortestPathIsAtMostHalfATurn) {
 }
 
 TEST(SyncProfile, OneWaySynchronizingTakesTheFewestTurnsThatNeverReverse) {
-  constexpr unsigned kSeed = 5;
-  std::mt19937_64 random(kSeed);
-  std::uniform_real_distribution<double> any(0.0, 1.0);
   int more_than_one = 0;
   int refused = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const bool backward = i % 2 == 0;
-    const double to = i % 4 < 2 ? 1.0 : -1.0;
+  const test::Cases ran = test::for_each_seed(5, test::cases(1000, 100'000), [&](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    std::uniform_real_distribution<double> any(0.0, 1.0);
+    const bool backward = one.seed % 2 == 0;
+    const double to = one.seed % 4 < 2 ? 1.0 : -1.0;
     SyncStart start;
     start.leading_velocity = (backward ? -1.0 : 1.0) * 10.0;
     start.following = {7, 360.0 * any(random)};
-    start.velocity = i % 3 == 0 ? 0.0 : to * 200.0 * any(random);
-    start.acceleration = i % 3 == 0 ? 0.0 : 400.0 * (any(random) - 0.5);
+    start.velocity = one.seed % 3 == 0 ? 0.0 : to * 200.0 * any(random);
+    start.acceleration = one.seed % 3 == 0 ? 0.0 : 400.0 * (any(random) - 0.5);
     const double end_slope = to * (0.01 + 10.0 * any(random));  // along the way
     const SyncTarget target{{-3, 360.0 * any(random)}, backward ? -end_slope : end_slope};
     const double distance = 1.0 + 200.0 * any(random);
@@ -139,12 +138,12 @@ TEST(SyncProfile, OneWaySynchronizingTakesTheFewestTurnsThatNeverReverse) {
     SyncProfile profile;
     if (profile.plan(start, target, distance, backward, direction, kLine, kRing) != SyncPlan::kReady) {
       // One that all but stands and brakes hard: it would have to go for hundreds of turns.
-      EXPECT_LT(to * start.acceleration / std::abs(start.velocity), -5.0) << "seed " << kSeed << " row " << i;
+      EXPECT_LT(to * start.acceleration / std::abs(start.velocity), -5.0);
       ++refused;
-      continue;
+      return;
     }
     const double scale = std::abs(end_slope) + std::abs(start.velocity) / 10.0;
-    EXPECT_GE(least_slope(profile, end_slope, to), -1e-9 * scale) << "seed " << kSeed << " row " << i;
+    EXPECT_GE(least_slope(profile, end_slope, to), -1e-9 * scale);
     // With one turn less it would reverse, or there would be no way left to go.
     SyncStart shifted = start;
     shifted.following.turns += static_cast<std::int64_t>(to) - profile.turns();
@@ -153,11 +152,12 @@ TEST(SyncProfile, OneWaySynchronizingTakesTheFewestTurnsThatNeverReverse) {
     SyncStart on_line = start;
     on_line.following = {0, ahead};
     shorter.plan(on_line, {{0, 0.0}, target.slope}, distance, backward, direction, kLine, kLine);
-    EXPECT_LT(least_slope(shorter, end_slope, to), 1e-3 * scale) << "seed " << kSeed << " row " << i;
+    EXPECT_LT(least_slope(shorter, end_slope, to), 1e-3 * scale);
     more_than_one += std::abs(end_slope * distance - profile.value(0.0).position) > 720.0 ? 1 : 0;
-  }
-  EXPECT_GT(more_than_one, 50);
-  EXPECT_LT(refused, 20);
+  });
+  if (ran.alone) return;
+  EXPECT_GT(more_than_one, ran.count / 20);
+  EXPECT_LT(refused, ran.count / 50);
 }
 
 /// What the end asks for is as large as what rounding leaves of a slope: catching up has a limit.

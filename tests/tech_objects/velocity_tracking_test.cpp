@@ -10,6 +10,8 @@
 #include <random>
 #include <string>
 
+#include "tests/support/property.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -216,27 +218,25 @@ TEST(VelocityTracking, TakesTheTimeAndTheWayOfAnIndependentTimeOptimalGenerator)
 }
 
 TEST(VelocityTracking, RandomSituationsConvergeInsideTheirLimits) {
-  constexpr unsigned kSeed = 17;
-  std::mt19937_64 random(kSeed);
-  std::uniform_real_distribution<double> any(-1.0, 1.0);
-  const auto size = [&](double low, double high) {
-    return low * std::pow(high / low, 0.5 + 0.5 * any(random));
-  };
-  for (int i = 0; i < 1500; ++i) {
-    SCOPED_TRACE("seed " + std::to_string(kSeed) + " run " + std::to_string(i));
+  test::for_each_seed(17, test::cases(1500, 150'000), [](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    const auto size = [&](double low, double high) {
+      return low * std::pow(high / low, 0.5 + 0.5 * any(random));
+    };
     TrackingLimits limits{1000.0, size(100.0, 1e5), size(100.0, 1e5), 0.0};
-    limits.jerk = i % 5 == 0 ? 0.0 : size(1e3, 1e8);
+    limits.jerk = one.seed % 5 == 0 ? 0.0 : size(1e3, 1e8);
     const double period = size(0.00025, 0.004);
     const double gentle = std::min(limits.acceleration, limits.deceleration);
     TrackingMotion own{600.0 * any(random), 0.0};
-    if (i % 2 == 0) {  // moving, with an acceleration that is not bound to pass the velocity limit
+    if (one.seed % 2 == 0) {  // moving, with an acceleration that is not bound to pass the velocity limit
       const double most =
           std::min({limits.acceleration, limits.deceleration, std::sqrt(600.0 * limits.jerk)});
       own.acceleration = most * any(random);
       if (own.velocity * own.acceleration < 0.0) own.acceleration = -own.acceleration;
     }
     const double end = 800.0 * any(random);
-    const double slope = i % 3 == 0 ? 0.0 : 0.5 * gentle * any(random);
+    const double slope = one.seed % 3 == 0 ? 0.0 : 0.5 * gentle * any(random);
     const double start = end - slope * 0.2;
     // A ramp for 0.2 s, then constant: the step in acceleration is beyond any jerk.
     const Target target = [=](double time) {
@@ -250,8 +250,7 @@ TEST(VelocityTracking, RandomSituationsConvergeInsideTheirLimits) {
       EXPECT_EQ(run.last.velocity, end);
       EXPECT_EQ(run.last.acceleration, 0.0);
     }
-    if (::testing::Test::HasFailure()) break;
-  }
+  });
 }
 
 }  // namespace
