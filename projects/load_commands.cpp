@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "projects/loader.hpp"
+#include "tech_objects/velocity_unit.hpp"
 
 namespace lockstep {
 namespace {
@@ -160,15 +161,6 @@ std::vector<Signal> signals_of(const Axis& axis, PanelInputs& inputs, const Name
   return signals;
 }
 
-/// The unit of the velocities of an axis.
-std::string velocity_unit_of(const Axis& axis, const Names& names) {
-  if (axis.has_position()) return std::string(unit_text(Unit::kVelocity));
-  const Place unit = names.find(axis.name + ".Units.VelocityUnit").place.value();
-  for (const Choice& choice : unit.variable->choices)
-    if (static_cast<std::uint64_t>(choice.value) == unit.signal.load().u) return std::string(choice.text);
-  return "";
-}
-
 void load_axis(const std::string& name, const JsonValue& json, Program& program, const Loading& loading) {
   Problems& problems = loading.problems;
   CommandsConfig& commands = loading.project.commands;
@@ -187,7 +179,7 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
   const Place speed = names.find(axis.name + ".Override.Velocity").place.value();
   PanelInputs& inputs = commands.inputs.emplace_back();
   commands.axes.push_back({axis.name, limit.value_or(usual), enabled_by, signals_of(axis, inputs, names),
-                           std::string(kind_name(axis.kind)), velocity_unit_of(axis, names),
+                           std::string(kind_name(axis.kind)), std::string(velocity_unit_text(axis)),
                            axis.has_position()});
   PanelProgram(program, loading, axis).build(inputs, enabled_by.empty(), speed);
 }
