@@ -58,6 +58,16 @@ void answer(Model& model, const Key& key, Wish& wish, Model::Clock::time_point n
   edit(model.answer, key);
 }
 
+/// Asks where the axis is, if it can be told.
+void ask_position(Model& model, const PanelAxis* axis) {
+  if (axis == nullptr) return;
+  const std::string name = printable(axis->state.axis);
+  if (axis->state.has_position != 0)
+    model.prompt = "position of " + name + " is";
+  else
+    model.remark = name + " is a speed axis: it has no position to set; nothing was sent";
+}
+
 /// @return whether the panel knows the key
 bool press_on_panel(Model& model, const Key& key, Wish& wish, Model::Clock::time_point now) {
   const PanelAxis* const axis = model.panel->chosen();
@@ -91,7 +101,7 @@ bool press_on_panel(Model& model, const Key& key, Wish& wish, Model::Clock::time
       model.panel->change_percent(key.text[0] == '<' ? -1 : 1);
       return true;
     case 'h':
-      if (axis != nullptr) model.prompt = "position of " + printable(axis->state.axis) + " is";
+      ask_position(model, axis);
       return true;
     default:
       return false;

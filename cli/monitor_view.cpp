@@ -211,8 +211,37 @@ std::string axis_text(const PanelAxis& axis, Time now) {
   return text;
 }
 
+/// Position, velocity, override and what a jog would be.
+std::string motion_text(const PanelAxis& axis, int percent) {
+  const panel_t& state = axis.state;
+  const std::string unit = printable(state.velocity_unit);
+  return (state.has_position != 0 ? fmt::format("{:.4f} u  ", state.position) : "") +
+         fmt::format("{:.3f} {}  ovr {:.0f} %  jog {} % ({} {})", state.velocity, unit, state.speed, percent,
+                     number(state.jog_velocity * percent / 100.0), unit);
+}
+
+/// How many lines state and answer of the panel have each: always as many, so that nothing jumps.
+std::size_t panel_height(std::size_t width) {
+  constexpr std::size_t kWide = 110;
+  return width < kWide ? 2 : 1;
+}
+
+/// A text on a number of lines, the later ones indented; broken at a gap if there is one that fits.
+void add_broken(Lines& lines, std::string text, const std::string& gap, std::size_t width, Look look) {
+  const std::size_t height = panel_height(width);
+  for (std::size_t line = 1; line < height; ++line) {
+    std::size_t end = text.size();
+    while (end != std::string::npos && shown_width(text.substr(0, end)) > width)
+      end = end == 0 ? std::string::npos : text.rfind(gap, end - 1);
+    if (end == std::string::npos || text.find_first_not_of(' ') >= end) end = text.size();
+    lines.push_back({text.substr(0, end), look});
+    text = end < text.size() ? "    " + text.substr(end + gap.size()) : "";
+  }
+  lines.push_back({text, look});
+}
+
 /// The panel is in sight as long as it can move something.
-Lines panel(const Model& model, Time now) {
+Lines panel(const Model& model, Time now, std::size_t width) {
   Lines lines;
   if (!model.panel) return lines;
   const PanelAxis* const axis = model.panel->chosen();
@@ -220,11 +249,9 @@ Lines panel(const Model& model, Time now) {
   if (axis == nullptr)
     text += "no run is heard that takes commands";
   else
-    text += fmt::format("{}: {}  {:.4f}  {:.3f}/s  ovr {:.0f} %  jog {} % ({}/s)",
-                        printable(axis->state.axis), axis_text(*axis, now), axis->state.position,
-                        axis->state.velocity, axis->state.speed, model.panel->percent(),
-                        number(axis->state.jog_velocity * model.panel->percent() / 100.0));
-  lines.push_back({text, Look::panel});
+    text += printable(axis->state.axis) + ": " + axis_text(*axis, now) + "  " +
+            motion_text(*axis, model.panel->percent());
+  add_broken(lines, text, "  ", width, Look::panel);
   const auto& answers = model.shown().events.answers();
   std::string last = "no command yet";
   if (!answers.empty()) {
@@ -232,7 +259,7 @@ Lines panel(const Model& model, Time now) {
     last = time_text(answer) + printable(answer.source) + ": " + printable(answer.type) +
            (answer.kind == "command accepted" ? " accepted" : " REFUSED: ") + printable(answer.text);
   }
-  lines.push_back({last, Look::panel});
+  add_broken(lines, last, " ", width, Look::panel);
   return lines;
 }
 
@@ -260,9 +287,9 @@ struct Panes {
   std::size_t plot = 0, jobs = 0, alarms = 0;
   std::size_t table = 0;
 
-  Panes(const Model& model, std::size_t height) {
-    const std::size_t around = 2 + (model.panel ? 2 : 0);  // title, keys and panel
-    table = height > around ? height - around : 0;
+  Panes(const Model& model, ViewSize size) {
+    const std::size_t around = 2 + (model.panel ? 2 * panel_height(size.width) : 0);  // title, keys and panel
+    table = size.height > around ? size.height - around : 0;
     const auto open = [&](bool wanted, std::size_t lines) {
       if (!wanted || table < kLeastTable + lines) return std::size_t{0};
       table -= lines;
@@ -277,15 +304,15 @@ struct Panes {
 }  // namespace
 
 std::size_t page_of(const Model& model, ViewSize size) {
-  const std::size_t table = Panes(model, size.height).table;
+  const std::size_t table = Panes(model, size).table;
   return table > 1 ? table - 1 : 1;
 }
 
 std::vector<ViewLine> view(const Model& model, Time now, ViewSize size, Characters characters) {
-  const Panes panes(model, size.height);
+  const Panes panes(model, size);
   Lines lines{{title(model), Look::title}};
   const auto add = [&](Lines more) { lines.insert(lines.end(), more.begin(), more.end()); };
-  add(panel(model, now));
+  add(panel(model, now, size.width));
   if (model.help) {
     add(help(size.height > lines.size() ? size.height - lines.size() - 1 : 0));
   } else {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "cli/command.hpp"
 
 namespace lockstep::cli {
@@ -16,9 +18,11 @@ std::vector<Signal> signals_of(const Project& project) {
 
 }  // namespace
 
-RunCommands::RunCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity)
+RunCommands::RunCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity,
+                         TraceRecorder& recorder)
     : image_(signals_of(project)),
-      listener_(url, identity, project.commands.axes, image_, project.controller->clock.servo_cycle) {
+      listener_(url, identity, project.commands.axes, image_, project.controller->clock.servo_cycle,
+                [&recorder](TraceEvent answer) { recorder.tell(std::move(answer)); }) {
   project.controller->images.push_back(&image_);
   std::string axes;
   for (const CommandAxis& axis : project.commands.axes) axes += (axes.empty() ? "" : ", ") + axis.name;
@@ -27,8 +31,7 @@ RunCommands::RunCommands(Project& project, const std::string& url, const LcmTrac
   listener_.start();
 }
 
-void RunCommands::stop() {
-  listener_.stop();
+void RunCommands::tell_counters() {
   const CommandCounters& counters = listener_.counters();
   if (counters.accepted != 0) tell(fmt::format("commands from panels: {} accepted", counters.accepted));
   const auto warn = [](std::uint64_t count, std::string_view text) {

@@ -5,16 +5,21 @@
 #include <string>
 
 #include "hmi_bridge/command_listener.hpp"
+#include "hmi_bridge/trace_recorder.hpp"
 #include "projects/project.hpp"
 
 namespace lockstep::cli {
 
-/// Takes the commands of a project that allows them, and tells at the end what was refused.
+/// Takes the commands of a project that allows them; their answers go to the recorder. Tells at the end what
+/// was refused.
 class RunCommands {
  public:
   /// Joins the network; the run must not have begun. @throws as CommandListener
-  RunCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity);
-  void stop();
+  RunCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity,
+              TraceRecorder& recorder);
+  /// Hears no more; before the recorder stops.
+  void end() { listener_.stop(); }
+  void tell_counters();
 
  private:
   ProcessImage image_;

@@ -8,12 +8,14 @@
 
 #include "cli/command.hpp"
 #include "cli/run_command.hpp"
+#include "tech_objects/velocity_unit.hpp"
 
 namespace lockstep::cli {
 namespace {
 
 constexpr int kDefaultWidth = 100;  // columns, where the terminal does not tell
 constexpr double kRest = 1e-12;     // [u] below it, what position control has left of a deviation: shown as 0
+constexpr double kTurns = 1e-6;     // [1/min] below it, what a drive has left of a velocity: standing
 
 int terminal_width() {
   winsize size{};
@@ -28,7 +30,7 @@ std::string value_text(Value value, Type type) {
   return fmt::format("{}", value.u);
 }
 
-std::string state_text(const AxisSummary& axis) {
+std::string state_text(const AxisSummary& axis, bool has_position) {
   if (axis.alarm != 0) {
     const Alarm* alarm = find_alarm(static_cast<int>(axis.alarm));
     return fmt::format("alarm {} ({})", axis.alarm, alarm == nullptr ? "" : alarm->text);
@@ -36,14 +38,27 @@ std::string state_text(const AxisSummary& axis) {
   if (!has_bit(axis.status_word, StatusBit::Enable)) return "not enabled";
   if (has_bit(axis.status_word, StatusBit::Synchronous)) return "synchronous";
   if (has_bit(axis.status_word, StatusBit::Synchronizing)) return "synchronizing";
+  if (!has_position) return std::abs(axis.position) < kTurns ? "standing" : "turning";
   return has_bit(axis.status_word, StatusBit::Standstill) ? "standing" : "moving";
 }
 
 /// Whether an axis was under way when its run ended and has been braked since.
 bool brought_to_rest(const AxisSummary& end, const Axis& now) {
-  const bool moved =
-      has_bit(end.status_word, StatusBit::Enable) && !has_bit(end.status_word, StatusBit::Standstill);
-  return moved && now.off();
+  const bool stood =
+      now.has_position() ? has_bit(end.status_word, StatusBit::Standstill) : std::abs(end.position) < kTurns;
+  return has_bit(end.status_word, StatusBit::Enable) && !stood && now.off();
+}
+
+/// Where an axis was, and where it is; of a speed axis how fast.
+std::string place_text(const AxisSummary& end, const Axis& now) {
+  const bool braked = brought_to_rest(end, now);
+  if (!now.has_position()) {
+    const double velocity = std::abs(end.position) < kTurns ? 0.0 : end.position;
+    return fmt::format("at {:.6g} {}", velocity, velocity_unit_text(now)) +
+           (braked ? "; brought to rest" : "");
+  }
+  const std::string place = fmt::format("at {:.6g}", std::abs(end.position) < kRest ? 0.0 : end.position);
+  return braked ? place + fmt::format("; brought to rest at {:.6g}", now.data.ActualPosition) : place;
 }
 
 }  // namespace
@@ -85,13 +100,12 @@ void tell_axes(const Controller& controller) {
   std::size_t width = 4;
   for (const auto& axis : controller.axes) width = std::max(width, axis->name.size());
   for (std::size_t i = 0; i < controller.axes.size(); ++i) {
-    const AxisSummary& axis = controller.summary()[i];
-    std::string line = fmt::format("  {:<{}}  {:<14} at {:.6g}", controller.axes[i]->name, width,
-                                   state_text(axis), std::abs(axis.position) < kRest ? 0.0 : axis.position);
-    if (brought_to_rest(axis, *controller.axes[i]))
-      line += fmt::format("; brought to rest at {:.6g}", controller.axes[i]->data.ActualPosition);
-    const bool followed = controller.axes[i]->was_synchronous();
-    if (followed) line += fmt::format("; largest deviation while synchronous {:.3g}", axis.largest_deviation);
+    const AxisSummary& end = controller.summary()[i];
+    const Axis& axis = *controller.axes[i];
+    std::string line = fmt::format("  {:<{}}  {:<14} {}", axis.name, width,
+                                   state_text(end, axis.has_position()), place_text(end, axis));
+    if (axis.was_synchronous())
+      line += fmt::format("; largest deviation while synchronous {:.3g}", end.largest_deviation);
     write_message(line + "\n");
   }
 }

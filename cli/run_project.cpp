@@ -77,7 +77,10 @@ class Surroundings {
   bool wait_for_recorder() const { return ring_->wait_for_space() && events_.wait_for_space(); }
 
   /// Writes out what has been recorded, so that what is told of it stands before what comes at the end.
-  void finish_trace() { recorder_->stop(); }
+  void finish_trace() {
+    if (commands_) commands_->end();
+    recorder_->stop();
+  }
 
   /// Tells what has gone wrong lately, or is well again.
   void look() {
@@ -92,9 +95,8 @@ class Surroundings {
     if (server_) tell_refused_clients();
     for (const auto& client : clients_) client->stop();
     for (const auto& client : clients_) tell_failures(*client);
-    if (commands_) commands_->stop();
-    if (!recorder_) return;
-    recorder_->stop();
+    finish_trace();
+    if (commands_) commands_->tell_counters();
     if (flight_ != nullptr)
       for (const std::string& file : flight_->written()) tell("flight recorder: wrote " + file);
     for (const std::string& loss : recorder_->losses()) tell("warning: " + loss);
@@ -291,7 +293,7 @@ class Surroundings {
     if (options_.simulate || options_.no_lcm || project_.commands.axes.empty()) return;
     const std::string url = options_.lcm.empty() ? project_.trace.url : options_.lcm;
     try {
-      commands_ = std::make_unique<RunCommands>(project_, url, identity());
+      commands_ = std::make_unique<RunCommands>(project_, url, identity(), *recorder_);
     } catch (const std::exception& error) {
       tell(std::string("warning: no commands over LCM: ") + error.what());
     }

@@ -134,6 +134,11 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge_value(const command_t& co
     return Refusal{&CommandCounters::not_valid,
                    what + " " + number_text(command.value) + " is not permitted; allowed: " + allowed};
   };
+  if (command.action == command_t::HOME && !axes_[axis].has_position)
+    return Refusal{
+        &CommandCounters::not_valid,
+        "a " + axes_[axis].type +
+            " has no position that could be set; allowed: enable, disable, stop, jog, reset, override"};
   const double highest = axes_[axis].jog_velocity;
   if (is_jog(command.action) && !(command.value > 0.0 && command.value <= highest))
     return outside("velocity", "above 0, up to " + number_text(highest));
@@ -191,6 +196,9 @@ panel_t CommandDesk::panel(std::size_t axis) const {
   panel.speed = value(axis, PanelSignal::kSpeed).r;
   panel.jog_velocity = axes_[axis].jog_velocity;
   panel.axis = axes_[axis].name;
+  panel.type = axes_[axis].type;
+  panel.velocity_unit = axes_[axis].velocity_unit;
+  panel.has_position = axes_[axis].has_position ? 1 : 0;
   return panel;
 }
 

@@ -29,7 +29,7 @@ enum class PanelSignal : std::uint8_t {
   kOverrides,     ///< UDINT: count
   kStatusWord,    ///< DWORD, from here on of the axis
   kAlarm,         ///< UDINT
-  kPosition,      ///< LREAL [u]
+  kPosition,      ///< LREAL [u]; of a speed axis, which has none, 0
   kVelocity,      ///< LREAL [u/s]
   kSpeed,         ///< LREAL [%]
   kCount
@@ -39,9 +39,12 @@ inline constexpr std::size_t kPanelSignals = static_cast<std::size_t>(PanelSigna
 /// An axis that takes commands.
 struct CommandAxis {
   std::string name;
-  double jog_velocity = 0.0;    ///< highest velocity of jogging [u/s], > 0
-  std::string enabled_by;       ///< instance of MC_Power in a program; empty: the panel's own
-  std::vector<Signal> signals;  ///< `kPanelSignals` of them
+  double jog_velocity = 0.0;                ///< highest velocity of jogging [u/s], > 0
+  std::string enabled_by;                   ///< instance of MC_Power in a program; empty: the panel's own
+  std::vector<Signal> signals;              ///< `kPanelSignals` of them
+  std::string type = "TO_PositioningAxis";  ///< published type
+  std::string velocity_unit = "u/s";        ///< of its velocities
+  bool has_position = true;                 ///< a speed axis has none, so it cannot be homed
 };
 
 /// What has come, by what has become of it.

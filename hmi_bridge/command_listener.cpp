@@ -38,12 +38,14 @@ std::string as_pattern(const std::string& channel) {
 }  // namespace
 
 CommandListener::CommandListener(const std::string& url, LcmTraceIdentity identity,
-                                 std::vector<CommandAxis> axes, ProcessImage& image, std::int64_t servo_cycle)
+                                 std::vector<CommandAxis> axes, ProcessImage& image, std::int64_t servo_cycle,
+                                 Answers answers)
     : identity_(std::move(identity)),
       joined_(url, identity_, false),
       image_(image),
       desk_(std::move(axes), image, number_by_chance()),
-      servo_cycle_(servo_cycle) {
+      servo_cycle_(servo_cycle),
+      answers_(std::move(answers)) {
   const std::string pattern = as_pattern(identity_.channel + std::string(kCommandSuffix));
   auto* const subscription = lcm_subscribe(joined_.instance(), pattern.c_str(), &CommandListener::take, this);
   if (subscription == nullptr) throw std::runtime_error("LCM on " + url + ": cannot be subscribed to");
@@ -114,17 +116,14 @@ void CommandListener::beat() {
 
 void CommandListener::tell(const CommandDesk::Answer& answer) {
   image_.refresh();
-  event_t event{};
+  TraceEvent event;
+  event.kind = answer.accepted ? EventKind::command_accepted : EventKind::command_refused;
   event.t = time();
-  event.utime = identity_.utime(event.t);
-  event.tick = std::max<std::int64_t>(image_.tick(), 0);
-  event.kind = answer.accepted ? "command accepted" : "command refused";
+  event.tick = static_cast<std::uint64_t>(std::max<std::int64_t>(image_.tick(), 0));
   event.source = answer.axis;
   event.type = answer.action;
   event.text = answer.reason;
-  const auto bytes = encoded(event);
-  const std::string channel = identity_.channel + std::string(kEventsSuffix);
-  lcm_publish(joined_.instance(), channel.c_str(), bytes.data(), static_cast<unsigned>(bytes.size()));
+  answers_(std::move(event));
 }
 
 }  // namespace lockstep

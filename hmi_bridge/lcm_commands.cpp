@@ -46,8 +46,8 @@ std::optional<command_t> decode_command(Bytes bytes) {
 std::optional<panel_t> decode_panel(Bytes bytes) {
   LcmWalk walk(bytes);
   if (!begins<panel_t>(walk)) return std::nullopt;
-  walk.skip(5 * 8 + 2 * 4 + 4 * 8);
-  walk.string();
+  walk.skip(5 * 8 + 3 * 4 + 4 * 8);
+  for (int i = 0; i < 3; ++i) walk.string();  // axis, type, velocity_unit
   return walk.at_end() ? decoded<panel_t>(bytes) : std::nullopt;
 }
 

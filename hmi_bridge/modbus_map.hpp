@@ -120,6 +120,11 @@ class ModbusMap {
     const std::vector<PlainRegister>& plain = plain_[static_cast<std::size_t>(table)];
     return address >= plain.size() ? PlainRegister{} : plain[address];
   }
+  /// What `plain` gives, of all addresses from this one on that may have one.
+  std::span<const PlainRegister> plain_from(ModbusTable table, std::uint32_t address) const noexcept {
+    const std::vector<PlainRegister>& plain = plain_[static_cast<std::size_t>(table)];
+    return address >= plain.size() ? std::span<const PlainRegister>{} : std::span(plain).subspan(address);
+  }
   /// The next bit in the same register, or nullptr.
   const ModbusEntry* next(const ModbusEntry& entry) const noexcept;
   /// Type of the values of the signal of an entry.

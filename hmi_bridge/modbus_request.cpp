@@ -190,6 +190,22 @@ ModbusException ModbusResponder::read_bits(ModbusTable table, Bytes pdu) {
   return ModbusException::none;
 }
 
+/// Puts plain registers one after the other, up to the first that is none. @return how many
+std::uint32_t ModbusResponder::put_plain(ModbusTable table, std::uint32_t address, std::uint32_t most,
+                                         std::uint8_t* bytes) const noexcept {
+  const std::span<const PlainRegister> plain = map_->plain_from(table, address);
+  const std::span<const std::uint32_t> places = image_.places();
+  const std::span<const Value> values = image_.values();
+  const std::size_t end = std::min<std::size_t>(most, plain.size());
+  std::size_t count = 0;
+  for (; count < end && plain[count].exists(); ++count) {
+    const auto word = static_cast<std::uint16_t>(values[places[plain[count].signal]].u);
+    bytes[2 * count] = static_cast<std::uint8_t>(word >> 8);
+    bytes[2 * count + 1] = static_cast<std::uint8_t>(word);
+  }
+  return static_cast<std::uint32_t>(count);
+}
+
 ModbusException ModbusResponder::read_registers(ModbusTable table, std::uint32_t address,
                                                 std::uint32_t count) {
   if (count < 1 || count > MODBUS_MAX_READ_REGISTERS) return ModbusException::illegal_data_value;
@@ -200,9 +216,9 @@ ModbusException ModbusResponder::read_registers(ModbusTable table, std::uint32_t
   };
   // A value that begins before the range or ends behind it gives the part that was asked for.
   for (std::uint32_t i = address; i < address + count;) {
-    if (const PlainRegister plain = map_->plain(table, i); plain.exists()) {
-      put(static_cast<std::uint16_t>(image_.value(plain.signal).u));
-      ++i;
+    if (const std::uint32_t plain = put_plain(table, i, address + count - i, byte); plain != 0) {
+      i += plain;
+      byte += 2 * plain;
       continue;
     }
     const ModbusEntry* const entry = map_->find(table, i);

@@ -6,8 +6,9 @@
 namespace lockstep {
 
 std::string_view event_kind_text(EventKind kind) noexcept {
-  constexpr std::string_view texts[] = {"alarm",       "acknowledged", "job started", "job done",
-                                        "job aborted", "job failed",   "job ended",   "overrun"};
+  constexpr std::string_view texts[] = {
+      "alarm",      "acknowledged", "job started", "job done",         "job aborted",
+      "job failed", "job ended",    "overrun",     "command accepted", "command refused"};
   return texts[static_cast<std::size_t>(kind)];
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <utility>
 
 #include "hmi_bridge/write_signals.hpp"
@@ -61,11 +62,23 @@ void TraceRecorder::stop() {
   thread_.join();
 }
 
+void TraceRecorder::tell(TraceEvent event) {
+  const std::lock_guard lock(mutex_);
+  if (told_.size() < kMostTold)
+    told_.push_back(std::move(event));
+  else
+    ++lost_told_;
+}
+
+std::uint64_t TraceRecorder::lost_events() const noexcept {
+  return (events_.queue != nullptr ? events_.queue->lost() : 0) + lost_told_;
+}
+
 std::vector<std::string> TraceRecorder::losses() const {
   std::vector<std::string> texts;
   if (const std::uint64_t dropped = ring_.dropped(); dropped > 0)
     texts.push_back(loss_text(dropped, "the trace buffer", "the recorder could not keep up with the run"));
-  if (const std::uint64_t lost = events_.queue != nullptr ? events_.queue->lost() : 0; lost > 0)
+  if (const std::uint64_t lost = lost_events(); lost > 0)
     texts.push_back("list of events incomplete: " + std::to_string(lost) +
                     " lost: the recorder could not keep up with the run");
   const std::lock_guard lock(mutex_);
@@ -104,24 +117,60 @@ void TraceRecorder::begin_sinks() noexcept {
 bool TraceRecorder::drain() noexcept {
   const std::size_t rows = std::min(ring_.readable(), kBatch);
   // Looked at after the rows, so that the events of their ticks are there.
+  take_told();
   const std::size_t events = events_.queue != nullptr ? events_.queue->readable() : 0;
   std::size_t given = 0;
   for (std::size_t i = 0; i < rows; ++i) {
     const TraceRow row = ring_.row(i);
     while (given < events && events_.queue->event(given).t <= row.t)
       give_event(events_.queue->event(given++));
+    give_told(row.t);
     for (const auto& sink : sinks_) guarded(*sink, 1, [&row](TraceSink& s) { s.row(row); });
+    given_t_ = row.t;
+    given_tick_ = row.tick;
   }
   ring_.pop(rows);
-  if (rows < kBatch && (finishing_ || !events_.rows_follow))
+  if (rows < kBatch && (finishing_ || !events_.rows_follow)) {
     while (given < events) give_event(events_.queue->event(given++));
+    give_told(std::numeric_limits<std::int64_t>::max());
+  }
   if (given > 0) events_.queue->pop(given);
   return rows > 0 || given > 0;
 }
 
+void TraceRecorder::take_told() noexcept try {
+  const std::lock_guard lock(mutex_);
+  if (waiting_.size() >= kMostTold) return;
+  waiting_.insert(waiting_.end(), told_.begin(), told_.end());
+  told_.clear();
+} catch (...) {
+  // Without memory they stay where they are; the next round tries again.
+}
+
 void TraceRecorder::give_event(const Event& event) noexcept {
-  const auto give = [&](TraceSink& sink) { sink.event(events_.texts.of(event, events_.queue->lost())); };
+  const auto give = [&](TraceSink& sink) { sink.event(events_.texts.of(event, lost_events())); };
   for (const auto& sink : sinks_) guarded(*sink, 0, give);
+}
+
+void TraceRecorder::give_event(const TraceEvent& event) noexcept {
+  for (const auto& sink : sinks_) guarded(*sink, 0, [&](TraceSink& s) { s.event(event); });
+}
+
+/// Those that have waited for the row of their tick. One that was told late has the time of the row before
+/// it, so that time never goes back in a log.
+void TraceRecorder::give_told(std::int64_t until) noexcept {
+  if (waiting_.empty()) return;
+  std::size_t given = 0;
+  for (; given < waiting_.size() && waiting_[given].t <= until; ++given) {
+    TraceEvent& event = waiting_[given];
+    if (event.t < given_t_) {
+      event.t = given_t_;
+      event.tick = given_tick_;
+    }
+    event.lost = lost_events();
+    give_event(event);
+  }
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(given));
 }
 
 void TraceRecorder::flush_sinks() noexcept {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "projects/loader.hpp"
+#include "tech_objects/velocity_unit.hpp"
 
 namespace lockstep {
 namespace {
@@ -40,7 +41,8 @@ class PanelProgram {
     add_inputs(inputs);
     jog();
     if (enables) enable();
-    once("home", "MC_Home", "p.Homings", "p.SeenHomings", {{"Position", "p.HomePosition"}});
+    if (axis_.has_position())
+      once("home", "MC_Home", "p.Homings", "p.SeenHomings", {{"Position", "p.HomePosition"}});
     once("reset", "MC_Reset", "p.Resets", "p.SeenResets", {});
     const std::size_t branch = program_.begin_branch(compiled("p.Overrides <> p.SeenOverrides", Type::BOOL));
     set("p.SeenOverrides", "p.Overrides");
@@ -140,16 +142,22 @@ std::string power_of(const Controller& controller, const TechnologyObject& axis)
 }
 
 /// The signals of the axis in the order of `PanelSignal`.
-std::vector<Signal> signals_of(const std::string& axis, PanelInputs& inputs, const Names& names) {
+std::vector<Signal> signals_of(const Axis& axis, PanelInputs& inputs, const Names& names) {
+  const auto variable = [&](const char* name) {
+    return names.find(axis.name + "." + name).place.value().signal;
+  };
+  const bool positions = axis.has_position();
   std::vector<Signal> signals = {
       {&inputs.Enable, Type::BOOL, -1},        {&inputs.Forward, Type::BOOL, -1},
       {&inputs.Backward, Type::BOOL, -1},      {&inputs.Beat, Type::UDINT, -1},
       {&inputs.JogVelocity, Type::LREAL, -1},  {&inputs.Homings, Type::UDINT, -1},
       {&inputs.HomePosition, Type::LREAL, -1}, {&inputs.Resets, Type::UDINT, -1},
       {&inputs.Override, Type::LREAL, -1},     {&inputs.Overrides, Type::UDINT, -1}};
-  for (const char* variable :
-       {"StatusWord", "ErrorDetail.Number", "ActualPosition", "ActualVelocity", "Override.Velocity"})
-    signals.push_back(names.find(axis + "." + variable).place.value().signal);
+  signals.push_back(variable("StatusWord"));
+  signals.push_back(variable("ErrorDetail.Number"));
+  signals.push_back(positions ? variable("ActualPosition") : Signal{&inputs.NoPosition, Type::LREAL, -1});
+  signals.push_back(variable(positions ? "ActualVelocity" : "ActualSpeed"));
+  signals.push_back(variable("Override.Velocity"));
   return signals;
 }
 
@@ -158,20 +166,22 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
   CommandsConfig& commands = loading.project.commands;
   const Fields fields(json, keys::kCommandAxis, problems);
   const auto limit = read_number(fields["jog_velocity"], 1e-12, 1e12, problems);
-  const Names::FoundObject found = loading.names().find_object(name, kAnyAxis);
+  const Names::FoundObject found = loading.names().find_object(name, kAnyDrivenAxis);
   if (!found.problem.empty()) problems.report(json, found.problem);
   if (found.object == nullptr) return;
-  const std::string& axis = found.object->name;
+  auto& axis = static_cast<Axis&>(*found.object);
+  const Names& names = loading.names();
   for (const CommandAxis& other : commands.axes)
-    if (other.name == axis)
+    if (other.name == axis.name)
       return problems.report(json, quote(name) + " is there twice; each axis is allowed once");
-  const double usual = loading.names().find(axis + ".DynamicDefaults.Velocity").place.value().signal.load().r;
-  const std::string enabled_by = power_of(loading.controller(), *found.object);
-  const Place speed = loading.names().find(axis + ".Override.Velocity").place.value();
+  const double usual = names.find(axis.name + ".DynamicDefaults.Velocity").place.value().signal.load().r;
+  const std::string enabled_by = power_of(loading.controller(), axis);
+  const Place speed = names.find(axis.name + ".Override.Velocity").place.value();
   PanelInputs& inputs = commands.inputs.emplace_back();
-  commands.axes.push_back(
-      {axis, limit.value_or(usual), enabled_by, signals_of(axis, inputs, loading.names())});
-  PanelProgram(program, loading, static_cast<Axis&>(*found.object)).build(inputs, enabled_by.empty(), speed);
+  commands.axes.push_back({axis.name, limit.value_or(usual), enabled_by, signals_of(axis, inputs, names),
+                           std::string(kind_name(axis.kind)), std::string(velocity_unit_text(axis)),
+                           axis.has_position()});
+  PanelProgram(program, loading, axis).build(inputs, enabled_by.empty(), speed);
 }
 
 /// Whether a network of this URL is heard beyond the machine.

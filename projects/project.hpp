@@ -111,6 +111,7 @@ struct PanelInputs {
   UDINT Beat{}, Homings{}, Resets{}, Overrides{};  ///< counts, which ask by changing
   LREAL JogVelocity{}, HomePosition{}, Override{};
   UDINT SeenBeat{}, SeenHomings{}, SeenResets{}, SeenOverrides{};
+  LREAL NoPosition{};  ///< stands for the position of a speed axis
 };
 
 /// Axes that take commands over LCM; none unless the project says so.

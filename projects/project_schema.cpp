@@ -409,11 +409,13 @@ Json modbus_schema() {
 }
 
 Json trace_schema() {
-  const Json command_axis =
-      object(keys::kCommandAxis,
-             {{"jog_velocity",
-               number("highest velocity of jogging [u/s] (DynamicDefaults.Velocity)", 1e-12, 1e12)}});
-  const Json commands = object(keys::kCommands, {{"axes", map("name of an axis: its limits", command_axis)}});
+  const Json command_axis = object(
+      keys::kCommandAxis,
+      {{"jog_velocity",
+        number("highest velocity of jogging, in the unit of the axis' velocities (DynamicDefaults.Velocity)",
+               1e-12, 1e12)}});
+  const Json commands =
+      object(keys::kCommands, {{"axes", map("name of an axis, a speed axis too: its limits", command_axis)}});
   const Json lcm =
       object(keys::kLcm,
              {{"url", text("network, such as udpm://239.255.76.67:7667?ttl=0")},

@@ -152,7 +152,7 @@ void Controller::take_summary() noexcept {
     summary_[i] = {.status_word = axis.data.StatusWord,
                    .function_state = axis.data.StatusSynchronizedMotion.FunctionState,
                    .alarm = axis.data.ErrorDetail.Number,
-                   .position = axis.data.ActualPosition,
+                   .position = axis.has_position() ? axis.data.ActualPosition : axis.data.ActualVelocity,
                    .largest_deviation = axis.largest_synchronous_deviation()};
   }
 }

@@ -92,7 +92,7 @@ struct AxisSummary {
   DWORD status_word{};
   DINT function_state{};      ///< StatusSynchronizedMotion.FunctionState
   UDINT alarm{};              ///< ErrorDetail.Number
-  LREAL position{};           ///< [u]
+  LREAL position{};           ///< [u]; of a speed axis, which has none, its velocity
   LREAL largest_deviation{};  ///< largest distance from the synchronous function while synchronous [u]
 };
 

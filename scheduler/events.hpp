@@ -18,9 +18,11 @@ enum class EventKind : std::uint8_t {
   job_started,
   job_done,
   job_aborted,
-  job_failed,  ///< or was rejected
-  job_ended,   ///< let go by its Enable
-  overrun      ///< an interpolator cycle was not over in time
+  job_failed,        ///< or was rejected
+  job_ended,         ///< let go by its Enable
+  overrun,           ///< an interpolator cycle was not over in time
+  command_accepted,  ///< of a panel; told by the bridge, as the next
+  command_refused
 };
 
 /// Whether the source is an object, and not an instance of a block.

@@ -63,6 +63,11 @@ class ProcessImage {
     return value;
   }
 
+  /// The same for many signals that are whole variables, no bits: the value of a signal is
+  /// `values()[places()[signal]]`. Valid until the next `refresh` or `post`. Thread: the bridge.
+  std::span<const Value> values() const noexcept { return shadow_; }
+  std::span<const std::uint32_t> places() const noexcept { return places_; }
+
   /// Has all the writes applied, in their order, at the start of one tick. Every `signal` < size(). May turn
   /// to newer values, as `refresh` does. Thread: the bridge.
   void post(std::span<const SignalWrite> batch) noexcept;

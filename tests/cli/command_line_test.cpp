@@ -54,6 +54,23 @@ TEST(CommandLine, ARunShowsAnAxisThatHasComeToRestAtZeroThere) {
   EXPECT_NE(ended.err.find("  Saw       standing       at 0;"), std::string::npos) << ended.err;
 }
 
+TEST(CommandLine, ARunShowsHowFastASpeedAxisTurnsSinceItHasNoPosition) {
+  const Folder folder;
+  const std::string file = folder.write("project.json", R"({
+    "lockstep": 1, "name": "fans", "clock": { "servo_cycle": "1ms" },
+    "technology_objects": {
+      "Fan": { "type": "TO_SpeedAxis", "drive": { "model": "simulated" } },
+      "Pump": { "type": "TO_SpeedAxis", "drive": { "model": "simulated" }, "config": { "Units": { "VelocityUnit": 1082 } } } },
+    "programs": [ { "name": "Main", "ob": "Main", "cycle": "1ms", "calls": [
+      { "fb": "MC_Power", "name": "power_fan", "in": { "Axis": "Fan", "Enable": true } },
+      { "fb": "MC_Power", "name": "power_pump", "in": { "Axis": "Pump", "Enable": true } },
+      { "fb": "MC_MoveVelocity", "name": "run", "in": { "Axis": "Fan", "Execute": "power_fan.Status", "Velocity": 1500.0 } } ] } ] })");
+  const Ended ended = lockstep({"run", file, "--simulate", "--duration", "5s", "--no-retain"});
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_NE(ended.err.find("  Fan   turning        at 1500 1/min\n"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("  Pump  standing       at 0 1/s\n"), std::string::npos) << ended.err;
+}
+
 TEST(CommandLine, ARunTellsHowManyIndicesWereOutOfRange) {
   const Folder folder;
   const std::string file = folder.write("project.json", R"({

@@ -275,10 +275,12 @@ panel_t axis_state(const std::string& name = "Knife") {
   state.beat = 40;
   state.status_word = 0x21;  // enabled, homed
   state.enables = 1;
+  state.has_position = 1;
   state.position = 12.5;
   state.speed = 95.0;
   state.jog_velocity = 50.0;
   state.axis = name;
+  state.velocity_unit = "u/s";
   return state;
 }
 
@@ -337,6 +339,46 @@ TEST(MonitorPanel, SaysThatItIsActiveAndSendsWhatTheKeysMean) {
   monitored.press("h1");
   monitored.press(KeyKind::escape);
   EXPECT_FALSE(monitored.press(KeyKind::enter).command);
+}
+
+TEST(MonitorPanel, ShowsTheJogAndTheWholeReasonOfARefusalOnANarrowTerminalToo) {
+  Monitored monitored(Panel(1));
+  monitored.run(1);
+  panel_t state = axis_state();
+  state.enables = 0;
+  state.position = -12345.6789;
+  monitored.hear("KNIFE_PANEL", encoded(state));
+  monitored.event("command refused", "Knife", "enable", 3.0, 0,
+                  "a program enables and disables this axis, by its instance power_of_the_knife");
+  EXPECT_TRUE(
+      monitored.shows("PANEL ACTIVE  Knife: enabled by a program, homed  -12345.6789 u  0.000 u/s\n"
+                      "    ovr 95 %  jog 10 % (5 u/s)\n"))
+      << monitored.text();
+  EXPECT_TRUE(monitored.shows("by its instance power_of_the_knife\n")) << monitored.text();
+  const std::size_t lines = monitored.lines().size();
+  EXPECT_EQ(lines, ViewSize{}.height);
+  EXPECT_NE(monitored.text({140, 30}).find("homed  -12345.6789 u  0.000 u/s  ovr 95 %  jog 10 % (5 u/s)\n"),
+            std::string::npos);
+  EXPECT_EQ(monitored.lines({10, 30}).size(), 30u) << "a name that is wider than the terminal is cut";
+}
+
+TEST(MonitorPanel, TurnsASpeedAxisAndSaysThatItHasNoPositionToSet) {
+  Monitored monitored(Panel(1));
+  monitored.run(1);
+  panel_t fan = axis_state("Fan");
+  fan.status_word = 1;
+  fan.has_position = 0;
+  fan.velocity = 300.0;
+  fan.velocity_unit = "1/min";
+  monitored.hear("KNIFE_PANEL", encoded(fan));
+  EXPECT_TRUE(monitored.shows("PANEL ACTIVE  Fan: enabled  300.000 1/min  ovr 95 %  jog 10 % (5 1/min)\n"))
+      << monitored.text();
+  EXPECT_EQ(monitored.press(KeyKind::right).command->command.value, 5.0);
+  monitored.press("h");
+  EXPECT_TRUE(monitored.shows("Fan is a speed axis: it has no position to set; nothing was sent"))
+      << monitored.text();
+  monitored.press("1");
+  EXPECT_FALSE(monitored.press(KeyKind::enter).command) << "no position was asked for";
 }
 
 TEST(MonitorPanel, ChoosesAxesAndSendsNothingToOneThatIsSilent) {

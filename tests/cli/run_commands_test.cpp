@@ -1,6 +1,8 @@
 // lockstep run with a panel: a client on the network enables, jogs and lets go.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "hmi_bridge/lcm_commands.hpp"
 #include "hmi_bridge/lcm_publisher.hpp"
 #include "tests/cli/command_run.hpp"
@@ -85,9 +87,15 @@ class Client {
   std::int64_t sequence_ = 0;
 };
 
-std::vector<std::string> run_of(const std::string& file, const std::string& errors) {
-  return {"sh", "-c",  R"(exec "$0" run "$1" --no-modbus --no-retain 2>"$2")", LOCKSTEP_EXECUTABLE,
-          file, errors};
+std::vector<std::string> run_of(const std::string& file, const std::string& errors,
+                                const std::string& trace = "") {
+  return {"sh",
+          "-c",
+          R"(exec "$0" run "$1" --no-modbus --no-retain ${3:+--trace "$3"} 2>"$2")",
+          LOCKSTEP_EXECUTABLE,
+          file,
+          errors,
+          trace};
 }
 
 TEST(RunCommands, APanelEnablesJogsHomesAndTheJogStopsWhenItFallsSilent) {
@@ -153,6 +161,63 @@ TEST(RunCommands, APanelEnablesJogsHomesAndTheJogStopsWhenItFallsSilent) {
           "1 refused: an axis, action or value"})
       EXPECT_NE(told.find(part), std::string::npos) << told;
   });
+}
+
+/// An event in a line, without what differs from hearing to hearing.
+std::string in_words(const event_t& event) {
+  return std::to_string(event.t) + " " + event.kind + " " + event.source + " " + event.type + " " +
+         event.text;
+}
+
+std::vector<std::string> in_words(const std::vector<event_t>& events) {
+  std::vector<std::string> lines;
+  for (const event_t& event : events) lines.push_back(in_words(event));
+  return lines;
+}
+
+TEST(RunCommands, ALogOfTheRunHasTheAnswersThatTheNetworkHearsAndAPlayerTellsThemAgain) {
+  in_own_network(
+      [] {
+        bring_up_network();
+        const cli::Folder folder;
+        const std::string log = folder.file("run.lcm");
+        std::vector<event_t> heard;
+        {
+          ForeignProgram run(
+              run_of(folder.write("project.json", project(R"(, "commands": { "axes": { "Slide": {} } })")),
+                     folder.file("err"), log));
+          Client client;
+          ASSERT_TRUE(client.hear_until([&] { return client.states > 0; }))
+              << cli::content_of(folder.file("err"));
+          client.send(command_t::ENABLE);
+          client.send(command_t::HOME, 5.0);
+          client.send(command_t::OVERRIDE, 500.0);
+          const auto told = [&](const char* text) {
+            return std::any_of(client.events.begin(), client.events.end(), [&](const event_t& event) {
+              return in_words(event).find(text) != std::string::npos;
+            });
+          };
+          ASSERT_TRUE(
+              client.hear_until([&] { return told("job done panel.Slide.home") && told("override 500"); }));
+          run.interrupt();
+          EXPECT_EQ(run.status(), 0);
+          client.hear_until([] { return false; }, 300ms);  // what is on its way
+          heard = client.events;
+        }
+        Client listener;
+        ForeignProgram player({"lcm-logplayer", std::string("--lcm-url=") + kUrl, log});
+        ASSERT_TRUE(listener.hear_until([&] { return !player.running(); }));
+        listener.hear_until([] { return false; }, 300ms);
+        EXPECT_GT(listener.rows, 0u);
+        EXPECT_EQ(in_words(listener.events), in_words(heard));
+        EXPECT_EQ(listener.states, 0u)
+            << "how axes stand is not told again: a panel would cite a run that is over";
+        for (std::size_t i = 1; i < heard.size(); ++i)
+          EXPECT_GE(heard[i].t, heard[i - 1].t) << in_words(heard[i]);
+        EXPECT_EQ(std::count_if(heard.begin(), heard.end(),
+                                [](const event_t& event) { return event.kind == "command accepted"; }),
+                  2);
+      });
 }
 
 TEST(RunCommands, AProjectThatDoesNotSaySoHearsNoCommand) {

@@ -46,11 +46,12 @@ void add(std::string& input, char kind, const std::vector<std::uint8_t>& message
   input.append(message.begin(), message.end());
 }
 
-/// A good command whose action and value are the input's.
+/// A good command whose axis, action and value are the input's.
 command_t aimed(Bytes bytes, std::int64_t beat, std::int64_t sequence) {
   command_t command = good(beat, sequence);
   if (bytes.empty()) return command;
   command.action = bytes[0] % 10;
+  if (bytes[0] >= 128) command.axis = "Fan";
   if (bytes.size() > sizeof command.value) std::memcpy(&command.value, &bytes[1], sizeof command.value);
   return command;
 }
@@ -60,6 +61,13 @@ void check(const Place& place) {
   require(std::abs(place.reals[1]) <= 1e12, "a position is a position");
   require(place.reals[2] >= 0.0 && place.reals[2] <= 200.0, "an override is in its range");
   require(!(place.flags[1] && place.flags[2]), "no jog in both directions");
+}
+
+/// Of an axis with a position, and of one without.
+std::vector<Signal> both(Place& knife, Place& fan) {
+  std::vector<Signal> signals = knife.signals();
+  for (const Signal& signal : fan.signals()) signals.push_back(signal);
+  return signals;
 }
 
 }  // namespace
@@ -86,9 +94,11 @@ std::vector<std::string> seeds() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lockstep;
-  fuzz::Place place;
-  ProcessImage image(place.signals());
-  CommandDesk desk({{"Knife", fuzz::kFastest, "", place.signals()}}, image, fuzz::kRun);
+  fuzz::Place knife, fan;
+  ProcessImage image(fuzz::both(knife, fan));
+  CommandDesk desk({{"Knife", fuzz::kFastest, "", knife.signals()},
+                    {"Fan", fuzz::kFastest, "", fan.signals(), "TO_SpeedAxis", "1/min", false}},
+                   image, fuzz::kRun);
   desk.beat();
   CommandDesk::Clock::time_point now{std::chrono::hours(1)};
   fuzz::Bytes rest(data, size);
@@ -103,7 +113,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (kind == 3) desk.accept(encoded(fuzz::aimed(message, 1, i)), now);
     if (kind == 0 || kind == 3) ++given;
     image.take_writes();
-    fuzz::check(place);
+    fuzz::check(knife);
+    fuzz::check(fan);
+    fuzz::require(fan.counts[1] == 0, "what has no position is never homed");
     now += std::chrono::milliseconds(rest[0]);
     rest = rest.subspan(2 + length);
   }

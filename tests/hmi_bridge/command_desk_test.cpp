@@ -113,6 +113,37 @@ TEST_F(Commands, EnterTheCycleAtTheNextTick) {
   EXPECT_FALSE(feeder_.enable || feeder_.forward || feeder_.beat != 0) << "the other axis is left alone";
 }
 
+TEST_F(Commands, OfHomingAreRefusedToASpeedAxisAndTheOthersAreNot) {
+  Cycle fan;
+  ProcessImage image(fan.signals());
+  CommandDesk desk({{"Fan", kFastest, "", fan.signals(), "TO_SpeedAxis", "1/min", false}}, image, kRun);
+  desk.beat();
+  const auto give_fan = [&](std::int32_t action, double value) {
+    const auto answer = desk.accept(encoded(command(action, value, "Fan")), now_);
+    image.take_writes();
+    return answer.value_or(CommandDesk::Answer{});
+  };
+  const CommandDesk::Answer homed = give_fan(command_t::HOME, 3.0);
+  EXPECT_FALSE(homed.accepted);
+  EXPECT_EQ(homed.action, "home");
+  EXPECT_EQ(homed.reason,
+            "a TO_SpeedAxis has no position that could be set; allowed: enable, disable, stop, jog, reset, "
+            "override");
+  EXPECT_EQ(fan.homings, 0u);
+  EXPECT_EQ(desk.counters().not_valid, 1u);
+  EXPECT_TRUE(give_fan(command_t::ENABLE, 0.0).accepted);
+  EXPECT_TRUE(give_fan(command_t::JOG_FORWARD, 20.0).accepted);
+  EXPECT_TRUE(give_fan(command_t::RESET, 0.0).accepted);
+  EXPECT_TRUE(give_fan(command_t::OVERRIDE, 50.0).accepted);
+  EXPECT_TRUE(fan.enable && fan.forward && fan.resets == 1 && fan.overrides == 1);
+  const auto state = decode_panel(encoded(desk.panel(0)));
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->type, "TO_SpeedAxis");
+  EXPECT_EQ(state->velocity_unit, "1/min");
+  EXPECT_EQ(state->has_position, 0);
+  EXPECT_EQ(desk_.panel(0).has_position, 1);
+}
+
 TEST_F(Commands, OfAnotherRunOldOnesAndRepeatedOnesAreRefused) {
   command_t other = command(command_t::ENABLE);
   other.run ^= 1;

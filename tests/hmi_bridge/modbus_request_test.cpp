@@ -72,6 +72,29 @@ TEST_F(ModbusRequest, APartOfAValueMayBeRead) {
   EXPECT_EQ(ask({3, 0, 21, 0, 2}), (Bytes{3, 4, 0, 2, 0, 3}));
 }
 
+TEST_F(ModbusRequest, ARangeReadsAsItsRegistersOneByOneWhateverTheyAre) {
+  for (std::size_t i = 0; i < machine.row.size(); ++i) machine.row[i] = static_cast<INT>(7919 * (i + 1));
+  machine.count = 0x0102030405060708;
+  machine.tick();
+  std::size_t ranges = 0;
+  for (std::uint8_t first = 0; first < 255; ++first) {
+    Bytes expected = {3, 0};
+    for (std::uint8_t count = 1; count <= 125; ++count) {
+      const std::uint32_t last = first + count - 1u;
+      const Bytes one = ask({3, static_cast<std::uint8_t>(last >> 8), static_cast<std::uint8_t>(last), 0, 1});
+      if (one[0] != 3) {
+        EXPECT_EQ(ask({3, 0, first, 0, count}), (Bytes{0x83, 2}));
+        break;
+      }
+      expected.insert(expected.end(), one.begin() + 2, one.end());
+      expected[1] = static_cast<std::uint8_t>(2 * count);
+      ASSERT_EQ(ask({3, 0, first, 0, count}), expected) << int{first} << " " << int{count};
+      ++ranges;
+    }
+  }
+  EXPECT_GT(ranges, 3000u);
+}
+
 TEST_F(ModbusRequest, AWriteIsReadBackAtOnceAndEntersWithTheNextTick) {
   EXPECT_EQ(ask({5, 0, 0, 0xFF, 0}), (Bytes{5, 0, 0, 0xFF, 0}));
   EXPECT_EQ(ask({6, 0, 31, 0xFF, 0x80}), (Bytes{6, 0, 31, 0xFF, 0x80}));

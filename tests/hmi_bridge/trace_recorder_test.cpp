@@ -13,6 +13,7 @@
 #include "hmi_bridge/csv_trace.hpp"
 #include "hmi_bridge/lcm_log.hpp"
 #include "hmi_bridge/lcm_trace_reader.hpp"
+#include "tests/hmi_bridge/own_network.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 
 namespace lockstep {
@@ -98,6 +99,72 @@ TEST(TraceRecorder, EverySinkGetsEveryRowInOrderAndOneEnd) {
     EXPECT_TRUE(heard->in_order);
   }
   EXPECT_TRUE(recorder.losses().empty());
+}
+
+/// Writes down what it gets, in its order.
+class Diary final : public TraceSink {
+ public:
+  explicit Diary(std::vector<std::string>& lines) : lines_(lines) {}
+  void begin(std::span<const TraceSignal>) override {}
+  void row(const TraceRow& row) override { lines_.push_back("row " + std::to_string(row.t)); }
+  void event(const TraceEvent& event) override {
+    lines_.push_back(std::string(event_kind_text(event.kind)) + " " + event.text + " " +
+                     std::to_string(event.t) + " " + std::to_string(event.tick) + " " +
+                     std::to_string(event.lost));
+  }
+  void flush() override {}
+  void end() override {}
+  std::string_view name() const noexcept override { return "diary"; }
+
+ private:
+  std::vector<std::string>& lines_;
+};
+
+TraceEvent answer(const std::string& text, std::int64_t t) {
+  TraceEvent event;
+  event.kind = EventKind::command_accepted;
+  event.text = text;
+  event.t = t;
+  event.tick = static_cast<std::uint64_t>(t);
+  return event;
+}
+
+TEST(TraceRecorder, WhatTheBridgeTellsStandsAmongTheRowsAndTimeNeverGoesBack) {
+  std::vector<std::string> lines;
+  LREAL x = 0.0;
+  TraceRing ring({{&x, Type::LREAL}}, 16);
+  EventQueue queue;
+  TraceRecorder recorder(ring, {{"x", Type::LREAL, ""}}, sinks(std::make_unique<Diary>(lines)),
+                         EventSource{&queue, {}, true});
+  recorder.tell(answer("first", 2));
+  ring.push(1, 1);
+  queue.push({.kind = EventKind::overrun, .t = 2, .tick = 2});
+  ring.push(2, 2);
+  ring.push(3, 3);
+  ASSERT_TRUE(wait_until([&] { return ring.readable() == 0; }));
+  recorder.tell(answer("late", 1));
+  recorder.tell(answer("after all rows", 9));
+  ring.push(4, 4);
+  recorder.stop();
+  recorder.tell(answer("too late", 10));
+  EXPECT_EQ(lines, (std::vector<std::string>{"row 1", "overrun  2 2 0", "command accepted first 2 2 0",
+                                             "row 2", "row 3", "command accepted late 3 3 0", "row 4",
+                                             "command accepted after all rows 9 9 0"}));
+}
+
+TEST(TraceRecorder, WhatTheBridgeTellsBeyondTheRoomForItIsCounted) {
+  std::vector<std::string> lines;
+  LREAL x = 0.0;
+  TraceRing ring({{&x, Type::LREAL}}, 16);
+  TraceRecorder recorder(ring, {{"x", Type::LREAL, ""}}, sinks(std::make_unique<Diary>(lines)),
+                         EventSource{nullptr, {}, true});
+  for (std::size_t i = 0; i < 5 * TraceRecorder::kMostTold; ++i) recorder.tell(answer("", 7));
+  const std::vector<std::string> losses = recorder.losses();
+  ASSERT_EQ(losses.size(), 1u);
+  EXPECT_NE(losses[0].find("list of events incomplete: "), std::string::npos) << losses[0];
+  recorder.stop();
+  EXPECT_LE(lines.size(), 2 * TraceRecorder::kMostTold);
+  EXPECT_GE(lines.size(), TraceRecorder::kMostTold);
 }
 
 TEST(TraceRecorder, ASinkThatThrowsIsReportedAndHoldsNobodyUp) {

@@ -20,13 +20,24 @@ constexpr char kFree[] = R"({
   "trace": { "lcm": { "url": "memq://", "channel": "PANEL", "commands": { "axes": { "Slide": {} } } } }
 })";
 
+constexpr char kFan[] = R"({
+  "lockstep": 1, "name": "panel", "clock": { "servo_cycle": "2ms" },
+  "technology_objects": { "Fan": { "type": "TO_SpeedAxis",
+    "config": { "DynamicDefaults": { "Velocity": 600.0, "Acceleration": 6000.0, "Deceleration": 6000.0, "Jerk": 0.0 } },
+    "drive": { "model": "simulated", "faults": { "drive": "broken" } } } },
+  "tags": { "broken": { "type": "BOOL" } },
+  "programs": [],
+  "trace": { "lcm": { "url": "memq://", "channel": "PANEL", "commands": { "axes": { "Fan": {} } } } }
+})";
+
 /// A machine with an operator, who writes what commands write.
 class Panel : public testing::Test {
  protected:
+  explicit Panel(const char* project = kFree) : machine_(Simulation::from_text(project)) {}
   void enable() {
     set(PanelSignal::kEnable, Value{.u = 1});
     machine_.run_for(100ms);
-    ASSERT_EQ(machine_.read("Slide.StatusWord.X0"), 1.0);
+    ASSERT_EQ(machine_.read(machine_.project().commands.axes.at(0).name + ".StatusWord.X0"), 1.0);
   }
   void set(PanelSignal signal, Value value) {
     machine_.project().commands.axes.at(0).signals.at(static_cast<std::size_t>(signal)).store(value);
@@ -43,8 +54,52 @@ class Panel : public testing::Test {
   }
   double velocity() const { return machine_.read("Slide.VelocitySetpoint"); }
 
-  Simulation machine_ = Simulation::from_text(kFree);
+  Simulation machine_;
 };
+
+class SpeedPanel : public Panel {
+ protected:
+  SpeedPanel() : Panel(kFan) {}
+  double turns() const { return machine_.read("Fan.VelocitySetpoint"); }
+};
+
+TEST_F(SpeedPanel, EnablesJogsOverridesAndResetsASpeedAxis) {
+  const CommandAxis& fan = machine_.project().commands.axes.at(0);
+  EXPECT_EQ(fan.type, "TO_SpeedAxis");
+  EXPECT_EQ(fan.velocity_unit, "1/min");
+  EXPECT_FALSE(fan.has_position);
+  EXPECT_EQ(fan.jog_velocity, 600.0) << "DynamicDefaults.Velocity";
+  ASSERT_EQ(fan.signals.size(), kPanelSignals);
+  enable();
+  jog(PanelSignal::kForward, 300.0);
+  machine_.run_for(200ms);
+  EXPECT_DOUBLE_EQ(turns(), 300.0);
+  EXPECT_NEAR(fan.signals[static_cast<std::size_t>(PanelSignal::kVelocity)].load().r, 300.0, 1.0);
+  machine_.run_for(300ms);
+  EXPECT_EQ(turns(), 0.0) << "nobody asks for it any more";
+  set(PanelSignal::kOverride, Value{.r = 50.0});
+  ask(PanelSignal::kOverrides);
+  jog(PanelSignal::kBackward, 300.0);
+  machine_.run_for(200ms);
+  EXPECT_DOUBLE_EQ(turns(), -150.0);
+  machine_.write("broken", 1.0);
+  machine_.run_for(200ms);
+  EXPECT_NE(machine_.read("Fan.ErrorDetail.Number"), 0.0);
+  machine_.write("broken", 0.0);
+  machine_.run_for(50ms);
+  ask(PanelSignal::kResets);
+  machine_.run_for(200ms);
+  EXPECT_EQ(machine_.read("Fan.ErrorDetail.Number"), 0.0);
+}
+
+TEST_F(SpeedPanel, AsksNoHomingOfIt) {
+  enable();
+  set(PanelSignal::kHomePosition, Value{.r = 12.5});
+  ask(PanelSignal::kHomings);
+  machine_.run_for(100ms);
+  for (const Instance& instance : machine_.project().controller->instances)
+    EXPECT_NE(instance.name, "panel.Fan.home");
+}
 
 TEST_F(Panel, JogsWhileItIsAskedForAndAtMost300MillisecondsLonger) {
   enable();
