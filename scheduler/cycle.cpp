@@ -76,7 +76,10 @@ void Controller::interpolate() noexcept {
     order_.rebuild();
   }
   counters_.alarms = 0;
-  for (Axis* axis : order_.axes()) {
+  const std::span<Axis* const> axes_in_order = order_.axes();
+  for (std::size_t i = 0; i < axes_in_order.size(); ++i) {
+    Axis* const axis = axes_in_order[i];
+    if (i + 1 < axes_in_order.size()) axes_in_order[i + 1]->come_near();
     axis->step();
     axis->publish();
     if (axis->data.ErrorDetail.Number != 0) ++counters_.alarms;

@@ -135,6 +135,20 @@ class Axis final : public LeadingObject {
   /// Alarm 601 if the object that leads this axis has been restarted: where it is then has no meaning for it.
   void watch_leading_object() noexcept;
 
+  /// Begins to bring near, while another axis is stepped, what `step` and `publish` touch first.
+  void come_near() const noexcept {
+    __builtin_prefetch(&power, 1);
+    __builtin_prefetch(&setpoint_, 1);
+    __builtin_prefetch(&additive_request, 1);
+    __builtin_prefetch(running_.data(), 1);
+    __builtin_prefetch(&period_, 1);
+    __builtin_prefetch(&standstill_, 1);
+    __builtin_prefetch(&data.Position, 1);
+    __builtin_prefetch(&data.StatusSynchronizedMotion, 1);
+    __builtin_prefetch(&data.StatusSynchronizedMotion.EffectiveLeadingValue, 1);
+    __builtin_prefetch(&data.StatusWord, 1);
+  }
+
   /// One interpolator cycle: the setpoint of this tick. Leading axes have to be stepped before.
   void step() noexcept;
 
