@@ -548,7 +548,6 @@ class Axis final : public LeadingObject {
   Dynamics superimposed_room_;       // of that, what it has been planned with
   bool base_curbed_ = false;         // the base motion has been planned with less, for what is superimposed
   bool curbed_for_a_while_ = false;  // by what that runs down yet
-  Dynamics superimposed_uses_;       // of the limits, in this cycle and from it on
 
   // Positioning and limits.
   bool was_controlled_ = false;      // in the last cycle, for the software limit switches
@@ -614,6 +613,7 @@ class Axis final : public LeadingObject {
   };
   Backlash backlash_;
   AxisForces forces_;
+  Dynamics superimposed_uses_;  // of the limits, in this cycle and from it on
 };
 
 }  // namespace lockstep
