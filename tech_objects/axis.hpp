@@ -582,7 +582,6 @@ class Axis final : public LeadingObject {
   Dynamics superimposed_room_;       // of that, what it has been planned with
   bool base_curbed_ = false;         // the base motion has been planned with less, for what is superimposed
   bool curbed_for_a_while_ = false;  // by what that runs down yet
-  Dynamics superimposed_uses_;       // of the limits, in this cycle and from it on
 
   // Positioning and limits.
   bool was_controlled_ = false;      // in the last cycle, for the software limit switches
@@ -650,6 +649,7 @@ class Axis final : public LeadingObject {
     std::int8_t direction = 0;  // of the last motion; 0: none yet
   };
   Backlash backlash_;
+  Dynamics superimposed_uses_;  // of the limits, in this cycle and from it on
 };
 
 }  // namespace lockstep

@@ -15,6 +15,15 @@ double positive_or(double value, double other) noexcept {
   return value > 0.0 ? value : other;
 }
 
+/// What a superimposed motion adds to the velocity in a direction, 1 or -1, now or when its acceleration has
+/// been run down [u/s] ≥ 0.
+double greatest_velocity(const Superimposed& superimposed, double direction) noexcept {
+  const double v = superimposed.velocity(), a = superimposed.acceleration();
+  const double jerk = superimposed.dynamics().jerk;
+  const double run_down = jerk > 0.0 ? a * std::abs(a) / (2.0 * jerk) : 0.0;
+  return std::max({direction * v, direction * (v + run_down), 0.0});
+}
+
 }  // namespace
 
 // ---- Dynamics
@@ -85,7 +94,7 @@ void Axis::keep_below_limit(Dynamics& dynamics) const noexcept {
 double Axis::room_to_limit() const noexcept {
   const double direction = setpoint_.acceleration < 0.0 ? -1.0 : 1.0;
   double towards = direction * setpoint_.velocity;
-  if (advancing_base_) towards += std::max(direction * superimposed_.velocity(), 0.0);
+  if (advancing_base_) towards += greatest_velocity(superimposed_, direction);
   return std::max(velocity_limit() - towards, 0.0);
 }
 

@@ -228,6 +228,22 @@ TEST(SumOfVelocities, IsKeptByABaseMotionThatRunsItsAccelerationDownBesideAnothe
   EXPECT_LE(m.fastest(600), kFastest * (1 + 1e-12));
 }
 
+TEST(SumOfVelocities, CountsWhereTheSuperimposedOneIsStillComingTo) {
+  Machine m;
+  m.jog_at(300.0, 2500.0, 90000.0);
+  ASSERT_TRUE(m.run_until([&] { return m.velocity() == 300.0; }));
+  m.superimpose(150.0, 1600.0);
+  m.run(60);
+  m.jog_at(350.0, 2500.0, 90000.0);
+  m.run(17);
+  m.halt_superimposed.Deceleration = 2500.0;
+  m.halt_superimposed.Jerk = 50000.0;  // of which the base motion is left the other half
+  m.halt_superimposed.Execute = true;
+  m.run(17);
+  m.jog_at(350.0, 2400.0, 90000.0);
+  EXPECT_LE(m.fastest(60), kFastest * (1 + 1e-12));
+}
+
 // ---- At random
 // -------------------------------------------------------------------------------------------------
 
