@@ -1,6 +1,6 @@
 // What axes that follow the setpoint see of it where it goes over from one course to another: to the actual
-// value of an axis that is switched off, and back; to the emergency ramp; back into position control. For
-// them there is no step: what they see goes on from where it has been and comes over with maximum dynamics.
+// value of an axis that is switched off, and back; to the emergency ramp. For them there is no step: what
+// they see goes on from where it has been and comes over with maximum dynamics.
 #include "tech_objects/axis.hpp"
 
 namespace lockstep {

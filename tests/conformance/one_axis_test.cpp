@@ -378,12 +378,14 @@ class OneAxis {
   }
 
   /// Where the setpoint goes over to the actual value and back, axes that follow see no step. A machine that
-  /// is blocked stands at once: half of its way within a tick.
+  /// is blocked stands at once, one that is heard of again moves at once: half of its way within a tick.
   void watch_hand_over(const Seen& before) {
     if (!before.controlled || !last_.controlled || positions_may_step_ > 0) return;
     const double way = difference(last_.led.position, before.led.position, axis_.modulo()).rounded();
     const double mean = 0.5 * (last_.led.velocity + before.led.velocity) * kSeconds;
-    if (std::abs(way - mean) > 0.5 * kVelocity * kSeconds)
+    const double fastest =
+        std::max({kVelocity, std::abs(last_.setpoint.velocity), std::abs(before.setpoint.velocity)});
+    if (std::abs(way - mean) > 0.5 * fastest * kSeconds * (1 + kSlack))
       note("step of the leading position by " + std::to_string(way - mean));
   }
 
