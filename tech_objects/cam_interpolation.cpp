@@ -117,9 +117,9 @@ bool CamInterpolator::collect_points(const CamElements& elements) noexcept {
   if (!std::is_sorted(points_.begin(), points_.end(), before))
     std::sort(points_.begin(), points_.end(), before);
   auto last = points_.begin();  // of those that stay
-  for (auto point = points_.begin(); point != points_.end(); ++point) {
-    if (point->at.x != last->at.x) ++last;
-    *last = *point;
+  for (const Point& point : points_) {
+    if (point.at.x != last->at.x) ++last;
+    *last = point;
   }
   if (last != points_.end()) points_.erase(last + 1, points_.end());
   return true;

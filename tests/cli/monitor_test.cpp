@@ -15,6 +15,7 @@
 
 #include "hmi_bridge/lcm_messages.hpp"
 #include "tests/cli/command_run.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -81,10 +82,10 @@ TEST(Monitor, WithoutAMulticastRouteOrWithAWrongUrlExitsWith2) {
 }
 
 /// An event log of anything that may be on a network, and among it a good trace on channel GOOD.
-void write_hostile_log(const std::string& path, std::uint32_t seed) {
+void write_hostile_log(const std::string& path) {
   lcm_eventlog_t* const log = lcm_eventlog_create(path.c_str(), "w");
   ASSERT_NE(log, nullptr);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed_of_test(20260715));
   std::int64_t time = 0;
   const auto put = [&](std::string channel, std::span<const std::uint8_t> bytes) {
     std::vector<std::uint8_t> data(bytes.begin(), bytes.end());
@@ -120,10 +121,8 @@ void write_hostile_log(const std::string& path, std::uint32_t seed) {
 }
 
 TEST(Monitor, HostileMessagesNeitherEndItNorHideATraceNorReachTheTerminal) {
-  const std::uint32_t seed = 20260715;
-  std::printf("seed %u\n", seed);
   const Folder folder;
-  write_hostile_log(folder.file("hostile.lcm"), seed);
+  write_hostile_log(folder.file("hostile.lcm"));
   const std::string play = "(while lcm-logplayer --lcm-url='udpm://239.255.76.67:7667?ttl=0' " +
                            quoted(folder.file("hostile.lcm")) + " >/dev/null 2>&1; do :; done) & player=$!; ";
   const Ended ended =

@@ -9,6 +9,7 @@
 
 #include "cli/describe_table.hpp"
 #include "cli/monitor_keys.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -398,12 +399,10 @@ TEST(MonitorPanel, ChoosesAxesAndSendsNothingToOneThatIsSilent) {
 }
 
 TEST(MonitorModel, BearsAnyMessageAndKeepsNoMoreThanItMay) {
-  const std::uint32_t seed = 20261122;
-  std::printf("seed %u\n", seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed_of_test(20261122));
   Monitored monitored(Panel(1));
   monitored.press("gja");
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < test::cases(600, 60'000); ++i) {
     const std::string channel = "X" + std::to_string(random() % 150);
     LcmEncoder encoder({"\033[2J", channel, 1, 0},
                        std::vector<TraceSignal>(random() % 60, kSignals[random() % 5]));

@@ -46,7 +46,7 @@ class Scene : public Rig {
     input_->measured = &object;
     input_->data.Interface.Address = &level_;
     input_->data.Parameter.MeasuringInputType = kind.by_telegram ? 1 : 0;
-    MC_Power& power = block<MC_Power>();
+    auto& power = block<MC_Power>();
     power.Axis = &object;
     power.Enable = true;
     home_ = &block<MC_Home>();
@@ -92,7 +92,7 @@ class Scene : public Rig {
   }
   template <class Block>
   ExecuteBlock& at_input() {
-    Block& made = block<Block>();
+    auto& made = block<Block>();
     made.MeasuringInput = input_;
     return made;
   }

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "hmi_bridge/modbus_master.hpp"
 #include "hmi_bridge/modbus_server.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/serial_cable.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace {
@@ -119,11 +122,10 @@ TEST_F(OnALine, AWriteToAllIsCarriedOutAndNotAnswered) {
 }
 
 TEST_F(OnALine, AnyBytesLeaveItAtItsWork) {
-  unsigned random = 4711;
-  for (int round = 0; round < 10; ++round) {
-    Bytes noise;
-    for (int i = 0; i < 1 + round * 30; ++i)
-      noise.push_back(static_cast<std::uint8_t>((random = random * 1103515245u + 12345u) >> 16));
+  std::mt19937 random(test::seed_of_test(4711));
+  for (int round = 0; round < test::cases(10, 1000); ++round) {
+    Bytes noise(1 + static_cast<std::size_t>(round % 10) * 30);
+    for (auto& byte : noise) byte = static_cast<std::uint8_t>(random());
     line.send(noise);
     line.receive(1, 50);
   }

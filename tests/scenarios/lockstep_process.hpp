@@ -192,7 +192,7 @@ class RunningLockstep : public Process {
                                           const std::vector<std::string>& options) {
     std::vector<std::string> arguments{"run", project, "--modbus", "127.0.0.1:0", "--no-lcm"};
     // An example that keeps values would do so in the sources, one run at a time.
-    if (project.starts_with(LOCKSTEP_SOURCE_DIR)) arguments.push_back("--no-retain");
+    if (project.starts_with(LOCKSTEP_SOURCE_DIR)) arguments.emplace_back("--no-retain");
     arguments.insert(arguments.end(), options.begin(), options.end());
     return lockstep_command(std::move(arguments));
   }

@@ -89,7 +89,7 @@ std::filesystem::file_time_type written(const std::string& file) {
 
 TEST(Retain, KilledAtAnyTimeARunLosesNothingOlderThanItsIntervalAndMixesNothing) {
   const int kills = test::cases(30, 3000);
-  std::mt19937 random(static_cast<std::uint32_t>(test::seed_of_test(20260713)));
+  std::mt19937 random(test::seed_of_test(20260713));
   const Directory directory;
   const std::string project = directory.write("project.json", counting().dump());
   const std::string file = directory.file("project.retain");

@@ -98,8 +98,10 @@ TEST(TimeAndOrder, ACycleIsMetOnItsMultiples) {
   const CsvTable table = simulate(project, "1s", "two,five,servo");
   ASSERT_EQ(table.rows, 1000u);
   for (std::size_t tick = 0; tick < table.rows; ++tick) {
-    ASSERT_EQ(table["two"][tick], static_cast<double>(tick / 2 + 1));
-    ASSERT_EQ(table["five"][tick], static_cast<double>(tick / 5 + 1));
+    const std::size_t second = tick / 2;
+    const std::size_t fifth = tick / 5;
+    ASSERT_EQ(table["two"][tick], static_cast<double>(second + 1));
+    ASSERT_EQ(table["five"][tick], static_cast<double>(fifth + 1));
     ASSERT_EQ(table["servo"][tick], static_cast<double>(tick + 1));
   }
 }
