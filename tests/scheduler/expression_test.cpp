@@ -281,6 +281,33 @@ TEST(Expression, AConstantSaysSo) {
   EXPECT_FALSE(Expression(signal_of(zero)).constant());
 }
 
+TEST(Expression, AWholeBoolAndNothingElseIsAFlag) {
+  bool flag = true;
+  DINT number = 1;
+  std::uint8_t word = 1;
+  EXPECT_EQ(Expression(signal_of(flag)).flag(), &flag);
+  EXPECT_EQ(Expression(signal_of(number)).flag(), nullptr);
+  EXPECT_EQ(Expression(Signal{&word, Type::BYTE, 0}).flag(), nullptr) << "a bit";
+  EXPECT_EQ(Expression(Type::BOOL, integer(1)).flag(), nullptr) << "a constant";
+  ExpressionBuilder inverted;
+  inverted.signal(signal_of(flag));
+  ASSERT_TRUE(inverted.apply(Operation::kNot, Type::BOOL));
+  EXPECT_EQ(std::move(inverted).finish(Type::BOOL).flag(), nullptr);
+}
+
+TEST(Program, CopiesAFlagIntoAFlag) {
+  bool from = true;
+  bool to = false;
+  Program program("Main", Ob::Main, 0, 0);
+  program.add_assignment(Expression(signal_of(from)), signal_of(to));
+  EvaluationCounters counters;
+  program.run(0, counters);
+  EXPECT_TRUE(to);
+  from = false;
+  program.run(1, counters);
+  EXPECT_FALSE(to);
+}
+
 TEST(Expression, ValuesMayRestUpToTheLimit) {
   DINT one = 1;
   EvaluationCounters counters;
