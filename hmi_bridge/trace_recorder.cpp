@@ -123,7 +123,7 @@ bool TraceRecorder::drain() noexcept {
   for (std::size_t i = 0; i < rows; ++i) {
     const TraceRow row = ring_.row(i);
     while (given < events && events_.queue->event(given).t <= row.t)
-      give_event(events_.queue->event(given++));
+      give_queued(events_.queue->event(given++));
     give_told(row.t);
     for (const auto& sink : sinks_) guarded(*sink, 1, [&row](TraceSink& s) { s.row(row); });
     given_t_ = row.t;
@@ -131,7 +131,7 @@ bool TraceRecorder::drain() noexcept {
   }
   ring_.pop(rows);
   if (rows < kBatch && (finishing_ || !events_.rows_follow)) {
-    while (given < events) give_event(events_.queue->event(given++));
+    while (given < events) give_queued(events_.queue->event(given++));
     give_told(std::numeric_limits<std::int64_t>::max());
   }
   if (given > 0) events_.queue->pop(given);
@@ -145,6 +145,14 @@ void TraceRecorder::take_told() noexcept try {
   told_.clear();
 } catch (...) {
   // Without memory they stay where they are; the next round tries again.
+}
+
+/// Behind what was told of the ticks before.
+void TraceRecorder::give_queued(const Event& event) noexcept {
+  give_told(event.t - 1);
+  give_event(event);
+  given_t_ = event.t;
+  given_tick_ = event.tick;
 }
 
 void TraceRecorder::give_event(const Event& event) noexcept {

@@ -69,6 +69,7 @@ class TraceRecorder {
   bool drain() noexcept;
   void take_told() noexcept;
   std::uint64_t lost_events() const noexcept;
+  void give_queued(const Event& event) noexcept;
   void give_event(const Event& event) noexcept;
   void give_event(const TraceEvent& event) noexcept;
   void give_told(std::int64_t until) noexcept;

@@ -220,7 +220,7 @@ void ProgramLoader::assign_text(const JsonValue* to, const StringTag& tag) {
     return problems_.report(*to, to->shown() + " may have " + std::to_string(compiled.text->room()) +
                                      " characters; allowed for '" + tag.name + "': up to " +
                                      std::to_string(tag.text.room));
-  program_.add_assignment(std::move(*compiled.text), tag.text);
+  program_.add_assignment(*compiled.text, tag.text);
 }
 
 /// @param index chooses the element; none: the place is fixed

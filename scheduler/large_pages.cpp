@@ -43,7 +43,10 @@ void lay_into_large_pages(const void* lowest, const void* highest) noexcept {
   const std::uintptr_t begin =
       std::max(first / kLargePage, (mapping.begin + kLargePage - 1) / kLargePage) * kLargePage;
   const std::uintptr_t end = std::min(last / kLargePage + 1, mapping.end / kLargePage) * kLargePage;
-  if (begin < end) static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, kCollapse));
+  if (begin >= end) return;
+  char* const place =
+      static_cast<char*>(const_cast<void*>(lowest)) + static_cast<std::ptrdiff_t>(begin - first);
+  static_cast<void>(madvise(place, end - begin, kCollapse));
 }
 
 }  // namespace lockstep

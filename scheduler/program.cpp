@@ -40,8 +40,8 @@ void Program::add_assignment(Expression expression, Signal first, const Variable
       &places_.emplace_back(Place{first, variable, keep(std::move(index)), range});
 }
 
-void Program::add_assignment(TextSource from, Text to) {
-  instructions_.emplace_back(Op::assign_text).text = &texts_.emplace_back(std::move(from), to);
+void Program::add_assignment(const TextSource& from, Text to) {
+  instructions_.emplace_back(Op::assign_text).text = &texts_.emplace_back(TextAssignment{from, to});
 }
 
 void Program::add_call(Block& block) {

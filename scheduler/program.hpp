@@ -44,7 +44,7 @@ class Program {
   void add_assignment(Expression expression, Signal first, const Variable* variable, Expression index,
                       const ElementRange& range);
   /// Assigns a text to a tag.
-  void add_assignment(TextSource from, Text to);
+  void add_assignment(const TextSource& from, Text to);
   void add_call(Block& block);
   /// Begins what runs only if the BOOL expression is TRUE; returns a mark for `end_branch`.
   std::size_t begin_branch(Expression condition);

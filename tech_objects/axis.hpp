@@ -573,8 +573,11 @@ class Axis final : public LeadingObject {
   bool advancing_base_ = false;  // `setpoint_` is that of the base motion alone, within a step
   AdditiveLeadingValues additive_;
 
-  std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
+  alignas(kCacheLine) double planned_override_ = 100.0;
+  double planned_velocity_limit_ = 0.0;
   SingleAxisMotion single_;
+
+  std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
 
   // Superimposed motion.
   Setpoint base_;                    // the setpoint without the superimposed part, while there is one
@@ -590,8 +593,6 @@ class Axis final : public LeadingObject {
   std::int64_t in_window_ticks_ = 0;
   std::int64_t since_target_ticks_ = 0;
   DoubleDouble beyond_target_;  // way that the axis has made since the target of the motion before [u]
-  double planned_override_ = 100.0;
-  double planned_velocity_limit_ = 0.0;
   Job jogged_;  // inputs of MC_MoveJog that are planned for
 
   // Jobs.

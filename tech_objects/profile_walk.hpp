@@ -17,10 +17,13 @@ class ProfileWalk {
   /// The same bits as profile.at(t). @param profile the one it began with  @param t [s] not before the last
   /// one
   MotionState at(const Profile& profile, double t) noexcept {
-    if (t > 0.0 && t < end_) return phase_.at(t);
+    if (within(t)) return phase_.at(t);
     if (t > 0.0 && t < profile.duration()) enter_phase(profile, t);
     return profile.at(t);
   }
+
+  /// Whether the phase at hand, and so the profile, is not over yet.
+  bool within(double t) const noexcept { return t > 0.0 && t < end_; }
 
  private:
   void enter_phase(const Profile& profile, double t) noexcept {

@@ -146,7 +146,7 @@ void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
   const MotionState state = walk_.at(profile_, t);
   setpoint.velocity = state.velocity;
   setpoint.acceleration = state.acceleration;
-  const bool over = t >= profile_.duration();
+  const bool over = !walk_.within(t) && t >= profile_.duration();
   const bool passes = aim_ == Aim::position && target_velocity_ != 0.0;
   if (over && exact_target_ && !passes) {
     setpoint.position = target_;

@@ -56,18 +56,19 @@ class SingleAxisMotion {
  private:
   void begin(const Setpoint& from, Aim aim, const Dynamics& dynamics) noexcept;
 
+  // What every cycle touches comes first.
   Modulo modulo_;
   double period_ = 0.001;
+  std::int64_t ticks_ = 0;  // since the profile began
   Aim aim_ = Aim::stand;
   bool finished_ = true;
   bool exact_target_ = false;  // whether `target_` was given; else it is where the stop ends
-  std::int64_t ticks_ = 0;     // since the profile began
-  WayOrigin origin_;           // where the profile's position is 0
-  ProfileWalk walk_;           // along the profile
-  Profile profile_;
-  AxisPosition target_;
   double target_velocity_ = 0.0;
+  WayOrigin origin_;  // where the profile's position is 0
+  AxisPosition target_;
   double wanted_velocity_ = 0.0;  // before the limit
+  ProfileWalk walk_;              // along the profile
+  Profile profile_;
   Dynamics dynamics_;
 };
 

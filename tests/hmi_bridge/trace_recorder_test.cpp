@@ -152,6 +152,21 @@ TEST(TraceRecorder, WhatTheBridgeTellsStandsAmongTheRowsAndTimeNeverGoesBack) {
                                              "command accepted after all rows 9 9 0"}));
 }
 
+TEST(TraceRecorder, WhatTheBridgeTellsStandsBeforeEventsOfLaterTicks) {
+  std::vector<std::string> lines;
+  LREAL x = 0.0;
+  TraceRing ring({{&x, Type::LREAL}}, 16);
+  EventQueue queue;
+  TraceRecorder recorder(ring, {{"x", Type::LREAL, ""}}, sinks(std::make_unique<Diary>(lines)),
+                         EventSource{&queue, {}, true});
+  recorder.tell(answer("of tick 8", 8));
+  queue.push({.kind = EventKind::overrun, .t = 10, .tick = 10});
+  ring.push(10, 10);
+  recorder.stop();
+  EXPECT_EQ(lines,
+            (std::vector<std::string>{"command accepted of tick 8 8 8 0", "overrun  10 10 0", "row 10"}));
+}
+
 TEST(TraceRecorder, WhatTheBridgeTellsBeyondTheRoomForItIsCounted) {
   std::vector<std::string> lines;
   LREAL x = 0.0;

@@ -52,8 +52,9 @@ long in_large_pages() {
 TEST(LargePages, HoldWhatLiesBetweenTwoPlacesAndChangeNothing) {
   const Memory probe(4 * kLarge);
   constexpr int kCollapse = 25;
-  const auto first = reinterpret_cast<std::uintptr_t>(probe.at(kLarge)) / kLarge * kLarge;
-  const bool possible = madvise(reinterpret_cast<void*>(first), kLarge, kCollapse) == 0;
+  std::uint8_t* const second = probe.at(kLarge);
+  const bool possible =
+      madvise(second - reinterpret_cast<std::uintptr_t>(second) % kLarge, kLarge, kCollapse) == 0;
 
   const Memory memory(8 * kLarge);
   const long before = in_large_pages();
