@@ -593,7 +593,7 @@ class Axis final : public LeadingObject {
   std::int64_t in_window_ticks_ = 0;
   std::int64_t since_target_ticks_ = 0;
   DoubleDouble beyond_target_;  // way that the axis has made since the target of the motion before [u]
-  Job jogged_;  // inputs of MC_MoveJog that are planned for
+  Job jogged_;                  // inputs of MC_MoveJog that are planned for
 
   // Jobs.
   static constexpr std::size_t kNewJobs = 16;
