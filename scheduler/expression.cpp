@@ -10,6 +10,7 @@ namespace lockstep {
 namespace {
 
 using expression_steps::Mode;
+using expression_steps::Right;
 
 constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 
@@ -139,18 +140,40 @@ bool ExpressionBuilder::apply(Operation operation, Type type) {
     if (type == Type::REAL) unary(expression_steps::conversion(Type::LREAL, Type::REAL));
     return true;
   }
-  // A constant right operand needs no instruction of its own.
-  const bool immediate = values_.back().constant && !values_[values_.size() - 2].constant;
-  const auto step = expression_steps::binary(operation, type, immediate);
+  if (apply_to_constant(operation, type) || apply_to_signal(operation, type)) return true;
+  const auto step = expression_steps::binary(operation, type, Right::kAccumulator);
   if (step == nullptr) return false;
-  if (immediate) {
-    const std::uint64_t right = code_.back().operand.constant;
-    code_.pop_back();
-    values_.pop_back();
-    code_.push_back(instruction(step, right));
-    return true;
-  }
   combine(2, instruction(step, 0, values_.size() - 2));
+  return true;
+}
+
+/// A constant right operand needs no instruction of its own.
+bool ExpressionBuilder::apply_to_constant(Operation operation, Type type) {
+  if (!values_.back().constant || values_[values_.size() - 2].constant) return false;
+  const auto step = expression_steps::binary(operation, type, Right::kConstant);
+  if (step == nullptr) return false;
+  code_.back() = instruction(step, code_.back().operand.constant);
+  values_.pop_back();
+  return true;
+}
+
+/// Nor does a whole signal of the operation's type, or NOT a BOOL.
+bool ExpressionBuilder::apply_to_signal(Operation operation, Type type) {
+  const std::size_t start = values_.back().start;
+  const auto load = expression_steps::load({nullptr, type, -1}, Mode::kResting);
+  if (load == nullptr || code_[start].step != load) return false;
+  const bool inverted = code_.size() == start + 2 && type == Type::BOOL &&
+                        code_.back().step == expression_steps::unary(Operation::kNot, type);
+  if (code_.size() != start + 1 && !inverted) return false;
+  const auto step =
+      expression_steps::binary(operation, type, inverted ? Right::kInvertedFlag : Right::kSignal);
+  if (step == nullptr) return false;
+  const Instruction::Operand right = code_[start].operand;
+  code_.resize(start + 1);
+  code_.back() = instruction(step);
+  code_.back().operand = right;
+  values_.pop_back();
+  values_.back().constant = false;
   return true;
 }
 
@@ -189,10 +212,10 @@ void ExpressionBuilder::convert(Type from, Type to) {
   using expression_steps::conversion;
   if (from == to) return;
   const auto multiply = [&](Type type, std::uint64_t by) {
-    unary(expression_steps::binary(Operation::kMultiply, type, true), by);
+    unary(expression_steps::binary(Operation::kMultiply, type, Right::kConstant), by);
   };
   const auto divide = [&](Type type, std::uint64_t by) {
-    unary(expression_steps::binary(Operation::kDivide, type, true), by);
+    unary(expression_steps::binary(Operation::kDivide, type, Right::kConstant), by);
   };
   constexpr auto whole = static_cast<std::uint64_t>(kNanosecondsPerMillisecond);
   constexpr auto fraction = std::bit_cast<std::uint64_t>(static_cast<double>(kNanosecondsPerMillisecond));

@@ -102,7 +102,7 @@ struct Instruction {
     std::uint64_t constant;
   };
   Step step;
-  Operand operand;     ///< where a value is loaded from, or the constant right operand
+  Operand operand;     ///< where a value is loaded from, or the right operand: where it stands or a constant
   std::uint16_t slot;  ///< where the left operand rests, or where the accumulator is put first; of an index:
                        ///< distance of two elements
   std::uint16_t bit;   ///< bit to load, or number of inputs
@@ -183,6 +183,8 @@ class ExpressionBuilder {
   void push(Instruction::Step plain, Instruction::Step resting, Instruction instruction, bool is_constant);
   void unary(Instruction::Step step, std::uint64_t constant = 0);
   void combine(std::size_t inputs, Instruction instruction);
+  bool apply_to_constant(Operation operation, Type type);
+  bool apply_to_signal(Operation operation, Type type);
   void fold();
 
   std::vector<Instruction> code_;

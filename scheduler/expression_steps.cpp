@@ -103,12 +103,22 @@ Word give_result(const Instruction*, Word accumulator, Word*, EvaluationCounters
   return accumulator;
 }
 
-template <class Op, class T, bool constant_right>
+template <class T, Right from>
+T right_operand(const Instruction* at, Word accumulator) noexcept {
+  if constexpr (from == Right::kAccumulator) return decode<T>(accumulator);
+  if constexpr (from == Right::kConstant) return decode<T>(at->operand.constant);
+  T value;
+  std::memcpy(&value, at->operand.address, sizeof value);
+  if constexpr (from == Right::kInvertedFlag) value = !value;
+  return value;
+}
+
+template <class Op, class T, Right from>
 Word binary_step(const Instruction* at, Word accumulator, Word* slots,
                  EvaluationCounters& counters) noexcept {
-  const Word left = constant_right ? accumulator : slots[at->slot];
-  const Word right = constant_right ? at->operand.constant : accumulator;
-  return next(at, encode(Op::apply(decode<T>(left), decode<T>(right), counters)), slots, counters);
+  const Word left = from == Right::kAccumulator ? slots[at->slot] : accumulator;
+  const T right = right_operand<T, from>(at, accumulator);
+  return next(at, encode(Op::apply(decode<T>(left), right, counters)), slots, counters);
 }
 
 template <Operation operation, class T, bool constant_right>
@@ -236,22 +246,27 @@ Step load_of(const Signal& signal) {
 }
 
 template <class Op>
-Step binary_of(Type type, bool constant_right) {
+Step binary_of(Type type, Right right) {
   return visit(type, [&]<class T>() -> Step {
-    if constexpr (requires(T value, EvaluationCounters & counters) { Op::apply(value, value, counters); })
-      return constant_right ? Step{binary_step<Op, T, true>} : Step{binary_step<Op, T, false>};
-    else
-      return nullptr;
+    if constexpr (requires(T value, EvaluationCounters & counters) { Op::apply(value, value, counters); }) {
+      if (right == Right::kConstant) return binary_step<Op, T, Right::kConstant>;
+      if (right == Right::kSignal) return binary_step<Op, T, Right::kSignal>;
+      if constexpr (std::same_as<T, bool>)
+        if (right == Right::kInvertedFlag) return binary_step<Op, T, Right::kInvertedFlag>;
+      if (right == Right::kAccumulator) return binary_step<Op, T, Right::kAccumulator>;
+    }
+    return nullptr;
   });
 }
 
 template <Operation operation>
-Step move_of(Type type, bool constant_right) {
+Step move_of(Type type, Right count) {
   return visit(type, [&]<class T>() -> Step {
-    if constexpr (Integer<T> && std::unsigned_integral<T>)
-      return constant_right ? Step{move_bits<operation, T, true>} : Step{move_bits<operation, T, false>};
-    else
-      return nullptr;
+    if constexpr (Integer<T> && std::unsigned_integral<T>) {
+      if (count == Right::kConstant) return move_bits<operation, T, true>;
+      if (count == Right::kAccumulator) return move_bits<operation, T, false>;
+    }
+    return nullptr;
   });
 }
 
@@ -335,52 +350,52 @@ Step constant(Mode mode) noexcept {
   }
 }
 
-Step binary(Operation operation, Type type, bool constant_right) noexcept {
+Step binary(Operation operation, Type type, Right right) noexcept {
   switch (operation) {
     case Operation::kAdd:
-      return binary_of<Add>(type, constant_right);
+      return binary_of<Add>(type, right);
     case Operation::kSubtract:
-      return binary_of<Subtract>(type, constant_right);
+      return binary_of<Subtract>(type, right);
     case Operation::kMultiply:
-      return binary_of<Multiply>(type, constant_right);
+      return binary_of<Multiply>(type, right);
     case Operation::kDivide:
-      return binary_of<Divide>(type, constant_right);
+      return binary_of<Divide>(type, right);
     case Operation::kModulo:
-      return binary_of<Modulo>(type, constant_right);
+      return binary_of<Modulo>(type, right);
     case Operation::kPower:
-      return binary_of<Power>(type, constant_right);
+      return binary_of<Power>(type, right);
     case Operation::kAtan2:
-      return binary_of<Atan2>(type, constant_right);
+      return binary_of<Atan2>(type, right);
     case Operation::kLess:
-      return binary_of<Less>(type, constant_right);
+      return binary_of<Less>(type, right);
     case Operation::kLessEqual:
-      return binary_of<LessEqual>(type, constant_right);
+      return binary_of<LessEqual>(type, right);
     case Operation::kGreater:
-      return binary_of<Greater>(type, constant_right);
+      return binary_of<Greater>(type, right);
     case Operation::kGreaterEqual:
-      return binary_of<GreaterEqual>(type, constant_right);
+      return binary_of<GreaterEqual>(type, right);
     case Operation::kEqual:
-      return binary_of<Equal>(type, constant_right);
+      return binary_of<Equal>(type, right);
     case Operation::kUnequal:
-      return binary_of<Unequal>(type, constant_right);
+      return binary_of<Unequal>(type, right);
     case Operation::kAnd:
-      return binary_of<And>(type, constant_right);
+      return binary_of<And>(type, right);
     case Operation::kOr:
-      return binary_of<Or>(type, constant_right);
+      return binary_of<Or>(type, right);
     case Operation::kXor:
-      return binary_of<Xor>(type, constant_right);
+      return binary_of<Xor>(type, right);
     case Operation::kMinimum:
-      return binary_of<Minimum>(type, constant_right);
+      return binary_of<Minimum>(type, right);
     case Operation::kMaximum:
-      return binary_of<Maximum>(type, constant_right);
+      return binary_of<Maximum>(type, right);
     case Operation::kShiftLeft:
-      return move_of<Operation::kShiftLeft>(type, constant_right);
+      return move_of<Operation::kShiftLeft>(type, right);
     case Operation::kShiftRight:
-      return move_of<Operation::kShiftRight>(type, constant_right);
+      return move_of<Operation::kShiftRight>(type, right);
     case Operation::kRotateLeft:
-      return move_of<Operation::kRotateLeft>(type, constant_right);
+      return move_of<Operation::kRotateLeft>(type, right);
     case Operation::kRotateRight:
-      return move_of<Operation::kRotateRight>(type, constant_right);
+      return move_of<Operation::kRotateRight>(type, right);
     default:
       return nullptr;
   }

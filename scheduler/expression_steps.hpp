@@ -14,13 +14,22 @@ enum class Mode {
   kOnly      ///< is the whole expression: calls nothing further
 };
 
+/// From where an operation with two operands takes the right one. The left one is in the accumulator, but for
+/// kAccumulator, where it rests in `slot`.
+enum class Right {
+  kAccumulator,
+  kConstant,     ///< `constant`
+  kSignal,       ///< what stands at `address`, of the operation's type; not for shifts
+  kInvertedFlag  ///< NOT the BOOL at `address`; for operations on BOOL
+};
+
 Instruction::Step load(const Signal& signal, Mode mode) noexcept;
 Instruction::Step constant(Mode mode) noexcept;
 /// An index in the accumulator becomes the way to its element [byte]; `element` loads what is there.
 Instruction::Step index() noexcept;
 Instruction::Step element(const Signal& first) noexcept;
-/// Two operands: `slot` and the accumulator, or, with `constant_right`, the accumulator and `constant`.
-Instruction::Step binary(Operation operation, Type type, bool constant_right) noexcept;
+/// Two operands; null also where the right one cannot come from there.
+Instruction::Step binary(Operation operation, Type type, Right right) noexcept;
 /// One operand. Functions of reals compute in double precision; REAL has to be rounded by a conversion after.
 Instruction::Step unary(Operation operation, Type type) noexcept;
 /// From one type's range and representation to the other's; TIME counts as LINT.

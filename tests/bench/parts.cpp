@@ -75,10 +75,13 @@ Part evaluation(const std::string& file) {
     if (plan_any_state(row, profile) == PlanResult::ok) profiles->push_back(profile);
   }
   return {"profile: state at a time",
-          [profiles](int calls) {
+          [profiles, next = std::size_t{0}, percent = 0](int calls) mutable {
+            const Profile* const all = profiles->data();
+            const std::size_t number = profiles->size();
             for (int i = 0; i < calls; ++i) {
-              const Profile& profile = (*profiles)[static_cast<std::size_t>(i) % profiles->size()];
-              keep(profile.at(profile.duration() * (i % 101) / 100.0));
+              keep(all[next].at(all[next].duration() * 0.01 * percent));
+              if (++next == number) next = 0;
+              if (++percent > 100) percent = 0;
             }
           },
           100'000};
