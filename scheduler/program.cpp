@@ -45,7 +45,13 @@ void Program::add_assignment(const TextSource& from, Text to) {
 }
 
 void Program::add_call(Block& block) {
-  instructions_.emplace_back(Op::call).block = &block;
+  const bool joined = !instructions_.empty() && instructions_.back().op == Op::copy_flag &&
+                      last_target_ != instructions_.size();
+  if (joined)
+    instructions_.back().op = Op::copy_flag_and_call;
+  else
+    instructions_.emplace_back(Op::call);
+  instructions_.back().block = &block;
 }
 
 std::size_t Program::begin_branch(Expression condition) {
@@ -60,7 +66,8 @@ std::size_t Program::begin_alternative(std::size_t mark) {
 }
 
 void Program::end_branch(std::size_t mark) {
-  instructions_[mark].target = static_cast<std::uint32_t>(instructions_.size());
+  last_target_ = instructions_.size();
+  instructions_[mark].target = static_cast<std::uint32_t>(last_target_);
 }
 
 void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept {
@@ -74,6 +81,10 @@ void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept
         break;
       case Op::copy_flag:
         *instruction.flag = *instruction.source;
+        break;
+      case Op::copy_flag_and_call:
+        *instruction.flag = *instruction.source;
+        instruction.block->call(now);
         break;
       case Op::assign_flag:
         *instruction.flag = instruction.expression->evaluate(counters).u != 0;

@@ -62,6 +62,7 @@ class Program {
   enum class Op : std::uint8_t {
     call,
     copy_flag,
+    copy_flag_and_call,  // the commonest pair: a pin that is wired to a BOOL, and the call of its block
     assign_flag,
     assign,
     assign_variable,
@@ -88,14 +89,14 @@ class Program {
     std::uint32_t target = 0;  // of a jump
     union {
       const Expression* expression;
-      const bool* source;  // of copy_flag
+      const bool* source;  // of a flag that is copied
     };
     union {
-      Block* block = nullptr;
-      bool* flag;  // a whole BOOL, as most pins with an expression are
+      bool* flag = nullptr;  // a whole BOOL, as most pins with an expression are
       const Place* place;
       const TextAssignment* text;
     };
+    Block* block = nullptr;
   };
 
   const Expression* keep(Expression expression);
@@ -107,6 +108,7 @@ class Program {
   std::int64_t cycle_;
   int priority_;
   std::vector<Instruction> instructions_;
+  std::size_t last_target_ = 0;  // of the jumps so far
   std::deque<Expression> expressions_;  // where they are they stay: instructions point at them
   std::deque<Place> places_;
   std::deque<TextAssignment> texts_;

@@ -153,6 +153,15 @@ TEST(Program, RunsTheBranchThatTheConditionChooses) {
   EXPECT_EQ(value_of(project, "w").u, 255u);
 }
 
+/// The call is no part of the branch before it, also where that ends with copying a BOOL.
+TEST(Program, CallsWhatStandsBehindABranch) {
+  const Project project = load(with_calls(
+      R"({"if": "x > 2.0", "then": [{"set": "b", "to": "fall.Q"}]}, {"fb": "F_TRIG", "name": "fall"})"));
+  run(project);
+  EXPECT_EQ(value_of(project, "fall.Q").u, 1u) << "a first call with CLK FALSE counts as a fall";
+  EXPECT_EQ(value_of(project, "b").u, 0u) << "the branch is not taken";
+}
+
 TEST(Program, SetsVariablesAndBits) {
   const Project project =
       load(with_calls(R"({"set": "A.Override.Velocity", "to": "x * 20.0"}, {"set": "w.X3", "to": true})"));
