@@ -394,7 +394,7 @@ class Axis final : public LeadingObject {
   void meet_cam_end() noexcept;
   void take_additive() noexcept;
   void begin_shift(Job& job) noexcept;
-  void advance_shift(Slot slot) noexcept;
+  void show_shift(Slot slot, const Shift& shift, Shift::Event event) noexcept;
   void advance_shifts() noexcept;
   bool led() const noexcept { return motion_ >= Motion::synchronizing; }
 

@@ -232,25 +232,25 @@ void Axis::begin_shift(Job& job) noexcept {
 }
 
 void Axis::advance_shifts() noexcept {
+  const Shift& phase = synchronous_.phase_shift();
+  const Shift& offset = synchronous_.following_offset();
   if (running_[kPhasing] != nullptr)
-    advance_shift(kPhasing);
-  else if (synchronous_.phase_shift().settling())
+    show_shift(kPhasing, phase, synchronous_.advance_phase_shift());
+  else if (phase.settling())
     synchronous_.advance_phase_shift();
   if (running_[kOffset] != nullptr)
-    advance_shift(kOffset);
-  else if (synchronous_.following_offset().settling())
+    show_shift(kOffset, offset, synchronous_.advance_following_offset());
+  else if (offset.settling())
     synchronous_.advance_following_offset();
 }
 
-void Axis::advance_shift(Slot slot) noexcept {
+void Axis::show_shift(Slot slot, const Shift& shift, Shift::Event event) noexcept {
   Job& job = *running_[slot];
-  const Shift& shift = slot == kPhasing ? synchronous_.phase_shift() : synchronous_.following_offset();
-  const Shift::Event event =
-      slot == kPhasing ? synchronous_.advance_phase_shift() : synchronous_.advance_following_offset();
   job.phase = shift.phase() == Shift::Phase::waiting ? JobPhase::waiting : JobPhase::active;
   job.covered = rounded_difference(shift.value(), job.shift_base);
-  if (event == Shift::Event::done) end_job(slot, JobPhase::done, ErrorId::none);
-  if (event == Shift::Event::reversed) end_job(slot, JobPhase::failed, ErrorId::leading_value_reversed);
+  if (event == Shift::Event::none) return;
+  if (event == Shift::Event::done) return end_job(slot, JobPhase::done, ErrorId::none);
+  end_job(slot, JobPhase::failed, ErrorId::leading_value_reversed);
 }
 
 void Axis::leave_synchronous() noexcept {
