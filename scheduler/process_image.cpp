@@ -84,6 +84,7 @@ ProcessImage::Snapshot ProcessImage::first_snapshot(const std::vector<Signal>& v
 }
 
 void ProcessImage::take_writes() noexcept {
+  bring_snapshot_near();
   if ((box_.load(std::memory_order_relaxed) & kFull) == 0) return;
   // The bridge may have taken the set back since: then this is an empty one, and the set comes a tick later.
   cycle_set_ = box_.exchange(cycle_set_, std::memory_order_acq_rel) & kSet;
@@ -92,6 +93,15 @@ void ProcessImage::take_writes() noexcept {
   set.apply(variables_);
   applied_ = set.last;
   set.clear();
+}
+
+/// The bridge has read the memory that the next snapshot goes to. A first write here, to each cache line,
+/// fetches it back while the tick computes; at its end nothing has to wait for it.
+void ProcessImage::bring_snapshot_near() noexcept {
+  constexpr std::size_t kPerLine = kCacheLine / sizeof(Value);
+  constexpr std::size_t kMost = 32 * kPerLine;  // what a processor holds on its way
+  std::vector<Value>& values = snapshot_.back().values;
+  for (std::size_t i = 0; i < std::min(values.size(), kMost); i += kPerLine) values[i] = Value{};
 }
 
 void ProcessImage::publish(std::int64_t tick) noexcept {

@@ -100,6 +100,7 @@ class ProcessImage {
     std::vector<std::uint32_t> touched_;  ///< variables with a write
   };
 
+  void bring_snapshot_near() noexcept;
   static Snapshot first_snapshot(const std::vector<Signal>& variables);
   void add(WriteSet& set, const SignalWrite& write) noexcept;
 
