@@ -108,7 +108,7 @@ class Program {
   std::int64_t cycle_;
   int priority_;
   std::vector<Instruction> instructions_;
-  std::size_t last_target_ = 0;  // of the jumps so far
+  std::size_t last_target_ = 0;         // of the jumps so far
   std::deque<Expression> expressions_;  // where they are they stay: instructions point at them
   std::deque<Place> places_;
   std::deque<TextAssignment> texts_;
