@@ -50,6 +50,19 @@ int kept_count(const std::string& file) {
   return std::stoi(count->value);
 }
 
+TEST(Retain, AFileOfAnotherProjectIsNotCalledNew) {
+  const Directory directory;
+  const std::string kept = directory.file("both.retain");
+  Json project = counting();
+  const std::string one = directory.write("one.json", project.dump());
+  project["name"] = "other";
+  const std::string other = directory.write("other.json", project.dump());
+  ASSERT_EQ(lockstep(quietly(one, {"--duration", "50ms", "--retain", kept})).status, 0);
+  const Ended second = lockstep(quietly(other, {"--duration", "50ms", "--retain", kept}));
+  EXPECT_NE(second.err.find("it has values of project 'small' and none of 'other'"), std::string::npos);
+  EXPECT_EQ(second.err.find("which is new"), std::string::npos) << second.err;
+}
+
 TEST(Retain, ARunGoesOnWhereTheOneBeforeEnded) {
   const Directory directory;
   const std::string project = directory.write("project.json", counting().dump());
