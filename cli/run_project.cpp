@@ -442,6 +442,9 @@ int run_project(const RunOptions& options) {
     tell(error.what(), Gravity::error);
   } catch (const RetainFileError& error) {
     tell(error.what(), Gravity::error);
+    tell(
+        "--retain FILE keeps values in another file; --no-retain begins with their init values and keeps "
+        "nothing");
   }
   return kCouldNotStart;
 }

@@ -63,6 +63,19 @@ TEST(Retain, AFileOfAnotherProjectIsNotCalledNew) {
   EXPECT_EQ(second.err.find("which is new"), std::string::npos) << second.err;
 }
 
+// As beside an example that the package has installed, where only root may write.
+TEST(Retain, WhereNoFileCanBeMadeTheRunSaysWhyAndWhatMayBeDone) {
+  const Directory directory;
+  Json project = counting();
+  project["retain"]["file"] = "/proc/nowhere/values.retain";
+  const Ended ended = lockstep(quietly(directory.write("project.json", project.dump())));
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_NE(ended.err.find("/proc/nowhere/values.retain: it can neither be opened nor made: No such file"),
+            std::string::npos)
+      << ended.err;
+  EXPECT_NE(ended.err.find("--no-retain begins with their init values"), std::string::npos) << ended.err;
+}
+
 TEST(Retain, ARunGoesOnWhereTheOneBeforeEnded) {
   const Directory directory;
   const std::string project = directory.write("project.json", counting().dump());
