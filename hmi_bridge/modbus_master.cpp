@@ -99,6 +99,8 @@ bool ModbusMaster::prepare(int unit, std::size_t bytes) {
   constexpr std::size_t kAround = 20;  // what request and answer have besides
   const auto on_the_line = static_cast<std::int64_t>(bytes + kAround) * character_;
   wait_for(timeout_ + std::chrono::duration_cast<std::chrono::microseconds>(on_the_line));
+  // On a line nothing tells which request an answer is for: one that has come late must not wait there.
+  if (character_.count() > 0) modbus_flush(library_->context);
   return modbus_set_slave(library_->context, unit) == 0 || fail(errno);
 }
 

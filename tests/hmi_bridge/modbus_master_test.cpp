@@ -108,5 +108,23 @@ TEST(ModbusMaster, ASerialLineTakesItsTimeForEachCharacter) {
   EXPECT_EQ(words[99], 0x0707);
 }
 
+TEST(ModbusMaster, AnAnswerThatWasLateOnASerialLineIsNotTakenForTheNextOne) {
+  const PseudoTerminal line;
+  SerialOptions options;
+  options.device = line.name();
+  ModbusMaster master(options, 20s);
+  ASSERT_TRUE(master.connect()) << master.problem();
+  std::vector<std::uint8_t> late = {1, 3, 200};
+  late.resize(3 + 200, 9);
+  const std::uint16_t crc = modbus_crc(late);
+  late.push_back(static_cast<std::uint8_t>(crc));
+  late.push_back(static_cast<std::uint8_t>(crc >> 8));
+  line.send(late);
+  const Trickle prompt(line.control(), on_the_line(), 0ms);
+  std::vector<std::uint16_t> words(100);
+  EXPECT_TRUE(master.read(1, ModbusTable::holding_register, 0, words)) << master.problem();
+  EXPECT_EQ(words[0], 0x0707);
+}
+
 }  // namespace
 }  // namespace lockstep
