@@ -302,10 +302,9 @@ std::string write_problem(const PanelEntry& place, Value value) {
   const Type type = place.type();
   if (!fits_registers(entry, type, value)) {
     const Limits limits = limits_of(entry, type);
-    const Type shown = is_real(type) ? Type::LREAL : type;  // a REAL would show the digits of a double
-    return place.name + ": " + literal(value, shown) + " does not fit " + std::string(type_name(entry.type)) +
-           " on Modbus; allowed: from " + literal(limits.lowest, shown) + " to " +
-           literal(limits.highest, shown);
+    return place.name + ": " + literal(value, type) + " does not fit " + std::string(type_name(entry.type)) +
+           " on Modbus; allowed: from " + literal(limits.lowest, type) + " to " +
+           literal(limits.highest, type);
   }
   const std::string problem = range_problem(value, type, entry.range, {});
   return problem.empty() ? "" : place.name + ": " + problem;
