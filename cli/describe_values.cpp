@@ -14,10 +14,27 @@ namespace {
 
 constexpr double kGreatest = std::numeric_limits<double>::max();
 
-std::string shortest(double value, std::chars_format format) {
+template <class Real>
+std::string shortest(Real value, std::chars_format format) {
   char text[64];
   const auto end = std::to_chars(text, text + sizeof text, value, format).ptr;
   return {text, end};
+}
+
+/// The shortest literal that reads back as the same value of its type.
+template <class Real>
+std::string shortest_literal(Real value) {
+  if (!std::isfinite(value)) return shortest(value, std::chars_format::general);
+  const double size = std::abs(static_cast<double>(value));
+  if (size == 0.0 || (size >= 1e-4 && size < 1e7)) {
+    std::string text = shortest(value, std::chars_format::fixed);
+    return text.find('.') == text.npos ? text + ".0" : text;
+  }
+  const std::string text = shortest(value, std::chars_format::scientific);
+  const auto e = text.find('e');
+  const std::string mantissa = text.substr(0, e);
+  return mantissa + (mantissa.find('.') == mantissa.npos ? ".0" : "") + "E" +
+         std::to_string(std::stoi(text.substr(e + 1)));
 }
 
 /// A bound of a range as a literal of the type.
@@ -39,23 +56,14 @@ bool open_above(Type type, double highest_allowed) {
 }  // namespace
 
 std::string real_literal(double value) {
-  if (!std::isfinite(value)) return shortest(value, std::chars_format::general);
-  const double size = std::abs(value);
-  if (size == 0.0 || (size >= 1e-4 && size < 1e7)) {
-    std::string text = shortest(value, std::chars_format::fixed);
-    return text.find('.') == text.npos ? text + ".0" : text;
-  }
-  const std::string text = shortest(value, std::chars_format::scientific);
-  const auto e = text.find('e');
-  const std::string mantissa = text.substr(0, e);
-  return mantissa + (mantissa.find('.') == mantissa.npos ? ".0" : "") + "E" +
-         std::to_string(std::stoi(text.substr(e + 1)));
+  return shortest_literal(value);
 }
 
 std::string literal(Value value, Type type) {
   if (type >= Type::AXIS) return "";
   if (type == Type::BOOL) return value.u != 0 ? "TRUE" : "FALSE";
-  if (is_real(type)) return real_literal(type == Type::REAL ? static_cast<float>(value.r) : value.r);
+  if (type == Type::REAL) return shortest_literal(static_cast<float>(value.r));
+  if (is_real(type)) return shortest_literal(value.r);
   if (is_bit_string(type)) return fmt::format("16#{:X}", value.u);
   if (type == Type::TIME) {
     char text[kNumberLength];

@@ -6,7 +6,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <unordered_set>
+
+#include "cli/describe_values.hpp"
+#include "projects/constant.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -111,6 +115,11 @@ std::optional<PanelEntry> ModbusPanel::place_of(const std::string& name, bool to
 bool ModbusPanel::tell_unknown(const std::string& name) const {
   if (places_.contains(fold(name))) {
     tell(quote(name) + " is read-only on Modbus");
+    return false;
+  }
+  // An index that is out of bounds, say.
+  if (const FoundPlace found = project_.names.find(name); name.find('[') != name.npos && !found.place) {
+    tell("the Modbus map has no " + quote(name) + ": " + found.problem);
     return false;
   }
   std::vector<std::string> names;
@@ -246,23 +255,59 @@ bool ModbusPanel::write(const PanelName& name, std::span<const Value> values) {
   return true;
 }
 
-std::string write_problem(const PanelEntry& place, Value value) {
-  const ModbusEntry& entry = *place.entry;
-  const Type type = place.type();
-  const std::string wrong =
-      place.name + ": the value does not fit " + std::string(type_name(entry.type)) + " on Modbus";
+namespace {
+
+/// The least and the greatest value of a signal that its registers can show.
+struct Limits {
+  Value lowest{}, highest{};
+};
+
+Limits limits_of(const ModbusEntry& entry, Type type) {
+  const auto least = static_cast<double>(lowest(entry.type));
+  const auto greatest = static_cast<double>(highest(entry.type));
+  Limits limits;
+  if (entry.is_scaled) {
+    std::tie(limits.lowest.r, limits.highest.r) =
+        std::minmax({least * entry.scale + entry.offset, greatest * entry.scale + entry.offset},
+                    [](double a, double b) { return a < b; });
+  } else if (is_real(type)) {
+    limits.highest.r = std::numeric_limits<float>::max();
+    limits.lowest.r = -limits.highest.r;
+  } else if (type == Type::TIME) {  // in 32 bits, milliseconds
+    limits.lowest.i = std::numeric_limits<std::int32_t>::min() * std::int64_t{1'000'000};
+    limits.highest.i = std::numeric_limits<std::int32_t>::max() * std::int64_t{1'000'000};
+  } else {
+    limits.lowest.i = std::max(lowest(entry.type), lowest(type));
+    limits.highest.u = std::min(highest(entry.type), highest(type));
+  }
+  return limits;
+}
+
+bool fits_registers(const ModbusEntry& entry, Type type, Value value) {
   const ModbusWords words = encode(entry, type, value);
   ModbusEntry unlimited = entry;
   unlimited.range = kAny;
-  const auto own = std::span(words).first(modbus_span(entry));
-  const auto back = decode(unlimited, type, own);
-  if (!back) return wrong;
+  const auto back = decode(unlimited, type, std::span(words).first(modbus_span(entry)));
+  if (!back) return false;
   // Rounding is what the map says; a value that became its type's limit is another one.
-  if (entry.is_scaled && !(std::abs(back->r - value.r) <= std::abs(entry.scale) * 0.500001)) return wrong;
-  if (type == Type::TIME && std::abs(back->i - value.i) > 500'000) return wrong;
-  if (!is_real(type) && type != Type::TIME && back->u != value.u) return wrong;
-  if (!decode(entry, type, own)) return place.name + ": the value is out of the range of its variable";
-  return "";
+  if (entry.is_scaled) return std::abs(back->r - value.r) <= std::abs(entry.scale) * 0.500001;
+  if (type == Type::TIME) return std::abs(back->i - value.i) <= 500'000;
+  return is_real(type) || back->u == value.u;
+}
+
+}  // namespace
+
+std::string write_problem(const PanelEntry& place, Value value) {
+  const ModbusEntry& entry = *place.entry;
+  const Type type = place.type();
+  if (!fits_registers(entry, type, value)) {
+    const Limits limits = limits_of(entry, type);
+    return place.name + ": " + literal(value, type) + " does not fit " + std::string(type_name(entry.type)) +
+           " on Modbus; allowed: from " + literal(limits.lowest, type) + " to " +
+           literal(limits.highest, type);
+  }
+  const std::string problem = range_problem(value, type, entry.range, {});
+  return problem.empty() ? "" : place.name + ": " + problem;
 }
 
 }  // namespace lockstep::cli

@@ -78,7 +78,8 @@ std::string run_gnuplot(const std::string& script) {
   pid_t child = 0;
   const int error = posix_spawnp(&child, name, &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error == ENOENT)
+  // EACCES: one of the folders in which it was looked for is closed.
+  if (error == ENOENT || error == EACCES)
     throw std::runtime_error(
         "gnuplot, which draws the pictures, is not installed; on Debian: apt-get install "
         "gnuplot-nox");

@@ -66,9 +66,7 @@ std::string place_text(const AxisSummary& end, const Axis& now) {
 Display::Display(Project& project, const std::vector<NamedSignal>& signals, std::int64_t duration)
     : shown_(signals), duration_(duration), terminal_(isatty(STDERR_FILENO) == 1) {
   if (!terminal_) return;
-  std::vector<Signal> places;
-  for (const NamedSignal& signal : shown_) places.push_back(signal.signal);
-  image_ = std::make_unique<ProcessImage>(std::move(places));
+  image_ = std::make_unique<ProcessImage>(places_of(shown_));
   project.controller->images.push_back(image_.get());
 }
 

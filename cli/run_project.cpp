@@ -20,6 +20,7 @@
 #include "hmi_bridge/modbus_client.hpp"
 #include "hmi_bridge/modbus_server.hpp"
 #include "hmi_bridge/trace_channel.hpp"
+#include "hmi_bridge/trace_columns.hpp"
 #include "hmi_bridge/trace_recorder.hpp"
 #include "scheduler/processor.hpp"
 #include "scheduler/real_time.hpp"
@@ -132,38 +133,21 @@ class Surroundings {
   }
 
   LcmTraceIdentity identity() const {
-    const auto wall = std::chrono::system_clock::now().time_since_epoch();
-    const std::int64_t epoch = std::chrono::duration_cast<std::chrono::microseconds>(wall).count();
     return {.project = project_.name,
             .channel = project_.trace.channel.empty() ? "LOCKSTEP" : project_.trace.channel,
             .period = project_.controller->clock.interpolator_cycle(),
-            .epoch = options_.simulate ? 0 : epoch};
-  }
-
-  /// The column of a signal in the ring; it is added if it is not there yet.
-  std::size_t column_of(const NamedSignal& signal) {
-    const auto same = [&](const NamedSignal& other) { return other.name == signal.name; };
-    const auto found = std::find_if(columns_.begin(), columns_.end(), same);
-    if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
-    columns_.push_back(signal);
-    return columns_.size() - 1;
-  }
-
-  std::vector<std::size_t> columns_of(const std::vector<NamedSignal>& signals) {
-    std::vector<std::size_t> columns;
-    for (const NamedSignal& signal : signals) columns.push_back(column_of(signal));
-    return columns;
+            .epoch = options_.simulate ? 0 : epoch_};
   }
 
   /// A sink that gets the signals of the trace.
   void add_whole(std::unique_ptr<TraceSink> sink) {
-    sinks_.push_back(std::make_unique<TraceChannel>(std::move(sink), columns_of(signals_)));
+    sinks_.push_back(std::make_unique<TraceChannel>(std::move(sink), columns_.of(signals_)));
   }
 
   void add_part(std::unique_ptr<TraceSink> sink, const TraceChannelConfig& config) {
     std::optional<std::size_t> occasion;
-    if (config.occasion) occasion = column_of(*config.occasion);
-    sinks_.push_back(std::make_unique<TraceChannel>(std::move(sink), columns_of(config.signals),
+    if (config.occasion) occasion = columns_.of(*config.occasion);
+    sinks_.push_back(std::make_unique<TraceChannel>(std::move(sink), columns_.of(config.signals),
                                                     config.selection, occasion));
   }
 
@@ -207,7 +191,7 @@ class Surroundings {
   void add_flight_recorder() {
     if (!project_.flight_recorder) return;
     const FlightRecorderConfig& config = *project_.flight_recorder;
-    auto recorder = std::make_unique<FlightRecorder>(config.options, columns_of(config.signals),
+    auto recorder = std::make_unique<FlightRecorder>(config.options, columns_.of(config.signals),
                                                      project_.controller->clock.interpolator_cycle());
     flight_ = recorder.get();
     sinks_.push_back(std::move(recorder));
@@ -220,19 +204,14 @@ class Surroundings {
     add_flight_recorder();
     const bool rows = !sinks_.empty();
     sinks_.insert(sinks_.begin(), std::make_unique<AlarmMessages>(options_.simulate ? 500 : 0));
-    std::vector<Signal> places;
-    std::vector<TraceSignal> columns;
-    for (const NamedSignal& signal : columns_) {
-      places.push_back(signal.signal);
-      columns.push_back({signal.name, signal.signal.value_type(), std::string(unit_text(signal.unit))});
-    }
+    std::vector<Signal> places = columns_.places();
     const std::size_t fitting = kTraceValues / (places.size() + 1);
     ring_ = std::make_unique<TraceRing>(std::move(places),
                                         rows ? std::clamp<std::size_t>(fitting, 1 << 10, kTraceRows) : 2);
     if (rows) project_.controller->trace = ring_.get();
     project_.controller->events = &events_;
     recorder_ =
-        std::make_unique<TraceRecorder>(*ring_, std::move(columns), std::move(sinks_),
+        std::make_unique<TraceRecorder>(*ring_, columns_.described(), std::move(sinks_),
                                         EventSource{&events_, EventTexts(*project_.controller), rows});
   }
 
@@ -258,10 +237,8 @@ class Surroundings {
     const bool wanted =
         asked || (!options_.simulate && !options_.no_modbus && !project_.modbus.servers.empty());
     if (!wanted) return;
-    std::vector<Signal> places;
-    for (const NamedSignal& signal : project_.modbus.signals) places.push_back(signal.signal);
     std::vector<ModbusService> services = modbus_services();
-    image_ = std::make_unique<ProcessImage>(std::move(places));
+    image_ = std::make_unique<ProcessImage>(places_of(project_.modbus.signals));
     project_.controller->images.push_back(image_.get());
     ModbusIdentity identity;
     identity.revision = LOCKSTEP_VERSION;
@@ -279,9 +256,7 @@ class Surroundings {
   void start_clients() {
     if (options_.simulate || options_.no_modbus) return;
     for (const ModbusClientConfig& client : project_.modbus.clients) {
-      std::vector<Signal> places;
-      for (const NamedSignal& signal : client.signals) places.push_back(signal.signal);
-      client_images_.push_back(std::make_unique<ProcessImage>(std::move(places)));
+      client_images_.push_back(std::make_unique<ProcessImage>(places_of(client.signals)));
       project_.controller->images.push_back(client_images_.back().get());
       clients_.push_back(std::make_unique<ModbusClient>(client.options, *client_images_.back()));
     }
@@ -332,9 +307,13 @@ class Surroundings {
 
   Project& project_;
   const RunOptions& options_;
+  // Once for all channels, so that what is of one instant has one time stamp.
+  const std::int64_t epoch_ = std::chrono::duration_cast<std::chrono::microseconds>(
+                                  std::chrono::system_clock::now().time_since_epoch())
+                                  .count();
   std::unique_ptr<RetainWriter> keeper_;
   std::vector<NamedSignal> signals_;  // of the trace
-  std::vector<NamedSignal> columns_;  // of the ring: those, and what else somebody asks for
+  TraceColumns columns_;              // of the ring: those, and what else somebody asks for
   std::vector<std::unique_ptr<TraceSink>> sinks_;
   const FlightRecorder* flight_ = nullptr;
   bool jobs_told_ = false;
@@ -463,6 +442,9 @@ int run_project(const RunOptions& options) {
     tell(error.what(), Gravity::error);
   } catch (const RetainFileError& error) {
     tell(error.what(), Gravity::error);
+    tell(
+        "--retain FILE keeps values in another file; --no-retain begins with their init values and keeps "
+        "nothing");
   }
   return kCouldNotStart;
 }

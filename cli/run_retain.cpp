@@ -52,7 +52,8 @@ std::unique_ptr<RetainWriter> restore_kept(Project& project, const RunOptions& o
   RetainFile file(retain_path(project, options), project.name);
   for (const std::string& remark : restore(file, project.retain.values)) tell("warning: " + remark);
   tell_strangers(file, project);
-  tell(file.rows().empty() ? fmt::format("values are kept in {}, which is new", file.path())
+  const std::string_view is_new = file.other_projects().empty() ? ", which is new" : "";
+  tell(file.rows().empty() ? fmt::format("values are kept in {}{}", file.path(), is_new)
                            : fmt::format("{} kept values from {}", file.rows().size(), file.path()));
   return std::make_unique<RetainWriter>(std::move(file), project.retain.values, project.retain.interval,
                                         &project.controller->encoder_saving);

@@ -48,7 +48,8 @@ std::optional<Value> value_for(const PanelEntry& place, std::string text) {
 std::optional<std::vector<Value>> values_of_text(const PanelName& name, const std::string& given) {
   std::string problem;
   const auto text = given.starts_with('\'') ? read_text_literal(given, problem) : text_from_utf8(given);
-  if (!text && problem.empty()) problem = "a text has printable characters of ISO 8859-1 only";
+  if (!text && problem.empty())
+    problem = quote(given) + " is no text; allowed: printable characters of ISO 8859-1";
   if (text && text->size() > name.room)
     problem = quote(given) + " has " + std::to_string(text->size()) + " characters; allowed: up to " +
               std::to_string(name.room);

@@ -188,8 +188,10 @@ bool ModbusClient::is_reachable(Clock::time_point now) {
 }
 
 void ModbusClient::put_off(Retry& retry, Clock::time_point now) const {
-  retry.pause =
-      retry.pause.count() == 0 ? options_.first_retry : std::min(2 * retry.pause, options_.longest_retry);
+  // On a line an answer that comes late looks like that of the next request; it is waited for.
+  const auto first =
+      options_.connect ? options_.first_retry : std::max(options_.first_retry, options_.timeout);
+  retry.pause = retry.pause.count() == 0 ? first : std::min(2 * retry.pause, options_.longest_retry);
   retry.at = now + retry.pause;
 }
 

@@ -1,6 +1,7 @@
 #include "hmi_bridge/modbus_master.hpp"
 
 #include <modbus.h>
+#include <netdb.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -21,35 +22,53 @@ struct ModbusMaster::Library {
 
 ModbusMaster::ModbusMaster(const Endpoint& place, std::chrono::milliseconds timeout)
     : library_(std::make_unique<Library>(
-          modbus_new_tcp_pi(place.host.c_str(), std::to_string(place.port).c_str()))) {
-  prepare(timeout);
-}
+          modbus_new_tcp_pi(place.host.c_str(), std::to_string(place.port).c_str()))),
+      host_(place.host),
+      timeout_(timeout) {}
 
 ModbusMaster::ModbusMaster(const SerialOptions& line, std::chrono::milliseconds timeout)
     : library_(std::make_unique<Library>(modbus_new_rtu(line.device.c_str(), line.baud,
                                                         line.parity == Parity::none   ? 'N'
                                                         : line.parity == Parity::even ? 'E'
                                                                                       : 'O',
-                                                        8, line.stop_bits))) {
-  prepare(timeout);
-}
+                                                        8, line.stop_bits))),
+      timeout_(timeout),
+      character_(character_time(line)) {}
 
 ModbusMaster::~ModbusMaster() {
   close();
 }
 
-void ModbusMaster::prepare(std::chrono::milliseconds timeout) {
-  if (library_->context == nullptr) return;
-  const auto seconds = static_cast<std::uint32_t>(timeout.count() / 1000);
-  const auto rest = static_cast<std::uint32_t>(timeout.count() % 1000 * 1000);
+/// For connecting, and for an answer from its request to its last byte: without a time-out between two bytes
+/// that of the answer counts for all of it.
+void ModbusMaster::wait_for(std::chrono::microseconds time) {
+  const auto seconds = static_cast<std::uint32_t>(time.count() / 1'000'000);
+  const auto rest = static_cast<std::uint32_t>(time.count() % 1'000'000);
   modbus_set_response_timeout(library_->context, seconds, rest);
-  modbus_set_byte_timeout(library_->context, seconds, rest);
+  modbus_set_byte_timeout(library_->context, 0, 0);
+}
+
+/// The library takes a name that it cannot find for a refused connection.
+bool ModbusMaster::has_address() {
+  if (host_.empty()) return true;
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const int error = ::getaddrinfo(host_.c_str(), nullptr, &hints, &found);
+  if (error == 0) {
+    ::freeaddrinfo(found);
+    return true;
+  }
+  was_refused_ = false;
+  problem_ = std::string("the name has no address: ") + ::gai_strerror(error);
+  return false;
 }
 
 bool ModbusMaster::connect() {
   close();
   if (library_->context == nullptr) return fail(EINVAL);
-  errno = 0;
+  if (!has_address()) return false;
+  wait_for(timeout_);
   is_connected_ = modbus_connect(library_->context) == 0;
   if (is_connected_) modbus_flush(library_->context);
   return is_connected_ || fail(errno);
@@ -69,14 +88,19 @@ bool ModbusMaster::is_cut() const noexcept {
 
 bool ModbusMaster::fail(int error) {
   was_refused_ = error > MODBUS_ENOBASE && error < EMBBADCRC;
-  // A name that cannot be found leaves no number of an error.
-  problem_ = error == 0 ? "no such host" : modbus_strerror(error);
+  problem_ = modbus_strerror(error);
   if (!was_refused_) close();
   return false;
 }
 
-bool ModbusMaster::select(int unit) {
+/// @param bytes of data that go out or come in
+bool ModbusMaster::prepare(int unit, std::size_t bytes) {
   if (!is_connected_) return fail(ENOTCONN);
+  constexpr std::size_t kAround = 20;  // what request and answer have besides
+  const auto on_the_line = static_cast<std::int64_t>(bytes + kAround) * character_;
+  wait_for(timeout_ + std::chrono::duration_cast<std::chrono::microseconds>(on_the_line));
+  // On a line nothing tells which request an answer is for: one that has come late must not wait there.
+  if (character_.count() > 0) modbus_flush(library_->context);
   return modbus_set_slave(library_->context, unit) == 0 || fail(errno);
 }
 
@@ -85,7 +109,7 @@ bool ModbusMaster::finish(bool is_good) {
 }
 
 bool ModbusMaster::read(int unit, ModbusTable table, std::uint32_t address, std::span<std::uint16_t> words) {
-  if (!select(unit)) return false;
+  if (!prepare(unit, words.size() * 2)) return false;
   modbus_t* const context = library_->context;
   const int from = static_cast<int>(address);
   const int count = static_cast<int>(words.size());
@@ -102,7 +126,7 @@ bool ModbusMaster::read(int unit, ModbusTable table, std::uint32_t address, std:
 
 bool ModbusMaster::write(int unit, ModbusTable table, std::uint32_t address,
                          std::span<const std::uint16_t> words) {
-  if (!select(unit)) return false;
+  if (!prepare(unit, words.size() * 2)) return false;
   modbus_t* const context = library_->context;
   const int from = static_cast<int>(address);
   const int count = static_cast<int>(words.size());
@@ -118,7 +142,7 @@ bool ModbusMaster::write(int unit, ModbusTable table, std::uint32_t address,
 }
 
 bool ModbusMaster::write_bits(int unit, std::uint32_t address, std::uint16_t mask, std::uint16_t bits) {
-  if (!select(unit)) return false;
+  if (!prepare(unit, 0)) return false;
   return finish(modbus_mask_write_register(library_->context, static_cast<int>(address),
                                            static_cast<std::uint16_t>(~mask), bits) == 1);
 }

@@ -17,9 +17,10 @@ namespace lockstep {
 inline constexpr std::uint32_t kMostRegistersRead = 125, kMostRegistersWritten = 123;
 inline constexpr std::uint32_t kMostBitsRead = 2000, kMostBitsWritten = 1968;
 
-/// A connection. Each function waits for its answer, for the time-out at most (a name server may take
-/// longer). After any failure but an exception the connection is closed, since an answer that comes late
-/// would be taken for that of the next request. All functions: one thread.
+/// A connection. Each function waits for its whole answer, for the time-out at most and on a serial line for
+/// what its characters take besides (a name server may take longer). After any failure but an exception the
+/// connection is closed, since an answer that comes late would be taken for that of the next request. All
+/// functions: one thread.
 class ModbusMaster {
  public:
   ModbusMaster(const Endpoint& place, std::chrono::milliseconds timeout);
@@ -50,12 +51,16 @@ class ModbusMaster {
 
  private:
   struct Library;
-  void prepare(std::chrono::milliseconds timeout);
-  bool select(int unit);
+  bool has_address();
+  void wait_for(std::chrono::microseconds time);
+  bool prepare(int unit, std::size_t bytes);
   bool finish(bool is_good);
   bool fail(int error);
 
   std::unique_ptr<Library> library_;
+  const std::string host_;  // empty: a serial line
+  const std::chrono::milliseconds timeout_;
+  const std::chrono::nanoseconds character_{0};  // on a serial line
   bool is_connected_ = false;
   bool was_refused_ = false;
   std::string problem_;

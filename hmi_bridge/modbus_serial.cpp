@@ -37,11 +37,16 @@ struct ModbusSerialLine::Port {
   modbus_t* context;
 };
 
+std::chrono::nanoseconds character_time(const SerialOptions& options) noexcept {
+  const int bits = 1 + 8 + (options.parity == Parity::none ? 0 : 1) + options.stop_bits;
+  return std::chrono::nanoseconds(1'000'000'000LL * bits / options.baud);
+}
+
 std::chrono::microseconds frame_silence(const SerialOptions& options) noexcept {
   if (options.silence.count() > 0) return options.silence;
-  const int bits = 1 + 8 + (options.parity == Parity::none ? 0 : 1) + options.stop_bits;
-  const std::int64_t characters = 3'500'000LL * bits / options.baud;
-  return std::chrono::microseconds(std::max<std::int64_t>(characters, 1750));
+  const auto characters =
+      std::chrono::duration_cast<std::chrono::microseconds>(7 * character_time(options) / 2);
+  return std::max(characters, std::chrono::microseconds(1750));
 }
 
 std::uint16_t modbus_crc(std::span<const std::uint8_t> bytes) noexcept {

@@ -30,6 +30,9 @@ struct SerialOptions {
 
 inline constexpr std::array kBauds = {1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200};
 
+/// How long the line takes for one character, with its start, parity and stop bits.
+std::chrono::nanoseconds character_time(const SerialOptions& options) noexcept;
+
 /// The silence that ends a frame with these options.
 std::chrono::microseconds frame_silence(const SerialOptions& options) noexcept;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <system_error>
 #include <utility>
 
 namespace lockstep {
@@ -102,7 +103,11 @@ RetainFile::RetainFile(std::string path, std::string project, const char* vfs)
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   const int code = sqlite3_open_v2(path_.c_str(), &database, flags, vfs);
   database_.reset(database);
-  if (code != SQLITE_OK) fail(database == nullptr ? "no memory" : sqlite3_errmsg(database));
+  if (database == nullptr) fail("no memory");
+  // The library says neither why nor that it would have made the file.
+  if (const int reason = sqlite3_system_errno(database); code == SQLITE_CANTOPEN && reason != 0)
+    fail("it can neither be opened nor made: " + std::generic_category().message(reason));
+  if (code != SQLITE_OK) fail(sqlite3_errmsg(database));
   sqlite3_extended_result_codes(database, 0);
   sqlite3_busy_timeout(database, kPatience);
   take();

@@ -1,5 +1,6 @@
 #include "hmi_bridge/trace_channel.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace lockstep {
@@ -27,15 +28,22 @@ void TraceChannel::row(const TraceRow& row) {
     return;
   }
   if (occasion(row)) {
-    const std::int64_t after = row.t + selection_.after;
-    if (!open_until_ || *open_until_ < row.t) give_kept(row.t - selection_.before);
-    open_until_ = after;
+    if (!open_until_ || *open_until_ < row.t) claim_kept(row.t - selection_.before);
+    open_until_ = row.t + selection_.after;
   }
-  if (!counts) return;
-  if (open_until_ && row.t <= *open_until_)
-    give(row);
-  else
+  const bool is_shown = open_until_ && row.t <= *open_until_;
+  if (counts && is_shown) {
+    add(row);
+    due_ = kept_.size();
+  } else if (counts) {
     keep(row);
+  }
+  give_due(kAtOnce);
+}
+
+void TraceChannel::end() {
+  give_due(due_);
+  sink_->end();
 }
 
 void TraceChannel::event(const TraceEvent& event) {
@@ -69,25 +77,34 @@ void TraceChannel::give(const TraceRow& row) {
   sink_->row(part);
 }
 
+void TraceChannel::add(const TraceRow& row) {
+  Kept& kept = kept_.emplace_back();
+  kept.row = row;
+  kept.values.assign(row.values.begin(), row.values.end());
+}
+
 /// Rows wait as long as an occasion may ask for them.
 void TraceChannel::keep(const TraceRow& row) {
   if (selection_.before <= 0) return;
-  Kept kept;
-  while (!kept_.empty() && kept_.front().row.t < row.t - selection_.before) {
-    kept = std::move(kept_.front());  // its memory serves again
-    kept_.pop_front();
-  }
-  kept.row = row;
-  kept.values.assign(row.values.begin(), row.values.end());
-  kept_.push_back(std::move(kept));
+  while (due_ == 0 && !kept_.empty() && kept_.front().row.t < row.t - selection_.before) kept_.pop_front();
+  add(row);
 }
 
-void TraceChannel::give_kept(std::int64_t from) {
-  for (Kept& kept : kept_) {
+/// What waits from a time on is to be handed on, behind what is already.
+void TraceChannel::claim_kept(std::int64_t from) {
+  const auto waiting = kept_.begin() + static_cast<std::ptrdiff_t>(due_);
+  kept_.erase(waiting,
+              std::find_if(waiting, kept_.end(), [&](const Kept& kept) { return kept.row.t >= from; }));
+  due_ = kept_.size();
+}
+
+void TraceChannel::give_due(std::size_t most) {
+  for (; due_ > 0 && most > 0; --due_, --most) {
+    Kept& kept = kept_.front();
     kept.row.values = kept.values;
-    if (kept.row.t >= from) give(kept.row);
+    give(kept.row);
+    kept_.pop_front();
   }
-  kept_.clear();
 }
 
 }  // namespace lockstep

@@ -33,9 +33,13 @@ struct TraceSelection {
 };
 
 /// Hands some columns and rows of a trace on to another sink. With a trigger, rows before the occasion wait
-/// in memory that is bounded by `before`.
+/// in memory that is bounded by `before`. They are handed on a few at a time while rows come in: subscribers
+/// of a network have room for some tens of messages, and lose the rest of a burst.
 class TraceChannel final : public TraceSink {
  public:
+  /// Rows handed on at most when one comes in.
+  static constexpr std::size_t kAtOnce = 4;
+
   /// @param columns of the whole trace, in the order in which the sink gets them
   /// @param occasion column of the signal of the trigger; none: an alarm, or no trigger
   TraceChannel(std::unique_ptr<TraceSink> sink, std::vector<std::size_t> columns,
@@ -45,7 +49,7 @@ class TraceChannel final : public TraceSink {
   void row(const TraceRow& row) override;
   void event(const TraceEvent& event) override;
   void flush() override { sink_->flush(); }
-  void end() override { sink_->end(); }
+  void end() override;
   std::string_view name() const noexcept override { return sink_->name(); }
   std::uint64_t lost() const noexcept override { return TraceSink::lost() + sink_->lost(); }
   const std::string& reason() const noexcept override {
@@ -60,8 +64,10 @@ class TraceChannel final : public TraceSink {
 
   bool occasion(const TraceRow& row) noexcept;
   void give(const TraceRow& row);
+  void add(const TraceRow& row);
   void keep(const TraceRow& row);
-  void give_kept(std::int64_t from);
+  void claim_kept(std::int64_t from);
+  void give_due(std::size_t most);
 
   const std::unique_ptr<TraceSink> sink_;
   const std::vector<std::size_t> columns_;
@@ -74,6 +80,7 @@ class TraceChannel final : public TraceSink {
   std::optional<std::int64_t> alarm_at_;
   std::int64_t rows_ = -1;  // number of the last row
   std::deque<Kept> kept_;
+  std::size_t due_ = 0;  // so many of the first are to be handed on
 };
 
 }  // namespace lockstep

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <unordered_set>
 
+#include "hmi_bridge/lcm_commands.hpp"
 #include "hmi_bridge/lcm_messages.hpp"
 #include "projects/loader.hpp"
 
@@ -127,17 +128,35 @@ std::optional<std::string> read_channel(const JsonValue* json, Problems& problem
   return std::nullopt;
 }
 
+/// Headers, events, commands and panels go out beside a channel, under names made of its own.
+bool is_beside(std::string_view name, std::string_view channel) {
+  if (!name.starts_with(channel)) return false;
+  name.remove_prefix(channel.size());
+  return name == kHeaderSuffix || name == kEventsSuffix || name == kCommandSuffix || name == kPanelSuffix;
+}
+
+/// @param other a channel that is there already
+void report_same_channel(const JsonValue& at, std::string_view name, std::string_view other,
+                         Problems& problems) {
+  if (name == other)
+    problems.report(at, at.shown() + " is there twice; each channel is allowed once");
+  else if (is_beside(name, other) || is_beside(other, name))
+    problems.report(at, at.shown() + " and " + quote(other) +
+                            " collide: beside a channel there are others with its name and " +
+                            std::string(kHeaderSuffix) + ", " + std::string(kEventsSuffix) + ", " +
+                            std::string(kCommandSuffix) + ", " + std::string(kPanelSuffix) +
+                            "; allowed: another name");
+}
+
 void load_channel(const JsonValue& json, TraceConfig& trace, const Loading& loading) {
   Problems& problems = loading.problems;
   const Fields fields(json, keys::kTraceChannel, problems);
   TraceChannelConfig& channel = trace.channels.emplace_back();
   if (const auto name = read_channel(fields["channel"], problems)) {
-    const auto same = [&](const TraceChannelConfig& other) {
-      return &other != &channel && other.channel == *name;
-    };
-    if (*name == trace.channel || std::any_of(trace.channels.begin(), trace.channels.end(), same))
-      problems.report(*fields["channel"],
-                      fields["channel"]->shown() + " is there twice; each channel is allowed once");
+    const JsonValue& at = *fields["channel"];
+    if (!trace.channel.empty()) report_same_channel(at, *name, trace.channel, problems);
+    for (const TraceChannelConfig& other : trace.channels)
+      if (!other.channel.empty()) report_same_channel(at, *name, other.channel, problems);
     channel.channel = *name;
   }
   if (const JsonValue* const signals = fields["signals"]) load_signals(*signals, channel.signals, loading);
@@ -188,9 +207,10 @@ std::optional<Endpoint> parse_endpoint(std::string_view text, std::string& probl
 }
 
 std::string lcm_url_problem(std::string_view url) {
-  const std::string problem = quote(url) +
-                              " is no address of an LCM network; allowed: udpm://ADDRESS:PORT?ttl=N with "
-                              "a multicast address (224.0.0.0 to 239.255.255.255), memq://";
+  const std::string problem =
+      quote(url) +
+      " is no address of an LCM network; allowed: udpm://ADDRESS:PORT?ttl=N with "
+      "a multicast address (224.0.0.0 to 239.255.255.255) and N from 0 to 255, memq://";
   if (url == "memq://") return "";
   constexpr std::string_view kScheme = "udpm://";
   if (!url.starts_with(kScheme)) return problem;

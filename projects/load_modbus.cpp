@@ -227,13 +227,26 @@ void warn_of_open_server(const Fields& fields, const ModbusServerOptions& option
                                            "networks clients may come");
 }
 
+/// Two servers cannot listen at one place; port 0 is another one each time.
+void report_taken_places(const Fields& fields, const ModbusConfig& modbus, Problems& problems) {
+  for (const Endpoint& place : modbus.servers.back().listen)
+    for (std::size_t i = 0; place.port != 0 && i + 1 < modbus.servers.size(); ++i) {
+      const std::vector<Endpoint>& taken = modbus.servers[i].listen;
+      if (std::find(taken.begin(), taken.end(), place) == taken.end()) continue;
+      problems.report(*fields["listen"], "server " + std::to_string(i) + " listens at " + to_string(place) +
+                                             " already; each address is allowed once");
+    }
+}
+
 /// RTU over a serial line.
-void load_line(const Fields& fields, ModbusServerOptions& options, Problems& problems) {
+void load_line(const Fields& fields, const ModbusConfig& modbus, ModbusServerOptions& options,
+               Problems& problems) {
   for (const char* const key : {"listen", "allow", "max_clients", "max_requests_per_second", "idle_timeout"})
     if (const JsonValue* const field = fields[key])
       problems.report(*field, "'" + std::string(key) + "' is for TCP; a server has it or 'serial'");
   options.listen.clear();
   options.serial = read_serial(*fields["serial"], problems);
+  report_taken_line(*fields["serial"], modbus, options.serial->device, problems);
   if (const auto unit = read_integer(fields["unit"], 1, 247, problems))
     options.serial_unit = static_cast<std::uint8_t>(*unit);
 }
@@ -247,12 +260,13 @@ void load_server(const JsonValue& json, const Loading& loading, MapLoader& maps)
   ModbusServerOptions& options = servers.emplace_back();
   if (fields["map"] != nullptr) maps.load(fields["map"], index, std::nullopt);
   maps.load_units(fields["units"], index);
-  if (fields["serial"] != nullptr) return load_line(fields, options, problems);
+  if (fields["serial"] != nullptr) return load_line(fields, loading.project.modbus, options, problems);
   if (fields["listen"] == nullptr)
     problems.report(json, "the key 'listen' is missing, or 'serial' in its place");
   if (fields["unit"] != nullptr)
     problems.report(*fields["unit"], "on TCP every unit id is answered; allowed with 'serial' only");
   if (fields["listen"] != nullptr) load_listen(*fields["listen"], options, problems);
+  report_taken_places(fields, loading.project.modbus, problems);
   load_allow(fields["allow"], options, problems);
   if (const auto most = read_integer(fields["max_clients"], 1, kMostClients, problems))
     options.max_clients = static_cast<std::size_t>(*most);
@@ -316,6 +330,19 @@ Range written_range(const Place& place) {
   range.lowest = std::max(range.lowest, static_cast<double>(least->value));
   range.highest = std::min(range.highest, static_cast<double>(most->value));
   return range;
+}
+
+void report_taken_line(const JsonValue& serial, const ModbusConfig& modbus, const std::string& device,
+                       Problems& problems) {
+  std::ptrdiff_t users = 0;
+  for (const ModbusServerOptions& server : modbus.servers)
+    users += server.serial && server.serial->device == device ? 1 : 0;
+  for (const ModbusClientConfig& client : modbus.clients)
+    users += client.options.serial.device == device ? 1 : 0;
+  const JsonValue* const at = serial.find("device");
+  if (users > 1 && at != nullptr && !device.empty())
+    problems.report(
+        *at, at->shown() + " is the line of another server or client already; each line is allowed once");
 }
 
 SerialOptions read_serial(const JsonValue& json, Problems& problems) {

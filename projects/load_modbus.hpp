@@ -52,6 +52,12 @@ void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* con
 /// Reads the keys of a serial line.
 SerialOptions read_serial(const JsonValue& json, Problems& problems);
 
+/// Reports a serial line that has more than one user among servers and clients: each would take bytes that
+/// are for another.
+/// @param serial where the latest of them names it
+void report_taken_line(const JsonValue& serial, const ModbusConfig& modbus, const std::string& device,
+                       Problems& problems);
+
 /// What may be written to a variable from outside: its range, which for an enumeration goes from its first to
 /// its last value; for anything else any value.
 Range written_range(const Place& place);

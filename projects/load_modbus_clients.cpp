@@ -1,5 +1,7 @@
 // The Modbus clients of a project: foreign devices, and the tags that go to and fro.
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "projects/load_modbus.hpp"
 
@@ -12,11 +14,14 @@ constexpr std::int64_t kLongestTimeout = 60'000'000'000;   // [ns]
 constexpr int kHighestUnit = 247;
 constexpr int kTcpUnit = 255;
 
+/// What devices fill, by address and bit; of a text, the text.
+using Filled = std::set<std::pair<const void*, int>>;
+
 /// Reads one client.
 class ClientLoader {
  public:
-  ClientLoader(ModbusClientConfig& client, const Loading& loading)
-      : client_(client), loading_(loading), problems_(loading.problems) {}
+  ClientLoader(ModbusClientConfig& client, const Loading& loading, Filled& filled)
+      : client_(client), loading_(loading), problems_(loading.problems), filled_(filled) {}
 
   void load(const JsonValue& json);
 
@@ -27,10 +32,13 @@ class ClientLoader {
   void load_entry(const JsonValue& json, ModbusLineState& state, std::vector<ModbusEntry>& entries);
   std::optional<std::uint32_t> load_tag(const JsonValue* json, Type type);
   std::uint32_t add_signal(std::string_view path, const Place& place);
+  void note_filled(const JsonValue& at, const ModbusSource& source);
+  void note_filled(const JsonValue& at, const void* address, int bit);
 
   ModbusClientConfig& client_;
   const Loading& loading_;
   Problems& problems_;
+  Filled& filled_;
 };
 
 void ClientLoader::load(const JsonValue& json) {
@@ -46,7 +54,10 @@ void ClientLoader::load(const JsonValue& json) {
     if (options.connect && options.connect->port == 0)
       problems_.report(*fields["connect"], "nobody can be reached at port 0; allowed: from 1 to 65535");
   }
-  if (fields["serial"] != nullptr) options.serial = read_serial(*fields["serial"], problems_);
+  if (const JsonValue* const serial = fields["serial"]) {
+    options.serial = read_serial(*serial, problems_);
+    report_taken_line(*serial, loading_.project.modbus, options.serial.device, problems_);
+  }
   if (const auto timeout = read_duration(fields["timeout"], 1'000'000, kLongestTimeout, problems_))
     options.timeout = std::chrono::milliseconds(*timeout / 1'000'000);
   if (read_array(fields["devices"], problems_) == nullptr) return;
@@ -92,7 +103,25 @@ std::optional<std::uint32_t> ClientLoader::load_tag(const JsonValue* json, Type 
                                 "; allowed: the name of one");
     return std::nullopt;
   }
+  note_filled(*json, place->signal.address, place->signal.bit);
   return add_signal(*path, *place);
+}
+
+/// A quality that two devices share shows the last of them only.
+void ClientLoader::note_filled(const JsonValue& at, const void* address, int bit) {
+  if (!filled_.emplace(address, bit).second)
+    problems_.warn(at, at.shown() + " is filled from several places; the last one counts");
+}
+
+void ClientLoader::note_filled(const JsonValue& at, const ModbusSource& source) {
+  if (!source.elements) return note_filled(at, source.place.signal.address, source.place.signal.bit);
+  const ElementPath& elements = *source.elements;
+  bool is_new = true;
+  for (std::int64_t index = elements.first; index <= elements.last; ++index) {
+    const Signal signal = elements.signal_of(index);
+    is_new &= filled_.emplace(signal.address, signal.bit).second;
+  }
+  if (!is_new) problems_.warn(at, at.shown() + " is filled from several places; the last one counts");
 }
 
 void ClientLoader::load_entry(const JsonValue& json, ModbusLineState& state,
@@ -121,6 +150,8 @@ void ClientLoader::load_entry(const JsonValue& json, ModbusLineState& state,
   state.quality = load_tag(fields["quality"], Type::BOOL);
   state.age = load_tag(fields["age"], Type::TIME);
   if (problems_.count() != before) return;
+  if (text != nullptr && !is_write) note_filled(*fields["tag"], text, -1);
+  if (text == nullptr && !is_write) note_filled(*fields["tag"], *source);
   if (text != nullptr)
     add_modbus_text(*entry, *text, fields, problems_, entries, client_.signals);
   else
@@ -150,8 +181,9 @@ std::vector<ModbusEntry> ClientLoader::load_entries(const JsonValue* json, bool 
 
 void load_modbus_clients(const JsonValue* clients, const Loading& loading) {
   if (read_array(clients, loading.problems) == nullptr) return;
+  Filled filled;
   for (const JsonValue* const client : clients->elements)
-    ClientLoader(loading.project.modbus.clients.emplace_back(), loading).load(*client);
+    ClientLoader(loading.project.modbus.clients.emplace_back(), loading, filled).load(*client);
 }
 
 }  // namespace lockstep

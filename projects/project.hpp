@@ -21,6 +21,7 @@
 #include "hmi_bridge/modbus_server.hpp"
 #include "hmi_bridge/network.hpp"
 #include "hmi_bridge/trace_channel.hpp"
+#include "hmi_bridge/trace_columns.hpp"
 #include "projects/element_path.hpp"
 #include "projects/names.hpp"
 #include "projects/problem.hpp"
@@ -28,13 +29,6 @@
 #include "scheduler/controller.hpp"
 
 namespace lockstep {
-
-/// A signal under the name by which the project calls it.
-struct NamedSignal {
-  std::string name;
-  Signal signal;
-  Unit unit = Unit::kNone;
-};
 
 /// Reads "HOST:PORT": an IPv4 address, an IPv6 address in brackets or a name, and a port from 0 to 65535.
 /// @return none if it is something else, with what is wrong and what is allowed in `problem`

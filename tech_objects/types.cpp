@@ -150,7 +150,7 @@ void Signal::store(Value value) const noexcept {
 
 double as_double(Value value, Type type) noexcept {
   if (is_real(type)) return value.r;
-  if (type == Type::TIME) return static_cast<double>(value.i) * 1e-9;
+  if (type == Type::TIME) return static_cast<double>(value.i) / 1e9;  // rounded once, as reading 0.3 is
   if (is_signed_integer(type)) return static_cast<double>(value.i);
   return static_cast<double>(value.u);
 }

@@ -28,6 +28,9 @@ done
 cat <<'TAIL'
 .SH FILES
 .TP
+.I /usr/share/lockstep/projects
+examples. Copy one to run it: the values that it keeps stand beside its file
+.TP
 .I /etc/lockstep/NAME/project.json
 what the service
 .B lockstep@NAME

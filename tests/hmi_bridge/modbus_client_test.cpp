@@ -354,5 +354,43 @@ TEST_F(Client, PollsOverASerialLine) {
   client->stop();
 }
 
+/// A device on a line that shows in each register its address, and answers the first request late.
+void answer_late_once(const PseudoTerminal& line, std::chrono::milliseconds late) {
+  for (bool is_first = true;; is_first = false) {
+    const std::vector<std::uint8_t> asked = line.receive(8, 1000);
+    if (asked.size() < 8) return;
+    if (is_first) std::this_thread::sleep_for(late);
+    std::vector<std::uint8_t> answer = {asked[0], asked[1], 2, asked[2], asked[3]};
+    const std::uint16_t crc = modbus_crc(answer);
+    answer.push_back(static_cast<std::uint8_t>(crc));
+    answer.push_back(static_cast<std::uint8_t>(crc >> 8));
+    line.send(answer);
+  }
+}
+
+TEST_F(Client, ALateAnswerOnASerialLineIsNotTakenForThatOfAnotherRequest) {
+  const PseudoTerminal line;
+  std::thread device([&] { answer_late_once(line, 600ms); });
+  ModbusClientOptions options;
+  options.serial.device = line.name();
+  options.timeout = 400ms;
+  options.first_retry = 5ms;
+  options.devices = {plain_device()};
+  options.devices[0].reads = {entry(2, ModbusTable::holding_register, 1000, Type::INT),
+                              entry(4, ModbusTable::holding_register, 2000, Type::INT)};
+  options.devices[0].writes = {};
+  start(options);
+  bool is_mixed = false;
+  tags.expect([&] {
+    is_mixed |= tags.out == 1000 || tags.locked == 2000;
+    return tags.quality && tags.out == 2000;
+  });
+  EXPECT_FALSE(is_mixed);
+  EXPECT_EQ(tags.locked, 1000);
+  EXPECT_EQ(client->counters().failed, 1u);
+  client->stop();
+  device.join();
+}
+
 }  // namespace
 }  // namespace lockstep

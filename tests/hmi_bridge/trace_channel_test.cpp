@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 namespace lockstep {
@@ -66,6 +67,40 @@ TEST(TraceChannel, IsProlongedByAnOccasionMeanwhileAndShowsNoRowTwice) {
   EXPECT_EQ(rows_of(selection, ones_at({5, 10})), (Ticks{3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14}))
       << "what comes right behind it begins where the first one ended";
   EXPECT_EQ(rows_of(selection, ones_at({5, 20})), (Ticks{3, 4, 5, 6, 7, 8, 9, 18, 19, 20, 21, 22, 23, 24}));
+}
+
+// lcm-logger holds 30 messages; a burst of hundreds would lose what the trigger is for.
+TEST(TraceChannel, HandsRowsFromBeforeAnOccasionOnAFewAtATimeAndNoneIsLeftAtTheEnd) {
+  const TraceSelection selection{.trigger = TriggerKind::rising, .before = 40 * kRow, .after = 2 * kRow};
+  Ticks ticks;
+  TraceChannel channel(std::make_unique<Heard>(ticks), {1}, selection, 0);
+  channel.begin(std::array{TraceSignal{"signal", Type::LREAL, ""}, TraceSignal{"tick", Type::ULINT, ""}});
+  std::size_t most = 0;
+  const auto run = [&](std::uint64_t from, std::uint64_t to) {
+    for (std::uint64_t i = from; i < to; ++i) {
+      const Value values[] = {{.r = i == 50 || i == 58 ? 1.0 : 0.0}, {.u = i}};
+      const std::size_t before = ticks.size();
+      channel.row({static_cast<std::int64_t>(i) * kRow, i, 0, values});
+      most = std::max(most, ticks.size() - before);
+    }
+  };
+  run(0, 60);  // the second occasion comes while rows of the first one still wait
+  EXPECT_GT(ticks.size(), 20u);
+  EXPECT_LE(most, TraceChannel::kAtOnce);
+  channel.end();
+  Ticks expected;
+  for (std::uint64_t i = 10; i < 60; ++i) expected.push_back(i);
+  EXPECT_EQ(ticks, expected);
+}
+
+TEST(TraceChannel, RowsThatNoOccasionAsksForAreForgottenAlsoBehindThoseThatStillWait) {
+  const TraceSelection selection{.trigger = TriggerKind::rising, .before = 20 * kRow, .after = 0};
+  std::vector<double> signal(100, 0.0);
+  signal[30] = signal[80] = 1.0;
+  Ticks expected;
+  for (std::uint64_t i = 10; i <= 30; ++i) expected.push_back(i);
+  for (std::uint64_t i = 60; i <= 80; ++i) expected.push_back(i);
+  EXPECT_EQ(rows_of(selection, signal), expected);
 }
 
 }  // namespace

@@ -17,11 +17,35 @@ expect "$control" "Package: lockstep"
 depends=$(dpkg-deb -f "$package" Depends)
 for library in libc6 libstdc++6 libmodbus5 libsqlite3-0 liblcm1; do expect "$depends" "$library"; done
 
+expect "$depends" "libsqlite3-0 (>= 3.38)"
+
+echo "what it does when it comes and goes"
+dpkg-deb -e "$package" "$work/control"
+for script in postinst prerm postrm; do
+  [[ $(stat -c %a "$work/control/$script") == 755 ]] || fail "$script is not executable by all, writable by its owner alone"
+  sh -n "$work/control/$script"
+done
+# In a system of its own, in which systemctl writes down what it is asked for.
+rehearse() { # what SCRIPT ARGUMENT does
+  mkdir -p "$work/stage/run/systemd/system" "$work/stage/var/lib/private/lockstep/press" "$work/stage/etc/lockstep/press"
+  sed -e "s| /run| $work/stage/run|g" -e "s| /var| $work/stage/var|g" -e "s| /etc| $work/stage/etc|g" \
+    -e "s|systemctl |echo |" "$work/control/$1" >"$work/stage/$1"
+  sh "$work/stage/$1" "$2"
+}
+[[ $(rehearse prerm upgrade) == "" ]] || fail "an upgrade stops machines"
+expect "$(rehearse prerm remove)" "stop lockstep@*.service"
+expect "$(rehearse postinst configure)" "daemon-reload"
+expect "$(rehearse postrm remove)" "daemon-reload"
+[[ -d $work/stage/var/lib/private/lockstep ]] || fail "a removal takes retained values along"
+rehearse postrm purge >/dev/null
+[[ ! -e $work/stage/var/lib/private/lockstep ]] || fail "a purge leaves retained values"
+[[ -d $work/stage/etc/lockstep/press ]] || fail "a purge takes projects along"
+
 echo "what is in it"
-for path in bin/lockstep share/man/man1/lockstep.1 share/man/man5/lockstep-project.5 \
+for path in bin/lockstep share/man/man1/lockstep.1.gz share/man/man5/lockstep-project.5.gz \
   lib/systemd/system/lockstep@.service include/lockstep/projects/simulation.hpp \
   share/lockstep/project.schema.json share/lockstep/projects/02_rotary_knife/project.json \
-  share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/RETAIN.md; do
+  share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md; do
   [[ -s $work/root/usr/$path ]] || fail "usr/$path is not in the package"
 done
 [[ -n $(find "$work/root/usr/lib" -name LockstepConfig.cmake) ]] || fail "no CMake package"
@@ -34,6 +58,7 @@ lockstep=$work/root/usr/bin/lockstep
 "$lockstep" check "$work/root/usr/share/lockstep/projects/02_rotary_knife/project.json"
 
 echo "its man pages are well formed and complete"
+gunzip -k "$work/root/usr/share/man"/man?/lockstep*.gz
 for page in man1/lockstep.1 man5/lockstep-project.5; do
   complaints=$(groff -k -man -Tutf8 -ww -z "$work/root/usr/share/man/$page" 2>&1)
   [[ -z $complaints ]] || fail "$page: $complaints"
@@ -49,6 +74,7 @@ unit=$work/lockstep@.service
 sed "s|=lockstep |=$lockstep |" "$work/root/usr/lib/systemd/system/lockstep@.service" >"$unit"
 complaints=$(systemd-analyze verify --man=no "$unit" 2>&1 | grep -v "^$" || true)
 [[ -z $complaints ]] || fail "systemd-analyze verify: $complaints"
+grep -q '^AssertPathExists=/etc/lockstep/%i/project.json' "$unit" || fail "a start under a wrong name succeeds"
 exposure=$(systemd-analyze security --offline=yes --threshold=30 "$unit" 2>&1 | tail -n 1) || fail "too exposed: $exposure"
 echo "$exposure"
 

@@ -276,5 +276,25 @@ TEST(TraceChannels, ShowPartsOfTheTraceEachInItsWay) {
             static_cast<long>(std::lround(0.15 / period)) + 1);
 }
 
+// Of the run in real time, whose time stamps are those of the wall clock.
+TEST(TraceChannels, RowsOfOneInstantHaveOneTimeStampOnEveryChannel) {
+  const Directory directory;
+  Json project = missing_slide();
+  project["trace"]["channels"] = Json::parse(R"([{ "channel": "PART", "signals": ["Slide.Position"] }])");
+  const std::string file = directory.write("project.json", project.dump(1));
+  const std::string path = directory.file("run.lcm");
+  const Ended ended = lockstep(
+      {"run", file, "--no-modbus", "--no-lcm", "--no-retain", "--duration", "200ms", "--trace", path});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  LcmTraceReader whole(path, project["trace"]["lcm"]["channel"]);
+  LcmTraceReader part(path, "PART");
+  int rows = 0;
+  for (; whole.next() && part.next(); ++rows) {
+    ASSERT_EQ(whole.row().t, part.row().t);
+    ASSERT_EQ(whole.utime(), part.utime());
+  }
+  EXPECT_GT(rows, 10);
+}
+
 }  // namespace
 }  // namespace lockstep::test

@@ -28,12 +28,6 @@ constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 constexpr int kRounds = 120;       // of each good client
 constexpr int kTicksInARow = 100;  // between two pauses of the cycle
 
-std::vector<Signal> places_of(const std::vector<NamedSignal>& signals) {
-  std::vector<Signal> places;
-  for (const NamedSignal& signal : signals) places.push_back(signal.signal);
-  return places;
-}
-
 /// The machine with all that `lockstep run` puts around it.
 struct Machine {
   explicit Machine(Project loaded)

@@ -84,6 +84,8 @@ TEST_F(Panel, ReadsAndWritesByName) {
   ended = call("read", {"speed", "start", "wait", "mask", "small"}, run.port());
   EXPECT_EQ(ended.out, "speed = -12.5\nstart = TRUE\nwait = T#1.5s\nmask = 16#1234\nsmall = -40\n");
   EXPECT_TRUE(wait_until([&] { return call("read", {"doubled"}, run.port()).out == "doubled = -25.0\n"; }));
+  EXPECT_EQ(call("read", {"tenths"}, run.port()).out, "tenths = 12.3\n")
+      << "a REAL as short as it was written";
   const Json all = Json::parse(call("read", {"--json"}, run.port()).out);
   EXPECT_EQ(all.size(), 11u);
   EXPECT_NEAR(all["tenths"].get<double>(), 12.3, 1e-6);
@@ -99,10 +101,13 @@ TEST_F(Panel, TellsNamesAndValuesThatAreWrongAndWritesNothing) {
       {{"doubled=1"}, "is read-only on Modbus"},
       {{"speed=1", "start=2"}, "start: "},
       {{"speed"}, "is not NAME=VALUE"},
-      {{"small=40000"}, "does not fit INT"},
-      {{"tenths=5000"}, "does not fit INT"},
-      {{"wait=30d"}, "wait: "},
-      {{"speed=1e39"}, "does not fit REAL"},
+      {{"small=40000"}, "small: 40000 does not fit INT on Modbus; allowed: from -32768 to 32767"},
+      {{"tenths=5000"}, "tenths: 5000.0 does not fit INT on Modbus; allowed: from -3276.8 to 3276.7"},
+      {{"wait=30d"},
+       "wait: T#2592000s does not fit TIME on Modbus; allowed: from T#-2147483.648s to T#2147483.647s"},
+      {{"speed=1e39"},
+       "speed: 1.0E39 does not fit REAL on Modbus; allowed: from -3.4028234663852886E38 to "
+       "3.4028234663852886E38"},
       {{"diagnostic.ticks=1"}, "is read-only"}};
   for (const auto& [arguments, part] : wrong) {
     const Ended ended = call("write", arguments, run.port());
@@ -111,6 +116,12 @@ TEST_F(Panel, TellsNamesAndValuesThatAreWrongAndWritesNothing) {
   }
   EXPECT_EQ(call("read", {"speed"}, run.port()).out, "speed = 200.0\n");
   EXPECT_EQ(call("read", {"speeed"}, run.port()).status, 1);
+}
+
+TEST_F(Panel, ANameWithoutAnAddressIsToldAsSuch) {
+  const Ended ended = lockstep({"read", "nobody.invalid:502", "--project", file, "speed"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_NE(ended.err.find("nobody.invalid:502: the name has no address: "), std::string::npos) << ended.err;
 }
 
 /// Registers as they are.
@@ -184,7 +195,7 @@ TEST_F(TextPanel, IsToldOfTextsThatDoNotFit) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
       {"kind=porter", "'porter' has 6 characters; allowed: up to 5"},
       {"kind='it's'", "a quote within a text is written $'"},
-      {"kind=5 \u20AC", "printable characters of ISO 8859-1 only"},
+      {"kind=5 \u20AC", "kind: '5 \u20AC' is no text; allowed: printable characters of ISO 8859-1"},
       {"last=ale", "'last' is read-only on Modbus"},
       {"kind[1]=a", "the Modbus map has no 'kind[1]'"}};
   for (const auto& [argument, part] : wrong) {
@@ -312,11 +323,12 @@ TEST_F(ArrayPanel, TellsNamesAndValuesThatAreWrongAndWritesNothing) {
       {"heights=[1, 2, 3]", "are not the values of 4 elements; allowed: [VALUE, …] with one for each"},
       {"heights=1", "are not the values of 4 elements"},
       {"heights[1]=[1]", "heights[1]: "},
-      {"heights[4]=1", "the Modbus map has no 'heights[4]'"},
+      {"heights[4]=1", "the Modbus map has no 'heights[4]': "},
+      {"heights[4]=1", "0 to 3"},
       {"heights[2..4]=[1, 2, 3]",
        "goes beyond the elements that there are; allowed: [*], or a range within [0..3]"},
       {"heights[0..1]=[1, x]", "heights[1]: "},
-      {"heights[0..1]=[1, 1e39]", "heights[1]: the value does not fit REAL on Modbus"},
+      {"heights[0..1]=[1, 1e39]", "heights[1]: 1.0E39 does not fit REAL on Modbus; allowed: from -3.4"},
       {"points[1..3].y=[1, 2, 3]", "the Modbus map has no 'points[3].y'"},
       {"points[*].x=[1, 2, 3]", "the Modbus map has no 'points[1].x'"},
       {"rising[1..2]=[1, 2]", "'rising[1]' is read-only on Modbus"}};

@@ -50,6 +50,32 @@ int kept_count(const std::string& file) {
   return std::stoi(count->value);
 }
 
+TEST(Retain, AFileOfAnotherProjectIsNotCalledNew) {
+  const Directory directory;
+  const std::string kept = directory.file("both.retain");
+  Json project = counting();
+  const std::string one = directory.write("one.json", project.dump());
+  project["name"] = "other";
+  const std::string other = directory.write("other.json", project.dump());
+  ASSERT_EQ(lockstep(quietly(one, {"--duration", "50ms", "--retain", kept})).status, 0);
+  const Ended second = lockstep(quietly(other, {"--duration", "50ms", "--retain", kept}));
+  EXPECT_NE(second.err.find("it has values of project 'small' and none of 'other'"), std::string::npos);
+  EXPECT_EQ(second.err.find("which is new"), std::string::npos) << second.err;
+}
+
+// As beside an example that the package has installed, where only root may write.
+TEST(Retain, WhereNoFileCanBeMadeTheRunSaysWhyAndWhatMayBeDone) {
+  const Directory directory;
+  Json project = counting();
+  project["retain"]["file"] = "/proc/nowhere/values.retain";
+  const Ended ended = lockstep(quietly(directory.write("project.json", project.dump())));
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_NE(ended.err.find("/proc/nowhere/values.retain: it can neither be opened nor made: No such file"),
+            std::string::npos)
+      << ended.err;
+  EXPECT_NE(ended.err.find("--no-retain begins with their init values"), std::string::npos) << ended.err;
+}
+
 TEST(Retain, ARunGoesOnWhereTheOneBeforeEnded) {
   const Directory directory;
   const std::string project = directory.write("project.json", counting().dump());

@@ -14,6 +14,7 @@
 #include "hmi_bridge/modbus_server.hpp"
 #include "hmi_bridge/retain_writer.hpp"
 #include "hmi_bridge/trace_channel.hpp"
+#include "hmi_bridge/trace_columns.hpp"
 #include "hmi_bridge/trace_recorder.hpp"
 #include "projects/project.hpp"
 #include "tests/scenarios/modbus_client.hpp"
@@ -23,10 +24,10 @@
 namespace lockstep::test {
 namespace {
 
-/// The press feeder, with kept values, an axis that takes commands, a drive that fails every minute of the
+/// An example, with kept values, an axis that takes commands, a drive that fails every minute of the
 /// run, a device that is the server itself, and channels around what comes and goes.
-Json everything(const std::string& flight) {
-  Json json = with_kept_values(example_json("05_press_feeder"));
+Json everything(const char* example, const std::string& flight) {
+  Json json = with_kept_values(example_json(example));
   json["technology_objects"]["Slide"] = virtual_axis();
   json["technology_objects"]["Weak"] = Json::parse(
       R"({"type": "TO_PositioningAxis", "drive": {"model": "simulated", "faults": {"drive": "broken"}}})");
@@ -58,13 +59,6 @@ Json everything(const std::string& flight) {
   return json;
 }
 
-template <class Named>
-std::vector<Signal> places_of(const std::vector<Named>& signals) {
-  std::vector<Signal> places;
-  for (const Named& named : signals) places.push_back(named.signal);
-  return places;
-}
-
 /// What `lockstep run` records: a CSV trace, a log and a network of LCM with their channels, a flight
 /// recorder.
 class Recording {
@@ -82,18 +76,15 @@ class Recording {
     add(std::move(whole), trace.signals);
     add(std::make_unique<LcmPublisher>("memq://", identity(project, trace.channel)), trace.signals);
     const FlightRecorderConfig& flight = project.flight_recorder.value();
-    auto flights = std::make_unique<FlightRecorder>(flight.options, columns_of(flight.signals),
+    auto flights = std::make_unique<FlightRecorder>(flight.options, columns_.of(flight.signals),
                                                     project.controller->clock.interpolator_cycle());
     flight_ = flights.get();
     sinks_.push_back(std::move(flights));
-    std::vector<TraceSignal> described;
-    for (const NamedSignal& column : columns_)
-      described.push_back({column.name, column.signal.value_type(), ""});
-    ring_.emplace(places_of(columns_), 1 << 14);
+    ring_.emplace(columns_.places(), 1 << 14);
     project.controller->trace = &*ring_;
     project.controller->events = &events_;
     project.controller->tell_jobs();
-    recorder_.emplace(*ring_, std::move(described), std::move(sinks_),
+    recorder_.emplace(*ring_, columns_.described(), std::move(sinks_),
                       EventSource{&events_, EventTexts(*project.controller), true});
   }
   bool wait() const { return ring_->wait_for_space() && events_.wait_for_space(); }
@@ -109,27 +100,16 @@ class Recording {
   static LcmTraceIdentity identity(const Project& project, const std::string& channel) {
     return {project.name, channel, project.controller->clock.interpolator_cycle(), 0};
   }
-  std::size_t column_of(const NamedSignal& signal) {
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (columns_[i].name == signal.name) return i;
-    columns_.push_back(signal);
-    return columns_.size() - 1;
-  }
-  std::vector<std::size_t> columns_of(const std::vector<NamedSignal>& signals) {
-    std::vector<std::size_t> columns;
-    for (const NamedSignal& signal : signals) columns.push_back(column_of(signal));
-    return columns;
-  }
   void add(std::unique_ptr<TraceSink> sink, const std::vector<NamedSignal>& signals,
            const TraceChannelConfig* part = nullptr) {
     std::optional<std::size_t> occasion;
-    if (part != nullptr && part->occasion) occasion = column_of(*part->occasion);
-    sinks_.push_back(std::make_unique<TraceChannel>(std::move(sink), columns_of(signals),
+    if (part != nullptr && part->occasion) occasion = columns_.of(*part->occasion);
+    sinks_.push_back(std::make_unique<TraceChannel>(std::move(sink), columns_.of(signals),
                                                     part == nullptr ? TraceSelection{} : part->selection,
                                                     occasion));
   }
 
-  std::vector<NamedSignal> columns_;
+  TraceColumns columns_;
   std::vector<std::unique_ptr<TraceSink>> sinks_;
   const FlightRecorder* flight_ = nullptr;
   std::optional<TraceRing> ring_;
@@ -202,14 +182,18 @@ class Visitor {
   std::thread thread_;
 };
 
-TEST(SoakOfEverything, ADayOfVirtualTimeTakesNoMoreMemory) {
-  const int ticks = cases(300'000, 86'400'000);
+class SoakOfEverything : public testing::TestWithParam<const char*> {};
+
+TEST_P(SoakOfEverything, ADayOfVirtualTimeTakesNoMoreMemory) {
+  const int milliseconds = cases(300'000, 86'400'000);
   const Directory directory;
-  LoadedProject loaded = load_project(everything(directory.file("flight")).dump());
+  LoadedProject loaded = load_project(everything(GetParam(), directory.file("flight")).dump());
   ASSERT_TRUE(loaded.project.has_value()) << loaded.problems[0].place << loaded.problems[0].text;
   Project& project = *loaded.project;
   Controller& controller = *project.controller;
   controller.apply_stimuli = true;
+  const int ticks_per_millisecond = static_cast<int>(1'000'000 / controller.clock.servo_cycle);
+  const int ticks = milliseconds * ticks_per_millisecond;
   Recording recording(project, directory);
   ProcessImage served(places_of(project.modbus.signals));
   ProcessImage polled(places_of(project.modbus.clients[0].signals));
@@ -233,7 +217,7 @@ TEST(SoakOfEverything, ADayOfVirtualTimeTakesNoMoreMemory) {
   for (int tick = 0; tick < ticks; ++tick) {
     ASSERT_TRUE(recording.wait());
     controller.tick();
-    if (tick % 100 == 0) panels.command();
+    if (tick % (100 * ticks_per_millisecond) == 0) panels.command();
     if (tick == ticks / 5) early = resident(::getpid());
     if (tick == ticks - 1) late = resident(::getpid());
   }
@@ -242,10 +226,10 @@ TEST(SoakOfEverything, ADayOfVirtualTimeTakesNoMoreMemory) {
   client.stop();
   recording.recorder().stop();
   keeper.stop();
-  std::cout << early << " KiB after a fifth, " << late << " KiB at the end of " << ticks / 3.6e6 << " h in "
-            << spent.count() << " s; " << client.counters().requests << " requests, " << visitor.visits()
-            << " visits, " << panels.answers << " answers, " << recording.flights() << " flights, "
-            << keeper.commits() << " commits\n";
+  std::cout << early << " KiB after a fifth, " << late << " KiB at the end of " << milliseconds / 3.6e6
+            << " h in " << spent.count() << " s; " << client.counters().requests << " requests, "
+            << visitor.visits() << " visits, " << panels.answers << " answers, " << recording.flights()
+            << " flights, " << keeper.commits() << " commits\n";
   EXPECT_LE(late, early + kMayGrow + 256);
   EXPECT_GT(early, 1000);
   for (const std::string& loss : recording.recorder().losses()) ADD_FAILURE() << loss;
@@ -254,11 +238,14 @@ TEST(SoakOfEverything, ADayOfVirtualTimeTakesNoMoreMemory) {
   EXPECT_GT(visitor.visits(), 2u);
   EXPECT_EQ(server.counters().exceptions, 0u);
   EXPECT_EQ(panels.desk.counters().refused(), 0u);
-  EXPECT_GE(panels.desk.counters().accepted, static_cast<std::uint64_t>(ticks / 100));
-  EXPECT_EQ(recording.flights(), static_cast<std::size_t>(std::min(ticks / 60'000, 10)));
+  EXPECT_GE(panels.desk.counters().accepted, static_cast<std::uint64_t>(milliseconds / 100));
+  EXPECT_EQ(recording.flights(), static_cast<std::size_t>(std::min(milliseconds / 60'000, 10)));
   EXPECT_FALSE(keeper.failing());
   EXPECT_GT(keeper.commits(), 2u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Machines, SoakOfEverything, testing::Values("03_line_shaft", "05_press_feeder"),
+                         [](const auto& name) { return std::string(name.param).substr(3); });
 
 }  // namespace
 }  // namespace lockstep::test

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <cstdlib>
+
 namespace lockstep {
 namespace {
 
@@ -41,6 +44,19 @@ TEST(Types, StoringABitLeavesItsNeighboursAlone) {
   bit.store(one);
   EXPECT_EQ(word, 0xF0F8u);
   EXPECT_EQ(bit.value_type(), Type::BOOL);
+}
+
+// 300 · 1e-9 would be 0.30000000000000004, beyond a level of 0.3, and not what a CSV trace says.
+TEST(Types, ATimeAsADoubleIsTheNearestToItsSeconds) {
+  Value time{};
+  time.i = 300'000'000;
+  EXPECT_EQ(as_double(time, Type::TIME), 0.3);
+  for (int i = 1; i < 2000; ++i) {
+    time.i = i * std::int64_t{1'000'000};
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%d.%03d", i / 1000, i % 1000);
+    ASSERT_EQ(as_double(time, Type::TIME), std::strtod(seconds, nullptr)) << i;
+  }
 }
 
 }  // namespace
