@@ -61,9 +61,14 @@ void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
 
 /// leading value → + additive → effective leading value
 void SynchronousMotion::look_at_leading() noexcept {
-  leading_now_ = leading_->source->leading_state(leading_->coupling);
-  if (synchronous_ && !shifted_ && !additive_->in_use) return;
-  leading_last_ = leading_->source->last_leading_state(leading_->coupling);
+  const LeadingObject& source = *leading_->source;
+  if (!source.leads_as_it_is(leading_->coupling)) {
+    look_at_led();
+  } else {
+    leading_now_ = source.leading_state(leading_->coupling);
+    if (synchronous_ && !shifted_ && !additive_->in_use) return;
+    leading_last_ = source.last_leading_state(leading_->coupling);
+  }
   if (!additive_->in_use) return;
   add_additive(leading_now_, additive_->now);
   add_additive(leading_last_, additive_->last);
@@ -103,17 +108,8 @@ void SynchronousMotion::add_offset(Setpoint& setpoint) noexcept {
   setpoint.acceleration += offset_.acceleration();
 }
 
-/// MC_GearInVelocity: a leading axis without position control has a velocity all the same.
-void SynchronousMotion::look_at_velocity() noexcept {
-  const LeadingObject& source = *leading_->source;
-  if (leading_->coupling == Coupling::actual || source.position_controlled()) return;
-  leading_now_.velocity += source.led_setpoint().velocity;
-  leading_now_.acceleration += source.led_setpoint().acceleration;
-}
-
 /// MC_GearInVelocity: the velocity follows, whatever the position.
 void SynchronousMotion::advance_in_velocity(Setpoint& setpoint) noexcept {
-  look_at_velocity();
   const double last = setpoint.velocity;
   setpoint.velocity = gear_.velocity(leading_now_.velocity);
   setpoint.acceleration = gear_.acceleration(leading_now_.acceleration);
@@ -146,7 +142,6 @@ void SynchronousMotion::watch_reversal() noexcept {
 
 /// MC_GearIn: towards velocity and acceleration of the function; where both are met, the function begins.
 void SynchronousMotion::advance_velocity(Setpoint& setpoint) noexcept {
-  if (velocity_only_) look_at_velocity();
   const bool holding = progress_ < furthest_;  // reversed within the tolerance
   const double velocity = holding ? 0.0 : gear_.velocity(leading_now_.velocity);
   const double acceleration = holding ? 0.0 : gear_.acceleration(leading_now_.acceleration);
@@ -233,6 +228,7 @@ void SynchronousMotion::couple(const LeadingValue& leading, const Job& job,
   ratio_ = static_cast<double>(job.numerator) / static_cast<double>(job.denominator);
   dynamics_ = dynamics;
   velocity_only_ = job.kind == JobKind::MC_GearInVelocity;
+  uncontrolled_seen_ = 0;
   phase_.reset();
   offset_.reset();
   shifted_ = false;
@@ -292,8 +288,12 @@ SynchronousMotion::Start SynchronousMotion::reject(ErrorId error) noexcept {
 
 SynchronousMotion::Start SynchronousMotion::watch(const Setpoint& own,
                                                   const SynchronousMotion* active) noexcept {
-  if (cam_ != nullptr) return watch_cam(own, active);
   look_at_leading();
+  if (uncontrolled_seen_ != 0) {  // there is no leading value yet: what was zero meanwhile does not matter
+    uncontrolled_seen_ = 0;
+    return Start::not_yet;
+  }
+  if (cam_ != nullptr) return watch_cam(own, active);
   if (standing_on_sync_positions(own)) {
     direction_ = 1;
     const double way =
