@@ -65,6 +65,9 @@ double SynchronousMotion::without_turning_back(double curvature, double slope, d
 
 void SynchronousMotion::begin_sync_out(const Setpoint& last) noexcept {
   way_ = Way::out;
+  phase_.reset();
+  offset_.reset();
+  shifted_ = false;
   synchronous_ = false;
   reversed_ = false;
   desynchronized_ = false;
