@@ -294,6 +294,7 @@ class Axis final : public LeadingObject {
   bool absolute_encoder() const noexcept { return absolute_encoder(operative_); }
   double position_shift(double home_position) const noexcept;
   void shift_positions(double by) noexcept;
+  void shift_coupling(double by) noexcept;
 
   // axis_sensors.cpp: the encoders
   /// An encoder; of the operative one, origin and sign are `encoder_origin_` and `encoder_sign_`.

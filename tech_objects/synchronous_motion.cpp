@@ -197,13 +197,20 @@ SyncOffset SynchronousMotion::offset(double way) const noexcept {
           state.acceleration / (time_velocity_ * time_velocity_)};
 }
 
+/// The axis has another name for every place. Of a cam that is a following value offset: its function stays.
 void SynchronousMotion::shift_following(double by) noexcept {
-  if (leading_ == nullptr || !synchronous_ || velocity_only_ || cam_ != nullptr) return;
+  if (leading_ == nullptr || velocity_only_) return;
   function_.position = advanced(function_.position, by, following_);
-  const AxisPosition without_phase =
-      phase_.in_use() ? advanced(function_.position, -(gear_.ratio() * phase_.value()), following_)
-                      : function_.position;
-  place_gear(leading_now_.position, without_phase);
+  if (way_ == Way::out) {
+    out_position_ = advanced(out_position_, by, following_);
+  } else if (cam_ != nullptr) {
+    following_offset().shift(by);
+    joint_ = advanced(joint_, by, following_);
+    slave_offset_ += by;
+  } else if (synchronous_ || way_ != Way::velocity) {
+    const AxisPosition leading = leading_now_.position;
+    place_gear(leading, advanced(gear_.value(leading), by, following_));
+  }
 }
 
 void SynchronousMotion::turn_following(std::int64_t turns) noexcept {
