@@ -327,6 +327,7 @@ bool SynchronousMotion::meets_cam_out(const Job& job, const Setpoint& last, cons
   const double distance = job.master_start_distance;
   const double leading_step =
       rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_);
+  if (over_distance && leading_step == 0.0) return false;  // it has not come to any start
   const auto braking = [&](const Setpoint& own, AxisPosition leading) noexcept {
     if (!over_distance) return stopping_way(own, heading, dynamics);
     // The least curved way to rest: its velocity is a cubic of the leading distance.
