@@ -47,6 +47,8 @@ void Axis::take_start_values() noexcept {
   single_.configure(modulo_, period_);
   superimposed_.configure(period_);
   hand_over_.configure(period_);
+  hand_over_.begin();
+  return_.configure(period_);
   hand_over_due_ = false;
   emergency_ramp_ = EmergencyRamp::none;
   const double tolerance = data.Synchronization.MasterReversionTolerance;
@@ -102,9 +104,8 @@ void Axis::switch_on() noexcept {
 /// to it.
 void Axis::take_up_motion() noexcept {
   const Setpoint seen = led_setpoint();
-  const bool was_controlled = position_controlled_;
+  const bool controlled = power.start_mode == 1 && has_position();
   power_state_ = PowerState::on;
-  position_controlled_ = power.start_mode == 1 && has_position();
   motion_ = Motion::single_axis;
   const bool at_once = power.start_mode == 0 || data.PositionControl.VelocityModePowerOn == 1;
   const bool ramps = moving(actual_velocity_) && !at_once;
@@ -117,8 +118,9 @@ void Axis::take_up_motion() noexcept {
     single_.stand(setpoint_);
   }
   Setpoint now = setpoint_;
-  if (!was_controlled || !position_controlled_) now.position = seen.position;  // of which nobody knows
+  if (!position_controlled_ || !controlled) now.position = seen.position;  // of which nobody knows
   hand_over(seen, now);
+  lead_with_position_control(controlled);
 }
 
 void Axis::begin_braking(INT stop_mode) noexcept {
@@ -165,7 +167,7 @@ void Axis::set_position_control(bool on) noexcept {
     last_setpoint_.position = setpoint_.position;
     reset_servo({setpoint_.position, actual_velocity_});
   }
-  position_controlled_ = on;
+  lead_with_position_control(on);
 }
 
 // ---- Alarms
@@ -231,6 +233,7 @@ void Axis::restart() noexcept {
   drive_shown_ = kNothingShown;
   start_values_changed = false;
   homed_ = false;
+  position_controlled_ = has_position();
   take_start_values();
   setpoint_ = {normalised({0, setpoint_.position.value}, modulo_), 0.0, 0.0};
   last_setpoint_ = setpoint_;

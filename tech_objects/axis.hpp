@@ -294,6 +294,7 @@ class Axis final : public LeadingObject {
   bool absolute_encoder() const noexcept { return absolute_encoder(operative_); }
   double position_shift(double home_position) const noexcept;
   void shift_positions(double by) noexcept;
+  void shift_coupling(double by) noexcept;
 
   // axis_sensors.cpp: the encoders
   /// An encoder; of the operative one, origin and sign are `encoder_origin_` and `encoder_sign_`.
@@ -379,6 +380,9 @@ class Axis final : public LeadingObject {
   // axis_hand_over.cpp: the setpoint as following axes see it where it goes over to another course
   void hand_over(const Setpoint& seen, const Setpoint& now) noexcept;
   void hand_over_to_actual() noexcept;
+  bool run_down(Superimposed& part, const Setpoint& ahead) noexcept;
+  Setpoint handed_over() const noexcept;
+  void lead_with_position_control(bool on) noexcept;
   void step_hand_over() noexcept;
 
   // axis_synchronous.cpp: motion led by another axis
@@ -638,6 +642,7 @@ class Axis final : public LeadingObject {
   double pace_ = 0.0;  // velocity of what that loop is to follow [u/s]
   std::array<Encoder, kSensors> encoders_;
   Superimposed hand_over_;      // what is left between the setpoint and what following axes see of it
+  Superimposed return_;         // and of what axes see that follow its position since it was zero to them
   bool hand_over_due_ = false;  // switched off: with the next setpoint, which is the actual value
   DynamicFilter setpoint_filter_;
   struct ControlBits {

@@ -73,7 +73,9 @@ void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
   if (job.mode == kOverDistance) {
     synchronous_.begin_sync_out(setpoint_);
     motion_ = Motion::desynchronizing;
-    data.StatusSynchronizedMotion.FunctionState = out_state(job);
+    auto& status = data.StatusSynchronizedMotion;
+    status.FunctionState = out_state(job);
+    status.PhaseShift = status.Offset = 0.0;
     return step_synchronous();
   }
   const double way = synchronous_.sync_out_way();

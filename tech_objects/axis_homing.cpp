@@ -345,6 +345,16 @@ bool Axis::assign_position(AxisPosition place, double position) noexcept {
   return true;
 }
 
+/// What leads the axis has the new names as well, so that nothing moves.
+void Axis::shift_coupling(double by) noexcept {
+  synchronous_.shift_following(by);
+  if (synchronous_.cam() == nullptr || motion_ == Motion::desynchronizing) return;
+  data.StatusSynchronizedMotion.SlaveOffset = synchronous_.slave_offset();
+  Job* const offset = running_[kOffset];
+  const bool relative = offset != nullptr && offset->kind == JobKind::MC_OffsetRelative;
+  if (relative) offset->shift_base = offset->shift_base + by;
+}
+
 /// A running homing ends, whatever the reason.
 void Axis::leave_homing(const Job& /*job*/) noexcept {
   mark_search_.end();
@@ -368,7 +378,7 @@ void Axis::shift_positions(double by) noexcept {
   actual_ = advanced(actual_, by, modulo_);
   shift_leading(by);
   single_.shift(by);
-  synchronous_.shift_following(by);
+  shift_coupling(by);
   if (has_drive_) shift_servo(by);
 }
 

@@ -108,8 +108,7 @@ void Axis::show_coupling(const Job& job, Motion motion) noexcept {
   auto& status = data.StatusSynchronizedMotion;
   status.FunctionState = function_state(job.kind);
   status.ActualMaster = job.master->number;
-  status.PhaseShift = 0.0;
-  status.Offset = 0.0;
+  status.PhaseShift = status.Offset = 0.0;
   if (job.kind != JobKind::MC_CamIn) return clear_cam_status();
   status.ActualCam = job.cam->number;
   status.MasterOffset = synchronous_.master_offset();
@@ -265,6 +264,7 @@ void Axis::forget_coupling() noexcept {
   auto& status = data.StatusSynchronizedMotion;
   status.FunctionState = 0;
   status.ActualMaster = DB_ANY{};
+  status.PhaseShift = status.Offset = 0.0;
   clear_cam_status();
   status.StatusWord = DWORD{};
 }

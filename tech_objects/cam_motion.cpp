@@ -79,6 +79,10 @@ void CamFollowing::add_turns(std::int64_t turns) noexcept {
   lift_ = lift_of(pass_number_);
 }
 
+void CamFollowing::add_leading_turns(std::int64_t turns) noexcept {
+  start_turns_ += turns;
+}
+
 /// What has to be added to the way within a leading turn so that it counts from the start of a pass.
 DoubleDouble CamFollowing::base_of(std::int64_t turn, std::int64_t pass) const noexcept {
   const DoubleDouble turns =

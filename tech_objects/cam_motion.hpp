@@ -62,6 +62,8 @@ class CamFollowing {
 
   /// Moves the function by whole turns of the following axis.
   void add_turns(std::int64_t turns) noexcept;
+  /// Counts the turns of the leading axis anew, by so many more.
+  void add_leading_turns(std::int64_t turns) noexcept;
 
   /// Place at a leading position (normalised, finite). Outside a cam that is passed once: that at the nearer
   /// end. The number of passes and `ended` count from here on.

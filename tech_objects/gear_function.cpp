@@ -166,6 +166,10 @@ void GearFunction::add_turns(std::int64_t turns) noexcept {
   turns_ = wrapping_sum(turns_, turns);
 }
 
+void GearFunction::add_leading_turns(std::int64_t turns) noexcept {
+  leading_turns_ = wrapping_sum(leading_turns_, turns);
+}
+
 AxisPosition GearFunction::value(AxisPosition leading) noexcept {
   const std::int64_t turn = wrapping_difference(leading.turns, leading_turns_);
   if (turn != turn_) turn_to(turn);

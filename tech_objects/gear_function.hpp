@@ -33,6 +33,8 @@ class GearFunction {
 
   /// Moves the function by whole turns of a modulo following axis.
   void add_turns(std::int64_t turns) noexcept;
+  /// Counts the turns of a modulo leading axis anew, by so many more: at those the function is what it was.
+  void add_leading_turns(std::int64_t turns) noexcept;
 
   /// [u/s], [u/s²] of the following axis: ratio times the leading quantity, within one ulp.
   double velocity(double leading_velocity) const noexcept { return geared(leading_velocity); }

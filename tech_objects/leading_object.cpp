@@ -18,6 +18,7 @@ void LeadingObject::configure_leading(double period, TO_Struct_Extrapolation& se
 
 void LeadingObject::reset_leading(AxisPosition actual) noexcept {
   handing_over_ = false;
+  uncontrolled_.returning = false;
   extrapolation_.reset(actual);
   leading_actual_ = last_leading_actual_ = {actual, 0.0, 0.0};
 }
@@ -36,8 +37,19 @@ void LeadingObject::shift_leading(double by) noexcept {
   extrapolation_.shift(by);
   led_.position = advanced(led_.position, by, modulo_);
   last_led_.position = advanced(last_led_.position, by, modulo_);
+  uncontrolled_.now.position = advanced(uncontrolled_.now.position, by, modulo_);
+  uncontrolled_.last.position = advanced(uncontrolled_.last.position, by, modulo_);
   leading_actual_.position = advanced(leading_actual_.position, by, modulo_);
   last_leading_actual_.position = advanced(last_leading_actual_.position, by, modulo_);
+}
+
+/// The turn is the one on which they are: nobody turns back over the turns that have been made.
+void LeadingObject::lead_with_zero() noexcept {
+  const bool returning = uncontrolled_.returning;
+  const std::int64_t turns = (returning ? uncontrolled_.now : led_setpoint()).position.turns;
+  ++uncontrolled_.times;
+  uncontrolled_.zero = normalised({turns, 0.0}, modulo_);
+  uncontrolled_.returning = false;
 }
 
 void LeadingObject::count_homing(const Job& job) noexcept {

@@ -19,6 +19,16 @@ enum class Coupling : std::uint8_t {
   actual     ///< the extrapolated actual value
 };
 
+/// What axes see that have followed the position of an axis when that left position control: zero, and once
+/// position control has been taken up again a way from there back to the setpoint.
+struct UncontrolledLead {
+  std::uint32_t times = 0;  ///< how often position control has been left
+  AxisPosition zero;        ///< on the turn of the time; on that of its end once it has ended
+  bool returning = false;   ///< position control is there again
+  Setpoint now;             ///< while returning, at this tick and one before
+  Setpoint last;
+};
+
 /// What MC_Power wants of an object; written by the one instance that has claimed it.
 struct PowerRequest {
   const void* owner = nullptr;  ///< the instance of MC_Power in charge; nullptr: none yet
@@ -35,20 +45,23 @@ class LeadingObject : public TechnologyObject {
 
   Modulo modulo() const noexcept { return modulo_; }
 
-  /// What a following axis sees, now and one interpolator tick ago.
-  Setpoint leading_state(Coupling coupling) const noexcept {
-    if (coupling == Coupling::actual) return leading_actual_;
-    if (position_controlled_) return handing_over_ ? led_ : setpoint_;
-    return {};  // [1173-1175]: without position control the leading setpoint is zero
+  /// Whether an axis coupled like this sees what `leading_state` tells: the actual value, or the setpoint as
+  /// it is. Else it has to look at `led_setpoint` and `uncontrolled_lead`.
+  bool leads_as_it_is(Coupling coupling) const noexcept {
+    return coupling == Coupling::actual || (position_controlled_ && !handing_over_);
   }
-  Setpoint last_leading_state(Coupling coupling) const noexcept {
-    if (coupling == Coupling::actual) return last_leading_actual_;
-    if (position_controlled_) return handing_over_ ? last_led_ : last_setpoint_;
-    return {};
+  /// What a following axis sees, now and one interpolator tick ago.
+  const Setpoint& leading_state(Coupling coupling) const noexcept {
+    return coupling == Coupling::actual ? leading_actual_ : setpoint_;
+  }
+  const Setpoint& last_leading_state(Coupling coupling) const noexcept {
+    return coupling == Coupling::actual ? last_leading_actual_ : last_setpoint_;
   }
 
-  /// The setpoint as axes see it that follow its velocity: with or without position control.
+  /// The setpoint without the steps that it makes where it goes over to another course, now and one tick ago.
   const Setpoint& led_setpoint() const noexcept { return handing_over_ ? led_ : setpoint_; }
+  const Setpoint& last_led_setpoint() const noexcept { return handing_over_ ? last_led_ : last_setpoint_; }
+  const UncontrolledLead& uncontrolled_lead() const noexcept { return uncontrolled_; }
 
   /// The setpoint of the last interpolator tick, and the one before it.
   const Setpoint& setpoint() const noexcept { return setpoint_; }
@@ -117,8 +130,11 @@ class LeadingObject : public TechnologyObject {
     handing_over_ = true;
   }
 
+  /// Position control is left: from now on axes that follow the position see zero.
+  void lead_with_zero() noexcept;
+
   bool position_controlled_ = true;
-  bool handing_over_ = false;  // axes that follow the setpoint see `led_`, which is on its way to it
+  bool handing_over_ = false;  // axes that follow the setpoint see another one, which is on its way to it
   PowerState power_state_ = PowerState::off;
   bool enable_removed_ = false;
   bool leads_by_actual_value_ = false;
@@ -127,6 +143,7 @@ class LeadingObject : public TechnologyObject {
   Setpoint setpoint_;
   Setpoint last_setpoint_;
 
+  UncontrolledLead uncontrolled_;
   std::uint32_t restarts_ = 0;
   std::uint32_t homings_ = 0;
 

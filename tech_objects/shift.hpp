@@ -55,6 +55,14 @@ class Shift {
   void settle_at(DoubleDouble value, const Shift& moving, const ProfileLimits& limits,
                  double period) noexcept;
 
+  /// As much more, wherever it is and goes, without motion.
+  void shift(double by) noexcept {
+    value_ = value_ + by;
+    base_ = base_ + by;
+    request_.target = request_.target + by;
+    in_use_ = true;
+  }
+
   /// Begins to wait or to run. A shift that is running goes on from its value, velocity and acceleration.
   /// @return an error if no profile can be planned
   ErrorId begin(const ShiftRequest& request, double period) noexcept;

@@ -101,7 +101,6 @@ bool SynchronousMotion::place_cam_here(AxisPosition leading) noexcept {
 
 SynchronousMotion::Start SynchronousMotion::watch_cam(const Setpoint& own,
                                                       const SynchronousMotion* active) noexcept {
-  look_at_leading();
   if (profile_reference_ == kAtCamEnd) return watch_cam_end(active);
   if (profile_reference_ == kDirect) return set_on_cam(own);
   if (stands_on_cam(own)) {
@@ -241,6 +240,7 @@ SynchronousMotion::Start SynchronousMotion::watch_cam_end(const SynchronousMotio
   const bool camming = active != nullptr && active->cam_ != nullptr && active->synchronous_ &&
                        active->leading_object() == leading_object();
   if (!camming) return reject(ErrorId::no_camming);
+  if (active->sees_return()) return Start::not_yet;  // it is not where the leading axis is
   const DoubleDouble phase = active->phase_.value();
   const CamFollowing& old = active->follow_;
   // The active motion has not been advanced yet: what its phase shift will be decides whether it is at the
@@ -321,11 +321,13 @@ bool SynchronousMotion::meets_cam_out(const Job& job, const Setpoint& last, cons
   const int heading = sign(step);
   if (heading == 0 || (job.direction == 1 && heading < 0) || (job.direction == 2 && heading > 0))
     return false;
-  if (!additive_->in_use) leading_last_ = leading_->source->last_leading_state(leading_->coupling);
+  if (!additive_->in_use && leading_->source->leads_as_it_is(leading_->coupling))
+    leading_last_ = leading_->source->last_leading_state(leading_->coupling);
   const bool over_distance = job.mode == 1;
   const double distance = job.master_start_distance;
   const double leading_step =
       rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_);
+  if (over_distance && leading_step == 0.0) return false;  // it has not come to any start
   const auto braking = [&](const Setpoint& own, AxisPosition leading) noexcept {
     if (!over_distance) return stopping_way(own, heading, dynamics);
     // The least curved way to rest: its velocity is a cubic of the leading distance.

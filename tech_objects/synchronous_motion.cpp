@@ -61,9 +61,14 @@ void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
 
 /// leading value → + additive → effective leading value
 void SynchronousMotion::look_at_leading() noexcept {
-  leading_now_ = leading_->source->leading_state(leading_->coupling);
-  if (synchronous_ && !shifted_ && !additive_->in_use) return;
-  leading_last_ = leading_->source->last_leading_state(leading_->coupling);
+  const LeadingObject& source = *leading_->source;
+  if (!source.leads_as_it_is(leading_->coupling)) {
+    look_at_led();
+  } else {
+    leading_now_ = source.leading_state(leading_->coupling);
+    if (synchronous_ && !shifted_ && !additive_->in_use) return;
+    leading_last_ = source.last_leading_state(leading_->coupling);
+  }
   if (!additive_->in_use) return;
   add_additive(leading_now_, additive_->now);
   add_additive(leading_last_, additive_->last);
@@ -103,17 +108,8 @@ void SynchronousMotion::add_offset(Setpoint& setpoint) noexcept {
   setpoint.acceleration += offset_.acceleration();
 }
 
-/// MC_GearInVelocity: a leading axis without position control has a velocity all the same.
-void SynchronousMotion::look_at_velocity() noexcept {
-  const LeadingObject& source = *leading_->source;
-  if (leading_->coupling == Coupling::actual || source.position_controlled()) return;
-  leading_now_.velocity += source.led_setpoint().velocity;
-  leading_now_.acceleration += source.led_setpoint().acceleration;
-}
-
 /// MC_GearInVelocity: the velocity follows, whatever the position.
 void SynchronousMotion::advance_in_velocity(Setpoint& setpoint) noexcept {
-  look_at_velocity();
   const double last = setpoint.velocity;
   setpoint.velocity = gear_.velocity(leading_now_.velocity);
   setpoint.acceleration = gear_.acceleration(leading_now_.acceleration);
@@ -146,7 +142,6 @@ void SynchronousMotion::watch_reversal() noexcept {
 
 /// MC_GearIn: towards velocity and acceleration of the function; where both are met, the function begins.
 void SynchronousMotion::advance_velocity(Setpoint& setpoint) noexcept {
-  if (velocity_only_) look_at_velocity();
   const bool holding = progress_ < furthest_;  // reversed within the tolerance
   const double velocity = holding ? 0.0 : gear_.velocity(leading_now_.velocity);
   const double acceleration = holding ? 0.0 : gear_.acceleration(leading_now_.acceleration);
@@ -202,13 +197,20 @@ SyncOffset SynchronousMotion::offset(double way) const noexcept {
           state.acceleration / (time_velocity_ * time_velocity_)};
 }
 
+/// The axis has another name for every place. Of a cam that is a following value offset: its function stays.
 void SynchronousMotion::shift_following(double by) noexcept {
-  if (leading_ == nullptr || !synchronous_ || velocity_only_ || cam_ != nullptr) return;
+  if (leading_ == nullptr || velocity_only_) return;
   function_.position = advanced(function_.position, by, following_);
-  const AxisPosition without_phase =
-      phase_.in_use() ? advanced(function_.position, -(gear_.ratio() * phase_.value()), following_)
-                      : function_.position;
-  place_gear(leading_now_.position, without_phase);
+  if (way_ == Way::out) {
+    out_position_ = advanced(out_position_, by, following_);
+  } else if (cam_ != nullptr) {
+    following_offset().shift(by);
+    joint_ = advanced(joint_, by, following_);
+    slave_offset_ += by;
+  } else if (synchronous_ || way_ != Way::velocity) {
+    const AxisPosition leading = leading_now_.position;
+    place_gear(leading, advanced(gear_.value(leading), by, following_));
+  }
 }
 
 void SynchronousMotion::turn_following(std::int64_t turns) noexcept {
@@ -233,6 +235,7 @@ void SynchronousMotion::couple(const LeadingValue& leading, const Job& job,
   ratio_ = static_cast<double>(job.numerator) / static_cast<double>(job.denominator);
   dynamics_ = dynamics;
   velocity_only_ = job.kind == JobKind::MC_GearInVelocity;
+  uncontrolled_seen_ = 0;
   phase_.reset();
   offset_.reset();
   shifted_ = false;
@@ -292,8 +295,12 @@ SynchronousMotion::Start SynchronousMotion::reject(ErrorId error) noexcept {
 
 SynchronousMotion::Start SynchronousMotion::watch(const Setpoint& own,
                                                   const SynchronousMotion* active) noexcept {
-  if (cam_ != nullptr) return watch_cam(own, active);
   look_at_leading();
+  if (uncontrolled_seen_ != 0) {  // there is no leading value yet: what was zero meanwhile does not matter
+    uncontrolled_seen_ = 0;
+    return Start::not_yet;
+  }
+  if (cam_ != nullptr) return watch_cam(own, active);
   if (standing_on_sync_positions(own)) {
     direction_ = 1;
     const double way =

@@ -185,7 +185,9 @@ class SynchronousMotion {
   void couple(const LeadingValue& leading, const Job& job, const Dynamics& dynamics) noexcept;
   void evaluate_function(Setpoint& result) noexcept;
   void evaluate_cam(Setpoint& result) noexcept;
-  void look_at_velocity() noexcept;
+  void look_at_led() noexcept;
+  void turn_leading(std::int64_t turns) noexcept;
+  bool sees_return() const noexcept;
   void add_additive(Setpoint& leading, const AdditiveLeadingValue& additive) const noexcept;
   void add_offset(Setpoint& setpoint) noexcept;
   void place_gear(AxisPosition leading, AxisPosition following) noexcept;
@@ -267,6 +269,10 @@ class SynchronousMotion {
   double time_velocity_ = 1.0;  // leading velocity for which profile 0 was planned [u/s] > 0
   SyncProfile distance_profile_;
   Profile time_profile_;
+
+  // What is seen of a leading axis that has left position control.
+  std::uint32_t uncontrolled_seen_ = 0;  // which time, seen by this coupling; 0: none
+  std::int64_t zero_turns_ = 0;          // turn of its zero then
 
   // What the job asks for.
   DINT numerator_ = 1;

@@ -311,6 +311,44 @@ TEST(Shifts, AreResetWhenTheGearIsOverridden) {
   EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.PhaseShift, 0.0);
 }
 
+TEST(Shifts, AreResetWhereverTheGearEnds) {
+  for (const int how : {0, 1, 2, 3, 4, 5}) {
+    Geared rig;
+    auto& halt = rig.block<MC_Halt>();
+    halt.Axis = &rig.f;
+    rig.engage();
+    rig.start_leading(50.0);
+    rig.offset.Offset = 7.0;
+    rig.offset.OffsetDistance = 10.0;
+    rig.offset.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return rig.offset.Done; }));
+    rig.phase.PhaseShift = 500.0;
+    rig.phase.Execute = true;
+    rig.run(500);
+    const auto& status = rig.f.data.StatusSynchronizedMotion;
+    EXPECT_GT(status.PhaseShift, 1.0);
+    EXPECT_EQ(status.Offset, 7.0);
+    rig.out.SyncProfileReference = how;  // 0, 1
+    rig.out.MasterStopDistance = 20.0;
+    rig.out.SlavePosition = rig.f.data.Position + 400.0;
+    rig.out.Execute = how < 2;
+    halt.Execute = how == 2;
+    rig.move_f.Execute = how == 3;
+    rig.power_f.Enable = how != 4;
+    if (how == 5) rig.f.raise(alarm::kSynchronizing);
+    ASSERT_TRUE(rig.run_until([&] { return status.FunctionState != 1; }));
+    EXPECT_EQ(status.PhaseShift, 0.0) << how;
+    EXPECT_EQ(status.Offset, 0.0) << how;
+    EXPECT_TRUE(rig.phase.CommandAborted || rig.phase.Error) << how;
+    if (how == 1) {
+      EXPECT_EQ(status.FunctionLeadingValue.Position, status.EffectiveLeadingValue.Position);
+    }
+    rig.run(3000);
+    EXPECT_EQ(status.PhaseShift, 0.0) << how;
+    EXPECT_TRUE(how > 1 || rig.out.Done) << how;
+  }
+}
+
 // ---- MC_GearOut
 // -------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,146 @@
+// MC_GearOut over a leading distance, of an axis that moves by more than its gear.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fb/gear_in.hpp"
+#include "fb/move.hpp"
+#include "fb/phasing.hpp"
+#include "fb/power.hpp"
+#include "fb/superimposed.hpp"
+#include "fb/sync_out.hpp"
+#include "tests/support/rig.hpp"
+
+namespace lockstep {
+namespace {
+
+using test::Rig;
+
+constexpr double kRing = 90.0;  // [u]
+
+struct Geared : Rig {
+  explicit Geared(bool ring = false)
+      : l(axis("Leading")),
+        f(axis("Following",
+               [ring](AxisData& data) {
+                 data.Modulo = {ring, kRing, 0.0};
+               })),
+        power_l(block<MC_Power>()),
+        power_f(block<MC_Power>()),
+        run_l(block<MC_MoveVelocity>()),
+        gear(block<MC_GearIn>()),
+        phase(block<MC_PhasingRelative>()),
+        superimpose(block<MC_MoveSuperimposed>()),
+        out(block<MC_GearOut>()) {
+    lead(f, l);
+    continuity[1].acceleration = false;
+    continuity[1].highest_acceleration = 2.0e4;
+    power_l.Axis = run_l.Axis = &l;
+    power_f.Axis = superimpose.Axis = &f;
+    gear.Master = phase.Master = &l;
+    gear.Slave = phase.Slave = out.Slave = &f;
+    power_l.Enable = power_f.Enable = true;
+    run(5);
+    gear.Execute = true;
+    run(5);
+    out.SyncProfileReference = 1;
+    out.MasterStopDistance = 50.0;
+  }
+  void run_leading(double velocity, int ticks) {
+    run_l.Velocity = velocity;
+    run_l.Acceleration = 1000.0;
+    run_l.Jerk = 0.0;
+    run_l.Execute = false;
+    run(1);
+    run_l.Execute = true;
+    run(ticks);
+  }
+  /// To its end, without turning back.
+  void desynchronize(int most) {
+    out.Execute = true;
+    for (int i = 0; i < most && !out.Done; ++i) {
+      tick();  // the rig looks for steps
+      const double velocity = f.setpoint().velocity;
+      ASSERT_TRUE(!out.StartSyncOut || velocity >= -1e-9) << i << " " << velocity;
+    }
+    ASSERT_TRUE(out.Done);
+    EXPECT_EQ(f.data.Position, out.SlavePosition);
+    EXPECT_TRUE(f.setpoint().standing());
+  }
+
+  Axis& l;
+  Axis& f;
+  MC_Power& power_l;
+  MC_Power& power_f;
+  MC_MoveVelocity& run_l;
+  MC_GearIn& gear;
+  MC_PhasingRelative& phase;
+  MC_MoveSuperimposed& superimpose;
+  MC_GearOut& out;
+};
+
+TEST(MC_GearOutOverADistance, DoesNotBeginWhileTheLeadingValueStands) {
+  Geared rig;
+  rig.phase.PhaseShift = 100.0;  // carries the axis past the start position at 25, by itself
+  rig.phase.Velocity = 50.0;
+  rig.phase.Execute = true;
+  rig.out.SlavePosition = 50.0;
+  rig.out.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.phase.Done; }));  // the rig looks for steps
+  EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.WaitingFunctionState, 4);
+  EXPECT_TRUE(rig.gear.InGear);
+  rig.run_leading(-100.0, 0);  // and past it the other way
+  ASSERT_TRUE(rig.run_until([&] { return rig.out.Done; }));
+  EXPECT_EQ(rig.f.data.Position, 50.0);
+}
+
+TEST(MC_GearOutOverADistance, ComesToRestWithoutTurningBackBesideASuperimposedMotion) {
+  for (const bool ring : {false, true})
+    for (const double more : {-60.0, -20.0, 50.0, 100.0, 300.0}) {
+      Geared rig(ring);
+      rig.run_leading(100.0, 500);
+      rig.superimpose.Distance = std::copysign(1000.0, more);
+      rig.superimpose.VelocityDiff = std::abs(more);
+      rig.superimpose.Acceleration = 2000.0;
+      rig.superimpose.Execute = true;
+      rig.run(500);
+      ASSERT_NEAR(rig.f.setpoint().velocity, 100.0 + more, 1e-9);
+      rig.out.SlavePosition = ring ? 70.0 : 500.0;
+      rig.desynchronize(20000);
+      EXPECT_TRUE(rig.superimpose.CommandAborted) << more;
+    }
+}
+
+TEST(MC_GearOutOverADistance, BeginsWhileASuperimposedMotionSpeedsUp) {
+  for (int wait = 0; wait < 60; ++wait) {
+    Geared rig;
+    rig.run_leading(100.0, 500);
+    rig.superimpose.Distance = 1000.0;
+    rig.superimpose.VelocityDiff = 100.0;
+    rig.superimpose.Acceleration = 2000.0;
+    rig.out.SlavePosition = 200.0;
+    rig.out.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return rig.f.data.Position > 112.0 + wait; }));
+    rig.superimpose.Execute = true;
+    rig.desynchronize(3000);
+  }
+}
+
+/// It waits until the superimposed motion has come down to the leading value.
+TEST(MC_GearOutOverADistance, IsNoThrowWhereTheLeadingValueCreeps) {
+  Geared rig(true);
+  rig.run_leading(0.5, 100);
+  rig.superimpose.Distance = 200.0;
+  rig.superimpose.VelocityDiff = 50.0;
+  rig.superimpose.Execute = true;
+  rig.out.SlavePosition = 70.0;
+  rig.out.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.superimpose.Done || rig.superimpose.CommandAborted; }));
+  EXPECT_GT(difference(rig.f.setpoint().position, {}, rig.f.modulo()).rounded(), 190.0);
+  EXPECT_LT(rig.f.setpoint().velocity, 2.6);
+  rig.run_leading(100.0, 0);
+  rig.desynchronize(4000);
+}
+
+}  // namespace
+}  // namespace lockstep
