@@ -335,6 +335,24 @@ TEST(FixedStop, IsLeftByAMotionAwayFromItWithoutAnAlarm) {
   rig.clamp();
 }
 
+/// The axis pushes already when the function is switched on.
+TEST(FixedStop, IsNotFoundByAMotionThatBeginsAwayFromIt) {
+  Press rig;
+  rig.clamp();
+  rig.limiting.Mode = 0;
+  rig.run(10);
+  ASSERT_FALSE(rig.limiting.InClamping);
+  ASSERT_GT(rig.a.data.StatusPositioning.FollowingError, rig.a.data.Clamping.FollowingErrorDeviation);
+  rig.limiting.Mode = 1;
+  rig.run(10);
+  EXPECT_FALSE(rig.limiting.InClamping) << "nothing moves";
+  rig.back.Distance = -30.0;
+  rig.back.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return !rig.back.Busy; }, 5000));
+  EXPECT_TRUE(rig.back.Done);
+  EXPECT_FALSE(rig.limiting.InClamping);
+}
+
 TEST(FixedStop, TurningTowardsItWhileClampedEndsTheJob) {
   Press rig;
   rig.clamp();
