@@ -383,6 +383,7 @@ class Axis final : public LeadingObject {
 
   // axis_synchronous.cpp: motion led by another axis
   void begin_gear_in(Job& job) noexcept;
+  void tune_controller(const PositionControlSettings& settings) noexcept;
   void begin_waiting(Job& job) noexcept;
   void watch_waiting() noexcept;
   void activate_waiting(Motion motion) noexcept;
