@@ -196,6 +196,7 @@ void Axis::react(AlarmReaction reaction) noexcept {
   Dynamics dynamics = maximum_dynamics();
   if (reaction == AlarmReaction::stop_current) dynamics = single_.dynamics();
   if (reaction == AlarmReaction::stop_emergency) dynamics = emergency_dynamics();
+  if (outranked_by_stop(reaction)) return end_simulated_gear(JobPhase::failed, ErrorId::technology_alarm);
   end_all_jobs(JobPhase::failed, ErrorId::technology_alarm);
   end_simulated_gear(JobPhase::failed, ErrorId::technology_alarm);
   if (reaction == AlarmReaction::remove_enable || reaction == AlarmReaction::track_setpoints) {
@@ -225,6 +226,7 @@ ErrorId Axis::reset(bool restart) noexcept {
 /// The start values count from now on. The axis is where it was, on a ring of its own perhaps.
 void Axis::restart() noexcept {
   end_all_jobs(JobPhase::aborted, ErrorId::none);
+  stop_ = nullptr;
   end_simulated_gear(JobPhase::aborted, ErrorId::none);
   additive_request = {};
   data = start_values_;

@@ -224,6 +224,7 @@ class Axis final : public LeadingObject {
   void set_position_control(bool on) noexcept;
   void raise(int alarm_number, AlarmReaction reaction) noexcept;
   void react(AlarmReaction reaction) noexcept;
+  bool outranked_by_stop(AlarmReaction reaction) const noexcept;
   ErrorId reset(bool restart) noexcept;
   void restart() noexcept;
   void step_base() noexcept;
