@@ -295,6 +295,7 @@ class Axis final : public LeadingObject {
   bool absolute_encoder() const noexcept { return absolute_encoder(operative_); }
   double position_shift(double home_position) const noexcept;
   void shift_positions(double by) noexcept;
+  void rename_target() noexcept;
 
   // axis_sensors.cpp: the encoders
   /// An encoder; of the operative one, origin and sign are `encoder_origin_` and `encoder_sign_`.
@@ -356,6 +357,7 @@ class Axis final : public LeadingObject {
   int zero_limit(const Dynamics& dynamics) const noexcept;
   void begin_base_motion(Job& job) noexcept;
   PlanResult plan(Job& job, const Dynamics& dynamics) noexcept;
+  void show_target(const AxisPosition& target) noexcept;
   PlanResult move_by(DoubleDouble way, const Job& job, const Dynamics& dynamics) noexcept;
   DoubleDouble absolute_way(const Job& job) const noexcept;
   double absolute_distance(const Job& job, double here) const noexcept;

@@ -108,6 +108,7 @@ void Axis::home_directly(Job& job) noexcept {
     if (!has_drive_) actual_ = setpoint_.position;
   }
   if (job.mode == 7) counted_from_ = actual_.turns;
+  rename_target();
   if (adjusts_encoder(job)) adjust_encoder(operative_, true);
   homed_ = true;
   job.mark_position = relative ? actual_.value : job.position;
@@ -340,6 +341,7 @@ bool Axis::assign_position(AxisPosition place, double position) noexcept {
   if (modulo_.enabled && !absolute_encoder()) {
     counted_from_ = first_turn(advanced(place, by, modulo_), modulo_);
   }
+  rename_target();
   homed_ = true;
   adjust_encoder(operative_, false);
   return true;
@@ -370,6 +372,13 @@ void Axis::shift_positions(double by) noexcept {
   single_.shift(by);
   synchronous_.shift_following(by);
   if (has_drive_) shift_servo(by);
+}
+
+/// The target of a running positioning is where it was, and has another name now.
+void Axis::rename_target() noexcept {
+  const bool positioning = motion_ == Motion::single_axis && running_[kBase] != nullptr &&
+                           single_.aim() == SingleAxisMotion::Aim::position;
+  if (positioning) show_target(single_.target());
 }
 
 }  // namespace lockstep

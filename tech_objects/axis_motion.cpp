@@ -210,6 +210,11 @@ double Axis::absolute_distance(const Job& job, double here) const noexcept {
                             : negative_distance(here, target, modulo_);
 }
 
+void Axis::show_target(const AxisPosition& target) noexcept {
+  data.StatusPositioning.TargetPosition = target.value;
+  data.StatusPositioning.TargetPositionModuloCycle = static_cast<DINT>(target.turns - counted_from_);
+}
+
 PlanResult Axis::move_by(DoubleDouble exact_way, const Job& job, const Dynamics& dynamics) noexcept {
   const double way = exact_way.rounded();
   AxisPosition target = advanced(setpoint_.position, exact_way, modulo_);
@@ -217,8 +222,7 @@ PlanResult Axis::move_by(DoubleDouble exact_way, const Job& job, const Dynamics&
     // The way is rounded; the target is the given position itself.
     target.value = modulo_.enabled ? normalised({0, job.position}, modulo_).value : job.position;
   }
-  data.StatusPositioning.TargetPosition = target.value;
-  data.StatusPositioning.TargetPositionModuloCycle = static_cast<DINT>(target.turns - counted_from_);
+  show_target(target);
   if (dynamics.velocity > 0.0) return single_.move_to(setpoint_, target, way, dynamics);
   Dynamics crawl = dynamics;  // an override of 0 %: plan with the least velocity, then hold at once
   crawl.velocity = velocity_limit();

@@ -310,6 +310,28 @@ TEST(MC_Home, ShiftsARunningMotionWithoutChangingIt) {
   EXPECT_TRUE(rig.velocity.InVelocity);
 }
 
+TEST(MC_Home, ShiftsTheTargetThatARunningPositioningShows) {
+  for (const INT mode : {INT{0}, INT{1}, INT{11}, INT{12}}) {
+    OneAxis rig;
+    rig.home.Execute = false;
+    rig.relative.Distance = 100.0;
+    rig.relative.Execute = true;
+    rig.run(300);
+    const auto& status = rig.a.data.StatusPositioning;
+    ASSERT_NEAR(status.TargetPosition - rig.a.data.Position, status.Distance, 1e-9);
+    rig.continuity[0].velocity = false;  // the position is renamed
+    rig.home.Position = 1000.0;
+    rig.home.Mode = mode;
+    rig.home.Execute = true;
+    rig.run(2);
+    ASSERT_TRUE(rig.home.Done);
+    EXPECT_GT(status.TargetPosition, 1000.0);
+    EXPECT_NEAR(status.TargetPosition - rig.a.data.Position, status.Distance, 1e-9) << "mode " << mode;
+    ASSERT_TRUE(rig.run_until([&] { return rig.relative.Done; }));
+    EXPECT_EQ(rig.a.data.Position, status.TargetPosition);
+  }
+}
+
 TEST(ExecuteBlock, ShowsItsEndForOneCallWhenExecuteFellBefore) {
   OneAxis rig;
   rig.relative.Distance = 1.0;
