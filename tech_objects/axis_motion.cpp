@@ -1,6 +1,7 @@
 // Motion of an axis of its own: positioning, endless motion, jogging and stopping.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tech_objects/axis.hpp"
 
@@ -10,6 +11,10 @@ namespace {
 /// Highest deceleration that a data block can hold [u/s²]: what is left when no limit is configured.
 /// @source S7-1500T synchronous operation V7, 13.1.16
 constexpr double kHighestDeceleration = 2.77777777777778e8;
+
+/// By what places on a ring may be apart by rounding, relative to them: 0.1 + 0.2 is 0.3, not a turn before
+/// it.
+constexpr double kSamePlace = 4.0 * std::numeric_limits<double>::epsilon();
 
 double positive_or(double value, double other) noexcept {
   return value > 0.0 ? value : other;
@@ -204,8 +209,9 @@ DoubleDouble Axis::absolute_way(const Job& job) const noexcept {
 double Axis::absolute_distance(const Job& job, double here) const noexcept {
   if (!modulo_.enabled) return job.position - here;
   const double target = normalised({0, job.position}, modulo_).value;
-  if (job.direction == 3) return shortest_distance(here, target, modulo_);
-  if (target == here) return 0.0;
+  const double shortest = shortest_distance(here, target, modulo_);
+  const double same_place = kSamePlace * (std::abs(modulo_.start) + modulo_.length);
+  if (job.direction == 3 || std::abs(shortest) <= same_place) return shortest;
   return job.direction == 1 ? positive_distance(here, target, modulo_)
                             : negative_distance(here, target, modulo_);
 }

@@ -310,6 +310,26 @@ TEST(MC_Home, ShiftsARunningMotionWithoutChangingIt) {
   EXPECT_TRUE(rig.velocity.InVelocity);
 }
 
+TEST(MC_MoveAbsolute, ToWhereItIsMakesNoTurnForARounding) {
+  for (const INT direction : {INT{1}, INT{2}}) {
+    OneAxis rig(use_modulo);
+    for (const double distance : {0.1, 0.2}) {
+      rig.relative.Execute = false;
+      rig.run(2);
+      rig.relative.Distance = distance;
+      rig.relative.Execute = true;
+      ASSERT_TRUE(rig.run_until([&] { return rig.relative.Done; }));
+    }
+    ASSERT_NE(rig.a.data.Position, 0.3) << "0.1 + 0.2";
+    rig.move.Position = 0.3;
+    rig.move.Direction = direction;
+    rig.move.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return rig.move.Done; }, 300)) << direction;
+    EXPECT_EQ(rig.a.data.Position, 0.3);
+    EXPECT_EQ(rig.a.data.ModuloCycle, 0);
+  }
+}
+
 TEST(MC_Home, ShiftsTheTargetThatARunningPositioningShows) {
   for (const INT mode : {INT{0}, INT{1}, INT{11}, INT{12}}) {
     OneAxis rig;
