@@ -261,6 +261,10 @@ class Axis final : public LeadingObject {
     int direction = 1;      // in which the mark has to be met
     bool reversed = false;  // at a hardware limit switch
     double mark = 0.0;      // position that the mark gets [u]
+    // As they were when the job was taken over; changed later, they count for the next one.
+    double approach_velocity = 0.0;     // [u/s]
+    double referencing_velocity = 0.0;  // [u/s]
+    bool positive_side = false;         // of the switch
   };
   ErrorId check_homing(const Job& job) const noexcept;
   int missing_for_homing(const Job& job) const noexcept;
@@ -345,6 +349,7 @@ class Axis final : public LeadingObject {
   // axis_motion.cpp: motion of its own
   double velocity_limit() const noexcept;
   double wanted_velocity(const Job& job) const noexcept;
+  void take_defaults(Job& job) const noexcept;
   Dynamics effective_dynamics(const Job& job) noexcept;
   Dynamics own_dynamics(const Job& job) noexcept;
   void keep_below_limit(Dynamics& dynamics) const noexcept;
@@ -378,6 +383,7 @@ class Axis final : public LeadingObject {
   void stay_within_limits(const Setpoint& before) noexcept;
   double commanded_velocity() const noexcept;
   double smoothed_switchover(double velocity) noexcept;
+  void tune_controller(const PositionControlSettings& settings) noexcept;
 
   // axis_hand_over.cpp: the setpoint as following axes see it where it goes over to another course
   void hand_over(const Setpoint& seen, const Setpoint& now) noexcept;
@@ -386,7 +392,6 @@ class Axis final : public LeadingObject {
 
   // axis_synchronous.cpp: motion led by another axis
   void begin_gear_in(Job& job) noexcept;
-  void tune_controller(const PositionControlSettings& settings) noexcept;
   void begin_waiting(Job& job) noexcept;
   void watch_waiting() noexcept;
   void activate_waiting(Motion motion) noexcept;
@@ -578,7 +583,7 @@ class Axis final : public LeadingObject {
   AdditiveLeadingValues additive_;
 
   alignas(kCacheLine) double planned_override_ = 100.0;
-  double planned_velocity_limit_ = 0.0;
+  std::uint64_t planned_limits_ = 0;  // what tells a change of DynamicLimits
   SingleAxisMotion single_;
 
   std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive

@@ -216,9 +216,14 @@ void Axis::begin_active_homing(Job& job) noexcept {
   for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) end_job(slot, JobPhase::aborted, ErrorId::none);
   homed_ = false;
   homing_now_ = true;
-  homing_ = {.phase = HomingPhase::search, .direction = settings.Direction == 0 ? 1 : -1, .mark = mark};
+  homing_ = {.phase = HomingPhase::search,
+             .direction = settings.Direction == 0 ? 1 : -1,
+             .mark = mark,
+             .approach_velocity = data.Homing.ApproachVelocity,
+             .referencing_velocity = data.Homing.ReferencingVelocity,
+             .positive_side = settings.SideInput};
   job.direction = homing_.direction;
-  job.velocity = data.Homing.ReferencingVelocity;
+  job.velocity = homing_.referencing_velocity;
   if (!has_drive_) {  // it has no marks: one is taken to be where it is
     homing_.phase = HomingPhase::travel;
     job.mark_position = mark;
@@ -227,7 +232,7 @@ void Axis::begin_active_homing(Job& job) noexcept {
     homing_.phase = HomingPhase::approach;
     job.direction = data.Homing.ApproachDirection ? -1 : 1;
   }
-  if (homing_.phase != HomingPhase::search) job.velocity = data.Homing.ApproachVelocity;
+  if (homing_.phase != HomingPhase::search) job.velocity = homing_.approach_velocity;
   if (has_drive_) search_mark(true, homing_.direction);
   begin_base_motion(job);
   if (!job.running()) leave_homing(job);
@@ -243,7 +248,7 @@ PlanResult Axis::plan_homing(const Job& job, const Dynamics& dynamics) noexcept 
 void Axis::search_mark(bool active, int direction) noexcept {
   const auto& sensor = data.Sensor[operative_];
   const DINT mark = active ? sensor.ActiveHoming.Mode : sensor.PassiveHoming.Mode;
-  const BOOL positive_side = active ? sensor.ActiveHoming.SideInput : sensor.PassiveHoming.SideInput;
+  const bool positive_side = active ? homing_.positive_side : sensor.PassiveHoming.SideInput;
   // The machine may lie the other way round than the axis counts.
   begin_search(mark_search_, static_cast<HomingMark>(mark), direction, positive_side,
                encoder_sign_ * encoder_ratio() < 0.0);
@@ -271,7 +276,7 @@ void Axis::guide_active_homing(Job& job) noexcept {
       if (!on_home_switch_) break;
       // An edge that is met from outside, in the homing direction, is left behind first.
       const bool met_from_outside = settings.Mode == static_cast<DINT>(HomingMark::switch_edge) &&
-                                    (settings.SideInput ? 1 : -1) != direction;
+                                    (homing_.positive_side ? 1 : -1) != direction;
       if (met_from_outside) return head_for(job, HomingPhase::clear, -direction);
       return head_for(job, HomingPhase::search, direction);
     }
@@ -304,8 +309,7 @@ void Axis::reverse_at_limit_switch(Job& job) noexcept {
 void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
   homing_.phase = phase;
   job.direction = direction;
-  job.velocity =
-      phase == HomingPhase::search ? data.Homing.ReferencingVelocity : data.Homing.ApproachVelocity;
+  job.velocity = phase == HomingPhase::search ? homing_.referencing_velocity : homing_.approach_velocity;
   in_window_ticks_ = 0;
   since_target_ticks_ = 0;
   remember_limits();

@@ -53,6 +53,7 @@ void Axis::start(Job& job) noexcept {
     job.phase = JobPhase::done;
     return;
   }
+  take_defaults(job);
   if (const ErrorId error = check(job); error != ErrorId::none) {
     if (error == ErrorId::technology_alarm) return end(job, JobPhase::failed, error);
     return job.fail(error);
