@@ -212,7 +212,8 @@ void Axis::react(AlarmReaction reaction) noexcept {
 }
 
 ErrorId Axis::reset(bool restart) noexcept {
-  if (restart && power_state_ != PowerState::off) return ErrorId::restart_refused;
+  // An alarm may have removed the enable; while MC_Power still asks for it the axis is not disabled.
+  if (restart && (power.enable || power_state_ != PowerState::off)) return ErrorId::restart_refused;
   data.ErrorWord = DWORD{};
   data.WarningWord = DWORD{};
   data.ErrorDetail = {};

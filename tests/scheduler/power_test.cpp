@@ -12,8 +12,10 @@ namespace {
 using test::Rig;
 
 struct Machine : Rig {
-  Machine() : a(axis("Axis")), power(block<MC_Power>()), run_v(block<MC_MoveVelocity>()) {
+  Machine()
+      : a(axis("Axis")), power(block<MC_Power>()), reset(block<MC_Reset>()), run_v(block<MC_MoveVelocity>()) {
     power.Axis = run_v.Axis = &a;
+    reset.Axis = &a;
     power.StopMode = 2;
     run_v.Velocity = 50.0;
   }
@@ -30,6 +32,7 @@ struct Machine : Rig {
 
   Axis& a;
   MC_Power& power;
+  MC_Reset& reset;
   MC_MoveVelocity& run_v;
 };
 
@@ -82,6 +85,27 @@ TEST(ModesOfMC_Power, ThatAreNotPermittedEnableNothing) {
   m.run(3);
   EXPECT_TRUE(m.power.Status);
   EXPECT_FALSE(m.power.Error);
+}
+
+/// Published precondition of a restart: Status and Busy of MC_Power are FALSE.
+TEST(Restart, OfAnAxisWhoseEnableAnAlarmHasRemovedWaitsForTheFallOfEnable) {
+  Machine m;
+  ASSERT_TRUE(m.start());
+  m.continuity[0].acceleration = false;
+  m.a.raise(alarm::kFollowingError);
+  ASSERT_TRUE(m.run_until([&] { return m.a.off(); }));
+  ASSERT_TRUE(m.power.Busy);
+  m.reset.Restart = true;
+  m.reset.Execute = true;
+  m.run(3);
+  EXPECT_EQ(m.reset.ErrorID, static_cast<WORD>(ErrorId::restart_refused));
+  EXPECT_EQ(m.a.pending_alarm(), alarm::kFollowingError);
+  m.power.Enable = m.reset.Execute = false;
+  m.run(3);
+  m.reset.Execute = true;
+  m.run(3);
+  EXPECT_TRUE(m.reset.Done);
+  EXPECT_EQ(m.a.pending_alarm(), 0);
 }
 
 }  // namespace
