@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "fb/gear_in.hpp"
 #include "fb/home.hpp"
@@ -310,8 +311,14 @@ TEST(FixedStop, LetsOnlyMotionsAwayFromItStart) {
   EXPECT_TRUE(rig.limiting.Error);
   EXPECT_EQ(rig.limiting.ErrorID, static_cast<WORD>(ErrorId::clamping));
   EXPECT_TRUE(bit(rig.a, StatusBit::InClamping)) << "the function goes on";
+  EXPECT_TRUE(rig.limiting.InClamping && rig.limiting.InLimitation) << "and says so";
   rig.limiting.Enable = true;
   rig.run(2);
+  EXPECT_TRUE(rig.limiting.InClamping);
+  rig.limiting.Limit = std::numeric_limits<double>::quiet_NaN();
+  rig.run(2);
+  EXPECT_TRUE(rig.limiting.Error);
+  EXPECT_TRUE(bit(rig.a, StatusBit::InClamping));
   EXPECT_TRUE(rig.limiting.InClamping);
 }
 
