@@ -3,15 +3,19 @@
 namespace lockstep {
 
 void MC_Power::call(std::int64_t /*now*/) noexcept {
+  const bool owns = Axis != nullptr && Axis->power.owner == this;
   ErrorId error = in_charge() ? ErrorId::none : take_charge();
-  if (error == ErrorId::none) {
+  if (error == ErrorId::none || owns) {
     PowerRequest& power = Axis->power;
-    power.enable = Enable;
-    power.start_mode = StartMode;
-    power.stop_mode = StopMode;
-    Status = Enable && Axis->enabled();
-    Busy = Enable || !Axis->off();
-    if (Enable && Axis->enable_removed()) error = ErrorId::technology_alarm;
+    if (error == ErrorId::none) {
+      power.start_mode = StartMode;
+      power.stop_mode = StopMode;
+    }
+    // A mode that is not permitted enables nothing, and must not keep anything from being stopped.
+    power.enable = Enable && (error == ErrorId::none || power.enable);
+    Status = power.enable && Axis->enabled();
+    Busy = power.enable || !Axis->off();
+    if (power.enable && Axis->enable_removed() && error == ErrorId::none) error = ErrorId::technology_alarm;
   } else {
     Status = false;
     Busy = false;

@@ -10,7 +10,7 @@ void TorqueBlock::call(std::int64_t /*now*/) noexcept {
   Error = error != ErrorId::none;
   Busy = active && !Error;
   ErrorID = static_cast<WORD>(error);
-  show(Busy);
+  show(active);  // an input that is not permitted does not end what the axis does
 }
 
 /// What was rejected stays so until Enable falls.

@@ -198,6 +198,7 @@ void Axis::react(AlarmReaction reaction) noexcept {
   Dynamics dynamics = maximum_dynamics();
   if (reaction == AlarmReaction::stop_current) dynamics = single_.dynamics();
   if (reaction == AlarmReaction::stop_emergency) dynamics = emergency_dynamics();
+  if (outranked_by_stop(reaction)) return end_simulated_gear(JobPhase::failed, ErrorId::technology_alarm);
   end_all_jobs(JobPhase::failed, ErrorId::technology_alarm);
   end_simulated_gear(JobPhase::failed, ErrorId::technology_alarm);
   if (reaction == AlarmReaction::remove_enable || reaction == AlarmReaction::track_setpoints) {
@@ -213,7 +214,8 @@ void Axis::react(AlarmReaction reaction) noexcept {
 }
 
 ErrorId Axis::reset(bool restart) noexcept {
-  if (restart && power_state_ != PowerState::off) return ErrorId::restart_refused;
+  // An alarm may have removed the enable; while MC_Power still asks for it the axis is not disabled.
+  if (restart && (power.enable || power_state_ != PowerState::off)) return ErrorId::restart_refused;
   data.ErrorWord = DWORD{};
   data.WarningWord = DWORD{};
   data.ErrorDetail = {};
@@ -227,6 +229,7 @@ ErrorId Axis::reset(bool restart) noexcept {
 /// The start values count from now on. The axis is where it was, on a ring of its own perhaps.
 void Axis::restart() noexcept {
   end_all_jobs(JobPhase::aborted, ErrorId::none);
+  stop_ = nullptr;
   end_simulated_gear(JobPhase::aborted, ErrorId::none);
   additive_request = {};
   data = start_values_;

@@ -224,6 +224,7 @@ class Axis final : public LeadingObject {
   void set_position_control(bool on) noexcept;
   void raise(int alarm_number, AlarmReaction reaction) noexcept;
   void react(AlarmReaction reaction) noexcept;
+  bool outranked_by_stop(AlarmReaction reaction) const noexcept;
   ErrorId reset(bool restart) noexcept;
   void restart() noexcept;
   void step_base() noexcept;
@@ -260,6 +261,10 @@ class Axis final : public LeadingObject {
     int direction = 1;      // in which the mark has to be met
     bool reversed = false;  // at a hardware limit switch
     double mark = 0.0;      // position that the mark gets [u]
+    // As they were when the job was taken over; changed later, they count for the next one.
+    double approach_velocity = 0.0;     // [u/s]
+    double referencing_velocity = 0.0;  // [u/s]
+    bool positive_side = false;         // of the switch
   };
   ErrorId check_homing(const Job& job) const noexcept;
   int missing_for_homing(const Job& job) const noexcept;
@@ -295,6 +300,7 @@ class Axis final : public LeadingObject {
   double position_shift(double home_position) const noexcept;
   void shift_positions(double by) noexcept;
   void shift_coupling(double by) noexcept;
+  void rename_target() noexcept;
 
   // axis_sensors.cpp: the encoders
   /// An encoder; of the operative one, origin and sign are `encoder_origin_` and `encoder_sign_`.
@@ -344,6 +350,7 @@ class Axis final : public LeadingObject {
   // axis_motion.cpp: motion of its own
   double velocity_limit() const noexcept;
   double wanted_velocity(const Job& job) const noexcept;
+  void take_defaults(Job& job) const noexcept;
   Dynamics effective_dynamics(const Job& job) noexcept;
   Dynamics own_dynamics(const Job& job) noexcept;
   void keep_below_limit(Dynamics& dynamics) const noexcept;
@@ -356,6 +363,7 @@ class Axis final : public LeadingObject {
   int zero_limit(const Dynamics& dynamics) const noexcept;
   void begin_base_motion(Job& job) noexcept;
   PlanResult plan(Job& job, const Dynamics& dynamics) noexcept;
+  void show_target(const AxisPosition& target) noexcept;
   PlanResult move_by(DoubleDouble way, const Job& job, const Dynamics& dynamics) noexcept;
   DoubleDouble absolute_way(const Job& job) const noexcept;
   double absolute_distance(const Job& job, double here) const noexcept;
@@ -376,6 +384,7 @@ class Axis final : public LeadingObject {
   void stay_within_limits(const Setpoint& before) noexcept;
   double commanded_velocity() const noexcept;
   double smoothed_switchover(double velocity) noexcept;
+  void tune_controller(const PositionControlSettings& settings) noexcept;
 
   // axis_hand_over.cpp: the setpoint as following axes see it where it goes over to another course
   void hand_over(const Setpoint& seen, const Setpoint& now) noexcept;
@@ -578,7 +587,7 @@ class Axis final : public LeadingObject {
   AdditiveLeadingValues additive_;
 
   alignas(kCacheLine) double planned_override_ = 100.0;
-  double planned_velocity_limit_ = 0.0;
+  std::uint64_t planned_limits_ = 0;  // what tells a change of DynamicLimits
   SingleAxisMotion single_;
 
   std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive

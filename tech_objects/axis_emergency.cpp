@@ -96,7 +96,18 @@ double Axis::commanded_velocity() const noexcept {
 double Axis::smoothed_switchover(double velocity) noexcept {
   if (switchover_.behind() == 0.0) return velocity;
   switchover_.step(0.0);
-  return velocity - switchover_.behind();
+  return std::clamp(velocity - switchover_.behind(), -motor_limit_, motor_limit_);
+}
+
+/// Another Kv asks for another velocity at the control difference at hand: a switchover as well.
+void Axis::tune_controller(const PositionControlSettings& settings) noexcept {
+  const double change = (settings.kv - controller_.settings().kv) * data.StatusServo.ControlDifference;
+  const double time = data.PositionControl.SmoothingTimeByChangeDifference;
+  if (time > 0.0 && change != 0.0) {
+    switchover_.tune(time, servo_period_);
+    switchover_.set_behind(switchover_.behind() + change);
+  }
+  controller_.configure(settings, servo_period_);
 }
 
 }  // namespace lockstep

@@ -127,8 +127,10 @@ bool Axis::pushes_against_a_stop() const noexcept {
   const double error = data.StatusPositioning.FollowingError;
   if (!(std::abs(error) > data.Clamping.FollowingErrorDeviation)) return false;
   if (power_state_ != PowerState::on || !position_controlled_ || motion_ == Motion::none) return false;
-  if (setpoint_.velocity == 0.0) return running_[kBase] != nullptr || led();
-  return setpoint_.velocity * error > 0.0;
+  if (setpoint_.velocity != 0.0) return setpoint_.velocity * error > 0.0;
+  if (motion_ != Motion::single_axis) return running_[kBase] != nullptr || led();
+  // A job that has only just begun may lead away from what the axis pushes against already.
+  return running_[kBase] != nullptr && (single_.finished() || single_.way_left(error > 0.0 ? 1 : -1) > 0.0);
 }
 
 void Axis::watch_fixed_stop() noexcept {

@@ -108,6 +108,7 @@ void Axis::home_directly(Job& job) noexcept {
     if (!has_drive_) actual_ = setpoint_.position;
   }
   if (job.mode == 7) counted_from_ = actual_.turns;
+  rename_target();
   if (adjusts_encoder(job)) adjust_encoder(operative_, true);
   homed_ = true;
   job.mark_position = relative ? actual_.value : job.position;
@@ -215,9 +216,14 @@ void Axis::begin_active_homing(Job& job) noexcept {
   for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) end_job(slot, JobPhase::aborted, ErrorId::none);
   homed_ = false;
   homing_now_ = true;
-  homing_ = {.phase = HomingPhase::search, .direction = settings.Direction == 0 ? 1 : -1, .mark = mark};
+  homing_ = {.phase = HomingPhase::search,
+             .direction = settings.Direction == 0 ? 1 : -1,
+             .mark = mark,
+             .approach_velocity = data.Homing.ApproachVelocity,
+             .referencing_velocity = data.Homing.ReferencingVelocity,
+             .positive_side = settings.SideInput};
   job.direction = homing_.direction;
-  job.velocity = data.Homing.ReferencingVelocity;
+  job.velocity = homing_.referencing_velocity;
   if (!has_drive_) {  // it has no marks: one is taken to be where it is
     homing_.phase = HomingPhase::travel;
     job.mark_position = mark;
@@ -226,7 +232,7 @@ void Axis::begin_active_homing(Job& job) noexcept {
     homing_.phase = HomingPhase::approach;
     job.direction = data.Homing.ApproachDirection ? -1 : 1;
   }
-  if (homing_.phase != HomingPhase::search) job.velocity = data.Homing.ApproachVelocity;
+  if (homing_.phase != HomingPhase::search) job.velocity = homing_.approach_velocity;
   if (has_drive_) search_mark(true, homing_.direction);
   begin_base_motion(job);
   if (!job.running()) leave_homing(job);
@@ -242,7 +248,7 @@ PlanResult Axis::plan_homing(const Job& job, const Dynamics& dynamics) noexcept 
 void Axis::search_mark(bool active, int direction) noexcept {
   const auto& sensor = data.Sensor[operative_];
   const DINT mark = active ? sensor.ActiveHoming.Mode : sensor.PassiveHoming.Mode;
-  const BOOL positive_side = active ? sensor.ActiveHoming.SideInput : sensor.PassiveHoming.SideInput;
+  const bool positive_side = active ? homing_.positive_side : sensor.PassiveHoming.SideInput;
   // The machine may lie the other way round than the axis counts.
   begin_search(mark_search_, static_cast<HomingMark>(mark), direction, positive_side,
                encoder_sign_ * encoder_ratio() < 0.0);
@@ -270,7 +276,7 @@ void Axis::guide_active_homing(Job& job) noexcept {
       if (!on_home_switch_) break;
       // An edge that is met from outside, in the homing direction, is left behind first.
       const bool met_from_outside = settings.Mode == static_cast<DINT>(HomingMark::switch_edge) &&
-                                    (settings.SideInput ? 1 : -1) != direction;
+                                    (homing_.positive_side ? 1 : -1) != direction;
       if (met_from_outside) return head_for(job, HomingPhase::clear, -direction);
       return head_for(job, HomingPhase::search, direction);
     }
@@ -303,8 +309,7 @@ void Axis::reverse_at_limit_switch(Job& job) noexcept {
 void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
   homing_.phase = phase;
   job.direction = direction;
-  job.velocity =
-      phase == HomingPhase::search ? data.Homing.ReferencingVelocity : data.Homing.ApproachVelocity;
+  job.velocity = phase == HomingPhase::search ? homing_.referencing_velocity : homing_.approach_velocity;
   in_window_ticks_ = 0;
   since_target_ticks_ = 0;
   remember_limits();
@@ -340,6 +345,7 @@ bool Axis::assign_position(AxisPosition place, double position) noexcept {
   if (modulo_.enabled && !absolute_encoder()) {
     counted_from_ = first_turn(advanced(place, by, modulo_), modulo_);
   }
+  rename_target();
   homed_ = true;
   adjust_encoder(operative_, false);
   return true;
@@ -380,6 +386,13 @@ void Axis::shift_positions(double by) noexcept {
   single_.shift(by);
   shift_coupling(by);
   if (has_drive_) shift_servo(by);
+}
+
+/// The target of a running positioning is where it was, and has another name now.
+void Axis::rename_target() noexcept {
+  const bool positioning = motion_ == Motion::single_axis && running_[kBase] != nullptr &&
+                           single_.aim() == SingleAxisMotion::Aim::position;
+  if (positioning) show_target(single_.target());
 }
 
 }  // namespace lockstep

@@ -15,6 +15,13 @@ int stop_rank(DINT mode) noexcept {
   return mode == 0 ? 3 : mode == 2 ? 2 : 1;
 }
 
+/// An alarm shows at MC_Stop as CommandAborted.
+void end(Job& job, JobPhase phase, ErrorId error) noexcept {
+  const bool stopping = job.kind == JobKind::MC_Stop && phase == JobPhase::failed;
+  job.phase = stopping ? JobPhase::aborted : phase;
+  job.error = stopping ? ErrorId::none : error;
+}
+
 /// What a job shows that another one forbids.
 ErrorId rejection(JobClass new_job, JobClass running) noexcept {
   if (running == JobClass::gear_in_velocity) return ErrorId::velocity_gear_active;
@@ -46,7 +53,11 @@ void Axis::start(Job& job) noexcept {
     job.phase = JobPhase::done;
     return;
   }
-  if (const ErrorId error = check(job); error != ErrorId::none) return job.fail(error);
+  take_defaults(job);
+  if (const ErrorId error = check(job); error != ErrorId::none) {
+    if (error == ErrorId::technology_alarm) return end(job, JobPhase::failed, error);
+    return job.fail(error);
+  }
   if (forces_.stop_side != 0)
     if (const ErrorId error = check_at_fixed_stop(job); error != ErrorId::none) return job.fail(error);
   if (const int alarm_number = missing_precondition(job); alarm_number != 0) {
@@ -62,7 +73,9 @@ void Axis::start(Job& job) noexcept {
 /// Whether the state of the axis permits the job at all.
 ErrorId Axis::check(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_Home) return check_homing(job);
-  if (pending_alarm() != 0) return ErrorId::technology_alarm;
+  const bool stronger =
+      job.kind == JobKind::MC_Stop && stop_rank(job.mode) >= static_cast<int>(data.ErrorDetail.Reaction);
+  if (pending_alarm() != 0 && !stronger) return ErrorId::technology_alarm;
   if (!enabled()) return ErrorId::locked;
   if (locked_by_stop() && job.kind != JobKind::MC_Stop) return ErrorId::locked;
   return check_synchronous(job);
@@ -214,9 +227,7 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   Job* job = running_[slot];
   if (job == nullptr) return;
   running_[slot] = nullptr;
-  const bool stopping = job->kind == JobKind::MC_Stop && phase == JobPhase::failed;
-  job->phase = stopping ? JobPhase::aborted : phase;  // an alarm shows at MC_Stop as CommandAborted
-  job->error = stopping ? ErrorId::none : error;
+  end(*job, phase, error);
   const bool alone = phase == JobPhase::failed && error != ErrorId::technology_alarm;
   if (slot == kBase && alone) end_job(kBuffered, JobPhase::aborted, ErrorId::none);
   if (slot == kSuperimposed) show_superimposed_command();
@@ -231,12 +242,18 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
 
 void Axis::end_all_jobs(JobPhase phase, ErrorId error) noexcept {
   for (std::size_t slot = 0; slot < kSlots; ++slot) end_job(static_cast<Slot>(slot), phase, error);
-  for (std::size_t i = 0; i < new_count_; ++i) {
-    new_jobs_[i]->phase = phase;
-    new_jobs_[i]->error = error;
-  }
+  for (std::size_t i = 0; i < new_count_; ++i) end(*new_jobs_[i], phase, error);
   new_count_ = 0;
-  stop_ = nullptr;
+  // One that is done keeps the axis locked until its Execute falls.
+  if (stop_ != nullptr && stop_->phase != JobPhase::done) stop_ = nullptr;
+}
+
+/// Whether a running MC_Stop stops harder than an alarm asks for: then it goes on.
+/// @source S7-1500T axis functions, MC_Stop, rank of stop reactions
+bool Axis::outranked_by_stop(AlarmReaction reaction) const noexcept {
+  const Job* const base = running_[kBase];
+  return base != nullptr && base->kind == JobKind::MC_Stop &&
+         stop_rank(base->mode) > static_cast<int>(reaction);
 }
 
 }  // namespace lockstep

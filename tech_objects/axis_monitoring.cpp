@@ -174,8 +174,8 @@ bool Axis::find_braking(int side, double room, Dynamics& dynamics) const noexcep
 /// reactions of the alarms.
 void Axis::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept {
   const AlarmReaction reaction = reaction_at_limit();
-  const bool reacts =
-      power_state_ == PowerState::on && data.ErrorDetail.Reaction < static_cast<DINT>(reaction);
+  const bool reacts = power_state_ == PowerState::on &&
+                      data.ErrorDetail.Reaction < static_cast<DINT>(reaction) && !outranked_by_stop(reaction);
   const Setpoint made = setpoint_;
   setpoint_ = last_setpoint_;
   cut_acceleration();

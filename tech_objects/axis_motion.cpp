@@ -1,6 +1,8 @@
 // Motion of an axis of its own: positioning, endless motion, jogging and stopping.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "tech_objects/axis.hpp"
 
@@ -10,6 +12,27 @@ namespace {
 /// Highest deceleration that a data block can hold [u/s²]: what is left when no limit is configured.
 /// @source S7-1500T synchronous operation V7, 13.1.16
 constexpr double kHighestDeceleration = 2.77777777777778e8;
+
+/// A word that is another one when any of the limits has changed: one comparison in every cycle, in place of
+/// four. MaxVelocity changes with a restart only.
+std::uint64_t mark_of(const TO_Struct_DynamicLimits& limits) noexcept {
+  constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15;
+  constexpr auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  const std::uint64_t rates = bits(limits.Velocity) * kSpread + bits(limits.MaxAcceleration);
+  return (rates * kSpread + bits(limits.MaxDeceleration)) * kSpread + bits(limits.MaxJerk);
+}
+
+/// With a MaxJerk that has been lowered the velocity could pass its limit while a present acceleration is run
+/// down: of the jerk before as much stays as that needs.
+double sufficient_jerk(double jerk, double before, double acceleration, double room) noexcept {
+  const double square = acceleration * acceleration;
+  if (jerk <= 0.0 || before <= jerk || square <= 2.0 * jerk * room) return jerk;
+  return std::min(before, square / (2.0 * room));
+}
+
+/// By what places on a ring may be apart by rounding, relative to them: 0.1 + 0.2 is 0.3, not a turn before
+/// it.
+constexpr double kSamePlace = 4.0 * std::numeric_limits<double>::epsilon();
 
 double positive_or(double value, double other) noexcept {
   return value > 0.0 ? value : other;
@@ -54,6 +77,22 @@ double Axis::wanted_velocity(const Job& job) const noexcept {
     default:
       return (job.velocity < 0.0 ? data.DynamicDefaults.Velocity : job.velocity) * own;
   }
+}
+
+/// Negative dynamic values stand for the defaults as they are when the job is handed over; changed later,
+/// those count for the next one. The inputs of a jogging block are read in every call, and so are its
+/// defaults.
+/// @source S7-1500T synchronous operation V7, 13.1.17
+void Axis::take_defaults(Job& job) const noexcept {
+  if (job.kind == JobKind::MC_MoveJog || gives_values(job.kind)) return;
+  const auto& defaults = data.DynamicDefaults;
+  const auto take = [](LREAL& value, LREAL instead) {
+    if (value < 0.0) value = instead;
+  };
+  if (job.kind != JobKind::MC_MoveVelocity) take(job.velocity, defaults.Velocity);
+  take(job.acceleration, defaults.Acceleration);
+  take(job.deceleration, defaults.Deceleration);
+  take(job.jerk, defaults.Jerk);
 }
 
 /// Dynamic values of a job: defaults for negative ones, cut to the limits with a warning.
@@ -161,9 +200,11 @@ PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
     case JobKind::MC_MoveRelative:
       return move_by(DoubleDouble{job.position, 0.0} - beyond_target_, job, dynamics);
     case JobKind::MC_MoveVelocity: {
-      if (job.current) {
-        job.velocity = setpoint_.velocity;
-        return single_.run_at(setpoint_, job.velocity, maximum_for_current(dynamics));
+      if (job.current) {  // from now on a velocity like any other, of which the override is part already
+        const double own = data.Override.Velocity / 100.0;
+        job.current = false;
+        job.velocity = own > 0.0 ? setpoint_.velocity / own : setpoint_.velocity;
+        if (own > 0.0) return single_.run_at(setpoint_, setpoint_.velocity, maximum_for_current(dynamics));
       }
       return single_.run_at(setpoint_, std::copysign(dynamics.velocity, job.velocity), dynamics);
     }
@@ -204,10 +245,16 @@ DoubleDouble Axis::absolute_way(const Job& job) const noexcept {
 double Axis::absolute_distance(const Job& job, double here) const noexcept {
   if (!modulo_.enabled) return job.position - here;
   const double target = normalised({0, job.position}, modulo_).value;
-  if (job.direction == 3) return shortest_distance(here, target, modulo_);
-  if (target == here) return 0.0;
+  const double shortest = shortest_distance(here, target, modulo_);
+  const double same_place = kSamePlace * (std::abs(modulo_.start) + modulo_.length);
+  if (job.direction == 3 || std::abs(shortest) <= same_place) return shortest;
   return job.direction == 1 ? positive_distance(here, target, modulo_)
                             : negative_distance(here, target, modulo_);
+}
+
+void Axis::show_target(const AxisPosition& target) noexcept {
+  data.StatusPositioning.TargetPosition = target.value;
+  data.StatusPositioning.TargetPositionModuloCycle = static_cast<DINT>(target.turns - counted_from_);
 }
 
 PlanResult Axis::move_by(DoubleDouble exact_way, const Job& job, const Dynamics& dynamics) noexcept {
@@ -217,8 +264,7 @@ PlanResult Axis::move_by(DoubleDouble exact_way, const Job& job, const Dynamics&
     // The way is rounded; the target is the given position itself.
     target.value = modulo_.enabled ? normalised({0, job.position}, modulo_).value : job.position;
   }
-  data.StatusPositioning.TargetPosition = target.value;
-  data.StatusPositioning.TargetPositionModuloCycle = static_cast<DINT>(target.turns - counted_from_);
+  show_target(target);
   if (dynamics.velocity > 0.0) return single_.move_to(setpoint_, target, way, dynamics);
   Dynamics crawl = dynamics;  // an override of 0 %: plan with the least velocity, then hold at once
   crawl.velocity = velocity_limit();
@@ -242,30 +288,38 @@ void Axis::begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcep
 
 void Axis::step_single_axis() noexcept {
   Job* job = running_[kBase];
-  if (job != nullptr) follow_changes(*job);
+  const auto limits_changed = [this] {
+    return data.Override.Velocity != planned_override_ || mark_of(data.DynamicLimits) != planned_limits_;
+  };
+  if (job != nullptr && (limits_changed() || job->kind == JobKind::MC_MoveJog)) follow_changes(*job);
   single_.advance(setpoint_);
   if (advancing_base_) add_superimposed();
   if (running_[kBase] != nullptr) watch_base_job(*running_[kBase]);
   if (running_[kBuffered] != nullptr) watch_buffered();
 }
 
-/// Limits and override count at once; so do the inputs of a jogging block.
-void Axis::follow_changes(Job& job) noexcept {
+/// Limits and override count at once; so do the inputs of a jogging block. Seldom: not part of every cycle.
+[[gnu::noinline]] void Axis::follow_changes(Job& job) noexcept {
   const bool jog = job.kind == JobKind::MC_MoveJog;
   const bool inputs_changed =
       jog && (job.direction != jogged_.direction || job.velocity != jogged_.velocity ||
               job.acceleration != jogged_.acceleration || job.deceleration != jogged_.deceleration ||
               job.jerk != jogged_.jerk);
   const bool limits_changed =
-      data.Override.Velocity != planned_override_ || velocity_limit() != planned_velocity_limit_;
+      data.Override.Velocity != planned_override_ || mark_of(data.DynamicLimits) != planned_limits_;
   if (!inputs_changed && !limits_changed) return;
   if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || leaves(job.kind)) return;
   remember_limits();
-  if (inputs_changed) cut_acceleration();
+  const double jerk_before = single_.dynamics().jerk;
+  const bool jerk_now_limited = jerk_before <= 0.0 && effective_dynamics(job).jerk > 0.0;
+  if (inputs_changed || jerk_now_limited) cut_acceleration();
   Dynamics dynamics = own_dynamics(job);
+  dynamics.jerk = sufficient_jerk(dynamics.jerk, jerk_before, setpoint_.acceleration, room_to_limit());
+  if (dynamics.acceleration <= 0.0 || dynamics.deceleration <= 0.0)
+    return raise(alarm::kAccelerationLimitZero);
   if (advancing_base_) leave_to_superimposed(dynamics);
   PlanResult result = PlanResult::ok;
-  if (jog || job.kind == JobKind::MC_Home || (job.kind == JobKind::MC_MoveVelocity && !job.current)) {
+  if (jog || job.kind == JobKind::MC_Home || job.kind == JobKind::MC_MoveVelocity) {
     result = plan(job, dynamics);
   } else if (!single_.finished() || single_.aim() != SingleAxisMotion::Aim::position) {
     result = single_.replan(setpoint_, dynamics);
@@ -279,7 +333,7 @@ void Axis::follow_changes(Job& job) noexcept {
 
 void Axis::remember_limits() noexcept {
   planned_override_ = data.Override.Velocity;
-  planned_velocity_limit_ = velocity_limit();
+  planned_limits_ = mark_of(data.DynamicLimits);
 }
 
 void Axis::watch_base_job(Job& job) noexcept {

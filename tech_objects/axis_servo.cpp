@@ -165,7 +165,7 @@ void Axis::control_position() noexcept {
   data.StatusServo.PositionAfterDynamicFilter = position.value;
   const PositionControlSettings settings = control_settings();
   data.StatusPositioning.SetpointExecutionTime = period_ + filter_delay + settings.delay;
-  if (settings != controller_.settings()) controller_.configure(settings, servo_period_);
+  if (settings != controller_.settings()) tune_controller(settings);
   const double smoothed = smoothing_.behind();  // what MC_SetSensor has changed and control is not to see yet
   if (smoothed != 0.0) smoothing_.step(0.0);
   const AxisPosition seen = smoothed == 0.0 ? actual_ : advanced(actual_, -smoothed, modulo_);

@@ -59,6 +59,11 @@ constexpr bool couples_at_position(JobKind kind) noexcept {
 constexpr bool leaves(JobKind kind) noexcept {
   return kind == JobKind::MC_GearOut || kind == JobKind::MC_CamOut;
 }
+/// Whether its dynamic values are setpoints given by the program.
+constexpr bool gives_values(JobKind kind) noexcept {
+  return kind == JobKind::MC_MotionInVelocity || kind == JobKind::MC_MotionInPosition ||
+         kind == JobKind::MC_MotionInSuperimposed;
+}
 /// Whether it has to do with a cam.
 constexpr bool of_cam(JobKind kind) noexcept {
   return kind == JobKind::MC_CamIn || kind == JobKind::MC_CamOut;

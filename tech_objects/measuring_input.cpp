@@ -132,7 +132,9 @@ ErrorId MeasuringInput::take_range(const Job& job) noexcept {
     range_.length = std::abs(job.position - job.start_position);
     return ErrorId::none;
   }
-  if (std::abs(job.position - job.start_position) > modulo_.length) return ErrorId::measuring_range;
+  const double way = std::abs(job.position - job.start_position);
+  if (way > modulo_.length) return ErrorId::measuring_range;
+  range_.limited = way < modulo_.length;  // no position lies outside of the whole ring
   range_.start = normalised({0, job.start_position}, modulo_).value;
   range_.length = positive_distance(job.start_position, job.position, modulo_);
   return ErrorId::none;
@@ -289,7 +291,7 @@ ErrorId MeasuringInput::begin(Job& job) noexcept {
   job.phase = JobPhase::active;
   captured_ = 0;
   data.Status = kWaits;
-  data.MeasuredValues.LostEdgeCounter1 = data.MeasuredValues.LostEdgeCounter2 = 0;
+  if (!cyclic(job)) data.MeasuredValues.LostEdgeCounter1 = data.MeasuredValues.LostEdgeCounter2 = 0;
   return ErrorId::none;
 }
 

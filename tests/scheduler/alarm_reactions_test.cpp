@@ -208,5 +208,85 @@ TEST(AlarmReaction, EndsARunningMC_StopWithCommandAborted) {
   EXPECT_FALSE(rig.stop.Error);
 }
 
+/// Ranks of stop reactions: MC_Stop Mode 0 is as strong as reaction 3, Mode 2 as 2, Mode 3 as 1.
+TEST(AlarmReaction, GivesWayToAStrongerMC_Stop) {
+  Moving rig;
+  ASSERT_TRUE(rig.run_until([&] { return rig.run_v.InVelocity; }));
+  rig.a.raise(alarm::kLeadingAxis);
+  rig.run(3);
+  rig.stop.Mode = 0;
+  rig.stop.Execute = true;
+  rig.run(2);
+  EXPECT_TRUE(rig.stop.Busy);
+  EXPECT_NEAR(rig.a.setpoint().acceleration, -kEmergency, 1e-6);
+  EXPECT_EQ(rig.a.pending_alarm(), alarm::kLeadingAxis);
+  ASSERT_TRUE(rig.run_until([&] { return !rig.stop.Busy; }));
+  EXPECT_TRUE(rig.stop.Done);
+  EXPECT_TRUE(rig.a.setpoint().standing());
+}
+
+TEST(AlarmReaction, RefusesAWeakerMC_StopWithCommandAborted) {
+  Moving rig;
+  ASSERT_TRUE(rig.run_until([&] { return rig.run_v.InVelocity; }));
+  rig.a.raise(alarm::kLeadingAxis);
+  rig.run(10);
+  rig.stop.Mode = 3;
+  rig.stop.Deceleration = 100.0;
+  rig.stop.Execute = true;
+  rig.run(2);
+  EXPECT_TRUE(rig.stop.CommandAborted);
+  EXPECT_FALSE(rig.stop.Error);
+  rig.watch_stop();
+  EXPECT_GT(rig.deceleration, 0.9 * kMaximum) << "the stop of the alarm goes on";
+}
+
+TEST(AlarmReaction, LeavesAStrongerMC_StopAlone) {
+  Moving rig;
+  ASSERT_TRUE(rig.run_until([&] { return rig.run_v.InVelocity; }));
+  rig.stop.Mode = 0;
+  rig.stop.Execute = true;
+  rig.run(3);
+  rig.a.raise(alarm::kLeadingAxis);
+  rig.run(3);
+  EXPECT_TRUE(rig.stop.Busy);
+  EXPECT_NEAR(rig.a.setpoint().acceleration, -kEmergency, 1e-6);
+  EXPECT_EQ(rig.a.data.ErrorDetail.Reaction, 2);
+  ASSERT_TRUE(rig.run_until([&] { return !rig.stop.Busy; }));
+  EXPECT_TRUE(rig.stop.Done);
+  EXPECT_EQ(rig.a.pending_alarm(), alarm::kLeadingAxis);
+}
+
+/// Until its Execute falls, no job starts: whatever has happened to the axis meanwhile.
+TEST(MC_StopThatIsDone, LocksTheAxisBeyondAnAlarmAndItsEnable) {
+  for (const bool by_alarm : {true, false}) {
+    Moving rig;
+    rig.stop.Mode = 0;
+    rig.stop.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return rig.stop.Done; }));
+    if (by_alarm) {
+      rig.a.raise(alarm::kMarkNotFound);
+      rig.run(3);
+      rig.reset.Execute = true;
+    } else {
+      rig.power.Enable = false;
+      ASSERT_TRUE(rig.run_until([&] { return rig.a.off(); }));
+      rig.power.Enable = true;
+    }
+    rig.run(5);
+    ASSERT_TRUE(rig.power.Status);
+    ASSERT_TRUE(rig.stop.Done);
+    EXPECT_TRUE(has_bit(rig.a.data.StatusWord2, Status2Bit::StopCommand));
+    rig.back.Velocity = 50.0;
+    rig.back.Execute = true;
+    rig.run(3);
+    EXPECT_EQ(rig.back.ErrorID, static_cast<WORD>(ErrorId::locked)) << by_alarm;
+    rig.stop.Execute = rig.back.Execute = false;
+    rig.run(3);
+    rig.back.Execute = true;
+    rig.run(3);
+    EXPECT_TRUE(rig.back.Busy);
+  }
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -217,6 +217,24 @@ TEST(ActiveHomingWithSwitch, FindsTheConfiguredEdgeFromEverywhere) {
       }
 }
 
+TEST(ActiveHomingWithSwitch, KeepsToTheSettingsOfItsBegin) {
+  Machine machine([&](Axis& axis) {
+    active(axis).Mode = 2;
+    active(axis).SideInput = true;
+  });
+  machine.start(machine.home, 3, 10.0);
+  machine.run(100);
+  ASSERT_TRUE(machine.home.Busy);
+  active(machine.slide).SideInput = false;
+  active(machine.slide).Direction = 1;
+  machine.slide.data.Homing.ApproachVelocity = 1.0;
+  machine.slide.data.Homing.ReferencingVelocity = 0.0;
+  ASSERT_TRUE(machine.run_until([&] { return !machine.home.Busy; }));
+  EXPECT_TRUE(machine.home.Done);
+  machine.run(3000);
+  EXPECT_TRUE(machine.stands_at(120.0, 0.11));
+}
+
 TEST(ActiveHomingWithSwitch, ReadsATagWithItsLevelBeforeTheCamOfTheDrive) {
   bool input = true;  // low active
   Machine machine([&](Axis& axis) {

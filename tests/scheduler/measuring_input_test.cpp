@@ -147,6 +147,22 @@ TEST(MeasuringRange, RunsOverTheEndOfARing) {
   EXPECT_NEAR(rig.once.MeasuredValue1, 10.0, 1e-9);
 }
 
+TEST(MeasuringRange, OfTheWholeRingHoldsEveryPosition) {
+  for (const double start : {0.0, 77.0}) {
+    for (const double side : {1.0, -1.0}) {
+      Marks rig(ring);
+      rig.once.MeasuringRange = true;
+      rig.once.StartPosition = start;
+      rig.once.EndPosition = start + side * rig.c.data.Modulo.Length;
+      rig.once.Execute = true;
+      rig.run(3);
+      rig.go(200.0 * side);
+      ASSERT_TRUE(rig.run_until([&] { return rig.once.Done || rig.once.Error; }));
+      EXPECT_TRUE(rig.once.Done) << start << ", " << side;
+    }
+  }
+}
+
 TEST(MeasuringRange, LongerThanTheRingIsRefused) {
   Marks rig(ring);
   rig.once.MeasuringRange = true;
@@ -227,6 +243,19 @@ TEST(MeasuringCyclically, TakesTheFirstOfEachKindInMode2AndCountsWhatIsLost) {
   EXPECT_EQ(values.LostEdgeCounter1, 6u);
   EXPECT_NEAR(std::remainder(rig.cyclic.MeasuredValue1 - 0.1, 0.25), 0.0, 1e-9);
   EXPECT_NEAR(std::remainder(rig.cyclic.MeasuredValue2 - 0.15, 0.25), 0.0, 1e-9);
+  rig.abort.Execute = true;
+  rig.run(3);
+  rig.cyclic.Execute = false;
+  rig.run(2);
+  rig.run_c.Execute = false;
+  rig.power.StopMode = 2;
+  rig.power.Enable = false;  // so that no further edge comes
+  rig.run(3000);
+  rig.cyclic.Execute = true;
+  rig.run(3);
+  EXPECT_TRUE(rig.cyclic.Busy);
+  EXPECT_EQ(rig.cyclic.LostEdgeCounter1, 0u);
+  EXPECT_EQ(values.LostEdgeCounter1, 6u) << "those of the object go on";
 }
 
 TEST(MeasuringCyclically, LosesAtMostSevenThatItTellsOf) {

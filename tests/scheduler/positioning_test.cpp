@@ -310,6 +310,48 @@ TEST(MC_Home, ShiftsARunningMotionWithoutChangingIt) {
   EXPECT_TRUE(rig.velocity.InVelocity);
 }
 
+TEST(MC_MoveAbsolute, ToWhereItIsMakesNoTurnForARounding) {
+  for (const INT direction : {INT{1}, INT{2}}) {
+    OneAxis rig(use_modulo);
+    for (const double distance : {0.1, 0.2}) {
+      rig.relative.Execute = false;
+      rig.run(2);
+      rig.relative.Distance = distance;
+      rig.relative.Execute = true;
+      ASSERT_TRUE(rig.run_until([&] { return rig.relative.Done; }));
+    }
+    ASSERT_NE(rig.a.data.Position, 0.3) << "0.1 + 0.2";
+    rig.move.Position = 0.3;
+    rig.move.Direction = direction;
+    rig.move.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return rig.move.Done; }, 300)) << direction;
+    EXPECT_EQ(rig.a.data.Position, 0.3);
+    EXPECT_EQ(rig.a.data.ModuloCycle, 0);
+  }
+}
+
+TEST(MC_Home, ShiftsTheTargetThatARunningPositioningShows) {
+  for (const INT mode : {INT{0}, INT{1}, INT{11}, INT{12}}) {
+    OneAxis rig;
+    rig.home.Execute = false;
+    rig.relative.Distance = 100.0;
+    rig.relative.Execute = true;
+    rig.run(300);
+    const auto& status = rig.a.data.StatusPositioning;
+    ASSERT_NEAR(status.TargetPosition - rig.a.data.Position, status.Distance, 1e-9);
+    rig.continuity[0].velocity = false;  // the position is renamed
+    rig.home.Position = 1000.0;
+    rig.home.Mode = mode;
+    rig.home.Execute = true;
+    rig.run(2);
+    ASSERT_TRUE(rig.home.Done);
+    EXPECT_GT(status.TargetPosition, 1000.0);
+    EXPECT_NEAR(status.TargetPosition - rig.a.data.Position, status.Distance, 1e-9) << "mode " << mode;
+    ASSERT_TRUE(rig.run_until([&] { return rig.relative.Done; }));
+    EXPECT_EQ(rig.a.data.Position, status.TargetPosition);
+  }
+}
+
 TEST(ExecuteBlock, ShowsItsEndForOneCallWhenExecuteFellBefore) {
   OneAxis rig;
   rig.relative.Distance = 1.0;

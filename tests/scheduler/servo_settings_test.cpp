@@ -231,6 +231,42 @@ TEST(InverseDirection, OfOneOfThemEndsInTheFollowingError) {
   }
 }
 
+/// Without precontrol all of the velocity comes out of the control difference: five times the gain asks for
+/// five times the velocity.
+TEST(PositionControl, ChangesItsGainWithTheSmoothingTimeOfTheManipulatedVariable) {
+  for (const bool in_drive : {false, true}) {
+    for (const double time : {0.0, 0.05}) {
+      Driven m([&](Axis& slide) {
+        slide.data.PositionControl.Kpc = 0.0;
+        slide.data.PositionControl.EnableDSC = in_drive;
+        slide.data.PositionControl.SmoothingTimeByChangeDifference = time;
+        slide.data.FollowingError.EnableMonitoring = false;
+        slide.drive_settings.time_constant = 0.001;
+      });
+      m.settle_at(50.0);
+      const auto commanded = [&] {
+        const auto& data = m.slide.data;
+        const double difference = data.PositionControl.Kv * data.StatusServo.ControlDifference;
+        return data.VelocitySetpoint + (in_drive ? difference : 0.0);
+      };
+      ASSERT_NEAR(commanded(), 50.0, 0.1);
+      m.slide.data.PositionControl.Kv = 50.0;
+      double last = commanded() + (in_drive ? -40.0 * m.slide.data.StatusServo.ControlDifference : 0.0);
+      double most = 0.0;
+      for (int i = 0; i < 500; ++i) {
+        m.tick();
+        most = std::max(most, std::abs(commanded() - last));
+        last = commanded();
+      }
+      if (time > 0.0)
+        EXPECT_LT(most, 10.0) << (in_drive ? "DSC" : "");
+      else
+        EXPECT_GT(most, 150.0) << (in_drive ? "DSC" : "");
+      EXPECT_NEAR(commanded(), 50.0, 0.1);
+    }
+  }
+}
+
 TEST(LinearMotor, LimitsTheSetpointToItsMaximumVelocity) {
   Driven machine([](Axis& axis) {
     axis.data.Actor.MotorType = 1;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "fb/gear_in.hpp"
 #include "fb/home.hpp"
@@ -310,8 +311,14 @@ TEST(FixedStop, LetsOnlyMotionsAwayFromItStart) {
   EXPECT_TRUE(rig.limiting.Error);
   EXPECT_EQ(rig.limiting.ErrorID, static_cast<WORD>(ErrorId::clamping));
   EXPECT_TRUE(bit(rig.a, StatusBit::InClamping)) << "the function goes on";
+  EXPECT_TRUE(rig.limiting.InClamping && rig.limiting.InLimitation) << "and says so";
   rig.limiting.Enable = true;
   rig.run(2);
+  EXPECT_TRUE(rig.limiting.InClamping);
+  rig.limiting.Limit = std::numeric_limits<double>::quiet_NaN();
+  rig.run(2);
+  EXPECT_TRUE(rig.limiting.Error);
+  EXPECT_TRUE(bit(rig.a, StatusBit::InClamping));
   EXPECT_TRUE(rig.limiting.InClamping);
 }
 
@@ -333,6 +340,24 @@ TEST(FixedStop, IsLeftByAMotionAwayFromItWithoutAnAlarm) {
   // And it can be found again.
   rig.back.Execute = false;
   rig.clamp();
+}
+
+/// The axis pushes already when the function is switched on.
+TEST(FixedStop, IsNotFoundByAMotionThatBeginsAwayFromIt) {
+  Press rig;
+  rig.clamp();
+  rig.limiting.Mode = 0;
+  rig.run(10);
+  ASSERT_FALSE(rig.limiting.InClamping);
+  ASSERT_GT(rig.a.data.StatusPositioning.FollowingError, rig.a.data.Clamping.FollowingErrorDeviation);
+  rig.limiting.Mode = 1;
+  rig.run(10);
+  EXPECT_FALSE(rig.limiting.InClamping) << "nothing moves";
+  rig.back.Distance = -30.0;
+  rig.back.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return !rig.back.Busy; }, 5000));
+  EXPECT_TRUE(rig.back.Done);
+  EXPECT_FALSE(rig.limiting.InClamping);
 }
 
 TEST(FixedStop, TurningTowardsItWhileClampedEndsTheJob) {
