@@ -164,7 +164,7 @@ class Axis final : public LeadingObject {
 
   bool leading_value_stands() const noexcept override {
     const bool stands = setpoint_is_actual() ? !moving(setpoint_.velocity) : setpoint_.velocity == 0.0;
-    return stands && !handing_over_;
+    return stands && (!handing_over_ || hand_over_.finished());
   }
 
   AxisPosition actual_position() const noexcept override { return actual_; }

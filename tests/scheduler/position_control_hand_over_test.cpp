@@ -9,6 +9,7 @@
 #include "fb/gear_in.hpp"
 #include "fb/gear_in_velocity.hpp"
 #include "fb/home.hpp"
+#include "fb/leading_value.hpp"
 #include "fb/move.hpp"
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
@@ -297,6 +298,26 @@ TEST(PositionControlOfALeadingAxis, ThatComesBackToSomeIsThereForThoseThatCouple
     ASSERT_LE(rig.f.setpoint().velocity, 2.0 * (kSpeed + 500.0) + 1e-9) << "setpoint and maximum velocity";
   }
   EXPECT_EQ(rig.seen(), rig.l.data.Position);
+}
+
+/// A way back on which nobody is does not count as motion.
+TEST(PositionControlOfALeadingAxis, ThatComesBackToNobodyLetsASimulationBegin) {
+  Led rig(By::gear);
+  auto& gear = rig.block<MC_GearIn>();
+  auto& power = rig.block<MC_Power>();
+  auto& simulation = rig.block<MC_SynchronizedMotionSimulation>();
+  power.Axis = gear.Slave = simulation.Slave = &rig.late;
+  gear.Master = &rig.l;
+  power.Enable = true;
+  rig.run_leading(kSpeed, true, 6000);
+  rig.run_leading(kSpeed, false, 200);
+  rig.run_leading(0.0, true, 200);
+  gear.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return gear.InGear; }, 100));
+  ASSERT_EQ(rig.l.setpoint().velocity, 0.0);
+  simulation.Enable = true;
+  rig.run(2 * rig.controller.clock.interpolator_ratio);
+  EXPECT_TRUE(simulation.InSimulation);
 }
 
 TEST(PositionControlOfALeadingAxis, LeftAgainOnTheWayBackAndTakenUpIsNoStepEither) {
