@@ -75,8 +75,10 @@ bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, con
   }
   if (!(spare >= 0.0 && spare <= change)) return false;
   if (slope > kSteepest * gear) return false;
-  // Where braking gets longer by more than a turn any place would do: later.
-  if (following_.enabled && change > following_.length + std::abs(step)) return false;
+  // Where braking gets longer by more than a turn any place would do, and where a superimposed motion just
+  // speeds up, by more than its own length, the start has not been met: later.
+  const double most = following_.enabled ? following_.length : 0.5 * slope * distance;
+  if (job.mode == 1 && change > most + std::abs(step)) return false;
   out_way_ = heading * (braking + spare);
   out_distance_ = distance + spare / slope;
   set_out_position(last, target);
