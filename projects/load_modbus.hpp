@@ -49,6 +49,9 @@ std::size_t add_modbus_text(const ModbusEntry& shape, const StringTag& tag, cons
 void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* const> places,
                             Problems& problems);
 
+/// Reads where the last of the servers is and whom it lets in; the keys of its maps are not looked at.
+void load_modbus_place(const JsonValue& json, const Fields& fields, ModbusConfig& modbus, Problems& problems);
+
 /// Reads the keys of a serial line.
 SerialOptions read_serial(const JsonValue& json, Problems& problems);
 

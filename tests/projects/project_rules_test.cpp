@@ -779,5 +779,12 @@ INSTANTIATE_TEST_SUITE_P(
         Rule{kNew, R"({"set": "speed", "to": "1 / 2"})", kNew + "/to", "(column"},
         Rule{kConfig + "/Actor", R"({"Type": 0})", kConfig + "/Actor/Type", "no effect yet"}}));
 
+TEST(ModbusServers, ThatDoNotSayWhereTheyAreAreEachToldOf) {
+  const LoadedProject loaded = load_project(changed("/modbus/server", "[{}, {}]"));
+  ASSERT_EQ(loaded.problems.size(), 2u) << lines(loaded.problems);
+  EXPECT_EQ(loaded.problems[0].place, "/modbus/server/0");
+  EXPECT_EQ(loaded.problems[1].place, "/modbus/server/1");
+}
+
 }  // namespace
 }  // namespace lockstep
