@@ -279,7 +279,7 @@ class OneAxis {
   void watch() {
     const Seen before = last_;
     last_.setpoint = axis_.setpoint();
-    last_.led = axis_.position_controlled() ? axis_.leading_state(Coupling::setpoint) : axis_.setpoint();
+    last_.led = axis_.position_controlled() ? axis_.led_setpoint() : axis_.setpoint();
     last_.actual_velocity = axis_.data.ActualVelocity;
     last_.enabled =
         has_bit(axis_.data.StatusWord, StatusBit::Enable) || (axis_.stopping() && follows_setpoint());
