@@ -8,36 +8,14 @@
 namespace lockstep {
 namespace {
 
-/// How far the velocities of axis and gear may differ by rounding, as a share.
-constexpr double kRounding = 1e-9;
-
 /// Steepest beginning, as a multiple of the gear: where the leading value creeps below a superimposed motion,
-/// the axis would go for ever, and would be thrown once that speeds up.
-constexpr double kSteepest = 5.0;
-
-/// What the axis makes, heading somewhere, per way of the leading value in its direction: that of the gear,
-/// and what is superimposed and shifted.
-struct Course {
-  double slope = 0.0;  ///< 0: there is none to go on from, as the leading value stands
-  double curvature = 0.0;
-};
-Course course_of(const Setpoint& axis, int heading, const Setpoint& leading, int led, double gear) noexcept {
-  const double pace = led * leading.velocity;
-  if (pace == 0.0 && axis.velocity == 0.0) return {gear, 0.0};
-  if (!(pace > 0.0)) return {};
-  Course course{heading * axis.velocity / pace, 0.0};
-  const bool of_gear = std::abs(course.slope - gear) <= kRounding * gear;
-  if (of_gear) course.slope = gear;
-  const double push = led * leading.acceleration * course.slope;
-  const double more = heading * axis.acceleration - push;
-  if (!of_gear || std::abs(more) > kRounding * std::abs(push)) course.curvature = more / (pace * pace);
-  return course;
-}
+/// the axis would be thrown far beyond its stop position.
+constexpr double kSteepest = 20.0;
 
 }  // namespace
 
-/// Over a leading distance braking is the least curved way to rest from what the axis makes per leading way,
-/// with all that moves it. While the leading value stands it has not come to any start.
+/// Over a leading distance: while the leading value stands, whatever else moves the axis, it has not come to
+/// any start.
 bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
                                        const Dynamics& dynamics) noexcept {
   if (cam_ != nullptr) return meets_cam_out(job, last, candidate, dynamics);
@@ -48,24 +26,14 @@ bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, con
   const double target = normalised({0, job.position}, following_).value;
   const double distance = job.master_start_distance;
   const double gear = std::abs(ratio_);
-  double slope = gear, braking = 0.0, change = std::abs(step);
-  if (job.mode != 1) {
-    braking = stopping_way(last, heading, dynamics);
-  } else {
+  if (job.mode == 1) {
     if (!additive_->in_use && leading_->source->leads_as_it_is(leading_->coupling))
       leading_last_ = leading_->source->last_leading_state(leading_->coupling);
-    const int led = sign(leading_step().way());
-    const Course now = course_of(last, heading, leading_last_, led, gear);
-    const Course next = course_of(candidate, heading, leading_now_, led, gear);
-    if (led == 0 || !(now.slope > 0.0 && next.slope > 0.0)) return false;
-    const auto way_to_rest = [distance](const Course& course) noexcept {
-      const double curvature = without_turning_back(course.curvature, course.slope, distance);
-      return 0.5 * course.slope * distance + curvature * distance * distance / 12.0;
-    };
-    slope = now.slope;
-    braking = way_to_rest(now);
-    change += way_to_rest(next) - braking;
+    const double led = leading_step().way();
+    if (led == 0.0 || std::abs(last.velocity) > kSteepest * gear * std::abs(leading_last_.velocity))
+      return false;
   }
+  const double braking = job.mode == 1 ? 0.5 * gear * distance : stopping_way(last, heading, dynamics);
   if (!std::isfinite(braking)) return false;
   // Way to the stop position; on a ring as many turns more as braking needs.
   double spare = heading * (target - last.position.value) - braking;
@@ -73,14 +41,9 @@ bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, con
     spare = std::fmod(spare, following_.length);
     if (spare < 0.0) spare += following_.length;
   }
-  if (!(spare >= 0.0 && spare <= change)) return false;
-  if (slope > kSteepest * gear) return false;
-  // Where braking gets longer by more than a turn any place would do, and where a superimposed motion just
-  // speeds up, by more than its own length, the start has not been met: later.
-  const double most = following_.enabled ? following_.length : 0.5 * slope * distance;
-  if (job.mode == 1 && change > most + std::abs(step)) return false;
+  if (spare < 0.0 || spare > std::abs(step)) return false;
   out_way_ = heading * (braking + spare);
-  out_distance_ = distance + spare / slope;
+  out_distance_ = distance + spare / gear;
   set_out_position(last, target);
   return true;
 }

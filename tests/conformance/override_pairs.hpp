@@ -151,7 +151,6 @@ class Stage {
       job.set("Position", following);
     } else if (block == "MC_MoveSuperimposed") {
       job.set("Distance", 1e5);
-      job.set("VelocityDiff", kSlowly);
     } else if (is_single_axis(block) && block != "MC_Halt") {
       for (const char* pin : {"Position", "Distance"})
         if (job.type().find_pin(pin) != nullptr) job.set(pin, 1e5);
@@ -170,7 +169,6 @@ class Stage {
   }
 
   static constexpr double kLeadingVelocity = 20.0;  // [u/s]
-  static constexpr double kSlowly = 4.0;            // [u/s] on top of it
   static constexpr double kStartDistance = 15.0;    // [u] of the leading axis
   static constexpr double kSoon = 2.0;              // [u] until a waiting job starts
   static constexpr double kFar = 80.0;              // [u]; within one turn of the leading axis
@@ -330,27 +328,22 @@ inline std::vector<Situation> motion_in_situations(const std::string& block) {
   return {controlled, uncontrolled};
 }
 
-/// On top of no motion, of a single-axis one and of a synchronous one. There it is slow: MC_GearOut over a
-/// distance waits while the axis makes much more than its gear.
+/// On top of no motion, of a single-axis one and of a synchronous one.
 inline std::vector<Situation> superimposed_situations(const std::string& block) {
   const auto on_top = [block](bool moving, bool gear) {
     return [=](Stage& stage) {
-      const auto move_on = [gear](Subject& superimposed) {
-        superimposed.set("Distance", 1e5);
-        if (gear) superimposed.set("VelocityDiff", Stage::kSlowly);
-      };
       if (gear) stage.bench.couple();
       if (moving) stage.start_single_axis("MC_MoveVelocity");
       stage.bench.run(10);
       if (block == "MC_HaltSuperimposed") {  // it needs something to halt, and time for it
         Subject& superimposed = stage.make("MC_MoveSuperimposed");
-        move_on(superimposed);
+        superimposed.set("Distance", 1e5);
         superimposed.start(true);
         stage.bench.run(50);
       }
       Subject& job = stage.make(block);
-      if (block == "MC_MoveSuperimposed") move_on(job);
-      if (block == "MC_HaltSuperimposed") job.set("Deceleration", gear ? 0.5 : 20.0);
+      if (block == "MC_MoveSuperimposed") job.set("Distance", 1e5);
+      if (block == "MC_HaltSuperimposed") job.set("Deceleration", 20.0);
       job.start(true);
       stage.bench.run(10);
       return &job;
@@ -358,7 +351,6 @@ inline std::vector<Situation> superimposed_situations(const std::string& block) 
   };
   Situation gear{.name = "on a gear", .bring_about = on_top(false, true)};
   gear.gear = gear.moves_with_leading = gear.synchronous = true;
-  gear.before_gear_out = 20.0;
   return {{.name = "alone", .bring_about = on_top(false, false)},
           {.name = "on a motion", .bring_about = on_top(true, false)},
           gear};

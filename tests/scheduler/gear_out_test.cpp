@@ -94,38 +94,6 @@ TEST(MC_GearOutOverADistance, DoesNotBeginWhileTheLeadingValueStands) {
   EXPECT_EQ(rig.f.data.Position, 50.0);
 }
 
-TEST(MC_GearOutOverADistance, ComesToRestWithoutTurningBackBesideASuperimposedMotion) {
-  for (const bool ring : {false, true})
-    for (const double more : {-60.0, -20.0, 50.0, 100.0, 300.0}) {
-      Geared rig(ring);
-      rig.run_leading(100.0, 500);
-      rig.superimpose.Distance = std::copysign(1000.0, more);
-      rig.superimpose.VelocityDiff = std::abs(more);
-      rig.superimpose.Acceleration = 2000.0;
-      rig.superimpose.Execute = true;
-      rig.run(500);
-      ASSERT_NEAR(rig.f.setpoint().velocity, 100.0 + more, 1e-9);
-      rig.out.SlavePosition = ring ? 70.0 : 500.0;
-      rig.desynchronize(20000);
-      EXPECT_TRUE(rig.superimpose.CommandAborted) << more;
-    }
-}
-
-TEST(MC_GearOutOverADistance, BeginsWhileASuperimposedMotionSpeedsUp) {
-  for (int wait = 0; wait < 60; ++wait) {
-    Geared rig;
-    rig.run_leading(100.0, 500);
-    rig.superimpose.Distance = 1000.0;
-    rig.superimpose.VelocityDiff = 100.0;
-    rig.superimpose.Acceleration = 2000.0;
-    rig.out.SlavePosition = 200.0;
-    rig.out.Execute = true;
-    ASSERT_TRUE(rig.run_until([&] { return rig.f.data.Position > 112.0 + wait; }));
-    rig.superimpose.Execute = true;
-    rig.desynchronize(3000);
-  }
-}
-
 /// It waits until the superimposed motion has come down to the leading value.
 TEST(MC_GearOutOverADistance, IsNoThrowWhereTheLeadingValueCreeps) {
   Geared rig(true);
