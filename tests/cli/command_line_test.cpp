@@ -48,8 +48,8 @@ TEST(CommandLine, AWrongOneExitsWith2AndSaysSoOnStandardError) {
 
 // The loop of position control leaves ever less of a deviation, 1e-200 in the end.
 TEST(CommandLine, ARunShowsAnAxisThatHasComeToRestAtZeroThere) {
-  const Ended ended = lockstep({"run", LOCKSTEP_SOURCE_DIR "/projects/09_flying_saw/project.json",
-                                "--simulate", "--duration", "20s", "--no-retain"});
+  const std::string project = LOCKSTEP_SOURCE_DIR "/projects/09_flying_saw/project.json";
+  const Ended ended = lockstep({"run", project, "--simulate", "--duration", "20s", "--no-retain"});
   EXPECT_EQ(ended.status, 0);
   EXPECT_NE(ended.err.find("  Saw       standing       at 0;"), std::string::npos) << ended.err;
 }
