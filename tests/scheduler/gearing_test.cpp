@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "fb/gear_in.hpp"
+#include "fb/gear_in_velocity.hpp"
 #include "fb/home.hpp"
 #include "fb/leading_value.hpp"
+#include "fb/motion_in.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
@@ -386,6 +388,30 @@ TEST(MC_GearIn, HomingTheFollowingAxisRenamesItsPositionWithoutMotion) {
   rig.continuity[1].velocity = true;
   rig.run(100);
   EXPECT_NEAR(rig.f.data.Position, renamed + 5.0, 1e-9);
+}
+
+/// What led the axis until then may have had any acceleration; its jerk alone would take seconds to run it
+/// down.
+TEST(MC_GearIn, DropsAnAccelerationThatWouldCarryTheAxisBeyondItsVelocityLimit) {
+  for (const bool velocity_only : {false, true}) {
+    Pair rig;
+    auto& given = rig.block<MC_MotionInVelocity>();
+    auto& follow = rig.block<MC_GearInVelocity>();
+    given.Axis = &rig.f;
+    follow.Master = &rig.l;
+    follow.Slave = &rig.f;
+    rig.start_leading(20.0);
+    given.Velocity = 40.0;
+    given.Acceleration = 1e5;
+    given.Enable = true;
+    ASSERT_TRUE(rig.run_until([&] { return rig.f.setpoint().velocity == 40.0; }));
+    (velocity_only ? follow.Execute : rig.gear.Execute) = true;
+    ASSERT_TRUE(rig.run_until([&] {
+      EXPECT_LE(rig.f.setpoint().velocity, rig.f.data.DynamicLimits.MaxVelocity);
+      return velocity_only ? static_cast<bool>(follow.InSync) : static_cast<bool>(rig.gear.InGear);
+    }));
+    EXPECT_TRUE(given.CommandAborted);
+  }
 }
 
 // ---- MC_GearInPos
