@@ -8,12 +8,13 @@
 namespace lockstep {
 
 void Axis::begin_gear_in(Job& job) noexcept {
-  const Dynamics dynamics = effective_dynamics(job);
+  absorb_superimposed();
+  cut_acceleration();
+  const Dynamics dynamics = own_dynamics(job);
   if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
   }
-  absorb_superimposed();
   running_[kBase] = &job;
   job.phase = JobPhase::active;
   set_position_control(job.position_controlled);
