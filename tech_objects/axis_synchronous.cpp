@@ -3,25 +3,9 @@
 
 #include "tech_objects/axis.hpp"
 #include "tech_objects/cam.hpp"
+#include "tech_objects/function_state.hpp"
 
 namespace lockstep {
-namespace {
-
-/// Value of StatusSynchronizedMotion.FunctionState and WaitingFunctionState for a job.
-DINT function_state(JobKind kind) noexcept {
-  switch (kind) {
-    case JobKind::MC_GearIn:
-      return 1;
-    case JobKind::MC_CamIn:
-      return 3;
-    case JobKind::MC_GearInVelocity:
-      return 6;
-    default:
-      return 2;  // MC_GearInPos
-  }
-}
-
-}  // namespace
 
 void Axis::begin_gear_in(Job& job) noexcept {
   absorb_superimposed();
@@ -44,7 +28,8 @@ void Axis::begin_waiting(Job& job) noexcept {
   if (error != ErrorId::none) return job.fail(error);
   running_[kWaiting] = &job;
   job.phase = JobPhase::waiting;
-  data.StatusSynchronizedMotion.WaitingFunctionState = function_state(job.kind);
+  data.StatusSynchronizedMotion.WaitingFunctionState =
+      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
   coupling_changed = true;
 }
 
@@ -74,7 +59,8 @@ void Axis::activate_waiting(Motion motion) noexcept {
   if (locked_by_stop()) return end_job(kWaiting, JobPhase::failed, ErrorId::locked);
   if (simulating()) return end_job(kWaiting, JobPhase::failed, ErrorId::simulated);
   running_[kWaiting] = nullptr;
-  data.StatusSynchronizedMotion.WaitingFunctionState = 0;
+  data.StatusSynchronizedMotion.WaitingFunctionState =
+      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
   const bool at_cam_end = job.kind == JobKind::MC_CamIn && job.mode == kAtCamEnd;
   if (at_cam_end && running_[kBase] != nullptr) {
     ++running_[kBase]->ends;
