@@ -8,9 +8,9 @@ void TorqueBlock::call(std::int64_t /*now*/) noexcept {
   const ErrorId error = Enable ? enabled(rising) : disabled();
   const bool active = Axis != nullptr && owner() == this;
   Error = error != ErrorId::none;
-  Busy = active && !Error;
+  Busy = active;  // also beside an error that does not end what the axis does
   ErrorID = static_cast<WORD>(error);
-  show(active);  // an input that is not permitted does not end what the axis does
+  show(active);
 }
 
 /// What was rejected stays so until Enable falls.

@@ -139,6 +139,7 @@ void Axis::begin_braking(INT stop_mode) noexcept {
 
 void Axis::switch_off() noexcept {
   absorb_superimposed();
+  leave_synchronous();
   if (has_drive_) control_drive(kControlOff);
   power_state_ = PowerState::off;
   hand_over_due_ |= has_drive_ && motion_ != Motion::none;
@@ -162,7 +163,8 @@ void Axis::follow_actual() noexcept {
 /// late.
 void Axis::set_position_control(bool on) noexcept {
   if (!has_position()) return;
-  if (on && !position_controlled_ && has_drive_) {
+  const bool left = has_bit(data.StatusWord, StatusBit::NonPositionControlled);  // not only in this tick
+  if (on && !position_controlled_ && left && has_drive_) {
     setpoint_.position = advanced(actual_, actual_velocity_ * setpoint_delay(), modulo_);
     last_setpoint_.position = setpoint_.position;
     reset_servo({setpoint_.position, actual_velocity_});

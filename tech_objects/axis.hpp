@@ -300,7 +300,7 @@ class Axis final : public LeadingObject {
   double position_shift(double home_position) const noexcept;
   void shift_positions(double by) noexcept;
   void shift_coupling(double by) noexcept;
-  void rename_target() noexcept;
+  void show_renamed() noexcept;
 
   // axis_sensors.cpp: the encoders
   /// An encoder; of the operative one, origin and sign are `encoder_origin_` and `encoder_sign_`.
@@ -323,6 +323,7 @@ class Axis final : public LeadingObject {
   double encoder_ratio() const noexcept;
   DoubleDouble travel(std::size_t sensor) const noexcept;
   void show_sensor() noexcept;
+  void show_place(std::size_t sensor, AxisPosition place) noexcept;
   void read_sensors(DriveActual& now) noexcept;
   void show_beside(std::size_t sensor, bool failed) noexcept;
   AxisPosition sensor_position(std::size_t sensor) const noexcept;
@@ -440,7 +441,9 @@ class Axis final : public LeadingObject {
   Dynamics first_room() noexcept;
   void follow_room() noexcept;
   void replan_stop() noexcept;
-  void leave_to_superimposed(Dynamics& dynamics) noexcept;
+  double velocity_left_by_base(int side) const noexcept;
+  bool stays_against_superimposed(const Job* job, const Dynamics& dynamics) const noexcept;
+  void leave_to_superimposed(const Job* job, Dynamics& dynamics) noexcept;
   bool superimposed_runs_down() const noexcept;
   void step_superimposed() noexcept;
   void advance_superimposed_in_view() noexcept;
@@ -470,6 +473,7 @@ class Axis final : public LeadingObject {
   void take_servo_settings() noexcept;
   PositionControlSettings control_settings() const noexcept;
   double way_per_motor_turn() const noexcept;
+  double motor_angle_per_unit() const noexcept;
   void limit_speed() noexcept;
   void control_position() noexcept;
   void show_execution_time() noexcept;
@@ -478,7 +482,6 @@ class Axis final : public LeadingObject {
   void reset_servo(const ServoSetpoint& setpoint) noexcept;
   void delay_following_error(const PositionControlled& controlled) noexcept;
   void shift_servo(double by) noexcept;
-
   void idle_servo() noexcept;
   /// Dynamic servo control: the drive closes the position loop, on its own encoder.
   bool loop_in_drive() const noexcept { return data.PositionControl.EnableDSC && operative_ == 0; }
@@ -488,8 +491,6 @@ class Axis final : public LeadingObject {
   double backlash_offset() const noexcept { return data.Sensor[0].Backlash.Enable ? backlash_.passed : 0.0; }
   /// The play lies between the motor, with its encoder, and the load: another encoder sees it by itself.
   bool passes_backlash() const noexcept { return data.Sensor[0].Backlash.Enable && operative_ == 0; }
-
-  double motor_angle_per_unit() const noexcept;
 
   // axis_forces.cpp: torque limiting, torque data, fixed stop
   void step_forces() noexcept;
@@ -589,7 +590,6 @@ class Axis final : public LeadingObject {
   alignas(kCacheLine) double planned_override_ = 100.0;
   std::uint64_t planned_limits_ = 0;  // what tells a change of DynamicLimits
   SingleAxisMotion single_;
-
   std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
 
   // Superimposed motion.

@@ -3,16 +3,12 @@
 #include <cmath>
 
 #include "tech_objects/axis.hpp"
+#include "tech_objects/function_state.hpp"
 
 namespace lockstep {
 namespace {
 
 constexpr DINT kOverDistance = 1;  // SyncProfileReference
-
-/// Value of FunctionState and WaitingFunctionState.
-DINT out_state(const Job& job) noexcept {
-  return job.kind == JobKind::MC_CamOut ? 5 : 4;
-}
 
 /// Turns by which a position has to be moved to lie next to a place.
 std::int64_t turns_between(AxisPosition position, AxisPosition place, const Modulo& modulo) noexcept {
@@ -37,7 +33,8 @@ void Axis::begin_sync_out(Job& job) noexcept {
   }
   running_[kWaitingOut] = &job;
   job.phase = JobPhase::waiting;
-  data.StatusSynchronizedMotion.WaitingFunctionState = out_state(job);
+  data.StatusSynchronizedMotion.WaitingFunctionState =
+      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
 }
 
 /// Each tick while desynchronizing waits; true if it has begun and the setpoint is made. It looks at where
@@ -51,7 +48,8 @@ bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
   if (job.mode != kOverDistance) from.acceleration = tolerable_acceleration();
   if (!there && !synchronous_.meets_sync_out(job, from, candidate, dynamics)) return false;
   running_[kWaitingOut] = nullptr;
-  data.StatusSynchronizedMotion.WaitingFunctionState = 0;
+  data.StatusSynchronizedMotion.WaitingFunctionState =
+      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
   if (!override_running(class_of(job, true), job)) return false;
   absorb_superimposed();
   running_[kBase] = &job;
@@ -74,7 +72,7 @@ void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
     synchronous_.begin_sync_out(setpoint_);
     motion_ = Motion::desynchronizing;
     auto& status = data.StatusSynchronizedMotion;
-    status.FunctionState = out_state(job);
+    status.FunctionState = function_state(job.kind);
     status.PhaseShift = status.Offset = 0.0;
     return step_synchronous();
   }
@@ -82,7 +80,7 @@ void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
   const AxisPosition position = synchronous_.sync_out_position();
   leave_synchronous();
   cut_acceleration();
-  data.StatusSynchronizedMotion.FunctionState = out_state(job);
+  data.StatusSynchronizedMotion.FunctionState = function_state(job.kind);
   Dynamics own = dynamics;
   own.acceleration = own.deceleration;
   own.velocity = std::max(own.velocity, std::abs(setpoint_.velocity));
@@ -96,7 +94,7 @@ void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
 /// The following axis has come to rest at its stop position.
 void Axis::end_desynchronizing() noexcept {
   leave_synchronous();
-  data.StatusSynchronizedMotion.FunctionState = out_state(*running_[kBase]);
+  data.StatusSynchronizedMotion.FunctionState = function_state(running_[kBase]->kind);
   setpoint_.velocity = 0.0;
   setpoint_.acceleration = 0.0;
   single_.stand(setpoint_);

@@ -3,6 +3,7 @@
 // up again, without which they see zero. For them there is no step: what they see goes on from where it has
 // been and comes over with maximum dynamics.
 #include "tech_objects/axis.hpp"
+#include "tech_objects/zero_on_turn.hpp"
 
 namespace lockstep {
 
@@ -41,7 +42,7 @@ void Axis::lead_with_position_control(bool on) noexcept {
   if (!on) return lead_with_zero();
   if (uncontrolled_.times == 0) return;  // a speed axis, or one that has been off since its start
   const Setpoint course = handing_over_ ? handed_over() : setpoint_;
-  uncontrolled_.zero = normalised({course.position.turns, 0.0}, modulo_);
+  uncontrolled_.zero = zero_on_turn(course.position.turns, modulo_);
   const double way = rounded_difference(uncontrolled_.zero, course.position, modulo_);
   uncontrolled_.returning = run_down(return_, {{0, way}, -course.velocity, -course.acceleration});
   uncontrolled_.now = {uncontrolled_.zero, 0.0, 0.0};

@@ -108,7 +108,7 @@ void Axis::home_directly(Job& job) noexcept {
     if (!has_drive_) actual_ = setpoint_.position;
   }
   if (job.mode == 7) counted_from_ = actual_.turns;
-  rename_target();
+  show_renamed();
   if (adjusts_encoder(job)) adjust_encoder(operative_, true);
   homed_ = true;
   job.mark_position = relative ? actual_.value : job.position;
@@ -132,6 +132,7 @@ void Axis::home_sensor_beside(Job& job) noexcept {
   encoder.origin = advanced(encoder.origin, by - encoder.lent, modulo_);
   encoder.seen = advanced(encoder.seen, by, modulo_);
   encoder.lent = 0.0;
+  show_place(sensor, encoder.seen);
   adjust_encoder(sensor, true);
   job.mark_position = job.mode == 6 ? encoder.seen.value : job.position;
   job.phase = JobPhase::done;
@@ -314,7 +315,7 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
   since_target_ticks_ = 0;
   remember_limits();
   Dynamics dynamics = own_dynamics(job);
-  if (advancing_base_) leave_to_superimposed(dynamics);
+  if (advancing_base_) leave_to_superimposed(&job, dynamics);
   if (plan(job, dynamics) == PlanResult::ok) return;
   end_job(kBase, JobPhase::failed, ErrorId::unspecified);
   begin_stop(maximum_dynamics(), false);
@@ -345,7 +346,7 @@ bool Axis::assign_position(AxisPosition place, double position) noexcept {
   if (modulo_.enabled && !absolute_encoder()) {
     counted_from_ = first_turn(advanced(place, by, modulo_), modulo_);
   }
-  rename_target();
+  show_renamed();
   homed_ = true;
   adjust_encoder(operative_, false);
   return true;
@@ -388,11 +389,15 @@ void Axis::shift_positions(double by) noexcept {
   if (has_drive_) shift_servo(by);
 }
 
-/// The target of a running positioning is where it was, and has another name now.
-void Axis::rename_target() noexcept {
+/// What has been shown in this tick is where it was, and has other names now: the target of a running
+/// positioning, and what MC_Servo shows.
+void Axis::show_renamed() noexcept {
   const bool positioning = motion_ == Motion::single_axis && running_[kBase] != nullptr &&
                            single_.aim() == SingleAxisMotion::Aim::position;
   if (positioning) show_target(single_.target());
+  if (!has_drive_) return;
+  for (std::size_t i = 0; i < kSensors; ++i)
+    if (i == operative_ || sensor_exists(i)) show_place(i, sensor_position(i));
 }
 
 }  // namespace lockstep

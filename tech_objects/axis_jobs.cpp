@@ -3,6 +3,7 @@
 
 #include "tech_objects/axis.hpp"
 #include "tech_objects/cam.hpp"
+#include "tech_objects/function_state.hpp"
 
 namespace lockstep {
 namespace {
@@ -235,7 +236,8 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   if (job->kind == JobKind::MC_Home) leave_homing(*job);
   if (slot == kBase && leaves(job->kind)) data.StatusSynchronizedMotion.FunctionState = 0;
   if (slot == kWaiting || slot == kWaitingOut) {
-    data.StatusSynchronizedMotion.WaitingFunctionState = 0;
+    data.StatusSynchronizedMotion.WaitingFunctionState =
+        waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
     coupling_changed = true;
   }
 }

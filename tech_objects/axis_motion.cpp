@@ -317,7 +317,7 @@ void Axis::step_single_axis() noexcept {
   dynamics.jerk = sufficient_jerk(dynamics.jerk, jerk_before, setpoint_.acceleration, room_to_limit());
   if (dynamics.acceleration <= 0.0 || dynamics.deceleration <= 0.0)
     return raise(alarm::kAccelerationLimitZero);
-  if (advancing_base_) leave_to_superimposed(dynamics);
+  if (advancing_base_) leave_to_superimposed(&job, dynamics);
   PlanResult result = PlanResult::ok;
   if (jog || job.kind == JobKind::MC_Home || job.kind == JobKind::MC_MoveVelocity) {
     result = plan(job, dynamics);

@@ -123,9 +123,13 @@ void Axis::show_beside(std::size_t sensor, bool failed) noexcept {
   status.Error = failed;
   status.State = failed ? 0 : kSensorValid;
   if (!failed) encoder.seen = advanced(encoder.origin, travel(sensor), modulo_);
-  status.Position = encoder.seen.value;
   status.Velocity = failed ? 0.0 : encoder.velocity * encoder.sign;
-  status.ModuloCycle = static_cast<DINT>(encoder.seen.turns - counted_from_);
+  show_place(sensor, encoder.seen);
+}
+
+void Axis::show_place(std::size_t sensor, AxisPosition place) noexcept {
+  data.StatusSensor[sensor].Position = place.value;
+  data.StatusSensor[sensor].ModuloCycle = static_cast<DINT>(place.turns - counted_from_);
 }
 
 // ---- MC_SetSensor

@@ -116,9 +116,8 @@ void Axis::servo() noexcept {
                        modulo_);
   data.ActualAcceleration = (now.velocity - actual_velocity_) / servo_period_;
   actual_velocity_ = now.velocity;
-  data.StatusSensor[operative_].Position = actual_.value;
   data.StatusSensor[operative_].Velocity = actual_velocity_;
-  data.StatusSensor[operative_].ModuloCycle = static_cast<DINT>(actual_.turns - counted_from_);
+  show_place(operative_, actual_);
   data.ActualSpeed = actual_velocity_ / way_per_motor_turn_ * 60.0;
 
   ++servo_tick_;
@@ -227,6 +226,9 @@ void Axis::shift_servo(double by) noexcept {
   last_balanced_ = advanced(last_balanced_, by, modulo_);
   encoder_origin_ = advanced(encoder_origin_, by, modulo_);
   controller_.shift(by, modulo_);
+  auto& shown = data.StatusServo;
+  shown.BalancedPosition = last_balanced_.value;
+  shown.PositionAfterDynamicFilter = advanced({0, shown.PositionAfterDynamicFilter}, by, modulo_).value;
 }
 
 }  // namespace lockstep

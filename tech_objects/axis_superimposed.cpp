@@ -144,27 +144,32 @@ Dynamics Axis::superimposed_room() const noexcept {
 Dynamics Axis::left_by_base() const noexcept {
   Dynamics left = maximum_dynamics();
   left.acceleration = left.deceleration = std::min(left.acceleration, left.deceleration);
-  const double speed = std::abs(base_.velocity);
-  if (motion_ != Motion::single_axis || (single_.finished() && running_[kBase] == nullptr)) {
-    left.velocity = rest_of(left.velocity, speed);
-    return left;
-  }
+  left.velocity = velocity_left_by_base(superimposed_.direction());
+  if (motion_ != Motion::single_axis || (single_.finished() && running_[kBase] == nullptr)) return left;
   const Dynamics used = single_.demand(base_);
   const bool changes = !single_.finished();
   const auto share = [changes](double limit, double part) {
     return changes ? rest_of(limit, part) : std::max(limit - part, 0.5 * limit);
   };
-  left.velocity = rest_of(left.velocity, changes ? used.velocity : speed);
   left.acceleration = left.deceleration = share(left.acceleration, used.acceleration);
   left.jerk = share(left.jerk, used.jerk);
   return left;
 }
 
+/// What is left of the velocity limit in a direction, 1 or -1; 0: in either [u/s] ≥ 0.
+double Axis::velocity_left_by_base(int side) const noexcept {
+  const bool changes = motion_ == Motion::single_axis && !single_.finished();
+  double used = side == 0 ? std::abs(base_.velocity) : std::max(side * base_.velocity, 0.0);
+  if (changes) used = side == 0 ? single_.demand(base_).velocity : single_.fastest(base_, side);
+  return rest_of(velocity_limit(), used);
+}
+
 /// The velocity limit counts more than the jerk: a present acceleration is run down before it is exceeded.
 Dynamics Axis::quick_enough(Dynamics room) noexcept {
   const double a = superimposed_.acceleration();
-  const double towards = a < 0.0 ? -superimposed_.velocity() : superimposed_.velocity();
-  const double left = rest_of(led() ? velocity_limit() : left_by_base().velocity, towards);
+  const int side = a < 0.0 ? -1 : 1;
+  const double most = led() ? velocity_limit() : velocity_left_by_base(side);
+  const double left = rest_of(most, side * superimposed_.velocity());
   const double most_jerk = data.DynamicLimits.MaxJerk;
   if (room.jerk > 0.0 && a * a > 2.0 * room.jerk * left)
     room.jerk = std::min(a * a / (2.0 * left), most_jerk);
@@ -172,14 +177,32 @@ Dynamics Axis::quick_enough(Dynamics room) noexcept {
   return room;
 }
 
+/// Whether a base motion that is planned anew with these values leaves a motion against it as it is.
+bool Axis::stays_against_superimposed(const Job* job, const Dynamics& dynamics) const noexcept {
+  const int side = superimposed_.direction();
+  if (job == nullptr || side == 0 || single_.fastest(base_, side) > 0.0) return false;
+  const Dynamics& before = single_.dynamics();
+  const bool less_jerk = dynamics.jerk > 0.0 && (before.jerk <= 0.0 || dynamics.jerk < before.jerk);
+  switch (job->kind) {
+    case JobKind::MC_MoveVelocity:
+      return side * job->velocity <= 0.0;
+    case JobKind::MC_MoveJog:
+      return side * job->direction <= 0;
+    case JobKind::MC_MoveAbsolute:
+    case JobKind::MC_MoveRelative:  // with less it may pass its target and come back
+      return dynamics.deceleration >= before.deceleration && !less_jerk;
+    default:
+      return false;
+  }
+}
+
 /// A base motion that is planned anew keeps to what the superimposed motion under way leaves, within a step.
 /// What that only runs down yet it is given back later.
-void Axis::leave_to_superimposed(Dynamics& dynamics) noexcept {
+void Axis::leave_to_superimposed(const Job* job, Dynamics& dynamics) noexcept {
   const Dynamics& used = superimposed_uses_;
   if (used.acceleration <= 0.0 || led()) return;
   const Dynamics whole = dynamics;
   const Dynamics most = maximum_dynamics();
-  dynamics.velocity = std::min(dynamics.velocity, rest_of(most.velocity, used.velocity));
   const auto curb = [](double& value, double left) {
     if (left > 0.0) value = std::min(value, left);
   };
@@ -187,6 +210,8 @@ void Axis::leave_to_superimposed(Dynamics& dynamics) noexcept {
   curb(dynamics.acceleration, most.acceleration - used.acceleration);
   curb(dynamics.deceleration, most.deceleration - used.acceleration);
   if (dynamics.jerk > 0.0 && used.jerk > 0.0) curb(dynamics.jerk, most.jerk - used.jerk);
+  if (!stays_against_superimposed(job, dynamics))
+    dynamics.velocity = std::min(dynamics.velocity, rest_of(most.velocity, used.velocity));
   keep_below_limit(dynamics);
   base_curbed_ |= dynamics != whole;
   curbed_for_a_while_ = base_curbed_ && superimposed_runs_down();
@@ -223,7 +248,7 @@ void Axis::replan_stop() noexcept {
     return;
   const double jerk = single_.dynamics().jerk;
   Dynamics dynamics = job != nullptr ? own_dynamics(*job) : single_.dynamics();
-  leave_to_superimposed(dynamics);
+  leave_to_superimposed(job, dynamics);
   const double v = setpoint_.velocity, a = setpoint_.acceleration;
   if (dynamics.jerk > 0.0 && a * v < 0.0)
     dynamics.jerk = std::max(dynamics.jerk, std::min(jerk, a * a / (2.0 * std::abs(v))));

@@ -87,10 +87,11 @@ void Axis::watch_limit_switch(int side, double place) noexcept {
     raise(alarm::kHardwareLimitSwitch, limit_switch_reaction());
 }
 
-/// Beyond a switch the axis may only come back: another setpoint ends in the alarm before anyone sees it.
+/// Beyond a switch the axis may only come back: another setpoint ends in the alarm before anyone sees it. Not
+/// so where homing turns round, or has given up there and brakes.
 void Axis::hold_limit_switches() noexcept {
   if (power_state_ != PowerState::on && power_state_ != PowerState::braking) return;
-  if (homing_reverses()) return;
+  if (homing_reverses() || data.ErrorDetail.Number == alarm::kMarkNotFound) return;
   const double v = setpoint_.velocity;
   const auto forbids = [v](const LimitSwitch& limit, int side) {
     return limit.beyond && (side * v > 0.0 || (limit.locked && v != 0.0));

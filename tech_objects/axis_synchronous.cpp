@@ -3,33 +3,18 @@
 
 #include "tech_objects/axis.hpp"
 #include "tech_objects/cam.hpp"
+#include "tech_objects/function_state.hpp"
 
 namespace lockstep {
-namespace {
-
-/// Value of StatusSynchronizedMotion.FunctionState and WaitingFunctionState for a job.
-DINT function_state(JobKind kind) noexcept {
-  switch (kind) {
-    case JobKind::MC_GearIn:
-      return 1;
-    case JobKind::MC_CamIn:
-      return 3;
-    case JobKind::MC_GearInVelocity:
-      return 6;
-    default:
-      return 2;  // MC_GearInPos
-  }
-}
-
-}  // namespace
 
 void Axis::begin_gear_in(Job& job) noexcept {
-  const Dynamics dynamics = effective_dynamics(job);
+  absorb_superimposed();
+  cut_acceleration();
+  const Dynamics dynamics = own_dynamics(job);
   if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
   }
-  absorb_superimposed();
   running_[kBase] = &job;
   job.phase = JobPhase::active;
   set_position_control(job.position_controlled);
@@ -43,7 +28,8 @@ void Axis::begin_waiting(Job& job) noexcept {
   if (error != ErrorId::none) return job.fail(error);
   running_[kWaiting] = &job;
   job.phase = JobPhase::waiting;
-  data.StatusSynchronizedMotion.WaitingFunctionState = function_state(job.kind);
+  data.StatusSynchronizedMotion.WaitingFunctionState =
+      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
   coupling_changed = true;
 }
 
@@ -73,7 +59,8 @@ void Axis::activate_waiting(Motion motion) noexcept {
   if (locked_by_stop()) return end_job(kWaiting, JobPhase::failed, ErrorId::locked);
   if (simulating()) return end_job(kWaiting, JobPhase::failed, ErrorId::simulated);
   running_[kWaiting] = nullptr;
-  data.StatusSynchronizedMotion.WaitingFunctionState = 0;
+  data.StatusSynchronizedMotion.WaitingFunctionState =
+      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
   const bool at_cam_end = job.kind == JobKind::MC_CamIn && job.mode == kAtCamEnd;
   if (at_cam_end && running_[kBase] != nullptr) {
     ++running_[kBase]->ends;

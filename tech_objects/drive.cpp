@@ -134,10 +134,12 @@ void SimulatedDrive::run_position_loop() noexcept {
   }
 }
 
-/// Off, or on the way there: 0, or down the ramp of OFF3.
+/// Off, or on the way there: 0, or down the ramp of OFF3. That is nowhere ahead of the machine: where
+/// something has held it back, or does, the drive would speed it up in place of stopping it.
 double SimulatedDrive::quick_stop_setpoint() noexcept {
   if (quick_stop_ <= 0.0 || states_.state() != DriveStates::State::quick_stop) return 0.0;
   const double step = quick_stop_ * servo_cycle_;
+  ramp_ = std::clamp(ramp_, std::min(velocity_, 0.0), std::max(velocity_, 0.0));
   ramp_ -= std::clamp(ramp_, -step, step);
   return ramp_;
 }

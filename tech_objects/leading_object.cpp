@@ -1,6 +1,7 @@
 #include "tech_objects/leading_object.hpp"
 
 #include "tech_objects/override.hpp"
+#include "tech_objects/zero_on_turn.hpp"
 
 namespace lockstep {
 namespace {
@@ -46,10 +47,12 @@ void LeadingObject::shift_leading(double by) noexcept {
 /// The turn is the one on which they are: nobody turns back over the turns that have been made.
 void LeadingObject::lead_with_zero() noexcept {
   const bool returning = uncontrolled_.returning;
-  const std::int64_t turns = (returning ? uncontrolled_.now : led_setpoint()).position.turns;
-  ++uncontrolled_.times;
-  uncontrolled_.zero = normalised({turns, 0.0}, modulo_);
   uncontrolled_.returning = false;
+  const Setpoint& now = uncontrolled_.now;
+  const bool still_there = now.velocity == 0.0 && now.position == uncontrolled_.zero;
+  if (returning && still_there) return;  // taken up in this very tick, which nobody has seen
+  ++uncontrolled_.times;
+  uncontrolled_.zero = zero_on_turn((returning ? now : led_setpoint()).position.turns, modulo_);
 }
 
 void LeadingObject::count_homing(const Job& job) noexcept {

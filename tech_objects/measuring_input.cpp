@@ -197,7 +197,10 @@ void MeasuringInput::measure_once(const Edges& seen) noexcept {
     if (may_tell()) end(JobPhase::done, ErrorId::none);
     return;
   }
-  if (!range_passed()) return;
+  // An edge that belongs to the range may be seen as late as the correction says.
+  const auto now = static_cast<std::int64_t>(tick_);
+  if (range_left_ < 0 && range_passed()) range_left_ = now;
+  if (range_left_ < 0 || static_cast<double>(now - range_left_) < correction) return;
   raise_alarm(alarm::kMeasuringRangePassed, ProcessingEnd::measuring_input, *this, data);
   end_in_error(ErrorId::measuring_range);
 }
@@ -290,6 +293,7 @@ ErrorId MeasuringInput::begin(Job& job) noexcept {
   if (by_telegram()) measured->telegram_probe = this;
   job.phase = JobPhase::active;
   captured_ = 0;
+  range_left_ = -1;
   data.Status = kWaits;
   if (!cyclic(job)) data.MeasuredValues.LostEdgeCounter1 = data.MeasuredValues.LostEdgeCounter2 = 0;
   return ErrorId::none;

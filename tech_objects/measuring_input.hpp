@@ -96,7 +96,8 @@ class MeasuringInput final : public TechnologyObject {
   double last_position_ = 0.0;                    // in the servo tick before [u]
   std::array<DoubleDouble, kHistory> history_{};  // lines, by servo tick
   std::size_t tick_ = 0;
-  std::size_t started_ = 0;  // tick in which the job began
+  std::size_t started_ = 0;       // tick in which the job began
+  std::int64_t range_left_ = -1;  // tick in which it has been left since; -1: not yet
   MeasuringInputData start_values_;
 };
 

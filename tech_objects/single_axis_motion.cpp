@@ -11,6 +11,13 @@ namespace {
 /// Ticks after which an endless motion counts anew from where it is, so that its local positions stay small.
 constexpr std::int64_t kRebaseTicks = 4096;
 
+/// By what ways are apart by rounding, relative to them.
+constexpr double kSameWay = 1e-12;
+
+/// A tick that misses the end of a profile by rounding is at it: what is left there is no motion, but would
+/// show as one.
+constexpr double kSameTime = 1.0 + 16.0 * std::numeric_limits<double>::epsilon();
+
 /// Stands in for a velocity limit of zero (an override of 0 %), since the planner wants a positive one [u/s].
 constexpr double kNoVelocity = 1e-12;
 
@@ -143,10 +150,10 @@ void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
     return;
   }
   const double t = static_cast<double>(++ticks_) * period_;
-  const MotionState state = walk_.at(profile_, t);
+  const bool over = !walk_.within(t * kSameTime) && t * kSameTime >= profile_.duration();
+  const MotionState state = over ? profile_.at(std::max(t, profile_.duration())) : walk_.at(profile_, t);
   setpoint.velocity = state.velocity;
   setpoint.acceleration = state.acceleration;
-  const bool over = !walk_.within(t) && t >= profile_.duration();
   const bool passes = aim_ == Aim::position && target_velocity_ != 0.0;
   if (over && exact_target_ && !passes) {
     setpoint.position = target_;
@@ -174,9 +181,17 @@ Dynamics SingleAxisMotion::demand(const Setpoint& now) const noexcept {
           .jerk = dynamics_.jerk};
 }
 
+double SingleAxisMotion::fastest(const Setpoint& now, int direction) const noexcept {
+  if (way_left(direction) <= kSameWay * (1.0 + std::abs(profile_.target().position))) return 0.0;
+  const double v = direction * now.velocity, a = direction * now.acceleration;
+  const double run_down = dynamics_.jerk > 0.0 ? a * std::abs(a) / (2.0 * dynamics_.jerk) : 0.0;
+  return std::max({dynamics_.velocity, v, v + run_down});
+}
+
 double SingleAxisMotion::way_left(int direction) const noexcept {
   if (direction * target_velocity_ > 0.0) return std::numeric_limits<double>::infinity();
   const double now = static_cast<double>(ticks_) * period_;
+  if (now >= profile_.duration()) return 0.0;  // at rest, or for ever in the other direction
   const double here = direction * profile_.at(now).position;
   double furthest = std::max(direction * profile_.target().position, here);
   const auto phases = profile_.phases();

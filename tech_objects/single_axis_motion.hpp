@@ -52,6 +52,8 @@ class SingleAxisMotion {
   /// What the motion may yet use of the limits, from a setpoint of it on: its dynamic values, or what it has
   /// taken over beyond them and still runs down. Acceleration and deceleration are the greater of both.
   Dynamics demand(const Setpoint& now) const noexcept;
+  /// Of the velocity in a direction, 1 or -1 [u/s] ≥ 0.
+  double fastest(const Setpoint& now, int direction) const noexcept;
 
  private:
   void begin(const Setpoint& from, Aim aim, const Dynamics& dynamics) noexcept;

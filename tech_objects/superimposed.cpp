@@ -6,6 +6,9 @@
 namespace lockstep {
 namespace {
 
+/// By what ways may differ by rounding, relative to their size.
+constexpr double kRounding = 1e-12;
+
 bool usable(const Dynamics& room) noexcept {
   return room.acceleration > 0.0 && room.deceleration > 0.0;
 }
@@ -91,6 +94,13 @@ void Superimposed::advance() noexcept {
 double Superimposed::way_left(int direction) const noexcept {
   if (!given_) return motion_.way_left(direction);
   return direction * local_.velocity > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
+}
+
+int Superimposed::direction() const noexcept {
+  if (given_ || (!waits_ && motion_.aim() != SingleAxisMotion::Aim::position)) return 0;
+  const double left = waits_ ? distance_ : motion_.target().value - local_.position.value;
+  const int side = left > 0.0 ? 1 : -1;
+  return left != 0.0 && way_left(-side) <= kRounding * (1.0 + std::abs(left)) ? side : 0;
 }
 
 }  // namespace lockstep

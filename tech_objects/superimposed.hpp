@@ -55,6 +55,9 @@ class Superimposed {
   bool planned() const noexcept { return !given_ && !waits_ && !motion_.finished(); }
   /// The way that it still makes in a direction, 1 or -1 [u] ≥ 0.
   double way_left(int direction) const noexcept;
+  /// 1 or -1: the motion by a distance, or the one that waits, makes all that is left of it in this
+  /// direction; 0: it turns back, is over, or nobody knows.
+  int direction() const noexcept;
 
   DoubleDouble value() const noexcept { return anchor_ + local_.position.value; }  ///< [u]
   double velocity() const noexcept { return local_.velocity; }                     ///< [u/s]

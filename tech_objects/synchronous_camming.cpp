@@ -12,6 +12,10 @@ namespace {
 constexpr double kShortestPass = 1e-6;  // [leading u]
 constexpr double kSamePlace = 1e-12;    // of a pass: rounding of a position given at an end of the cam
 
+/// Most that the velocity of an axis may make, over the leading distance, of its way to the stop position, as
+/// a multiple of that way: a leading value that creeps would throw the axis far beyond.
+constexpr double kSteepestOut = 20.0;
+
 enum Profile : DINT {
   kDynamics = 0,
   kAhead = 1,
@@ -346,6 +350,8 @@ bool SynchronousMotion::meets_cam_out(const Job& job, const Setpoint& last, cons
     if (spare < 0.0) spare += following_.length;
   }
   if (!(change > 0.0) || !(spare >= 0.0 && spare <= change) || !(before + spare > 0.0)) return false;
+  const double led_way = (before + spare) * std::abs(leading_last_.velocity);
+  if (over_distance && std::abs(last.velocity) * distance > kSteepestOut * led_way) return false;
   out_way_ = heading * (before + spare);
   out_distance_ = distance + spare / change * std::abs(leading_step);
   set_out_position(last, target);

@@ -81,6 +81,15 @@ double SynchronousMotion::without_turning_back(double curvature, double slope, d
   return std::max(curvature, -3.0 * std::max(slope, 0.0) / distance);
 }
 
+/// Over another way w it is less by 30 u² (1 - u)² (s / 2 + c / 12 - w): positive to the end where
+/// c ≤ 20 w - 8 s. An axis that makes more than its gear would pass the stop position and come back: its
+/// acceleration steps as well, so that it is braked early enough.
+double SynchronousMotion::without_passing(double curvature, double slope, double way,
+                                          double distance) noexcept {
+  const double most = (20.0 * way / distance - 8.0 * slope) / distance;
+  return without_turning_back(std::min(curvature, most), slope, distance);
+}
+
 void SynchronousMotion::begin_sync_out(const Setpoint& last) noexcept {
   way_ = Way::out;
   phase_.reset();
@@ -102,8 +111,8 @@ void SynchronousMotion::begin_sync_out(const Setpoint& last) noexcept {
                       (way_velocity * way_velocity);
   }
   const double heading = out_way_ < 0.0 ? -1.0 : 1.0;
-  start.curvature =
-      heading * without_turning_back(heading * start.curvature, heading * start.slope, out_distance_);
+  start.curvature = heading * without_passing(heading * start.curvature, heading * start.slope,
+                                              std::abs(out_way_), out_distance_);
   out_remainder_.set(start, out_distance_);
 }
 

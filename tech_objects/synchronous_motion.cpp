@@ -460,6 +460,8 @@ bool SynchronousMotion::plan_time(const Setpoint& own, const Setpoint& leading, 
   if (following_.enabled && sync_direction_ == 2) limits.velocity_max = -fastest;
   const double relative_velocity = own.velocity - function_velocity;
   const double slope_change = relative_velocity / leading.velocity * leading.acceleration;
+  // A slow leading value that changes its velocity strongly would carry more along than the axis may make.
+  if (std::abs(slope_change) > acceleration) return false;
   const MotionState start{
       .position = ratio_ * direction_ * way - 0.5 * curvature_ * way * way -
                   (following_way(own.position.value) - ahead),

@@ -198,6 +198,7 @@ class SynchronousMotion {
   double stopping_way(const Setpoint& from, int heading, const Dynamics& dynamics) const noexcept;
   void advance_in_velocity(Setpoint& setpoint) noexcept;
   static double without_turning_back(double curvature, double slope, double distance) noexcept;
+  static double without_passing(double curvature, double slope, double way, double distance) noexcept;
   void advance_out(Setpoint& setpoint) noexcept;
   LeadingStep leading_step() const noexcept { return {leading_last_, leading_now_, leading_modulo_}; }
   void watch_reversal() noexcept;

@@ -385,7 +385,8 @@ class OneAxis {
     const double mean = 0.5 * (last_.led.velocity + before.led.velocity) * kSeconds;
     const double fastest =
         std::max({kVelocity, std::abs(last_.setpoint.velocity), std::abs(before.setpoint.velocity)});
-    if (std::abs(way - mean) > 0.5 * fastest * kSeconds * (1 + kSlack))
+    constexpr double kOfJerk = kJerk * kSeconds * kSeconds * kSeconds / 12.0;  // of the way back from before
+    if (std::abs(way - mean) > 0.5 * fastest * kSeconds * (1 + kSlack) + kOfJerk)
       note("step of the leading position by " + std::to_string(way - mean));
   }
 

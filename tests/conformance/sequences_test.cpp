@@ -81,14 +81,13 @@ class Sequence {
   }
 
   /// An additive leading value, or a leading axis that is homed, may take the axis over the end of a cam that
-  /// is passed once, where it stands.
+  /// is passed once, where it stands. The instance that started the cam may show a later job.
   bool falls_off_a_cam() {
-    const auto busy_with = [](const std::vector<Subject*>& subjects, std::string_view name) {
-      return std::any_of(subjects.begin(), subjects.end(),
-                         [&](Subject* s) { return s->busy() && s->type().name == name; });
-    };
-    return busy_with(following_, "MC_CamIn") &&
-           (bench_.following.additive_request.owner != nullptr || busy_with(leading_, "MC_Home") || homes_);
+    const bool leading_homes = std::any_of(leading_.begin(), leading_.end(), [](Subject* s) {
+      return s->busy() && s->type().name == "MC_Home";
+    });
+    return bench_.following.data.StatusSynchronizedMotion.ActualCam != DB_ANY{} &&
+           (bench_.following.additive_request.owner != nullptr || leading_homes || homes_);
   }
 
   void act() {

@@ -803,6 +803,43 @@ TEST(MC_CamOut, OverALongDistanceDoesNotTurnBackWithTheCam) {
   }
 }
 
+/// What else moves the axis past the start position does not begin it, be it that the leading value stands
+/// or that it creeps: over its distance the axis would be thrown far beyond.
+TEST(MC_CamOut, OverADistanceBeginsOnlyOnceTheLeadingValueCanLeadIt) {
+  for (const double velocity : {0.0, 0.5}) {
+    CamPair rig;
+    auto& superimpose = rig.block<MC_MoveSuperimposed>();
+    rig.couple(300.0);
+    rig.start_leading(velocity);
+    rig.continuity[1].highest_acceleration = 1e4;
+    superimpose.Axis = &rig.f;
+    superimpose.Distance = 200.0;
+    superimpose.VelocityDiff = 50.0;
+    superimpose.Execute = true;
+    rig.out.SyncProfileReference = 1;
+    rig.out.SlavePosition = 70.0;
+    rig.out.MasterStopDistance = 40.0;
+    rig.out.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return superimpose.Done || superimpose.CommandAborted; }));
+    EXPECT_TRUE(superimpose.Done) << velocity;
+    EXPECT_GT(rig.f.setpoint().position.value, 195.0);
+    EXPECT_EQ(rig.status().WaitingFunctionState, 5);
+    EXPECT_TRUE(rig.in.InSync && rig.out.Busy);
+
+    rig.continuity[1].highest_acceleration = 1e6;
+    rig.start_leading(300.0);
+    superimpose.Execute = false;
+    rig.run(1);
+    rig.continuity[1].highest_acceleration = 1e4;
+    superimpose.Distance = -190.0;
+    superimpose.VelocityDiff = 20.0;
+    superimpose.Execute = true;
+    ASSERT_TRUE(rig.run_until([&] { return rig.out.Done; }));
+    EXPECT_EQ(rig.f.setpoint().position.value, 70.0);
+    EXPECT_TRUE(rig.in.CommandAborted && superimpose.CommandAborted);
+  }
+}
+
 TEST(MC_CamOut, LeavesGearsAloneAndCancelsWhatWaits) {
   CamPair rig;
   rig.out.MasterStopDistance = 10.0;
@@ -820,6 +857,35 @@ TEST(MC_CamOut, LeavesGearsAloneAndCancelsWhatWaits) {
   rig.out.Execute = true;
   rig.run(3);
   EXPECT_TRUE(rig.out.Done && rig.in.CommandAborted);
+}
+
+/// One that waits to couple and one that waits to leave the gear at hand: the later one shows, then the
+/// other.
+TEST(WaitingFunctionState, ShowsTheJobThatStillWaitsWhenTheOtherEnds) {
+  CamPair rig;
+  auto& gear = rig.block<MC_GearIn>();
+  auto& gear_out = rig.block<MC_GearOut>();
+  gear.Master = &rig.l;
+  gear.Slave = gear_out.Slave = &rig.f;
+  rig.start_leading(50.0);
+  gear.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return gear.InGear; }));
+  rig.in.MasterSyncPosition = 300.0;
+  rig.in.MasterStartDistance = 10.0;
+  rig.in.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.status().WaitingFunctionState, 3);
+  gear_out.SlavePosition = rig.f.setpoint().position.value + 60.0;
+  gear_out.MasterStopDistance = 20.0;
+  gear_out.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.status().WaitingFunctionState, 4);
+  ASSERT_TRUE(rig.run_until([&] { return gear_out.StartSyncOut; }));
+  EXPECT_TRUE(rig.in.Busy);
+  EXPECT_EQ(rig.status().FunctionState, 4);
+  EXPECT_EQ(rig.status().WaitingFunctionState, 3);
+  ASSERT_TRUE(rig.run_until([&] { return rig.in.InSync; }));
+  EXPECT_EQ(rig.status().WaitingFunctionState, 0);
 }
 
 // ---- Interpolation at run time

@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "fb/gear_in.hpp"
+#include "fb/gear_in_velocity.hpp"
 #include "fb/home.hpp"
+#include "fb/leading_value.hpp"
+#include "fb/motion_in.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
@@ -387,6 +390,30 @@ TEST(MC_GearIn, HomingTheFollowingAxisRenamesItsPositionWithoutMotion) {
   EXPECT_NEAR(rig.f.data.Position, renamed + 5.0, 1e-9);
 }
 
+/// What led the axis until then may have had any acceleration; its jerk alone would take seconds to run it
+/// down.
+TEST(MC_GearIn, DropsAnAccelerationThatWouldCarryTheAxisBeyondItsVelocityLimit) {
+  for (const bool velocity_only : {false, true}) {
+    Pair rig;
+    auto& given = rig.block<MC_MotionInVelocity>();
+    auto& follow = rig.block<MC_GearInVelocity>();
+    given.Axis = &rig.f;
+    follow.Master = &rig.l;
+    follow.Slave = &rig.f;
+    rig.start_leading(20.0);
+    given.Velocity = 40.0;
+    given.Acceleration = 1e5;
+    given.Enable = true;
+    ASSERT_TRUE(rig.run_until([&] { return rig.f.setpoint().velocity == 40.0; }));
+    (velocity_only ? follow.Execute : rig.gear.Execute) = true;
+    ASSERT_TRUE(rig.run_until([&] {
+      EXPECT_LE(rig.f.setpoint().velocity, rig.f.data.DynamicLimits.MaxVelocity);
+      return velocity_only ? static_cast<bool>(follow.InSync) : static_cast<bool>(rig.gear.InGear);
+    }));
+    EXPECT_TRUE(given.CommandAborted);
+  }
+}
+
 // ---- MC_GearInPos
 // -----------------------------------------------------------------------------------------------
 
@@ -629,6 +656,33 @@ TEST(MC_GearInPos, AMovingAxisIsNotTakenOverByALeadingAxisThatCreeps) {
   ASSERT_TRUE(rig.run_until([&] { return rig.pos.Error; }));
   EXPECT_EQ(rig.pos.ErrorID, static_cast<WORD>(0x8026));
   EXPECT_TRUE(rig.move_f.InVelocity);
+}
+
+/// The profile over time is carried out over the leading distance: its beginning would be as steep as the
+/// leading value is slow. The additive acceleration need not fit the additive velocity.
+TEST(GearInPosOverTime, DoesNotThrowAnAxisInMotionBehindALeadingValueThatIsSlowAndAcceleratesStrongly) {
+  Pair rig;
+  auto& additive = rig.block<MC_LeadingValueAdditive>();
+  additive.Axis = &rig.f;
+  rig.move_f.Velocity = 30.0;
+  rig.move_f.Execute = true;
+  rig.start_leading(4.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.move_f.InVelocity && rig.run_l.InVelocity; }));
+  additive.Acceleration = 1000.0;
+  additive.Enable = true;
+  rig.run(2);
+  rig.pos.SyncProfileReference = 0;
+  rig.pos.Acceleration = rig.pos.Deceleration = 1000.0;
+  rig.pos.Jerk = 100000.0;
+  rig.pos.MasterSyncPosition = rig.l.data.Position + 80.0;
+  rig.pos.SlaveSyncPosition = rig.f.data.Position + 30.0;
+  rig.pos.Execute = true;
+  double fastest = 0.0;
+  for (int i = 0; i < 22000; ++i) {
+    rig.tick();
+    fastest = std::max(fastest, std::abs(rig.f.setpoint().velocity));
+  }
+  EXPECT_LE(fastest, 100.0);
 }
 
 TEST(MC_GearInPos, ReversalWhileSynchronizingRaisesAlarm608) {

@@ -14,6 +14,7 @@
 #include "fb/move.hpp"
 #include "fb/parameter.hpp"
 #include "fb/power.hpp"
+#include "tests/support/bent_cam.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {
@@ -55,7 +56,7 @@ struct Led : Rig {
         f(axis("Following", [ring](AxisData& data) { data.Modulo.Enable = ring; })),
         g(axis("Third", [ring](AxisData& data) { data.Modulo.Enable = ring; })),
         first(axis("First")),
-        cam(make_cam()),
+        cam(test::add_bent_cam(controller, kRing)),
         power(block<MC_Power>()),
         power_f(block<MC_Power>()),
         power_g(block<MC_Power>()),
@@ -114,20 +115,6 @@ struct Led : Rig {
     data.FollowingError.EnableMonitoring = false;
   }
 
-  /// Twice the way of the leading axis, bent a little.
-  Cam& make_cam() {
-    Cam& made = static_cast<Cam&>(controller.add_object(ObjectKind::TO_Cam, "Cam"));
-    static_cast<CamData1k*>(made.data_block())->InterpolationSettings = {1, 1};
-    constexpr double kBend[] = {0.0, 1.0, 0.0, -1.0, 0.0};
-    for (std::size_t i = 0; i < 5; ++i) {
-      const double place = kRing / 4.0 * static_cast<double>(i);
-      made.define_point(i, {place, 2.0 * place + kBend[i]});
-    }
-    CamInterpolator interpolator(kCamPoints);
-    EXPECT_EQ(made.interpolate(interpolator), ErrorId::none);
-    return made;
-  }
-
   /// Under way at constant velocity with an axis that follows, and one that follows that.
   void couple() {
     gear_g.Execute = true;
@@ -180,11 +167,7 @@ struct Led : Rig {
   double off_place() const {
     if (by == By::velocity) return 0.0;
     const double leading = unrolled(l);
-    if (by == By::cam) {
-      const double turns = std::floor(leading / kRing);
-      const CamValue value = cam.function().value(leading - turns * kRing);
-      return unrolled(f) - 2.0 * kRing * turns - value.position - apart;
-    }
+    if (by == By::cam) return unrolled(f) - test::on_bent_cam(cam, kRing, leading) - apart;
     return unrolled(f) - 2.0 * leading - apart;
   }
 
@@ -370,6 +353,22 @@ TEST(HandOver, IsNoStepOfASimulatedCouplingEither) {
   ASSERT_TRUE(rig.run_until([&] { return !rig.simulation.InSimulation; }, 20000));
   rig.run(10);
   rig.expect_in_place();
+}
+
+/// A following axis that is switched off follows nothing any more, however it comes to rest.
+TEST(HandOver, OfAFollowingAxisSwitchedOffLeavesNothingOfItsCouplingBehind) {
+  for (const Off how :
+       {Off::stop_mode_0, Off::stop_mode_1, Off::stop_mode_2, Off::stop_mode_3, Off::drive_fault}) {
+    Led rig(By::gear);
+    rig.follow_the_first();
+    const auto& status = rig.l.data.StatusSynchronizedMotion;
+    ASSERT_EQ(status.FunctionState, 1);
+    rig.switch_off(how);
+    rig.run(2);
+    EXPECT_EQ(status.FunctionState, 0) << static_cast<int>(how);
+    EXPECT_EQ(status.ActualMaster, DB_ANY{});
+    EXPECT_EQ(status.StatusWord, DWORD{});
+  }
 }
 
 // ---- Switched on again

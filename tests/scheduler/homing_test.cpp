@@ -276,18 +276,29 @@ TEST(ActiveHomingWithAutoReversal, GoesBackBeyondAZeroMarkToMeetItInTheHomingDir
   EXPECT_TRUE(machine.stands_at(20.0));
 }
 
+/// Whatever the limit switches would do to other motions.
 TEST(ActiveHomingWithAutoReversal, EndsInAlarm342BetweenBothLimitSwitches) {
-  Machine machine([](Axis& axis) {
-    active(axis).Mode = 2;
-    axis.drive_settings.signals.reference_cam = PositionRange{900.0, 910.0};
-    axis.data.Homing.AutoReversal = true;
-    axis.data.PositionLimits_HW.Active = true;
-  });
-  EXPECT_FALSE(machine.home_with(3));
-  EXPECT_EQ(machine.slide.pending_alarm(), 342);
-  EXPECT_EQ(machine.home.ErrorID, WORD{0x8001});
-  EXPECT_FALSE(machine.bit(StatusBit::HomingDone));
-  ASSERT_TRUE(machine.run_until([&] { return machine.slide.setpoint().standing(); }));
+  for (const DINT behavior : {0, 1}) {
+    Machine machine([&](Axis& axis) {
+      active(axis).Mode = 2;
+      axis.drive_settings.signals.reference_cam = PositionRange{900.0, 910.0};
+      axis.data.Homing.AutoReversal = true;
+      axis.data.PositionLimits_HW.Active = true;
+      axis.data.PositionLimits_HW.ApproachBehavior = behavior;
+      axis.data.DynamicDefaults.EmergencyDeceleration = 1000.0;
+    });
+    EXPECT_FALSE(machine.home_with(3));
+    EXPECT_EQ(machine.home.ErrorID, WORD{0x8001});
+    EXPECT_FALSE(machine.bit(StatusBit::HomingDone));
+    ASSERT_TRUE(machine.run_until([&] { return machine.slide.setpoint().standing(); }));
+    machine.run(100);
+    EXPECT_EQ(machine.slide.pending_alarm(), 342) << "the cause, not that the axis still brakes";
+    EXPECT_FALSE(has_bit(machine.slide.data.ErrorWord, ErrorBit::HWLimit));
+    EXPECT_TRUE(machine.power.Status);
+    machine.acknowledge();
+    machine.pass(-10.0, 1.0);  // further out
+    EXPECT_EQ(machine.slide.pending_alarm(), 531);
+  }
 }
 
 TEST(ActiveHomingWithoutAutoReversal, EndsAtTheLimitSwitchWithItsAlarm) {
@@ -299,6 +310,39 @@ TEST(ActiveHomingWithoutAutoReversal, EndsAtTheLimitSwitchWithItsAlarm) {
   machine.continuity[0].velocity = false;  // without enable the setpoint follows the coasting drive
   EXPECT_FALSE(machine.home_with(3));
   EXPECT_EQ(machine.slide.pending_alarm(), 531);
+}
+
+/// Of the same tick are all positions of the data block, also those that MC_Servo has shown before.
+TEST(Homing, RenamesWhateverTheDataBlockShowsAtOnce) {
+  for (const bool ring : {false, true}) {
+    for (const INT mode : std::initializer_list<INT>{0, 1, 3, 11, 12}) {
+      Machine machine([&](Axis& axis) {
+        axis.data.Modulo.Enable = ring;
+        axis.data.SetpointFilter.DynamicFilter.Mode = 1;
+        axis.data.SetpointFilter.DynamicFilter.T1 = 0.01;
+        axis.data.Sensor[1].Existent = true;
+        axis.drive_settings.sensors[0].exists = true;
+      });
+      const AxisData& data = machine.slide.data;
+      if (mode != 3) machine.pass(30.0, 10.0);
+      machine.home.Mode = mode;
+      machine.home.Position = 200.0;
+      machine.home.Execute = true;
+      double last = data.ActualPosition;
+      int steps = 0;
+      for (int i = 0; i < 5000 && steps == 0; ++i) {
+        machine.tick();
+        if (std::abs(data.ActualPosition - last) > 1.0) ++steps;
+        last = data.ActualPosition;
+        ASSERT_EQ(data.StatusSensor[0].Position, last) << int(mode);
+        ASSERT_EQ(data.StatusSensor[0].ModuloCycle, data.ActualModuloCycle);
+        ASSERT_NEAR(data.StatusSensor[1].Position, last, 1e-9) << int(mode);
+        ASSERT_NEAR(data.StatusServo.BalancedPosition, last + data.StatusServo.ControlDifference, 1e-9);
+        ASSERT_NEAR(data.StatusServo.PositionAfterDynamicFilter, data.Position, 1.0) << int(mode);
+      }
+      EXPECT_EQ(steps, 1) << int(mode);
+    }
+  }
 }
 
 TEST(ActiveHomingPreconditions, AreToldByTheirAlarms) {

@@ -204,6 +204,33 @@ TEST(MeasuringTime, IsCorrectedByTheCorrectionTime) {
   EXPECT_NEAR(rig.once.MeasuredValue1, mark - 200.0 * 0.0123, 1e-9);
 }
 
+/// An edge counts at the place that is 20 before the one at which it is seen.
+TEST(MeasuringTime, BelongsToARangeInWhichTheCorrectedPlaceLies) {
+  for (const double speed : {200.0, -200.0}) {
+    const double side = speed > 0.0 ? 1.0 : -1.0;
+    const double edge = speed > 0.0 ? 120.0 : -72.0;
+    for (const bool inside : {true, false}) {
+      Marks rig({}, [](MeasuringInput& input) { input.data.Parameter.CorrectionTime = 100.0; });
+      rig.once.MeasuringRange = true;
+      // It ends in front of the edge, or begins behind the corrected place.
+      rig.once.StartPosition = edge - side * (inside ? 60.0 : 15.0);
+      rig.once.EndPosition = edge - side * (inside ? 5.0 : -15.0);
+      rig.go(speed);
+      ASSERT_TRUE(rig.run_until([&] { return rig.c.data.Position * side > edge * side - 85.0; }));
+      rig.once.Execute = true;
+      ASSERT_TRUE(rig.run_until([&] { return rig.once.Done || rig.once.Error; }));
+      if (inside) {
+        EXPECT_TRUE(rig.once.Done) << speed;
+        EXPECT_NEAR(rig.once.MeasuredValue1, edge - side * 20.0, 1e-9);
+      } else {
+        EXPECT_EQ(rig.once.ErrorID, static_cast<WORD>(ErrorId::measuring_range)) << speed;
+        EXPECT_EQ(rig.input.data.ErrorDetail.Number, 752u);
+        EXPECT_NEAR(rig.c.data.Position, edge + side * (15.0 + 20.0), 1.0) << "once no edge can belong to it";
+      }
+    }
+  }
+}
+
 // ---- Cyclic measuring
 // -------------------------------------------------------------------------------------------
 

@@ -14,6 +14,7 @@
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
 #include "fb/superimposed.hpp"
+#include "tests/support/bent_cam.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {
@@ -23,7 +24,7 @@ using test::Rig;
 
 constexpr double kSpeed = 100.0;  // of the leading axis [u/s]
 constexpr double kRing = 37.0;    // of all axes that have one [u]
-constexpr double kStart = -10.0;  // where the ring begins [u]
+constexpr double kStart = -10.0;  // where the ring begins, as a rule [u]
 
 enum class By : std::uint8_t { gear, gear_in_pos, cam, velocity };
 /// What gives position control back to the leading axis.
@@ -33,6 +34,7 @@ struct Case {
   bool driven = false;  // leading axis
   bool ring = false;    // leading and following axis
   int ratio = 1;        // of servo and interpolator cycle
+  double start = kStart;
 };
 
 /// An axis that leads, one that follows it by twice its way, one that follows that, one that may lead the
@@ -41,9 +43,9 @@ struct Led : Rig {
   explicit Led(By how, const Case& c = {})
       : Rig(1'000'000, c.ratio),
         by(how),
-        l(axis("Leading", [&](AxisData& data) { shape(data, c.ring, c.driven); })),
-        f(axis("Following", [&](AxisData& data) { shape(data, c.ring, false); })),
-        g(axis("Third", [&](AxisData& data) { shape(data, c.ring, false); })),
+        l(axis("Leading", [&](AxisData& data) { shape(data, c, c.driven); })),
+        f(axis("Following", [&](AxisData& data) { shape(data, c, false); })),
+        g(axis("Third", [&](AxisData& data) { shape(data, c, false); })),
         first(axis("First")),
         late(axis("Late")),
         power(block<MC_Power>()),
@@ -52,6 +54,7 @@ struct Led : Rig {
         power_first(block<MC_Power>()),
         home(block<MC_Home>()),
         run_l(block<MC_MoveVelocity>()),
+        run_again(block<MC_MoveVelocity>()),
         run_first(block<MC_MoveVelocity>()),
         move_l(block<MC_MoveRelative>()),
         superimpose(block<MC_MoveSuperimposed>()),
@@ -65,7 +68,7 @@ struct Led : Rig {
     lead(g, f);
     lead(l, first);
     lead(late, l);
-    power.Axis = home.Axis = run_l.Axis = move_l.Axis = superimpose.Axis = &l;
+    power.Axis = home.Axis = run_l.Axis = run_again.Axis = move_l.Axis = superimpose.Axis = &l;
     power_f.Axis = &f;
     power_g.Axis = &g;
     power_first.Axis = run_first.Axis = &first;
@@ -78,7 +81,7 @@ struct Led : Rig {
     gear.RatioNumerator = pos.RatioNumerator = velocity.RatioNumerator = 2;
     gear_g.RatioNumerator = -1;
     velocity.PositionControlled = true;
-    cam_in.Cam = &make_cam();
+    cam_in.Cam = &test::add_bent_cam(controller, kRing);
     watch(true);
     power.Enable = power_f.Enable = power_g.Enable = power_first.Enable = true;
     run(20);
@@ -86,9 +89,9 @@ struct Led : Rig {
     run(20);
   }
 
-  static void shape(AxisData& data, bool ring, bool driven) {
+  static void shape(AxisData& data, const Case& c, bool driven) {
     data.VirtualAxis.Mode = driven ? 0 : 1;
-    data.Modulo = {ring, kRing, kStart};
+    data.Modulo = {c.ring, kRing, c.start};
     data.DynamicLimits.MaxVelocity = 500.0;
     data.DynamicLimits.MaxAcceleration = data.DynamicLimits.MaxDeceleration = 3000.0;
     data.DynamicLimits.MaxJerk = 1e6;
@@ -103,20 +106,6 @@ struct Led : Rig {
       continuity[i].acceleration = false;
       continuity[i].highest_acceleration = 2.5 * (3000.0 + 1000.0) + (by == By::cam ? 12000.0 : 0.0);
     }
-  }
-
-  /// Twice the way of the leading axis, bent a little.
-  Cam& make_cam() {
-    Cam& made = static_cast<Cam&>(controller.add_object(ObjectKind::TO_Cam, "Cam"));
-    static_cast<CamData1k*>(made.data_block())->InterpolationSettings = {1, 1};
-    constexpr double kBend[] = {0.0, 1.0, 0.0, -1.0, 0.0};
-    for (std::size_t i = 0; i < 5; ++i) {
-      const double place = kRing / 4.0 * static_cast<double>(i);
-      made.define_point(i, {place, 2.0 * place + kBend[i]});
-    }
-    CamInterpolator interpolator(kCamPoints);
-    EXPECT_EQ(made.interpolate(interpolator), ErrorId::none);
-    return made;
   }
 
   void run_leading(double speed, bool controlled, int ticks) {
@@ -158,9 +147,7 @@ struct Led : Rig {
   double off_place() const {
     const double leading = unrolled(l);
     if (by != By::cam) return apart(unrolled(f), 2.0 * leading);
-    const double turns = std::floor(leading / kRing);
-    const CamValue value = cam_in.Cam->function().value(leading - turns * kRing);
-    return apart(unrolled(f), 2.0 * kRing * turns + value.position);
+    return apart(unrolled(f), test::on_bent_cam(*cam_in.Cam, kRing, leading));
   }
 
   /// Leaves position control in motion; the rig does not look at the published step.
@@ -195,6 +182,22 @@ struct Led : Rig {
     }
   }
 
+  /// In the tick of the first switch, or so many after it.
+  void switch_twice(bool first_on, int ticks_between) {
+    run_l.Execute = false;
+    run(1);
+    run_l.Velocity = run_again.Velocity = kSpeed;
+    run_l.Acceleration = run_again.Acceleration = 1000.0;
+    run_l.Jerk = run_again.Jerk = 0.0;
+    run_l.PositionControlled = first_on;
+    run_again.PositionControlled = !first_on;
+    run_l.Execute = true;
+    if (ticks_between != 0) run(ticks_between);
+    run_again.Execute = true;
+    run(2);
+    EXPECT_EQ(l.position_controlled(), !first_on);
+  }
+
   By by;
   Axis& l;
   Axis& f;
@@ -207,6 +210,7 @@ struct Led : Rig {
   MC_Power& power_first;
   MC_Home& home;
   MC_MoveVelocity& run_l;
+  MC_MoveVelocity& run_again;
   MC_MoveVelocity& run_first;
   MC_MoveRelative& move_l;
   MC_MoveSuperimposed& superimpose;
@@ -248,13 +252,18 @@ TEST_P(PositionControl, OfALeadingAxisTakenUpAgainIsNoStepForAxesThatFollow) {
 
 TEST(PositionControlOfALeadingAxis, LeftOnARingStepsToZeroOnTheTurnAtHand) {
   for (const By by : {By::gear, By::gear_in_pos, By::cam}) {
-    Led rig(by, {.ring = true});
-    rig.couple();
-    ASSERT_GT(rig.l.setpoint().position.turns, 1);
-    const double before = rig.l.data.Position;
-    const double following = rig.unrolled(rig.f);
-    rig.leave();
-    EXPECT_NEAR(rig.unrolled(rig.f) - following, -2.0 * before, 3.0) << "the published step, and no turn";
+    for (const double start : {kStart, 10.0}) {  // 0 itself may be the name of no place of the ring
+      Led rig(by, {.ring = true, .start = start});
+      rig.couple();
+      ASSERT_GT(rig.l.setpoint().position.turns, 1);
+      const double zero = start > 0.0 ? kRing : 0.0;
+      const double before = rig.l.data.Position;
+      const double following = rig.unrolled(rig.f);
+      rig.leave();
+      EXPECT_EQ(rig.seen(), zero);
+      EXPECT_NEAR(rig.unrolled(rig.f) - following, 2.0 * (zero - before), 3.0)
+          << "the published step, and no turn";
+    }
   }
 }
 
@@ -407,6 +416,97 @@ TEST(PositionControlOfALeadingAxis, LeftAndTakenUpDuringAPhaseShiftIsNoStep) {
     EXPECT_EQ(rig.seen(), rig.l.data.Position);
     EXPECT_NEAR(rig.f.data.StatusSynchronizedMotion.PhaseShift, 30.0, 1e-12);
   }
+}
+
+/// In one tick nobody sees the one of both switches: what is left is the other, or neither.
+class BothSwitches : public ::testing::TestWithParam<std::tuple<By, bool, bool, int>> {};
+INSTANTIATE_TEST_SUITE_P(Ways, BothSwitches,
+                         ::testing::Combine(::testing::Values(By::gear, By::gear_in_pos, By::cam),
+                                            ::testing::Bool(), ::testing::Bool(),
+                                            ::testing::Values(0, 1, 2)));
+
+TEST_P(BothSwitches, OffAndOnAgainIsNoStepOnceTheAxisIsControlledAgain) {
+  const auto [by, driven, ring, ticks] = GetParam();
+  Led rig(by, {.driven = driven, .ring = ring});
+  rig.couple();
+  const double before = rig.off_place();
+  const double seen = rig.seen();
+  rig.watch(ticks == 0);  // no step at all, or the published one
+  rig.switch_twice(false, ticks);
+  rig.watch(true);
+  if (ticks == 0) {
+    EXPECT_NEAR(rig.apart(rig.seen(), seen), 3.0 * kSpeed * rig.period(), 1e-9);
+  }
+  rig.run(3000);
+  EXPECT_TRUE(rig.l.position_controlled());
+  EXPECT_EQ(rig.seen(), rig.l.data.Position);
+  EXPECT_NEAR(rig.apart(rig.off_place(), before), 0.0, 1e-9);
+}
+
+TEST_P(BothSwitches, OnAndOffAgainIsNoStepNorTurns) {
+  const auto [by, driven, ring, ticks] = GetParam();
+  Led rig(by, {.driven = driven, .ring = ring});
+  rig.couple();
+  const double before = rig.off_place();
+  rig.leave();
+  rig.run(1000);  // some turns of a ring
+  const double following = rig.unrolled(rig.f);
+  rig.watch(ticks == 0);
+  rig.switch_twice(true, ticks);
+  rig.run(1);
+  rig.watch(true);
+  EXPECT_EQ(rig.seen(), 0.0);
+  EXPECT_EQ(rig.unrolled(rig.f), following);
+  rig.run(500);
+  rig.run_leading(kSpeed, true, 5000);
+  EXPECT_EQ(rig.seen(), rig.l.data.Position);
+  EXPECT_NEAR(rig.apart(rig.off_place(), before), 0.0, 1e-9);
+}
+
+// ---- Restart
+// -----------------------------------------------------------------------------------------------------
+
+/// A restart begins with position control, whatever has been before.
+TEST(RestartOfALeadingAxis, PutsPositionControlBack) {
+  for (const bool ring : {false, true})
+    for (const int ticks : {0, 20}) {  // without position control, and on the way back
+      Led rig(By::gear, {.ring = ring});
+      auto& reset = rig.block<MC_Reset>();
+      auto& reset_f = rig.block<MC_Reset>();
+      reset.Axis = &rig.l;
+      reset_f.Axis = &rig.f;
+      reset.Restart = true;
+      rig.couple();
+      rig.leave();
+      rig.run(1000);
+      if (ticks != 0) rig.run_leading(kSpeed, true, ticks);
+      rig.power.StopMode = 2;
+      rig.power.Enable = false;
+      ASSERT_TRUE(rig.run_until([&] { return rig.l.off(); }, 100));
+      ASSERT_NE(rig.seen(), rig.l.setpoint().position.value);
+      EXPECT_EQ(rig.l.position_controlled(), ticks != 0);
+      reset.Execute = true;
+      ASSERT_TRUE(rig.run_until([&] { return reset.Done; }, 10));
+      EXPECT_TRUE(rig.gear.Error);
+      EXPECT_EQ(rig.f.pending_alarm(), alarm::kLeadingAxis);
+      EXPECT_TRUE(rig.l.position_controlled());
+      EXPECT_EQ(rig.l.data.Position, rig.l.data.ActualPosition);
+
+      reset_f.Execute = true;
+      rig.gear.Execute = false;
+      rig.run(200);
+      rig.gear.Execute = true;
+      ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear; }, 10)) << "no alarm 603";
+      EXPECT_EQ(rig.seen(), rig.l.data.Position);
+      rig.power.Enable = true;
+      rig.run(10);
+      rig.run_leading(kSpeed, true, 1000);
+      EXPECT_EQ(rig.seen(), rig.l.data.Position);
+      const double before = rig.l.data.Position;
+      const double following = rig.unrolled(rig.f);
+      rig.leave();
+      EXPECT_NEAR(rig.unrolled(rig.f) - following, -2.0 * before, 3.0) << "the published step, and no turn";
+    }
 }
 
 }  // namespace

@@ -325,6 +325,7 @@ class TakingOver {
   /// Begins, changes or ends.
   void jog() {
     m_.jog.JogForward = chance(0.6);
+    m_.jog.JogBackward = !m_.jog.JogForward && chance(0.5);
     m_.jog.Velocity = uniform(10.0, 600.0);
     m_.jog.Acceleration = acceleration();
     m_.jog.Deceleration = acceleration();

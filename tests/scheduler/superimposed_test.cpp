@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -169,6 +170,55 @@ TEST(MC_MoveSuperimposed, WaitsWhileTheBaseMotionLeavesNothing) {
   m.run(2);
   EXPECT_TRUE(m.relative.Done);
   EXPECT_EQ(m.position(), 360.0);
+}
+
+/// An axis at its velocity limit can still become slower.
+TEST(MC_MoveSuperimposed, DoesNotWaitAgainstABaseMotionAtTheVelocityLimit) {
+  for (const double side : {1.0, -1.0}) {
+    Machine m;
+    m.continuity[1].acceleration = false;
+    m.run_at(side * 500.0);
+    m.move.Distance = -side * 60.0;
+    m.move.VelocityDiff = 200.0;
+    m.move.Acceleration = m.move.Deceleration = 2000.0;
+    m.move.Jerk = 0.0;
+    m.move.Execute = true;
+    m.run(200);
+    EXPECT_NEAR(m.velocity(), side * 300.0, 1e-9);
+    // Planned anew, the base motion keeps what it has.
+    m.axis_.data.Override.Velocity = 90.0;
+    m.run(100);
+    EXPECT_NEAR(m.velocity(), side * (450.0 - 180.0), 1e-9);
+    ASSERT_TRUE(m.run_until([&] { return m.move.Done; }));
+    m.run(100);
+    EXPECT_EQ(m.superimposed(), 60.0);
+    EXPECT_NEAR(m.velocity(), side * 450.0, 1e-9);
+  }
+}
+
+/// A jog that turns round is left what the superimposed motion, now in its direction, does not use.
+TEST(MC_MoveSuperimposed, AgainstAJogKeepsTheLimitWhenThatTurnsRound) {
+  Machine m;
+  m.jog.Velocity = 500.0;
+  m.jog.Acceleration = m.jog.Deceleration = 2500.0;
+  m.jog.JogForward = true;
+  m.run(400);
+  m.move.Distance = -600.0;
+  m.move.VelocityDiff = 300.0;
+  m.move.Execute = true;
+  m.run(300);
+  EXPECT_LT(m.velocity(), 400.0);
+  m.jog.JogForward = false;
+  m.jog.JogBackward = true;
+  double fastest = 0.0;
+  ASSERT_TRUE(m.run_until([&] {
+    fastest = std::max(fastest, std::abs(m.velocity()));
+    return m.move.Done;
+  }));
+  EXPECT_LE(fastest, 500.0 * (1 + 1e-12));
+  EXPECT_GT(fastest, 499.0) << "and uses it";
+  m.run(700);
+  EXPECT_NEAR(m.velocity(), -500.0, 1e-9);
 }
 
 TEST(MC_MoveSuperimposed, FollowsTheOverrideWithinTheLimits) {
@@ -783,7 +833,13 @@ TEST(SuperimposedOnAGear, CountsForTheStopPositionOfMC_GearOut) {
     m.gear_out.SlavePosition = m.position() + 100.0;
     m.gear_out.Deceleration = 1000.0;
     m.gear_out.Execute = true;
-    ASSERT_TRUE(m.run_until([&] { return m.gear_out.Done; }));
+    for (auto& rule : m.continuity) rule.acceleration = false;  // braked early enough not to pass it
+    double furthest = 0.0;
+    ASSERT_TRUE(m.run_until([&] {
+      furthest = std::max(furthest, m.position());
+      return m.gear_out.Done;
+    }));
+    EXPECT_LE(furthest, m.gear_out.SlavePosition + 1e-9);
     EXPECT_TRUE(m.move.CommandAborted);
     EXPECT_EQ(m.position(), m.gear_out.SlavePosition);
   }

@@ -312,6 +312,7 @@ TEST(FixedStop, LetsOnlyMotionsAwayFromItStart) {
   EXPECT_EQ(rig.limiting.ErrorID, static_cast<WORD>(ErrorId::clamping));
   EXPECT_TRUE(bit(rig.a, StatusBit::InClamping)) << "the function goes on";
   EXPECT_TRUE(rig.limiting.InClamping && rig.limiting.InLimitation) << "and says so";
+  EXPECT_TRUE(rig.limiting.Busy);
   rig.limiting.Enable = true;
   rig.run(2);
   EXPECT_TRUE(rig.limiting.InClamping);
@@ -320,6 +321,7 @@ TEST(FixedStop, LetsOnlyMotionsAwayFromItStart) {
   EXPECT_TRUE(rig.limiting.Error);
   EXPECT_TRUE(bit(rig.a, StatusBit::InClamping));
   EXPECT_TRUE(rig.limiting.InClamping);
+  EXPECT_TRUE(rig.limiting.Busy);
 }
 
 TEST(FixedStop, IsLeftByAMotionAwayFromItWithoutAnAlarm) {
@@ -485,8 +487,10 @@ TEST(TorqueAdditive, CountsWhileTheAxisIsEnabled) {
   rig.run(200);
   EXPECT_TRUE(rig.additive.Error);
   EXPECT_EQ(rig.additive.ErrorID, static_cast<WORD>(ErrorId::locked));
+  EXPECT_TRUE(rig.additive.Busy) << "it counts again by itself";
   rig.additive.Enable = false;
   rig.run(2);
+  EXPECT_FALSE(rig.additive.Busy);
   EXPECT_EQ(rig.a.data.StatusTorqueData.CommandAdditiveTorqueActive, 0);
 }
 

@@ -119,6 +119,34 @@ TEST(SimulatedDrive, SwitchedOffItCoastsToRestAndTakesNoSetpoint) {
   EXPECT_FALSE(drive.read().enabled);
 }
 
+TEST(SimulatedDrive, StopsAMachineThatWasHeldBackWithoutSpeedingItUpFirst) {
+  bool blocked = false;
+  SimulatedDriveSettings settings;
+  settings.time_constant = 0.005;
+  settings.quick_stop = 1000.0;
+  settings.faults.blocked = &blocked;
+  SimulatedDrive drive;
+  drive.configure(settings, kCycle);
+  drive.enable(true);
+  double fastest = 0.0;
+  const auto run = [&](int cycles) {
+    fastest = 0.0;
+    for (int i = 0; i < cycles; ++i) {
+      fastest = std::max(fastest, std::abs(drive.read().velocity));
+      drive.write(400.0);
+    }
+  };
+  run(200);
+  ASSERT_NEAR(fastest, 400.0, 1e-3);
+  blocked = true;
+  run(50);
+  drive.control(kControlQuickStop, 0);
+  run(2);
+  blocked = false;
+  run(400);
+  EXPECT_LT(fastest, 1.0);
+}
+
 TEST(PositionController, ConstantVelocityLeavesNoControlDifference) {
   for (const double kv : {10.0, 30.0, 100.0}) {
     Loop loop({0.002, 0.001, 0.0}, kv, kRing);
