@@ -28,8 +28,9 @@ std::vector<std::string> parts_of(const std::string& text, bool is_list) {
   return parts;
 }
 
-/// A value for a place, or nothing: then that is told.
+/// A value for a place, or nothing: then that is told. A coil is 0 or 1 to whoever comes from Modbus.
 std::optional<Value> value_for(const PanelEntry& place, std::string text) {
+  if (place.type() == Type::BOOL && (text == "0" || text == "1")) text = text == "1" ? "TRUE" : "FALSE";
   JsonValue json;
   json.kind = JsonKind::string;
   json.text = std::move(text);
@@ -110,9 +111,10 @@ void add_write_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<PanelOptions>();
   add_panel_options(*command, *options);
   command
-      ->add_option("VALUES", options->names,
-                   "NAME=VALUE, such as speed=250 start=TRUE wait=1.5s mask=16#FF; of arrays heights[3]=7.5, "
-                   "'heights=[5, 7.5, 10]', 'heights[2..3]=[5, 7.5]'; of texts 'kind=pale ale'")
+      ->add_option(
+          "VALUES", options->names,
+          "NAME=VALUE, such as speed=250 start=TRUE (or 1) wait=1.5s mask=16#FF; of arrays heights[3]=7.5, "
+          "'heights=[5, 7.5, 10]', 'heights[2..3]=[5, 7.5]'; of texts 'kind=pale ale'")
       ->required();
   command->footer(
       "Nothing is written unless every name and value is good; then they go out in their order, each in a\n"

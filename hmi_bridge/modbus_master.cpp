@@ -5,10 +5,28 @@
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 
+#include "hmi_bridge/modbus_answer.hpp"
+
 namespace lockstep {
+namespace {
+
+int function_that_reads(ModbusTable table) noexcept {
+  switch (table) {
+    case ModbusTable::coil:
+      return MODBUS_FC_READ_COILS;
+    case ModbusTable::discrete_input:
+      return MODBUS_FC_READ_DISCRETE_INPUTS;
+    case ModbusTable::input_register:
+      return MODBUS_FC_READ_INPUT_REGISTERS;
+    case ModbusTable::holding_register:
+      break;
+  }
+  return MODBUS_FC_READ_HOLDING_REGISTERS;
+}
+
+}  // namespace
 
 struct ModbusMaster::Library {
   explicit Library(modbus_t* made) : context(made) {}
@@ -93,58 +111,122 @@ bool ModbusMaster::fail(int error) {
   return false;
 }
 
-/// @param bytes of data that go out or come in
-bool ModbusMaster::prepare(int unit, std::size_t bytes) {
+bool ModbusMaster::fail(const char* flaw) {
+  was_refused_ = false;
+  problem_ = flaw;
+  close();
+  return false;
+}
+
+/// A request begins with the unit. All that we ask have an address and another word behind the function.
+void ModbusMaster::begin(int unit, int function, std::uint32_t address, std::uint32_t second) {
+  request_.assign({static_cast<std::uint8_t>(unit), static_cast<std::uint8_t>(function)});
+  put(address);
+  put(second);
+}
+
+void ModbusMaster::put(std::uint32_t word) {
+  request_.push_back(static_cast<std::uint8_t>(word >> 8));
+  request_.push_back(static_cast<std::uint8_t>(word));
+}
+
+/// Sends the request and waits for its answer. The library's own functions would do so too, but they take an
+/// answer of any unit, and one that tells another write than the one that was asked for.
+/// @param bytes_back of data that the answer has
+bool ModbusMaster::ask(std::size_t bytes_back) {
   if (!is_connected_) return fail(ENOTCONN);
   constexpr std::size_t kAround = 20;  // what request and answer have besides
-  const auto on_the_line = static_cast<std::int64_t>(bytes + kAround) * character_;
+  const auto on_the_line = static_cast<std::int64_t>(request_.size() + bytes_back + kAround) * character_;
   wait_for(timeout_ + std::chrono::duration_cast<std::chrono::microseconds>(on_the_line));
   // On a line nothing tells which request an answer is for: one that has come late must not wait there.
   if (character_.count() > 0) modbus_flush(library_->context);
-  return modbus_set_slave(library_->context, unit) == 0 || fail(errno);
+  if (modbus_set_slave(library_->context, request_[0]) != 0 || !send()) return fail(errno);
+  if (!receive()) return false;
+  const ModbusAnswer answer = judge_answer(request_, answer_);
+  if (answer.flaw != nullptr) return fail(answer.flaw);
+  return answer.exception == 0 || fail(MODBUS_ENOBASE + answer.exception);
 }
 
-bool ModbusMaster::finish(bool is_good) {
-  return is_good || fail(errno);
+/// The library numbers no request that it did not make itself, so over TCP they go out from here.
+bool ModbusMaster::send() {
+  modbus_t* const context = library_->context;
+  const auto size = static_cast<int>(request_.size());
+  if (host_.empty()) return modbus_send_raw_request(context, request_.data(), size) > 0;
+  ++transaction_;
+  std::vector<std::uint8_t> frame = {static_cast<std::uint8_t>(transaction_ >> 8),
+                                     static_cast<std::uint8_t>(transaction_),
+                                     0,
+                                     0,
+                                     0,
+                                     static_cast<std::uint8_t>(size)};
+  frame.insert(frame.end(), request_.begin(), request_.end());
+  const ssize_t sent = ::send(modbus_get_socket(context), frame.data(), frame.size(), MSG_NOSIGNAL);
+  return sent == static_cast<ssize_t>(frame.size());
+}
+
+/// The answer without what stands around it: on TCP the rest of the header, on a line the check.
+bool ModbusMaster::receive() {
+  constexpr std::size_t kHead = 6;
+  answer_.resize(std::max(MODBUS_TCP_MAX_ADU_LENGTH, MODBUS_RTU_MAX_ADU_LENGTH));
+  const int count = modbus_receive_confirmation(library_->context, answer_.data());
+  if (count < 0) return fail(errno);
+  if (count == 0) return fail("the answer is of another unit");  // the library does not look further then
+  answer_.resize(static_cast<std::size_t>(count));
+  if (host_.empty()) {
+    constexpr std::size_t kCheck = 2;
+    answer_.resize(answer_.size() - kCheck);
+    return true;
+  }
+  if ((answer_[0] << 8 | answer_[1]) != transaction_) return fail("the answer is one to another request");
+  if (answer_[2] != 0 || answer_[3] != 0) return fail("the answer is of another protocol than Modbus");
+  if ((std::size_t{answer_[4]} << 8 | answer_[5]) != answer_.size() - kHead)
+    return fail("the answer has another length than its header says");
+  answer_.erase(answer_.begin(), answer_.begin() + kHead);
+  return true;
 }
 
 bool ModbusMaster::read(int unit, ModbusTable table, std::uint32_t address, std::span<std::uint16_t> words) {
-  if (!prepare(unit, words.size() * 2)) return false;
-  modbus_t* const context = library_->context;
-  const int from = static_cast<int>(address);
-  const int count = static_cast<int>(words.size());
-  if (table == ModbusTable::holding_register)
-    return finish(modbus_read_registers(context, from, count, words.data()) == count);
-  if (table == ModbusTable::input_register)
-    return finish(modbus_read_input_registers(context, from, count, words.data()) == count);
-  std::array<std::uint8_t, kMostBitsRead> bits{};
-  const int got = table == ModbusTable::coil ? modbus_read_bits(context, from, count, bits.data())
-                                             : modbus_read_input_bits(context, from, count, bits.data());
-  std::copy_n(bits.begin(), words.size(), words.begin());
-  return finish(got == count);
+  const auto count = static_cast<std::uint32_t>(words.size());
+  const bool is_bits = is_bit_table(table);
+  begin(unit, function_that_reads(table), address, count);
+  if (!ask(is_bits ? (words.size() + 7) / 8 : 2 * words.size())) return false;
+  const auto data = std::span<const std::uint8_t>(answer_).subspan(3);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    words[i] =
+        static_cast<std::uint16_t>(is_bits ? data[i / 8] >> (i % 8) & 1 : data[2 * i] << 8 | data[2 * i + 1]);
+  return true;
 }
 
 bool ModbusMaster::write(int unit, ModbusTable table, std::uint32_t address,
                          std::span<const std::uint16_t> words) {
-  if (!prepare(unit, words.size() * 2)) return false;
-  modbus_t* const context = library_->context;
-  const int from = static_cast<int>(address);
-  const int count = static_cast<int>(words.size());
-  if (table == ModbusTable::holding_register) {
-    if (count == 1) return finish(modbus_write_register(context, from, words[0]) == 1);
-    return finish(modbus_write_registers(context, from, count, words.data()) == count);
+  const auto count = static_cast<std::uint32_t>(words.size());
+  if (is_bit_table(table)) {
+    if (count == 1) {
+      begin(unit, MODBUS_FC_WRITE_SINGLE_COIL, address, words[0] != 0 ? 0xFF00 : 0);
+      return ask(0);
+    }
+    begin(unit, MODBUS_FC_WRITE_MULTIPLE_COILS, address, count);
+    request_.push_back(static_cast<std::uint8_t>((count + 7) / 8));
+    request_.resize(request_.size() + (count + 7) / 8);
+    std::uint8_t* const bits = request_.data() + request_.size() - (count + 7) / 8;
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (words[i] != 0) bits[i / 8] |= static_cast<std::uint8_t>(1u << (i % 8));
+    return ask(0);
   }
-  if (count == 1) return finish(modbus_write_bit(context, from, words[0] != 0 ? 1 : 0) == 1);
-  std::array<std::uint8_t, kMostBitsWritten> bits{};
-  std::transform(words.begin(), words.end(), bits.begin(),
-                 [](std::uint16_t word) { return static_cast<std::uint8_t>(word != 0 ? 1 : 0); });
-  return finish(modbus_write_bits(context, from, count, bits.data()) == count);
+  if (count == 1) {
+    begin(unit, MODBUS_FC_WRITE_SINGLE_REGISTER, address, words[0]);
+    return ask(0);
+  }
+  begin(unit, MODBUS_FC_WRITE_MULTIPLE_REGISTERS, address, count);
+  request_.push_back(static_cast<std::uint8_t>(2 * count));
+  for (const std::uint16_t word : words) put(word);
+  return ask(0);
 }
 
 bool ModbusMaster::write_bits(int unit, std::uint32_t address, std::uint16_t mask, std::uint16_t bits) {
-  if (!prepare(unit, 0)) return false;
-  return finish(modbus_mask_write_register(library_->context, static_cast<int>(address),
-                                           static_cast<std::uint16_t>(~mask), bits) == 1);
+  begin(unit, MODBUS_FC_MASK_WRITE_REGISTER, address, static_cast<std::uint16_t>(~mask));
+  put(bits);
+  return ask(0);
 }
 
 }  // namespace lockstep

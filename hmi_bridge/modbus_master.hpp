@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "hmi_bridge/modbus_map.hpp"
 #include "hmi_bridge/modbus_serial.hpp"
@@ -18,7 +19,8 @@ inline constexpr std::uint32_t kMostRegistersRead = 125, kMostRegistersWritten =
 inline constexpr std::uint32_t kMostBitsRead = 2000, kMostBitsWritten = 1968;
 
 /// A connection. Each function waits for its whole answer, for the time-out at most and on a serial line for
-/// what its characters take besides (a name server may take longer). After any failure but an exception the
+/// what its characters take besides (a name server may take longer). An answer that is not one to the
+/// request, by its header or by `judge_answer`, is a failure. After any failure but an exception the
 /// connection is closed, since an answer that comes late would be taken for that of the next request. All
 /// functions: one thread.
 class ModbusMaster {
@@ -53,9 +55,13 @@ class ModbusMaster {
   struct Library;
   bool has_address();
   void wait_for(std::chrono::microseconds time);
-  bool prepare(int unit, std::size_t bytes);
-  bool finish(bool is_good);
+  void begin(int unit, int function, std::uint32_t address, std::uint32_t second);
+  void put(std::uint32_t word);
+  bool ask(std::size_t bytes_back);
+  bool send();
+  bool receive();
   bool fail(int error);
+  bool fail(const char* flaw);
 
   std::unique_ptr<Library> library_;
   const std::string host_;  // empty: a serial line
@@ -64,6 +70,8 @@ class ModbusMaster {
   bool is_connected_ = false;
   bool was_refused_ = false;
   std::string problem_;
+  std::uint16_t transaction_ = 0;
+  std::vector<std::uint8_t> request_, answer_;  // each from the unit on
 };
 
 }  // namespace lockstep

@@ -194,12 +194,10 @@ ModbusException ModbusResponder::read_bits(ModbusTable table, Bytes pdu) {
 std::uint32_t ModbusResponder::put_plain(ModbusTable table, std::uint32_t address, std::uint32_t most,
                                          std::uint8_t* bytes) const noexcept {
   const std::span<const PlainRegister> plain = map_->plain_from(table, address);
-  const std::span<const std::uint32_t> places = image_.places();
-  const std::span<const Value> values = image_.values();
   const std::size_t end = std::min<std::size_t>(most, plain.size());
   std::size_t count = 0;
   for (; count < end && plain[count].exists(); ++count) {
-    const auto word = static_cast<std::uint16_t>(values[places[plain[count].signal]].u);
+    const auto word = static_cast<std::uint16_t>(image_.value(plain[count].signal).u);
     bytes[2 * count] = static_cast<std::uint8_t>(word >> 8);
     bytes[2 * count + 1] = static_cast<std::uint8_t>(word);
   }

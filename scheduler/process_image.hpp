@@ -3,13 +3,13 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "scheduler/triple_buffer.hpp"
+#include "scheduler/write_mailbox.hpp"
 #include "tech_objects/cache_line.hpp"
 #include "tech_objects/types.hpp"
 
@@ -58,75 +58,72 @@ class ProcessImage {
   /// Value of a signal at that tick, with the posted writes which that tick did not know yet.
   /// `signal` < size(). Thread: the bridge.
   Value value(std::size_t signal) const noexcept {
-    Value value = shadow_[places_[signal]];
+    const std::uint32_t variable = places_[signal];
+    Value value = shown_[variable];
+    if (is_behind_) value = with_own_writes(variable, value);
     if (const int bit = signals_[signal].bit; bit >= 0) value.u = value.u >> bit & 1u;
     return value;
   }
-
-  /// The same for many signals that are whole variables, no bits: the value of a signal is
-  /// `values()[places()[signal]]`. Valid until the next `refresh` or `post`. Thread: the bridge.
-  std::span<const Value> values() const noexcept { return shadow_; }
-  std::span<const std::uint32_t> places() const noexcept { return places_; }
 
   /// Has all the writes applied, in their order, at the start of one tick. Every `signal` < size(). May turn
   /// to newer values, as `refresh` does. Thread: the bridge.
   void post(std::span<const SignalWrite> batch) noexcept;
 
  private:
+  static constexpr std::size_t kPerLine = kCacheLine / sizeof(Value);
+  struct alignas(kCacheLine) Line {
+    std::array<Value, kPerLine> values{};
+  };
   struct Snapshot {
     std::int64_t tick = -1;
-    std::uint64_t applied = 0;  ///< number of the last batch that is in `values`
-    std::vector<Value> values;  ///< of `variables_`
+    std::uint64_t applied = 0;  ///< number of the last batch that is in the values
+    std::vector<Line> lines;    ///< values of `variables_`
   };
 
   /// Merged writes, by variable: what applying one after the other would give.
   class WriteSet {
    public:
-    explicit WriteSet(std::size_t variables) : writes_(variables) { touched_.reserve(variables); }
-    void add(std::uint32_t variable, Value value, std::uint64_t mask) noexcept;
+    explicit WriteSet(std::size_t variables) : places_(variables) { writes_.reserve(variables); }
+    /// @return the place of the write to this variable
+    std::size_t add(std::uint32_t variable, Value value, std::uint64_t mask) noexcept;
     void clear() noexcept;
-    /// Writes to the variables, or to values that stand for them.
-    void apply(const std::vector<Signal>& variables) const noexcept;
-    void apply(const std::vector<Signal>& variables, std::vector<Value>& values) const noexcept;
+    std::size_t size() const noexcept { return writes_.size(); }
+    const VariableWrite& at(std::size_t place) const noexcept { return writes_[place]; }
+    /// nullptr: there is none
+    const VariableWrite* to(std::uint32_t variable) const noexcept {
+      return places_[variable] == 0 ? nullptr : &writes_[places_[variable] - 1];
+    }
 
     std::uint64_t last = 0;  ///< number of the last batch in it; 0: none
 
    private:
-    struct Write {
-      Value value{};
-      std::uint64_t mask = 0;  ///< 0: no write
-    };
-    std::vector<Write> writes_;
-    std::vector<std::uint32_t> touched_;  ///< variables with a write
+    std::vector<VariableWrite> writes_;
+    std::vector<std::uint32_t> places_;  ///< by variable, plus one; 0: no write
   };
 
-  void bring_snapshot_near() noexcept;
-  static Snapshot first_snapshot(const std::vector<Signal>& variables);
-  void add(WriteSet& set, const SignalWrite& write) noexcept;
+  void come_near() noexcept;
+  void fill(std::vector<Line>& lines) const noexcept;
+  Value with_own_writes(std::uint32_t variable, Value value) const noexcept;
+  void add(const SignalWrite& write) noexcept;
 
   // Fixed after construction. Several signals may lie in one variable: the word and its bits.
   const std::vector<Signal> signals_;
-  std::vector<Signal> variables_;      ///< the distinct variables, whole
+  std::vector<Signal> variables_;      ///< the distinct variables, whole, by type
   std::vector<std::uint32_t> places_;  ///< variable of each signal
 
   TripleBuffer<Snapshot> snapshot_;
+  WriteMailbox mailbox_;
 
-  // Three sets: one of each side and one in the box between them, where `kFull` says that it is to be
-  // applied. The cycle takes it only if it is; the bridge takes it back to add to it, so that each is applied
-  // once.
-  static constexpr std::uint8_t kSet = 3;
-  static constexpr std::uint8_t kFull = 4;
-  std::array<WriteSet, 3> sets_;
-  alignas(kCacheLine) std::atomic<std::uint8_t> box_{1};
+  // The cycle's.
+  alignas(kCacheLine) std::vector<VariableWrite> taken_;
+  std::uint64_t applied_ = 0;  ///< number of the last batch applied
 
-  alignas(kCacheLine) std::uint8_t cycle_set_ = 0;
-  std::uint64_t applied_ = 0;  ///< the cycle's: number of the last batch applied
-
-  // The bridge's: the variables as it sees them, and its writes that the cycle had not taken when it last
-  // looked.
-  alignas(kCacheLine) std::uint8_t bridge_set_ = 2;
-  std::vector<Value> shadow_;
-  WriteSet waiting_;
+  // The bridge's. It reads of a snapshot only what it is asked for: the rest stays with the cycle. Its own
+  // writes, which a snapshot may not know yet, are those that the cycle had not taken when it last looked,
+  // and those that it had.
+  alignas(kCacheLine) const Value* shown_ = nullptr;  ///< values of the snapshot
+  bool is_behind_ = false;                            ///< the snapshot does not know all writes
+  WriteSet waiting_, taken_by_cycle_;
   std::uint64_t posted_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "scheduler/come_near.hpp"
 #include "tech_objects/cache_line.hpp"
 
 namespace lockstep {
@@ -24,6 +25,12 @@ class TripleBuffer {
   /// The slot to fill before `publish`. It holds some older value, not the last one: fill all of it.
   /// Thread: the writer.
   T& back() noexcept { return slots_[back_].value; }
+
+  /// Fetches what the reader has touched and `publish` needs, some time before it. Thread: the writer.
+  void come_near() const noexcept {
+    come_near_for_writing(&shared_);
+    come_near_for_writing(&slots_[back_]);
+  }
 
   /// Makes what `back` holds the newest value; `back` is another slot from here on. Thread: the writer.
   void publish() noexcept {

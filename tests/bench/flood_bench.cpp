@@ -1,10 +1,15 @@
 // What Modbus clients cost the tick: ./dev bench flood
+#include <lcm/lcm.h>
 #include <pthread.h>
 #include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,7 +19,11 @@
 #include <thread>
 #include <vector>
 
+#include "bench/machine.hpp"
+#include "hmi_bridge/csv_trace.hpp"
+#include "hmi_bridge/lcm_publisher.hpp"
 #include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/trace_recorder.hpp"
 #include "projects/project.hpp"
 #include "scheduler/processor.hpp"
 #include "tests/support/flood.hpp"
@@ -23,14 +32,17 @@ namespace lockstep::bench {
 namespace {
 
 constexpr char kHelp[] =
-    R"(flood_bench [--rounds N] [--ticks N] [--share] [--quick]: Modbus clients and the tick
+    R"(flood_bench [--rounds N] [--ticks N] [--axes N] [--share] [--quick]: Modbus clients and the tick
 
-Six axes on a line shaft run in ticks of their servo cycle, as in real time; in turns nobody is connected, the
-other processors only count, and thirty-two clients are at full speed, half of them malformed, slow or silent. Shown
-is the processor time of a tick (CLOCK_THREAD_CPUTIME_ID, mean of a round), median and least of all rounds, and how
-many requests were answered. Counting touches no memory: what it costs the tick is the machine's, whose processors
-share clock and power, and what the clients cost beyond it is Lockstep's. The cycle has the last processor for
-itself, as with `lockstep run --cpu`; with --share it shares all with the rest.
+A line shaft of six axes, and machines of 32 and 128 axes in gear with five mapped signals each (or of N
+alone), run in ticks of their servo cycle, as in real time, and are recorded. In turns nobody is connected,
+the other processors only count, thirty-two clients are at full speed, half of them malformed, slow or
+silent, and the same with a full disk under the recorder and a stopped subscriber of LCM. Shown is the
+processor time of a tick (CLOCK_THREAD_CPUTIME_ID without what reading this clock takes, mean of a round),
+median and least of all rounds, and how many requests were answered. Counting touches no memory: what it costs
+the tick is the machine's, whose processors share clock and power, and what the clients cost beyond it is
+Lockstep's. The cycle has the last processor for itself, as with `lockstep run --cpu`; with --share it shares
+all with the rest.
 )";
 
 double processor_time() {  // of this thread [µs]
@@ -39,12 +51,50 @@ double processor_time() {  // of this thread [µs]
   return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
 }
 
-/// A project that runs, with its Modbus server.
-class Machine {
+/// A program that has subscribed to everything on the network of LCM and then stopped: what it does not take
+/// fills the buffer of its socket. To be made before there are threads.
+class StoppedSubscriber {
+ public:
+  static constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
+
+  StoppedSubscriber() : child_(::fork()) {
+    if (child_ == 0) be_it();
+    int status = 0;
+    ::waitpid(child_, &status, WUNTRACED);
+    is_there_ = WIFSTOPPED(status);
+    if (!is_there_) std::printf("there is no network of LCM, and no subscriber\n");
+  }
+  ~StoppedSubscriber() {
+    if (!is_there_) return;
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+  }
+  StoppedSubscriber(const StoppedSubscriber&) = delete;
+  StoppedSubscriber& operator=(const StoppedSubscriber&) = delete;
+
+  const char* url() const { return is_there_ ? kUrl : "memq://"; }
+
+ private:
+  [[noreturn]] static void be_it() {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    lcm_t* const lcm = lcm_create(kUrl);
+    if (lcm == nullptr) ::_exit(1);
+    lcm_subscribe(
+        lcm, ".*", [](const lcm_recv_buf_t*, const char*, void*) {}, nullptr);
+    ::raise(SIGSTOP);
+    ::_exit(0);
+  }
+
+  const pid_t child_;
+  bool is_there_ = false;
+};
+
+/// A project that runs, with its Modbus server and its recorder.
+class FloodedMachine {
  public:
   /// @param processor of the cycle; negative: any
-  Machine(Project loaded, int processor)
-      : project_(std::move(loaded)), image_(places()), processor_(processor) {
+  FloodedMachine(const std::string& text, int processor)
+      : project_(loaded(text)), image_(places_of(project_.modbus.signals)), processor_(processor) {
     ModbusServerOptions options;
     options.listen = {{"127.0.0.1", 0}};
     server_ = std::make_unique<ModbusServer>(
@@ -52,7 +102,24 @@ class Machine {
     project_.controller->apply_stimuli = true;
     project_.controller->images = {&image_};
     if (const std::string problem = server_->start(); !problem.empty()) throw std::runtime_error(problem);
+    record("/dev/null", "memq://");
     run(1000);
+  }
+  ~FloodedMachine() { project_.controller->trace = nullptr; }
+
+  /// Records from here on to other places.
+  void record(const char* file, const char* url) {
+    recorder_.reset();
+    ring_ = std::make_unique<TraceRing>(places_of(project_.trace.signals));
+    std::vector<std::unique_ptr<TraceSink>> sinks;
+    sinks.push_back(std::make_unique<CsvTrace>(file));
+    sinks.push_back(std::make_unique<LcmPublisher>(
+        url, LcmTraceIdentity{"flood", "FLOOD", project_.controller->clock.interpolator_cycle(), 0}));
+    std::vector<TraceSignal> columns;
+    for (const NamedSignal& signal : project_.trace.signals)
+      columns.push_back({signal.name, signal.signal.value_type(), ""});
+    recorder_ = std::make_unique<TraceRecorder>(*ring_, std::move(columns), std::move(sinks));
+    project_.controller->trace = ring_.get();
   }
 
   /// So many ticks on a thread of their own, as `lockstep run` has them: with real-time priority where that
@@ -69,9 +136,11 @@ class Machine {
         do due += period;
         while (due < std::chrono::steady_clock::now());
         std::this_thread::sleep_until(due);
-        const double before = processor_time();
+        processor_time();
+        const double first = processor_time();
+        const double begin = processor_time();
         project_.controller->tick();
-        spent += processor_time() - before;
+        spent += processor_time() - begin - (begin - first);
       }
     });
     cycle.join();
@@ -81,23 +150,42 @@ class Machine {
   std::uint16_t port() const { return server_->port(); }
 
  private:
-  std::vector<Signal> places() const {
-    std::vector<Signal> places;
-    for (const NamedSignal& signal : project_.modbus.signals) places.push_back(signal.signal);
-    return places;
+  static Project loaded(const std::string& text) {
+    LoadedProject loaded = load_project(text);
+    if (!loaded.project) throw std::runtime_error("the project does not load: " + loaded.problems[0].text);
+    return std::move(*loaded.project);
   }
 
   Project project_;
   ProcessImage image_;
   int processor_;
   std::unique_ptr<ModbusServer> server_;
+  std::unique_ptr<TraceRing> ring_;
+  std::unique_ptr<TraceRecorder> recorder_;
 };
 
-std::unique_ptr<Machine> line_shaft(int processor) {
+using Json = nlohmann::ordered_json;
+
+std::string line_shaft() {
   std::ifstream file(LOCKSTEP_SOURCE_DIR "/projects/03_line_shaft/project.json");
-  LoadedProject loaded = load_project(test::flooded_project(nlohmann::ordered_json::parse(file)));
-  if (!loaded.project) throw std::runtime_error("the project of the line shaft does not load");
-  return std::make_unique<Machine>(std::move(*loaded.project), processor);
+  return test::flooded_project(Json::parse(file));
+}
+
+/// So many axes in gear, each with five signals that an operator sees, two of which are recorded.
+std::string axes_in_gear(int axes) {
+  Json json = Json::parse(project_text({.motion = Motion::gear, .axes = axes}));
+  json["tags"] = Json::object();
+  int address = 1000;
+  for (int i = 1; i <= axes; ++i) {
+    const std::string axis = "Axis" + std::to_string(i);
+    for (const char* name : {".Position", ".Velocity", ".ActualPosition", ".StatusWord", ".ErrorWord"}) {
+      json["modbus"]["map"].push_back(
+          {{"tag", axis + name}, {"table", "input_register"}, {"address", address}});
+      address += 4;
+    }
+    for (const char* name : {".Position", ".Velocity"}) json["trace"]["signals"].push_back(axis + name);
+  }
+  return test::flooded_project(std::move(json));
 }
 
 double median(std::vector<double> values) {
@@ -139,56 +227,83 @@ std::vector<double> ratios_of(const std::vector<double>& times, const std::vecto
   return ratios;
 }
 
-void measure(int rounds, int ticks, bool share) {
-  const std::unique_ptr<Machine> machine = line_shaft(share ? -1 : processor_of_its_own());
+struct Plan {
+  int rounds = 9;
+  int ticks = 4000;
+  int axes = 0;  ///< of a machine that is measured alone; 0: all machines
+  bool share = false;
+};
+
+void measure(const char* name, const std::string& text, int processor, const Plan& plan,
+             const StoppedSubscriber& subscriber) {
+  FloodedMachine machine(text, processor);
   std::vector<double> idle;
   std::vector<double> beside;
   std::vector<double> flooded;
+  std::vector<double> worst;
   std::uint64_t answered = 0;
-  for (int round = 0; round < rounds; ++round) {
-    idle.push_back(machine->run(ticks));
+  for (int round = 0; round < plan.rounds; ++round) {
+    idle.push_back(machine.run(plan.ticks));
     {
       const Counters counters;
-      beside.push_back(machine->run(ticks));
+      beside.push_back(machine.run(plan.ticks));
     }
-    const test::FloodClients clients(machine->port(), 0, 20240604);
-    const std::uint64_t before = machine->requests();
-    flooded.push_back(machine->run(ticks));
-    answered += machine->requests() - before;
+    const test::FloodClients clients(machine.port(), 0, 20240604);
+    const std::uint64_t before = machine.requests();
+    flooded.push_back(machine.run(plan.ticks));
+    answered += machine.requests() - before;
+    machine.record("/dev/full", subscriber.url());
+    worst.push_back(machine.run(plan.ticks));
+    machine.record("/dev/null", "memq://");
+    if (clients.wrong() != 0 || clients.torn() != 0) throw std::runtime_error("a client got a wrong answer");
   }
-  std::printf("%-42s %8s %8s\n", "tick, processor time [µs]", "median", "least");
-  show("nobody connected", idle);
+  std::printf("\n%-42s %8s %8s\n", name, "median", "least");
+  show("nobody connected [us]", idle);
   show("nobody connected, other processors busy", beside);
   show("32 clients at full speed", flooded);
+  show("  and a full disk, a stopped subscriber", worst);
   std::printf("ratio, round by round\n");
   show("  clients : nobody", ratios_of(flooded, idle));
   show("  clients : nobody, other processors busy", ratios_of(flooded, beside));
+  show("  with disk and subscriber : nobody", ratios_of(worst, idle));
   std::printf("%.1f requests in a tick\n",
-              static_cast<double>(answered) / (static_cast<double>(rounds) * ticks));
+              static_cast<double>(answered) / (static_cast<double>(plan.rounds) * plan.ticks));
+}
+
+void measure(const Plan& plan) {
+  const StoppedSubscriber subscriber;
+  const int processor = plan.share ? -1 : processor_of_its_own();
+  const auto in_gear = [&](int axes) {
+    measure(("gear, " + std::to_string(axes) + " axes").c_str(), axes_in_gear(axes), processor, plan,
+            subscriber);
+  };
+  if (plan.axes > 0) return in_gear(plan.axes);
+  measure("line shaft, 6 axes", line_shaft(), processor, plan, subscriber);
+  for (const int axes : {32, 128}) in_gear(axes);
 }
 
 }  // namespace
 }  // namespace lockstep::bench
 
 int main(int argc, char** argv) {
-  int rounds = 9;
-  int ticks = 4000;
-  bool share = false;
+  lockstep::bench::Plan plan;
   for (int i = 1; i < argc; ++i) {
     const bool has_value = i + 1 < argc;
     if (std::strcmp(argv[i], "--quick") == 0)
-      rounds = 1, ticks = 50;
+      plan.rounds = 1, plan.ticks = 50;
     else if (std::strcmp(argv[i], "--share") == 0)
-      share = true;
+      plan.share = true;
     else if (std::strcmp(argv[i], "--rounds") == 0 && has_value)
-      rounds = std::max(1, std::atoi(argv[++i]));
+      plan.rounds = std::max(1, std::atoi(argv[++i]));
     else if (std::strcmp(argv[i], "--ticks") == 0 && has_value)
-      ticks = std::max(1, std::atoi(argv[++i]));
+      plan.ticks = std::max(1, std::atoi(argv[++i]));
+    else if (std::strcmp(argv[i], "--axes") == 0 && has_value)
+      plan.axes = std::max(1, std::atoi(argv[++i]));
     else
       return std::fputs(lockstep::bench::kHelp, stderr), 2;
   }
   try {
-    lockstep::bench::measure(rounds, ticks, share);
+    lockstep::bench::measure(plan);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "flood_bench: %s\n", error.what());
     return 1;

@@ -31,7 +31,7 @@ std::string rise_by(const std::string& law, const std::string& more = "") {
 
 // The published figures of each law, to the digits of the catalogue.
 TEST(Cam, InfoTellsTheFiguresOfTheLawBeforeAndAfterItsMapping) {
-  const Folder folder;
+  const Directory folder;
   struct Row {
     const char* law;
     double cv, ca, cj;
@@ -56,7 +56,7 @@ TEST(Cam, InfoTellsTheFiguresOfTheLawBeforeAndAfterItsMapping) {
 }
 
 TEST(Cam, InfoTellsTheFiguresOfAPolynomialOfDegreeSevenBeforeAndAfterItsMapping) {
-  const Folder folder;
+  const Directory folder;
   const std::string file = folder.write("cam.json", R"({"lockstep_cam": 1, "elements": [
     {"type": "polynomial", "start": 0, "end": 1, "start_value": 0, "start_velocity": 0, "start_acceleration": 0,
      "start_jerk": 0, "end_value": 1, "end_velocity": 0, "end_acceleration": 0, "end_jerk": 0}]})");
@@ -68,7 +68,7 @@ TEST(Cam, InfoTellsTheFiguresOfAPolynomialOfDegreeSevenBeforeAndAfterItsMapping)
 }
 
 TEST(Cam, SampleGivesPointListsForSpreadsheets) {
-  const Folder folder;
+  const Directory folder;
   Ended ended = lockstep({"cam", "sample", kFeeder, "--count", "361"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(lines_of(ended.out), 361u);
@@ -81,18 +81,18 @@ TEST(Cam, SampleGivesPointListsForSpreadsheets) {
   EXPECT_EQ(json::parse(ended.out), json::parse("[[0, 0], [360, 0]]"));
   ended = lockstep({"cam", "sample", kFeeder, "-o", folder.file("list.csv")});
   EXPECT_EQ(ended.status, 0);
-  EXPECT_EQ(lines_of(content_of(folder.file("list.csv"))), 361u);
+  EXPECT_EQ(lines_of(content(folder.file("list.csv"))), 361u);
   ended = lockstep({"cam", "sample", kFeeder, "--from", "-1"});
   EXPECT_EQ(ended.status, 2);
   EXPECT_NE(ended.err.find("allowed is an ascending part of 0 to 360"), std::string::npos) << ended.err;
 }
 
 TEST(Cam, CheckCarriesOutTheChecksOfTheFile) {
-  const Folder folder;
+  const Directory folder;
   Ended ended = lockstep({"cam", "check", kFeeder});
   EXPECT_EQ(ended.status, 0);
   EXPECT_EQ(ended.out + ended.err, "");
-  json feeder = json::parse(content_of(kFeeder));
+  json feeder = json::parse(content(kFeeder));
   feeder["checks"]["max_velocity"] = 300.0;
   feeder["checks"]["following_range"] = {0, 49};
   ended = lockstep({"cam", "check", folder.write("cam.json", feeder.dump())});
@@ -111,14 +111,14 @@ TEST(Cam, CheckCarriesOutTheChecksOfTheFile) {
 }
 
 TEST(Cam, ConvertsBetweenAllFormatsAndBackWithoutALostBit) {
-  const Folder folder;
+  const Directory folder;
   const auto convert = [&](const std::string& from, const std::string& to,
                            std::vector<std::string> more = {}) {
     std::vector<std::string> command{"cam", "convert", from, "-o", folder.file(to)};
     command.insert(command.end(), more.begin(), more.end());
     const Ended ended = lockstep(command);
     EXPECT_EQ(ended.status, 0) << ended.err;
-    return content_of(folder.file(to));
+    return content(folder.file(to));
   };
   const std::string design = convert(kFeeder, "design.json");
   EXPECT_EQ(convert(folder.file("design.json"), "again.json"), design);
@@ -128,7 +128,7 @@ TEST(Cam, ConvertsBetweenAllFormatsAndBackWithoutALostBit) {
   EXPECT_EQ(convert(folder.file("data.json"), "back.csv"), table);
   EXPECT_EQ(lines_of(convert(kFeeder, "points.csv", {"--as", "points", "--count", "91"})), 91u);
   convert(folder.file("points.csv"), "points.json");
-  EXPECT_EQ(json::parse(content_of(folder.file("points.json"))).at("points").size(), 91u);
+  EXPECT_EQ(json::parse(content(folder.file("points.json"))).at("points").size(), 91u);
   Ended ended = lockstep({"cam", "convert", kFeeder, "-o", folder.file("x.csv"), "--as", "design"});
   EXPECT_EQ(ended.status, 2);
   ended = lockstep({"cam", "convert", kFeeder, "-o", folder.file("x.xls")});
@@ -137,10 +137,10 @@ TEST(Cam, ConvertsBetweenAllFormatsAndBackWithoutALostBit) {
 }
 
 TEST(Cam, PlotDrawsFourDiagramsAsSvgAndPng) {
-  const Folder folder;
+  const Directory folder;
   Ended ended = lockstep({"cam", "plot", kFeeder, "-o", folder.file("cam.svg")});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  const std::string svg = content_of(folder.file("cam.svg"));
+  const std::string svg = content(folder.file("cam.svg"));
   for (const char* text : {"Feeder", "following value", "velocity", "acceleration", "jerk", "leading value",
                            "transitions by a law"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
@@ -148,14 +148,14 @@ TEST(Cam, PlotDrawsFourDiagramsAsSvgAndPng) {
   ended =
       lockstep({"cam", "plot", kCams + "contour.csv", "-o", folder.file("cam.png"), "--title", "Contour"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_TRUE(content_of(folder.file("cam.png")).starts_with(kPng));
+  EXPECT_TRUE(content(folder.file("cam.png")).starts_with(kPng));
   ended = lockstep({"cam", "plot", kFeeder, "-o", folder.file("cam.pdf")});
   EXPECT_EQ(ended.status, 2);
   EXPECT_NE(ended.err.find("has to end in .svg or .png"), std::string::npos);
 }
 
 TEST(Cam, BrokenFilesAreToldWithTheirPlaces) {
-  const Folder folder;
+  const Directory folder;
   Ended ended = lockstep({"cam", "check", folder.write("points.csv", "0,0\n10,zwei\n20\n")});
   EXPECT_EQ(ended.status, 1);
   EXPECT_NE(ended.err.find("points.csv:2:4: 'zwei' is not allowed here"), std::string::npos) << ended.err;
@@ -178,7 +178,7 @@ TEST(Cam, BrokenFilesAreToldWithTheirPlaces) {
 }
 
 TEST(Cam, TellsElementsThatDoNotCountWithTheirPlaces) {
-  const Folder folder;
+  const Directory folder;
   Ended ended = lockstep({"cam", "check", folder.write("points.csv", "0,0\n10,1\n10,2\n20,0\n")});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.err.find("points.csv:2:1: warning: does not count"), std::string::npos) << ended.err;
@@ -194,7 +194,7 @@ TEST(Cam, TellsElementsThatDoNotCountWithTheirPlaces) {
 }
 
 TEST(Cam, FindsTheCamOfAProject) {
-  const Folder folder;
+  const Directory folder;
   const std::string project = folder.write("project.json", R"({"lockstep": 1, "technology_objects": {
     "Profile": {"type": "TO_Cam", "points": [[0.0, 0.0], [180.0, 50.0], [360.0, 0.0]],
       "config": {"InterpolationSettings": {"InterpolationMode": 1, "BoundaryConditions": 1}}}}})");

@@ -55,7 +55,7 @@ TEST(CommandLine, ARunShowsAnAxisThatHasComeToRestAtZeroThere) {
 }
 
 TEST(CommandLine, ARunShowsHowFastASpeedAxisTurnsSinceItHasNoPosition) {
-  const Folder folder;
+  const Directory folder;
   const std::string file = folder.write("project.json", R"({
     "lockstep": 1, "name": "fans", "clock": { "servo_cycle": "1ms" },
     "technology_objects": {
@@ -72,7 +72,7 @@ TEST(CommandLine, ARunShowsHowFastASpeedAxisTurnsSinceItHasNoPosition) {
 }
 
 TEST(CommandLine, ARunTellsHowManyIndicesWereOutOfRange) {
-  const Folder folder;
+  const Directory folder;
   const std::string file = folder.write("project.json", R"({
     "lockstep": 1, "name": "outside", "clock": { "servo_cycle": "1ms" },
     "tags": { "a": { "type": "ARRAY[1..2] OF INT" }, "i": { "type": "INT", "init": 3 } },

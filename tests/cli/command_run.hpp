@@ -7,39 +7,15 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
+#include "tests/support/directory.hpp"
+
 namespace lockstep::cli {
 
-/// A folder that is gone with this object.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lockstep_cli_XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(file(name), std::ios::binary) << text;
-    return file(name);
-  }
-
- private:
-  std::string path_;
-};
-
-inline std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using test::content;
+using test::Directory;
 
 /// What a command has said and how it ended.
 struct Ended {
@@ -49,7 +25,7 @@ struct Ended {
 
 /// Runs a program to its end, with standard output and error in files.
 inline Ended run(std::vector<std::string> command) {
-  const Folder folder;
+  const Directory folder;
   const pid_t child = ::fork();
   if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -67,8 +43,8 @@ inline Ended run(std::vector<std::string> command) {
   }
   int status = 0;
   ::waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(folder.file("out")),
-          content_of(folder.file("err"))};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder.file("out")),
+          content(folder.file("err"))};
 }
 
 /// Runs `lockstep` with arguments.

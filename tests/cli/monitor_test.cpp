@@ -121,7 +121,7 @@ void write_hostile_log(const std::string& path) {
 }
 
 TEST(Monitor, HostileMessagesNeitherEndItNorHideATraceNorReachTheTerminal) {
-  const Folder folder;
+  const Directory folder;
   write_hostile_log(folder.file("hostile.lcm"));
   const std::string play = "(while lcm-logplayer --lcm-url='udpm://239.255.76.67:7667?ttl=0' " +
                            quoted(folder.file("hostile.lcm")) + " >/dev/null 2>&1; do :; done) & player=$!; ";
@@ -382,7 +382,7 @@ TEST(Monitor, ATerminalThatNobodyKnowsIsToldAndEndsWith2) {
 }
 
 TEST(Monitor, ARecordIsALogThatPlotReads) {
-  const Folder folder;
+  const Directory folder;
   const std::string log = folder.file("record.lcm");
   OnTerminal terminal(in_own_network(with_knife(with_settings("--record " + quoted(log)))));
   terminal.resize(24, 160);  // room for the name of the file
@@ -408,7 +408,7 @@ TEST(Monitor, ARecordIsALogThatPlotReads) {
   EXPECT_NE(terminal.read_until("ended 0").find("ended 0"), std::string::npos);
   const Ended plotted = lockstep({"plot", log, "-o", folder.file("picture.svg")});
   EXPECT_EQ(plotted.status, 0) << plotted.err;
-  EXPECT_NE(content_of(folder.file("picture.svg")).find("Knife"), std::string::npos);
+  EXPECT_NE(content(folder.file("picture.svg")).find("Knife"), std::string::npos);
 }
 
 TEST(Monitor, AFullDiskEndsTheRecordAndIsTold) {

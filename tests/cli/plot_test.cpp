@@ -28,12 +28,12 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 TEST(Plot, DrawsACsvTraceAsSvgWithALegendAndUnits) {
-  const Folder folder;
+  const Directory folder;
   const std::string picture = folder.file("trace.svg");
   const Ended ended = lockstep({"plot", folder.write("trace.csv", turning()), "-o", picture});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(ended.err, "");
-  const std::string svg = content_of(picture);
+  const std::string svg = content(picture);
   EXPECT_NE(svg.find("<svg"), std::string::npos);
   EXPECT_NE(svg.rfind("</svg>"), std::string::npos);
   for (const char* text : {"trace.csv", "position [u]", "velocity [u/s]", "A.Position", "gear.InSync",
@@ -42,12 +42,12 @@ TEST(Plot, DrawsACsvTraceAsSvgWithALegendAndUnits) {
 }
 
 TEST(Plot, BreaksTheLineOfAModuloPositionWhereItWraps) {
-  const Folder folder;
+  const Directory folder;
   const auto lines_of = [&](const std::string& rows) {
     const std::string picture = folder.file("trace.svg");
     const Ended ended = lockstep({"plot", folder.write("trace.csv", "t,A.Position\n" + rows), "-o", picture});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    const std::string svg = content_of(picture);
+    const std::string svg = content(picture);
     const auto path = svg.find("<path stroke='rgb(  0, 114, 178)'");
     EXPECT_NE(path, std::string::npos);
     return count(svg.substr(path, svg.find("/>", path) - path), "M") - 1;  // one is the legend's
@@ -58,47 +58,47 @@ TEST(Plot, BreaksTheLineOfAModuloPositionWhereItWraps) {
 }
 
 TEST(Plot, DrawsAnLcmTraceAsPng) {
-  const Folder folder;
+  const Directory folder;
   const std::string log = folder.file("knife.lcm"), picture = folder.file("knife.png");
   const Ended made = lockstep({"run", kKnife, "--simulate", "--duration", "2s", "--trace", log});
   ASSERT_EQ(made.status, 0) << made.err;
   const Ended ended = lockstep({"plot", log, "-o", picture, "--from", "500ms", "--to", "1.5"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_EQ(content_of(picture).substr(0, 8), kPng);
+  EXPECT_EQ(content(picture).substr(0, 8), kPng);
 }
 
 TEST(Plot, DrawsOnlyTheSignalsThatAreAskedFor) {
-  const Folder folder;
+  const Directory folder;
   const std::string picture = folder.file("trace.svg");
   const Ended ended =
       lockstep({"plot", folder.write("trace.csv", turning()), "-o", picture, "--signals", "a.velocity"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NE(content_of(picture).find("A.Velocity"), std::string::npos);
-  EXPECT_EQ(content_of(picture).find("A.Position"), std::string::npos);
+  EXPECT_NE(content(picture).find("A.Velocity"), std::string::npos);
+  EXPECT_EQ(content(picture).find("A.Position"), std::string::npos);
 }
 
 TEST(Plot, ANameFromAFileIsTextAndNothingElse) {
-  const Folder folder;
+  const Directory folder;
   const std::string mark = folder.file("mark");
   const std::string name = "x'; system \"touch " + mark + "\" #";
   const std::string other = "`touch " + mark + "`";
   const std::string trace = folder.write("trace.csv", "t," + name + "," + other + "\n0,1.5,1.5\n1,2.5,0.5\n");
   const Ended ended = lockstep({"plot", trace, "-o", folder.file("trace.svg")});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NE(content_of(folder.file("trace.svg")).find("touch"), std::string::npos) << "shown as it is";
+  EXPECT_NE(content(folder.file("trace.svg")).find("touch"), std::string::npos) << "shown as it is";
   EXPECT_FALSE(std::filesystem::exists(mark));
 }
 
 // A hundred thousand rows with one peak, which is one row long.
 TEST(Plot, ALongTraceGivesASmallPictureThatStillHasItsPeak) {
-  const Folder folder;
+  const Directory folder;
   const auto marks_of = [&](const std::string& peak) {
     std::string text = "t,A.Velocity\n";
     for (int i = 0; i < 100'000; ++i)
       text += std::to_string(i) + "," + (i == 54'321 ? peak : std::to_string(i % 10)) + "\n";
     const Ended ended = lockstep({"plot", folder.write("long.csv", text), "-o", folder.file("long.svg")});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    const std::string svg = content_of(folder.file("long.svg"));
+    const std::string svg = content(folder.file("long.svg"));
     EXPECT_LT(svg.size(), 300'000u);
     return count(svg, ">100<");  // a mark of the axis
   };
@@ -107,7 +107,7 @@ TEST(Plot, ALongTraceGivesASmallPictureThatStillHasItsPeak) {
 }
 
 TEST(Plot, DrawsOddTraces) {
-  const Folder folder;
+  const Directory folder;
   const std::pair<const char*, const char*> odd[] = {
       {"one row", "t,a\n0,1.5\n"},
       {"a constant", "t,a\n0,1.5\n1,1.5\n"},
@@ -118,13 +118,13 @@ TEST(Plot, DrawsOddTraces) {
   for (const auto& [what, text] : odd) {
     const Ended ended = lockstep({"plot", folder.write("odd.csv", text), "-o", folder.file("odd.png")});
     EXPECT_EQ(ended.status, 0) << what << ": " << ended.err;
-    EXPECT_EQ(content_of(folder.file("odd.png")).substr(0, 8), kPng) << what;
+    EXPECT_EQ(content(folder.file("odd.png")).substr(0, 8), kPng) << what;
     std::filesystem::remove(folder.file("odd.png"));
   }
 }
 
 TEST(Plot, WhatCannotBeDrawnExitsWith2AndTheReasonAndLeavesNoPicture) {
-  const Folder folder;
+  const Directory folder;
   const std::string good = folder.write("good.csv", turning());
   const std::string picture = folder.file("x.png");
   const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
@@ -155,7 +155,7 @@ TEST(Plot, WhatCannotBeDrawnExitsWith2AndTheReasonAndLeavesNoPicture) {
 }
 
 TEST(Plot, WithoutGnuplotTheUserIsToldWhatToInstall) {
-  const Folder folder;
+  const Directory folder;
   const Ended ended = run({"env", "PATH=" + folder.file("nowhere"), LOCKSTEP_EXECUTABLE, "plot",
                            folder.write("trace.csv", turning()), "-o", folder.file("x.png")});
   EXPECT_EQ(ended.status, 2);

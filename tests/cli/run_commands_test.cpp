@@ -101,12 +101,12 @@ std::vector<std::string> run_of(const std::string& file, const std::string& erro
 TEST(RunCommands, APanelEnablesJogsHomesAndTheJogStopsWhenItFallsSilent) {
   in_own_network([] {
     bring_up_network();
-    const cli::Folder folder;
+    const cli::Directory folder;
     const std::string file = folder.write(
         "project.json", project(R"(, "commands": { "axes": { "Slide": { "jog_velocity": 20.0 } } })"));
     ForeignProgram run(run_of(file, folder.file("err")));
     Client client;
-    ASSERT_TRUE(client.hear_until([&] { return client.states > 0; })) << cli::content_of(folder.file("err"));
+    ASSERT_TRUE(client.hear_until([&] { return client.states > 0; })) << cli::content(folder.file("err"));
     EXPECT_EQ(client.state.axis, "Slide");
     EXPECT_EQ(client.state.jog_velocity, 20.0);
 
@@ -152,7 +152,7 @@ TEST(RunCommands, APanelEnablesJogsHomesAndTheJogStopsWhenItFallsSilent) {
 
     run.interrupt();
     EXPECT_EQ(run.status(), 0);
-    const std::string told = cli::content_of(folder.file("err"));
+    const std::string told = cli::content(folder.file("err"));
     EXPECT_NE(told.find("commands from panels on udpm://239.255.76.67:7667?ttl=0, channel SLIDE_CMD: Slide"),
               std::string::npos)
         << told;
@@ -179,7 +179,7 @@ TEST(RunCommands, ALogOfTheRunHasTheAnswersThatTheNetworkHearsAndAPlayerTellsThe
   in_own_network(
       [] {
         bring_up_network();
-        const cli::Folder folder;
+        const cli::Directory folder;
         const std::string log = folder.file("run.lcm");
         std::vector<event_t> heard;
         {
@@ -188,7 +188,7 @@ TEST(RunCommands, ALogOfTheRunHasTheAnswersThatTheNetworkHearsAndAPlayerTellsThe
                      folder.file("err"), log));
           Client client;
           ASSERT_TRUE(client.hear_until([&] { return client.states > 0; }))
-              << cli::content_of(folder.file("err"));
+              << cli::content(folder.file("err"));
           client.send(command_t::ENABLE);
           client.send(command_t::HOME, 5.0);
           client.send(command_t::OVERRIDE, 500.0);
@@ -223,10 +223,10 @@ TEST(RunCommands, ALogOfTheRunHasTheAnswersThatTheNetworkHearsAndAPlayerTellsThe
 TEST(RunCommands, AProjectThatDoesNotSaySoHearsNoCommand) {
   in_own_network([] {
     bring_up_network();
-    const cli::Folder folder;
+    const cli::Directory folder;
     ForeignProgram run(run_of(folder.write("project.json", project("")), folder.file("err")));
     Client client;
-    ASSERT_TRUE(client.hear_until([&] { return client.rows > 0; })) << cli::content_of(folder.file("err"));
+    ASSERT_TRUE(client.hear_until([&] { return client.rows > 0; })) << cli::content(folder.file("err"));
     const std::uint64_t before = client.rows;
     for (int i = 0; i < 10; ++i) client.send(command_t::ENABLE);
     ASSERT_TRUE(client.hear_until([&] { return client.rows > before + 500; }));
@@ -234,7 +234,7 @@ TEST(RunCommands, AProjectThatDoesNotSaySoHearsNoCommand) {
     for (const event_t& event : client.events) EXPECT_EQ(event.kind, "overrun") << "of a busy machine";
     run.interrupt();
     EXPECT_EQ(run.status(), 0);
-    EXPECT_EQ(cli::content_of(folder.file("err")).find("commands"), std::string::npos);
+    EXPECT_EQ(cli::content(folder.file("err")).find("commands"), std::string::npos);
   });
 }
 

@@ -37,7 +37,7 @@ constexpr char kProject[] = R"({
 })";
 
 TEST(Tags, TellsWhatIsOnModbusAsCsv) {
-  const Folder folder;
+  const Directory folder;
   json project = json::parse(kProject);
   project["tags"]["go"]["comment"] = "from the \"HMI\", left";
   project["modbus"]["units"] = json::parse(
@@ -60,7 +60,7 @@ TEST(Tags, TellsWhatIsOnModbusAsCsv) {
 }
 
 TEST(Tags, TellsArraysOnModbusAsOneLineEach) {
-  const Folder folder;
+  const Directory folder;
   json project = json::parse(kProject);
   project["tags"]["heights"] = {{"type", "ARRAY[0..3] OF LREAL"}, {"comment", "of parts"}, {"retain", true}};
   project["tags"]["lamps"] = {{"type", "ARRAY[1..20] OF BOOL"}};
@@ -90,7 +90,7 @@ TEST(Tags, TellsArraysOnModbusAsOneLineEach) {
 }
 
 TEST(Tags, TellsTexts) {
-  const Folder folder;
+  const Directory folder;
   json project = json::parse(kProject);
   project["tags"]["kind"] = {
       {"type", "STRING[5]"}, {"init", "it's"}, {"comment", "of bottle"}, {"retain", true}};
@@ -120,7 +120,7 @@ TEST(Tags, TellsTexts) {
 }
 
 TEST(Tags, TellsArraysAndTheElementsThatAreOnModbus) {
-  const Folder folder;
+  const Directory folder;
   json project = json::parse(kProject);
   project["tags"]["curve"] = {{"type", "array[0..4] of TO_Cam_Struct_PointData"}, {"comment", "of a cam"}};
   project["modbus"]["map"].push_back(
@@ -141,7 +141,7 @@ TEST(Tags, TellsArraysAndTheElementsThatAreOnModbus) {
 }
 
 TEST(Tags, TellsTagsWithTheirAddressesAndWhatElseIsOnModbusAndTheNumbersOfObjects) {
-  const Folder folder;
+  const Directory folder;
   const Ended ended = lockstep({"tags", folder.write("project.json", kProject), "--json"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json shown = json::parse(ended.out);
@@ -168,7 +168,7 @@ TEST(Tags, TellsTagsWithTheirAddressesAndWhatElseIsOnModbusAndTheNumbersOfObject
 }
 
 TEST(Tags, AlignsTheTable) {
-  const Folder folder;
+  const Directory folder;
   const Ended ended = lockstep({"tags", folder.write("project.json", kProject)});
   ASSERT_EQ(ended.status, 0) << ended.err;
   for (const char* line : {"\ngo ", " TRUE ", " 12.5 ", " retain ", "\n    from the HMI", " 10-13 ",
@@ -177,7 +177,7 @@ TEST(Tags, AlignsTheTable) {
 }
 
 TEST(Tags, ExitsAsCheckDoes) {
-  const Folder folder;
+  const Directory folder;
   const Ended missing = lockstep({"tags", folder.file("nothing.json")});
   EXPECT_EQ(missing.status, 2);
   const Ended wrong = lockstep({"tags", folder.write("wrong.json", R"({"lockstep": 1, "nmae": "x"})")});

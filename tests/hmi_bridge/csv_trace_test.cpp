@@ -37,7 +37,7 @@ std::string message_of(const std::string& text) {
 }
 
 TEST(CsvTrace, AFileIsAsTheContractHasItToTheByte) {
-  const TraceDirectory directory;
+  const Directory directory;
   const std::string path = directory.file("run.csv");
   {
     CsvTrace trace(path);
@@ -65,7 +65,7 @@ TEST(CsvTrace, AFileIsAsTheContractHasItToTheByte) {
 }
 
 TEST(CsvTrace, ATraceWithoutSignalsOrRowsIsItsFirstLine) {
-  const TraceDirectory directory;
+  const Directory directory;
   CsvTrace trace(directory.file("run.csv"));
   trace.begin({});
   trace.row({1'000'000'000, 0, 0, {}});
@@ -74,7 +74,7 @@ TEST(CsvTrace, ATraceWithoutSignalsOrRowsIsItsFirstLine) {
 }
 
 TEST(CsvTrace, FlushedRowsAreOnTheDiskWhileTheRunGoesOn) {
-  const TraceDirectory directory;
+  const Directory directory;
   CsvTrace trace(directory.file("run.csv"));
   trace.begin({});
   trace.row({0, 0, 0, {}});
@@ -127,7 +127,7 @@ TEST(CsvNumber, WhatIsNoFiniteNumberIsWrittenWithoutASignOfNan) {
 // Doubles of every exponent, subnormal ones among them.
 TEST(CsvTrace, EveryDoubleReadsBackBitForBit) {
   constexpr std::size_t kRows = 20'000;
-  const TraceDirectory directory;
+  const Directory directory;
   const std::string path = directory.file("run.csv");
   std::mt19937_64 random(test::seed_of_test(4711));
   std::vector<double> numbers = {0.0, -0.0, std::numeric_limits<double>::denorm_min(),

@@ -36,7 +36,7 @@ std::string message_of(const std::string& path, const std::string& channel = "")
 }
 
 TEST(LcmLog, ALogReadsBackWithoutALostBit) {
-  const TraceDirectory directory;
+  const Directory directory;
   const std::string path = directory.file("run.lcm");
   const auto rows = sample_rows(500, 17);
   write_log(path, kIdentity, rows);
@@ -57,7 +57,7 @@ TEST(LcmLog, ALogReadsBackWithoutALostBit) {
 }
 
 TEST(LcmLog, InVirtualTimeTheStampsAreVirtualAndTwoLogsAreTheSameBytes) {
-  const TraceDirectory directory;
+  const Directory directory;
   write_log(directory.file("a.lcm"), kIdentity, sample_rows(100, 3));
   write_log(directory.file("b.lcm"), kIdentity, sample_rows(100, 3));
   EXPECT_EQ(content(directory.file("a.lcm")), content(directory.file("b.lcm")));
@@ -69,7 +69,7 @@ TEST(LcmLog, InVirtualTimeTheStampsAreVirtualAndTwoLogsAreTheSameBytes) {
 }
 
 TEST(LcmLog, InRealTimeTheStampsCountFromTheStartOnTheWallClock) {
-  const TraceDirectory directory;
+  const Directory directory;
   constexpr std::int64_t kStart = 1'700'000'000'000'000;
   write_log(directory.file("a.lcm"), {"p", "C", kPeriod, kStart}, sample_rows(3, 3));
   LcmTraceReader reader(directory.file("a.lcm"));
@@ -78,7 +78,7 @@ TEST(LcmLog, InRealTimeTheStampsCountFromTheStartOnTheWallClock) {
 }
 
 TEST(LcmLog, TheHeaderStandsAtTheFrontAndOnceForEverySecond) {
-  const TraceDirectory directory;
+  const Directory directory;
   write_log(directory.file("run.lcm"), kIdentity, sample_rows(9, 3));
   lcm_eventlog_t* log = lcm_eventlog_create(directory.file("run.lcm").c_str(), "r");
   ASSERT_NE(log, nullptr);
@@ -93,7 +93,7 @@ TEST(LcmLog, TheHeaderStandsAtTheFrontAndOnceForEverySecond) {
 }
 
 TEST(LcmLog, ATraceWithoutRowsStillTellsWhatItWouldHaveHeld) {
-  const TraceDirectory directory;
+  const Directory directory;
   write_log(directory.file("run.lcm"), kIdentity, {});
   const TraceTable table = read_lcm_trace(directory.file("run.lcm"));
   EXPECT_EQ(table.signals, sample_signals());
@@ -110,7 +110,7 @@ TEST(LcmLog, AFileThatCannotBeOpenedIsNamed) {
 }
 
 TEST(LcmTraceReader, ALogThatWasCutShortGivesItsWholeRowsAndARemark) {
-  const TraceDirectory directory;
+  const Directory directory;
   const std::string path = directory.file("run.lcm");
   write_log(path, kIdentity, sample_rows(10, 3));
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 5);
@@ -120,7 +120,7 @@ TEST(LcmTraceReader, ALogThatWasCutShortGivesItsWholeRowsAndARemark) {
 }
 
 TEST(LcmTraceReader, AnEventThatClaimsMoreThanTheFileHasEndsTheLog) {
-  const TraceDirectory directory;
+  const Directory directory;
   const std::string path = directory.file("run.lcm");
   write_log(path, kIdentity, sample_rows(10, 3));
   constexpr std::uint8_t kTwoGigabytes[] = {0x7F, 0xFF, 0xFF, 0xFF};
@@ -141,7 +141,7 @@ TEST(LcmTraceReader, AnEventThatClaimsMoreThanTheFileHasEndsTheLog) {
 }
 
 TEST(LcmTraceReader, ALogThatGrowsWhileItIsReadIsReadToItsEnd) {
-  const TraceDirectory directory;
+  const Directory directory;
   const std::string path = directory.file("run.lcm");
   write_log(path, kIdentity, sample_rows(10, 3));
   const std::string bytes = content(path);
@@ -156,7 +156,7 @@ TEST(LcmTraceReader, ALogThatGrowsWhileItIsReadIsReadToItsEnd) {
 }
 
 TEST(LcmTraceReader, RowsThatTheRunDroppedAreRemarked) {
-  const TraceDirectory directory;
+  const Directory directory;
   {
     LcmLog log(directory.file("run.lcm"), kIdentity);
     log.begin({});
@@ -168,7 +168,7 @@ TEST(LcmTraceReader, RowsThatTheRunDroppedAreRemarked) {
 }
 
 TEST(LcmTraceReader, WhatIsNoTraceIsRefusedWithTheReason) {
-  const TraceDirectory directory;
+  const Directory directory;
   const std::string path = directory.file("run.lcm");
   EXPECT_EQ(message_of(path), path + ": No such file or directory");
   EXPECT_EQ(message_of("/"), "/: Is a directory");
@@ -180,7 +180,7 @@ TEST(LcmTraceReader, WhatIsNoTraceIsRefusedWithTheReason) {
 }
 
 TEST(LcmTraceReader, ADamagedMessageIsNamedByItsEvent) {
-  const TraceDirectory directory;
+  const Directory directory;
   const std::string path = directory.file("run.lcm");
   lcm_eventlog_t* log = lcm_eventlog_create(path.c_str(), "w");
   ASSERT_NE(log, nullptr);

@@ -102,7 +102,7 @@ TEST(LcmNetwork, LcmLoggerRecordsEveryRow) {
     bring_up_network();
     constexpr std::uint64_t kRows = 2000;
     constexpr std::uint64_t kBurst = 20;
-    const TraceDirectory directory;
+    const Directory directory;
     const std::string path = directory.file("logged.lcm");
     LcmPublisher publisher(kUrl, kIdentity);
     ForeignProgram logger(
@@ -172,7 +172,7 @@ TEST(LcmNetwork, LcmLogplayerReplaysALogToASubscriber) {
   in_own_network([] {
     bring_up_network();
     constexpr std::uint64_t kRows = 1500;  // 1.5 s of virtual time
-    const TraceDirectory directory;
+    const Directory directory;
     const std::string path = directory.file("run.lcm");
     LcmLog log(path, kIdentity);
     log.begin(kSignals);

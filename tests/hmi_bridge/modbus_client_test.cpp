@@ -1,13 +1,11 @@
 #include "hmi_bridge/modbus_client.hpp"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include <functional>
 
 #include "hmi_bridge/modbus_server.hpp"
+#include "tests/hmi_bridge/foreign_device.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/serial_cable.hpp"
 
@@ -290,17 +288,9 @@ TEST_F(Client, TheElementsOfALineAreGoodTogetherOrNot) {
 }
 
 TEST_F(Client, ADeviceThatKeepsSilentIsAskedLessAndLessOftenAndHoldsUpNoOther) {
-  // The system accepts the connection; nobody answers.
-  const int silent = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in place{};
-  place.sin_family = AF_INET;
-  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof place;
-  ASSERT_EQ(::bind(silent, reinterpret_cast<sockaddr*>(&place), size), 0);
-  ASSERT_EQ(::listen(silent, 5), 0);
-  ::getsockname(silent, reinterpret_cast<sockaddr*>(&place), &size);
+  const ListeningSocket silent;  // the system accepts the connection; nobody answers
   ModbusClientOptions options;
-  options.connect = Endpoint{"127.0.0.1", ntohs(place.sin_port)};
+  options.connect = Endpoint{"127.0.0.1", silent.port()};
   options.timeout = 20ms;
   options.first_retry = 100ms;
   options.devices = {plain_device()};
@@ -313,7 +303,45 @@ TEST_F(Client, ADeviceThatKeepsSilentIsAskedLessAndLessOftenAndHoldsUpNoOther) {
   const auto before = Clock::now();
   client->stop();
   EXPECT_LT(Clock::now() - before, 5s);
-  ::close(silent);
+}
+
+TEST_F(Client, AnAnswerThatIsNotOneToTheRequestSpoilsTheCycleAndTheConnectionIsMadeAnew) {
+  // Lies of an otherwise good device: the protocol, the unit; of a write its address and its value.
+  for (const std::size_t place : {2, 6, 9, 11}) {
+    std::atomic<bool> is_lying{false};
+    const ForeignDevice device([&](const ForeignDevice::Bytes& request) {
+      ForeignDevice::Bytes answer = ForeignDevice::good_answer(request);
+      const bool is_asked_for = place <= 6 ? request[7] == 3 : request[7] == 6;
+      if (is_asked_for && is_lying) {
+        answer[place] ^= 1;
+        if (request[7] == 3) answer[9] = answer[10] = 99;
+      }
+      return answer;
+    });
+    ModbusDevice one;
+    one.unit = 5;
+    one.cycle = 5ms;
+    one.quality = 5;
+    one.reads = {entry(2, ModbusTable::holding_register, 1000, Type::INT)};
+    one.writes = {entry(4, ModbusTable::holding_register, 200, Type::INT)};
+    poll({one}, device.port());
+    tags.expect([&] { return tags.quality; });
+    is_lying = true;
+    bool has_been_wrong = false;
+    tags.expect([&] {
+      has_been_wrong |= tags.locked != 1000;
+      return !tags.quality;
+    });
+    is_lying = false;
+    tags.expect([&] { return tags.quality && tags.locked == 1000; });
+    EXPECT_FALSE(has_been_wrong) << "byte " << place;
+    EXPECT_GE(client->counters().failed, 1u) << "byte " << place;
+    EXPECT_EQ(client->counters().refused, 0u) << "byte " << place;
+    EXPECT_EQ(client->counters().connections, 1 + client->counters().failed) << "byte " << place;
+    client.reset();
+    tags.quality = false;
+    tags.expect([&] { return !tags.quality; });
+  }
 }
 
 TEST_F(Client, AConnectionThatTheDeviceEndsBetweenTwoCyclesIsMadeAnewInTime) {
@@ -360,11 +388,7 @@ void answer_late_once(const PseudoTerminal& line, std::chrono::milliseconds late
     const std::vector<std::uint8_t> asked = line.receive(8, 1000);
     if (asked.size() < 8) return;
     if (is_first) std::this_thread::sleep_for(late);
-    std::vector<std::uint8_t> answer = {asked[0], asked[1], 2, asked[2], asked[3]};
-    const std::uint16_t crc = modbus_crc(answer);
-    answer.push_back(static_cast<std::uint8_t>(crc));
-    answer.push_back(static_cast<std::uint8_t>(crc >> 8));
-    line.send(answer);
+    line.send(with_check({asked[0], asked[1], 2, asked[2], asked[3]}));
   }
 }
 

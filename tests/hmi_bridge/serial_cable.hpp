@@ -14,7 +14,17 @@
 #include <thread>
 #include <vector>
 
+#include "hmi_bridge/modbus_serial.hpp"
+
 namespace lockstep {
+
+/// A frame with the check that it has on a line.
+inline std::vector<std::uint8_t> with_check(std::vector<std::uint8_t> frame) {
+  const std::uint16_t crc = modbus_crc(frame);
+  frame.push_back(static_cast<std::uint8_t>(crc));
+  frame.push_back(static_cast<std::uint8_t>(crc >> 8));
+  return frame;
+}
 
 /// One end, which a test holds by itself: what it writes comes in at the device `name`.
 class PseudoTerminal {

@@ -120,6 +120,16 @@ class Diary final : public TraceSink {
   std::vector<std::string>& lines_;
 };
 
+/// One signal, and what the recorder tells of it and of events.
+struct Told {
+  std::vector<std::string> lines;
+  LREAL x = 0.0;
+  TraceRing ring{{{&x, Type::LREAL}}, 16};
+  EventQueue queue;
+  TraceRecorder recorder{
+      ring, {{"x", Type::LREAL, ""}}, sinks(std::make_unique<Diary>(lines)), EventSource{&queue, {}, true}};
+};
+
 TraceEvent answer(const std::string& text, std::int64_t t) {
   TraceEvent event;
   event.kind = EventKind::command_accepted;
@@ -130,56 +140,42 @@ TraceEvent answer(const std::string& text, std::int64_t t) {
 }
 
 TEST(TraceRecorder, WhatTheBridgeTellsStandsAmongTheRowsAndTimeNeverGoesBack) {
-  std::vector<std::string> lines;
-  LREAL x = 0.0;
-  TraceRing ring({{&x, Type::LREAL}}, 16);
-  EventQueue queue;
-  TraceRecorder recorder(ring, {{"x", Type::LREAL, ""}}, sinks(std::make_unique<Diary>(lines)),
-                         EventSource{&queue, {}, true});
-  recorder.tell(answer("first", 2));
-  ring.push(1, 1);
-  queue.push({.kind = EventKind::overrun, .t = 2, .tick = 2});
-  ring.push(2, 2);
-  ring.push(3, 3);
-  ASSERT_TRUE(wait_until([&] { return ring.readable() == 0; }));
-  recorder.tell(answer("late", 1));
-  recorder.tell(answer("after all rows", 9));
-  ring.push(4, 4);
-  recorder.stop();
-  recorder.tell(answer("too late", 10));
-  EXPECT_EQ(lines, (std::vector<std::string>{"row 1", "overrun  2 2 0", "command accepted first 2 2 0",
-                                             "row 2", "row 3", "command accepted late 3 3 0", "row 4",
-                                             "command accepted after all rows 9 9 0"}));
+  Told run;
+  run.recorder.tell(answer("first", 2));
+  run.ring.push(1, 1);
+  run.queue.push({.kind = EventKind::overrun, .t = 2, .tick = 2});
+  run.ring.push(2, 2);
+  run.ring.push(3, 3);
+  ASSERT_TRUE(wait_until([&] { return run.ring.readable() == 0; }));
+  run.recorder.tell(answer("late", 1));
+  run.recorder.tell(answer("after all rows", 9));
+  run.ring.push(4, 4);
+  run.recorder.stop();
+  run.recorder.tell(answer("too late", 10));
+  EXPECT_EQ(run.lines, (std::vector<std::string>{"row 1", "overrun  2 2 0", "command accepted first 2 2 0",
+                                                 "row 2", "row 3", "command accepted late 3 3 0", "row 4",
+                                                 "command accepted after all rows 9 9 0"}));
 }
 
 TEST(TraceRecorder, WhatTheBridgeTellsStandsBeforeEventsOfLaterTicks) {
-  std::vector<std::string> lines;
-  LREAL x = 0.0;
-  TraceRing ring({{&x, Type::LREAL}}, 16);
-  EventQueue queue;
-  TraceRecorder recorder(ring, {{"x", Type::LREAL, ""}}, sinks(std::make_unique<Diary>(lines)),
-                         EventSource{&queue, {}, true});
-  recorder.tell(answer("of tick 8", 8));
-  queue.push({.kind = EventKind::overrun, .t = 10, .tick = 10});
-  ring.push(10, 10);
-  recorder.stop();
-  EXPECT_EQ(lines,
+  Told run;
+  run.recorder.tell(answer("of tick 8", 8));
+  run.queue.push({.kind = EventKind::overrun, .t = 10, .tick = 10});
+  run.ring.push(10, 10);
+  run.recorder.stop();
+  EXPECT_EQ(run.lines,
             (std::vector<std::string>{"command accepted of tick 8 8 8 0", "overrun  10 10 0", "row 10"}));
 }
 
 TEST(TraceRecorder, WhatTheBridgeTellsBeyondTheRoomForItIsCounted) {
-  std::vector<std::string> lines;
-  LREAL x = 0.0;
-  TraceRing ring({{&x, Type::LREAL}}, 16);
-  TraceRecorder recorder(ring, {{"x", Type::LREAL, ""}}, sinks(std::make_unique<Diary>(lines)),
-                         EventSource{nullptr, {}, true});
-  for (std::size_t i = 0; i < 5 * TraceRecorder::kMostTold; ++i) recorder.tell(answer("", 7));
-  const std::vector<std::string> losses = recorder.losses();
+  Told run;
+  for (std::size_t i = 0; i < 5 * TraceRecorder::kMostTold; ++i) run.recorder.tell(answer("", 7));
+  const std::vector<std::string> losses = run.recorder.losses();
   ASSERT_EQ(losses.size(), 1u);
   EXPECT_NE(losses[0].find("list of events incomplete: "), std::string::npos) << losses[0];
-  recorder.stop();
-  EXPECT_LE(lines.size(), 2 * TraceRecorder::kMostTold);
-  EXPECT_GE(lines.size(), TraceRecorder::kMostTold);
+  run.recorder.stop();
+  EXPECT_LE(run.lines.size(), 2 * TraceRecorder::kMostTold);
+  EXPECT_GE(run.lines.size(), TraceRecorder::kMostTold);
 }
 
 TEST(TraceRecorder, ASinkThatThrowsIsReportedAndHoldsNobodyUp) {
@@ -213,7 +209,7 @@ TEST(TraceRecorder, RowsThatFoundTheRingFullAreReported) {
 }
 
 TEST(TraceRecorder, VirtualTimeWritesEveryRowToCsvAndLogAlike) {
-  const TraceDirectory directory;
+  const Directory directory;
   Producer run;
   const LcmTraceIdentity identity{"sample", "SAMPLE", 1'000'000, 0};
   TraceRecorder recorder(run.ring, kSignals,
@@ -273,7 +269,7 @@ class FileSizeLimit {
 
 TEST(TraceRecorder, AFileThatReachesItsLimitEndsWithAWholeRowAndTheRestIsCounted) {
   constexpr std::uint64_t kRows = 50'000;
-  const TraceDirectory directory;
+  const Directory directory;
   Producer run;
   const LcmTraceIdentity identity{"sample", "SAMPLE", 1'000'000, 0};
   std::vector<std::string> losses;

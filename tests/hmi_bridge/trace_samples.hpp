@@ -1,45 +1,21 @@
 /// Signals, rows and places for the tests of traces.
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "hmi_bridge/trace_sink.hpp"
+#include "tests/support/directory.hpp"
 #include "tests/support/values.hpp"
 
 namespace lockstep {
 
+using test::content;
+using test::Directory;
 using test::integer;
 using test::real;
-
-/// A directory of one test, gone with it.
-class TraceDirectory {
- public:
-  TraceDirectory() {
-    std::string pattern = testing::TempDir() + "lockstep_trace_XXXXXX";
-    if (::mkdtemp(pattern.data()) == nullptr) ADD_FAILURE() << "no directory " << pattern;
-    path_ = pattern;
-  }
-  ~TraceDirectory() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
-
-inline std::string content(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// One signal of each kind.
 inline std::vector<TraceSignal> sample_signals() {

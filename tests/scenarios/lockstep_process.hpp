@@ -13,12 +13,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "tests/support/directory.hpp"
 
 namespace lockstep::test {
 
@@ -34,34 +34,6 @@ inline bool wait_until(const std::function<bool()>& condition, std::chrono::seco
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return true;
-}
-
-/// A directory of one test, gone with it.
-class Directory {
- public:
-  Directory() {
-    std::string pattern = testing::TempDir() + "lockstep_scenario_XXXXXX";
-    if (::mkdtemp(pattern.data()) == nullptr) ADD_FAILURE() << "no directory " << pattern;
-    path_ = pattern;
-  }
-  ~Directory() { std::filesystem::remove_all(path_); }
-  Directory(const Directory&) = delete;
-  Directory& operator=(const Directory&) = delete;
-
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(file(name), std::ios::binary) << text;
-    return file(name);
-  }
-
- private:
-  std::string path_;
-};
-
-inline std::string content(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
 }
 
 inline std::string example(const std::string& name) {

@@ -84,6 +84,8 @@ TEST_F(Panel, ReadsAndWritesByName) {
   ended = call("read", {"speed", "start", "wait", "mask", "small"}, run.port());
   EXPECT_EQ(ended.out, "speed = -12.5\nstart = TRUE\nwait = T#1.5s\nmask = 16#1234\nsmall = -40\n");
   EXPECT_TRUE(wait_until([&] { return call("read", {"doubled"}, run.port()).out == "doubled = -25.0\n"; }));
+  ASSERT_EQ(call("write", {"start=0"}, run.port()).status, 0);
+  EXPECT_EQ(call("read", {"start"}, run.port()).out, "start = FALSE\n") << "as Modbus has it";
   EXPECT_EQ(call("read", {"tenths"}, run.port()).out, "tenths = 12.3\n")
       << "a REAL as short as it was written";
   const Json all = Json::parse(call("read", {"--json"}, run.port()).out);
