@@ -163,8 +163,7 @@ void Axis::follow_actual() noexcept {
 /// late.
 void Axis::set_position_control(bool on) noexcept {
   if (!has_position()) return;
-  const bool left = has_bit(data.StatusWord, StatusBit::NonPositionControlled);  // not only in this tick
-  if (on && !position_controlled_ && left && has_drive_) {
+  if (on && !position_controlled_ && !control_switched_ && has_drive_) {
     setpoint_.position = advanced(actual_, actual_velocity_ * setpoint_delay(), modulo_);
     last_setpoint_.position = setpoint_.position;
     reset_servo({setpoint_.position, actual_velocity_});
@@ -289,6 +288,7 @@ void Axis::step() noexcept {
   if (beyond_limit_switch_) hold_limit_switches();
   guard();
   if (handing_over_) step_hand_over();
+  control_switched_ = false;
   if (!has_drive_) {
     // A virtual axis is where its setpoint is, in the same tick. Written part by part, as they have just been
     // computed: copied as a whole they would have to reach memory first.

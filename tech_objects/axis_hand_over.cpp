@@ -3,7 +3,6 @@
 // up again, without which they see zero. For them there is no step: what they see goes on from where it has
 // been and comes over with maximum dynamics.
 #include "tech_objects/axis.hpp"
-#include "tech_objects/zero_on_turn.hpp"
 
 namespace lockstep {
 
@@ -39,6 +38,7 @@ Setpoint Axis::handed_over() const noexcept {
 void Axis::lead_with_position_control(bool on) noexcept {
   if (on == position_controlled_) return;
   position_controlled_ = on;
+  if (takes_switch_back()) return;
   if (!on) return lead_with_zero();
   if (uncontrolled_.times == 0) return;  // a speed axis, or one that has been off since its start
   const Setpoint course = handing_over_ ? handed_over() : setpoint_;

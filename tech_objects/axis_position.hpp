@@ -45,6 +45,11 @@ inline AxisPosition normalised(AxisPosition position, const Modulo& modulo) noex
   return normalised(position.turns, to_double_double(position.value), modulo);
 }
 
+/// Where 0 lies on a turn of a ring, whose names may begin behind it.
+inline AxisPosition zero_on_turn(std::int64_t turns, const Modulo& modulo) noexcept {
+  return {turns, normalised({0, 0.0}, modulo).value};
+}
+
 /// The position after a way of `increment` [u] of either sign: exact, then rounded once.
 /// Whoever adds up many increments keeps the sum as a DoubleDouble and adds it to where he began. Any thread.
 inline AxisPosition advanced(AxisPosition position, DoubleDouble increment, const Modulo& modulo) noexcept {

@@ -132,6 +132,9 @@ class LeadingObject : public TechnologyObject {
 
   /// Position control is left: from now on axes that follow the position see zero.
   void lead_with_zero() noexcept;
+  /// A switch of position control. @return whether it takes back another one of this tick, which nobody has
+  /// seen: then all is as it was before
+  bool takes_switch_back() noexcept;
 
   bool position_controlled_ = true;
   bool handing_over_ = false;  // axes that follow the setpoint see another one, which is on its way to it
@@ -143,11 +146,13 @@ class LeadingObject : public TechnologyObject {
   Setpoint setpoint_;
   Setpoint last_setpoint_;
 
+  bool control_switched_ = false;  // in this tick
   UncontrolledLead uncontrolled_;
   std::uint32_t restarts_ = 0;
   std::uint32_t homings_ = 0;
 
  private:
+  UncontrolledLead before_switch_;
   Setpoint led_;
   Setpoint last_led_;
   Setpoint leading_actual_;

@@ -198,6 +198,18 @@ struct Led : Rig {
     EXPECT_EQ(l.position_controlled(), !first_on);
   }
 
+  /// As `switch_twice`, without a switch.
+  void run_again_at(double speed) {
+    run_l.Execute = false;
+    run(1);
+    run_again.Velocity = speed;
+    run_again.Acceleration = 1000.0;
+    run_again.Jerk = 0.0;
+    run_again.PositionControlled = true;
+    run_again.Execute = true;
+    run(2);
+  }
+
   By by;
   Axis& l;
   Axis& f;
@@ -461,6 +473,34 @@ TEST_P(BothSwitches, OnAndOffAgainIsNoStepNorTurns) {
   rig.run_leading(kSpeed, true, 5000);
   EXPECT_EQ(rig.seen(), rig.l.data.Position);
   EXPECT_NEAR(rig.apart(rig.off_place(), before), 0.0, 1e-9);
+}
+
+class OnTheWayBack : public ::testing::TestWithParam<std::tuple<By, bool, bool>> {};
+INSTANTIATE_TEST_SUITE_P(Ways, OnTheWayBack,
+                         ::testing::Combine(::testing::Values(By::gear, By::gear_in_pos, By::cam),
+                                            ::testing::Bool(), ::testing::Bool()));
+
+TEST_P(OnTheWayBack, OffAndOnAgainInOneTickIsAsIfNothingHadBeen) {
+  const auto [by, driven, ring] = GetParam();
+  Led rig(by, {.driven = driven, .ring = ring});
+  Led same(by, {.driven = driven, .ring = ring});
+  for (Led* const one : {&rig, &same}) {
+    one->couple();
+    one->leave();
+    one->run(1000);
+    one->run_leading(kSpeed, true, 60);
+    EXPECT_NE(one->seen(), one->l.data.Position) << "is on the way back";
+    one->watch(true);
+  }
+  rig.switch_twice(false, 0);
+  same.run_again_at(kSpeed);
+  EXPECT_TRUE(rig.l.position_controlled());
+  for (int i = 0; i < 3000; ++i) {
+    EXPECT_EQ(rig.seen(), same.seen());
+    rig.run(1);
+    same.run(1);
+  }
+  EXPECT_EQ(rig.seen(), rig.l.data.Position);
 }
 
 // ---- Restart
