@@ -356,8 +356,10 @@ class Axis final : public LeadingObject {
   Dynamics own_dynamics(const Job& job) noexcept;
   void keep_below_limit(Dynamics& dynamics) const noexcept;
   double room_to_limit() const noexcept;
-  double tolerable_acceleration() const noexcept;
-  void cut_acceleration() noexcept { setpoint_.acceleration = tolerable_acceleration(); }
+  double tolerable_acceleration(double acceleration) const noexcept;
+  void cut_acceleration() noexcept {
+    setpoint_.acceleration = tolerable_acceleration(setpoint_.acceleration);
+  }
   Dynamics maximum_dynamics() const noexcept;
   Dynamics emergency_dynamics() const noexcept;
   Dynamics maximum_for_current(Dynamics dynamics) const noexcept;

@@ -45,8 +45,12 @@ bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
   const double target = normalised({0, job.position}, modulo_).value;
   const bool there = candidate.standing() && last_setpoint_.standing() && candidate.position.value == target;
   Setpoint from = last_setpoint_;
-  if (job.mode != kOverDistance) from.acceleration = tolerable_acceleration();
-  if (!there && !synchronous_.meets_sync_out(job, from, candidate, dynamics)) return false;
+  Setpoint to = candidate;
+  if (job.mode != kOverDistance) {
+    from.acceleration = tolerable_acceleration(from.acceleration);
+    to.acceleration = tolerable_acceleration(to.acceleration);
+  }
+  if (!there && !synchronous_.meets_sync_out(job, from, to, dynamics)) return false;
   running_[kWaitingOut] = nullptr;
   data.StatusSynchronizedMotion.WaitingFunctionState =
       waiting_function_state(running_[kWaiting], running_[kWaitingOut]);

@@ -139,10 +139,9 @@ double Axis::room_to_limit() const noexcept {
 
 /// A synchronous motion, or one without jerk limit, may leave an acceleration that not even MaxJerk can run
 /// down below the velocity limit: what is too much is dropped.
-double Axis::tolerable_acceleration() const noexcept {
+double Axis::tolerable_acceleration(double acceleration) const noexcept {
   const double most = std::sqrt(2.0 * data.DynamicLimits.MaxJerk * room_to_limit());
-  const double a = setpoint_.acceleration;
-  return std::abs(a) > most ? std::copysign(most, a) : a;
+  return std::abs(acceleration) > most ? std::copysign(most, acceleration) : acceleration;
 }
 
 Dynamics Axis::maximum_dynamics() const noexcept {

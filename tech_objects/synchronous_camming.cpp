@@ -12,10 +12,6 @@ namespace {
 constexpr double kShortestPass = 1e-6;  // [leading u]
 constexpr double kSamePlace = 1e-12;    // of a pass: rounding of a position given at an end of the cam
 
-/// Most that the velocity of an axis may make, over the leading distance, of its way to the stop position, as
-/// a multiple of that way: a leading value that creeps would throw the axis far beyond.
-constexpr double kSteepestOut = 20.0;
-
 enum Profile : DINT {
   kDynamics = 0,
   kAhead = 1,
@@ -312,50 +308,6 @@ void SynchronousMotion::evaluate_cam(Setpoint& result) noexcept {
 
 bool SynchronousMotion::rests_at_cam_end() const noexcept {
   return follow_.rests_at(follow_.ended()) && phase_.velocity() == 0.0 && offset_.velocity() == 0.0;
-}
-
-// ---- Desynchronizing
-// --------------------------------------------------------------------------------------------
-
-/// As `meets_sync_out`, for a function whose slope changes: what braking takes is looked at before and after
-/// the tick.
-bool SynchronousMotion::meets_cam_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
-                                      const Dynamics& dynamics) noexcept {
-  const double step = rounded_difference(candidate.position, last.position, following_);
-  const int heading = sign(step);
-  if (heading == 0 || (job.direction == 1 && heading < 0) || (job.direction == 2 && heading > 0))
-    return false;
-  if (!additive_->in_use && leading_->source->leads_as_it_is(leading_->coupling))
-    leading_last_ = leading_->source->last_leading_state(leading_->coupling);
-  const bool over_distance = job.mode == 1;
-  const double distance = job.master_start_distance;
-  const double leading_step =
-      rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_);
-  if (over_distance && leading_step == 0.0) return false;  // it has not come to any start
-  const auto braking = [&](const Setpoint& own, AxisPosition leading) noexcept {
-    if (!over_distance) return stopping_way(own, heading, dynamics);
-    // The least curved way to rest: its velocity is a cubic of the leading distance.
-    const AxisPosition shifted = advanced(leading, phase_.value(), leading_modulo_);
-    const CamPlace place = follow_.joined_at(shifted, sign(leading_step));
-    const double slope = heading * sign(leading_step) * place.slope;
-    const double curvature = without_turning_back(heading * place.curvature, slope, distance);
-    return 0.5 * slope * distance + curvature * distance * distance / 12.0;
-  };
-  const double before = braking(last, leading_last_.position);
-  const double change = std::abs(step) + braking(candidate, leading_now_.position) - before;
-  const double target = normalised({0, job.position}, following_).value;
-  double spare = heading * (target - last.position.value) - before;
-  if (following_.enabled) {
-    spare = std::fmod(spare, following_.length);
-    if (spare < 0.0) spare += following_.length;
-  }
-  if (!(change > 0.0) || !(spare >= 0.0 && spare <= change) || !(before + spare > 0.0)) return false;
-  const double led_way = (before + spare) * std::abs(leading_last_.velocity);
-  if (over_distance && std::abs(last.velocity) * distance > kSteepestOut * led_way) return false;
-  out_way_ = heading * (before + spare);
-  out_distance_ = distance + spare / change * std::abs(leading_step);
-  set_out_position(last, target);
-  return true;
 }
 
 }  // namespace lockstep

@@ -3,49 +3,62 @@
 #include <cmath>
 
 #include "tech_objects/axis.hpp"
+#include "tech_objects/cam.hpp"
 #include "tech_objects/synchronous_motion.hpp"
 
 namespace lockstep {
 namespace {
 
-/// Steepest beginning, as a multiple of the gear: where the leading value creeps below a superimposed motion,
-/// the axis would be thrown far beyond its stop position.
+/// Most that the velocity of an axis may make, over the leading distance, of its way to the stop position, as
+/// a multiple of that way: a leading value that creeps would throw the axis far beyond.
 constexpr double kSteepest = 20.0;
 
 }  // namespace
 
-/// Over a leading distance: while the leading value stands, whatever else moves the axis, it has not come to
-/// any start.
+/// Whether the axis comes, within this tick, to the place from which it comes to rest at the stop position:
+/// what braking takes is looked at before and after the tick. Over a leading distance: while the leading
+/// value stands, whatever else moves the axis, it has not come to any start.
 bool SynchronousMotion::meets_sync_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
                                        const Dynamics& dynamics) noexcept {
-  if (cam_ != nullptr) return meets_cam_out(job, last, candidate, dynamics);
   const double step = rounded_difference(candidate.position, last.position, following_);
   const int heading = sign(step);
   if (heading == 0 || (job.direction == 1 && heading < 0) || (job.direction == 2 && heading > 0))
     return false;
-  const double target = normalised({0, job.position}, following_).value;
+  if (!additive_->in_use && leading_->source->leads_as_it_is(leading_->coupling))
+    leading_last_ = leading_->source->last_leading_state(leading_->coupling);
+  const bool over_distance = job.mode == 1;
   const double distance = job.master_start_distance;
-  const double gear = std::abs(ratio_);
-  if (job.mode == 1) {
-    if (!additive_->in_use && leading_->source->leads_as_it_is(leading_->coupling))
-      leading_last_ = leading_->source->last_leading_state(leading_->coupling);
-    const double led = leading_step().way();
-    if (led == 0.0 || std::abs(last.velocity) > kSteepest * gear * std::abs(leading_last_.velocity))
-      return false;
-  }
-  const double braking = job.mode == 1 ? 0.5 * gear * distance : stopping_way(last, heading, dynamics);
-  if (!std::isfinite(braking)) return false;
+  const double led = leading_step().way();
+  if (over_distance && led == 0.0) return false;
+  const auto braking = [&](const Setpoint& own, AxisPosition leading) noexcept {
+    return over_distance ? way_over(distance, leading, heading) : stopping_way(own, heading, dynamics);
+  };
+  const double before = braking(last, leading_last_.position);
+  const double change = std::abs(step) + braking(candidate, leading_now_.position) - before;
+  const double target = normalised({0, job.position}, following_).value;
   // Way to the stop position; on a ring as many turns more as braking needs.
-  double spare = heading * (target - last.position.value) - braking;
+  double spare = heading * (target - last.position.value) - before;
   if (following_.enabled) {
     spare = std::fmod(spare, following_.length);
     if (spare < 0.0) spare += following_.length;
   }
-  if (spare < 0.0 || spare > std::abs(step)) return false;
-  out_way_ = heading * (braking + spare);
-  out_distance_ = distance + spare / gear;
+  if (!(change > 0.0) || !(spare >= 0.0 && spare <= change) || !(before + spare > 0.0)) return false;
+  const double led_way = (before + spare) * std::abs(leading_last_.velocity);
+  if (over_distance && std::abs(last.velocity) * distance > kSteepest * led_way) return false;
+  out_way_ = heading * (before + spare);
+  out_distance_ = distance + spare / change * std::abs(led);
   set_out_position(last, target);
   return true;
+}
+
+/// The least curved way to rest over a leading distance: its velocity is a cubic of that distance.
+double SynchronousMotion::way_over(double distance, AxisPosition leading, int heading) const noexcept {
+  if (cam_ == nullptr) return 0.5 * std::abs(ratio_) * distance;
+  const int led = sign(leading_step().way());
+  const CamPlace place = follow_.joined_at(advanced(leading, phase_.value(), leading_modulo_), led);
+  const double slope = heading * led * place.slope;
+  const double curvature = without_turning_back(heading * place.curvature, slope, distance);
+  return 0.5 * slope * distance + curvature * distance * distance / 12.0;
 }
 
 void SynchronousMotion::set_out_position(const Setpoint& last, double target) noexcept {

@@ -196,6 +196,7 @@ class SynchronousMotion {
     shifted_ = shifted_ || offset_.in_use();
   }
   double stopping_way(const Setpoint& from, int heading, const Dynamics& dynamics) const noexcept;
+  double way_over(double distance, AxisPosition leading, int heading) const noexcept;
   void advance_in_velocity(Setpoint& setpoint) noexcept;
   static double without_turning_back(double curvature, double slope, double distance) noexcept;
   static double without_passing(double curvature, double slope, double way, double distance) noexcept;
@@ -228,8 +229,6 @@ class SynchronousMotion {
   void take_joint(const CamPlace& place, std::int64_t turns) noexcept;
   double cam_start() const noexcept;
   Setpoint tangent(double way) const noexcept;
-  bool meets_cam_out(const Job& job, const Setpoint& last, const Setpoint& candidate,
-                     const Dynamics& dynamics) noexcept;
   AxisPosition leading_at(double way) const noexcept;
   void set_out_position(const Setpoint& last, double target) noexcept;
   bool shoots_beyond(const SyncOffset& start, double distance) const noexcept;

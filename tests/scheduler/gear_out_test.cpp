@@ -1,4 +1,4 @@
-// MC_GearOut over a leading distance, of an axis that moves by more than its gear.
+// MC_GearOut where the axis does not simply move on by its gear.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -122,6 +122,19 @@ TEST(MC_GearOutOverADistance, DoesNotPassTheStopPositionBesideSuperimposedMotion
     rig.superimpose.Execute = true;
     rig.out.SlavePosition = rig.f.data.Position + 0.1 * tenths;
     rig.desynchronize(4000);
+  }
+}
+
+/// The faster it gets the more way braking takes, by more than the axis comes nearer meanwhile.
+TEST(MC_GearOutByDynamics, MeetsItsStartWhileTheAxisAcceleratesFasterThanItWillBrake) {
+  for (int tenths = 400; tenths < 2000; tenths += 17) {
+    SCOPED_TRACE(tenths);
+    Geared rig;
+    rig.run_leading(300.0, 20);
+    rig.out.SyncProfileReference = 0;
+    rig.out.Deceleration = 100.0;
+    rig.out.SlavePosition = 0.1 * tenths;
+    rig.desynchronize(20000);
   }
 }
 
