@@ -355,10 +355,12 @@ class Axis final : public LeadingObject {
   Dynamics effective_dynamics(const Job& job) noexcept;
   Dynamics own_dynamics(const Job& job) noexcept;
   void keep_below_limit(Dynamics& dynamics) const noexcept;
+  void keep_below_limit(Dynamics& dynamics, double acceleration, double room) const noexcept;
   double room_to_limit() const noexcept;
-  double tolerable_acceleration(double acceleration) const noexcept;
+  double room_to_limit(const Setpoint& from, double beside = 0.0) const noexcept;
+  double tolerable_acceleration(double acceleration, double room) const noexcept;
   void cut_acceleration() noexcept {
-    setpoint_.acceleration = tolerable_acceleration(setpoint_.acceleration);
+    setpoint_.acceleration = tolerable_acceleration(setpoint_.acceleration, room_to_limit());
   }
   Dynamics maximum_dynamics() const noexcept;
   Dynamics emergency_dynamics() const noexcept;

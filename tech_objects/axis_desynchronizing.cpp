@@ -41,14 +41,15 @@ void Axis::begin_sync_out(Job& job) noexcept {
 /// the axis is with all that is superimposed.
 bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
   Job& job = *running_[kWaitingOut];
-  const Dynamics dynamics = effective_dynamics(job);
+  Dynamics dynamics = effective_dynamics(job);
   const double target = normalised({0, job.position}, modulo_).value;
   const bool there = candidate.standing() && last_setpoint_.standing() && candidate.position.value == target;
   Setpoint from = last_setpoint_;
   Setpoint to = candidate;
-  if (job.mode != kOverDistance) {
-    from.acceleration = tolerable_acceleration(from.acceleration);
-    to.acceleration = tolerable_acceleration(to.acceleration);
+  if (job.mode != kOverDistance) {  // begins as the axis' own motions do
+    from.acceleration = tolerable_acceleration(from.acceleration, room_to_limit(from));
+    to.acceleration = tolerable_acceleration(to.acceleration, room_to_limit(to));
+    keep_below_limit(dynamics, from.acceleration, room_to_limit(from));
   }
   if (!there && !synchronous_.meets_sync_out(job, from, to, dynamics)) return false;
   running_[kWaitingOut] = nullptr;

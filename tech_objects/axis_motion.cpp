@@ -123,24 +123,32 @@ Dynamics Axis::own_dynamics(const Job& job) noexcept {
 }
 
 void Axis::keep_below_limit(Dynamics& dynamics) const noexcept {
-  const double a = setpoint_.acceleration;
-  if (dynamics.jerk > 0.0 && a * a > 2.0 * dynamics.jerk * room_to_limit())
-    dynamics.jerk = std::min(a * a / (2.0 * room_to_limit()), data.DynamicLimits.MaxJerk);
+  keep_below_limit(dynamics, setpoint_.acceleration, room_to_limit());
+}
+
+void Axis::keep_below_limit(Dynamics& dynamics, double acceleration, double room) const noexcept {
+  const double square = acceleration * acceleration;
+  if (dynamics.jerk > 0.0 && square > 2.0 * dynamics.jerk * room)
+    dynamics.jerk = std::min(square / (2.0 * room), data.DynamicLimits.MaxJerk);
 }
 
 /// Velocity that is left, in the direction of the present acceleration, up to the limit [u/s] ≥ 0; to a base
 /// motion beside what is superimposed.
 double Axis::room_to_limit() const noexcept {
   const double direction = setpoint_.acceleration < 0.0 ? -1.0 : 1.0;
-  double towards = direction * setpoint_.velocity;
-  if (advancing_base_) towards += greatest_velocity(superimposed_, direction);
-  return std::max(velocity_limit() - towards, 0.0);
+  return room_to_limit(setpoint_, advancing_base_ ? greatest_velocity(superimposed_, direction) : 0.0);
+}
+
+/// @param beside velocity in that direction that does not count to `from` [u/s]
+double Axis::room_to_limit(const Setpoint& from, double beside) const noexcept {
+  const double direction = from.acceleration < 0.0 ? -1.0 : 1.0;
+  return std::max(velocity_limit() - (direction * from.velocity + beside), 0.0);
 }
 
 /// A synchronous motion, or one without jerk limit, may leave an acceleration that not even MaxJerk can run
-/// down below the velocity limit: what is too much is dropped.
-double Axis::tolerable_acceleration(double acceleration) const noexcept {
-  const double most = std::sqrt(2.0 * data.DynamicLimits.MaxJerk * room_to_limit());
+/// down within the room to the velocity limit: what is too much is dropped.
+double Axis::tolerable_acceleration(double acceleration, double room) const noexcept {
+  const double most = std::sqrt(2.0 * data.DynamicLimits.MaxJerk * room);
   return std::abs(acceleration) > most ? std::copysign(most, acceleration) : acceleration;
 }
 

@@ -285,14 +285,16 @@ class Bench {
 
   /// What is planned over a way of the leading axis is as steep as that axis is fast: planned for a slow one
   /// that then speeds up, it may be over between two ticks. That is published; no acceleration is held to.
+  /// Nor is a velocity where the leading axis stood at the start.
   bool outruns_its_profile(const Axis& axis) noexcept {
     if (&axis != &following) return false;
     const double speed = std::abs(leading.setpoint().velocity);
+    const double speed_before = std::abs(leading.last_setpoint().velocity);
     const bool synchronizing =
         (static_cast<std::uint32_t>(axis.data.StatusWord) >> static_cast<unsigned>(StatusBit::Synchronizing) &
          1u) != 0;
     const bool was_outrun = outrun_;
-    if (!synchronizing || !synchronizing_) slowest_ = speed;
+    if (!synchronizing || !synchronizing_) slowest_ = speed_before;
     synchronizing_ = synchronizing;
     slowest_ = std::min(slowest_, speed);
     outrun_ = synchronizing && speed > 2.0 * slowest_;

@@ -81,13 +81,15 @@ class Sequence {
   }
 
   /// An additive leading value, or a leading axis that is homed, may take the axis over the end of a cam that
-  /// is passed once, where it stands. The instance that started the cam may show a later job.
+  /// is passed once, where it stands, also of one that it waits for. The instance that started the cam may
+  /// show a later job.
   bool falls_off_a_cam() {
     const bool leading_homes = std::any_of(leading_.begin(), leading_.end(), [](Subject* s) {
       return s->busy() && s->type().name == "MC_Home";
     });
-    return bench_.following.data.StatusSynchronizedMotion.ActualCam != DB_ANY{} &&
-           (bench_.following.additive_request.owner != nullptr || leading_homes || homes_);
+    const auto& status = bench_.following.data.StatusSynchronizedMotion;
+    const bool camming = status.ActualCam != DB_ANY{} || status.WaitingFunctionState == 3;
+    return camming && (bench_.following.additive_request.owner != nullptr || leading_homes || homes_);
   }
 
   void act() {

@@ -138,5 +138,30 @@ TEST(MC_GearOutByDynamics, MeetsItsStartWhileTheAxisAcceleratesFasterThanItWillB
   }
 }
 
+/// An acceleration of the gear is run down with as much jerk as the velocity limit asks for.
+TEST(MC_GearOutByDynamics, KeepsBelowTheVelocityLimitFromAStrongAcceleration) {
+  for (int position = 700; position < 6000; position += 60) {
+    SCOPED_TRACE(position);
+    Geared rig;
+    rig.f.data.DynamicLimits.MaxVelocity = 500.0;
+    rig.gear.RatioNumerator = 10;
+    rig.gear.Execute = false;
+    rig.run(1);
+    rig.gear.Execute = true;
+    rig.run(5);
+    rig.out.SyncProfileReference = 0;
+    rig.out.Jerk = 20000.0;
+    rig.out.SlavePosition = position;
+    rig.run_leading(40.0, 10);
+    rig.out.Execute = true;
+    for (int i = 0; i < 20000 && !rig.out.Done; ++i) {
+      rig.tick();
+      ASSERT_LE(rig.f.setpoint().velocity, 500.0 * (1.0 + 1e-9)) << i;
+    }
+    EXPECT_TRUE(rig.out.Done);
+    EXPECT_EQ(rig.f.data.Position, position);
+  }
+}
+
 }  // namespace
 }  // namespace lockstep
