@@ -67,6 +67,7 @@ void Axis::start(Job& job) noexcept {
   }
   if (is_shift(job.kind) && job.mode == kCancelWaiting) return cancel_waiting_shift(job);
   if (job.buffer_mode != BufferMode::mcAborting && buffer(job)) return;
+  if (couples_at_position(job.kind)) return begin_waiting(job);
   if (!override_running(class_of(job, false), job)) return;
   install(job);
 }
@@ -190,10 +191,6 @@ void Axis::install(Job& job) noexcept {
   switch (job.kind) {
     case JobKind::MC_Home:
       home(job);
-      break;
-    case JobKind::MC_GearInPos:
-    case JobKind::MC_CamIn:
-      begin_waiting(job);
       break;
     case JobKind::MC_GearIn:
     case JobKind::MC_GearInVelocity:
