@@ -10,6 +10,8 @@
 #include "fb/phasing.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
+#include "fb/superimposed.hpp"
+#include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {
@@ -296,6 +298,139 @@ TEST(SimulationOfAGear, IsRenamedWithTheAxisByHoming) {
   rig.run(2);
   EXPECT_FALSE(rig.simulation.InSimulation);
   EXPECT_EQ(rig.f.data.Position, 8.0);
+}
+
+// ---- What begins it, what it forbids, what it leaves
+// -----------------------------------------------------------------------------------------------------------
+
+TEST(BeginOfASimulation, NeedsACouplingThatIsSynchronousAndALeadingAxisThatStands) {
+  Simulated rig;
+  const auto refused = [&] {
+    rig.run(2);
+    return !rig.simulation.InSimulation && !rig.simulation.Busy &&
+           rig.simulation.ErrorID == static_cast<WORD>(0x8075) &&
+           !has_bit(rig.status().StatusWord, SynchronizedMotionBit::InSimulation);
+  };
+  rig.simulation.Enable = true;
+  EXPECT_TRUE(refused());  // no coupling
+  rig.pos.MasterSyncPosition = 50.0;
+  rig.pos.MasterStartDistance = 40.0;
+  rig.pos.SlaveSyncPosition = 20.0;
+  rig.pos.Execute = true;
+  EXPECT_TRUE(refused());  // one that waits
+  rig.run_l.Velocity = 60.0;
+  rig.start(rig.run_l);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.StartSync; }));
+  EXPECT_TRUE(refused());
+  rig.stand();
+  EXPECT_TRUE(rig.pos.StartSync);
+  EXPECT_TRUE(refused());  // one that is being synchronized, though the leading axis stands
+  rig.simulation.Enable = false;
+  rig.run(2);
+  EXPECT_FALSE(rig.simulation.Error);
+  rig.lead_at(60.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.InSync; }));
+  rig.simulation.Enable = true;
+  EXPECT_TRUE(refused());  // the leading axis moves
+  EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));
+  rig.simulation.Enable = false;
+  rig.stand();
+  rig.simulate();
+  EXPECT_TRUE(rig.simulation.Busy);
+  EXPECT_TRUE(rig.pos.InSync);
+  EXPECT_EQ(rig.status().FunctionState, 2);
+}
+
+TEST(SimulationOfACoupling, RejectsAllSynchronousJobsButTheAdditiveLeadingValue) {
+  Simulated rig;
+  auto& gear = rig.block<MC_GearIn>();
+  auto& velocity = rig.block<MC_GearInVelocity>();
+  auto& phase_to = rig.block<MC_PhasingAbsolute>();
+  auto& offset_to = rig.block<MC_OffsetAbsolute>();
+  auto& out = rig.block<MC_GearOut>();
+  auto& additive = rig.block<MC_LeadingValueAdditive>();
+  gear.Master = velocity.Master = phase_to.Master = &rig.l;
+  gear.Slave = velocity.Slave = phase_to.Slave = offset_to.Slave = out.Slave = &rig.f;
+  additive.Axis = &rig.f;
+  rig.gear.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear; }));
+  rig.simulate();
+  out.MasterStopDistance = rig.offset.OffsetDistance = offset_to.OffsetDistance = 1.0;
+  gear.Execute = velocity.Execute = phase_to.Execute = offset_to.Execute = out.Execute = true;
+  rig.pos.Execute = rig.phase.Execute = rig.offset.Execute = true;
+  additive.Position = 7.0;
+  additive.Enable = true;
+  rig.run(3);
+  for (const WORD id : {gear.ErrorID, velocity.ErrorID, phase_to.ErrorID, offset_to.ErrorID, out.ErrorID,
+                        rig.pos.ErrorID, rig.phase.ErrorID, rig.offset.ErrorID})
+    EXPECT_EQ(id, static_cast<WORD>(0x8076));
+  EXPECT_TRUE(rig.gear.InGear && rig.simulation.InSimulation && additive.Busy);
+  EXPECT_EQ(rig.status().EffectiveLeadingValue.Position, 7.0);
+  EXPECT_EQ(rig.status().FunctionFollowingValue.Position, 7.0);
+  EXPECT_EQ(rig.f.data.Position, 0.0);
+  rig.power_f.Enable = false;
+  rig.run(20);
+  EXPECT_TRUE(additive.Busy);  // published: enabled or in simulation
+}
+
+TEST(SimulationOfACoupling, OutlastsDisablingAndStopsOfBothAxesAndEndsWithARestart) {
+  Simulated rig;
+  auto& stop_l = rig.block<MC_Stop>();
+  auto& reset = rig.block<MC_Reset>();
+  stop_l.Axis = &rig.l;
+  reset.Axis = &rig.f;
+  reset.Restart = true;
+  rig.velocity.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.velocity.InSync; }));
+  rig.simulate();
+  stop_l.Execute = rig.stop_f.Execute = true;
+  rig.run(20);
+  rig.power_l.Enable = rig.power_f.Enable = false;
+  rig.run(20);
+  EXPECT_TRUE(rig.simulation.InSimulation && rig.velocity.InSync);
+  EXPECT_FALSE(bit(rig.f, StatusBit::Synchronous));
+  reset.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return reset.Done; }));
+  rig.run(2);
+  EXPECT_FALSE(rig.simulation.InSimulation);
+  EXPECT_TRUE(rig.velocity.CommandAborted);
+  EXPECT_EQ(rig.status().FunctionState, 0);
+  EXPECT_EQ(rig.status().StatusWord, DWORD{});
+}
+
+TEST(SimulationOfACoupling, LetsASuperimposedMotionGoOn) {
+  Simulated rig;
+  auto& superimpose = rig.block<MC_MoveSuperimposed>();
+  superimpose.Axis = &rig.f;
+  rig.gear.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear; }));
+  superimpose.Distance = 30.0;
+  superimpose.VelocityDiff = 20.0;
+  superimpose.Execute = true;
+  rig.run(300);
+  const double begun = rig.f.data.Position;
+  EXPECT_GT(begun, 1.0);
+  rig.simulate();
+  EXPECT_GT(rig.f.data.Velocity, 10.0);
+  rig.run(200);
+  rig.simulation.Enable = false;
+  rig.run(2);
+  EXPECT_FALSE(rig.simulation.InSimulation);
+  ASSERT_TRUE(rig.run_until([&] { return superimpose.Done; }));
+  EXPECT_DOUBLE_EQ(rig.f.data.Position, 30.0);
+  EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));
+}
+
+TEST(SimulationOfMC_GearInPos, IsNotRenamedByHomingAsTheGearIsNot) {
+  Simulated rig;
+  rig.pos.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.InSync; }));
+  rig.simulate();
+  rig.home_f.Position = 8.0;
+  rig.home_f.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(rig.home_f.ErrorID, static_cast<WORD>(0x80A1));
+  EXPECT_EQ(rig.f.data.Position, 0.0);
 }
 
 }  // namespace
