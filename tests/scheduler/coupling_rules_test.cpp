@@ -260,6 +260,27 @@ TEST(LimitsOfACoupling, OfTheDriveCutItsVelocityAndNotThePosition) {
   EXPECT_TRUE(rig.gear.InGear);
 }
 
+/// No rule forbids its leading value to reverse: only gears by position and cams have one.
+TEST(MC_GearInVelocity, SynchronizesToALeadingAxisThatReversesMeanwhile) {
+  for (const double jerk : {0.0, 5000.0}) {
+    Coupled rig;
+    rig.run_at(rig.run_l, 300.0);
+    rig.velocity.RatioNumerator = 2;
+    rig.velocity.Acceleration = rig.velocity.Deceleration = 400.0;
+    rig.velocity.Jerk = jerk;
+    rig.continuity[2] = {.acceleration = jerk > 0.0, .highest_acceleration = 400.0, .highest_jerk = 5000.0};
+    rig.start(rig.velocity);
+    rig.run(300);
+    ASSERT_TRUE(rig.velocity.StartSync);
+    rig.run_at(rig.run_l, -300.0);
+    EXPECT_FALSE(rig.velocity.Error);
+    EXPECT_EQ(rig.f.pending_alarm(), 0);
+    EXPECT_TRUE(rig.velocity.StartSync);
+    ASSERT_TRUE(rig.run_until([&] { return rig.velocity.InSync; }));
+    EXPECT_EQ(rig.f.data.Velocity, -600.0);
+  }
+}
+
 // ---- Directions
 // -------------------------------------------------------------------------------------------------
 
