@@ -227,20 +227,16 @@ void Axis::begin_shift(Job& job) noexcept {
 }
 
 void Axis::advance_shifts() noexcept {
-  Shift& phase = synchronous_.phase_shift();
-  Shift& offset = synchronous_.following_offset();
+  const Shift& phase = synchronous_.phase_shift();
+  const Shift& offset = synchronous_.following_offset();
   if (running_[kPhasing] != nullptr)
     show_shift(kPhasing, phase, synchronous_.advance_phase_shift());
   else if (phase.settling())
     synchronous_.advance_phase_shift();
-  else if (phase.moves())
-    phase.halt();  // what moves the axis has ended its job, beside the simulated coupling
   if (running_[kOffset] != nullptr)
     show_shift(kOffset, offset, synchronous_.advance_following_offset());
   else if (offset.settling())
     synchronous_.advance_following_offset();
-  else if (offset.moves())
-    offset.halt();
 }
 
 void Axis::show_shift(Slot slot, const Shift& shift, Shift::Event event) noexcept {
