@@ -47,9 +47,8 @@ struct MC_LeadingValueAdditive final : Block {
 
 /// Keeps a synchronous motion alive without the axis, so that it can be moved or disabled meanwhile.
 /// @source S7-1500T synchronous operation V7, 12.1.9; 9.1
-/// @errors 16#8075 not synchronous, or the leading axis moves; 16#8009 the setpoints do not agree at the
-/// end;
-///         16#800F not enabled at the end
+/// @errors 16#8075 not synchronous, or the leading axis moves; at the end 16#8009 the setpoints do not agree,
+///         16#800F not enabled or MC_Stop active
 struct MC_SynchronizedMotionSimulation final : Block {
   Axis* Slave{};
   BOOL Enable{};

@@ -404,6 +404,7 @@ class Axis final : public LeadingObject {
   void begin_waiting(Job& job) noexcept;
   void watch_waiting() noexcept;
   void activate_waiting(Motion motion) noexcept;
+  void look_at_coupling(const Job& job) noexcept;
   void step_synchronous() noexcept;
   void leave_synchronous() noexcept;
   void forget_coupling() noexcept;
@@ -468,6 +469,7 @@ class Axis final : public LeadingObject {
   void show_passes() noexcept;
   bool coupling_stands(const Setpoint& setpoint) const noexcept;
   void begin_simulation() noexcept;
+  ErrorId check_end_of_simulation() const noexcept;
   void end_simulation() noexcept;
   void end_simulated_gear(JobPhase phase, ErrorId error) noexcept;
 

@@ -112,11 +112,11 @@ void Axis::watch_simulation() noexcept {
   SimulationRequest& request = simulation_request;
   request.error = ErrorId::none;
   if (request.enable && !simulating()) begin_simulation();
+  if (!request.enable && simulating()) end_simulation();
   if (simulating()) {
-    synchronous_.look_at_leading();
+    look_at_coupling(*simulated_);
     synchronous_.advance(ghost_);
     show_passes();
-    if (!request.enable) end_simulation();
   }
   if (!request.enable && !simulating()) request.owner = nullptr;
 }
@@ -149,18 +149,27 @@ void Axis::begin_simulation() noexcept {
   single_.stand(base_setpoint());
 }
 
-/// The setpoints of the gear count again, once they agree with those of the axis: both stand, at the same
-/// place. On a ring the turns that one of them has made meanwhile do not count.
+/// What forbids that the setpoints of the coupling count again. They have to agree with those of the axis:
+/// both stand, at the same place. On a ring the turns that one of them has made meanwhile do not count, and a
+/// velocity gear has no place.
+ErrorId Axis::check_end_of_simulation() const noexcept {
+  if (!enabled() || locked_by_stop()) return ErrorId::locked;
+  const Setpoint own = base_setpoint();
+  if (!own.standing() || !coupling_stands(ghost_)) return ErrorId::position;
+  if (simulated_->kind == JobKind::MC_GearInVelocity) return ErrorId::none;
+  // Position control is taken up where the axis is.
+  const double place = has_drive_ && !position_controlled_ ? actual_.value : own.position.value;
+  const double away = std::abs(shortest_distance(place, ghost_.position.value, modulo_));
+  return away <= data.PositioningMonitoring.Window ? ErrorId::none : ErrorId::position;
+}
+
+/// The setpoints of the coupling count again, with its position control.
 void Axis::end_simulation() noexcept {
-  const Setpoint& own = base_setpoint();
-  const double away = std::abs(shortest_distance(own.position.value, ghost_.position.value, modulo_));
-  const bool agrees = away <= data.PositioningMonitoring.Window && own.standing() && coupling_stands(ghost_);
-  if (!enabled() || !agrees) {
-    simulation_request.error = enabled() ? ErrorId::position : ErrorId::locked;
-    return;
-  }
+  simulation_request.error = check_end_of_simulation();
+  if (simulation_request.error != ErrorId::none) return;
   end_job(kBase, JobPhase::aborted, ErrorId::none);
-  synchronous_.turn_following(turns_between(ghost_.position, own.position, modulo_));
+  set_position_control(simulated_->position_controlled);
+  synchronous_.turn_following(turns_between(ghost_.position, base_setpoint().position, modulo_));
   running_[kBase] = simulated_;
   simulated_ = nullptr;
   motion_ = Motion::synchronous;

@@ -43,7 +43,7 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
     return ErrorId::not_position_controlled;
   if (kind == JobClass::home_passive && running == JobKind::MC_Home) return ErrorId::locked;
   const bool placed =
-      couples_at_position(running) || (simulated_ != nullptr && simulated_->kind == JobKind::MC_CamIn);
+      couples_at_position(running) || (simulated_ != nullptr && couples_at_position(simulated_->kind));
   const bool coupled = placed || (leaves(running) && kind == JobClass::home_active);
   return coupled ? ErrorId::homing_while_coupled : ErrorId::none;
 }

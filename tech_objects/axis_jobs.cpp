@@ -67,6 +67,7 @@ void Axis::start(Job& job) noexcept {
   }
   if (is_shift(job.kind) && job.mode == kCancelWaiting) return cancel_waiting_shift(job);
   if (job.buffer_mode != BufferMode::mcAborting && buffer(job)) return;
+  if (couples_at_position(job.kind)) return begin_waiting(job);
   if (!override_running(class_of(job, false), job)) return;
   install(job);
 }
@@ -191,10 +192,6 @@ void Axis::install(Job& job) noexcept {
     case JobKind::MC_Home:
       home(job);
       break;
-    case JobKind::MC_GearInPos:
-    case JobKind::MC_CamIn:
-      begin_waiting(job);
-      break;
     case JobKind::MC_GearIn:
     case JobKind::MC_GearInVelocity:
       begin_gear_in(job);
@@ -232,6 +229,9 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   const bool alone = phase == JobPhase::failed && error != ErrorId::technology_alarm;
   if (slot == kBase && alone) end_job(kBuffered, JobPhase::aborted, ErrorId::none);
   if (slot == kSuperimposed) show_superimposed_command();
+  // What moves the axis beside a simulated coupling ends the job, and the shift stays where it is.
+  if (slot == kPhasing && simulating()) synchronous_.phase_shift().halt();
+  if (slot == kOffset && simulating()) synchronous_.following_offset().halt();
   if (slot == kBase && class_of(*job, true) == JobClass::motion_in) show_motion_in_command();
   if (job->kind == JobKind::MC_Home) leave_homing(*job);
   if (slot == kBase && leaves(job->kind)) data.StatusSynchronizedMotion.FunctionState = 0;

@@ -22,10 +22,14 @@ void Axis::begin_gear_in(Job& job) noexcept {
   show_coupling(job, Motion::synchronizing);
 }
 
+/// One that is rejected leaves what waits already.
 void Axis::begin_waiting(Job& job) noexcept {
   const Dynamics dynamics = effective_dynamics(job);
-  const ErrorId error = awaited_.begin_waiting(*find_leading_value(job.master), job, dynamics, setpoint_);
+  SynchronousMotion planned = awaited_;
+  const ErrorId error = planned.begin_waiting(*find_leading_value(job.master), job, dynamics, setpoint_);
   if (error != ErrorId::none) return job.fail(error);
+  if (!override_running(class_of(job, false), job)) return;
+  awaited_ = planned;
   running_[kWaiting] = &job;
   job.phase = JobPhase::waiting;
   data.StatusSynchronizedMotion.WaitingFunctionState =
@@ -114,11 +118,16 @@ void Axis::clear_cam_status() noexcept {
   status.SlaveScaling = none.SlaveScaling;
 }
 
-void Axis::step_synchronous() noexcept {
-  Job* job = running_[kBase];
-  if (job->update) synchronous_.change_ratio(job->numerator, job->denominator);
+/// What the coupling depends on in this tick: ratio, leading value, shifts.
+void Axis::look_at_coupling(const Job& job) noexcept {
+  if (job.update) synchronous_.change_ratio(job.numerator, job.denominator);
   synchronous_.look_at_leading();
   if (synchronous_.shifted()) advance_shifts();
+}
+
+void Axis::step_synchronous() noexcept {
+  Job* job = running_[kBase];
+  look_at_coupling(*job);
   if (motion_ == Motion::synchronous && running_[kWaitingOut] == nullptr) {
     synchronous_.advance(setpoint_);
     if (synchronous_.at_cam_end()) meet_cam_end();

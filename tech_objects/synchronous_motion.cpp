@@ -50,7 +50,7 @@ void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
     return;
   }
   if (synchronous_) return advance_in_velocity(setpoint);
-  watch_reversal();
+  if (!velocity_only_) watch_reversal();
   if (reversed_) return;
   if (way_ == Way::velocity) return advance_velocity(setpoint);
   if (way_ == Way::out) return advance_out(setpoint);

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <vector>
@@ -414,6 +417,32 @@ TEST(ConformanceRun, KnowsOnlyBlocksAndPinsThatExist) {
   for (const auto& names :
        {kOnMovingAxis, kOnSuperimposedMotion, kGivesSetpoints, kOnDisabledAxis, kRenamesPositions})
     for (const std::string_view name : names) EXPECT_TRUE(exists(name, "")) << name;
+}
+
+/// "Velocity not permitted" names the pin and its error.
+TEST(ErrorsOfPins, AreThoseOfTheCatalogues) {
+  constexpr std::string_view kEnd = " not permitted";
+  int compared = 0;
+  for (const char* name : {"instructions_axis.json", "instructions.json"}) {
+    const auto file = nlohmann::json::parse(std::ifstream(std::string(LOCKSTEP_TEST_DATA) + "/" + name));
+    for (const auto& entry : file) {
+      const BlockType* type = find_block_type(entry.at("name").get<std::string>());
+      if (type == nullptr || !entry.contains("errorRulesExternal")) continue;
+      for (const auto& rule : entry.at("errorRulesExternal")) {
+        const auto when = rule.at("when").get<std::string>();
+        if (!when.ends_with(kEnd)) continue;
+        std::string of = when.substr(0, when.size() - kEnd.size());
+        if (of == "direction") of = "SyncOutDirection";
+        const Pin* pin = type->find_pin(of);
+        if (pin == nullptr || pin->type == Type::AXIS) continue;
+        const auto published = std::stoul(rule.at("errorId").get<std::string>().substr(3), nullptr, 16);
+        EXPECT_EQ(static_cast<unsigned long>(pin->error), published) << type->name << " " << of;
+        ++compared;
+      }
+    }
+  }
+  std::printf("%d errors of pins compared\n", compared);
+  EXPECT_GT(compared, 80);
 }
 
 }  // namespace

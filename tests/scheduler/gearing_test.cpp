@@ -530,6 +530,29 @@ TEST(MC_GearInPos, ProfileOneInsideItsDistanceOnARingWaitsForTheNextTurn) {
   EXPECT_GE(rig.l.setpoint().position.turns, 1);
 }
 
+TEST(MC_GearInPos, ThatIsRejectedLeavesTheOneThatWaits) {
+  Pair rig;
+  rig.pos.MasterSyncPosition = 100.0;
+  rig.pos.MasterStartDistance = 50.0;
+  rig.pos.Execute = true;
+  rig.run(3);
+  ASSERT_EQ(rig.f.data.StatusSynchronizedMotion.WaitingFunctionState, 2);
+  auto& late = rig.block<MC_GearInPos>();
+  late.Master = &rig.l;
+  late.Slave = &rig.f;
+  late.MasterSyncPosition = 10.0;
+  late.MasterStartDistance = 50.0;
+  late.Execute = true;
+  rig.run(3);
+  EXPECT_EQ(late.ErrorID, static_cast<WORD>(0x8026));
+  EXPECT_TRUE(rig.pos.Busy);
+  EXPECT_FALSE(rig.pos.CommandAborted);
+  EXPECT_EQ(rig.f.data.StatusSynchronizedMotion.WaitingFunctionState, 2);
+  rig.start_leading(100.0);
+  ASSERT_TRUE(rig.run_until([&] { return rig.pos.InSync; }));
+  EXPECT_NEAR(rig.l.data.Position, 100.0, 0.2);
+}
+
 TEST(MC_GearInPos, ProfileZeroBeyondItsVelocityIsRejected) {
   Pair rig;
   rig.start_leading(100.0);
