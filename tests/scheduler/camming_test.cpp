@@ -16,11 +16,13 @@
 #include "fb/stop.hpp"
 #include "fb/superimposed.hpp"
 #include "fb/sync_out.hpp"
-#include "tests/support/rig.hpp"
+#include "tests/support/coupled_rig.hpp"
 
 namespace lockstep {
 namespace {
 
+using test::CoupledRig;
+using test::line;
 using test::Rig;
 
 void ring(AxisData& data) {
@@ -28,39 +30,25 @@ void ring(AxisData& data) {
   data.DynamicLimits.MaxVelocity = data.DynamicLimits.Velocity = 1e6;
   data.DynamicLimits.MaxAcceleration = 1e7;
 }
-void line(AxisData& /*data*/) {}
 
-/// A leading and a following axis and two cams; the leading axis is moved by MC_MoveVelocity.
-struct CamPair : Rig {
-  explicit CamPair(const std::function<void(AxisData&)>& leading = ring,
-                   const std::function<void(AxisData&)>& following = line)
-      : l(axis("Leading", leading)),
-        f(axis("Following", following)),
+/// A leading and a following axis and two cams.
+struct CamPair : CoupledRig {
+  explicit CamPair(const Shape& leading = ring, const Shape& following = line)
+      : CoupledRig(leading, following),
         wave(cam("Wave", {{0, 0}, {90, 30}, {180, 50}, {270, 10}, {360, 0}}, 1)),
         feed(cam("Feed", {{0, 0}, {120, 5}, {240, 35}, {360, 40}}, 1)),
-        power_l(block<MC_Power>()),
-        power_f(block<MC_Power>()),
-        home_l(block<MC_Home>()),
-        home_f(block<MC_Home>()),
-        run_l(block<MC_MoveVelocity>()),
         in(block<MC_CamIn>()),
         next(block<MC_CamIn>()),
         out(block<MC_CamOut>()),
         move_f(block<MC_MoveRelative>()),
         interpolate(block<MC_InterpolateCam>()) {
-    lead(f, l);
-    power_l.Axis = home_l.Axis = run_l.Axis = &l;
-    power_f.Axis = home_f.Axis = move_f.Axis = &f;
+    move_f.Axis = &f;
     in.Master = next.Master = &l;
     in.Slave = next.Slave = out.Slave = &f;
     in.Cam = &wave;
     next.Cam = &feed;
     interpolate.Cam = &wave;
-    power_l.Enable = power_f.Enable = true;
-    Rig::run(3);
-    home_l.Execute = home_f.Execute = true;
-    Rig::run(3);
-    continuity[1].highest_acceleration = 1e6;
+    begin();
     continuity[1].highest_jerk = 1e10;
     continuity[0].highest_acceleration = 1e7;
     continuity[0].highest_jerk = 1e12;
@@ -77,12 +65,9 @@ struct CamPair : Rig {
   }
 
   void start_leading(double velocity) {
-    run_l.Velocity = velocity;
     run_l.Acceleration = run_l.Deceleration = 1e6;
     run_l.Jerk = 0.0;
-    run_l.Execute = false;
-    tick();
-    run_l.Execute = true;
+    CoupledRig::start_leading(velocity);
     ASSERT_TRUE(run_until([&] { return run_l.InVelocity; }));
   }
 
@@ -98,15 +83,8 @@ struct CamPair : Rig {
   const TO_Struct_StatusSynchronizedMotion& status() const { return f.data.StatusSynchronizedMotion; }
   double leading() const { return l.setpoint().position.value; }
 
-  Axis& l;
-  Axis& f;
   Cam& wave;
   Cam& feed;
-  MC_Power& power_l;
-  MC_Power& power_f;
-  MC_Home& home_l;
-  MC_Home& home_f;
-  MC_MoveVelocity& run_l;
   MC_CamIn& in;
   MC_CamIn& next;
   MC_CamOut& out;

@@ -12,52 +12,30 @@
 #include "fb/move.hpp"
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
-#include "tests/support/rig.hpp"
+#include "tests/support/coupled_rig.hpp"
 
 namespace lockstep {
 namespace {
 
+using test::CoupledRig;
+using test::line;
 using test::Rig;
 
 void ring(AxisData& data) {
   data.Modulo.Enable = true;
 }
-void line(AxisData& /*data*/) {}
 
-/// A leading and a following axis, both enabled and homed; the leading one is moved by MC_MoveVelocity.
-struct Pair : Rig {
-  explicit Pair(const std::function<void(AxisData&)>& leading = line,
-                const std::function<void(AxisData&)>& following = line)
-      : l(axis("Leading", leading)),
-        f(axis("Following", following)),
-        power_l(block<MC_Power>()),
-        power_f(block<MC_Power>()),
-        home_l(block<MC_Home>()),
-        home_f(block<MC_Home>()),
-        run_l(block<MC_MoveVelocity>()),
+struct Pair : CoupledRig {
+  explicit Pair(const Shape& leading = line, const Shape& following = line)
+      : CoupledRig(leading, following),
         gear(block<MC_GearIn>()),
         pos(block<MC_GearInPos>()),
         move_f(block<MC_MoveVelocity>()),
         halt_f(block<MC_Halt>()) {
-    lead(f, l);
-    power_l.Axis = home_l.Axis = run_l.Axis = &l;
-    power_f.Axis = home_f.Axis = move_f.Axis = halt_f.Axis = &f;
+    move_f.Axis = halt_f.Axis = &f;
     gear.Master = pos.Master = &l;
     gear.Slave = pos.Slave = &f;
-    power_l.Enable = power_f.Enable = true;
-    Rig::run(3);
-    home_l.Execute = home_f.Execute = true;
-    Rig::run(3);
-    // While synchronizing over a distance the following axis has no limits of its own.
-    continuity[1].highest_acceleration = 1e6;
-    continuity[1].highest_jerk = 1e9;
-  }
-
-  void start_leading(double velocity) {
-    run_l.Velocity = velocity;
-    run_l.Execute = false;
-    tick();
-    run_l.Execute = true;
+    begin();
   }
 
   double following_minus_function(double numerator, double denominator, double l0, double f0) const {
@@ -65,13 +43,6 @@ struct Pair : Rig {
     return f.setpoint().position.value - ways;
   }
 
-  Axis& l;
-  Axis& f;
-  MC_Power& power_l;
-  MC_Power& power_f;
-  MC_Home& home_l;
-  MC_Home& home_f;
-  MC_MoveVelocity& run_l;
   MC_GearIn& gear;
   MC_GearInPos& pos;
   MC_MoveVelocity& move_f;

@@ -14,17 +14,18 @@
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
 #include "fb/sync_out.hpp"
-#include "tests/support/rig.hpp"
+#include "tests/support/coupled_rig.hpp"
 
 namespace lockstep {
 namespace {
 
+using test::CoupledRig;
+using test::line;
 using test::Rig;
 
 void ring(AxisData& data) {
   data.Modulo.Enable = true;
 }
-void line(AxisData& /*data*/) {}
 bool bit(const Axis& axis, StatusBit which) {
   return has_bit(axis.data.StatusWord, which);
 }
@@ -33,16 +34,10 @@ bool bit2(const Axis& axis, Status2Bit which) {
 }
 
 /// A leading axis and a following one that is in gear with it, 3:2.
-struct Geared : Rig {
-  explicit Geared(const std::function<void(AxisData&)>& kind = line)
-      : l(axis("Leading", kind)),
-        f(axis("Following", kind)),
+struct Geared : CoupledRig {
+  explicit Geared(const Shape& kind = line)
+      : CoupledRig(kind, kind),
         other(axis("Other")),
-        power_l(block<MC_Power>()),
-        power_f(block<MC_Power>()),
-        home_l(block<MC_Home>()),
-        home_f(block<MC_Home>()),
-        run_l(block<MC_MoveVelocity>()),
         gear(block<MC_GearIn>()),
         phase(block<MC_PhasingRelative>()),
         phase_to(block<MC_PhasingAbsolute>()),
@@ -53,19 +48,12 @@ struct Geared : Rig {
         simulation(block<MC_SynchronizedMotionSimulation>()),
         velocity(block<MC_GearInVelocity>()),
         move_f(block<MC_MoveAbsolute>()) {
-    lead(f, l);
     lead(f, other);
-    power_l.Axis = home_l.Axis = run_l.Axis = &l;
-    power_f.Axis = home_f.Axis = move_f.Axis = additive.Axis = &f;
+    move_f.Axis = additive.Axis = &f;
     gear.Master = phase.Master = phase_to.Master = velocity.Master = &l;
     gear.Slave = phase.Slave = phase_to.Slave = offset.Slave = offset_to.Slave = out.Slave =
         simulation.Slave = velocity.Slave = &f;
-    power_l.Enable = power_f.Enable = true;
-    Rig::run(3);
-    home_l.Execute = home_f.Execute = true;
-    Rig::run(3);
-    continuity[1].highest_acceleration = 1e6;
-    continuity[1].highest_jerk = 1e9;
+    begin();
     gear.RatioNumerator = 3;
     gear.RatioDenominator = 2;
   }
@@ -75,11 +63,8 @@ struct Geared : Rig {
     ASSERT_TRUE(run_until([&] { return gear.InGear; }));
   }
 
-  void start_leading(double v) {
-    run_l.Velocity = v;
-    run_l.Execute = false;
-    tick();
-    run_l.Execute = true;
+  void start_leading(double speed) {
+    CoupledRig::start_leading(speed);
     ASSERT_TRUE(run_until([&] { return run_l.InVelocity; }));
   }
 
@@ -91,14 +76,7 @@ struct Geared : Rig {
     return f.data.Position - value;
   }
 
-  Axis& l;
-  Axis& f;
   Axis& other;  ///< might lead as well
-  MC_Power& power_l;
-  MC_Power& power_f;
-  MC_Home& home_l;
-  MC_Home& home_f;
-  MC_MoveVelocity& run_l;
   MC_GearIn& gear;
   MC_PhasingRelative& phase;
   MC_PhasingAbsolute& phase_to;
