@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -16,6 +17,16 @@ namespace lockstep::cli {
 namespace {
 
 constexpr int kHighestUnit = 247;
+constexpr int kDecimalDigits = std::numeric_limits<double>::digits10;  // that a double keeps of any number
+
+/// A scaled value as a person writes it: 0.7, where 7 · 0.1 of a computer is 0.7000000000000001.
+double as_written(double value) {
+  char text[32];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, kDecimalDigits).ptr;
+  std::from_chars(text, end, value);
+  return value;
+}
 
 /// The unit id by which maps for every unit id are reached: the one asked for, unless it has a map of its
 /// own.
@@ -225,7 +236,10 @@ std::optional<Value> ModbusPanel::value_of(const PanelEntry& place,
                                            std::span<const std::uint16_t> words) const {
   ModbusEntry shown = *place.entry;
   shown.range = kAny;  // that of writes
-  if (const auto value = decode(shown, place.type(), words)) return value;
+  if (auto value = decode(shown, place.type(), words)) {
+    if (shown.is_scaled) value->r = as_written(value->r);
+    return value;
+  }
   if (is_real(place.type())) {  // beyond the range of REAL, or no number
     Value value{};
     value.r = std::numeric_limits<double>::quiet_NaN();
@@ -267,9 +281,9 @@ Limits limits_of(const ModbusEntry& entry, Type type) {
   const auto greatest = static_cast<double>(highest(entry.type));
   Limits limits;
   if (entry.is_scaled) {
-    std::tie(limits.lowest.r, limits.highest.r) =
-        std::minmax({least * entry.scale + entry.offset, greatest * entry.scale + entry.offset},
-                    [](double a, double b) { return a < b; });
+    std::tie(limits.lowest.r, limits.highest.r) = std::minmax(
+        {as_written(least * entry.scale + entry.offset), as_written(greatest * entry.scale + entry.offset)},
+        [](double a, double b) { return a < b; });
   } else if (is_real(type)) {
     limits.highest.r = std::numeric_limits<float>::max();
     limits.lowest.r = -limits.highest.r;

@@ -165,7 +165,7 @@ std::string time_text(const event_t& event) {
 Lines jobs(const Model& model, std::size_t height) {
   const HeardEvents& events = model.shown().events;
   Lines lines;
-  lines.push_back({fmt::format("-- jobs: {} running", events.running().size()), Look::heading});
+  lines.push_back({fmt::format("-- jobs heard of: {} running", events.running().size()), Look::heading});
   for (const auto& [key, event] : events.running())
     lines.push_back(
         {time_text(event) + printable(event.source) + "  " + printable(event.type) + "  running"});
@@ -184,9 +184,9 @@ Lines jobs(const Model& model, std::size_t height) {
 Lines alarms(const Model& model, std::size_t height) {
   const HeardEvents& events = model.shown().events;
   Lines lines;
-  lines.push_back(
-      {fmt::format("-- alarms: {} not acknowledged, {} overruns", events.pending(), events.overruns()),
-       Look::heading});
+  lines.push_back({fmt::format("-- alarms heard of: {} not acknowledged, {} overruns", events.pending(),
+                               events.overruns()),
+                   Look::heading});
   for (const ToldEvent& told : events.alarms()) {
     const event_t& event = told.event;
     if (event.kind == "alarm")

@@ -129,7 +129,8 @@ void add_plot_command(CLI::App& app, Action& action) {
       ->delimiter(',');
   command->add_option("--from", options->from, "leave out what is before this time, such as 1.5 or 200ms");
   command->add_option("--to", options->to, "leave out what is after this time");
-  command->add_option("--channel", options->channel, "trace in an LCM log; without it: the first");
+  command->add_option("--channel", options->channel,
+                      "trace in an LCM log; without it: the first that has rows");
   command->add_option("--title", options->title, "title; without it: the name of the file");
   command->footer(
       "One diagram for each quantity, BOOL and integer states as lanes below, one time axis. The line of a\n"

@@ -92,6 +92,7 @@ class LcmLog::Channel final : public TraceSink {
 
  private:
   void write_header(std::int64_t t) {
+    if (!log_.next_header_) log_.write_header(t);  // the log's own trace is the first one in it
     next_header_ = t + kHeaderPeriod;
     log_.write(header_channel_, encoder_.value().header(), t, 0);
   }

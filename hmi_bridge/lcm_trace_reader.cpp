@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace lockstep {
 namespace {
@@ -27,6 +29,17 @@ std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at) noe
 std::int64_t size_of_file(std::FILE* file) noexcept {
   struct stat status {};
   return ::fstat(::fileno(file), &status) == 0 && S_ISREG(status.st_mode) ? std::int64_t{status.st_size} : 0;
+}
+
+struct TraceInLog {
+  std::string channel;
+  bool has_rows = false;
+};
+
+std::string list_of(const std::vector<TraceInLog>& traces) {
+  std::string list;
+  for (const TraceInLog& trace : traces) list += (list.empty() ? "" : ", ") + trace.channel;
+  return list;
 }
 
 }  // namespace
@@ -50,17 +63,30 @@ void LcmTraceReader::open() {
 }
 
 void LcmTraceReader::find_header() {
-  const std::string wanted = channel_;
+  std::vector<TraceInLog> traces;  // in the order of their headers
+  const auto trace_on = [&traces](std::string_view channel) {
+    return std::find_if(traces.begin(), traces.end(),
+                        [&](const auto& trace) { return trace.channel == channel; });
+  };
   while (const Event event = next_event()) {
-    const std::string_view channel(event->channel, static_cast<std::size_t>(event->channellen));
-    if (!channel.ends_with(kHeaderSuffix)) continue;
-    if (!wanted.empty() && channel != wanted + std::string(kHeaderSuffix)) continue;
-    if (accept(*event) != LcmDecoder::Message::kHeader) continue;
-    channel_ = channel.substr(0, channel.size() - kHeaderSuffix.size());
-    return;
+    std::string_view channel(event->channel, static_cast<std::size_t>(event->channellen));
+    if (const auto trace = trace_on(channel); trace != traces.end()) trace->has_rows = true;
+    if (channel_.empty() && !traces.empty() && traces.front().has_rows) break;
+    if (!channel.ends_with(kHeaderSuffix) || accept(*event) != LcmDecoder::Message::kHeader) continue;
+    channel.remove_suffix(kHeaderSuffix.size());
+    if (channel == channel_) return;
+    if (trace_on(channel) == traces.end()) traces.push_back({std::string(channel)});
   }
   if (offset_ == 0) throw TraceFormatError(path_ + ": is not an LCM event log");
-  throw TraceFormatError(path_ + ": holds no trace" + (wanted.empty() ? "" : " on channel " + wanted));
+  if (traces.empty()) throw TraceFormatError(path_ + ": holds no trace");
+  if (!channel_.empty())
+    throw TraceFormatError(path_ + ": holds no trace on channel " + channel_ +
+                           "; it holds: " + list_of(traces));
+  const auto found =
+      std::find_if(traces.begin(), traces.end(), [](const auto& trace) { return trace.has_rows; });
+  channel_ = (found == traces.end() ? traces.front() : *found).channel;
+  open();
+  find_header();
 }
 
 bool LcmTraceReader::next() {

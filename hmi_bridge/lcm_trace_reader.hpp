@@ -15,7 +15,8 @@ namespace lockstep {
 /// Goes through the rows of one trace in a log, which `LcmLog` or `lcm-logger` wrote. Any one thread.
 class LcmTraceReader {
  public:
-  /// @param channel of the trace; empty: the first trace whose header is found
+  /// @param channel of the trace; empty: the first trace that has rows, by the order of the headers; the
+  /// first one if none has
   /// @throws TraceFormatError "FILE: …" if the file cannot be read or holds no such trace
   explicit LcmTraceReader(const std::string& path, const std::string& channel = "");
 

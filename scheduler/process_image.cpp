@@ -4,13 +4,10 @@
 #include <map>
 #include <utility>
 
-#include "scheduler/come_near.hpp"
-
 namespace lockstep {
 namespace {
 
 constexpr std::uint64_t kAllBits = ~0ULL;
-constexpr std::size_t kMostLinesNear = 64;  // a tenth of what is nearest to a processor
 
 /// The distinct variables in which the signals lie, by type and among these in the order of their first
 /// mention, and for each signal the number of its variable.
@@ -74,17 +71,11 @@ ProcessImage::ProcessImage(std::vector<Signal> signals)
   taken_.reserve(variables_.size());
 }
 
-/// What this tick is going to need and the bridge has touched is fetched at once; for the snapshot it comes
-/// while the tick computes.
-void ProcessImage::come_near() noexcept {
+void ProcessImage::take_writes() noexcept {
+  // What this tick is going to need and the bridge has touched is fetched at once; what publishing needs
+  // comes while the tick computes.
   mailbox_.come_near();
   snapshot_.come_near();
-  const std::vector<Line>& lines = snapshot_.back().lines;
-  for (std::size_t i = 0; i < std::min(lines.size(), kMostLinesNear); ++i) come_near_for_writing(&lines[i]);
-}
-
-void ProcessImage::take_writes() noexcept {
-  come_near();
   const std::uint64_t number = mailbox_.take(taken_);
   if (number == 0) return;
   for (const VariableWrite& write : taken_) {

@@ -101,7 +101,6 @@ class ProcessImage {
     std::vector<std::uint32_t> places_;  ///< by variable, plus one; 0: no write
   };
 
-  void come_near() noexcept;
   void fill(std::vector<Line>& lines) const noexcept;
   Value with_own_writes(std::uint32_t variable, Value value) const noexcept;
   void add(const SignalWrite& write) noexcept;

@@ -1,30 +1,18 @@
 // What Modbus clients cost the tick: ./dev bench flood
-#include <lcm/lcm.h>
-#include <pthread.h>
-#include <sched.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
-#include <csignal>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <memory>
+#include <functional>
 #include <stdexcept>
+#include <stop_token>
+#include <string>
 #include <thread>
 #include <vector>
 
-#include "bench/machine.hpp"
-#include "hmi_bridge/csv_trace.hpp"
-#include "hmi_bridge/lcm_publisher.hpp"
-#include "hmi_bridge/modbus_server.hpp"
-#include "hmi_bridge/trace_recorder.hpp"
-#include "projects/project.hpp"
+#include "bench/flooded_machine.hpp"
+#include "bench/measure.hpp"
 #include "scheduler/processor.hpp"
 #include "tests/support/flood.hpp"
 
@@ -33,168 +21,44 @@ namespace {
 
 constexpr char kHelp[] =
     R"(flood_bench [--rounds N] [--ticks N] [--axes N] [--share] [--quick]: Modbus clients and the tick
+flood_bench --instructions: instructions of a tick, which no clock disturbs (valgrind)
 
 A line shaft of six axes, and machines of 32 and 128 axes in gear with five mapped signals each (or of N
-alone), run in ticks of their servo cycle, as in real time, and are recorded. In turns nobody is connected,
-the other processors only count, thirty-two clients are at full speed, half of them malformed, slow or
-silent, and the same with a full disk under the recorder and a stopped subscriber of LCM. Shown is the
-processor time of a tick (CLOCK_THREAD_CPUTIME_ID without what reading this clock takes, mean of a round),
-median and least of all rounds, and how many requests were answered. Counting touches no memory: what it costs
-the tick is the machine's, whose processors share clock and power, and what the clients cost beyond it is
-Lockstep's. The cycle has the last processor for itself, as with `lockstep run --cpu`; with --share it shares
-all with the rest.
+alone), run in ticks of their servo cycle, as in real time, and are recorded. Beside them
+
+  counting      the other processors count in their registers, which touches no memory
+  elsewhere     thirty-two clients are at full speed at the server of another machine, which stands: what the
+                machine's processors share counts, and nothing goes over between the tick and the bridge
+  clients       thirty-two clients are at full speed, half of them malformed, slow or silent
+  and hindered  the same, with a full disk under the recorder and a stopped subscriber of LCM
+
+A shared machine's speed changes by more than what is measured, but slowly. So each of these is measured for a
+short time (--ticks), next to as many ticks beside which nobody asks for anything, before or after by turns;
+their ratio counts. Shown are medians over many such pairs (--rounds): processor time of a tick
+(CLOCK_THREAD_CPUTIME_ID without what reading this clock takes), and the ratio with the interval in which the
+true median lies by 95 %; for the middle one of the ticks and for their mean. The cycle has the last processor
+for itself, as with `lockstep run --cpu`; with --share it shares all with the rest.
 )";
 
-double processor_time() {  // of this thread [µs]
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
-}
-
-/// A program that has subscribed to everything on the network of LCM and then stopped: what it does not take
-/// fills the buffer of its socket. To be made before there are threads.
-class StoppedSubscriber {
- public:
-  static constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
-
-  StoppedSubscriber() : child_(::fork()) {
-    if (child_ == 0) be_it();
-    int status = 0;
-    ::waitpid(child_, &status, WUNTRACED);
-    is_there_ = WIFSTOPPED(status);
-    if (!is_there_) std::printf("there is no network of LCM, and no subscriber\n");
-  }
-  ~StoppedSubscriber() {
-    if (!is_there_) return;
-    ::kill(child_, SIGKILL);
-    ::waitpid(child_, nullptr, 0);
-  }
-  StoppedSubscriber(const StoppedSubscriber&) = delete;
-  StoppedSubscriber& operator=(const StoppedSubscriber&) = delete;
-
-  const char* url() const { return is_there_ ? kUrl : "memq://"; }
-
- private:
-  [[noreturn]] static void be_it() {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    lcm_t* const lcm = lcm_create(kUrl);
-    if (lcm == nullptr) ::_exit(1);
-    lcm_subscribe(
-        lcm, ".*", [](const lcm_recv_buf_t*, const char*, void*) {}, nullptr);
-    ::raise(SIGSTOP);
-    ::_exit(0);
-  }
-
-  const pid_t child_;
-  bool is_there_ = false;
+struct Plan {
+  int rounds = 60;
+  int ticks = 150;
+  int axes = 0;  ///< of a machine that is measured alone; 0: all machines
+  bool share = false;
+  bool instructions = false;
 };
 
-/// A project that runs, with its Modbus server and its recorder.
-class FloodedMachine {
- public:
-  /// @param processor of the cycle; negative: any
-  FloodedMachine(const std::string& text, int processor)
-      : project_(loaded(text)), image_(places_of(project_.modbus.signals)), processor_(processor) {
-    ModbusServerOptions options;
-    options.listen = {{"127.0.0.1", 0}};
-    server_ = std::make_unique<ModbusServer>(
-        std::vector<ModbusService>{{options, project_.modbus.units_of(0)}}, image_, ModbusIdentity{});
-    project_.controller->apply_stimuli = true;
-    project_.controller->images = {&image_};
-    if (const std::string problem = server_->start(); !problem.empty()) throw std::runtime_error(problem);
-    record("/dev/null", "memq://");
-    run(1000);
-  }
-  ~FloodedMachine() { project_.controller->trace = nullptr; }
-
-  /// Records from here on to other places.
-  void record(const char* file, const char* url) {
-    recorder_.reset();
-    ring_ = std::make_unique<TraceRing>(places_of(project_.trace.signals));
-    std::vector<std::unique_ptr<TraceSink>> sinks;
-    sinks.push_back(std::make_unique<CsvTrace>(file));
-    sinks.push_back(std::make_unique<LcmPublisher>(
-        url, LcmTraceIdentity{"flood", "FLOOD", project_.controller->clock.interpolator_cycle(), 0}));
-    std::vector<TraceSignal> columns;
-    for (const NamedSignal& signal : project_.trace.signals)
-      columns.push_back({signal.name, signal.signal.value_type(), ""});
-    recorder_ = std::make_unique<TraceRecorder>(*ring_, std::move(columns), std::move(sinks));
-    project_.controller->trace = ring_.get();
-  }
-
-  /// So many ticks on a thread of their own, as `lockstep run` has them: with real-time priority where that
-  /// is permitted, each at its time, and none made up. @return processor time of one [µs]
-  double run(int ticks) {
-    double spent = 0.0;
-    std::thread cycle([&] {
-      const sched_param priority{80};
-      pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
-      if (processor_ >= 0) keep_on_processor(pthread_self(), processor_);
-      const std::chrono::nanoseconds period(project_.controller->clock.servo_cycle);
-      auto due = std::chrono::steady_clock::now();
-      for (int i = 0; i < ticks; ++i) {
-        do due += period;
-        while (due < std::chrono::steady_clock::now());
-        std::this_thread::sleep_until(due);
-        processor_time();
-        const double first = processor_time();
-        const double begin = processor_time();
-        project_.controller->tick();
-        spent += processor_time() - begin - (begin - first);
-      }
-    });
-    cycle.join();
-    return spent / ticks;
-  }
-  std::uint64_t requests() const { return server_->counters().requests; }
-  std::uint16_t port() const { return server_->port(); }
-
- private:
-  static Project loaded(const std::string& text) {
-    LoadedProject loaded = load_project(text);
-    if (!loaded.project) throw std::runtime_error("the project does not load: " + loaded.problems[0].text);
-    return std::move(*loaded.project);
-  }
-
-  Project project_;
-  ProcessImage image_;
-  int processor_;
-  std::unique_ptr<ModbusServer> server_;
-  std::unique_ptr<TraceRing> ring_;
-  std::unique_ptr<TraceRecorder> recorder_;
+struct MachineText {
+  std::string name;
+  std::string project;
 };
 
-using Json = nlohmann::ordered_json;
-
-std::string line_shaft() {
-  std::ifstream file(LOCKSTEP_SOURCE_DIR "/projects/03_line_shaft/project.json");
-  return test::flooded_project(Json::parse(file));
-}
-
-/// So many axes in gear, each with five signals that an operator sees, two of which are recorded.
-std::string axes_in_gear(int axes) {
-  Json json = Json::parse(project_text({.motion = Motion::gear, .axes = axes}));
-  json["tags"] = Json::object();
-  int address = 1000;
-  for (int i = 1; i <= axes; ++i) {
-    const std::string axis = "Axis" + std::to_string(i);
-    for (const char* name : {".Position", ".Velocity", ".ActualPosition", ".StatusWord", ".ErrorWord"}) {
-      json["modbus"]["map"].push_back(
-          {{"tag", axis + name}, {"table", "input_register"}, {"address", address}});
-      address += 4;
-    }
-    for (const char* name : {".Position", ".Velocity"}) json["trace"]["signals"].push_back(axis + name);
-  }
-  return test::flooded_project(std::move(json));
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-void show(const char* what, const std::vector<double>& times) {
-  std::printf("%-42s %8.2f %8.2f\n", what, median(times), *std::min_element(times.begin(), times.end()));
+std::vector<MachineText> machines_of(const Plan& plan) {
+  const auto in_gear = [](int axes) {
+    return MachineText{"gear, " + std::to_string(axes) + " axes", axes_in_gear(axes)};
+  };
+  if (plan.axes > 0) return {in_gear(plan.axes)};
+  return {{"line shaft, 6 axes", line_shaft()}, in_gear(32), in_gear(128)};
 }
 
 /// The last processor, which everything else leaves; negative where that cannot be.
@@ -221,65 +85,142 @@ class Counters {
   std::vector<std::jthread> threads_;
 };
 
-std::vector<double> ratios_of(const std::vector<double>& times, const std::vector<double>& others) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / others[i]);
-  return ratios;
-}
-
-struct Plan {
-  int rounds = 9;
-  int ticks = 4000;
-  int axes = 0;  ///< of a machine that is measured alone; 0: all machines
-  bool share = false;
+struct Interval {
+  double median, low, high;
 };
 
-void measure(const char* name, const std::string& text, int processor, const Plan& plan,
-             const StoppedSubscriber& subscriber) {
-  FloodedMachine machine(text, processor);
-  std::vector<double> idle;
-  std::vector<double> beside;
-  std::vector<double> flooded;
-  std::vector<double> worst;
-  std::uint64_t answered = 0;
-  for (int round = 0; round < plan.rounds; ++round) {
-    idle.push_back(machine.run(plan.ticks));
-    {
-      const Counters counters;
-      beside.push_back(machine.run(plan.ticks));
-    }
-    const test::FloodClients clients(machine.port(), 0, 20240604);
-    const std::uint64_t before = machine.requests();
-    flooded.push_back(machine.run(plan.ticks));
-    answered += machine.requests() - before;
-    machine.record("/dev/full", subscriber.url());
-    worst.push_back(machine.run(plan.ticks));
-    machine.record("/dev/null", "memq://");
-    if (clients.wrong() != 0 || clients.torn() != 0) throw std::runtime_error("a client got a wrong answer");
-  }
-  std::printf("\n%-42s %8s %8s\n", name, "median", "least");
-  show("nobody connected [us]", idle);
-  show("nobody connected, other processors busy", beside);
-  show("32 clients at full speed", flooded);
-  show("  and a full disk, a stopped subscriber", worst);
-  std::printf("ratio, round by round\n");
-  show("  clients : nobody", ratios_of(flooded, idle));
-  show("  clients : nobody, other processors busy", ratios_of(flooded, beside));
-  show("  with disk and subscriber : nobody", ratios_of(worst, idle));
-  std::printf("%.1f requests in a tick\n",
-              static_cast<double>(answered) / (static_cast<double>(plan.rounds) * plan.ticks));
+/// The median of a sample, and the interval which holds that of the whole by 95 %: of how many values lie
+/// below it the deviation is half the root of their number.
+Interval median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const double middle = 0.5 * static_cast<double>(values.size() - 1);
+  const double reach = 0.98 * std::sqrt(static_cast<double>(values.size()));
+  const auto at = [&](double place) {
+    return values[static_cast<std::size_t>(std::clamp(place, 0.0, 2.0 * middle))];
+  };
+  return {at(middle), at(std::floor(middle - reach)), at(std::ceil(middle + reach))};
 }
 
-void measure(const Plan& plan) {
+/// What happens beside the machine, and what was measured then and next to it.
+struct Company {
+  const char* name;
+  std::function<TickTimes()> run;
+  std::vector<TickTimes> times{}, alone{};
+};
+
+std::vector<double> column(const std::vector<TickTimes>& times, double TickTimes::*member) {
+  std::vector<double> values;
+  for (const TickTimes& time : times) values.push_back(time.*member);
+  return values;
+}
+
+void show(const Company& company, double TickTimes::*member) {
+  const std::vector<double> times = column(company.times, member);
+  const std::vector<double> alone = column(company.alone, member);
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / alone[i]);
+  const Interval ratio = median_of(ratios);
+  std::printf("  %6.2f %6.2f  %5.3f (%5.3f-%5.3f)", median_of(alone).median, median_of(times).median,
+              ratio.median, ratio.low, ratio.high);
+}
+
+void show(const MachineText& machine, const std::vector<Company>& companies) {
+  std::printf("\n%-18s  %-35s  %s\n%-18s", machine.name.c_str(), "median of the ticks [us]",
+              "mean of the ticks [us]", "beside them");
+  for (int i = 0; i < 2; ++i) std::printf("  %6s %6s  %-20s", "alone", "so", "ratio");
+  std::printf("\n");
+  for (const Company& company : companies) {
+    std::printf("  %-16s", company.name);
+    show(company, &TickTimes::median);
+    show(company, &TickTimes::mean);
+    std::printf("\n");
+  }
+}
+
+void measure(const MachineText& text, int processor, const Plan& plan, const StoppedSubscriber& subscriber) {
+  FloodedMachine machine(text.project, processor, subscriber);
+  const FloodedMachine other(text.project, processor, subscriber);
+  test::FloodClients elsewhere(other.port(), 0, 20240604);
+  test::FloodClients clients(machine.port(), 0, 20240604);
+  elsewhere.rest();
+  clients.rest();
+  std::uint64_t answered = 0;
+  const auto alone = [&] { return machine.run(plan.ticks); };
+  const auto counting = [&] {
+    const Counters counters;
+    return alone();
+  };
+  const auto beside = [&](test::FloodClients& flood) {
+    flood.go_on();
+    const std::uint64_t before = machine.requests();
+    const TickTimes times = alone();
+    answered += machine.requests() - before;
+    flood.rest();
+    return times;
+  };
+  const auto hindered = [&] {
+    machine.hinder_recorder(true);
+    const TickTimes times = beside(clients);
+    machine.hinder_recorder(false);
+    return times;
+  };
+  std::vector<Company> companies = {{"counting", counting},
+                                    {"elsewhere", [&] { return beside(elsewhere); }},
+                                    {"clients", [&] { return beside(clients); }},
+                                    {"and hindered", hindered}};
+  for (int round = 0; round < plan.rounds; ++round)
+    for (Company& company : companies) {
+      const bool alone_first = round % 2 == 0;
+      if (alone_first) company.alone.push_back(alone());
+      company.times.push_back(company.run());
+      if (!alone_first) company.alone.push_back(alone());
+    }
+  for (const test::FloodClients* flood : {&elsewhere, &clients})
+    if (flood->wrong() != 0 || flood->torn() != 0) throw std::runtime_error("a client got a wrong answer");
+  show(text, companies);
+  std::printf("%.1f requests of the clients in a tick\n",
+              static_cast<double>(answered) / (2.0 * plan.rounds * plan.ticks));
+}
+
+/// Instructions of a tick of a machine that has just begun, if the bridge asks for a snapshot before each, or
+/// writes so many of the registers of the good clients.
+double instructions_of_tick(const MachineText& text, int ticks, bool asks, std::size_t values) {
+  Project project = project_of(text.project);
+  ProcessImage image(places_of(project.modbus.signals));
+  project.controller->apply_stimuli = true;
+  project.controller->images = {&image};
+  std::vector<SignalWrite> writes;
+  for (std::size_t i = 0; i < project.modbus.signals.size() && writes.size() < values; ++i)
+    if (project.modbus.signals[i].name.starts_with("own_"))
+      writes.push_back({static_cast<std::uint32_t>(i), Value{.i = 1}});
+  const auto before = [&] {
+    if (asks) image.refresh();
+    if (!writes.empty()) image.post(writes);
+  };
+  const auto tick = [&] { project.controller->tick(); };
+  for (int i = 0; i < 1000; ++i) tick();
+  return static_cast<double>(count_instructions(ticks, before, tick)) / ticks;
+}
+
+void count(const MachineText& text, int ticks) {
+  const double alone = instructions_of_tick(text, ticks, false, 0);
+  const auto more = [&](bool asks, std::size_t values) {
+    return instructions_of_tick(text, ticks, asks, values) - alone;
+  };
+  std::printf("%-18s  %9.1f  in a tick of which nobody asks anything\n", text.name.c_str(), alone);
+  std::printf("%-18s  %+9.1f  with a snapshot asked for\n", "", more(true, 0));
+  for (const std::size_t values : {1, 8, 16})
+    std::printf("%-18s  %+9.1f  with values written: %zu\n", "", more(false, values), values);
+}
+
+void run(const Plan& plan) {
+  if (plan.instructions) {
+    for (const MachineText& text : machines_of(plan)) count(text, plan.ticks);
+    return;
+  }
   const StoppedSubscriber subscriber;
   const int processor = plan.share ? -1 : processor_of_its_own();
-  const auto in_gear = [&](int axes) {
-    measure(("gear, " + std::to_string(axes) + " axes").c_str(), axes_in_gear(axes), processor, plan,
-            subscriber);
-  };
-  if (plan.axes > 0) return in_gear(plan.axes);
-  measure("line shaft, 6 axes", line_shaft(), processor, plan, subscriber);
-  for (const int axes : {32, 128}) in_gear(axes);
+  for (const MachineText& text : machines_of(plan)) measure(text, processor, plan, subscriber);
 }
 
 }  // namespace
@@ -293,6 +234,8 @@ int main(int argc, char** argv) {
       plan.rounds = 1, plan.ticks = 50;
     else if (std::strcmp(argv[i], "--share") == 0)
       plan.share = true;
+    else if (std::strcmp(argv[i], "--instructions") == 0)
+      plan.instructions = true;
     else if (std::strcmp(argv[i], "--rounds") == 0 && has_value)
       plan.rounds = std::max(1, std::atoi(argv[++i]));
     else if (std::strcmp(argv[i], "--ticks") == 0 && has_value)
@@ -303,7 +246,11 @@ int main(int argc, char** argv) {
       return std::fputs(lockstep::bench::kHelp, stderr), 2;
   }
   try {
-    lockstep::bench::measure(plan);
+    if (plan.instructions && !lockstep::bench::counting_instructions()) {
+      lockstep::bench::restart_under_callgrind(argv);
+      return 2;
+    }
+    lockstep::bench::run(plan);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "flood_bench: %s\n", error.what());
     return 1;

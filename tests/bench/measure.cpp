@@ -112,12 +112,21 @@ bool counting_instructions() {
 }
 
 std::uint64_t count_instructions(const std::function<void()>& work) {
+  return count_instructions(
+      1, [] {}, work);
+}
+
+std::uint64_t count_instructions(int times, const std::function<void()>& before,
+                                 const std::function<void()>& work) {
   if (!counting_instructions()) return 0;
   static int dumps = 0;
   CALLGRIND_ZERO_STATS;
-  CALLGRIND_TOGGLE_COLLECT;
-  work();
-  CALLGRIND_TOGGLE_COLLECT;
+  for (int i = 0; i < times; ++i) {
+    before();
+    CALLGRIND_TOGGLE_COLLECT;
+    work();
+    CALLGRIND_TOGGLE_COLLECT;
+  }
   CALLGRIND_DUMP_STATS;
   const std::string dump = dump_prefix() + "." + std::to_string(++dumps);
   const std::uint64_t total = total_of(dump);
@@ -127,7 +136,7 @@ std::uint64_t count_instructions(const std::function<void()>& work) {
 
 void restart_under_callgrind(char** arguments) {
   execute_under_callgrind(arguments, {});
-  std::perror("lockstep_bench: valgrind");
+  std::perror("valgrind");
 }
 
 std::map<std::string, double> instructions_of_rows(char** arguments) {

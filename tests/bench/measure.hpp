@@ -33,6 +33,10 @@ bool counting_instructions();
 /// Instructions that the work executes; 0 without callgrind.
 std::uint64_t count_instructions(const std::function<void()>& work);
 
+/// Instructions that the work executes so many times, without those of what is done before each time.
+std::uint64_t count_instructions(int times, const std::function<void()>& before,
+                                 const std::function<void()>& work);
+
 /// Starts the program anew under callgrind, with the same arguments; returns only if that fails.
 void restart_under_callgrind(char** arguments);
 

@@ -116,12 +116,12 @@ KNIFE: knife  t 9.980 s  50 rows/s  age 0.0 s  dropped 0  lost 0
            |                                              █▂     ▅█            █
    -9.9997 |                                               █▅▂▁▃▇█
             -20 s                                                            now
--- jobs: 1 running
+-- jobs heard of: 1 running
      4.500 s  gear  MC_GearIn  running
      6.250 s  move  MC_MoveAbsolute  failed 16#8002 position not permitted
 
 
--- alarms: 1 not acknowledged, 0 overruns
+-- alarms heard of: 1 not acknowledged, 0 overruns
      7.500 s  Knife  541: target not reached (remove the enable)
 
 
@@ -243,20 +243,20 @@ TEST(MonitorView, AJobThatHasEndedAndAnAlarmThatIsAcknowledgedAreNoLongerOpen) {
   monitored.run(1);
   monitored.press("ja");
   monitored.event("job started", "move", "MC_MoveAbsolute", 0.5);
-  EXPECT_TRUE(monitored.shows("jobs: 1 running"));
+  EXPECT_TRUE(monitored.shows("jobs heard of: 1 running"));
   monitored.event("job done", "move", "MC_MoveAbsolute", 0.75);
-  EXPECT_TRUE(monitored.shows("jobs: 0 running"));
+  EXPECT_TRUE(monitored.shows("jobs heard of: 0 running"));
   EXPECT_TRUE(monitored.shows("0.750 s  move  MC_MoveAbsolute  done"));
   monitored.event("alarm", "Knife", "TO_SynchronousAxis", 1.0, 541, "text");
-  EXPECT_TRUE(monitored.shows("alarms: 1 not acknowledged"));
+  EXPECT_TRUE(monitored.shows("alarms heard of: 1 not acknowledged"));
   monitored.event("acknowledged", "Knife", "TO_SynchronousAxis", 1.5);
-  EXPECT_TRUE(monitored.shows("alarms: 0 not acknowledged"));
+  EXPECT_TRUE(monitored.shows("alarms heard of: 0 not acknowledged"));
   EXPECT_TRUE(monitored.shows("1.500 s  Knife  acknowledged"));
   monitored.event("job started", "old", "MC_Home", 2.0);
   monitored.event("job started", "new", "MC_Home", 0.1);
-  EXPECT_TRUE(monitored.shows("jobs: 1 running")) << "time has gone back: another run";
+  EXPECT_TRUE(monitored.shows("jobs heard of: 1 running")) << "time has gone back: another run";
   monitored.event("alarm", "x", "y", 1.0, 1, "z", "STRANGER");
-  EXPECT_TRUE(monitored.shows("alarms: 0 not acknowledged")) << "no trace of this channel is known";
+  EXPECT_TRUE(monitored.shows("alarms heard of: 0 not acknowledged")) << "no trace of this channel is known";
 }
 
 TEST(MonitorView, HelpTellsEveryKey) {

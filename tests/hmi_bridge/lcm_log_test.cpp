@@ -100,6 +100,35 @@ TEST(LcmLog, ATraceWithoutRowsStillTellsWhatItWouldHaveHeld) {
   EXPECT_TRUE(table.t.empty());
 }
 
+TEST(LcmLog, ItsOwnTraceIsTheFirstOfAllChannels) {
+  const Directory directory;
+  const std::string path = directory.file("run.lcm");
+  const auto rows = sample_rows(2, 17);
+  LcmLog log(path, kIdentity);
+  const auto channel = log.add_channel({"rotary_knife", "SLOW", kPeriod, 0});
+  for (TraceSink* sink : {channel.get(), static_cast<TraceSink*>(&log)}) sink->begin(sample_signals());
+  channel->row({0, 0, 0, rows[0]});
+  for (std::int64_t i = 0; i < 2; ++i) log.row({i * kPeriod, 0, 0, rows[static_cast<std::size_t>(i)]});
+  channel->end();
+  log.end();
+  EXPECT_EQ(read_lcm_trace(path).t.size(), 2u);
+  EXPECT_EQ(read_lcm_trace(path, "SLOW").t.size(), 1u);
+}
+
+TEST(LcmTraceReader, WithoutAChannelReadsTheFirstTraceThatHasRows) {
+  const Directory directory;
+  const std::string path = directory.file("run.lcm");
+  const auto rows = sample_rows(1, 17);
+  LcmLog log(path, kIdentity);
+  const auto channel = log.add_channel({"rotary_knife", "SLOW", kPeriod, 0});
+  for (TraceSink* sink : {channel.get(), static_cast<TraceSink*>(&log)}) sink->begin(sample_signals());
+  channel->row({0, 0, 0, rows[0]});
+  channel->end();
+  log.end();
+  EXPECT_EQ(read_lcm_trace(path).t.size(), 1u);
+  EXPECT_EQ(read_lcm_trace(path, "KNIFE").t.size(), 0u);
+}
+
 TEST(LcmLog, AFileThatCannotBeOpenedIsNamed) {
   try {
     LcmLog log("/no/such/folder/run.lcm", kIdentity);
@@ -175,7 +204,7 @@ TEST(LcmTraceReader, WhatIsNoTraceIsRefusedWithTheReason) {
   std::ofstream(path) << "t,a\n0,1\n";
   EXPECT_EQ(message_of(path), path + ": is not an LCM event log");
   write_log(path, kIdentity, sample_rows(1, 3));
-  EXPECT_EQ(message_of(path, "CUTTER"), path + ": holds no trace on channel CUTTER");
+  EXPECT_EQ(message_of(path, "CUTTER"), path + ": holds no trace on channel CUTTER; it holds: KNIFE");
   EXPECT_EQ(message_of(path, "KNIFE"), "no error");
 }
 

@@ -26,7 +26,7 @@ Json panel_project() {
   project["tags"] = Json::parse(R"({
     "speed": {"type": "LREAL", "init": 200.0}, "doubled": {"type": "LREAL"}, "start": {"type": "BOOL"},
     "wait": {"type": "TIME", "init": "250ms"}, "mask": {"type": "WORD", "init": "16#0F0F"},
-    "small": {"type": "DINT", "init": -3}, "tenths": {"type": "REAL"}})");
+    "small": {"type": "DINT", "init": -3}, "tenths": {"type": "REAL"}, "wide": {"type": "LREAL"}})");
   project["programs"] = {
       {{"name", "P"}, {"ob", "Main"}, {"cycle", "1ms"}, {"calls", {assignment("doubled", "speed * 2.0")}}}};
   project["modbus"]["map"] = {
@@ -37,6 +37,7 @@ Json panel_project() {
       entry("mask", "holding_register", 12, {{"byte_order", "little"}}),
       entry("small", "holding_register", 13, {{"type", "INT"}}),
       entry("tenths", "holding_register", 14, {{"type", "INT"}, {"scale", 0.1}}),
+      entry("wide", "holding_register", 15, {{"type", "INT"}, {"scale", 0.1}}),
       Json{{"diagnostic", "ticks"}, {"table", "input_register"}, {"address", 100}},
       Json{{"diagnostic", "overruns"}, {"table", "input_register"}, {"address", 104}, {"type", "UDINT"}},
       Json{{"diagnostic", "alarms"}, {"table", "input_register"}, {"address", 106}, {"type", "UINT"}},
@@ -84,12 +85,16 @@ TEST_F(Panel, ReadsAndWritesByName) {
   ended = call("read", {"speed", "start", "wait", "mask", "small"}, run.port());
   EXPECT_EQ(ended.out, "speed = -12.5\nstart = TRUE\nwait = T#1.5s\nmask = 16#1234\nsmall = -40\n");
   EXPECT_TRUE(wait_until([&] { return call("read", {"doubled"}, run.port()).out == "doubled = -25.0\n"; }));
-  ASSERT_EQ(call("write", {"start=0"}, run.port()).status, 0);
-  EXPECT_EQ(call("read", {"start"}, run.port()).out, "start = FALSE\n") << "as Modbus has it";
+  for (const auto& [coil, shown] : {std::pair("start=0", "FALSE"), {"start=1", "TRUE"}}) {
+    EXPECT_EQ(call("write", {coil}, run.port()).status, 0) << "as Modbus has it";
+    EXPECT_EQ(call("read", {"start"}, run.port()).out, std::string("start = ") + shown + "\n");
+  }
   EXPECT_EQ(call("read", {"tenths"}, run.port()).out, "tenths = 12.3\n")
       << "a REAL as short as it was written";
+  ASSERT_EQ(call("write", {"wide=0.7"}, run.port()).status, 0);
+  EXPECT_EQ(call("read", {"wide"}, run.port()).out, "wide = 0.7\n") << "7 times 0.1 of a computer is not";
   const Json all = Json::parse(call("read", {"--json"}, run.port()).out);
-  EXPECT_EQ(all.size(), 11u);
+  EXPECT_EQ(all.size(), 12u);
   EXPECT_NEAR(all["tenths"].get<double>(), 12.3, 1e-6);
   EXPECT_GT(all["diagnostic.ticks"].get<int>(), 0);
   EXPECT_EQ(all["diagnostic.alarms"], 0);
@@ -105,6 +110,7 @@ TEST_F(Panel, TellsNamesAndValuesThatAreWrongAndWritesNothing) {
       {{"speed"}, "is not NAME=VALUE"},
       {{"small=40000"}, "small: 40000 does not fit INT on Modbus; allowed: from -32768 to 32767"},
       {{"tenths=5000"}, "tenths: 5000.0 does not fit INT on Modbus; allowed: from -3276.8 to 3276.7"},
+      {{"wide=5000"}, "wide: 5000.0 does not fit INT on Modbus; allowed: from -3276.8 to 3276.7\n"},
       {{"wait=30d"},
        "wait: T#2592000s does not fit TIME on Modbus; allowed: from T#-2147483.648s to T#2147483.647s"},
       {{"speed=1e39"},

@@ -54,11 +54,19 @@ class FloodClients {
   }
   ~FloodClients() {
     is_over_ = true;
+    go_on();
     for (std::thread& thread : threads_) thread.join();
   }
 
   FloodClients(const FloodClients&) = delete;
   FloodClients& operator=(const FloodClients&) = delete;
+
+  /// Lets all stay connected and ask for nothing more, once what is on its way has been answered.
+  void rest() { is_resting_ = true; }
+  void go_on() {
+    is_resting_ = false;
+    is_resting_.notify_all();
+  }
 
   int good_left() const { return good_left_; }  ///< good clients that are not through with their rounds
   int wrong() const { return wrong_; }          ///< answers that are not those asked for
@@ -70,6 +78,7 @@ class FloodClients {
     RawClient client(port_);
     const auto low = static_cast<std::uint8_t>(first_ + number);
     for (int n = 0; rounds_ == 0 ? !is_over_ : n < rounds_; ++n) {
+      is_resting_.wait(true);
       const auto value = static_cast<std::uint8_t>(n);
       const Bytes write = {0, value, 0, 0, 0, 6, 1, 6, 0, low, 0, value};
       const Bytes read = {0, value, 0, 0, 0, 6, 1, 3, 0, low, 0, 1};
@@ -95,6 +104,7 @@ class FloodClients {
   void be_malformed(std::uint64_t seed) {
     std::mt19937 random(seed);
     while (!is_over_) {
+      is_resting_.wait(true);
       RawClient client(port_);
       Bytes bytes = {0, 1, 0, 0, 0, 6, 1, 3, 0, 30, 0, 3};
       for (int i = 0; i < 3; ++i) {
@@ -111,6 +121,7 @@ class FloodClients {
     RawClient client(port_);
     const Bytes request = {0, 1, 0, 0, 0, 6, 1, 3, 0, static_cast<std::uint8_t>(first_), 0, 1};
     while (!is_over_) {
+      is_resting_.wait(true);
       for (const std::uint8_t byte : request) {
         if (is_over_ || !client.send({byte})) return;
         std::this_thread::yield();
@@ -136,6 +147,7 @@ class FloodClients {
   std::vector<std::thread> threads_;
   std::vector<RawClient> silent_;
   std::atomic<bool> is_over_{false};
+  std::atomic<bool> is_resting_{false};
 };
 
 }  // namespace lockstep::test

@@ -1,0 +1,79 @@
+/// A machine that runs in real time with its Modbus server and its recorder, for measuring its ticks.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/trace_recorder.hpp"
+#include "projects/project.hpp"
+#include "scheduler/process_image.hpp"
+#include "scheduler/trace_ring.hpp"
+
+namespace lockstep::bench {
+
+/// The project files of the machines that are measured: six axes on a line shaft, and so many axes in gear
+/// with five signals each that an operator sees, two of which are recorded.
+std::string line_shaft();
+std::string axes_in_gear(int axes);
+
+/// @throws std::runtime_error if the project has problems
+Project project_of(const std::string& text);
+
+/// A program that has subscribed to everything on the network of LCM and then stopped: what it does not take
+/// fills the buffer of its socket. To be made before there are threads.
+class StoppedSubscriber {
+ public:
+  StoppedSubscriber();
+  ~StoppedSubscriber();
+  StoppedSubscriber(const StoppedSubscriber&) = delete;
+  StoppedSubscriber& operator=(const StoppedSubscriber&) = delete;
+
+  const char* url() const;  ///< its network, or one within this process where there is no other
+
+ private:
+  const pid_t child_;
+  bool is_there_ = false;
+};
+
+/// Processor time of ticks [µs].
+struct TickTimes {
+  double median = 0.0;
+  double mean = 0.0;
+};
+
+class FloodedMachine {
+ public:
+  /// @param processor of the cycle; negative: any
+  FloodedMachine(const std::string& text, int processor, const StoppedSubscriber& subscriber);
+  ~FloodedMachine();
+
+  /// So many ticks on a thread of their own, as `lockstep run` has them: with real-time priority where that
+  /// is permitted, each at its time, and none made up. Those at the beginning, which find what was before,
+  /// are not counted.
+  TickTimes run(int ticks);
+
+  /// Records from here on to a full disk and a stopped subscriber, or to where nothing hinders.
+  void hinder_recorder(bool hindered);
+
+  std::uint64_t requests() const { return server_->counters().requests; }
+  std::uint16_t port() const { return server_->port(); }
+
+ private:
+  struct Recording {
+    TraceRing ring;
+    TraceRecorder recorder;
+    Recording(const Project& project, const char* file, const char* url);
+  };
+
+  Project project_;
+  ProcessImage image_;
+  int processor_;
+  std::unique_ptr<ModbusServer> server_;
+  Recording free_, hindered_;
+};
+
+}  // namespace lockstep::bench
