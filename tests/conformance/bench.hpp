@@ -226,7 +226,8 @@ class Bench {
   struct Last {
     bool known = false;
     bool coupled = false;
-    double actual_velocity = 0.0;  // [u/s]
+    double actual_velocity = 0.0;    // [u/s]
+    double function_velocity = 0.0;  // of the coupling, without what is superimposed [u/s]
     Setpoint setpoint;
   };
 
@@ -260,13 +261,14 @@ class Bench {
     last.coupled = axis.coupled_leading_axis() != nullptr && !axis.simulating();
     last.setpoint = s;
     last.actual_velocity = axis.data.ActualVelocity;
+    last.function_velocity = axis.data.StatusSynchronizedMotion.FunctionFollowingValue.Velocity;
     if (!std::isfinite(s.position.value) || !std::isfinite(s.velocity) || !std::isfinite(s.acceleration))
       return fault(axis.name + ": setpoint not finite");
     const bool outrun = outruns_its_profile(axis);
     if (!before.known || controller.counters().ticks <= jumps_until_) return;
     if (last.coupled || (before.coupled && axis.pending_alarm() != 0)) {
       if (watch_coupled && !positions_may_step() && !outrun)
-        watch_steps(axis, before.setpoint, s, kBetweenTicks, handed_on(before.setpoint));
+        watch_steps(axis, before.setpoint, s, kBetweenTicks, handed_on(before));
       return;
     }
     if (axis.pending_alarm() == alarm::kPositionRangeExceeded) return;  // at the end of the numbers it stands
@@ -303,10 +305,11 @@ class Bench {
 
   /// Change of velocity that the leading axis hands on: it may come to rest between two ticks, and what is a
   /// function of its position then rests as well, from any velocity.
-  double handed_on(const Setpoint& before) const noexcept {
+  double handed_on(const Last& before) const noexcept {
     const double from = leading.last_setpoint().velocity;
     const double change = leading.setpoint().velocity - from;
-    return from == 0.0 ? 0.0 : std::abs(before.velocity / from * change);
+    const double led = std::max(std::abs(before.setpoint.velocity), std::abs(before.function_velocity));
+    return from == 0.0 ? 0.0 : std::abs(led / from * change);
   }
 
   /// @param between how much more than at the two ticks the acceleration may be between them

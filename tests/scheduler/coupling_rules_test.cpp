@@ -335,6 +335,7 @@ TEST_P(Directions, OfAShiftAreThoseInWhichTheLeadingValueMoves) {
 /// MC_GearOut waits while the following axis moves against SyncOutDirection.
 TEST_P(Directions, OfMC_GearOutAreThoseInWhichTheFollowingAxisMoves) {
   const auto [on_ring, profile, direction, ratio] = GetParam();
+  const double beyond = 1500.0 * std::abs(ratio);
   Coupled rig(on_ring ? ring : line, on_ring ? ring : line);
   rig.gear.RatioNumerator = ratio;
   rig.gear.Execute = true;
@@ -350,7 +351,7 @@ TEST_P(Directions, OfMC_GearOutAreThoseInWhichTheFollowingAxisMoves) {
   rig.start(rig.out);
   ASSERT_TRUE(rig.run_until([&] {
     const AxisPosition there = rig.f.setpoint().position;
-    return difference(there, {}, rig.f.modulo()).rounded() * way <= -1500.0 * std::abs(ratio);
+    return difference(there, {}, rig.f.modulo()).rounded() * way <= -beyond;
   }));
   EXPECT_TRUE(rig.out.Busy && !rig.out.StartSyncOut && rig.gear.InGear);
   rig.run_l.Velocity = led * 100.0;
