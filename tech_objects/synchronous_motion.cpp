@@ -17,6 +17,9 @@ constexpr double kSamePlace = 1e-14;
 /// multiple of that way: the quintic then stays within some ten times the way.
 constexpr double kSteepest = 100.0;
 
+/// Over how many ticks the change of the leading velocity is watched.
+constexpr double kWatchedTicks = 16.0;
+
 bool same_place(double distance, double position) noexcept {
   return std::abs(distance) <= kSamePlace * std::max(1.0, std::abs(position));
 }
@@ -244,6 +247,7 @@ void SynchronousMotion::couple(const LeadingValue& leading, const Job& job,
   direction_ = 0;
   progress_ = 0.0;
   furthest_ = 0.0;
+  watched_acceleration_ = 0.0;
 }
 
 void SynchronousMotion::begin_gear_in(const LeadingValue& leading, const Job& job,
@@ -296,6 +300,7 @@ SynchronousMotion::Start SynchronousMotion::reject(ErrorId error) noexcept {
 SynchronousMotion::Start SynchronousMotion::watch(const Setpoint& own,
                                                   const SynchronousMotion* active) noexcept {
   look_at_leading();
+  watch_acceleration();
   if (uncontrolled_seen_ != 0) {  // there is no leading value yet: what was zero meanwhile does not matter
     uncontrolled_seen_ = 0;
     return Start::not_yet;
@@ -315,6 +320,13 @@ SynchronousMotion::Start SynchronousMotion::watch(const Setpoint& own,
   const Start start = profile_reference_ == 0 ? watch_time(own) : watch_distance(own);
   if (start != Start::synchronizing) direction_ = 0;
   return start;
+}
+
+/// What the velocity of the leading value changes by, over so many ticks that the noise of an encoder does
+/// not count: an extrapolated leading value tells no acceleration.
+void SynchronousMotion::watch_acceleration() noexcept {
+  const double change = (leading_now_.velocity - leading_last_.velocity) / period_;
+  watched_acceleration_ += (change - watched_acceleration_) / kWatchedTicks;
 }
 
 /// Way from the last leading position to a place, in the direction of motion [u]; negative: a linear axis has
@@ -461,7 +473,8 @@ bool SynchronousMotion::plan_time(const Setpoint& own, const Setpoint& leading, 
   const double relative_velocity = own.velocity - function_velocity;
   const double slope_change = relative_velocity / leading.velocity * leading.acceleration;
   // A slow leading value that changes its velocity strongly would carry more along than the axis may make.
-  if (std::abs(slope_change) > acceleration) return false;
+  const double seen = follows_actual_value() ? watched_acceleration_ : leading.acceleration;
+  if (std::abs(relative_velocity / leading.velocity * seen) > acceleration) return false;
   const MotionState start{
       .position = ratio_ * direction_ * way - 0.5 * curvature_ * way * way -
                   (following_way(own.position.value) - ahead),

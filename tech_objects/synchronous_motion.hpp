@@ -233,6 +233,7 @@ class SynchronousMotion {
   void set_out_position(const Setpoint& last, double target) noexcept;
   bool shoots_beyond(const SyncOffset& start, double distance) const noexcept;
   Start begin_profile(Way way) noexcept;
+  void watch_acceleration() noexcept;
   double following_way(double here) const noexcept;
   bool plan_time(const Setpoint& own, const Setpoint& leading, double way, double ahead,
                  Profile& profile) const noexcept;
@@ -267,6 +268,7 @@ class SynchronousMotion {
   double profile_way_ = 0.0;    // leading distance of the profile [u]
   AxisPosition leading_start_;  // where the profile begins
   double time_velocity_ = 1.0;  // leading velocity for which profile 0 was planned [u/s] > 0
+  double watched_acceleration_ = 0.0;  // of the leading value, by its velocity while a job waits [u/s²]
   SyncProfile distance_profile_;
   Profile time_profile_;
 

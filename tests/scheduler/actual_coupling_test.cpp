@@ -1,6 +1,7 @@
 // Axes that follow the extrapolated actual value of another one, through the blocks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fb/gear_in.hpp"
@@ -361,6 +362,48 @@ TEST_P(GearInPosByActualValue, PlacesTheFunctionAtTheSynchronousPositions) {
     ASSERT_NEAR(rig.f.setpoint().position.value, 30.0 + 2.0 * (leading - 100.0), 1e-9);
   }
   EXPECT_NEAR(rig.f.setpoint().position.value, 30.0 + 2.0 * (rig.l.data.ActualPosition + 0.06 - 100.0), 1e-5);
+}
+
+/// An extrapolated leading value tells no acceleration. The profile over time is carried out over the leading
+/// distance: where that value has just begun to move, its beginning would be as steep as the value is slow.
+TEST(GearInPosOverTimeByActualValue, DoesNotThrowAnAxisInMotionBehindALeadingAxisThatHasJustBegunToMove) {
+  Pair rig;
+  auto& move_f = rig.block<MC_MoveVelocity>();
+  move_f.Axis = &rig.f;
+  move_f.Velocity = 100.0;
+  move_f.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return move_f.InVelocity; }));
+  rig.pos.SyncProfileReference = 0;
+  rig.pos.Velocity = 250.0;
+  rig.pos.Acceleration = rig.pos.Deceleration = 500.0;
+  rig.pos.Jerk = 0.0;
+  rig.pos.MasterSyncPosition = rig.l.data.Position + 0.8;
+  rig.pos.SlaveSyncPosition = rig.f.data.Position - 100.0;
+  rig.pos.Execute = true;
+  rig.run_leading(100.0);
+  double fastest = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    rig.tick();
+    fastest = std::max(fastest, std::abs(rig.f.setpoint().velocity));
+  }
+  EXPECT_LE(fastest, 250.0);
+}
+
+/// What a coarse encoder shows from cycle to cycle is no acceleration that would have to be waited out.
+TEST(GearInPosOverTimeByActualValue, TakesAnAxisInMotionOverBehindACoarseEncoder) {
+  Pair rig(driven, virtual_line, 1, 0.02);
+  auto& move_f = rig.block<MC_MoveVelocity>();
+  move_f.Axis = &rig.f;
+  move_f.Velocity = 50.0;
+  move_f.Execute = true;
+  rig.run_leading(70.0);
+  rig.run(1000);
+  rig.pos.SyncProfileReference = 0;
+  rig.pos.Acceleration = rig.pos.Deceleration = 2000.0;
+  rig.pos.MasterSyncPosition = rig.l.data.Position + 100.0;
+  rig.pos.SlaveSyncPosition = rig.f.data.Position + 60.0;
+  rig.pos.Execute = true;
+  EXPECT_TRUE(rig.run_until([&] { return rig.pos.InSync; }));
 }
 
 /// At creep speed an encoder shows an increment now and then, at a velocity that is far too high: what is
