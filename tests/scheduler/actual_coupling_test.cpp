@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fb/cam_in.hpp"
 #include "fb/gear_in.hpp"
 #include "fb/home.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
+#include "tests/support/bent_cam.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {
@@ -73,6 +75,15 @@ struct Pair : Rig {
     run_leading(velocity);
     ASSERT_TRUE(run_until([&] { return run_l.InVelocity; }));
     run(4000);
+  }
+  /// Highest velocity of the following setpoint in so many ticks [u/s].
+  double fastest_of(int ticks) {
+    double fastest = 0.0;
+    for (int i = 0; i < ticks; ++i) {
+      tick();
+      fastest = std::max(fastest, std::abs(f.setpoint().velocity));
+    }
+    return fastest;
   }
   /// By what the following setpoint is ahead of the leading actual position [u].
   double lead_of_setpoint() const {
@@ -381,12 +392,30 @@ TEST(GearInPosOverTimeByActualValue, DoesNotThrowAnAxisInMotionBehindALeadingAxi
   rig.pos.SlaveSyncPosition = rig.f.data.Position - 100.0;
   rig.pos.Execute = true;
   rig.run_leading(100.0);
-  double fastest = 0.0;
-  for (int i = 0; i < 3000; ++i) {
-    rig.tick();
-    fastest = std::max(fastest, std::abs(rig.f.setpoint().velocity));
-  }
-  EXPECT_LE(fastest, 250.0);
+  EXPECT_LE(rig.fastest_of(3000), 250.0);
+}
+
+TEST(CamInOverTimeByActualValue, DoesNotThrowAnAxisInMotionBehindALeadingAxisThatHasJustBegunToMove) {
+  Pair rig;
+  auto& move_f = rig.block<MC_MoveVelocity>();
+  auto& in = rig.block<MC_CamIn>();
+  Cam& cam = test::add_bent_cam(rig.controller, 360.0);
+  move_f.Axis = &rig.f;
+  move_f.Velocity = 100.0;
+  move_f.Execute = true;
+  ASSERT_TRUE(rig.run_until([&] { return move_f.InVelocity; }));
+  in.Master = &rig.l;
+  in.Slave = &rig.f;
+  in.Cam = &cam;
+  in.SyncProfileReference = 0;
+  in.Velocity = 250.0;
+  in.Acceleration = in.Deceleration = 500.0;
+  in.Jerk = 0.0;
+  in.MasterSyncPosition = rig.l.data.Position + 0.8;
+  in.SlaveOffset = rig.f.data.Position - 100.0;
+  in.Execute = true;
+  rig.run_leading(100.0);
+  EXPECT_LE(rig.fastest_of(3000), 250.0);
 }
 
 /// What a coarse encoder shows from cycle to cycle is no acceleration that would have to be waited out.

@@ -2,37 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
+#include <cstdint>
 #include <limits>
-#include <new>
 #include <optional>
 #include <vector>
 
 #include "scheduler/program.hpp"
+#include "tests/support/allocations.hpp"
 #include "tests/support/values.hpp"
-
-namespace {
-std::atomic<std::size_t> allocations{0};  // other tests of this program have threads
-}  // namespace
-
-// Counts what this program takes from the heap.
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace lockstep {
 namespace {
@@ -350,15 +328,16 @@ TEST(Expression, EvaluationTakesNothingFromTheHeap) {
   choice.multiplex(3);
   expressions.push_back(std::move(choice).finish(Type::DINT));
   expressions.emplace_back(Signal{&status, Type::WORD, 8});
-  const std::size_t before = allocations;
+  const test::CountAllocations count;
+  const std::uint64_t before = test::allocations_counted();
   std::uint64_t sum = 0;
   for (int i = 0; i < 1000; ++i)
     for (const Expression& expression : expressions) sum += expression.evaluate(counters).u;
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations_counted(), before);
   EXPECT_EQ(counters.integer_divisions_by_zero, 1000u);
   EXPECT_NE(sum, 0u);
   const Expression copy = expressions.front();  // shows that the counter counts
-  EXPECT_GT(allocations, before);
+  EXPECT_GT(test::allocations_counted(), before);
   EXPECT_EQ(copy.evaluate(counters).i, expressions.front().evaluate(counters).i);
 }
 
@@ -376,12 +355,13 @@ TEST(Texts, AreComparedAndAssignedWithoutAllocation) {
   Program program("P", Ob::Main, 1, 0);
   program.add_assignment(TextSource{std::nullopt, "a pale ale of some length"}, kind);
   EvaluationCounters counters;
-  const std::size_t before = allocations;
+  const test::CountAllocations count;
+  const std::uint64_t before = test::allocations_counted();
   for (int i = 0; i < 1000; ++i) {
     program.run(0, counters);
     EXPECT_EQ(copy.evaluate(counters).u, 1u);
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations_counted(), before);
   EXPECT_EQ(kind.view(), "a pale ale of some l") << "what has no room is cut off";
 }
 
