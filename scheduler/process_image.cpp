@@ -7,8 +7,6 @@
 namespace lockstep {
 namespace {
 
-constexpr std::uint64_t kAllBits = ~0ULL;
-
 /// The distinct variables in which the signals lie, by type and among these in the order of their first
 /// mention, and for each signal the number of its variable.
 std::pair<std::vector<Signal>, std::vector<std::uint32_t>> variables_of(const std::vector<Signal>& signals) {
@@ -24,17 +22,6 @@ std::pair<std::vector<Signal>, std::vector<std::uint32_t>> variables_of(const st
   std::vector<std::uint32_t> places;
   for (const Signal& signal : signals) places.push_back(numbers[signal.address]);
   return {variables, places};
-}
-
-/// What a variable holds after a write to it: part of an integer may change its sign, a REAL is rounded.
-Value written(const Signal& variable, Value before, const VariableWrite& write) noexcept {
-  if (write.mask == kAllBits && variable.type != Type::REAL) return write.value;
-  std::uint64_t memory = 0;
-  const Signal copy{&memory, variable.type, -1};
-  VariableWrite all{0, before, kAllBits};
-  all.add(write.value, write.mask);
-  copy.store(all.value);
-  return copy.load();
 }
 
 }  // namespace
@@ -64,25 +51,17 @@ ProcessImage::ProcessImage(std::vector<Signal> signals)
         fill(first.lines);
         return first;
       }()),
-      mailbox_(variables_.size()),
+      mailbox_(variables_),
       shown_(snapshot_.front().lines.data()->values.data()),
       waiting_(variables_.size()),
-      taken_by_cycle_(variables_.size()) {
-  taken_.reserve(variables_.size());
-}
+      taken_by_cycle_(variables_.size()) {}
 
 void ProcessImage::take_writes() noexcept {
   // What this tick is going to need and the bridge has touched is fetched at once; what publishing needs
   // comes while the tick computes.
   mailbox_.come_near();
   snapshot_.come_near();
-  const std::uint64_t number = mailbox_.take(taken_);
-  if (number == 0) return;
-  for (const VariableWrite& write : taken_) {
-    const Signal& variable = variables_[write.variable];
-    variable.store(write.mask == kAllBits ? write.value : written(variable, variable.load(), write));
-  }
-  applied_ = number;
+  if (const std::uint64_t number = mailbox_.apply(); number != 0) applied_ = number;
 }
 
 void ProcessImage::fill(std::vector<Line>& lines) const noexcept {

@@ -114,8 +114,7 @@ class ProcessImage {
   WriteMailbox mailbox_;
 
   // The cycle's.
-  alignas(kCacheLine) std::vector<VariableWrite> taken_;
-  std::uint64_t applied_ = 0;  ///< number of the last batch applied
+  alignas(kCacheLine) std::uint64_t applied_ = 0;  ///< number of the last batch applied
 
   // The bridge's. It reads of a snapshot only what it is asked for: the rest stays with the cycle. Its own
   // writes, which a snapshot may not know yet, are those that the cycle had not taken when it last looked,

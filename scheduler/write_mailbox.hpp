@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tech_objects/cache_line.hpp"
@@ -25,16 +25,21 @@ struct VariableWrite {
   }
 };
 
-/// Holds at most one write for each variable. The bridge takes everything back to add to it; the cycle takes
-/// all of it, once, or nothing if the bridge is just adding. Neither waits for the other, and nothing is
-/// allocated after construction. What the processors hand over to each other is little: up to six writes of
-/// values that fit 32 bits stand in one cache line with the state, eight more in each that follows.
+/// What a variable holds after a write to it: part of an integer may change its sign, a REAL is rounded.
+Value written(const Signal& variable, Value before, const VariableWrite& write) noexcept;
+
+/// Holds at most one write for each variable. The bridge takes everything back to add to it; the cycle
+/// applies all of it, once, or nothing if the bridge is just adding. Neither waits for the other, and nothing
+/// is allocated after construction. There are two slots: while the cycle applies what is in one, the bridge
+/// fills the other. What the processors hand over to each other is little: six writes that fit 32 bits stand
+/// in one cache line with the state of the slot, eight more in each that follows.
 class WriteMailbox {
  public:
-  /// @param variables writes are for those below this number, at most 2^30
-  explicit WriteMailbox(std::size_t variables);
+  /// @param variables that the writes are for, whole ones, at most 2^29; they outlive the mailbox
+  explicit WriteMailbox(std::span<const Signal> variables);
 
-  /// Takes back what the cycle has not taken. @return whether there was something. Thread: the bridge.
+  /// Takes back what the cycle has not begun to apply. @return whether there was something; if not, what is
+  /// put begins anew. Thread: the bridge.
   bool take_back() noexcept;
   /// Puts a write at a place, below the number of variables. Thread: the bridge, after `take_back`.
   void put(std::size_t place, const VariableWrite& write) noexcept;
@@ -42,24 +47,32 @@ class WriteMailbox {
   /// Thread: the bridge.
   void hand_on(std::size_t count, std::uint64_t number) noexcept;
 
-  /// Fetches what `take` is going to read. Thread: the cycle.
+  /// Fetches what `apply` is going to read. Thread: the cycle.
   void come_near() const noexcept;
-  /// Fills `writes`, whose room suffices for all variables. @return the number of the batch; 0: there is
-  /// nothing. Thread: the cycle.
-  std::uint64_t take(std::vector<VariableWrite>& writes) noexcept;
+  /// Writes to the variables. @return the number of the batch; 0: there is nothing. Thread: the cycle.
+  std::uint64_t apply() noexcept;
 
  private:
-  using Cell = std::atomic<std::uint64_t>;
+  using Cell = std::uint64_t;
   static constexpr std::size_t kPerLine = kCacheLine / sizeof(Cell);
   struct alignas(kCacheLine) Line {
     std::array<Cell, kPerLine> cells{};
   };
-  Cell& cell(std::size_t i) noexcept { return lines_[i / kPerLine].cells[i % kPerLine]; }
+  /// The cells of a slot: state, number of writes, one for each of them, and behind those value and mask of
+  /// each that does not fit into one. The state is the number of the batch while the slot is the cycle's for
+  /// the taking; 0: one side has taken it.
+  struct Slot {
+    std::vector<Line> lines;
+    Cell* cells = nullptr;  ///< of all lines
+  };
   std::size_t far_cell(std::size_t place) const noexcept;
+  void apply_far(const Cell* cells, std::size_t place) const noexcept;
 
-  const std::size_t variables_;
-  std::vector<Line> lines_;
-  std::size_t lines_taken_ = 1;  ///< the cycle's: what the last writes took
+  const std::span<const Signal> variables_;
+  std::array<Slot, 2> slots_;
+  alignas(kCacheLine) std::size_t filled_ = 0;   ///< the bridge's: slot that it fills
+  alignas(kCacheLine) std::size_t awaited_ = 1;  ///< the cycle's: slot that it applies next
+  std::size_t lines_near_ = 1;                   ///< the cycle's: what the last writes took
 };
 
 }  // namespace lockstep
