@@ -7,6 +7,8 @@
 namespace lockstep {
 namespace {
 
+constexpr std::uint64_t kAllBits = ~0ULL;
+
 /// The distinct variables in which the signals lie, by type and among these in the order of their first
 /// mention, and for each signal the number of its variable.
 std::pair<std::vector<Signal>, std::vector<std::uint32_t>> variables_of(const std::vector<Signal>& signals) {
@@ -22,6 +24,17 @@ std::pair<std::vector<Signal>, std::vector<std::uint32_t>> variables_of(const st
   std::vector<std::uint32_t> places;
   for (const Signal& signal : signals) places.push_back(numbers[signal.address]);
   return {variables, places};
+}
+
+/// What a variable holds after a write to it: part of an integer may change its sign, a REAL is rounded.
+Value written(const Signal& variable, Value before, const VariableWrite& write) noexcept {
+  if (write.mask == kAllBits && variable.type != Type::REAL) return write.value;
+  std::uint64_t memory = 0;
+  const Signal copy{&memory, variable.type, -1};
+  VariableWrite all{0, before, kAllBits};
+  all.add(write.value, write.mask);
+  copy.store(all.value);
+  return copy.load();
 }
 
 }  // namespace

@@ -25,9 +25,6 @@ struct VariableWrite {
   }
 };
 
-/// What a variable holds after a write to it: part of an integer may change its sign, a REAL is rounded.
-Value written(const Signal& variable, Value before, const VariableWrite& write) noexcept;
-
 /// Holds at most one write for each variable. The bridge takes everything back to add to it; the cycle
 /// applies all of it, once, or nothing if the bridge is just adding. Neither waits for the other, and nothing
 /// is allocated after construction. There are two slots: while the cycle applies what is in one, the bridge
@@ -35,7 +32,7 @@ Value written(const Signal& variable, Value before, const VariableWrite& write) 
 /// in one cache line with the state of the slot, eight more in each that follows.
 class WriteMailbox {
  public:
-  /// @param variables that the writes are for, whole ones, at most 2^29; they outlive the mailbox
+  /// @param variables that the writes are for, whole ones; they outlive the mailbox
   explicit WriteMailbox(std::span<const Signal> variables);
 
   /// Takes back what the cycle has not begun to apply. @return whether there was something; if not, what is
@@ -58,15 +55,13 @@ class WriteMailbox {
   struct alignas(kCacheLine) Line {
     std::array<Cell, kPerLine> cells{};
   };
-  /// The cells of a slot: state, number of writes, one for each of them, and behind those value and mask of
-  /// each that does not fit into one. The state is the number of the batch while the slot is the cycle's for
-  /// the taking; 0: one side has taken it.
+  /// The cells of a slot: its state, the number of writes, and three for each of them: address, bits and mask
+  /// of the memory. The state is the number of the batch while the slot is the cycle's for the taking; 0: one
+  /// side has taken it.
   struct Slot {
     std::vector<Line> lines;
     Cell* cells = nullptr;  ///< of all lines
   };
-  std::size_t far_cell(std::size_t place) const noexcept;
-  void apply_far(const Cell* cells, std::size_t place) const noexcept;
 
   const std::span<const Signal> variables_;
   std::array<Slot, 2> slots_;

@@ -120,7 +120,9 @@ TEST(WriteMailbox, WritesAsTheBridgeWouldItself) {
         Variables any({there.type});
         any.signals[0].store(is_real(there.type) ? real(static_cast<double>(bits)) : Value{.u = bits});
         writes.push_back({variable, any.values()[0], mask % 4 == 0 && !is_real(there.type) ? mask : ~0ULL});
-        there.store(written(there, there.load(), writes.back()));
+        VariableWrite whole{variable, there.load()};
+        whole.add(writes.back().value, writes.back().mask);
+        there.store(whole.value);
       }
       mailbox.take_back();
       post(mailbox, writes, number);
