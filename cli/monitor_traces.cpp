@@ -13,9 +13,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kWindow = 2s;        // over which the rate is taken
-constexpr auto kSample = 100ms;     // between two counts of it
-constexpr double kSilent = 3.0;     // [s] without a row, from which a trace counts as silent
+constexpr auto kWindow = 2s;     // over which the rate is taken
+constexpr auto kSample = 100ms;  // between two counts of it
+constexpr double kSilent = 3.0;  // [s] without a row: the trace waits for its trigger; without a word: silent
 constexpr std::size_t kValue = 14;  // columns of a value
 
 double seconds(HeardTrace::Clock::duration duration) {
@@ -25,7 +25,8 @@ double seconds(HeardTrace::Clock::duration duration) {
 std::string heading(const std::string& channel, const HeardTrace& trace, HeardTrace::Clock::time_point now) {
   const std::string line = printable(channel) + ": " + printable(trace.project());
   if (!trace.has_row()) return line + "  no rows yet";
-  return trace.age(now) > kSilent ? line + "  SILENT" : line;
+  if (trace.age(now) <= kSilent) return line;
+  return line + (trace.unheard(now) > kSilent ? "  SILENT" : "  WAITING");
 }
 
 std::string counts_text(const HeardTrace& trace, HeardTrace::Clock::time_point now) {
@@ -69,6 +70,7 @@ std::string trace_heading(const std::string& channel, const HeardTrace& trace,
 void HeardTrace::accept(std::span<const std::uint8_t> bytes, Clock::time_point now) {
   switch (decoder_.accept(bytes)) {
     case LcmDecoder::Message::kHeader:
+      heard_ = now;
       header_message_.assign(bytes.begin(), bytes.end());
       take_header();
       break;
@@ -106,7 +108,7 @@ void HeardTrace::take_row(Clock::time_point now) {
   t_ = row.t;
   dropped_ = row.dropped;
   values_.assign(row.values.begin(), row.values.end());
-  last_ = now;
+  last_ = heard_ = now;
   ++rows_;
   if (counts_.empty() || now - counts_.back().first >= kSample) counts_.emplace_back(now, rows_);
   while (counts_.size() > 2 && now - counts_.front().first > kWindow) counts_.pop_front();
@@ -121,6 +123,10 @@ double HeardTrace::rate(Clock::time_point now) const {
 
 double HeardTrace::age(Clock::time_point now) const {
   return seconds(now - last_);
+}
+
+double HeardTrace::unheard(Clock::time_point now) const {
+  return seconds(now - heard_);
 }
 
 void HeardTraces::accept(const std::string& channel, std::span<const std::uint8_t> bytes,

@@ -34,6 +34,7 @@ class HeardTrace {
 
   double rate(Clock::time_point now) const;              ///< rows in a second, over the last two seconds
   double age(Clock::time_point now) const;               ///< of the last row [s]
+  double unheard(Clock::time_point now) const;           ///< time since the last word of the sender [s]
   std::uint64_t lost() const noexcept { return lost_; }  ///< rows sent that did not come
   std::uint64_t damaged() const noexcept { return damaged_; }  ///< messages that contradict themselves
 
@@ -52,7 +53,8 @@ class HeardTrace {
   std::int64_t t_ = 0;       // [ns] of the run
   std::int64_t number_ = 0;  // of the last row in its channel
   std::uint64_t dropped_ = 0;
-  Clock::time_point last_;
+  Clock::time_point last_;   // row
+  Clock::time_point heard_;  // row or header, which comes once a second
   std::deque<std::pair<Clock::time_point, std::uint64_t>> counts_;  // rows at times, for the rate
 };
 

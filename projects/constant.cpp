@@ -15,7 +15,7 @@ namespace {
 class NoNames final : public Scope {
  public:
   Reference resolve(std::string_view name, std::string_view /*path*/) const override {
-    return {std::nullopt, quote(name) + " is not allowed here; allowed: constants"};
+    return {std::nullopt, quote(name) + " is a name, and only constants can stand here"};
   }
 };
 

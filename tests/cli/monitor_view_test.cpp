@@ -32,6 +32,13 @@ class Monitored {
   void run(int seconds) {
     for (const std::int64_t end = t_ + seconds * kSecond; t_ < end;) hear("KNIFE", next_row());
   }
+  /// Time in which the machine runs and its channel, which awaits a trigger, sends no row.
+  void wait(int seconds) {
+    for (int i = 0; i < seconds; ++i) {
+      now += 1s;
+      hear("KNIFE_HEADER", encoder_.header());
+    }
+  }
   /// Rows that are sent and not heard.
   void lose(int rows) {
     for (int i = 0; i < rows; ++i) next_row();
@@ -140,6 +147,17 @@ TEST(MonitorView, CountsRowsThatWereSentAndDidNotComeNotCyclesThatTheRunHasMisse
   monitored.miss(2);
   monitored.run(1);
   EXPECT_TRUE(monitored.shows("lost 3\n")) << monitored.text();
+}
+
+TEST(MonitorView, TellsAChannelThatWaitsForItsTriggerFromOneThatIsGone) {
+  Monitored monitored;
+  monitored.run(1);
+  monitored.wait(5);
+  EXPECT_TRUE(monitored.shows("KNIFE: knife  WAITING  t 0.980 s")) << monitored.text();
+  monitored.run(1);
+  EXPECT_TRUE(monitored.shows("KNIFE: knife  t 1.980 s")) << monitored.text();
+  monitored.now += 4s;
+  EXPECT_TRUE(monitored.shows("KNIFE: knife  SILENT  t 1.980 s")) << monitored.text();
 }
 
 TEST(MonitorView, InALocaleWithoutUnicodeShowsTheSameInAscii) {

@@ -36,6 +36,25 @@ constexpr char kProject[] = R"({
     { "tag": "Drum.ActualPosition", "table": "input_register", "address": 0, "type": "REAL" } ] }
 })";
 
+TEST(Write, SaysOnceWhatIsAllowed) {
+  const Directory folder;
+  json project = json::parse(kProject);
+  project["modbus"]["map"].push_back({{"tag", "mask"}, {"table", "holding_register"}, {"address", 30}});
+  const std::string file = folder.write("project.json", project.dump());
+  const std::pair<const char*, const char*> cases[] = {
+      {"speed=abc", "speed: 'abc' is a name, and only constants can stand here; allowed: a number (LREAL)\n"},
+      {"speed=", "speed: the expression is empty; allowed: a number (LREAL)\n"},
+      {"mask=70000", "mask: 70000 does not fit WORD (0 to 65535); allowed: a number without fraction"}};
+  for (const auto& [value, problem] : cases) {
+    const Ended ended = lockstep({"write", "127.0.0.1:1", "--project", file, value});
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_NE(ended.err.find(problem), std::string::npos) << ended.err;
+    const auto allowed = ended.err.find("allowed:");
+    EXPECT_NE(allowed, std::string::npos) << ended.err;
+    EXPECT_EQ(ended.err.find("allowed:", allowed + 1), std::string::npos) << ended.err;
+  }
+}
+
 TEST(Tags, TellsWhatIsOnModbusAsCsv) {
   const Directory folder;
   json project = json::parse(kProject);
