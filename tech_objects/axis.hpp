@@ -535,7 +535,7 @@ class Axis final : public LeadingObject {
   bool find_braking(int side, double room, Dynamics& dynamics) const noexcept;
   void stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept;
   AlarmReaction reaction_at_limit() const noexcept;
-  void approach_limit(double way, AxisPosition limit, Dynamics dynamics) noexcept;
+  void approach_limit(double way, AxisPosition limit, const Dynamics& dynamics) noexcept;
   double permissible_following_error(double velocity) const noexcept;
   void watch_following_error(double velocity) noexcept;
 

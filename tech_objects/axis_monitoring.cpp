@@ -34,6 +34,12 @@ double most_stopping_way(const Heading& from, const Dynamics& dynamics) noexcept
   return v * (run_down + 0.5 * (v / dynamics.deceleration + dynamics.deceleration / dynamics.jerk));
 }
 
+/// The velocity from which the axis brakes, once its acceleration is run down.
+double velocity_reached(const Heading& from, double jerk) noexcept {
+  const double a = std::max(from.acceleration, 0.0);
+  return from.velocity + (jerk > 0.0 ? a * a / (2.0 * jerk) : 0.0);
+}
+
 /// Whether the axis brakes so hard that it turns back before the deceleration can be run down.
 bool turning_back(const Heading& heading, double jerk) noexcept {
   const double a = heading.acceleration;
@@ -185,7 +191,13 @@ void Axis::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexce
   absorb_superimposed();
   set_bit(data.WarningWord, side > 0 ? WarningBit::SWLimitMax : WarningBit::SWLimitMin, true);
   approached_side_ = static_cast<std::int8_t>(side);
-  if (possible) return approach_limit(side * room, limit, dynamics);
+  if (possible) {
+    const double reached = std::max(velocity_reached({setpoint_, side}, dynamics.jerk), side * made.velocity);
+    // Led by another axis it may be faster than its own limit.
+    const double most = std::max(velocity_limit(), std::abs(setpoint_.velocity));
+    dynamics.velocity = reached > 0.0 ? std::min(reached, most) : most;
+    return approach_limit(side * room, limit, dynamics);
+  }
   if (reacts) {
     single_.advance(setpoint_);
   } else {
@@ -202,11 +214,10 @@ AlarmReaction Axis::reaction_at_limit() const noexcept {
   return current ? AlarmReaction::stop_current : AlarmReaction::stop_maximum;
 }
 
-void Axis::approach_limit(double way, AxisPosition limit, Dynamics dynamics) noexcept {
+/// With no higher velocity than it reaches anyway, though there may be room for that.
+void Axis::approach_limit(double way, AxisPosition limit, const Dynamics& dynamics) noexcept {
   leave_synchronous();
   motion_ = Motion::single_axis;
-  // Led by another axis it may be faster than its own limit.
-  dynamics.velocity = std::max(velocity_limit(), std::abs(setpoint_.velocity));
   if (single_.move_to(setpoint_, limit, way, dynamics) != PlanResult::ok)
     return begin_stop(maximum_dynamics(), false);
   single_.advance(setpoint_);

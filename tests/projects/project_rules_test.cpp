@@ -354,7 +354,8 @@ INSTANTIATE_TEST_SUITE_P(
         {"/tags/more", R"({"type": "WORD", "init": "16#10000"})", "/tags/more/init", "WORD"},
         {"/tags/more", R"({"type": "REAL", "init": 1e39})", "/tags/more/init", "(REAL)"},
         {"/tags/more", R"({"type": "LREAL", "init": "1.0 / 0.0"})", "/tags/more/init", "no finite constant"},
-        {"/tags/more", R"({"type": "LREAL", "init": "speed"})", "/tags/more/init", "only constants can stand here"},
+        {"/tags/more", R"({"type": "LREAL", "init": "speed"})", "/tags/more/init",
+         "only constants can stand here"},
         {"/tags/more", R"({"type": "LREAL", "init": true})", "/tags/more/init", "a number (LREAL)"},
         {"/tags/more", R"({"type": "TIME", "init": 5})", "/tags/more/init", "a duration"},
         {"/tags/more", R"({"type": "TIME", "init": "5"})", "/tags/more/init", "is not a duration"}}));

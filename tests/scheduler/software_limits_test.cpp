@@ -294,6 +294,32 @@ TEST(SoftwareLimits, HoldWhenAWeakerJobTakesOverShortlyBeforeThem) {
   EXPECT_TRUE(rig.halt.Error);
 }
 
+/// Where the way that is left is longer than the axis needs, by less than a cycle's, it does not hurry.
+TEST(SoftwareLimits, AreNotApproachedFasterThanTheAxisMovesAnyway) {
+  for (const double jerk : {0.0, 1e6}) {
+    for (int place = 0; place < 50; ++place) {
+      SCOPED_TRACE(place);
+      Limited rig(1, false, [=](AxisData& data) {
+        within_a_hundred(data);
+        data.PositionLimits_SW.MaxPosition = 30.0 + place * 0.001;
+        data.DynamicLimits.MaxAcceleration = data.DynamicLimits.MaxDeceleration = 1e5;
+        data.DynamicLimits.MaxJerk = jerk > 0.0 ? 4.6e6 : 0.0;
+      });
+      rig.continuity[1].acceleration = jerk > 0.0;
+      rig.run_a.Velocity = 50.0;
+      rig.run_a.Acceleration = 2000.0;
+      rig.run_a.Jerk = jerk;
+      rig.run_a.Execute = true;
+      for (int i = 0; i < 2000; ++i) {
+        rig.tick();
+        ASSERT_LE(rig.a.setpoint().velocity, 50.0 * (1.0 + 1e-12)) << i;
+      }
+      EXPECT_EQ(rig.position(), 30.0 + place * 0.001);
+      EXPECT_EQ(rig.a.pending_alarm(), 533);
+    }
+  }
+}
+
 TEST(SoftwareLimits, HoldForAHaltThatEndsWithinOneCycleBehindThem) {
   Limited rig(32, false, [](AxisData& data) {
     within_a_hundred(data);
