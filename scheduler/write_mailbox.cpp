@@ -18,17 +18,21 @@ constexpr std::size_t kFirst = 2;
 constexpr std::uint64_t kTaken = 0;
 
 constexpr std::size_t kPerWrite = 3;
-constexpr std::size_t kMostLinesNear = 16;
+constexpr std::size_t kMostLinesNear = 8;
 
 constexpr std::size_t cells_of(std::size_t writes) noexcept {
   return kFirst + kPerWrite * writes;
 }
 
-/// The bits of a value, or of a mask, as they stand in the memory of a variable; 0 beyond it.
+/// Lines that it is worth to move before they are needed.
+constexpr std::size_t lines_near(std::size_t writes, std::size_t per_line) noexcept {
+  return std::min(kMostLinesNear, (cells_of(writes) + per_line - 1) / per_line);
+}
+
+/// The bits of a value as they stand in the memory of a variable, from the lowest on.
 std::uint64_t in_memory(Type type, Value value) noexcept {
-  std::uint64_t memory = 0;
-  Signal{&memory, type, -1}.store(value);
-  return memory;
+  if (type == Type::REAL) return std::bit_cast<std::uint32_t>(static_cast<float>(value.r));
+  return type == Type::BOOL ? std::uint64_t{value.u != 0} : value.u;
 }
 
 /// All bits of the memory of a variable of so many bytes.
@@ -66,6 +70,8 @@ void write_memory(const std::uint64_t* write) noexcept {
 }  // namespace
 
 WriteMailbox::WriteMailbox(std::span<const Signal> variables) : variables_(variables) {
+  for (const Signal& variable : variables)
+    whole_.push_back(all_of(static_cast<std::size_t>(size_of(variable.type))));
   for (Slot& slot : slots_) {
     slot.lines.resize((cells_of(variables.size()) + kPerLine - 1) / kPerLine);
     slot.cells = slot.lines.data()->cells.data();
@@ -82,18 +88,17 @@ bool WriteMailbox::take_back() noexcept {
 
 void WriteMailbox::put(std::size_t place, const VariableWrite& write) noexcept {
   const Signal& variable = variables_[write.variable];
-  const auto bytes = static_cast<std::size_t>(size_of(variable.type));
   Cell* const cells = slots_[filled_].cells + cells_of(place);
   cells[0] = std::bit_cast<std::uint64_t>(variable.address);
   cells[1] = in_memory(variable.type, write.value);
-  cells[2] = write.mask & all_of(bytes);
+  cells[2] = write.mask & whole_[write.variable];
 }
 
 void WriteMailbox::hand_on(std::size_t count, std::uint64_t number) noexcept {
   Cell* const cells = slots_[filled_].cells;
   cells[kCount] = count;
   std::atomic_ref(cells[kState]).store(number, std::memory_order_release);
-  for (std::size_t i = 0; i < cells_of(count); i += kPerLine) send_away(cells + i);
+  for (std::size_t i = 0; i < lines_near(count, kPerLine); ++i) send_away(cells + i * kPerLine);
 }
 
 void WriteMailbox::come_near() const noexcept {
@@ -110,7 +115,7 @@ std::uint64_t WriteMailbox::apply() noexcept {
   if (number == kTaken) return 0;  // the bridge has been quicker
   const Cell* const end = cells + cells_of(cells[kCount]);
   for (const Cell* write = cells + kFirst; write != end; write += kPerWrite) write_memory(write);
-  lines_near_ = std::min(kMostLinesNear, (cells_of(cells[kCount]) + kPerLine - 1) / kPerLine);
+  lines_near_ = lines_near(cells[kCount], kPerLine);
   awaited_ = 1 - awaited_;
   return number;
 }

@@ -64,6 +64,7 @@ class WriteMailbox {
   };
 
   const std::span<const Signal> variables_;
+  std::vector<std::uint64_t> whole_;  ///< masks of all the bits of each variable
   std::array<Slot, 2> slots_;
   alignas(kCacheLine) std::size_t filled_ = 0;   ///< the bridge's: slot that it fills
   alignas(kCacheLine) std::size_t awaited_ = 1;  ///< the cycle's: slot that it applies next
