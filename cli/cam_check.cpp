@@ -1,6 +1,7 @@
 // lockstep cam check: what the checks of a cam find.
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
 
 #include "cli/cam_command.hpp"

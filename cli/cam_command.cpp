@@ -1,6 +1,7 @@
 // lockstep cam: what its commands share.
 #include "cli/cam_command.hpp"
 
+#include <CLI/App.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>

@@ -1,7 +1,6 @@
 /// The parts of `lockstep cam`.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <memory>
 #include <optional>
 #include <stdexcept>

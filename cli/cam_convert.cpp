@@ -1,4 +1,6 @@
 // lockstep cam convert: writes a cam in another format.
+#include <CLI/App.hpp>
+
 #include "cli/cam_command.hpp"
 #include "projects/cam_table.hpp"
 

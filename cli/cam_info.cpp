@@ -1,6 +1,7 @@
 // lockstep cam info: what a cam is made of, and its characteristic values.
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,5 @@
 // lockstep cam plot: four diagrams over the leading value.
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,7 @@
 // lockstep cam sample: points at equal distances.
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
 
 #include "cli/cam_command.hpp"

@@ -1,4 +1,6 @@
 // lockstep check: tells every problem of a project file.
+#include <CLI/App.hpp>
+
 #include "cli/command.hpp"
 
 namespace lockstep::cli {

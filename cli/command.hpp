@@ -2,13 +2,16 @@
 /// @source contract of the project file, section 3
 #pragma once
 
-#include <CLI/App.hpp>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 
 #include "projects/project.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace lockstep::cli {
 

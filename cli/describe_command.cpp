@@ -1,4 +1,5 @@
 // lockstep describe: tells what function blocks, technology objects, alarms and errors there are and mean.
+#include <CLI/App.hpp>
 #include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <CLI/App.hpp>
 #include <csignal>
 #include <cstdio>
 #include <ctime>

@@ -1,6 +1,7 @@
 // lockstep plot: draws a trace.
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <charconv>

@@ -1,4 +1,5 @@
 // lockstep read: values of a running project by their names, over Modbus.
+#include <CLI/App.hpp>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 

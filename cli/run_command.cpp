@@ -1,6 +1,7 @@
 // lockstep run: command line.
 #include "cli/run_command.hpp"
 
+#include <CLI/App.hpp>
 #include <cstdio>
 #include <memory>
 

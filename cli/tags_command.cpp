@@ -1,6 +1,7 @@
 // lockstep tags: the tags of a project, where they stand on Modbus, and the numbers of its objects.
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,6 @@
 // lockstep write: values of a running project by their names, over Modbus.
+#include <CLI/App.hpp>
+
 #include "cli/command.hpp"
 #include "cli/modbus_panel.hpp"
 #include "hmi_bridge/text_literal.hpp"
