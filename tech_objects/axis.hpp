@@ -32,12 +32,6 @@
 
 namespace lockstep {
 
-/// One configured leading value interconnection of a following axis.
-struct LeadingValue {
-  LeadingObject* source = nullptr;
-  Coupling coupling = Coupling::setpoint;
-};
-
 /// What MC_LeadingValueAdditive and MC_SynchronizedMotionSimulation want; written by the instance that was
 /// enabled last.
 struct AdditiveRequest {

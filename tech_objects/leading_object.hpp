@@ -161,4 +161,10 @@ class LeadingObject : public TechnologyObject {
   DoubleDouble renamed_;
 };
 
+/// One configured leading value interconnection of a following axis.
+struct LeadingValue {
+  LeadingObject* source = nullptr;
+  Coupling coupling = Coupling::setpoint;
+};
+
 }  // namespace lockstep

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tech_objects/axis.hpp"
 #include "tech_objects/cam.hpp"
 #include "tech_objects/synchronous_motion.hpp"
 

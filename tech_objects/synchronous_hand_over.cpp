@@ -1,7 +1,6 @@
 // What an axis sees of a leading axis whose setpoint it cannot simply follow: because that goes over to
 // another course, or because it is, or has been, without position control.
 // @source S7-1500T synchronous operation V7, 5.3
-#include "tech_objects/axis.hpp"
 #include "tech_objects/synchronous_motion.hpp"
 
 namespace lockstep {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "tech_objects/axis.hpp"
-
 namespace lockstep {
 namespace {
 

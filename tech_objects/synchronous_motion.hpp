@@ -11,6 +11,7 @@
 #include "tech_objects/cam_motion.hpp"
 #include "tech_objects/gear_function.hpp"
 #include "tech_objects/job.hpp"
+#include "tech_objects/leading_object.hpp"
 #include "tech_objects/profile.hpp"
 #include "tech_objects/setpoint.hpp"
 #include "tech_objects/shift.hpp"
@@ -18,8 +19,6 @@
 #include "tech_objects/velocity_tracking.hpp"
 
 namespace lockstep {
-
-struct LeadingValue;
 
 /// What MC_LeadingValueAdditive adds to the leading value of one following axis, now and one tick ago.
 struct AdditiveLeadingValue {

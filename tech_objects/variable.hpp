@@ -8,8 +8,8 @@
 
 #include "tech_objects/data_block.hpp"
 #include "tech_objects/declaration.hpp"
+#include "tech_objects/object_kind.hpp"
 #include "tech_objects/status_bits.hpp"
-#include "tech_objects/technology_object.hpp"
 
 namespace lockstep {
 

@@ -28,7 +28,7 @@ grep -qx 'add_subdirectory(bench)' "$other/tests/CMakeLists.txt" ||
   echo 'add_subdirectory(bench)' >>"$other/tests/CMakeLists.txt"
 
 for tree in . "$other"; do
-  (cd "$tree" && cmake --preset release && cmake --build --preset release --target lockstep_bench) >&2
+  (cd "$tree" && cmake --preset release -DLOCKSTEP_TESTS=ON && cmake --build --preset release --target lockstep_bench) >&2
 done
 
 rounds=$ROUNDS
