@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "cli/command.hpp"
+#include "cli/command/command.hpp"
 
 int main(int argc, char** argv) {
   using namespace lockstep::cli;

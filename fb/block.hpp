@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "fb/pin.hpp"
-#include "tech_objects/cache_line.hpp"
+#include "tech_objects/arithmetic/cache_line.hpp"
 
 namespace lockstep {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "fb/block.hpp"
-#include "tech_objects/axis.hpp"
+#include "tech_objects/axis/axis.hpp"
 
 namespace lockstep {
 

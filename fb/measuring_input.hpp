@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fb/execute_block.hpp"
-#include "tech_objects/measuring_input.hpp"
+#include "tech_objects/sensing/measuring_input.hpp"
 
 namespace lockstep {
 

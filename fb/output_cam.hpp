@@ -3,8 +3,8 @@
 
 #include "fb/block.hpp"
 #include "fb/execute_block.hpp"
-#include "tech_objects/cam_track.hpp"
-#include "tech_objects/output_cam.hpp"
+#include "tech_objects/switching/cam_track.hpp"
+#include "tech_objects/switching/output_cam.hpp"
 
 namespace lockstep {
 

@@ -6,11 +6,11 @@
 #include <span>
 #include <string_view>
 
-#include "tech_objects/alarms.hpp"
-#include "tech_objects/array.hpp"
-#include "tech_objects/declaration.hpp"
-#include "tech_objects/technology_object.hpp"
-#include "tech_objects/types.hpp"
+#include "tech_objects/alarms/alarms.hpp"
+#include "tech_objects/data_blocks/array.hpp"
+#include "tech_objects/objects/technology_object.hpp"
+#include "tech_objects/types/declaration.hpp"
+#include "tech_objects/types/types.hpp"
 
 namespace lockstep {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fb/execute_block.hpp"
-#include "tech_objects/encoder_saving.hpp"
+#include "tech_objects/jobs/encoder_saving.hpp"
 
 namespace lockstep {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fb/block.hpp"
-#include "tech_objects/cache_line.hpp"
-#include "tech_objects/types.hpp"
+#include "tech_objects/arithmetic/cache_line.hpp"
+#include "tech_objects/types/types.hpp"
 
 namespace lockstep {
 

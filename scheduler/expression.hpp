@@ -30,8 +30,8 @@
 #include <vector>
 
 #include "scheduler/text.hpp"
-#include "tech_objects/array.hpp"
-#include "tech_objects/types.hpp"
+#include "tech_objects/data_blocks/array.hpp"
+#include "tech_objects/types/types.hpp"
 
 namespace lockstep {
 

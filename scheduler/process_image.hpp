@@ -10,8 +10,8 @@
 
 #include "scheduler/triple_buffer.hpp"
 #include "scheduler/write_mailbox.hpp"
-#include "tech_objects/cache_line.hpp"
-#include "tech_objects/types.hpp"
+#include "tech_objects/arithmetic/cache_line.hpp"
+#include "tech_objects/types/types.hpp"
 
 namespace lockstep {
 

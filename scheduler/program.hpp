@@ -10,7 +10,7 @@
 #include "fb/block.hpp"
 #include "scheduler/expression.hpp"
 #include "scheduler/text.hpp"
-#include "tech_objects/variable.hpp"
+#include "tech_objects/data_blocks/variable.hpp"
 
 namespace lockstep {
 

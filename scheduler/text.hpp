@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tech_objects/types.hpp"
+#include "tech_objects/types/types.hpp"
 
 namespace lockstep {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "scheduler/come_near.hpp"
-#include "tech_objects/cache_line.hpp"
+#include "tech_objects/arithmetic/cache_line.hpp"
 
 namespace lockstep {
 

@@ -156,7 +156,7 @@ TEST(FolderRules, LetAFolderIncludeItselfThoseAboveItAndTheStandardLibrary) {
                                        "#include <vector>\n#include <sys/mman.h>\n"
                                        "#include \"scheduler/cycle.hpp\"\n"
                                        "#include \"fb/block.hpp\"\n"
-                                       "#include \"tech_objects/types.hpp\"\n"))
+                                       "#include \"tech_objects/types/types.hpp\"\n"))
                   .empty());
   EXPECT_TRUE(
       include_faults(source_in("projects", "#include <nlohmann/json.hpp>\n#include <modbus.h>\n")).empty());
@@ -167,7 +167,7 @@ TEST(FolderRules, RefuseAFolderFurtherDownWhicheverWayItIsWritten) {
             std::vector<std::string>{"tech_objects/file.cpp:1: fb/block.hpp is in a folder further down"});
   EXPECT_EQ(include_faults(source_in("fb", "#include <scheduler/cycle.hpp>\n")).size(), 1u);
   EXPECT_EQ(include_faults(source_in("scheduler", "#include \"hmi_bridge/tag.hpp\"\n")).size(), 1u);
-  EXPECT_EQ(include_faults(source_in("hmi_bridge", "#include \"projects/loader.hpp\"\n")).size(), 1u);
+  EXPECT_EQ(include_faults(source_in("hmi_bridge", "#include \"projects/loader/loader.hpp\"\n")).size(), 1u);
   EXPECT_EQ(include_faults(source_in("projects", "#include \"cli/main.hpp\"\n")).size(), 1u);
 }
 

@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "bench/machine.hpp"
-#include "hmi_bridge/csv_trace.hpp"
-#include "hmi_bridge/lcm_publisher.hpp"
+#include "hmi_bridge/lcm/publisher.hpp"
+#include "hmi_bridge/traces/csv_trace.hpp"
 #include "scheduler/processor.hpp"
 #include "tests/support/flood.hpp"
 

@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "hmi_bridge/modbus_server.hpp"
-#include "hmi_bridge/trace_recorder.hpp"
-#include "projects/project.hpp"
+#include "hmi_bridge/modbus/server.hpp"
+#include "hmi_bridge/traces/recorder.hpp"
+#include "projects/loader/project.hpp"
 #include "scheduler/process_image.hpp"
 #include "scheduler/trace_ring.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "projects/project.hpp"
+#include "projects/loader/project.hpp"
 #include "scheduler/trace_ring.hpp"
 
 namespace lockstep::bench {

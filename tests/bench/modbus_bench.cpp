@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/modbus/server.hpp"
 
 namespace lockstep::bench {
 namespace {

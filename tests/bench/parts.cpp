@@ -11,13 +11,13 @@
 
 #include "bench/machine.hpp"
 #include "bench/measure.hpp"
-#include "projects/expression_compiler.hpp"
-#include "projects/project.hpp"
-#include "tech_objects/cam.hpp"
-#include "tech_objects/cam_interpolation.hpp"
-#include "tech_objects/cam_motion.hpp"
-#include "tech_objects/gear_function.hpp"
-#include "tech_objects/profile.hpp"
+#include "projects/expressions/compiler.hpp"
+#include "projects/loader/project.hpp"
+#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/cam/interpolation.hpp"
+#include "tech_objects/cam/motion.hpp"
+#include "tech_objects/profile/profile.hpp"
+#include "tech_objects/synchronous/gear_function.hpp"
 
 namespace lockstep::bench {
 namespace {

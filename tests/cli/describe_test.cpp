@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "fb/block.hpp"
-#include "tech_objects/alarms.hpp"
-#include "tech_objects/override.hpp"
-#include "tech_objects/variable.hpp"
+#include "tech_objects/alarms/alarms.hpp"
+#include "tech_objects/data_blocks/variable.hpp"
+#include "tech_objects/jobs/override.hpp"
 #include "tests/cli/command_run.hpp"
 
 namespace lockstep::cli {

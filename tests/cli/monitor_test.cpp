@@ -13,7 +13,7 @@
 #include <random>
 #include <utility>
 
-#include "hmi_bridge/lcm_messages.hpp"
+#include "hmi_bridge/lcm/messages.hpp"
 #include "tests/cli/command_run.hpp"
 #include "tests/support/property.hpp"
 

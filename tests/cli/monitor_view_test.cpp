@@ -1,14 +1,13 @@
 // The monitor without a terminal: what comes in and which keys are pressed give lines.
-#include "cli/monitor_view.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 #include <utility>
 
-#include "cli/describe_table.hpp"
-#include "cli/monitor_keys.hpp"
+#include "cli/describe/table.hpp"
+#include "cli/monitor/keys.hpp"
+#include "cli/monitor/view.hpp"
 #include "tests/support/property.hpp"
 
 namespace lockstep::cli {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "hmi_bridge/lcm_commands.hpp"
-#include "hmi_bridge/lcm_publisher.hpp"
+#include "hmi_bridge/lcm/commands.hpp"
+#include "hmi_bridge/lcm/publisher.hpp"
 #include "tests/cli/command_run.hpp"
 #include "tests/hmi_bridge/own_network.hpp"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "fb/block.hpp"
-#include "tech_objects/axis.hpp"
+#include "tech_objects/axis/axis.hpp"
 
 namespace lockstep::test {
 

@@ -1,7 +1,7 @@
 // The ten lines of the README: load a project, step it in virtual time, read a signal.
 #include <cstdio>
 
-#include "projects/simulation.hpp"
+#include "projects/loader/simulation.hpp"
 
 int main(int /*argc*/, char** argv) {
   lockstep::Simulation machine(argv[1]);

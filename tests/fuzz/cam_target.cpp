@@ -1,5 +1,5 @@
 // Any cam file: JSON, or a table of points or elements.
-#include "projects/cam_file.hpp"
+#include "projects/cam_files/file.hpp"
 #include "tests/fuzz/texts.hpp"
 
 namespace lockstep::fuzz {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "hmi_bridge/command_desk.hpp"
+#include "hmi_bridge/lcm/command_desk.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace lockstep::fuzz {

@@ -1,5 +1,5 @@
 // Any trace as comma-separated values, as lockstep plot reads it.
-#include "hmi_bridge/csv_reader.hpp"
+#include "hmi_bridge/traces/csv_reader.hpp"
 #include "tests/fuzz/texts.hpp"
 
 namespace lockstep::fuzz {

@@ -1,5 +1,5 @@
 // Any expression: it is compiled and evaluated, or is refused. The first byte says for what type.
-#include "projects/expression_compiler.hpp"
+#include "projects/expressions/compiler.hpp"
 #include "tests/fuzz/texts.hpp"
 
 namespace lockstep::fuzz {

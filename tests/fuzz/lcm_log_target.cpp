@@ -2,8 +2,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "hmi_bridge/lcm_log.hpp"
-#include "hmi_bridge/lcm_trace_reader.hpp"
+#include "hmi_bridge/lcm/log.hpp"
+#include "hmi_bridge/lcm/trace_reader.hpp"
 #include "tests/fuzz/texts.hpp"
 
 namespace lockstep::fuzz {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "cli/monitor_traces.hpp"
+#include "cli/monitor/traces.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace lockstep::fuzz {

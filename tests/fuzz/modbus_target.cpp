@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hmi_bridge/modbus_request.hpp"
+#include "hmi_bridge/modbus/request.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 

@@ -1,5 +1,5 @@
 // Any project text: it is loaded and runs, or is refused with reasons that can be shown.
-#include "projects/project.hpp"
+#include "projects/loader/project.hpp"
 #include "tests/fuzz/texts.hpp"
 #include "tests/projects/example_project.hpp"
 

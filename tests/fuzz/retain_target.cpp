@@ -2,7 +2,7 @@
 #include <array>
 #include <new>
 
-#include "hmi_bridge/retain_writer.hpp"
+#include "hmi_bridge/retain/writer.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/hmi_bridge/memory_disk.hpp"
 

@@ -1,5 +1,5 @@
 // Commands of panels: what is let through into the cycle, what is refused, and what is told of it.
-#include "hmi_bridge/command_desk.hpp"
+#include "hmi_bridge/lcm/command_desk.hpp"
 
 #include <gtest/gtest.h>
 

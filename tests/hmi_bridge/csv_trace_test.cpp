@@ -1,4 +1,4 @@
-#include "hmi_bridge/csv_trace.hpp"
+#include "hmi_bridge/traces/csv_trace.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <random>
 #include <system_error>
 
-#include "hmi_bridge/csv_number.hpp"
-#include "hmi_bridge/csv_reader.hpp"
+#include "hmi_bridge/traces/csv_number.hpp"
+#include "hmi_bridge/traces/csv_reader.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 #include "tests/support/property.hpp"
 

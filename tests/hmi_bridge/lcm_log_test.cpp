@@ -1,12 +1,11 @@
-#include "hmi_bridge/lcm_log.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 
-#include "hmi_bridge/lcm_trace_reader.hpp"
+#include "hmi_bridge/lcm/log.hpp"
+#include "hmi_bridge/lcm/trace_reader.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 
 namespace lockstep {

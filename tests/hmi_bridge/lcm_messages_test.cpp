@@ -1,11 +1,10 @@
-#include "hmi_bridge/lcm_messages.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 #include <stdexcept>
 
+#include "hmi_bridge/lcm/messages.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 #include "tests/support/property.hpp"
 

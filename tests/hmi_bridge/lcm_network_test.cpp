@@ -11,9 +11,9 @@
 #include <functional>
 #include <thread>
 
-#include "hmi_bridge/lcm_log.hpp"
-#include "hmi_bridge/lcm_publisher.hpp"
-#include "hmi_bridge/lcm_trace_reader.hpp"
+#include "hmi_bridge/lcm/log.hpp"
+#include "hmi_bridge/lcm/publisher.hpp"
+#include "hmi_bridge/lcm/trace_reader.hpp"
 #include "tests/hmi_bridge/own_network.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 

@@ -1,11 +1,10 @@
-#include "hmi_bridge/lcm_publisher.hpp"
-
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
 
 #include <stdexcept>
 
-#include "hmi_bridge/trace_recorder.hpp"
+#include "hmi_bridge/lcm/publisher.hpp"
+#include "hmi_bridge/traces/recorder.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 
 namespace lockstep {

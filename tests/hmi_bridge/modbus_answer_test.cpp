@@ -1,9 +1,9 @@
-#include "hmi_bridge/modbus_answer.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
+
+#include "hmi_bridge/modbus/answer.hpp"
 
 namespace lockstep {
 namespace {

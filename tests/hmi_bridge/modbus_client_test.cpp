@@ -1,10 +1,9 @@
-#include "hmi_bridge/modbus_client.hpp"
-
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/modbus/client.hpp"
+#include "hmi_bridge/modbus/server.hpp"
 #include "tests/hmi_bridge/foreign_device.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/serial_cable.hpp"

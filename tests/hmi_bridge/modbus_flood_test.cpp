@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/modbus/server.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/flood.hpp"

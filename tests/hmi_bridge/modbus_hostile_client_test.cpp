@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/modbus/server.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
 #include "tests/support/property.hpp"

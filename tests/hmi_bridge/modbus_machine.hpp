@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hmi_bridge/modbus_map.hpp"
+#include "hmi_bridge/modbus/map.hpp"
 #include "scheduler/process_image.hpp"
 
 namespace lockstep {

@@ -1,5 +1,3 @@
-#include "hmi_bridge/modbus_map.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -8,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "hmi_bridge/modbus/map.hpp"
 #include "tests/support/property.hpp"
 #include "tests/support/values.hpp"
 

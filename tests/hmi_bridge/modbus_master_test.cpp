@@ -1,6 +1,4 @@
 // One connection to a foreign device: how long it waits for an answer that comes byte by byte.
-#include "hmi_bridge/modbus_master.hpp"
-
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <unistd.h>
@@ -9,6 +7,7 @@
 #include <functional>
 #include <thread>
 
+#include "hmi_bridge/modbus/master.hpp"
 #include "tests/hmi_bridge/foreign_device.hpp"
 #include "tests/hmi_bridge/serial_cable.hpp"
 

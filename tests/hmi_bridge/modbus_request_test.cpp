@@ -1,5 +1,3 @@
-#include "hmi_bridge/modbus_request.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -8,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hmi_bridge/modbus/request.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/support/property.hpp"
 

@@ -1,12 +1,11 @@
-#include "hmi_bridge/modbus_serial.hpp"
-
 #include <gtest/gtest.h>
 
 #include <random>
 #include <thread>
 
-#include "hmi_bridge/modbus_master.hpp"
-#include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/modbus/master.hpp"
+#include "hmi_bridge/modbus/serial.hpp"
+#include "hmi_bridge/modbus/server.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/serial_cable.hpp"
 #include "tests/support/property.hpp"

@@ -1,5 +1,3 @@
-#include "hmi_bridge/modbus_server.hpp"
-
 #include <gtest/gtest.h>
 #include <modbus.h>
 
@@ -12,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "hmi_bridge/modbus/server.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "hmi_bridge/modbus_server.hpp"
+#include "hmi_bridge/modbus/server.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
 

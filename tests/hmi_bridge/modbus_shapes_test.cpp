@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hmi_bridge/modbus_request.hpp"
+#include "hmi_bridge/modbus/request.hpp"
 #include "tests/support/values.hpp"
 
 namespace lockstep {

@@ -1,4 +1,4 @@
-#include "hmi_bridge/network.hpp"
+#include "hmi_bridge/network/network.hpp"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>

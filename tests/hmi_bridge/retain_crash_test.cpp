@@ -5,7 +5,7 @@
 #include <iostream>
 #include <random>
 
-#include "hmi_bridge/retain_file.hpp"
+#include "hmi_bridge/retain/file.hpp"
 #include "tests/hmi_bridge/memory_disk.hpp"
 #include "tests/support/property.hpp"
 

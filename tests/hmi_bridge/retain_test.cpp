@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "fb/save_encoder_data.hpp"
-#include "hmi_bridge/retain_writer.hpp"
+#include "hmi_bridge/retain/writer.hpp"
 #include "tests/hmi_bridge/memory_disk.hpp"
 #include "tests/support/values.hpp"
 

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "hmi_bridge/modbus_serial.hpp"
+#include "hmi_bridge/modbus/serial.hpp"
 
 namespace lockstep {
 

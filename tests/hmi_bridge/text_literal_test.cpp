@@ -1,4 +1,4 @@
-#include "hmi_bridge/text_literal.hpp"
+#include "hmi_bridge/traces/text_literal.hpp"
 
 #include <gtest/gtest.h>
 

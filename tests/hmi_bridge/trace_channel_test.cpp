@@ -1,10 +1,10 @@
 // Channels of a trace: which rows they let through.
-#include "hmi_bridge/trace_channel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+
+#include "hmi_bridge/traces/channel.hpp"
 
 namespace lockstep {
 namespace {

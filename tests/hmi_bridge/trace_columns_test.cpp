@@ -1,7 +1,7 @@
 // Columns of a ring that several sinks share.
-#include "hmi_bridge/trace_columns.hpp"
-
 #include <gtest/gtest.h>
+
+#include "hmi_bridge/traces/columns.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,5 +1,3 @@
-#include "hmi_bridge/trace_recorder.hpp"
-
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -9,10 +7,11 @@
 #include <memory>
 #include <stdexcept>
 
-#include "hmi_bridge/csv_reader.hpp"
-#include "hmi_bridge/csv_trace.hpp"
-#include "hmi_bridge/lcm_log.hpp"
-#include "hmi_bridge/lcm_trace_reader.hpp"
+#include "hmi_bridge/lcm/log.hpp"
+#include "hmi_bridge/lcm/trace_reader.hpp"
+#include "hmi_bridge/traces/csv_reader.hpp"
+#include "hmi_bridge/traces/csv_trace.hpp"
+#include "hmi_bridge/traces/recorder.hpp"
 #include "tests/hmi_bridge/own_network.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 

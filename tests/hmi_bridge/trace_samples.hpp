@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hmi_bridge/trace_sink.hpp"
+#include "hmi_bridge/traces/sink.hpp"
 #include "tests/support/directory.hpp"
 #include "tests/support/values.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "projects/simulation.hpp"
+#include "projects/loader/simulation.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,6 +1,4 @@
 // Cam files: every element is read and written without a lost bit, and whatever is wrong has its place.
-#include "projects/cam_file.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -10,7 +8,8 @@
 #include <fstream>
 #include <random>
 
-#include "projects/cam_table.hpp"
+#include "projects/cam_files/file.hpp"
+#include "projects/cam_files/table.hpp"
 #include "tests/support/property.hpp"
 
 namespace lockstep {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "projects/project.hpp"
-#include "projects/simulation.hpp"
+#include "projects/loader/project.hpp"
+#include "projects/loader/simulation.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,10 +1,9 @@
-#include "projects/cam_schema.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "projects/cam_file.hpp"
+#include "projects/cam_files/file.hpp"
+#include "projects/cam_files/schema.hpp"
 #include "schema_check.hpp"
 
 namespace lockstep {

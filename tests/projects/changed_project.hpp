@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "example_project.hpp"
-#include "projects/problem.hpp"
+#include "projects/json/problem.hpp"
 
 namespace lockstep {
 

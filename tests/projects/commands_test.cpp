@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "changed_project.hpp"
-#include "projects/simulation.hpp"
+#include "projects/loader/simulation.hpp"
 
 namespace lockstep {
 namespace {

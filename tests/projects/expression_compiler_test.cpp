@@ -1,10 +1,9 @@
-#include "projects/expression_compiler.hpp"
-
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "projects/expressions/compiler.hpp"
 #include "tests/projects/expression_scope.hpp"
 
 namespace lockstep {

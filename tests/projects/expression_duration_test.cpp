@@ -1,11 +1,11 @@
-#include "projects/expression_duration.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "projects/literals/duration.hpp"
 
 namespace lockstep {
 namespace {

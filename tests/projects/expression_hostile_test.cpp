@@ -1,7 +1,7 @@
 #include <random>
 #include <string>
 
-#include "projects/expression_parser.hpp"
+#include "projects/expressions/parser.hpp"
 #include "tests/projects/expression_scope.hpp"
 #include "tests/support/property.hpp"
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "projects/expression_compiler.hpp"
+#include "projects/expressions/compiler.hpp"
 
 namespace lockstep {
 

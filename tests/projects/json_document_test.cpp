@@ -1,8 +1,8 @@
-#include "projects/json_document.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "projects/json/document.hpp"
 
 namespace lockstep {
 namespace {

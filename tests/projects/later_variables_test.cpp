@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "projects/simulation.hpp"
-#include "tech_objects/variable.hpp"
+#include "projects/loader/simulation.hpp"
+#include "tech_objects/data_blocks/variable.hpp"
 
 namespace lockstep {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "projects/project.hpp"
+#include "projects/loader/project.hpp"
 
 namespace lockstep {
 namespace {

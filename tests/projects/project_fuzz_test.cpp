@@ -4,7 +4,7 @@
 #include <random>
 
 #include "example_project.hpp"
-#include "projects/project.hpp"
+#include "projects/loader/project.hpp"
 #include "tests/support/property.hpp"
 
 namespace lockstep {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "changed_project.hpp"
-#include "projects/project.hpp"
+#include "projects/loader/project.hpp"
 
 namespace lockstep {
 namespace {

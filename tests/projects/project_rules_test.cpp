@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "changed_project.hpp"
-#include "projects/project.hpp"
+#include "projects/loader/project.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,11 +1,11 @@
-#include "projects/project_schema.hpp"
+#include "projects/loader/project_schema.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "example_project.hpp"
-#include "projects/project.hpp"
+#include "projects/loader/project.hpp"
 #include "schema_check.hpp"
 
 namespace lockstep {

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "changed_project.hpp"
-#include "projects/project.hpp"
+#include "projects/loader/project.hpp"
 #include "tests/support/values.hpp"
 
 namespace lockstep {

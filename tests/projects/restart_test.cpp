@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "projects/simulation.hpp"
+#include "projects/loader/simulation.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "projects/simulation.hpp"
+#include "projects/loader/simulation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "hmi_bridge/lcm_trace_reader.hpp"
+#include "hmi_bridge/lcm/trace_reader.hpp"
 #include "tests/scenarios/small_project.hpp"
 
 namespace lockstep::test {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <sstream>
 
-#include "hmi_bridge/lcm_trace_reader.hpp"
+#include "hmi_bridge/lcm/trace_reader.hpp"
 #include "lockstep/event_t.hpp"
 #include "tests/scenarios/small_project.hpp"
 

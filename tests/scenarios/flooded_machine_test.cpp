@@ -8,12 +8,12 @@
 #include <fstream>
 #include <thread>
 
-#include "hmi_bridge/csv_trace.hpp"
-#include "hmi_bridge/lcm_publisher.hpp"
-#include "hmi_bridge/modbus_server.hpp"
-#include "hmi_bridge/retain_writer.hpp"
-#include "hmi_bridge/trace_recorder.hpp"
-#include "projects/project.hpp"
+#include "hmi_bridge/lcm/publisher.hpp"
+#include "hmi_bridge/modbus/server.hpp"
+#include "hmi_bridge/retain/writer.hpp"
+#include "hmi_bridge/traces/csv_trace.hpp"
+#include "hmi_bridge/traces/recorder.hpp"
+#include "projects/loader/project.hpp"
 #include "tests/hmi_bridge/memory_disk.hpp"
 #include "tests/hmi_bridge/own_network.hpp"
 #include "tests/scenarios/small_project.hpp"

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "hmi_bridge/lcm_trace_reader.hpp"
+#include "hmi_bridge/lcm/trace_reader.hpp"
 #include "tests/scenarios/csv_table.hpp"
 
 namespace lockstep::test {

@@ -5,7 +5,7 @@
 #include <random>
 #include <regex>
 
-#include "hmi_bridge/retain_file.hpp"
+#include "hmi_bridge/retain/file.hpp"
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
 #include "tests/support/property.hpp"

@@ -5,8 +5,8 @@
 
 #include <iostream>
 
-#include "hmi_bridge/retain_writer.hpp"
-#include "projects/project.hpp"
+#include "hmi_bridge/retain/writer.hpp"
+#include "projects/loader/project.hpp"
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/support/property.hpp"
 

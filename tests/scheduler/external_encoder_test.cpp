@@ -1,5 +1,5 @@
 // External encoders: what they measure, homing, faults, and axes that follow them.
-#include "tech_objects/external_encoder.hpp"
+#include "tech_objects/sensing/external_encoder.hpp"
 
 #include <gtest/gtest.h>
 

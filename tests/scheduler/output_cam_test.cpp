@@ -8,7 +8,7 @@
 #include "fb/home.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
-#include "tech_objects/object_bits.hpp"
+#include "tech_objects/data_blocks/object_bits.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "tech_objects/types.hpp"
+#include "tech_objects/types/types.hpp"
 
 namespace lockstep::test {
 

@@ -1,8 +1,8 @@
-#include "tech_objects/alarm_notes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <vector>
+
+#include "tech_objects/alarms/notes.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,5 +1,5 @@
 // Compares alarms and error identifiers with the catalogue, both ways.
-#include "tech_objects/alarms.hpp"
+#include "tech_objects/alarms/alarms.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-#include "tech_objects/status_bits.hpp"
+#include "tech_objects/data_blocks/status_bits.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "tech_objects/axis_position.hpp"
+#include "tech_objects/arithmetic/axis_position.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "tech_objects/cam_interpolation.hpp"
+#include "tech_objects/cam/interpolation.hpp"
 
 namespace lockstep::test {
 

@@ -1,6 +1,4 @@
 // Cams from elements and transitions: what each takes of the data block, how they join, what is refused.
-#include "tech_objects/cam_design.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,8 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "tech_objects/cam_design_check.hpp"
-#include "tech_objects/cam_segment.hpp"
+#include "tech_objects/cam/segment.hpp"
+#include "tech_objects/cam_design/design.hpp"
+#include "tech_objects/cam_design/design_check.hpp"
 #include "tests/support/property.hpp"
 
 namespace lockstep {

@@ -1,8 +1,7 @@
 // What is told of points and segments: why they make no curve, and which of them do not count.
-#include "tech_objects/cam_findings.hpp"
-
 #include <random>
 
+#include "tech_objects/cam_design/findings.hpp"
 #include "tests/support/property.hpp"
 #include "tests/tech_objects/cam_cases.hpp"
 

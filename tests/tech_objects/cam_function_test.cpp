@@ -1,12 +1,11 @@
 // The function of a cam: hints, ends, extrema and the search for a leading value.
-#include "tech_objects/cam_function.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
-#include "tech_objects/cam_sine.hpp"
+#include "tech_objects/cam/function.hpp"
+#include "tech_objects/cam/sine.hpp"
 #include "tests/support/property.hpp"
 #include "tests/tech_objects/cam_cases.hpp"
 

@@ -1,11 +1,10 @@
 // The rules of interpolation: which elements count, how gaps are closed, what is refused.
-#include "tech_objects/cam_interpolation.hpp"
-
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "tech_objects/cam/interpolation.hpp"
 #include "tests/support/property.hpp"
 #include "tests/tech_objects/cam_cases.hpp"
 

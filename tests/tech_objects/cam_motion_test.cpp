@@ -1,6 +1,4 @@
 // A cam applied to positions: scaling, passes without drift, both ends.
-#include "tech_objects/cam_motion.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "tech_objects/cam_interpolation.hpp"
+#include "tech_objects/cam/interpolation.hpp"
+#include "tech_objects/cam/motion.hpp"
 #include "tests/support/property.hpp"
 
 namespace lockstep {

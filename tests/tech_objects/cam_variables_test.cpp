@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "tech_objects/cam.hpp"
-#include "tech_objects/variable.hpp"
+#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/data_blocks/variable.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "tech_objects/double_double.hpp"
+#include "tech_objects/arithmetic/double_double.hpp"
 
 #include <gtest/gtest.h>
 

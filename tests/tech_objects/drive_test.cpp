@@ -1,4 +1,4 @@
-#include "tech_objects/drive.hpp"
+#include "tech_objects/drive/drive.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The extrapolation of a leading actual value, against filters written down independently.
-#include "tech_objects/extrapolation.hpp"
+#include "tech_objects/objects/extrapolation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "tech_objects/decay.hpp"
+#include "tech_objects/arithmetic/decay.hpp"
 #include "tests/support/property.hpp"
 
 namespace lockstep {

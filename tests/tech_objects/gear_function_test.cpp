@@ -1,4 +1,4 @@
-#include "tech_objects/gear_function.hpp"
+#include "tech_objects/synchronous/gear_function.hpp"
 
 #include <gtest/gtest.h>
 

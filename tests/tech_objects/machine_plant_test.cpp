@@ -1,11 +1,11 @@
 // What a simulated drive moves: torque, friction, load and a fixed stop.
-#include "tech_objects/machine_plant.hpp"
+#include "tech_objects/drive/machine_plant.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tech_objects/drive.hpp"
+#include "tech_objects/drive/drive.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "tech_objects/machine_signals.hpp"
+#include "tech_objects/drive/machine_signals.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The motion laws: figures, ends, derivatives, parameters and what they become in a cam.
-#include "tech_objects/motion_law.hpp"
+#include "tech_objects/cam_design/motion_law.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tech_objects/variable.hpp"
+#include "tech_objects/data_blocks/variable.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,5 +1,5 @@
 // Compares the override rules with the printed tables, one single pair of instructions after another.
-#include "tech_objects/override.hpp"
+#include "tech_objects/jobs/override.hpp"
 
 #include <gtest/gtest.h>
 

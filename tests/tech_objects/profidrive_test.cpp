@@ -1,5 +1,5 @@
 // Control and status words, the state machine of a drive, and the telegrams as words.
-#include "tech_objects/profidrive.hpp"
+#include "tech_objects/drive/profidrive.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <random>
 #include <string>
 
-#include "tech_objects/profile.hpp"
+#include "tech_objects/profile/profile.hpp"
 #include "tests/support/property.hpp"
 
 namespace lockstep {

@@ -1,4 +1,4 @@
-#include "tech_objects/profile.hpp"
+#include "tech_objects/profile/profile.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tech_objects/profile.hpp"
+#include "tech_objects/profile/profile.hpp"
 
 namespace lockstep {
 namespace {

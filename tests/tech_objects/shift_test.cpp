@@ -1,5 +1,5 @@
 // A shift that a leading value leads on while it still moves.
-#include "tech_objects/shift.hpp"
+#include "tech_objects/synchronous/shift.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Motion of one axis along a profile, tick by tick.
-#include "tech_objects/single_axis_motion.hpp"
+#include "tech_objects/profile/single_axis_motion.hpp"
 
 #include <gtest/gtest.h>
 

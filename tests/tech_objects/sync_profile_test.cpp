@@ -1,4 +1,4 @@
-#include "tech_objects/sync_profile.hpp"
+#include "tech_objects/synchronous/sync_profile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "tech_objects/gear_function.hpp"
+#include "tech_objects/synchronous/gear_function.hpp"
 #include "tests/support/property.hpp"
 
 namespace lockstep {

@@ -1,4 +1,4 @@
-#include "tech_objects/types.hpp"
+#include "tech_objects/types/types.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Compares the declared variables with the catalogue of the published data block, both ways, and finds each.
-#include "tech_objects/variable.hpp"
+#include "tech_objects/data_blocks/variable.hpp"
 
 #include <gtest/gtest.h>
 

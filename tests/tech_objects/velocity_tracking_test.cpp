@@ -1,4 +1,4 @@
-#include "tech_objects/velocity_tracking.hpp"
+#include "tech_objects/profile/velocity_tracking.hpp"
 
 #include <gtest/gtest.h>
 

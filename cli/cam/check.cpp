@@ -1,0 +1,64 @@
+// lockstep cam check: what the checks of a cam find.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/cam/cam_command.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Whose finding it is, for a message.
+std::string place_of(const CamDefinition& definition, const CamFinding& finding) {
+  for (const CamStretch& stretch : definition.cam.stretches)
+    if (stretch.element == finding.element && stretch.transition == finding.transition)
+      return fmt::format("{} from {} to {}", stretch_name(definition, stretch), stretch.from, stretch.to);
+  return "the cam";
+}
+
+int check(const CamInput& input, bool json, const CamDefinition& definition) {
+  const auto findings =
+      check_cam(definition.designed ? &definition.design : nullptr, definition.cam, definition.checks);
+  Json list = Json::array();
+  std::string text;
+  for (const CamFinding& finding : findings) {
+    const std::string place = place_of(definition, finding);
+    list.push_back({{"place", place}, {"text", finding.text}});
+    text += input.file + ": " + place + ": " + finding.text + "\n";
+  }
+  if (json)
+    write_output("", list.dump(2) + "\n");
+  else
+    write_message(text);
+  return findings.empty() ? kOk : kNotValid;
+}
+
+}  // namespace
+
+void add_cam_check(CLI::App& cam, Action& action) {
+  CLI::App* command = cam.add_subcommand("check", "Validate a cam and carry out the checks that it asks for");
+  auto input = std::make_shared<CamInput>();
+  auto json = std::make_shared<bool>(false);
+  add_cam_input(*command, *input);
+  command->add_flag("--json", *json, "what the checks find, for programs");
+  command->footer(
+      "The member \"checks\" of a cam file asks for them:\n"
+      "  leading_range, following_range             elements that leave them\n"
+      "  leading_velocity with max_velocity, max_acceleration, max_jerk\n"
+      "                                             limits of the following axis at that velocity\n"
+      "  suitability                                laws that miss velocity or acceleration beside them\n"
+      "  continuity                                 joints that are not continuous up to it\n"
+      "  cyclic                                     the joint from the end to the start counts too\n"
+      "Exit status: 0 nothing found, 1 not valid or something found, 2 cannot be read");
+  command->callback([&action, input, json] {
+    action = [input, json] {
+      return with_cam(*input,
+                      [&](const CamDefinition& definition) { return check(*input, *json, definition); });
+    };
+  });
+}
+
+}  // namespace lockstep::cli

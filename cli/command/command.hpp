@@ -1,0 +1,61 @@
+/// The commands of `lockstep` and their exit statuses.
+/// @source contract of the project file, section 3
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "projects/loader/project.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace lockstep::cli {
+
+/// Exit statuses, as the contract has them.
+enum ExitStatus : int {
+  kOk = 0,
+  kNotValid = 1,       ///< the project is not valid; a name is unknown
+  kCouldNotStart = 2,  ///< a file cannot be read, a port is taken, the command line is wrong
+  kStoppedByFault = 3  ///< an internal fault, or the overrun policy
+};
+
+/// What a command does once the command line has been read; gives the exit status.
+using Action = std::function<int()>;
+
+void add_check_command(CLI::App& app, Action& action);
+void add_run_command(CLI::App& app, Action& action);
+void add_describe_command(CLI::App& app, Action& action);
+void add_tags_command(CLI::App& app, Action& action);
+void add_read_command(CLI::App& app, Action& action);
+void add_write_command(CLI::App& app, Action& action);
+void add_plot_command(CLI::App& app, Action& action);
+void add_monitor_command(CLI::App& app, Action& action);
+void add_cam_command(CLI::App& app, Action& action);
+
+/// Whether warnings of a project are told: not by commands that use it and do not judge it.
+enum class Warnings : std::uint8_t { told, kept };
+
+/// Loads a project and tells its problems and warnings on standard error.
+/// @param status the exit status if there is no project
+/// @param prepare see `load_project`
+std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare = {},
+                                    Warnings warnings = Warnings::told);
+
+/// Writes a text to standard error, as far as that takes it. A closed terminal, a pipe without reader or a
+/// full disk is no reason to end a run, and one that takes nothing, such as a stopped terminal, holds nothing
+/// up for longer than `patience` [ms].
+void write_message(const std::string& text, int patience = 500) noexcept;
+
+/// How grave a message is. Where standard error is the journal of systemd, it is told that.
+enum class Gravity : std::uint8_t { error = 3, warning = 4, information = 6 };
+
+/// Writes one line to standard error: "lockstep: " and the text, which begins with "warning: " for a warning.
+void tell(const std::string& text, Gravity gravity = Gravity::information) noexcept;
+/// The same without the name of the program.
+void tell_line(const std::string& text, Gravity gravity) noexcept;
+
+}  // namespace lockstep::cli

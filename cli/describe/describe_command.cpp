@@ -1,0 +1,190 @@
+// lockstep describe: tells what function blocks, technology objects, alarms and errors there are and mean.
+#include <CLI/App.hpp>
+#include <charconv>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cli/command/command.hpp"
+#include "cli/describe/subject.hpp"
+#include "cli/describe/table.hpp"
+#include "projects/json/problem.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+struct Topic {
+  std::string_view name, text;
+  Subject (*subject)();
+};
+constexpr Topic kTopics[] = {
+    {"alarms", "technology alarms; describe 608: one of them", &alarms_subject},
+    {"errors", "error identifiers of blocks; describe 16#8026: one of them", &errors_subject},
+    {"override", "what a new job does to those that run; describe override MC_GearInPos", &overrides_subject},
+};
+
+std::string overview_text(std::size_t width) {
+  Table blocks({"Function block", ""});
+  for (const BlockType& type : block_types()) blocks.row({std::string(type.name), std::string(type.text)});
+  Table objects({"Technology object", ""});
+  for (const ObjectKindText& object : kObjectKinds)
+    objects.row({std::string(object.name), std::string(object.text)});
+  Table topics({"Also", ""});
+  for (const Topic& topic : kTopics) topics.row({std::string(topic.name), std::string(topic.text)});
+  topics.row({"MC_Home.Mode", "a pin of a block"});
+  topics.row({"DynamicLimits",
+              "a structure of technology objects, or a variable: DynamicLimits.MaxVelocity, "
+              "StatusWord.X5"});
+  return blocks.text(0, width) + "\n" + objects.text(0, width) + "\n" + topics.text(0, width);
+}
+
+nlohmann::ordered_json overview_json() {
+  nlohmann::ordered_json json{{"kind", "overview"}};
+  const auto add = [](nlohmann::ordered_json& list, std::string_view name, std::string_view text) {
+    list.push_back({{"name", name}, {"text", text}});
+  };
+  auto& blocks = json["function_blocks"] = nlohmann::ordered_json::array();
+  for (const BlockType& type : block_types()) add(blocks, type.name, type.text);
+  auto& objects = json["technology_objects"] = nlohmann::ordered_json::array();
+  for (const ObjectKindText& object : kObjectKinds) add(objects, object.name, object.text);
+  auto& topics = json["topics"] = nlohmann::ordered_json::array();
+  for (const Topic& topic : kTopics) add(topics, topic.name, topic.text);
+  return json;
+}
+
+/// Reads "608", "16#8026", "0x8026"; none for anything else.
+std::optional<std::uint32_t> number_of(std::string_view word, bool& hexadecimal) {
+  const std::string folded = fold(word);
+  std::string_view digits = folded;
+  hexadecimal = digits.starts_with("16#") || digits.starts_with("0x");
+  if (hexadecimal) digits.remove_prefix(digits[0] == '1' ? 3 : 2);
+  std::uint32_t number = 0;
+  const auto [end, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), number, hexadecimal ? 16 : 10);
+  if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+  return number;
+}
+
+Subject find_error(std::uint32_t number) {
+  const auto id = static_cast<ErrorId>(number);
+  return number <= 0xFFFF && !error_text(id).empty() ? error_subject(id) : Subject{};
+}
+
+/// An alarm, or an error whose identifier is shown as a decimal number.
+Subject find_number(std::string_view word, bool hexadecimal, std::uint32_t number, std::string& problem) {
+  if (!hexadecimal)
+    if (const Alarm* const alarm = find_alarm(static_cast<int>(number & 0x7FFFFFFF)))
+      return alarm_subject(*alarm);
+  if (hexadecimal || number >= 0x8000)
+    if (Subject subject = find_error(number)) return subject;
+  problem = "there is no " + std::string(hexadecimal ? "error " : "alarm ") + quote(word);
+  bool is_hexadecimal = false;
+  const std::string as_error = "16#" + std::string(word);
+  const auto error = hexadecimal ? std::nullopt : number_of(as_error, is_hexadecimal);
+  if (error && find_error(*error)) problem += " (did you mean '" + as_error + "'?)";
+  problem += std::string("; lockstep describe ") + (hexadecimal ? "errors" : "alarms") + " lists them";
+  return {};
+}
+
+/// A block or one of its pins. @param problem is set if the block is there and the pin is not
+Subject find_block(std::string_view word, std::string& problem) {
+  const auto point = word.find('.');
+  const BlockType* const type = find_block_type(word.substr(0, point));
+  if (type == nullptr) return {};
+  if (point == word.npos) return block_subject(*type, nullptr);
+  const std::string_view name = word.substr(point + 1);
+  if (const Pin* const pin = type->find_pin(name)) return block_subject(*type, pin);
+  std::vector<std::string_view> names;
+  for (const Pin& pin : type->pins) names.push_back(pin.name);
+  problem = std::string(type->name) + " has no pin " + quote(name) + did_you_mean(name, names);
+  return {};
+}
+
+/// A type of technology object or some of its variables.
+Subject find_object(std::string_view word, std::string& problem) {
+  const auto point = word.find('.');
+  for (const ObjectKindText& object : kObjectKinds) {
+    const std::string_view name = object.name;
+    if (!same_name(name, word.substr(0, point))) continue;
+    if (point == word.npos) return variables_subject(name, "");
+    const std::string_view path = word.substr(point + 1);
+    if (Subject subject = path.empty() ? Subject{} : variables_subject(name, path)) return subject;
+    problem = std::string(name) + " has no variable " + quote(path) + did_you_mean(path, variable_names());
+    return {};
+  }
+  return word.empty() ? Subject{} : variables_subject("", word);
+}
+
+std::string unknown(std::string_view word) {
+  std::vector<std::string_view> names = variable_names();
+  for (const BlockType& type : block_types()) names.push_back(type.name);
+  for (const ObjectKindText& object : kObjectKinds) names.emplace_back(object.name);
+  for (const Topic& topic : kTopics) names.push_back(topic.name);
+  return "there is nothing called " + quote(word) + did_you_mean(word, names) +
+         "; lockstep describe lists what there is";
+}
+
+int describe(const std::vector<std::string>& words, bool json) {
+  std::string problem;
+  const Subject subject = find_subject(words, problem);
+  if (!subject) {
+    write_message("lockstep: " + problem + "\n");
+    return kNotValid;
+  }
+  const std::string text = json ? subject.json().dump(2) + "\n" : subject.text(output_width());
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return kOk;
+}
+
+}  // namespace
+
+Subject overview() {
+  return {&overview_text, &overview_json};
+}
+
+Subject find_subject(const std::vector<std::string>& words, std::string& problem) {
+  if (words.empty()) return overview();
+  const std::string& word = words.front();
+  if (words.size() > 1) {
+    if (!same_name(word, "override")) {
+      problem = quote(word) + " takes no second name; only override does, as in override MC_GearInPos";
+      return {};
+    }
+    if (Subject subject = override_subject(words[1])) return subject;
+    problem = "there is no instruction " + quote(words[1]) + " in the override tables" +
+              did_you_mean(words[1], override_names()) + "; lockstep describe override lists them";
+    return {};
+  }
+  for (const Topic& topic : kTopics)
+    if (same_name(topic.name, word)) return topic.subject();
+  bool hexadecimal = false;
+  if (const auto number = number_of(word, hexadecimal))
+    return find_number(word, hexadecimal, *number, problem);
+  if (Subject subject = find_block(word, problem)) return subject;
+  if (problem.empty())
+    if (Subject subject = find_object(word, problem)) return subject;
+  if (problem.empty()) problem = unknown(word);
+  return {};
+}
+
+void add_describe_command(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("describe", "Tell about function blocks, technology objects, alarms");
+  auto words = std::make_shared<std::vector<std::string>>();
+  auto json = std::make_shared<bool>(false);
+  command->add_option("NAME", *words, "what to tell about; without it: a list of what there is")
+      ->expected(0, 2);
+  command->add_flag("--json", *json, "as JSON, for programs");
+  command->footer(
+      "NAME, without regard to case:\n"
+      "  MC_GearInPos, MC_GearInPos.InSync        a function block, one of its pins\n"
+      "  TO_SynchronousAxis                       all variables of a technology object\n"
+      "  TO_SynchronousAxis.DynamicLimits, DynamicLimits.MaxVelocity, StatusWord, StatusWord.X5\n"
+      "                                           some variables, one, one bit\n"
+      "  608, alarms                              a technology alarm, all of them\n"
+      "  16#8026, errors                          an ErrorID, all of them\n"
+      "  override MC_GearInPos                    what such a job does to those that run\n"
+      "Exit status: 0, or 1 if there is nothing of that name");
+  command->callback([&action, words, json] { action = [words, json] { return describe(*words, *json); }; });
+}
+
+}  // namespace lockstep::cli

@@ -1,0 +1,54 @@
+/// What `lockstep describe` can tell about: each subject as a text for people and as JSON for programs.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fb/block.hpp"
+#include "tech_objects/alarms/alarms.hpp"
+#include "tech_objects/data_blocks/variable.hpp"
+
+namespace lockstep::cli {
+
+/// Something that can be described; the form is made when it is asked for.
+struct Subject {
+  std::function<std::string(std::size_t width)> text;  ///< `width` in columns
+  std::function<nlohmann::ordered_json()> json;
+
+  explicit operator bool() const noexcept { return text != nullptr; }
+};
+
+/// What there is to describe.
+Subject overview();
+
+/// A function block, or one pin of it. @param pin nullptr: all
+Subject block_subject(const BlockType& type, const Pin* pin);
+
+/// The variables of a type of technology object that a path names: all for an empty one, a structure
+/// (`DynamicLimits`), one variable, or a bit of it (`StatusWord.X22`), without regard to case.
+/// @param object published name of the type; empty: the path stands alone
+/// @return an empty subject if the path names nothing
+Subject variables_subject(std::string_view object, std::string_view path);
+/// Paths of all variables and structures, for suggestions.
+std::vector<std::string_view> variable_names();
+
+Subject alarms_subject();
+Subject alarm_subject(const Alarm& alarm);
+Subject errors_subject();
+Subject error_subject(ErrorId id);
+
+/// The instructions that stand in the override tables, and how one of them acts on running jobs.
+Subject overrides_subject();
+/// @return an empty subject if the instruction stands in no table
+Subject override_subject(std::string_view instruction);
+std::vector<std::string_view> override_names();
+
+/// The subject that the words of the command line name; an empty one if they name none.
+/// @param problem then gets what is wrong, with a suggestion
+Subject find_subject(const std::vector<std::string>& words, std::string& problem);
+
+}  // namespace lockstep::cli

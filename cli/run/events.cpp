@@ -1,0 +1,27 @@
+// Alarms as messages.
+#include "cli/run/events.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "cli/command/command.hpp"
+
+namespace lockstep::cli {
+
+void AlarmMessages::event(const TraceEvent& event) {
+  std::string text;
+  const double seconds = static_cast<double>(event.t) * 1e-9;
+  if (event.kind == EventKind::alarm) {
+    const std::string reaction = event.reaction == 0 ? "no reaction" : event.reaction_text;
+    text = fmt::format("lockstep: {:.6f} s: {}: alarm {}: {} ({})\n", seconds, event.source, event.number,
+                       event.text, reaction);
+  } else if (event.kind == EventKind::acknowledged) {
+    text = fmt::format("lockstep: {:.6f} s: {}: alarms acknowledged\n", seconds, event.source);
+  } else {
+    return;
+  }
+  // On a terminal the line of live values stands where the message goes.
+  write_message((isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + text, patience_);
+}
+
+}  // namespace lockstep::cli

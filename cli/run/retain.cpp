@@ -1,0 +1,62 @@
+#include "cli/run/retain.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "cli/command/command.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kEnding = ".retain";
+
+/// What the file holds beside what the project keeps.
+void tell_strangers(const RetainFile& file, const Project& project) {
+  for (const KeptRow& row : file.rows()) {
+    bool known = false;
+    for (const KeptValue& value : project.retain.values)
+      known |= file.find(value.name) == file.find(row.name);
+    if (!known)
+      tell(
+          fmt::format("warning: retain file {}: {} ({}) is kept there and not in the "
+                      "project; it stays in the file",
+                      file.path(), row.name, shown(row.value)));
+  }
+  if (!file.rows().empty()) return;
+  for (const std::string& other : file.other_projects())
+    tell(
+        fmt::format("warning: retain file {}: it has values of project '{}' and none of "
+                    "'{}': they begin with their init values",
+                    file.path(), other, project.name));
+}
+
+}  // namespace
+
+std::string retain_path(const Project& project, const RunOptions& options) {
+  if (!options.retain.empty()) return options.retain;
+  if (!project.retain.file.empty()) return project.retain.file;
+  const fs::path own = fs::path(options.file).replace_extension(kEnding);
+  // Several directories are separated by colons; the first one is ours.
+  const char* const state = std::getenv("STATE_DIRECTORY");
+  if (state == nullptr || *state == '\0') return own.string();
+  const std::string_view directories = state;
+  return (fs::path(directories.substr(0, directories.find(':'))) / own.filename()).string();
+}
+
+std::unique_ptr<RetainWriter> restore_kept(Project& project, const RunOptions& options) {
+  if (options.simulate || options.no_retain || project.retain.values.empty()) return nullptr;
+  RetainFile file(retain_path(project, options), project.name);
+  for (const std::string& remark : restore(file, project.retain.values)) tell("warning: " + remark);
+  tell_strangers(file, project);
+  const std::string_view is_new = file.other_projects().empty() ? ", which is new" : "";
+  tell(file.rows().empty() ? fmt::format("values are kept in {}{}", file.path(), is_new)
+                           : fmt::format("{} kept values from {}", file.rows().size(), file.path()));
+  return std::make_unique<RetainWriter>(std::move(file), project.retain.values, project.retain.interval,
+                                        &project.controller->encoder_saving);
+}
+
+}  // namespace lockstep::cli

@@ -1,0 +1,69 @@
+// lockstep run: command line.
+#include "cli/run/run_command.hpp"
+
+#include <CLI/App.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/command/command.hpp"
+#include "projects/literals/duration.hpp"
+
+namespace lockstep::cli {
+
+void add_run_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("run", "Run a project, in real time or simulated");
+  auto options = std::make_shared<RunOptions>();
+  auto duration = std::make_shared<std::string>();
+  command->add_option("FILE", options->file, "the project file")->required();
+  auto* simulate = command->add_flag(
+      "--simulate", options->simulate,
+      "virtual time, as fast as the machine can; the same file gives the same trace, bit for bit");
+  command->add_option("--duration", *duration,
+                      "end after that much virtual or real time, such as 5s or 1.5min");
+  command->add_option("--trace", options->trace_file,
+                      "record the trace signals: FILE.csv, or FILE.lcm for a log that lcm-logplayer replays");
+  command
+      ->add_option("--signals", options->signals,
+                   "record these signals instead of the project's, comma separated")
+      ->delimiter(',');
+  command->add_flag("--stimuli", options->stimuli, "apply the project's stimuli in real time too");
+  command
+      ->add_option(
+          "--cpu", options->cpu,
+          "keep the cycle on this processor, from 0, and everything else off it: what Modbus clients "
+          "and traces cost is not felt in a tick")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(simulate);
+  auto* modbus = command->add_option("--modbus", options->modbus,
+                                     "listen on HOST:PORT instead of where the project says");
+  command->add_flag("--no-modbus", options->no_modbus, "no Modbus server")->excludes(modbus);
+  auto* lcm = command->add_option("--lcm", options->lcm, "publish on this URL instead of the project's");
+  command->add_flag("--no-lcm", options->no_lcm, "no LCM")->excludes(lcm);
+  auto* retain =
+      command->add_option("--retain", options->retain, "keep values in this file instead of the project's")
+          ->excludes(simulate);
+  command->add_flag("--no-retain", options->no_retain, "begin with init values and keep nothing")
+      ->excludes(retain);
+  command->footer(
+      "Without --simulate it runs in real time until SIGINT or SIGTERM (or --duration), then brings its axes "
+      "to\n"
+      "rest. A closed terminal does not end it. With --simulate, Modbus and LCM are off unless asked for.\n"
+      "Values that are kept stand, unless named, beside the project file or in the state directory of "
+      "systemd.\n"
+      "Exit status: 0 ended as asked, 1 project not valid, 2 could not start, 3 stopped by an internal fault "
+      "or by\n"
+      "the overrun policy");
+  command->callback([&action, options, duration] {
+    if (!duration->empty()) {
+      std::string problem;
+      const auto value = parse_duration(*duration, problem);
+      if (!value) throw CLI::ValidationError("--duration", problem);
+      if (*value <= 0)
+        throw CLI::ValidationError("--duration", *duration + ": has to be longer than nothing");
+      options->duration = *value;
+    }
+    action = [options] { return run_project(*options); };
+  });
+}
+
+}  // namespace lockstep::cli

@@ -1,0 +1,29 @@
+/// lockstep run: commands of operators' panels.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "hmi_bridge/lcm/command_listener.hpp"
+#include "hmi_bridge/traces/recorder.hpp"
+#include "projects/loader/project.hpp"
+
+namespace lockstep::cli {
+
+/// Takes the commands of a project that allows them; their answers go to the recorder. Tells at the end what
+/// was refused.
+class RunCommands {
+ public:
+  /// Joins the network; the run must not have begun. @throws as CommandListener
+  RunCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity,
+              TraceRecorder& recorder);
+  /// Hears no more; before the recorder stops.
+  void end() { listener_.stop(); }
+  void tell_counters();
+
+ private:
+  ProcessImage image_;
+  CommandListener listener_;
+};
+
+}  // namespace lockstep::cli

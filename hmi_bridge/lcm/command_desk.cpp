@@ -1,0 +1,205 @@
+#include "hmi_bridge/lcm/command_desk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hmi_bridge/traces/csv_number.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double kFarthest = 1e12;     // position of homing, as the pin has it [u]
+constexpr double kHighestSpeed = 200;  // override [%]
+constexpr std::size_t kLongestName = 128;
+
+std::string number_text(double number) {
+  char text[kNumberLength];
+  return {text, print_value(text, Value{.r = number}, Type::LREAL)};
+}
+
+bool is_jog(std::int32_t action) noexcept {
+  return action == command_t::JOG_FORWARD || action == command_t::JOG_BACKWARD;
+}
+
+/// Bringing something to rest is never held back.
+bool calms(std::int32_t action) noexcept {
+  return action == command_t::STOP || action == command_t::DISABLE;
+}
+
+}  // namespace
+
+CommandDesk::CommandDesk(std::vector<CommandAxis> axes, ProcessImage& image, std::int64_t run)
+    : axes_(std::move(axes)),
+      image_(image),
+      run_(run),
+      jogs_(axes_.size()),
+      requests_(axes_.size() * kPanelSignals) {}
+
+bool CommandDesk::Allowance::take(Clock::time_point now, int most) noexcept {
+  if (now - second >= 1s) {
+    second = now;
+    used = 0;
+  }
+  return used++ < most;
+}
+
+Value CommandDesk::value(std::size_t axis, PanelSignal signal) const noexcept {
+  return image_.value(axis * kPanelSignals + static_cast<std::size_t>(signal));
+}
+
+std::optional<std::size_t> CommandDesk::find(const std::string& axis) const {
+  const auto same = [&](const CommandAxis& other) { return other.name == axis; };
+  const auto found = std::find_if(axes_.begin(), axes_.end(), same);
+  if (found == axes_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - axes_.begin());
+}
+
+std::optional<CommandDesk::Answer> CommandDesk::accept(std::span<const std::uint8_t> bytes,
+                                                       Clock::time_point now) {
+  const std::optional<command_t> command = decode_command(bytes);
+  if (!command) return refuse({&CommandCounters::malformed, "not a command"}, nullptr, now);
+  if (const auto refusal = judge(*command, now)) return refuse(*refusal, &*command, now);
+  ++counters_.accepted;
+  const std::size_t axis = *find(command->axis);
+  Jog& jog = jogs_[axis];
+  const bool goes_on = is_jog(command->action) && jog.action == command->action &&
+                       jog.sender == command->sender && now < jog.until;
+  if (is_jog(command->action))
+    jog = {command->sender, command->action, now + kHold};
+  else if (calms(command->action))
+    jog = {};
+  carry_out(*command, axis);
+  if (goes_on) return std::nullopt;
+  return Answer{true, command->axis, std::string(action_text(command->action)), ""};
+}
+
+std::optional<CommandDesk::Answer> CommandDesk::refuse(const Refusal& refusal, const command_t* command,
+                                                       Clock::time_point now) {
+  ++(counters_.*refusal.count);
+  if (!told_.take(now, kMostTold)) return std::nullopt;
+  if (command == nullptr) return Answer{false, "", "", refusal.reason};
+  return Answer{false, command->axis.substr(0, kLongestName), std::string(action_text(command->action)),
+                refusal.reason};
+}
+
+std::optional<CommandDesk::Refusal> CommandDesk::judge(const command_t& command, Clock::time_point now) {
+  if (auto refusal = judge_sender(command, now)) return refusal;
+  if (action_text(command.action).empty())
+    return Refusal{&CommandCounters::not_valid,
+                   "action " + std::to_string(command.action) + " is unknown; allowed: 0 to 7"};
+  const std::optional<std::size_t> axis = find(command.axis);
+  if (!axis)
+    return Refusal{&CommandCounters::not_valid, "no axis of this name takes commands in this project"};
+  if (auto refusal = judge_value(command, *axis)) return refusal;
+  const bool powers = command.action == command_t::ENABLE || command.action == command_t::DISABLE;
+  if (powers && !axes_[*axis].enabled_by.empty())
+    return Refusal{&CommandCounters::impossible,
+                   "a program enables and disables this axis, by its instance " + axes_[*axis].enabled_by};
+  const Jog& jog = jogs_[*axis];
+  if (is_jog(command.action) && jog.sender != command.sender && now < jog.until)
+    return Refusal{&CommandCounters::impossible, "another panel is jogging this axis"};
+  return std::nullopt;
+}
+
+/// Whether it is meant for this run, of this moment and new. So a log that is played or a message that hung
+/// on its way moves nothing.
+std::optional<CommandDesk::Refusal> CommandDesk::judge_sender(const command_t& command,
+                                                              Clock::time_point now) {
+  if (command.run != run_) return Refusal{&CommandCounters::stale, "meant for another run"};
+  if (command.beat > beat_ || command.beat < beat_ - kOldestBeat)
+    return Refusal{&CommandCounters::stale,
+                   "too old: beat " + std::to_string(command.beat) + " of " + std::to_string(beat_)};
+  const auto known = senders_.find(command.sender);
+  if (known != senders_.end() && command.sequence <= known->second.sequence)
+    return Refusal{&CommandCounters::stale, "repeated, or overtaken by a later one"};
+  if (known == senders_.end() && senders_.size() >= kMostSenders)
+    // What a forgotten one has sent is too old by then.
+    std::erase_if(senders_, [&](const auto& sender) { return now - sender.second.last > 2s; });
+  const bool room = known != senders_.end() || senders_.size() < kMostSenders;
+  if (!room && !calms(command.action))
+    return Refusal{&CommandCounters::too_many, "too many panels; allowed: " + std::to_string(kMostSenders)};
+  if (room) senders_[command.sender] = {command.sequence, now};
+  if (!commands_.take(now, kMostPerSecond) && !calms(command.action))
+    return Refusal{&CommandCounters::too_many,
+                   "too many commands; allowed: " + std::to_string(kMostPerSecond) + " in a second"};
+  return std::nullopt;
+}
+
+std::optional<CommandDesk::Refusal> CommandDesk::judge_value(const command_t& command,
+                                                             std::size_t axis) const {
+  const auto outside = [&](const std::string& what, const std::string& allowed) {
+    return Refusal{&CommandCounters::not_valid,
+                   what + " " + number_text(command.value) + " is not permitted; allowed: " + allowed};
+  };
+  if (command.action == command_t::HOME && !axes_[axis].has_position)
+    return Refusal{
+        &CommandCounters::not_valid,
+        "a " + axes_[axis].type +
+            " has no position that could be set; allowed: enable, disable, stop, jog, reset, override"};
+  const double highest = axes_[axis].jog_velocity;
+  if (is_jog(command.action) && !(command.value > 0.0 && command.value <= highest))
+    return outside("velocity", "above 0, up to " + number_text(highest));
+  if (command.action == command_t::HOME && !(std::abs(command.value) <= kFarthest))
+    return outside("position", "from -1e12 to 1e12");
+  if (command.action == command_t::OVERRIDE && !(command.value >= 0.0 && command.value <= kHighestSpeed))
+    return outside("override", "from 0 to 200");
+  return std::nullopt;
+}
+
+/// What belongs together enters the cycle in one tick.
+void CommandDesk::carry_out(const command_t& command, std::size_t axis) {
+  std::vector<SignalWrite> batch;
+  const auto write = [&](PanelSignal signal, Value value) {
+    batch.push_back(
+        {static_cast<std::uint32_t>(axis * kPanelSignals + static_cast<std::size_t>(signal)), value, ~0ULL});
+  };
+  const auto flag = [&](PanelSignal signal, bool on) { write(signal, Value{.u = on ? 1u : 0u}); };
+  const auto number = [&](PanelSignal signal, double real) { write(signal, Value{.r = real}); };
+  const auto ask = [&](PanelSignal signal) {
+    write(signal, Value{.u = ++requests_[axis * kPanelSignals + static_cast<std::size_t>(signal)]});
+  };
+  const bool jog = is_jog(command.action);
+  if (jog || calms(command.action)) {
+    flag(PanelSignal::kForward, command.action == command_t::JOG_FORWARD);
+    flag(PanelSignal::kBackward, command.action == command_t::JOG_BACKWARD);
+  }
+  if (jog) {
+    number(PanelSignal::kJogVelocity, command.value);
+    ask(PanelSignal::kBeat);
+  }
+  if (command.action == command_t::ENABLE || command.action == command_t::DISABLE)
+    flag(PanelSignal::kEnable, command.action == command_t::ENABLE);
+  if (command.action == command_t::HOME) {
+    number(PanelSignal::kHomePosition, command.value);
+    ask(PanelSignal::kHomings);
+  }
+  if (command.action == command_t::RESET) ask(PanelSignal::kResets);
+  if (command.action == command_t::OVERRIDE) {
+    number(PanelSignal::kOverride, command.value);
+    ask(PanelSignal::kOverrides);
+  }
+  image_.post(batch);
+}
+
+panel_t CommandDesk::panel(std::size_t axis) const {
+  panel_t panel{};
+  panel.run = run_;
+  panel.beat = beat_;
+  panel.status_word = static_cast<std::int64_t>(value(axis, PanelSignal::kStatusWord).u);
+  panel.alarm = static_cast<std::int32_t>(value(axis, PanelSignal::kAlarm).u);
+  panel.enables = axes_[axis].enabled_by.empty() ? 1 : 0;
+  panel.position = value(axis, PanelSignal::kPosition).r;
+  panel.velocity = value(axis, PanelSignal::kVelocity).r;
+  panel.speed = value(axis, PanelSignal::kSpeed).r;
+  panel.jog_velocity = axes_[axis].jog_velocity;
+  panel.axis = axes_[axis].name;
+  panel.type = axes_[axis].type;
+  panel.velocity_unit = axes_[axis].velocity_unit;
+  panel.has_position = axes_[axis].has_position ? 1 : 0;
+  return panel;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,137 @@
+/// The desk where commands of operators' panels are looked at: what is let through is posted to the cycle.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "hmi_bridge/lcm/commands.hpp"
+#include "scheduler/process_image.hpp"
+
+namespace lockstep {
+
+/// The signals of an axis in the image of a desk, in this order. Those up to `kOverrides` the desk writes; a
+/// count asks for something by changing.
+enum class PanelSignal : std::uint8_t {
+  kEnable,        ///< BOOL
+  kForward,       ///< BOOL: jog, as long as kBeat changes
+  kBackward,      ///< BOOL
+  kBeat,          ///< UDINT: count of jog commands
+  kJogVelocity,   ///< LREAL [u/s]
+  kHomings,       ///< UDINT: count
+  kHomePosition,  ///< LREAL [u]
+  kResets,        ///< UDINT: count
+  kOverride,      ///< LREAL [%]
+  kOverrides,     ///< UDINT: count
+  kStatusWord,    ///< DWORD, from here on of the axis
+  kAlarm,         ///< UDINT
+  kPosition,      ///< LREAL [u]; of a speed axis, which has none, 0
+  kVelocity,      ///< LREAL [u/s]
+  kSpeed,         ///< LREAL [%]
+  kCount
+};
+inline constexpr std::size_t kPanelSignals = static_cast<std::size_t>(PanelSignal::kCount);
+
+/// An axis that takes commands.
+struct CommandAxis {
+  std::string name;
+  double jog_velocity = 0.0;                ///< highest velocity of jogging [u/s], > 0
+  std::string enabled_by;                   ///< instance of MC_Power in a program; empty: the panel's own
+  std::vector<Signal> signals;              ///< `kPanelSignals` of them
+  std::string type = "TO_PositioningAxis";  ///< published type
+  std::string velocity_unit = "u/s";        ///< of its velocities
+  bool has_position = true;                 ///< a speed axis has none, so it cannot be homed
+};
+
+/// What has come, by what has become of it.
+struct CommandCounters {
+  std::uint64_t accepted = 0;
+  std::uint64_t malformed = 0;   ///< no message of this type
+  std::uint64_t stale = 0;       ///< of another run, too old, or repeated
+  std::uint64_t not_valid = 0;   ///< unknown axis or action, a value that is not permitted
+  std::uint64_t impossible = 0;  ///< a program has the enable, another panel jogs
+  std::uint64_t too_many = 0;    ///< of commands in a second, or of panels
+
+  std::uint64_t refused() const noexcept { return malformed + stale + not_valid + impossible + too_many; }
+};
+
+/// Judges commands and posts what is permitted. Knows no network. Thread: one of the bridge.
+class CommandDesk {
+ public:
+  using Clock = std::chrono::steady_clock;
+  /// A command cites a beat of the run that is no older than this many beats.
+  static constexpr std::int64_t kOldestBeat = 10;
+  /// While it has come within this time, a jog command keeps other panels from jogging the axis.
+  static constexpr std::chrono::milliseconds kHold{300};
+  static constexpr int kMostPerSecond = 200;  ///< commands beyond it are refused, but for stop and disable
+  static constexpr int kMostTold = 20;        ///< refusals told in a second; the others are only counted
+  static constexpr std::size_t kMostSenders = 16;  ///< panels of the last seconds
+
+  /// What is to be told of a command.
+  struct Answer {
+    bool accepted = false;
+    std::string axis;    ///< may be any text
+    std::string action;  ///< empty: unknown
+    std::string reason;  ///< of a refusal: what is wrong, what is allowed
+  };
+
+  /// @param image made of the signals of all axes, one after the other; nobody else writes through it
+  /// @param run number of the run, which no other run has
+  CommandDesk(std::vector<CommandAxis> axes, ProcessImage& image, std::int64_t run);
+
+  /// Takes one message. @return what is to be told; none for what is only counted and for a jog that goes on
+  std::optional<Answer> accept(std::span<const std::uint8_t> bytes, Clock::time_point now);
+
+  /// Begins the next beat; ten times a second.
+  void beat() noexcept { ++beat_; }
+  /// How an axis stands, as the image shows it; `t` and `utime` are the caller's.
+  panel_t panel(std::size_t axis) const;
+
+  const std::vector<CommandAxis>& axes() const noexcept { return axes_; }
+  const CommandCounters& counters() const noexcept { return counters_; }
+
+ private:
+  struct Refusal {
+    std::uint64_t CommandCounters::*count;
+    std::string reason;
+  };
+  struct Sender {
+    std::int64_t sequence;
+    Clock::time_point last;
+  };
+  struct Jog {
+    std::int64_t sender = 0;
+    std::int32_t action = command_t::STOP;
+    Clock::time_point until;
+  };
+  /// So many things in each second.
+  struct Allowance {
+    Clock::time_point second;
+    int used = 0;
+    bool take(Clock::time_point now, int most) noexcept;
+  };
+
+  std::optional<Refusal> judge(const command_t& command, Clock::time_point now);
+  std::optional<Refusal> judge_sender(const command_t& command, Clock::time_point now);
+  std::optional<Refusal> judge_value(const command_t& command, std::size_t axis) const;
+  void carry_out(const command_t& command, std::size_t axis);
+  std::optional<Answer> refuse(const Refusal& refusal, const command_t* command, Clock::time_point now);
+  std::optional<std::size_t> find(const std::string& axis) const;
+  Value value(std::size_t axis, PanelSignal signal) const noexcept;
+
+  const std::vector<CommandAxis> axes_;
+  ProcessImage& image_;
+  const std::int64_t run_;
+  std::int64_t beat_ = 0;
+  std::vector<Jog> jogs_;                // of the axes
+  std::vector<std::uint32_t> requests_;  // counts that ask, by axis and signal
+  std::unordered_map<std::int64_t, Sender> senders_;
+  Allowance commands_, told_;
+  CommandCounters counters_;
+};
+
+}  // namespace lockstep

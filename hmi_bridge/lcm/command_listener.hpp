@@ -1,0 +1,57 @@
+/// The thread that takes commands from an LCM network.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "hmi_bridge/lcm/command_desk.hpp"
+#include "hmi_bridge/lcm/publisher.hpp"
+#include "hmi_bridge/traces/event.hpp"
+
+namespace lockstep {
+
+/// Listens on CHANNEL_CMD and tells on CHANNEL_PANEL how the axes stand. Its answers are events, which go
+/// where those of the cycle go. Only a project that says so has one; without it nothing is subscribed to.
+class CommandListener {
+ public:
+  static constexpr std::chrono::milliseconds kBeat{100};
+
+  /// Takes an answer; on the listener's thread.
+  using Answers = std::function<void(TraceEvent)>;
+
+  /// Joins the network. @param image of the axes' signals; outlives this  @param servo_cycle [ns]
+  /// @throws as LcmPublisher; std::runtime_error where nothing can be subscribed to
+  CommandListener(const std::string& url, LcmTraceIdentity identity, std::vector<CommandAxis> axes,
+                  ProcessImage& image, std::int64_t servo_cycle, Answers answers);
+  CommandListener(const CommandListener&) = delete;
+  CommandListener& operator=(const CommandListener&) = delete;
+  ~CommandListener();  ///< stops
+
+  void start();
+  /// Ends the thread; after it `counters` may be read.
+  void stop();
+  const CommandCounters& counters() const noexcept { return desk_.counters(); }
+  std::uint64_t faults() const noexcept { return faults_; }
+
+ private:
+  static void take(const lcm_recv_buf_t* buffer, const char* channel, void* self) noexcept;
+  void listen() noexcept;
+  void beat();
+  void tell(const CommandDesk::Answer& answer);
+  std::int64_t time() const noexcept;
+
+  LcmTraceIdentity identity_;
+  LcmPublisher joined_;  // publishes no rows; it joins and tells why it cannot
+  ProcessImage& image_;
+  CommandDesk desk_;
+  const std::int64_t servo_cycle_;
+  const Answers answers_;
+  std::atomic<bool> stop_{false};
+  std::uint64_t faults_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace lockstep

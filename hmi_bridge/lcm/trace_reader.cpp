@@ -1,0 +1,175 @@
+#include "hmi_bridge/lcm/trace_reader.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kEventHead = 28;  // mark, number, time and two lengths stand before channel and data
+constexpr std::uint32_t kMark = 0xEDA1DA01;
+constexpr std::size_t kChannelLength = 20, kDataLength = 24;  // where they stand in the head
+
+std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
+  std::uint32_t number = 0;
+  for (const std::uint8_t byte : bytes.subspan(at, 4)) number = number << 8 | byte;
+  return number;
+}
+
+/// 0 for what has no size, such as a pipe.
+std::int64_t size_of_file(std::FILE* file) noexcept {
+  struct stat status {};
+  return ::fstat(::fileno(file), &status) == 0 && S_ISREG(status.st_mode) ? std::int64_t{status.st_size} : 0;
+}
+
+struct TraceInLog {
+  std::string channel;
+  bool has_rows = false;
+};
+
+std::string list_of(const std::vector<TraceInLog>& traces) {
+  std::string list;
+  for (const TraceInLog& trace : traces) list += (list.empty() ? "" : ", ") + trace.channel;
+  return list;
+}
+
+}  // namespace
+
+LcmTraceReader::LcmTraceReader(const std::string& path, const std::string& channel)
+    : path_(path), channel_(channel) {
+  open();
+  find_header();
+  open();  // from the front again: rows may stand before the header
+}
+
+void LcmTraceReader::open() {
+  log_.reset(lcm_eventlog_create(path_.c_str(), "r"));
+  struct stat status {};
+  if (log_ == nullptr) throw TraceFormatError(path_ + ": " + std::generic_category().message(errno));
+  if (::fstat(::fileno(log_->f), &status) == 0 && S_ISDIR(status.st_mode))
+    throw TraceFormatError(path_ + ": " + std::generic_category().message(EISDIR));
+  event_ = -1;
+  offset_ = 0;
+  size_ = size_of_file(log_->f);
+}
+
+void LcmTraceReader::find_header() {
+  std::vector<TraceInLog> traces;  // in the order of their headers
+  const auto trace_on = [&traces](std::string_view channel) {
+    return std::find_if(traces.begin(), traces.end(),
+                        [&](const auto& trace) { return trace.channel == channel; });
+  };
+  while (const Event event = next_event()) {
+    std::string_view channel(event->channel, static_cast<std::size_t>(event->channellen));
+    if (const auto trace = trace_on(channel); trace != traces.end()) trace->has_rows = true;
+    if (channel_.empty() && !traces.empty() && traces.front().has_rows) break;
+    if (!channel.ends_with(kHeaderSuffix) || accept(*event) != LcmDecoder::Message::kHeader) continue;
+    channel.remove_suffix(kHeaderSuffix.size());
+    if (channel == channel_) return;
+    if (trace_on(channel) == traces.end()) traces.push_back({std::string(channel)});
+  }
+  if (offset_ == 0) throw TraceFormatError(path_ + ": is not an LCM event log");
+  if (traces.empty()) throw TraceFormatError(path_ + ": holds no trace");
+  if (!channel_.empty())
+    throw TraceFormatError(path_ + ": holds no trace on channel " + channel_ +
+                           "; it holds: " + list_of(traces));
+  const auto found =
+      std::find_if(traces.begin(), traces.end(), [](const auto& trace) { return trace.has_rows; });
+  channel_ = (found == traces.end() ? traces.front() : *found).channel;
+  open();
+  find_header();
+}
+
+bool LcmTraceReader::next() {
+  const std::int64_t id = header().id;
+  while (const Event event = next_event()) {
+    const std::string_view channel(event->channel, static_cast<std::size_t>(event->channellen));
+    if (channel != channel_ && channel != channel_ + std::string(kHeaderSuffix)) continue;
+    switch (accept(*event)) {
+      case LcmDecoder::Message::kRow:
+        event_time_ = event->timestamp;
+        return true;
+      case LcmDecoder::Message::kHeader:
+        if (header().id != id) fail("a trace of other signals begins on the same channel");
+        break;
+      case LcmDecoder::Message::kEarly:
+        ++early_;
+        break;
+      default:
+        fail("a damaged message on channel " + std::string(channel));
+    }
+  }
+  end_of_log();
+  return false;
+}
+
+LcmDecoder::Message LcmTraceReader::accept(const lcm_eventlog_event_t& event) {
+  return decoder_.accept(
+      {static_cast<const std::uint8_t*>(event.data), static_cast<std::size_t>(event.datalen)});
+}
+
+/// Whether an event begins here whose channel and data the file holds. The library believes what the lengths
+/// of an event claim: it takes memory for up to 2 GiB and passes over all that is in the way to the next
+/// mark.
+bool LcmTraceReader::is_whole_event_next() {
+  std::array<std::uint8_t, kEventHead> head;
+  if (std::fread(head.data(), 1, head.size(), log_->f) != head.size() || number_at(head, 0) != kMark)
+    return false;
+  const std::int64_t end =
+      offset_ + kEventHead + number_at(head, kChannelLength) + number_at(head, kDataLength);
+  if (end > size_) size_ = size_of_file(log_->f);  // it may be growing
+  return end <= size_ && ::fseeko(log_->f, offset_, SEEK_SET) == 0;
+}
+
+LcmTraceReader::Event LcmTraceReader::next_event() {
+  if (!is_whole_event_next()) return nullptr;
+  Event event(lcm_eventlog_read_next_event(log_.get()));
+  if (event) {
+    ++event_;
+    offset_ += kEventHead + event->channellen + event->datalen;
+  }
+  return event;
+}
+
+void LcmTraceReader::end_of_log() {
+  if (!remark_.empty()) return;
+  if (early_ > 0) remark_ = std::to_string(early_) + " rows of a trace with another header are left out";
+  if (size_of_file(log_->f) == offset_) return;
+  if (!remark_.empty()) remark_ += "; ";
+  remark_ += "the log is cut short or damaged behind event " + std::to_string(event_);
+}
+
+void LcmTraceReader::fail(const std::string& what) const {
+  throw TraceFormatError(path_ + ": event " + std::to_string(event_) + ": " + what);
+}
+
+TraceTable read_lcm_trace(const std::string& path, const std::string& channel) {
+  LcmTraceReader reader(path, channel);
+  TraceTable table;
+  table.signals = reader.signals();
+  table.columns.resize(table.signals.size());
+  std::uint64_t dropped = 0;
+  while (reader.next()) {
+    const TraceRow row = reader.row();
+    dropped = row.dropped;
+    table.t.push_back(static_cast<double>(row.t) / 1e9);  // the nearest double: both sides are exact
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      table.columns[i].push_back(as_double(row.values[i], table.signals[i].type));
+  }
+  table.remark = reader.remark();
+  if (dropped > 0)
+    table.remark +=
+        (table.remark.empty() ? "" : "; ") + std::to_string(dropped) + " rows were dropped by the run";
+  return table;
+}
+
+}  // namespace lockstep

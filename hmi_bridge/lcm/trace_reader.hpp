@@ -1,0 +1,70 @@
+/// Reads traces from LCM event logs.
+#pragma once
+
+#include <lcm/eventlog.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "hmi_bridge/lcm/messages.hpp"
+#include "hmi_bridge/traces/table.hpp"
+
+namespace lockstep {
+
+/// Goes through the rows of one trace in a log, which `LcmLog` or `lcm-logger` wrote. Any one thread.
+class LcmTraceReader {
+ public:
+  /// @param channel of the trace; empty: the first trace that has rows, by the order of the headers; the
+  /// first one if none has
+  /// @throws TraceFormatError "FILE: …" if the file cannot be read or holds no such trace
+  explicit LcmTraceReader(const std::string& path, const std::string& channel = "");
+
+  /// Goes to the next row; false at the end of the log. Rows before the first header are passed over and
+  /// counted.
+  /// @throws TraceFormatError "FILE: event n: …" for a damaged message or a header with other signals
+  bool next();
+
+  /// Valid from construction.
+  const trace_header_t& header() const noexcept { return decoder_.header(); }
+  const std::vector<TraceSignal>& signals() const noexcept { return decoder_.signals(); }
+  /// The row that `next` found, until the next call.
+  TraceRow row() const noexcept { return decoder_.row(); }
+  std::int64_t utime() const noexcept { return decoder_.message().utime; }  ///< [µs], of the row
+  std::int64_t event_time() const noexcept { return event_time_; }          ///< [µs], of the row's event
+  /// What is missing: rows before the first header, or an end that was cut short. Complete when `next` was
+  /// false.
+  const std::string& remark() const noexcept { return remark_; }
+
+ private:
+  struct Destroy {
+    void operator()(lcm_eventlog_t* log) const noexcept { lcm_eventlog_destroy(log); }
+    void operator()(lcm_eventlog_event_t* event) const noexcept { lcm_eventlog_free_event(event); }
+  };
+  using Event = std::unique_ptr<lcm_eventlog_event_t, Destroy>;
+
+  bool is_whole_event_next();
+  Event next_event();
+  void open();
+  void find_header();
+  LcmDecoder::Message accept(const lcm_eventlog_event_t& event);
+  void end_of_log();
+  [[noreturn]] void fail(const std::string& what) const;
+
+  const std::string path_;
+  std::string channel_;
+  std::unique_ptr<lcm_eventlog_t, Destroy> log_;
+  LcmDecoder decoder_;
+  std::int64_t event_ = -1;  // number of the event read last
+  std::int64_t offset_ = 0;  // behind it
+  std::int64_t size_ = 0;    // of the file, as far as it is known [byte]
+  std::int64_t event_time_ = 0;
+  std::uint64_t early_ = 0;
+  std::string remark_;
+};
+
+/// Reads a whole trace.
+/// @throws as LcmTraceReader
+TraceTable read_lcm_trace(const std::string& path, const std::string& channel = "");
+
+}  // namespace lockstep

@@ -1,0 +1,139 @@
+/// The Modbus server of the bridge: TCP, and RTU over serial lines.
+/// @source contract of the project file, section 6; Modbus messaging on TCP/IP V1.0b
+#pragma once
+
+#include <poll.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hmi_bridge/modbus/connection.hpp"
+#include "hmi_bridge/modbus/counters.hpp"
+#include "hmi_bridge/modbus/map.hpp"
+#include "hmi_bridge/modbus/request.hpp"
+#include "hmi_bridge/modbus/serial.hpp"
+#include "hmi_bridge/network/network.hpp"
+#include "scheduler/process_image.hpp"
+
+namespace lockstep {
+
+/// Where the server listens and how much it lets clients do there.
+struct ModbusServerOptions {
+  /// Addresses and names of interfaces of this machine; a name stands for all its addresses, 0.0.0.0 and ::
+  /// for all of IPv4 and of IPv6.
+  std::vector<Endpoint> listen{{"127.0.0.1", 502}};
+  std::optional<SerialOptions> serial;  ///< RTU over this line in place of TCP; what follows is for TCP alone
+  std::uint8_t serial_unit = 1;         ///< own address on the line, besides those with a map of their own
+  std::vector<IpNetwork> allow;         ///< from where clients may come; empty: from everywhere
+  std::size_t max_clients = 64;         ///< ≥ 1; a further client is refused, see `idle_time`
+  std::uint32_t requests_per_second = 0;  ///< of one client; what is more waits; 0: as many as it likes
+  /// A client that does not end a request, or take an answer, for this long is disconnected.
+  std::chrono::milliseconds stall_time{10'000};
+  /// Where all places are taken, a new client gets the place of the one that has been silent longest, if that
+  /// is this long at least.
+  std::chrono::milliseconds idle_time{10'000};
+  /// A client that asks for nothing for this long is disconnected; 0: never.
+  std::chrono::milliseconds idle_limit{0};
+};
+
+/// A group of addresses with what is served there.
+struct ModbusService {
+  ModbusServerOptions options;
+  ModbusUnits units;  ///< maps without problems
+};
+
+/// Serves maps from one image, on a thread of its own. Clients get one request each in turn, so that none
+/// can delay another by more than the time of one answer each.
+class ModbusServer {
+ public:
+  /// Maps and `image` outlive it; the server is the image's thread of the bridge.
+  ModbusServer(std::vector<ModbusService> services, ProcessImage& image, ModbusIdentity identity = {});
+  ModbusServer(ModbusServerOptions options, const ModbusMap& map, ProcessImage& image);
+  /// Stops.
+  ~ModbusServer();
+  ModbusServer(const ModbusServer&) = delete;
+  ModbusServer& operator=(const ModbusServer&) = delete;
+
+  /// Listens and serves from here on. Returns an empty text, or what is wrong, such as
+  /// "127.0.0.1:502: Permission denied"; then nothing has started and it may be called again.
+  /// May wait for a name server if a host is a name. Thread: the owner.
+  std::string start();
+
+  /// Disconnects all clients and ends the thread; nothing happens if it does not run. Thread: the owner.
+  void stop();
+
+  /// The port on which it listens first; 0 if it does not. Thread: the owner.
+  std::uint16_t port() const noexcept { return places_.empty() ? std::uint16_t{0} : places_.front().port; }
+  /// Where it listens, in the order of the options, with the ports that the system gave. Thread: the owner.
+  const std::vector<Endpoint>& places() const noexcept { return places_; }
+
+  const ModbusCounters& counters() const noexcept { return counters_; }
+
+ private:
+  using Clock = ModbusConnection::Clock;
+
+  struct Listener {
+    int socket;
+    std::size_t service;
+  };
+  /// A client, and when it may ask again.
+  struct Client {
+    std::unique_ptr<ModbusConnection> connection;
+    std::size_t service;
+    Clock::time_point due{};  ///< time at which the next request would keep to the rate
+    bool is_waiting = false;  ///< the next request has been counted as one that waits
+  };
+
+  /// A serial line on which it answers.
+  struct Line {
+    std::unique_ptr<ModbusSerialLine> port;
+    std::size_t service;
+  };
+
+  std::string listen(std::size_t service);
+  std::string open_line(std::size_t service);
+  std::string listen_at(Endpoint place, std::size_t service);
+  void make_responders();
+  void close_sockets() noexcept;
+  void run() noexcept;
+  void turn();
+  void wait();
+  Clock::time_point due(Clock::time_point now) const;
+  void serve_line(Line& line, short events, Clock::time_point now);
+  void accept_clients(const Listener& listener, Clock::time_point now);
+  bool admits(const sockaddr_storage& peer, std::size_t service);
+  bool make_room(std::size_t service, Clock::time_point now);
+  bool serve(Client& client, short events, Clock::time_point now);
+  bool is_too_late(const Client& client, Clock::time_point now);
+  bool may_ask(Client& client, Clock::time_point now);
+  Clock::time_point may_ask_at(const Client& client) const;
+  void count_waiting(Client& client, Clock::time_point now);
+  bool answer(Client& client, Clock::time_point now);
+
+  const std::vector<ModbusService> services_;
+  ProcessImage& image_;
+  const ModbusIdentity identity_;
+  ModbusCounters counters_;
+  std::vector<Endpoint> places_;
+  std::vector<Listener> listeners_;
+  std::vector<Line> lines_;
+  int wake_ = -1;  ///< event that ends the thread's waiting
+  std::atomic<bool> is_stopping_{false};
+  std::thread thread_;
+
+  // The thread's.
+  std::deque<ModbusResponder> responders_;  ///< of the services
+  std::vector<Client> clients_;
+  std::vector<pollfd> events_;  ///< wake, listeners, lines, then the clients
+  Clock::time_point accept_again_{};
+};
+
+}  // namespace lockstep

@@ -1,0 +1,25 @@
+/// How numbers stand in a CSV trace.
+#pragma once
+
+#include <cstdint>
+
+#include "tech_objects/types/types.hpp"
+
+namespace lockstep {
+
+/// Longest text of a number [byte].
+inline constexpr int kNumberLength = 32;
+
+/// A duration [ns] in seconds as an exact decimal number without trailing zeros: 2000000 is "0.002".
+/// @param out room for `kNumberLength` characters
+/// @return end of the text
+char* print_seconds(char* out, std::int64_t nanoseconds) noexcept;
+
+/// A value so that reading it back gives the same value: BOOL 0 or 1; integers and bit strings in decimal;
+/// REAL and LREAL as the shortest text of the double ("nan", "inf" and "-inf" are possible); TIME in seconds,
+/// exact.
+/// @param out room for `kNumberLength` characters
+/// @return end of the text
+char* print_value(char* out, Value value, Type type) noexcept;
+
+}  // namespace lockstep

@@ -1,0 +1,21 @@
+/// Reads traces from comma-separated values.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "hmi_bridge/traces/table.hpp"
+
+namespace lockstep {
+
+/// Reads a file that `CsvTrace` wrote, or one like it. The columns have no types there: all are LREAL.
+/// A last line without its end is left out, with a remark.
+/// @throws TraceFormatError "FILE:line:column: …" for what is not a number, a line with more or fewer values
+/// than
+///     names, a first column that is not `t`; "FILE: …" if it cannot be read
+TraceTable read_csv_trace(const std::string& path);
+
+/// The same from a text in memory; `name` stands for the file in messages.
+TraceTable parse_csv_trace(std::string_view text, const std::string& name);
+
+}  // namespace lockstep

@@ -1,0 +1,61 @@
+/// What happened before an alarm: the last seconds of a trace, written to a file when one comes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hmi_bridge/traces/sink.hpp"
+
+namespace lockstep {
+
+struct FlightRecorderOptions {
+  std::string file;         ///< FILE_1.csv, FILE_2.csv … are written
+  std::int64_t before = 0;  ///< [ns]
+  std::int64_t after = 0;   ///< [ns]
+  int files = 10;           ///< at most so many in a run
+};
+
+/// Keeps the rows of the last moments in memory of its own and writes them, with those of a moment after, to
+/// a CSV trace for each alarm. Alarms that come meanwhile belong to the same file, and lengthen it. A file
+/// that cannot be written is told and hurts nothing else. Thread: the recorder's.
+class FlightRecorder final : public TraceSink {
+ public:
+  /// Rows are kept in as much memory as `before` asks for.
+  /// @param columns of the whole trace that are kept  @param period from row to row [ns] > 0
+  FlightRecorder(FlightRecorderOptions options, std::vector<std::size_t> columns, std::int64_t period);
+
+  void begin(std::span<const TraceSignal> signals) override;
+  void row(const TraceRow& row) override;
+  void event(const TraceEvent& event) override;
+  void flush() override;
+  void end() override;
+  std::string_view name() const noexcept override { return options_.file; }
+
+  /// Files that have been written whole. After `end`.
+  const std::vector<std::string>& written() const noexcept { return written_; }
+
+ private:
+  void open();
+  void close();
+  void write(const TraceRow& row);
+  void write_kept();
+
+  const FlightRecorderOptions options_;
+  const std::vector<std::size_t> columns_;
+  const std::size_t capacity_;  // rows
+  std::vector<TraceSignal> signals_;
+  std::vector<Value> memory_;   // a ring of rows
+  std::vector<TraceRow> rows_;  // … and what stands before their values
+  std::size_t count_ = 0, next_ = 0;
+  std::vector<Value> values_;
+  std::unique_ptr<TraceSink> file_;  // that is being written
+  std::string path_;
+  std::optional<std::int64_t> until_;
+  int opened_ = 0;
+  std::vector<std::string> written_;
+};
+
+}  // namespace lockstep

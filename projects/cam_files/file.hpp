@@ -1,0 +1,32 @@
+/// Cam files of every format.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "projects/cam_files/definition.hpp"
+#include "projects/json/text_file.hpp"
+
+namespace lockstep {
+
+/// What reading gives: a cam if there are no problems, else all problems. Warnings there may be either way.
+struct LoadedCam {
+  std::optional<CamDefinition> definition;
+  std::vector<Problem> problems;
+  std::vector<Problem> warnings;
+};
+
+/// Reads a cam from a text: JSON if it begins with a brace, a cam file or the cam `name` of a project; else a
+/// table of points or elements.
+/// @param folder of the text, for the files that a project names
+/// @param name of the technology object, for a project; else empty
+/// @param capacity points that a table may have; JSON says it itself
+LoadedCam load_cam(std::string_view text, const std::string& folder, const std::string& name,
+                   std::size_t capacity);
+
+/// The same from a file. @throws UnreadableFile
+LoadedCam load_cam_file(const std::string& path, const std::string& name, std::size_t capacity);
+
+}  // namespace lockstep

@@ -1,0 +1,227 @@
+#include "projects/cam_files/table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+
+#include "projects/cam_files/fields.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kMostProblems = 1000;
+constexpr double kLargest = 1.0e12;
+
+std::string text_of(double value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(std::begin(buffer), std::end(buffer), value);
+  return {buffer, end};
+}
+
+struct Cell {
+  std::string_view text;
+  std::size_t column;  // from 1
+};
+
+/// One pass over a table that knows where it is.
+class TableReader {
+ public:
+  TableReader(std::string_view text, CamDefinition& definition, std::vector<Problem>& problems)
+      : text_(text),
+        separator_(text.find('\t') != text.npos ? '\t' : ','),
+        definition_(definition),
+        problems_(problems) {}
+
+  void read() {
+    while (!text_.empty() && problems_.size() < kMostProblems) {
+      const std::size_t end = std::min(text_.find('\n'), text_.size());
+      std::string_view line = text_.substr(0, end);
+      text_.remove_prefix(std::min(end + 1, text_.size()));
+      ++line_;
+      if (line.ends_with('\r')) line.remove_suffix(1);
+      if (line.find_first_not_of(" \t,") != line.npos) read_row(cells_of(line));
+    }
+    if (problems_.size() == kMostProblems)
+      tell(1, "there are more problems; the rest of the file is not looked at");
+    if (rows_ == 0 && problems_.empty()) tell(1, "the file has no points and no segments");
+  }
+
+  /// Where a point (or segment) of the data block comes from.
+  std::string place_of(const CamFinding& finding) const {
+    const auto& lines = finding.transition ? segment_lines_ : point_lines_;
+    return finding.element < lines.size() ? std::to_string(lines[finding.element]) + ":1" : "1:1";
+  }
+
+  std::vector<TO_Cam_Struct_PointData> points;
+  std::vector<TO_Cam_Struct_SegmentData> segments;
+
+ private:
+  enum class Kind { unknown, points, elements };
+
+  void tell(std::size_t column, std::string text) {
+    problems_.push_back(
+        {std::to_string(std::max<std::size_t>(line_, 1)) + ":" + std::to_string(column), std::move(text)});
+  }
+
+  std::vector<Cell> cells_of(std::string_view line) const {
+    std::vector<Cell> cells;
+    for (std::size_t begin = 0; begin <= line.size();) {
+      const std::size_t end = std::min(line.find(separator_, begin), line.size());
+      std::string_view cell = line.substr(begin, end - begin);
+      std::size_t column = begin + 1;
+      while (cell.starts_with(' ')) {
+        cell.remove_prefix(1);
+        ++column;
+      }
+      while (cell.ends_with(' ')) cell.remove_suffix(1);
+      cells.push_back({cell, column});
+      begin = end + 1;
+    }
+    return cells;
+  }
+
+  void read_row(const std::vector<Cell>& cells) {
+    const std::string_view first = cells.front().text;
+    const bool letter = first == "P" || first == "S" || first == "I";
+    if (kind_ == Kind::unknown) {
+      if (first == "x") {
+        kind_ = Kind::points;
+        return;
+      }
+      kind_ = letter ? Kind::elements : Kind::points;
+    }
+    ++rows_;
+    if (kind_ == Kind::points) return read_point(cells, 0, 5);
+    if (first == "P") return read_point(cells, 1, 3);
+    if (first == "S") return read_segment(cells);
+    if (first == "I") return read_interpolation(cells);
+    tell(cells.front().column, "a row of elements begins with " + quote(first) +
+                                   "; allowed: P for a point, S for a segment, I for the interpolation");
+  }
+
+  bool has_cells(const std::vector<Cell>& cells, std::size_t least, std::size_t most, std::string_view what) {
+    if (cells.size() >= least && cells.size() <= most) return true;
+    const std::size_t at = std::min(cells.size(), most + 1) - 1;
+    tell(cells[at].column,
+         "the row has " + std::to_string(cells.size()) + " values; allowed: " + std::string(what));
+    return false;
+  }
+
+  void read_point(const std::vector<Cell>& cells, std::size_t first, std::size_t most) {
+    if (!has_cells(cells, first + 2, most,
+                   first == 1 ? "P,x,y" : "x,y and perhaps velocity, acceleration and jerk"))
+      return;
+    double values[5] = {};
+    bool good = true;
+    for (std::size_t i = first; i < cells.size(); ++i) good &= read_number(cells[i], values[i - first]);
+    if (!good) return;
+    points.push_back({values[0], values[1]});
+    point_lines_.push_back(line_);
+  }
+
+  void read_segment(const std::vector<Cell>& cells) {
+    constexpr std::size_t kNumbers = std::size(cam_fields::kSegment);
+    if (!has_cells(cells, kNumbers + 1, kNumbers + 1,
+                   "S,xmin,xmax,a0,a1,a2,a3,a4,a5,a6,sineAmplitude,sinePeriod,sinePhase"))
+      return;
+    TO_Cam_Struct_SegmentData segment;
+    bool good = true;
+    for (std::size_t i = 0; i < kNumbers; ++i)
+      good &=
+          read_number(cells[i + 1],
+                      segment.*std::get<double TO_Cam_Struct_SegmentData::*>(cam_fields::kSegment[i].member));
+    if (!good) return;
+    segments.push_back(segment);
+    segment_lines_.push_back(line_);
+  }
+
+  void read_interpolation(const std::vector<Cell>& cells) {
+    if (!has_cells(cells, 3, 3, "I,InterpolationMode,BoundaryConditions")) return;
+    TO_Cam_Struct_InterpolationSettings& settings = definition_.design.interpolation;
+    const auto read = [&](const Cell& cell, DINT most, DINT& target) {
+      DINT value = -1;
+      const auto [end, error] = std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
+      if (error == std::errc{} && end == cell.text.data() + cell.text.size() && value >= 0 && value <= most)
+        target = value;
+      else
+        tell(cell.column, quote(cell.text) + " is not allowed here; allowed: 0 to " + std::to_string(most));
+    };
+    read(cells[1], 2, settings.InterpolationMode);
+    read(cells[2], 1, settings.BoundaryConditions);
+  }
+
+  bool read_number(const Cell& cell, double& target) {
+    const char* const end_of_cell = cell.text.data() + cell.text.size();
+    const auto [end, error] = std::from_chars(cell.text.data(), end_of_cell, target);
+    if (error == std::errc{} && end == end_of_cell && target >= -kLargest && target <= kLargest) return true;
+    tell(cell.column,
+         quote(cell.text) + " is not allowed here; allowed: a number from -1e12 to 1e12, such as 1.5");
+    return false;
+  }
+
+  std::string_view text_;
+  char separator_;
+  CamDefinition& definition_;
+  std::vector<Problem>& problems_;
+  Kind kind_ = Kind::unknown;
+  std::size_t line_ = 0;
+  std::size_t rows_ = 0;
+  std::vector<std::size_t> point_lines_, segment_lines_;
+};
+
+}  // namespace
+
+void read_cam_table(std::string_view text, CamDefinition& definition, std::vector<Problem>& problems,
+                    std::vector<Problem>& warnings) {
+  TableReader reader(text, definition, problems);
+  reader.read();
+  if (!problems.empty()) return;
+  definition.cam = interpolated_cam(std::move(reader.points), std::move(reader.segments),
+                                    definition.design.interpolation, definition.capacity);
+  for (const CamFinding& problem : definition.cam.problems)
+    problems.push_back({reader.place_of(problem), problem.text});
+  for (const CamFinding& warning : definition.cam.warnings)
+    warnings.push_back({reader.place_of(warning), warning.text});
+}
+
+std::string cam_element_table(const CamDefinition& definition, char separator) {
+  const TO_Cam_Struct_InterpolationSettings& settings = definition.design.interpolation;
+  std::string text = std::string("I") + separator + std::to_string(settings.InterpolationMode) + separator +
+                     std::to_string(settings.BoundaryConditions) + "\n";
+  for (const TO_Cam_Struct_SegmentData& segment : definition.cam.segments) {
+    text += 'S';
+    for (const auto& number : cam_fields::kSegment)
+      text += separator + text_of(segment.*std::get<double TO_Cam_Struct_SegmentData::*>(number.member));
+    text += '\n';
+  }
+  for (const TO_Cam_Struct_PointData& point : definition.cam.points)
+    text += std::string("P") + separator + text_of(point.x) + separator + text_of(point.y) + "\n";
+  return text;
+}
+
+std::vector<CamSample> sampled(const CamFunction& cam, double from, double to, std::size_t count) {
+  std::vector<CamSample> samples;
+  std::size_t piece = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double part = static_cast<double>(k) / static_cast<double>(count - 1);
+    const double x = k + 1 < count ? from + part * (to - from) : to;
+    while (piece + 1 < cam.piece_count() && cam.piece_start(piece + 1) <= x) ++piece;
+    samples.push_back({x, cam.piece_value(piece, x)});
+    samples.back().value.position = cam.value(x).position;  // at the end the defined one to the last bit
+  }
+  return samples;
+}
+
+std::string cam_point_table(const std::vector<CamSample>& samples, bool derivatives, char separator) {
+  std::string text;
+  for (const CamSample& sample : samples) {
+    text += text_of(sample.x) + separator + text_of(sample.value.position);
+    if (derivatives)
+      for (const double value : {sample.value.first, sample.value.second, sample.value.third})
+        text += separator + text_of(value);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,54 @@
+/// Structured Text expressions of the project: read, typed and compiled while loading.
+/// @source IEC 61131-3:2013, 6.3 (literals), 6.6 (functions), 7.3.2 (expressions)
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "projects/expressions/term.hpp"
+#include "scheduler/expression.hpp"
+#include "tech_objects/types/types.hpp"
+
+namespace lockstep {
+
+/// What a reference stands for: a signal, or why there is none.
+struct Reference {
+  std::optional<Signal> signal;
+  std::string error;           ///< what is wrong and what is allowed, if there is no signal
+  ElementRange elements{};     ///< of a path with "[]": `signal` is the first of them
+  std::optional<Text> text{};  ///< of a tag of type STRING, in place of a signal
+};
+
+/// What the names in an expression stand for.
+class Scope {
+ public:
+  virtual ~Scope() = default;
+  /// Finds `name` (a tag, an instance, a technology object; in any case) and within it `path`, which is what
+  /// follows the name, without the point: "" (a tag), "Done", "StatusSynchronizedMotion.StatusWord",
+  /// "Sensor[1].Position", "[3]", "[].x" (the element is chosen by an index at run time). A bit .Xn at the
+  /// end is resolved by the compiler, unless the path with it names a variable. The signal has to outlive
+  /// what is compiled.
+  virtual Reference resolve(std::string_view name, std::string_view path) const = 0;
+};
+
+struct CompiledExpression {
+  std::optional<Expression> expression;  ///< none if there are errors
+  std::vector<ExpressionError> errors;
+  std::vector<ExpressionError> warnings;
+};
+
+/// A text: a literal or a tag of type STRING.
+struct CompiledText {
+  std::optional<TextSource> text;  ///< none if there are errors
+  std::vector<ExpressionError> errors;
+};
+CompiledText compile_text(std::string_view text, const Scope& scope);
+
+/// Compiles one expression for a place of type `wanted` (a DB_ANY place takes a UDINT). Never throws on
+/// account of the text, whatever it is; a text of more than 4096 bytes or nested deeper than 64 is an error.
+/// Thread: any; evaluation belongs to the thread that owns the signals.
+CompiledExpression compile_expression(std::string_view text, Type wanted, const Scope& scope);
+
+}  // namespace lockstep

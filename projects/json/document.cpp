@@ -1,0 +1,286 @@
+#include "projects/json/document.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <unordered_set>
+
+namespace lockstep {
+namespace {
+
+/// "line:column" behind so many bytes of the text, both from 1; columns count characters.
+std::string place_in(std::string_view text, std::size_t bytes) {
+  const std::string_view before = text.substr(0, std::min(bytes, text.size()));
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t newline = before.rfind('\n');
+  const std::string_view start = newline == before.npos ? before : before.substr(newline + 1);
+  const auto column = 1 + std::count_if(start.begin(), start.end(), [](char c) {
+                        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+                      });
+  return std::to_string(line) + ":" + std::to_string(column);
+}
+
+/// What nlohmann's message says, without its number and place.
+std::string reason(std::string_view message) {
+  const auto column = message.find(", column ");
+  const auto colon = column == message.npos ? message.npos : message.find(": ", column);
+  if (colon != message.npos) message.remove_prefix(colon + 2);
+  std::string text;
+  constexpr std::string_view kLastRead = "; last read: '";
+  const auto last_read = message.find(kLastRead);
+  if (last_read == message.npos) return std::string(message);
+  // What was read last may be very long; what is expected follows it.
+  const std::string_view token = message.substr(last_read + kLastRead.size());
+  const auto end = token.rfind('\'');
+  text = std::string(message.substr(0, last_read)) + "; last read: " + quote(token.substr(0, end));
+  const auto expected = token.rfind("; expected ");
+  if (expected != token.npos && end < expected) text += token.substr(expected);
+  return text;
+}
+
+void append_segment(std::string& pointer, std::string_view key) {
+  pointer += '/';
+  for (const char c : key) {
+    if (c == '~')
+      pointer += "~0";
+    else if (c == '/')
+      pointer += "~1";
+    else
+      pointer += c;
+  }
+}
+
+}  // namespace
+
+const JsonValue* JsonValue::find(std::string_view key) const noexcept {
+  for (const Member& member : members)
+    if (member.key == key) return member.value;
+  return nullptr;
+}
+
+std::string JsonValue::pointer() const {
+  std::vector<const JsonValue*> path;
+  for (const JsonValue* value = this; value->parent_ != nullptr; value = value->parent_)
+    path.push_back(value);
+  std::reverse(path.begin(), path.end());
+  std::string result;
+  for (const JsonValue* const value : path) {
+    if (value->parent_->kind == JsonKind::array)
+      append_segment(result, std::to_string(value->index_));
+    else
+      append_segment(result, lockstep::shown(value->key_));
+  }
+  return result;
+}
+
+std::string JsonValue::shown() const {
+  switch (kind) {
+    case JsonKind::null:
+      return "null";
+    case JsonKind::boolean:
+      return boolean ? "true" : "false";
+    case JsonKind::number:
+      return lockstep::shown(text);
+    case JsonKind::string:
+      return quote(text);
+    case JsonKind::array:
+      return "an array";
+    case JsonKind::object:
+      return "an object";
+    case JsonKind::unusable:
+      break;
+  }
+  return "a value";
+}
+
+/// Takes the events of nlohmann's parser and builds the document.
+class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  /// @param overflows numbers, counted among all values, that were found too large for an LREAL before
+  JsonBuilder(JsonDocument& document, std::string_view text, const std::set<std::size_t>& overflows)
+      : document_(document), text_(text), overflows_(overflows) {}
+
+  bool null() override { return add(JsonKind::null) != nullptr; }
+  bool boolean(bool value) override {
+    JsonValue* const added = add(JsonKind::boolean);
+    if (added != nullptr) added->boolean = value;
+    return added != nullptr;
+  }
+  bool number_integer(std::int64_t value) override {
+    return add_whole(value < 0,
+                     value < 0 ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value));
+  }
+  bool number_unsigned(std::uint64_t value) override { return add_whole(false, value); }
+  bool number_float(double value, const std::string& written) override;
+  bool string(std::string& value) override {
+    JsonValue* const added = add(JsonKind::string);
+    if (added != nullptr) added->text = std::move(value);
+    return added != nullptr;
+  }
+  bool binary(nlohmann::json::binary_t& /*value*/) override { return false; }
+  bool start_object(std::size_t /*size*/) override { return open(JsonKind::object); }
+  bool start_array(std::size_t /*size*/) override { return open(JsonKind::array); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(std::string& value) override {
+    open_.back().key = std::move(value);
+    return true;
+  }
+  bool parse_error(std::size_t position, const std::string& token,
+                   const nlohmann::detail::exception& exception) override;
+
+  /// Where a number stands that is too large, and which value it is, if that ended the parsing.
+  struct Overflow {
+    std::size_t begin, end, number;
+  };
+  std::optional<Overflow> overflow;
+
+ private:
+  struct Open {
+    JsonValue* value;
+    std::string key;  // of the next member
+    std::unordered_set<std::string> keys;
+  };
+
+  JsonValue* add(JsonKind kind);
+  bool add_whole(bool negative, std::uint64_t magnitude);
+  bool open(JsonKind kind);
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+  bool fail(const JsonValue& at, std::string text) {
+    document_.problems_.push_back({at.pointer(), std::move(text)});
+    return false;
+  }
+  /// A value at the place of the next one, for messages.
+  JsonValue next_place() const;
+
+  JsonDocument& document_;
+  std::string_view text_;
+  const std::set<std::size_t>& overflows_;
+  std::vector<Open> open_;
+};
+
+JsonValue JsonBuilder::next_place() const {
+  JsonValue place;
+  if (open_.empty()) return place;
+  place.parent_ = open_.back().value;
+  if (place.parent_->kind == JsonKind::object)
+    place.key_ = open_.back().key;
+  else
+    place.index_ = place.parent_->elements.size();
+  return place;
+}
+
+JsonValue* JsonBuilder::add(JsonKind kind) {
+  JsonValue place = next_place();
+  if (document_.values_.size() == JsonDocument::kMostValues) {
+    fail(place, "the file has more than " + std::to_string(JsonDocument::kMostValues) + " values");
+    return nullptr;
+  }
+  const bool unusable = overflows_.contains(document_.values_.size());
+  JsonValue& value = document_.values_.emplace_back(std::move(place));
+  value.kind = unusable ? JsonKind::unusable : kind;
+  if (open_.empty()) {
+    document_.root_ = &value;
+    return &value;
+  }
+  Open& parent = open_.back();
+  if (parent.value->kind == JsonKind::array)
+    parent.value->elements.push_back(&value);
+  else if (parent.keys.insert(value.key_).second)
+    parent.value->members.push_back({value.key_, &value});
+  else
+    fail(value, "the key " + quote(value.key_) + " is there twice; each key is allowed once");
+  return &value;
+}
+
+bool JsonBuilder::add_whole(bool negative, std::uint64_t magnitude) {
+  JsonValue* const value = add(JsonKind::number);
+  if (value == nullptr) return false;
+  value->negative = negative;
+  value->whole = true;
+  value->magnitude = magnitude;
+  value->number = negative ? -static_cast<double>(magnitude) : static_cast<double>(magnitude);
+  value->text = (negative ? "-" : "") + std::to_string(magnitude);
+  return true;
+}
+
+bool JsonBuilder::number_float(double value, const std::string& written) {
+  JsonValue* const added = add(JsonKind::number);
+  if (added == nullptr) return false;
+  added->number = value;
+  added->negative = std::signbit(value);
+  added->text = written;
+  added->fraction = written.find('.') != written.npos || std::trunc(value) != value;
+  added->whole = !added->fraction && std::abs(value) < 0x1p64;
+  if (added->whole) added->magnitude = static_cast<std::uint64_t>(std::abs(value));
+  return true;
+}
+
+bool JsonBuilder::open(JsonKind kind) {
+  if (open_.size() == static_cast<std::size_t>(JsonDocument::kDeepest))
+    return fail(next_place(),
+                "nested too deeply; allowed are " + std::to_string(JsonDocument::kDeepest) + " levels");
+  JsonValue* const value = add(kind);
+  if (value != nullptr) open_.push_back({value, {}, {}});
+  return value != nullptr;
+}
+
+bool JsonBuilder::parse_error(std::size_t position, const std::string& token,
+                              const nlohmann::detail::exception& exception) {
+  constexpr int kNumberOverflow = 406;
+  if (exception.id == kNumberOverflow && position >= token.size()) {
+    fail(next_place(), "the number " + shown(token) + " is out of range; allowed are numbers from " +
+                           "-1.7976931348623157e308 to 1.7976931348623157e308");
+    overflow = {position - token.size(), position, document_.values_.size()};
+    return false;
+  }
+  document_.problems_.push_back(
+      {place_in(text_, position == 0 ? 0 : position - 1), reason(exception.what())});
+  return false;
+}
+
+JsonDocument::JsonDocument(std::string_view text) {
+  if (text.size() > kLongest) {
+    problems_.push_back({"", "the file is longer than " + std::to_string(kLongest >> 20) + " MiB"});
+    return;
+  }
+  if (text.find_first_not_of(" \t\r\n") == text.npos) {
+    problems_.push_back({"1:1", "the file is empty; a project is a JSON object"});
+    return;
+  }
+  // The parser takes a NUL for the end of the text.
+  if (const auto nul = text.find('\0'); nul != text.npos) {
+    problems_.push_back({place_in(text, nul), "a NUL character is not allowed"});
+    return;
+  }
+  // A number that no LREAL holds ends the parser. It is replaced and the text read again, so that the rest of
+  // the file is looked at as well.
+  constexpr int kMostOverflows = 20;
+  std::string readable(text);
+  std::set<std::size_t> overflows;
+  std::vector<Problem> told;
+  for (int i = 0; i < kMostOverflows; ++i) {
+    values_.clear();
+    root_ = nullptr;
+    problems_.clear();
+    JsonBuilder builder(*this, text, overflows);
+    if (nlohmann::json::sax_parse(readable, &builder)) break;
+    root_ = nullptr;
+    if (!builder.overflow) break;
+    told.push_back(problems_.back());
+    const auto [begin, end, number] = *builder.overflow;
+    std::fill(readable.begin() + static_cast<std::ptrdiff_t>(begin),
+              readable.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+    readable[begin] = '0';
+    overflows.insert(number);
+    problems_.clear();
+  }
+  problems_.insert(problems_.begin(), told.begin(), told.end());
+}
+
+}  // namespace lockstep

@@ -1,0 +1,273 @@
+// What crosses to the outside: addresses of servers, and the trace.
+#include <algorithm>
+#include <charconv>
+#include <unordered_set>
+
+#include "hmi_bridge/lcm/commands.hpp"
+#include "hmi_bridge/lcm/messages.hpp"
+#include "projects/loader/loader.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Reads a decimal number without sign; none if the text is something else or too large.
+std::optional<std::uint32_t> number_of(std::string_view text) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || text.empty()) return std::nullopt;
+  return number;
+}
+
+bool is_host(std::string_view host) {
+  constexpr std::size_t kLongestHost = 253;
+  return !host.empty() && host.size() <= kLongestHost && std::all_of(host.begin(), host.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '-' || c == '_';
+  });
+}
+
+/// The address within "[…]"; none if it is no IPv6 address.
+std::optional<std::string> bracketed_address(std::string_view host) {
+  if (host.size() < 4 || host.front() != '[' || host.back() != ']') return std::nullopt;
+  std::string address(host.substr(1, host.size() - 2));
+  std::string problem;
+  if (address.find(':') == address.npos || address.find('/') != address.npos ||
+      !IpNetwork::parse(address, problem))
+    return std::nullopt;
+  return address;
+}
+
+/// The first number of an IPv4 address; none if it is no address.
+std::optional<std::uint32_t> first_of_address(std::string_view address) {
+  std::optional<std::uint32_t> first;
+  for (int part = 0; part < 4; ++part) {
+    const auto point = part < 3 ? address.find('.') : address.size();
+    if (point == address.npos) return std::nullopt;
+    const auto number = number_of(address.substr(0, point));
+    if (!number || *number > 255) return std::nullopt;
+    if (!first) first = number;
+    address.remove_prefix(part < 3 ? point + 1 : point);
+  }
+  return first;
+}
+
+void load_lcm(const JsonValue& json, TraceConfig& trace, Problems& problems) {
+  const Fields fields(json, keys::kLcm, problems);
+  if (const auto url = read_string(fields["url"], problems)) {
+    trace.url = *url;
+    if (const std::string problem = lcm_url_problem(*url); !problem.empty())
+      problems.report(*fields["url"], problem);
+  }
+  if (const auto channel = read_title(fields["channel"], problems)) {
+    trace.channel = *channel;
+    if (channel->size() > kLongestTraceChannel)
+      problems.report(*fields["channel"], fields["channel"]->shown() + " is too long; allowed: up to " +
+                                              std::to_string(kLongestTraceChannel) + " characters");
+  }
+}
+
+void load_signals(const JsonValue& json, std::vector<NamedSignal>& signals, const Loading& loading) {
+  if (read_array(&json, loading.problems) == nullptr) return;
+  std::unordered_set<std::string> seen;
+  for (const JsonValue* const element : json.elements) {
+    const auto path = read_string(element, loading.problems);
+    if (!path) continue;
+    const auto place = loading.find(*element, *path);
+    if (!place) continue;
+    if (!seen.insert(fold(*path)).second) {
+      loading.problems.report(*element, element->shown() + " is there twice; each signal is allowed once");
+      continue;
+    }
+    signals.push_back({std::string(*path), place->signal, place->unit});
+  }
+}
+
+constexpr std::int64_t kLongestBefore = 600'000'000'000;  // [ns]
+constexpr std::int64_t kLongestAfter = 3'600'000'000'000;
+constexpr std::int64_t kMostRows = 1'000'000'000;
+
+void load_trigger(const JsonValue& json, TraceChannelConfig& channel, const Loading& loading) {
+  Problems& problems = loading.problems;
+  const Fields fields(json, keys::kTrigger, problems);
+  const auto kind = read_word(fields["on"], words::kTriggers, problems);
+  TraceSelection& selection = channel.selection;
+  if (const auto time = read_duration(fields["before"], 0, kLongestBefore, problems))
+    selection.before = *time;
+  if (const auto time = read_duration(fields["after"], 0, kLongestAfter, problems)) selection.after = *time;
+  if (const auto level = read_number(fields["level"], -1e300, 1e300, problems)) selection.level = *level;
+  if (!kind) return;
+  selection.trigger = static_cast<TriggerKind>(*kind + 1);
+  const JsonValue* const signal = fields["signal"];
+  if (selection.trigger == TriggerKind::alarm) {
+    for (const JsonValue* const other : {signal, fields["level"]})
+      if (other != nullptr)
+        problems.report(*other,
+                        "an alarm has no signal and no level; allowed with: above, below, rising, falling");
+    return;
+  }
+  if (signal == nullptr) {
+    if (json.kind == JsonKind::object)
+      problems.report(json, "'signal' is missing; it is required with: above, below, rising, falling");
+    return;
+  }
+  const auto path = read_string(signal, problems);
+  const auto place = path ? loading.find(*signal, *path) : std::nullopt;
+  if (!place) return;
+  const Type type = place->signal.value_type();
+  if (type == Type::AXIS || type == Type::TAG)
+    return problems.report(*signal, signal->shown() + " has no value to look at");
+  channel.occasion = NamedSignal{std::string(*path), place->signal, place->unit};
+}
+
+std::optional<std::string> read_channel(const JsonValue* json, Problems& problems) {
+  const auto channel = read_title(json, problems);
+  if (!channel) return std::nullopt;
+  if (channel->size() <= kLongestTraceChannel) return std::string(*channel);
+  problems.report(*json, json->shown() + " is too long; allowed: up to " +
+                             std::to_string(kLongestTraceChannel) + " characters");
+  return std::nullopt;
+}
+
+/// Headers, events, commands and panels go out beside a channel, under names made of its own.
+bool is_beside(std::string_view name, std::string_view channel) {
+  if (!name.starts_with(channel)) return false;
+  name.remove_prefix(channel.size());
+  return name == kHeaderSuffix || name == kEventsSuffix || name == kCommandSuffix || name == kPanelSuffix;
+}
+
+/// @param other a channel that is there already
+void report_same_channel(const JsonValue& at, std::string_view name, std::string_view other,
+                         Problems& problems) {
+  if (name == other)
+    problems.report(at, at.shown() + " is there twice; each channel is allowed once");
+  else if (is_beside(name, other) || is_beside(other, name))
+    problems.report(at, at.shown() + " and " + quote(other) +
+                            " collide: beside a channel there are others with its name and " +
+                            std::string(kHeaderSuffix) + ", " + std::string(kEventsSuffix) + ", " +
+                            std::string(kCommandSuffix) + ", " + std::string(kPanelSuffix) +
+                            "; allowed: another name");
+}
+
+void load_channel(const JsonValue& json, TraceConfig& trace, const Loading& loading) {
+  Problems& problems = loading.problems;
+  const Fields fields(json, keys::kTraceChannel, problems);
+  TraceChannelConfig& channel = trace.channels.emplace_back();
+  if (const auto name = read_channel(fields["channel"], problems)) {
+    const JsonValue& at = *fields["channel"];
+    if (!trace.channel.empty()) report_same_channel(at, *name, trace.channel, problems);
+    for (const TraceChannelConfig& other : trace.channels)
+      if (!other.channel.empty()) report_same_channel(at, *name, other.channel, problems);
+    channel.channel = *name;
+  }
+  if (const JsonValue* const signals = fields["signals"]) load_signals(*signals, channel.signals, loading);
+  if (const auto every = read_integer(fields["every"], 1, kMostRows, problems))
+    channel.selection.every = *every;
+  if (const JsonValue* const trigger = fields["trigger"]) load_trigger(*trigger, channel, loading);
+}
+
+/// Whatever may change: tags, pins, and what the runtime computes of the objects.
+std::vector<NamedSignal> all_signals(const Loading& loading) {
+  std::vector<NamedSignal> all;
+  const auto add = [&](const std::string& name) {
+    const FoundPlace found = loading.names().find(name);
+    if (!found.place) return;
+    const Type type = found.place->signal.value_type();
+    if (type != Type::AXIS && type != Type::TAG)
+      all.push_back({name, found.place->signal, found.place->unit});
+  };
+  for (const Tag& tag : loading.controller().tags) add(tag.name);
+  for (const Instance& instance : loading.controller().instances)
+    for (const Pin& pin : instance.type->pins) add(instance.name + "." + std::string(pin.name));
+  for (const auto& object : loading.controller().objects)
+    for (const Variable& variable : data_block_of(object->kind).status)
+      for (std::size_t i = 0; i < std::max<std::size_t>(variable.count, 1); ++i) {
+        std::string path(variable.path);
+        if (const auto open = path.find("[]"); open != path.npos)
+          path.replace(open, 2, "[" + std::to_string(i + 1) + "]");
+        if (!variable.later) add(object->name + "." + path);
+      }
+  return all;
+}
+
+}  // namespace
+
+std::optional<Endpoint> parse_endpoint(std::string_view text, std::string& problem) {
+  const auto colon = text.rfind(':');
+  const auto port = colon == text.npos ? std::nullopt : number_of(text.substr(colon + 1));
+  const std::string_view host = text.substr(0, colon);
+  if (port && *port <= 65535) {
+    if (is_host(host)) return Endpoint{std::string(host), static_cast<std::uint16_t>(*port)};
+    if (auto address = bracketed_address(host))
+      return Endpoint{std::move(*address), static_cast<std::uint16_t>(*port)};
+  }
+  problem = quote(text) +
+            " is not HOST:PORT; allowed: an IPv4 address, an IPv6 address in brackets or a name, a colon and "
+            "a port from 0 to 65535, as in 127.0.0.1:1502 or [::1]:1502";
+  return std::nullopt;
+}
+
+std::string lcm_url_problem(std::string_view url) {
+  const std::string problem =
+      quote(url) +
+      " is no address of an LCM network; allowed: udpm://ADDRESS:PORT?ttl=N with "
+      "a multicast address (224.0.0.0 to 239.255.255.255) and N from 0 to 255, memq://";
+  if (url == "memq://") return "";
+  constexpr std::string_view kScheme = "udpm://";
+  if (!url.starts_with(kScheme)) return problem;
+  url.remove_prefix(kScheme.size());
+  const auto question = url.find('?');
+  const std::string_view network = url.substr(0, question);
+  if (question != url.npos) {
+    const std::string_view option = url.substr(question + 1);
+    const auto ttl = option.starts_with("ttl=") ? number_of(option.substr(4)) : std::nullopt;
+    if (!ttl || *ttl > 255) return problem;
+  }
+  if (network.empty()) return "";
+  const auto colon = network.find(':');
+  if (colon != network.npos) {
+    const auto port = number_of(network.substr(colon + 1));
+    if (!port || *port == 0 || *port > 65535) return problem;
+  }
+  const auto first = first_of_address(network.substr(0, colon));
+  return first && *first >= 224 && *first <= 239 ? "" : problem;
+}
+
+void load_trace(const JsonValue& trace, const Loading& loading) {
+  const Fields fields(trace, keys::kTrace, loading.problems);
+  TraceConfig& config = loading.project.trace;
+  if (const JsonValue* const lcm = fields["lcm"]) {
+    load_lcm(*lcm, config, loading.problems);
+    if (const JsonValue* const commands = lcm->find("commands")) load_commands(*commands, loading);
+  }
+  if (const JsonValue* const signals = fields["signals"]) load_signals(*signals, config.signals, loading);
+  const JsonValue* const channels = fields["channels"];
+  if (read_array(channels, loading.problems) == nullptr) return;
+  for (const JsonValue* const channel : channels->elements) load_channel(*channel, config, loading);
+}
+
+void load_flight_recorder(const JsonValue& json, const Loading& loading) {
+  Problems& problems = loading.problems;
+  const Fields fields(json, keys::kFlightRecorder, problems);
+  FlightRecorderConfig config;
+  if (const auto time = read_duration(fields["before"], 1, kLongestBefore, problems))
+    config.options.before = *time;
+  if (const auto time = read_duration(fields["after"], 0, kLongestAfter, problems))
+    config.options.after = *time;
+  if (const auto file = read_title(fields["file"], problems)) config.options.file = *file;
+  if (const auto files = read_integer(fields["files"], 1, 1000, problems))
+    config.options.files = static_cast<int>(*files);
+  if (const JsonValue* const signals = fields["signals"])
+    load_signals(*signals, config.signals, loading);
+  else
+    config.signals = all_signals(loading);
+  constexpr std::int64_t kMostValues = std::int64_t{1} << 26;  // 512 MiB
+  const std::int64_t rows = config.options.before / loading.controller().clock.interpolator_cycle();
+  const auto columns = static_cast<std::int64_t>(config.signals.size());
+  if (const JsonValue* const before = fields["before"];
+      before != nullptr && columns > 0 && rows > kMostValues / columns)
+    problems.report(*before, std::to_string(columns) + " signals for " + before->shown() +
+                                 " take more than 512 MiB; allowed: a shorter time or fewer 'signals'");
+  loading.project.flight_recorder = std::move(config);
+}
+
+}  // namespace lockstep

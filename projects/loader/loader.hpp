@@ -1,0 +1,65 @@
+/// The parts of the loader; each reads one section of the project file into the project.
+#pragma once
+
+#include <unordered_map>
+
+#include "projects/json/fields.hpp"
+#include "projects/loader/project.hpp"
+
+namespace lockstep {
+
+/// What the parts share while a project is being loaded.
+struct Loading {
+  Project& project;
+  Problems& problems;
+  /// The instance of each call of a function block, as far as its type is known.
+  std::unordered_map<const JsonValue*, Instance*>& instances;
+  /// Of the project file, to which names of files are relative; empty: the current one.
+  std::string folder;
+
+  Controller& controller() const { return *project.controller; }
+  Names& names() const { return project.names; }
+  /// Adds a name, or reports what is wrong with it.
+  bool add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const;
+  /// The place to which a path leads, or none: then that is reported, unless the problem is known already.
+  std::optional<Place> find(const JsonValue& at, std::string_view path) const;
+  /// The same for a path whose index may be missing, as in "points[].x".
+  std::optional<Place> find_elements(const JsonValue& at, std::string_view path) const;
+  /// A technology object of one of the kinds, or nullptr: then that is reported, unless the problem is known
+  /// already.
+  TechnologyObject* find_object(const JsonValue* name, ObjectKinds kinds) const;
+};
+
+void load_clock(const JsonValue& clock, const Loading& loading);
+void load_tags(const JsonValue& tags, const Loading& loading);
+
+/// Adds all objects and their names; `load_objects` then reads them, when all names are there.
+void declare_objects(const JsonValue& objects, const Loading& loading);
+void load_objects(const JsonValue& objects, const Loading& loading);
+/// What an encoder measures; what a measuring input sees, and of what it measures the position.
+void load_encoder(const JsonValue& json, ExternalEncoder& encoder, const Loading& loading);
+void load_measuring_input(const JsonValue& json, MeasuringInput& input, const Loading& loading);
+/// What switches an output, by whose position, and where the times of its edges stand.
+void load_output_cam(const JsonValue& json, OutputCam& cam, const Loading& loading);
+void load_cam_track(const JsonValue& json, CamTrack& track, const Loading& loading);
+/// Outputs that several cams switch; when all have been loaded.
+void check_outputs(const JsonValue& objects, const Loading& loading);
+/// Defines a cam and interpolates it.
+void load_cam(const JsonValue& json, Cam& cam, const Loading& loading);
+/// Sets the start values of one object.
+void load_configuration(const JsonValue& config, TechnologyObject& object, const Loading& loading);
+
+/// Adds all instances and their names; `load_programs` then compiles, when all names are there.
+void declare_instances(const JsonValue& programs, const Loading& loading);
+void load_programs(const JsonValue& programs, const Loading& loading);
+void load_stimuli(const JsonValue& stimuli, const Loading& loading);
+
+void load_modbus(const JsonValue* modbus, const Loading& loading);
+void load_trace(const JsonValue& trace, const Loading& loading);
+/// The axes that take commands: makes the instances that carry them out. When programs are loaded.
+void load_commands(const JsonValue& commands, const Loading& loading);
+/// When tags and objects are loaded.
+void load_retain(const JsonValue* retain, const Loading& loading);
+void load_flight_recorder(const JsonValue& json, const Loading& loading);
+
+}  // namespace lockstep

@@ -1,0 +1,143 @@
+// Where the servers of a project are: addresses and lines, and whom they let in.
+#include <algorithm>
+#include <string>
+
+#include "projects/loader/modbus.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kMostClients = 1000;
+constexpr std::int64_t kHighestRate = 1'000'000;
+constexpr std::int64_t kShortestIdle = 1'000'000'000;      // [ns]
+constexpr std::int64_t kLongestIdle = 86'400'000'000'000;  // [ns]
+
+void load_listen(const JsonValue& json, ModbusServerOptions& options, Problems& problems) {
+  std::vector<const JsonValue*> places = json.elements;
+  if (json.kind != JsonKind::array) places.assign(1, &json);
+  if (places.empty()) problems.report(json, "nowhere to listen; allowed: HOST:PORT, or an array of them");
+  options.listen.clear();
+  for (const JsonValue* const place : places) {
+    const auto text = read_string(place, problems);
+    if (!text) continue;
+    std::string problem;
+    const auto endpoint = parse_endpoint(*text, problem);
+    if (!endpoint) {
+      problems.report(*place, problem);
+    } else if (endpoint->port != 0 &&
+               std::find(options.listen.begin(), options.listen.end(), *endpoint) != options.listen.end()) {
+      problems.report(*place, place->shown() + " is there twice; each address is allowed once");
+    } else {
+      options.listen.push_back(*endpoint);
+    }
+  }
+}
+
+void load_allow(const JsonValue* json, ModbusServerOptions& options, Problems& problems) {
+  if (read_array(json, problems) == nullptr) return;
+  if (json->elements.empty())
+    problems.report(*json, "an empty list lets nobody in; allowed: networks such as 192.168.1.0/24");
+  for (const JsonValue* const element : json->elements) {
+    const auto text = read_string(element, problems);
+    if (!text) continue;
+    std::string problem;
+    if (const auto network = IpNetwork::parse(*text, problem))
+      options.allow.push_back(*network);
+    else
+      problems.report(*element, element->shown() + " is no network; " + problem);
+  }
+}
+
+/// Modbus has no passwords.
+void warn_of_open_server(const Fields& fields, const ModbusServerOptions& options, Problems& problems) {
+  if (!options.allow.empty() || fields["allow"] != nullptr) return;
+  for (const Endpoint& place : options.listen)
+    if (!is_loopback(place.host))
+      problems.warn(*fields["listen"], "whoever reaches " + to_string(place) +
+                                           " may read and write what the map shows; 'allow' says from which "
+                                           "networks clients may come");
+}
+
+/// Two servers cannot listen at one place; port 0 is another one each time.
+void report_taken_places(const Fields& fields, const ModbusConfig& modbus, Problems& problems) {
+  for (const Endpoint& place : modbus.servers.back().listen)
+    for (std::size_t i = 0; place.port != 0 && i + 1 < modbus.servers.size(); ++i) {
+      const std::vector<Endpoint>& taken = modbus.servers[i].listen;
+      if (std::find(taken.begin(), taken.end(), place) == taken.end()) continue;
+      problems.report(*fields["listen"], "server " + std::to_string(i) + " listens at " + to_string(place) +
+                                             " already; each address is allowed once");
+    }
+}
+
+/// RTU over a serial line.
+void load_line(const Fields& fields, const ModbusConfig& modbus, ModbusServerOptions& options,
+               Problems& problems) {
+  for (const char* const key : {"listen", "allow", "max_clients", "max_requests_per_second", "idle_timeout"})
+    if (const JsonValue* const field = fields[key])
+      problems.report(*field, "'" + std::string(key) + "' is for TCP; a server has it or 'serial'");
+  options.listen.clear();
+  options.serial = read_serial(*fields["serial"], problems);
+  report_taken_line(*fields["serial"], modbus, options.serial->device, problems);
+  if (const auto unit = read_integer(fields["unit"], 1, 247, problems))
+    options.serial_unit = static_cast<std::uint8_t>(*unit);
+}
+
+}  // namespace
+
+void load_modbus_place(const JsonValue& json, const Fields& fields, ModbusConfig& modbus,
+                       Problems& problems) {
+  ModbusServerOptions& options = modbus.servers.back();
+  if (fields["serial"] != nullptr) return load_line(fields, modbus, options, problems);
+  if (fields["listen"] == nullptr)
+    problems.report(json, "the key 'listen' is missing, or 'serial' in its place");
+  if (fields["unit"] != nullptr)
+    problems.report(*fields["unit"], "on TCP every unit id is answered; allowed with 'serial' only");
+  if (fields["listen"] != nullptr) {
+    load_listen(*fields["listen"], options, problems);
+    report_taken_places(fields, modbus, problems);
+  }
+  load_allow(fields["allow"], options, problems);
+  if (const auto most = read_integer(fields["max_clients"], 1, kMostClients, problems))
+    options.max_clients = static_cast<std::size_t>(*most);
+  if (const auto rate = read_integer(fields["max_requests_per_second"], 1, kHighestRate, problems))
+    options.requests_per_second = static_cast<std::uint32_t>(*rate);
+  if (const auto idle = read_duration(fields["idle_timeout"], kShortestIdle, kLongestIdle, problems))
+    options.idle_limit = std::chrono::milliseconds(*idle / 1'000'000);
+  warn_of_open_server(fields, options, problems);
+}
+
+void report_taken_line(const JsonValue& serial, const ModbusConfig& modbus, const std::string& device,
+                       Problems& problems) {
+  std::ptrdiff_t users = 0;
+  for (const ModbusServerOptions& server : modbus.servers)
+    users += server.serial && server.serial->device == device ? 1 : 0;
+  for (const ModbusClientConfig& client : modbus.clients)
+    users += client.options.serial.device == device ? 1 : 0;
+  const JsonValue* const at = serial.find("device");
+  if (users > 1 && at != nullptr && !device.empty())
+    problems.report(
+        *at, at->shown() + " is the line of another server or client already; each line is allowed once");
+}
+
+SerialOptions read_serial(const JsonValue& json, Problems& problems) {
+  SerialOptions options;
+  const Fields fields(json, keys::kSerial, problems);
+  if (!fields.usable()) return options;
+  options.device = read_title(fields["device"], problems).value_or("");
+  if (const auto baud = read_integer(fields["baud"], kBauds.front(), kBauds.back(), problems)) {
+    options.baud = static_cast<int>(*baud);
+    std::vector<std::string> texts;
+    for (const int allowed : kBauds) texts.push_back(std::to_string(allowed));
+    if (std::find(kBauds.begin(), kBauds.end(), options.baud) == kBauds.end())
+      report_kind(*fields["baud"], list_of(std::vector<std::string_view>(texts.begin(), texts.end())),
+                  problems);
+  }
+  if (const auto parity = read_word(fields["parity"], words::kParities, problems))
+    options.parity = static_cast<Parity>(*parity);
+  options.stop_bits = static_cast<int>(read_integer(fields["stop_bits"], 1, 2, problems).value_or(1));
+  if (const auto silence = read_duration(fields["silence"], 100'000, 1'000'000'000, problems))
+    options.silence = std::chrono::microseconds(*silence / 1000);
+  return options;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,115 @@
+#include "projects/loader/project.hpp"
+
+#include <filesystem>
+
+#include "projects/loader/loader.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kLongestServoCycle = 60'000'000'000;  // [ns]
+
+/// Warns of what nothing refers to: it may be a name that was mistyped elsewhere.
+void warn_of_unused(const JsonValue& root, const Loading& loading) {
+  for (const auto& [section, what] :
+       {std::pair{"tags", "tag"}, std::pair{"technology_objects", "technology object"}}) {
+    const JsonValue* const named = root.find(section);
+    if (named == nullptr) continue;
+    for (const auto& [name, json] : named->members)
+      if (!loading.names().used(name))
+        loading.problems.warn(*json, std::string("nothing uses the ") + what + " " + quote(name));
+  }
+}
+
+void load_identity(const Fields& fields, const Loading& loading) {
+  read_integer(fields["lockstep"], 1, 1, loading.problems);
+  loading.project.name = read_title(fields["name"], loading.problems).value_or("");
+  loading.project.description = read_string(fields["description"], loading.problems).value_or("");
+}
+
+void load_root(const JsonValue& root, const Loading& loading) {
+  const Fields fields(root, keys::kProject, loading.problems);
+  if (!fields.usable()) return;
+  load_identity(fields, loading);
+  if (const auto* const clock = fields["clock"]) load_clock(*clock, loading);
+  const auto* const objects = fields["technology_objects"];
+  const auto* const programs = fields["programs"];
+  // All names first, so that everything may refer to everything.
+  if (const auto* const tags = fields["tags"]) load_tags(*tags, loading);
+  if (objects != nullptr) declare_objects(*objects, loading);
+  if (programs != nullptr) declare_instances(*programs, loading);
+  if (objects != nullptr) load_objects(*objects, loading);
+  if (programs != nullptr) load_programs(*programs, loading);
+  if (const auto* const stimuli = fields["stimuli"]) load_stimuli(*stimuli, loading);
+  load_modbus(fields["modbus"], loading);
+  if (const auto* const trace = fields["trace"]) load_trace(*trace, loading);
+  load_retain(fields["retain"], loading);
+  if (const auto* const recorder = fields["flight_recorder"]) load_flight_recorder(*recorder, loading);
+  warn_of_unused(root, loading);
+}
+
+}  // namespace
+
+bool Loading::add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const {
+  const std::string problem = names().add(name, entity);
+  if (!problem.empty()) problems.report(at, problem);
+  return problem.empty();
+}
+
+std::optional<Place> Loading::find(const JsonValue& at, std::string_view path) const {
+  const FoundPlace found = names().find(path);
+  if (!found.place && !found.known_problem) problems.report(at, found.problem);
+  return found.place;
+}
+
+std::optional<Place> Loading::find_elements(const JsonValue& at, std::string_view path) const {
+  const FoundPlace found = names().find_elements(path);
+  if (!found.place && !found.known_problem) problems.report(at, found.problem);
+  return found.place;
+}
+
+TechnologyObject* Loading::find_object(const JsonValue* name, ObjectKinds kinds) const {
+  const auto text = read_string(name, problems);
+  if (!text) return nullptr;
+  const Names::FoundObject found = names().find_object(*text, kinds);
+  if (!found.problem.empty()) problems.report(*name, found.problem);
+  return found.object;
+}
+
+void load_clock(const JsonValue& clock, const Loading& loading) {
+  const Fields fields(clock, keys::kClock, loading.problems);
+  Clock& result = loading.controller().clock;
+  if (const auto cycle = read_duration(fields["servo_cycle"], 1, kLongestServoCycle, loading.problems))
+    result.servo_cycle = *cycle;
+  if (const auto ratio = read_integer(fields["interpolator_ratio"], 1, 32, loading.problems))
+    result.interpolator_ratio = static_cast<int>(*ratio);
+  loading.project.stop_on_overrun =
+      read_word(fields["overrun"], words::kOverrun, loading.problems).value_or(0) == 1;
+}
+
+LoadedProject load_project(std::string_view text, const std::string& folder, const Prepare& prepare) {
+  LoadedProject result;
+  const JsonDocument document(text);
+  result.problems = document.problems();
+  if (!document.usable()) return result;
+  Project project;
+  project.controller = std::make_unique<Controller>();
+  Problems problems;
+  std::unordered_map<const JsonValue*, Instance*> instances;
+  load_root(document.root(), {project, problems, instances, folder});
+  const std::vector<Problem> found = problems.take_errors();
+  result.problems.insert(result.problems.end(), found.begin(), found.end());
+  result.warnings = problems.take_warnings();
+  if (!result.problems.empty()) return result;
+  if (prepare) prepare(project);
+  project.controller->finish();
+  result.project = std::move(project);
+  return result;
+}
+
+LoadedProject load_project_file(const std::string& path, const Prepare& prepare) {
+  return load_project(read_text_file(path, JsonDocument::kLongest),
+                      std::filesystem::path(path).parent_path().string(), prepare);
+}
+
+}  // namespace lockstep

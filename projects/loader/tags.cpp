@@ -1,0 +1,156 @@
+// Tags and stimuli: the named values of a project and their changes in a simulation.
+#include <algorithm>
+
+#include "projects/expressions/array_type.hpp"
+#include "projects/expressions/constant.hpp"
+#include "projects/expressions/string_type.hpp"
+#include "projects/loader/loader.hpp"
+
+namespace lockstep {
+namespace {
+
+std::optional<Type> read_type(const JsonValue* json, Problems& problems) {
+  const auto text = read_string(json, problems);
+  if (!text) return std::nullopt;
+  if (const auto type = tag_type(*text)) return type;
+  std::vector<std::string_view> names;
+  for (int type = 0; type <= static_cast<int>(Type::TIME); ++type)
+    names.push_back(type_name(static_cast<Type>(type)));
+  problems.report(*json, "unknown type " + quote(*text) + did_you_mean(*text, names) +
+                             "; allowed: " + list_of(names) +
+                             ", STRING[n], ARRAY[lower..upper] OF one of them or of a structure of cams");
+  return std::nullopt;
+}
+
+/// Memory for all arrays of a project, so that no file takes the machine down [byte].
+constexpr std::size_t kMostArrayMemory = 64u << 20;
+
+/// Values in arrays and texts that are kept: each is copied at the end of every tick.
+constexpr std::size_t kMostKept = 10'000;
+
+constexpr std::size_t kMostStrings = 10'000;
+
+std::size_t values_of(const Array& array) {
+  return array.count() * std::max<std::size_t>(array.element->members.size(), 1);
+}
+
+/// As many as two characters need.
+std::size_t values_of(const Text& text) {
+  return (text.room + 1) / 2;
+}
+
+/// Whether so many values more may be kept; if not, that is reported.
+bool may_retain(std::size_t values, const JsonValue& json, const Loading& loading) {
+  std::size_t kept = values;
+  for (const ArrayTag* const other : loading.project.retain.arrays) kept += values_of(other->array);
+  for (const StringTag& other : loading.controller().strings)
+    if (other.retain) kept += values_of(other.text);
+  if (kept <= kMostKept) return true;
+  loading.problems.report(json, "with the " + std::to_string(values) + " values of this tag " +
+                                    std::to_string(kept) +
+                                    " values of arrays and texts are kept; allowed are " +
+                                    std::to_string(kMostKept) + " in all of the project");
+  return false;
+}
+
+void load_array(const std::string& name, const JsonValue& json, const Loading& loading, bool named) {
+  const Fields fields(json, keys::kTag, loading.problems);
+  const auto array = read_array_type(*fields["type"], loading.problems);
+  const auto comment = read_string(fields["comment"], loading.problems);
+  const bool retain = read_bool(fields["retain"], loading.problems).value_or(false);
+  if (!array) return;
+  std::size_t memory = array->count() * array->element->size;
+  for (const ArrayTag& other : loading.controller().arrays)
+    memory += other.memory.size() * sizeof(std::uint64_t);
+  if (memory > kMostArrayMemory)
+    return loading.problems.report(*fields["type"], "the arrays of the project take more than " +
+                                                        std::to_string(kMostArrayMemory >> 20) +
+                                                        " MiB; that is all there is for them");
+  ArrayTag& tag = loading.controller().add_array(name, *array);
+  tag.comment = comment.value_or("");
+  if (const JsonValue* const init = fields["init"]) read_array_values(*init, tag.array, loading.problems);
+  if (retain && may_retain(values_of(tag.array), *fields["retain"], loading))
+    loading.project.retain.arrays.push_back(&tag);
+  if (named) loading.names().define(name, &tag);
+}
+
+void load_string(const std::string& name, const JsonValue& json, const Loading& loading, bool named) {
+  const Fields fields(json, keys::kTag, loading.problems);
+  const auto room = read_string_type(*fields["type"], loading.problems);
+  const auto comment = read_string(fields["comment"], loading.problems);
+  const bool retain = read_bool(fields["retain"], loading.problems).value_or(false);
+  if (!room) return;
+  if (loading.controller().strings.size() == kMostStrings)
+    return loading.problems.report(*fields["type"], "there are more than " + std::to_string(kMostStrings) +
+                                                        " tags of type STRING; allowed are these");
+  StringTag tag{.name = name, .comment = std::string(comment.value_or("")), .initial = {}, .memory = {}};
+  if (const JsonValue* const init = fields["init"])
+    tag.initial = read_text_constant(*init, *room, loading.problems).value_or("");
+  StringTag& added = loading.controller().add_string(std::move(tag), *room);
+  if (retain) added.retain = may_retain(values_of(added.text), *fields["retain"], loading);
+  if (named) loading.names().define(name, &added);
+}
+
+void load_tag(const std::string& name, const JsonValue& json, const Loading& loading) {
+  const bool named = loading.add_name(json, name, {});
+  const JsonValue* const declared = json.kind == JsonKind::object ? json.find("type") : nullptr;
+  if (declared != nullptr && declared->kind == JsonKind::string && is_array_type(declared->text))
+    return load_array(name, json, loading, named);
+  if (declared != nullptr && declared->kind == JsonKind::string && is_string_type(declared->text))
+    return load_string(name, json, loading, named);
+  const Fields fields(json, keys::kTag, loading.problems);
+  if (!fields.usable()) return;
+  const auto type = read_type(fields["type"], loading.problems);
+  const bool retain = read_bool(fields["retain"], loading.problems).value_or(false);
+  const auto comment = read_string(fields["comment"], loading.problems);
+  if (!type) return;
+  Tag tag{.name = name, .type = *type, .retain = retain, .comment = std::string(comment.value_or(""))};
+  if (const JsonValue* const init = fields["init"])
+    tag.initial = read_constant(*init, *type, loading.problems).value_or(Value{});
+  if (named) loading.names().define(name, &loading.controller().add_tag(std::move(tag)));
+}
+
+void load_stimulus_text(std::optional<std::int64_t> at, const StringTag& tag, const JsonValue& json,
+                        const Loading& loading) {
+  const auto text = read_text_constant(json, tag.text.room, loading.problems);
+  if (!at || !text) return;
+  const std::vector<Signal> signals = text_signals(tag.text);
+  const std::vector<Value> values = text_values(*text, tag.text.room);
+  for (std::size_t i = 0; i < signals.size(); ++i)
+    loading.controller().stimuli.push_back({*at, signals[i], values[i]});
+}
+
+void load_stimulus(const JsonValue& json, const Loading& loading) {
+  const Fields fields(json, keys::kStimulus, loading.problems);
+  const auto at = read_duration(fields["at"], 0, INT64_MAX, loading.problems);
+  const JsonValue* const set = read_object(fields["set"], loading.problems);
+  if (set == nullptr) return;
+  for (const auto& [path, json_value] : set->members) {
+    if (const StringTag* const string = loading.names().find_string(path)) {
+      load_stimulus_text(at, *string, *json_value, loading);
+      continue;
+    }
+    const auto place = loading.find(*json_value, path);
+    if (!place) continue;
+    if (place->tag == nullptr && place->array == nullptr) {
+      loading.problems.report(*json_value, quote(path) + " is no tag; a stimulus sets tags");
+      continue;
+    }
+    const auto value = read_constant(*json_value, place->signal.value_type(), loading.problems);
+    if (at && value) loading.controller().stimuli.push_back({*at, place->signal, *value});
+  }
+}
+
+}  // namespace
+
+void load_tags(const JsonValue& tags, const Loading& loading) {
+  if (read_object(&tags, loading.problems) == nullptr) return;
+  for (const auto& [name, json] : tags.members) load_tag(name, *json, loading);
+}
+
+void load_stimuli(const JsonValue& stimuli, const Loading& loading) {
+  if (read_array(&stimuli, loading.problems) == nullptr) return;
+  for (const JsonValue* const stimulus : stimuli.elements) load_stimulus(*stimulus, loading);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,113 @@
+// The emergency ramp of an axis with a drive: MC_Stop Mode 0, MC_Power StopMode 0, alarm reactions.
+// @source S7-1500T axis functions, stop reactions; synchronous operation V7, 13.1.22, 13.1.24
+#include <algorithm>
+#include <cmath>
+
+#include "tech_objects/axis/axis.hpp"
+
+namespace lockstep {
+namespace {
+
+/// By what a setpoint may be outside for no other reason than rounding, relative to its size.
+constexpr double kRounding = 1e-12;
+
+}  // namespace
+
+/// The stop that has just been planned, from the setpoint, is to begin where the axis is. That is done in the
+/// next step, with the actual values of that tick. A virtual axis is where its setpoint is.
+void Axis::ask_for_emergency_ramp() noexcept {
+  emergency_ramp_ = has_drive_ ? EmergencyRamp::due : EmergencyRamp::none;
+}
+
+/// Each step while such a ramp is asked for or under way, before the setpoint goes on.
+void Axis::step_emergency_ramp() noexcept {
+  if (emergency_ramp_ == EmergencyRamp::due) return brake_from_actual();
+  if (motion_ != Motion::single_axis || setpoint_.standing()) emergency_ramp_ = EmergencyRamp::none;
+}
+
+/// The setpoint becomes the actual state and brakes from there; no following error is worked off any more. At
+/// a fixed stop it stays: what holds the part is the following error. An axis that rests in its positioning
+/// window has nothing to brake.
+void Axis::brake_from_actual() noexcept {
+  emergency_ramp_ = EmergencyRamp::none;
+  const bool stops = motion_ == Motion::single_axis && single_.aim() == SingleAxisMotion::Aim::stand;
+  if (!stops || sensor_lost_ || forces_.stop_side != 0) return;
+  const double away = position_controlled_ ? rounded_difference(actual_, setpoint_.position, modulo_) : 0.0;
+  const bool rests = setpoint_.standing() && !moving(actual_velocity_);
+  if (rests && std::abs(away) <= data.PositioningMonitoring.Window) return;
+  const Setpoint seen = led_setpoint();
+  const double commanded = commanded_velocity();
+  take_actual_state(commanded);
+  if (single_.stop(setpoint_, emergency_dynamics(), false) != PlanResult::ok) {
+    setpoint_.velocity = 0.0;  // no ramp can be planned from such a state: stand
+    single_.stand(setpoint_);
+  }
+  emergency_ramp_ = EmergencyRamp::running;
+  const double time = data.PositionControl.SmoothingTimeByChangeDifference;
+  if (time > 0.0) {
+    switchover_.tune(time, servo_period_);
+    switchover_.set_behind(setpoint_.velocity - commanded);
+  }
+  hand_over(seen, setpoint_);
+}
+
+/// Under position control ahead by what filter and drive are late: there the drive still runs on to. One that
+/// brakes already is told of no higher velocity than it has been.
+void Axis::take_actual_state(double commanded) noexcept {
+  const Setpoint before = setpoint_;
+  const double velocity = std::clamp(actual_velocity_, std::min(commanded, 0.0), std::max(commanded, 0.0));
+  setpoint_ = {before.position, velocity, 0.0};
+  if (position_controlled_) {
+    setpoint_.position = advanced(actual_, actual_velocity_ * setpoint_delay(), modulo_);
+    if (data.PositionLimits_SW.Active && homed_) stay_within_limits(before);
+    reset_servo({setpoint_.position, actual_velocity_});
+  }
+  last_setpoint_ = setpoint_;
+}
+
+/// Where the setpoint could stop in front of a software limit switch, so can the actual state, though it may
+/// be a little ahead or faster: what is missing remains as following error.
+void Axis::stay_within_limits(const Setpoint& before) noexcept {
+  const double deceleration = std::max(maximum_dynamics().deceleration, emergency_dynamics().deceleration);
+  const auto room = [&](const Setpoint& from, int side, double limit) {
+    const double v = std::max(side * from.velocity, 0.0);
+    const AxisPosition border{before.position.turns, limit};
+    return side * rounded_difference(border, from.position, modulo_) - v * v / (2.0 * deceleration);
+  };
+  const PositionLimits limits = position_limits();
+  for (const int side : {1, -1}) {
+    const double limit = side > 0 ? limits.greatest : limits.least;
+    if (!std::isfinite(limit) || room(before, side, limit) < -kRounding * (1.0 + std::abs(limit))) continue;
+    const double missing = -room(setpoint_, side, limit);
+    if (missing > 0.0) setpoint_.position = advanced(setpoint_.position, -side * missing, modulo_);
+  }
+}
+
+// ---- The drive
+// --------------------------------------------------------------------------------------------------
+
+/// What the drive has been told last, by axis and position loop together [u/s].
+double Axis::commanded_velocity() const noexcept {
+  if (!position_controlled_ || !loop_in_drive()) return data.VelocitySetpoint;
+  return data.VelocitySetpoint + data.PositionControl.Kv * data.StatusServo.ControlDifference;
+}
+
+/// The velocity for the drive, behind a switchover that is smoothed.
+double Axis::smoothed_switchover(double velocity) noexcept {
+  if (switchover_.behind() == 0.0) return velocity;
+  switchover_.step(0.0);
+  return std::clamp(velocity - switchover_.behind(), -motor_limit_, motor_limit_);
+}
+
+/// Another Kv asks for another velocity at the control difference at hand: a switchover as well.
+void Axis::tune_controller(const PositionControlSettings& settings) noexcept {
+  const double change = (settings.kv - controller_.settings().kv) * data.StatusServo.ControlDifference;
+  const double time = data.PositionControl.SmoothingTimeByChangeDifference;
+  if (time > 0.0 && change != 0.0) {
+    switchover_.tune(time, servo_period_);
+    switchover_.set_behind(switchover_.behind() + change);
+  }
+  controller_.configure(settings, servo_period_);
+}
+
+}  // namespace lockstep

@@ -1,0 +1,268 @@
+// Motion of an axis that another one leads.
+#include <cmath>
+
+#include "tech_objects/axis/axis.hpp"
+#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/jobs/function_state.hpp"
+
+namespace lockstep {
+
+void Axis::begin_gear_in(Job& job) noexcept {
+  absorb_superimposed();
+  cut_acceleration();
+  const Dynamics dynamics = own_dynamics(job);
+  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
+    raise(alarm_number);
+    return job.fail(ErrorId::technology_alarm);
+  }
+  running_[kBase] = &job;
+  job.phase = JobPhase::active;
+  set_position_control(job.position_controlled);
+  synchronous_.begin_gear_in(*find_leading_value(job.master), job, dynamics);
+  show_coupling(job, Motion::synchronizing);
+}
+
+/// One that is rejected leaves what waits already.
+void Axis::begin_waiting(Job& job) noexcept {
+  const Dynamics dynamics = effective_dynamics(job);
+  SynchronousMotion planned = awaited_;
+  const ErrorId error = planned.begin_waiting(*find_leading_value(job.master), job, dynamics, setpoint_);
+  if (error != ErrorId::none) return job.fail(error);
+  if (!override_running(class_of(job, false), job)) return;
+  awaited_ = planned;
+  running_[kWaiting] = &job;
+  job.phase = JobPhase::waiting;
+  data.StatusSynchronizedMotion.WaitingFunctionState =
+      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
+  coupling_changed = true;
+}
+
+/// Each tick while a synchronous job waits: has the leading value met the start?
+void Axis::watch_waiting() noexcept {
+  const SynchronousMotion* active = motion_ == Motion::synchronous ? &synchronous_ : nullptr;
+  switch (awaited_.watch(setpoint_, active)) {
+    case SynchronousMotion::Start::not_yet:
+      break;
+    case SynchronousMotion::Start::rejected:
+      end_job(kWaiting, JobPhase::failed, awaited_.rejection());
+      break;
+    case SynchronousMotion::Start::synchronizing:
+      activate_waiting(Motion::synchronizing);
+      break;
+    case SynchronousMotion::Start::synchronous:
+      activate_waiting(Motion::synchronous);
+      break;
+  }
+}
+
+/// The waiting job becomes active: now it overrides what moves the axis.
+void Axis::activate_waiting(Motion motion) noexcept {
+  Job& job = *running_[kWaiting];
+  if (!awaited_axis_in_order || led_by_this(job.master))
+    return end_job(kWaiting, JobPhase::failed, ErrorId::recursive_coupling);
+  if (locked_by_stop()) return end_job(kWaiting, JobPhase::failed, ErrorId::locked);
+  if (simulating()) return end_job(kWaiting, JobPhase::failed, ErrorId::simulated);
+  running_[kWaiting] = nullptr;
+  data.StatusSynchronizedMotion.WaitingFunctionState =
+      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
+  const bool at_cam_end = job.kind == JobKind::MC_CamIn && job.mode == kAtCamEnd;
+  if (at_cam_end && running_[kBase] != nullptr) {
+    ++running_[kBase]->ends;
+    running_[kBase]->end_of_profile = true;
+  }
+  if (!override_running(class_of(job, true), job)) {
+    coupling_changed = true;
+    return;
+  }
+  // The new cam continues the following position of the old one, with what is superimposed on it; what still
+  // moves of that goes on by itself, to rest.
+  const bool moves = at_cam_end && superimposed_.in_use() && !superimposed_.resting();
+  const DoubleDouble superimposed =
+      at_cam_end && superimposed_.in_use() && !moves ? superimposed_.value() : DoubleDouble{};
+  if (!moves) absorb_superimposed();
+  if (moves) end_job(kSuperimposed, JobPhase::aborted, ErrorId::none);
+  if (moves && superimposed_.stop(maximum_dynamics(), false) != PlanResult::ok) superimposed_.rest();
+  running_[kBase] = &job;
+  job.phase = motion == Motion::synchronous ? JobPhase::reached : JobPhase::active;
+  set_position_control(true);
+  if (at_cam_end) {
+    awaited_.raise_cam(superimposed);
+    awaited_.settle_shifts(synchronous_, maximum_dynamics());
+  }
+  synchronous_ = awaited_;
+  show_coupling(job, motion);
+}
+
+void Axis::show_coupling(const Job& job, Motion motion) noexcept {
+  motion_ = motion;
+  coupling_changed = true;
+  auto& status = data.StatusSynchronizedMotion;
+  status.FunctionState = function_state(job.kind);
+  status.ActualMaster = job.master->number;
+  status.PhaseShift = status.Offset = 0.0;
+  if (job.kind != JobKind::MC_CamIn) return clear_cam_status();
+  status.ActualCam = job.cam->number;
+  status.MasterOffset = synchronous_.master_offset();
+  status.MasterScaling = job.master_scaling;
+  status.SlaveOffset = synchronous_.slave_offset();
+  status.SlaveScaling = job.slave_scaling;
+}
+
+void Axis::clear_cam_status() noexcept {
+  const TO_Struct_StatusSynchronizedMotion none;
+  auto& status = data.StatusSynchronizedMotion;
+  status.ActualCam = none.ActualCam;
+  status.MasterOffset = none.MasterOffset;
+  status.MasterScaling = none.MasterScaling;
+  status.SlaveOffset = none.SlaveOffset;
+  status.SlaveScaling = none.SlaveScaling;
+}
+
+/// What the coupling depends on in this tick: ratio, leading value, shifts.
+void Axis::look_at_coupling(const Job& job) noexcept {
+  if (job.update) synchronous_.change_ratio(job.numerator, job.denominator);
+  synchronous_.look_at_leading();
+  if (synchronous_.shifted()) advance_shifts();
+}
+
+void Axis::step_synchronous() noexcept {
+  Job* job = running_[kBase];
+  look_at_coupling(*job);
+  if (motion_ == Motion::synchronous && running_[kWaitingOut] == nullptr) {
+    synchronous_.advance(setpoint_);
+    if (synchronous_.at_cam_end()) meet_cam_end();
+    return;
+  }
+  Setpoint next = setpoint_;
+  synchronous_.advance(next);
+  if (motion_ == Motion::synchronous) {
+    if (watch_sync_out(advancing_base_ ? with_superimposed(next) : next)) return;
+    setpoint_ = next;
+    if (synchronous_.at_cam_end()) meet_cam_end();
+    return;
+  }
+  if (synchronous_.reversed()) {
+    raise(alarm::kSynchronizing);  // the stop begins at the last setpoint that followed
+    return step_single_axis();
+  }
+  setpoint_ = next;
+  if (motion_ == Motion::desynchronizing) {
+    if (synchronous_.desynchronized()) end_desynchronizing();
+    return;
+  }
+  if (!synchronous_.synchronous()) return;
+  motion_ = Motion::synchronous;
+  job->phase = JobPhase::reached;
+  if (synchronous_.at_cam_end()) meet_cam_end();
+}
+
+/// The leading value has reached an end of the cam. One that is passed once ends its job: the axis stands at
+/// the end, or brakes if the cam ends with a slope.
+void Axis::meet_cam_end() noexcept {
+  Job& job = *running_[kBase];
+  ++job.ends;
+  if (!synchronous_.passed_once()) return synchronous_.clear_cam_end();
+  job.end_of_profile = true;
+  const bool rests = synchronous_.rests_at_cam_end();
+  end_job(kBase, JobPhase::done, ErrorId::none);
+  for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) end_job(slot, JobPhase::aborted, ErrorId::none);
+  leave_synchronous();
+  if (rests) {
+    setpoint_.velocity = 0.0;
+    setpoint_.acceleration = 0.0;
+    return single_.stand(setpoint_);
+  }
+  setpoint_ = last_setpoint_;
+  cut_acceleration();
+  const Dynamics dynamics = own_dynamics(Job{});
+  begin_stop(zero_limit(dynamics) == 0 ? dynamics : maximum_dynamics(), false);
+  step_single_axis();
+}
+
+// ---- Shifts
+// -----------------------------------------------------------------------------------------------------
+
+/// MC_LeadingValueAdditive: what counts from this tick on.
+void Axis::take_additive() noexcept {
+  additive_.last = additive_.now;
+  additive_.now = additive_request.counts ? additive_request.value : AdditiveLeadingValue{};
+  const auto zero = [](const AdditiveLeadingValue& value) {
+    return value.position == 0.0 && value.velocity == 0.0 && value.acceleration == 0.0;
+  };
+  additive_.in_use = !zero(additive_.now) || !zero(additive_.last);
+}
+
+/// MC_Phasing… and MC_Offset…
+void Axis::begin_shift(Job& job) noexcept {
+  const bool phasing = is_phasing(job.kind);
+  const bool relative = job.kind == JobKind::MC_PhasingRelative || job.kind == JobKind::MC_OffsetRelative;
+  Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
+  Dynamics dynamics = phasing && job.mode == 0 ? effective_dynamics(job) : maximum_dynamics();
+  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
+    raise(alarm_number);
+    return job.fail(ErrorId::technology_alarm);
+  }
+  // The dynamics are those of the following axis; a phase shift moves it by the ratio.
+  const double ratio =
+      phasing ? std::abs(static_cast<double>(running_[kBase]->numerator) / running_[kBase]->denominator)
+              : 1.0;  // and 1 for a cam, whose shifts go over a distance
+  const ShiftRequest request{
+      .target = relative ? shift.value() + job.position : DoubleDouble{job.position, 0.0},
+      .profile = job.mode,
+      .distance = job.master_start_distance,
+      .start_position = job.start_position,
+      .direction = job.direction,
+      .limits = {.velocity_max = dynamics.velocity / ratio,
+                 .velocity_min = -dynamics.velocity / ratio,
+                 .acceleration = dynamics.acceleration / ratio,
+                 .deceleration = dynamics.deceleration / ratio,
+                 .jerk = dynamics.jerk / ratio}};
+  job.shift_base = relative ? shift.value() : DoubleDouble{};
+  if (const ErrorId error = shift.begin(request, period_); error != ErrorId::none) {
+    shift.halt();
+    return job.fail(error);
+  }
+  running_[phasing ? kPhasing : kOffset] = &job;
+  job.phase = shift.phase() == Shift::Phase::running ? JobPhase::active : JobPhase::waiting;
+}
+
+void Axis::advance_shifts() noexcept {
+  const Shift& phase = synchronous_.phase_shift();
+  const Shift& offset = synchronous_.following_offset();
+  if (running_[kPhasing] != nullptr)
+    show_shift(kPhasing, phase, synchronous_.advance_phase_shift());
+  else if (phase.settling())
+    synchronous_.advance_phase_shift();
+  if (running_[kOffset] != nullptr)
+    show_shift(kOffset, offset, synchronous_.advance_following_offset());
+  else if (offset.settling())
+    synchronous_.advance_following_offset();
+}
+
+void Axis::show_shift(Slot slot, const Shift& shift, Shift::Event event) noexcept {
+  Job& job = *running_[slot];
+  job.phase = shift.phase() == Shift::Phase::waiting ? JobPhase::waiting : JobPhase::active;
+  job.covered = rounded_difference(shift.value(), job.shift_base);
+  if (event == Shift::Event::none) return;
+  if (event == Shift::Event::done) return end_job(slot, JobPhase::done, ErrorId::none);
+  end_job(slot, JobPhase::failed, ErrorId::leading_value_reversed);
+}
+
+void Axis::leave_synchronous() noexcept {
+  if (!led()) return;
+  motion_ = Motion::single_axis;
+  forget_coupling();
+}
+
+void Axis::forget_coupling() noexcept {
+  synchronous_.end();
+  coupling_changed = true;
+  auto& status = data.StatusSynchronizedMotion;
+  status.FunctionState = 0;
+  status.ActualMaster = DB_ANY{};
+  status.PhaseShift = status.Offset = 0.0;
+  clear_cam_status();
+  status.StatusWord = DWORD{};
+}
+
+}  // namespace lockstep

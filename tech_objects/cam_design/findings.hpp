@@ -1,0 +1,25 @@
+/// What is to be told of the points and segments of a cam.
+#pragma once
+
+#include <vector>
+
+#include "tech_objects/cam/interpolation.hpp"
+#include "tech_objects/cam_design/design.hpp"
+
+namespace lockstep {
+
+/// Findings by element: the index of a point in the data block, or, with `transition`, that of a segment.
+struct CamFindings {
+  std::vector<CamFinding> problems;  ///< why there is no curve
+  std::vector<CamFinding> warnings;  ///< what is legal and looks like a mistake
+};
+
+/// The findings of an interpolation, just after it: with a fault, that is told; else points and segments that
+/// do not count, or not everywhere, because of others, and following values that MC_CamIn refuses unscaled.
+/// Not for the cycle.
+/// @param elements,function those of the interpolation
+/// @source S7-1500T synchronous operation V7, 8.1.3.11
+CamFindings findings_of(const CamElements& elements, const CamInterpolator& interpolator,
+                        const CamFunction& function);
+
+}  // namespace lockstep

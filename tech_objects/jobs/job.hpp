@@ -1,0 +1,170 @@
+/// Jobs: what a function block asks of an axis, and how far the axis has come with it.
+#pragma once
+
+#include <cstdint>
+
+#include "tech_objects/alarms/alarms.hpp"
+#include "tech_objects/arithmetic/double_double.hpp"
+#include "tech_objects/types/types.hpp"
+
+namespace lockstep {
+
+class Cam;
+class LeadingObject;
+struct CamCopy;
+
+/// The instruction that a job comes from.
+enum class JobKind : std::uint8_t {
+  MC_Home,
+  MC_Reset,
+  MC_Halt,
+  MC_MoveAbsolute,
+  MC_MoveRelative,
+  MC_MoveVelocity,
+  MC_MoveJog,
+  MC_Stop,
+  MC_MoveSuperimposed,
+  MC_MotionInSuperimposed,
+  MC_HaltSuperimposed,
+  MC_MotionInVelocity,
+  MC_MotionInPosition,
+  MC_GearIn,
+  MC_GearInVelocity,
+  MC_GearInPos,
+  MC_CamIn,
+  MC_PhasingAbsolute,
+  MC_PhasingRelative,
+  MC_OffsetAbsolute,
+  MC_OffsetRelative,
+  MC_LeadingValueAdditive,
+  MC_GearOut,
+  MC_CamOut,
+  MC_MeasuringInput,
+  MC_MeasuringInputCyclic,
+  MC_AbortMeasuringInput,
+  MC_InterpolateCam,
+  MC_CopyCamData
+};
+
+/// Whether it couples the axis to a leading value.
+constexpr bool couples(JobKind kind) noexcept {
+  return kind == JobKind::MC_GearIn || kind == JobKind::MC_GearInPos || kind == JobKind::MC_GearInVelocity ||
+         kind == JobKind::MC_CamIn;
+}
+/// Whether it couples the axis at positions of both axes, and so may wait for its start.
+constexpr bool couples_at_position(JobKind kind) noexcept {
+  return kind == JobKind::MC_GearInPos || kind == JobKind::MC_CamIn;
+}
+/// Whether it leaves synchronous operation and rests at a position.
+constexpr bool leaves(JobKind kind) noexcept {
+  return kind == JobKind::MC_GearOut || kind == JobKind::MC_CamOut;
+}
+/// Whether its dynamic values are setpoints given by the program.
+constexpr bool gives_values(JobKind kind) noexcept {
+  return kind == JobKind::MC_MotionInVelocity || kind == JobKind::MC_MotionInPosition ||
+         kind == JobKind::MC_MotionInSuperimposed;
+}
+/// Whether it has to do with a cam.
+constexpr bool of_cam(JobKind kind) noexcept {
+  return kind == JobKind::MC_CamIn || kind == JobKind::MC_CamOut;
+}
+constexpr bool is_phasing(JobKind kind) noexcept {
+  return kind == JobKind::MC_PhasingAbsolute || kind == JobKind::MC_PhasingRelative;
+}
+/// Whether it shifts the leading or the following value.
+constexpr bool is_shift(JobKind kind) noexcept {
+  return is_phasing(kind) || kind == JobKind::MC_OffsetAbsolute || kind == JobKind::MC_OffsetRelative;
+}
+
+inline constexpr DINT kCancelWaiting = 5;  ///< profile of shifts, MC_GearOut and MC_CamOut: end what waits
+inline constexpr DINT kAtCamEnd = 5;       ///< profile of MC_CamIn: at the end of the running cam
+
+/// When a job begins that finds another one running.
+/// @source PLCopen Motion Control Part 1 v2.0, 2.4.2 (MC_BUFFER_MODE)
+enum class BufferMode : std::uint8_t {
+  mcAborting,          ///< at once; the running one is aborted
+  mcBuffered,          ///< when the running one has ended
+  mcBlendingLow,       ///< at its target, which is passed with the lower velocity of both
+  mcBlendingPrevious,  ///< … with the velocity of the running one
+  mcBlendingNext,      ///< … with the velocity of the new one
+  mcBlendingHigh       ///< … with the higher velocity of both
+};
+
+/// How far a job is. A block derives its outputs from this alone.
+enum class JobPhase : std::uint8_t {
+  idle,         ///< not handed over
+  handed_over,  ///< taken over by the axis at its next interpolator tick
+  waiting,      ///< accepted; waits for its start condition and touches no motion
+  active,       ///< moves the axis; not yet where it wants to be
+  reached,      ///< InVelocity, InGear, InSync: the job goes on and its aim is met
+  done,
+  aborted,  ///< by another job or by disabling
+  failed    ///< `error` tells why
+};
+
+/// What a measuring job has measured: first and second values.
+struct MeasuredEdges {
+  LREAL value[2]{};    ///< [u]
+  UDINT counter[2]{};  ///< of cyclic measuring, from 0
+  UDINT lost[2]{};     ///< edges lost in the servo cycle of the value, 0 to 7
+};
+
+/// A request and its fate. It lives in the block that asks; the axis writes `phase` and `error`.
+/// Dynamic values: > 0 is used, < 0 stands for the default of the technology object (the block's pins decide
+/// what is permitted). Thread: the cycle.
+struct Job {
+  JobKind kind{};
+  JobPhase phase = JobPhase::idle;
+  BOOL update{};  ///< MC_GearInVelocity: the ratio counts in every cycle
+  ErrorId error = ErrorId::none;
+
+  LREAL position{};           ///< target, distance, home position or shift [u]
+  LREAL velocity = -1.0;      ///< [u/s]
+  LREAL acceleration = -1.0;  ///< [u/s²]
+  LREAL deceleration = -1.0;  ///< [u/s²]
+  LREAL jerk = -1.0;          ///< [u/s³]; 0: trapezoidal
+  DINT direction{};           ///< Direction or SyncDirection
+  DINT mode{};                ///< Mode, SyncProfileReference
+  DINT sensor{};              ///< MC_Home: encoder to adjust, 1 to 4; 0: the operative one
+  BOOL current{};             ///< MC_MoveVelocity: keep the present velocity
+  BOOL position_controlled = true;
+  BufferMode buffer_mode{};   ///< MC_MoveAbsolute, MC_MoveRelative, MC_MoveVelocity, MC_Halt
+  BOOL abort_acceleration{};  ///< drop a present acceleration at once
+  BOOL hold{};                ///< MC_Stop: Execute is still TRUE, so the axis stays locked after the stop;
+                              ///< MC_MotionIn…: Enable is still TRUE
+  ErrorId input_error{};      ///< MC_MotionIn…: an input of this call is not permitted
+
+  LeadingObject* master{};
+  DINT numerator = 1;
+  DINT denominator = 1;
+  LREAL master_sync_position{};   ///< [u] of the leading axis
+  LREAL slave_sync_position{};    ///< [u]
+  LREAL master_start_distance{};  ///< MasterStartDistance, PhasingDistance, … [u] of the leading axis
+  LREAL start_position{};         ///< StartPosition of the leading value [u]
+  Cam* cam{};
+  LREAL master_offset{};  ///< of the cam [u] of the leading axis
+  LREAL slave_offset{};   ///< of the cam [u]
+  LREAL master_scaling = 1.0;
+  LREAL slave_scaling = 1.0;
+  DINT application_mode{};
+
+  const CamCopy* copy{};  ///< MC_CopyCamData: what is copied; read when the job is handed over
+  BOOL limited{};         ///< MC_MeasuringInput…: only from start_position to position
+
+  // Written by the axis, or by the object that measures.
+  MeasuredEdges measured;
+  LREAL covered{};          ///< share of a shift made so far [u]
+  LREAL mark_position{};    ///< MC_Home: position assigned to the homing mark [u]
+  UDINT ends{};             ///< ends of the cam reached so far
+  BOOL end_of_profile{};    ///< the job has ended at the end of its cam
+  DoubleDouble shift_base;  ///< from which that share counts [u]
+
+  bool ended() const noexcept { return phase >= JobPhase::done; }
+  bool running() const noexcept { return phase >= JobPhase::handed_over && phase <= JobPhase::reached; }
+  void fail(ErrorId id) noexcept {
+    phase = JobPhase::failed;
+    error = id;
+  }
+};
+
+}  // namespace lockstep

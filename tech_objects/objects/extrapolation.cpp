@@ -1,0 +1,133 @@
+#include "tech_objects/objects/extrapolation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tech_objects/arithmetic/decay.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Longest time of the settings [s].
+constexpr double kLongestTime = 1e12;
+
+/// A setting as it counts. The order of the arguments makes 0 of what is no number.
+double not_negative(double value) noexcept {
+  return std::max(0.0, value);
+}
+double time_of(double value) noexcept {
+  return std::min(not_negative(value), kLongestTime);
+}
+
+}  // namespace
+
+void FirstOrderLag::tune(double time_constant, double period) noexcept {
+  time_constant_ = time_constant;
+  decay_ = time_constant > 0.0 ? decay_within(period / time_constant) : 1.0;
+  gain_ = time_constant / period * decay_;
+}
+
+void Extrapolation::configure(const Modulo& modulo, double period, double acquisition) noexcept {
+  modulo_ = modulo;
+  period_ = period;
+  acquisition_ = acquisition;
+  for (Pt2Filter* filter : {&position_filter_, &velocity_filter_}) {
+    filter->first.tune(filter->first.time_constant(), period_);
+    filter->second.tune(filter->second.time_constant(), period_);
+  }
+}
+
+void Extrapolation::reset(AxisPosition actual) noexcept {
+  actual_ = actual;
+  velocity_ = 0.0;
+  for (Pt2Filter* filter : {&position_filter_, &velocity_filter_}) {
+    filter->first.set_behind(0.0);
+    filter->second.set_behind(0.0);
+  }
+  values_ = {actual, 0.0, actual, 0.0};
+  direction_ = 0;
+  held_ = 0.0;
+}
+
+void Extrapolation::shift(double by) noexcept {
+  actual_ = advanced(actual_, by, modulo_);
+  values_.filtered_position = advanced(values_.filtered_position, by, modulo_);
+  values_.position = advanced(values_.position, by, modulo_);
+}
+
+double Extrapolation::leading_axis_time(const TO_Struct_Extrapolation& settings) const noexcept {
+  return acquisition_ + period_ + time_of(settings.PositionFilter.T1) + time_of(settings.PositionFilter.T2);
+}
+
+const ExtrapolatedValues& Extrapolation::step(AxisPosition actual, double velocity,
+                                              const TO_Struct_Extrapolation& settings) noexcept {
+  tune(settings);
+  position_filter_.step(rounded_difference(actual, actual_, modulo_));
+  velocity_filter_.step(velocity - velocity_);
+  actual_ = actual;
+  velocity_ = velocity;
+
+  pass_tolerance_band(velocity - velocity_filter_.behind(), not_negative(settings.VelocityTolerance.Range));
+  const double leading_part =
+      settings.Settings.SystemDefinedExtrapolation != 0 ? leading_axis_time(settings) : 0.0;
+  const double time = leading_part + time_of(settings.FollowingAxisDependentTime);
+  const double behind = position_filter_.behind();
+  values_.filtered_position = advanced(actual, -behind, modulo_);
+  const AxisPosition last = values_.position;
+  pass_hysteresis(advanced(actual, values_.filtered_velocity * time - behind, modulo_),
+                  not_negative(settings.Hysteresis.Value));
+  values_.velocity = settings.Settings.ExtrapolatedVelocityMode == 1
+                         ? rounded_difference(values_.position, last, modulo_) / period_
+                         : values_.filtered_velocity;
+  return values_;
+}
+
+/// Takes changed time constants over; without a change four comparisons.
+void Extrapolation::tune(const TO_Struct_Extrapolation& settings) noexcept {
+  const bool compensated = settings.Settings.SystemDefinedExtrapolation != 0;
+  tune_position(position_filter_.first, time_of(settings.PositionFilter.T1), compensated);
+  tune_position(position_filter_.second, time_of(settings.PositionFilter.T2), compensated);
+  const double t1 = time_of(settings.VelocityFilter.T1);
+  const double t2 = time_of(settings.VelocityFilter.T2);
+  if (t1 != velocity_filter_.first.time_constant()) velocity_filter_.first.tune(t1, period_);
+  if (t2 != velocity_filter_.second.time_constant()) velocity_filter_.second.tune(t2, period_);
+}
+
+/// The extrapolation time changes together with the lag that it makes up for: the lag goes at once to where
+/// it will be at the velocity at hand, so that the sum of both, which the following axes see, does not step.
+/// Where the lag is not made up for, its output goes on from where it is.
+void Extrapolation::tune_position(FirstOrderLag& lag, double time_constant, bool compensated) noexcept {
+  const double change = time_constant - lag.time_constant();
+  if (change == 0.0) return;
+  lag.tune(time_constant, period_);
+  if (compensated) lag.set_behind(lag.behind() + change * values_.filtered_velocity);
+}
+
+/// The output moves once the velocity is further from it than half the band, and then stays half a band
+/// behind.
+void Extrapolation::pass_tolerance_band(double velocity, double range) noexcept {
+  const double change = velocity - values_.filtered_velocity;
+  if (std::abs(change) <= 0.5 * range) return;
+  values_.filtered_velocity = velocity - std::copysign(0.5 * range, change);
+}
+
+/// A play: in the direction in which the leading value moves it is the extrapolated position; in the other it
+/// stands until that has come back by the hysteresis, and then follows at this distance. So it never steps. A
+/// hysteresis that becomes smaller counts when the distance has been used up.
+void Extrapolation::pass_hysteresis(AxisPosition position, double hysteresis) noexcept {
+  const double way = rounded_difference(position, values_.position, modulo_);
+  const double width = std::max(hysteresis, held_);
+  if (direction_ == 0 || width == 0.0) direction_ = way > 0.0 ? 1 : way < 0.0 ? -1 : direction_;
+  const double back = -direction_ * way;
+  if (back <= 0.0) {
+    values_.position = position;
+    held_ = 0.0;
+  } else if (back > width) {
+    values_.position = advanced(position, direction_ * width, modulo_);
+    held_ = width;
+  } else {
+    held_ = back;
+  }
+}
+
+}  // namespace lockstep

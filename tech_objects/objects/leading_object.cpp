@@ -1,0 +1,80 @@
+#include "tech_objects/objects/leading_object.hpp"
+
+#include "tech_objects/jobs/override.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Age of an actual value when the interpolator takes it [s]: the drive is read at the beginning of the very
+/// tick.
+constexpr double kAcquisitionTime = 0.0;
+
+}  // namespace
+
+void LeadingObject::configure_leading(double period, TO_Struct_Extrapolation& settings) noexcept {
+  extrapolation_.configure(modulo_, period, kAcquisitionTime);
+  settings.LeadingAxisDependentTime = extrapolation_.leading_axis_time(settings);
+}
+
+void LeadingObject::reset_leading(AxisPosition actual) noexcept {
+  handing_over_ = false;
+  uncontrolled_.returning = false;
+  extrapolation_.reset(actual);
+  leading_actual_ = last_leading_actual_ = {actual, 0.0, 0.0};
+}
+
+/// The actual value of this tick as following axes see it. Its acceleration is not extrapolated: a difference
+/// of differences of what an encoder reports would be noise.
+void LeadingObject::extrapolate(AxisPosition actual, double velocity,
+                                const TO_Struct_Extrapolation& settings) noexcept {
+  const ExtrapolatedValues& values = extrapolation_.step(actual, velocity, settings);
+  last_leading_actual_ = leading_actual_;
+  leading_actual_ = {values.position, values.velocity, 0.0};
+}
+
+void LeadingObject::shift_leading(double by) noexcept {
+  renamed_ = renamed_ + by;
+  extrapolation_.shift(by);
+  led_.position = advanced(led_.position, by, modulo_);
+  last_led_.position = advanced(last_led_.position, by, modulo_);
+  for (UncontrolledLead* const lead : {&uncontrolled_, &before_switch_}) {
+    lead->now.position = advanced(lead->now.position, by, modulo_);
+    lead->last.position = advanced(lead->last.position, by, modulo_);
+  }
+  leading_actual_.position = advanced(leading_actual_.position, by, modulo_);
+  last_leading_actual_.position = advanced(last_leading_actual_.position, by, modulo_);
+}
+
+/// The turn is the one on which they are: nobody turns back over the turns that have been made.
+void LeadingObject::lead_with_zero() noexcept {
+  const Setpoint& seen = uncontrolled_.returning ? uncontrolled_.now : led_setpoint();
+  uncontrolled_.returning = false;
+  ++uncontrolled_.times;
+  uncontrolled_.zero = zero_on_turn(seen.position.turns, modulo_);
+}
+
+bool LeadingObject::takes_switch_back() noexcept {
+  control_switched_ = !control_switched_;
+  if (control_switched_)
+    before_switch_ = uncontrolled_;
+  else
+    uncontrolled_ = before_switch_;
+  return !control_switched_;
+}
+
+void LeadingObject::count_homing(const Job& job) noexcept {
+  const auto effect = override_effect(class_of(job, true), JobClass::measuring, position_controlled_);
+  if (effect == OverrideEffect::abort) ++homings_;
+}
+
+void LeadingObject::publish_extrapolation(TO_Struct_Extrapolation& settings,
+                                          TO_Struct_StatusExtrapolation& status) const noexcept {
+  const ExtrapolatedValues& values = extrapolation_.values();
+  settings.LeadingAxisDependentTime = extrapolation_.leading_axis_time(settings);
+  status.FilteredPosition = values.filtered_position.value;
+  status.FilteredVelocity = values.filtered_velocity;
+  status.ExtrapolatedPosition = values.position.value;
+  status.ExtrapolatedVelocity = values.velocity;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,170 @@
+/// What may lead a following axis, and what the following axis sees of it.
+/// @source S7-1500T synchronous operation V7, 5.2
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tech_objects/arithmetic/axis_position.hpp"
+#include "tech_objects/arithmetic/cache_line.hpp"
+#include "tech_objects/arithmetic/setpoint.hpp"
+#include "tech_objects/objects/extrapolation.hpp"
+#include "tech_objects/objects/technology_object.hpp"
+
+namespace lockstep {
+
+/// How a leading value is taken from its source.
+enum class Coupling : std::uint8_t {
+  setpoint,  ///< the setpoint of the same tick
+  actual     ///< the extrapolated actual value
+};
+
+/// What axes see that have followed the position of an axis when that left position control: zero, and once
+/// position control has been taken up again a way from there back to the setpoint.
+struct UncontrolledLead {
+  std::uint32_t times = 0;  ///< how often position control has been left
+  AxisPosition zero;        ///< on the turn of the time; on that of its end once it has ended
+  bool returning = false;   ///< position control is there again
+  Setpoint now;             ///< while returning, at this tick and one before
+  Setpoint last;
+};
+
+/// What MC_Power wants of an object; written by the one instance that has claimed it.
+struct PowerRequest {
+  const void* owner = nullptr;  ///< the instance of MC_Power in charge; nullptr: none yet
+  BOOL enable{};
+  DINT start_mode = 1;  ///< 0: without, 1: with position control
+  INT stop_mode{};      ///< 0 emergency ramp, 1 quick stop, 2 maximum dynamics, 3 coast down
+};
+
+/// A technology object with a position that following axes follow. It is stepped before them. The functions
+/// below run in the thread of the cycle.
+class LeadingObject : public TechnologyObject {
+ public:
+  using TechnologyObject::TechnologyObject;
+
+  Modulo modulo() const noexcept { return modulo_; }
+
+  /// Whether an axis coupled like this sees what `leading_state` tells: the actual value, or the setpoint as
+  /// it is. Else it has to look at `led_setpoint` and `uncontrolled_lead`.
+  bool leads_as_it_is(Coupling coupling) const noexcept {
+    return coupling == Coupling::actual || (position_controlled_ && !handing_over_);
+  }
+  /// What a following axis sees, now and one interpolator tick ago.
+  const Setpoint& leading_state(Coupling coupling) const noexcept {
+    return coupling == Coupling::actual ? leading_actual_ : setpoint_;
+  }
+  const Setpoint& last_leading_state(Coupling coupling) const noexcept {
+    return coupling == Coupling::actual ? last_leading_actual_ : last_setpoint_;
+  }
+
+  /// The setpoint without the steps that it makes where it goes over to another course, now and one tick ago.
+  const Setpoint& led_setpoint() const noexcept { return handing_over_ ? led_ : setpoint_; }
+  const Setpoint& last_led_setpoint() const noexcept { return handing_over_ ? last_led_ : last_setpoint_; }
+  const UncontrolledLead& uncontrolled_lead() const noexcept { return uncontrolled_; }
+
+  /// The setpoint of the last interpolator tick, and the one before it.
+  const Setpoint& setpoint() const noexcept { return setpoint_; }
+  const Setpoint& last_setpoint() const noexcept { return last_setpoint_; }
+  bool position_controlled() const noexcept { return position_controlled_; }
+
+  bool enabled() const noexcept { return power_state_ == PowerState::on; }
+  bool off() const noexcept { return power_state_ == PowerState::off; }
+  /// Whether a drive is not led by the setpoint, which tracks the actual value then.
+  bool setpoint_is_actual() const noexcept { return power_state_ < PowerState::on; }
+  /// Whether an alarm has removed the enable, until it is acknowledged.
+  bool enable_removed() const noexcept { return enable_removed_; }
+
+  /// The actual position, as it is called now.
+  virtual AxisPosition actual_position() const noexcept = 0;
+  /// Whether a drive or a sensor is read in each MC_Servo; else the actual position is the setpoint.
+  virtual bool measured_in_servo() const noexcept = 0;
+  /// Where it is read: what has been moved, on a line from where it was called 0 at the start [u]. Neither
+  /// homing nor a restart changes it.
+  virtual DoubleDouble measured_line() const noexcept = 0;
+  /// False once a sensor has failed, until that is acknowledged.
+  virtual bool actual_values_valid() const noexcept { return true; }
+  /// Whether a homing waits for its mark, so that the zero mark or probe of the encoder's telegram is taken.
+  virtual bool homing() const noexcept { return false; }
+  /// By how much homing has changed the names of positions since the start [u].
+  DoubleDouble renamed() const noexcept { return renamed_; }
+  /// Jobs of MC_Home so far that end what measures here: those that look for a mark, and mode 9.
+  /// @source S7-1500T synchronous operation V7, 12.3.3
+  std::uint32_t homings() const noexcept { return homings_; }
+  /// Restarts since the start.
+  std::uint32_t restarts() const noexcept { return restarts_; }
+
+  /// Whether it stands, so that a coupling may be taken over to its simulation.
+  virtual bool leading_value_stands() const noexcept = 0;
+
+  /// Load time: somebody follows the actual value, which has to be extrapolated from then on.
+  void lead_by_actual_value() noexcept { leads_by_actual_value_ = true; }
+
+  // From here to the setpoints: what every interpolator cycle touches, in two lines of the cache.
+
+  alignas(kCacheLine) PowerRequest power;
+  /// The measuring input that measures by the telegram of the encoder at present; nullptr: none.
+  const void* telegram_probe = nullptr;
+  /// Raised by a restart, after which positions may be on another ring; the cycle tells those that follow.
+  bool restarted = false;
+
+ protected:
+  /// `drive_stops`: switched off, and the drive comes to rest by itself.
+  enum class PowerState : std::uint8_t { off, switching_on, drive_stops, on, braking };
+
+  /// Takes the start values over; positions have to be configured.
+  void configure_leading(double period, TO_Struct_Extrapolation& settings) noexcept;
+  void reset_leading(AxisPosition actual) noexcept;
+  /// One interpolator tick of the actual value.
+  void extrapolate(AxisPosition actual, double velocity, const TO_Struct_Extrapolation& settings) noexcept;
+  void shift_leading(double by) noexcept;
+  /// Of a job of MC_Home that has been accepted: counts it if the override rules have it end what measures.
+  void count_homing(const Job& job) noexcept;
+  void publish_extrapolation(TO_Struct_Extrapolation& settings,
+                             TO_Struct_StatusExtrapolation& status) const noexcept;
+  bool leads_by_actual_value() const noexcept { return leads_by_actual_value_; }
+  /// The setpoint as following axes see it at this tick, while it is not the setpoint itself.
+  void lead_by(const Setpoint& led) noexcept {
+    last_led_ = led_;
+    led_ = led;
+    handing_over_ = true;
+  }
+
+  /// Position control is left: from now on axes that follow the position see zero.
+  void lead_with_zero() noexcept;
+  /// A switch of position control. @return whether it takes back another one of this tick, which nobody has
+  /// seen: then all is as it was before
+  bool takes_switch_back() noexcept;
+
+  bool position_controlled_ = true;
+  bool handing_over_ = false;  // axes that follow the setpoint see another one, which is on its way to it
+  PowerState power_state_ = PowerState::off;
+  bool enable_removed_ = false;
+  bool leads_by_actual_value_ = false;
+  const bool has_position_ = kind != ObjectKind::TO_SpeedAxis;
+  Modulo modulo_;
+  Setpoint setpoint_;
+  Setpoint last_setpoint_;
+
+  bool control_switched_ = false;  // in this tick
+  UncontrolledLead uncontrolled_;
+  std::uint32_t restarts_ = 0;
+  std::uint32_t homings_ = 0;
+
+ private:
+  UncontrolledLead before_switch_;
+  Setpoint led_;
+  Setpoint last_led_;
+  Setpoint leading_actual_;
+  Setpoint last_leading_actual_;
+  Extrapolation extrapolation_;
+  DoubleDouble renamed_;
+};
+
+/// One configured leading value interconnection of a following axis.
+struct LeadingValue {
+  LeadingObject* source = nullptr;
+  Coupling coupling = Coupling::setpoint;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,49 @@
+/// What every technology object has: a kind, a name, a number and a data block.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "tech_objects/alarms/notes.hpp"
+#include "tech_objects/types/object_kind.hpp"
+#include "tech_objects/types/types.hpp"
+
+namespace lockstep {
+
+struct Job;
+
+/// Base of the technology objects, each of which derives from it alone: a pin holds the address of either.
+class TechnologyObject {
+ public:
+  TechnologyObject(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
+      : kind(object_kind), name(std::move(object_name)), number(object_number) {}
+  virtual ~TechnologyObject() = default;
+  TechnologyObject(const TechnologyObject&) = delete;
+  TechnologyObject& operator=(const TechnologyObject&) = delete;
+
+  /// Address of the technology data block, whose variables `data_block_of` the kind declares.
+  virtual void* data_block() noexcept = 0;
+  /// Address of the start values, a data block like it: what a restart by MC_Reset takes over. They are those
+  /// of the project until a program changes them.
+  virtual void* start_values() noexcept = 0;
+  /// Whether start values have been changed since the last restart: OnlineStartValuesChanged.
+  BOOL start_values_changed{};
+
+  /// Hands a job over; it is started at the object's next step. The job stays where it is until it has ended.
+  /// An object without jobs has nothing to acknowledge: MC_Reset is done, everything else fails. Thread: the
+  /// cycle.
+  virtual void submit(Job& job) noexcept;
+
+  /// Takes over the start values. Call once, after the data block is set and before the first tick.
+  /// @param servo_period period of MC_Servo [s]  @param ratio servo ticks per interpolator tick, 1 to 32
+  virtual void configure(double servo_period, int ratio) = 0;
+
+  const ObjectKind kind;
+  const std::string name;  ///< as in the project
+  const DB_ANY number;     ///< position in `technology_objects`, from 1
+
+  /// Alarms that have come and gone, for the list of alarms; the cycle collects them.
+  AlarmNotes alarm_notes;
+};
+
+}  // namespace lockstep

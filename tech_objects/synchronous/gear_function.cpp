@@ -1,0 +1,212 @@
+#include "tech_objects/synchronous/gear_function.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace lockstep {
+namespace {
+
+constexpr double kUnitsPerOne = 0x1p62;  // Modulo.Length ≥ 0.001 > 2^-10 has no bit below 2^-62
+
+std::int64_t wrapping_sum(std::int64_t a, std::int64_t b) noexcept {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
+std::int64_t wrapping_difference(std::int64_t a, std::int64_t b) noexcept {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
+}
+
+/// Sum whose error counts against the larger term: all that is needed where nothing cancels exactly.
+DoubleDouble fast_sum(DoubleDouble a, DoubleDouble b) noexcept {
+  const DoubleDouble high = two_sum(a.hi, b.hi);
+  return quick_two_sum(high.hi, high.lo + (a.lo + b.lo));
+}
+
+}  // namespace
+
+GearFunction::Place GearFunction::sum(Place a, const Place& b) const noexcept {
+  a.fraction += b.fraction;
+  a.units += b.units;
+  a.turns += b.turns;
+  if (a.fraction >= denominator_) {
+    a.fraction -= denominator_;
+    ++a.units;
+  }
+  if (a.units >= length_) {
+    a.units -= length_;
+    ++a.turns;
+  }
+  return a;
+}
+
+GearFunction::Place GearFunction::negative(const Place& a) const noexcept {
+  Place result;
+  result.turns = std::uint64_t{0} - a.turns;
+  Units whole = a.units;
+  if (a.fraction != 0) {
+    result.fraction = denominator_ - a.fraction;
+    ++whole;  // at most length_
+  }
+  if (whole != 0) {
+    result.units = length_ - whole;
+    --result.turns;
+  }
+  return result;
+}
+
+GearFunction::Place GearFunction::multiple(std::uint64_t times, Place a) const noexcept {
+  Place result;
+  for (; times != 0; times >>= 1) {
+    if ((times & 1u) != 0) result = sum(result, a);
+    a = sum(a, a);
+  }
+  return result;
+}
+
+/// way · numerator / denominator: way = whole · denominator + rest, so that nothing exceeds 128 bits.
+GearFunction::Place GearFunction::geared(Units way, bool negative_way) const noexcept {
+  const Units whole = way / denominator_;
+  const std::uint64_t rest = static_cast<std::uint64_t>(way % denominator_) * numerator_;  // < 2^62
+  Place result;
+  result.units = whole % length_;
+  result.turns = static_cast<std::uint64_t>(whole / length_);
+  result = multiple(numerator_, result);
+  const Place remainder{rest / denominator_, rest % denominator_, 0};  // < 2^31 units, length_ ≥ 2^52
+  result = sum(result, remainder);
+  return negative_way != mirrored_ ? negative(result) : result;
+}
+
+void GearFunction::set(std::int32_t numerator, std::int32_t denominator, AxisPosition leading_start,
+                       AxisPosition following_start, const Modulo& leading,
+                       const Modulo& following) noexcept {
+  const std::int64_t signed_numerator = numerator;
+  mirrored_ = numerator < 0;
+  numerator_ = static_cast<std::uint64_t>(mirrored_ ? -signed_numerator : signed_numerator);
+  denominator_ = denominator > 0 ? static_cast<std::uint64_t>(denominator) : 1;
+  ratio_ = to_double_double(static_cast<double>(numerator)) / static_cast<double>(denominator_);
+  ratio_halves_ = halves(ratio_.hi);
+  leading_ = leading;
+  following_ = following;
+  leading_value_ = leading_start.value;
+  leading_turns_ = leading_start.turns;
+  following_start_ = following_start;
+  anchor_ = 0.0;
+  turn_ = 0;
+  place_ = per_turn_ = anchor_place_ = Place{};
+  if (following.enabled) {
+    length_ = static_cast<Units>(following.length * kUnitsPerOne);
+    // Within this reach 104 bits leave 2^-60 of the length and less.
+    reach_ = numerator_ == 0 ? std::numeric_limits<double>::infinity()
+                             : 0x1p40 * following.length / std::abs(ratio_.hi);
+    lowest_ = following.start;
+    end_ = following.end();
+    if (leading.enabled) per_turn_ = geared(static_cast<Units>(leading.length * kUnitsPerOne), false);
+  } else {
+    reach_ = end_ = std::numeric_limits<double>::infinity();
+    lowest_ = -end_;
+  }
+  rebase();
+}
+
+/// Leads the integer part to another leading turn: one addition to the next one, else by the bits of the
+/// jump.
+void GearFunction::turn_to(std::int64_t turn) noexcept {
+  if (following_.enabled) {
+    const std::int64_t jump = wrapping_difference(turn, turn_);
+    const std::uint64_t size =
+        jump < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(jump) : static_cast<std::uint64_t>(jump);
+    const Place way = size == 1 ? per_turn_ : multiple(size, per_turn_);
+    place_ = sum(place_, jump < 0 ? negative(way) : way);
+  }
+  turn_ = turn;
+  rebase();
+}
+
+/// Moves the anchor along, so that what is left to double-double stays within its reach: for extreme ratios
+/// of ways only.
+void GearFunction::anchor_at(double way) noexcept {
+  const double size = std::abs(way);
+  if (!(size < 0x1p64)) return;
+  Place place;
+  if (size >= 0x1p-10) {  // then it has no bit below 2^-62
+    place = geared(static_cast<Units>(size * kUnitsPerOne), way < 0.0);
+  } else {
+    way = 0.0;
+  }
+  place_ = sum(sum(place_, negative(anchor_place_)), place);
+  anchor_place_ = place;
+  anchor_ = way;
+  rebase();
+}
+
+/// Takes the double-double origin from the integer part.
+void GearFunction::rebase() noexcept {
+  if (following_.enabled) {
+    const double high = static_cast<double>(static_cast<std::uint64_t>(place_.units >> 64)) * 0x1p64;
+    const auto low_word = static_cast<std::uint64_t>(place_.units);
+    const DoubleDouble low = {static_cast<double>(low_word >> 32) * 0x1p32,
+                              static_cast<double>(low_word & 0xFFFFFFFFu)};
+    const double fraction = static_cast<double>(place_.fraction) / static_cast<double>(denominator_);
+    DoubleDouble way = two_sum(high, low.hi) + low.lo + fraction;
+    way = {way.hi / kUnitsPerOne, way.lo / kUnitsPerOne};
+    base_ = way + following_start_.value;
+    wraps_ = 0;
+    origin_ = base_;
+    turns_ = wrapping_sum(following_start_.turns, static_cast<std::int64_t>(place_.turns));
+  } else {
+    base_ = ratio_ * (to_double_double(turn_) * (leading_.enabled ? leading_.length : 0.0));
+    base_ = base_ + following_start_.value;
+    origin_ = base_;
+    turns_ = 0;
+  }
+}
+
+void GearFunction::add_turns(std::int64_t turns) noexcept {
+  following_start_.turns = wrapping_sum(following_start_.turns, turns);
+  turns_ = wrapping_sum(turns_, turns);
+}
+
+void GearFunction::add_leading_turns(std::int64_t turns) noexcept {
+  leading_turns_ = wrapping_sum(leading_turns_, turns);
+}
+
+AxisPosition GearFunction::value(AxisPosition leading) noexcept {
+  const std::int64_t turn = wrapping_difference(leading.turns, leading_turns_);
+  if (turn != turn_) turn_to(turn);
+  DoubleDouble way = two_difference(leading.value, leading_value_);
+  if (anchor_ != 0.0) way = way - anchor_;
+  if (std::abs(way.hi) > reach_) {
+    way = two_difference(leading.value, leading_value_);
+    anchor_at(way.hi);
+    way = way - anchor_;
+  }
+  const DoubleDouble product = two_product(way.hi, ratio_.hi, ratio_halves_);
+  way = {product.hi, product.lo + (way.hi * ratio_.lo + way.lo * ratio_.hi)};
+  const DoubleDouble position = fast_sum(origin_, way);
+  if (position.hi >= lowest_ && position.hi < end_) return {turns_, position.hi};
+  return following_.enabled ? on_ring(way) : AxisPosition{0, position.hi};
+}
+
+/// Moves the window to the following turn in which origin + way lies.
+AxisPosition GearFunction::on_ring(DoubleDouble way) noexcept {
+  const double length = following_.length;
+  const double start = following_.start;
+  const DoubleDouble whole = base_ + way;
+  const double count = std::floor((whole - start).hi / length);
+  if (!(std::abs(count) < 0x1p52)) return {turns_, whole.hi};  // not finite
+  const auto move_window = [&](std::int64_t wraps) noexcept {
+    turns_ = wrapping_sum(turns_, wrapping_difference(wraps, wraps_));
+    wraps_ = wraps;
+    origin_ = base_ - two_product(static_cast<double>(wraps), length);
+    return fast_sum(origin_, way);
+  };
+  DoubleDouble position = move_window(static_cast<std::int64_t>(count));
+  if ((position - start).hi < 0.0)
+    position = move_window(wraps_ - 1);
+  else if (!((position - start) < to_double_double(length)))
+    position = move_window(wraps_ + 1);
+  if (position.hi >= end_) return {wrapping_sum(turns_, 1), start};
+  return {turns_, position.hi < start ? start : position.hi};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,164 @@
+#include "tech_objects/synchronous/shift.hpp"
+
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+/// Most that a shift's own velocity, and its acceleration, may make of its way over the leading distance, as
+/// a multiple of that way.
+constexpr double kSteepest = 20.0;
+
+}  // namespace
+
+ErrorId Shift::begin(const ShiftRequest& request, double period) noexcept {
+  const MotionState from{0.0, velocity_, acceleration_};
+  const bool over_time = request.profile == 0;
+  const bool moving = moves();
+  Profile profile;
+  PlanResult result = PlanResult::ok;
+  if (over_time) {
+    result = plan_position(from, (request.target - value_).rounded(), 0.0, request.limits, profile);
+  } else if (moving) {
+    result = plan_stop(from, request.limits, PresentAcceleration::keep, profile);
+  }
+  if (result != PlanResult::ok) return ErrorId::unspecified;
+  request_ = request;
+  profile_ = profile;
+  settling_ = moving && !over_time;
+  period_ = period;
+  base_ = value_;
+  ticks_ = 0;
+  heading_ = 0.0;
+  covered_ = 0.0;
+  planned_ = false;
+  in_use_ = true;
+  phase_ = over_time ? Phase::running : Phase::waiting;
+  return ErrorId::none;
+}
+
+void Shift::settle_at(DoubleDouble value, const Shift& moving, const ProfileLimits& limits,
+                      double period) noexcept {
+  const MotionState from{0.0, moving.velocity_, moving.acceleration_};
+  start_at(value);
+  if (!moving.moves()) return;
+  if (plan_stop(from, limits, PresentAcceleration::keep, profile_) != PlanResult::ok) return;
+  velocity_ = from.velocity;
+  acceleration_ = from.acceleration;
+  base_ = value;
+  period_ = period;
+  ticks_ = -1;  // the next tick shows the value
+  settling_ = true;
+  in_use_ = true;
+}
+
+void Shift::halt() noexcept {
+  phase_ = Phase::resting;
+  settling_ = false;
+  velocity_ = 0.0;
+  acceleration_ = 0.0;
+}
+
+Shift::Event Shift::wait_or_follow_time(const LeadingStep& step) noexcept {
+  if (phase_ == Phase::waiting && may_start(step)) {
+    phase_ = Phase::running;
+    if (can_lead_on(step)) settling_ = false;
+  }
+  if (settling_) {
+    settling_ = follow_profile();
+    return Event::none;
+  }
+  if (phase_ != Phase::running) return Event::none;
+  return request_.profile == 0 ? follow_time() : follow_leading(step);
+}
+
+/// Whether the leading value can lead a moving shift on. One that stands, turns or creeps cannot: over its
+/// distance the shift would have to shoot far beyond its target. Then it comes to rest first.
+bool Shift::can_lead_on(const LeadingStep& step) const noexcept {
+  if (!(step.way() * step.last.velocity > 0.0)) return false;
+  const SyncOffset start = remainder_at_start(step);
+  const double distance = to_start_ + request_.distance;
+  const double most = kSteepest * std::abs(start.position);
+  return std::abs(start.slope) * distance <= most && std::abs(start.curvature) * distance * distance <= most;
+}
+
+/// What is left of the shift at the last tick, over the way of the leading value.
+SyncOffset Shift::remainder_at_start(const LeadingStep& step) const noexcept {
+  SyncOffset start{.position = (value_ - request_.target).rounded()};
+  const double heading = std::copysign(1.0, step.way());
+  const double way_velocity = heading * step.last.velocity;
+  if (!(way_velocity > 0.0)) return start;
+  start.slope = velocity_ / way_velocity;
+  start.curvature =
+      (acceleration_ - start.slope * heading * step.last.acceleration) / (way_velocity * way_velocity);
+  return start;
+}
+
+/// Profile 1 starts where it is, if the leading value stands or moves the right way; profile 2 at the last
+/// tick before the start position is crossed.
+bool Shift::may_start(const LeadingStep& step) noexcept {
+  const double way = step.way();
+  const int heading = way > 0.0 ? 1 : way < 0.0 ? -1 : 0;
+  to_start_ = 0.0;
+  if (heading == 0) return request_.profile == 1 && request_.direction == 3;
+  if ((request_.direction == 1 && heading < 0) || (request_.direction == 2 && heading > 0)) return false;
+  if (request_.profile == 1) return true;
+  const double from = step.last.position.value;
+  const double target = normalised({0, request_.start_position}, step.modulo).value;
+  if (!step.modulo.enabled) {
+    to_start_ = heading * (target - from);
+  } else if (target != from) {
+    to_start_ = heading > 0 ? positive_distance(from, target, step.modulo)
+                            : -negative_distance(from, target, step.modulo);
+  }
+  return to_start_ >= 0.0 && to_start_ <= std::abs(way);
+}
+
+/// From the shift of the last tick, with its velocity and acceleration, to the target.
+void Shift::start_over_distance(const LeadingStep& step) noexcept {
+  remainder_.set(remainder_at_start(step), to_start_ + request_.distance);
+  covered_ = 0.0;
+  planned_ = true;
+}
+
+Shift::Event Shift::follow_leading(const LeadingStep& step) noexcept {
+  const double way = step.way();
+  if (heading_ == 0.0) {
+    if (!(way != 0.0)) return Event::none;
+    heading_ = std::copysign(1.0, way);
+  }
+  if (!planned_) start_over_distance(step);
+  if (heading_ * way < 0.0) {
+    halt();
+    return Event::reversed;
+  }
+  covered_ += heading_ * way;
+  if (remainder_.complete(covered_)) return arrive();
+  const SyncOffset left = remainder_.value(covered_);
+  value_ = request_.target + left.position;
+  velocity_ = left.velocity(heading_ * step.now.velocity);
+  acceleration_ = left.acceleration(heading_ * step.now.velocity, heading_ * step.now.acceleration);
+  return Event::none;
+}
+
+Shift::Event Shift::follow_time() noexcept {
+  return follow_profile() ? Event::none : arrive();
+}
+
+/// One tick along the profile over time; false at its end.
+bool Shift::follow_profile() noexcept {
+  const double t = static_cast<double>(++ticks_) * period_;
+  const MotionState state = profile_.at(t);
+  value_ = base_ + state.position;
+  velocity_ = state.velocity;
+  acceleration_ = state.acceleration;
+  return t < profile_.duration();
+}
+
+Shift::Event Shift::arrive() noexcept {
+  halt();
+  value_ = request_.target;
+  return Event::done;
+}
+
+}  // namespace lockstep
