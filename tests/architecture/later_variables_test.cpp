@@ -147,18 +147,19 @@ TEST(VariablesOfLater, AreUsedByNoSource) {
   std::vector<Declaration> declared;
   std::vector<Code> sources;
   const fs::path root = LOCKSTEP_SOURCE_DIR;
-  constexpr std::string_view kBlock = "data_block_";
   for (const char* folder : {"tech_objects", "fb", "scheduler", "hmi_bridge", "projects"})
-    for (const fs::directory_entry& entry : fs::directory_iterator(root / folder)) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".cpp" && extension != ".hpp") continue;
       const std::string stem = entry.path().stem().string();
+      const std::string room = entry.path().parent_path().filename().string();
       const std::string text = code_of(content_of(entry.path()), false);
-      if (stem.starts_with(kBlock)) {
-        const auto more = declarations_in(text, owner_of(stem.substr(kBlock.size()), "axis"));
+      if (room == "data_blocks") {
+        const auto more = declarations_in(text, owner_of(stem, "axis"));
         declared.insert(declared.end(), more.begin(), more.end());
-      } else if (stem != "data_block") {
-        sources.push_back({entry.path().lexically_relative(root).string(), owner_of(stem, ""), text});
+      } else {
+        const std::string path = entry.path().lexically_relative(root).string();
+        sources.push_back({path, room == "axis" ? room : owner_of(stem, ""), text});
       }
     }
   EXPECT_GT(std::count_if(declared.begin(), declared.end(), [](const auto& one) { return one.later; }), 30);

@@ -100,7 +100,7 @@ TEST(Alarms, HaveTheReactionsThatAnAxisKnowsAndThoseOfOtherObjects) {
 /// Numbers of namespace `alarm`, by their constants.
 std::map<int, std::string> constants() {
   std::map<int, std::string> names;
-  const std::string header = contents(LOCKSTEP_SOURCE_DIR "/tech_objects/alarms.hpp");
+  const std::string header = contents(LOCKSTEP_SOURCE_DIR "/tech_objects/alarms/alarms.hpp");
   const std::regex constant(R"(inline constexpr int (k\w+) = (\d+);)");
   for (std::sregex_iterator found(header.begin(), header.end(), constant), end; found != end; ++found)
     names[std::stoi((*found)[2])] = (*found)[1];

@@ -1,0 +1,159 @@
+// Rooms: which of one folder may include which, as its CMakeLists.txt declares them; and what the cycle may
+// not reach.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/architecture/source_text.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A room and the rooms of the same folder on which it depends.
+struct Room {
+  std::string name;
+  std::set<std::string> depends;
+};
+
+// A folder with rooms, in the order in which they are declared.
+struct Folder {
+  std::string name;
+  std::vector<Room> rooms;
+
+  const Room* find(const std::string& room) const {
+    const auto found =
+        std::find_if(rooms.begin(), rooms.end(), [&](const Room& one) { return one.name == room; });
+    return found == rooms.end() ? nullptr : &*found;
+  }
+};
+
+constexpr const char* kFoldersWithRooms[] = {"tech_objects", "hmi_bridge", "projects", "cli"};
+
+// Rooms that allocate, which nothing that the cycle reaches may include, and who may.
+constexpr const char* kForTheDesk[] = {"tech_objects/cam_design/"};
+constexpr const char* kInTheCycle[] = {"tech_objects", "fb", "scheduler"};
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The rooms that a CMakeLists.txt declares: lockstep_room(FOLDER ROOM DEPENDS...).
+Folder folder_declared(const std::string& name, const std::string& text) {
+  Folder folder{name, {}};
+  const std::regex declaration("lockstep_room\\(" + name + "\\s+([^)]*)\\)");
+  for (std::sregex_iterator found(text.begin(), text.end(), declaration); found != std::sregex_iterator();
+       ++found) {
+    std::istringstream words((*found)[1].str());
+    Room room;
+    words >> room.name;
+    for (std::string word; words >> word;)
+      if (folder.find(word) != nullptr) room.depends.insert(word);
+    folder.rooms.push_back(std::move(room));
+  }
+  return folder;
+}
+
+Folder folder_of(const std::string& name) {
+  return folder_declared(name, text_of(fs::path(LOCKSTEP_SOURCE_DIR) / name / "CMakeLists.txt"));
+}
+
+// "cam/function.hpp" → "cam"; empty for what stands on the floor of the folder.
+std::string room_of(const std::string& below_folder) {
+  const std::size_t slash = below_folder.find('/');
+  return slash == std::string::npos ? "" : below_folder.substr(0, slash);
+}
+
+// What is wrong with the includes of a source in `room`, one a line.
+std::string faults_of(const Folder& folder, const std::string& room, const std::string& path,
+                      const std::string& text) {
+  std::string faults;
+  const Room* const own = folder.find(room);
+  for (const Include& include : includes_of(text)) {
+    if (!include.path.starts_with(folder.name + "/")) continue;
+    const std::string other = room_of(include.path.substr(folder.name.size() + 1));
+    const bool permitted =
+        room.empty() || other == room || (own != nullptr && own->depends.count(other) != 0);
+    if (!permitted)
+      faults += path + ":" + std::to_string(include.line) + ": " + include.path + " is of a room that " +
+                folder.name + "/" + room + " does not name\n";
+  }
+  return faults;
+}
+
+bool is_source(const fs::path& path) {
+  return path.extension() == ".cpp" || path.extension() == ".hpp";
+}
+
+TEST(Rooms, IncludeOnlyThoseThatTheyName) {
+  const fs::path root = LOCKSTEP_SOURCE_DIR;
+  for (const std::string name : kFoldersWithRooms) {
+    const Folder folder = folder_of(name);
+    EXPECT_GE(folder.rooms.size(), 4u) << name;
+    for (const Room& room : folder.rooms)
+      for (const fs::directory_entry& entry : fs::directory_iterator(root / name / room.name))
+        if (is_source(entry.path())) {
+          EXPECT_EQ(faults_of(folder, room.name, entry.path().string(), text_of(entry.path())), "");
+        }
+  }
+}
+
+TEST(Rooms, HoldEverySourceOfTheirFolder) {
+  const fs::path root = LOCKSTEP_SOURCE_DIR;
+  for (const std::string name : kFoldersWithRooms) {
+    const Folder folder = folder_of(name);
+    for (const fs::directory_entry& entry : fs::directory_iterator(root / name)) {
+      const std::string file = entry.path().filename().string();
+      if (is_source(entry.path())) {
+        EXPECT_EQ(name + "/" + file, "cli/main.cpp");
+      }
+    }
+  }
+}
+
+TEST(Rooms, ForTheDeskAreOutOfReachOfTheCycle) {
+  const fs::path root = LOCKSTEP_SOURCE_DIR;
+  for (const char* folder : kInTheCycle)
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string path = entry.path().lexically_relative(root).string();
+      if (!is_source(entry.path())) continue;
+      for (const char* desk : kForTheDesk) {
+        if (path.starts_with(desk)) continue;
+        for (const Include& include : includes_of(text_of(entry.path())))
+          EXPECT_FALSE(include.path.starts_with(desk)) << path << ':' << include.line;
+      }
+    }
+}
+
+// The rules themselves, on sources that break them.
+
+TEST(RoomRules, KnowWhatARoomDependsOn) {
+  const Folder folder = folder_declared(
+      "house", "lockstep_room(house cellar)\nlockstep_room(house kitchen cellar\n  lib::water roof)\n");
+  ASSERT_EQ(folder.rooms.size(), 2u);
+  EXPECT_EQ(folder.rooms[1].depends, std::set<std::string>{"cellar"});
+}
+
+TEST(RoomRules, RefuseARoomThatIsNotNamed) {
+  const Folder folder =
+      folder_declared("house", "lockstep_room(house cellar)\nlockstep_room(house kitchen cellar)\n");
+  EXPECT_EQ(faults_of(folder, "kitchen", "a", "#include \"house/cellar/coal.hpp\"\n"), "");
+  EXPECT_EQ(faults_of(folder, "kitchen", "a", "#include \"house/kitchen/oven.hpp\"\n"), "");
+  EXPECT_EQ(faults_of(folder, "cellar", "a", "#include \"house/kitchen/oven.hpp\"\n"),
+            "a:1: house/kitchen/oven.hpp is of a room that house/cellar does not name\n");
+  EXPECT_NE(faults_of(folder, "kitchen", "a", "#include \"house/floor.hpp\"\n"), "");
+}
+
+}  // namespace
+}  // namespace lockstep
