@@ -43,7 +43,7 @@ rehearse postrm purge >/dev/null
 
 echo "what is in it"
 for path in bin/lockstep share/man/man1/lockstep.1.gz share/man/man5/lockstep-project.5.gz \
-  lib/systemd/system/lockstep@.service include/lockstep/projects/simulation.hpp \
+  lib/systemd/system/lockstep@.service include/lockstep/projects/loader/simulation.hpp \
   share/lockstep/project.schema.json share/lockstep/projects/02_rotary_knife/project.json \
   share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md; do
   [[ -s $work/root/usr/$path ]] || fail "usr/$path is not in the package"
