@@ -370,6 +370,12 @@ class Axis final : public LeadingObject {
   void step_single_axis() noexcept;
   void follow_changes(Job& job) noexcept;
   void remember_limits() noexcept;
+  bool limits_changed() const noexcept {
+    const TO_Struct_DynamicLimits& now = data.DynamicLimits;
+    return data.Override.Velocity != planned_.override_velocity || now.Velocity != planned_.velocity ||
+           now.MaxAcceleration != planned_.acceleration || now.MaxDeceleration != planned_.deceleration ||
+           now.MaxJerk != planned_.jerk;
+  }
   void watch_base_job(Job& job) noexcept;
   void watch_positioning() noexcept;
   void watch_standstill() noexcept;
@@ -587,8 +593,15 @@ class Axis final : public LeadingObject {
   bool advancing_base_ = false;  // `setpoint_` is that of the base motion alone, within a step
   AdditiveLeadingValues additive_;
 
-  alignas(kCacheLine) double planned_override_ = 100.0;
-  std::uint64_t planned_limits_ = 0;  // what tells a change of DynamicLimits
+  /// What the motion at hand has been planned with. MaxVelocity changes with a restart only.
+  struct PlannedLimits {
+    double override_velocity = 100.0;  // [%]
+    double velocity = 0.0;             // [u/s]
+    double acceleration = 0.0;         // [u/s²]
+    double deceleration = 0.0;         // [u/s²]
+    double jerk = 0.0;                 // [u/s³]
+  };
+  alignas(kCacheLine) PlannedLimits planned_;
   SingleAxisMotion single_;
   std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
 

@@ -104,7 +104,7 @@ Dynamics Axis::first_room() noexcept {
   Dynamics share = braking(superimposed_wanted_, part_of(most, kHalf), room.velocity);
   const double jerk = single_.dynamics().jerk;
   if (jerk > 0.0) share.jerk = std::min(share.jerk, jerk);
-  planned_override_ = std::numeric_limits<double>::quiet_NaN();
+  planned_.override_velocity = std::numeric_limits<double>::quiet_NaN();
   return share;
 }
 
@@ -235,7 +235,8 @@ void Axis::advance_superimposed_in_view() noexcept {
   superimposed_uses_.acceleration = std::max(superimposed_uses_.acceleration, before.acceleration);
   if (!curbed_for_a_while_ || superimposed_runs_down()) return;
   curbed_for_a_while_ = false;
-  planned_override_ = std::numeric_limits<double>::quiet_NaN();  // the base motion may have more again
+  planned_.override_velocity =
+      std::numeric_limits<double>::quiet_NaN();  // the base motion may have more again
 }
 
 /// A halt, or a stop for which no job asks any more, makes room as other base motions do, but does not turn
@@ -263,7 +264,7 @@ void Axis::step_superimposed() noexcept {
   advance_superimposed_in_view();
   setpoint_ = base_;
   advancing_base_ = true;
-  if (std::isnan(planned_override_)) replan_stop();
+  if (std::isnan(planned_.override_velocity)) replan_stop();
   step_base();
   if (advancing_base_) add_superimposed();
   if (!superimposed_.in_use()) return;
@@ -276,7 +277,8 @@ void Axis::step_superimposed() noexcept {
     return;
   }
   if (!superimposed_.finished()) return;
-  if (base_curbed_) planned_override_ = std::numeric_limits<double>::quiet_NaN();  // it may have all again
+  if (base_curbed_)
+    planned_.override_velocity = std::numeric_limits<double>::quiet_NaN();  // it may have all again
   base_curbed_ = curbed_for_a_while_ = false;
   const bool base_rests = motion_ == Motion::single_axis && running_[kBase] == nullptr && single_.finished();
   if (!base_rests || simulating()) return;

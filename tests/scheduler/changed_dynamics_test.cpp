@@ -58,6 +58,35 @@ TEST(DynamicLimits, OfTheAccelerationThatAreLoweredInMotionCountAtOnce) {
   EXPECT_EQ(m.a.data.Velocity, 400.0);
 }
 
+TEST(DynamicLimits, OfTheVelocityAndTheAccelerationThatAreLoweredInOneTickCountBoth) {
+  Machine m;
+  m.a.data.DynamicLimits = {2000.0, 2000.0, 2000.0, 2000.0, 100000.0};
+  m.run_v.Velocity = 1500.0;
+  m.run_v.Acceleration = m.run_v.Deceleration = 2000.0;
+  m.run_v.Execute = true;
+  ASSERT_TRUE(m.run_until([&] { return m.run_v.InVelocity; }));
+  m.a.data.DynamicLimits.Velocity = 21.0;  // both have been told by one number that stayed the same
+  m.a.data.DynamicLimits.MaxAcceleration = 90.0;
+  ASSERT_TRUE(m.run_until([&] { return m.now().velocity == 21.0; }));
+}
+
+TEST(DynamicLimits, ThatChangeInAnyWayAreFollowed) {
+  constexpr double kSteps[] = {2000.0, 1999.0, 1000.0, 512.0, 90.0, 64.0, 21.0, 8.0, 1.0};
+  for (const double acceleration : kSteps)
+    for (const double velocity : kSteps) {
+      Machine m;
+      m.a.data.DynamicLimits = {2000.0, 2000.0, 2000.0, 2000.0, 100000.0};
+      m.run_v.Velocity = 2000.0;
+      m.run_v.Acceleration = m.run_v.Deceleration = 2000.0;
+      m.run_v.Execute = true;
+      m.run(1500);
+      m.a.data.DynamicLimits.Velocity = velocity;
+      m.a.data.DynamicLimits.MaxAcceleration = acceleration;
+      ASSERT_TRUE(m.run_until([&] { return m.now().velocity <= velocity; }))
+          << velocity << " u/s, " << acceleration << " u/s²: " << m.now().velocity;
+    }
+}
+
 TEST(DynamicLimits, OfTheDecelerationThatAreLoweredInMotionLeaveAPositioningItsTarget) {
   Machine m;
   m.move.Distance = 60.0;
