@@ -16,6 +16,7 @@
 
 #include "cli/command/command.hpp"
 #include "cli/describe/table.hpp"
+#include "cli/monitor/inbox.hpp"
 #include "cli/monitor/keys.hpp"
 #include "cli/monitor/record.hpp"
 #include "cli/monitor/screen.hpp"
@@ -30,12 +31,11 @@ using namespace std::chrono_literals;
 using Clock = HeardTrace::Clock;
 
 constexpr char kUsualUrl[] = "udpm://239.255.76.67:7667?ttl=0";
-constexpr auto kRefresh = 200ms;    // of the terminal
-constexpr auto kInterval = 1s;      // between two tables in a pipe
-constexpr auto kGather = 1200ms;    // of --once: every trace tells its signals once a second
-constexpr auto kPatience = 2000ms;  // of --once
-constexpr int kQueue = 20'000;      // messages that wait, beyond which LCM drops them
-constexpr int kBurst = 1000;        // messages taken between two looks at the clock
+constexpr auto kRefresh = 200ms;      // of the terminal
+constexpr auto kInterval = 1s;        // between two tables in a pipe
+constexpr auto kGather = 1200ms;      // of --once: every trace tells its signals once a second
+constexpr auto kPatience = 2000ms;    // of --once
+constexpr std::size_t kBurst = 1000;  // messages taken between two looks at the clock
 
 volatile std::sig_atomic_t end_requested = 0;
 
@@ -84,24 +84,22 @@ class Listener {
   /// @throws std::runtime_error without a multicast route, or for a URL that is none
   explicit Listener(const MonitorOptions& options)
       : model(options.url, panel_of(options)),
-        joined_(options.url, LcmTraceIdentity{"monitor", "MONITOR", 0, 0}) {
-    auto* const subscription = lcm_subscribe(joined_.instance(), ".*", &Listener::take, this);
-    if (subscription == nullptr)
-      throw std::runtime_error("LCM on " + options.url + ": cannot be subscribed to");
-    lcm_subscription_set_queue_capacity(subscription, kQueue);
-  }
+        joined_(options.url, LcmTraceIdentity{"monitor", "MONITOR", 0, 0}),
+        inbox_(joined_) {}
 
   /// Listens until a time, a key or a signal.
   void listen(Clock::time_point until) {
     while (end_requested == 0) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
       if (left <= 0) return;
-      pollfd sources[] = {{lcm_get_fileno(joined_.instance()), POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}};
+      pollfd sources[] = {{inbox_.descriptor(), POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}};
       const nfds_t count = keys ? 2 : 1;
       if (poll(sources, count, static_cast<int>(left)) < 0) return;
       if (keys && sources[1].revents != 0) return;
-      for (int i = 0; i < kBurst && sources[0].revents != 0; ++i)
-        if (lcm_handle_timeout(joined_.instance(), 0) <= 0) break;
+      if (sources[0].revents != 0)
+        inbox_.take(kBurst, [this](const std::string& channel, std::span<const std::uint8_t> bytes) {
+          take(channel, bytes);
+        });
     }
   }
 
@@ -144,14 +142,12 @@ class Listener {
   bool keys = false;  ///< whether a key ends `listen`
 
  private:
-  static void take(const lcm_recv_buf_t* buffer, const char* channel, void* self) {
-    auto& listener = *static_cast<Listener*>(self);
-    const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
-    if (listener.model.accept(channel, bytes, Clock::now()) && listener.record_)
-      listener.record_->message(channel, bytes, wall_clock());
+  void take(const std::string& channel, std::span<const std::uint8_t> bytes) {
+    if (model.accept(channel, bytes, Clock::now()) && record_) record_->message(channel, bytes, wall_clock());
   }
 
   LcmPublisher joined_;  // publishes commands at most; it joins and tells why it cannot
+  Inbox inbox_;
   std::unique_ptr<MonitorRecord> record_;
 };
 

@@ -105,7 +105,8 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge(const command_t& command,
 }
 
 /// Whether it is meant for this run, of this moment and new. So a log that is played or a message that hung
-/// on its way moves nothing.
+/// on its way moves nothing. What stops or disables is carried out whatever its sequence: anybody can forge a
+/// high one in the name of a panel, and that must not take its stop away.
 std::optional<CommandDesk::Refusal> CommandDesk::judge_sender(const command_t& command,
                                                               Clock::time_point now) {
   if (command.run != run_) return Refusal{&CommandCounters::stale, "meant for another run"};
@@ -113,7 +114,8 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge_sender(const command_t& c
     return Refusal{&CommandCounters::stale,
                    "too old: beat " + std::to_string(command.beat) + " of " + std::to_string(beat_)};
   const auto known = senders_.find(command.sender);
-  if (known != senders_.end() && command.sequence <= known->second.sequence)
+  const bool behind = known != senders_.end() && command.sequence <= known->second.sequence;
+  if (behind && !calms(command.action))
     return Refusal{&CommandCounters::stale, "repeated, or overtaken by a later one"};
   if (known == senders_.end() && senders_.size() >= kMostSenders)
     // What a forgotten one has sent is too old by then.
@@ -121,7 +123,7 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge_sender(const command_t& c
   const bool room = known != senders_.end() || senders_.size() < kMostSenders;
   if (!room && !calms(command.action))
     return Refusal{&CommandCounters::too_many, "too many panels; allowed: " + std::to_string(kMostSenders)};
-  if (room) senders_[command.sender] = {command.sequence, now};
+  if (room && !behind) senders_[command.sender] = {command.sequence, now};
   if (!commands_.take(now, kMostPerSecond) && !calms(command.action))
     return Refusal{&CommandCounters::too_many,
                    "too many commands; allowed: " + std::to_string(kMostPerSecond) + " in a second"};

@@ -14,25 +14,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kQueue = 1000;  // messages that wait, beyond which LCM drops them
-constexpr int kBurst = 100;   // messages taken between two looks at the clock
-constexpr auto kPoll = 20ms;  // how long the end of a run may wait for this thread
+constexpr int kBurst = 1000;                   // datagrams taken between two looks at the clock
+constexpr LcmBounds kShortOnly{.message = 0};  // a command fits a datagram
+constexpr auto kPoll = 20ms;                   // how long the end of a run may wait for this thread
 
 std::int64_t number_by_chance() {
   std::random_device chance;
   return static_cast<std::int64_t>(std::uint64_t{chance()} << 32 | chance());
-}
-
-/// LCM takes the channel of a subscription for a pattern.
-std::string as_pattern(const std::string& channel) {
-  std::string pattern;
-  for (const char c : channel) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-                       c == '_' || static_cast<unsigned char>(c) >= 0x80;
-    if (!plain) pattern += '\\';
-    pattern += c;
-  }
-  return pattern;
 }
 
 }  // namespace
@@ -42,15 +30,12 @@ CommandListener::CommandListener(const std::string& url, LcmTraceIdentity identi
                                  Answers answers)
     : identity_(std::move(identity)),
       joined_(url, identity_, false),
+      receiver_(joined_, identity_.channel + std::string(kCommandSuffix), kShortOnly,
+                [this](const LcmMessage& message) { take(message); }),
       image_(image),
       desk_(std::move(axes), image, number_by_chance()),
       servo_cycle_(servo_cycle),
-      answers_(std::move(answers)) {
-  const std::string pattern = as_pattern(identity_.channel + std::string(kCommandSuffix));
-  auto* const subscription = lcm_subscribe(joined_.instance(), pattern.c_str(), &CommandListener::take, this);
-  if (subscription == nullptr) throw std::runtime_error("LCM on " + url + ": cannot be subscribed to");
-  lcm_subscription_set_queue_capacity(subscription, kQueue);
-}
+      answers_(std::move(answers)) {}
 
 CommandListener::~CommandListener() {
   stop();
@@ -65,15 +50,9 @@ void CommandListener::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void CommandListener::take(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* self) noexcept {
-  auto& listener = *static_cast<CommandListener*>(self);
-  try {
-    const auto answer = listener.desk_.accept(
-        {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size}, CommandDesk::Clock::now());
-    if (answer) listener.tell(*answer);
-  } catch (...) {
-    ++listener.faults_;
-  }
+void CommandListener::take(const LcmMessage& message) {
+  const auto answer = desk_.accept(message.data, CommandDesk::Clock::now());
+  if (answer) tell(*answer);
 }
 
 void CommandListener::listen() noexcept {
@@ -90,10 +69,13 @@ void CommandListener::listen() noexcept {
       }
     }
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(due - now);
-    pollfd source{lcm_get_fileno(joined_.instance()), POLLIN, 0};
+    pollfd source{receiver_.descriptor(), POLLIN, 0};
     poll(&source, 1, static_cast<int>(std::clamp<std::int64_t>(left.count(), 1, kPoll.count())));
-    for (int i = 0; i < kBurst && source.revents != 0; ++i)
-      if (lcm_handle_timeout(joined_.instance(), 0) <= 0) break;
+    try {
+      if (source.revents != 0) receiver_.take(kBurst);
+    } catch (...) {
+      ++faults_;
+    }
   }
 }
 

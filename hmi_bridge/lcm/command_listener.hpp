@@ -9,6 +9,7 @@
 
 #include "hmi_bridge/lcm/command_desk.hpp"
 #include "hmi_bridge/lcm/publisher.hpp"
+#include "hmi_bridge/lcm/receiver.hpp"
 #include "hmi_bridge/traces/event.hpp"
 
 namespace lockstep {
@@ -23,7 +24,7 @@ class CommandListener {
   using Answers = std::function<void(TraceEvent)>;
 
   /// Joins the network. @param image of the axes' signals; outlives this  @param servo_cycle [ns]
-  /// @throws as LcmPublisher; std::runtime_error where nothing can be subscribed to
+  /// @throws as LcmPublisher and LcmReceiver
   CommandListener(const std::string& url, LcmTraceIdentity identity, std::vector<CommandAxis> axes,
                   ProcessImage& image, std::int64_t servo_cycle, Answers answers);
   CommandListener(const CommandListener&) = delete;
@@ -37,7 +38,7 @@ class CommandListener {
   std::uint64_t faults() const noexcept { return faults_; }
 
  private:
-  static void take(const lcm_recv_buf_t* buffer, const char* channel, void* self) noexcept;
+  void take(const LcmMessage& message);
   void listen() noexcept;
   void beat();
   void tell(const CommandDesk::Answer& answer);
@@ -45,6 +46,7 @@ class CommandListener {
 
   LcmTraceIdentity identity_;
   LcmPublisher joined_;  // publishes no rows; it joins and tells why it cannot
+  LcmReceiver receiver_;
   ProcessImage& image_;
   CommandDesk desk_;
   const std::int64_t servo_cycle_;

@@ -1,43 +1,18 @@
 #include "hmi_bridge/lcm/publisher.hpp"
 
-#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "hmi_bridge/lcm/url.hpp"
+
 namespace lockstep {
 namespace {
-
-[[noreturn]] void refuse(const std::string& url, const std::string& why) {
-  throw std::runtime_error("LCM on " + url + ": " + why);
-}
-
-// The address of "udpm://ADDRESS:PORT?options", with LCM's own defaults for what is left out.
-sockaddr_in multicast_address(const std::string& url, std::string_view network) {
-  network = network.substr(0, network.find('?'));
-  const std::size_t colon = network.find(':');
-  const std::string host(network.substr(0, colon));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  if (::inet_pton(AF_INET, host.empty() ? "239.255.76.67" : host.c_str(), &address.sin_addr) != 1 ||
-      !IN_MULTICAST(ntohl(address.sin_addr.s_addr)))
-    refuse(url, "\"" + host + "\" is not a multicast address (224.0.0.0 to 239.255.255.255)");
-  std::uint16_t port = 7667;
-  if (colon != std::string_view::npos && colon + 1 < network.size()) {
-    const std::string_view text = network.substr(colon + 1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-    if (error != std::errc{} || end != text.data() + text.size() || port == 0)
-      refuse(url, "\"" + std::string(text) + "\" is not a port (1 to 65535)");
-  }
-  address.sin_port = htons(port);
-  return address;
-}
 
 // LCM makes the same attempt, but tells of it on standard error only.
 void require_route(const std::string& url, const sockaddr_in& address) {
@@ -46,17 +21,16 @@ void require_route(const std::string& url, const sockaddr_in& address) {
       probe >= 0 && ::connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   const int error = errno;
   if (probe >= 0) ::close(probe);
-  if (!routed) refuse(url, "no multicast route: " + std::generic_category().message(error));
+  if (!routed) refuse_lcm(url, "no multicast route: " + std::generic_category().message(error));
 }
 
 lcm_t* join(const std::string& url) {
-  constexpr std::string_view kUdpm = "udpm://";
-  if (url.starts_with(kUdpm))
-    require_route(url, multicast_address(url, std::string_view(url).substr(kUdpm.size())));
-  else if (url != "memq://")
-    refuse(url, "unknown network, udpm://ADDRESS:PORT?ttl=N and memq:// are allowed");
+  if (url.starts_with("udpm://"))
+    require_route(url, lcm_group(url));
+  else if (url != kLcmOwnProcess)
+    refuse_lcm(url, "unknown network, udpm://ADDRESS:PORT?ttl=N and memq:// are allowed");
   lcm_t* lcm = lcm_create(url.c_str());
-  if (lcm == nullptr) refuse(url, "cannot be joined");
+  if (lcm == nullptr) refuse_lcm(url, "cannot be joined");
   return lcm;
 }
 

@@ -1,12 +1,17 @@
 // lockstep run with a panel: a client on the network enables, jogs and lets go.
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "hmi_bridge/lcm/commands.hpp"
-#include "hmi_bridge/lcm/publisher.hpp"
+#include "hmi_bridge/lcm/receiver.hpp"
 #include "tests/cli/command_run.hpp"
 #include "tests/hmi_bridge/own_network.hpp"
+#include "tests/support/datagrams.hpp"
 
 namespace lockstep {
 namespace {
@@ -28,14 +33,16 @@ std::string project(const std::string& commands) {
 /// A panel of its own, with what it hears.
 class Client {
  public:
-  Client() : joined_(kUrl, LcmTraceIdentity{"client", "CLIENT", 0, 0}, false) {
-    auto* const subscription = lcm_subscribe(joined_.instance(), "SLIDE.*", &Client::take, this);
-    lcm_subscription_set_queue_capacity(subscription, 10'000);
-  }
+  Client()
+      : joined_(kUrl, LcmTraceIdentity{"client", "CLIENT", 0, 0}, false),
+        receiver_(joined_, "", LcmBounds{}, [this](const LcmMessage& message) { take(message); }) {}
   /// Listens until something holds; false at the deadline.
   bool hear_until(const std::function<bool()>& condition, std::chrono::milliseconds limit = kDeadline) {
     const auto deadline = SteadyClock::now() + limit;
-    while (!condition() && SteadyClock::now() < deadline) lcm_handle_timeout(joined_.instance(), 10);
+    while (!condition() && SteadyClock::now() < deadline) {
+      pollfd source{receiver_.descriptor(), POLLIN, 0};
+      if (poll(&source, 1, 10) > 0) receiver_.take(100);
+    }
     return condition();
   }
   void send(std::int32_t action, double value = 0.0) {
@@ -72,18 +79,18 @@ class Client {
   std::vector<std::uint8_t> last;
 
  private:
-  static void take(const lcm_recv_buf_t* buffer, const char* channel, void* self) {
-    auto& client = *static_cast<Client*>(self);
-    const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
-    if (const auto event = decode_event(bytes)) client.events.push_back(*event);
-    if (std::string(channel) == "SLIDE") ++client.rows;
-    const auto state = decode_panel(bytes);
-    if (!state) return;
-    client.state = *state;
-    ++client.states;
+  void take(const LcmMessage& message) {
+    if (!message.channel.starts_with("SLIDE")) return;
+    if (const auto event = decode_event(message.data)) events.push_back(*event);
+    if (message.channel == "SLIDE") ++rows;
+    const auto heard = decode_panel(message.data);
+    if (!heard) return;
+    state = *heard;
+    ++states;
   }
 
   LcmPublisher joined_;
+  LcmReceiver receiver_;
   std::int64_t sequence_ = 0;
 };
 
@@ -235,6 +242,83 @@ TEST(RunCommands, AProjectThatDoesNotSaySoHearsNoCommand) {
     run.interrupt();
     EXPECT_EQ(run.status(), 0);
     EXPECT_EQ(cli::content(folder.file("err")).find("commands"), std::string::npos);
+  });
+}
+
+// ---- A network on which somebody lies
+
+/// Sends datagrams as they are.
+class Liar {
+ public:
+  Liar() : fd_(::socket(AF_INET, SOCK_DGRAM, 0)) {}
+  ~Liar() { ::close(fd_); }
+  void send(const std::vector<std::uint8_t>& datagram) const {
+    sockaddr_in group{};
+    group.sin_family = AF_INET;
+    group.sin_port = htons(7667);
+    ::inet_pton(AF_INET, "239.255.76.67", &group.sin_addr);
+    ::sendto(fd_, datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr*>(&group),
+             sizeof group);
+  }
+  /// Forged, oversized, interleaved and cut ones.
+  void lie() const {
+    const std::string data(1000, 'x');
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      send(
+          test::fragment_datagram({.sequence = i, .size = 0x7FFFFFFF, .number = 0, .count = 2}, "SLIDE_CMD"));
+      send(test::fragment_datagram({.sequence = i, .size = 8u << 20, .number = 1, .count = 2}, data));
+      send(test::fragment_datagram({.sequence = 99, .size = 2000, .number = 0, .count = 3},
+                                   std::string("SLIDE_CMD\0", 10) + data));
+      send(test::fragment_datagram(
+          {.sequence = 99, .size = 2000, .offset = 0xFFFFFFFFu - i * 64, .number = 1, .count = 3}, data));
+      send(test::short_datagram("SLIDE_CMD", data));
+      send({'L', 'C', '0', '3', static_cast<std::uint8_t>(i)});
+    }
+  }
+
+ private:
+  int fd_;
+};
+
+/// Memory of a program that is in use [KiB].
+long resident_memory(pid_t process) {
+  std::istringstream status(cli::content("/proc/" + std::to_string(process) + "/status"));
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmRSS:")) return std::stol(line.substr(6));
+  return -1;
+}
+
+TEST(RunCommands, DatagramsThatLieEndNoRunNorTakeItsMemoryNorKeepCommandsAway) {
+  in_own_network([] {
+    bring_up_network();
+    const cli::Directory folder;
+    const std::string file = folder.write(
+        "project.json", project(R"(, "commands": { "axes": { "Slide": { "jog_velocity": 20.0 } } })"));
+    ForeignProgram run(run_of(file, folder.file("err")));
+    ForeignProgram monitor(
+        {"sh", "-c", R"(exec "$0" monitor >"$1" 2>&1)", LOCKSTEP_EXECUTABLE, folder.file("monitor")});
+    Client client;
+    const auto shown = [&](const char* text) {
+      return cli::content(folder.file("monitor")).find(text) != std::string::npos;
+    };
+    ASSERT_TRUE(client.hear_until([&] { return client.states > 0 && shown("SLIDE: panel"); }));
+    const long before = resident_memory(run.process()), watching = resident_memory(monitor.process());
+    ASSERT_GT(before, 0);
+    ASSERT_GT(watching, 0);
+    const Liar liar;
+    liar.lie();
+    const std::uint64_t states = client.states;
+    ASSERT_TRUE(client.hear_until([&] { return client.states > states + 5; }));
+    EXPECT_LT(resident_memory(run.process()) - before, 40'000);
+    EXPECT_LT(resident_memory(monitor.process()) - watching, 40'000);
+    client.send(command_t::ENABLE);
+    client.event("command accepted", "enable");
+    liar.lie();
+    client.send(command_t::DISABLE);
+    client.event("command accepted", "disable");
+    EXPECT_TRUE(monitor.running());
+    run.interrupt();
+    EXPECT_EQ(run.status(), 0) << cli::content(folder.file("err"));
   });
 }
 

@@ -80,6 +80,30 @@ class Commands : public testing::Test {
   std::int64_t sequence_ = 0;
 };
 
+// Anybody on the network can send in the name of a panel, with the highest of all sequences.
+TEST_F(Commands, ThatStopOrDisableCannotBeTakenAwayByAForgedSequence) {
+  EXPECT_TRUE(accepted(command(command_t::ENABLE)));
+  EXPECT_TRUE(accepted(command(command_t::JOG_FORWARD, 1.0)));
+  command_t forged = command(command_t::RESET);
+  forged.sequence = std::numeric_limits<std::int64_t>::max();
+  EXPECT_TRUE(accepted(forged));
+  EXPECT_EQ(refusal(command(command_t::JOG_FORWARD, 1.0)), "repeated, or overtaken by a later one");
+  EXPECT_TRUE(knife_.forward);
+  EXPECT_TRUE(accepted(command(command_t::STOP)));
+  EXPECT_FALSE(knife_.forward);
+  EXPECT_TRUE(accepted(command(command_t::DISABLE)));
+  EXPECT_FALSE(knife_.enable);
+}
+
+// A jog that hung on its way does not go on behind a stop.
+TEST_F(Commands, OfAJogThatTheStopOvertookDoNothing) {
+  EXPECT_TRUE(accepted(command(command_t::ENABLE)));
+  const command_t late = command(command_t::JOG_FORWARD, 1.0);
+  EXPECT_TRUE(accepted(command(command_t::STOP)));
+  EXPECT_EQ(refusal(late), "repeated, or overtaken by a later one");
+  EXPECT_FALSE(knife_.forward);
+}
+
 TEST_F(Commands, EnterTheCycleAtTheNextTick) {
   const auto answer = give(command(command_t::ENABLE));
   ASSERT_TRUE(answer);

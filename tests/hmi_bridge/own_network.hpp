@@ -44,6 +44,7 @@ class ForeignProgram {
     if (!ended_) ::kill(pid_, SIGKILL);
     status();
   }
+  pid_t process() const { return pid_; }
   void stop() { ::kill(pid_, SIGSTOP); }
   void interrupt() { ::kill(pid_, SIGINT); }
   bool running() {

@@ -1,0 +1,140 @@
+#include "hmi_bridge/lcm/reassembly.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+constexpr std::uint32_t kShort = 0x4C433032;     // "LC02"
+constexpr std::uint32_t kFragment = 0x4C433033;  // "LC03"
+constexpr std::size_t kShortHead = 8;
+constexpr std::size_t kFragmentHead = 20;
+
+std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t width) noexcept {
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < width; ++i) number = number << 8 | bytes[at + i];
+  return number;
+}
+
+/// The characters up to the 0, which the channel of a message ends with; none if there is no channel.
+std::optional<std::string_view> channel_at(std::span<const std::uint8_t> bytes) noexcept {
+  const auto most = bytes.first(std::min(bytes.size(), LcmReassembly::kLongestChannel + 1));
+  const auto end = std::find(most.begin(), most.end(), std::uint8_t{0});
+  if (end == most.end() || end == most.begin()) return std::nullopt;
+  return std::string_view(reinterpret_cast<const char*>(bytes.data()),
+                          static_cast<std::size_t>(end - most.begin()));
+}
+
+}  // namespace
+
+std::optional<LcmMessage> LcmReassembly::malformed() noexcept {
+  ++counters_.malformed;
+  return std::nullopt;
+}
+
+std::optional<LcmMessage> LcmReassembly::accept(std::span<const std::uint8_t> datagram, std::uint64_t sender,
+                                                Clock::time_point now) {
+  give_up_late(now);
+  if (datagram.size() < kShortHead) return malformed();
+  const std::uint32_t magic = number_at(datagram, 0, 4);
+  if (magic == kShort) return accept_short(datagram.subspan(kShortHead));
+  if (magic != kFragment || datagram.size() < kFragmentHead) return malformed();
+  return accept_fragment({.sequence = number_at(datagram, 4, 4),
+                          .message_size = number_at(datagram, 8, 4),
+                          .offset = number_at(datagram, 12, 4),
+                          .number = static_cast<std::uint16_t>(number_at(datagram, 16, 2)),
+                          .count = static_cast<std::uint16_t>(number_at(datagram, 18, 2)),
+                          .rest = datagram.subspan(kFragmentHead)},
+                         sender, now);
+}
+
+std::optional<LcmMessage> LcmReassembly::accept_short(std::span<const std::uint8_t> rest) {
+  const auto channel = channel_at(rest);
+  if (!channel) return malformed();
+  ++counters_.messages;
+  return LcmMessage{*channel, rest.subspan(channel->size() + 1)};
+}
+
+std::optional<LcmMessage> LcmReassembly::accept_fragment(const Fragment& fragment, std::uint64_t sender,
+                                                         Clock::time_point now) {
+  if (memory_of(fragment) > bounds_.memory || fragment.message_size > bounds_.message) {
+    ++counters_.refused;
+    return std::nullopt;
+  }
+  if (fragment.number >= fragment.count) return malformed();
+  std::optional<std::string_view> channel;
+  std::span<const std::uint8_t> data = fragment.rest;
+  if (fragment.number == 0) {
+    channel = channel_at(data);
+    if (!channel) return malformed();
+    data = data.subspan(channel->size() + 1);
+  }
+  // In 64 bits: two numbers of 32 bits have no sum that wraps.
+  if (std::uint64_t{fragment.offset} + data.size() > fragment.message_size) return malformed();
+  const auto partial = partial_of(fragment, sender, now);
+  if (partial == partial_.end() || partial->seen[fragment.number]) return malformed();
+  if (channel) partial->channel = *channel;
+  std::copy(data.begin(), data.end(), partial->data.begin() + fragment.offset);
+  partial->seen[fragment.number] = true;
+  partial->bytes += data.size();
+  return --partial->missing == 0 ? complete(partial) : std::nullopt;
+}
+
+/// The message that a fragment belongs to, begun if need be; none if they contradict each other.
+LcmReassembly::Partials::iterator LcmReassembly::partial_of(const Fragment& fragment, std::uint64_t sender,
+                                                            Clock::time_point now) {
+  const auto found = std::find_if(partial_.begin(), partial_.end(), [&](const Partial& one) {
+    return one.sender == sender && one.sequence == fragment.sequence;
+  });
+  if (found != partial_.end()) {
+    const bool agrees =
+        found->data.size() == fragment.message_size && found->seen.size() == fragment.count;
+    return agrees ? found : partial_.end();
+  }
+  const std::size_t memory = memory_of(fragment);
+  while (!partial_.empty() &&
+         (partial_.size() >= bounds_.incomplete || memory_ + memory > bounds_.memory)) {
+    ++counters_.given_up;
+    forget(partial_.begin());
+  }
+  partial_.push_back({.sender = sender,
+                      .sequence = fragment.sequence,
+                      .begun = now,
+                      .channel = {},
+                      .data = std::vector<std::uint8_t>(fragment.message_size),
+                      .seen = std::vector<bool>(fragment.count),
+                      .missing = fragment.count});
+  memory_ += memory;
+  return std::prev(partial_.end());
+}
+
+std::optional<LcmMessage> LcmReassembly::complete(Partials::iterator partial) {
+  const bool whole = partial->bytes == partial->data.size();  // else they overlap and leave gaps
+  if (whole) whole_ = std::move(*partial);
+  const std::size_t size = whole ? whole_.data.size() : partial->data.size();
+  memory_ -= size + (whole ? whole_.seen : partial->seen).size() / 8;
+  partial_.erase(partial);
+  if (!whole) return malformed();
+  ++counters_.messages;
+  return LcmMessage{whole_.channel, whole_.data};
+}
+
+void LcmReassembly::forget(Partials::iterator partial) noexcept {
+  memory_ -= partial->data.size() + partial->seen.size() / 8;
+  partial_.erase(partial);
+}
+
+void LcmReassembly::give_up_late(Clock::time_point now) noexcept {
+  while (!partial_.empty() && now - partial_.front().begun > bounds_.patience) {
+    ++counters_.given_up;
+    forget(partial_.begin());
+  }
+}
+
+std::size_t LcmReassembly::memory_of(const Fragment& fragment) noexcept {
+  return fragment.message_size + std::size_t{fragment.count} / 8;
+}
+
+}  // namespace lockstep

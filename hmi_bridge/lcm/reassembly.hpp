@@ -1,0 +1,93 @@
+/// Datagrams of an LCM network put together to messages. What comes from a network is not believed: each length
+/// and offset is checked, and what is incomplete is bounded in number, size and time.
+/// @source LCM, UDP multicast protocol, "LC02" and "LC03"
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lockstep {
+
+/// A message as it came; its memory is that of the datagram or of the reassembly, until the next datagram.
+struct LcmMessage {
+  std::string_view channel;  ///< 1 to 63 characters, any but 0
+  std::span<const std::uint8_t> data;
+};
+
+/// What the reassembly keeps at most. The defaults bear the header of a trace of 60,000 signals.
+struct LcmBounds {
+  std::size_t message = 8u << 20;        ///< of one message in fragments [byte]; 0: fragments are refused
+  std::size_t memory = 16u << 20;        ///< of all incomplete messages [byte]
+  std::size_t incomplete = 16;           ///< messages at a time
+  std::chrono::milliseconds patience{1000};  ///< from the first fragment of a message to its last
+};
+
+/// What has become of the datagrams.
+struct LcmDatagramCounters {
+  std::uint64_t messages = 0;   ///< complete
+  std::uint64_t malformed = 0;  ///< datagrams that are none of LCM, or contradict themselves or others
+  std::uint64_t refused = 0;    ///< datagrams beyond the bounds
+  std::uint64_t given_up = 0;   ///< messages of which parts are missing
+};
+
+/// Any one thread.
+class LcmReassembly {
+ public:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::size_t kLongestChannel = 63;
+
+  explicit LcmReassembly(LcmBounds bounds = {}) : bounds_(bounds) {}
+
+  /// Takes a datagram. @param sender tells senders apart, such as address and port
+  /// @return the message that it is, or completes
+  std::optional<LcmMessage> accept(std::span<const std::uint8_t> datagram, std::uint64_t sender,
+                                   Clock::time_point now);
+
+  const LcmDatagramCounters& counters() const noexcept { return counters_; }
+  /// Memory of the incomplete messages [byte], at most that of the bounds.
+  std::size_t memory() const noexcept { return memory_; }
+  std::size_t incomplete() const noexcept { return partial_.size(); }
+
+ private:
+  struct Fragment {
+    std::uint32_t sequence, message_size, offset;
+    std::uint16_t number, count;
+    std::span<const std::uint8_t> rest;  // channel and data, or data
+  };
+  struct Partial {
+    std::uint64_t sender;
+    std::uint32_t sequence;
+    Clock::time_point begun;
+    std::string channel;
+    std::vector<std::uint8_t> data;
+    std::vector<bool> seen;  // by number of the fragment
+    std::size_t missing;     // fragments
+    std::size_t bytes = 0;   // that have come
+  };
+  using Partials = std::list<Partial>;
+
+  std::optional<LcmMessage> malformed() noexcept;
+  std::optional<LcmMessage> accept_short(std::span<const std::uint8_t> rest);
+  std::optional<LcmMessage> accept_fragment(const Fragment& fragment, std::uint64_t sender,
+                                            Clock::time_point now);
+  Partials::iterator partial_of(const Fragment& fragment, std::uint64_t sender, Clock::time_point now);
+  std::optional<LcmMessage> complete(Partials::iterator partial);
+  void forget(Partials::iterator partial) noexcept;
+  void give_up_late(Clock::time_point now) noexcept;
+  static std::size_t memory_of(const Fragment& fragment) noexcept;
+
+  const LcmBounds bounds_;
+  LcmDatagramCounters counters_;
+  Partials partial_;  // the oldest first
+  std::size_t memory_ = 0;
+  Partial whole_{};  // the last message that has been completed
+};
+
+}  // namespace lockstep

@@ -1,0 +1,21 @@
+/// The URL of an LCM network.
+#pragma once
+
+#include <netinet/in.h>
+
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+/// The URL whose messages stay in this process.
+inline constexpr std::string_view kLcmOwnProcess = "memq://";
+
+/// Group and port of `udpm://ADDRESS:PORT?ttl=N`, with LCM's own defaults for what is left out.
+/// @throws std::runtime_error that names the URL, what is wrong with it and what is allowed
+sockaddr_in lcm_group(const std::string& url);
+
+/// Refuses a URL. @throws std::runtime_error "LCM on URL: WHY"
+[[noreturn]] void refuse_lcm(const std::string& url, const std::string& why);
+
+}  // namespace lockstep
