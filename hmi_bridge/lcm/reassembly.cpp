@@ -89,13 +89,11 @@ LcmReassembly::Partials::iterator LcmReassembly::partial_of(const Fragment& frag
     return one.sender == sender && one.sequence == fragment.sequence;
   });
   if (found != partial_.end()) {
-    const bool agrees =
-        found->data.size() == fragment.message_size && found->seen.size() == fragment.count;
+    const bool agrees = found->data.size() == fragment.message_size && found->seen.size() == fragment.count;
     return agrees ? found : partial_.end();
   }
   const std::size_t memory = memory_of(fragment);
-  while (!partial_.empty() &&
-         (partial_.size() >= bounds_.incomplete || memory_ + memory > bounds_.memory)) {
+  while (!partial_.empty() && (partial_.size() >= bounds_.incomplete || memory_ + memory > bounds_.memory)) {
     ++counters_.given_up;
     forget(partial_.begin());
   }

@@ -1,5 +1,5 @@
-/// Datagrams of an LCM network put together to messages. What comes from a network is not believed: each length
-/// and offset is checked, and what is incomplete is bounded in number, size and time.
+/// Datagrams of an LCM network put together to messages. What comes from a network is not believed: each
+/// length and offset is checked, and what is incomplete is bounded in number, size and time.
 /// @source LCM, UDP multicast protocol, "LC02" and "LC03"
 #pragma once
 
@@ -23,9 +23,9 @@ struct LcmMessage {
 
 /// What the reassembly keeps at most. The defaults bear the header of a trace of 60,000 signals.
 struct LcmBounds {
-  std::size_t message = 8u << 20;        ///< of one message in fragments [byte]; 0: fragments are refused
-  std::size_t memory = 16u << 20;        ///< of all incomplete messages [byte]
-  std::size_t incomplete = 16;           ///< messages at a time
+  std::size_t message = 8u << 20;            ///< of one message in fragments [byte]; 0: fragments are refused
+  std::size_t memory = 16u << 20;            ///< of all incomplete messages [byte]
+  std::size_t incomplete = 16;               ///< messages at a time
   std::chrono::milliseconds patience{1000};  ///< from the first fragment of a message to its last
 };
 

@@ -240,7 +240,12 @@ void Settling::settle_literal(Term& term, Type type) {
 void Settling::settle_rounding(Term& term, Type type) {
   if (!is_numeric(type)) return refuse(term, type);
   Term& operand = term.operands.front();
-  if (operand.shape != Shape::kTyped) settle(operand, is_real(type) ? type : Type::LREAL);
+  if (operand.shape != Shape::kTyped || !is_real(operand.type))
+    settle(operand, is_real(type) ? type : Type::LREAL);
+  if (operand.faulty) {
+    term.faulty = true;
+    return;
+  }
   const Type real = operand.type;
   term.form = Term::Form::kOperation;
   term.shape = Shape::kTyped;

@@ -1,11 +1,10 @@
 // Datagrams of an LCM network put together to messages, and those that lie.
-#include "hmi_bridge/lcm/reassembly.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
+#include "hmi_bridge/lcm/reassembly.hpp"
 #include "tests/support/datagrams.hpp"
 #include "tests/support/property.hpp"
 
@@ -45,10 +44,12 @@ TEST_F(Reassembly, AShortMessageIsWholeAtOnce) {
 }
 
 TEST_F(Reassembly, WhatIsNoMessageIsCounted) {
-  for (const std::vector<std::uint8_t>& datagram :
-       {std::vector<std::uint8_t>{}, {'L', 'C', '0', '2'}, short_datagram("", "data"),
-        short_datagram(std::string(64, 'x'), "data"), {'L', 'C', '0', '2', 0, 0, 0, 1, 'x'},
-        {'L', 'C', '0', '4', 0, 0, 0, 1, 'x', 0}})
+  for (const std::vector<std::uint8_t>& datagram : {std::vector<std::uint8_t>{},
+                                                    {'L', 'C', '0', '2'},
+                                                    short_datagram("", "data"),
+                                                    short_datagram(std::string(64, 'x'), "data"),
+                                                    {'L', 'C', '0', '2', 0, 0, 0, 1, 'x'},
+                                                    {'L', 'C', '0', '4', 0, 0, 0, 1, 'x', 0}})
     EXPECT_EQ(give(datagram), "");
   EXPECT_EQ(reassembly_.counters().malformed, 6u);
 }
@@ -100,7 +101,8 @@ TEST_F(Reassembly, FragmentsThatContradictEachOtherMakeNoMessage) {
   EXPECT_EQ(give(fragment_datagram({.size = 8, .number = 0, .count = 2}, first)), "") << "twice";
   EXPECT_EQ(give(fragment_datagram({.size = 8, .offset = 4, .number = 1, .count = 2}, "efgh")), "C=abcdefgh");
   EXPECT_EQ(give(fragment_datagram({.sequence = 2, .size = 8, .number = 0, .count = 2}, first)), "");
-  EXPECT_EQ(give(fragment_datagram({.sequence = 2, .size = 8, .offset = 2, .number = 1, .count = 2}, "ef")), "")
+  EXPECT_EQ(give(fragment_datagram({.sequence = 2, .size = 8, .offset = 2, .number = 1, .count = 2}, "ef")),
+            "")
       << "they overlap and leave a gap";
   EXPECT_EQ(reassembly_.memory(), 0u);
 }
