@@ -19,7 +19,19 @@ std::string place_of(const CamDefinition& definition, const CamFinding& finding)
   return "the cam";
 }
 
+/// A cam that closes is probably passed again and again.
+void warn_of_wrap(const CamInput& input, const CamDefinition& definition) {
+  if (definition.checks.cyclic) return;  // a finding, if continuity asks for it
+  for (const CamJoint& joint : joints_of(*definition.cam.function, true, true))
+    if (joint.wrap && joint.keeps == Continuity::position)
+      write_message(
+          fmt::format("{}: warning: the cam closes, and {}: passed cyclically, the following axis gets "
+                      "a step; \"cyclic\" and \"continuity\" in its checks look for it\n",
+                      input.file, step_text(joint)));
+}
+
 int check(const CamInput& input, bool json, const CamDefinition& definition) {
+  warn_of_wrap(input, definition);
   const auto findings =
       check_cam(definition.designed ? &definition.design : nullptr, definition.cam, definition.checks);
   Json list = Json::array();
@@ -51,7 +63,8 @@ void add_cam_check(CLI::App& cam, Action& action) {
       "                                             limits of the following axis at that velocity\n"
       "  suitability                                laws that miss velocity or acceleration beside them\n"
       "  continuity                                 joints that are not continuous up to it\n"
-      "  cyclic                                     the joint from the end to the start counts too\n"
+      "  cyclic                                     true: the joint from the end to the start counts too;\n"
+      "                                             \"closed\": and the cam ends as it begins\n"
       "Exit status: 0 nothing found, 1 not valid or something found, 2 cannot be read");
   command->callback([&action, input, json] {
     action = [input, json] {

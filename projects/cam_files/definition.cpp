@@ -354,6 +354,17 @@ void read_range(const JsonValue* value, std::optional<std::array<double, 2>>& ta
     problems.report(*value, "the lowest is above the highest; allowed: [lowest, highest]");
 }
 
+/// `true`, `false` or "closed".
+void read_cycle(const JsonValue* json, CamChecks& checks, Problems& problems) {
+  if (json == nullptr) return;
+  if (json->kind == JsonKind::boolean)
+    checks.cyclic = json->boolean;
+  else if (json->kind == JsonKind::string && json->text == cam_words::kClosed)
+    checks.cyclic = checks.closed = true;
+  else
+    problems.report(*json, json->shown() + " is not allowed here; allowed: true, false, \"closed\"");
+}
+
 void read_checks(const JsonValue& json, CamChecks& checks, Problems& problems) {
   std::vector<Key> keys;
   add_keys<CamChecks>(cam_fields::kChecks, keys);
@@ -365,7 +376,7 @@ void read_checks(const JsonValue& json, CamChecks& checks, Problems& problems) {
   read_range(fields["following_range"], checks.following_range, problems);
   read_flag(fields["suitability"], checks.suitability, problems);
   read_continuity(fields["continuity"], checks.continuity, problems);
-  read_flag(fields["cyclic"], checks.cyclic, problems);
+  read_cycle(fields["cyclic"], checks, problems);
   for (const char* limit : {"max_velocity", "max_acceleration", "max_jerk"})
     if (fields[limit] != nullptr && fields["leading_velocity"] == nullptr)
       problems.report(*fields[limit], "needs the key 'leading_velocity' beside it");

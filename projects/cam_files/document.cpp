@@ -110,7 +110,10 @@ Json json_of(const CamChecks& checks) {
   write_numbers<CamChecks>(checks, cam_fields::kChecks, json);
   if (checks.suitability) json["suitability"] = true;
   if (checks.continuity) json["continuity"] = continuity_word(*checks.continuity);
-  if (checks.cyclic) json["cyclic"] = true;
+  if (checks.closed)
+    json["cyclic"] = cam_words::kClosed;
+  else if (checks.cyclic)
+    json["cyclic"] = true;
   return json;
 }
 

@@ -118,11 +118,15 @@ inline constexpr CamNumber<TO_Cam_Struct_SegmentData> kSegment[] = {
     {"a6", &TO_Cam_Struct_SegmentData::a6, "coefficient of x^6"},
     {"sineAmplitude", &TO_Cam_Struct_SegmentData::sineAmplitude, "amplitude of the sine"},
     {"sinePeriod", &TO_Cam_Struct_SegmentData::sinePeriod, "its angular frequency [rad per leading unit]"},
-    {"sinePhase", &TO_Cam_Struct_SegmentData::sinePhase, "its phase at leading value 0 [rad]"}};
+    {"sinePhase", &TO_Cam_Struct_SegmentData::sinePhase, "its phase at the origin [rad]"},
+    {"origin", &TO_Cam_Struct_SegmentData::Origin,
+     "leading value from which coefficients and phase count; 0 if it is left out"}};
 
 }  // namespace cam_fields
 
 namespace cam_words {
+
+inline constexpr std::string_view kClosed = "closed";  ///< of `cyclic`, beside true and false
 
 inline constexpr std::string_view kElements[] = {"point",      "point group",  "line",      "sine",
                                                  "polynomial", "inverse sine", "transition"};

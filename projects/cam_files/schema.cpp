@@ -175,7 +175,10 @@ Json checks_schema() {
                 {"following_range", pair("following values that the cam may reach")},
                 {"suitability", flag("laws have to meet velocity and acceleration beside them")},
                 {"continuity", one_of("up to where the cam has to be continuous", cam_words::kContinuities)},
-                {"cyclic", flag("from the end to the start as well")}})
+                {"cyclic",
+                 {{"description",
+                   "from the end to the start as well; \"closed\": and with the same following value"},
+                  {"enum", {false, true, cam_words::kClosed}}}}})
       .finish();
 }
 

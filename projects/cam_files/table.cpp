@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <utility>
 
 #include "projects/cam_files/fields.hpp"
 
@@ -11,6 +12,14 @@ namespace {
 
 constexpr std::size_t kMostProblems = 1000;
 constexpr double kLargest = 1.0e12;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8, as spreadsheets begin a file
+
+/// What parts the numbers of a table: tab, else semicolon, else comma.
+char separator_of(std::string_view text) {
+  for (const char separator : {'\t', ';'})
+    if (text.find(separator) != text.npos) return separator;
+  return ',';
+}
 
 std::string text_of(double value) {
   char buffer[32];
@@ -26,11 +35,13 @@ struct Cell {
 /// One pass over a table that knows where it is.
 class TableReader {
  public:
-  TableReader(std::string_view text, CamDefinition& definition, std::vector<Problem>& problems)
-      : text_(text),
-        separator_(text.find('\t') != text.npos ? '\t' : ','),
+  TableReader(std::string_view text, CamDefinition& definition, std::vector<Problem>& problems,
+              std::vector<Problem>& warnings)
+      : text_(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text),
+        separator_(separator_of(text_)),
         definition_(definition),
-        problems_(problems) {}
+        problems_(problems),
+        warnings_(warnings) {}
 
   void read() {
     while (!text_.empty() && problems_.size() < kMostProblems) {
@@ -39,7 +50,8 @@ class TableReader {
       text_.remove_prefix(std::min(end + 1, text_.size()));
       ++line_;
       if (line.ends_with('\r')) line.remove_suffix(1);
-      if (line.find_first_not_of(" \t,") != line.npos) read_row(cells_of(line));
+      const std::size_t first = line.find_first_not_of(" \t,;");
+      if (first != line.npos && line[first] != '#') read_row(cells_of(line));
     }
     if (problems_.size() == kMostProblems)
       tell(1, "there are more problems; the rest of the file is not looked at");
@@ -74,6 +86,10 @@ class TableReader {
         ++column;
       }
       while (cell.ends_with(' ')) cell.remove_suffix(1);
+      if (cell.size() >= 2 && cell.starts_with('"') && cell.ends_with('"')) {  // as spreadsheets write texts
+        cell = cell.substr(1, cell.size() - 2);
+        ++column;
+      }
       cells.push_back({cell, column});
       begin = end + 1;
     }
@@ -84,15 +100,12 @@ class TableReader {
     const std::string_view first = cells.front().text;
     const bool letter = first == "P" || first == "S" || first == "I";
     if (kind_ == Kind::unknown) {
-      if (first == "x") {
-        kind_ = Kind::points;
-        return;
-      }
       kind_ = letter ? Kind::elements : Kind::points;
+      if (!letter && !is_number(first)) return read_header(cells);
     }
     ++rows_;
-    if (kind_ == Kind::points) return read_point(cells, 0, 5);
-    if (first == "P") return read_point(cells, 1, 3);
+    if (kind_ == Kind::points) return read_point(cells, 0);
+    if (first == "P") return read_point(cells, 1);
     if (first == "S") return read_segment(cells);
     if (first == "I") return read_interpolation(cells);
     tell(cells.front().column, "a row of elements begins with " + quote(first) +
@@ -107,10 +120,45 @@ class TableReader {
     return false;
   }
 
-  void read_point(const std::vector<Cell>& cells, std::size_t first, std::size_t most) {
-    if (!has_cells(cells, first + 2, most,
-                   first == 1 ? "P,x,y" : "x,y and perhaps velocity, acceleration and jerk"))
-      return;
+  /// The names of the columns, which may stand in the first row.
+  void read_header(const std::vector<Cell>& cells) {
+    constexpr std::string_view kColumns[] = {"x", "y"};
+    for (std::size_t i = 0; i < std::size(kColumns); ++i)
+      if (i >= cells.size() || lower_case(cells[i].text) != kColumns[i])
+        return tell(
+            cells[std::min(i, cells.size() - 1)].column,
+            quote(cells[std::min(i, cells.size() - 1)].text) +
+                " is not allowed here; allowed in the first row: numbers, or the names of the columns, "
+                "x and y first");
+  }
+
+  static std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower)
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return lower;
+  }
+
+  static bool is_number(std::string_view text) {
+    return !text.empty() && text.find_first_not_of("+-.,0123456789eE") == text.npos &&
+           text.find_first_of("0123456789") != text.npos;
+  }
+
+  /// Three or four numbers parted by commas are what a decimal comma makes of two, and nobody can tell which
+  /// comma is which.
+  bool has_point_cells(const std::vector<Cell>& cells) {
+    if (separator_ == ',' && (cells.size() == 3 || cells.size() == 4))
+      return has_cells(cells, 2, 2, "x,y or x,y,velocity,acceleration,jerk, with a decimal point");
+    if (!has_cells(cells, 2, 5, "x,y and perhaps velocity, acceleration and jerk")) return false;
+    if (cells.size() > 2 && !std::exchange(told_of_derivatives_, true))
+      warnings_.push_back({std::to_string(line_) + ":" + std::to_string(cells[2].column),
+                           "velocity, acceleration and jerk are not read: a cam of points has those of its "
+                           "interpolation; segments keep derivatives"});
+    return true;
+  }
+
+  void read_point(const std::vector<Cell>& cells, std::size_t first) {
+    if (first == 0 ? !has_point_cells(cells) : !has_cells(cells, 3, 3, "P,x,y")) return;
     double values[5] = {};
     bool good = true;
     for (std::size_t i = first; i < cells.size(); ++i) good &= read_number(cells[i], values[i - first]);
@@ -121,12 +169,12 @@ class TableReader {
 
   void read_segment(const std::vector<Cell>& cells) {
     constexpr std::size_t kNumbers = std::size(cam_fields::kSegment);
-    if (!has_cells(cells, kNumbers + 1, kNumbers + 1,
-                   "S,xmin,xmax,a0,a1,a2,a3,a4,a5,a6,sineAmplitude,sinePeriod,sinePhase"))
+    if (!has_cells(cells, kNumbers, kNumbers + 1,
+                   "S,xmin,xmax,a0,a1,a2,a3,a4,a5,a6,sineAmplitude,sinePeriod,sinePhase and perhaps origin"))
       return;
     TO_Cam_Struct_SegmentData segment;
     bool good = true;
-    for (std::size_t i = 0; i < kNumbers; ++i)
+    for (std::size_t i = 0; i + 1 < cells.size(); ++i)
       good &=
           read_number(cells[i + 1],
                       segment.*std::get<double TO_Cam_Struct_SegmentData::*>(cam_fields::kSegment[i].member));
@@ -154,8 +202,10 @@ class TableReader {
     const char* const end_of_cell = cell.text.data() + cell.text.size();
     const auto [end, error] = std::from_chars(cell.text.data(), end_of_cell, target);
     if (error == std::errc{} && end == end_of_cell && target >= -kLargest && target <= kLargest) return true;
-    tell(cell.column,
-         quote(cell.text) + " is not allowed here; allowed: a number from -1e12 to 1e12, such as 1.5");
+    const bool decimal_comma = cell.text.find(',') != cell.text.npos && is_number(cell.text);
+    tell(cell.column, quote(cell.text) +
+                          " is not allowed here; allowed: a number from -1e12 to 1e12, such as 1.5" +
+                          (decimal_comma ? ", with a decimal point, not a comma" : ""));
     return false;
   }
 
@@ -163,6 +213,8 @@ class TableReader {
   char separator_;
   CamDefinition& definition_;
   std::vector<Problem>& problems_;
+  std::vector<Problem>& warnings_;
+  bool told_of_derivatives_ = false;
   Kind kind_ = Kind::unknown;
   std::size_t line_ = 0;
   std::size_t rows_ = 0;
@@ -173,7 +225,7 @@ class TableReader {
 
 void read_cam_table(std::string_view text, CamDefinition& definition, std::vector<Problem>& problems,
                     std::vector<Problem>& warnings) {
-  TableReader reader(text, definition, problems);
+  TableReader reader(text, definition, problems, warnings);
   reader.read();
   if (!problems.empty()) return;
   definition.cam = interpolated_cam(std::move(reader.points), std::move(reader.segments),

@@ -4,8 +4,10 @@
 
 #include "fb/cam_in.hpp"
 #include "projects/expressions/constant.hpp"
+#include "projects/loader/cam_calls.hpp"
 #include "projects/loader/loader.hpp"
 #include "tech_objects/cam/motion.hpp"
+#include "tech_objects/cam_design/design_check.hpp"
 
 namespace lockstep {
 namespace {
@@ -72,6 +74,8 @@ class ProgramLoader {
       : program_(program), loading_(loading), problems_(loading.problems) {}
 
   void load_calls(const JsonValue* calls);
+  /// Behind all calls: what several of them have to do with each other.
+  void look_at_all() const { cam_calls_.warn_of_exchanges(problems_); }
 
  private:
   void load_call(const JsonValue& json);
@@ -90,7 +94,8 @@ class ProgramLoader {
   void load_object_pin(const JsonValue& json, const Pin& pin, Instance& instance);
   void check_constants(const Instance& instance);
   void check_leading_value(const JsonValue& in, Instance& instance);
-  void check_closed(const JsonValue& in, const Instance& instance);
+  void look_at_cam(const JsonValue& in, const Instance& instance);
+  void check_closed(const JsonValue& in, const MC_CamIn& block);
   void check_copied(const JsonValue& in, const Instance& instance, std::string_view what);
 
   /// What the place of a type gets: a JSON boolean or number, or an expression; none if it is reported.
@@ -104,6 +109,7 @@ class ProgramLoader {
   const Loading& loading_;
   Problems& problems_;
   std::vector<std::pair<const Pin*, const JsonValue*>> constants_;  // of the call that is being loaded
+  CamCalls cam_calls_;
 };
 
 void ProgramLoader::load_calls(const JsonValue* calls) {
@@ -286,7 +292,7 @@ void ProgramLoader::load_pins(const JsonValue* in, const JsonValue& call, Instan
   if (in == nullptr) return;
   check_constants(instance);
   check_leading_value(*in, instance);
-  if (instance.type->name == MC_CamIn::kName) check_closed(*in, instance);
+  if (instance.type->name == MC_CamIn::kName) look_at_cam(*in, instance);
   if (instance.type->name == "MC_CopyCamData")
     for (const std::string_view what : {"Point", "Segment"}) check_copied(*in, instance, what);
 }
@@ -368,20 +374,31 @@ void ProgramLoader::check_leading_value(const JsonValue& in, Instance& instance)
                               "'; the job of '" + instance.name + "' will fail");
 }
 
-/// Warns of a cam that is to be passed again and again and does not close, as far as that is constant.
-void ProgramLoader::check_closed(const JsonValue& in, const Instance& instance) {
+void ProgramLoader::look_at_cam(const JsonValue& in, const Instance& instance) {
   const auto& block = static_cast<const MC_CamIn&>(*instance.block);
   const auto computed = [&](std::string_view name) {
     const auto is_it = [&](const auto& known) { return known.first->name == name; };
     return in.find(name) != nullptr && std::none_of(constants_.begin(), constants_.end(), is_it);
   };
-  if (computed("ApplicationMode") || block.ApplicationMode != static_cast<DINT>(CamMode::cyclic) ||
-      computed("SlaveScaling") || block.Slave == nullptr || block.Cam == nullptr ||
-      !block.Cam->interpolated())
+  if (!computed("ApplicationMode") && !computed("SlaveScaling")) check_closed(in, block);
+  if (!computed("SyncProfileReference") && !computed("MasterScaling") && !computed("SlaveScaling"))
+    cam_calls_.add(in, block);
+}
+
+/// Warns of a cam that is to be passed again and again and does not close.
+void ProgramLoader::check_closed(const JsonValue& in, const MC_CamIn& block) {
+  if (block.ApplicationMode != static_cast<DINT>(CamMode::cyclic) || block.Slave == nullptr ||
+      block.Cam == nullptr || !block.Cam->interpolated())
     return;
   const TO_Struct_Modulo& ring = block.Slave->data.Modulo;
   const CamFunction& cam = block.Cam->function();
-  if (CamFollowing::closes(cam, block.SlaveScaling, {ring.Enable, ring.Length, ring.StartValue})) return;
+  if (CamFollowing::closes(cam, block.SlaveScaling, {ring.Enable, ring.Length, ring.StartValue})) {
+    for (const CamJoint& joint : joints_of(cam, true))
+      if (joint.wrap && joint.keeps == Continuity::position)
+        problems_.warn(*in.find("ApplicationMode"), "with '" + block.Cam->name + "' " + step_text(joint) +
+                                                        ": the following axis gets that step in each pass");
+    return;
+  }
   problems_.warn(*in.find("ApplicationMode"),
                  "1 needs a cam that ends as it begins, and '" + block.Cam->name + "' begins with " +
                      value_text({.r = cam.start_following_value()}, Type::LREAL) + " and ends with " +
@@ -465,7 +482,9 @@ class ProgramsLoader {
     const std::int64_t cycle = known_ob ? read_cycle(fields, ob, loading_) : 0;
     const int priority = known_ob ? read_priority(fields, ob, loading_) : 0;
     Program& program = loading_.controller().programs.emplace_back(name, ob, cycle, priority);
-    ProgramLoader(program, loading_).load_calls(fields["calls"]);
+    ProgramLoader loader(program, loading_);
+    loader.load_calls(fields["calls"]);
+    loader.look_at_all();
   }
 
  private:

@@ -27,8 +27,8 @@ bool in_range(double value) noexcept {
 
 /// What is wrong with the numbers of a segment.
 CamFault fault_of(const TO_Cam_Struct_SegmentData& s, std::size_t index) noexcept {
-  for (const double value :
-       {s.xmin, s.xmax, s.a0, s.a1, s.a2, s.a3, s.a4, s.a5, s.a6, s.sineAmplitude, s.sinePeriod, s.sinePhase})
+  for (const double value : {s.xmin, s.xmax, s.a0, s.a1, s.a2, s.a3, s.a4, s.a5, s.a6, s.sineAmplitude,
+                             s.sinePeriod, s.sinePhase, s.Origin})
     if (!in_range(value)) return {CamFault::Reason::number, true, index, value};
   if (!(s.xmin < s.xmax)) return {CamFault::Reason::order, true, index, s.xmax, s.xmin};
   return {};

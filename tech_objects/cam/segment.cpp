@@ -97,14 +97,14 @@ double CamSegment::derivative(int order, double distance) const noexcept {
 CamSegment shifted(const TO_Cam_Struct_SegmentData& segment, double origin) noexcept {
   DoubleDouble c[7] = {{segment.a0, 0.0}, {segment.a1, 0.0}, {segment.a2, 0.0}, {segment.a3, 0.0},
                        {segment.a4, 0.0}, {segment.a5, 0.0}, {segment.a6, 0.0}};
-  for (int k = 0; k < 6; ++k)  // Horner's scheme once per derivative
-    for (int j = 5; j >= k; --j) c[j] = c[j] + c[j + 1] * origin;
+  const DoubleDouble by = to_double_double(origin) - to_double_double(segment.Origin);
+  for (int k = 0; k < 6 && by.hi != 0.0; ++k)  // Horner's scheme once per derivative
+    for (int j = 5; j >= k; --j) c[j] = c[j] + c[j + 1] * by;
   CamSegment result;
   result.origin = origin;
   for (int k = 0; k < 7; ++k) result.coefficient[k] = c[k].rounded();
   if (segment.sineAmplitude == 0.0) return result;
-  const DoubleDouble phase =
-      within_one_turn(two_product(segment.sinePeriod, origin) + to_double_double(segment.sinePhase));
+  const DoubleDouble phase = within_one_turn(by * segment.sinePeriod + to_double_double(segment.sinePhase));
   result.amplitude = segment.sineAmplitude;
   result.frequency = segment.sinePeriod;
   result.phase = phase.rounded();

@@ -193,7 +193,7 @@ class Checker {
       }
     });
     // Where a derivative steps, the next one is infinite.
-    for (const CamJoint& joint : joints_of(*cam_.function, checks_.cyclic)) {
+    for (const CamJoint& joint : joints_of(*cam_.function, checks_.cyclic, checks_.closed)) {
       const auto step = static_cast<std::size_t>(joint.keeps);  // order of what steps
       if (step < 3 && limits[step])
         find(joint.x, step_text(joint) + ": the " + std::string(kOrders[step + 1]) +
@@ -222,17 +222,11 @@ class Checker {
     }
   }
 
-  static std::string step_text(const CamJoint& joint) {
-    return std::string(joint.wrap ? "from the end to the start"
-                                  : "at leading value " + number_text(joint.x)) +
-           " the " + std::string(kOrders[static_cast<std::size_t>(joint.keeps)]) + " steps from " +
-           number_text(joint.left) + " to " + number_text(joint.right);
-  }
-
   void check_continuity() {
-    if (!checks_.continuity) return;
-    for (const CamJoint& joint : joints_of(*cam_.function, checks_.cyclic))
-      if (joint.keeps < *checks_.continuity)
+    for (const CamJoint& joint : joints_of(*cam_.function, checks_.cyclic, checks_.closed))
+      if (joint.wrap && joint.keeps == Continuity::not_applicable)
+        find(joint.x, step_text(joint) + "; it has to close");
+      else if (checks_.continuity && joint.keeps < *checks_.continuity)
         find(joint.x, step_text(joint) + "; it has to be continuous up to the " +
                           std::string(kOrders[static_cast<std::size_t>(*checks_.continuity) - 1]));
   }
@@ -290,7 +284,13 @@ MotionPeaks mapped_peaks(const CamFunction& cam, const CamStretch& stretch) {
   return peaks;
 }
 
-std::vector<CamJoint> joints_of(const CamFunction& cam, bool cyclic) {
+std::string step_text(const CamJoint& joint) {
+  return std::string(joint.wrap ? "from the end to the start" : "at leading value " + number_text(joint.x)) +
+         " the " + std::string(kOrders[static_cast<std::size_t>(joint.keeps)]) + " steps from " +
+         number_text(joint.left) + " to " + number_text(joint.right);
+}
+
+std::vector<CamJoint> joints_of(const CamFunction& cam, bool cyclic, bool closed) {
   const auto rounding = roundings_of(cam);
   std::vector<CamJoint> joints;
   const auto compare = [&](double x, const Orders& left, const Orders& right, bool wrap) {
@@ -302,10 +302,10 @@ std::vector<CamJoint> joints_of(const CamFunction& cam, bool cyclic) {
     const double x = cam.piece_start(piece);
     compare(x, orders_of(cam.piece_value(piece - 1, x)), orders_of(cam.piece_value(piece, x)), false);
   }
-  if (cyclic) {
+  if (cyclic || closed) {
     Orders left = orders_of(cam.piece_value(count - 1, cam.end_leading_value()));
     const Orders right = orders_of(cam.piece_value(0, cam.start_leading_value()));
-    left[0] = right[0];  // a stroke a turn is no step
+    if (!closed) left[0] = right[0];  // a stroke a turn is no step
     compare(cam.end_leading_value(), left, right, true);
   }
   return joints;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tech_objects/cam_design/design.hpp"
@@ -39,7 +40,11 @@ struct CamJoint {
 /// The joints at which something up to the jerk steps, beyond rounding, ascending. A step of one derivative
 /// hides those of higher ones.
 /// @param cyclic with the wrap from the end to the start, where the following value may step by the stroke
-std::vector<CamJoint> joints_of(const CamFunction& cam, bool cyclic);
+/// @param closed with that wrap, where it may not
+std::vector<CamJoint> joints_of(const CamFunction& cam, bool cyclic, bool closed = false);
+
+/// "at leading value 30 the following value steps from 10 to 50".
+std::string step_text(const CamJoint& joint);
 
 /// What is to be checked; what is not given is not.
 struct CamChecks {
@@ -49,6 +54,7 @@ struct CamChecks {
   bool suitability = false;  ///< transitions by a law meet velocity and acceleration beside them
   std::optional<Continuity> continuity;
   bool cyclic = false;  ///< the joint from the end to the start counts too
+  bool closed = false;  ///< and the cam has to end with the following value with which it begins
 };
 
 /// What the checks find. Needs a cam with a function.

@@ -161,10 +161,10 @@ bool build_from_coefficients(const CamPolynomial& polynomial, const MotionPiece&
   for (const double coefficient : *polynomial.coefficients)
     if (!report.in_range("coefficients", coefficient)) return false;
   const auto& a = *polynomial.coefficients;
-  const TO_Cam_Struct_SegmentData sine = segment_of(wave);
+  const CamSegment sine = shifted(segment_of(wave), 0.0);  // as the coefficients: x is the leading value
   const TO_Cam_Struct_SegmentData segment{
-      polynomial.start,   polynomial.end,  a[0],          a[1], a[2], a[3], a[4], a[5], a[6],
-      sine.sineAmplitude, sine.sinePeriod, sine.sinePhase};
+      polynomial.start, polynomial.end, a[0],      a[1], a[2], a[3], a[4], a[5], a[6],
+      sine.amplitude,   sine.frequency, sine.phase};
   const CamSegment local = shifted(segment, polynomial.start);
   built.segments = {segment};
   built.curve = [local](double x) {
@@ -213,11 +213,11 @@ bool build_from_boundaries(const CamPolynomial& p, const MotionPiece& wave, CamR
   }
   built.segments.resize(4);
   built.segments.resize(law.segments(built.segments));
-  const TO_Cam_Struct_SegmentData sine = segment_of(wave);
   for (TO_Cam_Struct_SegmentData& segment : built.segments) {
-    segment.sineAmplitude = sine.sineAmplitude;
-    segment.sinePeriod = sine.sinePeriod;
-    segment.sinePhase = sine.sinePhase;
+    const CamSegment sine = shifted(segment_of(wave), segment.Origin);
+    segment.sineAmplitude = sine.amplitude;
+    segment.sinePeriod = sine.frequency;
+    segment.sinePhase = sine.phase;
   }
   built.curve = [law, wave](double x) {
     MotionValue value = law.value(x);

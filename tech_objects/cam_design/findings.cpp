@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tech_objects/arithmetic/axis_position.hpp"
+#include "tech_objects/cam_design/design_check.hpp"
 #include "tech_objects/cam_design/design_parts.hpp"
 
 namespace lockstep {
@@ -72,6 +73,7 @@ class Reader {
     look_at_points();
     look_at_segments();
     look_at_range();
+    look_at_jumps();
     return std::move(warnings_);
   }
 
@@ -144,6 +146,16 @@ class Reader {
     warn(in_segment ? part->index : CamFinding::kWhole, in_segment,
          "the following value reaches " + number_text(greatest) + " at leading value " + number_text(at) +
              ": MC_CamIn refuses the cam with 16#8024 unless SlaveScaling brings it to -1e12 to 1e12");
+  }
+
+  /// Elements that meet at one leading value with two following values.
+  void look_at_jumps() {
+    for (const CamJoint& joint : joints_of(function_, false)) {
+      if (joint.keeps != Continuity::not_applicable) continue;
+      const CamInterpolator::Part* const part = part_at(joint.x);
+      warn(part != nullptr ? part->index : CamFinding::kWhole, part != nullptr,
+           step_text(joint) + ": an axis that follows the cam jumps there");
+    }
   }
 
   const CamElements& elements_;

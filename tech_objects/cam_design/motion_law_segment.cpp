@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "tech_objects/cam/segment.hpp"
 #include "tech_objects/cam_design/motion_law_polynomial.hpp"
 
 namespace lockstep {
@@ -10,12 +9,13 @@ namespace lockstep {
 TO_Cam_Struct_SegmentData segment_of(const MotionPiece& piece) noexcept {
   const double* c = piece.coefficient;
   const MotionPiece::Sine& sine = piece.sine[0];
-  const TO_Cam_Struct_SegmentData local{0.0,  piece.length, c[0], c[1],           c[2],           c[3],
-                                        c[4], c[5],         c[6], sine.amplitude, sine.frequency, sine.phase};
-  const CamSegment absolute = shifted(local, -piece.start);  // seen from leading value 0
-  const double* a = absolute.coefficient;
-  return {piece.start,        piece.start + piece.length, a[0],          a[1], a[2], a[3], a[4], a[5], a[6],
-          absolute.amplitude, absolute.frequency,         absolute.phase};
+  return {piece.start,    piece.start + piece.length,
+          c[0],           c[1],
+          c[2],           c[3],
+          c[4],           c[5],
+          c[6],           sine.amplitude,
+          sine.frequency, sine.phase,
+          piece.start};
 }
 
 TO_Cam_Struct_SegmentData segment_between(const MotionValue& left, int left_order, const MotionValue& right,

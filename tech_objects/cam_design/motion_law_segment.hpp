@@ -5,8 +5,9 @@
 
 namespace lockstep {
 
-/// A stretch as a segment of the data block, whose coefficients belong to the leading value itself. Of the
-/// sines the first counts; a coefficient of degree 7 has no place. Any thread.
+/// A stretch as a segment of the data block, whose coefficients count from its beginning, so that they
+/// are exact wherever it lies. Of the sines the first counts; a coefficient of degree 7 has no place. Any
+/// thread.
 TO_Cam_Struct_SegmentData segment_of(const MotionPiece& piece) noexcept;
 
 /// The polynomial with given values at both ends, up to an order of derivative each, as a segment. Orders 0 …

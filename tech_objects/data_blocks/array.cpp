@@ -21,7 +21,7 @@ constexpr ElementMember kSegmentMembers[] = {
     SEGMENT(xmin, Unit::kLeading, "leading value at which the segment begins"),
     SEGMENT(xmax, Unit::kLeading, "leading value at which the segment ends"),
     SEGMENT(a0, Unit::kNone, "coefficient of x^0"),
-    SEGMENT(a1, Unit::kNone, "coefficient of x^1, x being the leading value itself"),
+    SEGMENT(a1, Unit::kNone, "coefficient of x^1, x being the leading value less Origin"),
     SEGMENT(a2, Unit::kNone, "coefficient of x^2"),
     SEGMENT(a3, Unit::kNone, "coefficient of x^3"),
     SEGMENT(a4, Unit::kNone, "coefficient of x^4"),
@@ -29,7 +29,8 @@ constexpr ElementMember kSegmentMembers[] = {
     SEGMENT(a6, Unit::kNone, "coefficient of x^6"),
     SEGMENT(sineAmplitude, Unit::kPosition, "amplitude of the sine that is added"),
     SEGMENT(sinePeriod, Unit::kNone, "angular frequency of the sine [rad per leading unit]"),
-    SEGMENT(sinePhase, Unit::kNone, "phase of the sine at the leading value 0 [rad]")};
+    SEGMENT(sinePhase, Unit::kNone, "phase of the sine at Origin [rad]"),
+    SEGMENT(Origin, Unit::kLeading, "leading value from which coefficients and phase count")};
 
 #undef SEGMENT
 #undef POINT

@@ -20,8 +20,10 @@ struct TO_Cam_Struct_PointData {
 };
 
 /// A segment of the curve, -1.0E12 … 1.0E12 each:
-/// a0 + a1·x + … + a6·x^6 + sineAmplitude · sin(sinePeriod · x + sinePhase) for xmin ≤ x ≤ xmax,
-/// x being the leading value itself and sinePeriod an angular frequency [rad per leading unit].
+/// a0 + a1·d + … + a6·d^6 + sineAmplitude · sin(sinePeriod · d + sinePhase) for xmin ≤ x ≤ xmax, d being the
+/// leading value x less Origin and sinePeriod an angular frequency [rad per leading unit]. As published
+/// Origin is 0; it is our own, since the numbers of a short segment far from 0 cancel in their sum, or do not
+/// fit.
 struct TO_Cam_Struct_SegmentData {
   LREAL xmin{};
   LREAL xmax{};
@@ -35,6 +37,7 @@ struct TO_Cam_Struct_SegmentData {
   LREAL sineAmplitude{};
   LREAL sinePeriod{};
   LREAL sinePhase{};
+  LREAL Origin{};  ///< leading value from which coefficients and phase count
 };
 
 /// How the gaps between the elements are closed.

@@ -212,7 +212,7 @@ TEST(CamFile, BrokenTablesAreToldAllAtOnceWithLineAndColumn) {
             "3:1: a row of elements begins with 'X'; allowed: P for a point, S for a segment, I for the "
             "interpolation\n"
             "5:3: the row has 2 values; allowed: "
-            "S,xmin,xmax,a0,a1,a2,a3,a4,a5,a6,sineAmplitude,sinePeriod,sinePhase\n");
+            "S,xmin,xmax,a0,a1,a2,a3,a4,a5,a6,sineAmplitude,sinePeriod,sinePhase and perhaps origin\n");
   EXPECT_EQ(told(loaded("P,0,0\nS,10,5,0,0,0,0,0,0,0,0,0,0\n")), "2:1: 5 is not above xmin, 10\n");
   EXPECT_EQ(told(loaded("")),
             "1:1: the file is empty; a cam is a JSON object or a table of points or elements\n");

@@ -209,7 +209,34 @@ TEST(CamProject, WarnsOfACamThatDoesNotCloseAndIsToBePassedAgainAndAgain) {
   std::string ring = project(open);  // of 80 units: the cam closes on it
   const std::string line = R"("TO_SynchronousAxis", "config": { )";
   ring.insert(ring.find(line) + line.size(), R"("Modulo": { "Enable": true, "Length": 80.0 }, )");
-  EXPECT_EQ(warnings_of(ring).size(), 0u);
+  const std::vector<Problem> step = warnings_of(ring);  // its slope at the end is not that at its start
+  ASSERT_EQ(step.size(), 1u);
+  EXPECT_NE(step[0].text.find("from the end to the start the velocity steps from"), std::string::npos);
+}
+
+/// The project whose second cam takes over at the end of the first.
+std::string exchanged(double slope, const std::string& more = "") {
+  std::string text = project(
+      R"({ "type": "TO_Cam", "segments": [ { "xmin": 0, "xmax": 100, "a1": 0.5 } ] },
+    "Next": { "type": "TO_Cam", "segments": [ { "xmin": 0, "xmax": 100, "a1": )" +
+          std::to_string(slope) + " } ] }",
+      R"(, { "fb": "MC_CamIn", "name": "take_over", "in": { "Master": "Press", "Slave": "Feeder", "Cam": "Next",
+        "Execute": "start", "SyncProfileReference": 5)" +
+          more + " } }");
+  const std::string cyclic = R"("ApplicationMode": 1, )";
+  return text.erase(text.find(cyclic), cyclic.size());
+}
+
+TEST(CamProject, WarnsOfACamThatTakesOverWithAnotherVelocity) {
+  EXPECT_TRUE(warnings_of(exchanged(0.5)).empty());
+  const std::vector<Problem> told = warnings_of(exchanged(0.75));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].place, "/programs/0/calls/5/in/SyncProfileReference");
+  EXPECT_NE(told[0].text.find("'Next' begins with a slope of 0.75 where 'Profile' ends with one of 0.5"),
+            std::string::npos)
+      << told[0].text;
+  EXPECT_TRUE(warnings_of(exchanged(0.25, R"(, "SlaveScaling": 2.0)")).empty()) << "scaled they agree";
+  EXPECT_TRUE(warnings_of(exchanged(0.75, R"(, "SlaveScaling": "height")")).empty()) << "nobody knows yet";
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Every function with every type of every input: a value, or an error with its place, and never anything else.
+// Every function with every type of every input: a value, or an error with its place, and never anything
+// else.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -14,25 +15,27 @@ using ExpressionFunctions = ExpressionTest;
 
 /// A tag of each type, and literals of each kind.
 const std::vector<std::string> kInputs = {
-    "flag",  "sint",    "int_",    "dint",    "lint",   "usint",   "uint_",      "udint",     "ulint", "byte_",
-    "word",  "dword",   "lword",   "real",    "lreal",  "time",    "3",          "-3",        "2.5",   "TRUE",
-    "INT#5", "UINT#5",  "USINT#5", "LINT#5",  "REAL#5", "LREAL#5", "BYTE#16#5",  "T#5ms",     "'text'"};
+    "flag",  "sint",   "int_",    "dint",   "lint",   "usint",   "uint_",     "udint", "ulint", "byte_",
+    "word",  "dword",  "lword",   "real",   "lreal",  "time",    "3",         "-3",    "2.5",   "TRUE",
+    "INT#5", "UINT#5", "USINT#5", "LINT#5", "REAL#5", "LREAL#5", "BYTE#16#5", "T#5ms", "'text'"};
 
 struct Function {
   const char* name;
   std::size_t inputs;
 };
 constexpr Function kFunctions[] = {
-    {"ABS", 1},  {"SQRT", 1}, {"LN", 1},    {"LOG", 1},   {"EXP", 1},   {"SIN", 1},   {"COS", 1},   {"TAN", 1},
-    {"ASIN", 1}, {"ACOS", 1}, {"ATAN", 1},  {"ATAN2", 2}, {"EXPT", 2},  {"MIN", 2},   {"MAX", 2},   {"LIMIT", 3},
-    {"SEL", 3},  {"MUX", 3},  {"TRUNC", 1}, {"ROUND", 1}, {"CEIL", 1},  {"FLOOR", 1}, {"SHL", 2},   {"SHR", 2},
-    {"ROL", 2},  {"ROR", 2},  {"ADD", 2},   {"MUL", 2},   {"SUB", 2},   {"DIV", 2},   {"GT", 2},    {"GE", 2},
-    {"EQ", 2},   {"LE", 2},   {"LT", 2},    {"NE", 2},    {"MOVE", 1},  {"TO_INT", 1}, {"TO_LREAL", 1},
-    {"TO_ULINT", 1}, {"TO_BOOL", 1}, {"TO_TIME", 1}, {"TO_WORD", 1}, {"INT_TO_REAL", 1}, {"REAL_TO_INT", 1}};
+    {"ABS", 1},     {"SQRT", 1},        {"LN", 1},         {"LOG", 1},      {"EXP", 1},     {"SIN", 1},
+    {"COS", 1},     {"TAN", 1},         {"ASIN", 1},       {"ACOS", 1},     {"ATAN", 1},    {"ATAN2", 2},
+    {"EXPT", 2},    {"MIN", 2},         {"MAX", 2},        {"LIMIT", 3},    {"SEL", 3},     {"MUX", 3},
+    {"TRUNC", 1},   {"ROUND", 1},       {"CEIL", 1},       {"FLOOR", 1},    {"SHL", 2},     {"SHR", 2},
+    {"ROL", 2},     {"ROR", 2},         {"ADD", 2},        {"MUL", 2},      {"SUB", 2},     {"DIV", 2},
+    {"GT", 2},      {"GE", 2},          {"EQ", 2},         {"LE", 2},       {"LT", 2},      {"NE", 2},
+    {"MOVE", 1},    {"TO_INT", 1},      {"TO_LREAL", 1},   {"TO_ULINT", 1}, {"TO_BOOL", 1}, {"TO_TIME", 1},
+    {"TO_WORD", 1}, {"INT_TO_REAL", 1}, {"REAL_TO_INT", 1}};
 
-constexpr Type kPlaces[] = {Type::BOOL, Type::SINT,  Type::INT,  Type::DINT, Type::LINT,  Type::USINT,
-                            Type::UINT, Type::UDINT, Type::ULINT, Type::BYTE, Type::WORD, Type::DWORD,
-                            Type::LWORD, Type::REAL, Type::LREAL, Type::TIME};
+constexpr Type kPlaces[] = {Type::BOOL,  Type::SINT,  Type::INT,   Type::DINT, Type::LINT, Type::USINT,
+                            Type::UINT,  Type::UDINT, Type::ULINT, Type::BYTE, Type::WORD, Type::DWORD,
+                            Type::LWORD, Type::REAL,  Type::LREAL, Type::TIME};
 
 /// All calls of a function, with inputs of any types.
 void for_each_call(const Function& function, const std::function<void(const std::string&)>& look) {

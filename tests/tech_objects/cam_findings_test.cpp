@@ -104,11 +104,11 @@ TEST(CamFindings, APointInASegmentIsToldUnlessItLiesOnTheCurve) {
 
 TEST(CamFindings, OverlappingSegmentsAreToldAtTheOneThatIsCutOff) {
   Cam cam;
-  cam.line(0.0, 5.0, 0.0, 0.0).line(4.0, 9.0, 3.0, 0.0);
+  cam.line(0.0, 5.0, 3.0, 0.0).line(4.0, 9.0, 3.0, 0.0);
   EXPECT_EQ(only(findings(cam).warnings),
             "segment 0: does not count from 4 to 5: there the segment from 4 to 9 does, which overlaps it");
   Cam meeting;
-  meeting.line(0.0, 0.3, 0.0, 0.0).line(0.1 + 0.2, 9.0, 3.0, 0.0).line(9.00005, 10.0, 0.0, 0.0);
+  meeting.line(0.0, 0.3, 3.0, 0.0).line(0.1 + 0.2, 9.0, 3.0, 0.0).line(9.00005, 10.0, 3.0, 0.0);
   EXPECT_EQ(only(findings(meeting).warnings), "0 findings");
 }
 
