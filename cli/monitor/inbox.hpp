@@ -16,8 +16,8 @@
 
 namespace lockstep::cli {
 
-/// Receives on a thread of its own, so that a slow terminal loses nothing. Bounded: what comes beyond is dropped
-/// and counted.
+/// Receives on a thread of its own, so that a slow terminal loses nothing. Bounded: what comes beyond is
+/// dropped and counted.
 class Inbox {
  public:
   static constexpr std::size_t kMostMessages = 20'000;

@@ -46,11 +46,12 @@ inline std::vector<std::vector<std::uint8_t>> in_fragments(std::uint32_t sequenc
   const std::size_t count = (data.size() + piece - 1) / piece;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string part = data.substr(i * piece, piece);
-    datagrams.push_back(fragment_datagram(
-        {.sequence = sequence, .size = static_cast<std::uint32_t>(data.size()),
-         .offset = static_cast<std::uint32_t>(i * piece), .number = static_cast<std::uint16_t>(i),
-         .count = static_cast<std::uint16_t>(count)},
-        i == 0 ? channel + '\0' + part : part));
+    datagrams.push_back(fragment_datagram({.sequence = sequence,
+                                           .size = static_cast<std::uint32_t>(data.size()),
+                                           .offset = static_cast<std::uint32_t>(i * piece),
+                                           .number = static_cast<std::uint16_t>(i),
+                                           .count = static_cast<std::uint16_t>(count)},
+                                          i == 0 ? channel + '\0' + part : part));
   }
   return datagrams;
 }
