@@ -22,15 +22,15 @@ void add_cam_input(CLI::App& command, CamInput& input) {
 std::optional<CamDefinition> load_cam_or_tell(const CamInput& input, int& status) {
   try {
     LoadedCam loaded = load_cam_file(input.file, input.name, input.large ? kCam10kPoints : kCamPoints);
-    for (const Problem& problem : loaded.problems) write_message(to_string(input.file, problem) + "\n");
+    for (const Problem& problem : loaded.problems) tell_line(to_string(input.file, problem), Gravity::error);
     for (Problem warning : loaded.warnings) {
       warning.text = "warning: " + warning.text;
-      write_message(to_string(input.file, warning) + "\n");
+      tell_line(to_string(input.file, warning), Gravity::warning);
     }
     status = kNotValid;
     return std::move(loaded.definition);
   } catch (const UnreadableFile& error) {
-    write_message(std::string("lockstep: ") + error.what() + "\n");
+    tell(error.what(), Gravity::error);
     status = kCouldNotStart;
     return std::nullopt;
   }

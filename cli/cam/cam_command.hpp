@@ -41,7 +41,7 @@ int with_cam(const CamInput& input, const Work& work) {
   try {
     return work(*definition);
   } catch (const std::runtime_error& error) {
-    write_message(std::string("lockstep: ") + error.what() + "\n");
+    tell(error.what(), Gravity::error);
     return kCouldNotStart;
   }
 }

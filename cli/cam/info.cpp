@@ -7,6 +7,7 @@
 
 #include "cli/cam/cam_command.hpp"
 #include "cli/describe/table.hpp"
+#include "cli/describe/values.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -53,8 +54,8 @@ std::string overview(const CamDefinition& definition) {
   const DesignedCam& cam = definition.cam;
   constexpr const char* kModes[] = {"linear", "cubic splines", "Bézier splines"};
   std::string text;
-  if (!definition.name.empty()) text += definition.name + "\n";
-  if (!definition.description.empty()) text += definition.description + "\n";
+  if (!definition.name.empty()) text += printable(definition.name) + "\n";
+  if (!definition.description.empty()) text += printable(definition.description) + "\n";
   text += fmt::format("{}: {} of {} points, {} of {} segments, {}{}\n",
                       definition.capacity == kCamPoints ? "TO_Cam" : "TO_Cam_10k", cam.points.size(),
                       definition.capacity, cam.segments.size(), kCamSegments,
@@ -227,7 +228,7 @@ void add_cam_info(CLI::App& cam, Action& action) {
   command->callback([&action, input, json] {
     action = [input, json] {
       return with_cam(*input, [&](const CamDefinition& definition) {
-        write_output("", *json ? info_json(definition).dump(2) + "\n" : info_text(definition));
+        write_output("", *json ? json_text(info_json(definition)) + "\n" : info_text(definition));
         return static_cast<int>(kOk);
       });
     };

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "cli/command/command.hpp"
+#include "projects/json/problem.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -36,7 +37,7 @@ void write_message(const std::string& text, int patience) noexcept {
 
 void tell_line(const std::string& text, Gravity gravity) noexcept {
   const std::string mark = is_journal() ? "<" + std::to_string(static_cast<int>(gravity)) + ">" : "";
-  write_message(mark + text + "\n");
+  write_message(mark + visible(text) + "\n");
 }
 
 void tell(const std::string& text, Gravity gravity) noexcept {

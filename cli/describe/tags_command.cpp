@@ -315,12 +315,18 @@ nlohmann::ordered_json project_json(const Project& project) {
   return json;
 }
 
-/// A cell of a CSV file (RFC 4180).
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
+/// A cell of a CSV file (RFC 4180). Lines of a text stay lines.
+std::string csv_cell(std::string_view text) {
+  const bool is_plain = text.find_first_of(",\"\r\n") == text.npos;
+  std::string cell;
+  while (true) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    for (const char c : visible(text.substr(0, end))) cell += c == '"' ? "\"\"" : std::string(1, c);
+    if (end == text.size()) break;
+    cell += '\n';
+    text.remove_prefix(end + 1);
+  }
+  return is_plain ? cell : "\"" + cell + "\"";
 }
 
 /// One line for each place on Modbus, for the import of HMI systems; an array is one of ARRAY type, with the
@@ -359,7 +365,7 @@ int tell_tags(const std::string& file, Form form) {
   int status = kOk;
   const std::optional<Project> project = load_or_tell(file, status);
   if (!project) return status;
-  const std::string text = form == Form::json  ? project_json(*project).dump(2) + "\n"
+  const std::string text = form == Form::json  ? json_text(project_json(*project)) + "\n"
                            : form == Form::csv ? project_csv(*project)
                                                : project_text(*project, output_width());
   std::fwrite(text.data(), 1, text.size(), stdout);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hmi_bridge/traces/csv_number.hpp"
+#include "projects/json/problem.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -108,6 +109,25 @@ nlohmann::ordered_json json_value(Value value, Type type) {
   if (type == Type::TIME) return literal(value, type);
   if (is_signed_integer(type)) return value.i;
   return value.u;
+}
+
+std::string json_text(const nlohmann::ordered_json& json) {
+  const std::string text = json.dump(2);  // UTF-8, with C0 escaped already
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t size = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+    const std::string_view character = std::string_view(text).substr(i, size);
+    i += size;
+    if (character == "\n" || visible(character) == character) {
+      result += character;
+      continue;
+    }
+    unsigned code = size == 1 ? lead : lead & (0x7Fu >> size);
+    for (const char c : character.substr(1)) code = code << 6 | (static_cast<unsigned char>(c) & 0x3Fu);
+    result += fmt::format("\\u{:04x}", code);  // none of them is beyond 16 bits
+  }
+  return result;
 }
 
 void add_declaration(nlohmann::ordered_json& json, Type type, Unit unit, const Range& range,

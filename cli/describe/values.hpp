@@ -29,6 +29,10 @@ std::vector<std::string> choice_lines(Type type, std::span<const Choice> choices
 /// A value for programs: numbers and BOOL as such, TIME as a literal, a reference as null.
 nlohmann::ordered_json json_value(Value value, Type type);
 
+/// A document as it is printed. What a terminal would obey stands there as \uXXXX, which says the same to a
+/// program.
+std::string json_text(const nlohmann::ordered_json& json);
+
 /// Adds `unit`, `range` and `choices`, each if there is something to say.
 void add_declaration(nlohmann::ordered_json& json, Type type, Unit unit, const Range& range,
                      std::span<const Choice> choices);

@@ -232,7 +232,7 @@ int monitor(const MonitorOptions& options) {
     if (options.once) return show_once(listener);
     return terminal ? show_on_terminal(listener, options) : show_in_pipe(listener);
   } catch (const std::runtime_error& error) {
-    write_message(std::string("lockstep: ") + error.what() + "\n");
+    tell(error.what(), Gravity::error);
     return kCouldNotStart;
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/describe/table.hpp"
+#include "projects/json/problem.hpp"
 #include "tech_objects/data_blocks/status_bits.hpp"
 
 namespace lockstep::cli {
@@ -325,7 +326,7 @@ std::vector<ViewLine> view(const Model& model, Time now, ViewSize size, Characte
   if (size.height > 1) lines.push_back({keys(model), Look::keys});
   for (ViewLine& line : lines) {
     if (characters == Characters::ascii) line.text = in_ascii(line.text);
-    line.text = cut_to(line.text, size.width);
+    line.text = cut_to(visible(line.text), size.width);
   }
   return lines;
 }

@@ -49,7 +49,7 @@ int read_values(const PanelOptions& options) {
     else
       std::printf("%s = %s\n", name.name.c_str(), shown_text(name, *values).c_str());
   }
-  if (options.json) std::printf("%s\n", json.dump(2).c_str());
+  if (options.json) std::printf("%s\n", json_text(json).c_str());
   return kOk;
 }
 

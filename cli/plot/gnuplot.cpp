@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <stdexcept>
@@ -57,9 +58,12 @@ class MemoryFile {
   int fd_;
 };
 
+/// The first lines of a text, on one.
 std::string first_lines(const std::string& text) {
   constexpr std::size_t kEnough = 500;
-  return text.substr(0, kEnough);
+  std::string first = text.substr(0, kEnough);
+  std::replace(first.begin(), first.end(), '\n', ' ');
+  return first;
 }
 
 }  // namespace

@@ -107,14 +107,14 @@ int plot(const PlotOptions& options) {
   try {
     const PictureFormat format = format_of(options.picture);
     const TraceTable trace = read_trace(options);
-    if (!trace.remark.empty()) write_message("lockstep: warning: " + trace.remark + "\n");
+    if (!trace.remark.empty()) tell("warning: " + trace.remark);
     Picture picture = arrange(trace, chosen_range(trace, options), options.trace.ends_with(".lcm"));
     picture.title =
         options.title.empty() ? std::filesystem::path(options.trace).filename().string() : options.title;
     write_file(options.picture, run_gnuplot(plot_script(picture, format)));
     return kOk;
   } catch (const std::runtime_error& error) {
-    write_message(std::string("lockstep: ") + error.what() + "\n");
+    tell(error.what(), Gravity::error);
     return kCouldNotStart;
   }
 }

@@ -1,7 +1,7 @@
 #include "hmi_bridge/lcm/reassembly.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <iterator>
 #include <utility>
 
 namespace lockstep {
@@ -11,6 +11,7 @@ constexpr std::uint32_t kShort = 0x4C433032;     // "LC02"
 constexpr std::uint32_t kFragment = 0x4C433033;  // "LC03"
 constexpr std::size_t kShortHead = 8;
 constexpr std::size_t kFragmentHead = 20;
+constexpr std::size_t kPiece = 128;  // what it costs to keep a fragment, beside its data [byte]
 
 std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t width) noexcept {
   std::uint32_t number = 0;
@@ -31,6 +32,11 @@ std::optional<std::string_view> channel_at(std::span<const std::uint8_t> bytes) 
 
 std::optional<LcmMessage> LcmReassembly::malformed() noexcept {
   ++counters_.malformed;
+  return std::nullopt;
+}
+
+std::optional<LcmMessage> LcmReassembly::refused() noexcept {
+  ++counters_.refused;
   return std::nullopt;
 }
 
@@ -59,27 +65,26 @@ std::optional<LcmMessage> LcmReassembly::accept_short(std::span<const std::uint8
 
 std::optional<LcmMessage> LcmReassembly::accept_fragment(const Fragment& fragment, std::uint64_t sender,
                                                          Clock::time_point now) {
-  if (memory_of(fragment) > bounds_.memory || fragment.message_size > bounds_.message) {
-    ++counters_.refused;
-    return std::nullopt;
-  }
+  if (bounds_.message == 0 || fragment.message_size > bounds_.message) return refused();
   if (fragment.number >= fragment.count) return malformed();
-  std::optional<std::string_view> channel;
+  std::string_view channel;
   std::span<const std::uint8_t> data = fragment.rest;
   if (fragment.number == 0) {
-    channel = channel_at(data);
-    if (!channel) return malformed();
-    data = data.subspan(channel->size() + 1);
+    const auto first = channel_at(data);
+    if (!first) return malformed();
+    channel = *first;
+    data = data.subspan(channel.size() + 1);
   }
   // In 64 bits: two numbers of 32 bits have no sum that wraps.
-  if (std::uint64_t{fragment.offset} + data.size() > fragment.message_size) return malformed();
+  if (data.empty() || std::uint64_t{fragment.offset} + data.size() > fragment.message_size)
+    return malformed();
   const auto partial = partial_of(fragment, sender, now);
-  if (partial == partial_.end() || partial->seen[fragment.number]) return malformed();
-  if (channel) partial->channel = *channel;
-  std::copy(data.begin(), data.end(), partial->data.begin() + fragment.offset);
-  partial->seen[fragment.number] = true;
-  partial->bytes += data.size();
-  return --partial->missing == 0 ? complete(partial) : std::nullopt;
+  if (partial == partial_.end() || partial->pieces.contains(fragment.number)) return malformed();
+  if (!make_capacity(kPiece + data.size(), partial)) return refused();
+  if (fragment.number == 0) partial->channel = channel;
+  partial->pieces[fragment.number] = {fragment.offset, {data.begin(), data.end()}};
+  memory_ += kPiece + data.size();
+  return partial->pieces.size() == partial->count ? complete(partial) : std::nullopt;
 }
 
 /// The message that a fragment belongs to, begun if need be; none if they contradict each other.
@@ -89,38 +94,59 @@ LcmReassembly::Partials::iterator LcmReassembly::partial_of(const Fragment& frag
     return one.sender == sender && one.sequence == fragment.sequence;
   });
   if (found != partial_.end()) {
-    const bool agrees = found->data.size() == fragment.message_size && found->seen.size() == fragment.count;
+    const bool agrees = found->size == fragment.message_size && found->count == fragment.count;
     return agrees ? found : partial_.end();
   }
-  const std::size_t memory = memory_of(fragment);
-  while (!partial_.empty() && (partial_.size() >= bounds_.incomplete || memory_ + memory > bounds_.memory)) {
+  while (partial_.size() >= bounds_.incomplete) {
     ++counters_.given_up;
     forget(partial_.begin());
   }
   partial_.push_back({.sender = sender,
                       .sequence = fragment.sequence,
+                      .size = fragment.message_size,
+                      .count = fragment.count,
                       .begun = now,
                       .channel = {},
-                      .data = std::vector<std::uint8_t>(fragment.message_size),
-                      .seen = std::vector<bool>(fragment.count),
-                      .missing = fragment.count});
-  memory_ += memory;
+                      .pieces = {}});
   return std::prev(partial_.end());
 }
 
+/// Lets the oldest messages give way until so many bytes more may be kept of one. @return false if it has
+/// given way itself
+bool LcmReassembly::make_capacity(std::size_t bytes, Partials::iterator partial) noexcept {
+  while (memory_ + bytes > bounds_.memory) {
+    const bool own = partial_.begin() == partial;
+    ++counters_.given_up;
+    forget(partial_.begin());
+    if (own) return false;
+  }
+  return true;
+}
+
+/// Puts the fragments together, each of which has to begin where the one before has ended.
 std::optional<LcmMessage> LcmReassembly::complete(Partials::iterator partial) {
-  const bool whole = partial->bytes == partial->data.size();  // else they overlap and leave gaps
-  if (whole) whole_ = std::move(*partial);
-  const std::size_t size = whole ? whole_.data.size() : partial->data.size();
-  memory_ -= size + (whole ? whole_.seen : partial->seen).size() / 8;
-  partial_.erase(partial);
+  std::size_t end = 0;
+  bool whole = true;
+  for (const auto& [number, piece] : partial->pieces) {
+    whole = whole && piece.offset == end;
+    end += piece.data.size();
+  }
+  whole = whole && end == partial->size;
+  if (whole) {
+    channel_ = partial->channel;
+    data_.clear();
+    data_.reserve(end);
+    for (const auto& [number, piece] : partial->pieces)
+      data_.insert(data_.end(), piece.data.begin(), piece.data.end());
+  }
+  forget(partial);
   if (!whole) return malformed();
   ++counters_.messages;
-  return LcmMessage{whole_.channel, whole_.data};
+  return LcmMessage{channel_, data_};
 }
 
 void LcmReassembly::forget(Partials::iterator partial) noexcept {
-  memory_ -= partial->data.size() + partial->seen.size() / 8;
+  for (const auto& [number, piece] : partial->pieces) memory_ -= kPiece + piece.data.size();
   partial_.erase(partial);
 }
 
@@ -129,10 +155,6 @@ void LcmReassembly::give_up_late(Clock::time_point now) noexcept {
     ++counters_.given_up;
     forget(partial_.begin());
   }
-}
-
-std::size_t LcmReassembly::memory_of(const Fragment& fragment) noexcept {
-  return fragment.message_size + std::size_t{fragment.count} / 8;
 }
 
 }  // namespace lockstep

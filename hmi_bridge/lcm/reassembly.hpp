@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <list>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,7 +16,7 @@
 
 namespace lockstep {
 
-/// A message as it came; its memory is that of the datagram or of the reassembly, until the next datagram.
+/// A message as it came. Its memory is that of the datagram or of the reassembly, until the next datagram.
 struct LcmMessage {
   std::string_view channel;  ///< 1 to 63 characters, any but 0
   std::span<const std::uint8_t> data;
@@ -23,9 +24,9 @@ struct LcmMessage {
 
 /// What the reassembly keeps at most. The defaults bear the header of a trace of 60,000 signals.
 struct LcmBounds {
-  std::size_t message = 8u << 20;            ///< of one message in fragments [byte]; 0: fragments are refused
-  std::size_t memory = 16u << 20;            ///< of all incomplete messages [byte]
-  std::size_t incomplete = 16;               ///< messages at a time
+  std::size_t message = 8u << 20;  ///< of one message in fragments [byte]; 0: fragments are refused
+  std::size_t memory = 16u << 20;  ///< of all fragments that wait, with what it costs to keep them [byte]
+  std::size_t incomplete = 16;     ///< messages at a time
   std::chrono::milliseconds patience{1000};  ///< from the first fragment of a message to its last
 };
 
@@ -51,7 +52,8 @@ class LcmReassembly {
                                    Clock::time_point now);
 
   const LcmDatagramCounters& counters() const noexcept { return counters_; }
-  /// Memory of the incomplete messages [byte], at most that of the bounds.
+  /// Memory of what waits [byte], at most that of the bounds. Only what has come counts, not what is
+  /// announced.
   std::size_t memory() const noexcept { return memory_; }
   std::size_t incomplete() const noexcept { return partial_.size(); }
 
@@ -61,33 +63,37 @@ class LcmReassembly {
     std::uint16_t number, count;
     std::span<const std::uint8_t> rest;  // channel and data, or data
   };
+  struct Piece {
+    std::uint32_t offset;
+    std::vector<std::uint8_t> data;
+  };
   struct Partial {
     std::uint64_t sender;
-    std::uint32_t sequence;
+    std::uint32_t sequence, size;
+    std::uint16_t count;  // of its fragments
     Clock::time_point begun;
     std::string channel;
-    std::vector<std::uint8_t> data;
-    std::vector<bool> seen;  // by number of the fragment
-    std::size_t missing;     // fragments
-    std::size_t bytes = 0;   // that have come
+    std::map<std::uint16_t, Piece> pieces;  // by number of the fragment
   };
   using Partials = std::list<Partial>;
 
   std::optional<LcmMessage> malformed() noexcept;
+  std::optional<LcmMessage> refused() noexcept;
   std::optional<LcmMessage> accept_short(std::span<const std::uint8_t> rest);
   std::optional<LcmMessage> accept_fragment(const Fragment& fragment, std::uint64_t sender,
                                             Clock::time_point now);
   Partials::iterator partial_of(const Fragment& fragment, std::uint64_t sender, Clock::time_point now);
+  bool make_capacity(std::size_t bytes, Partials::iterator partial) noexcept;
   std::optional<LcmMessage> complete(Partials::iterator partial);
   void forget(Partials::iterator partial) noexcept;
   void give_up_late(Clock::time_point now) noexcept;
-  static std::size_t memory_of(const Fragment& fragment) noexcept;
 
   const LcmBounds bounds_;
   LcmDatagramCounters counters_;
   Partials partial_;  // the oldest first
   std::size_t memory_ = 0;
-  Partial whole_{};  // the last message that has been completed
+  std::string channel_;  // of the last message that has been completed
+  std::vector<std::uint8_t> data_;
 };
 
 }  // namespace lockstep

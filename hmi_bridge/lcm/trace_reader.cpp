@@ -18,6 +18,8 @@ namespace {
 constexpr std::int64_t kEventHead = 28;  // mark, number, time and two lengths stand before channel and data
 constexpr std::uint32_t kMark = 0xEDA1DA01;
 constexpr std::size_t kChannelLength = 20, kDataLength = 24;  // where they stand in the head
+// What LCM reads of a channel, and sends as a message [byte].
+constexpr std::uint32_t kLongestChannel = 999, kLongestMessage = 1u << 28;
 
 std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
   std::uint32_t number = 0;
@@ -118,14 +120,15 @@ LcmDecoder::Message LcmTraceReader::accept(const lcm_eventlog_event_t& event) {
 }
 
 /// Whether an event begins here whose channel and data the file holds. The library believes what the lengths
-/// of an event claim: it takes memory for up to 2 GiB and passes over all that is in the way to the next
-/// mark.
+/// of an event claim: it takes memory for up to 2 GiB, writes of others to standard error, and passes over
+/// all that is in the way to the next mark.
 bool LcmTraceReader::is_whole_event_next() {
   std::array<std::uint8_t, kEventHead> head;
   if (std::fread(head.data(), 1, head.size(), log_->f) != head.size() || number_at(head, 0) != kMark)
     return false;
-  const std::int64_t end =
-      offset_ + kEventHead + number_at(head, kChannelLength) + number_at(head, kDataLength);
+  const std::uint32_t channel = number_at(head, kChannelLength), data = number_at(head, kDataLength);
+  if (channel == 0 || channel > kLongestChannel || data > kLongestMessage) return false;
+  const std::int64_t end = offset_ + kEventHead + channel + data;
   if (end > size_) size_ = size_of_file(log_->f);  // it may be growing
   return end <= size_ && ::fseeko(log_->f, offset_, SEEK_SET) == 0;
 }

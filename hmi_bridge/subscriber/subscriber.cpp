@@ -2,6 +2,8 @@
 //     lcm-gen --cpp trace.lcm
 //     c++ -std=c++11 -I. subscriber.cpp -llcm -o subscriber
 //     ./subscriber ROTARY_KNIFE 10
+// For a network on which nobody lies: it receives with LCM's own library, which believes what a datagram
+// claims.
 #include <cstdlib>
 #include <iostream>
 #include <lcm/lcm-cpp.hpp>
@@ -12,6 +14,18 @@
 #include "lockstep/trace_row_t.hpp"
 
 namespace {
+
+// What others wrote, without what a terminal would obey: control characters of ASCII, and their like beyond
+// it.
+std::string shown(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const unsigned char c = static_cast<unsigned char>(text[i]);
+    const bool beyond = c >= 0x80 && c < 0xA0 && i > 0 && static_cast<unsigned char>(text[i - 1]) == 0xC2;
+    result += c < 0x20 || c == 0x7F || beyond ? '?' : text[i];
+  }
+  return result;
+}
 
 struct Screen {
   lockstep::trace_header_t header{};
@@ -28,14 +42,15 @@ struct Screen {
     ++rows;
     last_tick = row->tick;
     std::cout << static_cast<double>(row->t) * 1e-9 << " s";
-    for (int i = 0; i < row->n; ++i)
-      std::cout << "  " << header.names[i] << " " << row->values[i] << header.units[i];
+    for (int i = 0; i < row->n && i < header.n; ++i)
+      std::cout << "  " << shown(header.names[i]) << " " << row->values[i] << shown(header.units[i]);
     std::cout << std::endl;
   }
   void on_event(const lcm::ReceiveBuffer* /*buffer*/, const std::string& /*channel*/,
                 const lockstep::event_t* event) {
-    std::cout << static_cast<double>(event->t) * 1e-9 << " s  " << event->kind << ": " << event->source;
-    if (event->number != 0) std::cout << " " << event->number << " " << event->text;
+    std::cout << static_cast<double>(event->t) * 1e-9 << " s  " << shown(event->kind) << ": "
+              << shown(event->source);
+    if (event->number != 0) std::cout << " " << event->number << " " << shown(event->text);
     std::cout << std::endl;
   }
 };

@@ -17,6 +17,19 @@ GROUP, PORT = "239.255.76.67", 7667
 SMALL = 0x4C433032  # "LC02"
 
 
+def text(characters):
+    """What strangers wrote, without what a terminal would obey."""
+    return "".join(c if c.isprintable() else "?" for c in characters)
+
+
+def decoded(kind, data):
+    """The message; None if the bytes are none. Anybody may send anything."""
+    try:
+        return kind.decode(data)
+    except (ValueError, IndexError, MemoryError, OverflowError, struct.error):
+        return None
+
+
 def datagrams():
     receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -36,17 +49,19 @@ def main(channel="LOCKSTEP", enough="-1"):
     header, rows = None, 0
     for name, data in datagrams():
         if name == channel + "_HEADER":
-            header = lockstep.trace_header_t.decode(data)
+            header = decoded(lockstep.trace_header_t, data) or header
         elif name == channel + "_EVENTS":
-            event = lockstep.event_t.decode(data)
+            event = decoded(lockstep.event_t, data)
+            if event is None:
+                continue
             what = f" {event.number} {event.text}" if event.number else ""
-            print(f"{event.t * 1e-9:.6f} s  {event.kind}: {event.source}{what}", flush=True)
+            print(text(f"{event.t * 1e-9:.6f} s  {event.kind}: {event.source}{what}"), flush=True)
         elif name == channel and header is not None:
-            row = lockstep.trace_row_t.decode(data)
-            if row.header_id != header.id:
+            row = decoded(lockstep.trace_row_t, data)
+            if row is None or row.header_id != header.id:
                 continue  # its header comes within a second
             values = "  ".join(f"{n} {v:g}{u}" for n, v, u in zip(header.names, row.values, header.units))
-            print(f"{row.t * 1e-9:.6f} s  {values}", flush=True)
+            print(text(f"{row.t * 1e-9:.6f} s  {values}"), flush=True)
             rows += 1
             if rows == int(enough):
                 return

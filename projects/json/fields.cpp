@@ -110,9 +110,7 @@ std::optional<std::string_view> read_title(const JsonValue* value, Problems& pro
   constexpr std::size_t kLongest = 128;
   const auto text = read_string(value, problems);
   if (!text) return std::nullopt;
-  const bool readable = std::none_of(text->begin(), text->end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) == 0x7F;
-  });
+  const bool readable = visible(*text) == *text;
   if (!text->empty() && text->size() <= kLongest && readable) return text;
   problems.report(*value, value->shown() + " is not allowed here; allowed: a text of 1 to " +
                               std::to_string(kLongest) + " bytes without control characters");

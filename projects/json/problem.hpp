@@ -44,7 +44,11 @@ class Problems {
 /// @param text UTF-8; what is none of it is shown as "?"
 std::string shown(std::string_view text);
 
-/// The same in single quotes.
+/// The whole text on one line: "?" stands for each character that a terminal obeys instead of showing it (C0,
+/// C1, ends of lines, turns of the direction) and for each byte that is none of UTF-8.
+std::string visible(std::string_view text);
+
+/// What `shown` gives, in single quotes.
 std::string quote(std::string_view text);
 
 /// Names separated by commas; a long list is cut short.

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <string>
 
-#include "tech_objects/cam/cam.hpp"
 #include "projects/expressions/constant.hpp"
+#include "tech_objects/cam/cam.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr DINT kAtTheEnd = 5;          // SyncProfileReference: takes over at the end of the cam before
+constexpr DINT kAtTheEnd = 5;         // SyncProfileReference: takes over at the end of the cam before
 constexpr double kRounding = 1.0e-6;  // share of the slopes that is no difference
 
 /// Slopes of the scaled cam where it is entered and where it is left, the leading value going up.

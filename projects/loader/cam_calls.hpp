@@ -12,7 +12,8 @@ namespace lockstep {
 /// Collects the calls of a program, and looks at pairs of them.
 class CamCalls {
  public:
-  /// @param in its inputs, without one that is computed among SyncProfileReference, MasterScaling, SlaveScaling
+  /// @param in its inputs, without one that is computed among SyncProfileReference, MasterScaling,
+  /// SlaveScaling
   void add(const JsonValue& in, const MC_CamIn& block) { calls_.push_back({&in, &block}); }
 
   /// Warns where a cam takes over from another at its end (SyncProfileReference 5) with another velocity.

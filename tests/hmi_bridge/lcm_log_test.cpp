@@ -168,6 +168,29 @@ TEST(LcmTraceReader, AnEventThatClaimsMoreThanTheFileHasEndsTheLog) {
   EXPECT_EQ(message_of(path), path + ": is not an LCM event log");
 }
 
+// Lengths that the file holds and no log has: the library would write of them, or take 1.5 GiB.
+TEST(LcmTraceReader, AnEventOfALengthThatNoMessageHasEndsTheLog) {
+  const Directory directory;
+  const std::string path = directory.file("long.lcm");
+  const auto log_of = [&](std::uint32_t channel, std::uint32_t data) {
+    std::string head = "\xED\xA1\xDA\x01";
+    head.append(16, '\0');
+    for (const std::uint32_t length : {channel, data})
+      for (int shift = 24; shift >= 0; shift -= 8) head += static_cast<char>(length >> shift);
+    std::ofstream(path, std::ios::binary) << head;
+    std::filesystem::resize_file(path, std::uintmax_t{3} << 30);  // a hole, which takes no disk
+    testing::internal::CaptureStderr();
+    const std::string message = message_of(path);
+    return message + testing::internal::GetCapturedStderr();
+  };
+  const std::string refused = path + ": is not an LCM event log";
+  EXPECT_EQ(log_of(0, 8), refused);
+  EXPECT_EQ(log_of(1000, 8), refused);
+  EXPECT_EQ(log_of(0x80000000, 8), refused);
+  EXPECT_EQ(log_of(1, 0x80000001), refused);
+  EXPECT_EQ(log_of(1, (1u << 28) + 1), refused);
+}
+
 TEST(LcmTraceReader, ALogThatGrowsWhileItIsReadIsReadToItsEnd) {
   const Directory directory;
   const std::string path = directory.file("run.lcm");

@@ -155,6 +155,11 @@ TEST(Shown, ReplacesWhatATerminalCannotShow) {
   EXPECT_EQ(shown("äöü€😀"), "äöü€😀");
   EXPECT_EQ(shown("\xff\xc3"), "??");
   EXPECT_EQ(shown("\xc2\x9b"), "??") << "control characters beyond ASCII as well";
+  EXPECT_EQ(shown("\xe0\x82\x9b\xc1\x9b"), "?????") << "in a form that is too long as well";
+  EXPECT_EQ(shown("\xed\xa0\x80\xf4\x90\x80\x80"), "???????") << "no characters";
+  EXPECT_EQ(shown("a\u202Eb\u2028\u2066"), "a???b??????") << "what turns the direction, ends of lines";
+  EXPECT_EQ(visible("\x1b]0;" + std::string(200, 'x') + "\r\n\u200F"),
+            "?]0;" + std::string(200, 'x') + "??\u200F");
 }
 
 TEST(Shown, CutsBetweenCharacters) {
