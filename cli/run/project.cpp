@@ -86,7 +86,7 @@ class Surroundings {
   /// Tells what has gone wrong lately, or is well again.
   void look() {
     if (!keeper_) return;
-    if (const std::string news = keeper_->news(); !news.empty()) tell("warning: " + news);
+    for (std::string news; !(news = keeper_->news()).empty();) tell("warning: " + news);
   }
 
   /// Ends server, clients, recorder and the keeping of values, and tells what is missing.

@@ -9,6 +9,8 @@
 namespace lockstep {
 namespace {
 
+constexpr std::size_t kMostNews = 16;  // that nobody has asked for
+
 std::size_t count_of(const std::vector<KeptValue>& values) {
   std::size_t count = 0;
   for (const KeptValue& value : values) count += value.signals().size() + (value.present ? 1 : 0);
@@ -118,7 +120,10 @@ void RetainWriter::stop() {
 
 std::string RetainWriter::news() {
   const std::lock_guard lock(mutex_);
-  return std::exchange(news_, "");
+  if (news_.empty()) return "";
+  std::string oldest = std::move(news_.front());
+  news_.pop_front();
+  return oldest;
 }
 
 bool RetainWriter::failing() const {
@@ -138,13 +143,21 @@ void RetainWriter::run() {
   look();
   write();
   auto next_write = std::chrono::steady_clock::now() + interval_;
+  auto next_watch = std::chrono::steady_clock::now() + kWatch;
   while (wait(poll)) {
     changed_ |= look();
-    const bool due = changed_ && std::chrono::steady_clock::now() >= next_write;
-    if (!due && asked_ == answered_) continue;
-    write();
-    answer();
-    next_write = std::chrono::steady_clock::now() + interval_;
+    const auto now = std::chrono::steady_clock::now();
+    const bool due = changed_ && now >= next_write;
+    if (due || asked_ != answered_) {
+      write();
+      answer();
+      next_write = std::chrono::steady_clock::now() + interval_;
+    } else if (now >= next_watch) {
+      watch();
+    } else {
+      continue;
+    }
+    next_watch = std::chrono::steady_clock::now() + kWatch;
   }
   look();  // the last tick is over
   write();
@@ -202,12 +215,35 @@ void RetainWriter::write() {
     problem = error.what();
   }
   changed_ = !problem.empty();
+  note(problem);
+}
+
+/// The file may go from under its name although there is nothing to be written.
+void RetainWriter::watch() {
+  const std::string problem = file_.hold();
+  if (!problem.empty()) {
+    changed_ = is_away_ = true;
+    return note(problem);
+  }
+  if (std::exchange(is_away_, false)) return write();
+  const std::lock_guard lock(mutex_);
+  add_news(file_.remark());
+}
+
+void RetainWriter::note(const std::string& problem) {
+  const std::string file = "retain file " + file_.path() + ": ";
   const std::lock_guard lock(mutex_);
   commits_ = file_.commits();
+  add_news(file_.remark());
   if (!problem.empty() && !failing_)
-    news_ = "retain file " + file_.path() + ": values cannot be written: " + problem + "; it is tried again";
-  if (problem.empty() && failing_) news_ = "retain file " + file_.path() + ": values are written again";
+    add_news(file + "values cannot be written: " + problem + "; it is tried again");
+  if (problem.empty() && failing_) add_news(file + "values are written again");
   failing_ = !problem.empty();
+}
+
+/// Where nobody asks, the oldest ones stay.
+void RetainWriter::add_news(std::string text) {
+  if (!text.empty() && news_.size() < kMostNews) news_.push_back(std::move(text));
 }
 
 /// To the job that waits: the disk has what the last look saw, or why it has not.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -29,6 +30,7 @@ std::vector<std::string> restore(RetainFile& file, const std::vector<KeptValue>&
 class RetainWriter {
  public:
   static constexpr std::chrono::milliseconds kPoll{20};  ///< how often it looks at most
+  static constexpr std::chrono::seconds kWatch{1};  ///< how often it looks whether the file is there still
 
   /// The signals stay where they are for the life of the writer.
   /// @param saving whose jobs it answers; nullptr: there are none
@@ -45,8 +47,9 @@ class RetainWriter {
   /// Writes the values of the last tick and ends the thread. To be called after that tick.
   void stop();
 
-  /// What is wrong since the last time somebody asked: why values cannot be written, or that they can be
-  /// again; empty: nothing new. Any thread but the cycle's.
+  /// The next piece of what has happened since the last time somebody asked: why values cannot be written,
+  /// that they can be again, what somebody has done to the file; empty: nothing new. Any thread but the
+  /// cycle's.
   std::string news();
   /// Whether what the file holds is not what `image` shows, since writing failed. Any thread but the cycle's.
   bool failing() const;
@@ -59,6 +62,9 @@ class RetainWriter {
   bool look();
   std::vector<KeptRow> rows();
   void write();
+  void watch();
+  void note(const std::string& problem);
+  void add_news(std::string text);
   void answer();
 
   RetainFile file_;
@@ -70,6 +76,7 @@ class RetainWriter {
   std::vector<std::string> texts_;  // of each value
   std::vector<bool> is_old_;        // of each text: the value has changed since
   bool changed_ = false;            // since the last write that went well
+  bool is_away_ = false;            // the file was not under its name, and could not be made again
   std::uint64_t asked_ = 0;         // number of the newest job that the last look saw
   std::uint64_t answered_ = 0;      // … that has been answered
 
@@ -78,7 +85,7 @@ class RetainWriter {
   bool stop_ = false;
   bool failing_ = false;
   std::uint64_t commits_ = 0;
-  std::string news_;
+  std::deque<std::string> news_;
   std::thread thread_;
 };
 
