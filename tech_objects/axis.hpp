@@ -376,6 +376,7 @@ class Axis final : public LeadingObject {
   void step_single_axis() noexcept;
   void follow_changes(Job& job) noexcept;
   void remember_limits() noexcept;
+  bool limits_changed() const noexcept;
   void watch_base_job(Job& job) noexcept;
   void watch_positioning() noexcept;
   void watch_standstill() noexcept;
@@ -594,7 +595,7 @@ class Axis final : public LeadingObject {
   AdditiveLeadingValues additive_;
 
   alignas(kCacheLine) double planned_override_ = 100.0;
-  std::uint64_t planned_limits_ = 0;  // what tells a change of DynamicLimits
+  TO_Struct_DynamicLimits planned_limits_{};  // as they were when the motion was planned
   SingleAxisMotion single_;
   std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
 

@@ -1,6 +1,5 @@
 // Motion of an axis of its own: positioning, endless motion, jogging and stopping.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -12,15 +11,6 @@ namespace {
 /// Highest deceleration that a data block can hold [u/s²]: what is left when no limit is configured.
 /// @source S7-1500T synchronous operation V7, 13.1.16
 constexpr double kHighestDeceleration = 2.77777777777778e8;
-
-/// A word that is another one when any of the limits has changed: one comparison in every cycle, in place of
-/// four. MaxVelocity changes with a restart only.
-std::uint64_t mark_of(const TO_Struct_DynamicLimits& limits) noexcept {
-  constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15;
-  constexpr auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
-  const std::uint64_t rates = bits(limits.Velocity) * kSpread + bits(limits.MaxAcceleration);
-  return (rates * kSpread + bits(limits.MaxDeceleration)) * kSpread + bits(limits.MaxJerk);
-}
 
 /// With a MaxJerk that has been lowered the velocity could pass its limit while a present acceleration is run
 /// down: of the jerk before as much stays as that needs.
@@ -295,9 +285,6 @@ void Axis::begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcep
 
 void Axis::step_single_axis() noexcept {
   Job* job = running_[kBase];
-  const auto limits_changed = [this] {
-    return data.Override.Velocity != planned_override_ || mark_of(data.DynamicLimits) != planned_limits_;
-  };
   if (job != nullptr && (limits_changed() || job->kind == JobKind::MC_MoveJog)) follow_changes(*job);
   single_.advance(setpoint_);
   if (advancing_base_) add_superimposed();
@@ -312,9 +299,7 @@ void Axis::step_single_axis() noexcept {
       jog && (job.direction != jogged_.direction || job.velocity != jogged_.velocity ||
               job.acceleration != jogged_.acceleration || job.deceleration != jogged_.deceleration ||
               job.jerk != jogged_.jerk);
-  const bool limits_changed =
-      data.Override.Velocity != planned_override_ || mark_of(data.DynamicLimits) != planned_limits_;
-  if (!inputs_changed && !limits_changed) return;
+  if (!inputs_changed && !limits_changed()) return;
   if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || leaves(job.kind)) return;
   remember_limits();
   const double jerk_before = single_.dynamics().jerk;
@@ -340,7 +325,16 @@ void Axis::step_single_axis() noexcept {
 
 void Axis::remember_limits() noexcept {
   planned_override_ = data.Override.Velocity;
-  planned_limits_ = mark_of(data.DynamicLimits);
+  planned_limits_ = data.DynamicLimits;
+}
+
+/// Each value is compared itself; MaxVelocity changes with a restart only.
+bool Axis::limits_changed() const noexcept {
+  const TO_Struct_DynamicLimits& now = data.DynamicLimits;
+  const TO_Struct_DynamicLimits& then = planned_limits_;
+  return data.Override.Velocity != planned_override_ || now.Velocity != then.Velocity ||
+         now.MaxAcceleration != then.MaxAcceleration || now.MaxDeceleration != then.MaxDeceleration ||
+         now.MaxJerk != then.MaxJerk;
 }
 
 void Axis::watch_base_job(Job& job) noexcept {
