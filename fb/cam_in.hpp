@@ -12,7 +12,8 @@ namespace lockstep {
 ///         16#8034 MasterSyncPosition; 16#8036 SyncProfileReference; 16#8007 SyncDirection; 16#8019 recursive
 ///         coupling; 16#8076 simulated; 16#808B profile 5 without camming; 16#80AC a cyclic cam that does not
 ///         close; 16#80AD synchronous position outside of the cam; 16#80E8 cam being interpolated; 16#800F
-///         not enabled or MC_Stop active; cam not interpolated: technology alarm 612, 16#8001
+///         not enabled or MC_Stop active; cam not interpolated: technology alarm 612, 16#8001; following axis
+///         not homed: technology alarm 321, 16#8001
 struct MC_CamIn final : ExecuteBlock {
   LeadingObject* Master{};
   Axis* Slave{};

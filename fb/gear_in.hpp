@@ -44,7 +44,7 @@ struct MC_GearIn final : ExecuteBlock {
 /// @source S7-1500T synchronous operation V7, 12.1.2; 6.2
 /// @errors 16#8017, 16#8018 ratio; 16#8034, 16#8035 synchronous positions; 16#8036 SyncProfileReference;
 ///         16#8026 MasterStartDistance; 16#8007 SyncDirection; 16#8019 recursive coupling;
-///         16#800F not enabled or MC_Stop active
+///         16#800F not enabled or MC_Stop active; following axis not homed: technology alarm 321, 16#8001
 struct MC_GearInPos final : ExecuteBlock {
   LeadingObject* Master{};
   Axis* Slave{};

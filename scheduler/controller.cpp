@@ -134,11 +134,7 @@ void Controller::tell_jobs() {
 void Controller::skip(std::int64_t ticks) noexcept {
   next_tick_ += ticks;
   counters_.missed_ticks += static_cast<std::uint64_t>(ticks);
-  for (Axis* axis : driven_) axis->skip_servo(ticks);
   for (ExternalEncoder* encoder : encoders) encoder->skip_servo(ticks);
-  for (MeasuringInput* input : measuring_inputs) input->skip_servo(ticks);
-  for (OutputCam* cam : output_cams) cam->skip_servo(ticks);
-  for (CamTrack* track : cam_tracks) track->skip_servo(ticks);
 }
 
 void Controller::shut_down() noexcept {

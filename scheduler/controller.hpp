@@ -30,7 +30,7 @@ namespace lockstep {
 /// @source S7-1500T: MC_Servo [OB91], MC_Interpolator [OB92]
 struct Clock {
   std::int64_t servo_cycle = 1'000'000;  ///< period of MC_Servo [ns]
-  int interpolator_ratio = 1;            ///< MC_Interpolator runs on every so many servo ticks, 1 to 32
+  int interpolator_ratio = 1;  ///< MC_Interpolator runs on every so many executed servo ticks, 1 to 32
 
   std::int64_t interpolator_cycle() const noexcept { return servo_cycle * interpolator_ratio; }  ///< [ns]
 };
@@ -141,9 +141,15 @@ class Controller {
   /// One servo tick, run to completion. Nothing in it allocates, locks, blocks or throws.
   void tick() noexcept;
 
-  /// Leaves ticks out that the wall clock has passed: time goes on, motion does not. What was due in them is
-  /// done in the next tick.
+  /// Leaves ticks out that the wall clock has passed: time goes on, motion does not. Programs that were due
+  /// in them run in the next tick; the interpolator runs after as many executed ticks as ever, so that
+  /// setpoint, fine interpolation, position control and simulated drives pass the same time.
   void skip(std::int64_t ticks) noexcept;
+
+  /// Whether the next tick is one of the interpolator.
+  bool interpolator_is_due() const noexcept {
+    return counters_.ticks % static_cast<std::uint64_t>(clock.interpolator_ratio) == 0;
+  }
 
   /// Makes the curves that are wanted by MC_InterpolateCam; false if none is. Some milliseconds for 10,000
   /// points. One thread at a time, while `tick` goes on in its own.

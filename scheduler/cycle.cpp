@@ -5,7 +5,7 @@ namespace lockstep {
 
 void Controller::tick() noexcept {
   const std::int64_t t = now();
-  const bool interpolator_tick = due(clock.interpolator_cycle(), t);
+  const bool interpolator_tick = interpolator_is_due();
 
   take_inputs(t);
 

@@ -117,6 +117,7 @@ void RealTimeRun::run() noexcept {
       shutdown_begin = t;
     }
     if (shutting_down && (controller_.at_rest() || t - shutdown_begin > kLongestShutdown)) break;
+    const bool interpolator_tick = controller_.interpolator_is_due();
     controller_.tick();
     status_.ticks.fetch_add(1, std::memory_order_relaxed);
     status_.time.store(t, std::memory_order_relaxed);
@@ -130,8 +131,7 @@ void RealTimeRun::run() noexcept {
       controller_.skip(missed);
       status_.missed_ticks.fetch_add(static_cast<std::uint64_t>(missed), std::memory_order_relaxed);
     }
-    if (t % controller_.clock.interpolator_cycle() == 0 || missed > 0)
-      count_overrun(end - due > controller_.clock.interpolator_cycle());
+    if (interpolator_tick || missed > 0) count_overrun(end - due > controller_.clock.interpolator_cycle());
   }
   status_.over.store(true, std::memory_order_release);
 }

@@ -358,6 +358,16 @@ std::string trouble(const RealTimeStatus& status) {
   return overruns + missed == 0 ? "" : fmt::format("  overruns {}  missed ticks {}", overruns, missed);
 }
 
+/// What missed ticks may explain, so that nobody looks for it at the machine.
+void tell_missed(const RealTimeStatus& status) {
+  if (const std::uint64_t missed = status.missed_ticks.load(); missed > 0)
+    tell(fmt::format(
+        "warning: {} ticks were missed: motion stood still in them, while encoder signals, Modbus "
+        "and timers went on; following errors and alarms within a second of missed ticks may come "
+        "from that",
+        missed));
+}
+
 /// Axes that could not be brought to rest in the time that there is for it.
 void tell_moving(const Controller& controller) {
   for (const Axis* axis : controller.axes)
@@ -388,6 +398,7 @@ int run_in_real_time(Project& project, Surroundings& surroundings, Display& disp
       static_cast<double>(status.time.load()) * 1e-9, status.ticks.load(), status.overruns.load(),
       status.missed_ticks.load(), static_cast<double>(status.worst_lateness.load()) * 1e-3,
       static_cast<double>(status.longest_tick.load()) * 1e-3));
+  tell_missed(status);
   tell_moving(*project.controller);
   if (!status.stopped_by_overrun.load()) return kOk;
   tell("stopped: three interpolator cycles in a row were not over in time (clock.overrun is \"stop\")",

@@ -7,7 +7,6 @@
 /// @source S7-1500T synchronous operation V7, 4.5, 6, 13.1; S7-1500T axis functions
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -116,11 +115,6 @@ class Axis final : public LeadingObject {
 
   /// One servo tick: reads actual values, closes the position loop, writes the setpoint to the drive.
   void servo() noexcept;
-
-  /// Servo ticks that the wall clock has passed: the fine interpolation goes on to where it would be.
-  void skip_servo(std::int64_t ticks) noexcept {
-    servo_tick_ += static_cast<int>(std::min<std::int64_t>(ticks, ratio_));
-  }
 
   /// Starts the jobs handed over since the last interpolator tick, by the override rules.
   void start_jobs() noexcept;

@@ -149,7 +149,8 @@ int Axis::missing_precondition(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_CamIn && !job.cam->interpolated()) return alarm::kCamNotInterpolated;
   const bool controlled = job.kind == JobKind::MC_GearInVelocity || job.master->position_controlled() ||
                           leading->coupling == Coupling::actual;
-  return controlled ? 0 : alarm::kLeadingAxisNotPositionControlled;
+  if (!controlled) return alarm::kLeadingAxisNotPositionControlled;
+  return couples_at_position(job.kind) && !homed_ ? alarm::kNotHomed : 0;
 }
 
 bool Axis::led_by_this(const LeadingObject* leading) const noexcept {

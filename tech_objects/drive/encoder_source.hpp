@@ -44,8 +44,9 @@ class SimulatedEncoder {
 
   /// Once in each servo tick, behind the axis on which it sits.
   EncoderReading read() noexcept;
-  void skip(std::int64_t ticks) noexcept { load_.skip(ticks); }
   void interpolated() noexcept { load_.interpolated(); }
+  /// Whether it goes on by itself, whatever this controller does.
+  bool foreign() const noexcept { return settings_.follows == nullptr; }
 
  private:
   bool follow_signal() noexcept;

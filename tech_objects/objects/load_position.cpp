@@ -1,7 +1,5 @@
 #include "tech_objects/objects/load_position.hpp"
 
-#include <algorithm>
-
 #include "tech_objects/profile/fine_interpolation.hpp"
 
 namespace lockstep {
@@ -14,10 +12,6 @@ void LoadPosition::watch(const LeadingObject& object, double servo_period, int r
   tick_ = 0;
   setpoint_ = setpoint;
   begun_ = false;
-}
-
-void LoadPosition::skip(std::int64_t ticks) noexcept {
-  tick_ += static_cast<int>(std::min<std::int64_t>(ticks, ratio_));
 }
 
 /// Of a virtual axis, and of a setpoint.

@@ -18,8 +18,6 @@ class LoadPosition {
 
   /// Once in each servo tick, behind the object's own; the first call begins.
   void servo() noexcept;
-  /// Servo ticks that the wall clock has passed.
-  void skip(std::int64_t ticks) noexcept;
   /// Once in each interpolator tick.
   void interpolated() noexcept { tick_ = 0; }
 

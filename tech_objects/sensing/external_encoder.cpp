@@ -20,7 +20,9 @@ ExternalEncoder::ExternalEncoder(std::string object_name, DB_ANY object_number)
     : LeadingObject(ObjectKind::TO_ExternalEncoder, std::move(object_name), object_number) {}
 
 void ExternalEncoder::configure(double servo_period, int ratio) {
+  servo_period_ = servo_period;
   period_ = servo_period * ratio;
+  unseen_ = 0.0;
   start_values_ = data;
   position_controlled_ = false;  // it has no setpoint that could lead
   take_start_values();
@@ -109,8 +111,9 @@ void ExternalEncoder::step() noexcept {
   source_.interpolated();
   new_jobs_.take([this](Job& job) { start(job); });
   if (mark_search_.found()) take_mark();
-  const double velocity = rounded_difference(actual_, last_actual_, modulo_) / period_;
-  data.ActualAcceleration = (velocity - actual_velocity_) / period_;
+  const double time = period_ + std::exchange(unseen_, 0.0);
+  const double velocity = rounded_difference(actual_, last_actual_, modulo_) / time;
+  data.ActualAcceleration = (velocity - actual_velocity_) / time;
   actual_velocity_ = velocity;
   last_actual_ = actual_;
   if (leads_by_actual_value()) extrapolate(actual_, actual_velocity_, data.Extrapolation);

@@ -39,7 +39,10 @@ class ExternalEncoder final : public LeadingObject {
 
   /// One servo tick: reads the encoder.
   void servo() noexcept;
-  void skip_servo(std::int64_t ticks) noexcept { source_.skip(ticks); }
+  /// Servo ticks that the wall clock has passed: what this controller does not move has gone on.
+  void skip_servo(std::int64_t ticks) noexcept {
+    if (source_.foreign()) unseen_ += static_cast<double>(ticks) * servo_period_;
+  }
   /// One interpolator tick: starts jobs, extrapolates, shows.
   void step() noexcept;
 
@@ -77,7 +80,9 @@ class ExternalEncoder final : public LeadingObject {
   void shift(double by) noexcept;
   void publish() noexcept;
 
-  double period_ = 0.001;  // of the interpolator [s]
+  double servo_period_ = 0.001;  // [s]
+  double period_ = 0.001;        // of the interpolator [s]
+  double unseen_ = 0.0;          // in which a signal has gone on beyond that [s]
   SimulatedEncoder source_;
   NewJobs new_jobs_;
   bool begun_ = false;

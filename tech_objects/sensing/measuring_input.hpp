@@ -39,7 +39,6 @@ class MeasuringInput final : public TechnologyObject {
   void submit(Job& job) noexcept override { new_jobs_.submit(job); }
 
   void servo() noexcept;
-  void skip_servo(std::int64_t ticks) noexcept { load_.skip(ticks); }
   void interpolated() noexcept { load_.interpolated(); }
 
  private:

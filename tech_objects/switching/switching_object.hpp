@@ -48,7 +48,6 @@ class SwitchingObject : public TechnologyObject {
   bool active() const noexcept { return active_; }
   bool output() const noexcept { return output_of(data); }
 
-  void skip_servo(std::int64_t ticks) noexcept { path_.skip(ticks); }
   void interpolated() noexcept { path_.interpolated(); }
 
  protected:

@@ -33,7 +33,6 @@ class SwitchingPath {
   /// Once in each servo tick, behind the object's own.
   /// @param now of the tick [ns]  @param hysteresis [u] ≥ 0
   void servo(std::int64_t now, double hysteresis) noexcept;
-  void skip(std::int64_t ticks) noexcept { load_.skip(ticks); }
   void interpolated() noexcept { load_.interpolated(); }
   /// The next servo tick has no way behind it: where it is found is where it begins.
   void begin_anew() noexcept { begun_ = false; }

@@ -114,6 +114,18 @@ std::string axis_calls(const MachinePlan& plan, int number) {
   return joined({power, ",\n", move(forth, "", go_forth), ",\n", move(back, "-", forth + ".Done")});
 }
 
+/// A program that homes the axes where they are, once: in a cycle of its own, so that no tick that is
+/// measured has its calls. Only what is homed can be led by a cam.
+std::string homing_program(const MachinePlan& plan) {
+  std::string calls;
+  for (int number = 1; number <= plan.axes; ++number) {
+    if (number > 1) calls += ",\n";
+    calls += call("MC_Home", "home" + std::to_string(number), "Axis", axis_name(number),
+                  R"("Mode": 1, "Execute": true)");
+  }
+  return joined({R"({ "name": "Homing", "ob": "Cyclic", "cycle": "1h", "calls": [)", calls, " ] }"});
+}
+
 std::string signal_name(const MachinePlan& plan, int index) {
   static constexpr std::string_view kPaths[] = {".Position",
                                                 ".Velocity",
@@ -166,7 +178,7 @@ std::string project_text(const MachinePlan& plan) {
                  std::to_string(plan.ratio), " },\n\"technology_objects\": {\n", objects, R"( },
 "programs": [ { "name": "Main", "ob": "MC_PreInterpolator", "calls": [
 )",
-                 calls, " ] } ] }"});
+                 calls, " ] }", plan.motion == Motion::cam ? ",\n" + homing_program(plan) : "", " ] }"});
 }
 
 Machine::Machine(const MachinePlan& plan) : plan_(plan) {

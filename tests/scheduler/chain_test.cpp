@@ -448,6 +448,8 @@ TEST(Chain, TheOffsetAfterManyShiftsOfATenthIsTheRoundedExactSum) {
 /// A leading axis at 50 u/s and a following one that is being synchronized over 200 u.
 struct Synchronizing : Chain {
   Synchronizing() : Chain({}, {}, 1, 1), pos(block<MC_GearInPos>()) {
+    home_in_place(f);
+    run(3);
     pos.Master = &l;
     pos.Slave = &f;
     pos.MasterSyncPosition = 300.0;

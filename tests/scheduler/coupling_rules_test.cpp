@@ -57,6 +57,7 @@ struct Coupled : Rig {
     gear.Master = pos.Master = velocity.Master = phase.Master = &l;
     gear.Slave = pos.Slave = velocity.Slave = out.Slave = phase.Slave = offset.Slave = &f;
     velocity.PositionControlled = true;
+    home_in_place(f);
     Rig::run(30);
     continuity[2].highest_acceleration = 1e6;
     continuity[2].highest_jerk = 1e9;
@@ -128,6 +129,7 @@ TEST(PositioningAxis, LeadsSeveralAxesByEveryKindOfGear) {
   pos.MasterStartDistance = 40.0;
   velocity.RatioDenominator = 4;
   rig.continuity[2].highest_jerk = 1e8;
+  rig.home_in_place(*following[1]);
   rig.run(5);
   run.Velocity = 50.0;
   run.Execute = gear.Execute = pos.Execute = velocity.Execute = true;
@@ -167,6 +169,7 @@ TEST(RecursiveCoupling, IsRefusedThroughSeveralAxesWhateverKindOfGearWouldCloseI
     auto& velocity = rig.block<MC_GearInVelocity>();
     pos.Slave = velocity.Slave = axes[0];
     pos.Master = velocity.Master = axes[3];
+    rig.home_in_place(*axes[0]);
     rig.run(5);
     gears[1]->Execute = gears[2]->Execute = gears[3]->Execute = true;
     ASSERT_TRUE(rig.run_until([&] { return gears[1]->InGear && gears[2]->InGear && gears[3]->InGear; }));

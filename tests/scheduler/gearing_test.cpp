@@ -293,6 +293,7 @@ struct WaitingChain : Rig {
     auto& move = block<MC_MoveVelocity>();
     move.Axis = axes[0];
     move.Velocity = 1000.0;
+    home_in_place(*axes[1]);
     Rig::run(3);
     for (MC_GearIn* gear : gears) gear->Execute = true;
     EXPECT_TRUE(run_until([&] { return gears[0]->InGear && gears[1]->InGear && gears[2]->InGear; }));

@@ -98,6 +98,7 @@ struct Led : Rig {
     continuity[0].velocity = false;
     continuity[1].acceleration = continuity[2].acceleration = false;
     power.Enable = power_f.Enable = power_g.Enable = power_first.Enable = true;
+    home_in_place(f);
     run(20);
     home.Execute = true;
     run(20);

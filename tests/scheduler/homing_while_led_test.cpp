@@ -58,6 +58,7 @@ struct Led : Rig {
     cam_in.Cam = &make_cam();
     continuity[1].homing = true;
     power_l.Enable = power_f.Enable = true;
+    home_in_place(f);
     run(20);
   }
 
@@ -133,12 +134,14 @@ INSTANTIATE_TEST_SUITE_P(States, HomingWhileLed,
                                                               State::cam_synchronizing, State::cam_out),
                                             ::testing::Bool()));
 
-/// Beside a machine that is not homed: the same motion, by other names. By passive homing, which is under way
-/// when the coupling begins, or by direct homing where that is permitted.
+/// Beside a machine that is not homed again: the same motion, by other names. By passive homing, which is
+/// under way when the coupling begins, or by direct homing where that is permitted. (Mode 8 takes the homed
+/// state away, without which nothing couples at a position.)
 TEST_P(HomingWhileLed, ShiftsWhatLeadsTheAxisAndMovesNothing) {
   const auto [state, passive] = GetParam();
   Led rig, beside;
-  rig.home.Mode = passive ? 8 : 1;
+  const bool by_gear = state == State::gear || state == State::gear_out;
+  rig.home.Mode = !passive ? 1 : by_gear ? 8 : 2;
   rig.home.Position = passive ? 1000.0 : 11.0;
   rig.home.Execute = passive;
   rig.run(2);

@@ -84,6 +84,7 @@ struct Led : Rig {
     cam_in.Cam = &test::add_bent_cam(controller, kRing);
     watch(true);
     power.Enable = power_f.Enable = power_g.Enable = power_first.Enable = true;
+    home_in_place(f);
     run(20);
     home.Execute = true;
     run(20);

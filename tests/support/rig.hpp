@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fb/home.hpp"
 #include "scheduler/controller.hpp"
 
 namespace lockstep::test {
@@ -20,7 +21,7 @@ struct Continuity {
   bool acceleration = true;           ///< no step of the acceleration beyond the jerk
   double highest_acceleration = 1e5;  ///< [u/s²]
   double highest_jerk = 5e6;          ///< [u/s³]
-  bool homing = false;                ///< the position may step in the tick in which HomingDone rises
+  bool homing = false;                ///< the position may step in the tick in which it is renamed
 };
 
 /// Builds a controller, calls blocks in the order in which they were made, once per tick after the
@@ -51,6 +52,14 @@ class Rig {
     B& reference = *made;
     blocks_.push_back(std::move(made));
     return reference;
+  }
+
+  /// Calls an axis homed where it is, with the first calls of blocks: MC_Home Mode 1 by 0.
+  void home_in_place(Axis& axis) {
+    auto& home = block<MC_Home>();
+    home.Axis = &axis;
+    home.Mode = 1;
+    home.Execute = true;
   }
 
   /// One tick: the cycle, then the blocks.
@@ -86,7 +95,7 @@ class Rig {
  private:
   struct Last {
     bool known = false;
-    bool homed = false;
+    DoubleDouble names;  // by what homing has renamed positions [u]
     Setpoint setpoint;
   };
 
@@ -96,8 +105,7 @@ class Rig {
     const Setpoint& now = axis.setpoint();
     last_.resize(controller.axes.size());
     const Last last = last_[index];
-    const bool homed = has_bit(axis.data.StatusWord, StatusBit::HomingDone);
-    last_[index] = {true, homed, now};
+    last_[index] = {true, axis.renamed(), now};
     ASSERT_TRUE(std::isfinite(now.position.value) && std::isfinite(now.velocity) &&
                 std::isfinite(now.acceleration))
         << axis.name << " at " << controller.now();
@@ -106,7 +114,7 @@ class Rig {
       const double way = difference(now.position, last.setpoint.position, axis.modulo()).rounded();
       const double mean = 0.5 * (now.velocity + last.setpoint.velocity) * dt;
       const double slack = rule.highest_acceleration * dt * dt + 1e-9;
-      const bool renamed = rule.homing && homed && !last.homed;
+      const bool renamed = rule.homing && (axis.renamed() - last.names).rounded() != 0.0;
       ASSERT_TRUE(renamed || std::abs(way - mean) <= slack)
           << axis.name << ": step of the position by " << way - mean << " at " << controller.now();
       ASSERT_LE(std::abs(now.velocity - last.setpoint.velocity),
