@@ -28,10 +28,13 @@ void ExecuteBlock::start() noexcept {
     return;
   }
   const bool pending = job_ != nullptr && job_->phase == JobPhase::handed_over;
+  const bool waits = job_ != nullptr && job_->phase == JobPhase::waiting;
+  const Job* const replaces = pending ? job_->replaces : waits ? job_ : nullptr;
   Job& job = pending ? *job_ : free_job();
   const JobPhase handed = job.phase;
   job = Job{};
   job.phase = handed;  // one that is still on its way to the axis stays in its queue
+  job.replaces = replaces;
   request(job);
   job_ = &job;
   if (!pending) hand_over(job);

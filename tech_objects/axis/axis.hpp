@@ -358,7 +358,8 @@ class Axis final : public LeadingObject {
   PlanResult plan(Job& job, const Dynamics& dynamics) noexcept;
   void show_target(const AxisPosition& target) noexcept;
   PlanResult move_by(DoubleDouble way, const Job& job, const Dynamics& dynamics) noexcept;
-  DoubleDouble absolute_way(const Job& job) const noexcept;
+  DoubleDouble absolute_way(const Job& job, const Dynamics& dynamics) const noexcept;
+  double beyond_stopping_distance(double distance, const Dynamics& dynamics) const noexcept;
   double absolute_distance(const Job& job, double here) const noexcept;
   void begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept;
   void step_single_axis() noexcept;
@@ -419,6 +420,10 @@ class Axis final : public LeadingObject {
   };
   bool buffer(Job& job) noexcept;
   void watch_buffered() noexcept;
+  void speed_up_for_junction() noexcept;
+  bool due_to_speed_up(double distance, const Dynamics& dynamics) const noexcept;
+  double highest_junction_velocity(double distance, double wanted, const Blending& blending,
+                                   const Dynamics& dynamics) const noexcept;
   void plan_blending() noexcept;
   Blending blending_into(const Job& next) noexcept;
   double wanted_blending_velocity(BufferMode mode, double previous, double next) const noexcept;
@@ -612,8 +617,9 @@ class Axis final : public LeadingObject {
   std::int8_t approached_side_ = 0;  // while the axis brakes in front of a limit switch
   std::int64_t in_window_ticks_ = 0;
   std::int64_t since_target_ticks_ = 0;
-  DoubleDouble beyond_target_;  // way that the axis has made since the target of the motion before [u]
-  Job jogged_;                  // inputs of MC_MoveJog that are planned for
+  DoubleDouble beyond_target_;      // way that the axis has made since the target of the motion before [u]
+  Job jogged_;                      // inputs of MC_MoveJog that are planned for
+  double junction_velocity_ = 0.0;  // for which the running motion has yet to speed up [u/s]; 0: none
 
   // Jobs.
   static constexpr std::size_t kNewJobs = 16;

@@ -30,12 +30,15 @@ bool Axis::buffer(Job& job) noexcept {
     job.fail(ErrorId::mode);
     return true;
   }
+  if (running_[kBuffered] != nullptr && running_[kBuffered] == job.replaces)
+    end_job(kBuffered, JobPhase::aborted, ErrorId::none);
   if (running_[kBuffered] != nullptr) {
     job.fail(ErrorId::no_job_memory);
     return true;
   }
   running_[kBuffered] = &job;
   job.phase = JobPhase::waiting;
+  junction_velocity_ = 0.0;
   if (blends(job)) plan_blending();
   return true;
 }
@@ -49,11 +52,12 @@ void Axis::watch_buffered() noexcept {
     const bool released = base->kind == JobKind::MC_MoveVelocity && base->phase == JobPhase::reached;
     if (passed) end_job(kBase, JobPhase::done, ErrorId::none);
     if (released) end_job(kBase, JobPhase::aborted, ErrorId::none);
-    if (!passed && !released) return;
+    if (!passed && !released) return speed_up_for_junction();
     if (passed) beyond_target_ = difference(base_setpoint().position, single_.target(), modulo_);
   }
   Job& job = *running_[kBuffered];
   running_[kBuffered] = nullptr;
+  junction_velocity_ = 0.0;
   if (override_running(JobClass::motion, job))
     begin_base_motion(job);
   else
@@ -77,23 +81,69 @@ void Axis::plan_blending() noexcept {
   const double way = rounded_difference(single_.target(), base_setpoint().position, modulo_);
   const double wanted =
       wanted_blending_velocity(next.buffer_mode, dynamics.velocity, blending.dynamics.velocity);
+  junction_velocity_ = 0.0;
   if (way == 0.0 || wanted <= 0.0 || !(blending.way * way > 0.0)) return;
-  const int heading = way < 0.0 ? -1 : 1;
+  const double own = std::min({wanted, dynamics.velocity, velocity_limit()});
+  const double velocity = highest_junction_velocity(way, own, blending, dynamics);
+  if (velocity <= 0.0) return;
+  single_.move_to(base_setpoint(), single_.target(), way, dynamics, std::copysign(velocity, way));
+  if (velocity == own && wanted > own) junction_velocity_ = std::min(wanted, velocity_limit());
+  speed_up_for_junction();
+}
+
+/// Up to the wanted one, the highest velocity with which the target can be passed.
+double Axis::highest_junction_velocity(double distance, double wanted, const Blending& blending,
+                                       const Dynamics& dynamics) const noexcept {
   const auto possible = [&](double velocity) {
     return next_can_take_over(blending, velocity) &&
-           single_.passes_ahead(base_setpoint(), way, heading * velocity, dynamics);
+           single_.passes_ahead(base_setpoint(), distance, std::copysign(velocity, distance), dynamics);
   };
-  double velocity = std::min({wanted, dynamics.velocity, velocity_limit()});
-  if (!possible(velocity)) {
-    double too_high = velocity;
-    velocity = 0.0;
-    for (int i = 0; i < kSearchSteps; ++i) {
-      const double middle = 0.5 * (velocity + too_high);
-      (possible(middle) ? velocity : too_high) = middle;
-    }
+  if (possible(wanted)) return wanted;
+  double velocity = 0.0;
+  double too_high = wanted;
+  for (int i = 0; i < kSearchSteps; ++i) {
+    const double middle = 0.5 * (velocity + too_high);
+    (possible(middle) ? velocity : too_high) = middle;
   }
-  if (velocity <= 0.0) return;
-  single_.move_to(base_setpoint(), single_.target(), way, dynamics, heading * velocity);
+  return velocity;
+}
+
+/// Where the next motion is faster and the junction is to have its velocity, the running one keeps its own as
+/// long as it can, and speeds up where it just reaches the other at its target.
+void Axis::speed_up_for_junction() noexcept {
+  if (junction_velocity_ <= 0.0 || single_.aim() != SingleAxisMotion::Aim::position || single_.finished() ||
+      single_.target_velocity() == 0.0)
+    return;
+  Dynamics dynamics = single_.dynamics();
+  if (junction_velocity_ <= dynamics.velocity) return;
+  dynamics.velocity = junction_velocity_;
+  const double distance = rounded_difference(single_.target(), base_setpoint().position, modulo_);
+  if (!due_to_speed_up(distance, dynamics)) return;
+  const Blending blending = blending_into(*running_[kBuffered]);
+  const double own = std::abs(single_.target_velocity());
+  const double velocity = highest_junction_velocity(distance, junction_velocity_, blending, dynamics);
+  junction_velocity_ = 0.0;
+  if (velocity <= own) return;
+  dynamics.velocity = velocity;
+  single_.move_to(base_setpoint(), single_.target(), distance, dynamics, std::copysign(velocity, distance));
+}
+
+/// Whether in the next cycle it would be too late to reach the velocity of these dynamics in a distance.
+bool Axis::due_to_speed_up(double distance, const Dynamics& dynamics) const noexcept {
+  const Setpoint& now = base_setpoint();
+  const double heading = distance < 0.0 ? -1.0 : 1.0;
+  const double velocity = heading * now.velocity;
+  const double most = std::max(dynamics.velocity, std::abs(velocity)) + 1.0;
+  const ProfileLimits limits{.velocity_max = most,
+                             .velocity_min = -most,
+                             .acceleration = dynamics.acceleration,
+                             .deceleration = dynamics.deceleration,
+                             .jerk = dynamics.jerk};
+  Profile rise;
+  if (plan_velocity({0.0, velocity, heading * now.acceleration}, dynamics.velocity, limits, rise) !=
+      PlanResult::ok)
+    return false;
+  return std::abs(distance) - std::abs(velocity) * period_ <= rise.target().position;
 }
 
 /// What the next motion is like, seen from the target of the running one.

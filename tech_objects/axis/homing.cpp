@@ -385,6 +385,9 @@ void Axis::shift_positions(double by) noexcept {
   actual_ = advanced(actual_, by, modulo_);
   shift_leading(by);
   single_.shift(by);
+  // What waits to blend may have another distance to its target: that is where the axis calls it so then.
+  if (running_[kBuffered] != nullptr && running_[kBase] != nullptr && motion_ == Motion::single_axis)
+    plan_blending();
   shift_coupling(by);
   if (has_drive_) shift_servo(by);
 }

@@ -193,7 +193,7 @@ void Axis::begin_base_motion(Job& job) noexcept {
 PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
   switch (job.kind) {
     case JobKind::MC_MoveAbsolute:
-      return move_by(absolute_way(job), job, dynamics);
+      return move_by(absolute_way(job, dynamics), job, dynamics);
     case JobKind::MC_MoveRelative:
       return move_by(DoubleDouble{job.position, 0.0} - beyond_target_, job, dynamics);
     case JobKind::MC_MoveVelocity: {
@@ -231,11 +231,15 @@ Dynamics Axis::maximum_for_current(Dynamics dynamics) const noexcept {
 }
 
 /// Way to the target of MC_MoveAbsolute [u]. On a ring a motion that blends counts it from the target before.
-DoubleDouble Axis::absolute_way(const Job& job) const noexcept {
+DoubleDouble Axis::absolute_way(const Job& job, const Dynamics& dynamics) const noexcept {
+  const bool directed = modulo_.enabled && job.direction != 3;
+  const auto reachable = [&](double distance) noexcept {
+    return directed && distance != 0.0 ? beyond_stopping_distance(distance, dynamics) : distance;
+  };
   if (!modulo_.enabled || beyond_target_ == DoubleDouble{})
-    return {absolute_distance(job, setpoint_.position.value), 0.0};
+    return {reachable(absolute_distance(job, setpoint_.position.value)), 0.0};
   const AxisPosition before = advanced(setpoint_.position, -beyond_target_, modulo_);
-  return DoubleDouble{absolute_distance(job, before.value), 0.0} - beyond_target_;
+  return DoubleDouble{reachable(absolute_distance(job, before.value)), 0.0} - beyond_target_;
 }
 
 /// Way from a position to the target of MC_MoveAbsolute [u].
@@ -247,6 +251,27 @@ double Axis::absolute_distance(const Job& job, double here) const noexcept {
   if (job.direction == 3 || std::abs(shortest) <= same_place) return shortest;
   return job.direction == 1 ? positive_distance(here, target, modulo_)
                             : negative_distance(here, target, modulo_);
+}
+
+/// In a direction that is asked for, on to the pass of the target that the axis can still come to rest at:
+/// turning back would be the other direction.
+double Axis::beyond_stopping_distance(double distance, const Dynamics& dynamics) const noexcept {
+  const double heading = distance < 0.0 ? -1.0 : 1.0;
+  const double velocity = heading * setpoint_.velocity;
+  if (velocity <= 0.0 || dynamics.velocity <= 0.0) return distance;
+  const double most = std::max(velocity, dynamics.velocity) + 1.0;
+  const ProfileLimits limits{.velocity_max = most,
+                             .velocity_min = -most,
+                             .acceleration = dynamics.acceleration,
+                             .deceleration = dynamics.deceleration,
+                             .jerk = dynamics.jerk};
+  Profile stop;
+  const MotionState now{0.0, velocity, heading * setpoint_.acceleration};
+  if (plan_stop(now, limits, PresentAcceleration::keep, stop) != PlanResult::ok) return distance;
+  const double missing = stop.target().position - std::abs(distance);
+  // A rounding is no reason for a turn: a motion that is begun anew at its own target stays there.
+  if (missing <= kSamePlace * (std::abs(modulo_.start) + modulo_.length) * 16.0) return distance;
+  return distance + heading * std::ceil(missing / modulo_.length) * modulo_.length;
 }
 
 void Axis::show_target(const AxisPosition& target) noexcept {

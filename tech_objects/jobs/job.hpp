@@ -113,6 +113,8 @@ struct MeasuredEdges {
 /// Dynamic values: > 0 is used, < 0 stands for the default of the technology object (the block's pins decide
 /// what is permitted). Thread: the cycle.
 struct Job {
+  /// The job of the same instance that waits behind another, and whose place this one takes; nullptr: none.
+  const Job* replaces = nullptr;
   JobKind kind{};
   JobPhase phase = JobPhase::idle;
   BOOL update{};  ///< MC_GearInVelocity: the ratio counts in every cycle
