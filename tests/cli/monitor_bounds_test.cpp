@@ -1,8 +1,9 @@
 // What the monitor keeps of a network on which anybody sends anything.
 #include <gtest/gtest.h>
 
+#include "cli/monitor/inbox.hpp"
 #include "cli/monitor/model.hpp"
-#include "tests/support/values.hpp"
+#include "tests/hmi_bridge/own_network.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -73,6 +74,30 @@ TEST(MonitorMemory, KeepsNoEventNorPanelOfAnExcessiveLength) {
   state.axis = std::string(Model::kLongestNote, 'x');
   model.accept("C_PANEL", encoded(state), kNow);
   EXPECT_EQ(model.panel->axes().size(), 1u);
+}
+
+TEST(MonitorMemory, HoldsNoMoreThanItMayOfWhatNobodyLooksAt) {
+  constexpr std::size_t kMessage = 1u << 20, kSent = 50;
+  LcmPublisher publisher("memq://", {"monitor", "MONITOR", 0, 0});
+  Inbox inbox(publisher);
+  const std::string data(kMessage, 'x');
+  for (std::size_t i = 0; i < kSent; ++i)
+    ASSERT_EQ(lcm_publish(publisher.instance(), "C", data.data(), kMessage), 0);
+  constexpr std::size_t kHeld = Inbox::kMostBytes / kMessage;
+  ASSERT_TRUE(wait_until([&] { return inbox.dropped() == kSent - kHeld; })) << inbox.dropped();
+  std::size_t messages = 0;
+  inbox.take(kSent, [&](const std::string& channel, std::span<const std::uint8_t> bytes) {
+    EXPECT_EQ(channel, "C");
+    EXPECT_EQ(bytes.size(), kMessage);
+    ++messages;
+  });
+  EXPECT_EQ(messages, kHeld);
+  // What comes then is taken again.
+  ASSERT_EQ(lcm_publish(publisher.instance(), "D", "x", 1), 0);
+  ASSERT_TRUE(wait_until([&] {
+    inbox.take(kSent, [&](const std::string& channel, auto) { messages += channel == "D" ? 1 : 0; });
+    return messages == kHeld + 1;
+  }));
 }
 
 }  // namespace
