@@ -35,16 +35,16 @@ int check(const CamInput& input, bool json, const CamDefinition& definition) {
   const auto findings =
       check_cam(definition.designed ? &definition.design : nullptr, definition.cam, definition.checks);
   Json list = Json::array();
-  std::string text;
+  std::vector<std::string> lines;
   for (const CamFinding& finding : findings) {
     const std::string place = place_of(definition, finding);
     list.push_back({{"place", place}, {"text", finding.text}});
-    text += input.file + ": " + place + ": " + finding.text + "\n";
+    lines.push_back(input.file + ": " + place + ": " + finding.text);
   }
   if (json)
     write_output("", list.dump(2) + "\n");
   else
-    write_message(text);
+    for (const std::string& line : lines) tell_line(line, Gravity::error);
   return findings.empty() ? kOk : kNotValid;
 }
 

@@ -29,12 +29,14 @@ bool Model::accept(const std::string& channel, std::span<const std::uint8_t> byt
   const auto known = [&](const std::string& name) { return heard_.traces.all().contains(name); };
   heard_.at = now;
   if (const auto name = before(channel, kEventsSuffix); name && known(*name)) {
+    if (bytes.size() > kLongestNote) return false;
     const auto event = decode_event(bytes);
     if (event) heard_.events.accept(*name, *event);
     return event.has_value();
   }
   if (const auto name = before(channel, kPanelSuffix); name && panel) {
-    if (const auto state = decode_panel(bytes)) panel->accept(*name, *state, now);
+    const auto state = bytes.size() <= kLongestNote ? decode_panel(bytes) : std::nullopt;
+    if (state) panel->accept(*name, *state, now);
     return false;
   }
   const std::string name = before(channel, kHeaderSuffix).value_or(channel);

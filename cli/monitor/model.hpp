@@ -37,6 +37,7 @@ class Model {
  public:
   using Clock = HeardTrace::Clock;
   static constexpr std::size_t kMostHistories = 2048;
+  static constexpr std::size_t kLongestNote = 4096;  ///< message of an event or a panel that is kept [byte]
   static constexpr int kWindows[] = {5, 10, 20, 30, 60};  ///< [s]
 
   /// @param url for the title  @param panel with which the axis panel is there; none: nothing can be

@@ -133,11 +133,22 @@ void HeardTraces::accept(const std::string& channel, std::span<const std::uint8_
                          HeardTrace::Clock::time_point now) {
   const bool header = channel.ends_with(kHeaderSuffix);
   const std::string name = header ? channel.substr(0, channel.size() - kHeaderSuffix.size()) : channel;
-  if (const auto known = traces_.find(name); known != traces_.end()) return known->second.accept(bytes, now);
+  const auto known = traces_.find(name);
+  if (const std::size_t signals = LcmDecoder::signals_announced(bytes); signals > 0) {
+    const std::size_t own = known == traces_.end() ? 0 : known->second.memory();
+    if (memory() - own + HeardTrace::memory_of(bytes.size(), signals) > kMostMemory) return;
+  }
+  if (known != traces_.end()) return known->second.accept(bytes, now);
   if (!header || traces_.size() >= kMost) return;
   HeardTrace trace;
   trace.accept(bytes, now);
   if (trace.described()) traces_.emplace(name, std::move(trace));
+}
+
+std::size_t HeardTraces::memory() const noexcept {
+  std::size_t sum = 0;
+  for (const auto& [channel, trace] : traces_) sum += trace.memory();
+  return sum;
 }
 
 bool HeardTraces::any_row() const {

@@ -28,6 +28,14 @@ class HeardTrace {
   /// The last row; its values are as many as the signals.
   TraceRow row() const noexcept { return {t_, 0, dropped_, values_}; }
 
+  /// What is kept of it [byte], about.
+  std::size_t memory() const noexcept { return memory_of(header_message_.size(), signals().size()); }
+  /// The same of a trace whose description is a message of so many bytes with so many signals.
+  static std::size_t memory_of(std::size_t bytes, std::size_t signals) noexcept {
+    constexpr std::size_t kSignal = 400;  // three texts in the header, two in the signal, and values
+    return 2 * bytes + kSignal * signals;
+  }
+
   std::uint64_t rows() const noexcept { return rows_; }  ///< that have come since the description
   /// The message of the description, as it came.
   const std::vector<std::uint8_t>& header_message() const noexcept { return header_message_; }
@@ -59,16 +67,18 @@ class HeardTrace {
 };
 
 /// All traces of a network, by channel. Anything may come from there: channels without a trace leave nothing
-/// behind, and there is an end to the number of traces.
+/// behind, and there is an end to the number of traces and to the memory of all that they describe.
 class HeardTraces {
  public:
   static constexpr std::size_t kMost = 100;
+  static constexpr std::size_t kMostMemory = 64u << 20;  ///< of descriptions and last rows [byte], about
 
   /// Takes any message of the network.
   void accept(const std::string& channel, std::span<const std::uint8_t> bytes,
               HeardTrace::Clock::time_point now);
 
   bool any_row() const;
+  std::size_t memory() const noexcept;  ///< [byte], about
   const std::map<std::string, HeardTrace>& all() const noexcept { return traces_; }
 
  private:

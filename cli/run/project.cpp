@@ -15,6 +15,7 @@
 #include "cli/run/run_commands.hpp"
 #include "hmi_bridge/lcm/log.hpp"
 #include "hmi_bridge/lcm/publisher.hpp"
+#include "hmi_bridge/lcm/url.hpp"
 #include "hmi_bridge/modbus/client.hpp"
 #include "hmi_bridge/modbus/server.hpp"
 #include "hmi_bridge/traces/channel.hpp"
@@ -269,6 +270,9 @@ class Surroundings {
     const std::string url = options_.lcm.empty() ? project_.trace.url : options_.lcm;
     try {
       commands_ = std::make_unique<RunCommands>(project_, url, identity(), *recorder_);
+      // Of the project's own network the loader has warned.
+      if (!options_.lcm.empty() && lcm_leaves_machine(url))
+        tell("warning: --lcm: " + std::string(kLcmCommandsWarning));
     } catch (const std::exception& error) {
       tell(std::string("warning: no commands over LCM: ") + error.what());
     }

@@ -47,9 +47,10 @@ std::int64_t fingerprint(const trace_header_t& header) noexcept {
   return id.value();
 }
 
+constexpr std::size_t kLeastSignal = 3 * 5 + 4;  // three empty strings and an index
+
 /// Whether a header holds all that it says.
 bool header_fits(std::span<const std::uint8_t> bytes) noexcept {
-  constexpr std::size_t kLeastSignal = 3 * 5 + 4;  // three empty strings and an index
   LcmWalk walk(bytes);
   walk.skip(8);  // hash
   const std::uint64_t signals = walk.count(kLeastSignal);
@@ -61,13 +62,23 @@ bool header_fits(std::span<const std::uint8_t> bytes) noexcept {
   return walk.good();
 }
 
-/// Whether a row does.
-bool row_fits(std::span<const std::uint8_t> bytes) noexcept {
+/// What a row says of itself.
+struct RowShape {
+  std::int64_t header_id;
+  std::uint64_t values, exact;  // how many
+};
+
+/// None if the row does not hold all that it says.
+std::optional<RowShape> row_shape(std::span<const std::uint8_t> bytes) noexcept {
   LcmWalk walk(bytes);
-  walk.skip(7 * 8);
-  walk.skip(8 * walk.count(8));
-  walk.count(8);
-  return walk.good();
+  walk.skip(2 * 8);  // hash, utime
+  RowShape shape{};
+  shape.header_id = static_cast<std::int64_t>(walk.number(8));
+  walk.skip(4 * 8);
+  shape.values = walk.count(8);
+  walk.skip(8 * shape.values);
+  shape.exact = walk.count(8);
+  return walk.good() ? std::optional(shape) : std::nullopt;
 }
 
 }  // namespace
@@ -146,6 +157,12 @@ LcmDecoder::Message LcmDecoder::accept(std::span<const std::uint8_t> bytes) {
   return Message::kForeign;
 }
 
+std::size_t LcmDecoder::signals_announced(std::span<const std::uint8_t> bytes) noexcept {
+  LcmWalk walk(bytes);
+  const auto hash = static_cast<std::int64_t>(walk.number(8));
+  return hash == trace_header_t::getHash() ? walk.count(kLeastSignal) : 0;
+}
+
 LcmDecoder::Message LcmDecoder::accept_header(std::span<const std::uint8_t> bytes) {
   trace_header_t header;
   if (!header_fits(bytes) || !decode(header, bytes)) return Message::kDamaged;
@@ -164,9 +181,12 @@ LcmDecoder::Message LcmDecoder::accept_header(std::span<const std::uint8_t> byte
 }
 
 LcmDecoder::Message LcmDecoder::accept_row(std::span<const std::uint8_t> bytes) {
-  if (!row_fits(bytes) || !decode(row_, bytes)) return Message::kDamaged;
-  if (!has_header_ || row_.header_id != header_.id) return Message::kEarly;
-  if (row_.values.size() != signals_.size()) return Message::kDamaged;
+  // Before it is decoded: what is kept of a row is never more than its header tells.
+  const auto shape = row_shape(bytes);
+  if (!shape) return Message::kDamaged;
+  if (!has_header_ || shape->header_id != header_.id) return Message::kEarly;
+  if (shape->values != signals_.size() || shape->exact > shape->values) return Message::kDamaged;
+  if (!decode(row_, bytes)) return Message::kDamaged;
   for (std::size_t i = 0; i < signals_.size(); ++i) {
     const Type type = signals_[i].type;
     const int exact = header_.exact_index[i];

@@ -80,6 +80,10 @@ class LcmDecoder {
   /// @param bytes one message as it came over its channel
   Message accept(std::span<const std::uint8_t> bytes);
 
+  /// How many signals a message tells of, before anything is made of it; 0 if it is no header, or too short
+  /// for them.
+  static std::size_t signals_announced(std::span<const std::uint8_t> bytes) noexcept;
+
   const trace_header_t& header() const noexcept { return header_; }
   const std::vector<TraceSignal>& signals() const noexcept { return signals_; }
   /// The last row, exact in all types; valid until the next `accept`.

@@ -1,5 +1,5 @@
 /// Messages of an LCM network, received by a socket of our own. LCM's own reassembly believes what a datagram
-/// claims, and one that lies ends the process, so that liblcm sends and reads logs, and receives only what
+/// claims, and one that lies ends the process, so that liblcm sends and writes logs, and receives only what
 /// this process has sent itself (memq://).
 #pragma once
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t kEventHead = 28;  // mark, number, time and two lengths stand before channel and data
 constexpr std::uint32_t kMark = 0xEDA1DA01;
-constexpr std::size_t kChannelLength = 20, kDataLength = 24;  // where they stand in the head
+constexpr std::size_t kTime = 12, kChannelLength = 20, kDataLength = 24;  // where they stand in the head
 // What LCM reads of a channel, and sends as a message [byte].
 constexpr std::uint32_t kLongestChannel = 999, kLongestMessage = 1u << 28;
 
@@ -25,6 +25,10 @@ std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at) noe
   std::uint32_t number = 0;
   for (const std::uint8_t byte : bytes.subspan(at, 4)) number = number << 8 | byte;
   return number;
+}
+
+std::int64_t time_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
+  return static_cast<std::int64_t>(std::uint64_t{number_at(bytes, at)} << 32 | number_at(bytes, at + 4));
 }
 
 /// 0 for what has no size, such as a pipe.
@@ -54,14 +58,14 @@ LcmTraceReader::LcmTraceReader(const std::string& path, const std::string& chann
 }
 
 void LcmTraceReader::open() {
-  log_.reset(lcm_eventlog_create(path_.c_str(), "r"));
+  log_.reset(std::fopen(path_.c_str(), "rbe"));
   struct stat status {};
   if (log_ == nullptr) throw TraceFormatError(path_ + ": " + std::generic_category().message(errno));
-  if (::fstat(::fileno(log_->f), &status) == 0 && S_ISDIR(status.st_mode))
+  if (::fstat(::fileno(log_.get()), &status) == 0 && S_ISDIR(status.st_mode))
     throw TraceFormatError(path_ + ": " + std::generic_category().message(EISDIR));
-  event_ = -1;
+  number_ = -1;
   offset_ = 0;
-  size_ = size_of_file(log_->f);
+  size_ = size_of_file(log_.get());
 }
 
 void LcmTraceReader::find_header() {
@@ -70,11 +74,12 @@ void LcmTraceReader::find_header() {
     return std::find_if(traces.begin(), traces.end(),
                         [&](const auto& trace) { return trace.channel == channel; });
   };
-  while (const Event event = next_event()) {
-    std::string_view channel(event->channel, static_cast<std::size_t>(event->channellen));
+  while (next_event()) {
+    std::string_view channel = event_.channel;
     if (const auto trace = trace_on(channel); trace != traces.end()) trace->has_rows = true;
     if (channel_.empty() && !traces.empty() && traces.front().has_rows) break;
-    if (!channel.ends_with(kHeaderSuffix) || accept(*event) != LcmDecoder::Message::kHeader) continue;
+    if (!channel.ends_with(kHeaderSuffix) || decoder_.accept(event_.data) != LcmDecoder::Message::kHeader)
+      continue;
     channel.remove_suffix(kHeaderSuffix.size());
     if (channel == channel_) return;
     if (trace_on(channel) == traces.end()) traces.push_back({std::string(channel)});
@@ -93,12 +98,11 @@ void LcmTraceReader::find_header() {
 
 bool LcmTraceReader::next() {
   const std::int64_t id = header().id;
-  while (const Event event = next_event()) {
-    const std::string_view channel(event->channel, static_cast<std::size_t>(event->channellen));
+  while (next_event()) {
+    const std::string_view channel = event_.channel;
     if (channel != channel_ && channel != channel_ + std::string(kHeaderSuffix)) continue;
-    switch (accept(*event)) {
+    switch (decoder_.accept(event_.data)) {
       case LcmDecoder::Message::kRow:
-        event_time_ = event->timestamp;
         return true;
       case LcmDecoder::Message::kHeader:
         if (header().id != id) fail("a trace of other signals begins on the same channel");
@@ -114,45 +118,38 @@ bool LcmTraceReader::next() {
   return false;
 }
 
-LcmDecoder::Message LcmTraceReader::accept(const lcm_eventlog_event_t& event) {
-  return decoder_.accept(
-      {static_cast<const std::uint8_t*>(event.data), static_cast<std::size_t>(event.datalen)});
-}
-
-/// Whether an event begins here whose channel and data the file holds. The library believes what the lengths
-/// of an event claim: it takes memory for up to 2 GiB, writes of others to standard error, and passes over
-/// all that is in the way to the next mark.
-bool LcmTraceReader::is_whole_event_next() {
+/// Reads the event that begins here; false if none does whose channel and data the file holds. LCM's own
+/// reader believes what the lengths claim and takes memory for up to 2 GiB.
+bool LcmTraceReader::next_event() {
   std::array<std::uint8_t, kEventHead> head;
-  if (std::fread(head.data(), 1, head.size(), log_->f) != head.size() || number_at(head, 0) != kMark)
+  if (std::fread(head.data(), 1, head.size(), log_.get()) != head.size() || number_at(head, 0) != kMark)
     return false;
   const std::uint32_t channel = number_at(head, kChannelLength), data = number_at(head, kDataLength);
   if (channel == 0 || channel > kLongestChannel || data > kLongestMessage) return false;
   const std::int64_t end = offset_ + kEventHead + channel + data;
-  if (end > size_) size_ = size_of_file(log_->f);  // it may be growing
-  return end <= size_ && ::fseeko(log_->f, offset_, SEEK_SET) == 0;
-}
-
-LcmTraceReader::Event LcmTraceReader::next_event() {
-  if (!is_whole_event_next()) return nullptr;
-  Event event(lcm_eventlog_read_next_event(log_.get()));
-  if (event) {
-    ++event_;
-    offset_ += kEventHead + event->channellen + event->datalen;
-  }
-  return event;
+  if (end > size_) size_ = size_of_file(log_.get());  // it may be growing
+  if (end > size_) return false;
+  event_.time = time_at(head, kTime);
+  event_.channel.resize(channel);
+  event_.data.resize(data);
+  if (std::fread(event_.channel.data(), 1, channel, log_.get()) != channel ||
+      std::fread(event_.data.data(), 1, data, log_.get()) != data)
+    return false;
+  ++number_;
+  offset_ = end;
+  return true;
 }
 
 void LcmTraceReader::end_of_log() {
   if (!remark_.empty()) return;
   if (early_ > 0) remark_ = std::to_string(early_) + " rows of a trace with another header are left out";
-  if (size_of_file(log_->f) == offset_) return;
+  if (size_of_file(log_.get()) == offset_) return;
   if (!remark_.empty()) remark_ += "; ";
-  remark_ += "the log is cut short or damaged behind event " + std::to_string(event_);
+  remark_ += "the log is cut short or damaged behind event " + std::to_string(number_);
 }
 
 void LcmTraceReader::fail(const std::string& what) const {
-  throw TraceFormatError(path_ + ": event " + std::to_string(event_) + ": " + what);
+  throw TraceFormatError(path_ + ": event " + std::to_string(number_) + ": " + what);
 }
 
 TraceTable read_lcm_trace(const std::string& path, const std::string& channel) {

@@ -1,11 +1,11 @@
 /// Reads traces from LCM event logs.
 #pragma once
 
-#include <lcm/eventlog.h>
-
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "hmi_bridge/lcm/messages.hpp"
 #include "hmi_bridge/traces/table.hpp"
@@ -31,34 +31,35 @@ class LcmTraceReader {
   /// The row that `next` found, until the next call.
   TraceRow row() const noexcept { return decoder_.row(); }
   std::int64_t utime() const noexcept { return decoder_.message().utime; }  ///< [µs], of the row
-  std::int64_t event_time() const noexcept { return event_time_; }          ///< [µs], of the row's event
+  std::int64_t event_time() const noexcept { return event_.time; }          ///< [µs], of the row's event
   /// What is missing: rows before the first header, or an end that was cut short. Complete when `next` was
   /// false.
   const std::string& remark() const noexcept { return remark_; }
 
  private:
-  struct Destroy {
-    void operator()(lcm_eventlog_t* log) const noexcept { lcm_eventlog_destroy(log); }
-    void operator()(lcm_eventlog_event_t* event) const noexcept { lcm_eventlog_free_event(event); }
+  struct Close {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
   };
-  using Event = std::unique_ptr<lcm_eventlog_event_t, Destroy>;
+  struct Event {
+    std::string channel;
+    std::int64_t time = 0;  // [µs]
+    std::vector<std::uint8_t> data;
+  };
 
-  bool is_whole_event_next();
-  Event next_event();
+  bool next_event();
   void open();
   void find_header();
-  LcmDecoder::Message accept(const lcm_eventlog_event_t& event);
   void end_of_log();
   [[noreturn]] void fail(const std::string& what) const;
 
   const std::string path_;
   std::string channel_;
-  std::unique_ptr<lcm_eventlog_t, Destroy> log_;
+  std::unique_ptr<std::FILE, Close> log_;
   LcmDecoder decoder_;
-  std::int64_t event_ = -1;  // number of the event read last
-  std::int64_t offset_ = 0;  // behind it
-  std::int64_t size_ = 0;    // of the file, as far as it is known [byte]
-  std::int64_t event_time_ = 0;
+  Event event_;               // read last
+  std::int64_t number_ = -1;  // of it
+  std::int64_t offset_ = 0;   // behind it
+  std::int64_t size_ = 0;     // of the file, as far as it is known [byte]
   std::uint64_t early_ = 0;
   std::string remark_;
 };

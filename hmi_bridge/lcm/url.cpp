@@ -35,4 +35,18 @@ sockaddr_in lcm_group(const std::string& url) {
   return address;
 }
 
+bool lcm_leaves_machine(std::string_view url) noexcept {
+  constexpr std::string_view kTtl = "ttl=";
+  std::size_t at = url.find('?');
+  while (at != url.npos) {
+    std::string_view option = url.substr(at + 1);
+    at = url.find('&', at + 1);
+    option = option.substr(0, option.find('&'));
+    if (!option.starts_with(kTtl)) continue;
+    // Anything but zeros counts as above 0, whatever LCM makes of it.
+    if (option.substr(kTtl.size()).find_first_not_of('0') != option.npos) return true;
+  }
+  return false;
+}
+
 }  // namespace lockstep

@@ -15,6 +15,15 @@ inline constexpr std::string_view kLcmOwnProcess = "memq://";
 /// @throws std::runtime_error that names the URL, what is wrong with it and what is allowed
 sockaddr_in lcm_group(const std::string& url);
 
+/// Whether what is sent on the network of a URL is heard beyond this machine: its time to live is above 0.
+/// One that is left out is 0, as with LCM.
+bool lcm_leaves_machine(std::string_view url) noexcept;
+
+/// What to say of commands on such a network.
+inline constexpr std::string_view kLcmCommandsWarning =
+    "whoever reaches this network can move these axes: LCM knows no passwords; with ttl=0 only programs on "
+    "this machine can";
+
 /// Refuses a URL. @throws std::runtime_error "LCM on URL: WHY"
 [[noreturn]] void refuse_lcm(const std::string& url, const std::string& why);
 

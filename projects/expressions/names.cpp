@@ -306,7 +306,7 @@ std::string Names::add(std::string_view name, Entity entity) {
   Entry& first = place->second;
   first.entity = {};
   first.ambiguous = true;
-  first.used = true;
+  if (uses_ != nullptr) uses_->names.insert(fold(name));
   const std::string same = first.name == name ? "" : " (as '" + first.name + "', case does not count)";
   return "the name " + quote(name) + " is taken already" + same +
          "; each name is allowed once among tags, technology objects and instances";
@@ -318,9 +318,10 @@ void Names::define(std::string_view name, Entity entity) {
 }
 
 const Names::Entry* Names::entry(std::string_view name) const {
-  const auto found = entries_.find(fold(name));
+  const std::string folded = fold(name);
+  const auto found = entries_.find(folded);
   if (found == entries_.end()) return nullptr;
-  found->second.used = true;
+  if (uses_ != nullptr) uses_->names.insert(folded);
   return &found->second;
 }
 
@@ -329,14 +330,8 @@ const Names::Entity* Names::find_entity(std::string_view name) const {
   return found == nullptr ? nullptr : &found->entity;
 }
 
-bool Names::used(std::string_view name) const {
-  const auto found = entries_.find(fold(name));
-  return found != entries_.end() && found->second.used;
-}
-
 std::string Names::nearest_name(std::string_view name) const {
-  if (suggestions_left_ == 0) return "";
-  --suggestions_left_;
+  if (uses_ != nullptr && uses_->suggestions_left-- <= 0) return "";
   std::vector<std::string_view> names;
   for (const auto& [folded, entry] : entries_) names.push_back(entry.name);
   std::sort(names.begin(), names.end());

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <variant>
 #include <vector>
 
@@ -50,12 +51,22 @@ std::string why_not_writable(const Place& place);
 std::string why_no_start_value(const Place& place);
 
 /// The names of tags, instances and technology objects; they share one name space without regard to case.
-/// What is named has to stay where it is. Reading it is for any thread, as long as nobody adds.
+/// What is named has to stay where it is. Looking up writes nothing, so that any number of threads may do it
+/// at once, as long as nobody adds and nothing is recorded.
 class Names final : public Scope {
  public:
   /// What a name stands for; monostate: something whose declaration is faulty.
   using Entity = std::variant<std::monostate, const Tag*, const ArrayTag*, const StringTag*, const Instance*,
                               TechnologyObject*>;
+
+  /// What has been asked for, and what may still be spent on hints.
+  struct Uses {
+    std::unordered_set<std::string> names;  ///< folded
+    int suggestions_left = 100;             ///< looking for the nearest of many names takes its time
+  };
+  /// From now on each look-up is recorded there: while a project is loaded, by the one thread that loads it.
+  /// nullptr: no more.
+  void record(Uses* uses) noexcept { uses_ = uses; }
 
   /// Adds a name. A name that is added twice stands for something faulty from then on.
   /// @return what is wrong with it: no identifier, or taken already; empty if nothing is.
@@ -63,7 +74,7 @@ class Names final : public Scope {
   /// Tells what a name stands for that was added as faulty, unless it was added twice.
   void define(std::string_view name, Entity entity);
 
-  /// What a name stands for; nullptr: there is no such name. Counts as a use.
+  /// What a name stands for; nullptr: there is no such name.
   const Entity* find_entity(std::string_view name) const;
   /// The technology object of a name, or what is wrong.
   struct FoundObject {
@@ -94,15 +105,11 @@ class Names final : public Scope {
   /// What `resolve` says of something whose declaration has been reported already.
   static constexpr std::string_view kKnownProblem = "(its declaration is faulty)";
 
-  /// Whether anything has asked for the name.
-  bool used(std::string_view name) const;
-
  private:
   struct Entry {
     std::string name;
     Entity entity;
     bool ambiguous = false;
-    mutable bool used = false;
   };
 
   const Entry* entry(std::string_view name) const;
@@ -111,7 +118,7 @@ class Names final : public Scope {
   std::string nearest_name(std::string_view name) const;
 
   std::unordered_map<std::string, Entry> entries_;  // by folded name
-  mutable int suggestions_left_ = 100;              // looking for the nearest of many names takes its time
+  Uses* uses_ = nullptr;                            // of the loader
 };
 
 }  // namespace lockstep

@@ -4,6 +4,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "hmi_bridge/lcm/url.hpp"
 #include "projects/loader/loader.hpp"
 #include "tech_objects/axis/velocity_unit.hpp"
 
@@ -184,12 +185,6 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
   PanelProgram(program, loading, axis).build(inputs, enabled_by.empty(), speed);
 }
 
-/// Whether a network of this URL is heard beyond the machine.
-bool leaves_machine(std::string_view url) {
-  const auto ttl = url.find("ttl=");
-  return ttl != url.npos && url.substr(ttl) != "ttl=0";
-}
-
 }  // namespace
 
 void load_commands(const JsonValue& commands, const Loading& loading) {
@@ -198,10 +193,8 @@ void load_commands(const JsonValue& commands, const Loading& loading) {
   if (read_object(axes, loading.problems) == nullptr) return;
   if (axes->members.empty())
     return loading.problems.report(*axes, "no axis is named; without 'commands' none takes any");
-  if (leaves_machine(loading.project.trace.url))
-    loading.problems.warn(commands,
-                          "whoever reaches this network can move these axes: LCM knows no passwords; with "
-                          "ttl=0 only programs on this machine can");
+  if (lcm_leaves_machine(loading.project.trace.url))
+    loading.problems.warn(commands, std::string(kLcmCommandsWarning));
   Program& program = loading.controller().programs.emplace_back("panel", Ob::MC_PreInterpolator, 0, 0);
   for (const auto& [name, json] : axes->members) load_axis(name, *json, program, loading);
 }

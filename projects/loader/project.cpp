@@ -10,13 +10,13 @@ namespace {
 constexpr std::int64_t kLongestServoCycle = 60'000'000'000;  // [ns]
 
 /// Warns of what nothing refers to: it may be a name that was mistyped elsewhere.
-void warn_of_unused(const JsonValue& root, const Loading& loading) {
+void warn_of_unused(const JsonValue& root, const Names::Uses& uses, const Loading& loading) {
   for (const auto& [section, what] :
        {std::pair{"tags", "tag"}, std::pair{"technology_objects", "technology object"}}) {
     const JsonValue* const named = root.find(section);
     if (named == nullptr) continue;
     for (const auto& [name, json] : named->members)
-      if (!loading.names().used(name))
+      if (!uses.names.contains(fold(name)))
         loading.problems.warn(*json, std::string("nothing uses the ") + what + " " + quote(name));
   }
 }
@@ -27,7 +27,7 @@ void load_identity(const Fields& fields, const Loading& loading) {
   loading.project.description = read_string(fields["description"], loading.problems).value_or("");
 }
 
-void load_root(const JsonValue& root, const Loading& loading) {
+void load_sections(const JsonValue& root, const Loading& loading) {
   const Fields fields(root, keys::kProject, loading.problems);
   if (!fields.usable()) return;
   load_identity(fields, loading);
@@ -45,7 +45,14 @@ void load_root(const JsonValue& root, const Loading& loading) {
   if (const auto* const trace = fields["trace"]) load_trace(*trace, loading);
   load_retain(fields["retain"], loading);
   if (const auto* const recorder = fields["flight_recorder"]) load_flight_recorder(*recorder, loading);
-  warn_of_unused(root, loading);
+}
+
+void load_root(const JsonValue& root, const Loading& loading) {
+  Names::Uses uses;
+  loading.names().record(&uses);
+  load_sections(root, loading);
+  loading.names().record(nullptr);
+  warn_of_unused(root, uses, loading);
 }
 
 }  // namespace

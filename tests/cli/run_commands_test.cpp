@@ -245,6 +245,28 @@ TEST(RunCommands, AProjectThatDoesNotSaySoHearsNoCommand) {
   });
 }
 
+TEST(RunCommands, ANetworkOfTheCommandLineThatLeavesTheMachineIsWarnedOf) {
+  in_own_network([] {
+    bring_up_network();
+    const cli::Directory folder;
+    const std::string open =
+        folder.write("open.json", project(R"(, "commands": { "axes": { "Slide": {} } })"));
+    const std::string closed = folder.write("closed.json", project(""));
+    const auto says = [&](const std::string& file, const std::string& url) {
+      const cli::Ended ended =
+          cli::lockstep({"run", file, "--no-modbus", "--no-retain", "--duration", "100ms", "--lcm", url});
+      EXPECT_EQ(ended.status, 0) << ended.err;
+      return ended.err.find("warning: --lcm: whoever reaches this network can move these axes") !=
+             std::string::npos;
+    };
+    EXPECT_TRUE(says(open, "udpm://239.255.76.67:7667?ttl=3"));
+    EXPECT_TRUE(says(open, "udpm://239.255.76.67:7667?recv_buf_size=9000&ttl=1"));
+    EXPECT_FALSE(says(open, "udpm://239.255.76.67:7667?ttl=0"));
+    EXPECT_FALSE(says(open, "udpm://239.255.76.67:7667"));
+    EXPECT_FALSE(says(closed, "udpm://239.255.76.67:7667?ttl=3")) << "it takes no commands";
+  });
+}
+
 // ---- A network on which somebody lies
 
 /// Sends datagrams as they are.
