@@ -1,12 +1,19 @@
 // The `lockstep` command.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
+#include <sstream>
 
 #include "cli/command/command.hpp"
+#include "cli/command/standard_streams.hpp"
 
-int main(int argc, char** argv) {
-  using namespace lockstep::cli;
+namespace {
+
+using namespace lockstep::cli;
+
+int carry_out(int argc, char** argv) {
   CLI::App app("Lockstep runs machines of coupled axes from a project file.", "lockstep");
   app.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
   app.require_subcommand(1);
@@ -29,12 +36,31 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kCouldNotStart;  // CLI11's own exit statuses are not ours
+    std::ostringstream data, messages;
+    const int status = app.exit(error, data, messages);
+    write_data(data.str());
+    write_message(messages.str());
+    return status == 0 ? kOk : kCouldNotStart;  // CLI11's own exit statuses are not ours
   }
+  return action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_missing_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further is a write that fails, and is told
   try {
-    return action();
+    const int status = carry_out(argc, argv);
+    finish_output();
+    return status;
+  } catch (const OutputFailed& error) {
+    tell(error.what(), Gravity::error);
+  } catch (const std::bad_alloc&) {
+    std::fputs("lockstep: there is not enough memory\n", stderr);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lockstep: internal fault: %s\n", error.what());
     return kStoppedByFault;
   }
+  return kCouldNotStart;
 }

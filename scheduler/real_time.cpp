@@ -82,6 +82,7 @@ std::vector<std::string> RealTimeRun::start() {
 }
 
 void RealTimeRun::wait() {
+  may_end_.store(true, std::memory_order_release);
   if (thread_.joinable()) thread_.join();
   interpolating_.store(false, std::memory_order_relaxed);
   if (!interpolation_.joinable()) return;
@@ -116,7 +117,9 @@ void RealTimeRun::run() noexcept {
       shutting_down = true;
       shutdown_begin = t;
     }
-    if (shutting_down && (controller_.at_rest() || t - shutdown_begin > kLongestShutdown)) break;
+    const bool at_rest = shutting_down && (controller_.at_rest() || t - shutdown_begin > kLongestShutdown);
+    if (at_rest) status_.at_rest.store(true, std::memory_order_release);
+    const bool last = at_rest && may_end_.load(std::memory_order_acquire);
     const bool interpolator_tick = controller_.interpolator_is_due();
     controller_.tick();
     status_.ticks.fetch_add(1, std::memory_order_relaxed);
@@ -132,8 +135,8 @@ void RealTimeRun::run() noexcept {
       status_.missed_ticks.fetch_add(static_cast<std::uint64_t>(missed), std::memory_order_relaxed);
     }
     if (interpolator_tick || missed > 0) count_overrun(end - due > controller_.clock.interpolator_cycle());
+    if (last) break;
   }
-  status_.over.store(true, std::memory_order_release);
 }
 
 void RealTimeRun::count_overrun(bool overrun) noexcept {

@@ -26,7 +26,8 @@ struct RealTimeStatus {
   std::atomic<std::int64_t> longest_tick{0};    ///< [ns]
   std::atomic<std::int64_t> time{0};            ///< time of the controller [ns]
   std::atomic<bool> stopped_by_overrun{false};
-  std::atomic<bool> over{false};  ///< the thread has ended, the axes are at rest
+  std::atomic<bool> at_rest{
+      false};  ///< the axes are off, or the time for it is over; ticks go on until `wait`
 };
 
 /// Owns the thread of the cycle. Threads: one that starts, stops and waits.
@@ -43,8 +44,11 @@ class RealTimeRun {
   /// @return what was not permitted, as plain warnings
   std::vector<std::string> start();
 
-  /// Asks the run to end: axes are brought to rest, then the thread ends.
+  /// Asks the run to end: axes are brought to rest, then ticks go on until somebody waits for the end. Any
+  /// thread.
   void stop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
+  /// Lets it end once the axes are at rest, and waits for that. One whole tick comes after this call, so that
+  /// whatever was handed to the cycle before it is taken.
   void wait();
 
   const RealTimeStatus& status() const noexcept { return status_; }
@@ -59,6 +63,7 @@ class RealTimeRun {
   std::int64_t duration_;
   int processor_;
   std::atomic<bool> stop_requested_{false};
+  std::atomic<bool> may_end_{false};
   RealTimeStatus status_;
   int overruns_in_a_row_ = 0;
   std::thread thread_;

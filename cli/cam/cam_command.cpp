@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "cli/command/standard_streams.hpp"
 #include "projects/cam_files/file.hpp"
 
 namespace lockstep::cli {
@@ -37,11 +38,7 @@ std::optional<CamDefinition> load_cam_or_tell(const CamInput& input, int& status
 }
 
 void write_output(const std::string& path, const std::string& text) {
-  if (path.empty()) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-      throw CannotDo("standard output: " + std::generic_category().message(errno));
-    return;
-  }
+  if (path.empty()) return write_data(text);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wbe"), std::fclose);
   const bool written = file && std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() &&
                        std::fflush(file.get()) == 0;

@@ -46,7 +46,7 @@ int with_cam(const CamInput& input, const Work& work) {
   }
 }
 
-/// Writes to a file, or to standard output for an empty path. @throws CannotDo
+/// Writes to a file, or to standard output for an empty path. @throws CannotDo, OutputFailed
 void write_output(const std::string& path, const std::string& text);
 
 /// What an element or transition is called in tables, such as "line" or "modified sine R-G".

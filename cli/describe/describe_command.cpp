@@ -1,10 +1,10 @@
 // lockstep describe: tells what function blocks, technology objects, alarms and errors there are and mean.
 #include <CLI/App.hpp>
 #include <charconv>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cli/command/command.hpp"
+#include "cli/command/standard_streams.hpp"
 #include "cli/describe/subject.hpp"
 #include "cli/describe/table.hpp"
 #include "projects/json/problem.hpp"
@@ -131,7 +131,7 @@ int describe(const std::vector<std::string>& words, bool json) {
     return kNotValid;
   }
   const std::string text = json ? subject.json().dump(2) + "\n" : subject.text(output_width());
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  write_data(text);
   return kOk;
 }
 

@@ -3,10 +3,10 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cli/command/command.hpp"
+#include "cli/command/standard_streams.hpp"
 #include "cli/describe/table.hpp"
 #include "cli/describe/values.hpp"
 #include "hmi_bridge/traces/text_literal.hpp"
@@ -368,7 +368,7 @@ int tell_tags(const std::string& file, Form form) {
   const std::string text = form == Form::json  ? json_text(project_json(*project)) + "\n"
                            : form == Form::csv ? project_csv(*project)
                                                : project_text(*project, output_width());
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  write_data(text);
   return kOk;
 }
 

@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include <CLI/App.hpp>
+#include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <ctime>
 #include <memory>
 #include <optional>
@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "cli/command/command.hpp"
+#include "cli/command/standard_streams.hpp"
 #include "cli/describe/table.hpp"
 #include "cli/monitor/inbox.hpp"
 #include "cli/monitor/keys.hpp"
@@ -151,13 +152,13 @@ class Listener {
   std::unique_ptr<MonitorRecord> record_;
 };
 
-/// Writes a table to standard output. @return false if nobody reads it any more
-bool print(const Listener& listener) {
+/// Writes a table to standard output. @throws OutputFailed
+void print(const Listener& listener, const char* after) {
   std::string text;
   for (const std::string& line : trace_lines(listener.model.heard().traces, Clock::now(), output_width()))
     text += line + "\n";
   if (text.empty()) text = "no trace heard\n";
-  return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  write_data(text + after);
 }
 
 int show_once(Listener& listener) {
@@ -169,15 +170,20 @@ int show_once(Listener& listener) {
     write_message("lockstep: no trace was heard; is a project running with lcm in its trace?\n");
     return kNotValid;
   }
-  return print(listener) ? kOk : kCouldNotStart;
+  print(listener, "");
+  return kOk;
 }
 
-int show_in_pipe(Listener& listener) {
+int show_in_pipe(Listener& listener) try {
   for (auto due = Clock::now() + kInterval; end_requested == 0; due += kInterval) {
     listener.listen(due);
     if (end_requested != 0) break;
-    if (!print(listener) || std::putc('\n', stdout) == EOF) break;
+    print(listener, "\n");
   }
+  return kOk;
+} catch (const OutputFailed& failure) {
+  // Nobody reads any more, or a signal has come while nobody did: what is left waits for nobody.
+  if (failure.error != EPIPE && end_requested == 0) throw;
   return kOk;
 }
 

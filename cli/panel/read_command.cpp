@@ -1,9 +1,9 @@
 // lockstep read: values of a running project by their names, over Modbus.
 #include <CLI/App.hpp>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cli/command/command.hpp"
+#include "cli/command/standard_streams.hpp"
 #include "cli/describe/values.hpp"
 #include "cli/panel/modbus_panel.hpp"
 #include "hmi_bridge/traces/text_literal.hpp"
@@ -47,9 +47,10 @@ int read_values(const PanelOptions& options) {
     if (options.json)
       json[name.name] = shown_json(name, *values);
     else
-      std::printf("%s = %s\n", name.name.c_str(), shown_text(name, *values).c_str());
+      write_data(name.name + " = " + shown_text(name, *values) + "\n");
   }
-  if (options.json) std::printf("%s\n", json_text(json).c_str());
+  if (options.json) write_data(json_text(json) + "
+");
   return kOk;
 }
 

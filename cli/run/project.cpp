@@ -2,13 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <memory>
 #include <system_error>
 #include <thread>
 
 #include "cli/command/command.hpp"
+#include "cli/run/ending.hpp"
 #include "cli/run/events.hpp"
 #include "cli/run/retain.hpp"
 #include "cli/run/run_command.hpp"
@@ -34,25 +35,8 @@ using namespace std::chrono_literals;
 constexpr std::size_t kTraceRows = 1 << 14;  // of the ring: seconds of a trace that a slow disk may hold up
 constexpr std::size_t kTraceValues = std::size_t{1} << 23;  // in the ring at most, 64 MiB
 constexpr auto kRefresh = 100ms;                            // of the display
+constexpr auto kLookWhileBraking = 10ms;                    // whether the axes are at rest
 constexpr std::uint64_t kTicksBetweenLooks = 4096;          // of a simulation, at the clock and for signals
-
-volatile std::sig_atomic_t end_requested = 0;
-
-void request_end(int /*signal*/) {
-  end_requested = 1;
-}
-
-/// SIGINT and SIGTERM end the run; a closed terminal or pipe does not touch it.
-void take_signals() {
-  end_requested = 0;
-  struct sigaction action {};
-  action.sa_handler = &request_end;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  action.sa_handler = SIG_IGN;
-  sigaction(SIGHUP, &action, nullptr);
-  sigaction(SIGPIPE, &action, nullptr);
-}
 
 /// What could not be started; its text says what and why.
 struct CouldNotStart : std::runtime_error {
@@ -78,10 +62,21 @@ class Surroundings {
   /// Between two ticks of virtual time: waits until the recorder has room; false if it takes nothing more.
   bool wait_for_recorder() const { return ring_->wait_for_space() && events_.wait_for_space(); }
 
-  /// Writes out what has been recorded, so that what is told of it stands before what comes at the end.
-  void finish_trace() {
+  /// Ends a `wait_for_recorder`. Any thread.
+  void wait_no_more() {
+    ring_->close();
+    events_.close();
+  }
+
+  /// Before the last tick: nobody is told any more that something has been taken which no tick takes.
+  void take_no_more() {
+    hear_no_more();
+    if (server_) server_->refuse_writes();
+  }
+
+  /// Commands of panels have no meaning once the axes are being brought to rest.
+  void hear_no_more() {
     if (commands_) commands_->end();
-    recorder_->stop();
   }
 
   /// Tells what has gone wrong lately, or is well again.
@@ -90,27 +85,52 @@ class Surroundings {
     for (std::string news; !(news = keeper_->news()).empty();) tell("warning: " + news);
   }
 
-  /// Ends server, clients, recorder and the keeping of values, and tells what is missing.
-  void stop() {
+  /// After the last tick: ends the keeping of values, server, clients and recorder. What matters most comes
+  /// first, since time is limited.
+  void end() {
+    part_ = Part::values;
     stop_keeper();
+    part_ = Part::server;
     if (server_) server_->stop();
-    if (server_) tell_refused_clients();
+    part_ = Part::clients;
     for (const auto& client : clients_) client->stop();
+    part_ = Part::trace;
+    hear_no_more();
+    recorder_->stop();
+    part_ = Part::none;
+  }
+
+  /// Tells what is missing. After `end`.
+  void tell_losses() {
+    look();
+    if (keeper_ && keeper_->failing()) tell("warning: the last values are not kept");
+    if (server_) tell_refused_clients();
     for (const auto& client : clients_) tell_failures(*client);
-    finish_trace();
     if (commands_) commands_->tell_counters();
     if (flight_ != nullptr)
       for (const std::string& file : flight_->written()) tell("flight recorder: wrote " + file);
     for (const std::string& loss : recorder_->losses()) tell("warning: " + loss);
   }
 
+  /// What `end` has not come to. Any thread, while it goes on.
+  std::vector<std::string> unfinished() const {
+    std::vector<std::string> texts = recorder_->losses();
+    if (std::string held_up = recorder_->held_up(); !held_up.empty()) texts.push_back(std::move(held_up));
+    const Part part = part_;
+    if (part == Part::values)
+      texts.push_back("retain file " + keeper_->path() +
+                      ": writing does not end; the last values are not kept");
+    if (part == Part::server) texts.push_back("the Modbus server does not end");
+    if (part == Part::clients) texts.push_back("a Modbus client does not end");
+    return texts;
+  }
+
  private:
+  enum class Part { none, values, server, clients, trace };
+
   /// The values of the last tick.
   void stop_keeper() {
-    if (!keeper_) return;
-    keeper_->stop();
-    look();
-    if (keeper_->failing()) tell("warning: the last values are not kept");
+    if (keeper_) keeper_->stop();
   }
 
   void choose_signals() {
@@ -311,6 +331,7 @@ class Surroundings {
 
   Project& project_;
   const RunOptions& options_;
+  std::atomic<Part> part_{Part::none};  // that is being ended
   // Once for all channels, so that what is of one instant has one time stamp.
   const std::int64_t epoch_ = std::chrono::duration_cast<std::chrono::microseconds>(
                                   std::chrono::system_clock::now().time_since_epoch())
@@ -331,16 +352,35 @@ class Surroundings {
   std::unique_ptr<RunCommands> commands_;
 };
 
+/// What a signal is to do is forgotten with what it is done to.
+struct Forgetting {
+  Ending& ending;
+  ~Forgetting() { ending.finished(); }
+};
+
+/// From here on time is limited, and what is not finished in it is told.
+void end(Surroundings& surroundings, Display& display, Ending& ending) {
+  ending.limit([&surroundings] { return surroundings.unfinished(); });
+  surroundings.end();
+  ending.finished();
+  display.close();
+}
+
 /// Virtual time: as fast as the machine can; waits for the disk, never for the clock.
-void simulate(Project& project, Surroundings& surroundings, Display& display, std::int64_t duration) {
+void simulate(Project& project, Surroundings& surroundings, Display& display, Ending& ending,
+              std::int64_t duration) {
   Controller& controller = *project.controller;
   const auto begin = std::chrono::steady_clock::now();
   auto next_look = begin;
-  for (std::uint64_t tick = 0; duration < 0 || controller.now() < duration; ++tick) {
-    if (!surroundings.wait_for_recorder()) break;
+  const Forgetting at_the_end{ending};
+  ending.run([&surroundings] { surroundings.wait_no_more(); });
+  bool last = false;
+  for (std::uint64_t tick = 0; !last && surroundings.wait_for_recorder(); ++tick) {
+    last =
+        (duration >= 0 && controller.now() + controller.clock.servo_cycle >= duration) || ending.requested();
+    if (last) surroundings.take_no_more();
     controller.tick();
     if (tick % kTicksBetweenLooks != 0) continue;
-    if (end_requested != 0) break;
     const auto now = std::chrono::steady_clock::now();
     if (now < next_look) continue;
     display.show(controller.now(), "");
@@ -348,8 +388,7 @@ void simulate(Project& project, Surroundings& surroundings, Display& display, st
   }
   controller.take_summary();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  surroundings.finish_trace();
-  display.close();
+  end(surroundings, display, ending);
   const double simulated = static_cast<double>(controller.now()) * 1e-9;
   write_message(fmt::format("simulated {:.3f} s in {:.3f} s ({:.0f} × real time), {} ticks\n", simulated,
                             spent.count(), simulated / spent.count(), controller.counters().ticks));
@@ -381,21 +420,25 @@ void tell_moving(const Controller& controller) {
 }
 
 /// Real time, on a thread of its own; this one only looks and tells.
-int run_in_real_time(Project& project, Surroundings& surroundings, Display& display,
+int run_in_real_time(Project& project, Surroundings& surroundings, Display& display, Ending& ending,
                      const RunOptions& options) {
   const OverrunPolicy policy = project.stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
   RealTimeRun run(*project.controller, policy, options.duration, options.cpu);
   for (const std::string& warning : run.start()) tell("warning: " + warning);
   const RealTimeStatus& status = run.status();
-  while (!status.over.load(std::memory_order_acquire)) {
-    std::this_thread::sleep_for(kRefresh);
-    if (end_requested != 0) run.stop();
+  const Forgetting at_the_end{ending};
+  ending.run([&run] { run.stop(); });
+  while (!status.at_rest.load(std::memory_order_acquire)) {
+    ending.wait(ending.requested() ? kLookWhileBraking : kRefresh);
+    if (ending.requested()) surroundings.hear_no_more();
     display.show(status.time.load(), trouble(status));
     surroundings.look();
   }
+  // What is acknowledged up to here is taken by the tick that comes before the end.
+  ending.limit({});
+  surroundings.take_no_more();
   run.wait();
-  surroundings.finish_trace();
-  display.close();
+  end(surroundings, display, ending);
   write_message(fmt::format(
       "ran {:.3f} s: {} ticks, {} overruns, {} missed ticks, worst lateness {:.1f} µs, longest tick "
       "{:.1f} µs\n",
@@ -425,20 +468,20 @@ void tell_counters(const Controller& controller) {
 }
 
 int run_project(Project& project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options) {
-  take_signals();
   if (options.cpu >= 0)
     if (const std::string problem = leave_processor(options.cpu); !problem.empty())
       throw CouldNotStart("--cpu: " + problem);
   project.controller->apply_stimuli = options.simulate || options.stimuli;
+  Ending ending;
   Surroundings surroundings(project, options, std::move(keeper));
   Display display(project, surroundings.signals(), options.duration);
   int status = kOk;
   if (options.simulate) {
-    simulate(project, surroundings, display, options.duration);
+    simulate(project, surroundings, display, ending, options.duration);
   } else {
-    status = run_in_real_time(project, surroundings, display, options);
+    status = run_in_real_time(project, surroundings, display, ending, options);
   }
-  surroundings.stop();
+  surroundings.tell_losses();
   tell_axes(*project.controller);
   tell_counters(*project.controller);
   return status;

@@ -47,12 +47,15 @@ void add_run_command(CLI::App& app, Action& action) {
   command->footer(
       "Without --simulate it runs in real time until SIGINT or SIGTERM (or --duration), then brings its axes "
       "to\n"
-      "rest. A closed terminal does not end it. With --simulate, Modbus and LCM are off unless asked for.\n"
+      "rest. What follows has five seconds; a second signal makes it a moment. A closed terminal does not "
+      "end "
+      "it.\n"
+      "With --simulate, Modbus and LCM are off unless asked for.\n"
       "Values that are kept stand, unless named, beside the project file or in the state directory of "
       "systemd.\n"
       "Exit status: 0 ended as asked, 1 project not valid, 2 could not start, 3 stopped by an internal fault "
       "or by\n"
-      "the overrun policy");
+      "the overrun policy, or something did not come to its end");
   command->callback([&action, options, duration] {
     if (!duration->empty()) {
       std::string problem;

@@ -228,6 +228,13 @@ ModbusException ModbusResponder::read_registers(ModbusTable table, std::uint32_t
   return ModbusException::none;
 }
 
+/// Hands the writes of a request that is good to the cycle.
+ModbusException ModbusResponder::post() {
+  if (refuses_writes_) return ModbusException::server_device_failure;
+  image_.post(batch_);
+  return ModbusException::none;
+}
+
 ModbusException ModbusResponder::write_bits(std::uint32_t address, std::uint32_t count, Bytes bits) {
   if (const auto bad = check_write(ModbusTable::coil, address, count); bad != ModbusException::none)
     return bad;
@@ -239,8 +246,7 @@ ModbusException ModbusResponder::write_bits(std::uint32_t address, std::uint32_t
     if (!entry.range.allows(as_double(value, Type::BOOL))) return ModbusException::illegal_data_value;
     batch_.push_back({entry.signal, value});
   }
-  image_.post(batch_);
-  return ModbusException::none;
+  return post();
 }
 
 ModbusException ModbusResponder::stage_registers(std::uint32_t address, Bytes words) {
@@ -286,8 +292,7 @@ ModbusException ModbusResponder::write_registers(std::uint32_t address, Bytes wo
   const auto count = static_cast<std::uint32_t>(words.size() / 2);
   auto bad = check_write(ModbusTable::holding_register, address, count);
   if (bad == ModbusException::none) bad = stage_registers(address, words);
-  if (bad == ModbusException::none) image_.post(batch_);
-  return bad;
+  return bad == ModbusException::none ? post() : bad;
 }
 
 ModbusException ModbusResponder::mask_register(std::uint32_t address, std::uint16_t and_mask,
@@ -310,8 +315,7 @@ ModbusException ModbusResponder::mask_register(std::uint32_t address, std::uint1
     const auto named = static_cast<std::uint16_t>(~and_mask);
     batch_[0].mask = entry.byte_order == ByteOrder::big ? named : std::uint16_t(named << 8 | named >> 8);
   }
-  image_.post(batch_);
-  return ModbusException::none;
+  return post();
 }
 
 /// Of a register of bits only those that the request names have to be writable.
@@ -329,8 +333,7 @@ ModbusException ModbusResponder::mask_bits(const ModbusEntry& first, std::uint16
     batch_.push_back({part->signal, value});
   }
   if ((named & or_mask) != 0) return ModbusException::illegal_data_value;
-  if (!batch_.empty()) image_.post(batch_);
-  return ModbusException::none;
+  return batch_.empty() ? ModbusException::none : post();
 }
 
 ModbusException ModbusResponder::write_and_read_registers(Bytes pdu) {

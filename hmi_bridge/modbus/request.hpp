@@ -30,7 +30,8 @@ enum class ModbusException : std::uint8_t {
   none = 0,
   illegal_function = 1,
   illegal_data_address = 2,
-  illegal_data_value = 3
+  illegal_data_value = 3,
+  server_device_failure = 4  ///< a write that no tick would take any more
 };
 
 /// Carries out requests on an image. Not copyable; everything is called by one thread, the bridge's of the
@@ -47,6 +48,9 @@ class ModbusResponder {
   /// Carries out a request and gives the frame to answer with, valid until the next call. `frame` is one
   /// whole frame, by modbus_frame_length.
   std::span<const std::uint8_t> answer(std::span<const std::uint8_t> frame);
+
+  /// From here on writes that would be carried out are answered with exception 4: the cycle ends.
+  void refuse_writes() noexcept { refuses_writes_ = true; }
 
   /// What the last answer said.
   ModbusException exception() const noexcept { return exception_; }
@@ -68,6 +72,7 @@ class ModbusResponder {
   ModbusException mask_register(std::uint32_t address, std::uint16_t and_mask, std::uint16_t or_mask);
   ModbusException mask_bits(const ModbusEntry& first, std::uint16_t and_mask, std::uint16_t or_mask);
   ModbusException write_and_read_registers(Bytes pdu);
+  ModbusException post();
   ModbusException identify_us(Bytes pdu);
   std::uint8_t* begin_list(std::size_t bytes);
   ModbusException echo(Bytes part);
@@ -86,6 +91,7 @@ class ModbusResponder {
   const ModbusCounters* counters_;
   std::vector<SignalWrite> batch_;
   std::array<std::uint8_t, kModbusFrame> reply_{};
+  bool refuses_writes_ = false;
   std::size_t size_ = 0;  ///< of what the reply has behind its header [byte]
   ModbusException exception_ = ModbusException::none;
 };

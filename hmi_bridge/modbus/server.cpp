@@ -126,7 +126,7 @@ std::string ModbusServer::start() {
   try {
     if (problem.empty()) {
       make_responders();
-      is_stopping_ = false;
+      is_stopping_ = is_refusing_ = refuses_writes_ = false;
       thread_ = std::thread([this] { run(); });
     }
   } catch (const std::exception& error) {
@@ -195,12 +195,33 @@ void ModbusServer::close_sockets() noexcept {
   responders_.clear();
 }
 
-void ModbusServer::stop() {
-  if (!thread_.joinable()) return;
-  is_stopping_ = true;
+void ModbusServer::wake() noexcept {
   const std::uint64_t one = 1;
   while (::write(wake_, &one, sizeof one) < 0 && errno == EINTR) {
   }
+}
+
+void ModbusServer::refuse_writes() {
+  if (!thread_.joinable()) return;
+  is_refusing_ = true;
+  wake();
+  refuses_writes_.wait(false);
+}
+
+/// Between two turns, so that no request is under way.
+void ModbusServer::begin_to_refuse() noexcept {
+  for (ModbusResponder& responder : responders_) responder.refuse_writes();
+  std::uint64_t woken = 0;
+  while (::read(wake_, &woken, sizeof woken) < 0 && errno == EINTR) {
+  }
+  refuses_writes_ = true;
+  refuses_writes_.notify_all();
+}
+
+void ModbusServer::stop() {
+  if (!thread_.joinable()) return;
+  is_stopping_ = true;
+  wake();
   thread_.join();
   close_sockets();
 }
@@ -208,6 +229,7 @@ void ModbusServer::stop() {
 void ModbusServer::run() noexcept {
   step_back();
   while (!is_stopping_) {
+    if (is_refusing_ && !refuses_writes_) begin_to_refuse();
     try {
       turn();
     } catch (...) {

@@ -67,6 +67,10 @@ class ModbusServer {
   /// May wait for a name server if a host is a name. Thread: the owner.
   std::string start();
 
+  /// From here on every write is answered with exception 4: the cycle takes no more. When it returns, each
+  /// write that was acknowledged has been handed to the image, and no other one will be. Thread: the owner.
+  void refuse_writes();
+
   /// Disconnects all clients and ends the thread; nothing happens if it does not run. Thread: the owner.
   void stop();
 
@@ -103,6 +107,8 @@ class ModbusServer {
   std::string listen_at(Endpoint place, std::size_t service);
   void make_responders();
   void close_sockets() noexcept;
+  void wake() noexcept;
+  void begin_to_refuse() noexcept;
   void run() noexcept;
   void turn();
   void wait();
@@ -127,6 +133,8 @@ class ModbusServer {
   std::vector<Line> lines_;
   int wake_ = -1;  ///< event that ends the thread's waiting
   std::atomic<bool> is_stopping_{false};
+  std::atomic<bool> is_refusing_{false};     ///< asked to
+  std::atomic<bool> refuses_writes_{false};  ///< … and does
   std::thread thread_;
 
   // The thread's.

@@ -53,6 +53,7 @@ class RetainWriter {
   std::string news();
   /// Whether what the file holds is not what `image` shows, since writing failed. Any thread but the cycle's.
   bool failing() const;
+  const std::string& path() const noexcept { return file_.path(); }
   /// How often the file has been changed. Any thread but the cycle's.
   std::uint64_t commits() const;
 

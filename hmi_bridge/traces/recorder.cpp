@@ -12,17 +12,6 @@ namespace {
 
 constexpr std::size_t kBatch = 256;  // rows given back to the writer at a time
 
-template <class Call>
-void guarded(TraceSink& sink, std::uint64_t rows, Call call) noexcept {
-  try {
-    call(sink);
-  } catch (const std::exception& error) {
-    sink.lose(rows, error.what());
-  } catch (...) {
-    sink.lose(rows, "unknown error");
-  }
-}
-
 std::string loss_text(std::uint64_t rows, const std::string& where, const std::string& reason) {
   return "trace incomplete: " + std::to_string(rows) + (rows == 1 ? " row" : " rows") + " lost in " + where +
          ": " + reason;
@@ -86,6 +75,13 @@ std::vector<std::string> TraceRecorder::losses() const {
   return texts;
 }
 
+std::string TraceRecorder::held_up() const {
+  const TraceSink* const sink = busy_.load(std::memory_order_acquire);
+  if (sink == nullptr) return "";
+  return loss_text(ring_.readable(), std::string(sink->name()),
+                   "it takes nothing, nor what it has been given before");
+}
+
 void TraceRecorder::record() {
   block_write_signals();
   begin_sinks();
@@ -108,6 +104,19 @@ void TraceRecorder::record() {
   report();
   ring_.close();
   if (events_.queue != nullptr) events_.queue->close();
+}
+
+template <class Call>
+void TraceRecorder::guarded(TraceSink& sink, std::uint64_t rows, Call call) noexcept {
+  busy_.store(&sink, std::memory_order_release);
+  try {
+    call(sink);
+  } catch (const std::exception& error) {
+    sink.lose(rows, error.what());
+  } catch (...) {
+    sink.lose(rows, "unknown error");
+  }
+  busy_.store(nullptr, std::memory_order_relaxed);
 }
 
 void TraceRecorder::begin_sinks() noexcept {

@@ -56,6 +56,9 @@ class TraceRecorder {
   /// text such as "trace incomplete: 12 rows lost in run.csv: No space left on device". Empty if nothing is
   /// missing. Any thread but the cycle's.
   std::vector<std::string> losses() const;
+  /// What a sink holds up that is being written to at this moment, as a text of the same kind; empty: none.
+  /// For one that does not come back. Any thread but the cycle's, while the recorder lives.
+  std::string held_up() const;
 
  private:
   struct Loss {
@@ -65,6 +68,8 @@ class TraceRecorder {
   };
 
   void record();
+  template <class Call>
+  void guarded(TraceSink& sink, std::uint64_t rows, Call call) noexcept;
   void begin_sinks() noexcept;
   bool drain() noexcept;
   void take_told() noexcept;
@@ -81,8 +86,9 @@ class TraceRecorder {
   const std::vector<TraceSignal> signals_;
   const std::vector<std::unique_ptr<TraceSink>> sinks_;
   const EventSource events_;
-  bool finishing_ = false;    // no more rows will follow
-  std::int64_t given_t_ = 0;  // of the last row
+  std::atomic<const TraceSink*> busy_{nullptr};  // sink that has been called and has not come back
+  bool finishing_ = false;                       // no more rows will follow
+  std::int64_t given_t_ = 0;                     // of the last row
   std::uint64_t given_tick_ = 0;
   std::vector<TraceEvent> waiting_;  // events of the bridge, for the row of their tick
 

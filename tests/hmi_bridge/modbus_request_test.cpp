@@ -302,5 +302,23 @@ TEST_F(ModbusRequest, AnyBytesGetAWellFormedAnswerAndAnExceptionChangesNothing) 
   EXPECT_TRUE(machine.shown);
 }
 
+TEST_F(ModbusRequest, WritesThatNoTickWillTakeAreException4AndChangeNothing) {
+  const std::vector<Bytes> good = {{5, 0, 0, 0xFF, 0},
+                                   {6, 0, 30, 0x12, 0x34},
+                                   {15, 0, 0, 0, 1, 1, 1},
+                                   {16, 0, 30, 0, 1, 2, 0x12, 0x34},
+                                   {22, 0, 30, 0, 0, 0x12, 0x34},
+                                   {23, 0, 30, 0, 1, 0, 30, 0, 1, 2, 0x12, 0x34}};
+  responder.refuse_writes();
+  for (const Bytes& request : good)
+    EXPECT_EQ(ask(request), (Bytes{static_cast<std::uint8_t>(request[0] | 0x80), 4}));
+  machine.tick();
+  EXPECT_FALSE(machine.start);
+  EXPECT_EQ(machine.word, WORD{0x0F0F});
+  EXPECT_EQ(ask({3, 0, 30, 0, 1}), (Bytes{3, 2, 0x0F, 0x0F})) << "what can be read is read";
+  EXPECT_EQ(ask({6, 0, 32, 0, 1}), (Bytes{0x86, 2})) << "what was never permitted is told as ever";
+  EXPECT_EQ(ask({5, 0, 0, 0x12, 0}), (Bytes{0x85, 3}));
+}
+
 }  // namespace
 }  // namespace lockstep

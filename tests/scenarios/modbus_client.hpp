@@ -22,6 +22,9 @@ class ModbusClient {
   void write_coil(int address, bool value) {
     EXPECT_EQ(modbus_write_bit(client_.get(), address, value ? 1 : 0), 1) << modbus_strerror(errno);
   }
+  void write_register(int address, std::uint16_t value) {
+    EXPECT_EQ(modbus_write_register(client_.get(), address, value), 1) << modbus_strerror(errno);
+  }
   void write_float(int address, float value) {
     // Most significant word first; the library's own function of this name has its bytes the wrong way round.
     const auto bits = std::bit_cast<std::uint32_t>(value);

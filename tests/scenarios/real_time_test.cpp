@@ -5,6 +5,7 @@
 #include <sched.h>
 #include <sys/socket.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -102,8 +103,35 @@ TEST_P(EndedBySignal, BringsItsAxesToRestAndEndsWith0) {
   expect_told_at_rest(run.err());
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, EndedBySignal, testing::Values(SIGINT, SIGTERM),
-                         [](const auto& signal) { return signal.param == SIGINT ? "SIGINT" : "SIGTERM"; });
+/// "SIGTERM", "RTMIN"
+std::string name_of_signal(int signal) {
+  if (signal == SIGRTMIN) return "SIGRTMIN";
+  if (signal == SIGRTMAX) return "SIGRTMAX";
+  return std::string("SIG") + ::sigabbrev_np(signal);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, EndedBySignal, testing::Values(SIGINT, SIGTERM, SIGQUIT, SIGPWR, SIGXCPU),
+                         [](const auto& signal) { return name_of_signal(signal.param); });
+
+class NotEndedBySignal : public testing::TestWithParam<int> {};
+
+TEST_P(NotEndedBySignal, GoesOnAsIfNothingHadBeen) {
+  const Directory directory;
+  RunningLockstep run(slow_to_brake(directory));
+  ModbusClient client(run.port());
+  ASSERT_TRUE(running_at_200(client));
+  run.send(GetParam());
+  EXPECT_TRUE(alive(client));
+  EXPECT_EQ(client.input_float(0), 200.0F);
+  run.send(SIGTERM);
+  EXPECT_EQ(run.status(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, NotEndedBySignal,
+                         testing::Values(SIGHUP, SIGPIPE, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF,
+                                         SIGSTKFLT, SIGIO, SIGXFSZ, SIGTSTP, SIGTTIN, SIGTTOU, SIGRTMIN,
+                                         SIGRTMAX),
+                         [](const auto& signal) { return name_of_signal(signal.param); });
 
 TEST(RealTime, AnAxisThatCannotBeBrakedInTimeHoldsNoEndUpForLongerThanTenSecondsAndIsTold) {
   const Directory directory;
@@ -242,18 +270,6 @@ TEST(RealTime, ASecondServerOnAPortThatIsTakenCannotStart) {
   EXPECT_NE(second.err.find(endpoint), std::string::npos) << second.err;
   ModbusClient client(first.port());
   EXPECT_TRUE(alive(client)) << "the first one is disturbed";
-}
-
-TEST(RealTime, SighupDoesNotEndIt) {
-  const Directory directory;
-  RunningLockstep run(slow_to_brake(directory));
-  ModbusClient client(run.port());
-  ASSERT_TRUE(running_at_200(client));
-  run.send(SIGHUP);
-  EXPECT_TRUE(alive(client));
-  EXPECT_EQ(client.input_float(0), 200.0F);
-  run.send(SIGTERM);
-  EXPECT_EQ(run.status(), 0);
 }
 
 TEST(RealTime, AClosedTerminalNeitherEndsNorStallsIt) {
