@@ -162,8 +162,11 @@ namespace alarm {
 inline constexpr int kSoftwareLimits = 104;
 inline constexpr int kVelocityLimitZero = 304;
 inline constexpr int kAccelerationLimitZero = 305;
+inline constexpr int kJerkLimitZero = 306;
+inline constexpr int kPositionRangeReached = 307;
 inline constexpr int kPositionRangeExceeded = 308;
 inline constexpr int kNotHomed = 321;
+inline constexpr int kRestartNotCarriedOut = 322;
 inline constexpr int kHomingNotPossible = 323;
 inline constexpr int kHomingData = 341;
 inline constexpr int kMarkNotFound = 342;
