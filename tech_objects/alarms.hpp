@@ -186,6 +186,7 @@ inline constexpr int kSoftwareLimitReached = 533;
 inline constexpr int kSoftwareLimitPassed = 534;
 inline constexpr int kPositioning = 541;
 inline constexpr int kClamping = 542;
+inline constexpr int kVelocityNotReachable = 551;
 inline constexpr int kLeadingAxis = 601;
 inline constexpr int kLeadingAxisNotPositionControlled = 603;
 inline constexpr int kSynchronizing = 608;

@@ -216,7 +216,10 @@ void Axis::react(AlarmReaction reaction) noexcept {
 
 ErrorId Axis::reset(bool restart) noexcept {
   // An alarm may have removed the enable; while MC_Power still asks for it the axis is not disabled.
-  if (restart && (power.enable || power_state_ != PowerState::off)) return ErrorId::restart_refused;
+  if (restart && (power.enable || power_state_ != PowerState::off)) {
+    raise(alarm::kRestartNotCarriedOut);
+    return ErrorId::restart_refused;
+  }
   data.ErrorWord = DWORD{};
   data.WarningWord = DWORD{};
   data.ErrorDetail = {};

@@ -112,6 +112,24 @@ TEST(SpeedOfAMotor, BeyondItsMaximumIsCutWithWarning504) {
   EXPECT_NEAR(m.a.data.ActualVelocity, 100.0, 1.0);
 }
 
+TEST(SpeedOfAMotor, BelowTheMaximumVelocityOfTheAxisIsToldByWarning551) {
+  const auto told = [](double max_velocity, DINT simulated) {
+    Machine m([&](AxisData& data) {
+      data.VirtualAxis.Mode = 0;
+      data.Simulation.Mode = simulated;
+      data.Actor.DriveParameter.MaxSpeed = 600.0;  // 100 u/s
+      data.DynamicLimits.MaxVelocity = data.DynamicLimits.Velocity = max_velocity;
+    });
+    EXPECT_EQ(m.a.pending_alarm(), 0);
+    EXPECT_EQ(has_bit(m.a.data.WarningWord, WarningBit::DynamicWarning),
+              m.noted(alarm::kVelocityNotReachable));
+    return m.noted(alarm::kVelocityNotReachable);
+  };
+  EXPECT_FALSE(told(100.0, 0));
+  EXPECT_TRUE(told(100.1, 0));
+  EXPECT_FALSE(told(100.1, 1)) << "simulated, it has no drive";
+}
+
 TEST(LeadingAxis, WithoutPositionControlIsRefusedWithAlarm603) {
   Machine m;
   m.run_leading.PositionControlled = false;
