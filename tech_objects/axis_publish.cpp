@@ -234,7 +234,7 @@ void Axis::show_drive_state() noexcept {
 
 /// Whether the acceleration of the setpoint makes it quicker or slower.
 std::uint32_t Axis::pace_bits() const noexcept {
-  const double push = setpoint_.velocity * setpoint_.acceleration;
+  const double push = sign(setpoint_.velocity) * setpoint_.acceleration;  // a product of both may be none
   return when(push > 0.0 || setpoint_.velocity == 0.0, StatusBit::Accelerating) |
          when(push < 0.0, StatusBit::Decelerating);
 }
