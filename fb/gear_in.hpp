@@ -89,7 +89,7 @@ struct MC_GearInPos final : ExecuteBlock {
           "MasterSyncPosition", Unit::kLeading, kFinite,
           "profiles 0, 1: leading position from which both run synchronously; 3: where synchronizing begins",
           {.error = ErrorId::master_sync_position}),
-      in<&MC_GearInPos::SlaveSyncPosition>("SlaveSyncPosition", Unit::kPosition, kFinite,
+      in<&MC_GearInPos::SlaveSyncPosition>("SlaveSyncPosition", Unit::kPosition, kPositions,
                                            "following position that belongs to MasterSyncPosition",
                                            {.error = ErrorId::slave_sync_position}),
       in<&MC_GearInPos::SyncProfileReference>(

@@ -37,6 +37,9 @@ class JobBlock : public Block {
   JobPhase phase_ = JobPhase::idle;
 };
 
+/// Positions and ways that an axis can represent [u].
+inline constexpr Range kPositions{-kPositionRange, kPositionRange};
+
 /// Pins that many blocks share, spelled once.
 namespace pin {
 

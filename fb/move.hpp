@@ -28,7 +28,7 @@ struct MC_MoveAbsolute final : ExecuteBlock {
   static bool has_modulo(const Block& block) noexcept;
   static constexpr auto kPins =
       pins(pin::axis<MC_MoveAbsolute>(), pin::kExecute,
-           in<&MC_MoveAbsolute::Position>("Position", Unit::kPosition, kFinite, "target position",
+           in<&MC_MoveAbsolute::Position>("Position", Unit::kPosition, kPositions, "target position",
                                           {.error = ErrorId::position}),
            pin::velocity<MC_MoveAbsolute>("> 0: used; < 0: DynamicDefaults.Velocity; 0 is not permitted"),
            pin::acceleration<MC_MoveAbsolute>(), pin::deceleration<MC_MoveAbsolute>(),
@@ -64,7 +64,7 @@ struct MC_MoveRelative final : ExecuteBlock {
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_MoveRelative";
   static constexpr auto kPins =
       pins(pin::axis<MC_MoveRelative>(), pin::kExecute,
-           in<&MC_MoveRelative::Distance>("Distance", Unit::kPosition, kFinite, "signed distance",
+           in<&MC_MoveRelative::Distance>("Distance", Unit::kPosition, kPositions, "signed distance",
                                           {.error = ErrorId::distance}),
            pin::velocity<MC_MoveRelative>("> 0: used; < 0: DynamicDefaults.Velocity; 0 is not permitted"),
            pin::acceleration<MC_MoveRelative>(), pin::deceleration<MC_MoveRelative>(),

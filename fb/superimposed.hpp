@@ -25,7 +25,7 @@ struct MC_MoveSuperimposed final : ExecuteBlock {
   static constexpr std::string_view kSource = "S7-1500T axis functions, MC_MoveSuperimposed";
   static constexpr auto kPins =
       pins(pin::axis<MC_MoveSuperimposed>(), pin::kExecute,
-           in<&MC_MoveSuperimposed::Distance>("Distance", Unit::kPosition, kFinite,
+           in<&MC_MoveSuperimposed::Distance>("Distance", Unit::kPosition, kPositions,
                                               "signed distance, on top of the base motion",
                                               {.error = ErrorId::distance}),
            in<&MC_MoveSuperimposed::VelocityDiff>(

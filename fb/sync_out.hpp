@@ -32,7 +32,7 @@ struct SyncOutBlock : ExecuteBlock {
 
   static constexpr auto kPins =
       pins(object<&SyncOutBlock::Slave>("Slave", kSynchronousAxis, "following axis"), pin::kExecute,
-           in<&SyncOutBlock::SlavePosition>("SlavePosition", Unit::kPosition, kFinite, "stop position",
+           in<&SyncOutBlock::SlavePosition>("SlavePosition", Unit::kPosition, kPositions, "stop position",
                                             {.error = ErrorId::slave_position}),
            in<&SyncOutBlock::SyncProfileReference>(
                "SyncProfileReference", Unit::kNone, kAny, "way of desynchronizing",

@@ -49,6 +49,7 @@ class PanelProgram {
     set("p.SeenOverrides", "p.Overrides");
     program_.add_assignment(compiled("p.Override", Type::LREAL), speed.signal, *speed.variable);
     program_.end_branch(branch);
+    tell_control(enables);
   }
 
  private:
@@ -112,6 +113,15 @@ class PanelProgram {
     Instance& power = instance("power", "MC_Power");
     set("power.Enable", "p.Enable");
     program_.add_call(*power.block);
+  }
+
+  /// StatusWord.X4 of the axis: the panel has enabled it, or one of its jobs runs.
+  void tell_control(bool enables) {
+    scope_.add("axis.Panel", Signal{&axis_.control_panel, Type::BOOL, -1});
+    std::string control = "jog.Busy";
+    if (enables) control += " OR power.Enable";
+    if (axis_.has_position()) control += " OR home.Busy";
+    set("axis.Panel", control);
   }
 
   /// A job for each change of a count; between two there is a call with Execute FALSE.

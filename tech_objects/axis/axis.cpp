@@ -216,7 +216,10 @@ void Axis::react(AlarmReaction reaction) noexcept {
 
 ErrorId Axis::reset(bool restart) noexcept {
   // An alarm may have removed the enable; while MC_Power still asks for it the axis is not disabled.
-  if (restart && (power.enable || power_state_ != PowerState::off)) return ErrorId::restart_refused;
+  if (restart && (power.enable || power_state_ != PowerState::off)) {
+    raise(alarm::kRestartNotCarriedOut);
+    return ErrorId::restart_refused;
+  }
   data.ErrorWord = DWORD{};
   data.WarningWord = DWORD{};
   data.ErrorDetail = {};
@@ -322,13 +325,14 @@ void Axis::step_base() noexcept {
 
 /// Last look at the setpoint before anyone sees it: finite, and within the range of positions.
 void Axis::guard() noexcept {
-  const double sum = setpoint_.position.value + setpoint_.velocity + setpoint_.acceleration;
-  if (std::isfinite(sum) && std::abs(setpoint_.position.value) <= kPositionRange) return;
-  const bool finite = std::isfinite(sum);
+  const bool finite = std::isfinite(setpoint_.position.value) && std::isfinite(setpoint_.velocity) &&
+                      std::isfinite(setpoint_.acceleration);
+  if (finite && far_from_end_of_range()) return;
+  if (finite) return watch_range();
   absorb_superimposed();
   setpoint_ = {last_setpoint_.position, 0.0, 0.0};
   single_.stand(setpoint_);
-  raise(finite ? alarm::kPositionRangeExceeded : alarm::kInternal);
+  raise(alarm::kInternal);
 }
 
 namespace {

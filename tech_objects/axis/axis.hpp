@@ -354,6 +354,7 @@ class Axis final : public LeadingObject {
   Dynamics emergency_dynamics() const noexcept;
   Dynamics maximum_for_current(Dynamics dynamics) const noexcept;
   int zero_limit(const Dynamics& dynamics) const noexcept;
+  ErrorId target_refusal(const Job& job) const noexcept;
   void begin_base_motion(Job& job) noexcept;
   PlanResult plan(Job& job, const Dynamics& dynamics) noexcept;
   void show_target(const AxisPosition& target) noexcept;
@@ -519,7 +520,11 @@ class Axis final : public LeadingObject {
   void acknowledge_drive() noexcept;
   void control_drive(std::uint16_t stw1) noexcept;
 
-  // axis_monitoring.cpp: software limit switches, following error, standstill
+  // axis_monitoring.cpp: range of positions, software limit switches, following error
+  bool far_from_end_of_range() const noexcept;
+  void watch_range() noexcept;
+  bool keep_in_range(int side) noexcept;
+  void pass_end_of_range() noexcept;
   struct PositionLimits {
     double least;     // [u]
     double greatest;  // [u]
@@ -555,6 +560,9 @@ class Axis final : public LeadingObject {
  public:
   alignas(kCacheLine) AdditiveRequest additive_request;
   SimulationRequest simulation_request;
+  /// Whether a control panel has the axis in its hands: it has enabled it, or a job of it runs. Written by
+  /// the program of the panel.
+  BOOL control_panel{};
   /// Raised when a coupling has changed, so that the order of the axes is built anew.
   bool coupling_changed = false;
   /// Whether the awaited leading axis is stepped before this one; told by the order.

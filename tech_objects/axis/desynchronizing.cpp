@@ -47,6 +47,11 @@ bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
   Setpoint from = last_setpoint_;
   Setpoint to = candidate;
   if (job.mode != kOverDistance) {  // begins as the axis' own motions do
+    if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
+      raise(alarm_number);  // the stop begins at the last setpoint that followed
+      step_single_axis();
+      return true;
+    }
     from.acceleration = tolerable_acceleration(from.acceleration, room_to_limit(from));
     to.acceleration = tolerable_acceleration(to.acceleration, room_to_limit(to));
     keep_below_limit(dynamics, from.acceleration, room_to_limit(from));

@@ -315,6 +315,7 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
   since_target_ticks_ = 0;
   remember_limits();
   Dynamics dynamics = own_dynamics(job);
+  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) return raise(alarm_number);
   if (advancing_base_) leave_to_superimposed(&job, dynamics);
   if (plan(job, dynamics) == PlanResult::ok) return;
   end_job(kBase, JobPhase::failed, ErrorId::unspecified);

@@ -80,7 +80,9 @@ ErrorId Axis::check(const Job& job) const noexcept {
   if (pending_alarm() != 0 && !stronger) return ErrorId::technology_alarm;
   if (!enabled()) return ErrorId::locked;
   if (locked_by_stop() && job.kind != JobKind::MC_Stop) return ErrorId::locked;
-  return check_synchronous(job);
+  if (const ErrorId error = check_synchronous(job); error != ErrorId::none) return error;
+  const bool at_once = job.buffer_mode == BufferMode::mcAborting || running_[kBase] == nullptr;
+  return at_once ? target_refusal(job) : ErrorId::none;
 }
 
 /// Conditions of synchronous jobs, and of values given on top of a motion.

@@ -1,4 +1,4 @@
-// What an axis watches over: software limit switches, following error, standstill.
+// What an axis watches over: range of positions, software limit switches, following error.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +10,10 @@ namespace {
 
 /// What positions and ways may be apart by rounding, relative to their size.
 constexpr double kRounding = 1e-12;
+
+/// Where an axis comes to rest at the latest that nears the end of its range [u]: before the end by more than
+/// the stop may be rounded.
+constexpr double kEndOfRange = kPositionRange * (1.0 - kRounding);
 
 /// The state of motion as seen in one direction.
 struct Heading {
@@ -223,6 +227,72 @@ void Axis::approach_limit(double way, AxisPosition limit, const Dynamics& dynami
   single_.advance(setpoint_);
 }
 
+// ---- Range of positions
+// --------------------------------------------------------------------------------------
+
+/// Whether the axis, stopped with maximum dynamics, comes to rest far inside of the range of positions, from
+/// few operations and without a division: `most_stopping_way` ≤ room, times 4 · deceleration · jerk². Else,
+/// or without such limits, `watch_range` looks closely.
+bool Axis::far_from_end_of_range() const noexcept {
+  const double room = kEndOfRange - std::abs(setpoint_.position.value);
+  if (modulo_.enabled) return room > 0.0;
+  const double d = data.DynamicLimits.MaxDeceleration;
+  const double j = data.DynamicLimits.MaxJerk;
+  const double v = std::abs(setpoint_.velocity);
+  const double a = std::abs(setpoint_.acceleration);
+  const double reached = 2.0 * j * v + a * a;  // velocity once the acceleration is run down, times 2 · jerk
+  return reached * (d * (2.0 * a + d) + 0.5 * reached) < 4.0 * room * d * j * j;
+}
+
+/// Near the end of what it can represent, the axis stops with maximum dynamics while it still comes to rest
+/// inside (307). One that passes the end all the same, because it is too fast already or its setpoint is
+/// given, loses its enable (308) and brakes from the last setpoint on, beyond the end. Acknowledged there, it
+/// may come back.
+/// @source S7-1500/S7-1500T alarms and error IDs, 307, 308
+void Axis::watch_range() noexcept {
+  // A setpoint that has just been taken up does not come out of the last one.
+  const bool generated = power_state_ == PowerState::on && has_bit(data.StatusWord, StatusBit::Enable);
+  if (generated && !modulo_.enabled && keep_in_range(1)) keep_in_range(-1);
+  const double here = setpoint_.position.value;
+  if (std::abs(here) <= kPositionRange * (1.0 + kRounding)) return;
+  const int side = sign(here);
+  if (side * setpoint_.velocity > 0.0 || side * (here - last_setpoint_.position.value) > 0.0)
+    pass_end_of_range();
+}
+
+/// @return whether the setpoint made for this cycle stays; if not, another one has been made
+bool Axis::keep_in_range(int side) noexcept {
+  const double here = side * setpoint_.position.value;
+  const double room = std::max(kEndOfRange - here, 0.0);
+  const Dynamics dynamics = maximum_dynamics();
+  Setpoint from = setpoint_;  // as a stop begins
+  from.acceleration = tolerable_acceleration(from.acceleration, room_to_limit(from));
+  if (most_stopping_way({from, side}, dynamics) <= room) return true;
+  // A target may be the very end.
+  if (turns_in_time(side, std::max(kPositionRange * (1.0 + kRounding) - here, 0.0), dynamics.jerk))
+    return true;
+  if (stopping_way(from, side, dynamics) <= room) return true;
+  constexpr auto kReaction = AlarmReaction::stop_maximum;
+  const bool reacts =
+      data.ErrorDetail.Reaction < static_cast<DINT>(kReaction) && !outranked_by_stop(kReaction);
+  if (reacts) setpoint_ = last_setpoint_;
+  raise(alarm::kPositionRangeReached, kReaction);
+  if (reacts) single_.advance(setpoint_);
+  return !reacts;
+}
+
+void Axis::pass_end_of_range() noexcept {
+  const bool reacts = power_state_ == PowerState::on &&
+                      data.ErrorDetail.Reaction < static_cast<DINT>(AlarmReaction::remove_enable);
+  if (reacts) setpoint_ = last_setpoint_;
+  raise(alarm::kPositionRangeExceeded);
+  if (!reacts) return;  // it brakes already
+  if (motion_ == Motion::single_axis)
+    single_.advance(setpoint_);
+  else  // the drive brakes; the setpoint is the actual value from the next tick on
+    setpoint_.position = advanced(setpoint_.position, setpoint_.velocity * period_, modulo_);
+}
+
 // ---- Following error
 // ----------------------------------------------------------------------------------------------
 
@@ -246,8 +316,5 @@ void Axis::watch_following_error(double velocity) noexcept {
   if (error > permissible) return raise(alarm::kFollowingError);
   if (error > level * permissible) raise(alarm::kFollowingErrorWarning);
 }
-
-// ---- Standstill
-// ---------------------------------------------------------------------------------------------------
 
 }  // namespace lockstep

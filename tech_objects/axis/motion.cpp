@@ -85,7 +85,8 @@ void Axis::take_defaults(Job& job) const noexcept {
   take(job.jerk, defaults.Jerk);
 }
 
-/// Dynamic values of a job: defaults for negative ones, cut to the limits with a warning.
+/// Dynamic values of a job: defaults for negative ones, cut to the limits with a warning. A MaxJerk of 0.0 is
+/// an alarm where it would count (`zero_limit`); it takes no job its jerk.
 Dynamics Axis::effective_dynamics(const Job& job) noexcept {
   const auto& defaults = data.DynamicDefaults;
   const auto& limits = data.DynamicLimits;
@@ -96,11 +97,12 @@ Dynamics Axis::effective_dynamics(const Job& job) noexcept {
   if (velocity > velocity_limit()) raise(alarm::kVelocityLimited);
   if (acceleration > limits.MaxAcceleration || deceleration > limits.MaxDeceleration)
     raise(alarm::kAccelerationLimited);
-  if (jerk > limits.MaxJerk) raise(alarm::kJerkLimited);
+  const double highest_jerk = positive_or(limits.MaxJerk, jerk);
+  if (jerk > highest_jerk) raise(alarm::kJerkLimited);
   return {.velocity = std::min(velocity, velocity_limit()),
           .acceleration = std::min(acceleration, limits.MaxAcceleration),
           .deceleration = std::min(deceleration, limits.MaxDeceleration),
-          .jerk = std::min(jerk, limits.MaxJerk)};
+          .jerk = std::min(jerk, highest_jerk)};
 }
 
 /// Dynamic values for a motion of the axis' own that takes over from the present state. The velocity limit
@@ -119,7 +121,7 @@ void Axis::keep_below_limit(Dynamics& dynamics) const noexcept {
 void Axis::keep_below_limit(Dynamics& dynamics, double acceleration, double room) const noexcept {
   const double square = acceleration * acceleration;
   if (dynamics.jerk > 0.0 && square > 2.0 * dynamics.jerk * room)
-    dynamics.jerk = std::min(square / (2.0 * room), data.DynamicLimits.MaxJerk);
+    dynamics.jerk = std::max(dynamics.jerk, std::min(square / (2.0 * room), data.DynamicLimits.MaxJerk));
 }
 
 /// Velocity that is left, in the direction of the present acceleration, up to the limit [u/s] ≥ 0; to a base
@@ -157,10 +159,12 @@ Dynamics Axis::emergency_dynamics() const noexcept {
   return dynamics;
 }
 
-/// An alarm for a limit of zero, which no motion can keep; 0: none.
+/// An alarm for a limit of zero, which no motion can keep; 0: none. That of the jerk counts for a motion that
+/// limits its jerk.
 int Axis::zero_limit(const Dynamics& dynamics) const noexcept {
   if (velocity_limit() <= 0.0) return alarm::kVelocityLimitZero;
   if (dynamics.acceleration <= 0.0 || dynamics.deceleration <= 0.0) return alarm::kAccelerationLimitZero;
+  if (dynamics.jerk > 0.0 && data.DynamicLimits.MaxJerk <= 0.0) return alarm::kJerkLimitZero;
   return 0;
 }
 
@@ -170,7 +174,8 @@ int Axis::zero_limit(const Dynamics& dynamics) const noexcept {
 void Axis::begin_base_motion(Job& job) noexcept {
   absorb_superimposed();
   cut_acceleration();
-  const Dynamics dynamics = own_dynamics(job);
+  Dynamics dynamics = own_dynamics(job);
+  if (job.kind == JobKind::MC_Stop && job.mode == 0) dynamics.jerk = 0.0;  // the emergency ramp has none
   if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
@@ -185,9 +190,34 @@ void Axis::begin_base_motion(Job& job) noexcept {
   remember_limits();
   if (job.kind != JobKind::MC_Halt && job.kind != JobKind::MC_Stop)
     set_position_control(job.position_controlled);
-  if (plan(job, dynamics) == PlanResult::ok) return;
-  end_job(kBase, JobPhase::failed, ErrorId::unspecified);
+  // One that has waited for another one is refused only now, when it is known where it begins.
+  ErrorId error = target_refusal(job);
+  if (error == ErrorId::none && plan(job, dynamics) == PlanResult::ok) return;
+  if (error == ErrorId::none) error = ErrorId::unspecified;
+  end_job(kBase, JobPhase::failed, error);
   begin_stop(maximum_dynamics(), false);
+}
+
+/// Whether a job would leave the range of positions by where it ends, begun at this moment. On a ring every
+/// place is inside; targets themselves are checked where they come in.
+ErrorId Axis::target_refusal(const Job& job) const noexcept {
+  if (modulo_.enabled) return ErrorId::none;
+  double from = setpoint_.position.value;
+  switch (job.kind) {
+    case JobKind::MC_MoveRelative:
+      from -= beyond_target_.rounded();
+      break;
+    case JobKind::MC_MoveSuperimposed: {
+      const bool positions =
+          motion_ == Motion::single_axis && single_.aim() == SingleAxisMotion::Aim::position;
+      const AxisPosition& base = positions ? single_.target() : base_setpoint().position;
+      from = base.value + superimposed_.value().rounded();
+      break;
+    }
+    default:
+      return ErrorId::none;
+  }
+  return std::abs(from + job.position) <= kPositionRange ? ErrorId::none : ErrorId::distance;
 }
 
 PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
@@ -327,13 +357,13 @@ void Axis::step_single_axis() noexcept {
   if (!inputs_changed && !limits_changed()) return;
   if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || leaves(job.kind)) return;
   remember_limits();
+  const Dynamics wanted = effective_dynamics(job);
+  if (const int alarm_number = zero_limit(wanted); alarm_number != 0) return raise(alarm_number);
   const double jerk_before = single_.dynamics().jerk;
-  const bool jerk_now_limited = jerk_before <= 0.0 && effective_dynamics(job).jerk > 0.0;
+  const bool jerk_now_limited = jerk_before <= 0.0 && wanted.jerk > 0.0;
   if (inputs_changed || jerk_now_limited) cut_acceleration();
   Dynamics dynamics = own_dynamics(job);
   dynamics.jerk = sufficient_jerk(dynamics.jerk, jerk_before, setpoint_.acceleration, room_to_limit());
-  if (dynamics.acceleration <= 0.0 || dynamics.deceleration <= 0.0)
-    return raise(alarm::kAccelerationLimitZero);
   if (advancing_base_) leave_to_superimposed(&job, dynamics);
   PlanResult result = PlanResult::ok;
   if (jog || job.kind == JobKind::MC_Home || job.kind == JobKind::MC_MoveVelocity) {

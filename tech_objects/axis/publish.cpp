@@ -43,12 +43,12 @@ constexpr std::uint32_t command_bits(JobKind kind) noexcept {
 /// Bits that publish_status shows; others are of the functions that they belong to.
 constexpr std::uint32_t kStatusBits =
     word_of(StatusBit::Enable, StatusBit::Error, StatusBit::HomingDone, StatusBit::OnlineStartValuesChanged,
-            StatusBit::Done, StatusBit::Standstill, StatusBit::PositioningCommand, StatusBit::JogCommand,
-            StatusBit::VelocityCommand, StatusBit::HomingCommand, StatusBit::ConstantVelocity,
-            StatusBit::Accelerating, StatusBit::Decelerating, StatusBit::SWLimitMinActive,
-            StatusBit::SWLimitMaxActive, StatusBit::HWLimitMinActive, StatusBit::HWLimitMaxActive,
-            StatusBit::Synchronizing, StatusBit::Synchronous, StatusBit::PhasingCommand,
-            StatusBit::NonPositionControlled);
+            StatusBit::ControlPanelActive, StatusBit::Done, StatusBit::Standstill,
+            StatusBit::PositioningCommand, StatusBit::JogCommand, StatusBit::VelocityCommand,
+            StatusBit::HomingCommand, StatusBit::ConstantVelocity, StatusBit::Accelerating,
+            StatusBit::Decelerating, StatusBit::SWLimitMinActive, StatusBit::SWLimitMaxActive,
+            StatusBit::HWLimitMinActive, StatusBit::HWLimitMaxActive, StatusBit::Synchronizing,
+            StatusBit::Synchronous, StatusBit::PhasingCommand, StatusBit::NonPositionControlled);
 constexpr std::uint32_t kStatus2Bits =
     word_of(Status2Bit::StopCommand, Status2Bit::DesynchronizingCommand, Status2Bit::PhasingCommandWaiting,
             Status2Bit::OffsetCommand, Status2Bit::OffsetCommandWaiting);
@@ -193,6 +193,7 @@ void Axis::publish_status() noexcept {
     word |= when(on, StatusBit::ConstantVelocity);
   if (on) word |= bits_when_on();
   if (homing_now_) word |= word_of(StatusBit::HomingCommand);
+  if (control_panel) word |= word_of(StatusBit::ControlPanelActive);
   if (limit_side_ != 0)
     word |= word_of(limit_side_ < 0 ? StatusBit::SWLimitMinActive : StatusBit::SWLimitMaxActive);
   if (beyond_limit_switch_)
@@ -233,14 +234,14 @@ void Axis::show_drive_state() noexcept {
 
 /// Whether the acceleration of the setpoint makes it quicker or slower.
 std::uint32_t Axis::pace_bits() const noexcept {
-  const double push = setpoint_.velocity * setpoint_.acceleration;
+  const double push = sign(setpoint_.velocity) * setpoint_.acceleration;  // a product of both may be none
   return when(push > 0.0 || setpoint_.velocity == 0.0, StatusBit::Accelerating) |
          when(push < 0.0, StatusBit::Decelerating);
 }
 
 std::uint32_t Axis::bits_when_on() const noexcept {
-  const bool idle =
-      running_[kBase] == nullptr && running_[kWaiting] == nullptr && running_[kSuperimposed] == nullptr;
+  const bool idle = running_[kBase] == nullptr && running_[kWaiting] == nullptr &&
+                    running_[kSuperimposed] == nullptr && !control_panel;
   return when(power.enable, StatusBit::Enable) | when(idle, StatusBit::Done) |
          when(!position_controlled_, StatusBit::NonPositionControlled);
 }

@@ -10,6 +10,9 @@ namespace {
 /// The emergency ramp is what the drive is to do, whatever precontrol other motions have [%].
 constexpr double kWholePrecontrol = 100.0;
 
+/// By what the velocity of a motor that is given by its speed may be rounded, relative to it.
+constexpr double kRounding = 1e-12;
+
 }  // namespace
 
 /// The encoder goes on from where it is, at the position that the axis has now.
@@ -31,6 +34,8 @@ void Axis::take_servo_settings() noexcept {
   take_sensors();
   setpoint_filter_.configure(modulo_, servo_period_);
   signals_watched_ = signals_always_watched();
+  const double highest = motor_limit_ * (1.0 + kRounding);
+  if (has_drive_ && data.DynamicLimits.MaxVelocity > highest) raise(alarm::kVelocityNotReachable);
 }
 
 void Axis::configure_servo() {

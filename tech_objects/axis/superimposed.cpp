@@ -262,6 +262,7 @@ void Axis::replan_stop() noexcept {
 /// The base motion goes on by itself; then what is superimposed is added.
 void Axis::step_superimposed() noexcept {
   advance_superimposed_in_view();
+  if (!superimposed_.in_use()) return step_base();
   setpoint_ = base_;
   advancing_base_ = true;
   if (std::isnan(planned_.override_velocity)) replan_stop();
@@ -290,6 +291,7 @@ void Axis::advance_superimposed() noexcept {
   Job* job = running_[kSuperimposed];
   if (job != nullptr && job->kind == JobKind::MC_MotionInSuperimposed) return follow_given_superimposed(*job);
   if (job != nullptr && job->kind == JobKind::MC_MoveSuperimposed) follow_room();
+  if (!superimposed_.in_use()) return;  // an alarm has ended it
   superimposed_.advance();
   if (running_[kSuperimposed] != nullptr && superimposed_.finished())
     end_job(kSuperimposed, JobPhase::done, ErrorId::none);
@@ -297,6 +299,10 @@ void Axis::advance_superimposed() noexcept {
 
 /// Override, limits and the base motion count at once.
 void Axis::follow_room() noexcept {
+  Dynamics wanted = superimposed_wanted_;
+  wanted.acceleration = std::min(wanted.acceleration, data.DynamicLimits.MaxAcceleration);
+  wanted.deceleration = std::min(wanted.deceleration, data.DynamicLimits.MaxDeceleration);
+  if (const int alarm_number = zero_limit(wanted); alarm_number != 0) return raise(alarm_number);
   const Dynamics room = superimposed_room();
   if (room == superimposed_room_) return;
   superimposed_room_ = room;

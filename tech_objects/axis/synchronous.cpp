@@ -25,6 +25,11 @@ void Axis::begin_gear_in(Job& job) noexcept {
 /// One that is rejected leaves what waits already.
 void Axis::begin_waiting(Job& job) noexcept {
   const Dynamics dynamics = effective_dynamics(job);
+  const int alarm_number = job.mode == 0 ? zero_limit(dynamics) : 0;  // profile 0 is planned with them
+  if (alarm_number != 0) {
+    raise(alarm_number);
+    return job.fail(ErrorId::technology_alarm);
+  }
   SynchronousMotion planned = awaited_;
   const ErrorId error = planned.begin_waiting(*find_leading_value(job.master), job, dynamics, setpoint_);
   if (error != ErrorId::none) return job.fail(error);
@@ -175,7 +180,10 @@ void Axis::meet_cam_end() noexcept {
   setpoint_ = last_setpoint_;
   cut_acceleration();
   const Dynamics dynamics = own_dynamics(Job{});
-  begin_stop(zero_limit(dynamics) == 0 ? dynamics : maximum_dynamics(), false);
+  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0)
+    raise(alarm_number);
+  else
+    begin_stop(dynamics, false);
   step_single_axis();
 }
 

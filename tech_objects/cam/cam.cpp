@@ -63,7 +63,7 @@ template <class Data>
 Cam::Block Cam::block_of(Data& data) noexcept {
   return {&data,           data.Point,        data.ValidPoint,
           data.Segment,    data.ValidSegment, &data.InterpolationSettings,
-          &data.StatusCam, &data.StatusWord};
+          &data.StatusCam, &data.StatusWord,  &data.WarningWord};
 }
 
 Cam::Cam(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
@@ -118,8 +118,13 @@ void Cam::configure(double /*servo_period*/, int /*ratio*/) {
 // --------------------------------------------------------------------------------------------------------------
 
 void Cam::submit(Job& job) noexcept {
-  if (job.kind == JobKind::MC_Reset && job.mode == 0 && !restarting()) return TechnologyObject::submit(job);
-  if (const ErrorId error = check(job); error != ErrorId::none) return job.fail(error);
+  if (job.kind == JobKind::MC_Reset && job.mode == 0 && !restarting()) {
+    warn_of_restart(false);
+    return TechnologyObject::submit(job);
+  }
+  const ErrorId error = check(job);
+  if (job.kind == JobKind::MC_Reset && job.mode != 0) warn_of_restart(error != ErrorId::none);
+  if (error != ErrorId::none) return job.fail(error);
   moved_ = 0;
   if (job.kind == JobKind::MC_CopyCamData) copy_ = *job.copy;
   if (job.kind == JobKind::MC_InterpolateCam) take_definition();
@@ -127,6 +132,15 @@ void Cam::submit(Job& job) noexcept {
   job.phase = JobPhase::active;
   publish();
   if (job.kind == JobKind::MC_InterpolateCam) stage_.store(Stage::wanted, std::memory_order_release);
+}
+
+/// Warning 322, until a restart is carried out or MC_Reset acknowledges it.
+void Cam::warn_of_restart(bool refused) noexcept {
+  set_bit(*block_.warning_word, WarningBit::CommandNotAccepted, refused);
+  if (refused)
+    alarm_notes.raised(alarm::kRestartNotCarriedOut, 0);
+  else
+    alarm_notes.acknowledged();
 }
 
 ErrorId Cam::check(const Job& job) const noexcept {

@@ -110,6 +110,7 @@ class Cam final : public TechnologyObject {
     TO_Cam_Struct_InterpolationSettings* settings = nullptr;
     TO_Cam_Struct_StatusCam* status_cam = nullptr;
     DWORD* status_word = nullptr;
+    DWORD* warning_word = nullptr;
 
     CamElements elements() const noexcept { return {point, valid_point, segment, valid_segment, *settings}; }
   };
@@ -121,6 +122,7 @@ class Cam final : public TechnologyObject {
   enum class Stage : std::uint8_t { idle, wanted, ready };
 
   bool runs(JobKind job) const noexcept { return job_ != nullptr && job_->kind == job; }
+  void warn_of_restart(bool refused) noexcept;
   ErrorId check(const Job& job) const noexcept;
   ErrorId check_copy(const CamCopy& copy) const noexcept;
   void copy_part() noexcept;

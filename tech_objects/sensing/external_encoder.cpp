@@ -157,7 +157,10 @@ void ExternalEncoder::start(Job& job) noexcept {
 }
 
 ErrorId ExternalEncoder::reset(bool restart) noexcept {
-  if (restart && power.enable) return ErrorId::restart_refused;
+  if (restart && power.enable) {
+    raise_alarm(alarm::kRestartNotCarriedOut, ProcessingEnd::external_encoder, *this, data);
+    return ErrorId::restart_refused;
+  }
   if (faulty()) go_on_from_here(line_);
   clear_alarms(*this, data);
   data.StatusSensor.Error = false;

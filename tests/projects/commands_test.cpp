@@ -20,6 +20,16 @@ constexpr char kFree[] = R"({
   "trace": { "lcm": { "url": "memq://", "channel": "PANEL", "commands": { "axes": { "Slide": {} } } } }
 })";
 
+constexpr char kEnabledByAProgram[] = R"({
+  "lockstep": 1, "name": "panel", "clock": { "servo_cycle": "2ms" },
+  "technology_objects": { "Slide": { "type": "TO_PositioningAxis", "config": { "VirtualAxis": { "Mode": 1 },
+    "DynamicDefaults": { "Velocity": 40.0, "Acceleration": 1000.0, "Deceleration": 1000.0, "Jerk": 0.0 } } } },
+  "tags": {},
+  "programs": [ { "name": "Main", "ob": "Main", "cycle": "10ms", "calls": [
+    { "fb": "MC_Power", "name": "power", "in": { "Axis": "Slide", "Enable": true } } ] } ],
+  "trace": { "lcm": { "url": "memq://", "channel": "PANEL", "commands": { "axes": { "Slide": {} } } } }
+})";
+
 constexpr char kFan[] = R"({
   "lockstep": 1, "name": "panel", "clock": { "servo_cycle": "2ms" },
   "technology_objects": { "Fan": { "type": "TO_SpeedAxis",
@@ -149,6 +159,46 @@ TEST_F(Panel, HomesResetsAndSetsTheOverrideOnceForEachCommand) {
   jog(PanelSignal::kForward, 10.0);
   machine_.run_for(100ms);
   EXPECT_DOUBLE_EQ(velocity(), 7.0);
+}
+
+/// StatusWord.X4 (ControlPanelActive); meanwhile X6 (Done) is FALSE.
+TEST_F(Panel, HasTheAxisInItsHandsWhileItHasEnabledIt) {
+  machine_.run_for(100ms);
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X4"), 0.0);
+  enable();
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X4"), 1.0);
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X6"), 0.0) << "a panel is active";
+  set(PanelSignal::kEnable, Value{});
+  machine_.run_for(100ms);
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X4"), 0.0);
+}
+
+class PanelBesideAProgram : public Panel {
+ protected:
+  PanelBesideAProgram() : Panel(kEnabledByAProgram) {}
+};
+
+TEST_F(PanelBesideAProgram, HasTheAxisInItsHandsWhileAJobOfItRuns) {
+  machine_.run_for(100ms);
+  ASSERT_EQ(machine_.read("Slide.StatusWord.X0"), 1.0);
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X4"), 0.0) << "a program has enabled it";
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X6"), 1.0);
+  jog(PanelSignal::kForward, 20.0);
+  machine_.run_for(100ms);
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X4"), 1.0);
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X6"), 0.0);
+  machine_.run_for(500ms);
+  ASSERT_EQ(velocity(), 0.0) << "nobody asks for the jog any more";
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X4"), 0.0);
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X6"), 1.0);
+  ask(PanelSignal::kHomings);
+  bool shown = false;
+  for (int i = 0; i < 10; ++i) {
+    machine_.step();
+    shown |= machine_.read("Slide.StatusWord.X4") == 1.0;
+  }
+  EXPECT_TRUE(shown);
+  EXPECT_EQ(machine_.read("Slide.StatusWord.X4"), 0.0);
 }
 
 TEST_F(Panel, DoesNothingWithoutACommand) {

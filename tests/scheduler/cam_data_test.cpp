@@ -377,12 +377,18 @@ TEST(RestartOfACam, IsRefusedWhileTheCamIsInUse) {
   rig.tick();
   EXPECT_EQ(rig.reset.ErrorID, WORD{0x80AB});
   EXPECT_TRUE(rig.in.InSync);
+  const auto warned = [&] {
+    return has_bit(static_cast<CamData1k*>(rig.cam.data_block())->WarningWord,
+                   WarningBit::CommandNotAccepted);
+  };
+  EXPECT_TRUE(warned()) << "warning 322";
   rig.reset.Restart = false;
   rig.reset.Execute = false;
   rig.tick();
   rig.reset.Execute = true;
   rig.tick();
-  EXPECT_TRUE(rig.reset.Done) << "there is nothing to acknowledge";
+  EXPECT_TRUE(rig.reset.Done);
+  EXPECT_FALSE(warned());
 }
 
 TEST(RestartOfACam, ShutsTheCamForEveryJob) {

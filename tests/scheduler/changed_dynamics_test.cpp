@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fb/jog.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
@@ -128,38 +129,43 @@ TEST(DynamicLimits, OfTheJerkThatAreLoweredInMotionCountAtOnce) {
 /// The acceleration of the moment is run down by the jerk that this needs: the limit of the velocity counts
 /// more.
 TEST(DynamicLimits, OfTheJerkThatAreLoweredDoNotCarryTheVelocityBeyondItsLimit) {
-  for (const double jerk : {100000.0, 0.0}) {
-    Machine m;
-    m.a.data.DynamicLimits.Velocity = 100.0;
-    m.a.data.DynamicLimits.MaxJerk = jerk;
-    m.continuity[0].acceleration = jerk > 0.0;  // without a limit before, what is too much is dropped
-    m.continuity[0].highest_jerk = jerk;
-    m.run_v.Velocity = 100.0;
-    m.run_v.Acceleration = 3000.0;
-    m.run_v.Jerk = 100000.0;
-    m.run_v.Execute = true;
-    ASSERT_TRUE(m.run_until([&] { return m.now().velocity > 40.0; }));
-    ASSERT_GT(m.now().acceleration, 2500.0);
-    m.a.data.DynamicLimits.MaxJerk = 1000.0;
-    for (int i = 0; i < 2000; ++i) {
-      m.tick();
-      ASSERT_LE(m.now().velocity, 100.0 * (1 + 1e-12)) << i;
-    }
-    EXPECT_TRUE(m.run_v.InVelocity);
+  Machine m;
+  m.a.data.DynamicLimits.Velocity = 100.0;
+  m.continuity[0].highest_jerk = 100000.0;
+  m.run_v.Velocity = 100.0;
+  m.run_v.Acceleration = 3000.0;
+  m.run_v.Jerk = 100000.0;
+  m.run_v.Execute = true;
+  ASSERT_TRUE(m.run_until([&] { return m.now().velocity > 40.0; }));
+  ASSERT_GT(m.now().acceleration, 2500.0);
+  m.a.data.DynamicLimits.MaxJerk = 1000.0;
+  for (int i = 0; i < 2000; ++i) {
+    m.tick();
+    ASSERT_LE(m.now().velocity, 100.0 * (1 + 1e-12)) << i;
   }
+  EXPECT_TRUE(m.run_v.InVelocity);
 }
 
-TEST(DynamicLimits, OfZeroForTheAccelerationStopAMotionWithAlarm305) {
+/// Without a limit of the jerk before, what is too much of an acceleration is dropped.
+TEST(DynamicLimits, OfTheJerkOfAJogThatHadNoneDoNotCarryTheVelocityBeyondItsLimit) {
   Machine m;
-  m.continuity[0].acceleration = false;  // the emergency ramp has no jerk limit
-  m.run_v.Velocity = 100.0;
-  m.run_v.Execute = true;
-  ASSERT_TRUE(m.run_until([&] { return m.run_v.InVelocity; }));
-  m.a.data.DynamicLimits.MaxAcceleration = 0.0;
-  m.run(2);
-  EXPECT_EQ(m.a.pending_alarm(), alarm::kAccelerationLimitZero);
-  EXPECT_TRUE(m.run_v.Error);
-  ASSERT_TRUE(m.run_until([&] { return m.now().standing(); }));
+  auto& jog = m.block<MC_MoveJog>();
+  jog.Axis = &m.a;
+  m.a.data.DynamicLimits.Velocity = 100.0;
+  m.a.data.DynamicDefaults.Jerk = 0.0;
+  m.continuity[0].acceleration = false;
+  jog.Velocity = 100.0;
+  jog.Acceleration = 3000.0;
+  jog.JogForward = true;
+  ASSERT_TRUE(m.run_until([&] { return m.now().velocity > 40.0; }));
+  ASSERT_GT(m.now().acceleration, 2500.0);
+  m.a.data.DynamicDefaults.Jerk = 100000.0;
+  m.a.data.DynamicLimits.MaxJerk = 1000.0;
+  for (int i = 0; i < 2000; ++i) {
+    m.tick();
+    ASSERT_LE(m.now().velocity, 100.0 * (1 + 1e-12)) << i;
+  }
+  EXPECT_TRUE(jog.InVelocity);
 }
 
 // ---- Defaults: they count from the next rising edge on (13.1.17)

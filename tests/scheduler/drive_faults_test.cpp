@@ -290,7 +290,8 @@ TEST(EnablingInMotion, ReturnsToWhereItWasEnabled) {
   Failing rig([](Axis& a) {
     a.drive_settings.plant.inertia = 0.01;
     a.data.DynamicLimits.MaxDeceleration = 500.0;
-    a.data.DynamicLimits.MaxJerk = 0.0;
+    a.data.DynamicLimits.MaxJerk = 0.0;  // of the reaction
+    a.data.DynamicDefaults.Jerk = 0.0;   // of the jobs
   });
   brake_by(rig, 3);
   rig.power.Enable = true;

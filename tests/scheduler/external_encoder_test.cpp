@@ -726,6 +726,8 @@ TEST(EncoderRestart, IsRefusedWhileEnabledAndEndsWhatFollows) {
   line.reset_e.Execute = true;
   line.run(3);
   EXPECT_EQ(line.reset_e.ErrorID, static_cast<WORD>(ErrorId::restart_refused));
+  EXPECT_TRUE(has_bit(line.e.data.WarningWord, WarningBit::CommandNotAccepted)) << "warning 322";
+  EXPECT_EQ(line.e.data.ErrorDetail.Number, 0u);
   line.gear.Execute = true;
   ASSERT_TRUE(line.run_until([&] { return line.gear.InGear; }));
   line.power_e.Enable = false;

@@ -1,5 +1,4 @@
-// Alarms and warnings for what no motion can keep: limits of zero, values beyond them, the range of
-// positions.
+// Alarms and warnings for what no motion can keep: limits of zero, values beyond them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +6,6 @@
 #include <vector>
 
 #include "fb/gear_in.hpp"
-#include "fb/home.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
@@ -18,20 +16,19 @@ namespace {
 using test::Rig;
 using Change = std::function<void(AxisData&)>;
 
-/// An axis that is homed, and one that may lead it.
+/// An axis, and one that may lead it.
 struct Machine : Rig {
   explicit Machine(const Change& change = {})
       : leading(axis("Leading")),
         a(axis("Axis", change)),
         power_leading(block<MC_Power>()),
         power(block<MC_Power>()),
-        home(block<MC_Home>()),
         run_leading(block<MC_MoveVelocity>()),
         run_v(block<MC_MoveVelocity>()),
         gear(block<MC_GearIn>()) {
     lead(a, leading);
     power_leading.Axis = run_leading.Axis = &leading;
-    power.Axis = home.Axis = run_v.Axis = &a;
+    power.Axis = run_v.Axis = &a;
     gear.Master = &leading;
     gear.Slave = &a;
     power_leading.Enable = power.Enable = true;
@@ -47,7 +44,6 @@ struct Machine : Rig {
   Axis& a;
   MC_Power& power_leading;
   MC_Power& power;
-  MC_Home& home;
   MC_MoveVelocity& run_leading;
   MC_MoveVelocity& run_v;
   MC_GearIn& gear;
@@ -77,15 +73,6 @@ TEST(LimitOfZero, RaisesItsAlarmWithTheFirstJob) {
     EXPECT_EQ(m.run_v.ErrorID, static_cast<WORD>(ErrorId::technology_alarm));
     EXPECT_TRUE(m.a.setpoint().standing());
   }
-}
-
-TEST(LimitOfZero, OfTheJerkLimitsNothing) {
-  Machine m([](AxisData& data) { data.DynamicLimits.MaxJerk = 0.0; });
-  m.continuity[1].acceleration = false;
-  m.run_v.Velocity = 10.0;
-  m.run_v.Execute = true;
-  ASSERT_TRUE(m.run_until([&] { return m.run_v.InVelocity; }));
-  EXPECT_EQ(m.a.pending_alarm(), 0);
 }
 
 TEST(DynamicValues, BeyondTheLimitsAreCutWithTheWarningOfTheirOwn) {
@@ -125,22 +112,22 @@ TEST(SpeedOfAMotor, BeyondItsMaximumIsCutWithWarning504) {
   EXPECT_NEAR(m.a.data.ActualVelocity, 100.0, 1.0);
 }
 
-TEST(RangeOfPositions, IsLeftByNoSetpoint) {
-  for (const double side : {1.0, -1.0}) {
-    Machine m;
-    m.continuity[1].velocity = m.continuity[1].acceleration = false;  // homing, then a stop at once
-    m.home.Position = side * (1e12 - 50.0);
-    m.home.Execute = true;
-    m.run(5);
-    m.run_v.Velocity = side * 100.0;
-    m.run_v.Execute = true;
-    for (int i = 0; i < 2000; ++i) {
-      m.tick();
-      ASSERT_LE(std::abs(m.a.setpoint().position.value), 1e12);
-    }
-    EXPECT_EQ(m.a.pending_alarm(), alarm::kPositionRangeExceeded);
-    EXPECT_TRUE(m.run_v.Error);
-  }
+TEST(SpeedOfAMotor, BelowTheMaximumVelocityOfTheAxisIsToldByWarning551) {
+  const auto told = [](double max_velocity, DINT simulated) {
+    Machine m([&](AxisData& data) {
+      data.VirtualAxis.Mode = 0;
+      data.Simulation.Mode = simulated;
+      data.Actor.DriveParameter.MaxSpeed = 600.0;  // 100 u/s
+      data.DynamicLimits.MaxVelocity = data.DynamicLimits.Velocity = max_velocity;
+    });
+    EXPECT_EQ(m.a.pending_alarm(), 0);
+    EXPECT_EQ(has_bit(m.a.data.WarningWord, WarningBit::DynamicWarning),
+              m.noted(alarm::kVelocityNotReachable));
+    return m.noted(alarm::kVelocityNotReachable);
+  };
+  EXPECT_FALSE(told(100.0, 0));
+  EXPECT_TRUE(told(100.1, 0));
+  EXPECT_FALSE(told(100.1, 1)) << "simulated, it has no drive";
 }
 
 TEST(LeadingAxis, WithoutPositionControlIsRefusedWithAlarm603) {

@@ -57,6 +57,19 @@ struct Machine : Rig {
   MC_MotionInPosition& position;
 };
 
+/// The product of such values is 0.
+TEST(MC_MotionInVelocity, ShowsWhetherItSpeedsUpHoweverSmallTheValuesAre) {
+  for (const double side : {1.0, -1.0}) {
+    Machine m;
+    m.velocity.Velocity = 1e-170;
+    m.velocity.Acceleration = side * 1e-170;
+    m.velocity.Enable = true;
+    m.run(3);
+    EXPECT_EQ(m.shows(StatusBit::Accelerating), side > 0.0);
+    EXPECT_EQ(m.shows(StatusBit::Decelerating), side < 0.0);
+  }
+}
+
 TEST(MC_MotionInVelocity, MovesTheAxisAsGivenInEveryCall) {
   Machine m;
   m.velocity.Enable = true;

@@ -99,6 +99,10 @@ TEST(Restart, OfAnAxisWhoseEnableAnAlarmHasRemovedWaitsForTheFallOfEnable) {
   m.reset.Execute = true;
   m.run(3);
   EXPECT_EQ(m.reset.ErrorID, static_cast<WORD>(ErrorId::restart_refused));
+  EXPECT_TRUE(has_bit(m.a.data.WarningWord, WarningBit::CommandNotAccepted));
+  int told = 0;
+  m.a.alarm_notes.take([&](const AlarmNote& note) { told += note.number == alarm::kRestartNotCarriedOut; });
+  EXPECT_EQ(told, 1);
   EXPECT_EQ(m.a.pending_alarm(), alarm::kFollowingError);
   m.power.Enable = m.reset.Execute = false;
   m.run(3);
@@ -106,6 +110,7 @@ TEST(Restart, OfAnAxisWhoseEnableAnAlarmHasRemovedWaitsForTheFallOfEnable) {
   m.run(3);
   EXPECT_TRUE(m.reset.Done);
   EXPECT_EQ(m.a.pending_alarm(), 0);
+  EXPECT_EQ(m.a.data.WarningWord, DWORD{});
 }
 
 }  // namespace
