@@ -79,11 +79,13 @@ struct MC_CamIn final : ExecuteBlock {
                                  "profiles 0, 1, 3, 4, 6: shift of the following values of the cam",
                                  {.error = ErrorId::slave_offset, .relevant = &has_slave_offset}),
       in<&MC_CamIn::MasterScaling>(
-          "MasterScaling", Unit::kNone, kNotZero,
-          "scaling of the leading values of the cam; negative: the cam is passed the other way",
+          "MasterScaling", Unit::kNone, {-1e12, 1e12, 0.0},
+          "scaling of the leading values of the cam; negative: the cam is passed the other way. Its amount "
+          "times the length of the cam is at least 1.0E-12, with ApplicationMode 1 and 2 at least 1.0E-6",
           {.error = ErrorId::master_scaling}),
-      in<&MC_CamIn::SlaveScaling>("SlaveScaling", Unit::kNone, kNotZero,
-                                  "scaling of the following values of the cam",
+      in<&MC_CamIn::SlaveScaling>("SlaveScaling", Unit::kNone, {-1e12, 1e12},
+                                  "scaling of the following values of the cam; 0: they are all 0. Scaled, "
+                                  "none is beyond 1.0E12",
                                   {.error = ErrorId::slave_scaling}),
       in<&MC_CamIn::MasterSyncPosition>(
           "MasterSyncPosition", Unit::kLeading, kFinite,

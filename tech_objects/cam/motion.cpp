@@ -5,12 +5,17 @@
 namespace lockstep {
 namespace {
 
-constexpr double kCloses = 1e-9;     // of the stroke: how far both ends of a cyclic cam may be apart
-constexpr double kRests = 1e-9;      // of the stroke per pass: slope of a cam at rest
+constexpr double kCloses = 1e-9;  // of the stroke: how far both ends of a cyclic cam may be apart
+constexpr double kRests = 1e-9;   // of the stroke per pass: slope of a cam at rest
+constexpr double kMostPasses = 0x1p62;
 constexpr double kBeside = 0x1p-40;  // of a pass: how far beside a corner its slope is read
+
+/// Whole numbers up to here are doubles.
+constexpr std::int64_t kWhole = std::int64_t{1} << 53;
 
 /// A whole number of times a value, as exactly as the value is known.
 DoubleDouble times(std::int64_t number, DoubleDouble value) noexcept {
+  if (number <= -kWhole || number >= kWhole) return to_double_double(number) * value;
   const auto factor = static_cast<double>(number);
   return two_product(value.hi, factor) + value.lo * factor;
 }
@@ -98,13 +103,15 @@ CamFollowing::Pass CamFollowing::pass_at(AxisPosition leading) const noexcept {
   pass.rest = rest_in(pass.base, way);
   if (use_.mode == CamMode::once) return pass;
   const double count = std::floor(pass.rest.hi / pass_.hi);
-  if (!(std::abs(count) < 0x1p52)) return pass;  // not finite, or beyond what is counted
+  if (!(std::abs(count) < kMostPasses)) return pass;  // not finite, or beyond what is counted
   const auto move = [&](std::int64_t number) noexcept {
     pass.number = number;
     pass.base = base_of(turn, number);
     pass.rest = rest_in(pass.base, way);
   };
   move(static_cast<std::int64_t>(count));
+  if (std::abs(count) >= 0x1p50)  // the quotient is rounded, to several passes as the case may be
+    move(pass.number + static_cast<std::int64_t>(std::floor(pass.rest.hi / pass_.hi)));
   if (pass.rest.hi < 0.0)
     move(pass.number - 1);
   else if (!(pass.rest < pass_))
@@ -187,6 +194,7 @@ bool CamFollowing::rests_at(CamEnd end) const noexcept {
 }
 
 double CamFollowing::steepness(const CamValue& value) const noexcept {
+  if (use_.slave_scaling == 0.0) return 0.0;
   const double stroke = function_->highest_following_value() - function_->lowest_following_value();
   if (!(stroke > 0.0)) return 0.0;
   return std::abs(value.first_derivative) * (function_->end_leading_value() - first_) / stroke;

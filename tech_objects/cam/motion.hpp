@@ -20,10 +20,10 @@ enum class CamMode : std::uint8_t {
   appended = 2  ///< again and again, each pass begins where the one before has ended
 };
 
-/// Scaling and mode of one use of a cam. No scaling is 0.
+/// Scaling and mode of one use of a cam.
 struct CamUse {
-  double master_scaling = 1.0;  ///< of the cam's leading values; negative: the cam runs the other way
-  double slave_scaling = 1.0;   ///< of its following values
+  double master_scaling = 1.0;  ///< of the cam's leading values, not 0; negative: the cam runs the other way
+  double slave_scaling = 1.0;   ///< of its following values; 0: they are all 0
   CamMode mode = CamMode::once;
 };
 
@@ -43,7 +43,7 @@ enum class CamEnd : std::uint8_t { none, at_end, at_start };
 /// pass adds on the following side: 0 unless passes are appended. (A cyclic cam on a modulo following axis
 /// whose ends lie whole turns apart goes on turning.)
 ///
-/// Below 2^53 turns of the leading axis and passes. Thread: the cycle.
+/// Below 2^53 turns of the leading axis and 2^62 passes. Thread: the cycle.
 class CamFollowing {
  public:
   /// Applies a curve, which stays as it is meanwhile. The leading position `place` is where the way from the

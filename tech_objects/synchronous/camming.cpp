@@ -8,8 +8,11 @@
 namespace lockstep {
 namespace {
 
-constexpr double kShortestPass = 1e-6;  // [leading u]
-constexpr double kSamePlace = 1e-12;    // of a pass: rounding of a position given at an end of the cam
+/// Of a pass [leading u]. One that is repeated is counted exactly over all positions that there are; a
+/// shorter one is a step for whatever a position can tell.
+constexpr double kShortestPass = 1e-12;
+constexpr double kShortestRepeatedPass = 1e-6;
+constexpr double kSamePlace = 1e-12;  // of a pass: rounding of a position given at an end of the cam
 
 enum Profile : DINT {
   kDynamics = 0,
@@ -56,7 +59,8 @@ ErrorId SynchronousMotion::begin_cam(const Job& job) noexcept {
   const double pass = length * std::abs(cam_use_.master_scaling);
   const double highest =
       std::max(std::abs(f.lowest_following_value()), std::abs(f.highest_following_value()));
-  if (!(pass >= kShortestPass && pass <= kPositionRange)) return ErrorId::master_scaling;
+  if (!(pass >= (cam_use_.mode == CamMode::once ? kShortestPass : kShortestRepeatedPass)))
+    return ErrorId::master_scaling;
   if (!possible(highest * cam_use_.slave_scaling)) return ErrorId::slave_scaling;
   if (!possible(slave_offset_)) return ErrorId::slave_offset;
   if (cam_use_.mode == CamMode::cyclic && !CamFollowing::closes(f, cam_use_.slave_scaling, following_))
@@ -113,9 +117,9 @@ SynchronousMotion::Start SynchronousMotion::watch_cam(const Setpoint& own,
   return start;
 }
 
-/// Whether both axes stand where they would be synchronous; then the cam is placed there.
+/// Whether both axes stand where they would be synchronous; then the cam is placed there. Of profile 6 that
+/// is where the cam lies without being shifted.
 bool SynchronousMotion::stands_on_cam(const Setpoint& own) noexcept {
-  if (profile_reference_ == kAheadFromHere) return false;  // its synchronous position lies ahead
   if (profile_reference_ == kSubsequentFromHere) {
     if (!own.standing() || leading_now_.velocity != 0.0) return false;
     if (!place_cam_here(leading_last_.position)) return false;

@@ -677,7 +677,7 @@ TEST(MC_CamIn, RefusesWhatCannotBe) {
   const Case cases[] = {
       {[](CamPair& rig) { rig.in.MasterStartDistance = 0.0; }, 0x8026},
       {[](CamPair& rig) { rig.in.MasterScaling = 0.0; }, 0x8023},
-      {[](CamPair& rig) { rig.in.SlaveScaling = 0.0; }, 0x8024},
+      {[](CamPair& rig) { rig.in.SlaveScaling = std::nan(""); }, 0x8024},
       {[](CamPair& rig) { rig.in.MasterScaling = 1e300; }, 0x8023},
       {[](CamPair& rig) { rig.in.SlaveScaling = 1e300; }, 0x8024},
       {[](CamPair& rig) { rig.in.MasterOffset = 1e300; }, 0x8021},
