@@ -1,7 +1,7 @@
 // DynamicLimits that the program of a project writes while an axis moves.
 #include <gtest/gtest.h>
 
-#include "projects/simulation.hpp"
+#include "projects/loader/simulation.hpp"
 
 namespace lockstep {
 namespace {
