@@ -19,6 +19,7 @@
 #include "hmi_bridge/lcm/url.hpp"
 #include "hmi_bridge/modbus/client.hpp"
 #include "hmi_bridge/modbus/server.hpp"
+#include "hmi_bridge/network/thread_stacks.hpp"
 #include "hmi_bridge/traces/channel.hpp"
 #include "hmi_bridge/traces/columns.hpp"
 #include "hmi_bridge/traces/csv_trace.hpp"
@@ -250,6 +251,12 @@ class Surroundings {
     services.erase(services.begin() + 1, services.end());
     services[0].options.listen = {*endpoint};
     services[0].options.serial.reset();
+    if (!is_loopback(endpoint->host) && services[0].options.allow.empty())
+      tell("warning: --modbus: whoever reaches " + to_string(*endpoint) +
+               " may read and write what the map shows; 'allow' of the project says from which networks "
+               "clients "
+               "may come",
+           Gravity::warning);
     return services;
   }
 
@@ -490,6 +497,7 @@ int run_project(Project& project, std::unique_ptr<RetainWriter> keeper, const Ru
 }  // namespace
 
 int run_project(const RunOptions& options) {
+  keep_stacks_small();
   try {
     std::unique_ptr<RetainWriter> keeper;
     int status = kOk;

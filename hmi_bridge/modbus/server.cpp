@@ -393,7 +393,7 @@ void ModbusServer::accept_clients(const Listener& listener, Clock::time_point no
       return;
     }
     const bool is_admitted = admits(peer, listener.service);
-    const bool has_room = is_admitted && make_room(listener.service, now);
+    const bool has_room = is_admitted && make_room(listener.service, address_of(peer), now);
     auto* client = has_room ? new (std::nothrow) ModbusConnection(socket, now) : nullptr;
     if (client == nullptr) {
       if (is_admitted) ++counters_.refused;
@@ -401,7 +401,7 @@ void ModbusServer::accept_clients(const Listener& listener, Clock::time_point no
       continue;
     }
     tune_client(socket);
-    clients_.push_back({std::unique_ptr<ModbusConnection>(client), listener.service});
+    clients_.push_back({std::unique_ptr<ModbusConnection>(client), listener.service, address_of(peer)});
     ++counters_.connections;
   }
 }
@@ -415,17 +415,45 @@ bool ModbusServer::admits(const sockaddr_storage& peer, std::size_t service) {
   return false;
 }
 
-bool ModbusServer::make_room(std::size_t service, Clock::time_point now) {
+ModbusServer::Address ModbusServer::address_of(const sockaddr_storage& peer) noexcept {
+  Address address{};
+  if (peer.ss_family == AF_INET) {
+    const auto& in = reinterpret_cast<const sockaddr_in&>(peer);
+    std::memcpy(address.data(), &in.sin_addr, sizeof in.sin_addr);
+  } else if (peer.ss_family == AF_INET6) {
+    const auto& in = reinterpret_cast<const sockaddr_in6&>(peer);
+    std::memcpy(address.data(), &in.sin6_addr, sizeof in.sin6_addr);
+  }
+  return address;
+}
+
+/// For one more client of this address: within its share of the service, and within the service.
+bool ModbusServer::make_room(std::size_t service, const Address& address, Clock::time_point now) {
   const ModbusServerOptions& options = services_[service].options;
+  const std::size_t share = options.max_clients_per_address != 0 ? options.max_clients_per_address
+                                                                 : (3 * options.max_clients + 3) / 4;
+  const auto of_service = [&](const Client& client) { return client.service == service; };
+  const auto of_address = [&](const Client& client) {
+    return client.service == service && client.address == address;
+  };
+  return make_room_among(share, of_address, options, now) &&
+         make_room_among(options.max_clients, of_service, options, now);
+}
+
+/// Among the clients that count: where there are as many as may be, the one that has been silent longest
+/// goes.
+template <class Counts>
+bool ModbusServer::make_room_among(std::size_t most, const Counts& counts, const ModbusServerOptions& options,
+                                   Clock::time_point now) {
   std::size_t count = 0;
   auto silent = clients_.end();
   for (auto client = clients_.begin(); client != clients_.end(); ++client) {
-    if (client->service != service) continue;
+    if (!counts(*client)) continue;
     ++count;
     if (silent == clients_.end() || client->connection->last_progress() < silent->connection->last_progress())
       silent = client;
   }
-  if (count < options.max_clients) return true;
+  if (count < most) return true;
   if (now - silent->connection->last_progress() < options.idle_time) return false;
   ++counters_.displaced;
   clients_.erase(silent);

@@ -4,6 +4,7 @@
 
 #include <poll.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -34,6 +35,9 @@ struct ModbusServerOptions {
   std::uint8_t serial_unit = 1;         ///< own address on the line, besides those with a map of their own
   std::vector<IpNetwork> allow;         ///< from where clients may come; empty: from everywhere
   std::size_t max_clients = 64;         ///< ≥ 1; a further client is refused, see `idle_time`
+  /// Of one address, so that one machine cannot lock the others out; 0: three quarters of `max_clients`,
+  /// rounded up. A further client of it is treated as one beyond `max_clients`.
+  std::size_t max_clients_per_address = 0;
   std::uint32_t requests_per_second = 0;  ///< of one client; what is more waits; 0: as many as it likes
   /// A client that does not end a request, or take an answer, for this long is disconnected.
   std::chrono::milliseconds stall_time{10'000};
@@ -89,9 +93,12 @@ class ModbusServer {
     std::size_t service;
   };
   /// A client, and when it may ask again.
+  /// An address without its port: IPv4 as its 4 bytes, IPv6 as its 16.
+  using Address = std::array<std::uint8_t, 16>;
   struct Client {
     std::unique_ptr<ModbusConnection> connection;
     std::size_t service;
+    Address address;
     Clock::time_point due{};  ///< time at which the next request would keep to the rate
     bool is_waiting = false;  ///< the next request has been counted as one that waits
   };
@@ -116,7 +123,11 @@ class ModbusServer {
   void serve_line(Line& line, short events, Clock::time_point now);
   void accept_clients(const Listener& listener, Clock::time_point now);
   bool admits(const sockaddr_storage& peer, std::size_t service);
-  bool make_room(std::size_t service, Clock::time_point now);
+  static Address address_of(const sockaddr_storage& peer) noexcept;
+  bool make_room(std::size_t service, const Address& address, Clock::time_point now);
+  template <class Counts>
+  bool make_room_among(std::size_t most, const Counts& counts, const ModbusServerOptions& options,
+                       Clock::time_point now);
   bool serve(Client& client, short events, Clock::time_point now);
   bool is_too_late(const Client& client, Clock::time_point now);
   bool may_ask(Client& client, Clock::time_point now);

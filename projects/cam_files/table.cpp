@@ -14,8 +14,11 @@ constexpr std::size_t kMostProblems = 1000;
 constexpr double kLargest = 1.0e12;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8, as spreadsheets begin a file
 
-/// What parts the numbers of a table: tab, else semicolon, else comma.
+/// What parts the numbers of a table, by its first row: tab, else semicolon, else comma.
 char separator_of(std::string_view text) {
+  while (!text.empty() && (text.front() == '#' || text.front() == '\r' || text.front() == '\n'))
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);  // what a comment holds tells nothing
+  text = text.substr(0, text.find('\n'));
   for (const char separator : {'\t', ';'})
     if (text.find(separator) != text.npos) return separator;
   return ',';

@@ -82,9 +82,11 @@ inline constexpr Key kSetStart[] = {{"set_start", kRequired}, {"to", kRequired}}
 inline constexpr Key kIf[] = {{"if", kRequired}, {"then", kRequired}, {"else"}};
 inline constexpr Key kStimulus[] = {{"at", kRequired}, {"set", kRequired}};
 inline constexpr Key kModbus[] = {{"server"}, {"map"}, {"units"}, {"clients"}};
-inline constexpr Key kServer[] = {{"listen"},       {"serial"},      {"unit"},
-                                  {"allow"},        {"max_clients"}, {"max_requests_per_second"},
-                                  {"idle_timeout"}, {"map"},         {"units"}};
+inline constexpr Key kServer[] = {{"listen"},       {"serial"},
+                                  {"unit"},         {"allow"},
+                                  {"max_clients"},  {"max_requests_per_second"},
+                                  {"idle_timeout"}, {"map"},
+                                  {"units"},        {"max_clients_per_address"}};
 inline constexpr Key kSerial[] = {{"device", kRequired}, {"baud"}, {"parity"}, {"stop_bits"}, {"silence"}};
 inline constexpr Key kClient[] = {{"connect"}, {"serial"}, {"timeout"}, {"devices", kRequired}};
 inline constexpr Key kDevice[] = {

@@ -72,7 +72,8 @@ void report_taken_places(const Fields& fields, const ModbusConfig& modbus, Probl
 /// RTU over a serial line.
 void load_line(const Fields& fields, const ModbusConfig& modbus, ModbusServerOptions& options,
                Problems& problems) {
-  for (const char* const key : {"listen", "allow", "max_clients", "max_requests_per_second", "idle_timeout"})
+  for (const char* const key : {"listen", "allow", "max_clients", "max_clients_per_address",
+                                "max_requests_per_second", "idle_timeout"})
     if (const JsonValue* const field = fields[key])
       problems.report(*field, "'" + std::string(key) + "' is for TCP; a server has it or 'serial'");
   options.listen.clear();
@@ -99,6 +100,8 @@ void load_modbus_place(const JsonValue& json, const Fields& fields, ModbusConfig
   load_allow(fields["allow"], options, problems);
   if (const auto most = read_integer(fields["max_clients"], 1, kMostClients, problems))
     options.max_clients = static_cast<std::size_t>(*most);
+  if (const auto share = read_integer(fields["max_clients_per_address"], 1, kMostClients, problems))
+    options.max_clients_per_address = static_cast<std::size_t>(*share);
   if (const auto rate = read_integer(fields["max_requests_per_second"], 1, kHighestRate, problems))
     options.requests_per_second = static_cast<std::uint32_t>(*rate);
   if (const auto idle = read_duration(fields["idle_timeout"], kShortestIdle, kLongestIdle, problems))

@@ -7,6 +7,7 @@
 namespace lockstep {
 namespace {
 
+constexpr std::int64_t kShortestServoCycle = 1'000;  // what a call of the system's clock takes some of [ns]
 constexpr std::int64_t kLongestServoCycle = 60'000'000'000;  // [ns]
 
 /// Warns of what nothing refers to: it may be a name that was mistyped elsewhere.
@@ -86,7 +87,8 @@ TechnologyObject* Loading::find_object(const JsonValue* name, ObjectKinds kinds)
 void load_clock(const JsonValue& clock, const Loading& loading) {
   const Fields fields(clock, keys::kClock, loading.problems);
   Clock& result = loading.controller().clock;
-  if (const auto cycle = read_duration(fields["servo_cycle"], 1, kLongestServoCycle, loading.problems))
+  if (const auto cycle =
+          read_duration(fields["servo_cycle"], kShortestServoCycle, kLongestServoCycle, loading.problems))
     result.servo_cycle = *cycle;
   if (const auto ratio = read_integer(fields["interpolator_ratio"], 1, 32, loading.problems))
     result.interpolator_ratio = static_cast<int>(*ratio);

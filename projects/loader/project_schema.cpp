@@ -399,6 +399,8 @@ Json modbus_schema() {
        {"allow", array("from where clients may come; from everywhere if missing", network)},
        {"max_clients", integer("connected at the same time (64)", 1, 1000)},
        {"max_requests_per_second", integer("of one client; what is more waits", 1, 1'000'000)},
+       {"max_clients_per_address",
+        integer("of them from one address (three quarters of max_clients)", 1, 1000)},
        {"idle_timeout", duration("a client that asks for nothing for this long is disconnected")},
        {"map", own_map},
        {"units", units}});

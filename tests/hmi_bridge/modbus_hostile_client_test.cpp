@@ -1,10 +1,14 @@
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "hmi_bridge/modbus/server.hpp"
@@ -224,6 +228,63 @@ TEST_F(Hostile, OneClientTooManyIsRefusedAndTheOthersAreServed) {
   EXPECT_TRUE(refused.is_hung_up_on());
   EXPECT_EQ(server->counters().refused, 1u);
   for (RawClient& client : clients) expect_served(client);
+}
+
+/// A client at 127.0.0.N; the loopback network has room for many machines.
+class ClientOfAddress {
+ public:
+  ClientOfAddress(std::uint8_t last_byte, std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    const timeval patience{20, 0};
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    sockaddr_in own{}, server{};
+    own.sin_family = server.sin_family = AF_INET;
+    own.sin_addr.s_addr = htonl(0x7F000000u | last_byte);
+    server.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    server.sin_port = htons(port);
+    ::bind(socket_, reinterpret_cast<sockaddr*>(&own), sizeof own);
+    ::connect(socket_, reinterpret_cast<sockaddr*>(&server), sizeof server);
+  }
+  ClientOfAddress(ClientOfAddress&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
+  ~ClientOfAddress() {
+    if (socket_ >= 0) ::close(socket_);
+  }
+  /// Whether a request gets an answer; else the connection has ended.
+  bool is_served() const {
+    const std::uint8_t request[] = {0, 1, 0, 0, 0, 6, 1, 3, 0, 0, 0, 1};
+    std::uint8_t answer[32];
+    return ::send(socket_, request, sizeof request, MSG_NOSIGNAL) == sizeof request &&
+           ::recv(socket_, answer, sizeof answer, 0) > 0;
+  }
+
+ private:
+  int socket_;
+};
+
+// Busy or idle, the connections of one machine leave places for the operator's.
+TEST_F(Hostile, AllPlacesThatOneAddressCanGetLeaveRoomForAnotherOne) {
+  ModbusServerOptions options;
+  options.max_clients = 8;
+  serve(options);
+  std::vector<ClientOfAddress> greedy;
+  for (int i = 0; i < 12; ++i) greedy.emplace_back(std::uint8_t{7}, server->port());
+  int served = 0;
+  for (const ClientOfAddress& client : greedy) served += client.is_served() ? 1 : 0;
+  EXPECT_EQ(served, 6) << "three quarters";
+  const ClientOfAddress operators(std::uint8_t{9}, server->port());
+  EXPECT_TRUE(operators.is_served());
+}
+
+TEST_F(Hostile, TheShareOfAnAddressCanBeGiven) {
+  ModbusServerOptions options;
+  options.max_clients = 8;
+  options.max_clients_per_address = 2;
+  serve(options);
+  std::vector<ClientOfAddress> clients;
+  for (int i = 0; i < 4; ++i) clients.emplace_back(std::uint8_t{7}, server->port());
+  for (int i = 0; i < 4; ++i) clients.emplace_back(static_cast<std::uint8_t>(20 + i), server->port());
+  int served = 0;
+  for (const ClientOfAddress& client : clients) served += client.is_served() ? 1 : 0;
+  EXPECT_EQ(served, 6);
 }
 
 TEST_F(Hostile, AClientThatIsSilentTooLongLosesItsPlaceToANewOne) {

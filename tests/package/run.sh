@@ -94,3 +94,15 @@ sed -E 's/^[0-9]+ +//' "$work/trace" | grep -oE '^[a-z_0-9]+\(' | tr -d '(' | so
 forbidden=$(comm -23 "$work/used" "$work/allowed")
 [[ -z $forbidden ]] || fail "the unit forbids what a run needs: $forbidden"
 echo "$(wc -l <"$work/used") system calls used, all allowed"
+
+echo "how the program is protected"
+headers=$(readelf -hldW "$lockstep")
+expect "$headers" "DYN (Position-Independent Executable file)"
+expect "$headers" "GNU_RELRO"
+expect "$headers" "BIND_NOW"
+cmake -S "$sources" -B "$work/release" -G Ninja -DCMAKE_BUILD_TYPE=Release -DLOCKSTEP_TESTS=OFF >"$work/release.log"
+for source in hmi_bridge/modbus/request.cpp projects/json/document.cpp cli/main.cpp; do
+  command=$(grep "command.*/$source" "$work/release/compile_commands.json") || fail "$source is not built"
+  expect "$command" "-fstack-protector-strong"
+  expect "$command" "-D_FORTIFY_SOURCE=2"
+done

@@ -31,7 +31,7 @@ TEST(CamTable, IsReadWithEachSeparatorByteOrderMarkHeaderQuotesAndComments) {
         std::string("\xEF\xBB\xBF"
                     "0,0\n10,1.25\n20,3\n"),
         std::string("x,y\n0,0\n10,1.25\n20,3\n"), std::string("\"X\";\"Y\"\n\"0\";\"0\"\n10;1.25\n20;3\n"),
-        std::string("# a cam\n0,0\n  # between\n10,1.25\n\n20,3\n")}) {
+        std::string("# a cam; of 2024\n0,0\n  # between\n10,1.25\n\n20,3\n")}) {
     const LoadedCam cam = read(text);
     ASSERT_TRUE(cam.problems.empty()) << text << cam.problems[0].text;
     ASSERT_EQ(cam.definition->cam.points.size(), 3u) << text;
