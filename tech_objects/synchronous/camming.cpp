@@ -176,7 +176,7 @@ SynchronousMotion::Start SynchronousMotion::watch_cam_distance(const Setpoint& o
 
   const CamPlace place = follow_.joined_at(end, direction_);
   take_joint(place, own.position.turns);
-  curvature_ = place.curvature;
+  curvature_ = stands_at(own, joint_) ? 0.0 : place.curvature;
   leading_start_ = leading_last_.position;
   const SyncStart start{.leading = leading_start_,
                         .leading_velocity = leading_last_.velocity,
@@ -213,6 +213,18 @@ void SynchronousMotion::aim_at_cam(double way) noexcept {
   const double bend = place.curvature * leading_now_.velocity * leading_now_.velocity;
   const double room = std::min(dynamics_.acceleration, dynamics_.deceleration);
   curvature_ = dynamics_.jerk > 0.0 && std::abs(bend) <= 0.5 * room ? place.curvature : 0.0;
+  // In one direction a parabola that turns back, there or before, cannot be followed.
+  const double begin_slope = ratio_ - curvature_ * direction_ * way;
+  const bool against = forced_direction() * begin_slope * leading_now_.velocity < 0.0;
+  if (forced_direction() != 0 && (ratio_ == 0.0 || against)) curvature_ = 0.0;
+}
+
+/// Whether the axis stands where the cam rests, and may not turn both ways: it stays. The acceleration steps
+/// to that of the cam; to touch its bend as well the axis would have to come from where it must not go.
+bool SynchronousMotion::stands_at(const Setpoint& own, AxisPosition joint) const noexcept {
+  if (forced_direction() == 0 || ratio_ != 0.0 || !own.standing()) return false;
+  return std::abs(shortest_distance(own.position.value, joint.value, following_)) <=
+         kOnSynchronousValue * following_.length;
 }
 
 /// What a profile joins: the cam's tangent, or parabola, in the joint. @param way leading distance covered

@@ -102,14 +102,22 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
     } else {
       const double to = direction == SyncDirection::kPositive ? 1.0 : -1.0;
       if (to * end_slope < 0.0) return SyncPlan::kFunctionRunsTheOtherWay;
+      const double nearest = std::floor(ahead.hi / length + 0.5);
+      const double begin_slope = end_slope - target.curvature * distance;
+      const double there = kOnSynchronousValue * length;
+      const bool on_function = std::abs((ahead - two_product(nearest, length)).hi) <= there &&
+                               std::abs(slope - begin_slope) * distance <= there &&
+                               std::abs(curvature - target.curvature) * distance * distance <= there &&
+                               to * begin_slope * distance >= -there;
       const double least =
           least_monotone_way(to * slope * distance, to * curvature * distance * distance,
                              to * end_slope * distance, to * target.curvature * distance * distance);
       const double natural = (std::abs(slope) + std::abs(end_slope)) * distance +
                              (std::abs(curvature) + std::abs(target.curvature)) * distance * distance;
-      if (!(least <= std::min(kFarthest * natural, 0x1p52 * length) + length))
+      if (!on_function && !(least <= std::min(kFarthest * natural, 0x1p52 * length) + length))
         return SyncPlan::kAxisMovesTheOtherWay;
-      turns = to * std::ceil((least - to * way.hi) / length - kRounding * (1.0 + std::abs(least / length)));
+      const double rounding = std::max(kOnSynchronousValue, kRounding * (1.0 + std::abs(least / length)));
+      turns = on_function ? nearest : to * std::ceil((least - to * way.hi) / length - rounding);
     }
     ahead = ahead - two_product(turns, length);
   }

@@ -17,6 +17,10 @@ enum class SyncDirection : std::int8_t {
   kShortestPath = 3  ///< shortest way from where it is to where it gets synchronous; it may reverse
 };
 
+/// How close to its synchronous value an axis with modulo is there: part of its ring. One that is there turns
+/// nowhere for SyncDirection, although nothing is exactly nothing behind a motion.
+inline constexpr double kOnSynchronousValue = 1e-9;
+
 /// Where the axes are at the first cycle of the profile. `…_velocity` and `…_acceleration` of the leading
 /// axis are those of the effective leading value, with their sign.
 struct SyncStart {
@@ -55,11 +59,12 @@ class SyncProfile {
  public:
   /// Plans the profile. `distance` [leading u] > 0; `backward`: the leading axis moves in negative direction.
   /// The whole turns that the way of a modulo following axis needs are chosen by `direction`: for one-way
-  /// synchronizing the fewest with which the axis never reverses. They are not in the function passed: see
-  /// `turns`. A linear following axis goes to the function as it is, whatever `direction`.
-  /// Velocity and acceleration of the following axis count with a moving leading axis only; with one that
-  /// stands or moves against `backward` the profile starts with slope 0 (published step if the axis moves).
-  /// A rejected plan leaves the profile as it was. Bounded time; the cycle's thread.
+  /// synchronizing the fewest with which the axis never reverses, but for `kOnSynchronousValue`; none if the
+  /// axis moves on the function already. They are not in the function passed: see `turns`. A linear following
+  /// axis goes to the function as it is, whatever `direction`. Velocity and acceleration of the following
+  /// axis count with a moving leading axis only; with one that stands or moves against `backward` the profile
+  /// starts with slope 0 (published step if the axis moves). A rejected plan leaves the profile as it was.
+  /// Bounded time; the cycle's thread.
   SyncPlan plan(const SyncStart& start, const SyncTarget& target, double distance, bool backward,
                 SyncDirection direction, const Modulo& leading, const Modulo& following) noexcept;
 

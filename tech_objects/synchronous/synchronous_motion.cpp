@@ -11,6 +11,13 @@ namespace {
 /// motion.
 constexpr double kSamePlace = 1e-14;
 
+/// No distance that an axis could be seen to make in a tick [u].
+constexpr double kNoDistance = 1e-6;
+
+/// Velocity that is left to the side to which SyncDirection lets an axis not turn, for what counts as no
+/// distance: part of the velocity of the job.
+constexpr double kAgainst = 1e-3;
+
 /// Most that velocity and acceleration of the axis may make of its way over the leading distance, as a
 /// multiple of that way: the quintic then stays within some ten times the way.
 constexpr double kSteepest = 100.0;
@@ -284,7 +291,15 @@ bool SynchronousMotion::standing_on_sync_positions(const Setpoint& own) const no
   const double following = own.position.value;
   return own.standing() && leading_now_.velocity == 0.0 && leading_last_.velocity == 0.0 &&
          same_place(shortest_distance(leading, master_sync_position_, leading_modulo_), leading) &&
-         same_place(shortest_distance(following, slave_sync_position_, following_), following);
+         (same_place(shortest_distance(following, slave_sync_position_, following_), following) ||
+          on_slave_sync_position(following));
+}
+
+/// On a ring up to what the rounding of several motions leaves. The axis is put there in one tick, so that a
+/// long ring must not make it more than nobody sees.
+bool SynchronousMotion::on_slave_sync_position(double here) const noexcept {
+  return following_.enabled && std::abs(shortest_distance(here, slave_sync_position_, following_)) <=
+                                   std::min(kOnSynchronousValue * following_.length, kNoDistance);
 }
 
 SynchronousMotion::Start SynchronousMotion::reject(ErrorId error) noexcept {
@@ -414,40 +429,70 @@ SynchronousMotion::Start SynchronousMotion::watch_time(const Setpoint& own) noex
   const double synchronous_velocity = ratio_ * leading_velocity;
   if (leading_last_.velocity == 0.0 || sign(leading_velocity) != direction_) return Start::not_yet;
   if (std::abs(synchronous_velocity) >= dynamics_.velocity) return reject(ErrorId::velocity);
-  const int forced = !following_.enabled || sync_direction_ == 3 ? 0 : sync_direction_ == 1 ? 1 : -1;
+  const int forced = forced_direction();
   if (forced != 0 && (sign(synchronous_velocity) == -forced || forced * own.velocity < 0.0))
     return reject(ErrorId::direction);
 
   const double step =
       direction_ * rounded_difference(leading_now_.position, leading_last_.position, leading_modulo_);
   Profile now, next;
-  if (way < 0.0 || !plan_time(own, leading_last_, way, 0.0, now)) return Start::not_yet;
-  const double speed = std::abs(leading_last_.velocity);
-  if (now.duration() * speed > way) return Start::not_yet;  // too late for this pass
-  const bool next_suffices = way > step &&
-                             plan_time(own, leading_now_, way - step, own.velocity * period_, next) &&
-                             next.duration() * std::abs(leading_velocity) <= way - step;
-  if (next_suffices) return Start::not_yet;
+  const auto reaches = [&](const Setpoint& leading, double left, double ahead, Profile& profile) noexcept {
+    return plan_time(own, leading, left, ahead, profile) &&
+           profile.duration() * std::abs(leading.velocity) <= left;
+  };
+  if (way < 0.0) return Start::not_yet;
+  bool in_time = reaches(leading_last_, way, 0.0, now);
+  if (!in_time && forced != 0 && curvature_ != 0.0) {  // it need not bend as the cam does
+    curvature_ = 0.0;
+    in_time = reaches(leading_last_, way, 0.0, now);
+  }
+  if (!in_time) return Start::not_yet;  // too late for this pass
+  if (way > step && reaches(leading_now_, way - step, own.velocity * period_, next)) return Start::not_yet;
 
-  const AxisPosition following = advanced(own.position, following_way(own.position.value), following_);
+  const AxisPosition following =
+      advanced(own.position, following_way(own, ratio_ * leading_last_.velocity), following_);
   if (cam_ != nullptr)
     take_joint(follow_.joined_at(leading_at(way), direction_), following.turns);
   else
     anchor(way, following);
   time_profile_ = now;
-  time_velocity_ = speed;
+  time_velocity_ = std::abs(leading_last_.velocity);
   profile_way_ = way;
   leading_start_ = leading_last_.position;
   return begin_profile(Way::time);
 }
 
-/// Way of the following axis to its synchronous position, as SyncDirection has it [u].
-double SynchronousMotion::following_way(double here) const noexcept {
+/// Of SyncDirection: 1, -1; 0: the axis may turn either way.
+int SynchronousMotion::forced_direction() const noexcept {
+  if (!following_.enabled || sync_direction_ == 3) return 0;
+  return sync_direction_ == 1 ? 1 : -1;
+}
+
+/// Way of the following axis to its synchronous position, as SyncDirection has it [u]: with a turn more where
+/// it could not get the synchronous velocity on the way.
+double SynchronousMotion::following_way(const Setpoint& own, double synchronous_velocity) const noexcept {
+  const double here = own.position.value;
   if (!following_.enabled) return slave_sync_position_ - here;
-  if (sync_direction_ == 3 || slave_sync_position_ == here)
-    return shortest_distance(here, slave_sync_position_, following_);
-  return sync_direction_ == 1 ? positive_distance(here, slave_sync_position_, following_)
-                              : negative_distance(here, slave_sync_position_, following_);
+  const double shortest = shortest_distance(here, slave_sync_position_, following_);
+  const int to = forced_direction();
+  const double there = kOnSynchronousValue * following_.length;
+  if (to == 0) return shortest;
+  double way = to * shortest;
+  if (way < -there) way += following_.length;
+  const double acceleration = std::min(dynamics_.acceleration, dynamics_.deceleration) -
+                              std::abs(curvature_) * leading_now_.velocity * leading_now_.velocity;
+  const ProfileLimits limits{.velocity_max = dynamics_.velocity,
+                             .velocity_min = -dynamics_.velocity,
+                             .acceleration = acceleration,
+                             .deceleration = acceleration,
+                             .jerk = dynamics_.jerk};
+  Profile change;
+  const MotionState start{.velocity = own.velocity, .acceleration = own.acceleration};
+  if (plan_velocity(start, synchronous_velocity, limits, change) != PlanResult::ok) return to * way;
+  const double least = to * change.target().position;
+  if (least > there && way < least + there)
+    way += following_.length * std::ceil((least + there - way) / following_.length);
+  return to * way;
 }
 
 /// The motion relative to the function, at the leading velocity at hand, that ends on it at rest.
@@ -466,8 +511,9 @@ bool SynchronousMotion::plan_time(const Setpoint& own, const Setpoint& leading, 
                        .acceleration = acceleration,
                        .deceleration = acceleration,
                        .jerk = dynamics_.jerk};
-  if (following_.enabled && sync_direction_ == 1) limits.velocity_min = -slowest;
-  if (following_.enabled && sync_direction_ == 2) limits.velocity_max = -fastest;
+  const double against = kAgainst * dynamics_.velocity;
+  if (forced_direction() > 0) limits.velocity_min = slowest > 0.0 ? -slowest : -against;
+  if (forced_direction() < 0) limits.velocity_max = fastest < 0.0 ? -fastest : against;
   const double relative_velocity = own.velocity - function_velocity;
   const double slope_change = relative_velocity / leading.velocity * leading.acceleration;
   // A slow leading value that changes its velocity strongly would carry more along than the axis may make.
@@ -475,7 +521,7 @@ bool SynchronousMotion::plan_time(const Setpoint& own, const Setpoint& leading, 
   if (std::abs(relative_velocity / leading.velocity * seen) > acceleration) return false;
   const MotionState start{
       .position = ratio_ * direction_ * way - 0.5 * curvature_ * way * way -
-                  (following_way(own.position.value) - ahead),
+                  (following_way(own, ratio_ * leading.velocity) - ahead),
       .velocity = relative_velocity,
       .acceleration = own.acceleration - slope * leading.acceleration - bend - slope_change};
   return plan_position(start, 0.0, 0.0, limits, profile) == PlanResult::ok;

@@ -225,6 +225,7 @@ class SynchronousMotion {
   void place_cam(AxisPosition leading) noexcept;
   SyncPlan plan_along_tangent(const SyncStart& start) noexcept;
   void aim_at_cam(double way) noexcept;
+  bool stands_at(const Setpoint& own, AxisPosition joint) const noexcept;
   void take_joint(const CamPlace& place, std::int64_t turns) noexcept;
   double cam_start() const noexcept;
   Setpoint tangent(double way) const noexcept;
@@ -233,7 +234,9 @@ class SynchronousMotion {
   bool shoots_beyond(const SyncOffset& start, double distance) const noexcept;
   Start begin_profile(Way way) noexcept;
   void watch_acceleration() noexcept;
-  double following_way(double here) const noexcept;
+  int forced_direction() const noexcept;
+  bool on_slave_sync_position(double here) const noexcept;
+  double following_way(const Setpoint& own, double synchronous_velocity) const noexcept;
   bool plan_time(const Setpoint& own, const Setpoint& leading, double way, double ahead,
                  Profile& profile) const noexcept;
 
