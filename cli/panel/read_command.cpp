@@ -49,8 +49,7 @@ int read_values(const PanelOptions& options) {
     else
       write_data(name.name + " = " + shown_text(name, *values) + "\n");
   }
-  if (options.json) write_data(json_text(json) + "
-");
+  if (options.json) write_data(json_text(json) + "\n");
   return kOk;
 }
 

@@ -83,7 +83,9 @@ TEST_P(AtTheJunction, HasTheVelocityOfTheModeOrTheHighestThatCanBeReached) {
   const double rest = 1000.0 * m.period() + 1e-6;
   EXPECT_NEAR(side * m.velocity(), rule.expected, rest);
   EXPECT_LE(before, std::max(rule.v1, rule.expected) + 1e-6);
-  if (rule.distance >= 1000.0) EXPECT_LE(early, rule.v1 + 1e-6) << "it speeds up as late as it can";
+  if (rule.distance >= 1000.0) {
+    EXPECT_LE(early, rule.v1 + 1e-6) << "it speeds up as late as it can";
+  }
   ASSERT_TRUE(m.run_until([&] { return second.Done; }));
   EXPECT_NEAR(m.position(), side * (rule.distance + 400.0), 1e-9);
 }
