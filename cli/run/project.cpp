@@ -14,6 +14,7 @@
 #include "cli/run/retain.hpp"
 #include "cli/run/run_command.hpp"
 #include "cli/run/run_commands.hpp"
+#include "cli/run/state_directory.hpp"
 #include "hmi_bridge/lcm/log.hpp"
 #include "hmi_bridge/lcm/publisher.hpp"
 #include "hmi_bridge/lcm/url.hpp"
@@ -108,8 +109,7 @@ class Surroundings {
     if (server_) tell_refused_clients();
     for (const auto& client : clients_) tell_failures(*client);
     if (commands_) commands_->tell_counters();
-    if (flight_ != nullptr)
-      for (const std::string& file : flight_->written()) tell("flight recorder: wrote " + file);
+    if (flight_ != nullptr) tell_recordings();
     for (const std::string& loss : recorder_->losses()) tell("warning: " + loss);
   }
 
@@ -128,6 +128,11 @@ class Surroundings {
 
  private:
   enum class Part { none, values, server, clients, trace };
+
+  void tell_recordings() const {
+    for (const std::string& file : flight_->written()) tell("flight recorder: wrote " + file);
+    for (const std::string& problem : flight_->not_removed()) tell("warning: flight recorder: " + problem);
+  }
 
   /// The values of the last tick.
   void stop_keeper() {
@@ -213,7 +218,11 @@ class Surroundings {
   void add_flight_recorder() {
     if (!project_.flight_recorder) return;
     const FlightRecorderConfig& config = *project_.flight_recorder;
-    auto recorder = std::make_unique<FlightRecorder>(config.options, columns_.of(config.signals),
+    FlightRecorderOptions recording = config.options;
+    recording.file = path_of_run(options_.file, recording.file);
+    if (const std::string problem = Recordings(recording.file).problem(); !problem.empty())
+      tell("warning: the flight recorder cannot write: " + problem);
+    auto recorder = std::make_unique<FlightRecorder>(std::move(recording), columns_.of(config.signals),
                                                      project_.controller->clock.interpolator_cycle());
     flight_ = recorder.get();
     sinks_.push_back(std::move(recorder));

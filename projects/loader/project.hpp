@@ -116,7 +116,7 @@ struct CommandsConfig {
 
 /// What is kept for the time before an alarm.
 struct FlightRecorderConfig {
-  FlightRecorderOptions options;
+  FlightRecorderOptions options;     ///< `file` as the project has it, which may be relative
   std::vector<NamedSignal> signals;  ///< each name once
 };
 

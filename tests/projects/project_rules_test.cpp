@@ -235,6 +235,8 @@ INSTANTIATE_TEST_SUITE_P(
         {"/flight_recorder", R"({"before": "1s", "file": ""})", "/flight_recorder/file", "1 to 128 bytes"},
         {"/flight_recorder", R"({"before": "1s", "file": "a", "files": 0})", "/flight_recorder/files",
          "from 1"},
+        {"/flight_recorder", R"({"before": "1s", "file": "a", "keep": 0})", "/flight_recorder/keep",
+         "from 1 to 10000"},
         {"/flight_recorder", R"({"before": "1s", "file": "a", "signals": ["nothing"]})",
          "/flight_recorder/signals/0", "unknown name"}}));
 
