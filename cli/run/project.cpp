@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/command/command.hpp"
+#include "cli/command/shortage.hpp"
 #include "cli/run/ending.hpp"
 #include "cli/run/events.hpp"
 #include "cli/run/retain.hpp"
@@ -38,6 +39,8 @@ constexpr std::size_t kTraceRows = 1 << 14;  // of the ring: seconds of a trace 
 constexpr std::size_t kTraceValues = std::size_t{1} << 23;  // in the ring at most, 64 MiB
 constexpr auto kRefresh = 100ms;                            // of the display
 constexpr auto kLookWhileBraking = 10ms;                    // whether the axes are at rest
+constexpr std::size_t kDescriptors = 40;                    // beside those of Modbus clients
+constexpr std::size_t kMemory = std::size_t{32} << 20;      // [byte] stacks, and what grows with the run
 constexpr std::uint64_t kTicksBetweenLooks = 4096;          // of a simulation, at the clock and for signals
 
 /// What could not be started; its text says what and why.
@@ -483,11 +486,21 @@ void tell_counters(const Controller& controller) {
     tell(fmt::format("warning: {} assignments of values that are not permitted were refused", refused));
 }
 
+/// Connections that the Modbus of a project may have at once.
+std::size_t clients_of(const Project& project) {
+  std::size_t clients = project.modbus.clients.size();
+  for (const ModbusServerOptions& server : project.modbus.servers)
+    clients += server.listen.size() + static_cast<std::size_t>(server.max_clients);
+  return clients;
+}
+
 int run_project(Project& project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options) {
   if (options.cpu >= 0)
     if (const std::string problem = leave_processor(options.cpu); !problem.empty())
       throw CouldNotStart("--cpu: " + problem);
   project.controller->apply_stimuli = options.simulate || options.stimuli;
+  require_descriptors(kDescriptors + clients_of(project));
+  require_memory(kMemory);
   Ending ending;
   Surroundings surroundings(project, options, std::move(keeper));
   Display display(project, surroundings.signals(), options.duration);
@@ -514,9 +527,9 @@ int run_project(const RunOptions& options) {
         load_or_tell(options.file, status, [&](Project& loaded) { keeper = restore_kept(loaded, options); });
     return project ? run_project(*project, std::move(keeper), options) : status;
   } catch (const CouldNotStart& error) {
-    tell(error.what(), Gravity::error);
+    tell(with_help(error.what()), Gravity::error);
   } catch (const RetainFileError& error) {
-    tell(error.what(), Gravity::error);
+    tell(with_help(error.what()), Gravity::error);
     tell(
         "--retain FILE keeps values in another file; --no-retain begins with their init values and keeps "
         "nothing");
