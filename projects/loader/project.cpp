@@ -96,7 +96,8 @@ void load_clock(const JsonValue& clock, const Loading& loading) {
       read_word(fields["overrun"], words::kOverrun, loading.problems).value_or(0) == 1;
 }
 
-LoadedProject load_project(std::string_view text, const std::string& folder, const Prepare& prepare) {
+LoadedProject load_project(std::string_view text, const std::string& folder, const Prepare& prepare,
+                           LoadedFor use) {
   LoadedProject result;
   const JsonDocument document(text);
   result.problems = document.problems();
@@ -111,14 +112,15 @@ LoadedProject load_project(std::string_view text, const std::string& folder, con
   result.warnings = problems.take_warnings();
   if (!result.problems.empty()) return result;
   if (prepare) prepare(project);
-  project.controller->finish();
+  // With many objects this takes longer than all the rest.
+  if (use == LoadedFor::running) project.controller->finish();
   result.project = std::move(project);
   return result;
 }
 
-LoadedProject load_project_file(const std::string& path, const Prepare& prepare) {
+LoadedProject load_project_file(const std::string& path, const Prepare& prepare, LoadedFor use) {
   return load_project(read_text_file(path, JsonDocument::kLongest),
-                      std::filesystem::path(path).parent_path().string(), prepare);
+                      std::filesystem::path(path).parent_path().string(), prepare, use);
 }
 
 }  // namespace lockstep
