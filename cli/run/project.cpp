@@ -15,6 +15,7 @@
 #include "cli/run/retain.hpp"
 #include "cli/run/run_command.hpp"
 #include "cli/run/run_commands.hpp"
+#include "cli/run/service_manager.hpp"
 #include "cli/run/state_directory.hpp"
 #include "hmi_bridge/lcm/log.hpp"
 #include "hmi_bridge/lcm/publisher.hpp"
@@ -442,17 +443,24 @@ void tell_moving(const Controller& controller) {
 int run_in_real_time(Project& project, Surroundings& surroundings, Display& display, Ending& ending,
                      const RunOptions& options) {
   const OverrunPolicy policy = project.stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
+  ServiceManager manager(project.controller->clock.servo_cycle);
   RealTimeRun run(*project.controller, policy, options.duration, options.cpu);
   for (const std::string& warning : run.start()) tell("warning: " + warning);
   const RealTimeStatus& status = run.status();
   const Forgetting at_the_end{ending};
   ending.run([&run] { run.stop(); });
   while (!status.at_rest.load(std::memory_order_acquire)) {
-    ending.wait(ending.requested() ? kLookWhileBraking : kRefresh);
-    if (ending.requested()) surroundings.hear_no_more();
+    ending.wait(ending.requested() ? kLookWhileBraking : manager.interval(kRefresh));
+    manager.look(status.ticks.load());
+    if (ending.requested()) {
+      manager.stopping();
+      surroundings.hear_no_more();
+    }
     display.show(status.time.load(), trouble(status));
     surroundings.look();
   }
+  manager.look(status.ticks.load());
+  manager.stopping();
   // What is acknowledged up to here is taken by the tick that comes before the end.
   ending.limit({});
   surroundings.take_no_more();
