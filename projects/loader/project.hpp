@@ -157,7 +157,7 @@ using Prepare = std::function<void(Project&)>;
 /// What a project is loaded for.
 enum class LoadedFor : std::uint8_t {
   running,  ///< its objects are readied for the clock
-  looking   ///< it is valid or not, and has names, signals and start values; its controller never ticks
+  looking   ///< it is valid or not; nothing is to be done with its controller, which has no axes
 };
 
 /// Loads a project from its text. Never fails but through problems, and as `prepare` does. Allocates; not for

@@ -99,6 +99,14 @@ INSTANTIATE_TEST_SUITE_P(Projects, CheckGrows,
                          testing::Values(with_axes, with_a_chain, with_output_cams, with_tags_everywhere),
                          name_of);
 
+// An axis that ticks takes more than twice as much as there is for each here.
+TEST(Check, OfManyAxesTakesATenthOfTheirMemory) {
+  const Directory directory;
+  const std::string project = directory.write("project.json", with_axes(20'000).dump());
+  Process check({"prlimit", "--as=300000000", LOCKSTEP_PROGRAM, "check", project});
+  EXPECT_EQ(check.status(), 0) << check.err().substr(0, 1000);
+}
+
 // Nothing is readied for a clock that is never started: pages are laid together for the cycle.
 TEST(Check, ReadiesNothingForTheCycle) {
   const Directory directory;

@@ -89,7 +89,7 @@ TEST(Shortage, OfMemoryIsTold) {
 TEST(Shortage, OfMemoryForAProjectIsToldByCheckToo) {
   const Directory directory;
   Json json = empty_project();
-  for (int i = 0; i < 2000; ++i) json["technology_objects"]["A" + std::to_string(i)] = virtual_axis();
+  for (int i = 0; i < 20'000; ++i) json["technology_objects"]["A" + std::to_string(i)] = virtual_axis();
   const std::string project = directory.write("project.json", json.dump());
   const Ended ended = run({"prlimit", "--as=60000000"}, lockstep_command({"check", project}));
   EXPECT_EQ(ended.status, 2) << ended.err;
