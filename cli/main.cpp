@@ -1,17 +1,18 @@
 // The `lockstep` command.
 #include <CLI/CLI.hpp>
 #include <csignal>
-#include <cstdio>
 #include <exception>
-#include <new>
 #include <sstream>
 
 #include "cli/command/command.hpp"
+#include "cli/command/shortage.hpp"
 #include "cli/command/standard_streams.hpp"
 
 namespace {
 
 using namespace lockstep::cli;
+
+constexpr std::size_t kDescriptors = 4;  // that the shortest command opens at once
 
 int carry_out(int argc, char** argv) {
   CLI::App app("Lockstep runs machines of coupled axes from a project file.", "lockstep");
@@ -51,16 +52,14 @@ int main(int argc, char** argv) {
   open_missing_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further is a write that fails, and is told
   try {
+    require_descriptors(kDescriptors);
     const int status = carry_out(argc, argv);
     finish_output();
     return status;
   } catch (const OutputFailed& error) {
     tell(error.what(), Gravity::error);
-  } catch (const std::bad_alloc&) {
-    std::fputs("lockstep: there is not enough memory\n", stderr);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "lockstep: internal fault: %s\n", error.what());
-    return kStoppedByFault;
+    return tell_failure(error);
   }
   return kCouldNotStart;
 }

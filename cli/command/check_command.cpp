@@ -2,13 +2,14 @@
 #include <CLI/App.hpp>
 
 #include "cli/command/command.hpp"
+#include "cli/command/shortage.hpp"
 
 namespace lockstep::cli {
 
 std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare,
-                                    Warnings warnings) {
+                                    Warnings warnings, LoadedFor use) {
   try {
-    LoadedProject loaded = load_project_file(path, prepare);
+    LoadedProject loaded = load_project_file(path, prepare, use);
     for (const Problem& problem : loaded.problems) tell_line(to_string(path, problem), Gravity::error);
     if (warnings == Warnings::kept) loaded.warnings.clear();
     for (Problem warning : loaded.warnings) {
@@ -18,7 +19,7 @@ std::optional<Project> load_or_tell(const std::string& path, int& status, const 
     status = kNotValid;
     return std::move(loaded.project);
   } catch (const UnreadableFile& error) {
-    tell(error.what(), Gravity::error);
+    tell(with_help(error.what()), Gravity::error);
     status = kCouldNotStart;
     return std::nullopt;
   }
@@ -34,7 +35,8 @@ void add_check_command(CLI::App& app, Action& action) {
   command->callback([&action, file] {
     action = [file] {
       int status = kOk;
-      return load_or_tell(*file, status) ? static_cast<int>(kOk) : status;
+      const bool valid = load_or_tell(*file, status, {}, Warnings::told, LoadedFor::looking).has_value();
+      return valid ? static_cast<int>(kOk) : status;
     };
   });
 }

@@ -41,9 +41,9 @@ enum class Warnings : std::uint8_t { told, kept };
 
 /// Loads a project and tells its problems and warnings on standard error.
 /// @param status the exit status if there is no project
-/// @param prepare see `load_project`
+/// @param prepare, use see `load_project`
 std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare = {},
-                                    Warnings warnings = Warnings::told);
+                                    Warnings warnings = Warnings::told, LoadedFor use = LoadedFor::running);
 
 /// Writes a text to standard error, as far as that takes it. A closed terminal, a pipe without reader or a
 /// full disk is no reason to end a run, and one that takes nothing, such as a stopped terminal, holds nothing

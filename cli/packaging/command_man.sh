@@ -42,7 +42,7 @@ the values that it keeps across runs
 .SH ENVIRONMENT
 .TP
 .B STATE_DIRECTORY
-where values are kept if neither the command line nor the project says
+where values are kept if neither the command line nor the project says, and flight records whose path is relative
 .TP
 .B JOURNAL_STREAM
 set by systemd; messages to the journal have priorities

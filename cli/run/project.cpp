@@ -9,11 +9,14 @@
 #include <thread>
 
 #include "cli/command/command.hpp"
+#include "cli/command/shortage.hpp"
 #include "cli/run/ending.hpp"
 #include "cli/run/events.hpp"
 #include "cli/run/retain.hpp"
 #include "cli/run/run_command.hpp"
 #include "cli/run/run_commands.hpp"
+#include "cli/run/service_manager.hpp"
+#include "cli/run/state_directory.hpp"
 #include "hmi_bridge/lcm/log.hpp"
 #include "hmi_bridge/lcm/publisher.hpp"
 #include "hmi_bridge/lcm/url.hpp"
@@ -37,6 +40,8 @@ constexpr std::size_t kTraceRows = 1 << 14;  // of the ring: seconds of a trace 
 constexpr std::size_t kTraceValues = std::size_t{1} << 23;  // in the ring at most, 64 MiB
 constexpr auto kRefresh = 100ms;                            // of the display
 constexpr auto kLookWhileBraking = 10ms;                    // whether the axes are at rest
+constexpr std::size_t kDescriptors = 40;                    // beside those of Modbus clients
+constexpr std::size_t kMemory = std::size_t{32} << 20;      // [byte] stacks, and what grows with the run
 constexpr std::uint64_t kTicksBetweenLooks = 4096;          // of a simulation, at the clock and for signals
 
 /// What could not be started; its text says what and why.
@@ -108,8 +113,7 @@ class Surroundings {
     if (server_) tell_refused_clients();
     for (const auto& client : clients_) tell_failures(*client);
     if (commands_) commands_->tell_counters();
-    if (flight_ != nullptr)
-      for (const std::string& file : flight_->written()) tell("flight recorder: wrote " + file);
+    if (flight_ != nullptr) tell_recordings();
     for (const std::string& loss : recorder_->losses()) tell("warning: " + loss);
   }
 
@@ -128,6 +132,11 @@ class Surroundings {
 
  private:
   enum class Part { none, values, server, clients, trace };
+
+  void tell_recordings() const {
+    for (const std::string& file : flight_->written()) tell("flight recorder: wrote " + file);
+    for (const std::string& problem : flight_->not_removed()) tell("warning: flight recorder: " + problem);
+  }
 
   /// The values of the last tick.
   void stop_keeper() {
@@ -213,7 +222,11 @@ class Surroundings {
   void add_flight_recorder() {
     if (!project_.flight_recorder) return;
     const FlightRecorderConfig& config = *project_.flight_recorder;
-    auto recorder = std::make_unique<FlightRecorder>(config.options, columns_.of(config.signals),
+    FlightRecorderOptions recording = config.options;
+    recording.file = path_of_run(options_.file, recording.file);
+    if (const std::string problem = Recordings(recording.file).problem(); !problem.empty())
+      tell("warning: the flight recorder cannot write: " + problem);
+    auto recorder = std::make_unique<FlightRecorder>(std::move(recording), columns_.of(config.signals),
                                                      project_.controller->clock.interpolator_cycle());
     flight_ = recorder.get();
     sinks_.push_back(std::move(recorder));
@@ -430,17 +443,24 @@ void tell_moving(const Controller& controller) {
 int run_in_real_time(Project& project, Surroundings& surroundings, Display& display, Ending& ending,
                      const RunOptions& options) {
   const OverrunPolicy policy = project.stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
+  ServiceManager manager(project.controller->clock.servo_cycle);
   RealTimeRun run(*project.controller, policy, options.duration, options.cpu);
   for (const std::string& warning : run.start()) tell("warning: " + warning);
   const RealTimeStatus& status = run.status();
   const Forgetting at_the_end{ending};
   ending.run([&run] { run.stop(); });
   while (!status.at_rest.load(std::memory_order_acquire)) {
-    ending.wait(ending.requested() ? kLookWhileBraking : kRefresh);
-    if (ending.requested()) surroundings.hear_no_more();
+    ending.wait(ending.requested() ? kLookWhileBraking : manager.interval(kRefresh));
+    manager.look(status.ticks.load());
+    if (ending.requested()) {
+      manager.stopping();
+      surroundings.hear_no_more();
+    }
     display.show(status.time.load(), trouble(status));
     surroundings.look();
   }
+  manager.look(status.ticks.load());
+  manager.stopping();
   // What is acknowledged up to here is taken by the tick that comes before the end.
   ending.limit({});
   surroundings.take_no_more();
@@ -474,11 +494,21 @@ void tell_counters(const Controller& controller) {
     tell(fmt::format("warning: {} assignments of values that are not permitted were refused", refused));
 }
 
+/// Connections that the Modbus of a project may have at once.
+std::size_t clients_of(const Project& project) {
+  std::size_t clients = project.modbus.clients.size();
+  for (const ModbusServerOptions& server : project.modbus.servers)
+    clients += server.listen.size() + static_cast<std::size_t>(server.max_clients);
+  return clients;
+}
+
 int run_project(Project& project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options) {
   if (options.cpu >= 0)
     if (const std::string problem = leave_processor(options.cpu); !problem.empty())
       throw CouldNotStart("--cpu: " + problem);
   project.controller->apply_stimuli = options.simulate || options.stimuli;
+  require_descriptors(kDescriptors + clients_of(project));
+  require_memory(kMemory);
   Ending ending;
   Surroundings surroundings(project, options, std::move(keeper));
   Display display(project, surroundings.signals(), options.duration);
@@ -505,9 +535,9 @@ int run_project(const RunOptions& options) {
         load_or_tell(options.file, status, [&](Project& loaded) { keeper = restore_kept(loaded, options); });
     return project ? run_project(*project, std::move(keeper), options) : status;
   } catch (const CouldNotStart& error) {
-    tell(error.what(), Gravity::error);
+    tell(with_help(error.what()), Gravity::error);
   } catch (const RetainFileError& error) {
-    tell(error.what(), Gravity::error);
+    tell(with_help(error.what()), Gravity::error);
     tell(
         "--retain FILE keeps values in another file; --no-retain begins with their init values and keeps "
         "nothing");

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "cli/command/command.hpp"
+#include "cli/run/state_directory.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -40,11 +40,8 @@ std::string retain_path(const Project& project, const RunOptions& options) {
   if (!options.retain.empty()) return options.retain;
   if (!project.retain.file.empty()) return project.retain.file;
   const fs::path own = fs::path(options.file).replace_extension(kEnding);
-  // Several directories are separated by colons; the first one is ours.
-  const char* const state = std::getenv("STATE_DIRECTORY");
-  if (state == nullptr || *state == '\0') return own.string();
-  const std::string_view directories = state;
-  return (fs::path(directories.substr(0, directories.find(':'))) / own.filename()).string();
+  const std::string state = state_directory();
+  return state.empty() ? own.string() : (fs::path(state) / own.filename()).string();
 }
 
 std::unique_ptr<RetainWriter> restore_kept(Project& project, const RunOptions& options) {

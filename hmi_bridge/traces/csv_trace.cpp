@@ -9,15 +9,16 @@
 namespace lockstep {
 namespace {
 
-std::FILE* open(const std::string& path) {
-  std::FILE* file = std::fopen(path.c_str(), "wbe");
+std::FILE* open(const std::string& path, CsvTrace::Open how) {
+  std::FILE* file = std::fopen(path.c_str(), how == CsvTrace::Open::new_file ? "wbxe" : "wbe");
   if (file == nullptr) throw std::system_error(errno, std::generic_category(), path);
   return file;
 }
 
 }  // namespace
 
-CsvTrace::CsvTrace(const std::string& path) : path_(path), stream_(open(path)), file_(*this, stream_.get()) {}
+CsvTrace::CsvTrace(const std::string& path, Open how)
+    : path_(path), stream_(open(path, how)), file_(*this, stream_.get()) {}
 
 CsvTrace::~CsvTrace() {
   file_.close();  // before its buffer goes

@@ -1,6 +1,7 @@
 /// Traces as comma-separated values.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -16,9 +17,14 @@ namespace lockstep {
 /// numbers as `print_value` has them, lines end with "\n".
 class CsvTrace final : public TraceSink {
  public:
-  /// Opens the file and cuts it to nothing. Any thread.
+  /// What is done with a file that is there already.
+  enum class Open : std::uint8_t {
+    over,     ///< it is cut to nothing
+    new_file  ///< that is an error (EEXIST)
+  };
+  /// Opens the file. Any thread.
   /// @throws std::system_error if that fails; its text names the file
-  explicit CsvTrace(const std::string& path);
+  explicit CsvTrace(const std::string& path, Open how = Open::over);
   ~CsvTrace() override;
 
   void begin(std::span<const TraceSignal> signals) override;

@@ -4,8 +4,6 @@
 #include <exception>
 #include <utility>
 
-#include "hmi_bridge/traces/csv_trace.hpp"
-
 namespace lockstep {
 
 FlightRecorder::FlightRecorder(FlightRecorderOptions options, std::vector<std::size_t> columns,
@@ -13,7 +11,8 @@ FlightRecorder::FlightRecorder(FlightRecorderOptions options, std::vector<std::s
     : options_(std::move(options)),
       columns_(std::move(columns)),
       capacity_(static_cast<std::size_t>(options_.before / std::max<std::int64_t>(period, 1)) + 1),
-      values_(columns_.size()) {}
+      values_(columns_.size()),
+      recordings_(options_.file) {}
 
 void FlightRecorder::begin(std::span<const TraceSignal> signals) {
   for (const std::size_t column : columns_) signals_.push_back(signals[column]);
@@ -47,9 +46,10 @@ void FlightRecorder::event(const TraceEvent& event) {
 }
 
 void FlightRecorder::open() {
-  path_ = options_.file + "_" + std::to_string(opened_) + ".csv";
   try {
-    file_ = std::make_unique<CsvTrace>(path_);
+    file_ = recordings_.open_next();
+    // Before anything is written: on a full disk the old ones make space for it.
+    not_removed_ = recordings_.remove_oldest(static_cast<std::size_t>(options_.keep));
     file_->begin(signals_);
   } catch (const std::exception& error) {
     file_.reset();
@@ -81,10 +81,11 @@ void FlightRecorder::close() {
   } catch (const std::exception& error) {
     file_->lose(0, error.what());
   }
+  const std::string path(file_->name());
   if (file_->reason().empty())
-    written_.push_back(path_);
+    written_.push_back(path);
   else
-    lose(file_->lost(), path_ + ": " + file_->reason());
+    lose(file_->lost(), path + ": " + file_->reason());
   file_.reset();
   until_.reset();
 }

@@ -7,20 +7,23 @@
 #include <string>
 #include <vector>
 
+#include "hmi_bridge/traces/recordings.hpp"
 #include "hmi_bridge/traces/sink.hpp"
 
 namespace lockstep {
 
 struct FlightRecorderOptions {
-  std::string file;         ///< FILE_1.csv, FILE_2.csv … are written
+  std::string file;         ///< beginning of the names of files, as `Recordings` has them
   std::int64_t before = 0;  ///< [ns]
   std::int64_t after = 0;   ///< [ns]
-  int files = 10;           ///< at most so many in a run
+  int files = 10;           ///< at most so many in a run [1, 1000]
+  int keep = 20;            ///< so many stay, those of earlier runs among them [1, 10000]
 };
 
 /// Keeps the rows of the last moments in memory of its own and writes them, with those of a moment after, to
-/// a CSV trace for each alarm. Alarms that come meanwhile belong to the same file, and lengthen it. A file
-/// that cannot be written is told and hurts nothing else. Thread: the recorder's.
+/// a CSV trace for each alarm. Alarms that come meanwhile belong to the same file, and lengthen it. No file
+/// of an earlier run is written over; the oldest beyond `keep` are removed when a new one has been begun. A
+/// file that cannot be written or removed is told and hurts nothing else. Thread: the recorder's.
 class FlightRecorder final : public TraceSink {
  public:
   /// Rows are kept in as much memory as `before` asks for.
@@ -36,6 +39,8 @@ class FlightRecorder final : public TraceSink {
 
   /// Files that have been written whole. After `end`.
   const std::vector<std::string>& written() const noexcept { return written_; }
+  /// Old files that could not be removed, with the reason. After `end`.
+  const std::vector<std::string>& not_removed() const noexcept { return not_removed_; }
 
  private:
   void open();
@@ -51,11 +56,12 @@ class FlightRecorder final : public TraceSink {
   std::vector<TraceRow> rows_;  // … and what stands before their values
   std::size_t count_ = 0, next_ = 0;
   std::vector<Value> values_;
+  const Recordings recordings_;
   std::unique_ptr<TraceSink> file_;  // that is being written
-  std::string path_;
   std::optional<std::int64_t> until_;
   int opened_ = 0;
   std::vector<std::string> written_;
+  std::vector<std::string> not_removed_;
 };
 
 }  // namespace lockstep

@@ -119,7 +119,7 @@ inline constexpr Key kTraceChannel[] = {
     {"channel", kRequired}, {"signals", kRequired}, {"every"}, {"trigger"}};
 inline constexpr Key kTrigger[] = {{"on", kRequired}, {"signal"}, {"level"}, {"before"}, {"after"}};
 inline constexpr Key kFlightRecorder[] = {
-    {"before", kRequired}, {"after"}, {"file", kRequired}, {"files"}, {"signals"}};
+    {"before", kRequired}, {"after"}, {"file", kRequired}, {"files"}, {"keep"}, {"signals"}};
 inline constexpr Key kRetain[] = {{"file"}, {"interval"}};
 inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}, {"commands"}};
 inline constexpr Key kCommands[] = {{"axes", kRequired}};

@@ -256,6 +256,8 @@ void load_flight_recorder(const JsonValue& json, const Loading& loading) {
   if (const auto file = read_title(fields["file"], problems)) config.options.file = *file;
   if (const auto files = read_integer(fields["files"], 1, 1000, problems))
     config.options.files = static_cast<int>(*files);
+  if (const auto keep = read_integer(fields["keep"], 1, 10'000, problems))
+    config.options.keep = static_cast<int>(*keep);
   if (const JsonValue* const signals = fields["signals"])
     load_signals(*signals, config.signals, loading);
   else

@@ -2,10 +2,12 @@
 // program that calls them. They have names that no identifier can be, so that no project refers to them.
 #include <array>
 #include <map>
+#include <memory>
 #include <stdexcept>
 
 #include "hmi_bridge/lcm/url.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/looked_at_axis.hpp"
 #include "tech_objects/axis/velocity_unit.hpp"
 
 namespace lockstep {
@@ -172,6 +174,14 @@ std::vector<Signal> signals_of(const Axis& axis, PanelInputs& inputs, const Name
   return signals;
 }
 
+/// An axis for the program of one that is looked at; none if it is an axis. The program never runs.
+std::unique_ptr<Axis> stand_in_for(TechnologyObject& object, const Loading& loading) {
+  if (loading.use == LoadedFor::running) return nullptr;
+  auto axis = std::make_unique<Axis>(object.kind, object.name, object.number);
+  axis->data = static_cast<LookedAtAxis&>(object).data;
+  return axis;
+}
+
 void load_axis(const std::string& name, const JsonValue& json, Program& program, const Loading& loading) {
   Problems& problems = loading.problems;
   CommandsConfig& commands = loading.project.commands;
@@ -180,13 +190,14 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
   const Names::FoundObject found = loading.names().find_object(name, kAnyDrivenAxis);
   if (!found.problem.empty()) problems.report(json, found.problem);
   if (found.object == nullptr) return;
-  auto& axis = static_cast<Axis&>(*found.object);
+  const std::unique_ptr<Axis> stand_in = stand_in_for(*found.object, loading);
+  auto& axis = stand_in ? *stand_in : static_cast<Axis&>(*found.object);
   const Names& names = loading.names();
   for (const CommandAxis& other : commands.axes)
     if (other.name == axis.name)
       return problems.report(json, quote(name) + " is there twice; each axis is allowed once");
   const double usual = names.find(axis.name + ".DynamicDefaults.Velocity").place.value().signal.load().r;
-  const std::string enabled_by = power_of(loading.controller(), axis);
+  const std::string enabled_by = power_of(loading.controller(), *found.object);
   const Place speed = names.find(axis.name + ".Override.Velocity").place.value();
   PanelInputs& inputs = commands.inputs.emplace_back();
   commands.axes.push_back({axis.name, limit.value_or(usual), enabled_by, signals_of(axis, inputs, names),

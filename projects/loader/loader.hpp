@@ -16,9 +16,15 @@ struct Loading {
   std::unordered_map<const JsonValue*, Instance*>& instances;
   /// Of the project file, to which names of files are relative; empty: the current one.
   std::string folder;
+  /// Of a project that is looked at the axes are no `Axis` but a `LookedAtAxis` each.
+  LoadedFor use;
 
   Controller& controller() const { return *project.controller; }
   Names& names() const { return project.names; }
+  /// Adds a technology object; its number is its place among all.
+  TechnologyObject& add_object(ObjectKind kind, const std::string& name) const;
+  /// The leading values of a synchronous axis.
+  const std::vector<LeadingValue>& leading_values_of(const TechnologyObject& axis) const;
   /// Adds a name, or reports what is wrong with it.
   bool add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const;
   /// The place to which a path leads, or none: then that is reported, unless the problem is known already.

@@ -1,9 +1,11 @@
 // Technology objects: axes with their drives and their leading values.
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "projects/loader/drive.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/looked_at_axis.hpp"
 
 namespace lockstep {
 namespace {
@@ -41,7 +43,7 @@ void declare_object(const std::string& name, const JsonValue& json, const Loadin
     return;
   }
   // The object is there even if its name is not free, so that its configuration is looked at.
-  TechnologyObject& object = loading.controller().add_object(*kind, name);
+  TechnologyObject& object = loading.add_object(*kind, name);
   if (named) loading.names().define(name, &object);
 }
 
@@ -97,7 +99,7 @@ void load_leading_value(const JsonValue& json, Axis& axis, const Loading& loadin
   auto* const source = static_cast<LeadingObject*>(loading.find_object(to, kLeading));
   const auto coupling = read_coupling(fields["coupling"], source, loading.problems);
   if (source == nullptr || !coupling) return;
-  if (source == &axis) return loading.problems.report(*to, "an axis cannot follow itself");
+  if (source->number == axis.number) return loading.problems.report(*to, "an axis cannot follow itself");
   const auto same = [&](const LeadingValue& other) { return other.source == source; };
   if (std::any_of(axis.leading_values.begin(), axis.leading_values.end(), same))
     return loading.problems.report(*to, to->shown() + " is a leading value of '" + axis.name + "' already");
@@ -141,11 +143,20 @@ void load_axis(const JsonValue& json, Axis& axis, const Loading& loading) {
   if (const JsonValue* const values = fields["leading_values"]) load_leading_values(*values, axis, loading);
 }
 
+/// One axis after the other is loaded whole, and what is asked for later stays.
+void look_at_axis(const JsonValue& json, LookedAtAxis& looked_at, const Loading& loading) {
+  const auto axis = std::make_unique<Axis>(looked_at.kind, looked_at.name, looked_at.number);
+  load_axis(json, *axis, loading);
+  looked_at.take(*axis);
+}
+
 void load_object(const JsonValue& json, TechnologyObject& object, const Loading& loading) {
   switch (object.kind) {
     case ObjectKind::TO_SpeedAxis:
     case ObjectKind::TO_PositioningAxis:
     case ObjectKind::TO_SynchronousAxis:
+      if (loading.use == LoadedFor::looking)
+        return look_at_axis(json, static_cast<LookedAtAxis&>(object), loading);
       return load_axis(json, static_cast<Axis&>(object), loading);
     case ObjectKind::TO_ExternalEncoder:
       return load_encoder(json, static_cast<ExternalEncoder&>(object), loading);

@@ -366,7 +366,7 @@ void ProgramLoader::check_leading_value(const JsonValue& in, Instance& instance)
   const TechnologyObject* const following =
       loading_.names().find_object(slave->text, kSynchronousAxis).object;
   if (leading == nullptr || following == nullptr) return;
-  const auto& values = static_cast<const Axis*>(following)->leading_values;
+  const auto& values = loading_.leading_values_of(*following);
   if (std::any_of(values.begin(), values.end(),
                   [&](const LeadingValue& value) { return value.source == leading; }))
     return;

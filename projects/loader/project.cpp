@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "projects/loader/loader.hpp"
+#include "projects/loader/looked_at_axis.hpp"
 
 namespace lockstep {
 namespace {
@@ -58,6 +59,18 @@ void load_root(const JsonValue& root, const Loading& loading) {
 
 }  // namespace
 
+TechnologyObject& Loading::add_object(ObjectKind kind, const std::string& name) const {
+  if (use == LoadedFor::running || !among(kind, kAnyDrivenAxis)) return controller().add_object(kind, name);
+  auto& objects = controller().objects;
+  const auto number = static_cast<DB_ANY>(objects.size() + 1);
+  return *objects.emplace_back(std::make_unique<LookedAtAxis>(kind, name, number));
+}
+
+const std::vector<LeadingValue>& Loading::leading_values_of(const TechnologyObject& axis) const {
+  if (use == LoadedFor::looking) return static_cast<const LookedAtAxis&>(axis).leading_values;
+  return static_cast<const Axis&>(axis).leading_values;
+}
+
 bool Loading::add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const {
   const std::string problem = names().add(name, entity);
   if (!problem.empty()) problems.report(at, problem);
@@ -96,7 +109,8 @@ void load_clock(const JsonValue& clock, const Loading& loading) {
       read_word(fields["overrun"], words::kOverrun, loading.problems).value_or(0) == 1;
 }
 
-LoadedProject load_project(std::string_view text, const std::string& folder, const Prepare& prepare) {
+LoadedProject load_project(std::string_view text, const std::string& folder, const Prepare& prepare,
+                           LoadedFor use) {
   LoadedProject result;
   const JsonDocument document(text);
   result.problems = document.problems();
@@ -105,20 +119,20 @@ LoadedProject load_project(std::string_view text, const std::string& folder, con
   project.controller = std::make_unique<Controller>();
   Problems problems;
   std::unordered_map<const JsonValue*, Instance*> instances;
-  load_root(document.root(), {project, problems, instances, folder});
+  load_root(document.root(), {project, problems, instances, folder, use});
   const std::vector<Problem> found = problems.take_errors();
   result.problems.insert(result.problems.end(), found.begin(), found.end());
   result.warnings = problems.take_warnings();
   if (!result.problems.empty()) return result;
   if (prepare) prepare(project);
-  project.controller->finish();
+  if (use == LoadedFor::running) project.controller->finish();
   result.project = std::move(project);
   return result;
 }
 
-LoadedProject load_project_file(const std::string& path, const Prepare& prepare) {
+LoadedProject load_project_file(const std::string& path, const Prepare& prepare, LoadedFor use) {
   return load_project(read_text_file(path, JsonDocument::kLongest),
-                      std::filesystem::path(path).parent_path().string(), prepare);
+                      std::filesystem::path(path).parent_path().string(), prepare, use);
 }
 
 }  // namespace lockstep

@@ -116,7 +116,7 @@ struct CommandsConfig {
 
 /// What is kept for the time before an alarm.
 struct FlightRecorderConfig {
-  FlightRecorderOptions options;
+  FlightRecorderOptions options;     ///< `file` as the project has it, which may be relative
   std::vector<NamedSignal> signals;  ///< each name once
 };
 
@@ -154,14 +154,21 @@ struct LoadedProject {
 /// values back.
 using Prepare = std::function<void(Project&)>;
 
+/// What a project is loaded for.
+enum class LoadedFor : std::uint8_t {
+  running,  ///< its objects are readied for the clock
+  looking   ///< it is valid or not; nothing is to be done with its controller, which has no axes
+};
+
 /// Loads a project from its text. Never fails but through problems, and as `prepare` does. Allocates; not for
 /// the thread of the cycle.
 /// @param folder to which names of files in it are relative; empty: the current one
-LoadedProject load_project(std::string_view text, const std::string& folder = "",
-                           const Prepare& prepare = {});
+LoadedProject load_project(std::string_view text, const std::string& folder = "", const Prepare& prepare = {},
+                           LoadedFor use = LoadedFor::running);
 
 /// Loads a project from a file, of which it reads no more than `JsonDocument::kLongest` and a byte.
 /// @throws UnreadableFile
-LoadedProject load_project_file(const std::string& path, const Prepare& prepare = {});
+LoadedProject load_project_file(const std::string& path, const Prepare& prepare = {},
+                                LoadedFor use = LoadedFor::running);
 
 }  // namespace lockstep

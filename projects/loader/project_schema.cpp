@@ -445,13 +445,19 @@ Json trace_schema() {
 }
 
 Json flight_recorder_schema() {
-  return object(keys::kFlightRecorder,
-                {{"before", duration("how much is kept for the time before an alarm")},
-                 {"after", duration("how much is added behind it (none)")},
-                 {"file", text("FILE_1.csv, FILE_2.csv … are written, one for each alarm")},
-                 {"files", integer("at most so many in a run (10)", 1, 1000)},
-                 {"signals", array("what is kept; everything that may change if missing",
-                                   text("tag, instance.Pin, variable"))}});
+  return object(
+      keys::kFlightRecorder,
+      {{"before", duration("how much is kept for the time before an alarm")},
+       {"after", duration("how much is added behind it (none)")},
+       {"file", text("FILE_20261123T115200Z_17.csv and its like are written, one for each alarm: time (UTC) "
+                     "and a number that goes on from run to run; relative to the project file, in a "
+                     "service to its state directory")},
+       {"files", integer("at most so many in a run (10)", 1, 1000)},
+       {"keep", integer("so many stay, those of earlier runs among them; the oldest are removed "
+                        "(20)",
+                        1, 10000)},
+       {"signals",
+        array("what is kept; everything that may change if missing", text("tag, instance.Pin, variable"))}});
 }
 
 Json root_schema() {

@@ -28,6 +28,9 @@ TEST_P(Rules, AreToldAtTheirPlace) {
   EXPECT_EQ(loaded.problems[0].place, rule.place) << loaded.problems[0].text;
   EXPECT_NE(loaded.problems[0].text.find(rule.part), std::string::npos) << loaded.problems[0].text;
   EXPECT_LT(loaded.problems[0].text.size(), 700u);
+  const LoadedProject looked_at = load_project(changed(rule.change, rule.value), "", {}, LoadedFor::looking);
+  EXPECT_EQ(lines(looked_at.problems), lines(loaded.problems));
+  EXPECT_EQ(lines(looked_at.warnings), lines(loaded.warnings));
 }
 
 class Warnings : public testing::TestWithParam<Rule> {};
@@ -36,6 +39,9 @@ TEST_P(Warnings, LeaveTheProjectValid) {
   const Rule& rule = GetParam();
   const LoadedProject loaded = load_project(changed(rule.change, rule.value));
   EXPECT_TRUE(loaded.project.has_value()) << lines(loaded.problems);
+  const LoadedProject looked_at = load_project(changed(rule.change, rule.value), "", {}, LoadedFor::looking);
+  EXPECT_TRUE(looked_at.project.has_value()) << lines(looked_at.problems);
+  EXPECT_EQ(lines(looked_at.warnings), lines(loaded.warnings));
   ASSERT_EQ(loaded.warnings.size(), 1u) << lines(loaded.warnings);
   EXPECT_EQ(loaded.warnings[0].place, rule.place) << loaded.warnings[0].text;
   EXPECT_NE(loaded.warnings[0].text.find(rule.part), std::string::npos) << loaded.warnings[0].text;
@@ -235,6 +241,8 @@ INSTANTIATE_TEST_SUITE_P(
         {"/flight_recorder", R"({"before": "1s", "file": ""})", "/flight_recorder/file", "1 to 128 bytes"},
         {"/flight_recorder", R"({"before": "1s", "file": "a", "files": 0})", "/flight_recorder/files",
          "from 1"},
+        {"/flight_recorder", R"({"before": "1s", "file": "a", "keep": 0})", "/flight_recorder/keep",
+         "from 1 to 10000"},
         {"/flight_recorder", R"({"before": "1s", "file": "a", "signals": ["nothing"]})",
          "/flight_recorder/signals/0", "unknown name"}}));
 

@@ -34,6 +34,7 @@ TEST_F(Schema, AcceptsEveryExampleProject) {
     if (!entry.is_directory() || !std::filesystem::exists(path)) continue;
     EXPECT_TRUE(accepts(json::parse(read(path)))) << path;
     EXPECT_TRUE(load_project_file(path).project.has_value()) << path;
+    EXPECT_TRUE(load_project_file(path, {}, LoadedFor::looking).project.has_value()) << path;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "hmi_bridge/lcm/trace_reader.hpp"
+#include "hmi_bridge/traces/recordings.hpp"
 #include "lockstep/event_t.hpp"
 #include "tests/scenarios/small_project.hpp"
 
@@ -156,15 +157,42 @@ TEST(EventChannel, EveryJobThatHasStartedHasOneEnd) {
 
 // ---- Flight recorder
 
+/// The recordings in a folder, the oldest first.
+std::vector<std::string> recordings(const std::string& file) {
+  std::vector<std::string> paths;
+  for (const Recording& recording : Recordings(file).present()) paths.push_back(recording.path);
+  return paths;
+}
+
+Json recorded_slide(const std::string& file, int files = 10, int keep = 20) {
+  Json project = missing_slide();
+  project["flight_recorder"] = {
+      {"before", "300ms"}, {"after", "100ms"}, {"file", file}, {"files", files}, {"keep", keep}};
+  return project;
+}
+
+/// Eight seconds with two alarms; the program is started by the words of `before`.
+Ended run_slide(const std::string& project, std::vector<std::string> before = {},
+                const std::vector<std::string>& options = {}) {
+  for (const std::string& word : lockstep_command({"run", project, "--simulate", "--duration", "8s"}))
+    before.push_back(word);
+  before.insert(before.end(), options.begin(), options.end());
+  Process process(before);
+  Ended ended;
+  ended.status = process.status();
+  ended.err = process.err();
+  return ended;
+}
+
 TEST(FlightRecorder, WritesTheTimeBeforeAnAlarmAndAMomentAfterIt) {
   const Directory directory;
-  Json project = missing_slide();
-  project["flight_recorder"] = {{"before", "300ms"}, {"after", "100ms"}, {"file", directory.file("flight")}};
-  const std::string file = directory.write("project.json", project.dump(1));
-  const Ended ended = lockstep({"run", file, "--simulate", "--duration", "8s"});
+  const std::string file = directory.write("project.json", recorded_slide(directory.file("flight")).dump(1));
+  const Ended ended = run_slide(file);
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(lines_with(ended.err, "flight recorder: wrote ").size(), 2u) << ended.err;
-  const CsvTable table = read_csv(directory.file("flight_1.csv"));
+  const std::vector<std::string> written = recordings(directory.file("flight"));
+  ASSERT_EQ(written.size(), 2u) << ended.err;
+  const CsvTable table = read_csv(written[0]);
   const std::size_t raised = table.first("Slide.ErrorDetail.Number", 541.0);
   ASSERT_LT(raised, table.rows);
   const double at = table["t"][raised];
@@ -175,40 +203,97 @@ TEST(FlightRecorder, WritesTheTimeBeforeAnAlarmAndAMomentAfterIt) {
         << "no row is missing";
   for (const char* name : {"start", "step", "lay_down.Busy", "Slide.Position", "Slide.StatusWord"})
     EXPECT_NE(std::find(table.names.begin(), table.names.end(), name), table.names.end()) << name;
-  const Ended plotted = lockstep({"plot", directory.file("flight_1.csv"), "-o", directory.file("flight.svg"),
-                                  "--signals", "Slide.Position,Slide.Velocity"});
+  const Ended plotted = lockstep(
+      {"plot", written[0], "-o", directory.file("flight.svg"), "--signals", "Slide.Position,Slide.Velocity"});
   EXPECT_EQ(plotted.status, 0) << plotted.err;
-  EXPECT_TRUE(std::filesystem::exists(directory.file("flight_2.csv")));
 }
 
 TEST(FlightRecorder, StopsAtItsNumberOfFiles) {
   const Directory directory;
-  Json project = missing_slide();
-  project["flight_recorder"] = {
-      {"before", "100ms"}, {"file", directory.file("flight")}, {"files", 1}, {"signals", {"step", "start"}}};
-  const std::string file = directory.write("project.json", project.dump(1));
-  EXPECT_EQ(lockstep({"run", file, "--simulate", "--duration", "8s"}).status, 0);
-  const CsvTable table = read_csv(directory.file("flight_1.csv"));
-  EXPECT_EQ(table.names, (std::vector<std::string>{"t", "step", "start"}));
-  EXPECT_FALSE(std::filesystem::exists(directory.file("flight_2.csv")));
+  Json project = recorded_slide(directory.file("flight"), 1);
+  project["flight_recorder"]["signals"] = {"step", "start"};
+  EXPECT_EQ(run_slide(directory.write("project.json", project.dump(1))).status, 0);
+  const std::vector<std::string> written = recordings(directory.file("flight"));
+  ASSERT_EQ(written.size(), 1u);
+  EXPECT_EQ(read_csv(written[0]).names, (std::vector<std::string>{"t", "step", "start"}));
+}
+
+TEST(FlightRecorder, ARunWritesNothingOfAnEarlierOneOver) {
+  const Directory directory;
+  const std::string file = directory.write("project.json", recorded_slide("flight").dump(1));
+  EXPECT_EQ(run_slide(file).status, 0);
+  const std::vector<std::string> first = recordings(directory.file("flight"));
+  ASSERT_EQ(first.size(), 2u);
+  const std::string before = content(first[0]);
+  EXPECT_EQ(run_slide(file).status, 0);
+  const std::vector<std::string> both = recordings(directory.file("flight"));
+  ASSERT_EQ(both.size(), 4u);
+  EXPECT_EQ(both[0], first[0]);
+  EXPECT_EQ(both[1], first[1]);
+  EXPECT_EQ(content(both[0]), before);
+  EXPECT_EQ(content(both[2]), before) << "the same run gives the same recording";
+}
+
+TEST(FlightRecorder, KeepsAsManyAsItIsToldAndTouchesNothingElse) {
+  const Directory directory;
+  const std::string file = directory.write("project.json", recorded_slide("flight", 10, 1).dump(1));
+  const std::vector<std::string> others{"flight_1.csv", "flight_20261123T115200Z_0.csv",
+                                        "flight_20261123T115200Z_7.csv.old", "flights_20261123T115200Z_7.csv",
+                                        "flight_20261123115200Z_7.csv"};
+  for (const std::string& other : others) directory.write(other, "mine");
+  directory.write("flight_20991231T235959Z_3.csv", "of a run whose clock was wrong");
+  EXPECT_EQ(run_slide(file).status, 0);
+  const std::vector<Recording> first = Recordings(directory.file("flight")).present();
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_EQ(first[0].number, 5u) << "the second alarm, behind the number that was there";
+  EXPECT_EQ(run_slide(file).status, 0);
+  const std::vector<Recording> second = Recordings(directory.file("flight")).present();
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_EQ(second[0].number, 7u);
+  for (const std::string& other : others) EXPECT_EQ(content(directory.file(other)), "mine") << other;
+}
+
+TEST(FlightRecorder, ARelativePathIsRelativeToTheProjectFile) {
+  const Directory directory, elsewhere;
+  std::filesystem::create_directory(directory.file("records"));
+  const std::string file = directory.write("project.json", recorded_slide("records/flight").dump(1));
+  const Ended ended = run_slide(file, {"env", "-C", elsewhere.file("")});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(recordings(directory.file("records/flight")).size(), 2u) << ended.err;
+  EXPECT_TRUE(std::filesystem::is_empty(elsewhere.file("")));
+}
+
+TEST(FlightRecorder, InAServiceARelativePathIsRelativeToItsStateDirectory) {
+  const Directory directory, state;
+  const std::string file = directory.write("project.json", recorded_slide("flight").dump(1));
+  const Ended ended = run_slide(file, {"env", "STATE_DIRECTORY=" + state.file("") + ":/var/empty"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(recordings(state.file("flight")).size(), 2u) << ended.err;
+  EXPECT_TRUE(recordings(directory.file("flight")).empty());
 }
 
 TEST(FlightRecorder, AFullDiskIsToldAndHurtsNothing) {
   const Directory directory;
-  Json project = missing_slide();
-  project["flight_recorder"] = {{"before", "300ms"}, {"after", "100ms"}, {"file", directory.file("flight")}};
-  std::filesystem::create_symlink("/dev/full", directory.file("flight_1.csv"));
-  const std::string file = directory.write("project.json", project.dump(1));
-  const std::string trace = directory.file("trace.csv");
-  const Ended ended = lockstep({"run", file, "--simulate", "--duration", "8s", "--trace", trace});
+  const std::string file = directory.write("project.json", recorded_slide("flight").dump(1));
+  const std::string trace = directory.file("trace.csv"), other = directory.file("plain.csv");
+  // A file may grow to 128 KiB here: a trace of one signal does not come to that, a recording does.
+  const Ended ended = run_slide(file, {"prlimit", "--fsize=131072"}, {"--trace", trace, "--signals", "step"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NE(ended.err.find("No space left on device"), std::string::npos) << ended.err;
-  EXPECT_TRUE(std::filesystem::exists(directory.file("flight_2.csv"))) << "the next alarm finds a file";
-  Json plain = missing_slide();
-  const std::string other = directory.file("plain.csv");
-  const std::string plain_file = directory.write("plain.json", plain.dump(1));
-  EXPECT_EQ(lockstep({"run", plain_file, "--simulate", "--duration", "8s", "--trace", other}).status, 0);
+  EXPECT_NE(ended.err.find("File too large"), std::string::npos) << ended.err;
+  EXPECT_EQ(recordings(directory.file("flight")).size(), 2u) << "the next alarm finds a file";
+  const std::string plain = directory.write("plain.json", missing_slide().dump(1));
+  EXPECT_EQ(run_slide(plain, {}, {"--trace", other, "--signals", "step"}).status, 0);
   EXPECT_EQ(content(trace), content(other)) << "the trace is what it is without a flight recorder";
+}
+
+TEST(FlightRecorder, AFolderThatIsNotThereIsToldAtTheStartAndHurtsNothing) {
+  const Directory directory;
+  const std::string file = directory.write("project.json", recorded_slide("nowhere/flight").dump(1));
+  const Ended ended = run_slide(file);
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(lines_with(ended.err, "warning: the flight recorder cannot write: ").size(), 1u) << ended.err;
+  EXPECT_LT(ended.err.find("cannot write"), ended.err.find("alarm 541")) << ended.err;
+  EXPECT_EQ(lines_with(ended.err, "lost in " + directory.file("nowhere/flight")).size(), 1u) << ended.err;
 }
 
 // ---- Channels

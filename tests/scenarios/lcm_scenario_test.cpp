@@ -6,7 +6,7 @@
 #include <string>
 
 #include "hmi_bridge/lcm/trace_reader.hpp"
-#include "tests/scenarios/csv_table.hpp"
+#include "tests/scenarios/small_project.hpp"
 
 namespace lockstep::test {
 namespace {
@@ -128,6 +128,64 @@ TEST(LcmScenario, AForeignSubscriberShowsRowsAndEvents) {
   const std::string seen = content(out);
   EXPECT_NE(seen.find("  Knife.Position "), std::string::npos) << seen.substr(0, 2000);
   EXPECT_NE(seen.find("job started: "), std::string::npos) << seen.substr(0, 2000);
+}
+
+// ---- A network that takes nothing
+
+/// Runs the knife until the network hangs or fails, asks for the end and prints the exit status.
+std::string ended_with(const Directory& directory, const std::string& project, const std::string& how) {
+  const std::string mark = directory.file("hang");
+  return "export LOCKSTEP_HANG=" + mark +
+         "\nLD_PRELOAD=" LOCKSTEP_HUNG_NETWORK " ASAN_OPTIONS=verify_asan_link_order=0 " LOCKSTEP_PROGRAM
+         " run " +
+         project + " --no-modbus --no-retain --stimuli 2>" + directory.file("messages") +
+         " & run=$!\n"
+         "until grep -q . " +
+         directory.file("messages") +
+         " || ! kill -0 $run; do sleep 0.02; done\n"
+         "sleep 0.2\necho -n " +
+         how + " >" + mark +
+         "\n"
+         "until [ -e " +
+         mark +
+         ".reached ] || ! kill -0 $run; do sleep 0.02; done\n"
+         "kill -TERM $run\nwait $run && status=0 || status=$?\necho $status >" +
+         directory.file("status") + "\n";
+}
+
+/// The knife with a line at its start by which a script sees that it has begun.
+std::string knife(const Directory& directory, bool commands) {
+  Json json = example_json("02_rotary_knife");
+  json["flight_recorder"] = {{"before", "1s"}, {"file", "nowhere/flight"}};
+  if (commands) json["trace"]["lcm"]["commands"] = Json::parse(R"({"axes": {"Conveyor": {}}})");
+  return directory.write("project.json", json.dump());
+}
+
+TEST(LcmNetworkThatHangs, KeepsNoRunFromEnding) {
+  const Directory directory;
+  const std::string project = knife(directory, false);
+  ASSERT_EQ(in_own_network(ended_with(directory, project, "hang")), 0);
+  const std::string messages = content(directory.file("messages"));
+  EXPECT_EQ(content(directory.file("status")), "3\n") << messages;
+  EXPECT_NE(messages.find("the end is not finished in time"), std::string::npos) << messages;
+  EXPECT_NE(messages.find(" lost in udpm://239.255.76.67:7667?ttl=0: it takes nothing"), std::string::npos)
+      << messages;
+}
+
+TEST(LcmNetworkThatHangs, KeepsNoRunThatTakesCommandsFromEnding) {
+  const Directory directory;
+  const std::string project = knife(directory, true);
+  ASSERT_EQ(in_own_network(ended_with(directory, project, "hang")), 0);
+  EXPECT_EQ(content(directory.file("status")), "3\n") << content(directory.file("messages"));
+}
+
+TEST(LcmNetworkThatFails, IsToldAndHoldsNothingUp) {
+  const Directory directory;
+  const std::string project = knife(directory, true);
+  ASSERT_EQ(in_own_network(ended_with(directory, project, "fail")), 0);
+  const std::string messages = content(directory.file("messages"));
+  EXPECT_EQ(content(directory.file("status")), "0\n") << messages;
+  EXPECT_NE(messages.find("No buffer space available"), std::string::npos) << messages;
 }
 
 }  // namespace
