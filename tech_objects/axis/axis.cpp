@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tech_objects/drive/drive_models.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kRest = 0.01;
 }  // namespace
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
-    : LeadingObject(object_kind, std::move(object_name), object_number) {
+    : LeadingObject(object_kind, std::move(object_name), object_number), drive_model(kDriveModels) {
   if (!has_position()) data.Units.VelocityUnit = kTurnsPerMinute;
 }
 
@@ -226,7 +228,7 @@ ErrorId Axis::reset(bool restart) noexcept {
   alarm_notes.acknowledged();
   enable_removed_ = false;
   if (restart) this->restart();
-  if (has_drive_ && (encoders_.lost() || drive_.in_trouble())) acknowledge_drive();
+  if (has_drive_ && (encoders_.lost() || drive_->in_trouble())) acknowledge_drive();
   return ErrorId::none;
 }
 

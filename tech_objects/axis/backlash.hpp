@@ -1,5 +1,6 @@
 /// Backlash compensation of an axis with a drive.
-/// @source S7-1500T axis functions, backlash compensation; synchronous operation V7, 13.1.12 (Sensor.Backlash)
+/// @source S7-1500T axis functions, backlash compensation; synchronous operation V7, 13.1.12
+/// (Sensor.Backlash)
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@ class Backlash {
   double passed(const TO_Struct_Backlash& settings) const noexcept { return settings.Enable ? passed_ : 0.0; }
 
  private:
-  double passed_ = 0.0;         // 0, or ∓Size, or on the way there [u]
-  std::int8_t direction_ = 0;   // of the last motion; 0: none yet
+  double passed_ = 0.0;        // 0, or ∓Size, or on the way there [u]
+  std::int8_t direction_ = 0;  // of the last motion; 0: none yet
   bool passing_ = false;
 };
 

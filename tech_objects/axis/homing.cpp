@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -32,10 +33,10 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
   if (adjusts_encoder(job)) {
     const std::size_t sensor = sensor_of(job);
     if (!data.Sensor[sensor].Existent) return ErrorId::sensor;
-    const bool absolute = data.Sensor[sensor].Type != 0;
+    const bool absolute = data.Sensor[sensor].Type != SensorType::INCREMENTAL;
     if (job.mode == 13 && absolute) return ErrorId::homing_mode_absolute;
     if (job.mode != 13 && !absolute) return ErrorId::homing_mode_incremental;
-    if (data.StatusSensor[sensor].State != kSensorValid) return ErrorId::actual_values_invalid;
+    if (data.StatusSensor[sensor].State != SensorState::valid) return ErrorId::actual_values_invalid;
   }
   const Job* base = running_[kBase];
   const JobKind running = base != nullptr ? base->kind : JobKind::MC_Halt;
@@ -58,7 +59,7 @@ int Axis::missing_for_homing(const Job& job) const noexcept {
   if (!has_drive_) return 0;
   const auto mark = static_cast<HomingMark>(active ? data.Sensor[encoders_.operative()].ActiveHoming.Mode
                                                    : data.Sensor[encoders_.operative()].PassiveHoming.Mode);
-  return has_mark(mark, home_switch(active), drive_settings.signals) ? 0 : alarm::kHomingNotSupported;
+  return has_mark(mark, home_switch(active), drive_->signals()) ? 0 : alarm::kHomingNotSupported;
 }
 
 HomeSwitch Axis::home_switch(bool active) const noexcept {
@@ -152,7 +153,8 @@ void Axis::begin_passive_homing(Job& job) noexcept {
   job.phase = JobPhase::active;
   homing_now_ = true;
   if (job.mode != 2) homed_ = false;
-  if (has_drive_) search_mark(false, passive_direction(data.Sensor[encoders_.operative()].PassiveHoming.Direction));
+  if (has_drive_)
+    search_mark(false, passive_direction(data.Sensor[encoders_.operative()].PassiveHoming.Direction));
 }
 
 void Axis::begin_active_homing(Job& job) noexcept {
@@ -217,8 +219,7 @@ void Axis::step_homing() noexcept {
 /// From one phase of an active homing to the next.
 void Axis::guide_active_homing(Job& job) noexcept {
   const int direction = homing_.direction;
-  if (homing_reverses() && limit_switches_.pressed(job.direction))
-    return reverse_at_limit_switch(job);
+  if (homing_reverses() && limit_switches_.pressed(job.direction)) return reverse_at_limit_switch(job);
   const auto& settings = data.Sensor[encoders_.operative()].ActiveHoming;
   switch (homing_.phase) {
     case HomingPhase::approach: {
@@ -270,10 +271,14 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
   begin_stop(maximum_dynamics(), false);
 }
 
+AxisPosition Axis::place_of_mark() const noexcept {
+  const double start = drive_->signals().start_position;
+  return encoders_.position_of_machine(two_difference(mark_search_.place(), start), play());
+}
+
 /// The mark has been passed; a virtual axis has none, and takes the place where it is.
 void Axis::take_mark() noexcept {
-  const DoubleDouble way = two_difference(mark_search_.place(), drive_settings.signals.start_position);
-  const AxisPosition place = has_drive_ ? encoders_.position_of_machine(way, play()) : actual_;
+  const AxisPosition place = has_drive_ ? place_of_mark() : actual_;
   mark_search_.end();
   Job* const passive = running_[kPassiveHoming];
   Job& job = passive != nullptr ? *passive : *running_[kBase];

@@ -6,7 +6,7 @@
 
 #include "tech_objects/arithmetic/axis_position.hpp"
 #include "tech_objects/data_blocks/data_block.hpp"
-#include "tech_objects/drive/drive.hpp"
+#include "tech_objects/drive/position_controller.hpp"
 #include "tech_objects/drive/setpoint_filter.hpp"
 #include "tech_objects/objects/extrapolation.hpp"
 
@@ -20,22 +20,22 @@ class PositionLoop {
   struct Input {
     ServoSetpoint setpoint;
     AxisPosition actual;
-    double passing = 0.0;    ///< [u/s] velocity that passes the backlash
-    bool passes = false;     ///< whether backlash is compensated at all
-    bool in_drive = false;   ///< the drive closes the loop (DSC)
+    double passing = 0.0;   ///< [u/s] velocity that passes the backlash
+    bool passes = false;    ///< whether backlash is compensated at all
+    bool in_drive = false;  ///< the drive closes the loop (DSC)
   };
   /// What comes of it.
   struct Output {
-    double velocity = 0.0;        ///< [u/s] VelocitySetpoint, within ± the limit of the drive
-    double xerr = 0.0;            ///< [u] control difference for the loop of the drive
-    double pace = 0.0;            ///< [u/s] at which what that loop follows goes on
-    double filtered = 0.0;        ///< [u] StatusServo.PositionAfterDynamicFilter
-    double filter_delay = 0.0;    ///< [s]
-    double balanced = 0.0;        ///< [u] StatusServo.BalancedPosition
-    double difference = 0.0;      ///< [u] StatusServo.ControlDifference
-    double following_error = 0.0; ///< [u] StatusPositioning.FollowingError
-    ServoSetpoint controlled;     ///< behind the filter
-    bool limited = false;         ///< the velocity has been cut to what the drive can do
+    double velocity = 0.0;         ///< [u/s] VelocitySetpoint, within ± the limit of the drive
+    double xerr = 0.0;             ///< [u] control difference for the loop of the drive
+    double pace = 0.0;             ///< [u/s] at which what that loop follows goes on
+    double filtered = 0.0;         ///< [u] StatusServo.PositionAfterDynamicFilter
+    double filter_delay = 0.0;     ///< [s]
+    double balanced = 0.0;         ///< [u] StatusServo.BalancedPosition
+    double difference = 0.0;       ///< [u] StatusServo.ControlDifference
+    double following_error = 0.0;  ///< [u] StatusPositioning.FollowingError
+    ServoSetpoint controlled;      ///< behind the filter
+    bool limited = false;          ///< the velocity has been cut to what the drive can do
   };
   /// How large the following error is, against what is permitted at a velocity.
   enum class FollowingErrorLevel : std::uint8_t { permitted, warning, exceeded };

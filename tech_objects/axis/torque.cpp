@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 
@@ -24,7 +25,7 @@ ErrorId Axis::torque_additive_refusal() const noexcept {
 }
 
 bool Axis::position_monitoring_off() const noexcept {
-  return forces_.limited() && data.TorqueLimiting.PositionBasedMonitors == 0;
+  return forces_.limited() && data.TorqueLimiting.PositionBasedMonitors == PositionBasedMonitors::deactivated;
 }
 
 /// Each interpolator cycle of an axis with a drive, before it moves.
@@ -36,8 +37,8 @@ void Axis::step_forces() noexcept {
     clamping_.leave();
   TorqueCommand command = forces_.command(data, enabled());
   if (setpoint_sign_ < 0.0) command = {{-command.band.upper, -command.band.lower}, -command.additive};
-  drive_.command_torque(command);
-  forces_.watch_limitation(actual_torque_, drive_.has_plant() && drive_running_);
+  drive_->command_torque(command);
+  forces_.watch_limitation(actual_torque_, drive_properties_.tells_torque && drive_running_);
   forces_.show(data, clamping_.holds());
 }
 
@@ -78,8 +79,7 @@ void Axis::freeze_setpoint() noexcept {
 void Axis::watch_clamping() noexcept {
   if (power_state_ != PowerState::on) return clamping_.leave();
   const bool has_job = running_[kBase] != nullptr || running_[kSuperimposed] != nullptr;
-  switch (
-      clamping_.watch(actual_, modulo_, data.Clamping.PositionTolerance, setpoint_.velocity, has_job)) {
+  switch (clamping_.watch(actual_, modulo_, data.Clamping.PositionTolerance, setpoint_.velocity, has_job)) {
     case Clamping::Outcome::held:
       break;
     case Clamping::Outcome::turned_to:
