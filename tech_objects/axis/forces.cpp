@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/axis/target_distance.hpp"
 
 namespace lockstep {
 namespace {
@@ -128,9 +129,9 @@ bool Axis::pushes_against_a_stop() const noexcept {
   if (!(std::abs(error) > data.Clamping.FollowingErrorDeviation)) return false;
   if (power_state_ != PowerState::on || !position_controlled_ || motion_ == Motion::none) return false;
   if (setpoint_.velocity != 0.0) return setpoint_.velocity * error > 0.0;
-  if (motion_ != Motion::single_axis) return running_[kBase] != nullptr || led();
+  if (motion_ != Motion::single_axis) return jobs_[kBase] != nullptr || led();
   // A job that has only just begun may lead away from what the axis pushes against already.
-  return running_[kBase] != nullptr && (single_.finished() || single_.way_left(error > 0.0 ? 1 : -1) > 0.0);
+  return jobs_[kBase] != nullptr && (single_.finished() || single_.way_left(error > 0.0 ? 1 : -1) > 0.0);
 }
 
 void Axis::watch_fixed_stop() noexcept {
@@ -158,7 +159,7 @@ void Axis::watch_clamping() noexcept {
   if (power_state_ != PowerState::on) return leave_fixed_stop();
   const double moved = difference(actual_, forces_.clamped_at, modulo_).rounded();
   forces_.in_clamping = std::abs(moved) <= data.Clamping.PositionTolerance;
-  const bool has_job = running_[kBase] != nullptr || running_[kSuperimposed] != nullptr;
+  const bool has_job = jobs_[kBase] != nullptr || jobs_[kSuperimposed] != nullptr;
   if (forces_.in_clamping) {
     if (!has_job || forces_.stop_side * setpoint_.velocity <= 0.0) return;
     // A job that has been let go away from the stop has turned towards it.
@@ -185,7 +186,7 @@ ErrorId Axis::check_at_fixed_stop(const Job& job) const noexcept {
     case JobKind::MC_HaltSuperimposed:
       return ErrorId::none;
     case JobKind::MC_MoveAbsolute:
-      return away_from_stop(absolute_distance(job, setpoint_.position.value), side);
+      return away_from_stop(absolute_distance(job, setpoint_.position.value, modulo_), side);
     case JobKind::MC_MoveRelative:
     case JobKind::MC_MoveSuperimposed:
       return away_from_stop(job.position, side);
