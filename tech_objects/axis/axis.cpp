@@ -225,7 +225,7 @@ ErrorId Axis::reset(bool restart) noexcept {
   alarm_notes.acknowledged();
   enable_removed_ = false;
   if (restart) this->restart();
-  if (has_drive_ && (sensor_lost_ || drive_.in_trouble())) acknowledge_drive();
+  if (has_drive_ && (encoders_.lost() || drive_.in_trouble())) acknowledge_drive();
   return ErrorId::none;
 }
 
@@ -248,7 +248,6 @@ void Axis::restart() noexcept {
   reset_leading(actual_);
   counted_from_ = 0;
   limit_switches_ = {};
-  beyond_limit_switch_ = false;
   free_bits_ = {};
   if (!is_virtual()) restart_servo();
   show_sensor();
@@ -287,7 +286,7 @@ void Axis::step() noexcept {
   } else {
     software_limits_.release();
   }
-  if (beyond_limit_switch_) hold_limit_switches();
+  if (has_drive_ && limit_switches_.beyond_any()) hold_limit_switches();
   guard();
   if (handing_over_) step_hand_over();
   control_switched_ = false;

@@ -17,16 +17,20 @@
 
 #include "tech_objects/arithmetic/axis_position.hpp"
 #include "tech_objects/axis/arrival.hpp"
+#include "tech_objects/axis/backlash.hpp"
 #include "tech_objects/axis/blending.hpp"
+#include "tech_objects/axis/clamping.hpp"
+#include "tech_objects/axis/encoders.hpp"
 #include "tech_objects/axis/forces.hpp"
 #include "tech_objects/axis/job_slots.hpp"
+#include "tech_objects/axis/limit_switches.hpp"
 #include "tech_objects/axis/motion_limits.hpp"
+#include "tech_objects/axis/position_loop.hpp"
 #include "tech_objects/axis/software_limits.hpp"
 #include "tech_objects/axis/superimposed_motion.hpp"
 #include "tech_objects/data_blocks/standstill.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 #include "tech_objects/drive/drive.hpp"
-#include "tech_objects/drive/setpoint_filter.hpp"
 #include "tech_objects/jobs/job.hpp"
 #include "tech_objects/jobs/override.hpp"
 #include "tech_objects/objects/leading_object.hpp"
@@ -76,7 +80,7 @@ class Axis final : public LeadingObject {
 
   /// The adjustments of absolute encoders that are kept: may be set before `configure`, and read at any time
   /// in the thread of the cycle. Count for Sensor[].Type 1 and 2. A restart of the object keeps them.
-  static constexpr std::size_t kSensors = 4;
+  static constexpr std::size_t kSensors = Encoders::kCount;
   std::array<EncoderAdjustment, kSensors> encoder_adjustments;
 
   /// Takes over the start values. Call once, after `data` is set and before the first tick.
@@ -102,6 +106,7 @@ class Axis final : public LeadingObject {
   /// Requests of the torque blocks, which write them only when nothing is refused, and what has become of
   /// them.
   AxisForces& forces() noexcept { return forces_; }
+  const Clamping& clamping() const noexcept { return clamping_; }
   ErrorId torque_limiting_refusal(DINT mode) const noexcept;
   ErrorId torque_range_refusal() const noexcept;
   ErrorId torque_additive_refusal() const noexcept;
@@ -163,13 +168,13 @@ class Axis final : public LeadingObject {
 
   AxisPosition actual_position() const noexcept override { return actual_; }
   bool measured_in_servo() const noexcept override { return has_drive_; }
-  DoubleDouble measured_line() const noexcept override { return encoder_position_; }
+  DoubleDouble measured_line() const noexcept override { return encoders_.counted(); }
 
   bool stopping() const noexcept {
     return power_state_ == PowerState::braking || power_state_ == PowerState::drive_stops;
   }
   /// False while encoder or communication are lost, until that is acknowledged.
-  bool actual_values_valid() const noexcept override { return !sensor_lost_; }
+  bool actual_values_valid() const noexcept override { return !encoders_.lost(); }
   bool homing() const noexcept override { return homing_now_; }
   const SimulatedDrive& drive() const noexcept { return drive_; }
   /// Whether this axis is `leading` or follows, over any number of couplings, one that is.
@@ -263,64 +268,30 @@ class Axis final : public LeadingObject {
   void leave_homing(const Job& job) noexcept;
   void home_sensor_beside(Job& job) noexcept;
   std::size_t sensor_of(const Job& job) const noexcept;
-  void shift_sensors_beside(double by) noexcept;
-  void adjust_encoder(std::size_t sensor, bool store) noexcept;
-  double encoder_start(std::size_t sensor) const noexcept;
-  void restore_encoder(std::size_t sensor) noexcept;
-  bool absolute_encoder(std::size_t sensor) const noexcept {
-    return has_drive_ && data.Sensor[sensor].Type != 0;
-  }
-  bool absolute_encoder() const noexcept { return absolute_encoder(operative_); }
   double position_shift(double home_position) const noexcept;
   void shift_positions(double by) noexcept;
   void shift_coupling(double by) noexcept;
   void show_renamed() noexcept;
 
-  // axis_sensors.cpp: the encoders
-  /// An encoder; of the operative one, origin and sign are `encoder_origin_` and `encoder_sign_`.
-  struct Encoder {
-    AxisPosition origin;    // position where it shows 0
-    AxisPosition seen;      // that it shows
-    DoubleDouble reading;   // what it has counted, as it lies [u]; of the drive's own: `encoder_position_`
-    double sign = 1.0;      // -1: it turns the other way round
-    double velocity = 0.0;  // as it lies [u/s]
-    double lent = 0.0;      // by what MC_SetSensor has shifted an absolute one, until it is left [u]
-    bool failed = false;
-  };
-  void take_sensors() noexcept;
-  void begin_sensors(AxisPosition here) noexcept;
-  bool sensor_exists(std::size_t sensor) const noexcept;
-  /// @param sensor 1 to 3: those beside the drive's own
-  const SimulatedSensor& sensor_model(std::size_t sensor) const noexcept {
-    return drive_settings.sensors[sensor - 1];
-  }
-  double encoder_ratio() const noexcept;
-  DoubleDouble travel(std::size_t sensor) const noexcept;
+  // sensors.cpp: what is shown of the encoders, MC_SetSensor, adjustments
+  void begin_encoders(AxisPosition here) noexcept;
+  AxisPosition adjusted_origin(std::size_t encoder) noexcept;
+  void adjust_encoder(std::size_t encoder, bool store) noexcept;
   void show_sensor() noexcept;
-  void show_place(std::size_t sensor, AxisPosition place) noexcept;
-  void read_sensors(DriveActual& now) noexcept;
-  void show_beside(std::size_t sensor, bool failed) noexcept;
-  AxisPosition sensor_position(std::size_t sensor) const noexcept;
-  void place_sensor(std::size_t sensor, AxisPosition place) noexcept;
-  void switch_sensor(std::size_t sensor, bool aligned) noexcept;
+  void show_place(std::size_t encoder, AxisPosition place) noexcept;
+  void read_encoders(DriveActual& now) noexcept;
+  void place_encoder(std::size_t encoder, AxisPosition place) noexcept;
+  void switch_encoder(std::size_t encoder, bool aligned) noexcept;
   void deviate(AxisPosition place) noexcept;
 
-  // axis_switches.cpp: signals of the machine, hardware limit switches
-  struct LimitSwitch {
-    bool pressed = false;
-    bool beyond = false;   // pressed, or overrun and not yet come back over
-    bool locked = false;   // approached in the wrong direction: until a restart
-    double entered = 0.0;  // where it was met [u] on the scale of the machine
-  };
+  // switches.cpp: signals of the machine, hardware limit switches
   bool signals_always_watched() const noexcept;
   void watch_signals(const DoubleDouble& position) noexcept;
   /// After which way the machine is where it was [u]; 0: never.
   double turn() const noexcept { return modulo_.enabled ? modulo_.length : 0.0; }
   bool on_home_switch(double place) const noexcept;
-  bool limit_switch_pressed(int side, double place) const noexcept;
-  void watch_limit_switch(int side, double place) noexcept;
+  void watch_limit_switch(int side, double place, bool signal) noexcept;
   void hold_limit_switches() noexcept;
-  AlarmReaction limit_switch_reaction() const noexcept;
 
   // axis_motion.cpp: motion of its own
   Dynamics effective_dynamics(const Job& job) noexcept;
@@ -351,8 +322,6 @@ class Axis final : public LeadingObject {
   void take_actual_state(double commanded) noexcept;
   void stay_within_limits(const Setpoint& before) noexcept;
   double commanded_velocity() const noexcept;
-  double smoothed_switchover(double velocity) noexcept;
-  void tune_controller(const PositionControlSettings& settings) noexcept;
 
   // axis_hand_over.cpp: the setpoint as following axes see it where it goes over to another course
   void hand_over(const Setpoint& seen, const Setpoint& now) noexcept;
@@ -422,46 +391,44 @@ class Axis final : public LeadingObject {
   void end_simulation() noexcept;
   void end_simulated_gear(JobPhase phase, ErrorId error) noexcept;
 
-  // axis_servo.cpp: drive and position control
+  // servo.cpp: drive and position control
   void configure_servo();
   void restart_servo() noexcept;
   void take_servo_settings() noexcept;
   PositionControlSettings control_settings() const noexcept;
   double way_per_motor_turn() const noexcept;
   double motor_angle_per_unit() const noexcept;
+  void read_drive() noexcept;
+  ServoSetpoint fine_setpoint_now() const noexcept;
+  PositionLoop::Output control_position() noexcept;
+  void watch_following_error(double velocity) noexcept;
   void limit_speed() noexcept;
-  void control_position() noexcept;
   void show_execution_time() noexcept;
   double setpoint_delay() const noexcept;
   double control_delay() const noexcept;
   void reset_servo(const ServoSetpoint& setpoint) noexcept;
-  void delay_following_error(const PositionControlled& controlled) noexcept;
   void shift_servo(double by) noexcept;
   void idle_servo() noexcept;
   /// Dynamic servo control: the drive closes the position loop, on its own encoder.
-  bool loop_in_drive() const noexcept { return data.PositionControl.EnableDSC && operative_ == 0; }
-
-  // axis_backlash.cpp
-  double pass_backlash() noexcept;
-  double backlash_offset() const noexcept { return data.Sensor[0].Backlash.Enable ? backlash_.passed : 0.0; }
+  bool loop_in_drive() const noexcept { return data.PositionControl.EnableDSC && encoders_.operative() == 0; }
+  /// What the motor has passed of the backlash, and the load has not followed [u].
+  double play() const noexcept { return backlash_.passed(data.Sensor[0].Backlash); }
   /// The play lies between the motor, with its encoder, and the load: another encoder sees it by itself.
-  bool passes_backlash() const noexcept { return data.Sensor[0].Backlash.Enable && operative_ == 0; }
+  bool passes_backlash() const noexcept {
+    return data.Sensor[0].Backlash.Enable && encoders_.operative() == 0;
+  }
 
-  // axis_forces.cpp: torque limiting, torque data, fixed stop
+  // torque.cpp: torque limiting, torque data, fixed stop
   void step_forces() noexcept;
-  void show_forces() noexcept;
-  double limit_at_motor() const noexcept;
-  TorqueBand torque_band() const noexcept;
   bool position_monitoring_off() const noexcept;
   bool pushes_against_a_stop() const noexcept;
   void watch_fixed_stop() noexcept;
   void freeze_setpoint() noexcept;
   void watch_clamping() noexcept;
-  void leave_fixed_stop() noexcept;
   ErrorId check_at_fixed_stop(const Job& job) const noexcept;
   static ErrorId away_from_stop(double way, int side) noexcept;
 
-  // axis_faults.cpp: drive and encoder that fail, control words
+  // faults.cpp: drive and encoder that fail, control words
   void watch_drive(const DriveActual& now) noexcept;
   void raise_drive_alarms(const DriveActual& now) noexcept;
   void lose_sensor() noexcept;
@@ -469,7 +436,7 @@ class Axis final : public LeadingObject {
   void acknowledge_drive() noexcept;
   void control_drive(std::uint16_t stw1) noexcept;
 
-  // axis_monitoring.cpp: range of positions, software limit switches, following error
+  // axis_monitoring.cpp: range of positions, software limit switches
   bool far_from_end_of_range() const noexcept;
   void watch_range() noexcept;
   bool keep_in_range(int side) noexcept;
@@ -481,8 +448,6 @@ class Axis final : public LeadingObject {
   void stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept;
   AlarmReaction reaction_at_limit() const noexcept;
   void approach_limit(double way, AxisPosition limit, const Dynamics& dynamics) noexcept;
-  double permissible_following_error(double velocity) const noexcept;
-  void watch_following_error(double velocity) noexcept;
 
   // axis_publish.cpp: the data block
   void publish_motion() noexcept;
@@ -526,7 +491,6 @@ class Axis final : public LeadingObject {
   double actual_velocity_ = 0.0;  // [u/s]
   int servo_tick_ = 0;            // since the last interpolator tick
   bool signals_watched_ = false;
-  bool beyond_limit_switch_ = false;
   std::uint8_t drive_shown_ = kNothingShown;  // of StatusDrive
 
   SynchronousMotion synchronous_;
@@ -540,7 +504,7 @@ class Axis final : public LeadingObject {
 
   alignas(kCacheLine) MotionLimits limits_{data};
   SingleAxisMotion single_;
-  std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
+  LimitSwitches limit_switches_;
 
   // Positioning.
   Arrival arrival_;
@@ -561,46 +525,30 @@ class Axis final : public LeadingObject {
   // What every servo cycle touches, in lines of the cache.
   alignas(kCacheLine) double servo_period_ = 0.001;  // [s]
   int ratio_ = 1;
-  bool several_encoders_ = false;  // there are others
   bool drive_running_ = false;
   bool drive_in_trouble_ = false;
   bool drive_inhibited_ = false;
-  AxisPosition encoder_origin_;    // position where the drive is where it was at the beginning
-  DoubleDouble encoder_position_;  // way of the drive from there [u], as it counts
-  double encoder_sign_ = 1.0;
   double setpoint_sign_ = 1.0;  // -1: the drive turns the other way round
 
   double way_per_motor_turn_ = 1.0;  // [u]
   double motor_limit_ = 0.0;         // what the motor can do [u/s]
-  std::size_t operative_ = 0;        // encoder, from 0
   double actual_torque_ = 0.0;       // at the motor, in the direction of the axis
-  AxisPosition last_balanced_;
-  bool sensor_lost_ = false;
   std::uint16_t sent_stw1_ = kControlOff;
-  FirstOrderLag following_lag_;  // FollowingError.AdditionalSetpointDelayTime
-  FirstOrderLag smoothing_;      // of what MC_SetSensor has changed
-  FirstOrderLag switchover_;     // of the velocity for the drive, to the emergency ramp
+  Encoders encoders_;
   AxisForces forces_;
+  Clamping clamping_;
   SimulatedDrive drive_;
-  PositionController controller_;
+  PositionLoop loop_;
 
   // Servo, seldom of account.
-  double xerr_ = 0.0;  // control difference for the position loop of the drive [u]
-  double pace_ = 0.0;  // velocity of what that loop is to follow [u/s]
-  std::array<Encoder, kSensors> encoders_;
   Superimposed hand_over_;      // what is left between the setpoint and what following axes see of it
   Superimposed return_;         // and of what axes see that follow its position since it was zero to them
   bool hand_over_due_ = false;  // switched off: with the next setpoint, which is the actual value
-  DynamicFilter setpoint_filter_;
   struct ControlBits {
     std::uint16_t stw1 = 0;
     std::uint16_t stw2 = 0;
   };
   ControlBits free_bits_;  // of MC_SetAxisSTW
-  struct Backlash {
-    double passed = 0.0;        // way of the motor that the load has not made: 0, or ∓Size [u]
-    std::int8_t direction = 0;  // of the last motion; 0: none yet
-  };
   Backlash backlash_;
 };
 

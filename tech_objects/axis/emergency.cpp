@@ -31,7 +31,7 @@ void Axis::step_emergency_ramp() noexcept {
 void Axis::brake_from_actual() noexcept {
   emergency_ramp_ = EmergencyRamp::none;
   const bool stops = motion_ == Motion::single_axis && single_.aim() == SingleAxisMotion::Aim::stand;
-  if (!stops || sensor_lost_ || forces_.stop_side != 0) return;
+  if (!stops || encoders_.lost() || clamping_.found()) return;
   const double away = position_controlled_ ? rounded_difference(actual_, setpoint_.position, modulo_) : 0.0;
   const bool rests = setpoint_.standing() && !moving(actual_velocity_);
   if (rests && std::abs(away) <= data.PositioningMonitoring.Window) return;
@@ -43,11 +43,7 @@ void Axis::brake_from_actual() noexcept {
     single_.stand(setpoint_);
   }
   emergency_ramp_ = EmergencyRamp::running;
-  const double time = data.PositionControl.SmoothingTimeByChangeDifference;
-  if (time > 0.0) {
-    switchover_.tune(time, servo_period_);
-    switchover_.set_behind(setpoint_.velocity - commanded);
-  }
+  loop_.switch_over(setpoint_.velocity - commanded, data.PositionControl.SmoothingTimeByChangeDifference);
   hand_over(seen, setpoint_);
 }
 
@@ -90,24 +86,6 @@ void Axis::stay_within_limits(const Setpoint& before) noexcept {
 double Axis::commanded_velocity() const noexcept {
   if (!position_controlled_ || !loop_in_drive()) return data.VelocitySetpoint;
   return data.VelocitySetpoint + data.PositionControl.Kv * data.StatusServo.ControlDifference;
-}
-
-/// The velocity for the drive, behind a switchover that is smoothed.
-double Axis::smoothed_switchover(double velocity) noexcept {
-  if (switchover_.behind() == 0.0) return velocity;
-  switchover_.step(0.0);
-  return std::clamp(velocity - switchover_.behind(), -motor_limit_, motor_limit_);
-}
-
-/// Another Kv asks for another velocity at the control difference at hand: a switchover as well.
-void Axis::tune_controller(const PositionControlSettings& settings) noexcept {
-  const double change = (settings.kv - controller_.settings().kv) * data.StatusServo.ControlDifference;
-  const double time = data.PositionControl.SmoothingTimeByChangeDifference;
-  if (time > 0.0 && change != 0.0) {
-    switchover_.tune(time, servo_period_);
-    switchover_.set_behind(switchover_.behind() + change);
-  }
-  controller_.configure(settings, servo_period_);
 }
 
 }  // namespace lockstep

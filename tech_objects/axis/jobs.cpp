@@ -33,7 +33,7 @@ void Axis::start(Job& job) noexcept {
     if (error == ErrorId::technology_alarm) return JobSlots::end(job, JobPhase::failed, error);
     return job.fail(error);
   }
-  if (forces_.stop_side != 0)
+  if (clamping_.found())
     if (const ErrorId error = check_at_fixed_stop(job); error != ErrorId::none) return job.fail(error);
   if (const int alarm_number = missing_precondition(job); alarm_number != 0) {
     raise(alarm_number);

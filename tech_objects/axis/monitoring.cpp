@@ -1,4 +1,4 @@
-// What an axis watches over: range of positions, software limit switches, following error.
+// What an axis watches over: range of positions, software limit switches.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -181,30 +181,6 @@ void Axis::pass_end_of_range() noexcept {
     single_.advance(setpoint_);
   else  // the drive brakes; the setpoint is the actual value from the next tick on
     setpoint_.position = advanced(setpoint_.position, setpoint_.velocity * period_, modulo_);
-}
-
-// ---- Following error
-// ----------------------------------------------------------------------------------------------
-
-/// Permissible following error at a velocity setpoint [u].
-double Axis::permissible_following_error(double velocity) const noexcept {
-  const auto& monitoring = data.FollowingError;
-  const double above = std::abs(velocity) - monitoring.MinVelocity;
-  if (above <= 0.0) return monitoring.MinValue;
-  const double span = data.DynamicLimits.MaxVelocity - monitoring.MinVelocity;
-  if (above >= span) return monitoring.MaxValue;
-  return monitoring.MinValue + (monitoring.MaxValue - monitoring.MinValue) * (above / span);
-}
-
-/// Each servo cycle under position control.
-/// @param velocity setpoint before the position controller [u/s]
-void Axis::watch_following_error(double velocity) noexcept {
-  const double error = std::abs(data.StatusPositioning.FollowingError);
-  const double level = 0.01 * data.FollowingError.WarningLevel;
-  if (error < level * std::min(data.FollowingError.MinValue, data.FollowingError.MaxValue)) return;
-  const double permissible = permissible_following_error(velocity);
-  if (error > permissible) return raise(alarm::kFollowingError);
-  if (error > level * permissible) raise(alarm::kFollowingErrorWarning);
 }
 
 }  // namespace lockstep

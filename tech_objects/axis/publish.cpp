@@ -195,9 +195,9 @@ void Axis::publish_status() noexcept {
   if (control_panel) word |= word_of(StatusBit::ControlPanelActive);
   if (const int side = software_limits_.side(); side != 0)
     word |= word_of(side < 0 ? StatusBit::SWLimitMinActive : StatusBit::SWLimitMaxActive);
-  if (beyond_limit_switch_)
-    word |= when(limit_switches_[0].beyond, StatusBit::HWLimitMinActive) |
-            when(limit_switches_[1].beyond, StatusBit::HWLimitMaxActive);
+  if (has_drive_)
+    word |= when(limit_switches_.beyond(-1), StatusBit::HWLimitMinActive) |
+            when(limit_switches_.beyond(1), StatusBit::HWLimitMaxActive);
 
   std::uint32_t word2 = 0;
   if (const Job* const base = jobs_[kBase]) {

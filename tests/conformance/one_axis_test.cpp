@@ -271,7 +271,7 @@ class OneAxis {
     const int alarm_now = axis_.pending_alarm();
     if (alarm_now != 0 && !alarmed_) ++counts_.alarms;
     alarmed_ = alarm_now != 0;
-    const bool clamped = axis_.forces().in_clamping;
+    const bool clamped = axis_.clamping().holds();
     if (clamped && !last_.clamped) ++counts_.clampings;
     if (find("MC_MoveRelative")->done()) ++counts_.done;
   }
@@ -297,7 +297,7 @@ class OneAxis {
     const bool driven = !axis_.is_virtual();
     if (driven && (!before.enabled || !last_.enabled || before.controlled != last_.controlled))
       return watch_hand_over(before);
-    if (axis_.forces().stop_side != 0 || before.clamped) return;
+    if (axis_.clamping().found() || before.clamped) return;
     watch_limits(before);
     watch_steps(before);
   }
