@@ -16,12 +16,18 @@
 #include <vector>
 
 #include "tech_objects/arithmetic/axis_position.hpp"
+#include "tech_objects/axis/arrival.hpp"
 #include "tech_objects/axis/backlash.hpp"
+#include "tech_objects/axis/blending.hpp"
 #include "tech_objects/axis/clamping.hpp"
 #include "tech_objects/axis/encoders.hpp"
 #include "tech_objects/axis/forces.hpp"
+#include "tech_objects/axis/job_slots.hpp"
 #include "tech_objects/axis/limit_switches.hpp"
+#include "tech_objects/axis/motion_limits.hpp"
 #include "tech_objects/axis/position_loop.hpp"
+#include "tech_objects/axis/software_limits.hpp"
+#include "tech_objects/axis/superimposed_motion.hpp"
 #include "tech_objects/data_blocks/standstill.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 #include "tech_objects/drive/drive.hpp"
@@ -125,7 +131,7 @@ class Axis final : public LeadingObject {
 
   /// Starts the jobs handed over since the last interpolator tick, by the override rules.
   void start_jobs() noexcept;
-  bool has_new_jobs() const noexcept { return new_count_ != 0; }
+  bool has_new_jobs() const noexcept { return jobs_.has_new(); }
 
   /// Alarm 601 if the object that leads this axis has been restarted: where it is then has no meaning for it.
   void watch_leading_object() noexcept;
@@ -135,7 +141,7 @@ class Axis final : public LeadingObject {
     __builtin_prefetch(&power, 1);
     __builtin_prefetch(&setpoint_, 1);
     __builtin_prefetch(&additive_request, 1);
-    __builtin_prefetch(running_.data(), 1);
+    __builtin_prefetch(jobs_.address(), 1);
     __builtin_prefetch(&period_, 1);
     __builtin_prefetch(&standstill_, 1);
     __builtin_prefetch(&data.Position, 1);
@@ -189,23 +195,8 @@ class Axis final : public LeadingObject {
 
   /// What generates the setpoint.
   enum class Motion : std::uint8_t { none, single_axis, given, synchronizing, synchronous, desynchronizing };
-  /// Places of running jobs: the base motion, synchronous and desynchronizing jobs that wait, shifts, what is
-  /// superimposed on the base motion, the next base motion, homing in passing.
-  enum Slot : std::uint8_t {
-    kBase,
-    kWaiting,
-    kWaitingOut,
-    kPhasing,
-    kOffset,
-    kSuperimposed,
-    kBuffered,
-    kPassiveHoming,
-    kSlots
-  };
-
   // axis.cpp: power, alarms, the cycle
   void take_start_values() noexcept;
-  std::int64_t ticks_of(double seconds) const noexcept;
   void step_power() noexcept;
   void switch_on() noexcept;
   void take_up_motion() noexcept;
@@ -218,7 +209,6 @@ class Axis final : public LeadingObject {
   void set_position_control(bool on) noexcept;
   void raise(int alarm_number, AlarmReaction reaction) noexcept;
   void react(AlarmReaction reaction) noexcept;
-  bool outranked_by_stop(AlarmReaction reaction) const noexcept;
   ErrorId reset(bool restart) noexcept;
   void restart() noexcept;
   void step_base() noexcept;
@@ -233,13 +223,9 @@ class Axis final : public LeadingObject {
   bool override_running(JobClass new_job, Job& job) noexcept;
   void cancel_waiting_shift(Job& job) noexcept;
   ErrorId check_cam(const Job& job) const noexcept;
-  bool runs_or_waits(bool cam) const noexcept;
   void install(Job& job) noexcept;
   void end_job(Slot slot, JobPhase phase, ErrorId error) noexcept;
   void end_all_jobs(JobPhase phase, ErrorId error) noexcept;
-  bool locked_by_stop() const noexcept {
-    return stop_ != nullptr && (stop_->running() || (stop_->phase == JobPhase::done && stop_->hold));
-  }
 
   // axis_homing.cpp: MC_Home
   enum class HomingPhase : std::uint8_t {
@@ -310,43 +296,24 @@ class Axis final : public LeadingObject {
   void hold_limit_switches() noexcept;
 
   // axis_motion.cpp: motion of its own
-  double velocity_limit() const noexcept;
-  double wanted_velocity(const Job& job) const noexcept;
-  void take_defaults(Job& job) const noexcept;
   Dynamics effective_dynamics(const Job& job) noexcept;
   Dynamics own_dynamics(const Job& job) noexcept;
-  void keep_below_limit(Dynamics& dynamics) const noexcept;
-  void keep_below_limit(Dynamics& dynamics, double acceleration, double room) const noexcept;
   double room_to_limit() const noexcept;
-  double room_to_limit(const Setpoint& from, double beside = 0.0) const noexcept;
-  double tolerable_acceleration(double acceleration, double room) const noexcept;
   void cut_acceleration() noexcept {
-    setpoint_.acceleration = tolerable_acceleration(setpoint_.acceleration, room_to_limit());
+    setpoint_.acceleration = limits_.tolerable_acceleration(setpoint_.acceleration, room_to_limit());
   }
-  Dynamics maximum_dynamics() const noexcept;
-  Dynamics emergency_dynamics() const noexcept;
   Dynamics maximum_for_current(Dynamics dynamics) const noexcept;
-  int zero_limit(const Dynamics& dynamics) const noexcept;
   ErrorId target_refusal(const Job& job) const noexcept;
   void begin_base_motion(Job& job) noexcept;
   PlanResult plan(Job& job, const Dynamics& dynamics) noexcept;
   void show_target(const AxisPosition& target) noexcept;
   PlanResult move_by(DoubleDouble way, const Job& job, const Dynamics& dynamics) noexcept;
-  DoubleDouble absolute_way(const Job& job, const Dynamics& dynamics) const noexcept;
-  double beyond_stopping_distance(double distance, const Dynamics& dynamics) const noexcept;
-  double absolute_distance(const Job& job, double here) const noexcept;
   void begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept;
   void step_single_axis() noexcept;
   void follow_changes(Job& job) noexcept;
-  void remember_limits() noexcept;
-  bool limits_changed() const noexcept {
-    const TO_Struct_DynamicLimits& now = data.DynamicLimits;
-    return data.Override.Velocity != planned_.override_velocity || now.Velocity != planned_.velocity ||
-           now.MaxAcceleration != planned_.acceleration || now.MaxDeceleration != planned_.deceleration ||
-           now.MaxJerk != planned_.jerk;
-  }
   void watch_base_job(Job& job) noexcept;
   void watch_positioning() noexcept;
+  void take_arrival(Arrival::Verdict verdict) noexcept;
   void watch_standstill() noexcept;
 
   // axis_emergency.cpp: the emergency ramp of an axis with a drive, from where it is
@@ -385,51 +352,33 @@ class Axis final : public LeadingObject {
   bool led() const noexcept { return motion_ >= Motion::synchronizing; }
 
   // axis_buffer.cpp: a job that waits for the end of another, and blending
-  struct Blending {
-    double way;         // of the next motion from the target of this one; its direction if endless [u]
-    bool endless;       // whether it has no target that it must not pass
-    Dynamics dynamics;  // of the next motion
-  };
   bool buffer(Job& job) noexcept;
   void watch_buffered() noexcept;
   void speed_up_for_junction() noexcept;
-  bool due_to_speed_up(double distance, const Dynamics& dynamics) const noexcept;
-  double highest_junction_velocity(double distance, double wanted, const Blending& blending,
-                                   const Dynamics& dynamics) const noexcept;
   void plan_blending() noexcept;
-  Blending blending_into(const Job& next) noexcept;
-  double wanted_blending_velocity(BufferMode mode, double previous, double next) const noexcept;
-  bool next_can_take_over(const Blending& next, double velocity) const noexcept;
+  NextMotion motion_after_target(const Job& job) noexcept;
 
   // axis_motion_in.cpp: setpoints given by the program
   void begin_motion_in(Job& job) noexcept;
   void step_given() noexcept;
-  AxisPosition given_position(double position) const noexcept;
   void show_motion_in_command() noexcept;
 
   // axis_superimposed.cpp: what is added to the base motion
   void begin_superimposed(Job& job) noexcept;
-  ErrorId begin_superimposed_part(Job& job) noexcept;
   void take_position_control() noexcept;
-  Dynamics superimposed_room() const noexcept;
-  Dynamics left_by_base() const noexcept;
-  Dynamics quick_enough(Dynamics room) noexcept;
-  Dynamics first_room() noexcept;
-  void follow_room() noexcept;
+  BaseMotion base_motion() const noexcept;
+  void follow_share() noexcept;
   void replan_stop() noexcept;
-  double velocity_left_by_base(int side) const noexcept;
-  bool stays_against_superimposed(const Job* job, const Dynamics& dynamics) const noexcept;
   void leave_to_superimposed(const Job* job, Dynamics& dynamics) noexcept;
-  bool superimposed_runs_down() const noexcept;
   void step_superimposed() noexcept;
-  void advance_superimposed_in_view() noexcept;
   void advance_superimposed() noexcept;
   void follow_given_superimposed(Job& job) noexcept;
   void add_superimposed() noexcept;
-  Setpoint with_superimposed(const Setpoint& base) const noexcept;
   void absorb_superimposed() noexcept;
   void show_superimposed_command() noexcept;
-  const Setpoint& base_setpoint() const noexcept { return superimposed_.in_use() ? base_ : setpoint_; }
+  const Setpoint& base_setpoint() const noexcept {
+    return superimposed_.in_use() ? superimposed_.base() : setpoint_;
+  }
 
   // axis_desynchronizing.cpp: out of a synchronous motion, and its simulation
   void begin_sync_out(Job& job) noexcept;
@@ -494,18 +443,10 @@ class Axis final : public LeadingObject {
   void watch_range() noexcept;
   bool keep_in_range(int side) noexcept;
   void pass_end_of_range() noexcept;
-  struct PositionLimits {
-    double least;     // [u]
-    double greatest;  // [u]
-  };
-  PositionLimits position_limits() const noexcept;
   void watch_position_limits() noexcept;
-  void hold_limits(const PositionLimits& limits, bool rests) noexcept;
-  void show_limit(const PositionLimits& limits) noexcept;
   bool keep_within(int side, double limit) noexcept;
   bool turns_in_time(int side, double room, double jerk) const noexcept;
   Dynamics limit_dynamics() const noexcept;
-  bool find_braking(int side, double room, Dynamics& dynamics) const noexcept;
   void stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept;
   AlarmReaction reaction_at_limit() const noexcept;
   void approach_limit(double way, AxisPosition limit, const Dynamics& dynamics) noexcept;
@@ -539,67 +480,43 @@ class Axis final : public LeadingObject {
   Motion motion_ = Motion::none;
   bool homed_ = false;
   bool has_drive_ = false;
-  std::int8_t limit_side_ = 0;  // software limit switch approached or passed: 1, -1; 0: none
+  SoftwareLimits software_limits_;
   EmergencyRamp emergency_ramp_ = EmergencyRamp::none;
   bool homing_now_ = false;  // a mark is being looked for, or an active homing is under way
 
-  alignas(kCacheLine) std::array<Job*, kSlots> running_{};
+  alignas(kCacheLine) JobSlots jobs_;
 
   double period_ = 0.001;          // of the interpolator [s]
-  Job* stop_ = nullptr;            // the MC_Stop that may lock the axis
   Job* simulated_ = nullptr;       // the gear that is simulated
   std::int64_t counted_from_ = 0;  // turn that ModuloCycle shows as 0
   AxisPosition actual_;
   double actual_velocity_ = 0.0;  // [u/s]
   int servo_tick_ = 0;            // since the last interpolator tick
-  std::uint8_t new_count_ = 0;    // of new_jobs_
   bool signals_watched_ = false;
   std::uint8_t drive_shown_ = kNothingShown;  // of StatusDrive
 
   SynchronousMotion synchronous_;
 
   // One line, with the end of the one and the begin of the other.
-  Superimposed superimposed_;
+  SuperimposedMotion superimposed_;
   Standstill standstill_;
   double largest_deviation_ = 0.0;
   bool was_synchronous_ = false;
-  bool advancing_base_ = false;  // `setpoint_` is that of the base motion alone, within a step
   AdditiveLeadingValues additive_;
 
-  /// What the motion at hand has been planned with. MaxVelocity changes with a restart only.
-  struct PlannedLimits {
-    double override_velocity = 100.0;  // [%]
-    double velocity = 0.0;             // [u/s]
-    double acceleration = 0.0;         // [u/s²]
-    double deceleration = 0.0;         // [u/s²]
-    double jerk = 0.0;                 // [u/s³]
-  };
-  alignas(kCacheLine) PlannedLimits planned_;
+  alignas(kCacheLine) MotionLimits limits_{data};
   SingleAxisMotion single_;
   LimitSwitches limit_switches_;
 
-  // Superimposed motion.
-  Setpoint base_;                    // the setpoint without the superimposed part, while there is one
-  Dynamics superimposed_wanted_;     // what MC_MoveSuperimposed asks for, before override and limits
-  Dynamics superimposed_room_;       // of that, what it has been planned with
-  bool base_curbed_ = false;         // the base motion has been planned with less, for what is superimposed
-  bool curbed_for_a_while_ = false;  // by what that runs down yet
-
-  // Positioning and limits.
-  bool was_controlled_ = false;      // in the last cycle, for the software limit switches
-  PositionLimits held_limits_{};     // the software limit switches for the present motion [u]
-  std::int8_t approached_side_ = 0;  // while the axis brakes in front of a limit switch
-  std::int64_t in_window_ticks_ = 0;
-  std::int64_t since_target_ticks_ = 0;
-  DoubleDouble beyond_target_;      // way that the axis has made since the target of the motion before [u]
-  Job jogged_;                      // inputs of MC_MoveJog that are planned for
-  double junction_velocity_ = 0.0;  // for which the running motion has yet to speed up [u/s]; 0: none
+  // Positioning.
+  Arrival arrival_;
+  Blending blending_;
+  DoubleDouble beyond_target_;  // way that the axis has made since the target of the motion before [u]
+  Job jogged_;                  // inputs of MC_MoveJog that are planned for
 
   // Jobs.
-  static constexpr std::size_t kNewJobs = 16;
-  std::array<Job*, kNewJobs> new_jobs_{};  // handed over, in order
-  SynchronousMotion awaited_;              // what the waiting job prepares
-  Setpoint ghost_;                         // where it would have the axis
+  SynchronousMotion awaited_;  // what the waiting job prepares
+  Setpoint ghost_;             // where it would have the axis
   AxisData start_values_;
 
   // Homing.
@@ -636,7 +553,6 @@ class Axis final : public LeadingObject {
   };
   ControlBits free_bits_;  // of MC_SetAxisSTW
   Backlash backlash_;
-  Dynamics superimposed_uses_;  // of the limits, in this cycle and from it on
 };
 
 }  // namespace lockstep

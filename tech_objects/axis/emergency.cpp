@@ -38,7 +38,7 @@ void Axis::brake_from_actual() noexcept {
   const Setpoint seen = led_setpoint();
   const double commanded = commanded_velocity();
   take_actual_state(commanded);
-  if (single_.stop(setpoint_, emergency_dynamics(), false) != PlanResult::ok) {
+  if (single_.stop(setpoint_, limits_.emergency(), false) != PlanResult::ok) {
     setpoint_.velocity = 0.0;  // no ramp can be planned from such a state: stand
     single_.stand(setpoint_);
   }
@@ -64,15 +64,15 @@ void Axis::take_actual_state(double commanded) noexcept {
 /// Where the setpoint could stop in front of a software limit switch, so can the actual state, though it may
 /// be a little ahead or faster: what is missing remains as following error.
 void Axis::stay_within_limits(const Setpoint& before) noexcept {
-  const double deceleration = std::max(maximum_dynamics().deceleration, emergency_dynamics().deceleration);
+  const double deceleration = std::max(limits_.maximum().deceleration, limits_.emergency().deceleration);
   const auto room = [&](const Setpoint& from, int side, double limit) {
     const double v = std::max(side * from.velocity, 0.0);
     const AxisPosition border{before.position.turns, limit};
     return side * rounded_difference(border, from.position, modulo_) - v * v / (2.0 * deceleration);
   };
-  const PositionLimits limits = position_limits();
+  const SoftwareLimits::Range range = SoftwareLimits::in_effect(data.PositionLimits_SW, modulo_);
   for (const int side : {1, -1}) {
-    const double limit = side > 0 ? limits.greatest : limits.least;
+    const double limit = side > 0 ? range.maximum : range.minimum;
     if (!std::isfinite(limit) || room(before, side, limit) < -kRounding * (1.0 + std::abs(limit))) continue;
     const double missing = -room(setpoint_, side, limit);
     if (missing > 0.0) setpoint_.position = advanced(setpoint_.position, -side * missing, modulo_);

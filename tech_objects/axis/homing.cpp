@@ -29,7 +29,7 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
   if (kind == JobClass::home_cancel) return ErrorId::none;
   const bool seeks = kind == JobClass::home_active || kind == JobClass::home_passive;
   if ((seeks || job.mode == 13) && pending_alarm() != 0) return ErrorId::technology_alarm;
-  if (seeks && (!enabled() || locked_by_stop())) return ErrorId::locked;
+  if (seeks && (!enabled() || jobs_.locked())) return ErrorId::locked;
   if (adjusts_encoder(job)) {
     const std::size_t sensor = sensor_of(job);
     if (!data.Sensor[sensor].Existent) return ErrorId::sensor;
@@ -38,7 +38,7 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
     if (job.mode != 13 && !absolute) return ErrorId::homing_mode_incremental;
     if (data.StatusSensor[sensor].State != SensorState::valid) return ErrorId::actual_values_invalid;
   }
-  const Job* base = running_[kBase];
+  const Job* base = jobs_[kBase];
   const JobKind running = base != nullptr ? base->kind : JobKind::MC_Halt;
   if (kind != JobClass::home_active && !position_controlled_ && !off())
     return ErrorId::not_position_controlled;
@@ -104,7 +104,7 @@ void Axis::home_directly(Job& job) noexcept {
     // No following error in between: the setpoint is the given position to the last bit.
     const AxisPosition exact = normalised({setpoint_.position.turns, job.position}, modulo_);
     setpoint_.position.value = exact.value;
-    const bool idle = running_[kBase] == nullptr && !superimposed_.in_use();
+    const bool idle = jobs_[kBase] == nullptr && !superimposed_.in_use();
     if (setpoint_.standing() && motion_ == Motion::single_axis && idle) single_.stand(setpoint_);
     if (!has_drive_) actual_ = setpoint_.position;
   }
@@ -149,8 +149,7 @@ void Axis::begin_passive_homing(Job& job) noexcept {
   if (job.mode == 10) job.position = data.Homing.HomePosition;
   if (!positions_fit(position_shift(job.position))) return job.fail(ErrorId::position);
   end_job(kPassiveHoming, JobPhase::aborted, ErrorId::none);
-  running_[kPassiveHoming] = &job;
-  job.phase = JobPhase::active;
+  jobs_.put(kPassiveHoming, job, JobPhase::active);
   homing_now_ = true;
   if (job.mode != 2) homed_ = false;
   if (has_drive_)
@@ -209,7 +208,7 @@ void Axis::search_mark(bool active, int direction) noexcept {
 
 /// Each interpolator tick of a homing, before the setpoint is made.
 void Axis::step_homing() noexcept {
-  Job* base = running_[kBase];
+  Job* base = jobs_[kBase];
   const bool active = base != nullptr && base->kind == JobKind::MC_Home;
   if (active && homing_.phase == HomingPhase::travel) return;
   if (!has_drive_ || (mark_search_.found() && homing_.phase != HomingPhase::back)) return take_mark();
@@ -260,15 +259,14 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
   homing_.phase = phase;
   job.direction = direction;
   job.velocity = phase == HomingPhase::search ? homing_.referencing_velocity : homing_.approach_velocity;
-  in_window_ticks_ = 0;
-  since_target_ticks_ = 0;
-  remember_limits();
+  arrival_.begin();
+  limits_.remember();
   Dynamics dynamics = own_dynamics(job);
-  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) return raise(alarm_number);
-  if (advancing_base_) leave_to_superimposed(&job, dynamics);
+  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) return raise(alarm_number);
+  if (superimposed_.advancing_base()) leave_to_superimposed(&job, dynamics);
   if (plan(job, dynamics) == PlanResult::ok) return;
   end_job(kBase, JobPhase::failed, ErrorId::unspecified);
-  begin_stop(maximum_dynamics(), false);
+  begin_stop(limits_.maximum(), false);
 }
 
 AxisPosition Axis::place_of_mark() const noexcept {
@@ -280,8 +278,8 @@ AxisPosition Axis::place_of_mark() const noexcept {
 void Axis::take_mark() noexcept {
   const AxisPosition place = has_drive_ ? place_of_mark() : actual_;
   mark_search_.end();
-  Job* const passive = running_[kPassiveHoming];
-  Job& job = passive != nullptr ? *passive : *running_[kBase];
+  Job* const passive = jobs_[kPassiveHoming];
+  Job& job = passive != nullptr ? *passive : *jobs_[kBase];
   job.mark_position = passive != nullptr ? job.position : homing_.mark;
   if (!assign_position(place, job.mark_position)) return raise(alarm::kHomingNotPossible);
   if (passive != nullptr) return end_job(kPassiveHoming, JobPhase::done, ErrorId::none);
@@ -309,7 +307,7 @@ void Axis::shift_coupling(double by) noexcept {
   synchronous_.shift_following(by);
   if (synchronous_.cam() == nullptr || motion_ == Motion::desynchronizing) return;
   data.StatusSynchronizedMotion.SlaveOffset = synchronous_.slave_offset();
-  Job* const offset = running_[kOffset];
+  Job* const offset = jobs_[kOffset];
   const bool relative = offset != nullptr && offset->kind == JobKind::MC_OffsetRelative;
   if (relative) offset->shift_base = offset->shift_base + by;
 }
@@ -333,12 +331,12 @@ double Axis::position_shift(double home_position) const noexcept {
 void Axis::shift_positions(double by) noexcept {
   setpoint_.position = advanced(setpoint_.position, by, modulo_);
   last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
-  base_.position = advanced(base_.position, by, modulo_);
+  superimposed_.shift_base(by, modulo_);
   actual_ = advanced(actual_, by, modulo_);
   shift_leading(by);
   single_.shift(by);
   // What waits to blend may have another distance to its target: that is where the axis calls it so then.
-  if (running_[kBuffered] != nullptr && running_[kBase] != nullptr && motion_ == Motion::single_axis)
+  if (jobs_[kBuffered] != nullptr && jobs_[kBase] != nullptr && motion_ == Motion::single_axis)
     plan_blending();
   shift_coupling(by);
   if (has_drive_) shift_servo(by);
@@ -347,7 +345,7 @@ void Axis::shift_positions(double by) noexcept {
 /// What has been shown in this tick is where it was, and has other names now: the target of a running
 /// positioning, and what MC_Servo shows.
 void Axis::show_renamed() noexcept {
-  const bool positioning = motion_ == Motion::single_axis && running_[kBase] != nullptr &&
+  const bool positioning = motion_ == Motion::single_axis && jobs_[kBase] != nullptr &&
                            single_.aim() == SingleAxisMotion::Aim::position;
   if (positioning) show_target(single_.target());
   if (!has_drive_) return;

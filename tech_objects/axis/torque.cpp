@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/axis/target_distance.hpp"
 #include "tech_objects/types/published.hpp"
 
 namespace lockstep {
@@ -52,9 +53,9 @@ bool Axis::pushes_against_a_stop() const noexcept {
   if (!(std::abs(error) > data.Clamping.FollowingErrorDeviation)) return false;
   if (power_state_ != PowerState::on || !position_controlled_ || motion_ == Motion::none) return false;
   if (setpoint_.velocity != 0.0) return setpoint_.velocity * error > 0.0;
-  if (motion_ != Motion::single_axis) return running_[kBase] != nullptr || led();
+  if (motion_ != Motion::single_axis) return jobs_[kBase] != nullptr || led();
   // A job that has only just begun may lead away from what the axis pushes against already.
-  return running_[kBase] != nullptr && (single_.finished() || single_.way_left(error > 0.0 ? 1 : -1) > 0.0);
+  return jobs_[kBase] != nullptr && (single_.finished() || single_.way_left(error > 0.0 ? 1 : -1) > 0.0);
 }
 
 void Axis::watch_fixed_stop() noexcept {
@@ -78,7 +79,7 @@ void Axis::freeze_setpoint() noexcept {
 
 void Axis::watch_clamping() noexcept {
   if (power_state_ != PowerState::on) return clamping_.leave();
-  const bool has_job = running_[kBase] != nullptr || running_[kSuperimposed] != nullptr;
+  const bool has_job = jobs_[kBase] != nullptr || jobs_[kSuperimposed] != nullptr;
   switch (clamping_.watch(actual_, modulo_, data.Clamping.PositionTolerance, setpoint_.velocity, has_job)) {
     case Clamping::Outcome::held:
       break;
@@ -101,7 +102,7 @@ ErrorId Axis::check_at_fixed_stop(const Job& job) const noexcept {
     case JobKind::MC_HaltSuperimposed:
       return ErrorId::none;
     case JobKind::MC_MoveAbsolute:
-      return away_from_stop(absolute_distance(job, setpoint_.position.value), side);
+      return away_from_stop(absolute_distance(job, setpoint_.position.value, modulo_), side);
     case JobKind::MC_MoveRelative:
     case JobKind::MC_MoveSuperimposed:
       return away_from_stop(job.position, side);
