@@ -115,6 +115,18 @@ void Controller::finish() {
   lay_objects_into_large_pages();
 }
 
+void Controller::employ_processors() {
+  const std::size_t most = std::max(axes.size(), driven_.size());
+  if (clock.processors <= 1 || most < kWorthSharing || most > Crew::kMostItems) return;
+  levels_.reserve(axes.size(), static_cast<std::uint32_t>(objects.back()->number));
+  levels_.rebuild(order_.axes());
+  crew_ = std::make_unique<Crew>(clock.processors - 1);
+}
+
+std::vector<pthread_t> Controller::helping_threads() {
+  return crew_ == nullptr ? std::vector<pthread_t>() : crew_->threads();
+}
+
 void Controller::lay_objects_into_large_pages() const {
   std::vector<const void*> places;
   for (const auto& object : objects) places.push_back(object.get());

@@ -1,6 +1,7 @@
 /// The controller: technology objects, tags and programs of one project, and the cycle that runs them.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -9,7 +10,9 @@
 #include <vector>
 
 #include "fb/block.hpp"
+#include "scheduler/crew.hpp"
 #include "scheduler/events.hpp"
+#include "scheduler/levels.hpp"
 #include "scheduler/process_image.hpp"
 #include "scheduler/program.hpp"
 #include "scheduler/text.hpp"
@@ -31,8 +34,11 @@ namespace lockstep {
 struct Clock {
   std::int64_t servo_cycle = 1'000'000;  ///< period of MC_Servo [ns]
   int interpolator_ratio = 1;  ///< MC_Interpolator runs on every so many executed servo ticks, 1 to 32
+  int processors = 1;          ///< that a tick uses for the axes, 1 to `kMostProcessors`
 
   std::int64_t interpolator_cycle() const noexcept { return servo_cycle * interpolator_ratio; }  ///< [ns]
+
+  static constexpr int kMostProcessors = 64;
 };
 
 /// A tag: a named value of the project.
@@ -138,6 +144,14 @@ class Controller {
   /// Call once when all is loaded: sorts programs and stimuli and readies the axes for the clock.
   void finish();
 
+  /// Has ticks use `clock.processors` processors, by starting threads that help with the axes; nothing if
+  /// that is 1, or if there are too few axes to gain by it. The bits of what is computed stay the same. After
+  /// `finish`, before the first tick.
+  /// @throws std::system_error if a thread cannot be started
+  void employ_processors();
+  /// The threads that help, to give them a priority; none without them.
+  std::vector<pthread_t> helping_threads();
+
   /// One servo tick, run to completion. Nothing in it allocates, locks, blocks or throws.
   void tick() noexcept;
 
@@ -188,9 +202,17 @@ class Controller {
   void wire_outputs();
   void lay_objects_into_large_pages() const;
   void interpolate() noexcept;
+  void serve_drives() noexcept;
+  void step_axes() noexcept;
+  void step_level(std::span<Axis* const> axes) noexcept;
+  void step_axes_in_turn(std::span<Axis* const> axes) noexcept;
+  void rebuild_order() noexcept;
   void tell_events(std::int64_t now) noexcept;
   void tell(EventKind kind, std::size_t source, int number, int reaction, std::int64_t now) noexcept;
   void show(std::int64_t now, bool interpolator_tick) noexcept;
+
+  /// Axes of a level from which on it is shared: below, one processor is done before another has come.
+  static constexpr std::size_t kWorthSharing = 2 * Crew::kPortion;
 
   std::deque<Value> tag_memory_;
   std::vector<Program*> schedule_;       // sorted by organization block, then priority
@@ -198,6 +220,9 @@ class Controller {
   std::vector<SwitchedOutput> outputs_;  // that cams switch
   std::vector<JobWatch> job_watches_;    // none unless jobs are told
   CouplingOrder order_;
+  Levels levels_;                                  // of that order, where a crew steps the axes
+  std::unique_ptr<Crew> crew_;                     // none where one processor steps them
+  std::atomic<std::uint64_t> alarms_now_{0};       // counted by whoever steps an axis
   std::unique_ptr<CamInterpolator> interpolator_;  // for the largest cam; none without cams
   std::size_t next_stimulus_ = 0;
   std::int64_t next_tick_ = 0;

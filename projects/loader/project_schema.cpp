@@ -458,6 +458,8 @@ Json root_schema() {
   const Json clock =
       object(keys::kClock, {{"servo_cycle", duration("period of MC_Servo")},
                             {"interpolator_ratio", integer("servo cycles per interpolator cycle", 1, 32)},
+                            {"processors", integer("that a tick uses for the axes, where there are many (1)",
+                                                   1, Clock::kMostProcessors)},
                             {"overrun", words("what three overruns in a row do", words::kOverrun)}});
   const Json type = {
       {"description",
