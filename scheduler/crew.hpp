@@ -11,11 +11,11 @@
 
 namespace lockstep {
 
-/// A crew takes portions of a piece of work together with the thread of the cycle. That thread waits for nobody
-/// who has not begun: who comes late finds less to do, and if nobody comes it does all by itself.
+/// A crew takes portions of a piece of work together with the thread of the cycle. That thread waits for
+/// nobody who has not begun: who comes late finds less to do, and if nobody comes it does all by itself.
 ///
-/// Between two pieces of work the helpers stay awake for some microseconds, then they sleep; waking them is one
-/// system call of the cycle, which does not wait for them either.
+/// Between two pieces of work the helpers stay awake for some microseconds, then they sleep; waking them is
+/// one system call of the cycle, which does not wait for them either.
 class Crew {
  public:
   /// Does the items `begin` to `end`, without `end`, of a piece of work. Neither throws nor waits.
@@ -37,8 +37,8 @@ class Crew {
   void wake() noexcept;
   void rest() noexcept;
 
-  /// Has `count` items done, portion by portion, by whoever comes first; all are done when it returns, and seen
-  /// by the calling thread. Between `wake` and `rest`.
+  /// Has `count` items done, portion by portion, by whoever comes first; all are done when it returns, and
+  /// seen by the calling thread. Between `wake` and `rest`.
   void share(std::size_t count, Work work, void* context) noexcept;
 
   /// The helpers, to give them a priority and a processor.

@@ -9,12 +9,12 @@
 
 namespace lockstep {
 
-/// The order of the axes in levels: an axis reads only axes of lower levels, so that those of one level can be
-/// stepped in any order, or at once, and the result is to the bit that of the whole order one by one.
+/// The order of the axes in levels: an axis reads only axes of lower levels, so that those of one level can
+/// be stepped in any order, or at once, and the result is to the bit that of the whole order one by one.
 ///
-/// A coupled axis reads its leading axis. An axis that waits for its synchronous position looks along the whole
-/// chain of couplings above it; it is a level of its own, behind all axes in front of it in the order and before
-/// all others.
+/// A coupled axis reads its leading axis. An axis that waits for its synchronous position looks along the
+/// whole chain of couplings above it; it is a level of its own, behind all axes in front of it in the order
+/// and before all others.
 class Levels {
  public:
   /// Load time: reserves all memory. @param highest_number of an axis

@@ -29,7 +29,8 @@ TEST_P(Crews, DoEachItemOnceAndShowItToWhoAsked) {
     crew.wake();
     for (int piece = 1; piece <= 5; ++piece) {
       crew.share(count, Items::work, &items);
-      ASSERT_TRUE(std::all_of(items.done.begin(), items.done.end(), [&](int n) { return n == piece; })) << count;
+      ASSERT_TRUE(std::all_of(items.done.begin(), items.done.end(), [&](int n) { return n == piece; }))
+          << count;
     }
     crew.rest();
     ++rounds;

@@ -36,9 +36,8 @@ struct Machine : Rig {
     std::mt19937_64 random(seed);
     controller.clock.processors = processors;
     for (int i = 0; i < kAxes; ++i)
-      axes.push_back(&axis("Axis" + std::to_string(i), [&](AxisData& data) {
-        data.VirtualAxis.Mode = i % 2 == 0 ? 1 : 0;
-      }));
+      axes.push_back(&axis("Axis" + std::to_string(i),
+                           [&](AxisData& data) { data.VirtualAxis.Mode = i % 2 == 0 ? 1 : 0; }));
     for (auto& rule : continuity) rule.velocity = rule.acceleration = false;
     for (int i = 0; i < kAxes; ++i) wire(i, random);
   }
@@ -55,7 +54,8 @@ struct Machine : Rig {
     home_in_place(*own);
     for (int n = 0; n < kNeighbours; ++n) {
       // Mostly those in front, at times one behind; few lead many, so that there are levels of all sizes.
-      const auto other = static_cast<std::size_t>(random() % 4 == 0 ? random() % kAxes : random() % (1 + i / 8));
+      const auto other =
+          static_cast<std::size_t>(random() % 4 == 0 ? random() % kAxes : random() % (1 + i / 8));
       if (axes[other] == own) continue;
       lead(*own, *axes[other]);
       auto& gear = block<MC_GearIn>();
@@ -76,7 +76,9 @@ struct Machine : Rig {
 
   /// Some jobs begin and end, the same in each machine that is asked with the same numbers.
   void act(std::mt19937_64& random) {
-    const auto any = [&](auto& blocks) -> auto& { return *blocks[random() % blocks.size()]; };
+    const auto any = [&](auto& blocks) -> auto& {
+      return *blocks[random() % blocks.size()];
+    };
     for (int n = 0; n < 6; ++n) {
       auto& move = any(moves);
       move.Velocity = static_cast<double>(random() % 400) - 200.0;
@@ -84,9 +86,9 @@ struct Machine : Rig {
       auto& gear = any(gears);
       gear.Execute = !gear.Execute;
       auto& at_position = any(gears_at);
-      at_position.MasterSyncPosition = at_position.Master == nullptr
-                                           ? 0.0
-                                           : static_cast<const Axis*>(at_position.Master)->data.Position + 40.0;
+      at_position.MasterSyncPosition =
+          at_position.Master == nullptr ? 0.0
+                                        : static_cast<const Axis*>(at_position.Master)->data.Position + 40.0;
       at_position.SlaveSyncPosition = static_cast<const Axis*>(at_position.Slave)->data.Position + 30.0;
       at_position.Execute = !at_position.Execute;
     }
@@ -125,7 +127,8 @@ TEST_P(Processors, ChangeNoBit) {
       alone.tick();
       shared.tick();
       for (std::size_t i = 0; i < alone.axes.size(); ++i) {
-        ASSERT_EQ(state_of(*shared.axes[i]), state_of(*alone.axes[i])) << alone.axes[i]->name << " in tick " << tick;
+        ASSERT_EQ(state_of(*shared.axes[i]), state_of(*alone.axes[i]))
+            << alone.axes[i]->name << " in tick " << tick;
         followed += alone.axes[i]->coupled_leading_axis() != nullptr ? 1 : 0;
         waited += alone.axes[i]->awaited_leading_axis() != nullptr ? 1 : 0;
       }
@@ -145,7 +148,8 @@ TEST(Processors, AreNotEmployedForAFewAxes) {
   EXPECT_TRUE(rig.controller.helping_threads().empty());
 }
 
-// ---- Levels --------------------------------------------------------------------------------------------------
+// ---- Levels
+// --------------------------------------------------------------------------------------------------
 
 /// Each axis once, in its order within a level, behind what leads it; one that waits by itself.
 TEST(Levels, HoldWhatCanBeSteppedSideBySide) {
