@@ -45,7 +45,7 @@ ErrorId MC_TorqueLimiting::check_together() const noexcept {
 }
 
 ErrorId MC_TorqueLimiting::hold() const noexcept {
-  return Axis->forces().in_clamping ? ErrorId::clamping : ErrorId::none;
+  return Axis->clamping().holds() ? ErrorId::clamping : ErrorId::none;
 }
 
 void MC_TorqueLimiting::request() const noexcept {
@@ -54,8 +54,8 @@ void MC_TorqueLimiting::request() const noexcept {
 }
 
 void MC_TorqueLimiting::show(bool active) noexcept {
-  InClamping = active && Axis->forces().in_clamping;
-  InLimitation = active && Axis->forces().in_limitation;
+  InClamping = active && Axis->clamping().holds();
+  InLimitation = active && Axis->forces().in_limitation();
 }
 
 ErrorId MC_TorqueRange::check_together() const noexcept {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tech_objects/drive/drive_models.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kRest = 0.01;
 }  // namespace
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
-    : LeadingObject(object_kind, std::move(object_name), object_number) {
+    : LeadingObject(object_kind, std::move(object_name), object_number), drive_model(kDriveModels) {
   if (!has_position()) data.Units.VelocityUnit = kTurnsPerMinute;
 }
 
@@ -46,6 +48,8 @@ void Axis::take_start_values() noexcept {
   if (!has_position()) modulo_ = {true, 1e6, 0.0};
   single_.configure(modulo_, period_);
   superimposed_.configure(period_);
+  arrival_.configure(period_);
+  blending_.configure(period_);
   hand_over_.configure(period_);
   hand_over_.begin();
   return_.configure(period_);
@@ -55,10 +59,6 @@ void Axis::take_start_values() noexcept {
   synchronous_.configure(modulo_, period_, tolerance, additive_);
   awaited_.configure(modulo_, period_, tolerance, additive_);
   configure_leading(period_, data.Extrapolation);
-}
-
-std::int64_t Axis::ticks_of(double seconds) const noexcept {
-  return static_cast<std::int64_t>(std::ceil(seconds / period_ - 1e-9));
 }
 
 // ---- Power
@@ -112,7 +112,7 @@ void Axis::take_up_motion() noexcept {
   if (has_drive_) setpoint_ = {actual_, ramps ? actual_velocity_ : 0.0, 0.0};
   const AxisPosition here = setpoint_.position;
   if (has_drive_) reset_servo({here, 0.0});
-  if (setpoint_.standing() || single_.move_to(setpoint_, here, 0.0, maximum_dynamics()) != PlanResult::ok) {
+  if (setpoint_.standing() || single_.move_to(setpoint_, here, 0.0, limits_.maximum()) != PlanResult::ok) {
     setpoint_.velocity = 0.0;
     setpoint_.acceleration = 0.0;
     single_.stand(setpoint_);
@@ -133,7 +133,7 @@ void Axis::begin_braking(INT stop_mode) noexcept {
     return;
   }
   power_state_ = PowerState::braking;
-  begin_stop(stop_mode == 2 ? maximum_dynamics() : emergency_dynamics(), false);
+  begin_stop(stop_mode == 2 ? limits_.maximum() : limits_.emergency(), false);
   if (stop_mode != 2) ask_for_emergency_ramp();
 }
 
@@ -196,10 +196,11 @@ void Axis::raise(int alarm_number, AlarmReaction reaction) noexcept {
 }
 
 void Axis::react(AlarmReaction reaction) noexcept {
-  Dynamics dynamics = maximum_dynamics();
+  Dynamics dynamics = limits_.maximum();
   if (reaction == AlarmReaction::stop_current) dynamics = single_.dynamics();
-  if (reaction == AlarmReaction::stop_emergency) dynamics = emergency_dynamics();
-  if (outranked_by_stop(reaction)) return end_simulated_gear(JobPhase::failed, ErrorId::technology_alarm);
+  if (reaction == AlarmReaction::stop_emergency) dynamics = limits_.emergency();
+  if (jobs_.stops_harder_than(reaction))
+    return end_simulated_gear(JobPhase::failed, ErrorId::technology_alarm);
   end_all_jobs(JobPhase::failed, ErrorId::technology_alarm);
   end_simulated_gear(JobPhase::failed, ErrorId::technology_alarm);
   if (reaction == AlarmReaction::remove_enable || reaction == AlarmReaction::track_setpoints) {
@@ -226,14 +227,14 @@ ErrorId Axis::reset(bool restart) noexcept {
   alarm_notes.acknowledged();
   enable_removed_ = false;
   if (restart) this->restart();
-  if (has_drive_ && (sensor_lost_ || drive_.in_trouble())) acknowledge_drive();
+  if (has_drive_ && (encoders_.lost() || drive_->in_trouble())) acknowledge_drive();
   return ErrorId::none;
 }
 
 /// The start values count from now on. The axis is where it was, on a ring of its own perhaps.
 void Axis::restart() noexcept {
   end_all_jobs(JobPhase::aborted, ErrorId::none);
-  stop_ = nullptr;
+  jobs_.unlock();
   end_simulated_gear(JobPhase::aborted, ErrorId::none);
   additive_request = {};
   data = start_values_;
@@ -249,7 +250,6 @@ void Axis::restart() noexcept {
   reset_leading(actual_);
   counted_from_ = 0;
   limit_switches_ = {};
-  beyond_limit_switch_ = false;
   free_bits_ = {};
   if (!is_virtual()) restart_servo();
   show_sensor();
@@ -259,7 +259,7 @@ void Axis::restart() noexcept {
 }
 
 void Axis::watch_leading_object() noexcept {
-  const Job* const waiting = running_[kWaiting];
+  const Job* const waiting = jobs_[kWaiting];
   const auto lost = [](const LeadingObject& leading) {
     return leading.restarted || !leading.actual_values_valid();
   };
@@ -277,7 +277,7 @@ void Axis::step() noexcept {
   if (power_state_ != PowerState::on || !power.enable) step_power();
   if (additive_request.counts || additive_.in_use) take_additive();
   if (simulation_request.owner != nullptr) watch_simulation();
-  if (running_[kWaiting] != nullptr) watch_waiting();
+  if (jobs_[kWaiting] != nullptr) watch_waiting();
   if (emergency_ramp_ != EmergencyRamp::none) step_emergency_ramp();
   if (superimposed_.in_use())
     step_superimposed();
@@ -286,9 +286,9 @@ void Axis::step() noexcept {
   if (data.PositionLimits_SW.Active) {
     watch_position_limits();
   } else {
-    limit_side_ = 0;
+    software_limits_.release();
   }
-  if (beyond_limit_switch_) hold_limit_switches();
+  if (has_drive_ && limit_switches_.beyond_any()) hold_limit_switches();
   guard();
   if (handing_over_) step_hand_over();
   control_switched_ = false;
@@ -349,7 +349,7 @@ Axis* Axis::coupled_leading_axis() const noexcept {
 }
 
 Axis* Axis::awaited_leading_axis() const noexcept {
-  return running_[kWaiting] != nullptr ? as_axis(running_[kWaiting]->master) : nullptr;
+  return jobs_[kWaiting] != nullptr ? as_axis(jobs_[kWaiting]->master) : nullptr;
 }
 
 }  // namespace lockstep

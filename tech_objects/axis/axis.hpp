@@ -16,11 +16,21 @@
 #include <vector>
 
 #include "tech_objects/arithmetic/axis_position.hpp"
+#include "tech_objects/axis/arrival.hpp"
+#include "tech_objects/axis/backlash.hpp"
+#include "tech_objects/axis/blending.hpp"
+#include "tech_objects/axis/clamping.hpp"
+#include "tech_objects/axis/encoders.hpp"
 #include "tech_objects/axis/forces.hpp"
+#include "tech_objects/axis/job_slots.hpp"
+#include "tech_objects/axis/limit_switches.hpp"
+#include "tech_objects/axis/motion_limits.hpp"
+#include "tech_objects/axis/position_loop.hpp"
+#include "tech_objects/axis/software_limits.hpp"
+#include "tech_objects/axis/superimposed_motion.hpp"
 #include "tech_objects/data_blocks/standstill.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 #include "tech_objects/drive/drive.hpp"
-#include "tech_objects/drive/setpoint_filter.hpp"
 #include "tech_objects/jobs/job.hpp"
 #include "tech_objects/jobs/override.hpp"
 #include "tech_objects/objects/leading_object.hpp"
@@ -65,12 +75,14 @@ class Axis final : public LeadingObject {
   /// The leading values with which this axis is interconnected; only these may be named by jobs.
   std::vector<LeadingValue> leading_values;
 
-  /// Model of the simulated drive; counts unless the axis is virtual.
-  SimulatedDriveSettings drive_settings;
+  /// The drive and the machine behind it; they count unless the axis is virtual.
+  DriveSettings drive_settings;
+  /// Which kind of drive it is; never nullptr.
+  const DriveModel* drive_model;
 
   /// The adjustments of absolute encoders that are kept: may be set before `configure`, and read at any time
   /// in the thread of the cycle. Count for Sensor[].Type 1 and 2. A restart of the object keeps them.
-  static constexpr std::size_t kSensors = 4;
+  static constexpr std::size_t kSensors = Encoders::kCount;
   std::array<EncoderAdjustment, kSensors> encoder_adjustments;
 
   /// Takes over the start values. Call once, after `data` is set and before the first tick.
@@ -96,6 +108,7 @@ class Axis final : public LeadingObject {
   /// Requests of the torque blocks, which write them only when nothing is refused, and what has become of
   /// them.
   AxisForces& forces() noexcept { return forces_; }
+  const Clamping& clamping() const noexcept { return clamping_; }
   ErrorId torque_limiting_refusal(DINT mode) const noexcept;
   ErrorId torque_range_refusal() const noexcept;
   ErrorId torque_additive_refusal() const noexcept;
@@ -118,7 +131,7 @@ class Axis final : public LeadingObject {
 
   /// Starts the jobs handed over since the last interpolator tick, by the override rules.
   void start_jobs() noexcept;
-  bool has_new_jobs() const noexcept { return new_count_ != 0; }
+  bool has_new_jobs() const noexcept { return jobs_.has_new(); }
 
   /// Alarm 601 if the object that leads this axis has been restarted: where it is then has no meaning for it.
   void watch_leading_object() noexcept;
@@ -128,7 +141,7 @@ class Axis final : public LeadingObject {
     __builtin_prefetch(&power, 1);
     __builtin_prefetch(&setpoint_, 1);
     __builtin_prefetch(&additive_request, 1);
-    __builtin_prefetch(running_.data(), 1);
+    __builtin_prefetch(jobs_.address(), 1);
     __builtin_prefetch(&period_, 1);
     __builtin_prefetch(&standstill_, 1);
     __builtin_prefetch(&data.Position, 1);
@@ -157,15 +170,16 @@ class Axis final : public LeadingObject {
 
   AxisPosition actual_position() const noexcept override { return actual_; }
   bool measured_in_servo() const noexcept override { return has_drive_; }
-  DoubleDouble measured_line() const noexcept override { return encoder_position_; }
+  DoubleDouble measured_line() const noexcept override { return encoders_.counted(); }
 
   bool stopping() const noexcept {
     return power_state_ == PowerState::braking || power_state_ == PowerState::drive_stops;
   }
   /// False while encoder or communication are lost, until that is acknowledged.
-  bool actual_values_valid() const noexcept override { return !sensor_lost_; }
+  bool actual_values_valid() const noexcept override { return !encoders_.lost(); }
   bool homing() const noexcept override { return homing_now_; }
-  const SimulatedDrive& drive() const noexcept { return drive_; }
+  /// Of an axis that is not virtual, once it has been configured.
+  const Drive& drive() const noexcept { return *drive_; }
   /// Whether this axis is `leading` or follows, over any number of couplings, one that is.
   bool led_by_this(const LeadingObject* leading) const noexcept;
   /// Largest distance between actual position and synchronous function while synchronous [u], for the summary
@@ -177,29 +191,12 @@ class Axis final : public LeadingObject {
   // Values of Units.VelocityUnit of a speed axis.
   static constexpr UDINT kTurnsPerSecond = 1082;
   static constexpr UDINT kTurnsPerMinute = 1083;
-  /// Value of StatusSensor.State: the actual value is valid.
-  static constexpr DINT kSensorValid = 2;
   static constexpr std::uint8_t kNothingShown = 0xFF;
 
   /// What generates the setpoint.
   enum class Motion : std::uint8_t { none, single_axis, given, synchronizing, synchronous, desynchronizing };
-  /// Places of running jobs: the base motion, synchronous and desynchronizing jobs that wait, shifts, what is
-  /// superimposed on the base motion, the next base motion, homing in passing.
-  enum Slot : std::uint8_t {
-    kBase,
-    kWaiting,
-    kWaitingOut,
-    kPhasing,
-    kOffset,
-    kSuperimposed,
-    kBuffered,
-    kPassiveHoming,
-    kSlots
-  };
-
   // axis.cpp: power, alarms, the cycle
   void take_start_values() noexcept;
-  std::int64_t ticks_of(double seconds) const noexcept;
   void step_power() noexcept;
   void switch_on() noexcept;
   void take_up_motion() noexcept;
@@ -212,7 +209,6 @@ class Axis final : public LeadingObject {
   void set_position_control(bool on) noexcept;
   void raise(int alarm_number, AlarmReaction reaction) noexcept;
   void react(AlarmReaction reaction) noexcept;
-  bool outranked_by_stop(AlarmReaction reaction) const noexcept;
   ErrorId reset(bool restart) noexcept;
   void restart() noexcept;
   void step_base() noexcept;
@@ -227,13 +223,9 @@ class Axis final : public LeadingObject {
   bool override_running(JobClass new_job, Job& job) noexcept;
   void cancel_waiting_shift(Job& job) noexcept;
   ErrorId check_cam(const Job& job) const noexcept;
-  bool runs_or_waits(bool cam) const noexcept;
   void install(Job& job) noexcept;
   void end_job(Slot slot, JobPhase phase, ErrorId error) noexcept;
   void end_all_jobs(JobPhase phase, ErrorId error) noexcept;
-  bool locked_by_stop() const noexcept {
-    return stop_ != nullptr && (stop_->running() || (stop_->phase == JobPhase::done && stop_->hold));
-  }
 
   // axis_homing.cpp: MC_Home
   enum class HomingPhase : std::uint8_t {
@@ -267,6 +259,7 @@ class Axis final : public LeadingObject {
   void reverse_at_limit_switch(Job& job) noexcept;
   void head_for(Job& job, HomingPhase phase, int direction) noexcept;
   void search_mark(bool active, int direction) noexcept;
+  AxisPosition place_of_mark() const noexcept;
   void take_mark() noexcept;
   bool assign_position(AxisPosition place, double position) noexcept;
   bool positions_fit(double by) const noexcept;
@@ -277,103 +270,50 @@ class Axis final : public LeadingObject {
   void leave_homing(const Job& job) noexcept;
   void home_sensor_beside(Job& job) noexcept;
   std::size_t sensor_of(const Job& job) const noexcept;
-  void shift_sensors_beside(double by) noexcept;
-  void adjust_encoder(std::size_t sensor, bool store) noexcept;
-  double encoder_start(std::size_t sensor) const noexcept;
-  void restore_encoder(std::size_t sensor) noexcept;
-  bool absolute_encoder(std::size_t sensor) const noexcept {
-    return has_drive_ && data.Sensor[sensor].Type != 0;
-  }
-  bool absolute_encoder() const noexcept { return absolute_encoder(operative_); }
   double position_shift(double home_position) const noexcept;
   void shift_positions(double by) noexcept;
   void shift_coupling(double by) noexcept;
   void show_renamed() noexcept;
 
-  // axis_sensors.cpp: the encoders
-  /// An encoder; of the operative one, origin and sign are `encoder_origin_` and `encoder_sign_`.
-  struct Encoder {
-    AxisPosition origin;    // position where it shows 0
-    AxisPosition seen;      // that it shows
-    DoubleDouble reading;   // what it has counted, as it lies [u]; of the drive's own: `encoder_position_`
-    double sign = 1.0;      // -1: it turns the other way round
-    double velocity = 0.0;  // as it lies [u/s]
-    double lent = 0.0;      // by what MC_SetSensor has shifted an absolute one, until it is left [u]
-    bool failed = false;
-  };
-  void take_sensors() noexcept;
-  void begin_sensors(AxisPosition here) noexcept;
-  bool sensor_exists(std::size_t sensor) const noexcept;
-  /// @param sensor 1 to 3: those beside the drive's own
-  const SimulatedSensor& sensor_model(std::size_t sensor) const noexcept {
-    return drive_settings.sensors[sensor - 1];
-  }
-  double encoder_ratio() const noexcept;
-  DoubleDouble travel(std::size_t sensor) const noexcept;
+  // sensors.cpp: what is shown of the encoders, MC_SetSensor, adjustments
+  void begin_encoders(AxisPosition here) noexcept;
+  AxisPosition adjusted_origin(std::size_t encoder) noexcept;
+  void adjust_encoder(std::size_t encoder, bool store) noexcept;
   void show_sensor() noexcept;
-  void show_place(std::size_t sensor, AxisPosition place) noexcept;
-  void read_sensors(DriveActual& now) noexcept;
-  void show_beside(std::size_t sensor, bool failed) noexcept;
-  AxisPosition sensor_position(std::size_t sensor) const noexcept;
-  void place_sensor(std::size_t sensor, AxisPosition place) noexcept;
-  void switch_sensor(std::size_t sensor, bool aligned) noexcept;
+  void show_place(std::size_t encoder, AxisPosition place) noexcept;
+  void read_encoders(DriveActual& now) noexcept;
+  void place_encoder(std::size_t encoder, AxisPosition place) noexcept;
+  void switch_encoder(std::size_t encoder, bool aligned) noexcept;
   void deviate(AxisPosition place) noexcept;
 
-  // axis_switches.cpp: signals of the machine, hardware limit switches
-  struct LimitSwitch {
-    bool pressed = false;
-    bool beyond = false;   // pressed, or overrun and not yet come back over
-    bool locked = false;   // approached in the wrong direction: until a restart
-    double entered = 0.0;  // where it was met [u] on the scale of the machine
-  };
+  // switches.cpp: signals of the machine, hardware limit switches
   bool signals_always_watched() const noexcept;
   void watch_signals(const DoubleDouble& position) noexcept;
   /// After which way the machine is where it was [u]; 0: never.
   double turn() const noexcept { return modulo_.enabled ? modulo_.length : 0.0; }
   bool on_home_switch(double place) const noexcept;
-  bool limit_switch_pressed(int side, double place) const noexcept;
-  void watch_limit_switch(int side, double place) noexcept;
+  void watch_limit_switch(int side, double place, bool signal) noexcept;
   void hold_limit_switches() noexcept;
-  AlarmReaction limit_switch_reaction() const noexcept;
 
   // axis_motion.cpp: motion of its own
-  double velocity_limit() const noexcept;
-  double wanted_velocity(const Job& job) const noexcept;
-  void take_defaults(Job& job) const noexcept;
   Dynamics effective_dynamics(const Job& job) noexcept;
   Dynamics own_dynamics(const Job& job) noexcept;
-  void keep_below_limit(Dynamics& dynamics) const noexcept;
-  void keep_below_limit(Dynamics& dynamics, double acceleration, double room) const noexcept;
   double room_to_limit() const noexcept;
-  double room_to_limit(const Setpoint& from, double beside = 0.0) const noexcept;
-  double tolerable_acceleration(double acceleration, double room) const noexcept;
   void cut_acceleration() noexcept {
-    setpoint_.acceleration = tolerable_acceleration(setpoint_.acceleration, room_to_limit());
+    setpoint_.acceleration = limits_.tolerable_acceleration(setpoint_.acceleration, room_to_limit());
   }
-  Dynamics maximum_dynamics() const noexcept;
-  Dynamics emergency_dynamics() const noexcept;
   Dynamics maximum_for_current(Dynamics dynamics) const noexcept;
-  int zero_limit(const Dynamics& dynamics) const noexcept;
   ErrorId target_refusal(const Job& job) const noexcept;
   void begin_base_motion(Job& job) noexcept;
   PlanResult plan(Job& job, const Dynamics& dynamics) noexcept;
   void show_target(const AxisPosition& target) noexcept;
   PlanResult move_by(DoubleDouble way, const Job& job, const Dynamics& dynamics) noexcept;
-  DoubleDouble absolute_way(const Job& job, const Dynamics& dynamics) const noexcept;
-  double beyond_stopping_distance(double distance, const Dynamics& dynamics) const noexcept;
-  double absolute_distance(const Job& job, double here) const noexcept;
   void begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept;
   void step_single_axis() noexcept;
   void follow_changes(Job& job) noexcept;
-  void remember_limits() noexcept;
-  bool limits_changed() const noexcept {
-    const TO_Struct_DynamicLimits& now = data.DynamicLimits;
-    return data.Override.Velocity != planned_.override_velocity || now.Velocity != planned_.velocity ||
-           now.MaxAcceleration != planned_.acceleration || now.MaxDeceleration != planned_.deceleration ||
-           now.MaxJerk != planned_.jerk;
-  }
   void watch_base_job(Job& job) noexcept;
   void watch_positioning() noexcept;
+  void take_arrival(Arrival::Verdict verdict) noexcept;
   void watch_standstill() noexcept;
 
   // axis_emergency.cpp: the emergency ramp of an axis with a drive, from where it is
@@ -384,8 +324,6 @@ class Axis final : public LeadingObject {
   void take_actual_state(double commanded) noexcept;
   void stay_within_limits(const Setpoint& before) noexcept;
   double commanded_velocity() const noexcept;
-  double smoothed_switchover(double velocity) noexcept;
-  void tune_controller(const PositionControlSettings& settings) noexcept;
 
   // axis_hand_over.cpp: the setpoint as following axes see it where it goes over to another course
   void hand_over(const Setpoint& seen, const Setpoint& now) noexcept;
@@ -414,51 +352,33 @@ class Axis final : public LeadingObject {
   bool led() const noexcept { return motion_ >= Motion::synchronizing; }
 
   // axis_buffer.cpp: a job that waits for the end of another, and blending
-  struct Blending {
-    double way;         // of the next motion from the target of this one; its direction if endless [u]
-    bool endless;       // whether it has no target that it must not pass
-    Dynamics dynamics;  // of the next motion
-  };
   bool buffer(Job& job) noexcept;
   void watch_buffered() noexcept;
   void speed_up_for_junction() noexcept;
-  bool due_to_speed_up(double distance, const Dynamics& dynamics) const noexcept;
-  double highest_junction_velocity(double distance, double wanted, const Blending& blending,
-                                   const Dynamics& dynamics) const noexcept;
   void plan_blending() noexcept;
-  Blending blending_into(const Job& next) noexcept;
-  double wanted_blending_velocity(BufferMode mode, double previous, double next) const noexcept;
-  bool next_can_take_over(const Blending& next, double velocity) const noexcept;
+  NextMotion motion_after_target(const Job& job) noexcept;
 
   // axis_motion_in.cpp: setpoints given by the program
   void begin_motion_in(Job& job) noexcept;
   void step_given() noexcept;
-  AxisPosition given_position(double position) const noexcept;
   void show_motion_in_command() noexcept;
 
   // axis_superimposed.cpp: what is added to the base motion
   void begin_superimposed(Job& job) noexcept;
-  ErrorId begin_superimposed_part(Job& job) noexcept;
   void take_position_control() noexcept;
-  Dynamics superimposed_room() const noexcept;
-  Dynamics left_by_base() const noexcept;
-  Dynamics quick_enough(Dynamics room) noexcept;
-  Dynamics first_room() noexcept;
-  void follow_room() noexcept;
+  BaseMotion base_motion() const noexcept;
+  void follow_share() noexcept;
   void replan_stop() noexcept;
-  double velocity_left_by_base(int side) const noexcept;
-  bool stays_against_superimposed(const Job* job, const Dynamics& dynamics) const noexcept;
   void leave_to_superimposed(const Job* job, Dynamics& dynamics) noexcept;
-  bool superimposed_runs_down() const noexcept;
   void step_superimposed() noexcept;
-  void advance_superimposed_in_view() noexcept;
   void advance_superimposed() noexcept;
   void follow_given_superimposed(Job& job) noexcept;
   void add_superimposed() noexcept;
-  Setpoint with_superimposed(const Setpoint& base) const noexcept;
   void absorb_superimposed() noexcept;
   void show_superimposed_command() noexcept;
-  const Setpoint& base_setpoint() const noexcept { return superimposed_.in_use() ? base_ : setpoint_; }
+  const Setpoint& base_setpoint() const noexcept {
+    return superimposed_.in_use() ? superimposed_.base() : setpoint_;
+  }
 
   // axis_desynchronizing.cpp: out of a synchronous motion, and its simulation
   void begin_sync_out(Job& job) noexcept;
@@ -473,46 +393,44 @@ class Axis final : public LeadingObject {
   void end_simulation() noexcept;
   void end_simulated_gear(JobPhase phase, ErrorId error) noexcept;
 
-  // axis_servo.cpp: drive and position control
+  // servo.cpp: drive and position control
   void configure_servo();
   void restart_servo() noexcept;
   void take_servo_settings() noexcept;
   PositionControlSettings control_settings() const noexcept;
   double way_per_motor_turn() const noexcept;
   double motor_angle_per_unit() const noexcept;
+  void read_drive() noexcept;
+  ServoSetpoint fine_setpoint_now() const noexcept;
+  PositionLoop::Output control_position() noexcept;
+  void watch_following_error(double velocity) noexcept;
   void limit_speed() noexcept;
-  void control_position() noexcept;
   void show_execution_time() noexcept;
   double setpoint_delay() const noexcept;
   double control_delay() const noexcept;
   void reset_servo(const ServoSetpoint& setpoint) noexcept;
-  void delay_following_error(const PositionControlled& controlled) noexcept;
   void shift_servo(double by) noexcept;
   void idle_servo() noexcept;
   /// Dynamic servo control: the drive closes the position loop, on its own encoder.
-  bool loop_in_drive() const noexcept { return data.PositionControl.EnableDSC && operative_ == 0; }
-
-  // axis_backlash.cpp
-  double pass_backlash() noexcept;
-  double backlash_offset() const noexcept { return data.Sensor[0].Backlash.Enable ? backlash_.passed : 0.0; }
+  bool loop_in_drive() const noexcept { return data.PositionControl.EnableDSC && encoders_.operative() == 0; }
+  /// What the motor has passed of the backlash, and the load has not followed [u].
+  double play() const noexcept { return backlash_.passed(data.Sensor[0].Backlash); }
   /// The play lies between the motor, with its encoder, and the load: another encoder sees it by itself.
-  bool passes_backlash() const noexcept { return data.Sensor[0].Backlash.Enable && operative_ == 0; }
+  bool passes_backlash() const noexcept {
+    return data.Sensor[0].Backlash.Enable && encoders_.operative() == 0;
+  }
 
-  // axis_forces.cpp: torque limiting, torque data, fixed stop
+  // torque.cpp: torque limiting, torque data, fixed stop
   void step_forces() noexcept;
-  void show_forces() noexcept;
-  double limit_at_motor() const noexcept;
-  TorqueBand torque_band() const noexcept;
   bool position_monitoring_off() const noexcept;
   bool pushes_against_a_stop() const noexcept;
   void watch_fixed_stop() noexcept;
   void freeze_setpoint() noexcept;
   void watch_clamping() noexcept;
-  void leave_fixed_stop() noexcept;
   ErrorId check_at_fixed_stop(const Job& job) const noexcept;
   static ErrorId away_from_stop(double way, int side) noexcept;
 
-  // axis_faults.cpp: drive and encoder that fail, control words
+  // faults.cpp: drive and encoder that fail, control words
   void watch_drive(const DriveActual& now) noexcept;
   void raise_drive_alarms(const DriveActual& now) noexcept;
   void lose_sensor() noexcept;
@@ -520,28 +438,18 @@ class Axis final : public LeadingObject {
   void acknowledge_drive() noexcept;
   void control_drive(std::uint16_t stw1) noexcept;
 
-  // axis_monitoring.cpp: range of positions, software limit switches, following error
+  // axis_monitoring.cpp: range of positions, software limit switches
   bool far_from_end_of_range() const noexcept;
   void watch_range() noexcept;
   bool keep_in_range(int side) noexcept;
   void pass_end_of_range() noexcept;
-  struct PositionLimits {
-    double least;     // [u]
-    double greatest;  // [u]
-  };
-  PositionLimits position_limits() const noexcept;
   void watch_position_limits() noexcept;
-  void hold_limits(const PositionLimits& limits, bool rests) noexcept;
-  void show_limit(const PositionLimits& limits) noexcept;
   bool keep_within(int side, double limit) noexcept;
   bool turns_in_time(int side, double room, double jerk) const noexcept;
   Dynamics limit_dynamics() const noexcept;
-  bool find_braking(int side, double room, Dynamics& dynamics) const noexcept;
   void stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept;
   AlarmReaction reaction_at_limit() const noexcept;
   void approach_limit(double way, AxisPosition limit, const Dynamics& dynamics) noexcept;
-  double permissible_following_error(double velocity) const noexcept;
-  void watch_following_error(double velocity) noexcept;
 
   // axis_publish.cpp: the data block
   void publish_motion() noexcept;
@@ -572,68 +480,43 @@ class Axis final : public LeadingObject {
   Motion motion_ = Motion::none;
   bool homed_ = false;
   bool has_drive_ = false;
-  std::int8_t limit_side_ = 0;  // software limit switch approached or passed: 1, -1; 0: none
+  SoftwareLimits software_limits_;
   EmergencyRamp emergency_ramp_ = EmergencyRamp::none;
   bool homing_now_ = false;  // a mark is being looked for, or an active homing is under way
 
-  alignas(kCacheLine) std::array<Job*, kSlots> running_{};
+  alignas(kCacheLine) JobSlots jobs_;
 
   double period_ = 0.001;          // of the interpolator [s]
-  Job* stop_ = nullptr;            // the MC_Stop that may lock the axis
   Job* simulated_ = nullptr;       // the gear that is simulated
   std::int64_t counted_from_ = 0;  // turn that ModuloCycle shows as 0
   AxisPosition actual_;
   double actual_velocity_ = 0.0;  // [u/s]
   int servo_tick_ = 0;            // since the last interpolator tick
-  std::uint8_t new_count_ = 0;    // of new_jobs_
   bool signals_watched_ = false;
-  bool beyond_limit_switch_ = false;
   std::uint8_t drive_shown_ = kNothingShown;  // of StatusDrive
 
   SynchronousMotion synchronous_;
 
   // One line, with the end of the one and the begin of the other.
-  Superimposed superimposed_;
+  SuperimposedMotion superimposed_;
   Standstill standstill_;
   double largest_deviation_ = 0.0;
   bool was_synchronous_ = false;
-  bool advancing_base_ = false;  // `setpoint_` is that of the base motion alone, within a step
   AdditiveLeadingValues additive_;
 
-  /// What the motion at hand has been planned with. MaxVelocity changes with a restart only.
-  struct PlannedLimits {
-    double override_velocity = 100.0;  // [%]
-    double velocity = 0.0;             // [u/s]
-    double acceleration = 0.0;         // [u/s²]
-    double deceleration = 0.0;         // [u/s²]
-    double jerk = 0.0;                 // [u/s³]
-  };
-  alignas(kCacheLine) PlannedLimits planned_;
+  alignas(kCacheLine) MotionLimits limits_{data};
   SingleAxisMotion single_;
-  std::array<LimitSwitch, 2> limit_switches_{};  // negative, positive
+  LimitSwitches limit_switches_;
 
-  // Superimposed motion.
-  Setpoint base_;                    // the setpoint without the superimposed part, while there is one
-  Dynamics superimposed_wanted_;     // what MC_MoveSuperimposed asks for, before override and limits
-  Dynamics superimposed_room_;       // of that, what it has been planned with
-  bool base_curbed_ = false;         // the base motion has been planned with less, for what is superimposed
-  bool curbed_for_a_while_ = false;  // by what that runs down yet
-
-  // Positioning and limits.
-  bool was_controlled_ = false;      // in the last cycle, for the software limit switches
-  PositionLimits held_limits_{};     // the software limit switches for the present motion [u]
-  std::int8_t approached_side_ = 0;  // while the axis brakes in front of a limit switch
-  std::int64_t in_window_ticks_ = 0;
-  std::int64_t since_target_ticks_ = 0;
-  DoubleDouble beyond_target_;      // way that the axis has made since the target of the motion before [u]
-  Job jogged_;                      // inputs of MC_MoveJog that are planned for
-  double junction_velocity_ = 0.0;  // for which the running motion has yet to speed up [u/s]; 0: none
+  // Positioning.
+  Arrival arrival_;
+  Blending blending_;
+  DoubleDouble beyond_target_;  // way that the axis has made since the target of the motion before [u]
+  Job jogged_;                  // inputs of MC_MoveJog that are planned for
 
   // Jobs.
-  static constexpr std::size_t kNewJobs = 16;
-  std::array<Job*, kNewJobs> new_jobs_{};  // handed over, in order
-  SynchronousMotion awaited_;              // what the waiting job prepares
-  Setpoint ghost_;                         // where it would have the axis
+  SynchronousMotion awaited_;  // what the waiting job prepares
+  Setpoint ghost_;             // where it would have the axis
   AxisData start_values_;
 
   // Homing.
@@ -644,48 +527,32 @@ class Axis final : public LeadingObject {
   // What every servo cycle touches, in lines of the cache.
   alignas(kCacheLine) double servo_period_ = 0.001;  // [s]
   int ratio_ = 1;
-  bool several_encoders_ = false;  // there are others
   bool drive_running_ = false;
   bool drive_in_trouble_ = false;
   bool drive_inhibited_ = false;
-  AxisPosition encoder_origin_;    // position where the drive is where it was at the beginning
-  DoubleDouble encoder_position_;  // way of the drive from there [u], as it counts
-  double encoder_sign_ = 1.0;
   double setpoint_sign_ = 1.0;  // -1: the drive turns the other way round
 
   double way_per_motor_turn_ = 1.0;  // [u]
   double motor_limit_ = 0.0;         // what the motor can do [u/s]
-  std::size_t operative_ = 0;        // encoder, from 0
   double actual_torque_ = 0.0;       // at the motor, in the direction of the axis
-  AxisPosition last_balanced_;
-  bool sensor_lost_ = false;
   std::uint16_t sent_stw1_ = kControlOff;
-  FirstOrderLag following_lag_;  // FollowingError.AdditionalSetpointDelayTime
-  FirstOrderLag smoothing_;      // of what MC_SetSensor has changed
-  FirstOrderLag switchover_;     // of the velocity for the drive, to the emergency ramp
+  Encoders encoders_;
   AxisForces forces_;
-  SimulatedDrive drive_;
-  PositionController controller_;
+  Clamping clamping_;
+  std::unique_ptr<Drive> drive_;  // nullptr: a virtual axis
+  DriveProperties drive_properties_;
+  PositionLoop loop_;
 
   // Servo, seldom of account.
-  double xerr_ = 0.0;  // control difference for the position loop of the drive [u]
-  double pace_ = 0.0;  // velocity of what that loop is to follow [u/s]
-  std::array<Encoder, kSensors> encoders_;
   Superimposed hand_over_;      // what is left between the setpoint and what following axes see of it
   Superimposed return_;         // and of what axes see that follow its position since it was zero to them
   bool hand_over_due_ = false;  // switched off: with the next setpoint, which is the actual value
-  DynamicFilter setpoint_filter_;
   struct ControlBits {
     std::uint16_t stw1 = 0;
     std::uint16_t stw2 = 0;
   };
   ControlBits free_bits_;  // of MC_SetAxisSTW
-  struct Backlash {
-    double passed = 0.0;        // way of the motor that the load has not made: 0, or ∓Size [u]
-    std::int8_t direction = 0;  // of the last motion; 0: none yet
-  };
   Backlash backlash_;
-  Dynamics superimposed_uses_;  // of the limits, in this cycle and from it on
 };
 
 }  // namespace lockstep

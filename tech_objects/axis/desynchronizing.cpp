@@ -25,47 +25,44 @@ std::int64_t turns_between(AxisPosition position, AxisPosition place, const Modu
 
 /// What waits has been cancelled by the override rules; an active gear (cam) is left when the start is met.
 void Axis::begin_sync_out(Job& job) noexcept {
-  const Job* base = running_[kBase];
+  const Job* base = jobs_[kBase];
   const bool follows = base != nullptr && led() && of_cam(base->kind) == of_cam(job.kind);
   if (job.mode == kCancelWaiting || !follows) {
     job.phase = JobPhase::done;
     return;
   }
-  running_[kWaitingOut] = &job;
-  job.phase = JobPhase::waiting;
+  jobs_.put(kWaitingOut, job, JobPhase::waiting);
   data.StatusSynchronizedMotion.WaitingFunctionState =
-      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
+      waiting_function_state(jobs_[kWaiting], jobs_[kWaitingOut]);
 }
 
 /// Each tick while desynchronizing waits; true if it has begun and the setpoint is made. It looks at where
 /// the axis is with all that is superimposed.
 bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
-  Job& job = *running_[kWaitingOut];
+  Job& job = *jobs_[kWaitingOut];
   Dynamics dynamics = effective_dynamics(job);
   const double target = normalised({0, job.position}, modulo_).value;
   const bool there = candidate.standing() && last_setpoint_.standing() && candidate.position.value == target;
   Setpoint from = last_setpoint_;
   Setpoint to = candidate;
   if (job.mode != kOverDistance) {  // begins as the axis' own motions do
-    if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
+    if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
       raise(alarm_number);  // the stop begins at the last setpoint that followed
       step_single_axis();
       return true;
     }
-    from.acceleration = tolerable_acceleration(from.acceleration, room_to_limit(from));
-    to.acceleration = tolerable_acceleration(to.acceleration, room_to_limit(to));
-    keep_below_limit(dynamics, from.acceleration, room_to_limit(from));
+    from.acceleration = limits_.tolerable_acceleration(from.acceleration, limits_.margin(from));
+    to.acceleration = limits_.tolerable_acceleration(to.acceleration, limits_.margin(to));
+    limits_.keep_below(dynamics, from.acceleration, limits_.margin(from));
   }
   if (!there && !synchronous_.meets_sync_out(job, from, to, dynamics)) return false;
-  running_[kWaitingOut] = nullptr;
+  jobs_.take(kWaitingOut);
   data.StatusSynchronizedMotion.WaitingFunctionState =
-      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
+      waiting_function_state(jobs_[kWaiting], jobs_[kWaitingOut]);
   if (!override_running(class_of(job, true), job)) return false;
   absorb_superimposed();
-  running_[kBase] = &job;
-  job.phase = JobPhase::active;
-  in_window_ticks_ = 0;
-  since_target_ticks_ = 0;
+  jobs_.put(kBase, job, JobPhase::active);
+  arrival_.begin();
   if (there) {
     leave_synchronous();
     single_.stand(setpoint_);
@@ -96,7 +93,7 @@ void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
   own.velocity = std::max(own.velocity, std::abs(setpoint_.velocity));
   if (single_.move_to(setpoint_, position, way, own) != PlanResult::ok) {
     end_job(kBase, JobPhase::failed, ErrorId::unspecified);
-    return begin_stop(maximum_dynamics(), false);
+    return begin_stop(limits_.maximum(), false);
   }
   step_single_axis();
 }
@@ -104,7 +101,7 @@ void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
 /// The following axis has come to rest at its stop position.
 void Axis::end_desynchronizing() noexcept {
   leave_synchronous();
-  data.StatusSynchronizedMotion.FunctionState = function_state(running_[kBase]->kind);
+  data.StatusSynchronizedMotion.FunctionState = function_state(jobs_[kBase]->kind);
   setpoint_.velocity = 0.0;
   setpoint_.acceleration = 0.0;
   single_.stand(setpoint_);
@@ -147,8 +144,8 @@ void Axis::begin_simulation() noexcept {
     simulation_request.error = ErrorId::no_synchronous_operation;
     return;
   }
-  simulated_ = running_[kBase];
-  running_[kBase] = nullptr;
+  simulated_ = jobs_[kBase];
+  jobs_.take(kBase);
   ghost_ = base_setpoint();
   motion_ = Motion::single_axis;
   single_.stand(base_setpoint());
@@ -158,7 +155,7 @@ void Axis::begin_simulation() noexcept {
 /// both stand, at the same place. On a ring the turns that one of them has made meanwhile do not count, and a
 /// velocity gear has no place.
 ErrorId Axis::check_end_of_simulation() const noexcept {
-  if (!enabled() || locked_by_stop()) return ErrorId::locked;
+  if (!enabled() || jobs_.locked()) return ErrorId::locked;
   const Setpoint own = base_setpoint();
   if (!own.standing() || !coupling_stands(ghost_)) return ErrorId::position;
   if (simulated_->kind == JobKind::MC_GearInVelocity) return ErrorId::none;
@@ -175,7 +172,7 @@ void Axis::end_simulation() noexcept {
   end_job(kBase, JobPhase::aborted, ErrorId::none);
   set_position_control(simulated_->position_controlled);
   synchronous_.turn_following(turns_between(ghost_.position, base_setpoint().position, modulo_));
-  running_[kBase] = simulated_;
+  jobs_.put_back(kBase, *simulated_);
   simulated_ = nullptr;
   motion_ = Motion::synchronous;
 }

@@ -31,23 +31,19 @@ void Axis::step_emergency_ramp() noexcept {
 void Axis::brake_from_actual() noexcept {
   emergency_ramp_ = EmergencyRamp::none;
   const bool stops = motion_ == Motion::single_axis && single_.aim() == SingleAxisMotion::Aim::stand;
-  if (!stops || sensor_lost_ || forces_.stop_side != 0) return;
+  if (!stops || encoders_.lost() || clamping_.found()) return;
   const double away = position_controlled_ ? rounded_difference(actual_, setpoint_.position, modulo_) : 0.0;
   const bool rests = setpoint_.standing() && !moving(actual_velocity_);
   if (rests && std::abs(away) <= data.PositioningMonitoring.Window) return;
   const Setpoint seen = led_setpoint();
   const double commanded = commanded_velocity();
   take_actual_state(commanded);
-  if (single_.stop(setpoint_, emergency_dynamics(), false) != PlanResult::ok) {
+  if (single_.stop(setpoint_, limits_.emergency(), false) != PlanResult::ok) {
     setpoint_.velocity = 0.0;  // no ramp can be planned from such a state: stand
     single_.stand(setpoint_);
   }
   emergency_ramp_ = EmergencyRamp::running;
-  const double time = data.PositionControl.SmoothingTimeByChangeDifference;
-  if (time > 0.0) {
-    switchover_.tune(time, servo_period_);
-    switchover_.set_behind(setpoint_.velocity - commanded);
-  }
+  loop_.switch_over(setpoint_.velocity - commanded, data.PositionControl.SmoothingTimeByChangeDifference);
   hand_over(seen, setpoint_);
 }
 
@@ -68,15 +64,15 @@ void Axis::take_actual_state(double commanded) noexcept {
 /// Where the setpoint could stop in front of a software limit switch, so can the actual state, though it may
 /// be a little ahead or faster: what is missing remains as following error.
 void Axis::stay_within_limits(const Setpoint& before) noexcept {
-  const double deceleration = std::max(maximum_dynamics().deceleration, emergency_dynamics().deceleration);
+  const double deceleration = std::max(limits_.maximum().deceleration, limits_.emergency().deceleration);
   const auto room = [&](const Setpoint& from, int side, double limit) {
     const double v = std::max(side * from.velocity, 0.0);
     const AxisPosition border{before.position.turns, limit};
     return side * rounded_difference(border, from.position, modulo_) - v * v / (2.0 * deceleration);
   };
-  const PositionLimits limits = position_limits();
+  const SoftwareLimits::Range range = SoftwareLimits::in_effect(data.PositionLimits_SW, modulo_);
   for (const int side : {1, -1}) {
-    const double limit = side > 0 ? limits.greatest : limits.least;
+    const double limit = side > 0 ? range.maximum : range.minimum;
     if (!std::isfinite(limit) || room(before, side, limit) < -kRounding * (1.0 + std::abs(limit))) continue;
     const double missing = -room(setpoint_, side, limit);
     if (missing > 0.0) setpoint_.position = advanced(setpoint_.position, -side * missing, modulo_);
@@ -90,24 +86,6 @@ void Axis::stay_within_limits(const Setpoint& before) noexcept {
 double Axis::commanded_velocity() const noexcept {
   if (!position_controlled_ || !loop_in_drive()) return data.VelocitySetpoint;
   return data.VelocitySetpoint + data.PositionControl.Kv * data.StatusServo.ControlDifference;
-}
-
-/// The velocity for the drive, behind a switchover that is smoothed.
-double Axis::smoothed_switchover(double velocity) noexcept {
-  if (switchover_.behind() == 0.0) return velocity;
-  switchover_.step(0.0);
-  return std::clamp(velocity - switchover_.behind(), -motor_limit_, motor_limit_);
-}
-
-/// Another Kv asks for another velocity at the control difference at hand: a switchover as well.
-void Axis::tune_controller(const PositionControlSettings& settings) noexcept {
-  const double change = (settings.kv - controller_.settings().kv) * data.StatusServo.ControlDifference;
-  const double time = data.PositionControl.SmoothingTimeByChangeDifference;
-  if (time > 0.0 && change != 0.0) {
-    switchover_.tune(time, servo_period_);
-    switchover_.set_behind(switchover_.behind() + change);
-  }
-  controller_.configure(settings, servo_period_);
 }
 
 }  // namespace lockstep

@@ -1,6 +1,7 @@
 // What goes wrong at drive and encoder of an axis: alarms, their acknowledgement, and control words.
 // @source S7-1500T alarms 411, 421, 431; PROFIdrive state machine
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -16,7 +17,7 @@ void Axis::watch_drive(const DriveActual& now) noexcept {
   drive_in_trouble_ = now.trouble;
   data.StatusDrive.Error = now.fault;
   data.StatusDrive.CommunicationOK = !now.silent && !now.fault;
-  auto& sensor = data.StatusSensor[operative_];
+  auto& sensor = data.StatusSensor[encoders_.operative()];
   sensor.Error = now.encoder_failed;
   sensor.CommunicationOK = !now.silent;
   if (now.silent || now.encoder_failed) lose_sensor();
@@ -32,19 +33,18 @@ void Axis::raise_drive_alarms(const DriveActual& now) noexcept {
 
 /// Actual values do not count until the alarm has been acknowledged.
 void Axis::lose_sensor() noexcept {
-  if (sensor_lost_) return;
-  sensor_lost_ = true;
-  data.StatusSensor[operative_].State = 0;
+  if (encoders_.lost()) return;
+  encoders_.lose();
+  data.StatusSensor[encoders_.operative()].State = SensorState::not_valid;
   coupling_changed = true;  // axes that follow are told
-  if (!absolute_encoder()) homed_ = false;
+  if (!encoders_.absolute(encoders_.operative())) homed_ = false;
 }
 
 /// The axis goes on from where it was seen last; an absolute encoder knows better.
 void Axis::regain_sensor() noexcept {
-  sensor_lost_ = false;
-  data.StatusSensor[operative_].State = kSensorValid;
-  encoder_position_ = drive_.read().position;
-  if (!absolute_encoder()) encoder_origin_ = advanced(actual_, -travel(operative_), modulo_);
+  data.StatusSensor[encoders_.operative()].State = SensorState::valid;
+  encoders_.count(drive_->read().position);
+  encoders_.regain(actual_, play());
 }
 
 /// MC_Reset at the drive. What is still wrong is told again at once.
@@ -53,15 +53,15 @@ void Axis::acknowledge_drive() noexcept {
   control_drive(off);
   control_drive(off | bit_mask(stw1::kAcknowledgeFault));
   control_drive(off);
-  DriveActual now = drive_.read();
-  if (several_encoders_) read_sensors(now);
-  if (!now.silent && !now.encoder_failed && sensor_lost_) regain_sensor();
+  DriveActual now = drive_->read();
+  if (encoders_.several()) read_encoders(now);
+  if (!now.silent && !now.encoder_failed && encoders_.lost()) regain_sensor();
   watch_drive(now);
 }
 
 void Axis::control_drive(std::uint16_t stw1) noexcept {
   const std::uint16_t free = free_bits_.stw1;
-  drive_.control(static_cast<std::uint16_t>(stw1 | free), free_bits_.stw2);
+  drive_->control(static_cast<std::uint16_t>(stw1 | free), free_bits_.stw2);
   sent_stw1_ = stw1;
 }
 

@@ -1,9 +1,10 @@
-// Torque limiting, torque data and the fixed stop of an axis with a drive.
-// @source S7-1500T axis functions, force and torque limiting, fixed stop detection, torque data
+#include "tech_objects/axis/forces.hpp"
+
 #include <cmath>
 #include <limits>
 
-#include "tech_objects/axis/axis.hpp"
+#include "tech_objects/data_blocks/status_bits.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -38,176 +39,65 @@ double factor_of(const Factor (&table)[N], UDINT unit) noexcept {
 
 }  // namespace
 
-// ---- Limits
-// ------------------------------------------------------------------------------------------------------
-
-ErrorId Axis::torque_limiting_refusal(DINT mode) const noexcept {
-  if (!has_drive_) return ErrorId::no_torque_reduction;
-  if (forces_.range.owner != nullptr) return ErrorId::torque_limits_exclude;
-  if (mode == 1 && !enabled()) return ErrorId::locked;
-  return ErrorId::none;
+ErrorId AxisForces::limiting_refusal(DINT mode, bool enabled) const noexcept {
+  if (range.owner != nullptr) return ErrorId::torque_limits_exclude;
+  return mode == TorqueLimitingMode::fixed_stop_detection && !enabled ? ErrorId::locked : ErrorId::none;
 }
 
-ErrorId Axis::torque_range_refusal() const noexcept {
-  if (!has_drive_ || !data.Actor.Interface.EnableTorqueData) return ErrorId::no_torque_data;
-  return forces_.limiting.owner != nullptr ? ErrorId::torque_limits_exclude : ErrorId::none;
+ErrorId AxisForces::range_refusal() const noexcept {
+  return limiting.owner != nullptr ? ErrorId::torque_limits_exclude : ErrorId::none;
 }
 
-ErrorId Axis::torque_additive_refusal() const noexcept {
-  if (!has_drive_ || !data.Actor.Interface.EnableTorqueData) return ErrorId::no_torque_data;
-  return enabled() ? ErrorId::none : ErrorId::locked;
+bool AxisForces::detects_fixed_stop() const noexcept {
+  return limiting.owner != nullptr && limiting.mode == TorqueLimitingMode::fixed_stop_detection;
 }
 
 /// Limit of MC_TorqueLimiting as torque (force) at the motor.
-double Axis::limit_at_motor() const noexcept {
-  const bool linear_motor = data.Actor.MotorType == 1;
-  const bool at_load = data.TorqueLimiting.LimitBase == 1 && !linear_motor;
-  const bool force = linear_motor || (at_load && data.Properties.MotionType == 0);
-  const auto& defaults = data.TorqueLimiting.LimitDefaults;
-  const double given = forces_.limiting.limit;
+double AxisForces::limit_at_motor(const AxisData& settings) const noexcept {
+  const bool linear_motor = settings.Actor.MotorType == MotorType::linear;
+  const bool at_load = settings.TorqueLimiting.LimitBase == LimitBase::load_side && !linear_motor;
+  const bool force = linear_motor || (at_load && settings.Properties.MotionType == MotionType::linear);
+  const auto& defaults = settings.TorqueLimiting.LimitDefaults;
+  const double given = limiting.limit;
   const double limit = given >= 0.0 ? given : force ? defaults.Force : defaults.Torque;
   if (!at_load) return limit;
-  const double ratio = static_cast<double>(data.LoadGear.Numerator) / data.LoadGear.Denominator;
-  const double through = ratio * data.Actor.Efficiency;
+  const double ratio = static_cast<double>(settings.LoadGear.Numerator) / settings.LoadGear.Denominator;
+  const double through = ratio * settings.Actor.Efficiency;
   if (through <= 0.0) return std::numeric_limits<double>::infinity();
   if (!force) return limit / through;
-  const double screw = data.Mechanics.LeadScrew * factor_of(kMetres, data.Units.LengthUnit) / kTwoPi;
+  const double screw = settings.Mechanics.LeadScrew * factor_of(kMetres, settings.Units.LengthUnit) / kTwoPi;
   const double units =
-      factor_of(kNewtons, data.Units.ForceUnit) / factor_of(kNewtonMetres, data.Units.TorqueUnit);
+      factor_of(kNewtons, settings.Units.ForceUnit) / factor_of(kNewtonMetres, settings.Units.TorqueUnit);
   return limit * units * screw / through;
 }
 
 /// What the motor may make, in the direction of the axis.
-TorqueBand Axis::torque_band() const noexcept {
-  if (forces_.limiting.owner != nullptr) {
-    const double limit = limit_at_motor();
+TorqueBand AxisForces::band(const AxisData& settings) const noexcept {
+  if (limiting.owner != nullptr) {
+    const double limit = limit_at_motor(settings);
     return {-limit, limit};
   }
-  if (forces_.range.owner != nullptr) return {forces_.range.lower, forces_.range.upper};
+  if (range.owner != nullptr) return {range.lower, range.upper};
   return {};
 }
 
-bool Axis::position_monitoring_off() const noexcept {
-  return forces_.limited() && data.TorqueLimiting.PositionBasedMonitors == 0;
+TorqueCommand AxisForces::command(const AxisData& settings, bool enabled) noexcept {
+  const TorqueBand permitted = band(settings);
+  upper_ = permitted.upper;
+  told_ = active();
+  return {permitted, additive.owner != nullptr && enabled ? additive.value : 0.0};
 }
 
-/// Each interpolator cycle of an axis with a drive, before it moves.
-void Axis::step_forces() noexcept {
-  if (!forces_.active() && !forces_.command_shown) return;
-  if (forces_.limiting.owner != nullptr && forces_.limiting.mode == 1)
-    watch_fixed_stop();
-  else
-    leave_fixed_stop();
-  const TorqueBand band = torque_band();
-  const bool adds = forces_.additive.owner != nullptr && enabled();
-  TorqueCommand command{band, adds ? forces_.additive.value : 0.0};
-  if (setpoint_sign_ < 0.0) command = {{-band.upper, -band.lower}, -command.additive};
-  drive_.command_torque(command);
-  const double torque = std::abs(actual_torque_);
-  forces_.in_limitation = forces_.limiting.owner != nullptr && drive_.has_plant() && drive_running_ &&
-                          torque >= kInLimitation * band.upper;
-  show_forces();
-  forces_.command_shown = forces_.active();
+void AxisForces::watch_limitation(double torque, bool known) noexcept {
+  in_limitation_ = limiting.owner != nullptr && known && std::abs(torque) >= kInLimitation * upper_;
 }
 
-void Axis::show_forces() noexcept {
-  set_bit(data.StatusWord, StatusBit::TorqueLimitingCommand, forces_.limiting.owner != nullptr);
-  set_bit(data.StatusWord, StatusBit::InLimitation, forces_.in_limitation);
-  set_bit(data.StatusWord, StatusBit::InClamping, forces_.in_clamping);
-  data.StatusTorqueData.CommandAdditiveTorqueActive = forces_.additive.owner != nullptr ? 1 : 0;
-  data.StatusTorqueData.CommandTorqueRangeActive = forces_.range.owner != nullptr ? 1 : 0;
-}
-
-// ---- Fixed stop
-// --------------------------------------------------------------------------------------------------
-
-/// The axis pushes against something: it lags behind a setpoint that moves on, or that it should have
-/// reached.
-bool Axis::pushes_against_a_stop() const noexcept {
-  const double error = data.StatusPositioning.FollowingError;
-  if (!(std::abs(error) > data.Clamping.FollowingErrorDeviation)) return false;
-  if (power_state_ != PowerState::on || !position_controlled_ || motion_ == Motion::none) return false;
-  if (setpoint_.velocity != 0.0) return setpoint_.velocity * error > 0.0;
-  if (motion_ != Motion::single_axis) return running_[kBase] != nullptr || led();
-  // A job that has only just begun may lead away from what the axis pushes against already.
-  return running_[kBase] != nullptr && (single_.finished() || single_.way_left(error > 0.0 ? 1 : -1) > 0.0);
-}
-
-void Axis::watch_fixed_stop() noexcept {
-  if (forces_.stop_side != 0) return watch_clamping();
-  if (!pushes_against_a_stop()) return;
-  forces_.stop_side = data.StatusPositioning.FollowingError > 0.0 ? 1 : -1;
-  forces_.clamped_at = actual_;
-  forces_.in_clamping = true;
-  end_all_jobs(JobPhase::aborted, ErrorId::none);
-  freeze_setpoint();
-}
-
-/// The setpoint stays where it is, and with it the following error: a published step of the velocity.
-void Axis::freeze_setpoint() noexcept {
-  absorb_superimposed();
-  leave_synchronous();
-  motion_ = Motion::single_axis;
-  setpoint_.velocity = 0.0;
-  setpoint_.acceleration = 0.0;
-  last_setpoint_ = setpoint_;  // the fine interpolation has nothing left to do
-  single_.stand(setpoint_);
-}
-
-void Axis::watch_clamping() noexcept {
-  if (power_state_ != PowerState::on) return leave_fixed_stop();
-  const double moved = difference(actual_, forces_.clamped_at, modulo_).rounded();
-  forces_.in_clamping = std::abs(moved) <= data.Clamping.PositionTolerance;
-  const bool has_job = running_[kBase] != nullptr || running_[kSuperimposed] != nullptr;
-  if (forces_.in_clamping) {
-    if (!has_job || forces_.stop_side * setpoint_.velocity <= 0.0) return;
-    // A job that has been let go away from the stop has turned towards it.
-    end_all_jobs(JobPhase::failed, ErrorId::towards_fixed_stop);
-    freeze_setpoint();
-    return;
-  }
-  const bool retreats = forces_.stop_side * moved < 0.0 && has_job;
-  leave_fixed_stop();
-  if (!retreats) raise(alarm::kClamping);
-}
-
-void Axis::leave_fixed_stop() noexcept {
-  forces_.stop_side = 0;
-  forces_.in_clamping = false;
-}
-
-/// Whether a job may start at the fixed stop: only motions away from it, under position control.
-ErrorId Axis::check_at_fixed_stop(const Job& job) const noexcept {
-  const int side = forces_.stop_side;
-  switch (job.kind) {
-    case JobKind::MC_Halt:
-    case JobKind::MC_Stop:
-    case JobKind::MC_HaltSuperimposed:
-      return ErrorId::none;
-    case JobKind::MC_MoveAbsolute:
-      return away_from_stop(absolute_distance(job, setpoint_.position.value), side);
-    case JobKind::MC_MoveRelative:
-    case JobKind::MC_MoveSuperimposed:
-      return away_from_stop(job.position, side);
-    case JobKind::MC_MoveVelocity:
-      if (!job.position_controlled) return ErrorId::fixed_stop_position_control;
-      return away_from_stop(job.current ? 0.0 : job.velocity, side);
-    case JobKind::MC_MoveJog:
-      if (!job.position_controlled) return ErrorId::fixed_stop_position_control;
-      return away_from_stop(job.direction, side);
-    case JobKind::MC_Home:
-      return class_of(job, false) == JobClass::home_active ? ErrorId::towards_fixed_stop : ErrorId::none;
-    case JobKind::MC_GearInVelocity:
-      return ErrorId::fixed_stop_position_control;
-    case JobKind::MC_MotionInVelocity:
-      return job.position_controlled ? ErrorId::towards_fixed_stop : ErrorId::fixed_stop_position_control;
-    default:  // nobody knows which way it will go
-      return ErrorId::towards_fixed_stop;
-  }
-}
-
-ErrorId Axis::away_from_stop(double way, int side) noexcept {
-  return side * way > 0.0 ? ErrorId::towards_fixed_stop : ErrorId::none;
+void AxisForces::show(AxisData& data, bool clamped) const noexcept {
+  set_bit(data.StatusWord, StatusBit::TorqueLimitingCommand, limiting.owner != nullptr);
+  set_bit(data.StatusWord, StatusBit::InLimitation, in_limitation_);
+  set_bit(data.StatusWord, StatusBit::InClamping, clamped);
+  data.StatusTorqueData.CommandAdditiveTorqueActive = additive.owner != nullptr ? 1 : 0;
+  data.StatusTorqueData.CommandTorqueRangeActive = range.owner != nullptr ? 1 : 0;
 }
 
 }  // namespace lockstep

@@ -1,11 +1,10 @@
-/// Forces of an axis: what the torque blocks want of its drive, and the fixed stop at which it is clamped.
+/// Forces of an axis: what the torque blocks want of its drive.
+/// @source S7-1500T axis functions, force and torque limiting, torque data
 #pragma once
 
-#include <cstdint>
-#include <limits>
-
-#include "tech_objects/arithmetic/axis_position.hpp"
-#include "tech_objects/types/types.hpp"
+#include "tech_objects/alarms/alarms.hpp"
+#include "tech_objects/data_blocks/data_block.hpp"
+#include "tech_objects/drive/drive.hpp"
 
 namespace lockstep {
 
@@ -13,7 +12,7 @@ namespace lockstep {
 struct TorqueLimitingRequest {
   const void* owner = nullptr;  ///< nullptr: not active
   LREAL limit = -1.0;           ///< < 0: TorqueLimiting.LimitDefaults
-  DINT mode{};                  ///< 0 limiting, 1 fixed stop detection
+  DINT mode{};                  ///< TorqueLimitingMode
 };
 /// What MC_TorqueRange wants.
 struct TorqueRangeRequest {
@@ -27,23 +26,42 @@ struct TorqueAdditiveRequest {
   LREAL value{};  ///< at the motor
 };
 
-/// Seldom of account: kept apart from what an axis touches in every cycle.
-struct AxisForces {
+/// The requests of the torque blocks, which write them only when nothing is refused, and what becomes of
+/// them. Seldom of account: kept apart from what an axis touches in every cycle. The cycle's thread.
+class AxisForces {
+ public:
   TorqueLimitingRequest limiting;
   TorqueRangeRequest range;
   TorqueAdditiveRequest additive;
 
-  // Written by the axis.
-  bool in_limitation = false;
-  bool in_clamping = false;    // held at the stop, within Clamping.PositionTolerance
-  bool command_shown = false;  // to the drive and in the data block: something that is not the usual
-  std::int8_t stop_side = 0;   // in which direction a fixed stop has been found; 0: none
-  AxisPosition clamped_at;     // actual position when it was
+  /// Limiting and range exclude each other; a fixed stop is detected of an enabled axis only.
+  ErrorId limiting_refusal(DINT mode, bool enabled) const noexcept;
+  ErrorId range_refusal() const noexcept;
 
-  bool active() const noexcept {
-    return limiting.owner != nullptr || range.owner != nullptr || additive.owner != nullptr;
-  }
+  /// Whether the drive has to be told of something, or that there is nothing any more.
+  bool due() const noexcept { return active() || told_; }
   bool limited() const noexcept { return limiting.owner != nullptr || range.owner != nullptr; }
+  bool detects_fixed_stop() const noexcept;
+
+  /// One interpolator cycle: what the drive is told, in the direction of the axis.
+  /// @param enabled whether the axis is: nothing is added while it is not
+  TorqueCommand command(const AxisData& settings, bool enabled) noexcept;
+  /// @param torque at the motor; without a meaning, if the drive does not tell it or is off
+  void watch_limitation(double torque, bool known) noexcept;
+  /// Whether the drive makes at least 90 % of the torque that MC_TorqueLimiting permits.
+  bool in_limitation() const noexcept { return in_limitation_; }
+
+  /// In StatusWord and StatusTorqueData. @param clamped whether the axis is held at a fixed stop
+  void show(AxisData& data, bool clamped) const noexcept;
+
+ private:
+  bool active() const noexcept { return limited() || additive.owner != nullptr; }
+  double limit_at_motor(const AxisData& settings) const noexcept;
+  TorqueBand band(const AxisData& settings) const noexcept;
+
+  bool told_ = false;  // to the drive and in the data block: something that is not the usual
+  bool in_limitation_ = false;
+  double upper_ = 0.0;  // of the band that the drive has been told last
 };
 
 }  // namespace lockstep

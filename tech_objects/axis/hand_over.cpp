@@ -20,7 +20,7 @@ bool Axis::run_down(Superimposed& part, const Setpoint& ahead) noexcept {
   part.begin();
   part.begin_giving();
   part.give(ahead.position.value, ahead.velocity, ahead.acceleration);
-  Dynamics dynamics = maximum_dynamics();
+  Dynamics dynamics = limits_.maximum();
   if (dynamics.velocity <= 0.0) dynamics.velocity = data.DynamicLimits.MaxVelocity;
   if (part.move_by(-ahead.position.value, dynamics) == PlanResult::ok) return true;
   part.begin();

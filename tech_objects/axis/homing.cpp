@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -28,16 +29,16 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
   if (kind == JobClass::home_cancel) return ErrorId::none;
   const bool seeks = kind == JobClass::home_active || kind == JobClass::home_passive;
   if ((seeks || job.mode == 13) && pending_alarm() != 0) return ErrorId::technology_alarm;
-  if (seeks && (!enabled() || locked_by_stop())) return ErrorId::locked;
+  if (seeks && (!enabled() || jobs_.locked())) return ErrorId::locked;
   if (adjusts_encoder(job)) {
     const std::size_t sensor = sensor_of(job);
     if (!data.Sensor[sensor].Existent) return ErrorId::sensor;
-    const bool absolute = data.Sensor[sensor].Type != 0;
+    const bool absolute = data.Sensor[sensor].Type != SensorType::INCREMENTAL;
     if (job.mode == 13 && absolute) return ErrorId::homing_mode_absolute;
     if (job.mode != 13 && !absolute) return ErrorId::homing_mode_incremental;
-    if (data.StatusSensor[sensor].State != kSensorValid) return ErrorId::actual_values_invalid;
+    if (data.StatusSensor[sensor].State != SensorState::valid) return ErrorId::actual_values_invalid;
   }
-  const Job* base = running_[kBase];
+  const Job* base = jobs_[kBase];
   const JobKind running = base != nullptr ? base->kind : JobKind::MC_Halt;
   if (kind != JobClass::home_active && !position_controlled_ && !off())
     return ErrorId::not_position_controlled;
@@ -56,13 +57,13 @@ int Axis::missing_for_homing(const Job& job) const noexcept {
   if (active && !(data.Homing.ApproachVelocity > 0.0 && data.Homing.ReferencingVelocity > 0.0))
     return alarm::kHomingData;
   if (!has_drive_) return 0;
-  const auto mark = static_cast<HomingMark>(active ? data.Sensor[operative_].ActiveHoming.Mode
-                                                   : data.Sensor[operative_].PassiveHoming.Mode);
-  return has_mark(mark, home_switch(active), drive_settings.signals) ? 0 : alarm::kHomingNotSupported;
+  const auto mark = static_cast<HomingMark>(active ? data.Sensor[encoders_.operative()].ActiveHoming.Mode
+                                                   : data.Sensor[encoders_.operative()].PassiveHoming.Mode);
+  return has_mark(mark, home_switch(active), drive_->signals()) ? 0 : alarm::kHomingNotSupported;
 }
 
 HomeSwitch Axis::home_switch(bool active) const noexcept {
-  const auto& sensor = data.Sensor[operative_];
+  const auto& sensor = data.Sensor[encoders_.operative()];
   if (active) return {sensor.ActiveHoming.DigitalInputAddress, sensor.ActiveHoming.SwitchLevel};
   return {sensor.PassiveHoming.DigitalInputAddress, sensor.PassiveHoming.SwitchLevel};
 }
@@ -90,7 +91,7 @@ void Axis::home(Job& job) noexcept {
 
 /// Setpoint and actual position are shifted together; nothing moves.
 void Axis::home_directly(Job& job) noexcept {
-  if (adjusts_encoder(job) && sensor_of(job) != operative_) return home_sensor_beside(job);
+  if (adjusts_encoder(job) && sensor_of(job) != encoders_.operative()) return home_sensor_beside(job);
   const bool to_setpoint = job.mode == 11;
   const bool relative = mode_is(job, {1, 6, 12});
   const double by = relative      ? job.position
@@ -98,18 +99,18 @@ void Axis::home_directly(Job& job) noexcept {
                                   : position_shift(job.position);
   if (!positions_fit(by)) return job.fail(ErrorId::position);
   shift_positions(by);
-  if (!adjusts_encoder(job)) shift_sensors_beside(by);
+  if (!adjusts_encoder(job)) encoders_.shift_beside(by);
   if (to_setpoint || (!relative && !has_drive_)) {
     // No following error in between: the setpoint is the given position to the last bit.
     const AxisPosition exact = normalised({setpoint_.position.turns, job.position}, modulo_);
     setpoint_.position.value = exact.value;
-    const bool idle = running_[kBase] == nullptr && !superimposed_.in_use();
+    const bool idle = jobs_[kBase] == nullptr && !superimposed_.in_use();
     if (setpoint_.standing() && motion_ == Motion::single_axis && idle) single_.stand(setpoint_);
     if (!has_drive_) actual_ = setpoint_.position;
   }
   if (job.mode == 7) counted_from_ = actual_.turns;
   show_renamed();
-  if (adjusts_encoder(job)) adjust_encoder(operative_, true);
+  if (adjusts_encoder(job)) adjust_encoder(encoders_.operative(), true);
   homed_ = true;
   job.mark_position = relative ? actual_.value : job.position;
   job.phase = JobPhase::done;
@@ -124,72 +125,20 @@ bool Axis::positions_fit(double by) const noexcept {
 /// Modes 6, 7, 13 at an encoder that is not operative: only what that one tells changes.
 void Axis::home_sensor_beside(Job& job) noexcept {
   const std::size_t sensor = sensor_of(job);
-  Encoder& encoder = encoders_[sensor];
-  const double by =
-      job.mode == 6 ? job.position : shortest_distance(encoder.seen.value, job.position, modulo_);
-  if (!std::isfinite(by) || !modulo_.contains(advanced(encoder.seen, by, modulo_).value))
-    return job.fail(ErrorId::position);
-  encoder.origin = advanced(encoder.origin, by - encoder.lent, modulo_);
-  encoder.seen = advanced(encoder.seen, by, modulo_);
-  encoder.lent = 0.0;
-  show_place(sensor, encoder.seen);
+  const AxisPosition seen = encoders_.position(sensor, actual_);
+  const double by = job.mode == 6 ? job.position : shortest_distance(seen.value, job.position, modulo_);
+  const AxisPosition renamed = advanced(seen, by, modulo_);
+  if (!std::isfinite(by) || !modulo_.contains(renamed.value)) return job.fail(ErrorId::position);
+  encoders_.rename(sensor, by);
+  show_place(sensor, renamed);
   adjust_encoder(sensor, true);
-  job.mark_position = job.mode == 6 ? encoder.seen.value : job.position;
+  job.mark_position = job.mode == 6 ? renamed.value : job.position;
   job.phase = JobPhase::done;
 }
 
 /// The encoder that a job is about; 0: the operative one.
 std::size_t Axis::sensor_of(const Job& job) const noexcept {
-  return job.sensor > 0 ? static_cast<std::size_t>(job.sensor - 1) : operative_;
-}
-
-void Axis::shift_sensors_beside(double by) noexcept {
-  if (!several_encoders_) return;
-  for (std::size_t i = 0; i < kSensors; ++i) {
-    if (i == operative_) continue;
-    encoders_[i].origin = advanced(encoders_[i].origin, by, modulo_);
-    encoders_[i].seen = advanced(encoders_[i].seen, by, modulo_);
-  }
-}
-
-/// The encoder is adjusted to the positions as they are now.
-/// @param store whether an offset of an absolute encoder that is kept already is replaced
-void Axis::adjust_encoder(std::size_t sensor, bool store) noexcept {
-  data.StatusSensor[sensor].Adjusted = 1;
-  EncoderAdjustment& kept = encoder_adjustments[sensor];
-  if (!absolute_encoder(sensor) || (kept.adjusted && !store)) return;
-  const AxisPosition origin = sensor == operative_ ? encoder_origin_ : encoders_[sensor].origin;
-  const DoubleDouble turns =
-      modulo_.enabled ? to_double_double(origin.turns - counted_from_) * modulo_.length : DoubleDouble{};
-  const DoubleDouble offset = turns + two_difference(origin.value, encoder_start(sensor));
-  kept = {true, offset.rounded()};
-  data.StatusSensor[sensor].AbsEncoderOffset = kept.offset;
-}
-
-/// What an absolute encoder reports where the machine is at the beginning [u].
-double Axis::encoder_start(std::size_t sensor) const noexcept {
-  const double sign = sensor == operative_ ? encoder_sign_ : encoders_[sensor].sign;
-  return sign * (sensor == 0 ? drive_settings.signals.start_position : sensor_model(sensor).start_position);
-}
-
-/// At the start and after a restart an absolute encoder tells where the axis is.
-void Axis::restore_encoder(std::size_t sensor) noexcept {
-  if (!absolute_encoder(sensor)) return;
-  EncoderAdjustment& kept = encoder_adjustments[sensor];
-  if (!kept.adjusted || !std::isfinite(kept.offset)) kept = {};
-  const DoubleDouble place = two_sum(encoder_start(sensor), kept.offset);
-  const AxisPosition origin = normalised(0, place, modulo_);
-  data.StatusSensor[sensor].AbsEncoderOffset = kept.offset;
-  data.StatusSensor[sensor].Adjusted = kept.adjusted ? 1 : 0;
-  if (sensor != operative_) {
-    encoders_[sensor].origin = origin;
-    return;
-  }
-  const double by = rounded_difference(origin, encoder_origin_, modulo_);
-  shift_positions(by);
-  encoder_origin_ = origin;
-  counted_from_ = 0;
-  homed_ = kept.adjusted;
+  return job.sensor > 0 ? static_cast<std::size_t>(job.sensor - 1) : encoders_.operative();
 }
 
 // ---- Homing with a mark
@@ -200,15 +149,15 @@ void Axis::begin_passive_homing(Job& job) noexcept {
   if (job.mode == 10) job.position = data.Homing.HomePosition;
   if (!positions_fit(position_shift(job.position))) return job.fail(ErrorId::position);
   end_job(kPassiveHoming, JobPhase::aborted, ErrorId::none);
-  running_[kPassiveHoming] = &job;
-  job.phase = JobPhase::active;
+  jobs_.put(kPassiveHoming, job, JobPhase::active);
   homing_now_ = true;
   if (job.mode != 2) homed_ = false;
-  if (has_drive_) search_mark(false, passive_direction(data.Sensor[operative_].PassiveHoming.Direction));
+  if (has_drive_)
+    search_mark(false, passive_direction(data.Sensor[encoders_.operative()].PassiveHoming.Direction));
 }
 
 void Axis::begin_active_homing(Job& job) noexcept {
-  const auto& settings = data.Sensor[operative_].ActiveHoming;
+  const auto& settings = data.Sensor[encoders_.operative()].ActiveHoming;
   if (job.mode == 5) job.position = data.Homing.HomePosition;
   const double mark = job.position - settings.HomePositionOffset;
   if (!positions_fit(position_shift(mark)) || !positions_fit(position_shift(job.position)))
@@ -247,19 +196,19 @@ PlanResult Axis::plan_homing(const Job& job, const Dynamics& dynamics) noexcept 
 }
 
 void Axis::search_mark(bool active, int direction) noexcept {
-  const auto& sensor = data.Sensor[operative_];
+  const auto& sensor = data.Sensor[encoders_.operative()];
   const DINT mark = active ? sensor.ActiveHoming.Mode : sensor.PassiveHoming.Mode;
   const bool positive_side = active ? homing_.positive_side : sensor.PassiveHoming.SideInput;
   // The machine may lie the other way round than the axis counts.
   begin_search(mark_search_, static_cast<HomingMark>(mark), direction, positive_side,
-               encoder_sign_ * encoder_ratio() < 0.0);
+               encoders_.ratio() < 0.0);
   on_home_switch_ = false;
   signals_watched_ = true;
 }
 
 /// Each interpolator tick of a homing, before the setpoint is made.
 void Axis::step_homing() noexcept {
-  Job* base = running_[kBase];
+  Job* base = jobs_[kBase];
   const bool active = base != nullptr && base->kind == JobKind::MC_Home;
   if (active && homing_.phase == HomingPhase::travel) return;
   if (!has_drive_ || (mark_search_.found() && homing_.phase != HomingPhase::back)) return take_mark();
@@ -269,9 +218,8 @@ void Axis::step_homing() noexcept {
 /// From one phase of an active homing to the next.
 void Axis::guide_active_homing(Job& job) noexcept {
   const int direction = homing_.direction;
-  if (homing_reverses() && limit_switches_[job.direction > 0 ? 1 : 0].pressed)
-    return reverse_at_limit_switch(job);
-  const auto& settings = data.Sensor[operative_].ActiveHoming;
+  if (homing_reverses() && limit_switches_.pressed(job.direction)) return reverse_at_limit_switch(job);
+  const auto& settings = data.Sensor[encoders_.operative()].ActiveHoming;
   switch (homing_.phase) {
     case HomingPhase::approach: {
       if (!on_home_switch_) break;
@@ -297,7 +245,7 @@ void Axis::guide_active_homing(Job& job) noexcept {
 /// homing direction.
 void Axis::reverse_at_limit_switch(Job& job) noexcept {
   const bool to_zero_mark =
-      data.Sensor[operative_].ActiveHoming.Mode == static_cast<DINT>(HomingMark::zero_mark);
+      data.Sensor[encoders_.operative()].ActiveHoming.Mode == static_cast<DINT>(HomingMark::zero_mark);
   const bool can_turn =
       homing_.phase == HomingPhase::approach || (homing_.phase == HomingPhase::search && to_zero_mark);
   if (homing_.reversed || !can_turn) return raise(alarm::kMarkNotFound);
@@ -311,26 +259,27 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
   homing_.phase = phase;
   job.direction = direction;
   job.velocity = phase == HomingPhase::search ? homing_.referencing_velocity : homing_.approach_velocity;
-  in_window_ticks_ = 0;
-  since_target_ticks_ = 0;
-  remember_limits();
+  arrival_.begin();
+  limits_.remember();
   Dynamics dynamics = own_dynamics(job);
-  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) return raise(alarm_number);
-  if (advancing_base_) leave_to_superimposed(&job, dynamics);
+  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) return raise(alarm_number);
+  if (superimposed_.advancing_base()) leave_to_superimposed(&job, dynamics);
   if (plan(job, dynamics) == PlanResult::ok) return;
   end_job(kBase, JobPhase::failed, ErrorId::unspecified);
-  begin_stop(maximum_dynamics(), false);
+  begin_stop(limits_.maximum(), false);
+}
+
+AxisPosition Axis::place_of_mark() const noexcept {
+  const double start = drive_->signals().start_position;
+  return encoders_.position_of_machine(two_difference(mark_search_.place(), start), play());
 }
 
 /// The mark has been passed; a virtual axis has none, and takes the place where it is.
 void Axis::take_mark() noexcept {
-  const DoubleDouble way = two_difference(mark_search_.place(), drive_settings.signals.start_position);
-  const double backlash = operative_ == 0 ? backlash_offset() : 0.0;
-  const DoubleDouble load_way = way * (encoder_ratio() * encoder_sign_) - DoubleDouble{backlash, 0.0};
-  const AxisPosition place = has_drive_ ? advanced(encoder_origin_, load_way, modulo_) : actual_;
+  const AxisPosition place = has_drive_ ? place_of_mark() : actual_;
   mark_search_.end();
-  Job* const passive = running_[kPassiveHoming];
-  Job& job = passive != nullptr ? *passive : *running_[kBase];
+  Job* const passive = jobs_[kPassiveHoming];
+  Job& job = passive != nullptr ? *passive : *jobs_[kBase];
   job.mark_position = passive != nullptr ? job.position : homing_.mark;
   if (!assign_position(place, job.mark_position)) return raise(alarm::kHomingNotPossible);
   if (passive != nullptr) return end_job(kPassiveHoming, JobPhase::done, ErrorId::none);
@@ -343,13 +292,13 @@ bool Axis::assign_position(AxisPosition place, double position) noexcept {
   const double by = shortest_distance(place.value, position, modulo_);
   if (!positions_fit(by)) return false;
   shift_positions(by);
-  shift_sensors_beside(by);
-  if (modulo_.enabled && !absolute_encoder()) {
+  encoders_.shift_beside(by);
+  if (modulo_.enabled && !encoders_.absolute(encoders_.operative())) {
     counted_from_ = first_turn(advanced(place, by, modulo_), modulo_);
   }
   show_renamed();
   homed_ = true;
-  adjust_encoder(operative_, false);
+  adjust_encoder(encoders_.operative(), false);
   return true;
 }
 
@@ -358,7 +307,7 @@ void Axis::shift_coupling(double by) noexcept {
   synchronous_.shift_following(by);
   if (synchronous_.cam() == nullptr || motion_ == Motion::desynchronizing) return;
   data.StatusSynchronizedMotion.SlaveOffset = synchronous_.slave_offset();
-  Job* const offset = running_[kOffset];
+  Job* const offset = jobs_[kOffset];
   const bool relative = offset != nullptr && offset->kind == JobKind::MC_OffsetRelative;
   if (relative) offset->shift_base = offset->shift_base + by;
 }
@@ -382,12 +331,12 @@ double Axis::position_shift(double home_position) const noexcept {
 void Axis::shift_positions(double by) noexcept {
   setpoint_.position = advanced(setpoint_.position, by, modulo_);
   last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
-  base_.position = advanced(base_.position, by, modulo_);
+  superimposed_.shift_base(by, modulo_);
   actual_ = advanced(actual_, by, modulo_);
   shift_leading(by);
   single_.shift(by);
   // What waits to blend may have another distance to its target: that is where the axis calls it so then.
-  if (running_[kBuffered] != nullptr && running_[kBase] != nullptr && motion_ == Motion::single_axis)
+  if (jobs_[kBuffered] != nullptr && jobs_[kBase] != nullptr && motion_ == Motion::single_axis)
     plan_blending();
   shift_coupling(by);
   if (has_drive_) shift_servo(by);
@@ -396,12 +345,12 @@ void Axis::shift_positions(double by) noexcept {
 /// What has been shown in this tick is where it was, and has other names now: the target of a running
 /// positioning, and what MC_Servo shows.
 void Axis::show_renamed() noexcept {
-  const bool positioning = motion_ == Motion::single_axis && running_[kBase] != nullptr &&
+  const bool positioning = motion_ == Motion::single_axis && jobs_[kBase] != nullptr &&
                            single_.aim() == SingleAxisMotion::Aim::position;
   if (positioning) show_target(single_.target());
   if (!has_drive_) return;
-  for (std::size_t i = 0; i < kSensors; ++i)
-    if (i == operative_ || sensor_exists(i)) show_place(i, sensor_position(i));
+  for (std::size_t i = 0; i < Encoders::kCount; ++i)
+    if (i == encoders_.operative() || encoders_.beside(i)) show_place(i, encoders_.position(i, actual_));
 }
 
 }  // namespace lockstep

@@ -11,40 +11,14 @@ namespace {
 /// Longest chain of leading axes that is followed; a project cannot have more axes.
 constexpr int kLongestChain = 65536;
 
-/// Strength of the stop reaction of MC_Stop: emergency stop over maximum dynamics over given dynamics.
-int stop_rank(DINT mode) noexcept {
-  return mode == 0 ? 3 : mode == 2 ? 2 : 1;
-}
-
-/// An alarm shows at MC_Stop as CommandAborted.
-void end(Job& job, JobPhase phase, ErrorId error) noexcept {
-  const bool stopping = job.kind == JobKind::MC_Stop && phase == JobPhase::failed;
-  job.phase = stopping ? JobPhase::aborted : phase;
-  job.error = stopping ? ErrorId::none : error;
-}
-
-/// What a job shows that another one forbids.
-ErrorId rejection(JobClass new_job, JobClass running) noexcept {
-  if (running == JobClass::gear_in_velocity) return ErrorId::velocity_gear_active;
-  const bool shifts = (new_job == JobClass::phasing && running == JobClass::offset) ||
-                      (new_job == JobClass::offset && running == JobClass::phasing);
-  return shifts ? ErrorId::shifts_exclude : ErrorId::locked;
-}
-
 }  // namespace
 
 void Axis::submit(Job& job) noexcept {
-  if (new_count_ == kNewJobs) {
-    job.fail(ErrorId::no_job_memory);
-    return;
-  }
-  job.phase = JobPhase::handed_over;
-  new_jobs_[new_count_++] = &job;
+  jobs_.submit(job);
 }
 
 void Axis::start_jobs() noexcept {
-  for (std::size_t i = 0; i < new_count_; ++i) start(*new_jobs_[i]);
-  new_count_ = 0;
+  jobs_.take_new([this](Job& job) { start(job); });
 }
 
 void Axis::start(Job& job) noexcept {
@@ -54,12 +28,12 @@ void Axis::start(Job& job) noexcept {
     job.phase = JobPhase::done;
     return;
   }
-  take_defaults(job);
+  limits_.take_defaults(job);
   if (const ErrorId error = check(job); error != ErrorId::none) {
-    if (error == ErrorId::technology_alarm) return end(job, JobPhase::failed, error);
+    if (error == ErrorId::technology_alarm) return JobSlots::end(job, JobPhase::failed, error);
     return job.fail(error);
   }
-  if (forces_.stop_side != 0)
+  if (clamping_.found())
     if (const ErrorId error = check_at_fixed_stop(job); error != ErrorId::none) return job.fail(error);
   if (const int alarm_number = missing_precondition(job); alarm_number != 0) {
     raise(alarm_number);
@@ -75,13 +49,13 @@ void Axis::start(Job& job) noexcept {
 /// Whether the state of the axis permits the job at all.
 ErrorId Axis::check(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_Home) return check_homing(job);
-  const bool stronger =
-      job.kind == JobKind::MC_Stop && stop_rank(job.mode) >= static_cast<int>(data.ErrorDetail.Reaction);
+  const bool stronger = job.kind == JobKind::MC_Stop &&
+                        JobSlots::stop_rank(job.mode) >= static_cast<int>(data.ErrorDetail.Reaction);
   if (pending_alarm() != 0 && !stronger) return ErrorId::technology_alarm;
   if (!enabled()) return ErrorId::locked;
-  if (locked_by_stop() && job.kind != JobKind::MC_Stop) return ErrorId::locked;
+  if (jobs_.locked() && job.kind != JobKind::MC_Stop) return ErrorId::locked;
   if (const ErrorId error = check_synchronous(job); error != ErrorId::none) return error;
-  const bool at_once = job.buffer_mode == BufferMode::mcAborting || running_[kBase] == nullptr;
+  const bool at_once = job.buffer_mode == BufferMode::mcAborting || jobs_[kBase] == nullptr;
   return at_once ? target_refusal(job) : ErrorId::none;
 }
 
@@ -98,10 +72,10 @@ ErrorId Axis::check_synchronous(const Job& job) const noexcept {
     if (recursive) return ErrorId::recursive_coupling;
     return job.kind == JobKind::MC_CamIn ? check_cam(job) : ErrorId::none;
   }
-  const Job* base = running_[kBase];
+  const Job* base = jobs_[kBase];
   if (base != nullptr && base->kind == JobKind::MC_GearInVelocity) return ErrorId::velocity_gear_active;
   const bool cam_out = job.kind == JobKind::MC_CamOut;
-  if (leaves(job.kind) && !runs_or_waits(cam_out)) return cam_out ? ErrorId::no_cam : ErrorId::no_gear;
+  if (leaves(job.kind) && !jobs_.runs_or_waits(cam_out)) return cam_out ? ErrorId::no_cam : ErrorId::no_gear;
   if (leaves(job.kind)) return ErrorId::none;
   if (job.mode == kCancelWaiting) return ErrorId::none;
   const bool in_time = is_phasing(job.kind) && job.mode == 0;
@@ -116,23 +90,15 @@ ErrorId Axis::check_synchronous(const Job& job) const noexcept {
 ErrorId Axis::check_cam(const Job& job) const noexcept {
   if (job.cam->restarting()) return ErrorId::restarting;
   if (job.cam->in_interpolation()) return ErrorId::cam_in_interpolation;
-  const Job* base = running_[kBase];
+  const Job* base = jobs_[kBase];
   const bool camming = base != nullptr && base->kind == JobKind::MC_CamIn && motion_ == Motion::synchronous;
   return job.mode == kAtCamEnd && !camming ? ErrorId::no_camming : ErrorId::none;
-}
-
-/// Whether a gear (a cam) runs, waits or is about to be left.
-bool Axis::runs_or_waits(bool cam) const noexcept {
-  const auto of_kind = [cam](const Job* job) { return job != nullptr && of_cam(job->kind) == cam; };
-  const Job* base = running_[kBase];
-  const bool runs = of_kind(base) && couples(base->kind);
-  return runs || of_kind(running_[kWaiting]) || of_kind(running_[kWaitingOut]);
 }
 
 /// Profile 5: ends a shift that waits; one that runs and the shift in effect stay.
 void Axis::cancel_waiting_shift(Job& job) noexcept {
   const Slot slot = is_phasing(job.kind) ? kPhasing : kOffset;
-  if (running_[slot] != nullptr && running_[slot]->phase == JobPhase::waiting) {
+  if (jobs_[slot] != nullptr && jobs_[slot]->phase == JobPhase::waiting) {
     end_job(slot, JobPhase::aborted, ErrorId::none);
     (slot == kPhasing ? synchronous_.phase_shift() : synchronous_.following_offset()).cancel();
   }
@@ -172,21 +138,13 @@ const LeadingValue* Axis::find_leading_value(const LeadingObject* master) const 
 
 /// Ends the running jobs that the new one overrides; false if one of them forbids it.
 bool Axis::override_running(JobClass new_job, Job& job) noexcept {
-  std::array<OverrideEffect, kSlots> effects{};
-  for (std::size_t slot = 0; slot < kSlots; ++slot) {
-    const Job* running = running_[slot];
-    if (running == nullptr) continue;
-    effects[slot] = override_effect(new_job, class_of(*running, slot == kBase), position_controlled_);
-    const bool weaker =
-        effects[slot] == OverrideEffect::abort_by_rank && stop_rank(job.mode) < stop_rank(running->mode);
-    if (effects[slot] == OverrideEffect::reject || weaker) {
-      job.fail(rejection(new_job, class_of(*running, slot == kBase)));
-      return false;
-    }
+  const Overriding effects = jobs_.overriding(new_job, job, position_controlled_);
+  if (effects.refusal != ErrorId::none) {
+    job.fail(effects.refusal);
+    return false;
   }
   for (std::size_t slot = 0; slot < kSlots; ++slot)
-    if (effects[slot] == OverrideEffect::abort || effects[slot] == OverrideEffect::abort_by_rank)
-      end_job(static_cast<Slot>(slot), JobPhase::aborted, ErrorId::none);
+    if (effects.ends[slot]) end_job(static_cast<Slot>(slot), JobPhase::aborted, ErrorId::none);
   return true;
 }
 
@@ -225,10 +183,9 @@ void Axis::install(Job& job) noexcept {
 }
 
 void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
-  Job* job = running_[slot];
+  Job* const job = jobs_.take(slot);
   if (job == nullptr) return;
-  running_[slot] = nullptr;
-  end(*job, phase, error);
+  JobSlots::end(*job, phase, error);
   const bool alone = phase == JobPhase::failed && error != ErrorId::technology_alarm;
   if (slot == kBase && alone) end_job(kBuffered, JobPhase::aborted, ErrorId::none);
   if (slot == kSuperimposed) show_superimposed_command();
@@ -240,25 +197,15 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   if (slot == kBase && leaves(job->kind)) data.StatusSynchronizedMotion.FunctionState = 0;
   if (slot == kWaiting || slot == kWaitingOut) {
     data.StatusSynchronizedMotion.WaitingFunctionState =
-        waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
+        waiting_function_state(jobs_[kWaiting], jobs_[kWaitingOut]);
     coupling_changed = true;
   }
 }
 
 void Axis::end_all_jobs(JobPhase phase, ErrorId error) noexcept {
   for (std::size_t slot = 0; slot < kSlots; ++slot) end_job(static_cast<Slot>(slot), phase, error);
-  for (std::size_t i = 0; i < new_count_; ++i) end(*new_jobs_[i], phase, error);
-  new_count_ = 0;
-  // One that is done keeps the axis locked until its Execute falls.
-  if (stop_ != nullptr && stop_->phase != JobPhase::done) stop_ = nullptr;
-}
-
-/// Whether a running MC_Stop stops harder than an alarm asks for: then it goes on.
-/// @source S7-1500T axis functions, MC_Stop, rank of stop reactions
-bool Axis::outranked_by_stop(AlarmReaction reaction) const noexcept {
-  const Job* const base = running_[kBase];
-  return base != nullptr && base->kind == JobKind::MC_Stop &&
-         stop_rank(base->mode) > static_cast<int>(reaction);
+  jobs_.end_new(phase, error);
+  jobs_.unlock_unless_done();
 }
 
 }  // namespace lockstep

@@ -74,8 +74,7 @@ void Axis::publish() noexcept {
   } else {
     publish_awaited();
   }
-  if (running_[kWaiting] != nullptr && running_[kWaiting]->cam != nullptr)
-    running_[kWaiting]->cam->show_use();
+  if (jobs_[kWaiting] != nullptr && jobs_[kWaiting]->cam != nullptr) jobs_[kWaiting]->cam->show_use();
   publish_status();
   if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
 }
@@ -103,7 +102,7 @@ void Axis::publish_awaited() noexcept {
   constexpr auto kAdditive = SynchronizedMotionBit::LeadingValueAdditiveCommand;
   status.StatusWord =
       renewed(status.StatusWord, word_of(kAdditive), when(additive_request.counts, kAdditive));
-  if (running_[kWaiting] == nullptr) return;
+  if (jobs_[kWaiting] == nullptr) return;
   const Setpoint& effective = awaited_.effective_leading_value();
   status.EffectiveLeadingValue.Position = effective.position.value;
   status.EffectiveLeadingValue.Velocity = effective.velocity;
@@ -194,23 +193,23 @@ void Axis::publish_status() noexcept {
   if (on) word |= bits_when_on();
   if (homing_now_) word |= word_of(StatusBit::HomingCommand);
   if (control_panel) word |= word_of(StatusBit::ControlPanelActive);
-  if (limit_side_ != 0)
-    word |= word_of(limit_side_ < 0 ? StatusBit::SWLimitMinActive : StatusBit::SWLimitMaxActive);
-  if (beyond_limit_switch_)
-    word |= when(limit_switches_[0].beyond, StatusBit::HWLimitMinActive) |
-            when(limit_switches_[1].beyond, StatusBit::HWLimitMaxActive);
+  if (const int side = software_limits_.side(); side != 0)
+    word |= word_of(side < 0 ? StatusBit::SWLimitMinActive : StatusBit::SWLimitMaxActive);
+  if (has_drive_)
+    word |= when(limit_switches_.beyond(-1), StatusBit::HWLimitMinActive) |
+            when(limit_switches_.beyond(1), StatusBit::HWLimitMaxActive);
 
   std::uint32_t word2 = 0;
-  if (const Job* const base = running_[kBase]) {
+  if (const Job* const base = jobs_[kBase]) {
     word |= command_bits(base->kind);
     word2 = when(leaves(base->kind), Status2Bit::DesynchronizingCommand);
   }
-  if (locked_by_stop()) word2 |= word_of(Status2Bit::StopCommand);
-  if (const Job* const phasing = running_[kPhasing]) {
+  if (jobs_.locked()) word2 |= word_of(Status2Bit::StopCommand);
+  if (const Job* const phasing = jobs_[kPhasing]) {
     word |= when(phasing->phase == JobPhase::active, StatusBit::PhasingCommand);
     word2 |= when(phasing->phase == JobPhase::waiting, Status2Bit::PhasingCommandWaiting);
   }
-  if (const Job* const offset = running_[kOffset])
+  if (const Job* const offset = jobs_[kOffset])
     word2 |= when(offset->phase == JobPhase::active, Status2Bit::OffsetCommand) |
              when(offset->phase == JobPhase::waiting, Status2Bit::OffsetCommandWaiting);
 
@@ -240,8 +239,8 @@ std::uint32_t Axis::pace_bits() const noexcept {
 }
 
 std::uint32_t Axis::bits_when_on() const noexcept {
-  const bool idle = running_[kBase] == nullptr && running_[kWaiting] == nullptr &&
-                    running_[kSuperimposed] == nullptr && !control_panel;
+  const bool idle = jobs_[kBase] == nullptr && jobs_[kWaiting] == nullptr &&
+                    jobs_[kSuperimposed] == nullptr && !control_panel;
   return when(power.enable, StatusBit::Enable) | when(idle, StatusBit::Done) |
          when(!position_controlled_, StatusBit::NonPositionControlled);
 }

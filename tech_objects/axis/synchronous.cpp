@@ -11,12 +11,11 @@ void Axis::begin_gear_in(Job& job) noexcept {
   absorb_superimposed();
   cut_acceleration();
   const Dynamics dynamics = own_dynamics(job);
-  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
+  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
   }
-  running_[kBase] = &job;
-  job.phase = JobPhase::active;
+  jobs_.put(kBase, job, JobPhase::active);
   set_position_control(job.position_controlled);
   synchronous_.begin_gear_in(*find_leading_value(job.master), job, dynamics);
   show_coupling(job, Motion::synchronizing);
@@ -25,7 +24,8 @@ void Axis::begin_gear_in(Job& job) noexcept {
 /// One that is rejected leaves what waits already.
 void Axis::begin_waiting(Job& job) noexcept {
   const Dynamics dynamics = effective_dynamics(job);
-  const int alarm_number = job.mode == 0 ? zero_limit(dynamics) : 0;  // profile 0 is planned with them
+  const int alarm_number =
+      job.mode == 0 ? limits_.zero_limit(dynamics) : 0;  // profile 0 is planned with them
   if (alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
@@ -35,10 +35,9 @@ void Axis::begin_waiting(Job& job) noexcept {
   if (error != ErrorId::none) return job.fail(error);
   if (!override_running(class_of(job, false), job)) return;
   awaited_ = planned;
-  running_[kWaiting] = &job;
-  job.phase = JobPhase::waiting;
+  jobs_.put(kWaiting, job, JobPhase::waiting);
   data.StatusSynchronizedMotion.WaitingFunctionState =
-      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
+      waiting_function_state(jobs_[kWaiting], jobs_[kWaitingOut]);
   coupling_changed = true;
 }
 
@@ -62,18 +61,18 @@ void Axis::watch_waiting() noexcept {
 
 /// The waiting job becomes active: now it overrides what moves the axis.
 void Axis::activate_waiting(Motion motion) noexcept {
-  Job& job = *running_[kWaiting];
+  Job& job = *jobs_[kWaiting];
   if (!awaited_axis_in_order || led_by_this(job.master))
     return end_job(kWaiting, JobPhase::failed, ErrorId::recursive_coupling);
-  if (locked_by_stop()) return end_job(kWaiting, JobPhase::failed, ErrorId::locked);
+  if (jobs_.locked()) return end_job(kWaiting, JobPhase::failed, ErrorId::locked);
   if (simulating()) return end_job(kWaiting, JobPhase::failed, ErrorId::simulated);
-  running_[kWaiting] = nullptr;
+  jobs_.take(kWaiting);
   data.StatusSynchronizedMotion.WaitingFunctionState =
-      waiting_function_state(running_[kWaiting], running_[kWaitingOut]);
+      waiting_function_state(jobs_[kWaiting], jobs_[kWaitingOut]);
   const bool at_cam_end = job.kind == JobKind::MC_CamIn && job.mode == kAtCamEnd;
-  if (at_cam_end && running_[kBase] != nullptr) {
-    ++running_[kBase]->ends;
-    running_[kBase]->end_of_profile = true;
+  if (at_cam_end && jobs_[kBase] != nullptr) {
+    ++jobs_[kBase]->ends;
+    jobs_[kBase]->end_of_profile = true;
   }
   if (!override_running(class_of(job, true), job)) {
     coupling_changed = true;
@@ -86,13 +85,12 @@ void Axis::activate_waiting(Motion motion) noexcept {
       at_cam_end && superimposed_.in_use() && !moves ? superimposed_.value() : DoubleDouble{};
   if (!moves) absorb_superimposed();
   if (moves) end_job(kSuperimposed, JobPhase::aborted, ErrorId::none);
-  if (moves && superimposed_.stop(maximum_dynamics(), false) != PlanResult::ok) superimposed_.rest();
-  running_[kBase] = &job;
-  job.phase = motion == Motion::synchronous ? JobPhase::reached : JobPhase::active;
+  if (moves) superimposed_.stop(limits_.maximum(), false);
+  jobs_.put(kBase, job, motion == Motion::synchronous ? JobPhase::reached : JobPhase::active);
   set_position_control(true);
   if (at_cam_end) {
     awaited_.raise_cam(superimposed);
-    awaited_.settle_shifts(synchronous_, maximum_dynamics());
+    awaited_.settle_shifts(synchronous_, limits_.maximum());
   }
   synchronous_ = awaited_;
   show_coupling(job, motion);
@@ -131,9 +129,9 @@ void Axis::look_at_coupling(const Job& job) noexcept {
 }
 
 void Axis::step_synchronous() noexcept {
-  Job* job = running_[kBase];
+  Job* job = jobs_[kBase];
   look_at_coupling(*job);
-  if (motion_ == Motion::synchronous && running_[kWaitingOut] == nullptr) {
+  if (motion_ == Motion::synchronous && jobs_[kWaitingOut] == nullptr) {
     synchronous_.advance(setpoint_);
     if (synchronous_.at_cam_end()) meet_cam_end();
     return;
@@ -141,7 +139,7 @@ void Axis::step_synchronous() noexcept {
   Setpoint next = setpoint_;
   synchronous_.advance(next);
   if (motion_ == Motion::synchronous) {
-    if (watch_sync_out(advancing_base_ ? with_superimposed(next) : next)) return;
+    if (watch_sync_out(superimposed_.advancing_base() ? superimposed_.with(next, modulo_) : next)) return;
     setpoint_ = next;
     if (synchronous_.at_cam_end()) meet_cam_end();
     return;
@@ -164,7 +162,7 @@ void Axis::step_synchronous() noexcept {
 /// The leading value has reached an end of the cam. One that is passed once ends its job: the axis stands at
 /// the end, or brakes if the cam ends with a slope.
 void Axis::meet_cam_end() noexcept {
-  Job& job = *running_[kBase];
+  Job& job = *jobs_[kBase];
   ++job.ends;
   if (!synchronous_.passed_once()) return synchronous_.clear_cam_end();
   job.end_of_profile = true;
@@ -180,7 +178,7 @@ void Axis::meet_cam_end() noexcept {
   setpoint_ = last_setpoint_;
   cut_acceleration();
   const Dynamics dynamics = own_dynamics(Job{});
-  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0)
+  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0)
     raise(alarm_number);
   else
     begin_stop(dynamics, false);
@@ -205,14 +203,14 @@ void Axis::begin_shift(Job& job) noexcept {
   const bool phasing = is_phasing(job.kind);
   const bool relative = job.kind == JobKind::MC_PhasingRelative || job.kind == JobKind::MC_OffsetRelative;
   Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
-  Dynamics dynamics = phasing && job.mode == 0 ? effective_dynamics(job) : maximum_dynamics();
-  if (const int alarm_number = zero_limit(dynamics); alarm_number != 0) {
+  Dynamics dynamics = phasing && job.mode == 0 ? effective_dynamics(job) : limits_.maximum();
+  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
   }
   // The dynamics are those of the following axis; a phase shift moves it by the ratio.
   const double ratio =
-      phasing ? std::abs(static_cast<double>(running_[kBase]->numerator) / running_[kBase]->denominator)
+      phasing ? std::abs(static_cast<double>(jobs_[kBase]->numerator) / jobs_[kBase]->denominator)
               : 1.0;  // and 1 for a cam, whose shifts go over a distance
   const ShiftRequest request{
       .target = relative ? shift.value() + job.position : DoubleDouble{job.position, 0.0},
@@ -230,25 +228,25 @@ void Axis::begin_shift(Job& job) noexcept {
     shift.halt();
     return job.fail(error);
   }
-  running_[phasing ? kPhasing : kOffset] = &job;
-  job.phase = shift.phase() == Shift::Phase::running ? JobPhase::active : JobPhase::waiting;
+  const bool runs = shift.phase() == Shift::Phase::running;
+  jobs_.put(phasing ? kPhasing : kOffset, job, runs ? JobPhase::active : JobPhase::waiting);
 }
 
 void Axis::advance_shifts() noexcept {
   const Shift& phase = synchronous_.phase_shift();
   const Shift& offset = synchronous_.following_offset();
-  if (running_[kPhasing] != nullptr)
+  if (jobs_[kPhasing] != nullptr)
     show_shift(kPhasing, phase, synchronous_.advance_phase_shift());
   else if (phase.settling())
     synchronous_.advance_phase_shift();
-  if (running_[kOffset] != nullptr)
+  if (jobs_[kOffset] != nullptr)
     show_shift(kOffset, offset, synchronous_.advance_following_offset());
   else if (offset.settling())
     synchronous_.advance_following_offset();
 }
 
 void Axis::show_shift(Slot slot, const Shift& shift, Shift::Event event) noexcept {
-  Job& job = *running_[slot];
+  Job& job = *jobs_[slot];
   job.phase = shift.phase() == Shift::Phase::waiting ? JobPhase::waiting : JobPhase::active;
   job.covered = rounded_difference(shift.value(), job.shift_base);
   if (event == Shift::Event::none) return;

@@ -102,7 +102,7 @@ class OneAxis {
     axis.data.Clamping = {1.5, 0.5};
     axis.data.Actor.Interface.EnableTorqueData = true;
     axis.data.PositionControl.Kv = 40.0;
-    SimulatedDriveSettings& drive = axis.drive_settings;
+    DriveSettings& drive = axis.drive_settings;
     drive.time_constant = 0.005;
     drive.quick_stop = 10000.0;
     drive.faults = {&faults_[0], &faults_[1], &faults_[2], &faults_[3]};
@@ -271,7 +271,7 @@ class OneAxis {
     const int alarm_now = axis_.pending_alarm();
     if (alarm_now != 0 && !alarmed_) ++counts_.alarms;
     alarmed_ = alarm_now != 0;
-    const bool clamped = axis_.forces().in_clamping;
+    const bool clamped = axis_.clamping().holds();
     if (clamped && !last_.clamped) ++counts_.clampings;
     if (find("MC_MoveRelative")->done()) ++counts_.done;
   }
@@ -297,13 +297,15 @@ class OneAxis {
     const bool driven = !axis_.is_virtual();
     if (driven && (!before.enabled || !last_.enabled || before.controlled != last_.controlled))
       return watch_hand_over(before);
-    if (axis_.forces().stop_side != 0 || before.clamped) return;
+    if (axis_.clamping().found() || before.clamped) return;
     watch_limits(before);
     watch_steps(before);
   }
 
   /// While it brakes a disabled axis still has a setpoint of its own.
-  bool follows_setpoint() const { return axis_.is_virtual() || axis_.drive().states().operation(); }
+  bool follows_setpoint() const {
+    return axis_.is_virtual() || bit_of(axis_.drive().words().zsw1, zsw1::kOperationEnabled);
+  }
 
   /// In every tick, also in one whose setpoint is not looked at: the motion may come down from the limit of
   /// before long after the tick in which it was lowered.
