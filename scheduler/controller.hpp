@@ -22,10 +22,7 @@
 #include "tech_objects/cam/cam.hpp"
 #include "tech_objects/data_blocks/array.hpp"
 #include "tech_objects/jobs/encoder_saving.hpp"
-#include "tech_objects/sensing/external_encoder.hpp"
-#include "tech_objects/sensing/measuring_input.hpp"
-#include "tech_objects/switching/cam_track.hpp"
-#include "tech_objects/switching/output_cam.hpp"
+#include "tech_objects/switching/switched_output.hpp"
 
 namespace lockstep {
 
@@ -109,11 +106,6 @@ class Controller {
   Clock clock;
   std::vector<std::unique_ptr<TechnologyObject>> objects;  ///< in the order of `technology_objects`
   std::vector<Axis*> axes;                                 ///< those of them that are axes, in this order
-  std::vector<ExternalEncoder*> encoders;                  ///< those that are encoders
-  std::vector<MeasuringInput*> measuring_inputs;           ///< those that are measuring inputs
-  std::vector<OutputCam*> output_cams;                     ///< those that are output cams
-  std::vector<CamTrack*> cam_tracks;                       ///< those that are cam tracks
-  std::vector<Cam*> cams;                                  ///< those of them that are cams
   std::deque<Tag> tags;
   std::deque<ArrayTag> arrays;
   std::deque<StringTag> strings;
@@ -122,8 +114,6 @@ class Controller {
   EncoderSaving encoder_saving;  ///< what programs ask to be kept at once
   std::vector<Stimulus> stimuli;
   bool apply_stimuli = false;
-  /// Whether another thread calls `interpolate_cams`; if not, a tick does it itself.
-  bool cams_interpolated_elsewhere = false;
   std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
 
@@ -165,6 +155,10 @@ class Controller {
     return counters_.ticks % static_cast<std::uint64_t>(clock.interpolator_ratio) == 0;
   }
 
+  bool has_cams() const noexcept { return !cams_.empty(); }
+  /// Whether another thread calls `interpolate_cams`; if not, as at first, a tick does it itself. Between two
+  /// ticks.
+  void interpolate_cams_elsewhere(bool elsewhere) noexcept;
   /// Makes the curves that are wanted by MC_InterpolateCam; false if none is. Some milliseconds for 10,000
   /// points. One thread at a time, while `tick` goes on in its own.
   bool interpolate_cams() noexcept;
@@ -189,16 +183,14 @@ class Controller {
   const std::vector<AxisSummary>& summary() const noexcept { return summary_; }
 
  private:
-  template <class Object>
-  Object* add(std::string name, DB_ANY number) {
-    objects.push_back(std::make_unique<Object>(std::move(name), number));
-    return static_cast<Object*>(objects.back().get());
-  }
+  using Part = std::vector<TechnologyObject*>;  // the objects that take part in a phase, in their order
+
   void take_inputs(std::int64_t now) noexcept;
   void run_programs(Ob ob, std::int64_t now) noexcept;
   void run_due_programs(std::int64_t now) noexcept;
   bool due(std::int64_t cycle, std::int64_t now) const noexcept;
   void servo(std::int64_t now) noexcept;
+  void assign_parts();
   void wire_outputs();
   void lay_objects_into_large_pages() const;
   void interpolate() noexcept;
@@ -215,8 +207,14 @@ class Controller {
   static constexpr std::size_t kWorthSharing = 2 * Crew::kPortion;
 
   std::deque<Value> tag_memory_;
-  std::vector<Program*> schedule_;       // sorted by organization block, then priority
-  std::vector<Axis*> driven_;            // axes with a drive, which MC_Servo serves
+  std::vector<Program*> schedule_;  // sorted by organization block, then priority
+  std::vector<Axis*> driven_;       // axes with a drive, which come first in MC_Servo
+  Part servo_;                      // the others
+  Part before_axes_;
+  Part behind_axes_;
+  std::vector<LeadingObject*> sources_;  // that lead axes and are none
+  std::vector<Cam*> cams_;
+  bool cams_interpolated_elsewhere_ = false;
   std::vector<SwitchedOutput> outputs_;  // that cams switch
   std::vector<JobWatch> job_watches_;    // none unless jobs are told
   CouplingOrder order_;

@@ -1,4 +1,6 @@
 // The cycle, from top to bottom as section 4 of the contract has it. Nothing here allocates, locks or blocks.
+#include <utility>
+
 #include "scheduler/controller.hpp"
 
 namespace lockstep {
@@ -66,24 +68,15 @@ void Controller::serve_drives() noexcept {
 /// Axes, what measures them, and what switches outputs by their positions.
 void Controller::servo(std::int64_t t) noexcept {
   serve_drives();
-  for (ExternalEncoder* encoder : encoders) encoder->servo();
-  for (MeasuringInput* input : measuring_inputs) input->servo();
-  for (OutputCam* cam : output_cams) cam->servo(t);
-  for (CamTrack* track : cam_tracks) track->servo(t);
+  for (TechnologyObject* object : servo_) object->servo(t);
   for (const SwitchedOutput& output : outputs_) output.write();
 }
 
-/// Encoders, which depend on no axis; then start_jobs → step (leading before following), guarded → publish.
+/// What depends on no axis; then start_jobs → step (leading before following), guarded → publish.
 void Controller::interpolate() noexcept {
-  for (Cam* cam : cams) cam->step(cams_interpolated_elsewhere ? nullptr : interpolator_.get());
+  for (TechnologyObject* object : before_axes_) object->before_axes();
   bool changed = false;
-  for (ExternalEncoder* encoder : encoders) {
-    encoder->step();
-    changed |= encoder->lost();
-  }
-  for (MeasuringInput* input : measuring_inputs) input->interpolated();
-  for (OutputCam* cam : output_cams) cam->interpolated();
-  for (CamTrack* track : cam_tracks) track->interpolated();
+  for (LeadingObject* source : sources_) changed |= std::exchange(source->lost, false);
   for (Axis* axis : order_.axes()) {
     if (shutting_down_) axis->power.enable = false;
     if (axis->has_new_jobs()) axis->start_jobs();
@@ -92,7 +85,7 @@ void Controller::interpolate() noexcept {
   }
   if (changed) rebuild_order();
   step_axes();
-  for (Cam* cam : cams) cam->publish();
+  for (TechnologyObject* object : behind_axes_) object->behind_axes();
   ++counters_.interpolator_ticks;
 }
 
@@ -100,7 +93,7 @@ void Controller::interpolate() noexcept {
 void Controller::rebuild_order() noexcept {
   for (Axis* axis : order_.axes()) axis->watch_leading_object();
   for (Axis* axis : order_.axes()) axis->restarted = false;
-  for (ExternalEncoder* encoder : encoders) encoder->restarted = false;
+  for (LeadingObject* source : sources_) source->restarted = false;
   order_.rebuild();
   if (crew_ != nullptr) levels_.rebuild(order_.axes());
 }

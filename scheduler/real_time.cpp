@@ -61,8 +61,8 @@ RealTimeRun::~RealTimeRun() {
 
 std::vector<std::string> RealTimeRun::start() {
   std::vector<std::string> warnings;
-  if (!controller_.cams.empty()) {
-    controller_.cams_interpolated_elsewhere = true;
+  if (controller_.has_cams()) {
+    controller_.interpolate_cams_elsewhere(true);
     interpolating_.store(true, std::memory_order_relaxed);
     interpolation_ = std::thread([this] { interpolate_cams(); });
   }
@@ -97,7 +97,7 @@ void RealTimeRun::wait() {
   interpolating_.store(false, std::memory_order_relaxed);
   if (!interpolation_.joinable()) return;
   interpolation_.join();
-  controller_.cams_interpolated_elsewhere = false;
+  controller_.interpolate_cams_elsewhere(false);
 }
 
 /// Looks for work now and then, so that the cycle never has to wake it.

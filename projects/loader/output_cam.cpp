@@ -1,5 +1,7 @@
 // Output cams and cam tracks: by whose position they switch which output, and where the times of its edges
 // stand.
+#include <unordered_map>
+
 #include "projects/loader/loader.hpp"
 
 namespace lockstep {
@@ -59,18 +61,20 @@ void load_cam_track(const JsonValue& json, CamTrack& track, const Loading& loadi
 }
 
 void check_outputs(const JsonValue& objects, const Loading& loading) {
-  for (const OutputCam* cam : loading.controller().output_cams)
-    for (const OutputCam* other : loading.controller().output_cams) {
-      const auto &mine = cam->data.Interface, &its = other->data.Interface;
-      if (other == cam) break;
-      if (mine.Address == nullptr || mine.Address != its.Address) continue;
-      if (mine.LogicOperation == its.LogicOperation) continue;
-      const JsonValue* const json = objects.find(cam->name);
-      const JsonValue* const interface = member(member(json, "config"), "Interface");
-      if (interface != nullptr)
-        loading.problems.report(*interface, "'" + cam->name + "' and '" + other->name +
-                                                "' switch one output; allowed is one LogicOperation for it");
-    }
+  std::unordered_map<const BOOL*, const OutputCam*> first;  // that switches an output
+  for (const auto& object : loading.controller().objects) {
+    if (object->kind != ObjectKind::TO_OutputCam) continue;
+    const auto* const cam = static_cast<const OutputCam*>(object.get());
+    const auto& mine = cam->data.Interface;
+    if (mine.Address == nullptr) continue;
+    const auto [entry, alone] = first.emplace(mine.Address, cam);
+    const OutputCam* const other = entry->second;
+    if (alone || mine.LogicOperation == other->data.Interface.LogicOperation) continue;
+    const JsonValue* const interface = member(member(objects.find(cam->name), "config"), "Interface");
+    if (interface != nullptr)
+      loading.problems.report(*interface, "'" + cam->name + "' and '" + other->name +
+                                              "' switch one output; allowed is one LogicOperation for it");
+  }
 }
 
 }  // namespace lockstep
