@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "scheduler/large_pages.hpp"
+#include "scheduler/object_kinds.hpp"
 
 namespace lockstep {
 
@@ -34,33 +35,13 @@ StringTag& Controller::add_string(StringTag tag, std::size_t room) {
 }
 
 TechnologyObject& Controller::add_object(ObjectKind kind, std::string name) {
-  const auto number = static_cast<DB_ANY>(objects.size() + 1);
-  switch (kind) {
-    case ObjectKind::TO_SpeedAxis:
-    case ObjectKind::TO_PositioningAxis:
-    case ObjectKind::TO_SynchronousAxis:
-      objects.push_back(std::make_unique<Axis>(kind, std::move(name), number));
-      axes.push_back(static_cast<Axis*>(objects.back().get()));
-      break;
-    case ObjectKind::TO_ExternalEncoder:
-      encoders.push_back(add<ExternalEncoder>(std::move(name), number));
-      break;
-    case ObjectKind::TO_MeasuringInput:
-      measuring_inputs.push_back(add<MeasuringInput>(std::move(name), number));
-      break;
-    case ObjectKind::TO_OutputCam:
-      output_cams.push_back(add<OutputCam>(std::move(name), number));
-      break;
-    case ObjectKind::TO_CamTrack:
-      cam_tracks.push_back(add<CamTrack>(std::move(name), number));
-      break;
-    case ObjectKind::TO_Cam:
-    case ObjectKind::TO_Cam_10k:
-      objects.push_back(std::make_unique<Cam>(kind, std::move(name), number));
-      cams.push_back(static_cast<Cam*>(objects.back().get()));
-      break;
-  }
-  return *objects.back();
+  objects.push_back(make_object(kind, std::move(name), static_cast<DB_ANY>(objects.size() + 1)));
+  TechnologyObject& object = *objects.back();
+  if (among(kind, kAnyDrivenAxis)) axes.push_back(static_cast<Axis*>(&object));
+  if (among(kind, kAnyCam)) cams_.push_back(static_cast<Cam*>(&object));
+  if (among(kind, kLeading) && !among(kind, kAnyAxis))
+    sources_.push_back(static_cast<LeadingObject*>(&object));
+  return object;
 }
 
 Axis& Controller::add_axis(ObjectKind kind, std::string name) {
@@ -73,35 +54,47 @@ Instance& Controller::add_instance(const BlockType& type, std::string name) {
   return instances.back();
 }
 
-/// Cams with the same address switch one output.
+/// Objects that switch the same tag switch one output.
 void Controller::wire_outputs() {
-  const auto wire = [this](const bool* tag, bool all, const BOOL& state) {
-    auto* const address = const_cast<bool*>(tag);  // variables hold addresses for reading; a tag is written
+  for (const auto& object : objects) {
+    const SwitchedBy by = object->switches();
+    if (by.state == nullptr) continue;
+    auto* const address =
+        const_cast<bool*>(by.address);  // variables hold addresses for reading; a tag is written
     const auto same = [&](const SwitchedOutput& output) { return output.address == address; };
     auto found = std::find_if(outputs_.begin(), outputs_.end(), same);
-    if (found == outputs_.end()) found = outputs_.insert(found, SwitchedOutput{address, all, {}});
-    found->states.push_back(&state);
-  };
-  for (const OutputCam* cam : output_cams) {
-    const auto& interface = cam->data.Interface;
-    if (interface.EnableOutput && interface.Address != nullptr)
-      wire(interface.Address, interface.LogicOperation == 1, cam->data.CamOutput);
+    if (found == outputs_.end()) found = outputs_.insert(found, SwitchedOutput{address, by.all, {}});
+    found->states.push_back(by.state);
   }
-  for (const CamTrack* track : cam_tracks) {
-    const auto& interface = track->data.Interface;
-    if (interface.EnableOutput && interface.Address != nullptr)
-      wire(interface.Address, false, track->data.TrackOutput);
+}
+
+/// The objects by phases, each in its order.
+void Controller::assign_parts() {
+  Part ordered;
+  for (const auto& object : objects) ordered.push_back(object.get());
+  std::stable_sort(ordered.begin(), ordered.end(), [](const TechnologyObject* a, const TechnologyObject* b) {
+    return place_in_phase(a->kind) < place_in_phase(b->kind);
+  });
+  for (TechnologyObject* object : ordered) {
+    if (object->takes_part(Phase::servo)) {
+      if (among(object->kind, kAnyDrivenAxis))
+        driven_.push_back(static_cast<Axis*>(object));
+      else
+        servo_.push_back(object);
+    }
+    if (object->takes_part(Phase::before_axes)) before_axes_.push_back(object);
+    if (object->takes_part(Phase::behind_axes)) behind_axes_.push_back(object);
   }
 }
 
 void Controller::finish() {
   const double servo_period = static_cast<double>(clock.servo_cycle) * 1e-9;
   for (auto& object : objects) object->configure(servo_period, clock.interpolator_ratio);
-  for (Axis* axis : axes)
-    if (!axis->is_virtual()) driven_.push_back(axis);
+  assign_parts();
   std::size_t most_points = 0;
-  for (const Cam* cam : cams) most_points = std::max(most_points, cam->point_count());
+  for (const Cam* cam : cams_) most_points = std::max(most_points, cam->point_count());
   if (most_points > 0) interpolator_ = std::make_unique<CamInterpolator>(most_points);
+  interpolate_cams_elsewhere(cams_interpolated_elsewhere_);
   summary_.resize(axes.size());
   wire_outputs();
   order_.set_axes(axes);
@@ -113,6 +106,18 @@ void Controller::finish() {
   std::stable_sort(stimuli.begin(), stimuli.end(),
                    [](const Stimulus& a, const Stimulus& b) { return a.at < b.at; });
   lay_objects_into_large_pages();
+}
+
+void Controller::employ_processors() {
+  const std::size_t most = std::max(axes.size(), driven_.size());
+  if (clock.processors <= 1 || most < kWorthSharing || most > Crew::kMostItems) return;
+  levels_.reserve(axes.size(), static_cast<std::uint32_t>(objects.back()->number));
+  levels_.rebuild(order_.axes());
+  crew_ = std::make_unique<Crew>(clock.processors - 1);
+}
+
+std::vector<pthread_t> Controller::helping_threads() {
+  return crew_ == nullptr ? std::vector<pthread_t>() : crew_->threads();
 }
 
 void Controller::lay_objects_into_large_pages() const {
@@ -134,7 +139,7 @@ void Controller::tell_jobs() {
 void Controller::skip(std::int64_t ticks) noexcept {
   next_tick_ += ticks;
   counters_.missed_ticks += static_cast<std::uint64_t>(ticks);
-  for (ExternalEncoder* encoder : encoders) encoder->skip_servo(ticks);
+  for (const auto& object : objects) object->skip(ticks);
 }
 
 void Controller::shut_down() noexcept {
@@ -153,9 +158,14 @@ void Controller::take_summary() noexcept {
   }
 }
 
+void Controller::interpolate_cams_elsewhere(bool elsewhere) noexcept {
+  cams_interpolated_elsewhere_ = elsewhere;
+  for (Cam* cam : cams_) cam->interpolate_by(elsewhere ? nullptr : interpolator_.get());
+}
+
 bool Controller::interpolate_cams() noexcept {
   bool worked = false;
-  for (Cam* cam : cams) worked |= cam->work(*interpolator_);
+  for (Cam* cam : cams_) worked |= cam->work(*interpolator_);
   return worked;
 }
 

@@ -1,6 +1,7 @@
 /// The controller: technology objects, tags and programs of one project, and the cycle that runs them.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -9,7 +10,9 @@
 #include <vector>
 
 #include "fb/block.hpp"
+#include "scheduler/crew.hpp"
 #include "scheduler/events.hpp"
+#include "scheduler/levels.hpp"
 #include "scheduler/process_image.hpp"
 #include "scheduler/program.hpp"
 #include "scheduler/text.hpp"
@@ -19,10 +22,7 @@
 #include "tech_objects/cam/cam.hpp"
 #include "tech_objects/data_blocks/array.hpp"
 #include "tech_objects/jobs/encoder_saving.hpp"
-#include "tech_objects/sensing/external_encoder.hpp"
-#include "tech_objects/sensing/measuring_input.hpp"
-#include "tech_objects/switching/cam_track.hpp"
-#include "tech_objects/switching/output_cam.hpp"
+#include "tech_objects/switching/switched_output.hpp"
 
 namespace lockstep {
 
@@ -31,8 +31,11 @@ namespace lockstep {
 struct Clock {
   std::int64_t servo_cycle = 1'000'000;  ///< period of MC_Servo [ns]
   int interpolator_ratio = 1;  ///< MC_Interpolator runs on every so many executed servo ticks, 1 to 32
+  int processors = 1;          ///< that a tick uses for the axes, 1 to `kMostProcessors`
 
   std::int64_t interpolator_cycle() const noexcept { return servo_cycle * interpolator_ratio; }  ///< [ns]
+
+  static constexpr int kMostProcessors = 64;
 };
 
 /// A tag: a named value of the project.
@@ -103,11 +106,6 @@ class Controller {
   Clock clock;
   std::vector<std::unique_ptr<TechnologyObject>> objects;  ///< in the order of `technology_objects`
   std::vector<Axis*> axes;                                 ///< those of them that are axes, in this order
-  std::vector<ExternalEncoder*> encoders;                  ///< those that are encoders
-  std::vector<MeasuringInput*> measuring_inputs;           ///< those that are measuring inputs
-  std::vector<OutputCam*> output_cams;                     ///< those that are output cams
-  std::vector<CamTrack*> cam_tracks;                       ///< those that are cam tracks
-  std::vector<Cam*> cams;                                  ///< those of them that are cams
   std::deque<Tag> tags;
   std::deque<ArrayTag> arrays;
   std::deque<StringTag> strings;
@@ -116,8 +114,6 @@ class Controller {
   EncoderSaving encoder_saving;  ///< what programs ask to be kept at once
   std::vector<Stimulus> stimuli;
   bool apply_stimuli = false;
-  /// Whether another thread calls `interpolate_cams`; if not, a tick does it itself.
-  bool cams_interpolated_elsewhere = false;
   std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
 
@@ -138,6 +134,14 @@ class Controller {
   /// Call once when all is loaded: sorts programs and stimuli and readies the axes for the clock.
   void finish();
 
+  /// Has ticks use `clock.processors` processors, by starting threads that help with the axes; nothing if
+  /// that is 1, or if there are too few axes to gain by it. The bits of what is computed stay the same. After
+  /// `finish`, before the first tick.
+  /// @throws std::system_error if a thread cannot be started
+  void employ_processors();
+  /// The threads that help, to give them a priority; none without them.
+  std::vector<pthread_t> helping_threads();
+
   /// One servo tick, run to completion. Nothing in it allocates, locks, blocks or throws.
   void tick() noexcept;
 
@@ -151,6 +155,10 @@ class Controller {
     return counters_.ticks % static_cast<std::uint64_t>(clock.interpolator_ratio) == 0;
   }
 
+  bool has_cams() const noexcept { return !cams_.empty(); }
+  /// Whether another thread calls `interpolate_cams`; if not, as at first, a tick does it itself. Between two
+  /// ticks.
+  void interpolate_cams_elsewhere(bool elsewhere) noexcept;
   /// Makes the curves that are wanted by MC_InterpolateCam; false if none is. Some milliseconds for 10,000
   /// points. One thread at a time, while `tick` goes on in its own.
   bool interpolate_cams() noexcept;
@@ -175,29 +183,44 @@ class Controller {
   const std::vector<AxisSummary>& summary() const noexcept { return summary_; }
 
  private:
-  template <class Object>
-  Object* add(std::string name, DB_ANY number) {
-    objects.push_back(std::make_unique<Object>(std::move(name), number));
-    return static_cast<Object*>(objects.back().get());
-  }
+  using Part = std::vector<TechnologyObject*>;  // the objects that take part in a phase, in their order
+
   void take_inputs(std::int64_t now) noexcept;
   void run_programs(Ob ob, std::int64_t now) noexcept;
   void run_due_programs(std::int64_t now) noexcept;
   bool due(std::int64_t cycle, std::int64_t now) const noexcept;
   void servo(std::int64_t now) noexcept;
+  void assign_parts();
   void wire_outputs();
   void lay_objects_into_large_pages() const;
   void interpolate() noexcept;
+  void serve_drives() noexcept;
+  void step_axes() noexcept;
+  void step_level(std::span<Axis* const> axes) noexcept;
+  void step_axes_in_turn(std::span<Axis* const> axes) noexcept;
+  void rebuild_order() noexcept;
   void tell_events(std::int64_t now) noexcept;
   void tell(EventKind kind, std::size_t source, int number, int reaction, std::int64_t now) noexcept;
   void show(std::int64_t now, bool interpolator_tick) noexcept;
 
+  /// Axes of a level from which on it is shared: below, one processor is done before another has come.
+  static constexpr std::size_t kWorthSharing = 2 * Crew::kPortion;
+
   std::deque<Value> tag_memory_;
-  std::vector<Program*> schedule_;       // sorted by organization block, then priority
-  std::vector<Axis*> driven_;            // axes with a drive, which MC_Servo serves
+  std::vector<Program*> schedule_;  // sorted by organization block, then priority
+  std::vector<Axis*> driven_;       // axes with a drive, which come first in MC_Servo
+  Part servo_;                      // the others
+  Part before_axes_;
+  Part behind_axes_;
+  std::vector<LeadingObject*> sources_;  // that lead axes and are none
+  std::vector<Cam*> cams_;
+  bool cams_interpolated_elsewhere_ = false;
   std::vector<SwitchedOutput> outputs_;  // that cams switch
   std::vector<JobWatch> job_watches_;    // none unless jobs are told
   CouplingOrder order_;
+  Levels levels_;                                  // of that order, where a crew steps the axes
+  std::unique_ptr<Crew> crew_;                     // none where one processor steps them
+  std::atomic<std::uint64_t> alarms_now_{0};       // counted by whoever steps an axis
   std::unique_ptr<CamInterpolator> interpolator_;  // for the largest cam; none without cams
   std::size_t next_stimulus_ = 0;
   std::int64_t next_tick_ = 0;

@@ -1,4 +1,6 @@
 // The cycle, from top to bottom as section 4 of the contract has it. Nothing here allocates, locks or blocks.
+#include <utility>
+
 #include "scheduler/controller.hpp"
 
 namespace lockstep {
@@ -42,50 +44,96 @@ void Controller::take_inputs(std::int64_t t) noexcept {
     stimuli[next_stimulus_].place.store(stimuli[next_stimulus_].value);
 }
 
+namespace {
+
+/// Axes that a crew takes portions of.
+void serve_portion(void* axes, std::size_t begin, std::size_t end) noexcept {
+  Axis* const* const first = static_cast<Axis* const*>(axes);
+  for (std::size_t i = begin; i < end; ++i) first[i]->servo();
+}
+
+}  // namespace
+
+/// Drives and position control of the axes: none knows another's.
+void Controller::serve_drives() noexcept {
+  if (crew_ == nullptr || driven_.size() < kWorthSharing) {
+    for (Axis* axis : driven_) axis->servo();
+    return;
+  }
+  crew_->wake();
+  crew_->share(driven_.size(), serve_portion, driven_.data());
+  crew_->rest();
+}
+
 /// Axes, what measures them, and what switches outputs by their positions.
 void Controller::servo(std::int64_t t) noexcept {
-  for (Axis* axis : driven_) axis->servo();
-  for (ExternalEncoder* encoder : encoders) encoder->servo();
-  for (MeasuringInput* input : measuring_inputs) input->servo();
-  for (OutputCam* cam : output_cams) cam->servo(t);
-  for (CamTrack* track : cam_tracks) track->servo(t);
+  serve_drives();
+  for (TechnologyObject* object : servo_) object->servo(t);
   for (const SwitchedOutput& output : outputs_) output.write();
 }
 
-/// Encoders, which depend on no axis; then start_jobs → step (leading before following), guarded → publish.
+/// What depends on no axis; then start_jobs → step (leading before following), guarded → publish.
 void Controller::interpolate() noexcept {
-  for (Cam* cam : cams) cam->step(cams_interpolated_elsewhere ? nullptr : interpolator_.get());
+  for (TechnologyObject* object : before_axes_) object->before_axes();
   bool changed = false;
-  for (ExternalEncoder* encoder : encoders) {
-    encoder->step();
-    changed |= encoder->lost();
-  }
-  for (MeasuringInput* input : measuring_inputs) input->interpolated();
-  for (OutputCam* cam : output_cams) cam->interpolated();
-  for (CamTrack* track : cam_tracks) track->interpolated();
+  for (LeadingObject* source : sources_) changed |= std::exchange(source->lost, false);
   for (Axis* axis : order_.axes()) {
     if (shutting_down_) axis->power.enable = false;
     if (axis->has_new_jobs()) axis->start_jobs();
     changed |= axis->coupling_changed;
     axis->coupling_changed = false;
   }
-  if (changed) {
-    for (Axis* axis : order_.axes()) axis->watch_leading_object();
-    for (Axis* axis : order_.axes()) axis->restarted = false;
-    for (ExternalEncoder* encoder : encoders) encoder->restarted = false;
-    order_.rebuild();
-  }
-  counters_.alarms = 0;
-  const std::span<Axis* const> axes_in_order = order_.axes();
-  for (std::size_t i = 0; i < axes_in_order.size(); ++i) {
-    Axis* const axis = axes_in_order[i];
-    if (i + 1 < axes_in_order.size()) axes_in_order[i + 1]->come_near();
+  if (changed) rebuild_order();
+  step_axes();
+  for (TechnologyObject* object : behind_axes_) object->behind_axes();
+  ++counters_.interpolator_ticks;
+}
+
+/// Couplings have changed, or what they lead back to.
+void Controller::rebuild_order() noexcept {
+  for (Axis* axis : order_.axes()) axis->watch_leading_object();
+  for (Axis* axis : order_.axes()) axis->restarted = false;
+  for (LeadingObject* source : sources_) source->restarted = false;
+  order_.rebuild();
+  if (crew_ != nullptr) levels_.rebuild(order_.axes());
+}
+
+void Controller::step_axes_in_turn(std::span<Axis* const> axes) noexcept {
+  std::uint64_t alarms = 0;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    Axis* const axis = axes[i];
+    if (i + 1 < axes.size()) axes[i + 1]->come_near();
     axis->step();
     axis->publish();
-    if (axis->data.ErrorDetail.Number != 0) ++counters_.alarms;
+    if (axis->data.ErrorDetail.Number != 0) ++alarms;
   }
-  for (Cam* cam : cams) cam->publish();
-  ++counters_.interpolator_ticks;
+  if (alarms != 0) alarms_now_.fetch_add(alarms, std::memory_order_relaxed);
+}
+
+/// Leading before following: in their order, or level by level with a crew.
+void Controller::step_axes() noexcept {
+  alarms_now_.store(0, std::memory_order_relaxed);
+  if (crew_ == nullptr) {
+    step_axes_in_turn(order_.axes());
+  } else {
+    crew_->wake();
+    for (std::size_t level = 0; level < levels_.count(); ++level) step_level(levels_[level]);
+    crew_->rest();
+  }
+  counters_.alarms = alarms_now_.load(std::memory_order_relaxed);
+}
+
+void Controller::step_level(std::span<Axis* const> axes) noexcept {
+  if (axes.size() < kWorthSharing) return step_axes_in_turn(axes);
+  struct Share {
+    Controller& controller;
+    std::span<Axis* const> axes;
+  } share{*this, axes};
+  const Crew::Work work = [](void* context, std::size_t begin, std::size_t end) noexcept {
+    const Share& all = *static_cast<const Share*>(context);
+    all.controller.step_axes_in_turn(all.axes.subspan(begin, end - begin));
+  };
+  crew_->share(axes.size(), work, &share);
 }
 
 void Controller::run_programs(Ob ob, std::int64_t t) noexcept {

@@ -61,11 +61,17 @@ RealTimeRun::~RealTimeRun() {
 
 std::vector<std::string> RealTimeRun::start() {
   std::vector<std::string> warnings;
-  if (!controller_.cams.empty()) {
-    controller_.cams_interpolated_elsewhere = true;
+  if (controller_.has_cams()) {
+    controller_.interpolate_cams_elsewhere(true);
     interpolating_.store(true, std::memory_order_relaxed);
     interpolation_ = std::thread([this] { interpolate_cams(); });
   }
+  controller_.employ_processors();
+  const int wanted = controller_.clock.processors;
+  const auto there = static_cast<int>(std::thread::hardware_concurrency());
+  if (there > 0 && wanted > there)
+    warnings.push_back("the project asks for " + std::to_string(wanted) + " processors, this machine has " +
+                       std::to_string(there) + ": its ticks take longer than with as many threads");
   thread_ = std::thread([this] { run(); });
   if (processor_ >= 0)
     if (const int error = keep_on_processor(thread_.native_handle(), processor_); error != 0)
@@ -78,6 +84,10 @@ std::vector<std::string> RealTimeRun::start() {
   if (const int error = pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &parameters); error != 0)
     warnings.push_back(std::string("real-time priority is not permitted (") + std::strerror(error) +
                        "): other processes may delay a tick");
+  // One below the cycle, so that a helper never keeps it from a processor that both may use.
+  const sched_param below{kPriority - 1};
+  for (const pthread_t helper : controller_.helping_threads())
+    pthread_setschedparam(helper, SCHED_FIFO, &below);
   return warnings;
 }
 
@@ -87,7 +97,7 @@ void RealTimeRun::wait() {
   interpolating_.store(false, std::memory_order_relaxed);
   if (!interpolation_.joinable()) return;
   interpolation_.join();
-  controller_.cams_interpolated_elsewhere = false;
+  controller_.interpolate_cams_elsewhere(false);
 }
 
 /// Looks for work now and then, so that the cycle never has to wake it.

@@ -34,7 +34,8 @@ inline constexpr Key kProject[] = {{"lockstep", kRequired},
                                    {"trace"},
                                    {"retain"},
                                    {"flight_recorder"}};
-inline constexpr Key kClock[] = {{"servo_cycle", kRequired}, {"interpolator_ratio"}, {"overrun"}};
+inline constexpr Key kClock[] = {
+    {"servo_cycle", kRequired}, {"interpolator_ratio"}, {"processors"}, {"overrun"}};
 inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
 inline constexpr Key kEncoderObject[] = {{"type", kRequired}, {"config"}, {"encoder", kRequired}};
 inline constexpr Key kEncoder[] = {

@@ -5,6 +5,10 @@
 
 #include "projects/json/fields.hpp"
 #include "projects/loader/project.hpp"
+#include "tech_objects/sensing/external_encoder.hpp"
+#include "tech_objects/sensing/measuring_input.hpp"
+#include "tech_objects/switching/cam_track.hpp"
+#include "tech_objects/switching/output_cam.hpp"
 
 namespace lockstep {
 

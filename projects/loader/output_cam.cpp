@@ -62,13 +62,15 @@ void load_cam_track(const JsonValue& json, CamTrack& track, const Loading& loadi
 
 void check_outputs(const JsonValue& objects, const Loading& loading) {
   std::unordered_map<const BOOL*, const OutputCam*> first;  // that switches an output
-  for (const OutputCam* cam : loading.controller().output_cams) {
+  for (const auto& object : loading.controller().objects) {
+    if (object->kind != ObjectKind::TO_OutputCam) continue;
+    const auto* const cam = static_cast<const OutputCam*>(object.get());
     const auto& mine = cam->data.Interface;
     if (mine.Address == nullptr) continue;
-    const OutputCam* const other = first.try_emplace(mine.Address, cam).first->second;
-    if (mine.LogicOperation == other->data.Interface.LogicOperation) continue;
-    const JsonValue* const json = objects.find(cam->name);
-    const JsonValue* const interface = member(member(json, "config"), "Interface");
+    const auto [entry, alone] = first.emplace(mine.Address, cam);
+    const OutputCam* const other = entry->second;
+    if (alone || mine.LogicOperation == other->data.Interface.LogicOperation) continue;
+    const JsonValue* const interface = member(member(objects.find(cam->name), "config"), "Interface");
     if (interface != nullptr)
       loading.problems.report(*interface, "'" + cam->name + "' and '" + other->name +
                                               "' switch one output; allowed is one LogicOperation for it");

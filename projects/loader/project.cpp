@@ -105,6 +105,8 @@ void load_clock(const JsonValue& clock, const Loading& loading) {
     result.servo_cycle = *cycle;
   if (const auto ratio = read_integer(fields["interpolator_ratio"], 1, 32, loading.problems))
     result.interpolator_ratio = static_cast<int>(*ratio);
+  if (const auto processors = read_integer(fields["processors"], 1, Clock::kMostProcessors, loading.problems))
+    result.processors = static_cast<int>(*processors);
   loading.project.stop_on_overrun =
       read_word(fields["overrun"], words::kOverrun, loading.problems).value_or(0) == 1;
 }

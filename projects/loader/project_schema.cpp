@@ -463,9 +463,11 @@ Json flight_recorder_schema() {
 
 Json root_schema() {
   const Json clock =
-      object(keys::kClock, {{"servo_cycle", duration("period of MC_Servo")},
-                            {"interpolator_ratio", integer("servo cycles per interpolator cycle", 1, 32)},
-                            {"overrun", words("what three overruns in a row do", words::kOverrun)}});
+      object(keys::kClock,
+             {{"servo_cycle", duration("period of MC_Servo")},
+              {"interpolator_ratio", integer("servo cycles per interpolator cycle", 1, 32)},
+              {"processors", integer("that a tick uses for the axes, where there are many (1)", 1, 64)},
+              {"overrun", words("what three overruns in a row do", words::kOverrun)}});
   const Json type = {
       {"description",
        "elementary type, STRING[n], or ARRAY[lower..upper] OF an elementary type or of a structure of cams"},

@@ -127,7 +127,8 @@ class Axis final : public LeadingObject {
   // -----------------------------------------------------------------------------
 
   /// One servo tick: reads actual values, closes the position loop, writes the setpoint to the drive.
-  void servo() noexcept;
+  bool takes_part(Phase phase) const noexcept override { return phase == Phase::servo && !is_virtual(); }
+  void servo(std::int64_t now = 0) noexcept override;
 
   /// Starts the jobs handed over since the last interpolator tick, by the override rules.
   void start_jobs() noexcept;

@@ -102,7 +102,7 @@ void Axis::idle_servo() noexcept {
   drive_->write(0.0);
 }
 
-void Axis::servo() noexcept {
+void Axis::servo(std::int64_t /*now*/) noexcept {
   if (!has_drive_) return idle_servo();
   read_drive();
   ++servo_tick_;

@@ -111,7 +111,7 @@ void Cam::configure(double /*servo_period*/, int /*ratio*/) {
   if (large_) large_->start = large_->data;
   if (!interpolated()) take_definition();  // what later changes are compared with
   changed_ = false;
-  publish();
+  behind_axes();
 }
 
 // ---- Jobs
@@ -130,7 +130,7 @@ void Cam::submit(Job& job) noexcept {
   if (job.kind == JobKind::MC_InterpolateCam) take_definition();
   job_ = &job;
   job.phase = JobPhase::active;
-  publish();
+  behind_axes();
   if (job.kind == JobKind::MC_InterpolateCam) stage_.store(Stage::wanted, std::memory_order_release);
 }
 
@@ -237,13 +237,13 @@ bool Cam::work(CamInterpolator& interpolator) noexcept {
   return true;
 }
 
-void Cam::step(CamInterpolator* own) noexcept {
-  in_use_ = used_;
-  used_ = false;
+void Cam::before_axes() noexcept {
+  in_use_ = used_.load(std::memory_order_relaxed);
+  used_.store(false, std::memory_order_relaxed);
   if (copying()) copy_part();
   if (restarting()) restore_part();
   if (job_ != nullptr) {
-    if (own != nullptr) work(*own);
+    if (own_ != nullptr) work(*own_);
     if (stage_.load(std::memory_order_acquire) == Stage::ready) take_curve();
   }
   if (!changed_ && job_ == nullptr) changed_ = definition_differs();
@@ -283,7 +283,7 @@ bool Cam::definition_differs() noexcept {
          std::memcmp(block_.settings, taken_.settings, sizeof *taken_.settings) != 0;
 }
 
-void Cam::publish() noexcept {
+void Cam::behind_axes() noexcept {
   DWORD& word = *block_.status_word;
   set_bit(word, CamStatusBit::Control, in_use());
   set_bit(word, CamStatusBit::RestartActive, restarting());

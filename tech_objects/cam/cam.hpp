@@ -74,9 +74,12 @@ class Cam final : public TechnologyObject {
   bool copying() const noexcept { return runs(JobKind::MC_CopyCamData); }
   bool restarting() const noexcept { return runs(JobKind::MC_Reset); }
 
-  /// An axis that follows the cam, or waits to do so, says so in every interpolator tick.
-  void show_use() noexcept { used_ = true; }
-  bool in_use() const noexcept { return used_ || in_use_; }
+  /// An axis that follows the cam, or waits to do so, says so in every interpolator tick; axes on several
+  /// processors may do so at once.
+  void show_use() noexcept {
+    if (!used_.load(std::memory_order_relaxed)) used_.store(true, std::memory_order_relaxed);
+  }
+  bool in_use() const noexcept { return used_.load(std::memory_order_relaxed) || in_use_; }
 
   /// MC_InterpolateCam: takes the definition as it stands. MC_CopyCamData: copies what `Job::copy` says.
   /// MC_Reset with Restart: takes over the start values and interpolates them, as when the project is loaded;
@@ -88,11 +91,13 @@ class Cam final : public TechnologyObject {
 
   // ---- Cycle: called by the scheduler
 
-  /// Begin of an interpolator tick: a curve that is ready comes into effect.
-  /// @param own interpolates what is due here and now; nullptr: another thread calls `work`
-  void step(CamInterpolator* own) noexcept;
-  /// End of an interpolator tick: the data block.
-  void publish() noexcept;
+  /// Who makes the curves: this one, in the cycle, or another thread that calls `work` (nullptr).
+  void interpolate_by(CamInterpolator* own) noexcept { own_ = own; }
+  bool takes_part(Phase phase) const noexcept override { return phase != Phase::servo; }
+  /// A curve that is ready comes into effect.
+  void before_axes() noexcept override;
+  /// The data block.
+  void behind_axes() noexcept override;
 
   // ---- Another thread
 
@@ -132,10 +137,11 @@ class Cam final : public TechnologyObject {
   bool definition_differs() noexcept;
 
   // Hot: touched in every interpolator tick.
-  bool used_ = false;     // since the begin of the tick
-  bool in_use_ = false;   // in the tick before
-  bool changed_ = false;  // CamDataChanged
+  std::atomic<bool> used_{false};  // since the begin of the tick
+  bool in_use_ = false;            // in the tick before
+  bool changed_ = false;           // CamDataChanged
   std::atomic<Stage> stage_{Stage::idle};
+  CamInterpolator* own_ = nullptr;
   Job* job_ = nullptr;
   Block block_;
   Block taken_;  // the definition of the curve in effect, or of the one that is being made

@@ -107,6 +107,8 @@ class LeadingObject : public TechnologyObject {
   const void* telegram_probe = nullptr;
   /// Raised by a restart, after which positions may be on another ring; the cycle tells those that follow.
   bool restarted = false;
+  /// Raised when those that follow have to look at it: it has been restarted, or has failed.
+  bool lost = false;
 
  protected:
   /// `drive_stops`: switched off, and the drive comes to rest by itself.

@@ -1,6 +1,7 @@
 /// What every technology object has: a kind, a name, a number and a data block.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,17 @@
 namespace lockstep {
 
 struct Job;
+
+/// A phase of a tick in which an object may take part. Between the two of the interpolator the axes are
+/// stepped, in the order of their couplings.
+enum class Phase : std::uint8_t { servo, before_axes, behind_axes };
+
+/// An output that an object switches.
+struct SwitchedBy {
+  const BOOL* state = nullptr;    ///< what it has the output be; nullptr: it switches none
+  const BOOL* address = nullptr;  ///< tag of the output
+  bool all = false;               ///< with others of the same output: AND, else OR
+};
 
 /// Base of the technology objects, each of which derives from it alone: a pin holds the address of either.
 class TechnologyObject {
@@ -37,6 +49,20 @@ class TechnologyObject {
   /// Takes over the start values. Call once, after the data block is set and before the first tick.
   /// @param servo_period period of MC_Servo [s]  @param ratio servo ticks per interpolator tick, 1 to 32
   virtual void configure(double servo_period, int ratio) = 0;
+
+  // What the cycle asks of it, besides an axis's own motion.
+
+  /// Whether it takes part in a phase. Asked once, after `configure`.
+  virtual bool takes_part(Phase) const noexcept { return false; }
+  /// Its part of MC_Servo. @param now time of the tick [ns]
+  virtual void servo([[maybe_unused]] std::int64_t now) noexcept {}
+  /// Its parts of MC_Interpolator.
+  virtual void before_axes() noexcept {}
+  virtual void behind_axes() noexcept {}
+  /// Servo ticks that the wall clock has passed have been left out.
+  virtual void skip([[maybe_unused]] std::int64_t ticks) noexcept {}
+  /// Load time, after `configure`.
+  virtual SwitchedBy switches() const noexcept { return {}; }
 
   const ObjectKind kind;
   const std::string name;  ///< as in the project

@@ -34,7 +34,7 @@ void ExternalEncoder::take_start_values() noexcept {
 // ---- MC_Servo
 // ---------------------------------------------------------------------------------------------------
 
-void ExternalEncoder::servo() noexcept {
+void ExternalEncoder::servo(std::int64_t /*now*/) noexcept {
   const EncoderReading reading = source_.read();
   const bool was_heard = std::exchange(heard_, reading.valid);
   if (reading.awaited) return;
@@ -89,7 +89,7 @@ bool ExternalEncoder::follow(DoubleDouble line) noexcept {
 
 /// The position is not known any more: it stays where it was seen last.
 void ExternalEncoder::fault(int alarm_number) noexcept {
-  lost_ |= !faulty();
+  lost |= !faulty();
   homed_ = false;
   data.StatusSensor.Adjusted = 0;
   end_passive_homing(JobPhase::failed, ErrorId::technology_alarm);
@@ -101,7 +101,7 @@ void ExternalEncoder::fault(int alarm_number) noexcept {
 // ---- MC_Interpolator
 // --------------------------------------------------------------------------------------------
 
-void ExternalEncoder::step() noexcept {
+void ExternalEncoder::before_axes() noexcept {
   source_.interpolated();
   new_jobs_.take([this](Job& job) { start(job); });
   if (mark_search_.found()) take_mark();
@@ -169,7 +169,7 @@ ErrorId ExternalEncoder::reset(bool restart) noexcept {
   origin_ = advanced(actual_, -line_, modulo_);
   reset_leading(actual_);
   ++restarts_;
-  restarted = lost_ = true;
+  restarted = lost = true;
   return ErrorId::none;
 }
 

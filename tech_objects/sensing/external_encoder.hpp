@@ -37,14 +37,15 @@ class ExternalEncoder final : public LeadingObject {
   /// MC_Reset and MC_Home, which start at the next interpolator tick.
   void submit(Job& job) noexcept override { new_jobs_.submit(job); }
 
-  /// One servo tick: reads the encoder.
-  void servo() noexcept;
-  /// Servo ticks that the wall clock has passed: what this controller does not move has gone on.
-  void skip_servo(std::int64_t ticks) noexcept {
+  bool takes_part(Phase phase) const noexcept override { return phase != Phase::behind_axes; }
+  /// Reads the encoder.
+  void servo(std::int64_t now) noexcept override;
+  /// What this controller does not move has gone on.
+  void skip(std::int64_t ticks) noexcept override {
     if (source_.foreign()) unseen_ += static_cast<double>(ticks) * servo_period_;
   }
-  /// One interpolator tick: starts jobs, extrapolates, shows.
-  void step() noexcept;
+  /// Starts jobs, extrapolates, shows.
+  void before_axes() noexcept override;
 
   AxisPosition actual_position() const noexcept override { return actual_; }
   bool measured_in_servo() const noexcept override { return true; }
@@ -56,9 +57,6 @@ class ExternalEncoder final : public LeadingObject {
   DoubleDouble last_true_line() const noexcept { return last_true_line_; }
   bool leading_value_stands() const noexcept override { return standstill_.stands(); }
   bool homing() const noexcept override { return passive_ != nullptr; }
-
-  /// Whether those that follow have to look at it: it has been restarted or has failed since the last time.
-  bool lost() noexcept { return std::exchange(lost_, false); }
 
  private:
   void take_start_values() noexcept;
@@ -88,7 +86,6 @@ class ExternalEncoder final : public LeadingObject {
   bool begun_ = false;
   bool heard_ = false;  // whether the last reading was valid
   bool homed_ = false;
-  bool lost_ = false;
   DoubleDouble line_;  // of the encoder, in the direction of the object [u]
   DoubleDouble true_line_;
   DoubleDouble last_true_line_;

@@ -57,7 +57,7 @@ void MeasuringInput::configure(double servo_period, int ratio) {
 // ---- MC_Servo
 // ---------------------------------------------------------------------------------------------------
 
-void MeasuringInput::servo() noexcept {
+void MeasuringInput::servo(std::int64_t /*now*/) noexcept {
   if (measured == nullptr) return;
   modulo_ = measured->modulo();
   if (job_ != nullptr && restarts_ != measured->restarts()) end_in_error(ErrorId::restarting);

@@ -38,8 +38,9 @@ class MeasuringInput final : public TechnologyObject {
   /// in the next servo tick, and measure what happens behind it.
   void submit(Job& job) noexcept override { new_jobs_.submit(job); }
 
-  void servo() noexcept;
-  void interpolated() noexcept { load_.interpolated(); }
+  bool takes_part(Phase phase) const noexcept override { return phase != Phase::behind_axes; }
+  void servo(std::int64_t now) noexcept override;
+  void before_axes() noexcept override { load_.interpolated(); }
 
  private:
   /// The measuring range as a way from its lower end, on a ring or a line.

@@ -28,7 +28,7 @@ class CamTrack final : public SwitchingObject<CamTrackData, ProcessingEnd::cam_t
   CamTrackRequest request;
 
   /// With Mode 1 the processing goes on to the end of the track.
-  void servo(std::int64_t now) noexcept;
+  void servo(std::int64_t now) noexcept override;
 
  private:
   /// All edges of a servo cycle; what does not fit leaves the state at its end right.

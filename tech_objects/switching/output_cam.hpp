@@ -28,7 +28,7 @@ class OutputCam final : public SwitchingObject<OutputCamData, ProcessingEnd::out
   /// Whether an input of a request is not permitted with this kind of cam.
   ErrorId refused(const OutputCamRequest& wanted) const noexcept;
 
-  void servo(std::int64_t now) noexcept;
+  void servo(std::int64_t now) noexcept override;
 
  private:
   void end() noexcept override { active_ = false; }

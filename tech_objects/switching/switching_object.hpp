@@ -48,7 +48,16 @@ class SwitchingObject : public TechnologyObject {
   bool active() const noexcept { return active_; }
   bool output() const noexcept { return output_of(data); }
 
-  void interpolated() noexcept { path_.interpolated(); }
+  bool takes_part(Phase phase) const noexcept override { return phase != Phase::behind_axes; }
+  void before_axes() noexcept override { path_.interpolated(); }
+  /// Cams with the same address switch one output.
+  SwitchedBy switches() const noexcept override {
+    const auto& interface = data.Interface;
+    if (!interface.EnableOutput || interface.Address == nullptr) return {};
+    bool all = false;
+    if constexpr (requires { interface.LogicOperation; }) all = interface.LogicOperation == 1;
+    return {&output_of(data), interface.Address, all};
+  }
 
  protected:
   static constexpr double kMillisecond = 1e-3;  // [s]

@@ -25,6 +25,8 @@ constexpr char kHelp[] = R"(lockstep_bench [OPTIONS]: what the cycle and its par
   --instructions   instructions alone, counted by callgrind (valgrind)
   --time           time alone
   --lines          one line "nanoseconds<TAB>name" per row, for comparisons
+  --processors N   that a tick uses: p50 is what tells then, since the mean is of the thread of the cycle alone
+  --axes N         machines of N axes instead of those of the table
   --quick          a look at everything, to see that it works
 
 The machines are projects, loaded as `lockstep run` loads them, with a servo cycle of 1 ms and every block
@@ -49,6 +51,8 @@ struct Options {
   bool time = false;
   bool lines = false;
   int runs = 5;
+  int processors = 1;
+  int axes = 0;  // 0: those of the table
   std::string filter;
 };
 
@@ -56,7 +60,8 @@ struct Options {
 bool read(char** arguments, Options& options) {
   for (char** argument = arguments + 1; *argument != nullptr; ++argument) {
     const std::string_view name = *argument;
-    const bool has_value = name == "--filter" || name == "--runs";
+    const bool has_value =
+        name == "--filter" || name == "--runs" || name == "--processors" || name == "--axes";
     if (has_value && *++argument == nullptr) return false;
     if (name == "--full") {
       options.full = true;
@@ -71,6 +76,10 @@ bool read(char** arguments, Options& options) {
       options.lines = true;
     } else if (name == "--runs") {
       options.runs = std::max(1, std::atoi(*argument));
+    } else if (name == "--processors") {
+      options.processors = std::clamp(std::atoi(*argument), 1, Clock::kMostProcessors);
+    } else if (name == "--axes") {
+      options.axes = std::max(1, std::atoi(*argument));
     } else if (name == "--filter") {
       options.filter = *argument;
     } else {
@@ -83,7 +92,9 @@ bool read(char** arguments, Options& options) {
 /// The rows of the table. Ratio and traced signals are varied at one size, unless all combinations are asked
 /// for.
 std::vector<MachinePlan> plans(const Options& options) {
-  const std::vector<int> sizes = options.quick ? std::vector{1, 8} : std::vector{1, 8, 32, 128, 1000};
+  const std::vector<int> sizes = options.axes > 0 ? std::vector{options.axes}
+                                 : options.quick  ? std::vector{1, 8}
+                                                  : std::vector{1, 8, 32, 128, 1000};
   const int varied = options.quick ? 8 : 128;
   std::vector<MachinePlan> result;
   for (const Motion motion : {Motion::gear, Motion::shifted, Motion::cam, Motion::positioning, Motion::idle})
@@ -93,7 +104,8 @@ std::vector<MachinePlan> plans(const Options& options) {
           for (const int signals : {0, 8, 100}) {
             const bool plain = ratio == 1 && signals == 0;
             const bool one_varied = axes == varied && (ratio == 1 || signals == 0);
-            if (options.full || plain || one_varied) result.push_back({motion, axes, drives, ratio, signals});
+            if (options.full || plain || one_varied)
+              result.push_back({motion, axes, drives, ratio, signals, options.processors});
           }
   return result;
 }

@@ -160,7 +160,8 @@ std::string_view name_of(Motion motion) {
 
 std::string MachinePlan::name() const {
   return std::string(name_of(motion)) + " " + std::to_string(axes) + (drives ? " drives" : " virtual") +
-         " 1:" + std::to_string(ratio) + " " + std::to_string(signals) + " signals";
+         " 1:" + std::to_string(ratio) + " " + std::to_string(signals) + " signals" +
+         (processors > 1 ? " on " + std::to_string(processors) : "");
 }
 
 std::string project_text(const MachinePlan& plan) {
@@ -175,7 +176,8 @@ std::string project_text(const MachinePlan& plan) {
   }
   return joined({R"({ "lockstep": 1, "name": "bench",
 "clock": { "servo_cycle": "1ms", "interpolator_ratio": )",
-                 std::to_string(plan.ratio), " },\n\"technology_objects\": {\n", objects, R"( },
+                 std::to_string(plan.ratio), ", \"processors\": ", std::to_string(plan.processors),
+                 " },\n\"technology_objects\": {\n", objects, R"( },
 "programs": [ { "name": "Main", "ob": "MC_PreInterpolator", "calls": [
 )",
                  calls, " ] }", plan.motion == Motion::cam ? ",\n" + homing_program(plan) : "", " ] }"});
@@ -192,6 +194,7 @@ Machine::Machine(const MachinePlan& plan) : plan_(plan) {
     trace_ = std::make_unique<TraceRing>(std::move(signals));
     project_.controller->trace = trace_.get();
   }
+  project_.controller->employ_processors();
   run(kWarmUp);
   check();
 }

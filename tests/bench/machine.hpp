@@ -27,6 +27,7 @@ struct MachinePlan {
   bool drives = false;  ///< simulated drives under position control; else virtual axes
   int ratio = 1;        ///< servo ticks per interpolator cycle
   int signals = 0;      ///< traced, by turns: position, velocity, actual position, bit of the status word
+  int processors = 1;   ///< that a tick uses
 
   std::string name() const;  ///< such as "gear 128 virtual 1:1 8 signals"
 };

@@ -14,6 +14,9 @@
 #include "fb/power.hpp"
 #include "fb/superimposed.hpp"
 #include "scheduler/controller.hpp"
+#include "tech_objects/sensing/measuring_input.hpp"
+#include "tech_objects/switching/cam_track.hpp"
+#include "tech_objects/switching/output_cam.hpp"
 #include "tests/conformance/subject.hpp"
 #include "tests/support/allocations.hpp"
 

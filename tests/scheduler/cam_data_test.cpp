@@ -224,7 +224,7 @@ TEST(MC_CopyCamData, IsTheOnlyOneOfACamAndExcludesInterpolation) {
   EXPECT_EQ(rig.reset.ErrorID, WORD{0x80E7});
   EXPECT_TRUE(rig.copy.Busy) << "nothing aborts it";
   ASSERT_TRUE(rig.run_until([&] { return rig.copy.Done; }, 10));
-  rig.controller.cams_interpolated_elsewhere = true;
+  rig.controller.interpolate_cams_elsewhere(true);
   rig.interpolate.Execute = other.Execute = rig.reset.Execute = false;
   rig.tick();
   rig.interpolate.Execute = true;
@@ -401,7 +401,7 @@ TEST(RestartOfACam, ShutsTheCamForEveryJob) {
   again.Axis = acknowledge.Axis = &rig.cam;
   again.Restart = true;
   rig.in.SyncProfileReference = 2;
-  rig.controller.cams_interpolated_elsewhere = true;  // so that it lasts
+  rig.controller.interpolate_cams_elsewhere(true);  // so that it lasts
   rig.reset.Execute = true;
   rig.run(3);
   ASSERT_TRUE(rig.reset.Busy);

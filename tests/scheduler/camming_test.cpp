@@ -922,7 +922,7 @@ TEST(MC_InterpolateCam, ShutsACamForJobsMeanwhile) {
   rig.start_leading(10.0);
   rig.in.MasterStartDistance = 10.0;
   rig.interpolate.Execute = rig.in.Execute = true;  // MC_CamIn is called first, its job starts later
-  rig.controller.cams_interpolated_elsewhere = true;
+  rig.controller.interpolate_cams_elsewhere(true);
   rig.run(3);
   EXPECT_EQ(rig.in.ErrorID, WORD{0x80E8});
   EXPECT_TRUE(rig.interpolate.Busy);

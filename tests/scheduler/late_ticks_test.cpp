@@ -11,6 +11,7 @@
 #include "fb/home.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
+#include "tech_objects/sensing/external_encoder.hpp"
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 

@@ -8,6 +8,8 @@
 #include "fb/home.hpp"
 #include "fb/move.hpp"
 #include "fb/power.hpp"
+#include "tech_objects/sensing/external_encoder.hpp"
+#include "tech_objects/sensing/measuring_input.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {

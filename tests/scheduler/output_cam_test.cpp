@@ -9,6 +9,8 @@
 #include "fb/move.hpp"
 #include "fb/power.hpp"
 #include "tech_objects/data_blocks/object_bits.hpp"
+#include "tech_objects/switching/cam_track.hpp"
+#include "tech_objects/switching/output_cam.hpp"
 #include "tests/support/rig.hpp"
 
 namespace lockstep {

@@ -1,0 +1,54 @@
+#include "scheduler/object_kinds.hpp"
+
+#include <iterator>
+#include <utility>
+
+#include "tech_objects/axis/axis.hpp"
+#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/sensing/external_encoder.hpp"
+#include "tech_objects/sensing/measuring_input.hpp"
+#include "tech_objects/switching/cam_track.hpp"
+#include "tech_objects/switching/output_cam.hpp"
+
+namespace lockstep {
+namespace {
+
+using Made = std::unique_ptr<TechnologyObject>;
+
+template <class Object>
+Made make(ObjectKind kind, std::string name, DB_ANY number) {
+  if constexpr (std::is_constructible_v<Object, ObjectKind, std::string, DB_ANY>)
+    return std::make_unique<Object>(kind, std::move(name), number);
+  else
+    return std::make_unique<Object>(std::move(name), number);
+}
+
+struct Entry {
+  ObjectKinds kinds;
+  Made (*make)(ObjectKind, std::string, DB_ANY);
+};
+
+/// Every class of objects, a line each, in the order in which they take part in a phase.
+constexpr Entry kClasses[] = {
+    {kAnyCam, make<Cam>},
+    {kAnyDrivenAxis, make<Axis>},
+    {static_cast<ObjectKinds>(ObjectKind::TO_ExternalEncoder), make<ExternalEncoder>},
+    {kMeasuringInput, make<MeasuringInput>},
+    {kOutputCam, make<OutputCam>},
+    {kCamTrack, make<CamTrack>},
+};
+
+}  // namespace
+
+std::size_t place_in_phase(ObjectKind kind) noexcept {
+  std::size_t place = 0;
+  while (place < std::size(kClasses) && !among(kind, kClasses[place].kinds)) ++place;
+  return place;
+}
+
+std::unique_ptr<TechnologyObject> make_object(ObjectKind kind, std::string name, DB_ANY number) {
+  const std::size_t place = place_in_phase(kind);
+  return place < std::size(kClasses) ? kClasses[place].make(kind, std::move(name), number) : nullptr;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,60 @@
+#include "scheduler/crew.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace lockstep {
+namespace {
+
+/// How often each item has been done.
+struct Items {
+  std::vector<int> done;
+
+  static void work(void* context, std::size_t begin, std::size_t end) noexcept {
+    auto& items = *static_cast<Items*>(context);
+    for (std::size_t i = begin; i < end; ++i) ++items.done[i];
+  }
+};
+
+class Crews : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Helpers, Crews, ::testing::Values(1, 2, 5));
+
+TEST_P(Crews, DoEachItemOnceAndShowItToWhoAsked) {
+  Crew crew(GetParam());
+  int rounds = 0;
+  for (std::size_t count = 0; count < 600; count += 7) {
+    Items items{std::vector<int>(count)};
+    crew.wake();
+    for (int piece = 1; piece <= 5; ++piece) {
+      crew.share(count, Items::work, &items);
+      ASSERT_TRUE(std::all_of(items.done.begin(), items.done.end(), [&](int n) { return n == piece; }))
+          << count;
+    }
+    crew.rest();
+    ++rounds;
+  }
+  EXPECT_EQ(rounds, 86);
+}
+
+/// Helpers that have fallen asleep in between, or that are only just on their way.
+TEST_P(Crews, EndWhileTheirHelpersSleepOrWake) {
+  for (int i = 0; i < 50; ++i) {
+    Crew crew(GetParam());
+    if (i % 2 == 0) continue;
+    Items items{std::vector<int>(100)};
+    crew.wake();
+    crew.share(100, Items::work, &items);
+    crew.rest();
+    ASSERT_EQ(*std::min_element(items.done.begin(), items.done.end()), 1);
+  }
+}
+
+TEST(Crews, ShowTheirThreads) {
+  Crew crew(3);
+  EXPECT_EQ(crew.threads().size(), 3u);
+}
+
+}  // namespace
+}  // namespace lockstep
