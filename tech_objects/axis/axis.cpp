@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tech_objects/jobs/modes.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -49,9 +51,6 @@ void Axis::take_start_values() noexcept {
   arrival_.configure(period_);
   blending_.configure(period_);
   hand_over_.configure(period_);
-  hand_over_.begin();
-  return_.configure(period_);
-  hand_over_due_ = false;
   emergency_ramp_ = EmergencyRamp::none;
   const double tolerance = data.Synchronization.MasterReversionTolerance;
   synchronous_.configure(modulo_, period_, tolerance, additive_);
@@ -102,10 +101,11 @@ void Axis::switch_on() noexcept {
 /// to it.
 void Axis::take_up_motion() noexcept {
   const Setpoint seen = led_setpoint();
-  const bool controlled = power.start_mode == 1 && has_position();
+  const bool controlled = power.start_mode == kStartWithPositionControl && has_position();
   power_state_ = PowerState::on;
   motion_ = Motion::single_axis;
-  const bool at_once = power.start_mode == 0 || data.PositionControl.VelocityModePowerOn == 1;
+  const bool at_once =
+      power.start_mode == kStartWithoutPositionControl || data.PositionControl.VelocityModePowerOn == 1;
   const bool ramps = moving(actual_velocity_) && !at_once;
   if (has_drive_) setpoint_ = {actual_, ramps ? actual_velocity_ : 0.0, 0.0};
   const AxisPosition here = setpoint_.position;
@@ -123,16 +123,16 @@ void Axis::take_up_motion() noexcept {
 
 void Axis::begin_braking(INT stop_mode) noexcept {
   end_all_jobs(JobPhase::aborted, ErrorId::none);
-  if (has_drive_ && (stop_mode == 1 || stop_mode == 3)) {
-    const bool stops = stop_mode == 1 && power_state_ != PowerState::switching_on;
+  if (has_drive_ && (stop_mode == kPowerQuickStop || stop_mode == kPowerCoastDown)) {
+    const bool stops = stop_mode == kPowerQuickStop && power_state_ != PowerState::switching_on;
     switch_off();
-    control_drive(stop_mode == 1 ? kControlQuickStop : kControlCoast);
+    control_drive(stop_mode == kPowerQuickStop ? kControlQuickStop : kControlCoast);
     if (stops) power_state_ = PowerState::drive_stops;
     return;
   }
   power_state_ = PowerState::braking;
-  begin_stop(stop_mode == 2 ? limits_.maximum() : limits_.emergency(), false);
-  if (stop_mode != 2) ask_for_emergency_ramp();
+  begin_stop(stop_mode == kPowerMaximumDynamics ? limits_.maximum() : limits_.emergency(), false);
+  if (stop_mode != kPowerMaximumDynamics) ask_for_emergency_ramp();
 }
 
 void Axis::switch_off() noexcept {
@@ -140,7 +140,7 @@ void Axis::switch_off() noexcept {
   leave_synchronous();
   if (has_drive_) control_drive(kControlOff);
   power_state_ = PowerState::off;
-  hand_over_due_ |= has_drive_ && motion_ != Motion::none;
+  hand_over_.make_due(has_drive_ && motion_ != Motion::none);
   motion_ = Motion::none;
   if (!has_drive_) setpoint_.velocity = 0.0;
   setpoint_.acceleration = 0.0;
@@ -154,7 +154,7 @@ void Axis::follow_actual() noexcept {
   const double speed = std::abs(actual_velocity_);
   const double faded = std::max(2.0 * speed - kRest * data.StandstillSignal.VelocityThreshold, 0.0);
   setpoint_ = {actual_, std::copysign(std::min(speed, faded), actual_velocity_), 0.0};
-  if (hand_over_due_) hand_over_to_actual();
+  if (hand_over_.due()) hand_over_to_actual();
 }
 
 /// Taken up anew, position control begins where the axis is: with the setpoint ahead by what the drive is
@@ -205,7 +205,7 @@ void Axis::react(AlarmReaction reaction) noexcept {
     enable_removed_ = true;
     if (power_state_ == PowerState::off) return;
     // The drive stops by its own ramp; a virtual axis, which has none, takes the emergency ramp.
-    begin_braking(1);
+    begin_braking(kPowerQuickStop);
     return;
   }
   if (power_state_ != PowerState::on) return;

@@ -20,8 +20,10 @@
 #include "tech_objects/axis/backlash.hpp"
 #include "tech_objects/axis/blending.hpp"
 #include "tech_objects/axis/clamping.hpp"
+#include "tech_objects/axis/course_hand_over.hpp"
 #include "tech_objects/axis/encoders.hpp"
 #include "tech_objects/axis/forces.hpp"
+#include "tech_objects/axis/homing_course.hpp"
 #include "tech_objects/axis/job_slots.hpp"
 #include "tech_objects/axis/limit_switches.hpp"
 #include "tech_objects/axis/motion_limits.hpp"
@@ -227,24 +229,6 @@ class Axis final : public LeadingObject {
   void end_all_jobs(JobPhase phase, ErrorId error) noexcept;
 
   // axis_homing.cpp: MC_Home
-  enum class HomingPhase : std::uint8_t {
-    none,
-    approach,  // to the reference cam or switch
-    clear,     // off the switch again, to meet its edge from outside
-    back,      // beyond a zero mark, to meet it in the homing direction
-    search,    // towards the mark, with the homing velocity
-    travel     // the mark is known: to the home position
-  };
-  struct Homing {
-    HomingPhase phase = HomingPhase::none;
-    int direction = 1;      // in which the mark has to be met
-    bool reversed = false;  // at a hardware limit switch
-    double mark = 0.0;      // position that the mark gets [u]
-    // As they were when the job was taken over; changed later, they count for the next one.
-    double approach_velocity = 0.0;     // [u/s]
-    double referencing_velocity = 0.0;  // [u/s]
-    bool positive_side = false;         // of the switch
-  };
   ErrorId check_homing(const Job& job) const noexcept;
   int missing_for_homing(const Job& job) const noexcept;
   HomeSwitch home_switch(bool active) const noexcept;
@@ -255,17 +239,13 @@ class Axis final : public LeadingObject {
   PlanResult plan_homing(const Job& job, const Dynamics& dynamics) noexcept;
   void step_homing() noexcept;
   void guide_active_homing(Job& job) noexcept;
-  void reverse_at_limit_switch(Job& job) noexcept;
-  void head_for(Job& job, HomingPhase phase, int direction) noexcept;
+  void head_for(Job& job, HomingCourse::Phase phase, int direction) noexcept;
   void search_mark(bool active, int direction) noexcept;
   void take_mark() noexcept;
   bool assign_position(AxisPosition place, double position) noexcept;
   bool positions_fit(double by) const noexcept;
-  bool homing_reverses() const noexcept {
-    return homing_.phase != HomingPhase::none && homing_.phase != HomingPhase::travel &&
-           data.Homing.AutoReversal;
-  }
-  void leave_homing(const Job& job) noexcept;
+  bool homing_reverses() const noexcept { return homing_.seeks() && data.Homing.AutoReversal; }
+  void leave_homing() noexcept;
   void home_sensor_beside(Job& job) noexcept;
   std::size_t sensor_of(const Job& job) const noexcept;
   double position_shift(double home_position) const noexcept;
@@ -326,8 +306,7 @@ class Axis final : public LeadingObject {
   // axis_hand_over.cpp: the setpoint as following axes see it where it goes over to another course
   void hand_over(const Setpoint& seen, const Setpoint& now) noexcept;
   void hand_over_to_actual() noexcept;
-  bool run_down(Superimposed& part, const Setpoint& ahead) noexcept;
-  Setpoint handed_over() const noexcept;
+  Dynamics hand_over_dynamics() const noexcept;
   void lead_with_position_control(bool on) noexcept;
   void step_hand_over() noexcept;
 
@@ -453,13 +432,9 @@ class Axis final : public LeadingObject {
   void publish_motion() noexcept;
   void publish_awaited() noexcept;
   void publish_synchronous() noexcept;
-  void show_shifts() noexcept;
-  std::uint32_t bits_of_excess() const noexcept;
-  std::uint32_t bits_beyond_limits() const noexcept;
   void watch_deviation() noexcept;
   void publish_status() noexcept;
   void show_drive_state() noexcept;
-  std::uint32_t pace_bits() const noexcept;
   std::uint32_t bits_when_on() const noexcept;
 
   // From here to `additive_`: what every interpolator cycle touches, in lines of the cache.
@@ -518,9 +493,7 @@ class Axis final : public LeadingObject {
   AxisData start_values_;
 
   // Homing.
-  Homing homing_;
-  MarkSearch mark_search_;
-  bool on_home_switch_ = false;
+  HomingCourse homing_;
 
   // What every servo cycle touches, in lines of the cache.
   alignas(kCacheLine) double servo_period_ = 0.001;  // [s]
@@ -541,9 +514,7 @@ class Axis final : public LeadingObject {
   PositionLoop loop_;
 
   // Servo, seldom of account.
-  Superimposed hand_over_;      // what is left between the setpoint and what following axes see of it
-  Superimposed return_;         // and of what axes see that follow its position since it was zero to them
-  bool hand_over_due_ = false;  // switched off: with the next setpoint, which is the actual value
+  CourseHandOver hand_over_;
   struct ControlBits {
     std::uint16_t stw1 = 0;
     std::uint16_t stw2 = 0;

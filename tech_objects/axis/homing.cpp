@@ -3,19 +3,20 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 namespace {
 
-bool mode_is(const Job& job, std::initializer_list<DINT> modes) noexcept {
-  for (const DINT mode : modes)
-    if (job.mode == mode) return true;
-  return false;
-}
-
 /// Modes that adjust an encoder: relative and absolute, incremental encoder.
 bool adjusts_encoder(const Job& job) noexcept {
-  return mode_is(job, {6, 7, 13});
+  return job.mode == kAdjustAbsoluteRelative || job.mode == kAdjustAbsolute || job.mode == kAdjustIncremental;
+}
+
+/// Modes whose position is a distance from where the axis is.
+bool is_relative(const Job& job) noexcept {
+  return job.mode == kHomeDirectRelative || job.mode == kAdjustAbsoluteRelative ||
+         job.mode == kHomeSetpointRelative;
 }
 
 }  // namespace
@@ -27,14 +28,14 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
   const JobClass kind = class_of(job, true);
   if (kind == JobClass::home_cancel) return ErrorId::none;
   const bool seeks = kind == JobClass::home_active || kind == JobClass::home_passive;
-  if ((seeks || job.mode == 13) && pending_alarm() != 0) return ErrorId::technology_alarm;
+  if ((seeks || job.mode == kAdjustIncremental) && pending_alarm() != 0) return ErrorId::technology_alarm;
   if (seeks && (!enabled() || jobs_.locked())) return ErrorId::locked;
   if (adjusts_encoder(job)) {
     const std::size_t sensor = sensor_of(job);
     if (!data.Sensor[sensor].Existent) return ErrorId::sensor;
     const bool absolute = data.Sensor[sensor].Type != 0;
-    if (job.mode == 13 && absolute) return ErrorId::homing_mode_absolute;
-    if (job.mode != 13 && !absolute) return ErrorId::homing_mode_incremental;
+    if (job.mode == kAdjustIncremental && absolute) return ErrorId::homing_mode_absolute;
+    if (job.mode != kAdjustIncremental && !absolute) return ErrorId::homing_mode_incremental;
     if (data.StatusSensor[sensor].State != kSensorValid) return ErrorId::actual_values_invalid;
   }
   const Job* base = jobs_[kBase];
@@ -91,8 +92,8 @@ void Axis::home(Job& job) noexcept {
 /// Setpoint and actual position are shifted together; nothing moves.
 void Axis::home_directly(Job& job) noexcept {
   if (adjusts_encoder(job) && sensor_of(job) != encoders_.operative()) return home_sensor_beside(job);
-  const bool to_setpoint = job.mode == 11;
-  const bool relative = mode_is(job, {1, 6, 12});
+  const bool to_setpoint = job.mode == kHomeSetpoint;
+  const bool relative = is_relative(job);
   const double by = relative      ? job.position
                     : to_setpoint ? shortest_distance(setpoint_.position.value, job.position, modulo_)
                                   : position_shift(job.position);
@@ -107,7 +108,7 @@ void Axis::home_directly(Job& job) noexcept {
     if (setpoint_.standing() && motion_ == Motion::single_axis && idle) single_.stand(setpoint_);
     if (!has_drive_) actual_ = setpoint_.position;
   }
-  if (job.mode == 7) counted_from_ = actual_.turns;
+  if (job.mode == kAdjustAbsolute) counted_from_ = actual_.turns;
   show_renamed();
   if (adjusts_encoder(job)) adjust_encoder(encoders_.operative(), true);
   homed_ = true;
@@ -125,13 +126,15 @@ bool Axis::positions_fit(double by) const noexcept {
 void Axis::home_sensor_beside(Job& job) noexcept {
   const std::size_t sensor = sensor_of(job);
   const AxisPosition seen = encoders_.position(sensor, actual_);
-  const double by = job.mode == 6 ? job.position : shortest_distance(seen.value, job.position, modulo_);
+  const double by = job.mode == kAdjustAbsoluteRelative
+                        ? job.position
+                        : shortest_distance(seen.value, job.position, modulo_);
   const AxisPosition renamed = advanced(seen, by, modulo_);
   if (!std::isfinite(by) || !modulo_.contains(renamed.value)) return job.fail(ErrorId::position);
   encoders_.rename(sensor, by);
   show_place(sensor, renamed);
   adjust_encoder(sensor, true);
-  job.mark_position = job.mode == 6 ? renamed.value : job.position;
+  job.mark_position = job.mode == kAdjustAbsoluteRelative ? renamed.value : job.position;
   job.phase = JobPhase::done;
 }
 
@@ -145,19 +148,19 @@ std::size_t Axis::sensor_of(const Job& job) const noexcept {
 
 /// Beside whatever moves the axis.
 void Axis::begin_passive_homing(Job& job) noexcept {
-  if (job.mode == 10) job.position = data.Homing.HomePosition;
+  if (job.mode == kHomePassiveConfigured) job.position = data.Homing.HomePosition;
   if (!positions_fit(position_shift(job.position))) return job.fail(ErrorId::position);
   end_job(kPassiveHoming, JobPhase::aborted, ErrorId::none);
   jobs_.put(kPassiveHoming, job, JobPhase::active);
   homing_now_ = true;
-  if (job.mode != 2) homed_ = false;
+  if (job.mode != kHomePassive) homed_ = false;
   if (has_drive_)
     search_mark(false, passive_direction(data.Sensor[encoders_.operative()].PassiveHoming.Direction));
 }
 
 void Axis::begin_active_homing(Job& job) noexcept {
   const auto& settings = data.Sensor[encoders_.operative()].ActiveHoming;
-  if (job.mode == 5) job.position = data.Homing.HomePosition;
+  if (job.mode == kHomeActiveConfigured) job.position = data.Homing.HomePosition;
   const double mark = job.position - settings.HomePositionOffset;
   if (!positions_fit(position_shift(mark)) || !positions_fit(position_shift(job.position)))
     return job.fail(ErrorId::position);
@@ -165,31 +168,32 @@ void Axis::begin_active_homing(Job& job) noexcept {
   for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) end_job(slot, JobPhase::aborted, ErrorId::none);
   homed_ = false;
   homing_now_ = true;
-  homing_ = {.phase = HomingPhase::search,
-             .direction = settings.Direction == 0 ? 1 : -1,
-             .mark = mark,
-             .approach_velocity = data.Homing.ApproachVelocity,
-             .referencing_velocity = data.Homing.ReferencingVelocity,
-             .positive_side = settings.SideInput};
-  job.direction = homing_.direction;
-  job.velocity = homing_.referencing_velocity;
-  if (!has_drive_) {  // it has no marks: one is taken to be where it is
-    homing_.phase = HomingPhase::travel;
+  const bool has_switch = settings.Mode != static_cast<DINT>(HomingMark::zero_mark);
+  using Phase = HomingCourse::Phase;
+  homing_.begin({.direction = settings.Direction == 0 ? 1 : -1,
+                 .mark = mark,
+                 .approach_velocity = data.Homing.ApproachVelocity,
+                 .referencing_velocity = data.Homing.ReferencingVelocity,
+                 .positive_side = settings.SideInput},
+                // A virtual axis has no marks: one is taken to be where it is.
+                !has_drive_  ? Phase::travel
+                : has_switch ? Phase::approach
+                             : Phase::search);
+  job.velocity = homing_.velocity();
+  job.direction = homing_.settings().direction;
+  if (!has_drive_) {
     job.mark_position = mark;
     assign_position(actual_, mark);
-  } else if (settings.Mode != static_cast<DINT>(HomingMark::zero_mark)) {
-    homing_.phase = HomingPhase::approach;
-    job.direction = data.Homing.ApproachDirection ? -1 : 1;
+  } else {
+    if (has_switch) job.direction = data.Homing.ApproachDirection ? -1 : 1;
+    search_mark(true, homing_.settings().direction);
   }
-  if (homing_.phase != HomingPhase::search) job.velocity = homing_.approach_velocity;
-  if (has_drive_) search_mark(true, homing_.direction);
   begin_base_motion(job);
-  if (!job.running()) leave_homing(job);
+  if (!job.running()) leave_homing();
 }
 
 PlanResult Axis::plan_homing(const Job& job, const Dynamics& dynamics) noexcept {
-  if (homing_.phase != HomingPhase::travel)
-    return single_.run_at(setpoint_, job.direction * dynamics.velocity, dynamics);
+  if (!homing_.travels()) return single_.run_at(setpoint_, job.direction * dynamics.velocity, dynamics);
   return move_by(to_double_double(shortest_distance(setpoint_.position.value, job.position, modulo_)), job,
                  dynamics);
 }
@@ -197,11 +201,8 @@ PlanResult Axis::plan_homing(const Job& job, const Dynamics& dynamics) noexcept 
 void Axis::search_mark(bool active, int direction) noexcept {
   const auto& sensor = data.Sensor[encoders_.operative()];
   const DINT mark = active ? sensor.ActiveHoming.Mode : sensor.PassiveHoming.Mode;
-  const bool positive_side = active ? homing_.positive_side : sensor.PassiveHoming.SideInput;
-  // The machine may lie the other way round than the axis counts.
-  begin_search(mark_search_, static_cast<HomingMark>(mark), direction, positive_side,
-               encoders_.ratio() < 0.0);
-  on_home_switch_ = false;
+  const bool positive_side = active ? homing_.settings().positive_side : sensor.PassiveHoming.SideInput;
+  homing_.search(static_cast<HomingMark>(mark), direction, positive_side, encoders_.ratio() < 0.0);
   signals_watched_ = true;
 }
 
@@ -209,55 +210,27 @@ void Axis::search_mark(bool active, int direction) noexcept {
 void Axis::step_homing() noexcept {
   Job* base = jobs_[kBase];
   const bool active = base != nullptr && base->kind == JobKind::MC_Home;
-  if (active && homing_.phase == HomingPhase::travel) return;
-  if (!has_drive_ || (mark_search_.found() && homing_.phase != HomingPhase::back)) return take_mark();
+  if (active && homing_.travels()) return;
+  const bool met = homing_.found() && homing_.phase() != HomingCourse::Phase::back;
+  if (!has_drive_ || met) return take_mark();
   if (active) guide_active_homing(*base);
 }
 
 /// From one phase of an active homing to the next.
 void Axis::guide_active_homing(Job& job) noexcept {
-  const int direction = homing_.direction;
-  if (homing_reverses() && limit_switches_.pressed(job.direction)) return reverse_at_limit_switch(job);
-  const auto& settings = data.Sensor[encoders_.operative()].ActiveHoming;
-  switch (homing_.phase) {
-    case HomingPhase::approach: {
-      if (!on_home_switch_) break;
-      // An edge that is met from outside, in the homing direction, is left behind first.
-      const bool met_from_outside = settings.Mode == static_cast<DINT>(HomingMark::switch_edge) &&
-                                    (homing_.positive_side ? 1 : -1) != direction;
-      if (met_from_outside) return head_for(job, HomingPhase::clear, -direction);
-      return head_for(job, HomingPhase::search, direction);
-    }
-    case HomingPhase::clear:
-      if (!on_home_switch_) head_for(job, HomingPhase::search, direction);
-      break;
-    case HomingPhase::back:
-      if (!mark_search_.found()) break;
-      search_mark(true, direction);
-      return head_for(job, HomingPhase::search, direction);
-    default:
-      break;
-  }
+  const auto mark = static_cast<HomingMark>(data.Sensor[encoders_.operative()].ActiveHoming.Mode);
+  const bool at_limit_switch = homing_reverses() && limit_switches_.pressed(job.direction);
+  const HomingCourse::Leg leg = homing_.guide(mark, job.direction, at_limit_switch);
+  if (leg.kind == HomingCourse::Leg::Kind::gives_up) return raise(alarm::kMarkNotFound);
+  if (leg.kind == HomingCourse::Leg::Kind::goes_on) return;
+  if (leg.search != 0) search_mark(true, leg.search);
+  head_for(job, leg.phase, leg.direction);
 }
 
-/// Once: on the way to the switch the other way is tried; a zero mark is looked for beyond, to be met in the
-/// homing direction.
-void Axis::reverse_at_limit_switch(Job& job) noexcept {
-  const bool to_zero_mark =
-      data.Sensor[encoders_.operative()].ActiveHoming.Mode == static_cast<DINT>(HomingMark::zero_mark);
-  const bool can_turn =
-      homing_.phase == HomingPhase::approach || (homing_.phase == HomingPhase::search && to_zero_mark);
-  if (homing_.reversed || !can_turn) return raise(alarm::kMarkNotFound);
-  homing_.reversed = true;
-  if (homing_.phase == HomingPhase::approach) return head_for(job, HomingPhase::approach, -job.direction);
-  search_mark(true, -homing_.direction);
-  head_for(job, HomingPhase::back, -homing_.direction);
-}
-
-void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
-  homing_.phase = phase;
+void Axis::head_for(Job& job, HomingCourse::Phase phase, int direction) noexcept {
+  homing_.enter(phase);
   job.direction = direction;
-  job.velocity = phase == HomingPhase::search ? homing_.referencing_velocity : homing_.approach_velocity;
+  job.velocity = homing_.velocity();
   arrival_.begin();
   limits_.remember();
   Dynamics dynamics = own_dynamics(job);
@@ -270,16 +243,16 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
 
 /// The mark has been passed; a virtual axis has none, and takes the place where it is.
 void Axis::take_mark() noexcept {
-  const DoubleDouble way = two_difference(mark_search_.place(), drive_settings.signals.start_position);
+  const DoubleDouble way = two_difference(homing_.mark_position(), drive_settings.signals.start_position);
   const AxisPosition place = has_drive_ ? encoders_.position_of_machine(way, play()) : actual_;
-  mark_search_.end();
+  homing_.end_search();
   Job* const passive = jobs_[kPassiveHoming];
   Job& job = passive != nullptr ? *passive : *jobs_[kBase];
-  job.mark_position = passive != nullptr ? job.position : homing_.mark;
+  job.mark_position = passive != nullptr ? job.position : homing_.settings().mark;
   if (!assign_position(place, job.mark_position)) return raise(alarm::kHomingNotPossible);
   if (passive != nullptr) return end_job(kPassiveHoming, JobPhase::done, ErrorId::none);
   signals_watched_ = signals_always_watched();
-  head_for(job, HomingPhase::travel, 0);
+  head_for(job, HomingCourse::Phase::travel, 0);
 }
 
 /// A place gets a position, and everything is shifted by the difference; the turns are counted anew.
@@ -308,9 +281,8 @@ void Axis::shift_coupling(double by) noexcept {
 }
 
 /// A running homing ends, whatever the reason.
-void Axis::leave_homing(const Job& /*job*/) noexcept {
-  mark_search_.end();
-  homing_ = {};
+void Axis::leave_homing() noexcept {
+  homing_.end();
   homing_now_ = false;
   signals_watched_ = signals_always_watched();
 }

@@ -4,6 +4,7 @@
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/cam/cam.hpp"
 #include "tech_objects/jobs/function_state.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 namespace {
@@ -23,7 +24,7 @@ void Axis::start_jobs() noexcept {
 
 void Axis::start(Job& job) noexcept {
   if (job.kind == JobKind::MC_Reset) {
-    const ErrorId error = reset(job.mode == 1);
+    const ErrorId error = reset(job.mode == kRestart);
     if (error != ErrorId::none) return job.fail(error);
     job.phase = JobPhase::done;
     return;
@@ -78,7 +79,7 @@ ErrorId Axis::check_synchronous(const Job& job) const noexcept {
   if (leaves(job.kind) && !jobs_.runs_or_waits(cam_out)) return cam_out ? ErrorId::no_cam : ErrorId::no_gear;
   if (leaves(job.kind)) return ErrorId::none;
   if (job.mode == kCancelWaiting) return ErrorId::none;
-  const bool in_time = is_phasing(job.kind) && job.mode == 0;
+  const bool in_time = is_phasing(job.kind) && job.mode == kProfileInTime;
   if (in_time && base != nullptr && base->kind == JobKind::MC_CamIn) return ErrorId::phasing_in_time;
   if (motion_ != Motion::synchronous) return ErrorId::not_synchronous;
   // A leading axis that is not interconnected at all is an alarm.
@@ -193,7 +194,7 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   if (slot == kPhasing && simulating()) synchronous_.phase_shift().halt();
   if (slot == kOffset && simulating()) synchronous_.following_offset().halt();
   if (slot == kBase && class_of(*job, true) == JobClass::motion_in) show_motion_in_command();
-  if (job->kind == JobKind::MC_Home) leave_homing(*job);
+  if (job->kind == JobKind::MC_Home) leave_homing();
   if (slot == kBase && leaves(job->kind)) data.StatusSynchronizedMotion.FunctionState = 0;
   if (slot == kWaiting || slot == kWaitingOut) {
     data.StatusSynchronizedMotion.WaitingFunctionState =

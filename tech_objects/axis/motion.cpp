@@ -4,6 +4,7 @@
 
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/axis/target_distance.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 // ---- Dynamics
@@ -41,7 +42,8 @@ void Axis::begin_base_motion(Job& job) noexcept {
   absorb_superimposed();
   cut_acceleration();
   Dynamics dynamics = own_dynamics(job);
-  if (job.kind == JobKind::MC_Stop && job.mode == 0) dynamics.jerk = 0.0;  // the emergency ramp has none
+  if (job.kind == JobKind::MC_Stop && job.mode == kStopEmergencyRamp)
+    dynamics.jerk = 0.0;  // the emergency ramp has none
   if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
@@ -106,11 +108,12 @@ PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
       return single_.run_at(setpoint_, dynamics.velocity * job.direction, dynamics);
     case JobKind::MC_Stop:
       jobs_.lock(job);
-      if (job.mode == 0) {
+      if (job.mode == kStopEmergencyRamp) {
         ask_for_emergency_ramp();
         return single_.stop(setpoint_, limits_.emergency(), job.abort_acceleration);
       }
-      if (job.mode == 2) return single_.stop(setpoint_, limits_.maximum(), job.abort_acceleration);
+      if (job.mode == kStopMaximumDynamics)
+        return single_.stop(setpoint_, limits_.maximum(), job.abort_acceleration);
       [[fallthrough]];
     default:  // MC_Halt
       return single_.stop(setpoint_, dynamics, job.abort_acceleration);
@@ -214,7 +217,7 @@ void Axis::watch_base_job(Job& job) noexcept {
       }
       break;
     case JobKind::MC_Home:
-      if (homing_.phase != HomingPhase::travel) break;
+      if (!homing_.travels()) break;
       [[fallthrough]];
     case JobKind::MC_MoveAbsolute:
     case JobKind::MC_MoveRelative:

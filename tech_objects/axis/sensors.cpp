@@ -133,7 +133,7 @@ void Axis::switch_encoder(std::size_t encoder, bool aligned) noexcept {
 void Axis::deviate(AxisPosition place) noexcept {
   const double by = rounded_difference(place, actual_, modulo_);
   actual_ = place;
-  hand_over_due_ |= motion_ == Motion::none;  // the setpoint is there as well
+  hand_over_.make_due(motion_ == Motion::none);  // the setpoint is there as well
   loop_.deviate(by, data.PositionControl.SmoothingTimeByChangeDifference);
 }
 

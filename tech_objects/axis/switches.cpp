@@ -17,14 +17,12 @@ void Axis::watch_signals(const DoubleDouble& position) noexcept {
     watch_limit_switch(-1, place, machine.limit_min && place <= *machine.limit_min);
     watch_limit_switch(1, place, machine.limit_max && place >= *machine.limit_max);
   }
-  if (!mark_search_.active()) return;
-  on_home_switch_ = on_home_switch(place);
-  mark_search_.step(place, on_home_switch_, machine.zero_marks);
+  if (homing_.searching()) homing_.pass(place, on_home_switch(place), machine.zero_marks);
 }
 
 /// Whether the reference cam, or the switch at the digital input, is active.
 bool Axis::on_home_switch(double place) const noexcept {
-  return home_switch(homing_.phase != HomingPhase::none).active(drive_settings.signals, place, turn());
+  return home_switch(homing_.active()).active(drive_settings.signals, place, turn());
 }
 
 // ---- Hardware limit switches
@@ -40,7 +38,7 @@ ErrorId Axis::activate_limit_switches(bool active) noexcept {
   if (!has_drive_ || !configured) return ErrorId::limit_switches_missing;
   data.PositionLimits_HW.Active = active;
   if (!active) limit_switches_ = {};
-  signals_watched_ = signals_always_watched() || mark_search_.active();
+  signals_watched_ = signals_always_watched() || homing_.searching();
   return ErrorId::none;
 }
 

@@ -4,6 +4,7 @@
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/cam/cam.hpp"
 #include "tech_objects/jobs/function_state.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 
@@ -25,7 +26,7 @@ void Axis::begin_gear_in(Job& job) noexcept {
 void Axis::begin_waiting(Job& job) noexcept {
   const Dynamics dynamics = effective_dynamics(job);
   const int alarm_number =
-      job.mode == 0 ? limits_.zero_limit(dynamics) : 0;  // profile 0 is planned with them
+      job.mode == kProfileInTime ? limits_.zero_limit(dynamics) : 0;  // profile 0 is planned with them
   if (alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
@@ -203,7 +204,7 @@ void Axis::begin_shift(Job& job) noexcept {
   const bool phasing = is_phasing(job.kind);
   const bool relative = job.kind == JobKind::MC_PhasingRelative || job.kind == JobKind::MC_OffsetRelative;
   Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
-  Dynamics dynamics = phasing && job.mode == 0 ? effective_dynamics(job) : limits_.maximum();
+  Dynamics dynamics = phasing && job.mode == kProfileInTime ? effective_dynamics(job) : limits_.maximum();
   if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
