@@ -72,7 +72,7 @@ void check_operative_sensor(const JsonValue& json, const Axis& axis, const Loadi
                                     ", but 'sensors' has no such encoder");
 }
 
-void load_plant(const JsonValue& json, SimulatedDriveSettings& drive, const Loading& loading) {
+void load_plant(const JsonValue& json, DriveSettings& drive, const Loading& loading) {
   Problems& problems = loading.problems;
   const Fields fields(json, keys::kPlant, problems);
   MachinePlantSettings& plant = drive.plant;

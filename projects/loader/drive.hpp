@@ -9,7 +9,7 @@ namespace lockstep {
 /// The value of a BOOL tag; nullptr if the key is not given, or names something else, which is reported.
 const bool* find_bool_tag(const JsonValue* json, const Loading& loading);
 
-void load_plant(const JsonValue& json, SimulatedDriveSettings& drive, const Loading& loading);
+void load_plant(const JsonValue& json, DriveSettings& drive, const Loading& loading);
 void load_faults(const JsonValue& json, SimulatedFaults& faults, const Loading& loading);
 void load_sensors(const JsonValue& json, Axis& axis, const Loading& loading);
 /// Position control begins with an encoder that is there. @param json the drive

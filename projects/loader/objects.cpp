@@ -4,6 +4,7 @@
 
 #include "projects/loader/drive.hpp"
 #include "projects/loader/loader.hpp"
+#include "tech_objects/drive/drive_models.hpp"
 
 namespace lockstep {
 namespace {
@@ -48,8 +49,9 @@ void declare_object(const std::string& name, const JsonValue& json, const Loadin
 void load_drive(const JsonValue& json, Axis& axis, const Loading& loading) {
   Problems& problems = loading.problems;
   const Fields fields(json, keys::kDrive, problems);
-  read_word(fields["model"], words::kModels, problems);
-  SimulatedDriveSettings& drive = axis.drive_settings;
+  if (const auto model = read_word(fields["model"], kDriveModelNames, problems))
+    axis.drive_model = &kDriveModels[*model];
+  DriveSettings& drive = axis.drive_settings;
   if (const auto time = read_duration(fields["time_constant"], 0, kLongestLag, problems))
     drive.time_constant = static_cast<double>(*time) / kSecond;
   const std::int64_t longest_dead_time = kMostDeadCycles * loading.controller().clock.servo_cycle;

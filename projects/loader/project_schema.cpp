@@ -12,6 +12,7 @@
 #include "projects/cam_files/schema.hpp"
 #include "projects/json/project_keys.hpp"
 #include "projects/loader/configuration_tree.hpp"
+#include "tech_objects/drive/drive_models.hpp"
 #include "tech_objects/objects/technology_object.hpp"
 
 namespace lockstep {
@@ -243,7 +244,7 @@ Json objects_schema() {
                              {"communication", text("BOOL tag: while TRUE the drive is not heard")},
                              {"blocked", text("BOOL tag: while TRUE the machine cannot move")}});
   const Json drive = object(
-      keys::kDrive, {{"model", words("kind of the drive", words::kModels)},
+      keys::kDrive, {{"model", words("kind of the drive", kDriveModelNames)},
                      {"time_constant", duration("lag of the velocity loop")},
                      {"dead_time", duration("dead time of the velocity loop")},
                      {"encoder_resolution", described("increment of the encoder [u]; 0: none",

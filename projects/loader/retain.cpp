@@ -4,6 +4,7 @@
 
 #include "projects/loader/loader.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -44,7 +45,7 @@ std::string scale_of(Axis& axis, std::size_t sensor) {
 bool keeps_adjustment(const Axis& axis, std::size_t sensor) {
   const auto type = axis.data.Sensor[sensor].Type;
   if (sensor > 0 && !axis.drive_settings.sensors[sensor - 1].exists) return false;
-  return !axis.is_virtual() && (type == 1 || type == 2);
+  return !axis.is_virtual() && (type == SensorType::ABSOLUTE || type == SensorType::CYCLIC_ABSOLUTE);
 }
 
 KeptValue adjustment_of(Axis& axis, std::size_t sensor) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tech_objects/drive/drive_models.hpp"
 #include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
@@ -15,7 +16,7 @@ constexpr double kRest = 0.01;
 }  // namespace
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
-    : LeadingObject(object_kind, std::move(object_name), object_number) {
+    : LeadingObject(object_kind, std::move(object_name), object_number), drive_model(kDriveModels) {
   if (!has_position()) data.Units.VelocityUnit = kTurnsPerMinute;
 }
 
@@ -101,11 +102,11 @@ void Axis::switch_on() noexcept {
 /// to it.
 void Axis::take_up_motion() noexcept {
   const Setpoint seen = led_setpoint();
-  const bool controlled = power.start_mode == kStartWithPositionControl && has_position();
+  const bool controlled = power.start_mode == StartMode::position_control && has_position();
   power_state_ = PowerState::on;
   motion_ = Motion::single_axis;
-  const bool at_once =
-      power.start_mode == kStartWithoutPositionControl || data.PositionControl.VelocityModePowerOn == 1;
+  const bool at_once = power.start_mode == StartMode::without_position_control ||
+                       data.PositionControl.VelocityModePowerOn == 1;
   const bool ramps = moving(actual_velocity_) && !at_once;
   if (has_drive_) setpoint_ = {actual_, ramps ? actual_velocity_ : 0.0, 0.0};
   const AxisPosition here = setpoint_.position;
@@ -123,16 +124,16 @@ void Axis::take_up_motion() noexcept {
 
 void Axis::begin_braking(INT stop_mode) noexcept {
   end_all_jobs(JobPhase::aborted, ErrorId::none);
-  if (has_drive_ && (stop_mode == kPowerQuickStop || stop_mode == kPowerCoastDown)) {
-    const bool stops = stop_mode == kPowerQuickStop && power_state_ != PowerState::switching_on;
+  if (has_drive_ && (stop_mode == PowerStopMode::quick_stop || stop_mode == PowerStopMode::coast_down)) {
+    const bool stops = stop_mode == PowerStopMode::quick_stop && power_state_ != PowerState::switching_on;
     switch_off();
-    control_drive(stop_mode == kPowerQuickStop ? kControlQuickStop : kControlCoast);
+    control_drive(stop_mode == PowerStopMode::quick_stop ? kControlQuickStop : kControlCoast);
     if (stops) power_state_ = PowerState::drive_stops;
     return;
   }
   power_state_ = PowerState::braking;
-  begin_stop(stop_mode == kPowerMaximumDynamics ? limits_.maximum() : limits_.emergency(), false);
-  if (stop_mode != kPowerMaximumDynamics) ask_for_emergency_ramp();
+  begin_stop(stop_mode == PowerStopMode::maximum_dynamics ? limits_.maximum() : limits_.emergency(), false);
+  if (stop_mode != PowerStopMode::maximum_dynamics) ask_for_emergency_ramp();
 }
 
 void Axis::switch_off() noexcept {
@@ -205,7 +206,7 @@ void Axis::react(AlarmReaction reaction) noexcept {
     enable_removed_ = true;
     if (power_state_ == PowerState::off) return;
     // The drive stops by its own ramp; a virtual axis, which has none, takes the emergency ramp.
-    begin_braking(kPowerQuickStop);
+    begin_braking(PowerStopMode::quick_stop);
     return;
   }
   if (power_state_ != PowerState::on) return;
@@ -225,7 +226,7 @@ ErrorId Axis::reset(bool restart) noexcept {
   alarm_notes.acknowledged();
   enable_removed_ = false;
   if (restart) this->restart();
-  if (has_drive_ && (encoders_.lost() || drive_.in_trouble())) acknowledge_drive();
+  if (has_drive_ && (encoders_.lost() || drive_->in_trouble())) acknowledge_drive();
   return ErrorId::none;
 }
 

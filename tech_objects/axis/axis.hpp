@@ -77,8 +77,10 @@ class Axis final : public LeadingObject {
   /// The leading values with which this axis is interconnected; only these may be named by jobs.
   std::vector<LeadingValue> leading_values;
 
-  /// Model of the simulated drive; counts unless the axis is virtual.
-  SimulatedDriveSettings drive_settings;
+  /// The drive and the machine behind it; they count unless the axis is virtual.
+  DriveSettings drive_settings;
+  /// Which kind of drive it is; never nullptr.
+  const DriveModel* drive_model;
 
   /// The adjustments of absolute encoders that are kept: may be set before `configure`, and read at any time
   /// in the thread of the cycle. Count for Sensor[].Type 1 and 2. A restart of the object keeps them.
@@ -178,7 +180,8 @@ class Axis final : public LeadingObject {
   /// False while encoder or communication are lost, until that is acknowledged.
   bool actual_values_valid() const noexcept override { return !encoders_.lost(); }
   bool homing() const noexcept override { return homing_now_; }
-  const SimulatedDrive& drive() const noexcept { return drive_; }
+  /// Of an axis that is not virtual, once it has been configured.
+  const Drive& drive() const noexcept { return *drive_; }
   /// Whether this axis is `leading` or follows, over any number of couplings, one that is.
   bool led_by_this(const LeadingObject* leading) const noexcept;
   /// Largest distance between actual position and synchronous function while synchronous [u], for the summary
@@ -190,8 +193,6 @@ class Axis final : public LeadingObject {
   // Values of Units.VelocityUnit of a speed axis.
   static constexpr UDINT kTurnsPerSecond = 1082;
   static constexpr UDINT kTurnsPerMinute = 1083;
-  /// Value of StatusSensor.State: the actual value is valid.
-  static constexpr DINT kSensorValid = 2;
   static constexpr std::uint8_t kNothingShown = 0xFF;
 
   /// What generates the setpoint.
@@ -241,6 +242,7 @@ class Axis final : public LeadingObject {
   void guide_active_homing(Job& job) noexcept;
   void head_for(Job& job, HomingCourse::Phase phase, int direction) noexcept;
   void search_mark(bool active, int direction) noexcept;
+  AxisPosition place_of_mark() const noexcept;
   void take_mark() noexcept;
   bool assign_position(AxisPosition place, double position) noexcept;
   bool positions_fit(double by) const noexcept;
@@ -510,7 +512,8 @@ class Axis final : public LeadingObject {
   Encoders encoders_;
   AxisForces forces_;
   Clamping clamping_;
-  SimulatedDrive drive_;
+  std::unique_ptr<Drive> drive_;  // nullptr: a virtual axis
+  DriveProperties drive_properties_;
   PositionLoop loop_;
 
   // Servo, seldom of account.

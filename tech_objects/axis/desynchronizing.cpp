@@ -44,7 +44,7 @@ bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
   const bool there = candidate.standing() && last_setpoint_.standing() && candidate.position.value == target;
   Setpoint from = last_setpoint_;
   Setpoint to = candidate;
-  if (job.mode != kProfileOverDistance) {  // begins as the axis' own motions do
+  if (job.mode != ProfileReference::over_distance) {  // begins as the axis' own motions do
     if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
       raise(alarm_number);  // the stop begins at the last setpoint that followed
       step_single_axis();
@@ -74,7 +74,7 @@ bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
 
 /// From the setpoint of the last tick: over the leading distance, or with the dynamics of the job.
 void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
-  if (job.mode == kProfileOverDistance) {
+  if (job.mode == ProfileReference::over_distance) {
     synchronous_.begin_sync_out(setpoint_);
     motion_ = Motion::desynchronizing;
     auto& status = data.StatusSynchronizedMotion;

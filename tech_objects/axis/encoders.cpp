@@ -2,15 +2,14 @@
 
 #include <algorithm>
 
-#include "tech_objects/drive/encoder_source.hpp"
-#include "tech_objects/types/bool_tag.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 
 // ---- At the start, and after a restart
 // ----------------------------------------------------------------------------
 
-void Encoders::configure(const AxisData& data, const SimulatedDriveSettings& machine, bool has_drive,
+void Encoders::configure(const AxisData& data, const DriveSettings& machine, bool has_drive,
                          const Modulo& modulo, double cycle) noexcept {
   modulo_ = modulo;
   cycle_ = cycle;
@@ -21,12 +20,10 @@ void Encoders::configure(const AxisData& data, const SimulatedDriveSettings& mac
         .exists = true, .inverted = machine.inverted, .start_position = machine.signals.start_position};
     const SimulatedSensor& model = i == 0 ? drive : machine.sensors[i - 1];
     encoder.exists = data.Sensor[i].Existent && model.exists;
-    encoder.absolute = has_drive && data.Sensor[i].Type != 0;
+    encoder.absolute = has_drive && data.Sensor[i].Type != SensorType::INCREMENTAL;
     encoder.sign = data.Sensor[i].InverseDirection != model.inverted ? -1.0 : 1.0;
     encoder.ratio = model.ratio;
     encoder.start = model.start_position;
-    encoder.resolution = model.resolution;
-    encoder.fault = model.fault;
     encoder.lent = 0.0;
     encoder.failed = false;
     several_ |= i > 0 && encoder.exists;
@@ -63,21 +60,16 @@ DoubleDouble Encoders::travel(std::size_t encoder, double play) const noexcept {
 // ---- Each servo cycle
 // -----------------------------------------------------------------------------------------------
 
-void Encoders::read(DriveActual& now, const DoubleDouble& machine) noexcept {
+void Encoders::read(DriveActual& now, Drive& drive) noexcept {
   encoders_[0].velocity = now.velocity;
   encoders_[0].fails = now.encoder_failed;
   for (std::size_t i = 1; i < kCount; ++i) {
     Encoder& encoder = encoders_[i];
     if (!encoder.exists) continue;
-    encoder.fails = is_on(encoder.fault);
-    if (encoder.fails) {
-      encoder.velocity = 0.0;
-      continue;
-    }
-    const DoubleDouble before = encoder.reading;
-    encoder.reading = machine * encoder.ratio;
-    if (encoder.resolution > 0.0) encoder.reading = quantised(encoder.reading, encoder.resolution);
-    encoder.velocity = (encoder.reading - before).rounded() / cycle_;
+    const SensorActual told = drive.read_sensor(i);
+    encoder.fails = told.failed;
+    encoder.velocity = told.failed ? 0.0 : (told.position - encoder.reading).rounded() / cycle_;
+    if (!told.failed) encoder.reading = told.position;
   }
   if (operative_ == 0) return;
   now.position = encoders_[operative_].reading;

@@ -25,8 +25,8 @@ class Encoders {
 
   /// Takes over which encoders there are, how they lie, and which is operative. They go on counting.
   /// @param has_drive whether actual values are read at all  @param cycle of the servo [s]
-  void configure(const AxisData& data, const SimulatedDriveSettings& machine, bool has_drive,
-                 const Modulo& modulo, double cycle) noexcept;
+  void configure(const AxisData& data, const DriveSettings& machine, bool has_drive, const Modulo& modulo,
+                 double cycle) noexcept;
   /// The operative encoder shows 0 at this position, or another one.
   void begin(AxisPosition origin) noexcept { origin_ = origin; }
   void begin_beside(std::size_t encoder, AxisPosition origin, double play) noexcept;
@@ -54,7 +54,7 @@ class Encoders {
   const DoubleDouble& counted() const noexcept { return counted_; }
   /// Reads the encoders at the machine; what the operative one tells takes the place of what the drive has
   /// told.
-  void read(DriveActual& now, const DoubleDouble& machine) noexcept;
+  void read(DriveActual& now, Drive& drive) noexcept;
   /// Turns what the operative encoder tells into the direction of the axis.
   void orient(DriveActual& now) const noexcept;
   /// The position that the operative encoder tells. @param distance that it has counted, as the axis counts
@@ -112,8 +112,6 @@ class Encoders {
     double lent = 0.0;      // by what MC_SetSensor has shifted an absolute one, until it is left [u]
     double ratio = 1.0;     // [u] that it tells on the way of one unit of the machine
     double start = 0.0;     // what it tells where the machine is at the beginning, as it lies [u]
-    double resolution = 0.0;
-    const bool* fault = nullptr;
     bool exists = false;
     bool absolute = false;
     bool fails = false;   // in this cycle

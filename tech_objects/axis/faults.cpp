@@ -1,6 +1,7 @@
 // What goes wrong at drive and encoder of an axis: alarms, their acknowledgement, and control words.
 // @source S7-1500T alarms 411, 421, 431; PROFIdrive state machine
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -34,15 +35,15 @@ void Axis::raise_drive_alarms(const DriveActual& now) noexcept {
 void Axis::lose_sensor() noexcept {
   if (encoders_.lost()) return;
   encoders_.lose();
-  data.StatusSensor[encoders_.operative()].State = 0;
+  data.StatusSensor[encoders_.operative()].State = SensorState::not_valid;
   coupling_changed = true;  // axes that follow are told
   if (!encoders_.absolute(encoders_.operative())) homed_ = false;
 }
 
 /// The axis goes on from where it was seen last; an absolute encoder knows better.
 void Axis::regain_sensor() noexcept {
-  data.StatusSensor[encoders_.operative()].State = kSensorValid;
-  encoders_.count(drive_.read().position);
+  data.StatusSensor[encoders_.operative()].State = SensorState::valid;
+  encoders_.count(drive_->read().position);
   encoders_.regain(actual_, play());
 }
 
@@ -52,7 +53,7 @@ void Axis::acknowledge_drive() noexcept {
   control_drive(off);
   control_drive(off | bit_mask(stw1::kAcknowledgeFault));
   control_drive(off);
-  DriveActual now = drive_.read();
+  DriveActual now = drive_->read();
   if (encoders_.several()) read_encoders(now);
   if (!now.silent && !now.encoder_failed && encoders_.lost()) regain_sensor();
   watch_drive(now);
@@ -60,7 +61,7 @@ void Axis::acknowledge_drive() noexcept {
 
 void Axis::control_drive(std::uint16_t stw1) noexcept {
   const std::uint16_t free = free_bits_.stw1;
-  drive_.control(static_cast<std::uint16_t>(stw1 | free), free_bits_.stw2);
+  drive_->control(static_cast<std::uint16_t>(stw1 | free), free_bits_.stw2);
   sent_stw1_ = stw1;
 }
 

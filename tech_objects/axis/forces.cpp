@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tech_objects/data_blocks/status_bits.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -40,7 +41,7 @@ double factor_of(const Factor (&table)[N], UDINT unit) noexcept {
 
 ErrorId AxisForces::limiting_refusal(DINT mode, bool enabled) const noexcept {
   if (range.owner != nullptr) return ErrorId::torque_limits_exclude;
-  return mode == 1 && !enabled ? ErrorId::locked : ErrorId::none;
+  return mode == TorqueLimitingMode::fixed_stop_detection && !enabled ? ErrorId::locked : ErrorId::none;
 }
 
 ErrorId AxisForces::range_refusal() const noexcept {
@@ -48,14 +49,14 @@ ErrorId AxisForces::range_refusal() const noexcept {
 }
 
 bool AxisForces::detects_fixed_stop() const noexcept {
-  return limiting.owner != nullptr && limiting.mode == 1;
+  return limiting.owner != nullptr && limiting.mode == TorqueLimitingMode::fixed_stop_detection;
 }
 
 /// Limit of MC_TorqueLimiting as torque (force) at the motor.
 double AxisForces::limit_at_motor(const AxisData& settings) const noexcept {
-  const bool linear_motor = settings.Actor.MotorType == 1;
-  const bool at_load = settings.TorqueLimiting.LimitBase == 1 && !linear_motor;
-  const bool force = linear_motor || (at_load && settings.Properties.MotionType == 0);
+  const bool linear_motor = settings.Actor.MotorType == MotorType::linear;
+  const bool at_load = settings.TorqueLimiting.LimitBase == LimitBase::load_side && !linear_motor;
+  const bool force = linear_motor || (at_load && settings.Properties.MotionType == MotionType::linear);
   const auto& defaults = settings.TorqueLimiting.LimitDefaults;
   const double given = limiting.limit;
   const double limit = given >= 0.0 ? given : force ? defaults.Force : defaults.Torque;

@@ -12,7 +12,7 @@ namespace lockstep {
 struct TorqueLimitingRequest {
   const void* owner = nullptr;  ///< nullptr: not active
   LREAL limit = -1.0;           ///< < 0: TorqueLimiting.LimitDefaults
-  DINT mode{};                  ///< 0 limiting, 1 fixed stop detection
+  DINT mode{};                  ///< TorqueLimitingMode
 };
 /// What MC_TorqueRange wants.
 struct TorqueRangeRequest {

@@ -4,19 +4,21 @@
 
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/jobs/modes.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
 
 /// Modes that adjust an encoder: relative and absolute, incremental encoder.
 bool adjusts_encoder(const Job& job) noexcept {
-  return job.mode == kAdjustAbsoluteRelative || job.mode == kAdjustAbsolute || job.mode == kAdjustIncremental;
+  return job.mode == HomeMode::adjust_absolute_relative || job.mode == HomeMode::adjust_absolute ||
+         job.mode == HomeMode::adjust_incremental;
 }
 
 /// Modes whose position is a distance from where the axis is.
 bool is_relative(const Job& job) noexcept {
-  return job.mode == kHomeDirectRelative || job.mode == kAdjustAbsoluteRelative ||
-         job.mode == kHomeSetpointRelative;
+  return job.mode == HomeMode::direct_relative || job.mode == HomeMode::adjust_absolute_relative ||
+         job.mode == HomeMode::setpoint_relative;
 }
 
 }  // namespace
@@ -28,15 +30,16 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
   const JobClass kind = class_of(job, true);
   if (kind == JobClass::home_cancel) return ErrorId::none;
   const bool seeks = kind == JobClass::home_active || kind == JobClass::home_passive;
-  if ((seeks || job.mode == kAdjustIncremental) && pending_alarm() != 0) return ErrorId::technology_alarm;
+  if ((seeks || job.mode == HomeMode::adjust_incremental) && pending_alarm() != 0)
+    return ErrorId::technology_alarm;
   if (seeks && (!enabled() || jobs_.locked())) return ErrorId::locked;
   if (adjusts_encoder(job)) {
     const std::size_t sensor = sensor_of(job);
     if (!data.Sensor[sensor].Existent) return ErrorId::sensor;
-    const bool absolute = data.Sensor[sensor].Type != 0;
-    if (job.mode == kAdjustIncremental && absolute) return ErrorId::homing_mode_absolute;
-    if (job.mode != kAdjustIncremental && !absolute) return ErrorId::homing_mode_incremental;
-    if (data.StatusSensor[sensor].State != kSensorValid) return ErrorId::actual_values_invalid;
+    const bool absolute = data.Sensor[sensor].Type != SensorType::INCREMENTAL;
+    if (job.mode == HomeMode::adjust_incremental && absolute) return ErrorId::homing_mode_absolute;
+    if (job.mode != HomeMode::adjust_incremental && !absolute) return ErrorId::homing_mode_incremental;
+    if (data.StatusSensor[sensor].State != SensorState::valid) return ErrorId::actual_values_invalid;
   }
   const Job* base = jobs_[kBase];
   const JobKind running = base != nullptr ? base->kind : JobKind::MC_Halt;
@@ -59,7 +62,7 @@ int Axis::missing_for_homing(const Job& job) const noexcept {
   if (!has_drive_) return 0;
   const auto mark = static_cast<HomingMark>(active ? data.Sensor[encoders_.operative()].ActiveHoming.Mode
                                                    : data.Sensor[encoders_.operative()].PassiveHoming.Mode);
-  return has_mark(mark, home_switch(active), drive_settings.signals) ? 0 : alarm::kHomingNotSupported;
+  return has_mark(mark, home_switch(active), drive_->signals()) ? 0 : alarm::kHomingNotSupported;
 }
 
 HomeSwitch Axis::home_switch(bool active) const noexcept {
@@ -92,7 +95,7 @@ void Axis::home(Job& job) noexcept {
 /// Setpoint and actual position are shifted together; nothing moves.
 void Axis::home_directly(Job& job) noexcept {
   if (adjusts_encoder(job) && sensor_of(job) != encoders_.operative()) return home_sensor_beside(job);
-  const bool to_setpoint = job.mode == kHomeSetpoint;
+  const bool to_setpoint = job.mode == HomeMode::setpoint;
   const bool relative = is_relative(job);
   const double by = relative      ? job.position
                     : to_setpoint ? shortest_distance(setpoint_.position.value, job.position, modulo_)
@@ -108,7 +111,7 @@ void Axis::home_directly(Job& job) noexcept {
     if (setpoint_.standing() && motion_ == Motion::single_axis && idle) single_.stand(setpoint_);
     if (!has_drive_) actual_ = setpoint_.position;
   }
-  if (job.mode == kAdjustAbsolute) counted_from_ = actual_.turns;
+  if (job.mode == HomeMode::adjust_absolute) counted_from_ = actual_.turns;
   show_renamed();
   if (adjusts_encoder(job)) adjust_encoder(encoders_.operative(), true);
   homed_ = true;
@@ -126,7 +129,7 @@ bool Axis::positions_fit(double by) const noexcept {
 void Axis::home_sensor_beside(Job& job) noexcept {
   const std::size_t sensor = sensor_of(job);
   const AxisPosition seen = encoders_.position(sensor, actual_);
-  const double by = job.mode == kAdjustAbsoluteRelative
+  const double by = job.mode == HomeMode::adjust_absolute_relative
                         ? job.position
                         : shortest_distance(seen.value, job.position, modulo_);
   const AxisPosition renamed = advanced(seen, by, modulo_);
@@ -134,7 +137,7 @@ void Axis::home_sensor_beside(Job& job) noexcept {
   encoders_.rename(sensor, by);
   show_place(sensor, renamed);
   adjust_encoder(sensor, true);
-  job.mark_position = job.mode == kAdjustAbsoluteRelative ? renamed.value : job.position;
+  job.mark_position = job.mode == HomeMode::adjust_absolute_relative ? renamed.value : job.position;
   job.phase = JobPhase::done;
 }
 
@@ -148,19 +151,19 @@ std::size_t Axis::sensor_of(const Job& job) const noexcept {
 
 /// Beside whatever moves the axis.
 void Axis::begin_passive_homing(Job& job) noexcept {
-  if (job.mode == kHomePassiveConfigured) job.position = data.Homing.HomePosition;
+  if (job.mode == HomeMode::passive_configured) job.position = data.Homing.HomePosition;
   if (!positions_fit(position_shift(job.position))) return job.fail(ErrorId::position);
   end_job(kPassiveHoming, JobPhase::aborted, ErrorId::none);
   jobs_.put(kPassiveHoming, job, JobPhase::active);
   homing_now_ = true;
-  if (job.mode != kHomePassive) homed_ = false;
+  if (job.mode != HomeMode::passive) homed_ = false;
   if (has_drive_)
     search_mark(false, passive_direction(data.Sensor[encoders_.operative()].PassiveHoming.Direction));
 }
 
 void Axis::begin_active_homing(Job& job) noexcept {
   const auto& settings = data.Sensor[encoders_.operative()].ActiveHoming;
-  if (job.mode == kHomeActiveConfigured) job.position = data.Homing.HomePosition;
+  if (job.mode == HomeMode::active_configured) job.position = data.Homing.HomePosition;
   const double mark = job.position - settings.HomePositionOffset;
   if (!positions_fit(position_shift(mark)) || !positions_fit(position_shift(job.position)))
     return job.fail(ErrorId::position);
@@ -241,10 +244,14 @@ void Axis::head_for(Job& job, HomingCourse::Phase phase, int direction) noexcept
   begin_stop(limits_.maximum(), false);
 }
 
+AxisPosition Axis::place_of_mark() const noexcept {
+  const double start = drive_->signals().start_position;
+  return encoders_.position_of_machine(two_difference(homing_.mark_position(), start), play());
+}
+
 /// The mark has been passed; a virtual axis has none, and takes the place where it is.
 void Axis::take_mark() noexcept {
-  const DoubleDouble way = two_difference(homing_.mark_position(), drive_settings.signals.start_position);
-  const AxisPosition place = has_drive_ ? encoders_.position_of_machine(way, play()) : actual_;
+  const AxisPosition place = has_drive_ ? place_of_mark() : actual_;
   homing_.end_search();
   Job* const passive = jobs_[kPassiveHoming];
   Job& job = passive != nullptr ? *passive : *jobs_[kBase];

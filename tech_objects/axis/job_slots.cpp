@@ -58,7 +58,7 @@ bool JobSlots::runs_or_waits(bool cam) const noexcept {
 }
 
 int JobSlots::stop_rank(DINT mode) noexcept {
-  return mode == kStopEmergencyRamp ? 3 : mode == kStopMaximumDynamics ? 2 : 1;
+  return mode == StopMode::emergency_ramp ? 3 : mode == StopMode::maximum_dynamics ? 2 : 1;
 }
 
 bool JobSlots::stops_harder_than(AlarmReaction reaction) const noexcept {

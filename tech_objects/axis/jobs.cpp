@@ -24,7 +24,7 @@ void Axis::start_jobs() noexcept {
 
 void Axis::start(Job& job) noexcept {
   if (job.kind == JobKind::MC_Reset) {
-    const ErrorId error = reset(job.mode == kRestart);
+    const ErrorId error = reset(job.mode == ResetMode::restart);
     if (error != ErrorId::none) return job.fail(error);
     job.phase = JobPhase::done;
     return;
@@ -79,7 +79,7 @@ ErrorId Axis::check_synchronous(const Job& job) const noexcept {
   if (leaves(job.kind) && !jobs_.runs_or_waits(cam_out)) return cam_out ? ErrorId::no_cam : ErrorId::no_gear;
   if (leaves(job.kind)) return ErrorId::none;
   if (job.mode == kCancelWaiting) return ErrorId::none;
-  const bool in_time = is_phasing(job.kind) && job.mode == kProfileInTime;
+  const bool in_time = is_phasing(job.kind) && job.mode == ProfileReference::in_time;
   if (in_time && base != nullptr && base->kind == JobKind::MC_CamIn) return ErrorId::phasing_in_time;
   if (motion_ != Motion::synchronous) return ErrorId::not_synchronous;
   // A leading axis that is not interconnected at all is an alarm.

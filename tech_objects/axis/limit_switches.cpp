@@ -1,5 +1,7 @@
 #include "tech_objects/axis/limit_switches.hpp"
 
+#include "tech_objects/types/published.hpp"
+
 namespace lockstep {
 
 bool LimitSwitches::pressed_at(int side, const TO_Struct_PositionLimitsHW& settings, bool signal) noexcept {
@@ -14,7 +16,8 @@ bool LimitSwitches::watch(int side, bool pressed, const Approach& approach,
   const bool was_pressed = limit.pressed;
   limit.pressed = pressed;
   if (limit.beyond) {
-    const bool inside = settings.Mode == 0 || side * (approach.place - limit.entered) < 0.0;
+    const bool inside =
+        settings.Mode == LimitSwitchMode::cannot_be_overrun || side * (approach.place - limit.entered) < 0.0;
     if (!limit.pressed && inside && !limit.locked) limit.beyond = false;
     return false;
   }
@@ -36,7 +39,8 @@ bool LimitSwitches::forbid(double velocity) const noexcept {
 }
 
 AlarmReaction LimitSwitches::reaction(const TO_Struct_PositionLimitsHW& settings) const noexcept {
-  const bool keeps_enable = settings.Mode == 0 && settings.ApproachBehavior == 1;
+  const bool keeps_enable = settings.Mode == LimitSwitchMode::cannot_be_overrun &&
+                            settings.ApproachBehavior == ApproachBehavior::keep_enable;
   const bool both = sides_[0].beyond && sides_[1].beyond;
   const bool locked = sides_[0].locked || sides_[1].locked;
   return keeps_enable && !both && !locked ? AlarmReaction::stop_emergency : AlarmReaction::remove_enable;

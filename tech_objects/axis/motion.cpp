@@ -42,7 +42,7 @@ void Axis::begin_base_motion(Job& job) noexcept {
   absorb_superimposed();
   cut_acceleration();
   Dynamics dynamics = own_dynamics(job);
-  if (job.kind == JobKind::MC_Stop && job.mode == kStopEmergencyRamp)
+  if (job.kind == JobKind::MC_Stop && job.mode == StopMode::emergency_ramp)
     dynamics.jerk = 0.0;  // the emergency ramp has none
   if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
@@ -108,11 +108,11 @@ PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
       return single_.run_at(setpoint_, dynamics.velocity * job.direction, dynamics);
     case JobKind::MC_Stop:
       jobs_.lock(job);
-      if (job.mode == kStopEmergencyRamp) {
+      if (job.mode == StopMode::emergency_ramp) {
         ask_for_emergency_ramp();
         return single_.stop(setpoint_, limits_.emergency(), job.abort_acceleration);
       }
-      if (job.mode == kStopMaximumDynamics)
+      if (job.mode == StopMode::maximum_dynamics)
         return single_.stop(setpoint_, limits_.maximum(), job.abort_acceleration);
       [[fallthrough]];
     default:  // MC_Halt

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tech_objects/types/published.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -43,7 +45,7 @@ PositionLoop::Output PositionLoop::step(const Input& input, const PositionContro
                                         const AxisData& data) noexcept {
   Output output{.controlled = input.setpoint};
   const TO_Struct_DynamicFilter& filter = data.SetpointFilter.DynamicFilter;
-  if (filter.Mode == 1) {
+  if (filter.Mode == DynamicFilterMode::filter_and_dead_time) {
     output.filter_delay = filter_.delay(filter);
     output.controlled = filter_.step(input.setpoint, filter);
   }

@@ -6,7 +6,7 @@
 
 #include "tech_objects/arithmetic/axis_position.hpp"
 #include "tech_objects/data_blocks/data_block.hpp"
-#include "tech_objects/drive/drive.hpp"
+#include "tech_objects/drive/position_controller.hpp"
 #include "tech_objects/drive/setpoint_filter.hpp"
 #include "tech_objects/objects/extrapolation.hpp"
 

@@ -3,18 +3,9 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
-namespace {
-
-enum SensorMode : DINT {
-  kSwitchAligned,      // the actual position goes along
-  kSwitchAsItIs,       // the difference becomes a control deviation
-  kCopyFromAxis,       // no switch-over
-  kCopyFromReference,  // no switch-over
-};
-
-}  // namespace
 
 // ---- At the start, and after a restart
 // ----------------------------------------------------------------------------
@@ -67,7 +58,7 @@ void Axis::show_sensor() noexcept {
     auto& status = data.StatusSensor[i];
     status.Control = i == encoders_.operative();
     if (!status.Control && !(has_drive_ && encoders_.exists(i))) continue;
-    status.State = encoders_.valid(i) ? kSensorValid : 0;
+    status.State = encoders_.valid(i) ? SensorState::valid : SensorState::not_valid;
     status.CommunicationOK = true;
   }
   data.StatusDrive.CommunicationOK = true;
@@ -80,12 +71,12 @@ void Axis::show_place(std::size_t encoder, AxisPosition place) noexcept {
 
 /// Of an axis with encoders beside that of the drive: reads and shows them all.
 void Axis::read_encoders(DriveActual& now) noexcept {
-  encoders_.read(now, drive_.machine_position());
+  encoders_.read(now, *drive_);
   for (std::size_t i = 0; i < Encoders::kCount; ++i) {
     if (!encoders_.beside(i)) continue;
     auto& status = data.StatusSensor[i];
     encoders_.watch(i, play(), status);
-    status.State = encoders_.valid(i) ? kSensorValid : 0;
+    status.State = encoders_.valid(i) ? SensorState::valid : SensorState::not_valid;
     show_place(i, encoders_.position(i, actual_));
   }
 }
@@ -95,21 +86,23 @@ void Axis::read_encoders(DriveActual& now) noexcept {
 
 ErrorId Axis::set_sensor(DINT sensor, DINT mode, DINT reference) noexcept {
   const auto exists = [this](DINT number) { return data.Sensor[number - 1].Existent; };
-  const auto valid = [this](DINT number) { return data.StatusSensor[number - 1].State == kSensorValid; };
+  const auto valid = [this](DINT number) {
+    return data.StatusSensor[number - 1].State == SensorState::valid;
+  };
   if (!exists(sensor)) return ErrorId::sensor;
-  if (mode == kCopyFromReference && (!exists(reference) || reference == sensor))
+  if (mode == SetSensorMode::copy_from_reference && (!exists(reference) || reference == sensor))
     return ErrorId::reference_sensor;
   if (homing_now_) return ErrorId::homing_active;
-  if (!valid(sensor) || (mode == kCopyFromReference && !valid(reference)) ||
-      (mode == kCopyFromAxis && encoders_.lost()))
+  if (!valid(sensor) || (mode == SetSensorMode::copy_from_reference && !valid(reference)) ||
+      (mode == SetSensorMode::copy_from_axis && encoders_.lost()))
     return ErrorId::actual_values_invalid;
   const auto target = static_cast<std::size_t>(sensor - 1);
-  if (mode == kCopyFromAxis) {
+  if (mode == SetSensorMode::copy_from_axis) {
     place_encoder(target, actual_);
-  } else if (mode == kCopyFromReference) {
+  } else if (mode == SetSensorMode::copy_from_reference) {
     place_encoder(target, encoders_.position(static_cast<std::size_t>(reference - 1), actual_));
   } else if (target != encoders_.operative()) {
-    switch_encoder(target, mode == kSwitchAligned);
+    switch_encoder(target, mode == SetSensorMode::switch_aligned);
   }
   return ErrorId::none;
 }

@@ -3,6 +3,7 @@
 
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/profile/fine_interpolation.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -18,6 +19,7 @@ constexpr double kRounding = 1e-12;
 /// The encoder goes on from where it is, at the position that the axis has now.
 void Axis::restart_servo() noexcept {
   take_servo_settings();
+  signals_watched_ = signals_always_watched();
   backlash_ = {};
   begin_encoders(actual_);
   reset_servo({setpoint_.position, 0.0});
@@ -29,11 +31,11 @@ void Axis::take_servo_settings() noexcept {
   const bool inverted = drive_settings.inverted;
   setpoint_sign_ = data.Actor.InverseDirection != inverted ? -1.0 : 1.0;
   way_per_motor_turn_ = way_per_motor_turn();
-  motor_limit_ = data.Actor.MotorType == 1 ? data.Actor.LinearMotorDriveParameter.MaxVelocity
-                                           : data.Actor.DriveParameter.MaxSpeed / 60.0 * way_per_motor_turn_;
+  motor_limit_ = data.Actor.MotorType == MotorType::linear
+                     ? data.Actor.LinearMotorDriveParameter.MaxVelocity
+                     : data.Actor.DriveParameter.MaxSpeed / 60.0 * way_per_motor_turn_;
   encoders_.configure(data, drive_settings, has_drive_, modulo_, servo_period_);
   loop_.configure(modulo_, servo_period_);
-  signals_watched_ = signals_always_watched();
   const double highest = motor_limit_ * (1.0 + kRounding);
   if (has_drive_ && data.DynamicLimits.MaxVelocity > highest) raise(alarm::kVelocityNotReachable);
 }
@@ -41,7 +43,9 @@ void Axis::take_servo_settings() noexcept {
 void Axis::configure_servo() {
   encoders_ = {};
   take_servo_settings();
-  drive_.configure(drive_settings, servo_period_, motor_angle_per_unit());
+  drive_ = drive_model->make();
+  drive_properties_ = drive_->configure(drive_settings, servo_period_, motor_angle_per_unit());
+  signals_watched_ = signals_always_watched();
   loop_.configure_controller(control_settings());
   begin_encoders(setpoint_.position);
   reset_servo({setpoint_.position, 0.0});
@@ -63,7 +67,7 @@ double Axis::setpoint_delay() const noexcept {
 double Axis::control_delay() const noexcept {
   const auto& model = data.DynamicAxisModel;
   const double lag = model.VelocityTimeConstant + model.AdditionalPositionTimeConstant;
-  return lag > 0.0 ? drive_.transport_delay() + lag : drive_.known_delay();
+  return lag > 0.0 ? drive_properties_.transport_delay + lag : drive_properties_.known_delay;
 }
 
 PositionControlSettings Axis::control_settings() const noexcept {
@@ -71,7 +75,7 @@ PositionControlSettings Axis::control_settings() const noexcept {
           .kpc = emergency_ramp_ == EmergencyRamp::running ? kWholePrecontrol : data.PositionControl.Kpc,
           .delay = control_delay(),
           .max_velocity = motor_limit_,
-          .lead = loop_in_drive() ? drive_.dead_time() : -1.0};
+          .lead = loop_in_drive() ? drive_properties_.dead_time : -1.0};
 }
 
 /// What the axis moves in one turn of the motor, through load gear and lead screw [u].
@@ -83,19 +87,19 @@ double Axis::way_per_motor_turn() const noexcept {
     if (data.Units.VelocityUnit == kTurnsPerSecond) return load_turns;
     return load_turns * (data.Units.VelocityUnit == kTurnsPerMinute ? kSecondsPerMinute : kSecondsPerHour);
   }
-  return load_turns * (data.Properties.MotionType == 1 ? 360.0 : data.Mechanics.LeadScrew);
+  return load_turns * (data.Properties.MotionType == MotionType::rotary ? 360.0 : data.Mechanics.LeadScrew);
 }
 
 /// Of the motor in a plant [rad/u]; a linear motor moves as the axis does.
 double Axis::motor_angle_per_unit() const noexcept {
   constexpr double kTurn = 6.283185307179586;
-  return data.Actor.MotorType == 1 ? 1.0 : kTurn / way_per_motor_turn_;
+  return data.Actor.MotorType == MotorType::linear ? 1.0 : kTurn / way_per_motor_turn_;
 }
 
 /// Simulated, the axis leaves its drive alone.
 void Axis::idle_servo() noexcept {
-  encoders_.count(drive_.read().position);
-  drive_.write(0.0);
+  encoders_.count(drive_->read().position);
+  drive_->write(0.0);
 }
 
 void Axis::servo() noexcept {
@@ -111,18 +115,18 @@ void Axis::servo() noexcept {
     controlled = control_position();
   }
   if (power_state_ > PowerState::drive_stops && position_controlled_ && loop_in_drive())
-    drive_.write_position({.velocity = setpoint_sign_ * data.VelocitySetpoint,
-                           .xerr = setpoint_sign_ * controlled.xerr,
-                           .kpc = data.PositionControl.Kv,
-                           .pace = setpoint_sign_ * controlled.pace,
-                           .most = motor_limit_});
+    drive_->write_position({.velocity = setpoint_sign_ * data.VelocitySetpoint,
+                            .xerr = setpoint_sign_ * controlled.xerr,
+                            .kpc = data.PositionControl.Kv,
+                            .pace = setpoint_sign_ * controlled.pace,
+                            .most = motor_limit_});
   else
-    drive_.write(setpoint_sign_ * data.VelocitySetpoint);
+    drive_->write(setpoint_sign_ * data.VelocitySetpoint);
 }
 
 /// Actual values of this tick.
 void Axis::read_drive() noexcept {
-  DriveActual now = drive_.read();
+  DriveActual now = drive_->read();
   encoders_.count(now.position);
   if (encoders_.several()) read_encoders(now);
   if (now.trouble || drive_in_trouble_) watch_drive(now);

@@ -4,13 +4,13 @@
 namespace lockstep {
 
 bool Axis::signals_always_watched() const noexcept {
-  return data.PositionLimits_HW.Active || !drive_settings.signals.digital_inputs.empty();
+  return has_drive_ && (data.PositionLimits_HW.Active || !drive_->signals().digital_inputs.empty());
 }
 
 /// Each servo cycle, while there are signals that matter.
 /// @param position of the drive, from where it was at the beginning [u]
 void Axis::watch_signals(const DoubleDouble& position) noexcept {
-  const MachineSignals& machine = drive_settings.signals;
+  const MachineSignals& machine = drive_->signals();
   const double place = (position + machine.start_position).rounded();
   for (const DigitalInput& input : machine.digital_inputs) *input.tag = input.range.contains(place, turn());
   if (data.PositionLimits_HW.Active) {
@@ -22,7 +22,7 @@ void Axis::watch_signals(const DoubleDouble& position) noexcept {
 
 /// Whether the reference cam, or the switch at the digital input, is active.
 bool Axis::on_home_switch(double place) const noexcept {
-  return home_switch(homing_.active()).active(drive_settings.signals, place, turn());
+  return home_switch(homing_.active()).active(drive_->signals(), place, turn());
 }
 
 // ---- Hardware limit switches
@@ -32,10 +32,11 @@ bool Axis::on_home_switch(double place) const noexcept {
 /// PositionLimits_HW.Active at run time, until a restart.
 ErrorId Axis::activate_limit_switches(bool active) noexcept {
   const auto& limits = data.PositionLimits_HW;
-  const MachineSignals& machine = drive_settings.signals;
+  if (!has_drive_) return ErrorId::limit_switches_missing;
+  const MachineSignals& machine = drive_->signals();
   const bool configured = limits.MinSwitchAddress != nullptr || limits.MaxSwitchAddress != nullptr ||
                           machine.limit_min.has_value() || machine.limit_max.has_value();
-  if (!has_drive_ || !configured) return ErrorId::limit_switches_missing;
+  if (!configured) return ErrorId::limit_switches_missing;
   data.PositionLimits_HW.Active = active;
   if (!active) limit_switches_ = {};
   signals_watched_ = signals_always_watched() || homing_.searching();

@@ -25,8 +25,8 @@ void Axis::begin_gear_in(Job& job) noexcept {
 /// One that is rejected leaves what waits already.
 void Axis::begin_waiting(Job& job) noexcept {
   const Dynamics dynamics = effective_dynamics(job);
-  const int alarm_number =
-      job.mode == kProfileInTime ? limits_.zero_limit(dynamics) : 0;  // profile 0 is planned with them
+  const int alarm_number = job.mode == ProfileReference::in_time ? limits_.zero_limit(dynamics)
+                                                                 : 0;  // profile 0 is planned with them
   if (alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
@@ -204,7 +204,8 @@ void Axis::begin_shift(Job& job) noexcept {
   const bool phasing = is_phasing(job.kind);
   const bool relative = job.kind == JobKind::MC_PhasingRelative || job.kind == JobKind::MC_OffsetRelative;
   Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
-  Dynamics dynamics = phasing && job.mode == kProfileInTime ? effective_dynamics(job) : limits_.maximum();
+  Dynamics dynamics =
+      phasing && job.mode == ProfileReference::in_time ? effective_dynamics(job) : limits_.maximum();
   if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);

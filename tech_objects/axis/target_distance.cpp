@@ -34,14 +34,14 @@ double absolute_distance(const Job& job, double here, const Modulo& modulo) noex
   if (!modulo.enabled) return job.position - here;
   const double target = normalised({0, job.position}, modulo).value;
   const double shortest = shortest_distance(here, target, modulo);
-  if (job.direction == kShortestDirection || std::abs(shortest) <= same_position(modulo)) return shortest;
-  return job.direction == kPositiveDirection ? positive_distance(here, target, modulo)
-                                             : negative_distance(here, target, modulo);
+  if (job.direction == Direction::shortest || std::abs(shortest) <= same_position(modulo)) return shortest;
+  return job.direction == Direction::positive ? positive_distance(here, target, modulo)
+                                              : negative_distance(here, target, modulo);
 }
 
 DoubleDouble absolute_distance(const Job& job, const Setpoint& from, DoubleDouble beyond_target,
                                const Dynamics& dynamics, const Modulo& modulo) noexcept {
-  const bool directed = modulo.enabled && job.direction != kShortestDirection;
+  const bool directed = modulo.enabled && job.direction != Direction::shortest;
   const auto reachable = [&](double distance) noexcept {
     return directed && distance != 0.0 ? beyond_stopping_distance(distance, from, dynamics, modulo)
                                        : distance;

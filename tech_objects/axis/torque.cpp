@@ -4,6 +4,7 @@
 
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/axis/target_distance.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 
@@ -25,7 +26,7 @@ ErrorId Axis::torque_additive_refusal() const noexcept {
 }
 
 bool Axis::position_monitoring_off() const noexcept {
-  return forces_.limited() && data.TorqueLimiting.PositionBasedMonitors == 0;
+  return forces_.limited() && data.TorqueLimiting.PositionBasedMonitors == PositionBasedMonitors::deactivated;
 }
 
 /// Each interpolator cycle of an axis with a drive, before it moves.
@@ -37,8 +38,8 @@ void Axis::step_forces() noexcept {
     clamping_.leave();
   TorqueCommand command = forces_.command(data, enabled());
   if (setpoint_sign_ < 0.0) command = {{-command.band.upper, -command.band.lower}, -command.additive};
-  drive_.command_torque(command);
-  forces_.watch_limitation(actual_torque_, drive_.has_plant() && drive_running_);
+  drive_->command_torque(command);
+  forces_.watch_limitation(actual_torque_, drive_properties_.tells_torque && drive_running_);
   forces_.show(data, clamping_.holds());
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tech_objects/types/published.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -25,7 +27,7 @@ double DynamicFilter::dead_cycles(const TO_Struct_DynamicFilter& settings) const
 }
 
 double DynamicFilter::delay(const TO_Struct_DynamicFilter& settings) const noexcept {
-  if (settings.Mode != 1) return 0.0;
+  if (settings.Mode != DynamicFilterMode::filter_and_dead_time) return 0.0;
   return time_of(settings.T1) + time_of(settings.T2) + dead_cycles(settings) * servo_cycle_;
 }
 

@@ -6,15 +6,9 @@
 #include "tech_objects/data_blocks/object_bits.hpp"
 #include "tech_objects/jobs/override.hpp"
 #include "tech_objects/objects/object_alarms.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
-namespace {
-
-/// Values of StatusSensor.State.
-constexpr DINT kSensorInvalid = 0;
-constexpr DINT kSensorValid = 2;
-
-}  // namespace
 
 ExternalEncoder::ExternalEncoder(std::string object_name, DB_ANY object_number)
     : LeadingObject(ObjectKind::TO_ExternalEncoder, std::move(object_name), object_number) {}
@@ -99,7 +93,7 @@ void ExternalEncoder::fault(int alarm_number) noexcept {
   homed_ = false;
   data.StatusSensor.Adjusted = 0;
   end_passive_homing(JobPhase::failed, ErrorId::technology_alarm);
-  data.StatusSensor.State = kSensorInvalid;
+  data.StatusSensor.State = SensorState::not_valid;
   data.StatusSensor.Error = alarm_number == alarm::kEncoder;
   raise_alarm(alarm_number, ProcessingEnd::external_encoder, *this, data);
 }
@@ -128,7 +122,7 @@ void ExternalEncoder::publish() noexcept {
   data.ActualPosition = actual_.value;
   data.ActualVelocity = actual_velocity_;
   data.ActualModuloCycle = static_cast<DINT>(actual_.turns - counted_from_);
-  data.StatusSensor.State = actual_values_valid() ? kSensorValid : kSensorInvalid;
+  data.StatusSensor.State = actual_values_valid() ? SensorState::valid : SensorState::not_valid;
   data.StatusSensor.CommunicationOK = heard_;
   data.StatusSensor.Control = true;
   data.StatusSensor.Position = actual_.value;

@@ -102,7 +102,7 @@ class OneAxis {
     axis.data.Clamping = {1.5, 0.5};
     axis.data.Actor.Interface.EnableTorqueData = true;
     axis.data.PositionControl.Kv = 40.0;
-    SimulatedDriveSettings& drive = axis.drive_settings;
+    DriveSettings& drive = axis.drive_settings;
     drive.time_constant = 0.005;
     drive.quick_stop = 10000.0;
     drive.faults = {&faults_[0], &faults_[1], &faults_[2], &faults_[3]};
@@ -303,7 +303,9 @@ class OneAxis {
   }
 
   /// While it brakes a disabled axis still has a setpoint of its own.
-  bool follows_setpoint() const { return axis_.is_virtual() || axis_.drive().states().operation(); }
+  bool follows_setpoint() const {
+    return axis_.is_virtual() || bit_of(axis_.drive().words().zsw1, zsw1::kOperationEnabled);
+  }
 
   /// In every tick, also in one whose setpoint is not looked at: the motion may come down from the limit of
   /// before long after the tick in which it was lowered.

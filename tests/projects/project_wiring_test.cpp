@@ -250,7 +250,7 @@ TEST(Drive, TakesWhatItMovesAndWhatGoesWrong) {
             "plant": {"inertia": 0.5, "friction": 1, "load_torque": -2, "maximum_torque": 30,
                       "fixed_stop": {"position": -7.5, "stiffness": 400, "direction": "negative"}},
             "faults": {"drive": "f", "blocked": "g"}}}}})");
-  const SimulatedDriveSettings& drive = project.controller->axes[0]->drive_settings;
+  const DriveSettings& drive = project.controller->axes[0]->drive_settings;
   EXPECT_EQ(drive.quick_stop, 500.0);
   EXPECT_EQ(drive.plant.inertia, 0.5);
   EXPECT_EQ(drive.plant.friction, 1.0);

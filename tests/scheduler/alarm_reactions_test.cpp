@@ -153,7 +153,7 @@ TEST(AlarmReaction, RemovingTheEnableLeavesTheStopToTheDriveUntilTheAxisIsEnable
   EXPECT_GT(rig.a.data.ActualVelocity, 50.0) << "the drive is on its own ramp";
   ASSERT_TRUE(rig.run_until([&] { return rig.a.off(); }));
   EXPECT_LT(std::abs(rig.a.data.ActualVelocity), 1.0);
-  EXPECT_FALSE(rig.a.drive().states().operation());
+  EXPECT_FALSE(bit_of(rig.a.drive().words().zsw1, zsw1::kOperationEnabled));
   rig.run(100);
   rig.expect_alarm(alarm::kFollowingError, 4);
   rig.expect_service_after_reset();

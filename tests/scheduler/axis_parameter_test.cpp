@@ -65,23 +65,23 @@ TEST(FreeControlBits, StayUntilTheyAreResetOrTheAxisIsRestarted) {
   rig.words.STW2 = WORD{0x0FFF};
   rig.words.STW2BitMask = WORD{0x0021};
   EXPECT_EQ(rig.answer(rig.words), ErrorId::none);
-  EXPECT_EQ(rig.a.drive().stw1(), kControlOn | 0x0900);
-  EXPECT_EQ(rig.a.drive().stw2(), 0x0021);
+  EXPECT_EQ(rig.a.drive().words().stw1, kControlOn | 0x0900);
+  EXPECT_EQ(rig.a.drive().words().stw2, 0x0021);
   EXPECT_TRUE(rig.power.Status);
   rig.words.STW1 = WORD{0};
   rig.words.STW1BitMask = WORD{0x0100};
   rig.words.STW2BitMask = WORD{0};
   EXPECT_EQ(rig.answer(rig.words), ErrorId::none);
-  EXPECT_EQ(rig.a.drive().stw1(), kControlOn | 0x0800);
-  EXPECT_EQ(rig.a.drive().stw2(), 0x0021);
+  EXPECT_EQ(rig.a.drive().words().stw1, kControlOn | 0x0800);
+  EXPECT_EQ(rig.a.drive().words().stw2, 0x0021);
   rig.power.Enable = false;
   rig.run(100);
-  EXPECT_EQ(rig.a.drive().stw1(), kControlOff | 0x0800);
+  EXPECT_EQ(rig.a.drive().words().stw1, kControlOff | 0x0800);
   rig.reset.Restart = true;
   EXPECT_EQ(rig.answer(rig.reset), ErrorId::none);
   rig.power.Enable = true;
   rig.run(10);
-  EXPECT_EQ(rig.a.drive().stw1(), kControlOn);
+  EXPECT_EQ(rig.a.drive().words().stw1, kControlOn);
 }
 
 TEST(FreeControlBits, AreOnlyThoseThatTheAxisDoesNotUse) {

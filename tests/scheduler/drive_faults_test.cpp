@@ -314,16 +314,16 @@ TEST(EnablingInMotion, ReturnsToWhereItWasEnabled) {
 
 TEST(ControlWords, AreThoseOfTheStateOfTheAxis) {
   Failing rig;
-  EXPECT_EQ(rig.a.drive().stw1(), kControlOn);
+  EXPECT_EQ(rig.a.drive().words().stw1, kControlOn);
   brake_by(rig, 3);
-  EXPECT_EQ(rig.a.drive().stw1(), kControlCoast);
+  EXPECT_EQ(rig.a.drive().words().stw1, kControlCoast);
   rig.power.Enable = true;
   rig.run(5);
-  EXPECT_EQ(rig.a.drive().stw1(), kControlOn);
+  EXPECT_EQ(rig.a.drive().words().stw1, kControlOn);
   rig.power.StopMode = 0;
   rig.power.Enable = false;
   rig.run(2000);
-  EXPECT_EQ(rig.a.drive().stw1(), kControlOff);
+  EXPECT_EQ(rig.a.drive().words().stw1, kControlOff);
 }
 
 // ---- Backlash
@@ -358,7 +358,7 @@ TEST(SimulatedAxis, MovesWithoutItsDriveAsAVirtualOneDoes) {
   EXPECT_TRUE(rig.power.Status);
   EXPECT_TRUE(rig.run_v.InVelocity);
   EXPECT_EQ(rig.a.data.ActualPosition, rig.a.data.Position);
-  EXPECT_EQ(rig.a.drive().stw1(), kControlOff);
+  EXPECT_EQ(rig.a.drive().words().stw1, kControlOff);
   rig.drive = rig.encoder = rig.communication = true;
   rig.run(10);
   EXPECT_EQ(rig.a.pending_alarm(), 0) << "the drive does not matter";
@@ -378,7 +378,7 @@ TEST(SimulatedAxis, TakesItsDriveUpWithARestart) {
   rig.power.Enable = true;
   rig.run(20);
   EXPECT_TRUE(rig.power.Status);
-  EXPECT_EQ(rig.a.drive().stw1(), kControlOn);
+  EXPECT_EQ(rig.a.drive().words().stw1, kControlOn);
   EXPECT_NEAR(rig.a.data.ActualPosition, here, 1e-9);
 }
 

@@ -10,6 +10,7 @@
 #include "fb/power.hpp"
 #include "fb/stop.hpp"
 #include "tests/support/rig.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 namespace lockstep {
 namespace {
@@ -88,14 +89,14 @@ struct Machine : Rig {
 
   /// Whether the machine stands at a place on its own scale, which the axis does not know.
   bool stands_at(double place, double within = 1e-6) {
-    probe = {&at_probe, {place - within, place + within}};
-    slide.drive_settings.signals.digital_inputs[0] = probe;
     run(2);
-    return at_probe;
+    const DoubleDouble machine = test::simulated_drive(slide).machine_position();
+    const Modulo ring = slide.modulo();
+    const PositionRange there{place - within, place + within};
+    return there.contains((machine + slide.drive_settings.signals.start_position).rounded(),
+                          ring.enabled ? ring.length : 0.0);
   }
 
-  bool at_probe = false;
-  DigitalInput probe{&at_probe, {0.0, 0.0}};
   Axis& slide;
   MC_Power& power;
   MC_Home& home;
@@ -119,8 +120,7 @@ struct Machine : Rig {
                                    .zero_marks = ZeroMarks{3.0, 10.0},
                                    .reference_cam = PositionRange{100.0, 120.0},
                                    .limit_min = -200.0,
-                                   .limit_max = 400.0,
-                                   .digital_inputs = {probe}};
+                                   .limit_max = 400.0};
     if (configure) configure(made);
     return made;
   }

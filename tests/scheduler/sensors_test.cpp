@@ -9,6 +9,7 @@
 #include "fb/parameter.hpp"
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
+#include "tests/support/simulated_drive.hpp"
 
 namespace lockstep {
 namespace {
@@ -70,7 +71,7 @@ struct Slide : Rig {
     EXPECT_EQ(answer(move), ErrorId::none);
     run(3000);  // position control comes to its end
   }
-  double machine() const { return a.drive().machine_position().rounded(); }
+  double machine() const { return test::simulated_drive(a).machine_position().rounded(); }
   const TO_Struct_StatusSensor& status(int number) const { return a.data.StatusSensor[number - 1]; }
 
   bool fault = false;

@@ -1,11 +1,11 @@
-#include "tech_objects/drive/drive.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
+
+#include "tech_objects/drive/simulated_drive.hpp"
 
 namespace lockstep {
 namespace {
@@ -24,11 +24,10 @@ struct Loop {
   DriveActual reported{};
   PositionControlled last{};
 
-  Loop(const SimulatedDriveSettings& settings, double kv, const Modulo& ring, double kpc = 100.0)
-      : modulo(ring) {
-    drive.configure(settings, kCycle);
+  Loop(const DriveSettings& settings, double kv, const Modulo& ring, double kpc = 100.0) : modulo(ring) {
+    const DriveProperties properties = drive.configure(settings, kCycle, 1.0);
     drive.enable(true);
-    controller.configure({kv, kpc, drive.known_delay()}, kCycle);
+    controller.configure({kv, kpc, properties.known_delay}, kCycle);
     controller.reset(origin);
   }
 
@@ -55,7 +54,7 @@ struct Loop {
 
 TEST(SimulatedDrive, FollowsAVelocityStepAsAFirstOrderLag) {
   SimulatedDrive drive;
-  drive.configure({0.002, 0.0, 0.0}, kCycle);
+  drive.configure({0.002, 0.0, 0.0}, kCycle, 1.0);
   drive.enable(true);
   for (int i = 1; i <= 20; ++i) {
     drive.write(100.0);
@@ -69,7 +68,7 @@ TEST(SimulatedDrive, FollowsAVelocityStepAsAFirstOrderLag) {
 TEST(SimulatedDrive, DeadTimeShiftsTheResponseByPartsOfACycleToo) {
   for (const double dead : {0.0, 0.0004, 0.001, 0.0027, 0.1, 0.254}) {
     SimulatedDrive drive;
-    drive.configure({0.003, dead, 0.0}, kCycle);
+    drive.configure({0.003, dead, 0.0}, kCycle, 1.0);
     drive.enable(true);
     for (int i = 1; i <= 300; ++i) {
       drive.write(50.0);
@@ -82,7 +81,7 @@ TEST(SimulatedDrive, DeadTimeShiftsTheResponseByPartsOfACycleToo) {
 
 TEST(SimulatedDrive, WithoutLagItMovesByWhatIsWritten) {
   SimulatedDrive drive;
-  drive.configure({}, kCycle);
+  drive.configure({}, kCycle, 1.0);
   drive.enable(true);
   for (int i = 0; i < 1000; ++i) drive.write(8.0);
   EXPECT_EQ(drive.read().velocity, 8.0);
@@ -91,7 +90,7 @@ TEST(SimulatedDrive, WithoutLagItMovesByWhatIsWritten) {
 
 TEST(SimulatedDrive, TheEncoderReportsWholeIncrements) {
   SimulatedDrive drive;
-  drive.configure({0.0, 0.0, 0.25}, kCycle);
+  drive.configure({0.0, 0.0, 0.25}, kCycle, 1.0);
   drive.enable(true);
   for (int i = 1; i <= 2000; ++i) {
     drive.write(-33.0);
@@ -103,7 +102,7 @@ TEST(SimulatedDrive, TheEncoderReportsWholeIncrements) {
 
 TEST(SimulatedDrive, SwitchedOffItCoastsToRestAndTakesNoSetpoint) {
   SimulatedDrive drive;
-  drive.configure({0.002, 0.001, 0.0}, kCycle);
+  drive.configure({0.002, 0.001, 0.0}, kCycle, 1.0);
   drive.write(100.0);
   EXPECT_EQ(drive.read().velocity, 0.0);
   drive.enable(true);
@@ -121,12 +120,12 @@ TEST(SimulatedDrive, SwitchedOffItCoastsToRestAndTakesNoSetpoint) {
 
 TEST(SimulatedDrive, StopsAMachineThatWasHeldBackWithoutSpeedingItUpFirst) {
   bool blocked = false;
-  SimulatedDriveSettings settings;
+  DriveSettings settings;
   settings.time_constant = 0.005;
   settings.quick_stop = 1000.0;
   settings.faults.blocked = &blocked;
   SimulatedDrive drive;
-  drive.configure(settings, kCycle);
+  drive.configure(settings, kCycle, 1.0);
   drive.enable(true);
   double fastest = 0.0;
   const auto run = [&](int cycles) {

@@ -5,15 +5,15 @@
 
 #include <cmath>
 
-#include "tech_objects/drive/drive.hpp"
+#include "tech_objects/drive/simulated_drive.hpp"
 
 namespace lockstep {
 namespace {
 
 constexpr double kCycle = 0.001;
 
-SimulatedDriveSettings machine(double inertia) {
-  SimulatedDriveSettings settings;
+DriveSettings machine(double inertia) {
+  DriveSettings settings;
   settings.time_constant = 0.002;
   settings.plant.inertia = inertia;
   return settings;
@@ -24,8 +24,8 @@ struct Machine {
   SimulatedDrive drive;
   DriveActual actual;
 
-  explicit Machine(const SimulatedDriveSettings& settings) {
-    drive.configure(settings, kCycle);
+  explicit Machine(const DriveSettings& settings) {
+    drive.configure(settings, kCycle, 1.0);
     drive.enable(true);
   }
   void run(double velocity, int cycles) {
@@ -37,8 +37,8 @@ struct Machine {
 };
 
 TEST(MachinePlant, LeavesADriveWithoutLimitsAndDisturbancesToTheBitAsItIs) {
-  SimulatedDriveSettings without = machine(0.0);
-  SimulatedDriveSettings with = machine(0.25);
+  DriveSettings without = machine(0.0);
+  DriveSettings with = machine(0.25);
   Machine a(without), b(with);
   for (int i = 0; i < 2000; ++i) {
     const double setpoint = i % 300 < 150 ? 0.37 * i : -0.11 * i;
@@ -58,7 +58,7 @@ TEST(MachinePlant, TakesTheTorqueThatInertiaAndAccelerationAsk) {
 }
 
 TEST(MachinePlant, AcceleratesWithWhatTheMotorMayMake) {
-  SimulatedDriveSettings settings = machine(0.5);
+  DriveSettings settings = machine(0.5);
   settings.plant.maximum_torque = 10.0;
   Machine limited(settings);
   limited.run(1000.0, 500);
@@ -77,7 +77,7 @@ TEST(MachinePlant, KeepsToTheBandThatIsCommanded) {
 }
 
 TEST(MachinePlant, HoldsALoadAndFrictionOnceTheDriveHasLearnedThem) {
-  SimulatedDriveSettings settings = machine(0.1);
+  DriveSettings settings = machine(0.1);
   settings.plant.friction = 2.0;
   settings.plant.load_torque = -5.0;
   Machine lifting(settings);
@@ -90,7 +90,7 @@ TEST(MachinePlant, HoldsALoadAndFrictionOnceTheDriveHasLearnedThem) {
 }
 
 TEST(MachinePlant, AnAdditiveTorqueThatFitsSavesTheDriveFromLearning) {
-  SimulatedDriveSettings settings = machine(0.1);
+  DriveSettings settings = machine(0.1);
   settings.plant.load_torque = -5.0;
   Machine plain(settings), helped(settings);
   helped.drive.command_torque({{}, 5.0});
@@ -104,7 +104,7 @@ TEST(MachinePlant, AnAdditiveTorqueThatFitsSavesTheDriveFromLearning) {
 TEST(MachinePlant, AFixedStopTakesWhatTheMotorMayMake) {
   for (const int side : {1, -1})
     for (const double stiffness : {50.0, 1e4, 1e8}) {
-      SimulatedDriveSettings settings = machine(0.02);
+      DriveSettings settings = machine(0.02);
       settings.plant.has_stop = true;
       settings.plant.stop = {side * 10.0, side, stiffness};
       Machine pressing(settings);
@@ -119,7 +119,7 @@ TEST(MachinePlant, AFixedStopTakesWhatTheMotorMayMake) {
 }
 
 TEST(MachinePlant, WithoutPulsesFrictionStopsTheMachineAndABrakeHoldsIt) {
-  SimulatedDriveSettings settings = machine(0.1);
+  DriveSettings settings = machine(0.1);
   settings.plant.friction = 2.0;
   Machine coasting(settings);
   coasting.run(50.0, 2000);
@@ -137,7 +137,7 @@ TEST(MachinePlant, WithoutPulsesFrictionStopsTheMachineAndABrakeHoldsIt) {
 }
 
 TEST(MachinePlant, AQuickStopBrakesWithItsDecelerationAndTakesThePulsesAway) {
-  SimulatedDriveSettings settings = machine(0.1);
+  DriveSettings settings = machine(0.1);
   settings.quick_stop = 500.0;
   Machine stopping(settings);
   stopping.run(50.0, 200);
@@ -153,7 +153,7 @@ TEST(MachinePlant, AQuickStopBrakesWithItsDecelerationAndTakesThePulsesAway) {
 
 TEST(MachinePlant, ABlockedMachineStandsWhateverIsAsked) {
   bool blocked = false;
-  SimulatedDriveSettings settings = machine(0.0);
+  DriveSettings settings = machine(0.0);
   settings.faults.blocked = &blocked;
   Machine machine_1(settings);
   machine_1.run(50.0, 100);
@@ -170,7 +170,7 @@ TEST(MachinePlant, ABlockedMachineStandsWhateverIsAsked) {
 
 TEST(SimulatedFaults, OfTheDriveTakeItsPulsesUntilTheyAreAcknowledged) {
   bool failed = false;
-  SimulatedDriveSettings settings = machine(0.0);
+  DriveSettings settings = machine(0.0);
   settings.faults.drive = &failed;
   Machine machine_1(settings);
   machine_1.run(10.0, 50);
@@ -189,7 +189,7 @@ TEST(SimulatedFaults, OfTheDriveTakeItsPulsesUntilTheyAreAcknowledged) {
 
 TEST(SimulatedFaults, WithoutCommunicationNothingChangesButTheDriveStopsByItself) {
   bool silent = false;
-  SimulatedDriveSettings settings = machine(0.0);
+  DriveSettings settings = machine(0.0);
   settings.faults.communication = &silent;
   Machine machine_1(settings);
   machine_1.run(10.0, 50);

@@ -1,0 +1,237 @@
+#include "tech_objects/drive/simulated_drive.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "tech_objects/arithmetic/decay.hpp"
+#include "tech_objects/drive/encoder_source.hpp"
+#include "tech_objects/drive/whole_cycles.hpp"
+#include "tech_objects/types/bool_tag.hpp"
+
+namespace lockstep {
+namespace {
+
+/// A stop of the drive's own: at rest once this part of the velocity, or this velocity [u/s], is left; given
+/// up after [s].
+constexpr double kRest = 1e-3;
+constexpr double kRestVelocity = 0.01;
+constexpr double kLongestStop = 10.0;
+
+/// Steps of the drive's own position loop in a servo cycle, at most.
+constexpr int kMostSteps = 256;
+
+}  // namespace
+
+DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double servo_cycle,
+                                          double motor_angle) noexcept {
+  signals_ = settings.signals;
+  sensors_ = settings.sensors;
+  written_.fill(0.0);
+  cycle_ = 0;
+  targets_.fill({});
+  next_target_ = {};
+  loop_cycles_ = 0;
+  position_ = reported_ = {};
+  velocity_ = 0.0;
+  states_ = {};
+  told_ = {};
+  torque_ = {};
+  stw1_ = kControlOff;
+  stw2_ = 0;
+  blocked_ = false;
+  stopping_cycles_ = 0;
+  ramp_ = last_setpoint_ = stop_velocity_ = 0.0;
+  quick_stop_ = std::max(0.0, settings.quick_stop);
+  most_stop_cycles_ = kLongestStop / servo_cycle;
+  faults_ = settings.faults;
+  has_faults_ = faults_.drive != nullptr || faults_.encoder != nullptr || faults_.communication != nullptr ||
+                faults_.blocked != nullptr;
+  plant_.configure(settings.plant, motor_angle, settings.signals.start_position, settings.time_constant,
+                   servo_cycle);
+  const Cycles dead = cycles_of(settings.dead_time, servo_cycle, kDelay - 2);
+  const double time_constant = std::max(0.0, settings.time_constant);
+  servo_cycle_ = servo_cycle;
+  whole_cycles_ = dead.whole;
+  ring_ = std::bit_ceil(dead.whole + 2);
+  before_ = piece(dead.part * servo_cycle, time_constant);
+  after_ = piece((1.0 - dead.part) * servo_cycle, time_constant);
+  arrival_ = dead.part * servo_cycle;
+  const double steps = servo_cycle / std::max(settings.position_cycle, servo_cycle / kMostSteps);
+  steps_ = std::max(1, static_cast<int>(std::floor(steps + 0.5)));
+  step_ = piece(servo_cycle / steps_, time_constant);
+  resolution_ = std::max(0.0, settings.resolution);
+  const double transport_delay = (static_cast<double>(dead.whole) + dead.part + 0.5) * servo_cycle;
+  return {.known_delay = transport_delay + time_constant,
+          .transport_delay = transport_delay,
+          .dead_time = transport_delay - 0.5 * servo_cycle,
+          .tells_torque = plant_.exists()};
+}
+
+SimulatedDrive::Piece SimulatedDrive::piece(double duration, double time_constant) noexcept {
+  if (duration <= 0.0) return {};
+  const double decay = time_constant > 0.0 ? decay_within(duration / time_constant) : 1.0;
+  return {duration, {duration, 0.0}, {-time_constant * decay, decay}};
+}
+
+/// Lag v' = (u - v) / τ over a piece: v ends at v + (u - v) decay, its integral is u t + (v - u) τ decay.
+void SimulatedDrive::run(const Piece& piece, double velocity) noexcept {
+  // A sum of products, not a product of matrices: that may be fused on some processors.
+  const Eigen::Vector2d change = piece.by_setpoint * velocity + piece.by_difference * (velocity - velocity_);
+  position_ = position_ + change[0];
+  velocity_ += change[1];
+}
+
+void SimulatedDrive::write(double velocity) noexcept {
+  if (has_faults_) watch_causes();
+  if (states_.operation()) last_setpoint_ = velocity;
+  written_[kept(cycle_)] = states_.operation() ? velocity : quick_stop_setpoint();
+  const DoubleDouble position_before = position_;
+  const double velocity_before = velocity_;
+  if (loop_cycles_ > 0) {
+    run_position_loop();
+  } else {
+    // The setpoint written `whole_cycles_` ago arrives after the broken part of the dead time.
+    if (before_.duration > 0.0) run(before_, written_[kept(cycle_ - whole_cycles_ - 1)]);
+    run(after_, written_[kept(cycle_ - whole_cycles_)]);
+  }
+  ++cycle_;
+  if (plant_.exists() || blocked_) move_plant(position_before, velocity_before);
+  if (states_.stopping()) watch_stop();
+}
+
+void SimulatedDrive::write_position(const PositionCommand& command) noexcept {
+  next_target_ = {reported_ + command.xerr, command.kpc, command.pace, command.most};
+  loop_cycles_ = kDelay;
+  write(command.velocity);
+}
+
+/// The position loop of the drive: in steps of its own, with the position of each of them. Between two
+/// commands the target goes on with its own velocity, however much of that is precontrolled: one that stood
+/// would make the velocity rise and fall with each of them.
+void SimulatedDrive::run_position_loop() noexcept {
+  targets_[kept(cycle_)] = states_.operation() ? next_target_ : Target{};
+  next_target_ = {};
+  --loop_cycles_;
+  for (int i = 0; i < steps_; ++i) {
+    const double since = static_cast<double>(i) * step_.duration - arrival_;
+    const bool newer = since >= -1e-9 * servo_cycle_;
+    const std::size_t slot = kept(cycle_ - whole_cycles_ - (newer ? 0 : 1));
+    const Target& target = targets_[slot];
+    double velocity = written_[slot];
+    if (target.kpc > 0.0) {
+      const double age = newer ? since : since + servo_cycle_;
+      const double difference = (target.position - position_).rounded() + target.pace * age;
+      velocity = std::clamp(velocity + target.kpc * difference, -target.most, target.most);
+    }
+    run(step_, velocity);
+  }
+}
+
+/// Off, or on the way there: 0, or down the ramp of OFF3. That is nowhere ahead of the machine: where
+/// something has held it back, or does, the drive would speed it up in place of stopping it.
+double SimulatedDrive::quick_stop_setpoint() noexcept {
+  if (quick_stop_ <= 0.0 || states_.state() != DriveStates::State::quick_stop) return 0.0;
+  const double step = quick_stop_ * servo_cycle_;
+  ramp_ = std::clamp(ramp_, std::min(velocity_, 0.0), std::max(velocity_, 0.0));
+  ramp_ -= std::clamp(ramp_, -step, step);
+  return ramp_;
+}
+
+void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velocity_before) noexcept {
+  if (blocked_) {
+    plant_.hold(velocity_, torque_.band);
+    position_ = position_before;
+    velocity_ = 0.0;
+    return;
+  }
+  const MachinePlant::Motion wanted{(position_ - position_before).rounded(), velocity_};
+  const MachinePlant::Motion made = plant_.step({position_before.rounded(), velocity_before}, wanted,
+                                                states_.pulses(), torque_.band, torque_.additive);
+  if (made.way != wanted.way) position_ = position_before + made.way;
+  velocity_ = made.velocity;
+}
+
+/// A stop of the drive's own ends at rest; or, if something keeps the machine going, after a while.
+void SimulatedDrive::watch_stop() noexcept {
+  if (stopping_cycles_++ == 0) stop_velocity_ = std::abs(velocity_);
+  const bool rests = std::abs(velocity_) <= std::max(kRest * stop_velocity_, kRestVelocity) && ramp_ == 0.0;
+  if (!rests && stopping_cycles_ < most_stop_cycles_) return;
+  stopping_cycles_ = 0;
+  states_.stopped();
+}
+
+// ---- States and faults
+// --------------------------------------------------------------------------------------------
+
+void SimulatedDrive::control(std::uint16_t stw1, std::uint16_t stw2) noexcept {
+  if (is_on(faults_.communication)) return;
+  stw1_ = stw1;
+  stw2_ = stw2;
+  const DriveStates::State before = states_.state();
+  states_.control(stw1);
+  if (states_.stopping() && states_.state() != before) {
+    stopping_cycles_ = 0;
+    ramp_ = states_.state() == DriveStates::State::quick_stop && quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
+  }
+  if (!states_.operation() && !states_.stopping()) last_setpoint_ = 0.0;
+}
+
+/// Each servo cycle of a drive to which something can happen.
+void SimulatedDrive::watch_causes() noexcept {
+  const bool drive = is_on(faults_.drive) || is_on(faults_.encoder);
+  const bool silent = is_on(faults_.communication);
+  blocked_ = is_on(faults_.blocked);
+  states_.hold_fault(drive || silent);
+  if (drive) {
+    states_.fail(false);
+  } else if (silent && !states_.fault()) {
+    states_.fail(true);
+    stopping_cycles_ = 0;
+    ramp_ = quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
+  }
+}
+
+bool SimulatedDrive::in_trouble() const noexcept {
+  return states_.fault() || is_on(faults_.drive) || is_on(faults_.encoder) || is_on(faults_.communication);
+}
+
+DriveActual SimulatedDrive::read() noexcept {
+  if (has_faults_ && is_on(faults_.communication)) {
+    told_.silent = told_.trouble = true;
+    return told_;
+  }
+  DriveActual now{.velocity = velocity_,
+                  .enabled = states_.operation(),
+                  .torque = plant_.torque(),
+                  .fault = states_.fault(),
+                  .inhibited = states_.state() == DriveStates::State::inhibited};
+  if (has_faults_ && is_on(faults_.encoder)) {
+    now.position = told_.position;
+    now.velocity = 0.0;
+    now.encoder_failed = true;
+  } else {
+    read_encoder(now);
+  }
+  now.trouble = now.fault || now.encoder_failed;
+  if (has_faults_) told_ = now;
+  return now;
+}
+
+SensorActual SimulatedDrive::read_sensor(std::size_t sensor) noexcept {
+  const SimulatedSensor& model = sensors_[sensor - 1];
+  if (is_on(model.fault)) return {};
+  const DoubleDouble position = position_ * model.ratio;
+  return {model.resolution > 0.0 ? quantised(position, model.resolution) : position, false};
+}
+
+void SimulatedDrive::read_encoder(DriveActual& now) noexcept {
+  now.position = position_;
+  if (resolution_ > 0.0) {
+    now.position = quantised(position_, resolution_);
+    now.velocity = (now.position - reported_).rounded() / servo_cycle_;
+  }
+  reported_ = now.position;
+}
+
+}  // namespace lockstep

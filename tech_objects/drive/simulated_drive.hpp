@@ -1,0 +1,113 @@
+/// A simulated drive, and the machine that it moves.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "tech_objects/arithmetic/double_double.hpp"
+#include "tech_objects/drive/drive.hpp"
+#include "tech_objects/drive/machine_plant.hpp"
+#include "tech_objects/drive/profidrive.hpp"
+
+namespace lockstep {
+
+/// Velocity loop as dead time and first-order lag, position as its integral, both exact for a setpoint that
+/// is held from cycle to cycle; with a plant the torque that this takes, and what happens when it is not
+/// there. Switched off (without plant) it takes 0 as its setpoint and so coasts to rest. Deterministic: the
+/// only transcendental numbers are made in `configure`, by additions and multiplications.
+class SimulatedDrive final : public Drive {
+ public:
+  static constexpr std::size_t kDelay = 256;  ///< servo cycles kept
+
+  SimulatedDrive() noexcept { configure({}, 0.001, 1.0); }
+  DriveProperties configure(const DriveSettings& settings, double servo_cycle,
+                            double motor_angle) noexcept override;
+
+  DriveActual read() noexcept override;
+  void write(double velocity) noexcept override;
+  void write_position(const PositionCommand& command) noexcept override;
+  void control(std::uint16_t stw1, std::uint16_t stw2) noexcept override;
+  void command_torque(const TorqueCommand& command) noexcept override { torque_ = command; }
+
+  SensorActual read_sensor(std::size_t sensor) noexcept override;
+
+  DriveWords words() const noexcept override { return {stw1_, stw2_, states_.zsw1()}; }
+  bool in_trouble() const noexcept override;
+  const MachineSignals& signals() const noexcept override { return signals_; }
+  const DriveStates& states() const noexcept { return states_; }
+  /// [u] Where the machine truly is, on the line of the drive's encoder.
+  const DoubleDouble& machine_position() const noexcept { return position_; }
+
+ private:
+  /// A piece of a servo cycle in which the setpoint at the lag does not change: the velocity loop as a linear
+  /// system, discretized exactly. What (position, velocity) changes by is a multiple of the setpoint, and one
+  /// of what the setpoint is above the velocity.
+  struct Piece {
+    double duration = 0.0;                                    // [s]
+    Eigen::Vector2d by_setpoint = Eigen::Vector2d::Zero();    // duration, 0
+    Eigen::Vector2d by_difference = Eigen::Vector2d::Zero();  // -time constant · decay, decay
+  };
+  /// Of the position loop in the drive.
+  struct Target {
+    DoubleDouble position;  // [u]
+    double kpc = 0.0;       // [1/s]; 0: the velocity counts alone
+    double pace = 0.0;      // [u/s]
+    double most = 0.0;      // [u/s]
+  };
+  static Piece piece(double duration, double time_constant) noexcept;
+  void run(const Piece& piece, double velocity) noexcept;
+  /// Place in `written_` and `targets_` of what is written in a cycle. Only as much memory is touched as the
+  /// dead time needs.
+  std::size_t kept(std::size_t cycle) const noexcept { return cycle & (ring_ - 1); }
+  void run_position_loop() noexcept;
+  void read_encoder(DriveActual& now) noexcept;
+  double quick_stop_setpoint() noexcept;
+  void watch_causes() noexcept;
+  void move_plant(const DoubleDouble& position_before, double velocity_before) noexcept;
+  void watch_stop() noexcept;
+
+  // What every cycle touches, in lines of the cache.
+  std::size_t ring_ = 1;  // of written_, as many as are kept; a power of two
+  std::size_t cycle_ = 0;
+  std::size_t whole_cycles_ = 0;  // of dead time
+  DoubleDouble position_;
+  double velocity_ = 0.0;
+  DriveStates states_;
+  bool has_faults_ = false;
+  bool blocked_ = false;
+
+  Piece before_;  // of a cycle: with the setpoint one older
+  Piece after_;
+  double last_setpoint_ = 0.0;   // heard last [u/s]
+  std::size_t loop_cycles_ = 0;  // in which a target of the position loop may still be under way
+
+  double servo_cycle_ = 0.001;
+  double resolution_ = 0.0;
+  DoubleDouble reported_;
+  MachinePlant plant_;
+
+  std::array<double, kDelay> written_{};  // velocity setpoints, by cycle
+
+  // Seldom of account.
+  std::uint16_t stw1_ = kControlOff;
+  std::uint16_t stw2_ = 0;
+  int stopping_cycles_ = 0;     // of a stop of its own
+  double stop_velocity_ = 0.0;  // at its begin [u/s]
+  double quick_stop_ = 0.0;     // [u/s²]
+  double ramp_ = 0.0;           // setpoint of a quick stop [u/s]
+  double most_stop_cycles_ = 0.0;
+  std::array<Target, kDelay> targets_{};  // by cycle, as the velocity setpoints
+  Target next_target_;
+  int steps_ = 1;  // of the position loop in a servo cycle
+  Piece step_;
+  double arrival_ = 0.0;  // [s] of a setpoint, from the beginning of its servo cycle
+  TorqueCommand torque_;
+  SimulatedFaults faults_;
+  DriveActual told_;  // last, for a drive that falls silent
+  MachineSignals signals_;
+  std::array<SimulatedSensor, 3> sensors_{};
+};
+
+}  // namespace lockstep

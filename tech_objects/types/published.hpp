@@ -1,0 +1,75 @@
+/// Numbers that variables of the data blocks have, by what they mean. The variables themselves are of the
+/// published types, so that any number may be written to them; the declarations say what is permitted.
+/// @source S7-1500T synchronous operation V7, 13.1; S7-1500T axis functions
+#pragma once
+
+#include "tech_objects/types/types.hpp"
+
+namespace lockstep {
+
+/// Actor.MotorType.
+struct MotorType {
+  enum : DINT { rotary = 0, linear = 1 };
+};
+
+/// Properties.MotionType.
+struct MotionType {
+  enum : DINT { linear = 0, rotary = 1 };
+};
+
+/// Sensor[].Type.
+struct SensorType {
+  enum : DINT { INCREMENTAL = 0, ABSOLUTE = 1, CYCLIC_ABSOLUTE = 2 };
+};
+
+/// Sensor[].Backlash.DirectionAbsoluteHoming.
+struct BacklashDirection {
+  enum : DINT { positive = 0, negative = 1 };
+};
+
+/// StatusSensor[].State, as far as it is in use.
+struct SensorState {
+  enum : DINT { not_valid = 0, valid = 2 };
+};
+
+/// MC_SetSensor, Mode.
+struct SetSensorMode {
+  enum : DINT {
+    switch_aligned = 0,      ///< the actual position goes along
+    switch_as_it_is = 1,     ///< the difference becomes a control deviation
+    copy_from_axis = 2,      ///< no switch-over
+    copy_from_reference = 3  ///< no switch-over
+  };
+};
+
+/// TorqueLimiting.LimitBase.
+struct LimitBase {
+  enum : DINT { motor_side = 0, load_side = 1 };
+};
+
+/// TorqueLimiting.PositionBasedMonitors.
+struct PositionBasedMonitors {
+  enum : DINT { deactivated = 0, activated = 1 };
+};
+
+/// MC_TorqueLimiting, Mode.
+struct TorqueLimitingMode {
+  enum : DINT { limiting = 0, fixed_stop_detection = 1 };
+};
+
+/// PositionLimits_HW.Mode.
+struct LimitSwitchMode {
+  enum : DINT { cannot_be_overrun = 0, can_be_overrun = 1 };
+};
+
+/// PositionLimits_HW.ApproachBehavior.
+struct ApproachBehavior {
+  enum : DINT { lock_axis = 0, keep_enable = 1 };
+};
+
+/// SetpointFilter.DynamicFilter.Mode.
+struct DynamicFilterMode {
+  enum : DINT { not_effective = 0, filter_and_dead_time = 1 };
+};
+
+}  // namespace lockstep
