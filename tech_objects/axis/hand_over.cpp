@@ -7,7 +7,7 @@
 namespace lockstep {
 
 /// @param seen what following axes have seen last  @param now where the setpoint goes on from, at that tick
-void Axis::hand_over(const Setpoint& seen, const Setpoint& now) noexcept {
+void AxisOrders::hand_over(const Setpoint& seen, const Setpoint& now) noexcept {
   handing_over_ = false;
   const double way = rounded_difference(seen.position, now.position, modulo_);
   const double velocity = seen.velocity - now.velocity;
@@ -15,7 +15,7 @@ void Axis::hand_over(const Setpoint& seen, const Setpoint& now) noexcept {
   if (hand_over_.begin({{0, way}, velocity, 0.0}, hand_over_dynamics())) lead_by(seen);
 }
 
-Dynamics Axis::hand_over_dynamics() const noexcept {
+Dynamics AxisOrders::hand_over_dynamics() const noexcept {
   Dynamics dynamics = limits_.maximum();
   if (dynamics.velocity <= 0.0) dynamics.velocity = data.DynamicLimits.MaxVelocity;
   return dynamics;
@@ -23,7 +23,7 @@ Dynamics Axis::hand_over_dynamics() const noexcept {
 
 /// Position control on or off, from the last setpoint on. What has been zero to axes that follow the position
 /// comes over to the setpoint; the turns that a ring has made meanwhile nobody has seen, and nobody makes.
-void Axis::lead_with_position_control(bool on) noexcept {
+void AxisOrders::lead_with_position_control(bool on) noexcept {
   if (on == position_controlled_) return;
   position_controlled_ = on;
   if (takes_switch_back()) return;
@@ -43,7 +43,7 @@ void Axis::lead_with_position_control(bool on) noexcept {
 
 /// Switched off, the setpoint has just gone over to the actual value, or that has been given another name:
 /// what it was one tick ago nobody has seen. Without position control the velocity alone is followed.
-void Axis::hand_over_to_actual() noexcept {
+void AxisOrders::hand_over_to_actual() noexcept {
   hand_over_.take();
   const Setpoint seen = handing_over_ ? led_setpoint() : last_setpoint_;
   Setpoint now = setpoint_;
@@ -53,7 +53,7 @@ void Axis::hand_over_to_actual() noexcept {
 }
 
 /// Each tick while it lasts, after the setpoint of the tick.
-void Axis::step_hand_over() noexcept {
+void AxisOrders::step_hand_over() noexcept {
   UncontrolledLead& back = uncontrolled_;
   back.returning = back.returning && !hand_over_.returned();
   if (hand_over_.finished() && !back.returning) {

@@ -26,7 +26,7 @@ bool is_relative(const Job& job) noexcept {
 // ---- Taking a job over
 // ------------------------------------------------------------------------------------------
 
-ErrorId Axis::check_homing(const Job& job) const noexcept {
+ErrorId AxisOrders::check_homing(const Job& job) const noexcept {
   const JobClass kind = class_of(job, true);
   if (kind == JobClass::home_cancel) return ErrorId::none;
   const bool seeks = kind == JobClass::home_active || kind == JobClass::home_passive;
@@ -53,7 +53,7 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
 }
 
 /// Alarm for what active and passive homing need and do not find; 0: all is there.
-int Axis::missing_for_homing(const Job& job) const noexcept {
+int AxisOrders::missing_for_homing(const Job& job) const noexcept {
   const JobClass kind = class_of(job, true);
   const bool active = kind == JobClass::home_active;
   if (!active && kind != JobClass::home_passive) return 0;
@@ -65,13 +65,13 @@ int Axis::missing_for_homing(const Job& job) const noexcept {
   return has_mark(mark, home_switch(active), drive_->signals()) ? 0 : alarm::kHomingNotSupported;
 }
 
-HomeSwitch Axis::home_switch(bool active) const noexcept {
+HomeSwitch AxisOrders::home_switch(bool active) const noexcept {
   const auto& sensor = data.Sensor[encoders_.operative()];
   if (active) return {sensor.ActiveHoming.DigitalInputAddress, sensor.ActiveHoming.SwitchLevel};
   return {sensor.PassiveHoming.DigitalInputAddress, sensor.PassiveHoming.SwitchLevel};
 }
 
-void Axis::home(Job& job) noexcept {
+void AxisOrders::home(Job& job) noexcept {
   switch (class_of(job, true)) {
     case JobClass::home_cancel:  // the override rules have ended what it ends
       job.phase = JobPhase::done;
@@ -93,7 +93,7 @@ void Axis::home(Job& job) noexcept {
 // -----------------------------------------------------------------------
 
 /// Setpoint and actual position are shifted together; nothing moves.
-void Axis::home_directly(Job& job) noexcept {
+void AxisOrders::home_directly(Job& job) noexcept {
   if (adjusts_encoder(job) && sensor_of(job) != encoders_.operative()) return home_sensor_beside(job);
   const bool to_setpoint = job.mode == HomeMode::setpoint;
   const bool relative = is_relative(job);
@@ -120,13 +120,13 @@ void Axis::home_directly(Job& job) noexcept {
 }
 
 /// Whether the axis could still be used if it were shifted: inside the numeric range, and on its ring.
-bool Axis::positions_fit(double by) const noexcept {
+bool AxisOrders::positions_fit(double by) const noexcept {
   const double shifted = advanced(setpoint_.position, by, modulo_).value;
   return std::isfinite(by) && std::abs(shifted) <= kPositionRange && modulo_.contains(shifted);
 }
 
 /// Modes 6, 7, 13 at an encoder that is not operative: only what that one tells changes.
-void Axis::home_sensor_beside(Job& job) noexcept {
+void AxisOrders::home_sensor_beside(Job& job) noexcept {
   const std::size_t sensor = sensor_of(job);
   const AxisPosition seen = encoders_.position(sensor, actual_);
   const double by = job.mode == HomeMode::adjust_absolute_relative
@@ -142,7 +142,7 @@ void Axis::home_sensor_beside(Job& job) noexcept {
 }
 
 /// The encoder that a job is about; 0: the operative one.
-std::size_t Axis::sensor_of(const Job& job) const noexcept {
+std::size_t AxisOrders::sensor_of(const Job& job) const noexcept {
   return job.sensor > 0 ? static_cast<std::size_t>(job.sensor - 1) : encoders_.operative();
 }
 
@@ -150,7 +150,7 @@ std::size_t Axis::sensor_of(const Job& job) const noexcept {
 // -----------------------------------------------------------------------------------------
 
 /// Beside whatever moves the axis.
-void Axis::begin_passive_homing(Job& job) noexcept {
+void AxisOrders::begin_passive_homing(Job& job) noexcept {
   if (job.mode == HomeMode::passive_configured) job.position = data.Homing.HomePosition;
   if (!positions_fit(position_shift(job.position))) return job.fail(ErrorId::position);
   end_job(kPassiveHoming, JobPhase::aborted, ErrorId::none);
@@ -161,7 +161,7 @@ void Axis::begin_passive_homing(Job& job) noexcept {
     search_mark(false, passive_direction(data.Sensor[encoders_.operative()].PassiveHoming.Direction));
 }
 
-void Axis::begin_active_homing(Job& job) noexcept {
+void AxisOrders::begin_active_homing(Job& job) noexcept {
   const auto& settings = data.Sensor[encoders_.operative()].ActiveHoming;
   if (job.mode == HomeMode::active_configured) job.position = data.Homing.HomePosition;
   const double mark = job.position - settings.HomePositionOffset;
@@ -195,13 +195,13 @@ void Axis::begin_active_homing(Job& job) noexcept {
   if (!job.running()) leave_homing();
 }
 
-PlanResult Axis::plan_homing(const Job& job, const Dynamics& dynamics) noexcept {
+PlanResult AxisOrders::plan_homing(const Job& job, const Dynamics& dynamics) noexcept {
   if (!homing_.travels()) return single_.run_at(setpoint_, job.direction * dynamics.velocity, dynamics);
   return move_by(to_double_double(shortest_distance(setpoint_.position.value, job.position, modulo_)), job,
                  dynamics);
 }
 
-void Axis::search_mark(bool active, int direction) noexcept {
+void AxisOrders::search_mark(bool active, int direction) noexcept {
   const auto& sensor = data.Sensor[encoders_.operative()];
   const DINT mark = active ? sensor.ActiveHoming.Mode : sensor.PassiveHoming.Mode;
   const bool positive_side = active ? homing_.settings().positive_side : sensor.PassiveHoming.SideInput;
@@ -210,7 +210,7 @@ void Axis::search_mark(bool active, int direction) noexcept {
 }
 
 /// Each interpolator tick of a homing, before the setpoint is made.
-void Axis::step_homing() noexcept {
+void AxisOrders::step_homing() noexcept {
   Job* base = jobs_[kBase];
   const bool active = base != nullptr && base->kind == JobKind::MC_Home;
   if (active && homing_.travels()) return;
@@ -220,7 +220,7 @@ void Axis::step_homing() noexcept {
 }
 
 /// From one phase of an active homing to the next.
-void Axis::guide_active_homing(Job& job) noexcept {
+void AxisOrders::guide_active_homing(Job& job) noexcept {
   const auto mark = static_cast<HomingMark>(data.Sensor[encoders_.operative()].ActiveHoming.Mode);
   const bool at_limit_switch = homing_reverses() && limit_switches_.pressed(job.direction);
   const HomingCourse::Leg leg = homing_.guide(mark, job.direction, at_limit_switch);
@@ -230,7 +230,7 @@ void Axis::guide_active_homing(Job& job) noexcept {
   head_for(job, leg.phase, leg.direction);
 }
 
-void Axis::head_for(Job& job, HomingCourse::Phase phase, int direction) noexcept {
+void AxisOrders::head_for(Job& job, HomingCourse::Phase phase, int direction) noexcept {
   homing_.enter(phase);
   job.direction = direction;
   job.velocity = homing_.velocity();
@@ -244,13 +244,13 @@ void Axis::head_for(Job& job, HomingCourse::Phase phase, int direction) noexcept
   begin_stop(limits_.maximum(), false);
 }
 
-AxisPosition Axis::place_of_mark() const noexcept {
+AxisPosition AxisOrders::place_of_mark() const noexcept {
   const double start = drive_->signals().start_position;
   return encoders_.position_of_machine(two_difference(homing_.mark_position(), start), play());
 }
 
 /// The mark has been passed; a virtual axis has none, and takes the place where it is.
-void Axis::take_mark() noexcept {
+void AxisOrders::take_mark() noexcept {
   const AxisPosition place = has_drive_ ? place_of_mark() : actual_;
   homing_.end_search();
   Job* const passive = jobs_[kPassiveHoming];
@@ -263,7 +263,7 @@ void Axis::take_mark() noexcept {
 }
 
 /// A place gets a position, and everything is shifted by the difference; the turns are counted anew.
-bool Axis::assign_position(AxisPosition place, double position) noexcept {
+bool AxisOrders::assign_position(AxisPosition place, double position) noexcept {
   const double by = shortest_distance(place.value, position, modulo_);
   if (!positions_fit(by)) return false;
   shift_positions(by);
@@ -278,7 +278,7 @@ bool Axis::assign_position(AxisPosition place, double position) noexcept {
 }
 
 /// What leads the axis has the new names as well, so that nothing moves.
-void Axis::shift_coupling(double by) noexcept {
+void AxisOrders::shift_coupling(double by) noexcept {
   synchronous_.shift_following(by);
   if (synchronous_.cam() == nullptr || motion_ == Motion::desynchronizing) return;
   data.StatusSynchronizedMotion.SlaveOffset = synchronous_.slave_offset();
@@ -288,7 +288,7 @@ void Axis::shift_coupling(double by) noexcept {
 }
 
 /// A running homing ends, whatever the reason.
-void Axis::leave_homing() noexcept {
+void AxisOrders::leave_homing() noexcept {
   homing_.end();
   homing_now_ = false;
   signals_watched_ = signals_always_watched();
@@ -298,11 +298,11 @@ void Axis::leave_homing() noexcept {
 // --------------------------------------------------------------------------------------------------
 
 /// Way from the actual position to a home position; on a ring the shorter one.
-double Axis::position_shift(double home_position) const noexcept {
+double AxisOrders::position_shift(double home_position) const noexcept {
   return shortest_distance(actual_.value, home_position, modulo_);
 }
 
-void Axis::shift_positions(double by) noexcept {
+void AxisOrders::shift_positions(double by) noexcept {
   setpoint_.position = advanced(setpoint_.position, by, modulo_);
   last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
   superimposed_.shift_base(by, modulo_);
@@ -318,7 +318,7 @@ void Axis::shift_positions(double by) noexcept {
 
 /// What has been shown in this tick is where it was, and has other names now: the target of a running
 /// positioning, and what MC_Servo shows.
-void Axis::show_renamed() noexcept {
+void AxisOrders::show_renamed() noexcept {
   const bool positioning = motion_ == Motion::single_axis && jobs_[kBase] != nullptr &&
                            single_.aim() == SingleAxisMotion::Aim::position;
   if (positioning) show_target(single_.target());

@@ -138,7 +138,7 @@ void Axis::publish() noexcept {
   if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
 }
 
-void Axis::publish_motion() noexcept {
+void AxisOrders::publish_motion() noexcept {
   data.Position = position_controlled_ ? setpoint_.position.value : 0.0;
   data.Velocity = setpoint_.velocity;
   data.Acceleration = setpoint_.acceleration;
@@ -156,7 +156,7 @@ void Axis::publish_motion() noexcept {
 }
 
 /// Not coupled yet: the additive leading value, and the leading value that a waiting job looks at.
-void Axis::publish_awaited() noexcept {
+void AxisOrders::publish_awaited() noexcept {
   auto& status = data.StatusSynchronizedMotion;
   constexpr auto kAdditive = SynchronizedMotionBit::LeadingValueAdditiveCommand;
   status.StatusWord =
@@ -165,7 +165,7 @@ void Axis::publish_awaited() noexcept {
   show(status.EffectiveLeadingValue, awaited_.effective_leading_value());
 }
 
-void Axis::publish_synchronous() noexcept {
+void AxisOrders::publish_synchronous() noexcept {
   auto& status = data.StatusSynchronizedMotion;
   const Setpoint& function = synchronous_.function_value();
   show(status.EffectiveLeadingValue, synchronous_.effective_leading_value());
@@ -191,7 +191,7 @@ void Axis::publish_synchronous() noexcept {
 
 /// How far the axis is from where the function has it. A drive follows later; there the balanced difference
 /// tells.
-void Axis::watch_deviation() noexcept {
+void AxisOrders::watch_deviation() noexcept {
   const AxisPosition following =
       superimposed_.in_use() ? advanced(synchronous_.following_position(), superimposed_.value(), modulo_)
                              : synchronous_.following_position();
@@ -202,7 +202,7 @@ void Axis::watch_deviation() noexcept {
 }
 
 /// What changes seldom is asked in branches, which the processor foresees; what changes often, without.
-void Axis::publish_status() noexcept {
+void AxisOrders::publish_status() noexcept {
   const bool on = power_state_ == PowerState::on;
   std::uint32_t word =
       when(data.ErrorDetail.Number != 0, StatusBit::Error) | when(homed_, StatusBit::HomingDone) |
@@ -239,7 +239,7 @@ void Axis::publish_status() noexcept {
 }
 
 /// Written when it changes: a line of memory less in every cycle.
-void Axis::show_drive_state() noexcept {
+void AxisOrders::show_drive_state() noexcept {
   const bool operating = has_drive_ ? drive_running_ : power_state_ == PowerState::on;
   const bool disabled = power_state_ == PowerState::off;
   const auto shown = static_cast<std::uint8_t>(int{operating} | int{disabled} << 1);
@@ -249,7 +249,7 @@ void Axis::show_drive_state() noexcept {
   data.StatusDrive.Disabled = disabled;
 }
 
-std::uint32_t Axis::bits_when_on() const noexcept {
+std::uint32_t AxisOrders::bits_when_on() const noexcept {
   const bool idle = jobs_[kBase] == nullptr && jobs_[kWaiting] == nullptr &&
                     jobs_[kSuperimposed] == nullptr && !control_panel;
   return when(power.enable, StatusBit::Enable) | when(idle, StatusBit::Done) |

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "tech_objects/drive/position_controller.hpp"
 #include "tech_objects/drive/simulated_drive.hpp"
 
 namespace lockstep {
