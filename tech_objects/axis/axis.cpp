@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tech_objects/drive/drive_models.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 namespace {
@@ -15,7 +16,8 @@ constexpr double kRest = 0.01;
 }  // namespace
 
 Axis::Axis(ObjectKind object_kind, std::string object_name, DB_ANY object_number)
-    : LeadingObject(object_kind, std::move(object_name), object_number), drive_model(kDriveModels) {
+    : AxisOrders(object_kind, std::move(object_name), object_number) {
+  drive_model = kDriveModels;
   if (!has_position()) data.Units.VelocityUnit = kTurnsPerMinute;
 }
 
@@ -39,7 +41,7 @@ void Axis::configure(double servo_period, int ratio) {
   publish();
 }
 
-void Axis::take_start_values() noexcept {
+void AxisOrders::take_start_values() noexcept {
   const bool simulated = data.Simulation.Mode == 1 && !is_virtual();
   has_drive_ = !is_virtual() && !simulated;
   set_bit(data.StatusWord, StatusBit::AxisSimulation, simulated);
@@ -51,9 +53,6 @@ void Axis::take_start_values() noexcept {
   arrival_.configure(period_);
   blending_.configure(period_);
   hand_over_.configure(period_);
-  hand_over_.begin();
-  return_.configure(period_);
-  hand_over_due_ = false;
   emergency_ramp_ = EmergencyRamp::none;
   const double tolerance = data.Synchronization.MasterReversionTolerance;
   synchronous_.configure(modulo_, period_, tolerance, additive_);
@@ -64,7 +63,7 @@ void Axis::take_start_values() noexcept {
 // ---- Power
 // ------------------------------------------------------------------------------------------------------
 
-void Axis::step_power() noexcept {
+void AxisOrders::step_power() noexcept {
   switch (power_state_) {
     case PowerState::off:
       if (power.enable && !enable_removed_) switch_on();
@@ -90,7 +89,7 @@ void Axis::step_power() noexcept {
   }
 }
 
-void Axis::switch_on() noexcept {
+void AxisOrders::switch_on() noexcept {
   if (has_drive_) {
     control_drive(kControlOff);  // a drive that has stopped by itself wants to be told
     control_drive(kControlOn);
@@ -102,12 +101,13 @@ void Axis::switch_on() noexcept {
 
 /// The position at this moment becomes the setpoint. A moving axis brakes with maximum dynamics and returns
 /// to it.
-void Axis::take_up_motion() noexcept {
+void AxisOrders::take_up_motion() noexcept {
   const Setpoint seen = led_setpoint();
-  const bool controlled = power.start_mode == 1 && has_position();
+  const bool controlled = power.start_mode == StartMode::position_control && has_position();
   power_state_ = PowerState::on;
   motion_ = Motion::single_axis;
-  const bool at_once = power.start_mode == 0 || data.PositionControl.VelocityModePowerOn == 1;
+  const bool at_once = power.start_mode == StartMode::without_position_control ||
+                       data.PositionControl.VelocityModePowerOn == 1;
   const bool ramps = moving(actual_velocity_) && !at_once;
   if (has_drive_) setpoint_ = {actual_, ramps ? actual_velocity_ : 0.0, 0.0};
   const AxisPosition here = setpoint_.position;
@@ -123,26 +123,26 @@ void Axis::take_up_motion() noexcept {
   lead_with_position_control(controlled);
 }
 
-void Axis::begin_braking(INT stop_mode) noexcept {
+void AxisOrders::begin_braking(INT stop_mode) noexcept {
   end_all_jobs(JobPhase::aborted, ErrorId::none);
-  if (has_drive_ && (stop_mode == 1 || stop_mode == 3)) {
-    const bool stops = stop_mode == 1 && power_state_ != PowerState::switching_on;
+  if (has_drive_ && (stop_mode == PowerStopMode::quick_stop || stop_mode == PowerStopMode::coast_down)) {
+    const bool stops = stop_mode == PowerStopMode::quick_stop && power_state_ != PowerState::switching_on;
     switch_off();
-    control_drive(stop_mode == 1 ? kControlQuickStop : kControlCoast);
+    control_drive(stop_mode == PowerStopMode::quick_stop ? kControlQuickStop : kControlCoast);
     if (stops) power_state_ = PowerState::drive_stops;
     return;
   }
   power_state_ = PowerState::braking;
-  begin_stop(stop_mode == 2 ? limits_.maximum() : limits_.emergency(), false);
-  if (stop_mode != 2) ask_for_emergency_ramp();
+  begin_stop(stop_mode == PowerStopMode::maximum_dynamics ? limits_.maximum() : limits_.emergency(), false);
+  if (stop_mode != PowerStopMode::maximum_dynamics) ask_for_emergency_ramp();
 }
 
-void Axis::switch_off() noexcept {
+void AxisOrders::switch_off() noexcept {
   absorb_superimposed();
   leave_synchronous();
   if (has_drive_) control_drive(kControlOff);
   power_state_ = PowerState::off;
-  hand_over_due_ |= has_drive_ && motion_ != Motion::none;
+  hand_over_.make_due(has_drive_ && motion_ != Motion::none);
   motion_ = Motion::none;
   if (!has_drive_) setpoint_.velocity = 0.0;
   setpoint_.acceleration = 0.0;
@@ -151,17 +151,17 @@ void Axis::switch_off() noexcept {
 
 /// Switched off, the setpoint tracks the actual value. Its velocity fades to none far below the threshold of
 /// the standstill signal, without a step.
-void Axis::follow_actual() noexcept {
+void AxisOrders::follow_actual() noexcept {
   if (!has_drive_) return;
   const double speed = std::abs(actual_velocity_);
   const double faded = std::max(2.0 * speed - kRest * data.StandstillSignal.VelocityThreshold, 0.0);
   setpoint_ = {actual_, std::copysign(std::min(speed, faded), actual_velocity_), 0.0};
-  if (hand_over_due_) hand_over_to_actual();
+  if (hand_over_.due()) hand_over_to_actual();
 }
 
 /// Taken up anew, position control begins where the axis is: with the setpoint ahead by what the drive is
 /// late.
-void Axis::set_position_control(bool on) noexcept {
+void AxisOrders::set_position_control(bool on) noexcept {
   if (!has_position()) return;
   if (on && !position_controlled_ && !control_switched_ && has_drive_) {
     setpoint_.position = advanced(actual_, actual_velocity_ * setpoint_delay(), modulo_);
@@ -174,12 +174,12 @@ void Axis::set_position_control(bool on) noexcept {
 // ---- Alarms
 // -----------------------------------------------------------------------------------------------------
 
-void Axis::raise(int alarm_number) noexcept {
+void AxisOrders::raise(int alarm_number) noexcept {
   raise(alarm_number, static_cast<AlarmReaction>(find_alarm(alarm_number)->reaction));
 }
 
 /// For alarms whose reaction is a matter of configuration.
-void Axis::raise(int alarm_number, AlarmReaction reaction) noexcept {
+void AxisOrders::raise(int alarm_number, AlarmReaction reaction) noexcept {
   const Alarm* alarm = find_alarm(alarm_number);
   alarm_notes.raised(alarm_number, static_cast<int>(reaction));
   if (reaction == AlarmReaction::none) {
@@ -195,7 +195,7 @@ void Axis::raise(int alarm_number, AlarmReaction reaction) noexcept {
   react(reaction);
 }
 
-void Axis::react(AlarmReaction reaction) noexcept {
+void AxisOrders::react(AlarmReaction reaction) noexcept {
   Dynamics dynamics = limits_.maximum();
   if (reaction == AlarmReaction::stop_current) dynamics = single_.dynamics();
   if (reaction == AlarmReaction::stop_emergency) dynamics = limits_.emergency();
@@ -207,7 +207,7 @@ void Axis::react(AlarmReaction reaction) noexcept {
     enable_removed_ = true;
     if (power_state_ == PowerState::off) return;
     // The drive stops by its own ramp; a virtual axis, which has none, takes the emergency ramp.
-    begin_braking(1);
+    begin_braking(PowerStopMode::quick_stop);
     return;
   }
   if (power_state_ != PowerState::on) return;
@@ -215,7 +215,7 @@ void Axis::react(AlarmReaction reaction) noexcept {
   if (reaction == AlarmReaction::stop_emergency) ask_for_emergency_ramp();
 }
 
-ErrorId Axis::reset(bool restart) noexcept {
+ErrorId AxisOrders::reset(bool restart) noexcept {
   // An alarm may have removed the enable; while MC_Power still asks for it the axis is not disabled.
   if (restart && (power.enable || power_state_ != PowerState::off)) {
     raise(alarm::kRestartNotCarriedOut);
@@ -232,7 +232,7 @@ ErrorId Axis::reset(bool restart) noexcept {
 }
 
 /// The start values count from now on. The axis is where it was, on a ring of its own perhaps.
-void Axis::restart() noexcept {
+void AxisOrders::restart() noexcept {
   end_all_jobs(JobPhase::aborted, ErrorId::none);
   jobs_.unlock();
   end_simulated_gear(JobPhase::aborted, ErrorId::none);
@@ -303,7 +303,7 @@ void Axis::step() noexcept {
 }
 
 /// The base motion: of the axis' own, or led by another axis.
-void Axis::step_base() noexcept {
+void AxisOrders::step_base() noexcept {
   if (homing_now_) step_homing();
   switch (motion_) {
     case Motion::none:
@@ -324,7 +324,7 @@ void Axis::step_base() noexcept {
 }
 
 /// Last look at the setpoint before anyone sees it: finite, and within the range of positions.
-void Axis::guard() noexcept {
+void AxisOrders::guard() noexcept {
   const bool finite = std::isfinite(setpoint_.position.value) && std::isfinite(setpoint_.velocity) &&
                       std::isfinite(setpoint_.acceleration);
   if (finite && far_from_end_of_range()) return;

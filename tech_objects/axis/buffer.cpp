@@ -17,7 +17,7 @@ bool positions(const Job& job) noexcept {
 
 /// Whether the job waits, or has been refused; false: nothing runs that it could wait for, and it starts at
 /// once.
-bool Axis::buffer(Job& job) noexcept {
+bool AxisOrders::buffer(Job& job) noexcept {
   const Job* base = jobs_[kBase];
   if (base == nullptr && !simulating()) return false;
   const bool own = base != nullptr && motion_ == Motion::single_axis && !leaves(base->kind);
@@ -38,7 +38,7 @@ bool Axis::buffer(Job& job) noexcept {
 }
 
 /// Each tick in which a job waits: the one before it may have ended, or have passed its target on the way.
-void Axis::watch_buffered() noexcept {
+void AxisOrders::watch_buffered() noexcept {
   Job* base = jobs_[kBase];
   if (base != nullptr) {
     const bool passed = single_.finished() && single_.aim() == SingleAxisMotion::Aim::position &&
@@ -63,7 +63,7 @@ void Axis::watch_buffered() noexcept {
 // ---------------------------------------------------------------------------------------------------
 
 /// The running positioning passes its target with the velocity that the mode of the next job asks for.
-void Axis::plan_blending() noexcept {
+void AxisOrders::plan_blending() noexcept {
   const Job& base = *jobs_[kBase];
   const bool under_way =
       positions(base) && !single_.finished() && single_.aim() == SingleAxisMotion::Aim::position;
@@ -74,13 +74,13 @@ void Axis::plan_blending() noexcept {
     speed_up_for_junction();
 }
 
-void Axis::speed_up_for_junction() noexcept {
+void AxisOrders::speed_up_for_junction() noexcept {
   if (!blending_.due_to_speed_up(single_, base_setpoint(), modulo_)) return;
   blending_.speed_up(single_, base_setpoint(), motion_after_target(*jobs_[kBuffered]), modulo_);
 }
 
 /// What the next motion is like, seen from the target of the running one.
-NextMotion Axis::motion_after_target(const Job& job) noexcept {
+NextMotion AxisOrders::motion_after_target(const Job& job) noexcept {
   NextMotion next{.distance = 0.0, .endless = false, .dynamics = effective_dynamics(job)};
   switch (job.kind) {
     case JobKind::MC_MoveAbsolute:

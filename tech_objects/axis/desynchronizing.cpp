@@ -4,11 +4,10 @@
 
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/jobs/function_state.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 namespace {
-
-constexpr DINT kOverDistance = 1;  // SyncProfileReference
 
 /// Turns by which a position has to be moved to lie next to a place.
 std::int64_t turns_between(AxisPosition position, AxisPosition place, const Modulo& modulo) noexcept {
@@ -24,7 +23,7 @@ std::int64_t turns_between(AxisPosition position, AxisPosition place, const Modu
 // -------------------------------------------------------------------------------------------------
 
 /// What waits has been cancelled by the override rules; an active gear (cam) is left when the start is met.
-void Axis::begin_sync_out(Job& job) noexcept {
+void AxisOrders::begin_sync_out(Job& job) noexcept {
   const Job* base = jobs_[kBase];
   const bool follows = base != nullptr && led() && of_cam(base->kind) == of_cam(job.kind);
   if (job.mode == kCancelWaiting || !follows) {
@@ -38,14 +37,14 @@ void Axis::begin_sync_out(Job& job) noexcept {
 
 /// Each tick while desynchronizing waits; true if it has begun and the setpoint is made. It looks at where
 /// the axis is with all that is superimposed.
-bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
+bool AxisOrders::watch_sync_out(const Setpoint& candidate) noexcept {
   Job& job = *jobs_[kWaitingOut];
   Dynamics dynamics = effective_dynamics(job);
   const double target = normalised({0, job.position}, modulo_).value;
   const bool there = candidate.standing() && last_setpoint_.standing() && candidate.position.value == target;
   Setpoint from = last_setpoint_;
   Setpoint to = candidate;
-  if (job.mode != kOverDistance) {  // begins as the axis' own motions do
+  if (job.mode != ProfileReference::over_distance) {  // begins as the axis' own motions do
     if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
       raise(alarm_number);  // the stop begins at the last setpoint that followed
       step_single_axis();
@@ -74,8 +73,8 @@ bool Axis::watch_sync_out(const Setpoint& candidate) noexcept {
 }
 
 /// From the setpoint of the last tick: over the leading distance, or with the dynamics of the job.
-void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
-  if (job.mode == kOverDistance) {
+void AxisOrders::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
+  if (job.mode == ProfileReference::over_distance) {
     synchronous_.begin_sync_out(setpoint_);
     motion_ = Motion::desynchronizing;
     auto& status = data.StatusSynchronizedMotion;
@@ -99,7 +98,7 @@ void Axis::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
 }
 
 /// The following axis has come to rest at its stop position.
-void Axis::end_desynchronizing() noexcept {
+void AxisOrders::end_desynchronizing() noexcept {
   leave_synchronous();
   data.StatusSynchronizedMotion.FunctionState = function_state(jobs_[kBase]->kind);
   setpoint_.velocity = 0.0;
@@ -110,7 +109,7 @@ void Axis::end_desynchronizing() noexcept {
 // ---- MC_SynchronizedMotionSimulation
 // ----------------------------------------------------------------------------
 
-void Axis::watch_simulation() noexcept {
+void AxisOrders::watch_simulation() noexcept {
   SimulationRequest& request = simulation_request;
   request.error = ErrorId::none;
   if (request.enable && !simulating()) begin_simulation();
@@ -124,7 +123,7 @@ void Axis::watch_simulation() noexcept {
 }
 
 /// A cam that is passed again and again shows its ends in simulation as well.
-void Axis::show_passes() noexcept {
+void AxisOrders::show_passes() noexcept {
   if (!synchronous_.at_cam_end() || synchronous_.passed_once()) return;
   ++simulated_->ends;
   synchronous_.clear_cam_end();
@@ -132,13 +131,13 @@ void Axis::show_passes() noexcept {
 
 /// Whether a setpoint of the coupling stands; one that follows measured values does within the standstill
 /// signal.
-bool Axis::coupling_stands(const Setpoint& setpoint) const noexcept {
+bool AxisOrders::coupling_stands(const Setpoint& setpoint) const noexcept {
   return setpoint.standing() || (synchronous_.follows_actual_value() && !moving(setpoint.velocity));
 }
 
 /// The gear goes on without the axis: only while it is synchronous and the leading axis stands. The axis has
 /// to stand as well: it may still brake with the last tick, or be shifted by an offset.
-void Axis::begin_simulation() noexcept {
+void AxisOrders::begin_simulation() noexcept {
   const bool leading_stands = led() && synchronous_.leading_object()->leading_value_stands();
   if (motion_ != Motion::synchronous || !leading_stands || !coupling_stands(base_setpoint())) {
     simulation_request.error = ErrorId::no_synchronous_operation;
@@ -154,7 +153,7 @@ void Axis::begin_simulation() noexcept {
 /// What forbids that the setpoints of the coupling count again. They have to agree with those of the axis:
 /// both stand, at the same place. On a ring the turns that one of them has made meanwhile do not count, and a
 /// velocity gear has no place.
-ErrorId Axis::check_end_of_simulation() const noexcept {
+ErrorId AxisOrders::check_end_of_simulation() const noexcept {
   if (!enabled() || jobs_.locked()) return ErrorId::locked;
   const Setpoint own = base_setpoint();
   if (!own.standing() || !coupling_stands(ghost_)) return ErrorId::position;
@@ -166,7 +165,7 @@ ErrorId Axis::check_end_of_simulation() const noexcept {
 }
 
 /// The setpoints of the coupling count again, with its position control.
-void Axis::end_simulation() noexcept {
+void AxisOrders::end_simulation() noexcept {
   simulation_request.error = check_end_of_simulation();
   if (simulation_request.error != ErrorId::none) return;
   end_job(kBase, JobPhase::aborted, ErrorId::none);
@@ -177,7 +176,7 @@ void Axis::end_simulation() noexcept {
   motion_ = Motion::synchronous;
 }
 
-void Axis::end_simulated_gear(JobPhase phase, ErrorId error) noexcept {
+void AxisOrders::end_simulated_gear(JobPhase phase, ErrorId error) noexcept {
   if (simulated_ == nullptr) return;
   simulated_->phase = phase;
   simulated_->error = error;

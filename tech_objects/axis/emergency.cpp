@@ -15,12 +15,12 @@ constexpr double kRounding = 1e-12;
 
 /// The stop that has just been planned, from the setpoint, is to begin where the axis is. That is done in the
 /// next step, with the actual values of that tick. A virtual axis is where its setpoint is.
-void Axis::ask_for_emergency_ramp() noexcept {
+void AxisOrders::ask_for_emergency_ramp() noexcept {
   emergency_ramp_ = has_drive_ ? EmergencyRamp::due : EmergencyRamp::none;
 }
 
 /// Each step while such a ramp is asked for or under way, before the setpoint goes on.
-void Axis::step_emergency_ramp() noexcept {
+void AxisOrders::step_emergency_ramp() noexcept {
   if (emergency_ramp_ == EmergencyRamp::due) return brake_from_actual();
   if (motion_ != Motion::single_axis || setpoint_.standing()) emergency_ramp_ = EmergencyRamp::none;
 }
@@ -28,7 +28,7 @@ void Axis::step_emergency_ramp() noexcept {
 /// The setpoint becomes the actual state and brakes from there; no following error is worked off any more. At
 /// a fixed stop it stays: what holds the part is the following error. An axis that rests in its positioning
 /// window has nothing to brake.
-void Axis::brake_from_actual() noexcept {
+void AxisOrders::brake_from_actual() noexcept {
   emergency_ramp_ = EmergencyRamp::none;
   const bool stops = motion_ == Motion::single_axis && single_.aim() == SingleAxisMotion::Aim::stand;
   if (!stops || encoders_.lost() || clamping_.found()) return;
@@ -49,7 +49,7 @@ void Axis::brake_from_actual() noexcept {
 
 /// Under position control ahead by what filter and drive are late: there the drive still runs on to. One that
 /// brakes already is told of no higher velocity than it has been.
-void Axis::take_actual_state(double commanded) noexcept {
+void AxisOrders::take_actual_state(double commanded) noexcept {
   const Setpoint before = setpoint_;
   const double velocity = std::clamp(actual_velocity_, std::min(commanded, 0.0), std::max(commanded, 0.0));
   setpoint_ = {before.position, velocity, 0.0};
@@ -63,7 +63,7 @@ void Axis::take_actual_state(double commanded) noexcept {
 
 /// Where the setpoint could stop in front of a software limit switch, so can the actual state, though it may
 /// be a little ahead or faster: what is missing remains as following error.
-void Axis::stay_within_limits(const Setpoint& before) noexcept {
+void AxisOrders::stay_within_limits(const Setpoint& before) noexcept {
   const double deceleration = std::max(limits_.maximum().deceleration, limits_.emergency().deceleration);
   const auto room = [&](const Setpoint& from, int side, double limit) {
     const double v = std::max(side * from.velocity, 0.0);
@@ -83,7 +83,7 @@ void Axis::stay_within_limits(const Setpoint& before) noexcept {
 // --------------------------------------------------------------------------------------------------
 
 /// What the drive has been told last, by axis and position loop together [u/s].
-double Axis::commanded_velocity() const noexcept {
+double AxisOrders::commanded_velocity() const noexcept {
   if (!position_controlled_ || !loop_in_drive()) return data.VelocitySetpoint;
   return data.VelocitySetpoint + data.PositionControl.Kv * data.StatusServo.ControlDifference;
 }

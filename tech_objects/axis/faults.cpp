@@ -13,7 +13,7 @@ constexpr std::uint16_t kFreeBits2 = 0x0FFF;
 }  // namespace
 
 /// Each servo cycle in which the drive reports something wrong, and the one in which that ends.
-void Axis::watch_drive(const DriveActual& now) noexcept {
+void AxisOrders::watch_drive(const DriveActual& now) noexcept {
   drive_in_trouble_ = now.trouble;
   data.StatusDrive.Error = now.fault;
   data.StatusDrive.CommunicationOK = !now.silent && !now.fault;
@@ -25,14 +25,14 @@ void Axis::watch_drive(const DriveActual& now) noexcept {
 }
 
 /// A fault of the drive matters once the axis is, or is to be, enabled.
-void Axis::raise_drive_alarms(const DriveActual& now) noexcept {
+void AxisOrders::raise_drive_alarms(const DriveActual& now) noexcept {
   if (now.silent) return raise(alarm::kCommunication);
   if (now.encoder_failed) raise(alarm::kEncoder);
   if (now.fault && (power.enable || power_state_ != PowerState::off)) raise(alarm::kDriveFault);
 }
 
 /// Actual values do not count until the alarm has been acknowledged.
-void Axis::lose_sensor() noexcept {
+void AxisOrders::lose_sensor() noexcept {
   if (encoders_.lost()) return;
   encoders_.lose();
   data.StatusSensor[encoders_.operative()].State = SensorState::not_valid;
@@ -41,14 +41,14 @@ void Axis::lose_sensor() noexcept {
 }
 
 /// The axis goes on from where it was seen last; an absolute encoder knows better.
-void Axis::regain_sensor() noexcept {
+void AxisOrders::regain_sensor() noexcept {
   data.StatusSensor[encoders_.operative()].State = SensorState::valid;
   encoders_.count(drive_->read().position);
   encoders_.regain(actual_, play());
 }
 
 /// MC_Reset at the drive. What is still wrong is told again at once.
-void Axis::acknowledge_drive() noexcept {
+void AxisOrders::acknowledge_drive() noexcept {
   const std::uint16_t off = power_state_ == PowerState::on ? kControlOn : kControlOff;
   control_drive(off);
   control_drive(off | bit_mask(stw1::kAcknowledgeFault));
@@ -59,7 +59,7 @@ void Axis::acknowledge_drive() noexcept {
   watch_drive(now);
 }
 
-void Axis::control_drive(std::uint16_t stw1) noexcept {
+void AxisOrders::control_drive(std::uint16_t stw1) noexcept {
   const std::uint16_t free = free_bits_.stw1;
   drive_->control(static_cast<std::uint16_t>(stw1 | free), free_bits_.stw2);
   sent_stw1_ = stw1;

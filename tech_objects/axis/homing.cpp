@@ -3,20 +3,22 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/jobs/modes.hpp"
 #include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
 
-bool mode_is(const Job& job, std::initializer_list<DINT> modes) noexcept {
-  for (const DINT mode : modes)
-    if (job.mode == mode) return true;
-  return false;
-}
-
 /// Modes that adjust an encoder: relative and absolute, incremental encoder.
 bool adjusts_encoder(const Job& job) noexcept {
-  return mode_is(job, {6, 7, 13});
+  return job.mode == HomeMode::adjust_absolute_relative || job.mode == HomeMode::adjust_absolute ||
+         job.mode == HomeMode::adjust_incremental;
+}
+
+/// Modes whose position is a distance from where the axis is.
+bool is_relative(const Job& job) noexcept {
+  return job.mode == HomeMode::direct_relative || job.mode == HomeMode::adjust_absolute_relative ||
+         job.mode == HomeMode::setpoint_relative;
 }
 
 }  // namespace
@@ -24,18 +26,19 @@ bool adjusts_encoder(const Job& job) noexcept {
 // ---- Taking a job over
 // ------------------------------------------------------------------------------------------
 
-ErrorId Axis::check_homing(const Job& job) const noexcept {
+ErrorId AxisOrders::check_homing(const Job& job) const noexcept {
   const JobClass kind = class_of(job, true);
   if (kind == JobClass::home_cancel) return ErrorId::none;
   const bool seeks = kind == JobClass::home_active || kind == JobClass::home_passive;
-  if ((seeks || job.mode == 13) && pending_alarm() != 0) return ErrorId::technology_alarm;
+  if ((seeks || job.mode == HomeMode::adjust_incremental) && pending_alarm() != 0)
+    return ErrorId::technology_alarm;
   if (seeks && (!enabled() || jobs_.locked())) return ErrorId::locked;
   if (adjusts_encoder(job)) {
     const std::size_t sensor = sensor_of(job);
     if (!data.Sensor[sensor].Existent) return ErrorId::sensor;
     const bool absolute = data.Sensor[sensor].Type != SensorType::INCREMENTAL;
-    if (job.mode == 13 && absolute) return ErrorId::homing_mode_absolute;
-    if (job.mode != 13 && !absolute) return ErrorId::homing_mode_incremental;
+    if (job.mode == HomeMode::adjust_incremental && absolute) return ErrorId::homing_mode_absolute;
+    if (job.mode != HomeMode::adjust_incremental && !absolute) return ErrorId::homing_mode_incremental;
     if (data.StatusSensor[sensor].State != SensorState::valid) return ErrorId::actual_values_invalid;
   }
   const Job* base = jobs_[kBase];
@@ -50,7 +53,7 @@ ErrorId Axis::check_homing(const Job& job) const noexcept {
 }
 
 /// Alarm for what active and passive homing need and do not find; 0: all is there.
-int Axis::missing_for_homing(const Job& job) const noexcept {
+int AxisOrders::missing_for_homing(const Job& job) const noexcept {
   const JobClass kind = class_of(job, true);
   const bool active = kind == JobClass::home_active;
   if (!active && kind != JobClass::home_passive) return 0;
@@ -62,13 +65,13 @@ int Axis::missing_for_homing(const Job& job) const noexcept {
   return has_mark(mark, home_switch(active), drive_->signals()) ? 0 : alarm::kHomingNotSupported;
 }
 
-HomeSwitch Axis::home_switch(bool active) const noexcept {
+HomeSwitch AxisOrders::home_switch(bool active) const noexcept {
   const auto& sensor = data.Sensor[encoders_.operative()];
   if (active) return {sensor.ActiveHoming.DigitalInputAddress, sensor.ActiveHoming.SwitchLevel};
   return {sensor.PassiveHoming.DigitalInputAddress, sensor.PassiveHoming.SwitchLevel};
 }
 
-void Axis::home(Job& job) noexcept {
+void AxisOrders::home(Job& job) noexcept {
   switch (class_of(job, true)) {
     case JobClass::home_cancel:  // the override rules have ended what it ends
       job.phase = JobPhase::done;
@@ -90,10 +93,10 @@ void Axis::home(Job& job) noexcept {
 // -----------------------------------------------------------------------
 
 /// Setpoint and actual position are shifted together; nothing moves.
-void Axis::home_directly(Job& job) noexcept {
+void AxisOrders::home_directly(Job& job) noexcept {
   if (adjusts_encoder(job) && sensor_of(job) != encoders_.operative()) return home_sensor_beside(job);
-  const bool to_setpoint = job.mode == 11;
-  const bool relative = mode_is(job, {1, 6, 12});
+  const bool to_setpoint = job.mode == HomeMode::setpoint;
+  const bool relative = is_relative(job);
   const double by = relative      ? job.position
                     : to_setpoint ? shortest_distance(setpoint_.position.value, job.position, modulo_)
                                   : position_shift(job.position);
@@ -108,7 +111,7 @@ void Axis::home_directly(Job& job) noexcept {
     if (setpoint_.standing() && motion_ == Motion::single_axis && idle) single_.stand(setpoint_);
     if (!has_drive_) actual_ = setpoint_.position;
   }
-  if (job.mode == 7) counted_from_ = actual_.turns;
+  if (job.mode == HomeMode::adjust_absolute) counted_from_ = actual_.turns;
   show_renamed();
   if (adjusts_encoder(job)) adjust_encoder(encoders_.operative(), true);
   homed_ = true;
@@ -117,27 +120,29 @@ void Axis::home_directly(Job& job) noexcept {
 }
 
 /// Whether the axis could still be used if it were shifted: inside the numeric range, and on its ring.
-bool Axis::positions_fit(double by) const noexcept {
+bool AxisOrders::positions_fit(double by) const noexcept {
   const double shifted = advanced(setpoint_.position, by, modulo_).value;
   return std::isfinite(by) && std::abs(shifted) <= kPositionRange && modulo_.contains(shifted);
 }
 
 /// Modes 6, 7, 13 at an encoder that is not operative: only what that one tells changes.
-void Axis::home_sensor_beside(Job& job) noexcept {
+void AxisOrders::home_sensor_beside(Job& job) noexcept {
   const std::size_t sensor = sensor_of(job);
   const AxisPosition seen = encoders_.position(sensor, actual_);
-  const double by = job.mode == 6 ? job.position : shortest_distance(seen.value, job.position, modulo_);
+  const double by = job.mode == HomeMode::adjust_absolute_relative
+                        ? job.position
+                        : shortest_distance(seen.value, job.position, modulo_);
   const AxisPosition renamed = advanced(seen, by, modulo_);
   if (!std::isfinite(by) || !modulo_.contains(renamed.value)) return job.fail(ErrorId::position);
   encoders_.rename(sensor, by);
   show_place(sensor, renamed);
   adjust_encoder(sensor, true);
-  job.mark_position = job.mode == 6 ? renamed.value : job.position;
+  job.mark_position = job.mode == HomeMode::adjust_absolute_relative ? renamed.value : job.position;
   job.phase = JobPhase::done;
 }
 
 /// The encoder that a job is about; 0: the operative one.
-std::size_t Axis::sensor_of(const Job& job) const noexcept {
+std::size_t AxisOrders::sensor_of(const Job& job) const noexcept {
   return job.sensor > 0 ? static_cast<std::size_t>(job.sensor - 1) : encoders_.operative();
 }
 
@@ -145,20 +150,20 @@ std::size_t Axis::sensor_of(const Job& job) const noexcept {
 // -----------------------------------------------------------------------------------------
 
 /// Beside whatever moves the axis.
-void Axis::begin_passive_homing(Job& job) noexcept {
-  if (job.mode == 10) job.position = data.Homing.HomePosition;
+void AxisOrders::begin_passive_homing(Job& job) noexcept {
+  if (job.mode == HomeMode::passive_configured) job.position = data.Homing.HomePosition;
   if (!positions_fit(position_shift(job.position))) return job.fail(ErrorId::position);
   end_job(kPassiveHoming, JobPhase::aborted, ErrorId::none);
   jobs_.put(kPassiveHoming, job, JobPhase::active);
   homing_now_ = true;
-  if (job.mode != 2) homed_ = false;
+  if (job.mode != HomeMode::passive) homed_ = false;
   if (has_drive_)
     search_mark(false, passive_direction(data.Sensor[encoders_.operative()].PassiveHoming.Direction));
 }
 
-void Axis::begin_active_homing(Job& job) noexcept {
+void AxisOrders::begin_active_homing(Job& job) noexcept {
   const auto& settings = data.Sensor[encoders_.operative()].ActiveHoming;
-  if (job.mode == 5) job.position = data.Homing.HomePosition;
+  if (job.mode == HomeMode::active_configured) job.position = data.Homing.HomePosition;
   const double mark = job.position - settings.HomePositionOffset;
   if (!positions_fit(position_shift(mark)) || !positions_fit(position_shift(job.position)))
     return job.fail(ErrorId::position);
@@ -166,99 +171,69 @@ void Axis::begin_active_homing(Job& job) noexcept {
   for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) end_job(slot, JobPhase::aborted, ErrorId::none);
   homed_ = false;
   homing_now_ = true;
-  homing_ = {.phase = HomingPhase::search,
-             .direction = settings.Direction == 0 ? 1 : -1,
-             .mark = mark,
-             .approach_velocity = data.Homing.ApproachVelocity,
-             .referencing_velocity = data.Homing.ReferencingVelocity,
-             .positive_side = settings.SideInput};
-  job.direction = homing_.direction;
-  job.velocity = homing_.referencing_velocity;
-  if (!has_drive_) {  // it has no marks: one is taken to be where it is
-    homing_.phase = HomingPhase::travel;
+  const bool has_switch = settings.Mode != static_cast<DINT>(HomingMark::zero_mark);
+  using Phase = HomingCourse::Phase;
+  homing_.begin({.direction = settings.Direction == 0 ? 1 : -1,
+                 .mark = mark,
+                 .approach_velocity = data.Homing.ApproachVelocity,
+                 .referencing_velocity = data.Homing.ReferencingVelocity,
+                 .positive_side = settings.SideInput},
+                // A virtual axis has no marks: one is taken to be where it is.
+                !has_drive_  ? Phase::travel
+                : has_switch ? Phase::approach
+                             : Phase::search);
+  job.velocity = homing_.velocity();
+  job.direction = homing_.settings().direction;
+  if (!has_drive_) {
     job.mark_position = mark;
     assign_position(actual_, mark);
-  } else if (settings.Mode != static_cast<DINT>(HomingMark::zero_mark)) {
-    homing_.phase = HomingPhase::approach;
-    job.direction = data.Homing.ApproachDirection ? -1 : 1;
+  } else {
+    if (has_switch) job.direction = data.Homing.ApproachDirection ? -1 : 1;
+    search_mark(true, homing_.settings().direction);
   }
-  if (homing_.phase != HomingPhase::search) job.velocity = homing_.approach_velocity;
-  if (has_drive_) search_mark(true, homing_.direction);
   begin_base_motion(job);
-  if (!job.running()) leave_homing(job);
+  if (!job.running()) leave_homing();
 }
 
-PlanResult Axis::plan_homing(const Job& job, const Dynamics& dynamics) noexcept {
-  if (homing_.phase != HomingPhase::travel)
-    return single_.run_at(setpoint_, job.direction * dynamics.velocity, dynamics);
+PlanResult AxisOrders::plan_homing(const Job& job, const Dynamics& dynamics) noexcept {
+  if (!homing_.travels()) return single_.run_at(setpoint_, job.direction * dynamics.velocity, dynamics);
   return move_by(to_double_double(shortest_distance(setpoint_.position.value, job.position, modulo_)), job,
                  dynamics);
 }
 
-void Axis::search_mark(bool active, int direction) noexcept {
+void AxisOrders::search_mark(bool active, int direction) noexcept {
   const auto& sensor = data.Sensor[encoders_.operative()];
   const DINT mark = active ? sensor.ActiveHoming.Mode : sensor.PassiveHoming.Mode;
-  const bool positive_side = active ? homing_.positive_side : sensor.PassiveHoming.SideInput;
-  // The machine may lie the other way round than the axis counts.
-  begin_search(mark_search_, static_cast<HomingMark>(mark), direction, positive_side,
-               encoders_.ratio() < 0.0);
-  on_home_switch_ = false;
+  const bool positive_side = active ? homing_.settings().positive_side : sensor.PassiveHoming.SideInput;
+  homing_.search(static_cast<HomingMark>(mark), direction, positive_side, encoders_.ratio() < 0.0);
   signals_watched_ = true;
 }
 
 /// Each interpolator tick of a homing, before the setpoint is made.
-void Axis::step_homing() noexcept {
+void AxisOrders::step_homing() noexcept {
   Job* base = jobs_[kBase];
   const bool active = base != nullptr && base->kind == JobKind::MC_Home;
-  if (active && homing_.phase == HomingPhase::travel) return;
-  if (!has_drive_ || (mark_search_.found() && homing_.phase != HomingPhase::back)) return take_mark();
+  if (active && homing_.travels()) return;
+  const bool met = homing_.found() && homing_.phase() != HomingCourse::Phase::back;
+  if (!has_drive_ || met) return take_mark();
   if (active) guide_active_homing(*base);
 }
 
 /// From one phase of an active homing to the next.
-void Axis::guide_active_homing(Job& job) noexcept {
-  const int direction = homing_.direction;
-  if (homing_reverses() && limit_switches_.pressed(job.direction)) return reverse_at_limit_switch(job);
-  const auto& settings = data.Sensor[encoders_.operative()].ActiveHoming;
-  switch (homing_.phase) {
-    case HomingPhase::approach: {
-      if (!on_home_switch_) break;
-      // An edge that is met from outside, in the homing direction, is left behind first.
-      const bool met_from_outside = settings.Mode == static_cast<DINT>(HomingMark::switch_edge) &&
-                                    (homing_.positive_side ? 1 : -1) != direction;
-      if (met_from_outside) return head_for(job, HomingPhase::clear, -direction);
-      return head_for(job, HomingPhase::search, direction);
-    }
-    case HomingPhase::clear:
-      if (!on_home_switch_) head_for(job, HomingPhase::search, direction);
-      break;
-    case HomingPhase::back:
-      if (!mark_search_.found()) break;
-      search_mark(true, direction);
-      return head_for(job, HomingPhase::search, direction);
-    default:
-      break;
-  }
+void AxisOrders::guide_active_homing(Job& job) noexcept {
+  const auto mark = static_cast<HomingMark>(data.Sensor[encoders_.operative()].ActiveHoming.Mode);
+  const bool at_limit_switch = homing_reverses() && limit_switches_.pressed(job.direction);
+  const HomingCourse::Leg leg = homing_.guide(mark, job.direction, at_limit_switch);
+  if (leg.kind == HomingCourse::Leg::Kind::gives_up) return raise(alarm::kMarkNotFound);
+  if (leg.kind == HomingCourse::Leg::Kind::goes_on) return;
+  if (leg.search != 0) search_mark(true, leg.search);
+  head_for(job, leg.phase, leg.direction);
 }
 
-/// Once: on the way to the switch the other way is tried; a zero mark is looked for beyond, to be met in the
-/// homing direction.
-void Axis::reverse_at_limit_switch(Job& job) noexcept {
-  const bool to_zero_mark =
-      data.Sensor[encoders_.operative()].ActiveHoming.Mode == static_cast<DINT>(HomingMark::zero_mark);
-  const bool can_turn =
-      homing_.phase == HomingPhase::approach || (homing_.phase == HomingPhase::search && to_zero_mark);
-  if (homing_.reversed || !can_turn) return raise(alarm::kMarkNotFound);
-  homing_.reversed = true;
-  if (homing_.phase == HomingPhase::approach) return head_for(job, HomingPhase::approach, -job.direction);
-  search_mark(true, -homing_.direction);
-  head_for(job, HomingPhase::back, -homing_.direction);
-}
-
-void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
-  homing_.phase = phase;
+void AxisOrders::head_for(Job& job, HomingCourse::Phase phase, int direction) noexcept {
+  homing_.enter(phase);
   job.direction = direction;
-  job.velocity = phase == HomingPhase::search ? homing_.referencing_velocity : homing_.approach_velocity;
+  job.velocity = homing_.velocity();
   arrival_.begin();
   limits_.remember();
   Dynamics dynamics = own_dynamics(job);
@@ -269,26 +244,26 @@ void Axis::head_for(Job& job, HomingPhase phase, int direction) noexcept {
   begin_stop(limits_.maximum(), false);
 }
 
-AxisPosition Axis::place_of_mark() const noexcept {
+AxisPosition AxisOrders::place_of_mark() const noexcept {
   const double start = drive_->signals().start_position;
-  return encoders_.position_of_machine(two_difference(mark_search_.place(), start), play());
+  return encoders_.position_of_machine(two_difference(homing_.mark_position(), start), play());
 }
 
 /// The mark has been passed; a virtual axis has none, and takes the place where it is.
-void Axis::take_mark() noexcept {
+void AxisOrders::take_mark() noexcept {
   const AxisPosition place = has_drive_ ? place_of_mark() : actual_;
-  mark_search_.end();
+  homing_.end_search();
   Job* const passive = jobs_[kPassiveHoming];
   Job& job = passive != nullptr ? *passive : *jobs_[kBase];
-  job.mark_position = passive != nullptr ? job.position : homing_.mark;
+  job.mark_position = passive != nullptr ? job.position : homing_.settings().mark;
   if (!assign_position(place, job.mark_position)) return raise(alarm::kHomingNotPossible);
   if (passive != nullptr) return end_job(kPassiveHoming, JobPhase::done, ErrorId::none);
   signals_watched_ = signals_always_watched();
-  head_for(job, HomingPhase::travel, 0);
+  head_for(job, HomingCourse::Phase::travel, 0);
 }
 
 /// A place gets a position, and everything is shifted by the difference; the turns are counted anew.
-bool Axis::assign_position(AxisPosition place, double position) noexcept {
+bool AxisOrders::assign_position(AxisPosition place, double position) noexcept {
   const double by = shortest_distance(place.value, position, modulo_);
   if (!positions_fit(by)) return false;
   shift_positions(by);
@@ -303,7 +278,7 @@ bool Axis::assign_position(AxisPosition place, double position) noexcept {
 }
 
 /// What leads the axis has the new names as well, so that nothing moves.
-void Axis::shift_coupling(double by) noexcept {
+void AxisOrders::shift_coupling(double by) noexcept {
   synchronous_.shift_following(by);
   if (synchronous_.cam() == nullptr || motion_ == Motion::desynchronizing) return;
   data.StatusSynchronizedMotion.SlaveOffset = synchronous_.slave_offset();
@@ -313,9 +288,8 @@ void Axis::shift_coupling(double by) noexcept {
 }
 
 /// A running homing ends, whatever the reason.
-void Axis::leave_homing(const Job& /*job*/) noexcept {
-  mark_search_.end();
-  homing_ = {};
+void AxisOrders::leave_homing() noexcept {
+  homing_.end();
   homing_now_ = false;
   signals_watched_ = signals_always_watched();
 }
@@ -324,11 +298,11 @@ void Axis::leave_homing(const Job& /*job*/) noexcept {
 // --------------------------------------------------------------------------------------------------
 
 /// Way from the actual position to a home position; on a ring the shorter one.
-double Axis::position_shift(double home_position) const noexcept {
+double AxisOrders::position_shift(double home_position) const noexcept {
   return shortest_distance(actual_.value, home_position, modulo_);
 }
 
-void Axis::shift_positions(double by) noexcept {
+void AxisOrders::shift_positions(double by) noexcept {
   setpoint_.position = advanced(setpoint_.position, by, modulo_);
   last_setpoint_.position = advanced(last_setpoint_.position, by, modulo_);
   superimposed_.shift_base(by, modulo_);
@@ -344,7 +318,7 @@ void Axis::shift_positions(double by) noexcept {
 
 /// What has been shown in this tick is where it was, and has other names now: the target of a running
 /// positioning, and what MC_Servo shows.
-void Axis::show_renamed() noexcept {
+void AxisOrders::show_renamed() noexcept {
   const bool positioning = motion_ == Motion::single_axis && jobs_[kBase] != nullptr &&
                            single_.aim() == SingleAxisMotion::Aim::position;
   if (positioning) show_target(single_.target());

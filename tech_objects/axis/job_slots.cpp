@@ -1,5 +1,7 @@
 #include "tech_objects/axis/job_slots.hpp"
 
+#include "tech_objects/jobs/modes.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -56,7 +58,7 @@ bool JobSlots::runs_or_waits(bool cam) const noexcept {
 }
 
 int JobSlots::stop_rank(DINT mode) noexcept {
-  return mode == 0 ? 3 : mode == 2 ? 2 : 1;
+  return mode == StopMode::emergency_ramp ? 3 : mode == StopMode::maximum_dynamics ? 2 : 1;
 }
 
 bool JobSlots::stops_harder_than(AlarmReaction reaction) const noexcept {

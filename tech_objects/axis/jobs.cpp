@@ -4,6 +4,7 @@
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/cam/cam.hpp"
 #include "tech_objects/jobs/function_state.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 namespace {
@@ -21,9 +22,9 @@ void Axis::start_jobs() noexcept {
   jobs_.take_new([this](Job& job) { start(job); });
 }
 
-void Axis::start(Job& job) noexcept {
+void AxisOrders::start(Job& job) noexcept {
   if (job.kind == JobKind::MC_Reset) {
-    const ErrorId error = reset(job.mode == 1);
+    const ErrorId error = reset(job.mode == ResetMode::restart);
     if (error != ErrorId::none) return job.fail(error);
     job.phase = JobPhase::done;
     return;
@@ -47,7 +48,7 @@ void Axis::start(Job& job) noexcept {
 }
 
 /// Whether the state of the axis permits the job at all.
-ErrorId Axis::check(const Job& job) const noexcept {
+ErrorId AxisOrders::check(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_Home) return check_homing(job);
   const bool stronger = job.kind == JobKind::MC_Stop &&
                         JobSlots::stop_rank(job.mode) >= static_cast<int>(data.ErrorDetail.Reaction);
@@ -60,7 +61,7 @@ ErrorId Axis::check(const Job& job) const noexcept {
 }
 
 /// Conditions of synchronous jobs, and of values given on top of a motion.
-ErrorId Axis::check_synchronous(const Job& job) const noexcept {
+ErrorId AxisOrders::check_synchronous(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_MotionInSuperimposed && !position_controlled_)
     return led() ? ErrorId::velocity_gear_active : ErrorId::not_position_controlled;
   if (!couples(job.kind) && !is_shift(job.kind) && !leaves(job.kind)) return ErrorId::none;
@@ -78,7 +79,7 @@ ErrorId Axis::check_synchronous(const Job& job) const noexcept {
   if (leaves(job.kind) && !jobs_.runs_or_waits(cam_out)) return cam_out ? ErrorId::no_cam : ErrorId::no_gear;
   if (leaves(job.kind)) return ErrorId::none;
   if (job.mode == kCancelWaiting) return ErrorId::none;
-  const bool in_time = is_phasing(job.kind) && job.mode == 0;
+  const bool in_time = is_phasing(job.kind) && job.mode == ProfileReference::in_time;
   if (in_time && base != nullptr && base->kind == JobKind::MC_CamIn) return ErrorId::phasing_in_time;
   if (motion_ != Motion::synchronous) return ErrorId::not_synchronous;
   // A leading axis that is not interconnected at all is an alarm.
@@ -87,7 +88,7 @@ ErrorId Axis::check_synchronous(const Job& job) const noexcept {
   return of_another ? ErrorId::not_synchronous : ErrorId::none;
 }
 
-ErrorId Axis::check_cam(const Job& job) const noexcept {
+ErrorId AxisOrders::check_cam(const Job& job) const noexcept {
   if (job.cam->restarting()) return ErrorId::restarting;
   if (job.cam->in_interpolation()) return ErrorId::cam_in_interpolation;
   const Job* base = jobs_[kBase];
@@ -96,7 +97,7 @@ ErrorId Axis::check_cam(const Job& job) const noexcept {
 }
 
 /// Profile 5: ends a shift that waits; one that runs and the shift in effect stay.
-void Axis::cancel_waiting_shift(Job& job) noexcept {
+void AxisOrders::cancel_waiting_shift(Job& job) noexcept {
   const Slot slot = is_phasing(job.kind) ? kPhasing : kOffset;
   if (jobs_[slot] != nullptr && jobs_[slot]->phase == JobPhase::waiting) {
     end_job(slot, JobPhase::aborted, ErrorId::none);
@@ -106,7 +107,7 @@ void Axis::cancel_waiting_shift(Job& job) noexcept {
 }
 
 /// Preconditions whose absence is a technology alarm; 0: none is missing.
-int Axis::missing_precondition(const Job& job) const noexcept {
+int AxisOrders::missing_precondition(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_MoveAbsolute && !homed_) return alarm::kNotHomed;
   if (job.kind == JobKind::MC_Home) return missing_for_homing(job);
   if (!couples(job.kind) && !is_phasing(job.kind)) return 0;
@@ -121,7 +122,7 @@ int Axis::missing_precondition(const Job& job) const noexcept {
   return couples_at_position(job.kind) && !homed_ ? alarm::kNotHomed : 0;
 }
 
-bool Axis::led_by_this(const LeadingObject* leading) const noexcept {
+bool AxisOrders::led_by_this(const LeadingObject* leading) const noexcept {
   for (int i = 0; leading != nullptr && i < kLongestChain; ++i) {
     if (leading == this) return true;
     if (!among(leading->kind, kAnyAxis)) return false;
@@ -130,14 +131,14 @@ bool Axis::led_by_this(const LeadingObject* leading) const noexcept {
   return false;
 }
 
-const LeadingValue* Axis::find_leading_value(const LeadingObject* master) const noexcept {
+const LeadingValue* AxisOrders::find_leading_value(const LeadingObject* master) const noexcept {
   for (const LeadingValue& leading : leading_values)
     if (leading.source == master) return &leading;
   return nullptr;
 }
 
 /// Ends the running jobs that the new one overrides; false if one of them forbids it.
-bool Axis::override_running(JobClass new_job, Job& job) noexcept {
+bool AxisOrders::override_running(JobClass new_job, Job& job) noexcept {
   const Overriding effects = jobs_.overriding(new_job, job, position_controlled_);
   if (effects.refusal != ErrorId::none) {
     job.fail(effects.refusal);
@@ -148,7 +149,7 @@ bool Axis::override_running(JobClass new_job, Job& job) noexcept {
   return true;
 }
 
-void Axis::install(Job& job) noexcept {
+void AxisOrders::install(Job& job) noexcept {
   switch (job.kind) {
     case JobKind::MC_Home:
       home(job);
@@ -182,7 +183,7 @@ void Axis::install(Job& job) noexcept {
   }
 }
 
-void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
+void AxisOrders::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   Job* const job = jobs_.take(slot);
   if (job == nullptr) return;
   JobSlots::end(*job, phase, error);
@@ -193,7 +194,7 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   if (slot == kPhasing && simulating()) synchronous_.phase_shift().halt();
   if (slot == kOffset && simulating()) synchronous_.following_offset().halt();
   if (slot == kBase && class_of(*job, true) == JobClass::motion_in) show_motion_in_command();
-  if (job->kind == JobKind::MC_Home) leave_homing(*job);
+  if (job->kind == JobKind::MC_Home) leave_homing();
   if (slot == kBase && leaves(job->kind)) data.StatusSynchronizedMotion.FunctionState = 0;
   if (slot == kWaiting || slot == kWaitingOut) {
     data.StatusSynchronizedMotion.WaitingFunctionState =
@@ -202,7 +203,7 @@ void Axis::end_job(Slot slot, JobPhase phase, ErrorId error) noexcept {
   }
 }
 
-void Axis::end_all_jobs(JobPhase phase, ErrorId error) noexcept {
+void AxisOrders::end_all_jobs(JobPhase phase, ErrorId error) noexcept {
   for (std::size_t slot = 0; slot < kSlots; ++slot) end_job(static_cast<Slot>(slot), phase, error);
   jobs_.end_new(phase, error);
   jobs_.unlock_unless_done();

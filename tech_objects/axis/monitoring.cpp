@@ -23,7 +23,7 @@ constexpr double kEndOfRange = kPositionRange * (1.0 - kRounding);
 
 /// Each cycle in which the limits are active, after the setpoint has been made: where the next one could no
 /// longer stop in front of a limit, the axis has to brake from the last one on.
-void Axis::watch_position_limits() noexcept {
+void AxisOrders::watch_position_limits() noexcept {
   const SoftwareLimits::Range range = SoftwareLimits::in_effect(data.PositionLimits_SW, modulo_);
   if (range.contradictory()) raise(alarm::kSoftwareLimits);
   if (!homed_ || range.contradictory()) return software_limits_.release();
@@ -37,7 +37,7 @@ void Axis::watch_position_limits() noexcept {
 
 /// @param side 1 for the positive limit, -1 for the negative one  @param limit [u] on the present turn
 /// @return whether the setpoint made for this cycle stays; if not, another one has been made
-bool Axis::keep_within(int side, double limit) noexcept {
+bool AxisOrders::keep_within(int side, double limit) noexcept {
   if (!std::isfinite(limit)) return true;
   const AxisPosition border{last_setpoint_.position.turns, limit};
   const double room = side * rounded_difference(border, setpoint_.position, modulo_);
@@ -52,7 +52,7 @@ bool Axis::keep_within(int side, double limit) noexcept {
 }
 
 /// Whether the axis comes to rest or turns back in front of the limit by what it does anyway.
-bool Axis::turns_in_time(int side, double room, double jerk) const noexcept {
+bool AxisOrders::turns_in_time(int side, double room, double jerk) const noexcept {
   if (motion_ == Motion::single_axis) {
     const double added = superimposed_.in_use() ? superimposed_.distance_left(side) : 0.0;
     return single_.way_left(side) + added <= room;
@@ -61,14 +61,14 @@ bool Axis::turns_in_time(int side, double room, double jerk) const noexcept {
 }
 
 /// What the axis brakes with in front of a limit: the values of its job only if it moves on its own.
-Dynamics Axis::limit_dynamics() const noexcept {
+Dynamics AxisOrders::limit_dynamics() const noexcept {
   const bool current = data.PositionLimits_SW.LimitReachedBehavior == 1 && motion_ == Motion::single_axis;
   return current ? single_.dynamics() : limits_.maximum();
 }
 
 /// From the last setpoint to rest at the limit. When that is too near, the axis stops behind it, by the
 /// reactions of the alarms.
-void Axis::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept {
+void AxisOrders::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexcept {
   const AlarmReaction reaction = reaction_at_limit();
   const bool reacts = power_state_ == PowerState::on &&
                       data.ErrorDetail.Reaction < static_cast<DINT>(reaction) &&
@@ -102,13 +102,13 @@ void Axis::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics) noexce
                                            : AlarmReaction::remove_enable);
 }
 
-AlarmReaction Axis::reaction_at_limit() const noexcept {
+AlarmReaction AxisOrders::reaction_at_limit() const noexcept {
   const bool current = data.PositionLimits_SW.LimitReachedBehavior == 1 && !led();
   return current ? AlarmReaction::stop_current : AlarmReaction::stop_maximum;
 }
 
 /// With no higher velocity than it reaches anyway, though there may be room for that.
-void Axis::approach_limit(double way, AxisPosition limit, const Dynamics& dynamics) noexcept {
+void AxisOrders::approach_limit(double way, AxisPosition limit, const Dynamics& dynamics) noexcept {
   leave_synchronous();
   motion_ = Motion::single_axis;
   if (single_.move_to(setpoint_, limit, way, dynamics) != PlanResult::ok)
@@ -122,7 +122,7 @@ void Axis::approach_limit(double way, AxisPosition limit, const Dynamics& dynami
 /// Whether the axis, stopped with maximum dynamics, comes to rest far inside of the range of positions, from
 /// few operations and without a division: `maximum_stopping_distance` ≤ margin, times 4 · deceleration ·
 /// jerk². Else, or without such limits, `watch_range` looks closely.
-bool Axis::far_from_end_of_range() const noexcept {
+bool AxisOrders::far_from_end_of_range() const noexcept {
   const double room = kEndOfRange - std::abs(setpoint_.position.value);
   if (modulo_.enabled) return room > 0.0;
   const double d = data.DynamicLimits.MaxDeceleration;
@@ -138,7 +138,7 @@ bool Axis::far_from_end_of_range() const noexcept {
 /// given, loses its enable (308) and brakes from the last setpoint on, beyond the end. Acknowledged there, it
 /// may come back.
 /// @source S7-1500/S7-1500T alarms and error IDs, 307, 308
-void Axis::watch_range() noexcept {
+void AxisOrders::watch_range() noexcept {
   // A setpoint that has just been taken up does not come out of the last one.
   const bool generated = power_state_ == PowerState::on && has_bit(data.StatusWord, StatusBit::Enable);
   if (generated && !modulo_.enabled && keep_in_range(1)) keep_in_range(-1);
@@ -150,7 +150,7 @@ void Axis::watch_range() noexcept {
 }
 
 /// @return whether the setpoint made for this cycle stays; if not, another one has been made
-bool Axis::keep_in_range(int side) noexcept {
+bool AxisOrders::keep_in_range(int side) noexcept {
   const double here = side * setpoint_.position.value;
   const double room = std::max(kEndOfRange - here, 0.0);
   const Dynamics dynamics = limits_.maximum();
@@ -171,7 +171,7 @@ bool Axis::keep_in_range(int side) noexcept {
   return !reacts;
 }
 
-void Axis::pass_end_of_range() noexcept {
+void AxisOrders::pass_end_of_range() noexcept {
   const bool reacts = power_state_ == PowerState::on &&
                       data.ErrorDetail.Reaction < static_cast<DINT>(AlarmReaction::remove_enable);
   if (reacts) setpoint_ = last_setpoint_;

@@ -4,13 +4,14 @@
 
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/axis/target_distance.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 // ---- Dynamics
 // ---------------------------------------------------------------------------------------------------
 
 /// Dynamic values of a job, cut to the limits with a warning.
-Dynamics Axis::effective_dynamics(const Job& job) noexcept {
+Dynamics AxisOrders::effective_dynamics(const Job& job) noexcept {
   const ExceededLimits exceeded = limits_.exceeded(job);
   if (exceeded.velocity) raise(alarm::kVelocityLimited);
   if (exceeded.acceleration) raise(alarm::kAccelerationLimited);
@@ -20,7 +21,7 @@ Dynamics Axis::effective_dynamics(const Job& job) noexcept {
 
 /// Dynamic values for a motion of the axis' own that takes over from the present state, below the velocity
 /// limit.
-Dynamics Axis::own_dynamics(const Job& job) noexcept {
+Dynamics AxisOrders::own_dynamics(const Job& job) noexcept {
   Dynamics dynamics = effective_dynamics(job);
   limits_.keep_below(dynamics, setpoint_.acceleration, room_to_limit());
   return dynamics;
@@ -28,7 +29,7 @@ Dynamics Axis::own_dynamics(const Job& job) noexcept {
 
 /// Velocity that is left, in the direction of the present acceleration, up to the limit [u/s] ≥ 0; to a base
 /// motion beside what is superimposed.
-double Axis::room_to_limit() const noexcept {
+double AxisOrders::room_to_limit() const noexcept {
   const double direction = setpoint_.acceleration < 0.0 ? -1.0 : 1.0;
   return limits_.margin(setpoint_,
                         superimposed_.advancing_base() ? superimposed_.maximum_velocity(direction) : 0.0);
@@ -37,11 +38,12 @@ double Axis::room_to_limit() const noexcept {
 // ---- Beginning a motion
 // -----------------------------------------------------------------------------------------
 
-void Axis::begin_base_motion(Job& job) noexcept {
+void AxisOrders::begin_base_motion(Job& job) noexcept {
   absorb_superimposed();
   cut_acceleration();
   Dynamics dynamics = own_dynamics(job);
-  if (job.kind == JobKind::MC_Stop && job.mode == 0) dynamics.jerk = 0.0;  // the emergency ramp has none
+  if (job.kind == JobKind::MC_Stop && job.mode == StopMode::emergency_ramp)
+    dynamics.jerk = 0.0;  // the emergency ramp has none
   if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
@@ -64,7 +66,7 @@ void Axis::begin_base_motion(Job& job) noexcept {
 
 /// Whether a job would leave the range of positions by where it ends, begun at this moment. On a ring every
 /// place is inside; targets themselves are checked where they come in.
-ErrorId Axis::target_refusal(const Job& job) const noexcept {
+ErrorId AxisOrders::target_refusal(const Job& job) const noexcept {
   if (modulo_.enabled) return ErrorId::none;
   double from = setpoint_.position.value;
   switch (job.kind) {
@@ -84,7 +86,7 @@ ErrorId Axis::target_refusal(const Job& job) const noexcept {
   return std::abs(from + job.position) <= kPositionRange ? ErrorId::none : ErrorId::distance;
 }
 
-PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
+PlanResult AxisOrders::plan(Job& job, const Dynamics& dynamics) noexcept {
   switch (job.kind) {
     case JobKind::MC_MoveAbsolute:
       return move_by(absolute_distance(job, setpoint_, beyond_target_, dynamics, modulo_), job, dynamics);
@@ -106,11 +108,12 @@ PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
       return single_.run_at(setpoint_, dynamics.velocity * job.direction, dynamics);
     case JobKind::MC_Stop:
       jobs_.lock(job);
-      if (job.mode == 0) {
+      if (job.mode == StopMode::emergency_ramp) {
         ask_for_emergency_ramp();
         return single_.stop(setpoint_, limits_.emergency(), job.abort_acceleration);
       }
-      if (job.mode == 2) return single_.stop(setpoint_, limits_.maximum(), job.abort_acceleration);
+      if (job.mode == StopMode::maximum_dynamics)
+        return single_.stop(setpoint_, limits_.maximum(), job.abort_acceleration);
       [[fallthrough]];
     default:  // MC_Halt
       return single_.stop(setpoint_, dynamics, job.abort_acceleration);
@@ -119,17 +122,17 @@ PlanResult Axis::plan(Job& job, const Dynamics& dynamics) noexcept {
 
 /// The velocity held by Current may be the one of a synchronous motion, beyond the limit of the axis' own
 /// motion: then it comes down to that.
-Dynamics Axis::maximum_for_current(Dynamics dynamics) const noexcept {
+Dynamics AxisOrders::maximum_for_current(Dynamics dynamics) const noexcept {
   dynamics.velocity = limits_.velocity();
   return dynamics;
 }
 
-void Axis::show_target(const AxisPosition& target) noexcept {
+void AxisOrders::show_target(const AxisPosition& target) noexcept {
   data.StatusPositioning.TargetPosition = target.value;
   data.StatusPositioning.TargetPositionModuloCycle = static_cast<DINT>(target.turns - counted_from_);
 }
 
-PlanResult Axis::move_by(DoubleDouble exact_way, const Job& job, const Dynamics& dynamics) noexcept {
+PlanResult AxisOrders::move_by(DoubleDouble exact_way, const Job& job, const Dynamics& dynamics) noexcept {
   const double way = exact_way.rounded();
   AxisPosition target = advanced(setpoint_.position, exact_way, modulo_);
   if (job.kind == JobKind::MC_MoveAbsolute || job.kind == JobKind::MC_Home) {
@@ -144,7 +147,7 @@ PlanResult Axis::move_by(DoubleDouble exact_way, const Job& job, const Dynamics&
   return result == PlanResult::ok ? single_.replan(setpoint_, dynamics) : result;
 }
 
-void Axis::begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept {
+void AxisOrders::begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept {
   absorb_superimposed();
   leave_synchronous();
   motion_ = Motion::single_axis;
@@ -158,7 +161,7 @@ void Axis::begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcep
 // ---- One cycle
 // --------------------------------------------------------------------------------------------------
 
-void Axis::step_single_axis() noexcept {
+void AxisOrders::step_single_axis() noexcept {
   Job* job = jobs_[kBase];
   if (job != nullptr && (limits_.changed() || job->kind == JobKind::MC_MoveJog)) follow_changes(*job);
   single_.advance(setpoint_);
@@ -168,7 +171,7 @@ void Axis::step_single_axis() noexcept {
 }
 
 /// Limits and override count at once; so do the inputs of a jogging block. Seldom: not part of every cycle.
-[[gnu::noinline]] void Axis::follow_changes(Job& job) noexcept {
+[[gnu::noinline]] void AxisOrders::follow_changes(Job& job) noexcept {
   const bool jog = job.kind == JobKind::MC_MoveJog;
   const bool inputs_changed =
       jog && (job.direction != jogged_.direction || job.velocity != jogged_.velocity ||
@@ -199,7 +202,7 @@ void Axis::step_single_axis() noexcept {
   begin_stop(limits_.maximum(), false);
 }
 
-void Axis::watch_base_job(Job& job) noexcept {
+void AxisOrders::watch_base_job(Job& job) noexcept {
   const bool passes = single_.aim() == SingleAxisMotion::Aim::position && single_.target_velocity() != 0.0;
   if (!single_.finished() || passes) return;
   switch (job.kind) {
@@ -214,7 +217,7 @@ void Axis::watch_base_job(Job& job) noexcept {
       }
       break;
     case JobKind::MC_Home:
-      if (homing_.phase != HomingPhase::travel) break;
+      if (!homing_.travels()) break;
       [[fallthrough]];
     case JobKind::MC_MoveAbsolute:
     case JobKind::MC_MoveRelative:
@@ -229,7 +232,7 @@ void Axis::watch_base_job(Job& job) noexcept {
 }
 
 /// Alarm 541 where a positioning misses its window.
-void Axis::watch_positioning() noexcept {
+void AxisOrders::watch_positioning() noexcept {
   // While a superimposed motion goes on, the axis cannot be there; its base motion has come to rest.
   const double distance =
       superimposed_.resting() ? std::abs(rounded_difference(actual_, setpoint_.position, modulo_)) : 0.0;
@@ -237,14 +240,14 @@ void Axis::watch_positioning() noexcept {
   take_arrival(arrival_.watch_position(distance, data.PositioningMonitoring, monitored));
 }
 
-void Axis::take_arrival(Arrival::Verdict verdict) noexcept {
+void AxisOrders::take_arrival(Arrival::Verdict verdict) noexcept {
   if (verdict == Arrival::Verdict::arrived) end_job(kBase, JobPhase::done, ErrorId::none);
   if (verdict == Arrival::Verdict::missed) raise(alarm::kPositioning);
 }
 
 /// A stop under position control is done when the actual position has settled as well. A drive whose torque
 /// is limited may never get there: MC_Halt is done when the axis has stood for the dwell time.
-void Axis::watch_standstill() noexcept {
+void AxisOrders::watch_standstill() noexcept {
   const bool settled = !has_drive_ || !moving(actual_velocity_);
   const bool halts = position_controlled_ && jobs_[kBase]->kind == JobKind::MC_Halt;
   const bool limited = has_drive_ && position_monitoring_off();

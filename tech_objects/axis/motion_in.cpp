@@ -7,7 +7,7 @@
 namespace lockstep {
 
 /// No profile leads there: the first values given count in this very cycle.
-void Axis::begin_motion_in(Job& job) noexcept {
+void AxisOrders::begin_motion_in(Job& job) noexcept {
   absorb_superimposed();
   leave_synchronous();
   set_position_control(job.position_controlled);
@@ -17,7 +17,7 @@ void Axis::begin_motion_in(Job& job) noexcept {
 }
 
 /// The values of the last call. Without Enable they go to zero at once, and the position stays.
-void Axis::step_given() noexcept {
+void AxisOrders::step_given() noexcept {
   const Job& job = *jobs_[kBase];
   if (job.input_error != ErrorId::none) {
     end_job(kBase, JobPhase::failed, job.input_error);
@@ -42,7 +42,7 @@ void Axis::step_given() noexcept {
           std::abs(setpoint_.velocity) > data.DynamicLimits.MaxVelocity);
 }
 
-void Axis::show_motion_in_command() noexcept {
+void AxisOrders::show_motion_in_command() noexcept {
   const Job* job = jobs_[kBase];
   DINT state = 0;
   if (job != nullptr && job->kind == JobKind::MC_MotionInVelocity) state = 1;

@@ -63,6 +63,65 @@ constexpr double kRounding = 1e-13;
 /// The bits of the StatusWord that a speed axis has.
 constexpr std::uint32_t kOfSpeedAxis = 0x0E00765F;
 
+/// A setpoint, the one before it, and what limits the axis.
+struct Excess {
+  const Setpoint& now;
+  const Setpoint& last;
+  const TO_Struct_DynamicLimits& limits;
+  double period;
+
+  /// Which limits the setpoint exceeds: none, most of the time.
+  std::uint32_t bits() const noexcept {
+    const double steepest = std::min(limits.MaxAcceleration, limits.MaxDeceleration);
+    const double change = now.velocity - last.velocity;
+    const bool within = std::abs(now.velocity) <= limits.MaxVelocity &&
+                        std::abs(now.acceleration) <= steepest && std::abs(change) <= steepest * period;
+    return within ? 0 : bits_beyond_limits();
+  }
+
+  std::uint32_t bits_beyond_limits() const noexcept {
+    const double push = now.velocity < 0.0 ? -now.acceleration : now.acceleration;
+    // A velocity may step where the acceleration of the function does not tell: with a changed ratio, at a
+    // corner of a cam.
+    const double change = now.velocity - last.velocity;
+    const double gained = sign(now.velocity) * change;
+    const double lost = -sign(last.velocity) * change;
+    const double rounding = kRounding * limits.MaxVelocity;
+    const bool too_quick =
+        push > limits.MaxAcceleration || gained - rounding > limits.MaxAcceleration * period;
+    const bool too_hard = -push > limits.MaxDeceleration || lost - rounding > limits.MaxDeceleration * period;
+    return when(std::abs(now.velocity) > limits.MaxVelocity, SynchronizedMotionBit::MaxVelocityExceeded) |
+           when(too_quick, SynchronizedMotionBit::MaxAccelerationExceeded) |
+           when(too_hard, SynchronizedMotionBit::MaxDecelerationExceeded);
+  }
+};
+
+/// Whether the acceleration of a setpoint makes it quicker or slower.
+std::uint32_t pace_bits(const Setpoint& setpoint) noexcept {
+  const double push = sign(setpoint.velocity) * setpoint.acceleration;  // a product of both may be none
+  return when(push > 0.0 || setpoint.velocity == 0.0, StatusBit::Accelerating) |
+         when(push < 0.0, StatusBit::Decelerating);
+}
+
+/// What the shifts show.
+std::uint32_t shift_bits(const JobSlots& jobs, std::uint32_t& word) noexcept {
+  std::uint32_t word2 = 0;
+  if (const Job* const phasing = jobs[kPhasing]) {
+    word |= when(phasing->phase == JobPhase::active, StatusBit::PhasingCommand);
+    word2 |= when(phasing->phase == JobPhase::waiting, Status2Bit::PhasingCommandWaiting);
+  }
+  if (const Job* const offset = jobs[kOffset])
+    word2 |= when(offset->phase == JobPhase::active, Status2Bit::OffsetCommand) |
+             when(offset->phase == JobPhase::waiting, Status2Bit::OffsetCommandWaiting);
+  return word2;
+}
+
+void show(TO_Struct_EffectiveLeadingValue& shown, const Setpoint& effective) noexcept {
+  shown.Position = effective.position.value;
+  shown.Velocity = effective.velocity;
+  shown.Acceleration = effective.acceleration;
+}
+
 }  // namespace
 
 /// A cam that is followed, simulated or waited for is in use.
@@ -79,7 +138,7 @@ void Axis::publish() noexcept {
   if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
 }
 
-void Axis::publish_motion() noexcept {
+void AxisOrders::publish_motion() noexcept {
   data.Position = position_controlled_ ? setpoint_.position.value : 0.0;
   data.Velocity = setpoint_.velocity;
   data.Acceleration = setpoint_.acceleration;
@@ -97,34 +156,32 @@ void Axis::publish_motion() noexcept {
 }
 
 /// Not coupled yet: the additive leading value, and the leading value that a waiting job looks at.
-void Axis::publish_awaited() noexcept {
+void AxisOrders::publish_awaited() noexcept {
   auto& status = data.StatusSynchronizedMotion;
   constexpr auto kAdditive = SynchronizedMotionBit::LeadingValueAdditiveCommand;
   status.StatusWord =
       renewed(status.StatusWord, word_of(kAdditive), when(additive_request.counts, kAdditive));
   if (jobs_[kWaiting] == nullptr) return;
-  const Setpoint& effective = awaited_.effective_leading_value();
-  status.EffectiveLeadingValue.Position = effective.position.value;
-  status.EffectiveLeadingValue.Velocity = effective.velocity;
-  status.EffectiveLeadingValue.Acceleration = effective.acceleration;
+  show(status.EffectiveLeadingValue, awaited_.effective_leading_value());
 }
 
-void Axis::publish_synchronous() noexcept {
+void AxisOrders::publish_synchronous() noexcept {
   auto& status = data.StatusSynchronizedMotion;
-  const Setpoint& effective = synchronous_.effective_leading_value();
   const Setpoint& function = synchronous_.function_value();
-  status.EffectiveLeadingValue.Position = effective.position.value;
-  status.EffectiveLeadingValue.Velocity = effective.velocity;
-  status.EffectiveLeadingValue.Acceleration = effective.acceleration;
+  show(status.EffectiveLeadingValue, synchronous_.effective_leading_value());
   status.FunctionLeadingValue.Position = synchronous_.function_leading_position();
-  if (synchronous_.shifted()) show_shifts();
+  if (synchronous_.shifted()) {
+    status.PhaseShift = synchronous_.phase_shift().value().rounded();
+    status.Offset = synchronous_.following_offset().value().rounded();
+  }
   status.FunctionFollowingValue.Position = function.position.value;
   status.FunctionFollowingValue.Velocity = function.velocity;
   status.FunctionFollowingValue.Acceleration = function.acceleration;
 
   status.StatusWord =
       renewed(status.StatusWord, kSynchronizedMotionBits,
-              bits_of_excess() | when(simulating(), SynchronizedMotionBit::InSimulation) |
+              Excess{setpoint_, last_setpoint_, data.DynamicLimits, period_}.bits() |
+                  when(simulating(), SynchronizedMotionBit::InSimulation) |
                   when(additive_request.counts, SynchronizedMotionBit::LeadingValueAdditiveCommand));
 
   if (motion_ != Motion::synchronous) return;
@@ -132,42 +189,9 @@ void Axis::publish_synchronous() noexcept {
   watch_deviation();
 }
 
-/// Which limits the setpoint exceeds: none, most of the time.
-std::uint32_t Axis::bits_of_excess() const noexcept {
-  const auto& limits = data.DynamicLimits;
-  const double steepest = std::min(limits.MaxAcceleration, limits.MaxDeceleration);
-  const double change = setpoint_.velocity - last_setpoint_.velocity;
-  const bool within = std::abs(setpoint_.velocity) <= limits.MaxVelocity &&
-                      std::abs(setpoint_.acceleration) <= steepest && std::abs(change) <= steepest * period_;
-  return within ? 0 : bits_beyond_limits();
-}
-
-std::uint32_t Axis::bits_beyond_limits() const noexcept {
-  const auto& limits = data.DynamicLimits;
-  const double push = setpoint_.velocity < 0.0 ? -setpoint_.acceleration : setpoint_.acceleration;
-  // A velocity may step where the acceleration of the function does not tell: with a changed ratio, at a
-  // corner of a cam.
-  const double change = setpoint_.velocity - last_setpoint_.velocity;
-  const double gained = sign(setpoint_.velocity) * change;
-  const double lost = -sign(last_setpoint_.velocity) * change;
-  const double rounding = kRounding * limits.MaxVelocity;
-  const bool too_quick =
-      push > limits.MaxAcceleration || gained - rounding > limits.MaxAcceleration * period_;
-  const bool too_hard = -push > limits.MaxDeceleration || lost - rounding > limits.MaxDeceleration * period_;
-  return when(std::abs(setpoint_.velocity) > limits.MaxVelocity, SynchronizedMotionBit::MaxVelocityExceeded) |
-         when(too_quick, SynchronizedMotionBit::MaxAccelerationExceeded) |
-         when(too_hard, SynchronizedMotionBit::MaxDecelerationExceeded);
-}
-
-void Axis::show_shifts() noexcept {
-  const SynchronousMotion& synchronous = synchronous_;
-  data.StatusSynchronizedMotion.PhaseShift = synchronous.phase_shift().value().rounded();
-  data.StatusSynchronizedMotion.Offset = synchronous.following_offset().value().rounded();
-}
-
 /// How far the axis is from where the function has it. A drive follows later; there the balanced difference
 /// tells.
-void Axis::watch_deviation() noexcept {
+void AxisOrders::watch_deviation() noexcept {
   const AxisPosition following =
       superimposed_.in_use() ? advanced(synchronous_.following_position(), superimposed_.value(), modulo_)
                              : synchronous_.following_position();
@@ -178,7 +202,7 @@ void Axis::watch_deviation() noexcept {
 }
 
 /// What changes seldom is asked in branches, which the processor foresees; what changes often, without.
-void Axis::publish_status() noexcept {
+void AxisOrders::publish_status() noexcept {
   const bool on = power_state_ == PowerState::on;
   std::uint32_t word =
       when(data.ErrorDetail.Number != 0, StatusBit::Error) | when(homed_, StatusBit::HomingDone) |
@@ -187,7 +211,7 @@ void Axis::publish_status() noexcept {
   if (motion_ == Motion::synchronous) word |= word_of(StatusBit::Synchronous);
   if (motion_ == Motion::synchronizing) word |= word_of(StatusBit::Synchronizing);
   if (setpoint_.acceleration != 0.0)
-    word |= pace_bits();
+    word |= pace_bits(setpoint_);
   else
     word |= when(on, StatusBit::ConstantVelocity);
   if (on) word |= bits_when_on();
@@ -205,13 +229,7 @@ void Axis::publish_status() noexcept {
     word2 = when(leaves(base->kind), Status2Bit::DesynchronizingCommand);
   }
   if (jobs_.locked()) word2 |= word_of(Status2Bit::StopCommand);
-  if (const Job* const phasing = jobs_[kPhasing]) {
-    word |= when(phasing->phase == JobPhase::active, StatusBit::PhasingCommand);
-    word2 |= when(phasing->phase == JobPhase::waiting, Status2Bit::PhasingCommandWaiting);
-  }
-  if (const Job* const offset = jobs_[kOffset])
-    word2 |= when(offset->phase == JobPhase::active, Status2Bit::OffsetCommand) |
-             when(offset->phase == JobPhase::waiting, Status2Bit::OffsetCommandWaiting);
+  word2 |= shift_bits(jobs_, word);
 
   data.StatusWord = renewed(data.StatusWord, kStatusBits, word);
   if (!has_position())
@@ -221,7 +239,7 @@ void Axis::publish_status() noexcept {
 }
 
 /// Written when it changes: a line of memory less in every cycle.
-void Axis::show_drive_state() noexcept {
+void AxisOrders::show_drive_state() noexcept {
   const bool operating = has_drive_ ? drive_running_ : power_state_ == PowerState::on;
   const bool disabled = power_state_ == PowerState::off;
   const auto shown = static_cast<std::uint8_t>(int{operating} | int{disabled} << 1);
@@ -231,14 +249,7 @@ void Axis::show_drive_state() noexcept {
   data.StatusDrive.Disabled = disabled;
 }
 
-/// Whether the acceleration of the setpoint makes it quicker or slower.
-std::uint32_t Axis::pace_bits() const noexcept {
-  const double push = sign(setpoint_.velocity) * setpoint_.acceleration;  // a product of both may be none
-  return when(push > 0.0 || setpoint_.velocity == 0.0, StatusBit::Accelerating) |
-         when(push < 0.0, StatusBit::Decelerating);
-}
-
-std::uint32_t Axis::bits_when_on() const noexcept {
+std::uint32_t AxisOrders::bits_when_on() const noexcept {
   const bool idle = jobs_[kBase] == nullptr && jobs_[kWaiting] == nullptr &&
                     jobs_[kSuperimposed] == nullptr && !control_panel;
   return when(power.enable, StatusBit::Enable) | when(idle, StatusBit::Done) |

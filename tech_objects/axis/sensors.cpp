@@ -11,7 +11,7 @@ namespace lockstep {
 // ----------------------------------------------------------------------------
 
 /// Every encoder begins at the position that the axis has; an absolute one that is adjusted knows better.
-void Axis::begin_encoders(AxisPosition here) noexcept {
+void AxisOrders::begin_encoders(AxisPosition here) noexcept {
   const std::size_t operative = encoders_.operative();
   encoders_.begin(encoders_.origin_at(operative, here, play()));
   if (encoders_.absolute(operative)) {
@@ -30,7 +30,7 @@ void Axis::begin_encoders(AxisPosition here) noexcept {
 }
 
 /// Where an absolute encoder shows 0, by the adjustment that has been kept.
-AxisPosition Axis::adjusted_origin(std::size_t encoder) noexcept {
+AxisPosition AxisOrders::adjusted_origin(std::size_t encoder) noexcept {
   EncoderAdjustment& kept = encoder_adjustments[encoder];
   if (!kept.adjusted || !std::isfinite(kept.offset)) kept = {};
   data.StatusSensor[encoder].AbsEncoderOffset = kept.offset;
@@ -40,7 +40,7 @@ AxisPosition Axis::adjusted_origin(std::size_t encoder) noexcept {
 
 /// The encoder is adjusted to the positions as they are now.
 /// @param store whether an offset of an absolute encoder that is kept already is replaced
-void Axis::adjust_encoder(std::size_t encoder, bool store) noexcept {
+void AxisOrders::adjust_encoder(std::size_t encoder, bool store) noexcept {
   data.StatusSensor[encoder].Adjusted = 1;
   EncoderAdjustment& kept = encoder_adjustments[encoder];
   if (!encoders_.absolute(encoder) || (kept.adjusted && !store)) return;
@@ -52,7 +52,7 @@ void Axis::adjust_encoder(std::size_t encoder, bool store) noexcept {
 // --------------------------------------------------------------------------------------------------
 
 /// What there is of the encoders, as long as nothing is wrong with them.
-void Axis::show_sensor() noexcept {
+void AxisOrders::show_sensor() noexcept {
   data.OperativeSensor = static_cast<UDINT>(encoders_.operative() + 1);
   for (std::size_t i = 0; i < Encoders::kCount; ++i) {
     auto& status = data.StatusSensor[i];
@@ -64,13 +64,13 @@ void Axis::show_sensor() noexcept {
   data.StatusDrive.CommunicationOK = true;
 }
 
-void Axis::show_place(std::size_t encoder, AxisPosition place) noexcept {
+void AxisOrders::show_place(std::size_t encoder, AxisPosition place) noexcept {
   data.StatusSensor[encoder].Position = place.value;
   data.StatusSensor[encoder].ModuloCycle = static_cast<DINT>(place.turns - counted_from_);
 }
 
 /// Of an axis with encoders beside that of the drive: reads and shows them all.
-void Axis::read_encoders(DriveActual& now) noexcept {
+void AxisOrders::read_encoders(DriveActual& now) noexcept {
   encoders_.read(now, *drive_);
   for (std::size_t i = 0; i < Encoders::kCount; ++i) {
     if (!encoders_.beside(i)) continue;
@@ -109,12 +109,12 @@ ErrorId Axis::set_sensor(DINT sensor, DINT mode, DINT reference) noexcept {
 
 /// An encoder tells this position from now on, where it is. Of the operative one the difference acts as a
 /// control deviation.
-void Axis::place_encoder(std::size_t encoder, AxisPosition place) noexcept {
+void AxisOrders::place_encoder(std::size_t encoder, AxisPosition place) noexcept {
   encoders_.place(encoder, place, actual_, play());
   if (encoder == encoders_.operative()) deviate(place);
 }
 
-void Axis::switch_encoder(std::size_t encoder, bool aligned) noexcept {
+void AxisOrders::switch_encoder(std::size_t encoder, bool aligned) noexcept {
   if (aligned) encoders_.place(encoder, actual_, actual_, play());
   const AxisPosition told = encoders_.position(encoder, actual_);
   actual_velocity_ = encoders_.switch_to(encoder, actual_);
@@ -123,10 +123,10 @@ void Axis::switch_encoder(std::size_t encoder, bool aligned) noexcept {
 }
 
 /// The actual position is another one from now on; with a smoothing time position control notices bit by bit.
-void Axis::deviate(AxisPosition place) noexcept {
+void AxisOrders::deviate(AxisPosition place) noexcept {
   const double by = rounded_difference(place, actual_, modulo_);
   actual_ = place;
-  hand_over_due_ |= motion_ == Motion::none;  // the setpoint is there as well
+  hand_over_.make_due(motion_ == Motion::none);  // the setpoint is there as well
   loop_.deviate(by, data.PositionControl.SmoothingTimeByChangeDifference);
 }
 

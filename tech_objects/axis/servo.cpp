@@ -17,7 +17,7 @@ constexpr double kRounding = 1e-12;
 }  // namespace
 
 /// The encoder goes on from where it is, at the position that the axis has now.
-void Axis::restart_servo() noexcept {
+void AxisOrders::restart_servo() noexcept {
   take_servo_settings();
   signals_watched_ = signals_always_watched();
   backlash_ = {};
@@ -27,7 +27,7 @@ void Axis::restart_servo() noexcept {
 }
 
 /// Settings that count from the start, or a restart, on.
-void Axis::take_servo_settings() noexcept {
+void AxisOrders::take_servo_settings() noexcept {
   const bool inverted = drive_settings.inverted;
   setpoint_sign_ = data.Actor.InverseDirection != inverted ? -1.0 : 1.0;
   way_per_motor_turn_ = way_per_motor_turn();
@@ -40,7 +40,7 @@ void Axis::take_servo_settings() noexcept {
   if (has_drive_ && data.DynamicLimits.MaxVelocity > highest) raise(alarm::kVelocityNotReachable);
 }
 
-void Axis::configure_servo() {
+void AxisOrders::configure_servo() {
   encoders_ = {};
   take_servo_settings();
   drive_ = drive_model->make();
@@ -53,24 +53,24 @@ void Axis::configure_servo() {
 }
 
 /// A setpoint is handed to the drive, at the end of the fine interpolation, one interpolator cycle later.
-void Axis::show_execution_time() noexcept {
+void AxisOrders::show_execution_time() noexcept {
   data.StatusPositioning.SetpointExecutionTime = period_ + setpoint_delay();
 }
 
 /// By what the actual position is behind the setpoint of the servo at constant velocity [s].
-double Axis::setpoint_delay() const noexcept {
+double AxisOrders::setpoint_delay() const noexcept {
   return loop_.filter_delay(data.SetpointFilter.DynamicFilter) + control_delay();
 }
 
 /// What the balancing filter takes the controlled side to be late by [s]: with an axis model what that says
 /// of the velocity loop, else what the drive knows of itself.
-double Axis::control_delay() const noexcept {
+double AxisOrders::control_delay() const noexcept {
   const auto& model = data.DynamicAxisModel;
   const double lag = model.VelocityTimeConstant + model.AdditionalPositionTimeConstant;
   return lag > 0.0 ? drive_properties_.transport_delay + lag : drive_properties_.known_delay;
 }
 
-PositionControlSettings Axis::control_settings() const noexcept {
+PositionControlSettings AxisOrders::control_settings() const noexcept {
   return {.kv = data.PositionControl.Kv,
           .kpc = emergency_ramp_ == EmergencyRamp::running ? kWholePrecontrol : data.PositionControl.Kpc,
           .delay = control_delay(),
@@ -79,7 +79,7 @@ PositionControlSettings Axis::control_settings() const noexcept {
 }
 
 /// What the axis moves in one turn of the motor, through load gear and lead screw [u].
-double Axis::way_per_motor_turn() const noexcept {
+double AxisOrders::way_per_motor_turn() const noexcept {
   const double load_turns =
       static_cast<double>(data.LoadGear.Denominator) / static_cast<double>(data.LoadGear.Numerator);
   if (!has_position()) {
@@ -91,13 +91,13 @@ double Axis::way_per_motor_turn() const noexcept {
 }
 
 /// Of the motor in a plant [rad/u]; a linear motor moves as the axis does.
-double Axis::motor_angle_per_unit() const noexcept {
+double AxisOrders::motor_angle_per_unit() const noexcept {
   constexpr double kTurn = 6.283185307179586;
   return data.Actor.MotorType == MotorType::linear ? 1.0 : kTurn / way_per_motor_turn_;
 }
 
 /// Simulated, the axis leaves its drive alone.
-void Axis::idle_servo() noexcept {
+void AxisOrders::idle_servo() noexcept {
   encoders_.count(drive_->read().position);
   drive_->write(0.0);
 }
@@ -125,7 +125,7 @@ void Axis::servo(std::int64_t /*now*/) noexcept {
 }
 
 /// Actual values of this tick.
-void Axis::read_drive() noexcept {
+void AxisOrders::read_drive() noexcept {
   DriveActual now = drive_->read();
   encoders_.count(now.position);
   if (encoders_.several()) read_encoders(now);
@@ -149,7 +149,7 @@ void Axis::read_drive() noexcept {
 }
 
 /// The setpoint of this servo tick: between the last two interpolator results, one interpolator cycle later.
-ServoSetpoint Axis::fine_setpoint_now() const noexcept {
+ServoSetpoint AxisOrders::fine_setpoint_now() const noexcept {
   if (servo_tick_ >= ratio_) return {setpoint_.position, setpoint_.velocity};
   const double way = rounded_difference(setpoint_.position, last_setpoint_.position, modulo_);
   const double part = static_cast<double>(servo_tick_) / ratio_;
@@ -157,7 +157,7 @@ ServoSetpoint Axis::fine_setpoint_now() const noexcept {
   return {advanced(last_setpoint_.position, fine.way, modulo_), fine.velocity};
 }
 
-PositionLoop::Output Axis::control_position() noexcept {
+PositionLoop::Output AxisOrders::control_position() noexcept {
   const ServoSetpoint setpoint = fine_setpoint_now();
   if (!position_controlled_) {
     data.VelocitySetpoint = loop_.switched_over(setpoint.velocity, motor_limit_);
@@ -187,7 +187,7 @@ PositionLoop::Output Axis::control_position() noexcept {
 }
 
 /// @param velocity setpoint before the position controller [u/s]
-void Axis::watch_following_error(double velocity) noexcept {
+void AxisOrders::watch_following_error(double velocity) noexcept {
   const double error = std::abs(data.StatusPositioning.FollowingError);
   switch (PositionLoop::level_of(error, velocity, data.DynamicLimits.MaxVelocity, data.FollowingError)) {
     case PositionLoop::FollowingErrorLevel::permitted:
@@ -202,18 +202,18 @@ void Axis::watch_following_error(double velocity) noexcept {
 }
 
 /// The speed setpoint of a speed axis keeps to what its motor can do.
-void Axis::limit_speed() noexcept {
+void AxisOrders::limit_speed() noexcept {
   if (std::abs(data.VelocitySetpoint) <= motor_limit_) return;
   data.VelocitySetpoint = std::copysign(motor_limit_, data.VelocitySetpoint);
   raise(alarm::kSpeedSetpointLimited);
 }
 
 /// Position control begins anew from a setpoint that has moved at its velocity until now.
-void Axis::reset_servo(const ServoSetpoint& setpoint) noexcept {
+void AxisOrders::reset_servo(const ServoSetpoint& setpoint) noexcept {
   loop_.reset(setpoint, data.SetpointFilter.DynamicFilter);
 }
 
-void Axis::shift_servo(double by) noexcept {
+void AxisOrders::shift_servo(double by) noexcept {
   clamping_.shift(by, modulo_);
   encoders_.shift(by);
   loop_.shift(by);

@@ -7,7 +7,7 @@ namespace lockstep {
 // ---- Beginning
 // --------------------------------------------------------------------------------------------------
 
-void Axis::begin_superimposed(Job& job) noexcept {
+void AxisOrders::begin_superimposed(Job& job) noexcept {
   if (job.kind == JobKind::MC_HaltSuperimposed && superimposed_.resting()) {
     if (superimposed_.in_use()) superimposed_.rest();  // a distance that waited is given up
     job.phase = JobPhase::done;
@@ -32,7 +32,7 @@ void Axis::begin_superimposed(Job& job) noexcept {
 }
 
 /// A motion that goes on without position control goes on from where the axis is.
-void Axis::take_position_control() noexcept {
+void AxisOrders::take_position_control() noexcept {
   if (position_controlled_) return;
   const AxisPosition before = setpoint_.position;
   set_position_control(true);
@@ -41,18 +41,18 @@ void Axis::take_position_control() noexcept {
   superimposed_.shift_base(by, modulo_);
 }
 
-BaseMotion Axis::base_motion() const noexcept {
+BaseMotion AxisOrders::base_motion() const noexcept {
   return {single_, jobs_[kBase], motion_ == Motion::single_axis, led()};
 }
 
 /// A base motion that is planned anew within a step leaves what is superimposed its share.
-void Axis::leave_to_superimposed(const Job* job, Dynamics& dynamics) noexcept {
+void AxisOrders::leave_to_superimposed(const Job* job, Dynamics& dynamics) noexcept {
   superimposed_.curb(dynamics, setpoint_, base_motion(), job, limits_);
 }
 
 /// A halt, or a stop for which no job asks any more, makes room as other base motions do, but does not turn
 /// back: where it runs its deceleration down already, it keeps the jerk that it needs for that.
-void Axis::replan_stop() noexcept {
+void AxisOrders::replan_stop() noexcept {
   Job* const job = jobs_[kBase];
   if (job != nullptr && job->kind != JobKind::MC_Halt) return;
   limits_.remember();
@@ -71,7 +71,7 @@ void Axis::replan_stop() noexcept {
 // --------------------------------------------------------------------------------------------------
 
 /// The base motion goes on by itself; then what is superimposed is added.
-void Axis::step_superimposed() noexcept {
+void AxisOrders::step_superimposed() noexcept {
   const SuperimposedMotion::Demand before = superimposed_.demand();
   advance_superimposed();
   if (superimposed_.take_demand(before)) limits_.forget();
@@ -97,7 +97,7 @@ void Axis::step_superimposed() noexcept {
   single_.stand(setpoint_);
 }
 
-void Axis::advance_superimposed() noexcept {
+void AxisOrders::advance_superimposed() noexcept {
   Job* job = jobs_[kSuperimposed];
   if (job != nullptr && job->kind == JobKind::MC_MotionInSuperimposed) return follow_given_superimposed(*job);
   if (job != nullptr && job->kind == JobKind::MC_MoveSuperimposed) follow_share();
@@ -108,7 +108,7 @@ void Axis::advance_superimposed() noexcept {
 }
 
 /// Override, limits and the base motion count at once.
-void Axis::follow_share() noexcept {
+void AxisOrders::follow_share() noexcept {
   const Dynamics wanted = superimposed_.wanted_within(data.DynamicLimits);
   if (const int alarm_number = limits_.zero_limit(wanted); alarm_number != 0) return raise(alarm_number);
   if (superimposed_.follow_share(base_motion(), limits_) == PlanResult::ok) return;
@@ -117,7 +117,7 @@ void Axis::follow_share() noexcept {
 }
 
 /// MC_MotionInSuperimposed: the values of the last call. Without Enable they go to zero at once.
-void Axis::follow_given_superimposed(Job& job) noexcept {
+void AxisOrders::follow_given_superimposed(Job& job) noexcept {
   if (job.input_error != ErrorId::none) {
     end_job(kSuperimposed, JobPhase::failed, job.input_error);
     return superimposed_.brake(base_motion(), limits_);
@@ -129,14 +129,14 @@ void Axis::follow_given_superimposed(Job& job) noexcept {
   superimposed_.give(job.position, job.velocity, job.acceleration);
 }
 
-void Axis::add_superimposed() noexcept {
+void AxisOrders::add_superimposed() noexcept {
   setpoint_ = superimposed_.add_to(setpoint_, modulo_);
 }
 
 /// Before any base motion begins anew: it takes over from what the axis does in all, and the superimposed
 /// part is one of the base motion from now on. Within a step, before the base motion has been advanced, that
 /// is the last setpoint.
-void Axis::absorb_superimposed() noexcept {
+void AxisOrders::absorb_superimposed() noexcept {
   if (!superimposed_.in_use()) return;
   if (superimposed_.advancing_base()) setpoint_ = last_setpoint_;
   superimposed_.leave_base();
@@ -145,7 +145,7 @@ void Axis::absorb_superimposed() noexcept {
   data.StatusPositioning.SuperimposedDistance = 0.0;
 }
 
-void Axis::show_superimposed_command() noexcept {
+void AxisOrders::show_superimposed_command() noexcept {
   const Job* job = jobs_[kSuperimposed];
   const auto runs = [job](JobKind kind) { return job != nullptr && job->kind == kind; };
   set_bit(data.StatusWord, StatusBit::MoveSuperimposedCommand, runs(JobKind::MC_MoveSuperimposed));

@@ -3,13 +3,13 @@
 
 namespace lockstep {
 
-bool Axis::signals_always_watched() const noexcept {
+bool AxisOrders::signals_always_watched() const noexcept {
   return has_drive_ && (data.PositionLimits_HW.Active || !drive_->signals().digital_inputs.empty());
 }
 
 /// Each servo cycle, while there are signals that matter.
 /// @param position of the drive, from where it was at the beginning [u]
-void Axis::watch_signals(const DoubleDouble& position) noexcept {
+void AxisOrders::watch_signals(const DoubleDouble& position) noexcept {
   const MachineSignals& machine = drive_->signals();
   const double place = (position + machine.start_position).rounded();
   for (const DigitalInput& input : machine.digital_inputs) *input.tag = input.range.contains(place, turn());
@@ -17,14 +17,12 @@ void Axis::watch_signals(const DoubleDouble& position) noexcept {
     watch_limit_switch(-1, place, machine.limit_min && place <= *machine.limit_min);
     watch_limit_switch(1, place, machine.limit_max && place >= *machine.limit_max);
   }
-  if (!mark_search_.active()) return;
-  on_home_switch_ = on_home_switch(place);
-  mark_search_.step(place, on_home_switch_, machine.zero_marks);
+  if (homing_.searching()) homing_.pass(place, on_home_switch(place), machine.zero_marks);
 }
 
 /// Whether the reference cam, or the switch at the digital input, is active.
-bool Axis::on_home_switch(double place) const noexcept {
-  return home_switch(homing_.phase != HomingPhase::none).active(drive_->signals(), place, turn());
+bool AxisOrders::on_home_switch(double place) const noexcept {
+  return home_switch(homing_.active()).active(drive_->signals(), place, turn());
 }
 
 // ---- Hardware limit switches
@@ -41,12 +39,12 @@ ErrorId Axis::activate_limit_switches(bool active) noexcept {
   if (!configured) return ErrorId::limit_switches_missing;
   data.PositionLimits_HW.Active = active;
   if (!active) limit_switches_ = {};
-  signals_watched_ = signals_always_watched() || mark_search_.active();
+  signals_watched_ = signals_always_watched() || homing_.searching();
   return ErrorId::none;
 }
 
 /// @param signal of the machine: counts for a switch without tag
-void Axis::watch_limit_switch(int side, double place, bool signal) noexcept {
+void AxisOrders::watch_limit_switch(int side, double place, bool signal) noexcept {
   const auto& settings = data.PositionLimits_HW;
   const LimitSwitches::Approach approach{
       .place = place,
@@ -61,7 +59,7 @@ void Axis::watch_limit_switch(int side, double place, bool signal) noexcept {
 
 /// Beyond a switch the axis may only come back: another setpoint ends in the alarm before anyone sees it. Not
 /// so where homing turns round, or has given up there and brakes.
-void Axis::hold_limit_switches() noexcept {
+void AxisOrders::hold_limit_switches() noexcept {
   if (power_state_ != PowerState::on && power_state_ != PowerState::braking) return;
   if (homing_reverses() || data.ErrorDetail.Number == alarm::kMarkNotFound) return;
   if (!limit_switches_.forbid(setpoint_.velocity)) return;

@@ -4,10 +4,11 @@
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/cam/cam.hpp"
 #include "tech_objects/jobs/function_state.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 
-void Axis::begin_gear_in(Job& job) noexcept {
+void AxisOrders::begin_gear_in(Job& job) noexcept {
   absorb_superimposed();
   cut_acceleration();
   const Dynamics dynamics = own_dynamics(job);
@@ -22,10 +23,10 @@ void Axis::begin_gear_in(Job& job) noexcept {
 }
 
 /// One that is rejected leaves what waits already.
-void Axis::begin_waiting(Job& job) noexcept {
+void AxisOrders::begin_waiting(Job& job) noexcept {
   const Dynamics dynamics = effective_dynamics(job);
-  const int alarm_number =
-      job.mode == 0 ? limits_.zero_limit(dynamics) : 0;  // profile 0 is planned with them
+  const int alarm_number = job.mode == ProfileReference::in_time ? limits_.zero_limit(dynamics)
+                                                                 : 0;  // profile 0 is planned with them
   if (alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
@@ -42,7 +43,7 @@ void Axis::begin_waiting(Job& job) noexcept {
 }
 
 /// Each tick while a synchronous job waits: has the leading value met the start?
-void Axis::watch_waiting() noexcept {
+void AxisOrders::watch_waiting() noexcept {
   const SynchronousMotion* active = motion_ == Motion::synchronous ? &synchronous_ : nullptr;
   switch (awaited_.watch(setpoint_, active)) {
     case SynchronousMotion::Start::not_yet:
@@ -60,7 +61,7 @@ void Axis::watch_waiting() noexcept {
 }
 
 /// The waiting job becomes active: now it overrides what moves the axis.
-void Axis::activate_waiting(Motion motion) noexcept {
+void AxisOrders::activate_waiting(Motion motion) noexcept {
   Job& job = *jobs_[kWaiting];
   if (!awaited_axis_in_order || led_by_this(job.master))
     return end_job(kWaiting, JobPhase::failed, ErrorId::recursive_coupling);
@@ -96,7 +97,7 @@ void Axis::activate_waiting(Motion motion) noexcept {
   show_coupling(job, motion);
 }
 
-void Axis::show_coupling(const Job& job, Motion motion) noexcept {
+void AxisOrders::show_coupling(const Job& job, Motion motion) noexcept {
   motion_ = motion;
   coupling_changed = true;
   auto& status = data.StatusSynchronizedMotion;
@@ -111,7 +112,7 @@ void Axis::show_coupling(const Job& job, Motion motion) noexcept {
   status.SlaveScaling = job.slave_scaling;
 }
 
-void Axis::clear_cam_status() noexcept {
+void AxisOrders::clear_cam_status() noexcept {
   const TO_Struct_StatusSynchronizedMotion none;
   auto& status = data.StatusSynchronizedMotion;
   status.ActualCam = none.ActualCam;
@@ -122,13 +123,13 @@ void Axis::clear_cam_status() noexcept {
 }
 
 /// What the coupling depends on in this tick: ratio, leading value, shifts.
-void Axis::look_at_coupling(const Job& job) noexcept {
+void AxisOrders::look_at_coupling(const Job& job) noexcept {
   if (job.update) synchronous_.change_ratio(job.numerator, job.denominator);
   synchronous_.look_at_leading();
   if (synchronous_.shifted()) advance_shifts();
 }
 
-void Axis::step_synchronous() noexcept {
+void AxisOrders::step_synchronous() noexcept {
   Job* job = jobs_[kBase];
   look_at_coupling(*job);
   if (motion_ == Motion::synchronous && jobs_[kWaitingOut] == nullptr) {
@@ -161,7 +162,7 @@ void Axis::step_synchronous() noexcept {
 
 /// The leading value has reached an end of the cam. One that is passed once ends its job: the axis stands at
 /// the end, or brakes if the cam ends with a slope.
-void Axis::meet_cam_end() noexcept {
+void AxisOrders::meet_cam_end() noexcept {
   Job& job = *jobs_[kBase];
   ++job.ends;
   if (!synchronous_.passed_once()) return synchronous_.clear_cam_end();
@@ -189,7 +190,7 @@ void Axis::meet_cam_end() noexcept {
 // -----------------------------------------------------------------------------------------------------
 
 /// MC_LeadingValueAdditive: what counts from this tick on.
-void Axis::take_additive() noexcept {
+void AxisOrders::take_additive() noexcept {
   additive_.last = additive_.now;
   additive_.now = additive_request.counts ? additive_request.value : AdditiveLeadingValue{};
   const auto zero = [](const AdditiveLeadingValue& value) {
@@ -199,11 +200,12 @@ void Axis::take_additive() noexcept {
 }
 
 /// MC_Phasing… and MC_Offset…
-void Axis::begin_shift(Job& job) noexcept {
+void AxisOrders::begin_shift(Job& job) noexcept {
   const bool phasing = is_phasing(job.kind);
   const bool relative = job.kind == JobKind::MC_PhasingRelative || job.kind == JobKind::MC_OffsetRelative;
   Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
-  Dynamics dynamics = phasing && job.mode == 0 ? effective_dynamics(job) : limits_.maximum();
+  Dynamics dynamics =
+      phasing && job.mode == ProfileReference::in_time ? effective_dynamics(job) : limits_.maximum();
   if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
@@ -232,7 +234,7 @@ void Axis::begin_shift(Job& job) noexcept {
   jobs_.put(phasing ? kPhasing : kOffset, job, runs ? JobPhase::active : JobPhase::waiting);
 }
 
-void Axis::advance_shifts() noexcept {
+void AxisOrders::advance_shifts() noexcept {
   const Shift& phase = synchronous_.phase_shift();
   const Shift& offset = synchronous_.following_offset();
   if (jobs_[kPhasing] != nullptr)
@@ -245,7 +247,7 @@ void Axis::advance_shifts() noexcept {
     synchronous_.advance_following_offset();
 }
 
-void Axis::show_shift(Slot slot, const Shift& shift, Shift::Event event) noexcept {
+void AxisOrders::show_shift(Slot slot, const Shift& shift, Shift::Event event) noexcept {
   Job& job = *jobs_[slot];
   job.phase = shift.phase() == Shift::Phase::waiting ? JobPhase::waiting : JobPhase::active;
   job.covered = rounded_difference(shift.value(), job.shift_base);
@@ -254,13 +256,13 @@ void Axis::show_shift(Slot slot, const Shift& shift, Shift::Event event) noexcep
   end_job(slot, JobPhase::failed, ErrorId::leading_value_reversed);
 }
 
-void Axis::leave_synchronous() noexcept {
+void AxisOrders::leave_synchronous() noexcept {
   if (!led()) return;
   motion_ = Motion::single_axis;
   forget_coupling();
 }
 
-void Axis::forget_coupling() noexcept {
+void AxisOrders::forget_coupling() noexcept {
   synchronous_.end();
   coupling_changed = true;
   auto& status = data.StatusSynchronizedMotion;

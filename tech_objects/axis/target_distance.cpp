@@ -4,13 +4,10 @@
 #include <limits>
 
 #include "tech_objects/axis/stopping_distance.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 namespace {
-
-/// Values of the pin Direction.
-constexpr DINT kPositive = 1;
-constexpr DINT kShortest = 3;
 
 /// By what positions on a ring may be apart by rounding [u]: 0.1 + 0.2 is 0.3, not a turn before it.
 double same_position(const Modulo& modulo) noexcept {
@@ -37,14 +34,14 @@ double absolute_distance(const Job& job, double here, const Modulo& modulo) noex
   if (!modulo.enabled) return job.position - here;
   const double target = normalised({0, job.position}, modulo).value;
   const double shortest = shortest_distance(here, target, modulo);
-  if (job.direction == kShortest || std::abs(shortest) <= same_position(modulo)) return shortest;
-  return job.direction == kPositive ? positive_distance(here, target, modulo)
-                                    : negative_distance(here, target, modulo);
+  if (job.direction == Direction::shortest || std::abs(shortest) <= same_position(modulo)) return shortest;
+  return job.direction == Direction::positive ? positive_distance(here, target, modulo)
+                                              : negative_distance(here, target, modulo);
 }
 
 DoubleDouble absolute_distance(const Job& job, const Setpoint& from, DoubleDouble beyond_target,
                                const Dynamics& dynamics, const Modulo& modulo) noexcept {
-  const bool directed = modulo.enabled && job.direction != kShortest;
+  const bool directed = modulo.enabled && job.direction != Direction::shortest;
   const auto reachable = [&](double distance) noexcept {
     return directed && distance != 0.0 ? beyond_stopping_distance(distance, from, dynamics, modulo)
                                        : distance;

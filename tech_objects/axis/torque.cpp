@@ -25,12 +25,12 @@ ErrorId Axis::torque_additive_refusal() const noexcept {
   return enabled() ? ErrorId::none : ErrorId::locked;
 }
 
-bool Axis::position_monitoring_off() const noexcept {
+bool AxisOrders::position_monitoring_off() const noexcept {
   return forces_.limited() && data.TorqueLimiting.PositionBasedMonitors == PositionBasedMonitors::deactivated;
 }
 
 /// Each interpolator cycle of an axis with a drive, before it moves.
-void Axis::step_forces() noexcept {
+void AxisOrders::step_forces() noexcept {
   if (!forces_.due()) return;
   if (forces_.detects_fixed_stop())
     watch_fixed_stop();
@@ -48,7 +48,7 @@ void Axis::step_forces() noexcept {
 
 /// The axis pushes against something: it lags behind a setpoint that moves on, or that it should have
 /// reached.
-bool Axis::pushes_against_a_stop() const noexcept {
+bool AxisOrders::pushes_against_a_stop() const noexcept {
   const double error = data.StatusPositioning.FollowingError;
   if (!(std::abs(error) > data.Clamping.FollowingErrorDeviation)) return false;
   if (power_state_ != PowerState::on || !position_controlled_ || motion_ == Motion::none) return false;
@@ -58,7 +58,7 @@ bool Axis::pushes_against_a_stop() const noexcept {
   return jobs_[kBase] != nullptr && (single_.finished() || single_.way_left(error > 0.0 ? 1 : -1) > 0.0);
 }
 
-void Axis::watch_fixed_stop() noexcept {
+void AxisOrders::watch_fixed_stop() noexcept {
   if (clamping_.found()) return watch_clamping();
   if (!pushes_against_a_stop()) return;
   clamping_.find(data.StatusPositioning.FollowingError > 0.0 ? 1 : -1, actual_);
@@ -67,7 +67,7 @@ void Axis::watch_fixed_stop() noexcept {
 }
 
 /// The setpoint stays where it is, and with it the following error: a published step of the velocity.
-void Axis::freeze_setpoint() noexcept {
+void AxisOrders::freeze_setpoint() noexcept {
   absorb_superimposed();
   leave_synchronous();
   motion_ = Motion::single_axis;
@@ -77,7 +77,7 @@ void Axis::freeze_setpoint() noexcept {
   single_.stand(setpoint_);
 }
 
-void Axis::watch_clamping() noexcept {
+void AxisOrders::watch_clamping() noexcept {
   if (power_state_ != PowerState::on) return clamping_.leave();
   const bool has_job = jobs_[kBase] != nullptr || jobs_[kSuperimposed] != nullptr;
   switch (clamping_.watch(actual_, modulo_, data.Clamping.PositionTolerance, setpoint_.velocity, has_job)) {
@@ -94,7 +94,7 @@ void Axis::watch_clamping() noexcept {
 }
 
 /// Whether a job may start at the fixed stop: only motions away from it, under position control.
-ErrorId Axis::check_at_fixed_stop(const Job& job) const noexcept {
+ErrorId AxisOrders::check_at_fixed_stop(const Job& job) const noexcept {
   const int side = clamping_.side();
   switch (job.kind) {
     case JobKind::MC_Halt:
@@ -123,7 +123,7 @@ ErrorId Axis::check_at_fixed_stop(const Job& job) const noexcept {
   }
 }
 
-ErrorId Axis::away_from_stop(double way, int side) noexcept {
+ErrorId AxisOrders::away_from_stop(double way, int side) noexcept {
   return side * way > 0.0 ? ErrorId::towards_fixed_stop : ErrorId::none;
 }
 

@@ -1,0 +1,62 @@
+/// Numbers of the pins that choose a mode or a direction, by what they mean. The pins themselves are of the
+/// published types; their declarations say what is permitted.
+/// @source S7-1500T synchronous operation V7, 12.1, 12.2; S7-1500T axis functions
+#pragma once
+
+#include "tech_objects/types/types.hpp"
+
+namespace lockstep {
+
+/// MC_Power, StartMode.
+struct StartMode {
+  enum : DINT { without_position_control = 0, position_control = 1 };
+};
+
+/// MC_Power, StopMode.
+struct PowerStopMode {
+  enum : INT { emergency_ramp = 0, quick_stop = 1, maximum_dynamics = 2, coast_down = 3 };
+};
+
+/// MC_Stop, Mode.
+struct StopMode {
+  enum : DINT { emergency_ramp = 0, maximum_dynamics = 2, given_dynamics = 3 };
+};
+
+/// MC_Reset, Restart, as its job has it.
+struct ResetMode {
+  enum : DINT { acknowledge = 0, restart = 1 };
+};
+
+/// MC_MoveAbsolute, Direction.
+struct Direction {
+  enum : DINT { positive = 1, negative = 2, shortest = 3 };
+};
+
+/// MC_Home, Mode.
+struct HomeMode {
+  enum : DINT {
+    direct_absolute = 0,
+    direct_relative = 1,
+    passive = 2,  ///< HomingDone stays until the mark
+    active = 3,
+    active_configured = 5,         ///< to Homing.HomePosition
+    adjust_absolute_relative = 6,  ///< an absolute encoder, by a distance
+    adjust_absolute = 7,           ///< an absolute encoder, to a position
+    passive_resetting = 8,         ///< HomingDone falls at the begin
+    cancel_passive = 9,
+    passive_configured = 10,  ///< to Homing.HomePosition
+    setpoint = 11,
+    setpoint_relative = 12,
+    adjust_incremental = 13
+  };
+};
+
+/// SyncProfileReference of couplings, ProfileReference of shifts, as far as they have that in common.
+struct ProfileReference {
+  enum : DINT {
+    in_time = 0,       ///< by dynamic values
+    over_distance = 1  ///< over a distance of the leading value
+  };
+};
+
+}  // namespace lockstep
