@@ -45,7 +45,7 @@ echo "what is in it"
 for path in bin/lockstep share/man/man1/lockstep.1.gz share/man/man5/lockstep-project.5.gz \
   lib/systemd/system/lockstep@.service include/lockstep/projects/loader/simulation.hpp \
   share/lockstep/project.schema.json share/lockstep/projects/02_rotary_knife/project.json \
-  share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md; do
+  share/doc/lockstep/lockstep.spdx.json share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md; do
   [[ -s $work/root/usr/$path ]] || fail "usr/$path is not in the package"
 done
 [[ -n $(find "$work/root/usr/lib" -name LockstepConfig.cmake) ]] || fail "no CMake package"
@@ -69,11 +69,24 @@ for command in check run describe tags read write plot monitor cam; do expect "$
 text=$(groff -k -man -Tascii -P-c -P-b -P-u "$work/root/usr/share/man/man5/lockstep-project.5" 2>/dev/null)
 for key in servo_cycle technology_objects programs retain listen; do expect "$text" "$key"; done
 
+echo "its bill of materials is SPDX and whole"
+bill=$work/root/usr/share/doc/lockstep/lockstep.spdx.json
+"$sources/tests/package/check_sbom.py" "$bill" "$lockstep" || fail "the bill of materials"
+for _ in 1 2; do
+  SOURCE_DATE_EPOCH=1 "$sources/cli/packaging/sbom.py" "$sources" "$build" "$build/lockstep" 0.1.0 "$work/again.json"
+  cat "$work/again.json" >>"$work/both.json"
+done
+expect "$(cat "$work/again.json")" '"created": "1970-01-01T00:00:01Z"'
+cmp <(cat "$work/again.json" "$work/again.json") "$work/both.json" || fail "the same build gives two bills of materials"
+
 echo "its unit is one"
 unit=$work/lockstep@.service
 sed "s|=lockstep |=$lockstep |" "$work/root/usr/lib/systemd/system/lockstep@.service" >"$unit"
 complaints=$(systemd-analyze verify --man=no "$unit" 2>&1 | grep -v "^$" || true)
 [[ -z $complaints ]] || fail "systemd-analyze verify: $complaints"
+for setting in Type=notify WatchdogSec=10 IPAddressDeny=any IPAddressAllow=localhost MemoryMax=2G; do
+  grep -qx "$setting" "$unit" || fail "the unit has no $setting"
+done
 grep -q '^AssertPathExists=/etc/lockstep/%i/project.json' "$unit" || fail "a start under a wrong name succeeds"
 exposure=$(systemd-analyze security --offline=yes --threshold=30 "$unit" 2>&1 | tail -n 1) || fail "too exposed: $exposure"
 echo "$exposure"

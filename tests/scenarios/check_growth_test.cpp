@@ -86,8 +86,11 @@ TEST_P(CheckGrows, AsTheProjectDoes) {
   const double four_times = instructions_of(GetParam()(4 * kSome));
   const double first = twice - once;
   EXPECT_GT(first, 0.0);
-  // What is linear takes twice as much for twice as many more; what is quadratic, four times.
-  EXPECT_LT(four_times - twice, 2.4 * first) << first / kSome << " instructions each";
+  // What is linear takes twice as much for twice as many more; what is quadratic, four times; a
+  // little of it hides behind much that is linear.
+  // What is linear takes twice as much for twice as many more; what is quadratic, four times. A little of it
+  // hides behind much that is linear.
+  EXPECT_LT(four_times - twice, 2.15 * first) << first / kSome << " instructions each";
 }
 
 std::string name_of(const testing::TestParamInfo<Make>& made) {
