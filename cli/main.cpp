@@ -8,10 +8,18 @@
 
 #include "cli/command/command.hpp"
 #include "cli/command/standard_streams.hpp"
+#include "hmi_bridge/network/visible_text.hpp"
 
 namespace {
 
 using namespace lockstep::cli;
+
+/// What CLI11 says, with the command line in it, which may have names of strangers' files.
+std::string lines_shown(const std::string& text) {
+  std::string result, line;
+  for (std::istringstream lines(text); std::getline(lines, line);) result += lockstep::visible(line) + "\n";
+  return result;
+}
 
 int carry_out(int argc, char** argv) {
   CLI::App app("Lockstep runs machines of coupled axes from a project file.", "lockstep");
@@ -39,7 +47,7 @@ int carry_out(int argc, char** argv) {
     std::ostringstream data, messages;
     const int status = app.exit(error, data, messages);
     write_data(data.str());
-    write_message(messages.str());
+    write_message(lines_shown(messages.str()));
     return status == 0 ? kOk : kCouldNotStart;  // CLI11's own exit statuses are not ours
   }
   return action();
@@ -59,7 +67,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::fputs("lockstep: there is not enough memory\n", stderr);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "lockstep: internal fault: %s\n", error.what());
+    tell(std::string("internal fault: ") + error.what(), Gravity::error);
     return kStoppedByFault;
   }
   return kCouldNotStart;
