@@ -103,6 +103,7 @@ void Controller::finish() {
   for (const Cam* cam : cams) most_points = std::max(most_points, cam->point_count());
   if (most_points > 0) interpolator_ = std::make_unique<CamInterpolator>(most_points);
   summary_.resize(axes.size());
+  for (Watchdog& watchdog : watchdogs) watchdog.remember();
   wire_outputs();
   order_.set_axes(axes);
   order_.rebuild();

@@ -468,6 +468,10 @@ void tell_counters(const Controller& controller) {
         fmt::format("warning: {} indices of arrays were out of range; what was read there counted as 0, what "
                     "was to be written is lost",
                     outside));
+  std::uint64_t silences = 0;
+  for (const Watchdog& watchdog : controller.watchdogs) silences += watchdog.silences();
+  if (silences != 0)
+    tell(fmt::format("warning: Modbus: a watchdog has found its client silent {} times", silences));
   std::uint64_t refused = 0;
   for (const Program& program : controller.programs) refused += program.refused_assignments();
   if (refused != 0)

@@ -81,12 +81,13 @@ inline constexpr Key kSet[] = {{"set", kRequired}, {"to", kRequired}};
 inline constexpr Key kSetStart[] = {{"set_start", kRequired}, {"to", kRequired}};
 inline constexpr Key kIf[] = {{"if", kRequired}, {"then", kRequired}, {"else"}};
 inline constexpr Key kStimulus[] = {{"at", kRequired}, {"set", kRequired}};
-inline constexpr Key kModbus[] = {{"server"}, {"map"}, {"units"}, {"clients"}};
+inline constexpr Key kModbus[] = {{"server"}, {"map"}, {"watchdog"}, {"units"}, {"clients"}};
 inline constexpr Key kServer[] = {{"listen"},       {"serial"},
                                   {"unit"},         {"allow"},
                                   {"max_clients"},  {"max_requests_per_second"},
                                   {"idle_timeout"}, {"map"},
-                                  {"units"},        {"max_clients_per_address"}};
+                                  {"units"},        {"max_clients_per_address"},
+                                  {"watchdog"}};
 inline constexpr Key kSerial[] = {{"device", kRequired}, {"baud"}, {"parity"}, {"stop_bits"}, {"silence"}};
 inline constexpr Key kClient[] = {{"connect"}, {"serial"}, {"timeout"}, {"devices", kRequired}};
 inline constexpr Key kDevice[] = {
@@ -102,7 +103,8 @@ inline constexpr Key kDeviceEntry[] = {{"tag", kRequired},
                                        {"offset"},
                                        {"quality"},
                                        {"age"}};
-inline constexpr Key kUnit[] = {{"unit", kRequired}, {"map", kRequired}};
+inline constexpr Key kUnit[] = {{"unit", kRequired}, {"map", kRequired}, {"watchdog"}};
+inline constexpr Key kWatchdog[] = {{"tag", kRequired}, {"timeout", kRequired}, {"set"}, {"status"}};
 inline constexpr Key kMapEntry[] = {{"tag"},
                                     {"diagnostic"},
                                     {"table", kRequired},

@@ -55,7 +55,8 @@ inline constexpr char kExampleProject[] = R"json({
       { "tag": "speed",                "table": "holding_register", "address": 10, "type": "REAL" },
       { "tag": "synced",               "table": "discrete_input",   "address": 0 },
       { "tag": "Knife.ActualPosition", "table": "input_register",   "address": 0,  "type": "REAL" }
-    ]
+    ],
+    "watchdog": { "tag": "start", "timeout": "1h", "set": { "speed": 0.0 } }
   },
   "trace": {
     "lcm": { "url": "udpm://239.255.76.67:7667?ttl=0", "channel": "ROTARY_KNIFE" },
