@@ -14,6 +14,7 @@
 #include "cli/run/retain.hpp"
 #include "cli/run/run_command.hpp"
 #include "cli/run/run_commands.hpp"
+#include "hmi_bridge/audit/log.hpp"
 #include "hmi_bridge/lcm/log.hpp"
 #include "hmi_bridge/lcm/publisher.hpp"
 #include "hmi_bridge/lcm/url.hpp"
@@ -50,6 +51,7 @@ class Surroundings {
   Surroundings(Project& project, const RunOptions& options, std::unique_ptr<RetainWriter> keeper)
       : project_(project), options_(options), keeper_(std::move(keeper)) {
     choose_signals();
+    start_audit();
     start_trace();
     start_modbus();
     start_clients();
@@ -82,6 +84,8 @@ class Surroundings {
 
   /// Tells what has gone wrong lately, or is well again.
   void look() {
+    if (audit_)
+      if (const std::string news = audit_->news(); !news.empty()) tell("warning: " + news);
     if (!keeper_) return;
     for (std::string news; !(news = keeper_->news()).empty();) tell("warning: " + news);
   }
@@ -98,6 +102,8 @@ class Surroundings {
     part_ = Part::trace;
     hear_no_more();
     recorder_->stop();
+    part_ = Part::audit;
+    if (audit_) audit_->stop();
     part_ = Part::none;
   }
 
@@ -105,6 +111,8 @@ class Surroundings {
   void tell_losses() {
     look();
     if (keeper_ && keeper_->failing()) tell("warning: the last values are not kept");
+    if (audit_ && audit_->lost() != 0)
+      tell(fmt::format("warning: audit log {}: {} entries are lost", audit_->path(), audit_->lost()));
     if (server_) tell_refused_clients();
     for (const auto& client : clients_) tell_failures(*client);
     if (commands_) commands_->tell_counters();
@@ -123,11 +131,13 @@ class Surroundings {
                       ": writing does not end; the last values are not kept");
     if (part == Part::server) texts.push_back("the Modbus server does not end");
     if (part == Part::clients) texts.push_back("a Modbus client does not end");
+    if (part == Part::audit)
+      texts.push_back("audit log " + audit_->path() + ": writing does not end; the last entries are lost");
     return texts;
   }
 
  private:
-  enum class Part { none, values, server, clients, trace };
+  enum class Part { none, values, server, clients, trace, audit };
 
   /// The values of the last tick.
   void stop_keeper() {
@@ -146,6 +156,33 @@ class Surroundings {
       if (type >= Type::AXIS) throw CouldNotStart("--signals: " + name + " has no value to record");
       signals_.push_back({name, found.place->signal, found.place->unit});
     }
+  }
+
+  /// In virtual time only where somebody asks for it, as the others that look out.
+  void start_audit() {
+    AuditOptions wanted = project_.audit.value_or(AuditOptions{});
+    if (!options_.audit.empty())
+      wanted.file = options_.audit;
+    else if (options_.simulate || !project_.audit)
+      return;
+    try {
+      audit_ = std::make_unique<AuditLog>(std::move(wanted), project_.name);
+    } catch (const std::system_error& error) {
+      throw CouldNotStart(std::string("audit log: ") + error.what());
+    }
+    tell("writes and commands from outside are told in " + audit_->path());
+  }
+
+  /// What the audit log calls the signals of the map.
+  std::vector<std::string> modbus_names() const {
+    std::vector<std::string> names;
+    for (const NamedSignal& signal : project_.modbus.signals) names.push_back(signal.name);
+    for (const ModbusMapConfig& map : project_.modbus.maps)
+      for (const ModbusText& text : map.texts)
+        for (std::size_t i = 0; i < text.count(); ++i)
+          names[map.map.entries()[text.first + i].signal] +=
+              fmt::format(" (characters {} and {})", 2 * i + 1, 2 * i + 2);
+    return names;
   }
 
   LcmTraceIdentity identity(const std::string& channel) const {
@@ -272,6 +309,7 @@ class Surroundings {
     identity.revision = LOCKSTEP_VERSION;
     identity.application = project_.name;
     server_ = std::make_unique<ModbusServer>(std::move(services), *image_, identity);
+    if (audit_) server_->audit_to(*audit_, modbus_names());
     if (const std::string error = server_->start(); !error.empty()) throw CouldNotStart("Modbus: " + error);
     for (const Endpoint& place : server_->places()) tell("Modbus server on " + to_string(place));
     if (asked) return;
@@ -296,7 +334,7 @@ class Surroundings {
     if (options_.simulate || options_.no_lcm || project_.commands.axes.empty()) return;
     const std::string url = options_.lcm.empty() ? project_.trace.url : options_.lcm;
     try {
-      commands_ = std::make_unique<RunCommands>(project_, url, identity(), *recorder_);
+      commands_ = std::make_unique<RunCommands>(project_, url, identity(), *recorder_, audit_.get());
       // Of the project's own network the loader has warned.
       if (!options_.lcm.empty() && lcm_leaves_machine(url))
         tell("warning: --lcm: " + std::string(kLcmCommandsWarning));
@@ -344,6 +382,7 @@ class Surroundings {
                                   std::chrono::system_clock::now().time_since_epoch())
                                   .count();
   std::unique_ptr<RetainWriter> keeper_;
+  std::unique_ptr<AuditLog> audit_;
   std::vector<NamedSignal> signals_;  // of the trace
   TraceColumns columns_;              // of the ring: those, and what else somebody asks for
   std::vector<std::unique_ptr<TraceSink>> sinks_;

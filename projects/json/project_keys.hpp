@@ -33,7 +33,8 @@ inline constexpr Key kProject[] = {{"lockstep", kRequired},
                                    {"modbus"},
                                    {"trace"},
                                    {"retain"},
-                                   {"flight_recorder"}};
+                                   {"flight_recorder"},
+                                   {"audit"}};
 inline constexpr Key kClock[] = {{"servo_cycle", kRequired}, {"interpolator_ratio"}, {"overrun"}};
 inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
 inline constexpr Key kEncoderObject[] = {{"type", kRequired}, {"config"}, {"encoder", kRequired}};
@@ -123,6 +124,7 @@ inline constexpr Key kTrigger[] = {{"on", kRequired}, {"signal"}, {"level"}, {"b
 inline constexpr Key kFlightRecorder[] = {
     {"before", kRequired}, {"after"}, {"file", kRequired}, {"files"}, {"signals"}};
 inline constexpr Key kRetain[] = {{"file"}, {"interval"}};
+inline constexpr Key kAudit[] = {{"file", kRequired}, {"size"}, {"files"}};
 inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}, {"commands"}};
 inline constexpr Key kCommands[] = {{"axes", kRequired}};
 inline constexpr Key kCommandAxis[] = {{"jog_velocity"}};

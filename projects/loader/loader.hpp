@@ -64,5 +64,6 @@ void load_commands(const JsonValue& commands, const Loading& loading);
 /// When tags and objects are loaded.
 void load_retain(const JsonValue* retain, const Loading& loading);
 void load_flight_recorder(const JsonValue& json, const Loading& loading);
+void load_audit(const JsonValue& json, const Loading& loading);
 
 }  // namespace lockstep

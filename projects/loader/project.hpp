@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/audit/file.hpp"
 #include "hmi_bridge/lcm/command_desk.hpp"
 #include "hmi_bridge/modbus/client.hpp"
 #include "hmi_bridge/modbus/map.hpp"
@@ -141,6 +142,7 @@ struct Project {
   CommandsConfig commands;
   RetainConfig retain;
   std::optional<FlightRecorderConfig> flight_recorder;  ///< none: the project has none
+  std::optional<AuditOptions> audit;                    ///< none: the project has no audit log
 };
 
 /// What loading gives: a project if there are no problems, else all problems. Warnings there may be either

@@ -469,6 +469,14 @@ Json flight_recorder_schema() {
                                    text("tag, instance.Pin, variable"))}});
 }
 
+Json audit_schema() {
+  return object(keys::kAudit,
+                {{"file", text("one JSON object a line for each write and command from outside")},
+                 {"size", integer("of a file [byte], behind which the next one begins (16777216)", 4096,
+                                  std::int64_t{1} << 40)},
+                 {"files", integer("in all: FILE, FILE.1 and so on; the oldest gives way (10)", 2, 1000)}});
+}
+
 Json root_schema() {
   const Json clock =
       object(keys::kClock, {{"servo_cycle", duration("period of MC_Servo")},
@@ -501,6 +509,7 @@ Json root_schema() {
                                  {"trace", trace_schema()},
                                  {"flight_recorder",
                                   described("keeps what happened before an alarm", flight_recorder_schema())},
+                                 {"audit", described("who has written or commanded what", audit_schema())},
                                  {"retain", retain}});
 }
 
