@@ -7,12 +7,20 @@
 #include "cli/command/command.hpp"
 #include "cli/command/shortage.hpp"
 #include "cli/command/standard_streams.hpp"
+#include "hmi_bridge/network/visible_text.hpp"
 
 namespace {
 
 using namespace lockstep::cli;
 
 constexpr std::size_t kDescriptors = 4;  // that the shortest command opens at once
+
+/// What CLI11 says, with the command line in it, which may have names of strangers' files.
+std::string lines_shown(const std::string& text) {
+  std::string result, line;
+  for (std::istringstream lines(text); std::getline(lines, line);) result += lockstep::visible(line) + "\n";
+  return result;
+}
 
 int carry_out(int argc, char** argv) {
   CLI::App app("Lockstep runs machines of coupled axes from a project file.", "lockstep");
@@ -40,7 +48,7 @@ int carry_out(int argc, char** argv) {
     std::ostringstream data, messages;
     const int status = app.exit(error, data, messages);
     write_data(data.str());
-    write_message(messages.str());
+    write_message(lines_shown(messages.str()));
     return status == 0 ? kOk : kCouldNotStart;  // CLI11's own exit statuses are not ours
   }
   return action();

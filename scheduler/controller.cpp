@@ -96,6 +96,7 @@ void Controller::finish() {
   if (most_points > 0) interpolator_ = std::make_unique<CamInterpolator>(most_points);
   interpolate_cams_elsewhere(cams_interpolated_elsewhere_);
   summary_.resize(axes.size());
+  for (Watchdog& watchdog : watchdogs) watchdog.remember();
   wire_outputs();
   order_.set_axes(axes);
   order_.rebuild();

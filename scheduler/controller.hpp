@@ -17,6 +17,7 @@
 #include "scheduler/program.hpp"
 #include "scheduler/text.hpp"
 #include "scheduler/trace_ring.hpp"
+#include "scheduler/watchdog.hpp"
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/axis/coupling_order.hpp"
 #include "tech_objects/cam/cam.hpp"
@@ -114,6 +115,7 @@ class Controller {
   EncoderSaving encoder_saving;  ///< what programs ask to be kept at once
   std::vector<Stimulus> stimuli;
   bool apply_stimuli = false;
+  std::vector<Watchdog> watchdogs;  ///< of those who have to give signs of life, such as panels
   std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
 

@@ -35,13 +35,15 @@ bool Controller::due(std::int64_t cycle, std::int64_t t) const noexcept {
   return last_time_ < 0 || t / cycle != last_time_ / cycle;
 }
 
-/// Writes from outside, and what they answer, and stimuli enter the tags.
+/// Writes from outside, and what they answer, and stimuli enter the tags; what has to be while somebody
+/// outside is silent goes on top.
 void Controller::take_inputs(std::int64_t t) noexcept {
   for (ProcessImage* image : images) image->take_writes();
   encoder_saving.step();
-  if (!apply_stimuli) return;
-  for (; next_stimulus_ < stimuli.size() && stimuli[next_stimulus_].at <= t; ++next_stimulus_)
-    stimuli[next_stimulus_].place.store(stimuli[next_stimulus_].value);
+  if (apply_stimuli)
+    for (; next_stimulus_ < stimuli.size() && stimuli[next_stimulus_].at <= t; ++next_stimulus_)
+      stimuli[next_stimulus_].place.store(stimuli[next_stimulus_].value);
+  for (Watchdog& watchdog : watchdogs) watchdog.look(next_tick_);
 }
 
 namespace {
@@ -175,6 +177,7 @@ void Controller::count_overrun() noexcept {
 
 /// The image for Modbus, and on interpolator ticks the trace row.
 void Controller::show(std::int64_t t, bool interpolator_tick) noexcept {
+  for (Watchdog& watchdog : watchdogs) watchdog.remember();
   for (ProcessImage* image : images) image->publish(next_tick_);
   if (trace != nullptr && interpolator_tick) trace->push(t, static_cast<std::uint64_t>(next_tick_));
 }

@@ -20,7 +20,8 @@ struct SignalWrite {
   std::uint32_t signal = 0;    ///< index into the signals of the image
   Value value{};               ///< in the range of the signal's type
   std::uint64_t mask = ~0ULL;  ///< bits to write, the others keep what they are at that tick; other than all
-                               ///< of them only for whole integers and bit strings
+                               ///< of them only for whole integers and bit strings; none, as a client may
+                               ///< ask for: nothing is written
 };
 
 /// What crosses between the cycle and one thread of the bridge. Neither side ever waits for the other, and

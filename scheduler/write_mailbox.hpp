@@ -16,7 +16,7 @@ namespace lockstep {
 struct VariableWrite {
   std::uint32_t variable = 0;
   Value value{};
-  std::uint64_t mask = ~0ULL;  ///< bits to write
+  std::uint64_t mask = ~0ULL;  ///< bits to write; none that the variable has: nothing is written
 
   /// Makes this the write that does what it and then the other would.
   void add(Value later, std::uint64_t its_mask) noexcept {

@@ -24,10 +24,10 @@ void warn_of_wrap(const CamInput& input, const CamDefinition& definition) {
   if (definition.checks.cyclic) return;  // a finding, if continuity asks for it
   for (const CamJoint& joint : joints_of(*definition.cam.function, true, true))
     if (joint.wrap && joint.keeps == Continuity::position)
-      write_message(
-          fmt::format("{}: warning: the cam closes, and {}: passed cyclically, the following axis gets "
-                      "a step; \"cyclic\" and \"continuity\" in its checks look for it\n",
-                      input.file, step_text(joint)));
+      tell_line(fmt::format("{}: warning: the cam closes, and {}: passed cyclically, the following axis gets "
+                            "a step; \"cyclic\" and \"continuity\" in its checks look for it",
+                            input.file, step_text(joint)),
+                Gravity::warning);
 }
 
 int check(const CamInput& input, bool json, const CamDefinition& definition) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "cli/command/command.hpp"
+#include "hmi_bridge/network/visible_text.hpp"
 
 namespace lockstep::cli {
 
@@ -13,10 +14,10 @@ void AlarmMessages::event(const TraceEvent& event) {
   const double seconds = static_cast<double>(event.t) * 1e-9;
   if (event.kind == EventKind::alarm) {
     const std::string reaction = event.reaction == 0 ? "no reaction" : event.reaction_text;
-    text = fmt::format("lockstep: {:.6f} s: {}: alarm {}: {} ({})\n", seconds, event.source, event.number,
-                       event.text, reaction);
+    text = fmt::format("lockstep: {:.6f} s: {}: alarm {}: {} ({})\n", seconds, visible(event.source),
+                       event.number, visible(event.text), reaction);
   } else if (event.kind == EventKind::acknowledged) {
-    text = fmt::format("lockstep: {:.6f} s: {}: alarms acknowledged\n", seconds, event.source);
+    text = fmt::format("lockstep: {:.6f} s: {}: alarms acknowledged\n", seconds, visible(event.source));
   } else {
     return;
   }

@@ -17,6 +17,7 @@
 #include "cli/run/run_commands.hpp"
 #include "cli/run/service_manager.hpp"
 #include "cli/run/state_directory.hpp"
+#include "hmi_bridge/audit/log.hpp"
 #include "hmi_bridge/lcm/log.hpp"
 #include "hmi_bridge/lcm/publisher.hpp"
 #include "hmi_bridge/lcm/url.hpp"
@@ -55,6 +56,7 @@ class Surroundings {
   Surroundings(Project& project, const RunOptions& options, std::unique_ptr<RetainWriter> keeper)
       : project_(project), options_(options), keeper_(std::move(keeper)) {
     choose_signals();
+    start_audit();
     start_trace();
     start_modbus();
     start_clients();
@@ -87,6 +89,8 @@ class Surroundings {
 
   /// Tells what has gone wrong lately, or is well again.
   void look() {
+    if (audit_)
+      if (const std::string news = audit_->news(); !news.empty()) tell("warning: " + news);
     if (!keeper_) return;
     for (std::string news; !(news = keeper_->news()).empty();) tell("warning: " + news);
   }
@@ -103,6 +107,8 @@ class Surroundings {
     part_ = Part::trace;
     hear_no_more();
     recorder_->stop();
+    part_ = Part::audit;
+    if (audit_) audit_->stop();
     part_ = Part::none;
   }
 
@@ -110,6 +116,8 @@ class Surroundings {
   void tell_losses() {
     look();
     if (keeper_ && keeper_->failing()) tell("warning: the last values are not kept");
+    if (audit_ && audit_->lost() != 0)
+      tell(fmt::format("warning: audit log {}: {} entries are lost", audit_->path(), audit_->lost()));
     if (server_) tell_refused_clients();
     for (const auto& client : clients_) tell_failures(*client);
     if (commands_) commands_->tell_counters();
@@ -127,11 +135,13 @@ class Surroundings {
                       ": writing does not end; the last values are not kept");
     if (part == Part::server) texts.push_back("the Modbus server does not end");
     if (part == Part::clients) texts.push_back("a Modbus client does not end");
+    if (part == Part::audit)
+      texts.push_back("audit log " + audit_->path() + ": writing does not end; the last entries are lost");
     return texts;
   }
 
  private:
-  enum class Part { none, values, server, clients, trace };
+  enum class Part { none, values, server, clients, trace, audit };
 
   void tell_recordings() const {
     for (const std::string& file : flight_->written()) tell("flight recorder: wrote " + file);
@@ -155,6 +165,34 @@ class Surroundings {
       if (type >= Type::AXIS) throw CouldNotStart("--signals: " + name + " has no value to record");
       signals_.push_back({name, found.place->signal, found.place->unit});
     }
+  }
+
+  /// In virtual time only where somebody asks for it, as the others that look out.
+  void start_audit() {
+    AuditOptions wanted = project_.audit.value_or(AuditOptions{});
+    wanted.file = path_of_run(options_.file, wanted.file);
+    if (!options_.audit.empty())
+      wanted.file = options_.audit;
+    else if (options_.simulate || !project_.audit)
+      return;
+    try {
+      audit_ = std::make_unique<AuditLog>(std::move(wanted), project_.name);
+    } catch (const std::system_error& error) {
+      throw CouldNotStart(std::string("audit log: ") + error.what());
+    }
+    tell("writes and commands from outside are told in " + audit_->path());
+  }
+
+  /// What the audit log calls the signals of the map.
+  std::vector<std::string> modbus_names() const {
+    std::vector<std::string> names;
+    for (const NamedSignal& signal : project_.modbus.signals) names.push_back(signal.name);
+    for (const ModbusMapConfig& map : project_.modbus.maps)
+      for (const ModbusText& text : map.texts)
+        for (std::size_t i = 0; i < text.count(); ++i)
+          names[map.map.entries()[text.first + i].signal] +=
+              fmt::format(" (characters {} and {})", 2 * i + 1, 2 * i + 2);
+    return names;
   }
 
   LcmTraceIdentity identity(const std::string& channel) const {
@@ -285,6 +323,7 @@ class Surroundings {
     identity.revision = LOCKSTEP_VERSION;
     identity.application = project_.name;
     server_ = std::make_unique<ModbusServer>(std::move(services), *image_, identity);
+    if (audit_) server_->audit_to(*audit_, modbus_names());
     if (const std::string error = server_->start(); !error.empty()) throw CouldNotStart("Modbus: " + error);
     for (const Endpoint& place : server_->places()) tell("Modbus server on " + to_string(place));
     if (asked) return;
@@ -309,7 +348,7 @@ class Surroundings {
     if (options_.simulate || options_.no_lcm || project_.commands.axes.empty()) return;
     const std::string url = options_.lcm.empty() ? project_.trace.url : options_.lcm;
     try {
-      commands_ = std::make_unique<RunCommands>(project_, url, identity(), *recorder_);
+      commands_ = std::make_unique<RunCommands>(project_, url, identity(), *recorder_, audit_.get());
       // Of the project's own network the loader has warned.
       if (!options_.lcm.empty() && lcm_leaves_machine(url))
         tell("warning: --lcm: " + std::string(kLcmCommandsWarning));
@@ -357,6 +396,7 @@ class Surroundings {
                                   std::chrono::system_clock::now().time_since_epoch())
                                   .count();
   std::unique_ptr<RetainWriter> keeper_;
+  std::unique_ptr<AuditLog> audit_;
   std::vector<NamedSignal> signals_;  // of the trace
   TraceColumns columns_;              // of the ring: those, and what else somebody asks for
   std::vector<std::unique_ptr<TraceSink>> sinks_;
@@ -489,6 +529,10 @@ void tell_counters(const Controller& controller) {
         fmt::format("warning: {} indices of arrays were out of range; what was read there counted as 0, what "
                     "was to be written is lost",
                     outside));
+  std::uint64_t silences = 0;
+  for (const Watchdog& watchdog : controller.watchdogs) silences += watchdog.silences();
+  if (silences != 0)
+    tell(fmt::format("warning: Modbus: a watchdog has found its client silent {} times", silences));
   std::uint64_t refused = 0;
   for (const Program& program : controller.programs) refused += program.refused_assignments();
   if (refused != 0)

@@ -44,13 +44,15 @@ void add_run_command(CLI::App& app, Action& action) {
           ->excludes(simulate);
   command->add_flag("--no-retain", options->no_retain, "begin with init values and keep nothing")
       ->excludes(retain);
+  command->add_option("--audit", options->audit,
+                      "append who writes or commands what to this file instead of the project's");
   command->footer(
       "Without --simulate it runs in real time until SIGINT or SIGTERM (or --duration), then brings its axes "
       "to\n"
       "rest. What follows has five seconds; a second signal makes it a moment. A closed terminal does not "
       "end "
       "it.\n"
-      "With --simulate, Modbus and LCM are off unless asked for.\n"
+      "With --simulate, Modbus, LCM and the audit log are off unless asked for.\n"
       "Values that are kept stand, unless named, beside the project file or in the state directory of "
       "systemd.\n"
       "Exit status: 0 ended as asked, 1 project not valid, 2 could not start, 3 stopped by an internal fault "

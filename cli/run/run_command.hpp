@@ -25,6 +25,7 @@ struct RunOptions {
   bool no_lcm = false;
   std::string retain;  ///< file; empty: as the project says
   bool no_retain = false;
+  std::string audit;  ///< file; empty: as the project says
 };
 
 /// Loads the project and carries the run out; gives the exit status.

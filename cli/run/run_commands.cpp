@@ -19,7 +19,7 @@ std::vector<Signal> signals_of(const Project& project) {
 }  // namespace
 
 RunCommands::RunCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity,
-                         TraceRecorder& recorder)
+                         TraceRecorder& recorder, AuditLog* audit)
     : image_(signals_of(project)),
       listener_(url, identity, project.commands.axes, image_, project.controller->clock.servo_cycle,
                 [&recorder](TraceEvent answer) { recorder.tell(std::move(answer)); }) {
@@ -28,6 +28,7 @@ RunCommands::RunCommands(Project& project, const std::string& url, const LcmTrac
   for (const CommandAxis& axis : project.commands.axes) axes += (axes.empty() ? "" : ", ") + axis.name;
   tell(fmt::format("commands from panels on {}, channel {}{}: {}", url, identity.channel, kCommandSuffix,
                    axes));
+  if (audit != nullptr) listener_.audit_to(*audit);
   listener_.start();
 }
 

@@ -15,8 +15,9 @@ namespace lockstep::cli {
 class RunCommands {
  public:
   /// Joins the network; the run must not have begun. @throws as CommandListener
+  /// @param audit may be nullptr
   RunCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity,
-              TraceRecorder& recorder);
+              TraceRecorder& recorder, AuditLog* audit);
   /// Hears no more; before the recorder stops.
   void end() { listener_.stop(); }
   void tell_counters();

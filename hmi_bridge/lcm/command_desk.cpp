@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hmi_bridge/audit/entry.hpp"
 #include "hmi_bridge/traces/csv_number.hpp"
 
 namespace lockstep {
@@ -64,6 +65,7 @@ std::optional<CommandDesk::Answer> CommandDesk::accept(std::span<const std::uint
   if (const auto refusal = judge(*command, now)) return refuse(*refusal, &*command, now);
   ++counters_.accepted;
   const std::size_t axis = *find(command->axis);
+  if (watch_) tell_watch(*command, axis);
   Jog& jog = jogs_[axis];
   const bool goes_on = is_jog(command->action) && jog.action == command->action &&
                        jog.sender == command->sender && now < jog.until;
@@ -79,6 +81,7 @@ std::optional<CommandDesk::Answer> CommandDesk::accept(std::span<const std::uint
 std::optional<CommandDesk::Answer> CommandDesk::refuse(const Refusal& refusal, const command_t* command,
                                                        Clock::time_point now) {
   ++(counters_.*refusal.count);
+  if (watch_) watch_({command, refusal.count, refusal.reason, "", ""});
   if (!told_.take(now, kMostTold)) return std::nullopt;
   if (command == nullptr) return Answer{false, "", "", refusal.reason};
   return Answer{false, command->axis.substr(0, kLongestName), std::string(action_text(command->action)),
@@ -149,6 +152,24 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge_value(const command_t& co
   if (command.action == command_t::OVERRIDE && !(command.value >= 0.0 && command.value <= kHighestSpeed))
     return outside("override", "from 0 to 200");
   return std::nullopt;
+}
+
+/// What is accepted, with the value that it changes.
+void CommandDesk::tell_watch(const command_t& command, std::size_t axis) const {
+  Judged judged{&command, &CommandCounters::accepted, "", "", ""};
+  const auto change = [&](PanelSignal before, Value now, Type type) {
+    judged.before = audit_value(value(axis, before), type);
+    judged.after = audit_value(now, type);
+  };
+  const bool enables = command.action == command_t::ENABLE;
+  if (enables || command.action == command_t::DISABLE)
+    change(PanelSignal::kEnable, Value{.u = enables ? 1u : 0u}, Type::BOOL);
+  if (is_jog(command.action)) change(PanelSignal::kVelocity, Value{.r = command.value}, Type::LREAL);
+  if (command.action == command_t::HOME)
+    change(PanelSignal::kPosition, Value{.r = command.value}, Type::LREAL);
+  if (command.action == command_t::OVERRIDE)
+    change(PanelSignal::kSpeed, Value{.r = command.value}, Type::LREAL);
+  watch_(judged);
 }
 
 /// What belongs together enters the cycle in one tick.

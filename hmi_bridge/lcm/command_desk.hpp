@@ -3,10 +3,12 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "hmi_bridge/lcm/commands.hpp"
@@ -79,9 +81,21 @@ class CommandDesk {
     std::string reason;  ///< of a refusal: what is wrong, what is allowed
   };
 
+  /// What has become of a message, for the audit log; what it refers to lasts as long as the call.
+  struct Judged {
+    const command_t* command;               ///< nullptr: it was none
+    std::uint64_t CommandCounters::*count;  ///< in which it is counted
+    std::string reason;                     ///< of a refusal; empty: accepted
+    std::string before, after;              ///< values as JSON; empty: there are none
+  };
+  using Watch = std::function<void(const Judged&)>;
+
   /// @param image made of the signals of all axes, one after the other; nobody else writes through it
   /// @param run number of the run, which no other run has
   CommandDesk(std::vector<CommandAxis> axes, ProcessImage& image, std::int64_t run);
+
+  /// From here on each message is told, before it is carried out. Before the first message.
+  void watch(Watch watch) { watch_ = std::move(watch); }
 
   /// Takes one message. @return what is to be told; none for what is only counted and for a jog that goes on
   std::optional<Answer> accept(std::span<const std::uint8_t> bytes, Clock::time_point now);
@@ -119,6 +133,7 @@ class CommandDesk {
   std::optional<Refusal> judge_sender(const command_t& command, Clock::time_point now);
   std::optional<Refusal> judge_value(const command_t& command, std::size_t axis) const;
   void carry_out(const command_t& command, std::size_t axis);
+  void tell_watch(const command_t& command, std::size_t axis) const;
   std::optional<Answer> refuse(const Refusal& refusal, const command_t* command, Clock::time_point now);
   std::optional<std::size_t> find(const std::string& axis) const;
   Value value(std::size_t axis, PanelSignal signal) const noexcept;
@@ -132,6 +147,7 @@ class CommandDesk {
   std::unordered_map<std::int64_t, Sender> senders_;
   Allowance commands_, told_;
   CommandCounters counters_;
+  Watch watch_;
 };
 
 }  // namespace lockstep

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hmi_bridge/network/visible_text.hpp"
 #include "hmi_bridge/network/write_signals.hpp"
 
 namespace lockstep {
@@ -16,6 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr int kBurst = 1000;                   // datagrams taken between two looks at the clock
 constexpr LcmBounds kShortOnly{.message = 0};  // a command fits a datagram
+constexpr std::size_t kLongestAxis = 128;      // of a name that is told
 constexpr auto kPoll = 20ms;                   // how long the end of a run may wait for this thread
 
 std::int64_t number_by_chance() {
@@ -50,7 +52,35 @@ void CommandListener::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
+void CommandListener::audit_to(AuditLog& log) {
+  desk_.watch([this, &log](const CommandDesk::Judged& judged) {
+    AuditEntry entry;
+    entry.tick = image_.tick();
+    entry.via = "lcm";
+    entry.from = sender_.empty() ? "this process" : std::string(sender_);
+    entry.source = entry.from.substr(0, entry.from.find(':'));
+    entry.before = judged.before;
+    entry.after = judged.after;
+    entry.accepted = judged.reason.empty();
+    entry.why = judged.reason;
+    entry.action = "command";
+    // Texts and numbers of a stranger are told, but what repeats is not parted by them.
+    if (entry.accepted) entry.subject = judged.command->axis;
+    for (const auto count :
+         {&CommandCounters::malformed, &CommandCounters::stale, &CommandCounters::not_valid,
+          &CommandCounters::impossible, &CommandCounters::too_many})
+      entry.subject += judged.count == count ? '1' : '0';
+    if (judged.command != nullptr) {
+      entry.who = "panel " + std::to_string(judged.command->sender);
+      entry.target = judged.command->axis.substr(0, kLongestAxis);
+      if (const auto action = action_text(judged.command->action); !action.empty()) entry.action = action;
+    }
+    log.add(std::move(entry));
+  });
+}
+
 void CommandListener::take(const LcmMessage& message) {
+  sender_ = message.sender;
   const auto answer = desk_.accept(message.data, CommandDesk::Clock::now());
   if (answer) tell(*answer);
 }
@@ -102,7 +132,7 @@ void CommandListener::tell(const CommandDesk::Answer& answer) {
   event.kind = answer.accepted ? EventKind::command_accepted : EventKind::command_refused;
   event.t = time();
   event.tick = static_cast<std::uint64_t>(std::max<std::int64_t>(image_.tick(), 0));
-  event.source = answer.axis;
+  event.source = visible(answer.axis);  // it goes on to panels and logs
   event.type = answer.action;
   event.text = answer.reason;
   answers_(std::move(event));

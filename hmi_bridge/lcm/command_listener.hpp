@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <thread>
 
+#include "hmi_bridge/audit/log.hpp"
 #include "hmi_bridge/lcm/command_desk.hpp"
 #include "hmi_bridge/lcm/publisher.hpp"
 #include "hmi_bridge/lcm/receiver.hpp"
@@ -31,6 +33,8 @@ class CommandListener {
   CommandListener& operator=(const CommandListener&) = delete;
   ~CommandListener();  ///< stops
 
+  /// Commands, carried out or refused, are told to a log, which outlives this. Before `start`.
+  void audit_to(AuditLog& log);
   void start();
   /// Ends the thread; after it `counters` may be read.
   void stop();
@@ -49,6 +53,7 @@ class CommandListener {
   LcmReceiver receiver_;
   ProcessImage& image_;
   CommandDesk desk_;
+  std::string_view sender_;  // of the message at hand
   const std::int64_t servo_cycle_;
   const Answers answers_;
   std::atomic<bool> stop_{false};

@@ -20,6 +20,7 @@ namespace lockstep {
 struct LcmMessage {
   std::string_view channel;  ///< 1 to 63 characters, any but 0
   std::span<const std::uint8_t> data;
+  std::string_view sender{};  ///< address and port of the last datagram; empty: this process
 };
 
 /// What the reassembly keeps at most. The defaults bear the header of a trace of 60,000 signals.

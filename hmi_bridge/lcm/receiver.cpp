@@ -85,7 +85,13 @@ bool LcmReceiver::take_datagram() {
   if (size < 0) return false;
   const std::uint64_t address = std::uint64_t{sender.sin_addr.s_addr} << 16 | sender.sin_port;
   const std::span<const std::uint8_t> bytes(datagram_.get(), static_cast<std::size_t>(size));
-  if (const auto message = reassembly_.accept(bytes, address, LcmReassembly::Clock::now())) hand_on(*message);
+  auto message = reassembly_.accept(bytes, address, LcmReassembly::Clock::now());
+  if (!message || (!channel_.empty() && message->channel != channel_)) return true;
+  char text[INET_ADDRSTRLEN + 6] = "";
+  ::inet_ntop(AF_INET, &sender.sin_addr, text, INET_ADDRSTRLEN);
+  const std::string from = text + (":" + std::to_string(ntohs(sender.sin_port)));
+  message->sender = from;
+  hand_on(*message);
   return true;
 }
 

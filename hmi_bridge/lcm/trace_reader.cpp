@@ -6,11 +6,14 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <map>
 #include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include "hmi_bridge/network/visible_text.hpp"
 
 namespace lockstep {
 namespace {
@@ -37,16 +40,58 @@ std::int64_t size_of_file(std::FILE* file) noexcept {
   return ::fstat(::fileno(file), &status) == 0 && S_ISREG(status.st_mode) ? std::int64_t{status.st_size} : 0;
 }
 
-struct TraceInLog {
-  std::string channel;
-  bool has_rows = false;
-};
+constexpr std::size_t kMostTraces = 10'000;  // that are told apart; a log that holds more is no run's
+constexpr std::size_t kMostListed = 24;      // in a message
 
-std::string list_of(const std::vector<TraceInLog>& traces) {
-  std::string list;
-  for (const TraceInLog& trace : traces) list += (list.empty() ? "" : ", ") + trace.channel;
-  return list;
-}
+/// The traces of a log by their channels, in the order of their headers. To find one takes as many steps as
+/// their number has bits, whatever the channels are, since they are a stranger's.
+class TracesInLog {
+ public:
+  /// @param comparisons counts them
+  explicit TracesInLog(std::uint64_t& comparisons) : by_channel_(Before{&comparisons}) {}
+
+  /// Notes a header on a channel.
+  void add(std::string_view channel) {
+    if (by_channel_.size() < kMostTraces && by_channel_.find(channel) == by_channel_.end())
+      by_channel_.emplace(channel, by_channel_.size());
+  }
+  /// Notes a message that is no header.
+  void note_rows(std::string_view channel) {
+    if (const auto found = by_channel_.find(channel); found != by_channel_.end())
+      first_with_rows_ = std::min(first_with_rows_, found->second);
+  }
+  bool empty() const noexcept { return by_channel_.empty(); }
+  bool first_has_rows() const noexcept { return first_with_rows_ == 0; }
+  /// The first one that has rows; the first one if none has. Not of an empty one.
+  std::string chosen() const {
+    return in_order()[first_with_rows_ < by_channel_.size() ? first_with_rows_ : 0];
+  }
+  std::string list() const {
+    const std::vector<std::string> channels = in_order();
+    std::string list;
+    for (std::size_t i = 0; i < std::min(channels.size(), kMostListed); ++i)
+      list += (list.empty() ? "" : ", ") + visible(channels[i]);
+    return channels.size() > kMostListed ? list + ", …" : list;
+  }
+
+ private:
+  struct Before {
+    using is_transparent = void;
+    std::uint64_t* comparisons;
+    bool operator()(std::string_view a, std::string_view b) const noexcept {
+      ++*comparisons;
+      return a < b;
+    }
+  };
+  std::vector<std::string> in_order() const {
+    std::vector<std::string> channels(by_channel_.size());
+    for (const auto& [channel, number] : by_channel_) channels[number] = channel;
+    return channels;
+  }
+
+  std::map<std::string, std::size_t, Before> by_channel_;  // with the number of its first header
+  std::size_t first_with_rows_ = std::string::npos;        // number
+};
 
 }  // namespace
 
@@ -69,29 +114,23 @@ void LcmTraceReader::open() {
 }
 
 void LcmTraceReader::find_header() {
-  std::vector<TraceInLog> traces;  // in the order of their headers
-  const auto trace_on = [&traces](std::string_view channel) {
-    return std::find_if(traces.begin(), traces.end(),
-                        [&](const auto& trace) { return trace.channel == channel; });
-  };
+  TracesInLog traces(comparisons_);
   while (next_event()) {
     std::string_view channel = event_.channel;
-    if (const auto trace = trace_on(channel); trace != traces.end()) trace->has_rows = true;
-    if (channel_.empty() && !traces.empty() && traces.front().has_rows) break;
+    if (channel_.empty()) traces.note_rows(channel);
+    if (channel_.empty() && traces.first_has_rows()) break;
     if (!channel.ends_with(kHeaderSuffix) || decoder_.accept(event_.data) != LcmDecoder::Message::kHeader)
       continue;
     channel.remove_suffix(kHeaderSuffix.size());
     if (channel == channel_) return;
-    if (trace_on(channel) == traces.end()) traces.push_back({std::string(channel)});
+    traces.add(channel);
   }
   if (offset_ == 0) throw TraceFormatError(path_ + ": is not an LCM event log");
   if (traces.empty()) throw TraceFormatError(path_ + ": holds no trace");
   if (!channel_.empty())
-    throw TraceFormatError(path_ + ": holds no trace on channel " + channel_ +
-                           "; it holds: " + list_of(traces));
-  const auto found =
-      std::find_if(traces.begin(), traces.end(), [](const auto& trace) { return trace.has_rows; });
-  channel_ = (found == traces.end() ? traces.front() : *found).channel;
+    throw TraceFormatError(path_ + ": holds no trace on channel " + visible(channel_) +
+                           "; it holds: " + traces.list());
+  channel_ = traces.chosen();
   open();
   find_header();
 }
@@ -111,7 +150,7 @@ bool LcmTraceReader::next() {
         ++early_;
         break;
       default:
-        fail("a damaged message on channel " + std::string(channel));
+        fail("a damaged message on channel " + visible(channel));
     }
   }
   end_of_log();

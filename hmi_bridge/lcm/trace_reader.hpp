@@ -32,6 +32,8 @@ class LcmTraceReader {
   TraceRow row() const noexcept { return decoder_.row(); }
   std::int64_t utime() const noexcept { return decoder_.message().utime; }  ///< [µs], of the row
   std::int64_t event_time() const noexcept { return event_.time; }          ///< [µs], of the row's event
+  /// Names of channels that were compared to find the trace: what a log of many headers costs.
+  std::uint64_t comparisons() const noexcept { return comparisons_; }
   /// What is missing: rows before the first header, or an end that was cut short. Complete when `next` was
   /// false.
   const std::string& remark() const noexcept { return remark_; }
@@ -61,6 +63,7 @@ class LcmTraceReader {
   std::int64_t offset_ = 0;   // behind it
   std::int64_t size_ = 0;     // of the file, as far as it is known [byte]
   std::uint64_t early_ = 0;
+  std::uint64_t comparisons_ = 0;
   std::string remark_;
 };
 

@@ -40,8 +40,10 @@ ModbusResponder::ModbusResponder(const ModbusUnits& units, ProcessImage& image, 
 std::span<const std::uint8_t> ModbusResponder::answer(std::span<const std::uint8_t> frame) {
   const Bytes pdu = frame.subspan(kModbusHeader);
   image_.refresh();  // the one instant that this request sees
-  map_ = &units_.of(frame[kModbusHeader - 1]);
+  unit_ = frame[kModbusHeader - 1];
+  map_ = &units_.of(unit_);
   exception_ = perform(pdu);
+  if (audit_ != nullptr && exception_ != ModbusException::none) audit_refusal(pdu);
   reply_[kModbusHeader] = pdu[0];
   if (exception_ != ModbusException::none) {
     reply_[kModbusHeader] = static_cast<std::uint8_t>(pdu[0] | 0x80);
@@ -231,6 +233,7 @@ ModbusException ModbusResponder::read_registers(ModbusTable table, std::uint32_t
 /// Hands the writes of a request that is good to the cycle.
 ModbusException ModbusResponder::post() {
   if (refuses_writes_) return ModbusException::server_device_failure;
+  if (audit_ != nullptr) audit_writes();
   image_.post(batch_);
   return ModbusException::none;
 }

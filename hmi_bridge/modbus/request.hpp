@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "hmi_bridge/audit/log.hpp"
 #include "hmi_bridge/modbus/counters.hpp"
 #include "hmi_bridge/modbus/identity.hpp"
 #include "hmi_bridge/modbus/map.hpp"
@@ -34,6 +36,12 @@ enum class ModbusException : std::uint8_t {
   server_device_failure = 4  ///< a write that no tick would take any more
 };
 
+/// Who asks, for the audit log.
+struct ModbusPeer {
+  std::string from;    ///< address and port, or the line
+  std::string source;  ///< the address alone, or the line
+};
+
 /// Carries out requests on an image. Not copyable; everything is called by one thread, the bridge's of the
 /// image.
 class ModbusResponder {
@@ -48,6 +56,15 @@ class ModbusResponder {
   /// Carries out a request and gives the frame to answer with, valid until the next call. `frame` is one
   /// whole frame, by modbus_frame_length.
   std::span<const std::uint8_t> answer(std::span<const std::uint8_t> frame);
+
+  /// From here on each write, carried out or refused, is told to a log. Both outlive this.
+  /// @param names of the signals of the image
+  void audit_to(AuditLog& log, std::span<const std::string> names) noexcept {
+    audit_ = &log;
+    names_ = names;
+  }
+  /// Who asks from here on; outlives the next `answer`.
+  void set_peer(const ModbusPeer& peer) noexcept { peer_ = &peer; }
 
   /// From here on writes that would be carried out are answered with exception 4: the cycle ends.
   void refuse_writes() noexcept { refuses_writes_ = true; }
@@ -81,6 +98,9 @@ class ModbusResponder {
   ModbusException check_write(ModbusTable table, std::uint32_t address, std::uint32_t count) const;
   ModbusException stage_registers(std::uint32_t address, Bytes words);
   ModbusException stage_bits(const ModbusEntry& first, std::uint16_t word);
+  AuditEntry audit_entry() const;
+  void audit_writes();
+  void audit_refusal(Bytes pdu);
   Value value_of(const ModbusEntry& entry) const;
   ModbusWords words_of(const ModbusEntry& entry) const;
 
@@ -89,6 +109,10 @@ class ModbusResponder {
   ProcessImage& image_;
   const ModbusIdentity identity_;
   const ModbusCounters* counters_;
+  AuditLog* audit_ = nullptr;
+  std::span<const std::string> names_;
+  const ModbusPeer* peer_ = nullptr;
+  std::uint8_t unit_ = 0;  ///< of the request at hand
   std::vector<SignalWrite> batch_;
   std::array<std::uint8_t, kModbusFrame> reply_{};
   bool refuses_writes_ = false;

@@ -85,6 +85,15 @@ void set_port(sockaddr_storage& address, std::uint16_t port) noexcept {
   reinterpret_cast<sockaddr_in&>(address).sin_port = htons(port);
 }
 
+ModbusPeer peer_of(const sockaddr_storage& address) {
+  char text[INET6_ADDRSTRLEN] = "";
+  if (address.ss_family == AF_INET6)
+    ::inet_ntop(AF_INET6, &reinterpret_cast<const sockaddr_in6&>(address).sin6_addr, text, sizeof text);
+  else
+    ::inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in&>(address).sin_addr, text, sizeof text);
+  return {to_string(Endpoint{text, port_of(address)}), text};
+}
+
 /// A listening socket at an address, which gets the port that it was given; -1 and errno if that cannot be.
 int open_listener(sockaddr_storage& address, socklen_t size) noexcept {
   const int socket = ::socket(address.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
@@ -141,6 +150,7 @@ void ModbusServer::make_responders() {
   std::size_t clients = 0;
   for (const ModbusService& service : services_) {
     responders_.emplace_back(service.units, image_, identity_, &counters_);
+    if (audit_ != nullptr) responders_.back().audit_to(*audit_, names_);
     clients += service.options.max_clients;
   }
   clients_.reserve(clients);
@@ -158,7 +168,7 @@ std::string ModbusServer::open_line(std::size_t service) {
   const SerialOptions& options = *services_[service].options.serial;
   auto port = std::make_unique<ModbusSerialLine>(options, counters_);
   if (const std::string problem = port->open(); !problem.empty()) return options.device + ": " + problem;
-  lines_.push_back({std::move(port), service});
+  lines_.push_back({std::move(port), service, {options.device, options.device}});
   return {};
 }
 
@@ -300,6 +310,7 @@ void ModbusServer::serve_line(Line& line, short events, Clock::time_point now) {
   if (is_for_all) unit = service.options.serial_unit;
   if (unit != service.options.serial_unit && service.units.own[unit] == nullptr) return;
   ModbusResponder& responder = responders_[line.service];
+  responder.set_peer(line.peer);
   const std::span<const std::uint8_t> reply = responder.answer(frame);
   if (reply.empty()) {
     ++counters_.faults;
@@ -369,6 +380,7 @@ void ModbusServer::count_waiting(Client& client, Clock::time_point now) {
 
 bool ModbusServer::answer(Client& client, Clock::time_point now) {
   ModbusResponder& responder = responders_[client.service];
+  responder.set_peer(client.peer);
   const std::span<const std::uint8_t> reply = responder.answer(client.connection->request());
   if (reply.empty()) {
     ++counters_.faults;
@@ -402,6 +414,7 @@ void ModbusServer::accept_clients(const Listener& listener, Clock::time_point no
     }
     tune_client(socket);
     clients_.push_back({std::unique_ptr<ModbusConnection>(client), listener.service, address_of(peer)});
+    if (audit_ != nullptr) clients_.back().peer = peer_of(peer);
     ++counters_.connections;
   }
 }
@@ -412,7 +425,19 @@ bool ModbusServer::admits(const sockaddr_storage& peer, std::size_t service) {
       std::any_of(allow.begin(), allow.end(), [&](const IpNetwork& one) { return one.contains(peer); }))
     return true;
   ++counters_.not_allowed;
+  if (audit_ != nullptr) audit_stranger(peer);
   return false;
+}
+
+void ModbusServer::audit_stranger(const sockaddr_storage& peer) {
+  ModbusPeer stranger = peer_of(peer);
+  AuditEntry entry;
+  entry.via = "modbus";
+  entry.from = std::move(stranger.from);
+  entry.source = std::move(stranger.source);
+  entry.action = "connect";
+  entry.why = "not from a network in 'allow'";
+  audit_->add(std::move(entry));
 }
 
 ModbusServer::Address ModbusServer::address_of(const sockaddr_storage& peer) noexcept {

@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "hmi_bridge/modbus/connection.hpp"
@@ -66,6 +67,14 @@ class ModbusServer {
   ModbusServer(const ModbusServer&) = delete;
   ModbusServer& operator=(const ModbusServer&) = delete;
 
+  /// Writes of clients, and clients that are turned away, are told to a log, which outlives this. Before
+  /// `start`.
+  /// @param names of the signals of the image
+  void audit_to(AuditLog& log, std::vector<std::string> names) {
+    audit_ = &log;
+    names_ = std::move(names);
+  }
+
   /// Listens and serves from here on. Returns an empty text, or what is wrong, such as
   /// "127.0.0.1:502: Permission denied"; then nothing has started and it may be called again.
   /// May wait for a name server if a host is a name. Thread: the owner.
@@ -101,12 +110,14 @@ class ModbusServer {
     Address address;
     Clock::time_point due{};  ///< time at which the next request would keep to the rate
     bool is_waiting = false;  ///< the next request has been counted as one that waits
+    ModbusPeer peer{};        ///< for the audit log
   };
 
   /// A serial line on which it answers.
   struct Line {
     std::unique_ptr<ModbusSerialLine> port;
     std::size_t service;
+    ModbusPeer peer;
   };
 
   std::string listen(std::size_t service);
@@ -123,6 +134,7 @@ class ModbusServer {
   void serve_line(Line& line, short events, Clock::time_point now);
   void accept_clients(const Listener& listener, Clock::time_point now);
   bool admits(const sockaddr_storage& peer, std::size_t service);
+  void audit_stranger(const sockaddr_storage& peer);
   static Address address_of(const sockaddr_storage& peer) noexcept;
   bool make_room(std::size_t service, const Address& address, Clock::time_point now);
   template <class Counts>
@@ -139,6 +151,8 @@ class ModbusServer {
   ProcessImage& image_;
   const ModbusIdentity identity_;
   ModbusCounters counters_;
+  AuditLog* audit_ = nullptr;
+  std::vector<std::string> names_;
   std::vector<Endpoint> places_;
   std::vector<Listener> listeners_;
   std::vector<Line> lines_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "projects/cam_files/fields.hpp"
@@ -35,6 +36,43 @@ struct Cell {
   std::size_t column;  // from 1
 };
 
+/// Whether a row has numbers only, and the letters that go with them.
+bool has_numbers_only(std::string_view row) {
+  return row.find_first_not_of("ISP+-.,;0123456789eE \t\r\"") == row.npos;
+}
+
+/// Whether two neighbours of a row with commas may be one number with a decimal comma: whole digits, a comma,
+/// and digits right behind it.
+bool may_be_one(const Cell& left, const Cell& right) {
+  constexpr std::string_view kDigits = "0123456789";
+  if (left.text.empty() || right.text.empty() || right.column != left.column + left.text.size() + 1)
+    return false;
+  const std::size_t sign = left.text.front() == '-' || left.text.front() == '+' ? 1 : 0;
+  return left.text.size() > sign && left.text.find_first_not_of(kDigits, sign) == left.text.npos &&
+         kDigits.find(right.text.front()) != kDigits.npos &&
+         right.text.find_first_not_of("0123456789eE+-") == right.text.npos;
+}
+
+/// A row as it reads with so many decimal commas, the other commas being between numbers.
+std::string reading(std::span<const Cell> cells, std::size_t decimal, bool from_behind) {
+  std::vector<std::string> numbers;
+  std::vector<bool> joined(cells.size() + 1);  // to the one before
+  for (std::size_t k = 1; decimal > 0 && k < cells.size(); ++k) {
+    const std::size_t i = from_behind ? cells.size() - k : k;
+    joined[i] = !joined[i - 1] && !joined[i + 1] && may_be_one(cells[i - 1], cells[i]);
+    if (joined[i]) --decimal;
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (joined[i])
+      numbers.back().append(".").append(cells[i].text);
+    else
+      numbers.emplace_back(cells[i].text);
+  }
+  std::string text;
+  for (const std::string& number : numbers) text += (text.empty() ? "" : " | ") + number;
+  return text;
+}
+
 /// One pass over a table that knows where it is.
 class TableReader {
  public:
@@ -44,7 +82,9 @@ class TableReader {
         separator_(separator_of(text_)),
         definition_(definition),
         problems_(problems),
-        warnings_(warnings) {}
+        warnings_(warnings) {
+    find_decimal_point();
+  }
 
   void read() {
     while (!text_.empty() && problems_.size() < kMostProblems) {
@@ -72,6 +112,32 @@ class TableReader {
 
  private:
   enum class Kind { unknown, points, elements };
+
+  /// The first row with a decimal point: from then on it is known what the commas are.
+  void find_decimal_point() {
+    std::string_view rest = text_;
+    for (std::size_t line = 1; !rest.empty() && point_line_ == 0; ++line) {
+      const std::size_t end = std::min(rest.find('\n'), rest.size());
+      const std::string_view row = rest.substr(0, end);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+      const std::size_t first = row.find_first_not_of(" \t,;");
+      if (first != row.npos && row[first] != '#' && has_numbers_only(row) && row.find('.') != row.npos)
+        point_line_ = line;
+    }
+  }
+
+  /// Whether a row with commas has one reading alone; if not, that is told with both.
+  /// @param most decimal commas that such a row may have
+  bool is_clear(std::span<const Cell> numbers, std::size_t most) {
+    bool decimal = false;
+    for (std::size_t i = 1; i < numbers.size(); ++i) decimal |= may_be_one(numbers[i - 1], numbers[i]);
+    if (!decimal) return true;
+    tell(numbers.front().column,
+         "the commas may part numbers, " + reading(numbers, 0, false) + ", or some be decimal commas, " +
+             reading(numbers, most, numbers.size() == 3) +
+             "; allowed: ';' or a tab between the numbers, or numbers with a decimal point");
+    return false;
+  }
 
   void tell(std::size_t column, std::string text) {
     problems_.push_back(
@@ -125,6 +191,8 @@ class TableReader {
 
   /// The names of the columns, which may stand in the first row.
   void read_header(const std::vector<Cell>& cells) {
+    named_ = true;
+    columns_ = cells.size();
     constexpr std::string_view kColumns[] = {"x", "y"};
     for (std::size_t i = 0; i < std::size(kColumns); ++i)
       if (i >= cells.size() || lower_case(cells[i].text) != kColumns[i])
@@ -147,12 +215,21 @@ class TableReader {
            text.find_first_of("0123456789") != text.npos;
   }
 
-  /// Three or four numbers parted by commas are what a decimal comma makes of two, and nobody can tell which
-  /// comma is which.
+  /// Two numbers are x and y. More of them, parted by commas, are clear where the file has shown what its
+  /// commas are: by the names of its columns, or by a decimal point; and where all rows have as many as the
+  /// first.
   bool has_point_cells(const std::vector<Cell>& cells) {
-    if (separator_ == ',' && (cells.size() == 3 || cells.size() == 4))
-      return has_cells(cells, 2, 2, "x,y or x,y,velocity,acceleration,jerk, with a decimal point");
+    if (columns_ == 0) columns_ = cells.size();
+    const bool shown = cells.size() == columns_ && (named_ || point_line_ != 0);
     if (!has_cells(cells, 2, 5, "x,y and perhaps velocity, acceleration and jerk")) return false;
+    if (separator_ == ',' && cells.size() > 2 && !shown && !is_clear(cells, cells.size() == 3 ? 1 : 2))
+      return false;
+    if (separator_ == ',' && cells.size() > 2 && cells.size() != columns_) {
+      tell(cells[std::min(cells.size(), columns_ + 1) - 1].column,
+           "the row has " + std::to_string(cells.size()) + " values, those before it " +
+               std::to_string(columns_) + "; allowed: as many in each row");
+      return false;
+    }
     if (cells.size() > 2 && !std::exchange(told_of_derivatives_, true))
       warnings_.push_back({std::to_string(line_) + ":" + std::to_string(cells[2].column),
                            "velocity, acceleration and jerk are not read: a cam of points has those of its "
@@ -174,6 +251,10 @@ class TableReader {
     constexpr std::size_t kNumbers = std::size(cam_fields::kSegment);
     if (!has_cells(cells, kNumbers, kNumbers + 1,
                    "S,xmin,xmax,a0,a1,a2,a3,a4,a5,a6,sineAmplitude,sinePeriod,sinePhase and perhaps origin"))
+      return;
+    // Without an origin there is one number less, and a decimal comma makes it up.
+    if (separator_ == ',' && cells.size() > kNumbers && point_line_ == 0 &&
+        !is_clear(std::span(cells).subspan(1), 1))
       return;
     TO_Cam_Struct_SegmentData segment;
     bool good = true;
@@ -201,14 +282,21 @@ class TableReader {
     read(cells[2], 1, settings.BoundaryConditions);
   }
 
+  /// With tabs or semicolons between the numbers a comma is the decimal sign, if there is no decimal point.
   bool read_number(const Cell& cell, double& target) {
-    const char* const end_of_cell = cell.text.data() + cell.text.size();
-    const auto [end, error] = std::from_chars(cell.text.data(), end_of_cell, target);
-    if (error == std::errc{} && end == end_of_cell && target >= -kLargest && target <= kLargest) return true;
-    const bool decimal_comma = cell.text.find(',') != cell.text.npos && is_number(cell.text);
-    tell(cell.column, quote(cell.text) +
-                          " is not allowed here; allowed: a number from -1e12 to 1e12, such as 1.5" +
-                          (decimal_comma ? ", with a decimal point, not a comma" : ""));
+    std::string text(cell.text);
+    const auto comma = text.find(',');
+    if (comma != text.npos && is_number(text) && point_line_ != 0) {
+      tell(cell.column, quote(text) + " has a decimal comma, and line " + std::to_string(point_line_) +
+                            " a decimal point; allowed: one of them in the whole file");
+      return false;
+    }
+    if (comma != text.npos) text[comma] = '.';
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), target);
+    if (error == std::errc{} && end == text.data() + text.size() && target >= -kLargest && target <= kLargest)
+      return true;
+    tell(cell.column,
+         quote(cell.text) + " is not allowed here; allowed: a number from -1e12 to 1e12, such as 1.5");
     return false;
   }
 
@@ -218,6 +306,9 @@ class TableReader {
   std::vector<Problem>& problems_;
   std::vector<Problem>& warnings_;
   bool told_of_derivatives_ = false;
+  std::size_t point_line_ = 0;  // the first with a decimal point; 0: none
+  std::size_t columns_ = 0;     // of the first row of points; 0: there was none
+  bool named_ = false;          // the first row has their names
   Kind kind_ = Kind::unknown;
   std::size_t line_ = 0;
   std::size_t rows_ = 0;
@@ -239,6 +330,26 @@ void read_cam_table(std::string_view text, CamDefinition& definition, std::vecto
     warnings.push_back({reader.place_of(warning), warning.text});
 }
 
+namespace {
+
+/// A table whose rows have more than two numbers shows by a decimal point what its commas are.
+std::string with_decimal_point(std::string text, char separator) {
+  if (separator != ',' || text.find('.') != text.npos) return text;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    const std::string_view row = std::string_view(text).substr(begin, end - begin);
+    if (std::count(row.begin(), row.end(), ',') > 2) {
+      const std::size_t last = begin + row.rfind(',') + 1;
+      const std::size_t exponent = text.find('e', last);
+      return text.insert(std::min(exponent, end), ".0");
+    }
+    begin = end + 1;
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string cam_element_table(const CamDefinition& definition, char separator) {
   const TO_Cam_Struct_InterpolationSettings& settings = definition.design.interpolation;
   std::string text = std::string("I") + separator + std::to_string(settings.InterpolationMode) + separator +
@@ -251,7 +362,7 @@ std::string cam_element_table(const CamDefinition& definition, char separator) {
   }
   for (const TO_Cam_Struct_PointData& point : definition.cam.points)
     text += std::string("P") + separator + text_of(point.x) + separator + text_of(point.y) + "\n";
-  return text;
+  return with_decimal_point(std::move(text), separator);
 }
 
 std::vector<CamSample> sampled(const CamFunction& cam, double from, double to, std::size_t count) {
@@ -276,7 +387,7 @@ std::string cam_point_table(const std::vector<CamSample>& samples, bool derivati
         text += separator + text_of(value);
     text += '\n';
   }
-  return text;
+  return with_decimal_point(std::move(text), separator);
 }
 
 }  // namespace lockstep

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/network/visible_text.hpp"
+
 namespace lockstep {
 
 class JsonValue;
@@ -38,15 +40,6 @@ class Problems {
   std::vector<Problem> errors_;
   std::vector<Problem> warnings_;
 };
-
-/// A piece of the file for a message: on one line, without what a terminal cannot show, of 60 characters at
-/// most.
-/// @param text UTF-8; what is none of it is shown as "?"
-std::string shown(std::string_view text);
-
-/// The whole text on one line: "?" stands for each character that a terminal obeys instead of showing it (C0,
-/// C1, ends of lines, turns of the direction) and for each byte that is none of UTF-8.
-std::string visible(std::string_view text);
 
 /// What `shown` gives, in single quotes.
 std::string quote(std::string_view text);

@@ -33,7 +33,8 @@ inline constexpr Key kProject[] = {{"lockstep", kRequired},
                                    {"modbus"},
                                    {"trace"},
                                    {"retain"},
-                                   {"flight_recorder"}};
+                                   {"flight_recorder"},
+                                   {"audit"}};
 inline constexpr Key kClock[] = {
     {"servo_cycle", kRequired}, {"interpolator_ratio"}, {"processors"}, {"overrun"}};
 inline constexpr Key kObject[] = {{"type", kRequired}, {"config"}, {"drive"}, {"leading_values"}};
@@ -82,12 +83,13 @@ inline constexpr Key kSet[] = {{"set", kRequired}, {"to", kRequired}};
 inline constexpr Key kSetStart[] = {{"set_start", kRequired}, {"to", kRequired}};
 inline constexpr Key kIf[] = {{"if", kRequired}, {"then", kRequired}, {"else"}};
 inline constexpr Key kStimulus[] = {{"at", kRequired}, {"set", kRequired}};
-inline constexpr Key kModbus[] = {{"server"}, {"map"}, {"units"}, {"clients"}};
+inline constexpr Key kModbus[] = {{"server"}, {"map"}, {"watchdog"}, {"units"}, {"clients"}};
 inline constexpr Key kServer[] = {{"listen"},       {"serial"},
                                   {"unit"},         {"allow"},
                                   {"max_clients"},  {"max_requests_per_second"},
                                   {"idle_timeout"}, {"map"},
-                                  {"units"},        {"max_clients_per_address"}};
+                                  {"units"},        {"max_clients_per_address"},
+                                  {"watchdog"}};
 inline constexpr Key kSerial[] = {{"device", kRequired}, {"baud"}, {"parity"}, {"stop_bits"}, {"silence"}};
 inline constexpr Key kClient[] = {{"connect"}, {"serial"}, {"timeout"}, {"devices", kRequired}};
 inline constexpr Key kDevice[] = {
@@ -103,7 +105,8 @@ inline constexpr Key kDeviceEntry[] = {{"tag", kRequired},
                                        {"offset"},
                                        {"quality"},
                                        {"age"}};
-inline constexpr Key kUnit[] = {{"unit", kRequired}, {"map", kRequired}};
+inline constexpr Key kUnit[] = {{"unit", kRequired}, {"map", kRequired}, {"watchdog"}};
+inline constexpr Key kWatchdog[] = {{"tag", kRequired}, {"timeout", kRequired}, {"set"}, {"status"}};
 inline constexpr Key kMapEntry[] = {{"tag"},
                                     {"diagnostic"},
                                     {"table", kRequired},
@@ -122,6 +125,7 @@ inline constexpr Key kTrigger[] = {{"on", kRequired}, {"signal"}, {"level"}, {"b
 inline constexpr Key kFlightRecorder[] = {
     {"before", kRequired}, {"after"}, {"file", kRequired}, {"files"}, {"keep"}, {"signals"}};
 inline constexpr Key kRetain[] = {{"file"}, {"interval"}};
+inline constexpr Key kAudit[] = {{"file", kRequired}, {"size"}, {"files"}};
 inline constexpr Key kLcm[] = {{"url", kRequired}, {"channel", kRequired}, {"commands"}};
 inline constexpr Key kCommands[] = {{"axes", kRequired}};
 inline constexpr Key kCommandAxis[] = {{"jog_velocity"}};

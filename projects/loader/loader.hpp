@@ -42,6 +42,9 @@ struct Loading {
 
 void load_clock(const JsonValue& clock, const Loading& loading);
 void load_tags(const JsonValue& tags, const Loading& loading);
+/// Reads { tag: constant, … }; whatever is wrong is reported.
+/// @param who sets them, for messages, such as "a stimulus"
+std::vector<Assignment> read_assignments(const JsonValue* json, std::string_view who, const Loading& loading);
 
 /// Adds all objects and their names; `load_objects` then reads them, when all names are there.
 void declare_objects(const JsonValue& objects, const Loading& loading);
@@ -71,5 +74,6 @@ void load_commands(const JsonValue& commands, const Loading& loading);
 /// When tags and objects are loaded.
 void load_retain(const JsonValue* retain, const Loading& loading);
 void load_flight_recorder(const JsonValue& json, const Loading& loading);
+void load_audit(const JsonValue& json, const Loading& loading);
 
 }  // namespace lockstep

@@ -29,7 +29,9 @@ class MapLoader {
       : modbus_(loading.project.modbus), loading_(loading), problems_(loading.problems) {}
 
   /// A map, or nullptr for an empty one.
-  void load(const JsonValue* map, std::optional<std::size_t> server, std::optional<std::uint8_t> unit);
+  /// @param watchdog of those who write to it; may be nullptr
+  void load(const JsonValue* map, const JsonValue* watchdog, std::optional<std::size_t> server,
+            std::optional<std::uint8_t> unit);
   /// The maps of unit ids.
   void load_units(const JsonValue* units, std::optional<std::size_t> server);
   /// Makes the maps, when all signals are known.
@@ -43,6 +45,8 @@ class MapLoader {
     std::vector<const JsonValue*> places;  // of the entries in the file
     std::vector<ModbusArray> arrays;
     std::vector<ModbusText> texts;
+    const JsonValue* watchdog;
+    bool is_whole = true;  // nothing in it is faulty
   };
 
   void load_line(const JsonValue& json, std::uint32_t line, Draft& draft);
@@ -58,12 +62,14 @@ class MapLoader {
   std::vector<Draft> drafts_;
 };
 
-void MapLoader::load(const JsonValue* map, std::optional<std::size_t> server,
+void MapLoader::load(const JsonValue* map, const JsonValue* watchdog, std::optional<std::size_t> server,
                      std::optional<std::uint8_t> unit) {
-  Draft& draft = drafts_.emplace_back(Draft{server, unit, {}, {}, {}, {}});
-  if (read_array(map, problems_) == nullptr) return;
-  for (std::uint32_t line = 0; line < map->elements.size(); ++line)
-    load_line(*map->elements[line], line, draft);
+  Draft& draft = drafts_.emplace_back(Draft{server, unit, {}, {}, {}, {}, watchdog});
+  const std::size_t before = problems_.count();
+  if (read_array(map, problems_) != nullptr)
+    for (std::uint32_t line = 0; line < map->elements.size(); ++line)
+      load_line(*map->elements[line], line, draft);
+  draft.is_whole = problems_.count() == before;
 }
 
 void MapLoader::load_units(const JsonValue* units, std::optional<std::size_t> server) {
@@ -77,7 +83,7 @@ void MapLoader::load_units(const JsonValue* units, std::optional<std::size_t> se
       problems_.report(*fields["unit"],
                        "unit " + std::to_string(*unit) + " is there twice; each unit id is allowed once");
     if (unit) seen.push_back(*unit);
-    load(fields["map"], server, static_cast<std::uint8_t>(unit.value_or(0)));
+    load(fields["map"], fields["watchdog"], server, static_cast<std::uint8_t>(unit.value_or(0)));
   }
 }
 
@@ -91,6 +97,8 @@ void MapLoader::finish() {
                                                                             std::move(draft.arrays),
                                                                             std::move(draft.texts)});
     report_modbus_problems(made.map, draft.places, problems_);
+    if (draft.watchdog != nullptr)
+      load_watchdogs(*draft.watchdog, draft.is_whole ? &made.map : nullptr, loading_);
   }
 }
 
@@ -184,7 +192,11 @@ void load_server(const JsonValue& json, const Loading& loading, MapLoader& maps)
   std::vector<ModbusServerOptions>& servers = loading.project.modbus.servers;
   const std::size_t index = servers.size();
   servers.emplace_back();
-  if (fields["map"] != nullptr) maps.load(fields["map"], index, std::nullopt);
+  if (fields["map"] != nullptr) maps.load(fields["map"], fields["watchdog"], index, std::nullopt);
+  if (fields["map"] == nullptr && fields["watchdog"] != nullptr)
+    problems.report(*fields["watchdog"],
+                    "this server has no map of its own; allowed: a watchdog beside the 'map' that has its "
+                    "heartbeat");
   maps.load_units(fields["units"], index);
   load_modbus_place(json, fields, loading.project.modbus, problems);
 }
@@ -412,7 +424,7 @@ void load_modbus(const JsonValue* modbus, const Loading& loading) {
   none.kind = JsonKind::object;
   const Fields fields(modbus == nullptr ? none : *modbus, modbus == nullptr ? Keys{} : keys::kModbus,
                       loading.problems);
-  maps.load(fields["map"], std::nullopt, std::nullopt);
+  maps.load(fields["map"], fields["watchdog"], std::nullopt, std::nullopt);
   maps.load_units(fields["units"], std::nullopt);
   if (fields["server"] != nullptr) load_servers(*fields["server"], loading, maps);
   maps.finish();

@@ -49,6 +49,10 @@ std::size_t add_modbus_text(const ModbusEntry& shape, const StringTag& tag, cons
 void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* const> places,
                             Problems& problems);
 
+/// Reads the watchdog of a map, or several: each has a heartbeat that a client can write there.
+/// @param map nullptr: it is faulty, so that nobody knows what it has
+void load_watchdogs(const JsonValue& json, const ModbusMap* map, const Loading& loading);
+
 /// Reads where the last of the servers is and whom it lets in; the keys of its maps are not looked at.
 void load_modbus_place(const JsonValue& json, const Fields& fields, ModbusConfig& modbus, Problems& problems);
 

@@ -47,6 +47,7 @@ void load_sections(const JsonValue& root, const Loading& loading) {
   if (const auto* const trace = fields["trace"]) load_trace(*trace, loading);
   load_retain(fields["retain"], loading);
   if (const auto* const recorder = fields["flight_recorder"]) load_flight_recorder(*recorder, loading);
+  if (const auto* const audit = fields["audit"]) load_audit(*audit, loading);
 }
 
 void load_root(const JsonValue& root, const Loading& loading) {

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/audit/file.hpp"
 #include "hmi_bridge/lcm/command_desk.hpp"
 #include "hmi_bridge/modbus/client.hpp"
 #include "hmi_bridge/modbus/map.hpp"
@@ -72,7 +73,8 @@ struct ModbusConfig {
   std::vector<ModbusServerOptions> servers;  ///< none: the project has no server
   std::vector<NamedSignal> signals;          ///< of the process image, to which the entries of the maps refer
   std::vector<ModbusClientConfig> clients;
-  std::deque<ModbusMapConfig> maps;  ///< the first one is the project's map of all unit ids
+  std::vector<Signal> watchdog_states;  ///< BOOL tags that tell of the silence of clients, each once
+  std::deque<ModbusMapConfig> maps;     ///< the first one is the project's map of all unit ids
 
   /// The maps that a server has: its own, else the common ones. Pointers into `maps`.
   /// @param server index; none, or one that is not there: the common ones
@@ -140,6 +142,7 @@ struct Project {
   CommandsConfig commands;
   RetainConfig retain;
   std::optional<FlightRecorderConfig> flight_recorder;  ///< none: the project has none
+  std::optional<AuditOptions> audit;                    ///< none: the project has no audit log
 };
 
 /// What loading gives: a project if there are no problems, else all problems. Warnings there may be either

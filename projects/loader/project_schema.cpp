@@ -378,10 +378,23 @@ Json modbus_client_schema(const Json& serial) {
                                 {"devices", array("devices behind this connection", device)}});
 }
 
+Json watchdog_schema() {
+  const Json watchdog = object(
+      keys::kWatchdog,
+      {{"tag", text("heartbeat: a tag of the map that a client writes; a change of its value is a sign of "
+                    "life")},
+       {"timeout", duration("without a sign of life after which there is silence")},
+       {"set", map("tag: value, written in every tick while there is silence", value("constant"))},
+       {"status", text("BOOL tag: there is silence")}});
+  return one_or_many(watchdog, "what is done when a client that writes falls silent");
+}
+
 Json modbus_schema() {
+  const Json watchdog = reference("modbus_watchdog");
   const Json unit =
       object(keys::kUnit, {{"unit", integer("unit id", 0, 255)},
-                           {"map", array("which signal stands where", reference("modbus_entry"))}});
+                           {"map", array("which signal stands where", reference("modbus_entry"))},
+                           {"watchdog", watchdog}});
   const Json own_map = array("a map of its own in place of the common one", reference("modbus_entry"));
   const Json units = array("maps of single unit ids in place of the one for all", unit);
   const Json serial =
@@ -404,9 +417,11 @@ Json modbus_schema() {
         integer("of them from one address (three quarters of max_clients)", 1, 1000)},
        {"idle_timeout", duration("a client that asks for nothing for this long is disconnected")},
        {"map", own_map},
+       {"watchdog", watchdog},
        {"units", units}});
   return object(keys::kModbus, {{"server", one_or_many(server, "where clients may ask")},
                                 {"map", array("which signal stands where", reference("modbus_entry"))},
+                                {"watchdog", watchdog},
                                 {"units", units},
                                 {"clients", array("foreign devices", modbus_client_schema(serial))}});
 }
@@ -461,6 +476,14 @@ Json flight_recorder_schema() {
         array("what is kept; everything that may change if missing", text("tag, instance.Pin, variable"))}});
 }
 
+Json audit_schema() {
+  return object(keys::kAudit,
+                {{"file", text("one JSON object a line for each write and command from outside")},
+                 {"size", integer("of a file [byte], behind which the next one begins (16777216)", 4096,
+                                  std::int64_t{1} << 40)},
+                 {"files", integer("in all: FILE, FILE.1 and so on; the oldest gives way (10)", 2, 1000)}});
+}
+
 Json root_schema() {
   const Json clock =
       object(keys::kClock,
@@ -495,6 +518,7 @@ Json root_schema() {
                                  {"trace", trace_schema()},
                                  {"flight_recorder",
                                   described("keeps what happened before an alarm", flight_recorder_schema())},
+                                 {"audit", described("who has written or commanded what", audit_schema())},
                                  {"retain", retain}});
 }
 
@@ -519,6 +543,7 @@ std::string project_schema() {
   definitions["call"] = call_schema();
   definitions.update(cam_schema_definitions());
   definitions["modbus_entry"] = modbus_entry_schema();
+  definitions["modbus_watchdog"] = watchdog_schema();
   schema["definitions"] = definitions;
   return schema.dump(2) + "\n";
 }

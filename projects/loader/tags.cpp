@@ -110,38 +110,45 @@ void load_tag(const std::string& name, const JsonValue& json, const Loading& loa
   if (named) loading.names().define(name, &loading.controller().add_tag(std::move(tag)));
 }
 
-void load_stimulus_text(std::optional<std::int64_t> at, const StringTag& tag, const JsonValue& json,
-                        const Loading& loading) {
+void read_text_assignment(const StringTag& tag, const JsonValue& json, const Loading& loading,
+                          std::vector<Assignment>& assignments) {
   const auto text = read_text_constant(json, tag.text.room, loading.problems);
-  if (!at || !text) return;
+  if (!text) return;
   const std::vector<Signal> signals = text_signals(tag.text);
   const std::vector<Value> values = text_values(*text, tag.text.room);
-  for (std::size_t i = 0; i < signals.size(); ++i)
-    loading.controller().stimuli.push_back({*at, signals[i], values[i]});
+  for (std::size_t i = 0; i < signals.size(); ++i) assignments.push_back({signals[i], values[i]});
 }
 
 void load_stimulus(const JsonValue& json, const Loading& loading) {
   const Fields fields(json, keys::kStimulus, loading.problems);
   const auto at = read_duration(fields["at"], 0, INT64_MAX, loading.problems);
-  const JsonValue* const set = read_object(fields["set"], loading.problems);
-  if (set == nullptr) return;
-  for (const auto& [path, json_value] : set->members) {
-    if (const StringTag* const string = loading.names().find_string(path)) {
-      load_stimulus_text(at, *string, *json_value, loading);
-      continue;
-    }
-    const auto place = loading.find(*json_value, path);
-    if (!place) continue;
-    if (place->tag == nullptr && place->array == nullptr) {
-      loading.problems.report(*json_value, quote(path) + " is no tag; a stimulus sets tags");
-      continue;
-    }
-    const auto value = read_constant(*json_value, place->signal.value_type(), loading.problems);
-    if (at && value) loading.controller().stimuli.push_back({*at, place->signal, *value});
-  }
+  for (const Assignment& one : read_assignments(fields["set"], "a stimulus", loading))
+    if (at) loading.controller().stimuli.push_back({*at, one.place, one.value});
 }
 
 }  // namespace
+
+std::vector<Assignment> read_assignments(const JsonValue* json, std::string_view who,
+                                         const Loading& loading) {
+  std::vector<Assignment> assignments;
+  const JsonValue* const set = read_object(json, loading.problems);
+  if (set == nullptr) return assignments;
+  for (const auto& [path, value] : set->members) {
+    if (const StringTag* const string = loading.names().find_string(path)) {
+      read_text_assignment(*string, *value, loading, assignments);
+      continue;
+    }
+    const auto place = loading.find(*value, path);
+    if (!place) continue;
+    if (place->tag == nullptr && place->array == nullptr) {
+      loading.problems.report(*value, quote(path) + " is no tag; " + std::string(who) + " sets tags");
+      continue;
+    }
+    if (const auto constant = read_constant(*value, place->signal.value_type(), loading.problems))
+      assignments.push_back({place->signal, *constant});
+  }
+  return assignments;
+}
 
 void load_tags(const JsonValue& tags, const Loading& loading) {
   if (read_object(&tags, loading.problems) == nullptr) return;

@@ -53,7 +53,7 @@ class Client {
     command.sequence = ++sequence_;
     command.action = action;
     command.value = value;
-    command.axis = "Slide";
+    command.axis = axis;
     send(encoded(command));
   }
   void send(const std::vector<std::uint8_t>& bytes) {
@@ -73,6 +73,7 @@ class Client {
     return taken;
   }
 
+  std::string axis = "Slide";
   panel_t state{};
   std::uint64_t states = 0, rows = 0;
   std::vector<event_t> events;
@@ -225,6 +226,57 @@ TEST(RunCommands, ALogOfTheRunHasTheAnswersThatTheNetworkHearsAndAPlayerTellsThe
                                 [](const event_t& event) { return event.kind == "command accepted"; }),
                   2);
       });
+}
+
+TEST(RunCommands, AnAuditLogTellsCommandsThatAreCarriedOutAndThoseThatAreNot) {
+  in_own_network([] {
+    bring_up_network();
+    const cli::Directory folder;
+    const std::string audit = folder.file("audit.jsonl");
+    auto command =
+        run_of(folder.write("project.json", project(R"(, "commands": { "axes": { "Slide": {} } })")),
+               folder.file("err"), "");
+    command[2].replace(command[2].find("2>"), 0, "--audit \"$4\" ");
+    command.push_back(audit);
+    ForeignProgram run(command);
+    Client client;
+    ASSERT_TRUE(client.hear_until([&] { return client.states > 0; })) << cli::content(folder.file("err"));
+    const auto told = [&](const std::string& text) {
+      return client.hear_until([&] { return cli::content(audit).find(text) != std::string::npos; });
+    };
+    client.send(command_t::ENABLE);
+    EXPECT_TRUE(told(
+        R"("who":"panel 5","action":"enable","target":"Slide","old":false,"new":true,"result":"accepted"})"))
+        << cli::content(audit);
+    client.send(command_t::OVERRIDE, 50.0);
+    EXPECT_TRUE(told(R"("action":"override","target":"Slide","old":100,"new":50,"result":"accepted"})"))
+        << cli::content(audit);
+    client.send(command_t::OVERRIDE, 500.0);
+    EXPECT_TRUE(told(R"("result":"refused","why":"override 500 is not permitted)")) << cli::content(audit);
+    client.send(std::vector<std::uint8_t>{1, 2, 3});
+    EXPECT_TRUE(told(R"("action":"command","result":"refused","why":"not a command"})"))
+        << cli::content(audit);
+    EXPECT_TRUE(told(R"("via":"lcm","from":")")) << cli::content(audit);
+    run.interrupt();
+    EXPECT_EQ(run.status(), 0);
+  });
+}
+
+TEST(RunCommands, AnAxisThatHasNoNameIsToldAsText) {
+  in_own_network([] {
+    bring_up_network();
+    const cli::Directory folder;
+    ForeignProgram run(
+        run_of(folder.write("project.json", project(R"(, "commands": { "axes": { "Slide": {} } })")),
+               folder.file("err")));
+    Client client;
+    ASSERT_TRUE(client.hear_until([&] { return client.states > 0; })) << cli::content(folder.file("err"));
+    client.axis = "x\x1b[2J\n";
+    client.send(command_t::ENABLE);
+    EXPECT_EQ(client.event("command refused", "no axis of this name").source, "x?[2J?");
+    run.interrupt();
+    EXPECT_EQ(run.status(), 0);
+  });
 }
 
 TEST(RunCommands, AProjectThatDoesNotSaySoHearsNoCommand) {

@@ -102,6 +102,12 @@ TEST(Terminal, AFileWithAnEvilNameIsText) {
   EXPECT_TRUE(is_text(lockstep({"monitor", "--once", "--lcm", evil})));
 }
 
+TEST(Terminal, ACommandLineThatIsWrongIsText) {
+  EXPECT_TRUE(is_text(lockstep({"check", "a", kEvil})));
+  EXPECT_TRUE(is_text(lockstep({"run", "a", "--duration", kEvil})));
+  EXPECT_TRUE(is_text(lockstep({"describe", kEvil})));
+}
+
 TEST(Terminal, WhatTheMonitorShowsIsText) {
   Model model(kEvil);
   model.search = kEvil;

@@ -206,6 +206,51 @@ TEST(LcmTraceReader, ALogThatGrowsWhileItIsReadIsReadToItsEnd) {
   EXPECT_EQ(reader.remark(), "");
 }
 
+/// A log of so many headers, each on a channel of its own, and then a row on the last of them. Half of the
+/// headers are none.
+void write_headers(const std::string& path, std::size_t headers) {
+  LcmEncoder encoder(kIdentity, sample_signals());
+  const std::span<const std::uint8_t> bytes = encoder.header();
+  const std::vector<std::uint8_t> header(bytes.begin(), bytes.end());
+  const auto row = encoder.row({0, 0, 0, sample_rows(1, 3)[0]});
+  lcm_eventlog_t* const log = lcm_eventlog_create(path.c_str(), "w");
+  const auto write = [&](std::string channel, std::span<const std::uint8_t> data) {
+    lcm_eventlog_event_t event{};
+    event.channellen = static_cast<std::int32_t>(channel.size());
+    event.channel = channel.data();
+    event.datalen = static_cast<std::int32_t>(data.size());
+    event.data = const_cast<std::uint8_t*>(data.data());
+    ASSERT_EQ(lcm_eventlog_write_event(log, &event), 0);
+  };
+  for (std::size_t i = 0; i < headers; ++i) {
+    write("C" + std::to_string(i) + "_HEADER", header);
+    write("F" + std::to_string(i) + "_HEADER", std::span(header).first(i % 9));
+  }
+  write("C" + std::to_string(headers - 1), row);
+  lcm_eventlog_destroy(log);
+}
+
+TEST(LcmTraceReader, ALogOfManyHeadersTakesStepsAsItsLengthDoesAndFindsItsTrace) {
+  const Directory directory;
+  const std::string path = directory.file("many.lcm");
+  for (const std::size_t headers : {100u, 6000u}) {
+    write_headers(path, headers);
+    LcmTraceReader reader(path);
+    EXPECT_TRUE(reader.next()) << "the one that has rows, though it is the last";
+    EXPECT_FALSE(reader.next());
+    EXPECT_LT(reader.comparisons(), headers * 128) << "a few look-ups of 13 steps for each of two events";
+  }
+}
+
+TEST(LcmTraceReader, TellsAFewChannelsOfManyAndNothingThatATerminalObeys) {
+  const Directory directory;
+  const std::string path = directory.file("many.lcm");
+  write_headers(path, 500);
+  const std::string told = message_of(path, "other\x1b[2J");
+  EXPECT_NE(told.find("holds no trace on channel other?[2J; it holds: C0, C1, "), std::string::npos) << told;
+  EXPECT_TRUE(told.ends_with("C23, …")) << told;
+}
+
 TEST(LcmTraceReader, RowsThatTheRunDroppedAreRemarked) {
   const Directory directory;
   {

@@ -217,6 +217,14 @@ TEST_F(ModbusRequest, AMaskWriteLeavesTheBitsThatItDoesNotNameToTheProgram) {
   EXPECT_EQ(machine.word, WORD{0x10A0});
 }
 
+TEST_F(ModbusRequest, AMaskWriteThatNamesNoBitIsAnsweredAndChangesNothing) {
+  for (const std::uint8_t bits : {std::uint8_t{0x00}, std::uint8_t{0xFF}})
+    EXPECT_EQ(ask({22, 0, 30, 0xFF, 0xFF, bits, bits}), (Bytes{22, 0, 30, 0xFF, 0xFF, bits, bits}));
+  machine.tick();
+  EXPECT_EQ(machine.word, WORD{0x0F0F});
+  EXPECT_EQ(ask({3, 0, 30, 0, 1}), (Bytes{3, 2, 0x0F, 0x0F}));
+}
+
 TEST_F(ModbusRequest, AWriteWithReadReadsWhatItHasWrittenAsTheTagHoldsIt) {
   const auto tenth = std::bit_cast<std::uint64_t>(0.1);
   const auto rounded = std::bit_cast<std::uint64_t>(static_cast<double>(0.1F));

@@ -45,7 +45,8 @@ echo "what is in it"
 for path in bin/lockstep share/man/man1/lockstep.1.gz share/man/man5/lockstep-project.5.gz \
   lib/systemd/system/lockstep@.service include/lockstep/projects/loader/simulation.hpp \
   share/lockstep/project.schema.json share/lockstep/projects/02_rotary_knife/project.json \
-  share/doc/lockstep/lockstep.spdx.json share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md; do
+  share/doc/lockstep/lockstep.spdx.json share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md share/doc/lockstep/AUDIT.md \
+  share/doc/lockstep/tls/certificates.sh; do
   [[ -s $work/root/usr/$path ]] || fail "usr/$path is not in the package"
 done
 [[ -n $(find "$work/root/usr/lib" -name LockstepConfig.cmake) ]] || fail "no CMake package"

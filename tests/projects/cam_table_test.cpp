@@ -4,6 +4,7 @@
 #include <string>
 
 #include "projects/cam_files/file.hpp"
+#include "projects/cam_files/table.hpp"
 
 namespace lockstep {
 namespace {
@@ -42,17 +43,61 @@ TEST(CamTable, IsReadWithEachSeparatorByteOrderMarkHeaderQuotesAndComments) {
 }
 
 // "10,1,25" is 10 and 1.25 to one, and a velocity of 25 to another.
-TEST(CamTable, WithADecimalCommaIsRefusedWhereItStands) {
-  EXPECT_TRUE(has(told("0,0\n10,1,25\n20,3\n"), "2:6: the row has 3 values")) << told("0,0\n10,1,25\n20,3\n");
-  EXPECT_TRUE(has(told("0,0,0,0\n10,5,1,25\n"), "1:"));
-  EXPECT_TRUE(has(told("0,0,0,0\n10,5,1,25\n"), "with a decimal point"));
-  EXPECT_TRUE(has(told("0;0\n10;1,25\n"), "2:4: '1,25'")) << told("0;0\n10;1,25\n");
-  EXPECT_TRUE(has(told("0;0\n10;1,25\n"), "with a decimal point, not a comma"));
+TEST(CamTable, WhoseCommasMayBeEitherIsRefusedWithBothReadings) {
+  EXPECT_EQ(
+      told("0,0\n10,1,25\n20,3\n"),
+      "2:1: the commas may part numbers, 10 | 1 | 25, or some be decimal commas, 10 | 1.25; allowed: ';' "
+      "or a tab between the numbers, or numbers with a decimal point");
+  EXPECT_TRUE(has(told("0,0,0,0\n10,5,1,25\n"), "1:1: the commas may part numbers, 0 | 0 | 0 | 0, or"));
+  EXPECT_TRUE(has(told("10,5,1,25,0\n20,5,3,75,0\n"),
+                  "1:1: the commas may part numbers, 10 | 5 | 1 | 25 | 0, or some be "
+                  "decimal commas, 10.5 | 1.25 | 0; allowed"));
+  EXPECT_TRUE(has(told("0.5,0\n10,1,25\n20,3\n"), "2:1: the commas")) << "of another length than the first";
+  EXPECT_TRUE(has(told("x,y\n0,0\n10,1,25\n"), "3:1: the commas")) << "or than the names";
+  EXPECT_TRUE(has(told("I,1,0\nS,0,100,0,2,5,0,0,0,0,0,0,0,0\n"),
+                  "2:3: the commas may part numbers, 0 | 100 | 0 | 2 | 5"))
+      << "an origin, or one number less";
+}
+
+TEST(CamTable, WhoseCommasAreClearIsRead) {
+  const auto second = [](const std::string& text) {
+    const LoadedCam cam = read(text);
+    if (!cam.problems.empty()) return cam.problems[0].place + ": " + cam.problems[0].text;
+    const auto& point = cam.definition->cam.points.at(1);
+    return std::to_string(point.x) + " " + std::to_string(point.y);
+  };
+  const std::string expected = "10.000000 1.250000";
+  EXPECT_EQ(second("0;0\n10;1,25\n20;3\n"), expected) << "between semicolons a comma is the decimal sign";
+  EXPECT_EQ(second("0\t0\n10\t1,25\n20\t3\n"), expected) << "between tabs too";
+  EXPECT_EQ(second("0,0,0\n10,1.25,3\n20,3,0\n"), expected) << "a decimal point tells what the commas are";
+  EXPECT_EQ(second("x,y,velocity\n0,1,0\n10,1,25\n20,3,0\n"), "10.000000 1.000000") << "and so do names";
+  EXPECT_EQ(second("0, 0, 0\n10, 1, 25\n20, 3, 0\n"), "10.000000 1.000000") << "and blanks";
+  EXPECT_EQ(second("0,-1,-2\n10,-1,-25\n20,-3,-3\n"), "10.000000 -1.000000") << "and signs";
+}
+
+TEST(CamTable, WithDecimalCommasAndDecimalPointsIsRefused) {
+  EXPECT_EQ(
+      told("0;0\n10;1,25\n20;3.5\n"),
+      "2:4: '1,25' has a decimal comma, and line 3 a decimal point; allowed: one of them in the whole file");
+  EXPECT_TRUE(has(told("0;0\n10;1.000,25\n"), "2:4: '1.000,25'"));
+  EXPECT_TRUE(has(told("0;0\n10;1,000,25\n"), "2:4: '1,000,25' is not allowed here"));
 }
 
 TEST(CamTable, WithDerivativesSaysThatTheyDoNotCount) {
   EXPECT_TRUE(has(told("0,0,0,0,0\n10,1,0.2,0,0\n20,3,0,0,0\n"),
                   "1:5: velocity, acceleration and jerk are not read"));
+}
+
+TEST(CamTable, ThatIsWrittenWithCommasShowsWhatTheyAre) {
+  const LoadedCam whole = read("I,1,0\nS,0,100,0,2,0,0,0,0,0,0,0,0\nP,150,250\n");
+  ASSERT_TRUE(whole.problems.empty()) << whole.problems[0].text;
+  const std::string elements = cam_element_table(*whole.definition, ',');
+  EXPECT_EQ(elements, "I,1,0\nS,0,100,0,2,0,0,0,0,0,0,0,0,0.0\nP,150,250\n");
+  EXPECT_TRUE(read(elements).problems.empty());
+  const auto samples = sampled(*whole.definition->cam.function, 0.0, 100.0, 2);
+  const std::string points = cam_point_table(samples, true, ',');
+  EXPECT_TRUE(read(points).problems.empty()) << points;
+  EXPECT_EQ(cam_point_table(samples, false, ','), "0,0\n100,200\n");
 }
 
 TEST(CamTable, WithOtherColumnsIsRefused) {

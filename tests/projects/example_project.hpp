@@ -55,8 +55,10 @@ inline constexpr char kExampleProject[] = R"json({
       { "tag": "speed",                "table": "holding_register", "address": 10, "type": "REAL" },
       { "tag": "synced",               "table": "discrete_input",   "address": 0 },
       { "tag": "Knife.ActualPosition", "table": "input_register",   "address": 0,  "type": "REAL" }
-    ]
+    ],
+    "watchdog": { "tag": "start", "timeout": "1h", "set": { "speed": 0.0 } }
   },
+  "audit": { "file": "audit.jsonl", "size": 16777216, "files": 10 },
   "trace": {
     "lcm": { "url": "udpm://239.255.76.67:7667?ttl=0", "channel": "ROTARY_KNIFE" },
     "signals": [ "Conveyor.Position", "Knife.Position", "gear.InSync", "Knife.StatusWord.X22" ]

@@ -685,6 +685,15 @@ INSTANTIATE_TEST_SUITE_P(
         {kMap, R"({"tag": "gear.Slave", "table": "coil", "address": 9})", kMap + "/tag", "has no value"},
         {kMap, R"({"tag": "gear", "table": "coil", "address": 9})", kMap + "/tag", "one of its pins"}}));
 
+INSTANTIATE_TEST_SUITE_P(Audit, Rules,
+                         testing::ValuesIn(std::vector<Rule>{
+                             at("/audit", "1", "allowed: an object"),
+                             {"/audit", "{}", "/audit", "'file' is missing"},
+                             {"/audit", R"({"file": ""})", "/audit/file", ""},
+                             {"/audit", R"({"file": "a", "size": 100})", "/audit/size", "from 4096 to"},
+                             {"/audit", R"({"file": "a", "files": 1})", "/audit/files", "from 2 to 1000"},
+                             {"/audit", R"({"file": "a", "keep": 1})", "/audit/keep", "unknown key"}}));
+
 const std::string kLine = R"({"serial": {"device": "/dev/ttyS0")";
 const std::string kDevices = R"({"connect": "10.0.0.5:502", "devices": [{"name": "meter", "cycle": "1s")";
 

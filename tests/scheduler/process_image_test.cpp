@@ -121,6 +121,18 @@ TEST(ProcessImage, AWriteOfTheHighestBitShowsTheSignThatItMakes) {
   EXPECT_EQ(number, -32767);
 }
 
+TEST(ProcessImage, AWriteOfNoBitsChangesNothingAndTakesNoPlace) {
+  Tags tags;
+  ProcessImage image(tags.signals());
+  post(image, {{kWord, integer(0xFFFF), 0}});
+  image.take_writes();
+  EXPECT_EQ(tags.word, WORD{0x0F0F});
+  post(image, {{kWord, integer(0xFFFF), 0}, {kCount, integer(9)}, {kWord, integer(1), ~0ULL << 16}});
+  image.take_writes();
+  EXPECT_EQ(tags.word, WORD{0x0F0F}) << "and of no bits that it has";
+  EXPECT_EQ(tags.count, 9);
+}
+
 TEST(ProcessImage, AMaskedWriteLeavesTheOtherBitsAsTheyAreAtItsTick) {
   Tags tags;
   ProcessImage image(tags.signals());

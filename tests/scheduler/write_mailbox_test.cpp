@@ -59,6 +59,20 @@ void post(WriteMailbox& mailbox, const std::vector<VariableWrite>& writes, std::
   mailbox.hand_on(writes.size(), number);
 }
 
+TEST(WriteMailbox, AWriteOfNoBitsTouchesNothingOfAnyType) {
+  for (const Type type : kTypes) {
+    Variables variables({type});
+    WriteMailbox mailbox(variables.signals);
+    for (const std::uint64_t mask : {0ULL, size_of(type) == 8 ? 0ULL : ~0ULL << 8 * size_of(type)}) {
+      mailbox.take_back();
+      post(mailbox, {{0, integer(-1), mask}}, 1);
+      EXPECT_EQ(mailbox.apply(), 1u);
+      EXPECT_EQ(variables.values()[0].u, 0u) << type_name(type);
+      EXPECT_TRUE(variables.neighbours_are_untouched()) << type_name(type);
+    }
+  }
+}
+
 TEST(WriteMailbox, CarriesEveryValueBitForBitWhateverItsForm) {
   std::vector<VariableWrite> writes;
   std::vector<Type> types;

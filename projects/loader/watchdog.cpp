@@ -1,0 +1,102 @@
+// What is done when a Modbus client falls silent.
+#include "scheduler/watchdog.hpp"
+
+#include <algorithm>
+
+#include "projects/loader/modbus.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t kLongestTimeout = 86'400'000'000'000;  // [ns]
+
+/// Whether two places are one, or one is a bit of the other.
+bool is_same(const Signal& a, const Signal& b) {
+  return a.address == b.address && (a.bit == b.bit || a.bit < 0 || b.bit < 0);
+}
+
+/// Whether a client can write the variable of a signal over a map.
+bool can_be_written(const ModbusMap& map, const Signal& signal, const ModbusConfig& modbus) {
+  return std::any_of(map.entries().begin(), map.entries().end(), [&](const ModbusEntry& entry) {
+    return entry.writable && entry.counter == nullptr &&
+           modbus.signals[entry.signal].signal.address == signal.address;
+  });
+}
+
+/// A tag that is one value, or none: then that is reported.
+std::optional<Signal> find_tag(const JsonValue* json, const Loading& loading) {
+  const auto path = read_string(json, loading.problems);
+  const auto place = path ? loading.find(*json, *path) : std::nullopt;
+  if (!place) return std::nullopt;
+  if (place->tag != nullptr || place->array != nullptr) return place->signal;
+  loading.problems.report(*json, json->shown() + " is no tag; allowed: a tag that is one value");
+  return std::nullopt;
+}
+
+std::optional<Signal> find_heartbeat(const JsonValue* json, const ModbusMap* map, const Loading& loading) {
+  const auto heartbeat = find_tag(json, loading);
+  if (!heartbeat || map == nullptr || can_be_written(*map, *heartbeat, loading.project.modbus))
+    return heartbeat;
+  loading.problems.report(*json, json->shown() +
+                                     " cannot be written by a client of this map, so that nothing "
+                                     "would be a sign of life; allowed: a tag that the map "
+                                     "has among its coils or holding registers");
+  return std::nullopt;
+}
+
+std::optional<Signal> find_status(const JsonValue* json, const Loading& loading) {
+  const auto status = json == nullptr ? std::nullopt : find_tag(json, loading);
+  if (!status || status->value_type() == Type::BOOL) return status;
+  loading.problems.report(*json, json->shown() + " is no BOOL; allowed: a tag of type BOOL");
+  return std::nullopt;
+}
+
+void load_watchdog(const JsonValue& json, const ModbusMap* map, std::vector<Signal>& states,
+                   const Loading& loading) {
+  Problems& problems = loading.problems;
+  const std::size_t before = problems.count();
+  const Fields fields(json, keys::kWatchdog, problems);
+  if (!fields.usable()) return;
+  const auto heartbeat = find_heartbeat(fields["tag"], map, loading);
+  const std::int64_t cycle = loading.controller().clock.servo_cycle;
+  const auto timeout = read_duration(fields["timeout"], cycle, kLongestTimeout, problems);
+  const auto status = find_status(fields["status"], loading);
+  const JsonValue* const set = fields["set"];
+  std::vector<Assignment> values;
+  if (set != nullptr) values = read_assignments(set, "a watchdog", loading);
+  if (!heartbeat || !timeout || problems.count() != before) return;
+  if (fields["status"] == nullptr && (set == nullptr || set->members.empty()))
+    return problems.report(json,
+                           "a silence would have no effect; allowed: 'set' with tags and their values, "
+                           "'status' with a BOOL tag, or both");
+  for (const Assignment& one : values)
+    if (is_same(one.place, *heartbeat) || (status && is_same(one.place, *status)))
+      return problems.report(*set,
+                             "the heartbeat and the status of a watchdog cannot be set by it; allowed: "
+                             "other tags");
+  if (status && is_same(*status, *heartbeat))
+    return problems.report(*fields["status"], "is the heartbeat itself; allowed: another BOOL tag");
+  if (status &&
+      std::any_of(states.begin(), states.end(), [&](const Signal& s) { return is_same(s, *status); }))
+    return problems.report(*fields["status"], fields["status"]->shown() +
+                                                  " tells the state of another watchdog already; allowed: a "
+                                                  "tag of its own");
+  if (status) states.push_back(*status);
+  loading.controller().watchdogs.emplace_back(*heartbeat, (*timeout + cycle - 1) / cycle, std::move(values),
+                                              status);
+}
+
+}  // namespace
+
+void load_watchdogs(const JsonValue& json, const ModbusMap* map, const Loading& loading) {
+  std::vector<Signal>& states = loading.project.modbus.watchdog_states;
+  if (json.kind == JsonKind::object) {
+    load_watchdog(json, map, states, loading);
+  } else if (json.kind == JsonKind::array) {
+    for (const JsonValue* const one : json.elements) load_watchdog(*one, map, states, loading);
+  } else {
+    report_kind(json, "an object, or an array of them", loading.problems);
+  }
+}
+
+}  // namespace lockstep
