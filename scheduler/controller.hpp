@@ -16,7 +16,7 @@
 #include "scheduler/trace_ring.hpp"
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/axis/coupling_order.hpp"
-#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/cam_object/cam.hpp"
 #include "tech_objects/data_blocks/array.hpp"
 #include "tech_objects/jobs/encoder_saving.hpp"
 #include "tech_objects/sensing/external_encoder.hpp"

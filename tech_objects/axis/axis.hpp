@@ -590,6 +590,12 @@ class Axis final : public LeadingObject {
   bool beyond_limit_switch_ = false;
   std::uint8_t drive_shown_ = kNothingShown;  // of StatusDrive
 
+  /// What leads the axis by `synchronous_`; nullptr without coupling, and without cam.
+  struct Coupled {
+    LeadingObject* leading = nullptr;
+    Cam* cam = nullptr;
+  };
+  Coupled coupled_;
   SynchronousMotion synchronous_;
 
   // One line, with the end of the one and the begin of the other.
