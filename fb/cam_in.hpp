@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fb/execute_block.hpp"
-#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/cam_object/cam.hpp"
 
 namespace lockstep {
 

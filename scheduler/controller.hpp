@@ -20,7 +20,7 @@
 #include "scheduler/watchdog.hpp"
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/axis/coupling_order.hpp"
-#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/cam_object/cam.hpp"
 #include "tech_objects/data_blocks/array.hpp"
 #include "tech_objects/jobs/encoder_saving.hpp"
 #include "tech_objects/switching/switched_output.hpp"
@@ -115,7 +115,7 @@ class Controller {
   EncoderSaving encoder_saving;  ///< what programs ask to be kept at once
   std::vector<Stimulus> stimuli;
   bool apply_stimuli = false;
-  std::vector<Watchdog> watchdogs;  ///< of those who have to give signs of life, such as panels
+  std::vector<Watchdog> watchdogs;    ///< of those who have to give signs of life, such as panels
   std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "tech_objects/axis/axis.hpp"
-#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/cam_object/cam.hpp"
 #include "tech_objects/sensing/external_encoder.hpp"
 #include "tech_objects/sensing/measuring_input.hpp"
 #include "tech_objects/switching/cam_track.hpp"

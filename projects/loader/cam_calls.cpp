@@ -5,7 +5,7 @@
 #include <string>
 
 #include "projects/expressions/constant.hpp"
-#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/cam_object/cam.hpp"
 
 namespace lockstep {
 namespace {

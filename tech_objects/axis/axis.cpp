@@ -263,7 +263,7 @@ void Axis::watch_leading_object() noexcept {
   const auto lost = [](const LeadingObject& leading) {
     return leading.restarted || !leading.actual_values_valid();
   };
-  const bool led_by_lost = (led() || simulating()) && lost(*synchronous_.leading_object());
+  const bool led_by_lost = (led() || simulating()) && lost(*coupled_.leading);
   if (led_by_lost || (waiting != nullptr && lost(*waiting->master))) raise(alarm::kLeadingAxis);
 }
 
@@ -345,7 +345,7 @@ Axis* as_axis(LeadingObject* leading) noexcept {
 }  // namespace
 
 Axis* Axis::coupled_leading_axis() const noexcept {
-  return led() || simulating() ? as_axis(synchronous_.leading_object()) : nullptr;
+  return led() || simulating() ? as_axis(coupled_.leading) : nullptr;
 }
 
 Axis* Axis::awaited_leading_axis() const noexcept {

@@ -142,6 +142,12 @@ class AxisParts : public LeadingObject {
   bool signals_watched_ = false;
   std::uint8_t drive_shown_ = kNothingShown;  // of StatusDrive
 
+  /// What leads the axis by `synchronous_`; nullptr without coupling, and without cam.
+  struct Coupled {
+    LeadingObject* leading = nullptr;
+    Cam* cam = nullptr;
+  };
+  Coupled coupled_;
   SynchronousMotion synchronous_;
 
   // One line, with the end of the one and the begin of the other.

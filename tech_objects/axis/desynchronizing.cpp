@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/axis/synchronous_request.hpp"
 #include "tech_objects/jobs/function_state.hpp"
 #include "tech_objects/jobs/modes.hpp"
 
@@ -54,7 +55,7 @@ bool AxisOrders::watch_sync_out(const Setpoint& candidate) noexcept {
     to.acceleration = limits_.tolerable_acceleration(to.acceleration, limits_.margin(to));
     limits_.keep_below(dynamics, from.acceleration, limits_.margin(from));
   }
-  if (!there && !synchronous_.meets_sync_out(job, from, to, dynamics)) return false;
+  if (!there && !synchronous_.meets_start_of_leaving(leaving_request(job), from, to, dynamics)) return false;
   jobs_.take(kWaitingOut);
   data.StatusSynchronizedMotion.WaitingFunctionState =
       waiting_function_state(jobs_[kWaiting], jobs_[kWaitingOut]);
@@ -75,15 +76,15 @@ bool AxisOrders::watch_sync_out(const Setpoint& candidate) noexcept {
 /// From the setpoint of the last tick: over the leading distance, or with the dynamics of the job.
 void AxisOrders::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
   if (job.mode == ProfileReference::over_distance) {
-    synchronous_.begin_sync_out(setpoint_);
+    synchronous_.begin_leaving(setpoint_);
     motion_ = Motion::desynchronizing;
     auto& status = data.StatusSynchronizedMotion;
     status.FunctionState = function_state(job.kind);
     status.PhaseShift = status.Offset = 0.0;
     return step_synchronous();
   }
-  const double way = synchronous_.sync_out_way();
-  const AxisPosition position = synchronous_.sync_out_position();
+  const double way = synchronous_.leaving().way();
+  const AxisPosition position = synchronous_.leaving().position();
   leave_synchronous();
   cut_acceleration();
   data.StatusSynchronizedMotion.FunctionState = function_state(job.kind);
@@ -138,7 +139,7 @@ bool AxisOrders::coupling_stands(const Setpoint& setpoint) const noexcept {
 /// The gear goes on without the axis: only while it is synchronous and the leading axis stands. The axis has
 /// to stand as well: it may still brake with the last tick, or be shifted by an offset.
 void AxisOrders::begin_simulation() noexcept {
-  const bool leading_stands = led() && synchronous_.leading_object()->leading_value_stands();
+  const bool leading_stands = led() && coupled_.leading->leading_value_stands();
   if (motion_ != Motion::synchronous || !leading_stands || !coupling_stands(base_setpoint())) {
     simulation_request.error = ErrorId::no_synchronous_operation;
     return;

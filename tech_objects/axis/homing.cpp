@@ -280,8 +280,8 @@ bool AxisOrders::assign_position(AxisPosition place, double position) noexcept {
 /// What leads the axis has the new names as well, so that nothing moves.
 void AxisOrders::shift_coupling(double by) noexcept {
   synchronous_.shift_following(by);
-  if (synchronous_.cam() == nullptr || motion_ == Motion::desynchronizing) return;
-  data.StatusSynchronizedMotion.SlaveOffset = synchronous_.slave_offset();
+  if (coupled_.cam == nullptr || motion_ == Motion::desynchronizing) return;
+  data.StatusSynchronizedMotion.SlaveOffset = synchronous_.following_offset_at_start();
   Job* const offset = jobs_[kOffset];
   const bool relative = offset != nullptr && offset->kind == JobKind::MC_OffsetRelative;
   if (relative) offset->shift_base = offset->shift_base + by;

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
-#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/cam_object/cam.hpp"
 #include "tech_objects/jobs/function_state.hpp"
 #include "tech_objects/jobs/modes.hpp"
 
@@ -83,8 +83,8 @@ ErrorId AxisOrders::check_synchronous(const Job& job) const noexcept {
   if (in_time && base != nullptr && base->kind == JobKind::MC_CamIn) return ErrorId::phasing_in_time;
   if (motion_ != Motion::synchronous) return ErrorId::not_synchronous;
   // A leading axis that is not interconnected at all is an alarm.
-  const bool of_another = is_phasing(job.kind) && job.master != synchronous_.leading_object() &&
-                          find_leading_value(job.master) != nullptr;
+  const bool of_another =
+      is_phasing(job.kind) && job.master != coupled_.leading && find_leading_value(job.master) != nullptr;
   return of_another ? ErrorId::not_synchronous : ErrorId::none;
 }
 

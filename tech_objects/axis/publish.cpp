@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
-#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/cam_object/cam.hpp"
 
 namespace lockstep {
 namespace {
@@ -129,7 +129,7 @@ void Axis::publish() noexcept {
   publish_motion();
   if (led() || simulating()) {
     publish_synchronous();
-    if (Cam* const cam = synchronous_.cam()) cam->show_use();
+    if (coupled_.cam != nullptr) coupled_.cam->show_use();
   } else {
     publish_awaited();
   }

@@ -2,7 +2,8 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
-#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/axis/synchronous_request.hpp"
+#include "tech_objects/cam_object/cam.hpp"
 #include "tech_objects/jobs/function_state.hpp"
 #include "tech_objects/jobs/modes.hpp"
 
@@ -18,7 +19,7 @@ void AxisOrders::begin_gear_in(Job& job) noexcept {
   }
   jobs_.put(kBase, job, JobPhase::active);
   set_position_control(job.position_controlled);
-  synchronous_.begin_gear_in(*find_leading_value(job.master), job, dynamics);
+  synchronous_.begin_at_velocity(coupling_request(job, *find_leading_value(job.master), dynamics));
   show_coupling(job, Motion::synchronizing);
 }
 
@@ -32,8 +33,9 @@ void AxisOrders::begin_waiting(Job& job) noexcept {
     return job.fail(ErrorId::technology_alarm);
   }
   SynchronousMotion planned = awaited_;
-  const ErrorId error = planned.begin_waiting(*find_leading_value(job.master), job, dynamics, setpoint_);
-  if (error != ErrorId::none) return job.fail(error);
+  const CouplingRequest request = coupling_request(job, *find_leading_value(job.master), dynamics);
+  const SyncRefusal refusal = planned.begin_waiting(request, setpoint_);
+  if (refusal != SyncRefusal::none) return job.fail(error_of(refusal));
   if (!override_running(class_of(job, false), job)) return;
   awaited_ = planned;
   jobs_.put(kWaiting, job, JobPhase::waiting);
@@ -49,7 +51,7 @@ void AxisOrders::watch_waiting() noexcept {
     case SynchronousMotion::Start::not_yet:
       break;
     case SynchronousMotion::Start::rejected:
-      end_job(kWaiting, JobPhase::failed, awaited_.rejection());
+      end_job(kWaiting, JobPhase::failed, error_of(awaited_.refusal()));
       break;
     case SynchronousMotion::Start::synchronizing:
       activate_waiting(Motion::synchronizing);
@@ -100,15 +102,16 @@ void AxisOrders::activate_waiting(Motion motion) noexcept {
 void AxisOrders::show_coupling(const Job& job, Motion motion) noexcept {
   motion_ = motion;
   coupling_changed = true;
+  coupled_ = {job.master, job.cam};
   auto& status = data.StatusSynchronizedMotion;
   status.FunctionState = function_state(job.kind);
   status.ActualMaster = job.master->number;
   status.PhaseShift = status.Offset = 0.0;
   if (job.kind != JobKind::MC_CamIn) return clear_cam_status();
   status.ActualCam = job.cam->number;
-  status.MasterOffset = synchronous_.master_offset();
+  status.MasterOffset = synchronous_.leading_offset();
   status.MasterScaling = job.master_scaling;
-  status.SlaveOffset = synchronous_.slave_offset();
+  status.SlaveOffset = synchronous_.following_offset_at_start();
   status.SlaveScaling = job.slave_scaling;
 }
 
@@ -124,7 +127,7 @@ void AxisOrders::clear_cam_status() noexcept {
 
 /// What the coupling depends on in this tick: ratio, leading value, shifts.
 void AxisOrders::look_at_coupling(const Job& job) noexcept {
-  if (job.update) synchronous_.change_ratio(job.numerator, job.denominator);
+  if (job.update) synchronous_.change_ratio({job.numerator, job.denominator});
   synchronous_.look_at_leading();
   if (synchronous_.shifted()) advance_shifts();
 }
@@ -151,7 +154,7 @@ void AxisOrders::step_synchronous() noexcept {
   }
   setpoint_ = next;
   if (motion_ == Motion::desynchronizing) {
-    if (synchronous_.desynchronized()) end_desynchronizing();
+    if (synchronous_.left()) end_desynchronizing();
     return;
   }
   if (!synchronous_.synchronous()) return;
@@ -214,21 +217,14 @@ void AxisOrders::begin_shift(Job& job) noexcept {
   const double ratio =
       phasing ? std::abs(static_cast<double>(jobs_[kBase]->numerator) / jobs_[kBase]->denominator)
               : 1.0;  // and 1 for a cam, whose shifts go over a distance
-  const ShiftRequest request{
-      .target = relative ? shift.value() + job.position : DoubleDouble{job.position, 0.0},
-      .profile = job.mode,
-      .distance = job.master_start_distance,
-      .start_position = job.start_position,
-      .direction = job.direction,
-      .limits = {.velocity_max = dynamics.velocity / ratio,
-                 .velocity_min = -dynamics.velocity / ratio,
-                 .acceleration = dynamics.acceleration / ratio,
-                 .deceleration = dynamics.deceleration / ratio,
-                 .jerk = dynamics.jerk / ratio}};
+  const Dynamics of_shift{dynamics.velocity / ratio, dynamics.acceleration / ratio,
+                          dynamics.deceleration / ratio, dynamics.jerk / ratio};
+  const DoubleDouble target = relative ? shift.value() + job.position : DoubleDouble{job.position, 0.0};
+  const ShiftRequest request = shift_request(job, target, of_shift);
   job.shift_base = relative ? shift.value() : DoubleDouble{};
-  if (const ErrorId error = shift.begin(request, period_); error != ErrorId::none) {
+  if (shift.begin(request, period_) != PlanResult::ok) {
     shift.halt();
-    return job.fail(error);
+    return job.fail(ErrorId::unspecified);
   }
   const bool runs = shift.phase() == Shift::Phase::running;
   jobs_.put(phasing ? kPhasing : kOffset, job, runs ? JobPhase::active : JobPhase::waiting);
@@ -264,6 +260,7 @@ void AxisOrders::leave_synchronous() noexcept {
 
 void AxisOrders::forget_coupling() noexcept {
   synchronous_.end();
+  coupled_ = {};
   coupling_changed = true;
   auto& status = data.StatusSynchronizedMotion;
   status.FunctionState = 0;

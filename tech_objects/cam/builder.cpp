@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kSegmentParts = 2 * kCamSegments;  // each segment may be cut in two by another
+constexpr std::size_t kSegmentParts = 2 * kCurveSegments;  // each segment may be cut in two by another
 /// Parts of segments between turns: two turns a period of a sine, and what a polynomial adds.
 constexpr std::size_t kTurns = 2 * static_cast<std::size_t>(CamBuilder::kMaxPeriods) + 10 * kSegmentParts;
 /// Pieces that close a gap beside segments: up to two control points more than points.

@@ -9,7 +9,6 @@
 #include "tech_objects/arithmetic/axis_position.hpp"
 #include "tech_objects/arithmetic/double_double.hpp"
 #include "tech_objects/cam/function.hpp"
-#include "tech_objects/types/types.hpp"
 
 namespace lockstep {
 

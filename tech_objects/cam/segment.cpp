@@ -94,19 +94,19 @@ double CamSegment::derivative(int order, double distance) const noexcept {
   return sum + scale * waves[order & 3];
 }
 
-CamSegment shifted(const TO_Cam_Struct_SegmentData& segment, double origin) noexcept {
-  DoubleDouble c[7] = {{segment.a0, 0.0}, {segment.a1, 0.0}, {segment.a2, 0.0}, {segment.a3, 0.0},
-                       {segment.a4, 0.0}, {segment.a5, 0.0}, {segment.a6, 0.0}};
-  const DoubleDouble by = to_double_double(origin) - to_double_double(segment.Origin);
+CamSegment shifted(const CamSegment& segment, double origin) noexcept {
+  DoubleDouble c[7];
+  for (int k = 0; k < 7; ++k) c[k] = to_double_double(segment.coefficient[k]);
+  const DoubleDouble by = to_double_double(origin) - to_double_double(segment.origin);
   for (int k = 0; k < 6 && by.hi != 0.0; ++k)  // Horner's scheme once per derivative
     for (int j = 5; j >= k; --j) c[j] = c[j] + c[j + 1] * by;
   CamSegment result;
   result.origin = origin;
   for (int k = 0; k < 7; ++k) result.coefficient[k] = c[k].rounded();
-  if (segment.sineAmplitude == 0.0) return result;
-  const DoubleDouble phase = within_one_turn(by * segment.sinePeriod + to_double_double(segment.sinePhase));
-  result.amplitude = segment.sineAmplitude;
-  result.frequency = segment.sinePeriod;
+  if (segment.amplitude == 0.0) return result;
+  const DoubleDouble phase = within_one_turn(by * segment.frequency + to_double_double(segment.phase));
+  result.amplitude = segment.amplitude;
+  result.frequency = segment.frequency;
   result.phase = phase.rounded();
   // A sine that does not swing is a constant.
   if (result.frequency == 0.0) result.coefficient[0] += result.amplitude * sine_cosine(result.phase).sine;

@@ -3,9 +3,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "tech_objects/cam/interpolation.hpp"
 #include "tech_objects/cam/segment.hpp"
 #include "tech_objects/cam_design/design_parts.hpp"
+#include "tech_objects/cam_object/interpolation.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,10 +1,10 @@
 // The elements of a curve: what they say, as curves, points and segments.
 #include <cmath>
 
-#include "tech_objects/cam/segment.hpp"
 #include "tech_objects/cam/sine.hpp"
 #include "tech_objects/cam_design/design_parts.hpp"
 #include "tech_objects/cam_design/motion_law_segment.hpp"
+#include "tech_objects/cam_object/segment_data.hpp"
 
 namespace lockstep {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "tech_objects/cam/interpolation.hpp"
 #include "tech_objects/cam_design/design.hpp"
+#include "tech_objects/cam_object/interpolation.hpp"
 
 namespace lockstep {
 

@@ -1,7 +1,7 @@
 #include "tech_objects/cam_design/motion_law_polynomial.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 namespace lockstep {
 namespace {
@@ -22,36 +22,34 @@ double polynomial_derivative(const double (&c)[8], int order, double z) noexcept
 }
 
 bool polynomial_between(const EndConditions& start, const EndConditions& end, double (&c)[8]) noexcept {
-  double rows[8][9] = {};
-  int count = 0;
-  for (const EndConditions* side : {&start, &end})
-    for (const auto& derivative : side->derivative) count += derivative ? 1 : 0;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
+  const auto given = [](const auto& derivative) { return derivative.has_value(); };
+  const auto ends = std::ranges::count_if(end.derivative, given);
+  const auto count = ends + std::ranges::count_if(start.derivative, given);
+  std::ranges::fill(c, 0.0);
+  // Each condition at the start is a coefficient; those at the end are equations for the others.
+  int unknown[8] = {};
+  int unknowns = 0;
+  for (int k = 0; k < 8; ++k) {
+    const bool known = k < 4 && start.derivative[k];
+    if (known && k >= count) return false;  // the degree is too low to have this derivative
+    if (known) c[k] = *start.derivative[k] / falling_factorial(k, k);
+    if (!known && k < count) unknown[unknowns++] = k;
+  }
+  Rows rows(ends, ends);
+  Column right_hand(ends);
   int row = 0;
   for (int order = 0; order < 4; ++order) {
-    if (start.derivative[order]) {
-      if (order >= count) return false;  // the degree is too low to have this derivative
-      rows[row][order] = falling_factorial(order, order);
-      rows[row++][count] = *start.derivative[order];
-    }
-    if (end.derivative[order]) {
-      for (int k = order; k < count; ++k) rows[row][k] = falling_factorial(k, order);
-      rows[row++][count] = *end.derivative[order];
-    }
+    if (!end.derivative[order]) continue;
+    for (int j = 0; j < unknowns; ++j) rows(row, j) = falling_factorial(unknown[j], order);
+    right_hand(row++) = *end.derivative[order] - polynomial_derivative(c, order, 1.0);
   }
-  for (int k = 0; k < count; ++k) {  // elimination with the largest pivot; the entries are whole numbers
-    int pivot = k;
-    for (int r = k + 1; r < count; ++r)
-      if (std::abs(rows[r][k]) > std::abs(rows[pivot][k])) pivot = r;
-    if (std::abs(rows[pivot][k]) < 1.0e-9) return false;
-    std::swap(rows[k], rows[pivot]);
-    for (int r = 0; r < count; ++r) {
-      if (r == k) continue;
-      const double factor = rows[r][k] / rows[k][k];
-      for (int j = k; j <= count; ++j) rows[r][j] -= factor * rows[k][j];
-    }
-  }
-  std::fill(c, c + 8, 0.0);
-  for (int k = 0; k < count; ++k) c[k] = rows[k][count] / rows[k][k];
+  if (ends == 0) return true;
+  const Eigen::FullPivLU<Rows> factors(rows);
+  if (!factors.isInvertible()) return false;
+  const Column solution = factors.solve(right_hand);
+  for (int j = 0; j < unknowns; ++j) c[unknown[j]] = solution(j);
   return true;
 }
 

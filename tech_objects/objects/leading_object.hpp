@@ -7,27 +7,11 @@
 
 #include "tech_objects/arithmetic/axis_position.hpp"
 #include "tech_objects/arithmetic/cache_line.hpp"
-#include "tech_objects/arithmetic/setpoint.hpp"
 #include "tech_objects/objects/extrapolation.hpp"
 #include "tech_objects/objects/technology_object.hpp"
+#include "tech_objects/synchronous/leading_source.hpp"
 
 namespace lockstep {
-
-/// How a leading value is taken from its source.
-enum class Coupling : std::uint8_t {
-  setpoint,  ///< the setpoint of the same tick
-  actual     ///< the extrapolated actual value
-};
-
-/// What axes see that have followed the position of an axis when that left position control: zero, and once
-/// position control has been taken up again a way from there back to the setpoint.
-struct UncontrolledLead {
-  std::uint32_t times = 0;  ///< how often position control has been left
-  AxisPosition zero;        ///< on the turn of the time; on that of its end once it has ended
-  bool returning = false;   ///< position control is there again
-  Setpoint now;             ///< while returning, at this tick and one before
-  Setpoint last;
-};
 
 /// What MC_Power wants of an object; written by the one instance that has claimed it.
 struct PowerRequest {
@@ -39,39 +23,27 @@ struct PowerRequest {
 
 /// A technology object with a position that following axes follow. It is stepped before them. The functions
 /// below run in the thread of the cycle.
-class LeadingObject : public TechnologyObject {
+class LeadingObject : public TechnologyObject, public LeadingSource {
+ protected:
+  // Behind the end of LeadingSource, to the probe: what every interpolator cycle touches, with that in two
+  // lines of the cache.
+  bool enable_removed_ = false;
+  bool leads_by_actual_value_ = false;
+  const bool has_position_ = kind != ObjectKind::TO_SpeedAxis;
+
  public:
+  /// Raised by a restart, after which positions may be on another ring; the cycle tells those that follow.
+  bool restarted = false;
+  /// Raised when those that follow have to look at it: it has been restarted, or has failed.
+  bool lost = false;
+  PowerRequest power;
+  /// The measuring input that measures by the telegram of the encoder at present; nullptr: none.
+  const void* telegram_probe = nullptr;
+
   using TechnologyObject::TechnologyObject;
-
-  Modulo modulo() const noexcept { return modulo_; }
-
-  /// Whether an axis coupled like this sees what `leading_state` tells: the actual value, or the setpoint as
-  /// it is. Else it has to look at `led_setpoint` and `uncontrolled_lead`.
-  bool leads_as_it_is(Coupling coupling) const noexcept {
-    return coupling == Coupling::actual || (position_controlled_ && !handing_over_);
-  }
-  /// What a following axis sees, now and one interpolator tick ago.
-  const Setpoint& leading_state(Coupling coupling) const noexcept {
-    return coupling == Coupling::actual ? leading_actual_ : setpoint_;
-  }
-  const Setpoint& last_leading_state(Coupling coupling) const noexcept {
-    return coupling == Coupling::actual ? last_leading_actual_ : last_setpoint_;
-  }
-
-  /// The setpoint without the steps that it makes where it goes over to another course, now and one tick ago.
-  const Setpoint& led_setpoint() const noexcept { return handing_over_ ? led_ : setpoint_; }
-  const Setpoint& last_led_setpoint() const noexcept { return handing_over_ ? last_led_ : last_setpoint_; }
-  const UncontrolledLead& uncontrolled_lead() const noexcept { return uncontrolled_; }
-
-  /// The setpoint of the last interpolator tick, and the one before it.
-  const Setpoint& setpoint() const noexcept { return setpoint_; }
-  const Setpoint& last_setpoint() const noexcept { return last_setpoint_; }
-  bool position_controlled() const noexcept { return position_controlled_; }
 
   bool enabled() const noexcept { return power_state_ == PowerState::on; }
   bool off() const noexcept { return power_state_ == PowerState::off; }
-  /// Whether a drive is not led by the setpoint, which tracks the actual value then.
-  bool setpoint_is_actual() const noexcept { return power_state_ < PowerState::on; }
   /// Whether an alarm has removed the enable, until it is acknowledged.
   bool enable_removed() const noexcept { return enable_removed_; }
 
@@ -100,20 +72,7 @@ class LeadingObject : public TechnologyObject {
   /// Load time: somebody follows the actual value, which has to be extrapolated from then on.
   void lead_by_actual_value() noexcept { leads_by_actual_value_ = true; }
 
-  // From here to the setpoints: what every interpolator cycle touches, in two lines of the cache.
-
-  alignas(kCacheLine) PowerRequest power;
-  /// The measuring input that measures by the telegram of the encoder at present; nullptr: none.
-  const void* telegram_probe = nullptr;
-  /// Raised by a restart, after which positions may be on another ring; the cycle tells those that follow.
-  bool restarted = false;
-  /// Raised when those that follow have to look at it: it has been restarted, or has failed.
-  bool lost = false;
-
  protected:
-  /// `drive_stops`: switched off, and the drive comes to rest by itself.
-  enum class PowerState : std::uint8_t { off, switching_on, drive_stops, on, braking };
-
   /// Takes the start values over; positions have to be configured.
   void configure_leading(double period, TO_Struct_Extrapolation& settings) noexcept;
   void reset_leading(AxisPosition actual) noexcept;
@@ -138,27 +97,12 @@ class LeadingObject : public TechnologyObject {
   /// seen: then all is as it was before
   bool takes_switch_back() noexcept;
 
-  bool position_controlled_ = true;
-  bool handing_over_ = false;  // axes that follow the setpoint see another one, which is on its way to it
-  PowerState power_state_ = PowerState::off;
-  bool enable_removed_ = false;
-  bool leads_by_actual_value_ = false;
-  const bool has_position_ = kind != ObjectKind::TO_SpeedAxis;
-  Modulo modulo_;
-  Setpoint setpoint_;
-  Setpoint last_setpoint_;
-
   bool control_switched_ = false;  // in this tick
-  UncontrolledLead uncontrolled_;
   std::uint32_t restarts_ = 0;
   std::uint32_t homings_ = 0;
 
  private:
   UncontrolledLead before_switch_;
-  Setpoint led_;
-  Setpoint last_led_;
-  Setpoint leading_actual_;
-  Setpoint last_leading_actual_;
   Extrapolation extrapolation_;
   DoubleDouble renamed_;
 };

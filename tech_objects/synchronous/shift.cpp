@@ -11,9 +11,9 @@ constexpr double kSteepest = 20.0;
 
 }  // namespace
 
-ErrorId Shift::begin(const ShiftRequest& request, double period) noexcept {
+PlanResult Shift::begin(const ShiftRequest& request, double period) noexcept {
   const MotionState from{0.0, velocity_, acceleration_};
-  const bool over_time = request.profile == 0;
+  const bool over_time = request.rule == ShiftRule::dynamics;
   const bool moving = moves();
   Profile profile;
   PlanResult result = PlanResult::ok;
@@ -22,7 +22,7 @@ ErrorId Shift::begin(const ShiftRequest& request, double period) noexcept {
   } else if (moving) {
     result = plan_stop(from, request.limits, PresentAcceleration::keep, profile);
   }
-  if (result != PlanResult::ok) return ErrorId::unspecified;
+  if (result != PlanResult::ok) return result;
   request_ = request;
   profile_ = profile;
   settling_ = moving && !over_time;
@@ -34,7 +34,7 @@ ErrorId Shift::begin(const ShiftRequest& request, double period) noexcept {
   planned_ = false;
   in_use_ = true;
   phase_ = over_time ? Phase::running : Phase::waiting;
-  return ErrorId::none;
+  return PlanResult::ok;
 }
 
 void Shift::settle_at(DoubleDouble value, const Shift& moving, const ProfileLimits& limits,
@@ -69,7 +69,7 @@ Shift::Event Shift::wait_or_follow_time(const LeadingStep& step) noexcept {
     return Event::none;
   }
   if (phase_ != Phase::running) return Event::none;
-  return request_.profile == 0 ? follow_time() : follow_leading(step);
+  return request_.rule == ShiftRule::dynamics ? follow_time() : follow_leading(step);
 }
 
 /// Whether the leading value can lead a moving shift on. One that stands, turns or creeps cannot: over its
@@ -94,15 +94,15 @@ SyncOffset Shift::remainder_at_start(const LeadingStep& step) const noexcept {
   return start;
 }
 
-/// Profile 1 starts where it is, if the leading value stands or moves the right way; profile 2 at the last
+/// From here: starts where it is, if the leading value stands or moves the right way; else at the last
 /// tick before the start position is crossed.
 bool Shift::may_start(const LeadingStep& step) noexcept {
   const double way = step.way();
   const int heading = way > 0.0 ? 1 : way < 0.0 ? -1 : 0;
   to_start_ = 0.0;
-  if (heading == 0) return request_.profile == 1 && request_.direction == 3;
-  if ((request_.direction == 1 && heading < 0) || (request_.direction == 2 && heading > 0)) return false;
-  if (request_.profile == 1) return true;
+  if (heading == 0) return request_.rule == ShiftRule::from_here && request_.direction == 0;
+  if (request_.direction * heading < 0) return false;
+  if (request_.rule == ShiftRule::from_here) return true;
   const double from = step.last.position.value;
   const double target = normalised({0, request_.start_position}, step.modulo).value;
   if (!step.modulo.enabled) {

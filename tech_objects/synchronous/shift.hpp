@@ -3,11 +3,9 @@
 /// @source S7-1500T synchronous operation V7, 6.2.4, 6.2.5
 #pragma once
 
-#include "tech_objects/alarms/alarms.hpp"
 #include "tech_objects/arithmetic/double_double.hpp"
 #include "tech_objects/arithmetic/remainder.hpp"
 #include "tech_objects/arithmetic/setpoint.hpp"
-#include "tech_objects/jobs/job.hpp"
 #include "tech_objects/profile/profile.hpp"
 
 namespace lockstep {
@@ -22,14 +20,21 @@ struct LeadingStep {
   double way() const noexcept { return rounded_difference(now.position, last.position, modulo); }
 };
 
+/// How a shift changes.
+enum class ShiftRule : std::uint8_t {
+  dynamics,       ///< planned in time
+  from_here,      ///< over a leading distance from here on
+  from_position,  ///< over a leading distance from a leading position on
+};
+
 /// What is asked of a shift.
 struct ShiftRequest {
-  DoubleDouble target;    ///< total shift at the end [u]
-  DINT profile = 1;       ///< ProfileReference: 0 dynamics, 1 distance from here, 2 from a start position
-  double distance = 0.0;  ///< leading distance [u] > 0; profiles 1, 2
-  double start_position = 0.0;  ///< of the leading value [u]; profile 2
-  DINT direction = 3;           ///< of the leading value: 1 positive, 2 negative, 3 either
-  ProfileLimits limits;  ///< of the shift: for profile 0, and for a shift that has to rest before it waits
+  DoubleDouble target;  ///< total shift at the end [u]
+  ShiftRule rule = ShiftRule::from_here;
+  double distance = 0.0;        ///< leading distance [u] > 0; not in time
+  double start_position = 0.0;  ///< of the leading value [u]; `from_position`
+  int direction = 0;            ///< of the leading value: 1, -1; 0: either
+  ProfileLimits limits;         ///< of the shift: in time, and where it has to rest before it waits
 };
 
 /// The shift in effect and how it changes. The sum of many shifts carries its rounding error along. Thread:
@@ -64,8 +69,8 @@ class Shift {
   }
 
   /// Begins to wait or to run. A shift that is running goes on from its value, velocity and acceleration.
-  /// @return an error if no profile can be planned
-  ErrorId begin(const ShiftRequest& request, double period) noexcept;
+  /// @return why no profile can be planned
+  PlanResult begin(const ShiftRequest& request, double period) noexcept;
 
   /// Leaves the shift where it is.
   void halt() noexcept;
@@ -75,7 +80,7 @@ class Shift {
 
   /// One tick.
   Event advance(const LeadingStep& step) noexcept {
-    const bool led = phase_ == Phase::running && !settling_ && request_.profile != 0;
+    const bool led = phase_ == Phase::running && !settling_ && request_.rule != ShiftRule::dynamics;
     return led ? follow_leading(step) : wait_or_follow_time(step);
   }
 

@@ -44,6 +44,10 @@ constexpr const char* kFoldersWithRooms[] = {"tech_objects", "hmi_bridge", "proj
 constexpr const char* kForTheDesk[] = {"tech_objects/cam_design/"};
 constexpr const char* kInTheCycle[] = {"tech_objects", "fb", "scheduler"};
 
+// Of tech_objects: what moves, on any controller; and what the kernel knows nothing of.
+const std::set<std::string> kKernel = {"arithmetic", "profile", "cam", "synchronous"};
+const std::set<std::string> kOfTheController = {"jobs", "alarms", "data_blocks", "objects"};
+
 std::string text_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -133,6 +137,30 @@ TEST(Rooms, ForTheDeskAreOutOfReachOfTheCycle) {
         for (const Include& include : includes_of(text_of(entry.path())))
           EXPECT_FALSE(include.path.starts_with(desk)) << path << ':' << include.line;
       }
+    }
+}
+
+TEST(Rooms, OfTheKernelDependOnTheKernelAlone) {
+  const Folder folder = folder_of("tech_objects");
+  for (const std::string& name : kKernel) {
+    const Room* const room = folder.find(name);
+    ASSERT_NE(room, nullptr) << name;
+    for (const std::string& other : room->depends) EXPECT_TRUE(kKernel.count(other)) << name << ": " << other;
+  }
+}
+
+TEST(Rooms, OfTheKernelNameNothingOfTheController) {
+  const fs::path root = fs::path(LOCKSTEP_SOURCE_DIR) / "tech_objects";
+  const std::regex of_the_controller("\\b(Job|JobKind|JobPhase|ErrorId|TO_Struct\\w*|TO_Cam\\w*)\\b");
+  for (const std::string& room : kKernel)
+    for (const fs::directory_entry& entry : fs::directory_iterator(root / room)) {
+      if (!is_source(entry.path())) continue;
+      const std::string text = text_of(entry.path());
+      EXPECT_FALSE(std::regex_search(text, of_the_controller)) << entry.path();
+      for (const Include& include : includes_of(text))
+        for (const std::string& other : kOfTheController)
+          EXPECT_FALSE(include.path.starts_with("tech_objects/" + other + "/"))
+              << entry.path() << ':' << include.line;
     }
 }
 

@@ -13,9 +13,9 @@
 #include "bench/measure.hpp"
 #include "projects/expressions/compiler.hpp"
 #include "projects/loader/project.hpp"
-#include "tech_objects/cam/cam.hpp"
-#include "tech_objects/cam/interpolation.hpp"
 #include "tech_objects/cam/motion.hpp"
+#include "tech_objects/cam_object/cam.hpp"
+#include "tech_objects/cam_object/interpolation.hpp"
 #include "tech_objects/profile/profile.hpp"
 #include "tech_objects/synchronous/gear_function.hpp"
 

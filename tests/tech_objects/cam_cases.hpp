@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "tech_objects/cam/interpolation.hpp"
+#include "tech_objects/cam_object/interpolation.hpp"
 
 namespace lockstep::test {
 

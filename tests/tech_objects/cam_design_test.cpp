@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "tech_objects/cam/segment.hpp"
 #include "tech_objects/cam_design/design.hpp"
 #include "tech_objects/cam_design/design_check.hpp"
+#include "tech_objects/cam_object/segment_data.hpp"
 #include "tests/support/property.hpp"
 
 namespace lockstep {

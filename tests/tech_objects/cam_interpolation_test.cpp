@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "tech_objects/cam/interpolation.hpp"
+#include "tech_objects/cam_object/interpolation.hpp"
 #include "tests/support/property.hpp"
 #include "tests/tech_objects/cam_cases.hpp"
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "tech_objects/cam/interpolation.hpp"
 #include "tech_objects/cam/motion.hpp"
+#include "tech_objects/cam_object/interpolation.hpp"
 #include "tests/support/property.hpp"
 
 namespace lockstep {

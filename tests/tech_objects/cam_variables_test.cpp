@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/cam_object/cam.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 
 namespace lockstep {

@@ -34,11 +34,13 @@ struct Leading {
 /// the leading value stands until some more ticks are over, then it speeds up.
 double greatest_amount(int ticks_before, int ticks_of_rest) {
   Shift shift;
-  EXPECT_EQ(shift.begin({.target = {5.0, 0.0}, .profile = 0, .limits = kLimits}, kPeriod), ErrorId::none);
+  EXPECT_EQ(shift.begin({.target = {5.0, 0.0}, .rule = ShiftRule::dynamics, .limits = kLimits}, kPeriod),
+            PlanResult::ok);
   Leading leading;
   for (int i = 0; i < ticks_before; ++i) shift.advance(leading.step());
-  EXPECT_EQ(shift.begin({.target = {8.0, 0.0}, .distance = 50.0, .direction = 2, .limits = kLimits}, kPeriod),
-            ErrorId::none);
+  EXPECT_EQ(
+      shift.begin({.target = {8.0, 0.0}, .distance = 50.0, .direction = -1, .limits = kLimits}, kPeriod),
+      PlanResult::ok);
   double most = 0.0;
   for (int i = 0; i < 3000; ++i) {
     if (i == ticks_of_rest) {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "tech_objects/cam/function.hpp"
-#include "tech_objects/cam/interpolation.hpp"
+#include "tech_objects/cam_object/interpolation.hpp"
 #include "tech_objects/data_blocks/array.hpp"
 #include "tech_objects/data_blocks/cam_data.hpp"
 #include "tech_objects/data_blocks/status_bits.hpp"

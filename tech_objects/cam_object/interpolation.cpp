@@ -1,4 +1,4 @@
-#include "tech_objects/cam/interpolation.hpp"
+#include "tech_objects/cam_object/interpolation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -11,6 +11,7 @@
 #include "tech_objects/cam/builder.hpp"
 #include "tech_objects/cam/function.hpp"
 #include "tech_objects/cam/spline.hpp"
+#include "tech_objects/cam_object/segment_data.hpp"
 #include "tech_objects/data_blocks/cam_data.hpp"
 
 namespace lockstep {

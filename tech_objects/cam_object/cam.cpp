@@ -1,4 +1,4 @@
-#include "tech_objects/cam/cam.hpp"
+#include "tech_objects/cam_object/cam.hpp"
 
 #include <algorithm>
 #include <cstring>

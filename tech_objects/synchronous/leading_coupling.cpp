@@ -1,0 +1,50 @@
+// What an axis sees of a leading axis whose setpoint it cannot simply follow: because that goes over to
+// another course, or because it is, or has been, without position control.
+// @source S7-1500T synchronous operation V7, 5.3
+#include "tech_objects/synchronous/leading_coupling.hpp"
+
+namespace lockstep {
+namespace {
+
+void add(Setpoint& leading, const AdditiveLeadingValue& additive, const Modulo& modulo) noexcept {
+  leading.position = advanced(leading.position, additive.position, modulo);
+  leading.velocity += additive.velocity;
+  leading.acceleration += additive.acceleration;
+}
+
+}  // namespace
+
+/// leading value → + additive → effective leading value
+void LeadingCoupling::add_additive() noexcept {
+  add(now_, additive_->now, modulo_);
+  add(last_, additive_->last, modulo_);
+}
+
+/// Without position control the leading setpoint is zero, and afterwards it comes back from there to whom it
+/// was zero; to others, which couple anew, it is where it is. Who follows the velocity alone has that all the
+/// time.
+std::int64_t LeadingCoupling::look_at_led() noexcept {
+  const UncontrolledLead& lead = source_->uncontrolled_lead();
+  const bool controlled = source_->position_controlled();
+  now_ = source_->led_setpoint();
+  last_ = source_->last_led_setpoint();
+  if (velocity_only_) {
+    if (!controlled) now_.position = last_.position = lead.zero;
+    return 0;
+  }
+  if (controlled && !sees_return()) return 0;
+  const std::int64_t turned = uncontrolled_seen_ == lead.times ? lead.zero.turns - zero_turns_ : 0;
+  uncontrolled_seen_ = lead.times;
+  zero_turns_ = lead.zero.turns;
+  now_ = controlled ? lead.now : Setpoint{lead.zero, 0.0, 0.0};
+  last_ = controlled ? lead.last : now_;
+  return turned;
+}
+
+bool LeadingCoupling::sees_return() const noexcept {
+  if (coupling_ == Coupling::actual) return false;
+  const UncontrolledLead& lead = source_->uncontrolled_lead();
+  return lead.returning && uncontrolled_seen_ == lead.times;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,262 @@
+// What gear and cam share on the way in, and the gear.
+#include "tech_objects/synchronous/synchronizing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tech_objects/profile/velocity_tracking.hpp"
+
+namespace lockstep {
+namespace {
+
+/// How close "standing on the synchronous position" is, relative to the position: rounding of the last
+/// motion.
+constexpr double kSamePlace = 1e-14;
+
+/// No distance that an axis could be seen to make in a tick [u].
+constexpr double kNoDistance = 1e-6;
+
+/// Most that velocity and acceleration of the axis may make of its way over the leading distance, as a
+/// multiple of that way: the quintic then stays within some ten times the way.
+constexpr double kSteepest = 100.0;
+
+/// Over how many ticks the change of the leading velocity is watched.
+constexpr double kWatchedTicks = 16.0;
+
+bool same_place(double distance, double position) noexcept {
+  return std::abs(distance) <= kSamePlace * std::max(1.0, std::abs(position));
+}
+
+}  // namespace
+
+// ---- Beginning
+// --------------------------------------------------------------------------------------------------
+
+void Synchronizing::couple(const CouplingRequest& request, double ratio) noexcept {
+  way_ = Way::none;
+  progress_.begin({}, 0);
+  slope_ = ratio;
+  curvature_ = 0.0;
+  dynamics_ = request.dynamics;
+  watched_acceleration_ = 0.0;
+}
+
+SyncRefusal Synchronizing::begin_waiting(const CouplingRequest& request, const Chain& chain,
+                                         const Setpoint& own) noexcept {
+  const Modulo& leading = chain.leading.modulo();
+  const Modulo& following = chain.function.following();
+  rule_ = request.start;
+  direction_ = request.direction;
+  start_distance_ = request.leading_distance;
+  if (chain.function.is_cam()) {
+    CamCoupling& cam = chain.function.cam();
+    if (const SyncRefusal why = cam.begin(request, leading, following); why != SyncRefusal::none) return why;
+    leading_sync_position_ = cam.leading_sync_position();
+    following_sync_position_ = cam.following_sync_position();
+    chain.shifts.begin_with_offset(to_double_double(cam.following_offset()));
+    if (rule_ == SyncStartRule::subsequent_from_here && !cam.place_here(chain.leading.now().position))
+      return SyncRefusal::outside_cam;
+  } else {
+    leading_sync_position_ = normalised({0, request.leading_position}, leading).value;
+    following_sync_position_ = normalised({0, request.following_position}, following).value;
+  }
+  if (rule_ != SyncStartRule::ahead || leading.enabled || standing_on_sync_positions(chain, own))
+    return SyncRefusal::none;
+  // On a line the whole distance has to be ahead; a standing leading axis is judged in both directions.
+  const double to_go = leading_sync_position_ - chain.leading.now().position.value;
+  const int heading = sign(chain.leading.now().velocity);
+  const bool is_ahead = heading == 0 || heading * to_go >= 0.0;
+  return is_ahead && std::abs(to_go) < start_distance_ ? SyncRefusal::leading_distance : SyncRefusal::none;
+}
+
+bool Synchronizing::standing_on_sync_positions(const Chain& chain, const Setpoint& own) const noexcept {
+  const Modulo& following = chain.function.following();
+  const double leading = chain.leading.now().position.value;
+  const double here = own.position.value;
+  return own.standing() && chain.leading.now().velocity == 0.0 && chain.leading.last().velocity == 0.0 &&
+         same_place(shortest_distance(leading, leading_sync_position_, chain.leading.modulo()), leading) &&
+         (same_place(shortest_distance(here, following_sync_position_, following), here) ||
+          on_following_sync_position(here, following));
+}
+
+/// On a ring up to what the rounding of several motions leaves. The axis is put there in one tick, so that a
+/// long ring must not make it more than nobody sees.
+bool Synchronizing::on_following_sync_position(double here, const Modulo& following) const noexcept {
+  return following.enabled && std::abs(shortest_distance(here, following_sync_position_, following)) <=
+                                  std::min(kOnSynchronousValue * following.length, kNoDistance);
+}
+
+Synchronizing::Start Synchronizing::reject(SyncRefusal why) noexcept {
+  refusal_ = why;
+  return Start::rejected;
+}
+
+// ---- Waiting
+// ----------------------------------------------------------------------------------------------------
+
+Synchronizing::Start Synchronizing::watch(const Chain& chain, const Setpoint& own,
+                                          const ChainView* active) noexcept {
+  watch_acceleration(chain);
+  // Once it has been zero there is no leading value yet: what was zero meanwhile does not matter.
+  if (chain.leading.forget_zero()) return Start::not_yet;
+  return chain.function.is_cam() ? watch_cam(chain, own, active) : watch_gear(chain, own);
+}
+
+/// What the velocity of the leading value changes by, over so many ticks that the noise of an encoder does
+/// not count: an extrapolated leading value tells no acceleration.
+void Synchronizing::watch_acceleration(const Chain& chain) noexcept {
+  const double change = (chain.leading.now().velocity - chain.leading.last().velocity) / chain.period;
+  watched_acceleration_ += (change - watched_acceleration_) / kWatchedTicks;
+}
+
+Synchronizing::Start Synchronizing::watch_gear(const Chain& chain, const Setpoint& own) noexcept {
+  const Modulo& following = chain.function.following();
+  if (standing_on_sync_positions(chain, own)) {
+    progress_.set_direction(1);
+    const double way = shortest_distance(chain.leading.last().position.value, leading_sync_position_,
+                                         chain.leading.modulo());
+    const double to_go = shortest_distance(own.position.value, following_sync_position_, following);
+    anchor(chain, way, advanced(own.position, to_go, following));
+    return Start::synchronous;
+  }
+  progress_.set_direction(sign(chain.leading.step().way()));
+  if (progress_.direction() == 0) return Start::not_yet;
+  const Start start = rule_ == SyncStartRule::dynamics ? watch_time(chain, own) : watch_distance(chain, own);
+  if (start != Start::synchronizing) progress_.set_direction(0);
+  return start;
+}
+
+/// Way from the last leading position to a place, in the direction of motion [u]; negative: a linear axis has
+/// passed it.
+double Synchronizing::way_to(const Chain& chain, double place) const noexcept {
+  const Modulo& modulo = chain.leading.modulo();
+  const double from = chain.leading.last().position.value;
+  if (!modulo.enabled) return progress_.direction() * (place - from);
+  const double target = normalised({0, place}, modulo).value;
+  if (target == from) return 0.0;
+  return progress_.direction() > 0 ? positive_distance(from, target, modulo)
+                                   : -negative_distance(from, target, modulo);
+}
+
+/// Places the gear: the synchronous positions belong together, the leading one a way ahead of the last tick.
+void Synchronizing::anchor(const Chain& chain, double way, AxisPosition following) noexcept {
+  following.value = following_sync_position_;
+  chain.function.place_gear(leading_at(chain, way), following);
+}
+
+/// The synchronous position of the leading axis, a way ahead of the last tick.
+AxisPosition Synchronizing::leading_at(const Chain& chain, double way) const noexcept {
+  const Modulo& modulo = chain.leading.modulo();
+  AxisPosition leading = advanced(chain.leading.last().position, progress_.direction() * way, modulo);
+  if (modulo.enabled) {
+    // The way is rounded: at the end of the ring the turn may be the neighbour's.
+    const double off = leading.value - leading_sync_position_;
+    if (off > 0.5 * modulo.length) ++leading.turns;
+    if (off < -0.5 * modulo.length) --leading.turns;
+  }
+  leading.value = leading_sync_position_;
+  return leading;
+}
+
+/// Over a leading distance: starts at the last tick before the start position is crossed and spans the rest.
+Synchronizing::Start Synchronizing::watch_distance(const Chain& chain, const Setpoint& own) noexcept {
+  const bool in_advance = rule_ == SyncStartRule::ahead;
+  const int direction = progress_.direction();
+  const double start_place =
+      in_advance ? leading_sync_position_ - direction * start_distance_ : leading_sync_position_;
+  const double way = way_to(chain, start_place);
+  const double step = direction * chain.leading.step().way();
+  if (way < 0.0 || way > step) return Start::not_yet;
+
+  const double way_to_sync = in_advance ? way + start_distance_ : way;
+  distance_ = way + start_distance_;
+  AxisPosition following{own.position.turns, following_sync_position_};
+  anchor(chain, way_to_sync, following);
+  const Setpoint& from = chain.leading.last();
+  const SyncStart start{.leading = from.position,
+                        .leading_velocity = from.velocity,
+                        .leading_acceleration = from.acceleration,
+                        .following = own.position,
+                        .velocity = own.velocity,
+                        .acceleration = own.acceleration};
+  const SyncTarget target{.at_start = chain.function.gear_value(from.position),
+                          .slope = chain.function.gear().ratio().rounded()};
+  const SyncPlan plan = distance_profile_.plan(start, target, distance_, direction < 0, direction_,
+                                               chain.leading.modulo(), chain.function.following());
+  if (plan != SyncPlan::kReady) return reject(SyncRefusal::direction);
+  if (shoots_beyond(distance_profile_.value(0.0), distance_, chain.function.following()))
+    return reject(SyncRefusal::leading_distance);
+  following.turns += distance_profile_.turns();
+  anchor(chain, way_to_sync, following);
+  return begin_profile(Way::distance, from.position);
+}
+
+/// Whether velocity and acceleration of the axis, led on by a leading axis that creeps, would carry it far
+/// beyond the way that it has to make.
+bool Synchronizing::shoots_beyond(const SyncOffset& start, double distance,
+                                  const Modulo& following) const noexcept {
+  const double turn = following.enabled ? following.length : std::numeric_limits<double>::infinity();
+  const double natural = std::min(std::abs(start.position), turn) + std::abs(slope_) * distance;
+  const double own = std::abs(start.slope) * distance + std::abs(start.curvature) * distance * distance;
+  return own > kSteepest * natural;
+}
+
+Synchronizing::Start Synchronizing::begin_profile(Way way, AxisPosition start) noexcept {
+  way_ = way;
+  progress_.begin(start, progress_.direction());
+  return Start::synchronizing;
+}
+
+// ---- Every tick
+// -------------------------------------------------------------------------------------------------
+
+/// Towards velocity and acceleration of the function; where both are met, the function begins.
+bool Synchronizing::track(const Chain& chain, Setpoint& setpoint) noexcept {
+  const GearFunction& gear = chain.function.gear();
+  const Setpoint& leading = chain.leading.now();
+  const bool holding = progress_.behind();  // reversed within the tolerance
+  const double velocity = holding ? 0.0 : gear.velocity(leading.velocity);
+  const double acceleration = holding ? 0.0 : gear.acceleration(leading.acceleration);
+  const TrackingStep step =
+      track_velocity({setpoint.velocity, setpoint.acceleration}, {velocity, acceleration},
+                     {.velocity = dynamics_.velocity,
+                      .acceleration = dynamics_.acceleration,
+                      .deceleration = dynamics_.deceleration,
+                      .jerk = dynamics_.jerk},
+                     chain.period);
+  setpoint.position = advanced(setpoint.position, step.way, chain.function.following());
+  setpoint.velocity = step.velocity;
+  setpoint.acceleration = step.acceleration;
+  chain.function.show(setpoint);
+  if (!step.synchronous || holding) return false;
+  if (!chain.leading.velocity_only()) chain.function.place_gear(leading.position, setpoint.position);
+  return true;
+}
+
+bool Synchronizing::follow_profile(const Chain& chain, Setpoint& setpoint) const noexcept {
+  const double way = progress_.covered(chain.leading.step());
+  if (way >= distance_) return false;
+  const SyncOffset rest = ahead(way);
+  const double way_velocity = progress_.direction() * chain.leading.now().velocity;
+  const double way_acceleration = progress_.direction() * chain.leading.now().acceleration;
+  const Setpoint joined = chain.function.is_cam() ? tangent(chain, way) : chain.function.value();
+  setpoint.position = advanced(joined.position, rest.position, chain.function.following());
+  setpoint.velocity = joined.velocity + rest.velocity(way_velocity);
+  setpoint.acceleration = joined.acceleration + rest.acceleration(way_velocity, way_acceleration);
+  return true;
+}
+
+/// What the axis is ahead of its function, over the leading distance covered.
+SyncOffset Synchronizing::ahead(double way) const noexcept {
+  if (way_ == Way::distance) return distance_profile_.value(way);
+  const MotionState state = time_profile_.at(way / time_velocity_);
+  if (way < 0.0) {  // turned back before the start, within the tolerance
+    const double slope = state.velocity / time_velocity_;
+    return {state.position + slope * way, slope, 0.0};
+  }
+  return {state.position, state.velocity / time_velocity_,
+          state.acceleration / (time_velocity_ * time_velocity_)};
+}
+
+}  // namespace lockstep
