@@ -120,7 +120,8 @@ struct Machine : Rig {
                                    .zero_marks = ZeroMarks{3.0, 10.0},
                                    .reference_cam = PositionRange{100.0, 120.0},
                                    .limit_min = -200.0,
-                                   .limit_max = 400.0};
+                                   .limit_max = 400.0,
+                                   .digital_inputs = {}};
     if (configure) configure(made);
     return made;
   }
