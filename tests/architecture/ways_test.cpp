@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kWithWays[] = {"tech_objects/README.md"};
+constexpr const char* kWithWays[] = {"tech_objects/README.md", "hmi_bridge/README.md"};
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
