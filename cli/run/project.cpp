@@ -552,7 +552,8 @@ int run_project(Project& project, std::unique_ptr<RetainWriter> keeper, const Ru
     if (const std::string problem = leave_processor(options.cpu); !problem.empty())
       throw CouldNotStart("--cpu: " + problem);
   project.controller->apply_stimuli = options.simulate || options.stimuli;
-  require_descriptors(kDescriptors + clients_of(project));
+  const bool alone = options.simulate && options.modbus.empty();  // virtual time, without Modbus
+  require_descriptors(kDescriptors + (alone ? 0 : clients_of(project)));
   require_memory(kMemory);
   Ending ending;
   Surroundings surroundings(project, options, std::move(keeper));

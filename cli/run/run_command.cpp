@@ -44,8 +44,12 @@ void add_run_command(CLI::App& app, Action& action) {
           ->excludes(simulate);
   command->add_flag("--no-retain", options->no_retain, "begin with init values and keep nothing")
       ->excludes(retain);
-  command->add_option("--audit", options->audit,
-                      "append who writes or commands what to this file instead of the project's");
+  command
+      ->add_option("--audit", options->audit,
+                   "append who writes or commands what to this file instead of the project's")
+      ->check([](const std::string& name) {
+        return name.empty() ? std::string("needs the name of a file") : "";
+      });
   command->footer(
       "Without --simulate it runs in real time until SIGINT or SIGTERM (or --duration), then brings its axes "
       "to\n"

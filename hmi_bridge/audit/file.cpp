@@ -36,8 +36,25 @@ int AuditFile::open() noexcept {
   return 0;
 }
 
+/// Whether what is written still is the file of that name.
+bool AuditFile::is_there() const noexcept {
+  struct stat open {};
+  struct stat named {};
+  return ::fstat(fd_, &open) == 0 && ::stat(options_.file.c_str(), &named) == 0 &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+/// A file that has been moved, removed or replaced meanwhile gets no more lines: they go to the one that has
+/// its name, or to a new one.
+void AuditFile::look() {
+  if (fd_ < 0 || is_there()) return;
+  ::close(std::exchange(fd_, -1));
+  problem_ = "the file has been moved, removed or replaced; what follows is in the one that has its name now";
+}
+
 std::size_t AuditFile::append(std::span<const AuditLine> lines) {
   problem_.clear();
+  look();
   std::size_t written = 0;
   while (written < lines.size() && write(lines[written].text)) ++written;
   if (written > 0 && ::fdatasync(fd_) != 0) problem_ = std::generic_category().message(errno);

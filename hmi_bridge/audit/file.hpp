@@ -37,6 +37,8 @@ class AuditFile {
 
  private:
   int open() noexcept;
+  bool is_there() const noexcept;
+  void look();
   bool write(const std::string& line);
   void rotate();
 

@@ -69,12 +69,19 @@ struct ModbusClientConfig {
   std::vector<NamedSignal> signals;
 };
 
+/// A tag that a watchdog looks at or writes.
+struct WatchdogTag {
+  enum class Role : std::uint8_t { heartbeat, status, set };
+  Signal signal;
+  Role role = Role::heartbeat;
+};
+
 struct ModbusConfig {
   std::vector<ModbusServerOptions> servers;  ///< none: the project has no server
   std::vector<NamedSignal> signals;          ///< of the process image, to which the entries of the maps refer
   std::vector<ModbusClientConfig> clients;
-  std::vector<Signal> watchdog_states;  ///< BOOL tags that tell of the silence of clients, each once
-  std::deque<ModbusMapConfig> maps;     ///< the first one is the project's map of all unit ids
+  std::vector<WatchdogTag> watchdog_tags;  ///< what watchdogs have in their hands
+  std::deque<ModbusMapConfig> maps;        ///< the first one is the project's map of all unit ids
 
   /// The maps that a server has: its own, else the common ones. Pointers into `maps`.
   /// @param server index; none, or one that is not there: the common ones

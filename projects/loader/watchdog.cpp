@@ -51,8 +51,35 @@ std::optional<Signal> find_status(const JsonValue* json, const Loading& loading)
   return std::nullopt;
 }
 
-void load_watchdog(const JsonValue& json, const ModbusMap* map, std::vector<Signal>& states,
-                   const Loading& loading) {
+/// What watchdogs have in their hands has one use, but for a heartbeat, at which several may look: two would
+/// write against each other.
+void claim(const JsonValue& json, const WatchdogTag& wanted, const Loading& loading) {
+  constexpr std::string_view kUses[] = {"is the heartbeat of a watchdog", "is the status of a watchdog",
+                                        "is set by a watchdog already"};
+  std::vector<WatchdogTag>& tags = loading.project.modbus.watchdog_tags;
+  for (const WatchdogTag& tag : tags) {
+    const bool both_look = tag.role == WatchdogTag::Role::heartbeat && wanted.role == tag.role;
+    if (both_look || !is_same(tag.signal, wanted.signal)) continue;
+    loading.problems.report(json, json.shown() + ": this tag " +
+                                      std::string(kUses[static_cast<std::size_t>(tag.role)]) +
+                                      "; allowed: a tag of its own");
+    return;
+  }
+  tags.push_back(wanted);
+}
+
+void claim_set(const JsonValue& set, const Loading& loading) {
+  for (const auto& [path, value] : set.members) {
+    if (const StringTag* const string = loading.names().find_string(path))
+      claim(*value,
+            {Signal{const_cast<char*>(string->memory.data()), Type::BYTE, -1}, WatchdogTag::Role::set},
+            loading);
+    else if (const auto place = loading.find(*value, path))
+      claim(*value, {place->signal, WatchdogTag::Role::set}, loading);
+  }
+}
+
+void load_watchdog(const JsonValue& json, const ModbusMap* map, const Loading& loading) {
   Problems& problems = loading.problems;
   const std::size_t before = problems.count();
   const Fields fields(json, keys::kWatchdog, problems);
@@ -69,19 +96,10 @@ void load_watchdog(const JsonValue& json, const ModbusMap* map, std::vector<Sign
     return problems.report(json,
                            "a silence would have no effect; allowed: 'set' with tags and their values, "
                            "'status' with a BOOL tag, or both");
-  for (const Assignment& one : values)
-    if (is_same(one.place, *heartbeat) || (status && is_same(one.place, *status)))
-      return problems.report(*set,
-                             "the heartbeat and the status of a watchdog cannot be set by it; allowed: "
-                             "other tags");
-  if (status && is_same(*status, *heartbeat))
-    return problems.report(*fields["status"], "is the heartbeat itself; allowed: another BOOL tag");
-  if (status &&
-      std::any_of(states.begin(), states.end(), [&](const Signal& s) { return is_same(s, *status); }))
-    return problems.report(*fields["status"], fields["status"]->shown() +
-                                                  " tells the state of another watchdog already; allowed: a "
-                                                  "tag of its own");
-  if (status) states.push_back(*status);
+  claim(*fields["tag"], {*heartbeat, WatchdogTag::Role::heartbeat}, loading);
+  if (status) claim(*fields["status"], {*status, WatchdogTag::Role::status}, loading);
+  if (set != nullptr) claim_set(*set, loading);
+  if (problems.count() != before) return;
   loading.controller().watchdogs.emplace_back(*heartbeat, (*timeout + cycle - 1) / cycle, std::move(values),
                                               status);
 }
@@ -89,11 +107,10 @@ void load_watchdog(const JsonValue& json, const ModbusMap* map, std::vector<Sign
 }  // namespace
 
 void load_watchdogs(const JsonValue& json, const ModbusMap* map, const Loading& loading) {
-  std::vector<Signal>& states = loading.project.modbus.watchdog_states;
   if (json.kind == JsonKind::object) {
-    load_watchdog(json, map, states, loading);
+    load_watchdog(json, map, loading);
   } else if (json.kind == JsonKind::array) {
-    for (const JsonValue* const one : json.elements) load_watchdog(*one, map, states, loading);
+    for (const JsonValue* const one : json.elements) load_watchdog(*one, map, loading);
   } else {
     report_kind(json, "an object, or an array of them", loading.problems);
   }

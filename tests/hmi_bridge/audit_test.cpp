@@ -181,6 +181,28 @@ TEST(AuditFile, BeginsTheNextFileInTimeAndKeepsSoMany) {
   EXPECT_FALSE(std::filesystem::exists(path + ".3"));
 }
 
+TEST(AuditFile, ThatIsMovedOrReplacedUnderARunIsBegunAnewAndTold) {
+  const Directory folder;
+  const std::string path = folder.file("audit.jsonl");
+  AuditFile file({.file = path});
+  const auto write = [&](char c) {
+    const AuditLine lines[] = {line(c, 5)};
+    EXPECT_EQ(file.append(lines), 1u);
+    return file.problem();
+  };
+  EXPECT_EQ(write('a'), "");
+  std::filesystem::rename(path, path + ".moved");
+  EXPECT_NE(write('b').find("moved, removed or replaced"), std::string::npos);
+  EXPECT_EQ(write('c'), "");
+  std::filesystem::remove(path);
+  EXPECT_NE(write('d'), "");
+  EXPECT_EQ(content(path), line('d', 5).text);
+  std::filesystem::rename(folder.write("other", "foreign\n"), path);
+  EXPECT_NE(write('e'), "");
+  EXPECT_EQ(content(path), "foreign\n" + line('e', 5).text);
+  EXPECT_EQ(content(path + ".moved"), line('a', 5).text);
+}
+
 TEST(AuditFile, ThatCannotBeOneIsRefused) {
   const Directory folder;
   EXPECT_THROW(AuditFile({.file = folder.file("no/such/folder")}), std::system_error);

@@ -13,7 +13,7 @@ std::string project(const std::string& stimuli, const std::string& calls = "", c
   return R"({ "lockstep": 1, "name": "watched", "clock": { "servo_cycle": "1ms" },
     "tags": { "beat": { "type": "UINT", "init": 7, "retain": true }, "start": { "type": "BOOL" },
       "speed": { "type": "LREAL", "init": 50.0 }, "kind": { "type": "STRING[8]", "init": "ale" },
-      "silent": { "type": "BOOL" }, "limits": { "type": "ARRAY[0..1] OF INT", "init": [ 3, 4 ] },
+      "silent": { "type": "BOOL" }, "pulse": { "type": "BOOL" }, "limits": { "type": "ARRAY[0..1] OF INT", "init": [ 3, 4 ] },
       "doubled": { "type": "LREAL" } },
     "programs": [ { "name": "Main", "ob": "Main", "cycle": "1ms",
       "calls": [ { "set": "doubled", "to": "speed * 2.0" } )" +
@@ -23,6 +23,7 @@ std::string project(const std::string& stimuli, const std::string& calls = "", c
     "modbus": { "map": [
         { "tag": "beat", "table": "holding_register", "address": 0 },
         { "tag": "start", "table": "coil", "address": 0 },
+        { "tag": "pulse", "table": "coil", "address": 1 },
         { "tag": "speed", "table": "holding_register", "address": 1 } ],
       "watchdog": { "tag": "beat", "timeout": "10ms", "status": "silent",
         "set": { "start": false, "speed": 5, "kind": "none", "limits[1]": -1 } } )" +
@@ -139,7 +140,7 @@ TEST(Watchdog, MayBeOneOfSeveral) {
   const std::string one = R"("watchdog": { "tag": "beat",)";
   two.replace(
       two.find(one), one.size(),
-      R"("watchdog": [ { "tag": "start", "timeout": "5ms", "set": { "doubled": 0 } }, { "tag": "beat",)");
+      R"("watchdog": [ { "tag": "pulse", "timeout": "5ms", "set": { "doubled": 0 } }, { "tag": "beat",)");
   two.replace(two.rfind("} }") - 1, 0, "]");
   Simulation machine = Simulation::from_text(two);
   ASSERT_EQ(controller_of(machine).watchdogs.size(), 2u);
@@ -167,12 +168,24 @@ TEST(Watchdog, IsToldOfWhatIsWrong) {
            {R"({ "tag": "limits", "timeout": "1s", "status": "silent" })", "/tag", ""},
            {R"({ "tag": "beat", "timeout": "1s", "status": "speed" })", "/status", "is no BOOL"},
            {R"({ "tag": "beat", "timeout": "1s", "set": { "speed": true } })", "/set/speed", ""},
-           {R"({ "tag": "beat", "timeout": "1s", "set": { "beat": 1 } })", "/set", "cannot be set by it"},
+           {R"({ "tag": "beat", "timeout": "1s", "set": { "beat": 1 } })", "/set/beat",
+            "is the heartbeat of a watchdog"},
+           {R"({ "tag": "beat", "timeout": "1s", "set": { "START": false, "start": true } })", "/set/start",
+            "is set by a watchdog already"},
+           {R"([ { "tag": "beat", "timeout": "1s", "set": { "speed": 0 } },
+                 { "tag": "beat", "timeout": "2s", "set": { "speed": 9 } } ])",
+            "/1/set/speed", "is set by a watchdog already"},
+           {R"([ { "tag": "beat", "timeout": "1s", "set": { "speed": 0 } },
+                 { "tag": "start", "timeout": "2s", "set": { "beat": 1 } } ])",
+            "/1/set/beat", "is the heartbeat of a watchdog"},
+           {R"([ { "tag": "beat", "timeout": "1s", "status": "silent" },
+                 { "tag": "start", "timeout": "2s", "set": { "silent": true } } ])",
+            "/1/set/silent", "is the status of a watchdog"},
            {R"({ "tag": "start", "timeout": "1s", "status": "start" })", "/status",
-            "is the heartbeat itself"},
+            "is the heartbeat of a watchdog"},
            {R"([ { "tag": "beat", "timeout": "1s", "status": "silent" },
                  { "tag": "start", "timeout": "1s", "status": "silent" } ])",
-            "/1/status", "of another watchdog already"}}) {
+            "/1/status", "is the status of a watchdog"}}) {
     std::string changed_text = text;
     changed_text.replace(begin, end - begin, wrong.watchdog);
     const LoadedProject loaded = load_project(changed_text);
@@ -188,15 +201,15 @@ TEST(Watchdog, StandsBesideTheMapThatHasItsHeartbeat) {
     const LoadedProject loaded = load_project(project("", "", more));
     return loaded.problems.empty() ? "" : loaded.problems[0].place + ": " + loaded.problems[0].text;
   };
-  const std::string dog = R"("watchdog": { "tag": "start", "timeout": "1s", "set": { "speed": 0 } })";
-  const std::string map = R"("map": [ { "tag": "start", "table": "coil", "address": 0 } ])";
+  const std::string dog = R"("watchdog": { "tag": "pulse", "timeout": "1s", "set": { "doubled": 0 } })";
+  const std::string map = R"("map": [ { "tag": "pulse", "table": "coil", "address": 0 } ])";
   EXPECT_EQ(first_problem(R"(, "server": { "listen": "127.0.0.1:0", )" + map + ", " + dog + " }"), "");
   EXPECT_EQ(first_problem(R"(, "units": [ { "unit": 3, )" + map + ", " + dog + " } ]"), "");
   EXPECT_NE(first_problem(R"(, "server": { "listen": "127.0.0.1:0", )" + dog + " }")
                 .find("/modbus/server/watchdog: this server has no map of its own"),
             std::string::npos);
   EXPECT_NE(first_problem(R"(, "units": [ { "unit": 3, "map": [], )" + dog + " } ]")
-                .find("/modbus/units/0/watchdog/tag: 'start' cannot be written by a client"),
+                .find("/modbus/units/0/watchdog/tag: 'pulse' cannot be written by a client"),
             std::string::npos);
 }
 

@@ -102,6 +102,9 @@ TEST(Audit, ThatCannotBeWrittenKeepsTheRunFromStarting) {
   const Ended ended = lockstep({"run", project, "--no-modbus", "--audit", directory.file("no/such/folder")});
   EXPECT_EQ(ended.status, 2);
   EXPECT_NE(ended.err.find("audit log: "), std::string::npos) << ended.err;
+  const Ended unnamed = lockstep({"run", project, "--no-modbus", "--audit", ""});
+  EXPECT_EQ(unnamed.status, 2);
+  EXPECT_NE(unnamed.err.find("needs the name of a file"), std::string::npos) << unnamed.err;
 }
 
 }  // namespace
