@@ -32,7 +32,8 @@ TEST(DataOrigins, AreToldOfEveryFileAndOfNoOther) {
   for (const auto& entry : fs::directory_iterator(kData))
     if (entry.path().filename() != "origins.json") there.insert(entry.path().filename());
   std::set<std::string> told;
-  for (const auto& [name, origin] : origins().items()) {
+  const nlohmann::json all = origins();
+  for (const auto& [name, origin] : all.items()) {
     told.insert(name);
     EXPECT_EQ(origin.size(), 1u) << name;
     EXPECT_NE(origin.contains("copy_of"), origin.contains("made")) << name;
@@ -42,7 +43,8 @@ TEST(DataOrigins, AreToldOfEveryFileAndOfNoOther) {
 
 TEST(DataOrigins, AreWhatTheirCopiesAre) {
   int compared = 0;
-  for (const auto& [name, origin] : origins().items()) {
+  const nlohmann::json all = origins();
+  for (const auto& [name, origin] : all.items()) {
     if (!origin.contains("copy_of")) continue;
     const fs::path original = kDocuments / origin.at("copy_of").get<std::string>();
     if (!fs::exists(original)) continue;

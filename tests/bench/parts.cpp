@@ -169,8 +169,8 @@ Part cam_copy() {
                 job->copy = &copy;
                 cam->submit(*job);
               }
-              cam->step(nullptr);
-              cam->publish();
+              cam->before_axes();
+              cam->behind_axes();
             }
           },
           1000};

@@ -330,7 +330,8 @@ TEST(EncoderProject, LeadsAFollowingAxisByItsActualValueAlone) {
     if (axis->name == "Knife") knife = axis;
   ASSERT_NE(knife, nullptr);
   EXPECT_EQ(knife->leading_values.back().coupling, Coupling::actual);
-  EXPECT_EQ(knife->leading_values.back().source, loaded.project->controller->encoders.front());
+  EXPECT_EQ(knife->leading_values.back().source->kind, ObjectKind::TO_ExternalEncoder);
+  EXPECT_EQ(knife->leading_values.back().source->name, "Encoder");
   values.back()["coupling"] = "setpoint";
   const LoadedProject refused = load_project(project.dump());
   ASSERT_EQ(refused.problems.size(), 1u) << lines(refused.problems);

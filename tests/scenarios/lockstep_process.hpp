@@ -59,6 +59,7 @@ class Process {
     pid_ = output == Output::terminal ? ::forkpty(&terminal_, nullptr, nullptr, nullptr) : ::fork();
     if (pid_ != 0) return;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    ::closefrom(STDERR_FILENO + 1);  // what this process was started with is nothing of the program's
     if (output == Output::files) {
       redirect(STDOUT_FILENO, directory_.file("out"));
       redirect(STDERR_FILENO, directory_.file("err"));
