@@ -9,7 +9,7 @@
 
 namespace lockstep::cli {
 
-void AlarmMessages::event(const TraceEvent& event) {
+void tell_alarm(const TraceEvent& event, int patience) {
   std::string text;
   const double seconds = static_cast<double>(event.t) * 1e-9;
   if (event.kind == EventKind::alarm) {
@@ -22,7 +22,7 @@ void AlarmMessages::event(const TraceEvent& event) {
     return;
   }
   // On a terminal the line of live values stands where the message goes.
-  write_message((isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + text, patience_);
+  write_message((isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + text, patience);
 }
 
 }  // namespace lockstep::cli

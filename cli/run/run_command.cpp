@@ -13,6 +13,7 @@ namespace lockstep::cli {
 void add_run_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "Run a project, in real time or simulated");
   auto options = std::make_shared<RunOptions>();
+  options->mark = "--";
   auto duration = std::make_shared<std::string>();
   command->add_option("FILE", options->file, "the project file")->required();
   auto* simulate = command->add_flag(
@@ -20,7 +21,7 @@ void add_run_command(CLI::App& app, Action& action) {
       "virtual time, as fast as the machine can; the same file gives the same trace, bit for bit");
   command->add_option("--duration", *duration,
                       "end after that much virtual or real time, such as 5s or 1.5min");
-  command->add_option("--trace", options->trace_file,
+  command->add_option("--trace", options->trace,
                       "record the trace signals: FILE.csv, or FILE.lcm for a log that lcm-logplayer replays");
   command
       ->add_option("--signals", options->signals,

@@ -7,26 +7,9 @@
 #include <vector>
 
 #include "projects/loader/project.hpp"
+#include "projects/runtime/run_options.hpp"
 
 namespace lockstep::cli {
-
-/// The options of `lockstep run`.
-struct RunOptions {
-  std::string file;
-  bool simulate = false;
-  std::int64_t duration = -1;  ///< [ns]; negative: until asked to end
-  std::string trace_file;      ///< empty: none
-  std::vector<std::string> signals;
-  bool stimuli = false;
-  int cpu = -1;        ///< processor of the cycle; negative: any
-  std::string modbus;  ///< HOST:PORT; empty: as the project says
-  bool no_modbus = false;
-  std::string lcm;  ///< URL; empty: as the project says
-  bool no_lcm = false;
-  std::string retain;  ///< file; empty: as the project says
-  bool no_retain = false;
-  std::string audit;  ///< file; empty: as the project says
-};
 
 /// Loads the project and carries the run out; gives the exit status.
 int run_project(const RunOptions& options);

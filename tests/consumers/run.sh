@@ -10,8 +10,9 @@ if [[ $kind == installed ]]; then
   cmake --build "$work/build" >"$work/build.log"
   "$work/prefix/bin/lockstep" check "$work/prefix/share/lockstep/projects/02_rotary_knife/project.json"
   "$work/build/consumer" "$sources/projects/02_rotary_knife/project.json"
+  "$work/build/machine" "$sources/projects/02_rotary_knife/project.json"
 else
   # Configuring is what can go wrong here; the sources are those that all other tests build.
   cmake -S "$sources/tests/consumers" -B "$work/build" -G Ninja -DLOCKSTEP_SOURCES="$sources" >"$work/configure.log"
-  ninja -C "$work/build" -n consumer >"$work/build.log"
+  ninja -C "$work/build" -n consumer machine >"$work/build.log"
 fi

@@ -1,13 +1,12 @@
-#include "cli/run/retain.hpp"
+#include "projects/runtime/kept_values.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 
-#include "cli/command/command.hpp"
-#include "cli/run/state_directory.hpp"
+#include "projects/runtime/run_files.hpp"
 
-namespace lockstep::cli {
+namespace lockstep {
 namespace {
 
 namespace fs = std::filesystem;
@@ -15,21 +14,21 @@ namespace fs = std::filesystem;
 constexpr std::string_view kEnding = ".retain";
 
 /// What the file holds beside what the project keeps.
-void tell_strangers(const RetainFile& file, const Project& project) {
+void tell_strangers(const RetainFile& file, const Project& project, Messages& messages) {
   for (const KeptRow& row : file.rows()) {
     bool known = false;
     for (const KeptValue& value : project.retain.values)
       known |= file.find(value.name) == file.find(row.name);
     if (!known)
-      tell(
-          fmt::format("warning: retain file {}: {} ({}) is kept there and not in the "
+      messages.warn(
+          fmt::format("retain file {}: {} ({}) is kept there and not in the "
                       "project; it stays in the file",
                       file.path(), row.name, shown(row.value)));
   }
   if (!file.rows().empty()) return;
   for (const std::string& other : file.other_projects())
-    tell(
-        fmt::format("warning: retain file {}: it has values of project '{}' and none of "
+    messages.warn(
+        fmt::format("retain file {}: it has values of project '{}' and none of "
                     "'{}': they begin with their init values",
                     file.path(), other, project.name));
 }
@@ -44,16 +43,17 @@ std::string retain_path(const Project& project, const RunOptions& options) {
   return state.empty() ? own.string() : (fs::path(state) / own.filename()).string();
 }
 
-std::unique_ptr<RetainWriter> restore_kept(Project& project, const RunOptions& options) {
+std::unique_ptr<RetainWriter> restore_kept(Project& project, const RunOptions& options, Messages& messages) {
   if (options.simulate || options.no_retain || project.retain.values.empty()) return nullptr;
   RetainFile file(retain_path(project, options), project.name);
-  for (const std::string& remark : restore(file, project.retain.values)) tell("warning: " + remark);
-  tell_strangers(file, project);
+  for (const std::string& remark : restore(file, project.retain.values)) messages.warn(remark);
+  tell_strangers(file, project, messages);
   const std::string_view is_new = file.other_projects().empty() ? ", which is new" : "";
-  tell(file.rows().empty() ? fmt::format("values are kept in {}{}", file.path(), is_new)
-                           : fmt::format("{} kept values from {}", file.rows().size(), file.path()));
+  messages.inform(file.rows().empty()
+                      ? fmt::format("values are kept in {}{}", file.path(), is_new)
+                      : fmt::format("{} kept values from {}", file.rows().size(), file.path()));
   return std::make_unique<RetainWriter>(std::move(file), project.retain.values, project.retain.interval,
                                         &project.controller->encoder_saving);
 }
 
-}  // namespace lockstep::cli
+}  // namespace lockstep

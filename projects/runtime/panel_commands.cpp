@@ -1,12 +1,10 @@
-#include "cli/run/run_commands.hpp"
+#include "projects/runtime/panel_commands.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "cli/command/command.hpp"
-
-namespace lockstep::cli {
+namespace lockstep {
 namespace {
 
 std::vector<Signal> signals_of(const Project& project) {
@@ -18,25 +16,27 @@ std::vector<Signal> signals_of(const Project& project) {
 
 }  // namespace
 
-RunCommands::RunCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity,
-                         TraceRecorder& recorder, AuditLog* audit)
-    : image_(signals_of(project)),
+PanelCommands::PanelCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity,
+                             TraceRecorder& recorder, AuditLog* audit, Messages& messages)
+    : messages_(messages),
+      image_(signals_of(project)),
       listener_(url, identity, project.commands.axes, image_, project.controller->clock.servo_cycle,
                 [&recorder](TraceEvent answer) { recorder.tell(std::move(answer)); }) {
   project.controller->images.push_back(&image_);
   std::string axes;
   for (const CommandAxis& axis : project.commands.axes) axes += (axes.empty() ? "" : ", ") + axis.name;
-  tell(fmt::format("commands from panels on {}, channel {}{}: {}", url, identity.channel, kCommandSuffix,
-                   axes));
+  messages_.inform(fmt::format("commands from panels on {}, channel {}{}: {}", url, identity.channel,
+                               kCommandSuffix, axes));
   if (audit != nullptr) listener_.audit_to(*audit);
   listener_.start();
 }
 
-void RunCommands::tell_counters() {
+void PanelCommands::tell_counters() {
   const CommandCounters& counters = listener_.counters();
-  if (counters.accepted != 0) tell(fmt::format("commands from panels: {} accepted", counters.accepted));
-  const auto warn = [](std::uint64_t count, std::string_view text) {
-    if (count != 0) tell(fmt::format("warning: commands from panels: {} {}", count, text));
+  if (counters.accepted != 0)
+    messages_.inform(fmt::format("commands from panels: {} accepted", counters.accepted));
+  const auto warn = [this](std::uint64_t count, std::string_view text) {
+    if (count != 0) messages_.warn(fmt::format("commands from panels: {} {}", count, text));
   };
   warn(counters.malformed, "refused: not a command");
   warn(counters.stale, "refused: of another run, too old or repeated");
@@ -46,4 +46,4 @@ void RunCommands::tell_counters() {
   warn(listener_.faults(), "internal faults survived");
 }
 
-}  // namespace lockstep::cli
+}  // namespace lockstep

@@ -1,9 +1,9 @@
-#include "cli/run/state_directory.hpp"
+#include "projects/runtime/run_files.hpp"
 
 #include <cstdlib>
 #include <filesystem>
 
-namespace lockstep::cli {
+namespace lockstep {
 
 namespace fs = std::filesystem;
 
@@ -21,4 +21,4 @@ std::string path_of_run(const std::string& project_file, const std::string& name
   return ((state.empty() ? fs::path(project_file).parent_path() : fs::path(state)) / name).string();
 }
 
-}  // namespace lockstep::cli
+}  // namespace lockstep

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace lockstep::cli {
+namespace lockstep {
 
 /// The directory that systemd gives a service for what it keeps ($STATE_DIRECTORY, the first one of it);
 /// empty: this is no service.
@@ -13,4 +13,4 @@ std::string state_directory();
 /// one, to the project file, from wherever the program was started.
 std::string path_of_run(const std::string& project_file, const std::string& name);
 
-}  // namespace lockstep::cli
+}  // namespace lockstep

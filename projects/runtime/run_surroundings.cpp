@@ -1,0 +1,119 @@
+#include "projects/runtime/run_surroundings.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+#include <utility>
+
+#include "hmi_bridge/lcm/url.hpp"
+#include "projects/runtime/run_files.hpp"
+
+namespace lockstep {
+
+RunSurroundings::RunSurroundings(Project& project, const RunOptions& options,
+                                 std::unique_ptr<RetainWriter> keeper, Messages& messages)
+    : project_(project), options_(options), messages_(messages), keeper_(std::move(keeper)) {
+  choose_signals();
+  start_audit();
+  start_trace();
+  start_modbus();
+  start_clients();
+  start_commands();
+  if (keeper_) project_.controller->images.push_back(&keeper_->image());
+  if (keeper_) keeper_->start();
+}
+
+void RunSurroundings::wait_no_more() {
+  ring_->close();
+  events_.close();
+}
+
+void RunSurroundings::take_no_more() {
+  hear_no_more();
+  if (server_) server_->refuse_writes();
+}
+
+void RunSurroundings::hear_no_more() {
+  if (commands_) commands_->end();
+}
+
+void RunSurroundings::look() {
+  if (audit_)
+    if (const std::string news = audit_->news(); !news.empty()) messages_.warn(news);
+  if (!keeper_) return;
+  for (std::string news; !(news = keeper_->news()).empty();) messages_.warn(news);
+}
+
+void RunSurroundings::end() {
+  part_ = Part::values;
+  if (keeper_) keeper_->stop();  // the values of the last tick
+  part_ = Part::server;
+  if (server_) server_->stop();
+  part_ = Part::clients;
+  for (const auto& client : clients_) client->stop();
+  part_ = Part::trace;
+  hear_no_more();
+  recorder_->stop();
+  part_ = Part::audit;
+  if (audit_) audit_->stop();
+  part_ = Part::none;
+}
+
+void RunSurroundings::tell_losses() {
+  look();
+  if (keeper_ && keeper_->failing()) messages_.warn("the last values are not kept");
+  if (audit_ && audit_->lost() != 0)
+    messages_.warn(fmt::format("audit log {}: {} entries are lost", audit_->path(), audit_->lost()));
+  if (server_) tell_refused_clients();
+  for (const auto& client : clients_) tell_failures(*client);
+  if (commands_) commands_->tell_counters();
+  if (flight_ != nullptr) tell_recordings();
+  for (const std::string& loss : recorder_->losses()) messages_.warn(loss);
+}
+
+std::vector<std::string> RunSurroundings::unfinished() const {
+  std::vector<std::string> texts = recorder_->losses();
+  if (std::string held_up = recorder_->held_up(); !held_up.empty()) texts.push_back(std::move(held_up));
+  const Part part = part_;
+  if (part == Part::values)
+    texts.push_back("retain file " + keeper_->path() +
+                    ": writing does not end; the last values are not kept");
+  if (part == Part::server) texts.push_back("the Modbus server does not end");
+  if (part == Part::clients) texts.push_back("a Modbus client does not end");
+  if (part == Part::audit)
+    texts.push_back("audit log " + audit_->path() + ": writing does not end; the last entries are lost");
+  return texts;
+}
+
+/// In virtual time only where somebody asks for it, as the others that look out.
+void RunSurroundings::start_audit() {
+  AuditOptions wanted = project_.audit.value_or(AuditOptions{});
+  wanted.file = path_of_run(options_.file, wanted.file);
+  if (!options_.audit.empty())
+    wanted.file = options_.audit;
+  else if (options_.simulate || !project_.audit)
+    return;
+  try {
+    audit_ = std::make_unique<AuditLog>(std::move(wanted), project_.name);
+  } catch (const std::system_error& error) {
+    throw CouldNotStart(std::string("audit log: ") + error.what());
+  }
+  messages_.inform("writes and commands from outside are told in " + audit_->path());
+}
+
+/// Nobody jogs in virtual time.
+void RunSurroundings::start_commands() {
+  if (options_.simulate || options_.no_lcm || project_.commands.axes.empty()) return;
+  const std::string url = options_.lcm.empty() ? project_.trace.url : options_.lcm;
+  try {
+    commands_ =
+        std::make_unique<PanelCommands>(project_, url, identity(), *recorder_, audit_.get(), messages_);
+    // Of the project's own network the loader has warned.
+    if (!options_.lcm.empty() && lcm_leaves_machine(url))
+      messages_.warn(named("lcm") + std::string(kLcmCommandsWarning));
+  } catch (const std::exception& error) {
+    messages_.warn(std::string("no commands over LCM: ") + error.what());
+  }
+}
+
+}  // namespace lockstep
