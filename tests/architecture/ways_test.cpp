@@ -67,6 +67,25 @@ TEST(Ways, NameFilesAndFunctionsThatAreThere) {
   }
 }
 
+// What CONTRIBUTING.md says has to be touched for something new is there.
+TEST(AddingThings, NamesFilesThatAreThere) {
+  const fs::path root = LOCKSTEP_SOURCE_DIR;
+  const std::string text = text_of(root / "CONTRIBUTING.md");
+  const std::size_t begin = text.find("\n## Adding things\n");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string chapter = text.substr(begin, text.find("\n## ", begin + 1) - begin);
+  const std::regex quoted("`([a-z_]+/[A-Za-z_./]+)`");
+  int named = 0;
+  for (std::sregex_iterator path(chapter.begin(), chapter.end(), quoted); path != std::sregex_iterator();
+       ++path) {
+    const std::string name = (*path)[1].str();
+    if (name.find("NAME") != std::string::npos) continue;  // the new file
+    EXPECT_TRUE(fs::exists(root / name)) << name;
+    ++named;
+  }
+  EXPECT_GE(named, 10);
+}
+
 // The rule itself.
 
 TEST(WayRules, FindWhatIsNotThere) {
