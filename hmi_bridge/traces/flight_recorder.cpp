@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <utility>
 
 namespace lockstep {
@@ -51,6 +52,9 @@ void FlightRecorder::open() {
     // Before anything is written: on a full disk the old ones make space for it.
     not_removed_ = recordings_.remove_oldest(static_cast<std::size_t>(options_.keep));
     file_->begin(signals_);
+  } catch (const std::filesystem::filesystem_error& error) {
+    file_.reset();
+    return lose(count_, error.code().message());
   } catch (const std::exception& error) {
     file_.reset();
     return lose(count_, error.what());

@@ -25,9 +25,15 @@ bool is_digit(char c) noexcept {
   return c >= '0' && c <= '9';
 }
 
+/// The time of a recording: its shape, and that there is such a time.
 bool is_stamp(std::string_view text) noexcept {
-  return std::equal(text.begin(), text.end(), kStamp.begin(), kStamp.end(),
-                    [](char c, char shape) { return shape == '0' ? is_digit(c) : c == shape; });
+  const bool shaped = std::equal(text.begin(), text.end(), kStamp.begin(), kStamp.end(),
+                                 [](char c, char shape) { return shape == '0' ? is_digit(c) : c == shape; });
+  if (!shaped) return false;
+  const auto two_at = [text](std::size_t at) { return 10 * (text[at] - '0') + (text[at + 1] - '0'); };
+  const auto within = [](int value, int first, int last) { return value >= first && value <= last; };
+  return within(two_at(4), 1, 12) && within(two_at(6), 1, 31) && two_at(9) < 24 && two_at(11) < 60 &&
+         two_at(13) <= 60;
 }
 
 std::string stamp_of_now() {

@@ -253,7 +253,13 @@ void load_flight_recorder(const JsonValue& json, const Loading& loading) {
     config.options.before = *time;
   if (const auto time = read_duration(fields["after"], 0, kLongestAfter, problems))
     config.options.after = *time;
-  if (const auto file = read_title(fields["file"], problems)) config.options.file = *file;
+  if (const auto file = read_title(fields["file"], problems)) {
+    config.options.file = *file;
+    const std::string_view name = file->substr(file->find_last_of('/') + 1);  // npos + 1 is 0
+    if (name.empty() || name == "." || name == "..")
+      problems.report(*fields["file"],
+                      fields["file"]->shown() + " is a folder; allowed: how the names of files in it begin");
+  }
   if (const auto files = read_integer(fields["files"], 1, 1000, problems))
     config.options.files = static_cast<int>(*files);
   if (const auto keep = read_integer(fields["keep"], 1, 10'000, problems))

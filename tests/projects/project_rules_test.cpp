@@ -239,6 +239,8 @@ INSTANTIATE_TEST_SUITE_P(
         {"/flight_recorder", R"({"before": "1s"})", "/flight_recorder", "'file' is missing"},
         {"/flight_recorder", R"({"before": "0s", "file": "a"})", "/flight_recorder/before", "from 1ns"},
         {"/flight_recorder", R"({"before": "1s", "file": ""})", "/flight_recorder/file", "1 to 128 bytes"},
+        {"/flight_recorder", R"({"before": "1s", "file": "rec/"})", "/flight_recorder/file", "is a folder"},
+        {"/flight_recorder", R"({"before": "1s", "file": ".."})", "/flight_recorder/file", "is a folder"},
         {"/flight_recorder", R"({"before": "1s", "file": "a", "files": 0})", "/flight_recorder/files",
          "from 1"},
         {"/flight_recorder", R"({"before": "1s", "file": "a", "keep": 0})", "/flight_recorder/keep",
