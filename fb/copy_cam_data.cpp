@@ -4,6 +4,7 @@ namespace lockstep {
 
 void MC_CopyCamData::request(Job& job) const noexcept {
   job.kind = JobKind::MC_CopyCamData;
+  job.asks = CamCopyJob{};
 }
 
 void MC_CopyCamData::hand_over(Job& job) noexcept {
@@ -16,9 +17,9 @@ void MC_CopyCamData::hand_over(Job& job) noexcept {
                      .number_of_points = NumberOfPoints,
                      .number_of_segments = NumberOfSegments,
                      .keep = Mode == 1};
-  job.copy = &copy;
+  job.as<CamCopyJob>().copy = &copy;
   Cam->submit(job);
-  job.copy = nullptr;
+  job.as<CamCopyJob>().copy = nullptr;
 }
 
 }  // namespace lockstep

@@ -5,10 +5,10 @@ namespace {
 
 template <class Block>
 void take_inputs(const Block& block, Job& job) noexcept {
-  job.mode = block.Mode;
-  job.limited = block.MeasuringRange;
-  job.start_position = block.StartPosition;
-  job.position = block.EndPosition;
+  job.asks = MeasuringJob{.mode = static_cast<MeasuringMode>(block.Mode),
+                          .limited = block.MeasuringRange,
+                          .start_position = block.StartPosition,
+                          .end_position = block.EndPosition};
 }
 
 }  // namespace
@@ -20,8 +20,9 @@ void MC_MeasuringInput::request(Job& job) const noexcept {
 
 void MC_MeasuringInput::show(JobPhase /*phase*/) noexcept {
   if (job() == nullptr) return;
-  MeasuredValue1 = job()->measured.value[0];
-  MeasuredValue2 = job()->measured.value[1];
+  const MeasuredEdges& measured = job()->as<MeasuringJob>().measured;
+  MeasuredValue1 = measured.value[0];
+  MeasuredValue2 = measured.value[1];
 }
 
 void MC_MeasuringInputCyclic::request(Job& job) const noexcept {
@@ -31,7 +32,7 @@ void MC_MeasuringInputCyclic::request(Job& job) const noexcept {
 
 void MC_MeasuringInputCyclic::show(JobPhase /*phase*/) noexcept {
   if (job() == nullptr) return;
-  const MeasuredEdges& measured = job()->measured;
+  const MeasuredEdges& measured = job()->as<MeasuringJob>().measured;
   MeasuredValue1 = measured.value[0];
   MeasuredValue2 = measured.value[1];
   MeasuredValue1Counter = measured.counter[0];

@@ -38,7 +38,7 @@ ErrorId MC_Power::take_charge() noexcept {
 
 void MC_Reset::request(Job& job) const noexcept {
   job.kind = JobKind::MC_Reset;
-  job.mode = Restart ? 1 : 0;
+  job.asks = ResetJob{.restart = Restart};
 }
 
 }  // namespace lockstep

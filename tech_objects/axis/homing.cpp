@@ -10,15 +10,15 @@ namespace lockstep {
 namespace {
 
 /// Modes that adjust an encoder: relative and absolute, incremental encoder.
-bool adjusts_encoder(const Job& job) noexcept {
-  return job.mode == HomeMode::adjust_absolute_relative || job.mode == HomeMode::adjust_absolute ||
-         job.mode == HomeMode::adjust_incremental;
+bool adjusts_encoder(HomeMode mode) noexcept {
+  return mode == HomeMode::adjust_absolute_relative || mode == HomeMode::adjust_absolute ||
+         mode == HomeMode::adjust_incremental;
 }
 
 /// Modes whose position is a distance from where the axis is.
-bool is_relative(const Job& job) noexcept {
-  return job.mode == HomeMode::direct_relative || job.mode == HomeMode::adjust_absolute_relative ||
-         job.mode == HomeMode::setpoint_relative;
+bool is_relative(HomeMode mode) noexcept {
+  return mode == HomeMode::direct_relative || mode == HomeMode::adjust_absolute_relative ||
+         mode == HomeMode::setpoint_relative;
 }
 
 }  // namespace
@@ -30,15 +30,16 @@ ErrorId AxisOrders::check_homing(const Job& job) const noexcept {
   const JobClass kind = class_of(job, true);
   if (kind == JobClass::home_cancel) return ErrorId::none;
   const bool seeks = kind == JobClass::home_active || kind == JobClass::home_passive;
-  if ((seeks || job.mode == HomeMode::adjust_incremental) && pending_alarm() != 0)
+  const HomeMode mode = job.as<HomingJob>().mode;
+  if ((seeks || mode == HomeMode::adjust_incremental) && pending_alarm() != 0)
     return ErrorId::technology_alarm;
   if (seeks && (!enabled() || jobs_.locked())) return ErrorId::locked;
-  if (adjusts_encoder(job)) {
+  if (adjusts_encoder(mode)) {
     const std::size_t sensor = sensor_of(job);
     if (!data.Sensor[sensor].Existent) return ErrorId::sensor;
     const bool absolute = data.Sensor[sensor].Type != SensorType::INCREMENTAL;
-    if (job.mode == HomeMode::adjust_incremental && absolute) return ErrorId::homing_mode_absolute;
-    if (job.mode != HomeMode::adjust_incremental && !absolute) return ErrorId::homing_mode_incremental;
+    if (mode == HomeMode::adjust_incremental && absolute) return ErrorId::homing_mode_absolute;
+    if (mode != HomeMode::adjust_incremental && !absolute) return ErrorId::homing_mode_incremental;
     if (data.StatusSensor[sensor].State != SensorState::valid) return ErrorId::actual_values_invalid;
   }
   const Job* base = jobs_[kBase];
@@ -94,28 +95,30 @@ void AxisOrders::home(Job& job) noexcept {
 
 /// Setpoint and actual position are shifted together; nothing moves.
 void AxisOrders::home_directly(Job& job) noexcept {
-  if (adjusts_encoder(job) && sensor_of(job) != encoders_.operative()) return home_sensor_beside(job);
-  const bool to_setpoint = job.mode == HomeMode::setpoint;
-  const bool relative = is_relative(job);
-  const double by = relative      ? job.position
-                    : to_setpoint ? shortest_distance(setpoint_.position.value, job.position, modulo_)
-                                  : position_shift(job.position);
+  auto& asked = job.as<HomingJob>();
+  const bool adjusts = adjusts_encoder(asked.mode);
+  if (adjusts && sensor_of(job) != encoders_.operative()) return home_sensor_beside(job);
+  const bool to_setpoint = asked.mode == HomeMode::setpoint;
+  const bool relative = is_relative(asked.mode);
+  const double by = relative      ? asked.position
+                    : to_setpoint ? shortest_distance(setpoint_.position.value, asked.position, modulo_)
+                                  : position_shift(asked.position);
   if (!positions_fit(by)) return job.fail(ErrorId::position);
   shift_positions(by);
-  if (!adjusts_encoder(job)) encoders_.shift_beside(by);
+  if (!adjusts) encoders_.shift_beside(by);
   if (to_setpoint || (!relative && !has_drive_)) {
     // No following error in between: the setpoint is the given position to the last bit.
-    const AxisPosition exact = normalised({setpoint_.position.turns, job.position}, modulo_);
+    const AxisPosition exact = normalised({setpoint_.position.turns, asked.position}, modulo_);
     setpoint_.position.value = exact.value;
     const bool idle = jobs_[kBase] == nullptr && !superimposed_.in_use();
     if (setpoint_.standing() && motion_ == Motion::single_axis && idle) single_.stand(setpoint_);
     if (!has_drive_) actual_ = setpoint_.position;
   }
-  if (job.mode == HomeMode::adjust_absolute) counted_from_ = actual_.turns;
+  if (asked.mode == HomeMode::adjust_absolute) counted_from_ = actual_.turns;
   show_renamed();
-  if (adjusts_encoder(job)) adjust_encoder(encoders_.operative(), true);
+  if (adjusts) adjust_encoder(encoders_.operative(), true);
   homed_ = true;
-  job.mark_position = relative ? actual_.value : job.position;
+  asked.mark_position = relative ? actual_.value : asked.position;
   job.phase = JobPhase::done;
 }
 
@@ -127,23 +130,24 @@ bool AxisOrders::positions_fit(double by) const noexcept {
 
 /// Modes 6, 7, 13 at an encoder that is not operative: only what that one tells changes.
 void AxisOrders::home_sensor_beside(Job& job) noexcept {
+  auto& asked = job.as<HomingJob>();
   const std::size_t sensor = sensor_of(job);
   const AxisPosition seen = encoders_.position(sensor, actual_);
-  const double by = job.mode == HomeMode::adjust_absolute_relative
-                        ? job.position
-                        : shortest_distance(seen.value, job.position, modulo_);
+  const bool relative = asked.mode == HomeMode::adjust_absolute_relative;
+  const double by = relative ? asked.position : shortest_distance(seen.value, asked.position, modulo_);
   const AxisPosition renamed = advanced(seen, by, modulo_);
   if (!std::isfinite(by) || !modulo_.contains(renamed.value)) return job.fail(ErrorId::position);
   encoders_.rename(sensor, by);
   show_place(sensor, renamed);
   adjust_encoder(sensor, true);
-  job.mark_position = job.mode == HomeMode::adjust_absolute_relative ? renamed.value : job.position;
+  asked.mark_position = relative ? renamed.value : asked.position;
   job.phase = JobPhase::done;
 }
 
 /// The encoder that a job is about; 0: the operative one.
 std::size_t AxisOrders::sensor_of(const Job& job) const noexcept {
-  return job.sensor > 0 ? static_cast<std::size_t>(job.sensor - 1) : encoders_.operative();
+  const DINT sensor = job.as<HomingJob>().sensor;
+  return sensor > 0 ? static_cast<std::size_t>(sensor - 1) : encoders_.operative();
 }
 
 // ---- Homing with a mark
@@ -151,21 +155,23 @@ std::size_t AxisOrders::sensor_of(const Job& job) const noexcept {
 
 /// Beside whatever moves the axis.
 void AxisOrders::begin_passive_homing(Job& job) noexcept {
-  if (job.mode == HomeMode::passive_configured) job.position = data.Homing.HomePosition;
-  if (!positions_fit(position_shift(job.position))) return job.fail(ErrorId::position);
+  auto& asked = job.as<HomingJob>();
+  if (asked.mode == HomeMode::passive_configured) asked.position = data.Homing.HomePosition;
+  if (!positions_fit(position_shift(asked.position))) return job.fail(ErrorId::position);
   end_job(kPassiveHoming, JobPhase::aborted, ErrorId::none);
   jobs_.put(kPassiveHoming, job, JobPhase::active);
   homing_now_ = true;
-  if (job.mode != HomeMode::passive) homed_ = false;
+  if (asked.mode != HomeMode::passive) homed_ = false;
   if (has_drive_)
     search_mark(false, passive_direction(data.Sensor[encoders_.operative()].PassiveHoming.Direction));
 }
 
 void AxisOrders::begin_active_homing(Job& job) noexcept {
+  auto& asked = job.as<HomingJob>();
   const auto& settings = data.Sensor[encoders_.operative()].ActiveHoming;
-  if (job.mode == HomeMode::active_configured) job.position = data.Homing.HomePosition;
-  const double mark = job.position - settings.HomePositionOffset;
-  if (!positions_fit(position_shift(mark)) || !positions_fit(position_shift(job.position)))
+  if (asked.mode == HomeMode::active_configured) asked.position = data.Homing.HomePosition;
+  const double mark = asked.position - settings.HomePositionOffset;
+  if (!positions_fit(position_shift(mark)) || !positions_fit(position_shift(asked.position)))
     return job.fail(ErrorId::position);
   // What acts on a coupling ends with it.
   for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) end_job(slot, JobPhase::aborted, ErrorId::none);
@@ -183,12 +189,12 @@ void AxisOrders::begin_active_homing(Job& job) noexcept {
                 : has_switch ? Phase::approach
                              : Phase::search);
   job.velocity = homing_.velocity();
-  job.direction = homing_.settings().direction;
+  asked.direction = homing_.settings().direction;
   if (!has_drive_) {
-    job.mark_position = mark;
+    asked.mark_position = mark;
     assign_position(actual_, mark);
   } else {
-    if (has_switch) job.direction = data.Homing.ApproachDirection ? -1 : 1;
+    if (has_switch) asked.direction = data.Homing.ApproachDirection ? -1 : 1;
     search_mark(true, homing_.settings().direction);
   }
   begin_base_motion(job);
@@ -196,8 +202,9 @@ void AxisOrders::begin_active_homing(Job& job) noexcept {
 }
 
 PlanResult AxisOrders::plan_homing(const Job& job, const Dynamics& dynamics) noexcept {
-  if (!homing_.travels()) return single_.run_at(setpoint_, job.direction * dynamics.velocity, dynamics);
-  return move_by(to_double_double(shortest_distance(setpoint_.position.value, job.position, modulo_)), job,
+  const auto& asked = job.as<HomingJob>();
+  if (!homing_.travels()) return single_.run_at(setpoint_, asked.direction * dynamics.velocity, dynamics);
+  return move_by(to_double_double(shortest_distance(setpoint_.position.value, asked.position, modulo_)), job,
                  dynamics);
 }
 
@@ -222,8 +229,9 @@ void AxisOrders::step_homing() noexcept {
 /// From one phase of an active homing to the next.
 void AxisOrders::guide_active_homing(Job& job) noexcept {
   const auto mark = static_cast<HomingMark>(data.Sensor[encoders_.operative()].ActiveHoming.Mode);
-  const bool at_limit_switch = homing_reverses() && limit_switches_.pressed(job.direction);
-  const HomingCourse::Leg leg = homing_.guide(mark, job.direction, at_limit_switch);
+  const int direction = job.as<HomingJob>().direction;
+  const bool at_limit_switch = homing_reverses() && limit_switches_.pressed(direction);
+  const HomingCourse::Leg leg = homing_.guide(mark, direction, at_limit_switch);
   if (leg.kind == HomingCourse::Leg::Kind::gives_up) return raise(alarm::kMarkNotFound);
   if (leg.kind == HomingCourse::Leg::Kind::goes_on) return;
   if (leg.search != 0) search_mark(true, leg.search);
@@ -232,7 +240,7 @@ void AxisOrders::guide_active_homing(Job& job) noexcept {
 
 void AxisOrders::head_for(Job& job, HomingCourse::Phase phase, int direction) noexcept {
   homing_.enter(phase);
-  job.direction = direction;
+  job.as<HomingJob>().direction = direction;
   job.velocity = homing_.velocity();
   arrival_.begin();
   limits_.remember();
@@ -255,8 +263,9 @@ void AxisOrders::take_mark() noexcept {
   homing_.end_search();
   Job* const passive = jobs_[kPassiveHoming];
   Job& job = passive != nullptr ? *passive : *jobs_[kBase];
-  job.mark_position = passive != nullptr ? job.position : homing_.settings().mark;
-  if (!assign_position(place, job.mark_position)) return raise(alarm::kHomingNotPossible);
+  auto& asked = job.as<HomingJob>();
+  asked.mark_position = passive != nullptr ? asked.position : homing_.settings().mark;
+  if (!assign_position(place, asked.mark_position)) return raise(alarm::kHomingNotPossible);
   if (passive != nullptr) return end_job(kPassiveHoming, JobPhase::done, ErrorId::none);
   signals_watched_ = signals_always_watched();
   head_for(job, HomingCourse::Phase::travel, 0);

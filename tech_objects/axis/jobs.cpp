@@ -24,7 +24,7 @@ void Axis::start_jobs() noexcept {
 
 void AxisOrders::start(Job& job) noexcept {
   if (job.kind == JobKind::MC_Reset) {
-    const ErrorId error = reset(job.mode == ResetMode::restart);
+    const ErrorId error = reset(job.as<ResetJob>().restart);
     if (error != ErrorId::none) return job.fail(error);
     job.phase = JobPhase::done;
     return;

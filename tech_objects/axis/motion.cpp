@@ -137,7 +137,8 @@ PlanResult AxisOrders::move_by(DoubleDouble exact_way, const Job& job, const Dyn
   AxisPosition target = advanced(setpoint_.position, exact_way, modulo_);
   if (job.kind == JobKind::MC_MoveAbsolute || job.kind == JobKind::MC_Home) {
     // The way is rounded; the target is the given position itself.
-    target.value = modulo_.enabled ? normalised({0, job.position}, modulo_).value : job.position;
+    const double given = job.kind == JobKind::MC_Home ? job.as<HomingJob>().position : job.position;
+    target.value = modulo_.enabled ? normalised({0, given}, modulo_).value : given;
   }
   show_target(target);
   if (dynamics.velocity > 0.0) return single_.move_to(setpoint_, target, way, dynamics);

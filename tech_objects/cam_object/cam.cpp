@@ -118,15 +118,17 @@ void Cam::configure(double /*servo_period*/, int /*ratio*/) {
 // --------------------------------------------------------------------------------------------------------------
 
 void Cam::submit(Job& job) noexcept {
-  if (job.kind == JobKind::MC_Reset && job.mode == 0 && !restarting()) {
+  const bool resets = job.kind == JobKind::MC_Reset;
+  const bool restarts = resets && job.as<ResetJob>().restart;
+  if (resets && !restarts && !restarting()) {
     warn_of_restart(false);
     return TechnologyObject::submit(job);
   }
   const ErrorId error = check(job);
-  if (job.kind == JobKind::MC_Reset && job.mode != 0) warn_of_restart(error != ErrorId::none);
+  if (restarts) warn_of_restart(error != ErrorId::none);
   if (error != ErrorId::none) return job.fail(error);
   moved_ = 0;
-  if (job.kind == JobKind::MC_CopyCamData) copy_ = *job.copy;
+  if (job.kind == JobKind::MC_CopyCamData) copy_ = *job.as<CamCopyJob>().copy;
   if (job.kind == JobKind::MC_InterpolateCam) take_definition();
   job_ = &job;
   job.phase = JobPhase::active;
@@ -148,7 +150,7 @@ ErrorId Cam::check(const Job& job) const noexcept {
   if (job.kind != JobKind::MC_CopyCamData && in_use()) return ErrorId::cam_in_use;
   if (copying()) return ErrorId::cam_being_copied;
   if (in_interpolation()) return ErrorId::cam_in_interpolation;
-  return job.kind == JobKind::MC_CopyCamData ? check_copy(*job.copy) : ErrorId::none;
+  return job.kind == JobKind::MC_CopyCamData ? check_copy(*job.as<CamCopyJob>().copy) : ErrorId::none;
 }
 
 ErrorId Cam::check_copy(const CamCopy& copy) const noexcept {

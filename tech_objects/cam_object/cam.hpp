@@ -81,7 +81,7 @@ class Cam final : public TechnologyObject {
   }
   bool in_use() const noexcept { return used_.load(std::memory_order_relaxed) || in_use_; }
 
-  /// MC_InterpolateCam: takes the definition as it stands. MC_CopyCamData: copies what `Job::copy` says.
+  /// MC_InterpolateCam: takes the definition as it stands. MC_CopyCamData: copies what its job says.
   /// MC_Reset with Restart: takes over the start values and interpolates them, as when the project is loaded;
   /// without it there is nothing to be done, since a cam has no alarms.
   ///

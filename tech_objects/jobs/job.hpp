@@ -2,16 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
+#include <variant>
 
 #include "tech_objects/alarms/alarms.hpp"
 #include "tech_objects/arithmetic/double_double.hpp"
+#include "tech_objects/jobs/families.hpp"
 #include "tech_objects/types/types.hpp"
 
 namespace lockstep {
 
 class Cam;
 class LeadingObject;
-struct CamCopy;
 
 /// The instruction that a job comes from.
 enum class JobKind : std::uint8_t {
@@ -102,12 +104,8 @@ enum class JobPhase : std::uint8_t {
   failed    ///< `error` tells why
 };
 
-/// What a measuring job has measured: first and second values.
-struct MeasuredEdges {
-  LREAL value[2]{};    ///< [u]
-  UDINT counter[2]{};  ///< of cyclic measuring, from 0
-  UDINT lost[2]{};     ///< edges lost in the servo cycle of the value, 0 to 7
-};
+/// What a job asks for besides, by the family of its kind; nothing for a job that only names its object.
+using JobFamily = std::variant<std::monostate, ResetJob, HomingJob, MeasuringJob, CamCopyJob>;
 
 /// A request and its fate. It lives in the block that asks; the axis writes `phase` and `error`.
 /// Dynamic values: > 0 is used, < 0 stands for the default of the technology object (the block's pins decide
@@ -119,15 +117,15 @@ struct Job {
   JobPhase phase = JobPhase::idle;
   BOOL update{};  ///< MC_GearInVelocity: the ratio counts in every cycle
   ErrorId error = ErrorId::none;
+  JobFamily asks;
 
-  LREAL position{};           ///< target, distance, home position or shift [u]
+  LREAL position{};           ///< target, distance or shift [u]
   LREAL velocity = -1.0;      ///< [u/s]
   LREAL acceleration = -1.0;  ///< [u/s²]
   LREAL deceleration = -1.0;  ///< [u/s²]
   LREAL jerk = -1.0;          ///< [u/s³]; 0: trapezoidal
   DINT direction{};           ///< Direction or SyncDirection
   DINT mode{};                ///< Mode, SyncProfileReference
-  DINT sensor{};              ///< MC_Home: encoder to adjust, 1 to 4; 0: the operative one
   BOOL current{};             ///< MC_MoveVelocity: keep the present velocity
   BOOL position_controlled = true;
   BufferMode buffer_mode{};   ///< MC_MoveAbsolute, MC_MoveRelative, MC_MoveVelocity, MC_Halt
@@ -150,16 +148,21 @@ struct Job {
   LREAL slave_scaling = 1.0;
   DINT application_mode{};
 
-  const CamCopy* copy{};  ///< MC_CopyCamData: what is copied; read when the job is handed over
-  BOOL limited{};         ///< MC_MeasuringInput…: only from start_position to position
-
-  // Written by the axis, or by the object that measures.
-  MeasuredEdges measured;
+  // Written by the axis.
   LREAL covered{};          ///< share of a shift made so far [u]
-  LREAL mark_position{};    ///< MC_Home: position assigned to the homing mark [u]
   UDINT ends{};             ///< ends of the cam reached so far
   BOOL end_of_profile{};    ///< the job has ended at the end of its cam
   DoubleDouble shift_base;  ///< from which that share counts [u]
+
+  /// What a job of that family asks for; the kind says which it is.
+  template <class Family>
+  Family& as() noexcept {
+    return std::get<Family>(asks);
+  }
+  template <class Family>
+  const Family& as() const noexcept {
+    return std::get<Family>(asks);
+  }
 
   bool ended() const noexcept { return phase >= JobPhase::done; }
   bool running() const noexcept { return phase >= JobPhase::handed_over && phase <= JobPhase::reached; }
@@ -168,5 +171,6 @@ struct Job {
     error = id;
   }
 };
+static_assert(std::is_trivially_copyable_v<Job>, "a job is copied in the cycle");
 
 }  // namespace lockstep

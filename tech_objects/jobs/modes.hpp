@@ -22,33 +22,35 @@ struct StopMode {
   enum : DINT { emergency_ramp = 0, maximum_dynamics = 2, given_dynamics = 3 };
 };
 
-/// MC_Reset, Restart, as its job has it.
-struct ResetMode {
-  enum : DINT { acknowledge = 0, restart = 1 };
-};
-
 /// MC_MoveAbsolute, Direction.
 struct Direction {
   enum : DINT { positive = 1, negative = 2, shortest = 3 };
 };
 
 /// MC_Home, Mode.
-struct HomeMode {
-  enum : DINT {
-    direct_absolute = 0,
-    direct_relative = 1,
-    passive = 2,  ///< HomingDone stays until the mark
-    active = 3,
-    active_configured = 5,         ///< to Homing.HomePosition
-    adjust_absolute_relative = 6,  ///< an absolute encoder, by a distance
-    adjust_absolute = 7,           ///< an absolute encoder, to a position
-    passive_resetting = 8,         ///< HomingDone falls at the begin
-    cancel_passive = 9,
-    passive_configured = 10,  ///< to Homing.HomePosition
-    setpoint = 11,
-    setpoint_relative = 12,
-    adjust_incremental = 13
-  };
+enum class HomeMode : DINT {
+  direct_absolute = 0,
+  direct_relative = 1,
+  passive = 2,  ///< HomingDone stays until the mark
+  active = 3,
+  active_configured = 5,         ///< to Homing.HomePosition
+  adjust_absolute_relative = 6,  ///< an absolute encoder, by a distance
+  adjust_absolute = 7,           ///< an absolute encoder, to a position
+  passive_resetting = 8,         ///< HomingDone falls at the begin
+  cancel_passive = 9,
+  passive_configured = 10,  ///< to Homing.HomePosition
+  setpoint = 11,
+  setpoint_relative = 12,
+  adjust_incremental = 13
+};
+
+/// MC_MeasuringInput (all), MC_MeasuringInputCyclic (up to `both`), Mode.
+enum class MeasuringMode : DINT {
+  rising = 0,
+  falling = 1,
+  both = 2,
+  rising_then_falling = 3,
+  falling_then_rising = 4
 };
 
 /// SyncProfileReference of couplings, ProfileReference of shifts, as far as they have that in common.

@@ -46,16 +46,16 @@ constexpr std::array<OverrideException, 4> kExceptions = {{
     {JobClass::cam_in_active, JobClass::motion_in, OverrideEffect::abort, kOneBaseMotion},
 }};
 
-JobClass class_of_homing(DINT mode) noexcept {
+JobClass class_of_homing(HomeMode mode) noexcept {
   switch (mode) {
-    case 2:
-    case 8:
-    case 10:
+    case HomeMode::passive:
+    case HomeMode::passive_resetting:
+    case HomeMode::passive_configured:
       return JobClass::home_passive;
-    case 3:
-    case 5:
+    case HomeMode::active:
+    case HomeMode::active_configured:
       return JobClass::home_active;
-    case 9:
+    case HomeMode::cancel_passive:
       return JobClass::home_cancel;
     default:
       return JobClass::home_direct;
@@ -67,7 +67,7 @@ JobClass class_of_homing(DINT mode) noexcept {
 JobClass class_of(const Job& job, bool active) noexcept {
   switch (job.kind) {
     case JobKind::MC_Home:
-      return class_of_homing(job.mode);
+      return class_of_homing(job.as<HomingJob>().mode);
     case JobKind::MC_Halt:
     case JobKind::MC_MoveAbsolute:
     case JobKind::MC_MoveRelative:

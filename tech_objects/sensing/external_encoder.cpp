@@ -143,7 +143,7 @@ void ExternalEncoder::publish() noexcept {
 
 void ExternalEncoder::start(Job& job) noexcept {
   ErrorId error = ErrorId::no_technology_object;
-  if (job.kind == JobKind::MC_Reset) error = reset(job.mode == 1);
+  if (job.kind == JobKind::MC_Reset) error = reset(job.as<ResetJob>().restart);
   if (job.kind == JobKind::MC_Home) error = home(job);
   if (error != ErrorId::none) return job.fail(error);
   if (job.kind == JobKind::MC_Home) count_homing(job);
@@ -184,23 +184,27 @@ ErrorId ExternalEncoder::home(Job& job) noexcept {
   }
   if (!actual_values_valid()) return ErrorId::actual_values_invalid;
   if (kind == JobClass::home_passive) return begin_passive_homing(job);
-  if (job.mode == 6 || job.mode == 7) return ErrorId::homing_mode_incremental;
-  const bool adjusts = job.mode == 13;
-  if (job.mode != 0 && job.mode != 1 && !adjusts) return ErrorId::mode;
-  const double by = job.mode == 1 ? job.position : shortest_distance(actual_.value, job.position, modulo_);
+  auto& asked = job.as<HomingJob>();
+  if (asked.mode == HomeMode::adjust_absolute_relative || asked.mode == HomeMode::adjust_absolute)
+    return ErrorId::homing_mode_incremental;
+  const bool adjusts = asked.mode == HomeMode::adjust_incremental;
+  const bool relative = asked.mode == HomeMode::direct_relative;
+  if (asked.mode != HomeMode::direct_absolute && !relative && !adjusts) return ErrorId::mode;
+  const double by = relative ? asked.position : shortest_distance(actual_.value, asked.position, modulo_);
   if (!fits(by)) return ErrorId::position;
   shift(by);
   homed_ = true;
   if (adjusts) data.StatusSensor.Adjusted = 1;
-  job.mark_position = job.mode == 1 ? actual_.value : job.position;
+  asked.mark_position = relative ? actual_.value : asked.position;
   return ErrorId::none;
 }
 
 /// Beside whatever moves the encoder.
 ErrorId ExternalEncoder::begin_passive_homing(Job& job) noexcept {
   if (!enabled()) return ErrorId::locked;
-  if (job.mode == 10) job.position = data.Homing.HomePosition;
-  if (!fits(shortest_distance(actual_.value, job.position, modulo_))) return ErrorId::position;
+  auto& asked = job.as<HomingJob>();
+  if (asked.mode == HomeMode::passive_configured) asked.position = data.Homing.HomePosition;
+  if (!fits(shortest_distance(actual_.value, asked.position, modulo_))) return ErrorId::position;
   const auto& settings = data.Sensor.PassiveHoming;
   const auto mark = static_cast<HomingMark>(settings.Mode);
   if (!has_mark(mark, home_switch(), source_settings.signals)) {
@@ -210,7 +214,7 @@ ErrorId ExternalEncoder::begin_passive_homing(Job& job) noexcept {
   end_passive_homing(JobPhase::aborted, ErrorId::none);
   passive_ = &job;
   job.phase = JobPhase::active;
-  if (job.mode != 2) homed_ = false;
+  if (asked.mode != HomeMode::passive) homed_ = false;
   begin_search(mark_search_, mark, passive_direction(settings.Direction), settings.SideInput,
                data.Sensor.InverseDirection);
   return ErrorId::none;
@@ -218,16 +222,17 @@ ErrorId ExternalEncoder::begin_passive_homing(Job& job) noexcept {
 
 /// The mark has been passed: its place gets the home position, and the turns are counted anew.
 void ExternalEncoder::take_mark() noexcept {
+  auto& asked = passive_->as<HomingJob>();
   const double place = mark_search_.place();
   const AxisPosition mark =
       advanced(origin_, to_double_double(data.Sensor.InverseDirection ? -place : place), modulo_);
-  const double by = shortest_distance(mark.value, passive_->position, modulo_);
+  const double by = shortest_distance(mark.value, asked.position, modulo_);
   if (!fits(by)) return fault(alarm::kHomingNotPossible);
   shift(by);
   if (modulo_.enabled) counted_from_ = first_turn(advanced(mark, by, modulo_), modulo_);
   homed_ = true;
   data.StatusSensor.Adjusted = 1;
-  passive_->mark_position = passive_->position;
+  asked.mark_position = asked.position;
   end_passive_homing(JobPhase::done, ErrorId::none);
 }
 

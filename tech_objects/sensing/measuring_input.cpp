@@ -27,8 +27,8 @@ bool cyclic(const Job& job) noexcept {
 }
 
 /// Edges that one-time measuring takes.
-int values_of(DINT mode) noexcept {
-  return mode >= 2 ? 2 : 1;
+int values_of(MeasuringMode mode) noexcept {
+  return mode >= MeasuringMode::both ? 2 : 1;
 }
 
 /// Servo cycles that one-time measuring by telegram takes at least, for one edge and for two.
@@ -125,18 +125,19 @@ double MeasuringInput::position_at(double age) const noexcept {
 
 ErrorId MeasuringInput::take_range(const Job& job) noexcept {
   range_ = {};
-  if (!job.limited) return ErrorId::none;
+  const auto& asked = job.as<MeasuringJob>();
+  if (!asked.limited) return ErrorId::none;
   range_.limited = true;
   if (!modulo_.enabled) {
-    range_.start = std::min(job.start_position, job.position);
-    range_.length = std::abs(job.position - job.start_position);
+    range_.start = std::min(asked.start_position, asked.end_position);
+    range_.length = std::abs(asked.end_position - asked.start_position);
     return ErrorId::none;
   }
-  const double way = std::abs(job.position - job.start_position);
+  const double way = std::abs(asked.end_position - asked.start_position);
   if (way > modulo_.length) return ErrorId::measuring_range;
   range_.limited = way < modulo_.length;  // no position lies outside of the whole ring
-  range_.start = normalised({0, job.start_position}, modulo_).value;
-  range_.length = positive_distance(job.start_position, job.position, modulo_);
+  range_.start = normalised({0, asked.start_position}, modulo_).value;
+  range_.length = positive_distance(asked.start_position, asked.end_position, modulo_);
   return ErrorId::none;
 }
 
@@ -178,7 +179,8 @@ bool MeasuringInput::range_passed() const noexcept {
 
 void MeasuringInput::measure_once(const Edges& seen) noexcept {
   const double correction = data.Parameter.CorrectionTime * kMilliseconds / servo_period_;
-  const int wanted = values_of(job_->mode);
+  auto& job = job_->as<MeasuringJob>();
+  const int wanted = values_of(job.mode);
   for (std::size_t i = 0; i < seen.count && captured_ < wanted; ++i) {
     const Edge& edge = seen.list[i];
     if (!wanted_once(edge.rising)) continue;
@@ -188,7 +190,7 @@ void MeasuringInput::measure_once(const Edges& seen) noexcept {
       continue;
     }
     show_value(captured_, position);
-    job_->measured.value[captured_] = position;
+    job.measured.value[captured_] = position;
     if (captured_ == 0) first_rising_ = edge.rising;
     data.Status = kCaptured;
     ++captured_;
@@ -206,14 +208,14 @@ void MeasuringInput::measure_once(const Edges& seen) noexcept {
 }
 
 bool MeasuringInput::wanted_once(bool rising) const noexcept {
-  switch (job_->mode) {
-    case 0:
+  switch (job_->as<MeasuringJob>().mode) {
+    case MeasuringMode::rising:
       return rising;
-    case 1:
+    case MeasuringMode::falling:
       return !rising;
-    case 3:
+    case MeasuringMode::rising_then_falling:
       return rising == (captured_ == 0);
-    case 4:
+    case MeasuringMode::falling_then_rising:
       return rising == (captured_ == 1);
     default:
       return true;
@@ -223,24 +225,27 @@ bool MeasuringInput::wanted_once(bool rising) const noexcept {
 /// Two values of each servo cycle: of modes 0 and 1 the first two edges, of mode 2 the first of each kind.
 void MeasuringInput::measure_cyclically(const Edges& seen) noexcept {
   const double correction = data.Parameter.CorrectionTime * kMilliseconds / servo_period_;
-  const DINT mode = job_->mode;
-  const std::int64_t all = mode == 0 ? seen.rising : mode == 1 ? seen.falling : seen.rising + seen.falling;
+  auto& job = job_->as<MeasuringJob>();
+  const bool both = job.mode == MeasuringMode::both;
+  const bool rising = both || job.mode == MeasuringMode::rising;
+  const bool falling = both || job.mode == MeasuringMode::falling;
+  const std::int64_t all = (rising ? seen.rising : 0) + (falling ? seen.falling : 0);
   bool acquired[2] = {false, false};
   std::int64_t dropped = 0;
   for (std::size_t i = 0; i < seen.count; ++i) {
     const Edge& edge = seen.list[i];
-    if ((mode == 0 && !edge.rising) || (mode == 1 && edge.rising)) continue;
+    if (edge.rising ? !rising : !falling) continue;
     const double position = position_at(1.0 - edge.part + correction);
     if (!in_range(position)) {
       ++dropped;
       continue;
     }
-    const int index = mode == 2 ? (edge.rising ? 0 : 1) : (acquired[0] ? 1 : 0);
+    const int index = both ? (edge.rising ? 0 : 1) : (acquired[0] ? 1 : 0);
     if (acquired[index]) continue;
     acquired[index] = true;
     show_value(index, position);
-    job_->measured.value[index] = position;
-    ++job_->measured.counter[index];
+    job.measured.value[index] = position;
+    ++job.measured.counter[index];
     data.Status = kCaptured;
   }
   const std::int64_t lost = std::clamp<std::int64_t>(all - dropped - acquired[0] - acquired[1], 0, kMostLost);
@@ -249,7 +254,7 @@ void MeasuringInput::measure_cyclically(const Edges& seen) noexcept {
   for (int index = 0; index < 2; ++index) {
     if (!acquired[index]) continue;
     *counters[index] = acquired[1 - index] ? static_cast<UDINT>(lost) : 0;
-    job_->measured.lost[index] = *counters[index];
+    job.measured.lost[index] = *counters[index];
   }
 }
 
@@ -265,7 +270,7 @@ void MeasuringInput::show_value(int index, double position) noexcept {
 
 void MeasuringInput::start(Job& job) noexcept {
   if (job.kind == JobKind::MC_Reset) {
-    reset(job.mode == 1);
+    reset(job.as<ResetJob>().restart);
     job.phase = JobPhase::done;
     return;
   }
@@ -324,7 +329,8 @@ ErrorId MeasuringInput::refuse(int alarm_number) noexcept {
 /// Values come over the telegram, which takes its time.
 bool MeasuringInput::may_tell() const noexcept {
   if (!by_telegram()) return true;
-  return tick_ - started_ >= (values_of(job_->mode) == 1 ? kTelegramOneEdge : kTelegramTwoEdges);
+  return tick_ - started_ >=
+         (values_of(job_->as<MeasuringJob>().mode) == 1 ? kTelegramOneEdge : kTelegramTwoEdges);
 }
 
 void MeasuringInput::end(JobPhase phase, ErrorId error) noexcept {

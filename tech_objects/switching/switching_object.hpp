@@ -132,7 +132,7 @@ class SwitchingObject : public TechnologyObject {
     if (job.kind != JobKind::MC_Reset) return job.fail(ErrorId::no_technology_object);
     clear_alarms(*this, data);
     job.phase = JobPhase::done;
-    if (job.mode != 1) return;
+    if (!job.as<ResetJob>().restart) return;
     const BOOL shown = output();
     data = start_values_;
     output_of(data) = shown;  // until the next tick

@@ -166,7 +166,7 @@ Part cam_copy() {
               if (!cam->copying()) {
                 *job = Job{};
                 job->kind = JobKind::MC_CopyCamData;
-                job->copy = &copy;
+                job->asks = CamCopyJob{.copy = &copy};
                 cam->submit(*job);
               }
               cam->before_axes();

@@ -528,10 +528,11 @@ TEST(EncoderHoming, OfTheAxisOnWhichItSitsDoesNotMoveIt) {
 TEST(EncoderHoming, RefusesModesThatAnIncrementalEncoderDoesNotHave) {
   Line line;
   for (const auto& [mode, error] :
-       {std::pair{6, ErrorId::homing_mode_incremental}, {7, ErrorId::homing_mode_incremental}}) {
+       {std::pair{HomeMode::adjust_absolute_relative, ErrorId::homing_mode_incremental},
+        {HomeMode::adjust_absolute, ErrorId::homing_mode_incremental}}) {
     Job job;
     job.kind = JobKind::MC_Home;
-    job.mode = mode;
+    job.asks = HomingJob{.mode = mode};
     line.e.submit(job);
     line.tick();
     EXPECT_EQ(job.phase, JobPhase::failed);

@@ -61,7 +61,8 @@ const std::map<std::string, JobKind> kKinds = {
 JobClass named_class(const Json& job, const Json& state, const Json& mode) {
   Job made;
   made.kind = kKinds.at(job.get<std::string>());
-  if (!mode.is_null()) made.mode = mode.get<DINT>();
+  if (made.kind == JobKind::MC_Home)
+    made.asks = HomingJob{.mode = static_cast<HomeMode>(mode.is_null() ? 0 : mode.get<DINT>())};
   if (state.is_null()) return class_of(made, true);  // without states: the class is one and the same
   return class_of(made, state.get<std::string>() == "active");
 }
@@ -222,7 +223,7 @@ TEST(Override, KnowsEveryModeOfHoming) {
   for (const auto& [mode, expected] : classes) {
     Job job;
     job.kind = JobKind::MC_Home;
-    job.mode = mode;
+    job.asks = HomingJob{.mode = static_cast<HomeMode>(mode)};
     for (const bool active : {true, false}) EXPECT_EQ(class_of(job, active), expected) << "Mode " << mode;
   }
 }
