@@ -4,9 +4,7 @@ namespace lockstep {
 
 void MC_GearIn::request(Job& job) const noexcept {
   job.kind = JobKind::MC_GearIn;
-  job.master = Master;
-  job.numerator = RatioNumerator;
-  job.denominator = RatioDenominator;
+  job.asks = GearJob{.master = Master, .numerator = RatioNumerator, .denominator = RatioDenominator};
   job.acceleration = Acceleration;
   job.deceleration = Deceleration;
   job.jerk = Jerk;
@@ -19,18 +17,18 @@ bool MC_GearInPos::following_modulo(const Block& block) noexcept {
 
 void MC_GearInPos::request(Job& job) const noexcept {
   job.kind = JobKind::MC_GearInPos;
-  job.master = Master;
-  job.numerator = RatioNumerator;
-  job.denominator = RatioDenominator;
-  job.master_sync_position = MasterSyncPosition;
-  job.slave_sync_position = SlaveSyncPosition;
-  job.mode = SyncProfileReference;
-  job.master_start_distance = MasterStartDistance;
+  job.asks = GearJob{.master = Master,
+                     .numerator = RatioNumerator,
+                     .denominator = RatioDenominator,
+                     .profile = static_cast<lockstep::SyncProfileReference>(SyncProfileReference),
+                     .direction = static_cast<PublishedDirection>(SyncDirection),
+                     .master_sync_position = MasterSyncPosition,
+                     .slave_sync_position = SlaveSyncPosition,
+                     .master_start_distance = MasterStartDistance};
   job.velocity = Velocity;
   job.acceleration = Acceleration;
   job.deceleration = Deceleration;
   job.jerk = Jerk;
-  job.direction = SyncDirection;
 }
 
 }  // namespace lockstep

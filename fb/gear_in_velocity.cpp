@@ -4,14 +4,14 @@ namespace lockstep {
 
 void MC_GearInVelocity::request(Job& job) const noexcept {
   job.kind = JobKind::MC_GearInVelocity;
-  job.master = Master;
-  job.numerator = RatioNumerator;
-  job.denominator = RatioDenominator;
+  job.asks = GearJob{.master = Master,
+                     .numerator = RatioNumerator,
+                     .denominator = RatioDenominator,
+                     .update = ContinuousUpdate};
   job.acceleration = Acceleration;
   job.deceleration = Deceleration;
   job.jerk = Jerk;
   job.position_controlled = PositionControlled;
-  job.update = ContinuousUpdate;
 }
 
 void MC_GearInVelocity::show(JobPhase phase) noexcept {
@@ -19,13 +19,14 @@ void MC_GearInVelocity::show(JobPhase phase) noexcept {
   StartSync = phase == JobPhase::active;
   InSync = phase == JobPhase::reached;
   if (Busy) update_ratio();
-  ContinuousUpdateActive = (Busy || Error) && job() != nullptr && job()->running() && job()->update;
+  ContinuousUpdateActive =
+      (Busy || Error) && job() != nullptr && job()->running() && job()->as<GearJob>().update;
 }
 
 /// Resetting ContinuousUpdate freezes the ratio until the next start. A ratio that is not permitted shows an
 /// error, and the last permitted one goes on.
 void MC_GearInVelocity::update_ratio() noexcept {
-  Job& running = *job();
+  auto& running = job()->as<GearJob>();
   if (!ContinuousUpdate) running.update = false;
   if (!running.update) return;
   if (RatioNumerator != 0 && RatioDenominator > 0) {

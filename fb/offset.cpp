@@ -3,11 +3,11 @@
 namespace lockstep {
 
 void OffsetBlock::request(Job& job) const noexcept {
-  job.position = Offset;
-  job.mode = ProfileReference;
-  job.master_start_distance = OffsetDistance;
-  job.start_position = StartPosition;
-  job.direction = Direction;
+  job.asks = ShiftJob{.shift = Offset,
+                      .profile = static_cast<ShiftProfileReference>(ProfileReference),
+                      .direction = static_cast<PublishedDirection>(Direction),
+                      .distance = OffsetDistance,
+                      .start_position = StartPosition};
 }
 
 void MC_OffsetRelative::request(Job& job) const noexcept {
@@ -17,7 +17,7 @@ void MC_OffsetRelative::request(Job& job) const noexcept {
 
 void MC_OffsetRelative::show(JobPhase phase) noexcept {
   OffsetBlock::show(phase);
-  if (job() != nullptr) CoveredOffset = job()->covered;
+  if (job() != nullptr) CoveredOffset = job()->as<ShiftJob>().covered;
 }
 
 void MC_OffsetAbsolute::request(Job& job) const noexcept {
@@ -27,7 +27,7 @@ void MC_OffsetAbsolute::request(Job& job) const noexcept {
 
 void MC_OffsetAbsolute::show(JobPhase phase) noexcept {
   OffsetBlock::show(phase);
-  if (job() != nullptr) AbsoluteOffset = job()->covered;
+  if (job() != nullptr) AbsoluteOffset = job()->as<ShiftJob>().covered;
 }
 
 }  // namespace lockstep

@@ -3,16 +3,16 @@
 namespace lockstep {
 
 void PhasingBlock::request(Job& job) const noexcept {
-  job.master = Master;
-  job.position = PhaseShift;
+  job.asks = ShiftJob{.master = Master,
+                      .shift = PhaseShift,
+                      .profile = static_cast<ShiftProfileReference>(ProfileReference),
+                      .direction = static_cast<PublishedDirection>(Direction),
+                      .distance = PhasingDistance,
+                      .start_position = StartPosition};
   job.velocity = Velocity;
   job.acceleration = Acceleration;
   job.deceleration = Deceleration;
   job.jerk = Jerk;
-  job.mode = ProfileReference;
-  job.master_start_distance = PhasingDistance;
-  job.start_position = StartPosition;
-  job.direction = Direction;
 }
 
 void MC_PhasingRelative::request(Job& job) const noexcept {
@@ -22,7 +22,7 @@ void MC_PhasingRelative::request(Job& job) const noexcept {
 
 void MC_PhasingRelative::show(JobPhase phase) noexcept {
   PhasingBlock::show(phase);
-  if (job() != nullptr) CoveredPhaseShift = job()->covered;
+  if (job() != nullptr) CoveredPhaseShift = job()->as<ShiftJob>().covered;
 }
 
 void MC_PhasingAbsolute::request(Job& job) const noexcept {
@@ -32,7 +32,7 @@ void MC_PhasingAbsolute::request(Job& job) const noexcept {
 
 void MC_PhasingAbsolute::show(JobPhase phase) noexcept {
   PhasingBlock::show(phase);
-  if (job() != nullptr) AbsolutePhaseShift = job()->covered;
+  if (job() != nullptr) AbsolutePhaseShift = job()->as<ShiftJob>().covered;
 }
 
 }  // namespace lockstep

@@ -4,12 +4,12 @@ namespace lockstep {
 
 void SyncOutBlock::request(Job& job) const noexcept {
   job.kind = kind();
-  job.position = SlavePosition;
-  job.mode = SyncProfileReference;
-  job.master_start_distance = MasterStopDistance;
+  job.asks = LeavingJob{.position = SlavePosition,
+                        .profile = static_cast<SyncOutProfileReference>(SyncProfileReference),
+                        .direction = static_cast<PublishedDirection>(SyncOutDirection),
+                        .master_stop_distance = MasterStopDistance};
   job.deceleration = Deceleration;
   job.jerk = Jerk;
-  job.direction = SyncOutDirection;
 }
 
 }  // namespace lockstep

@@ -264,7 +264,7 @@ void Axis::watch_leading_object() noexcept {
     return leading.restarted || !leading.actual_values_valid();
   };
   const bool led_by_lost = (led() || simulating()) && lost(*coupled_.leading);
-  if (led_by_lost || (waiting != nullptr && lost(*waiting->master))) raise(alarm::kLeadingAxis);
+  if (led_by_lost || (waiting != nullptr && lost(*master_of(*waiting)))) raise(alarm::kLeadingAxis);
 }
 
 // ---- One interpolator cycle
@@ -349,7 +349,7 @@ Axis* Axis::coupled_leading_axis() const noexcept {
 }
 
 Axis* Axis::awaited_leading_axis() const noexcept {
-  return jobs_[kWaiting] != nullptr ? as_axis(jobs_[kWaiting]->master) : nullptr;
+  return jobs_[kWaiting] != nullptr ? as_axis(master_of(*jobs_[kWaiting])) : nullptr;
 }
 
 }  // namespace lockstep

@@ -27,7 +27,7 @@ std::int64_t turns_between(AxisPosition position, AxisPosition place, const Modu
 void AxisOrders::begin_sync_out(Job& job) noexcept {
   const Job* base = jobs_[kBase];
   const bool follows = base != nullptr && led() && of_cam(base->kind) == of_cam(job.kind);
-  if (job.mode == kCancelWaiting || !follows) {
+  if (job.as<LeavingJob>().profile == SyncOutProfileReference::cancel_waiting || !follows) {
     job.phase = JobPhase::done;
     return;
   }
@@ -40,12 +40,13 @@ void AxisOrders::begin_sync_out(Job& job) noexcept {
 /// the axis is with all that is superimposed.
 bool AxisOrders::watch_sync_out(const Setpoint& candidate) noexcept {
   Job& job = *jobs_[kWaitingOut];
+  const auto& asked = job.as<LeavingJob>();
   Dynamics dynamics = effective_dynamics(job);
-  const double target = normalised({0, job.position}, modulo_).value;
+  const double target = normalised({0, asked.position}, modulo_).value;
   const bool there = candidate.standing() && last_setpoint_.standing() && candidate.position.value == target;
   Setpoint from = last_setpoint_;
   Setpoint to = candidate;
-  if (job.mode != ProfileReference::over_distance) {  // begins as the axis' own motions do
+  if (asked.profile != SyncOutProfileReference::over_distance) {  // begins as the axis' own motions do
     if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
       raise(alarm_number);  // the stop begins at the last setpoint that followed
       step_single_axis();
@@ -55,7 +56,8 @@ bool AxisOrders::watch_sync_out(const Setpoint& candidate) noexcept {
     to.acceleration = limits_.tolerable_acceleration(to.acceleration, limits_.margin(to));
     limits_.keep_below(dynamics, from.acceleration, limits_.margin(from));
   }
-  if (!there && !synchronous_.meets_start_of_leaving(leaving_request(job), from, to, dynamics)) return false;
+  if (!there && !synchronous_.meets_start_of_leaving(leaving_request(asked), from, to, dynamics))
+    return false;
   jobs_.take(kWaitingOut);
   data.StatusSynchronizedMotion.WaitingFunctionState =
       waiting_function_state(jobs_[kWaiting], jobs_[kWaitingOut]);
@@ -75,7 +77,7 @@ bool AxisOrders::watch_sync_out(const Setpoint& candidate) noexcept {
 
 /// From the setpoint of the last tick: over the leading distance, or with the dynamics of the job.
 void AxisOrders::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept {
-  if (job.mode == ProfileReference::over_distance) {
+  if (job.as<LeavingJob>().profile == SyncOutProfileReference::over_distance) {
     synchronous_.begin_leaving(setpoint_);
     motion_ = Motion::desynchronizing;
     auto& status = data.StatusSynchronizedMotion;
@@ -126,7 +128,7 @@ void AxisOrders::watch_simulation() noexcept {
 /// A cam that is passed again and again shows its ends in simulation as well.
 void AxisOrders::show_passes() noexcept {
   if (!synchronous_.at_cam_end() || synchronous_.passed_once()) return;
-  ++simulated_->ends;
+  ++simulated_->as<CamJob>().ends;
   synchronous_.clear_cam_end();
 }
 

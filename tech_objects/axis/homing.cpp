@@ -292,8 +292,9 @@ void AxisOrders::shift_coupling(double by) noexcept {
   if (coupled_.cam == nullptr || motion_ == Motion::desynchronizing) return;
   data.StatusSynchronizedMotion.SlaveOffset = synchronous_.following_offset_at_start();
   Job* const offset = jobs_[kOffset];
-  const bool relative = offset != nullptr && offset->kind == JobKind::MC_OffsetRelative;
-  if (relative) offset->shift_base = offset->shift_base + by;
+  if (offset == nullptr || offset->kind != JobKind::MC_OffsetRelative) return;
+  auto& shift = offset->as<ShiftJob>();
+  shift.base = shift.base + by;
 }
 
 /// A running homing ends, whatever the reason.

@@ -40,7 +40,8 @@ void AxisOrders::start(Job& job) noexcept {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
   }
-  if (is_shift(job.kind) && job.mode == kCancelWaiting) return cancel_waiting_shift(job);
+  if (is_shift(job.kind) && job.as<ShiftJob>().profile == ShiftProfileReference::cancel_waiting)
+    return cancel_waiting_shift(job);
   if (job.buffer_mode != BufferMode::mcAborting && buffer(job)) return;
   if (couples_at_position(job.kind)) return begin_waiting(job);
   if (!override_running(class_of(job, false), job)) return;
@@ -67,9 +68,10 @@ ErrorId AxisOrders::check_synchronous(const Job& job) const noexcept {
   if (!couples(job.kind) && !is_shift(job.kind) && !leaves(job.kind)) return ErrorId::none;
   if (simulating()) return ErrorId::simulated;
   if (couples(job.kind)) {
-    if (job.master == this) return ErrorId::recursive_coupling;
+    const LeadingObject* const master = master_of(job);
+    if (master == this) return ErrorId::recursive_coupling;
     // A waiting job couples nothing yet; it is looked at again when it would become active.
-    const bool recursive = !couples_at_position(job.kind) && led_by_this(job.master);
+    const bool recursive = !couples_at_position(job.kind) && led_by_this(master);
     if (recursive) return ErrorId::recursive_coupling;
     return job.kind == JobKind::MC_CamIn ? check_cam(job) : ErrorId::none;
   }
@@ -78,22 +80,24 @@ ErrorId AxisOrders::check_synchronous(const Job& job) const noexcept {
   const bool cam_out = job.kind == JobKind::MC_CamOut;
   if (leaves(job.kind) && !jobs_.runs_or_waits(cam_out)) return cam_out ? ErrorId::no_cam : ErrorId::no_gear;
   if (leaves(job.kind)) return ErrorId::none;
-  if (job.mode == kCancelWaiting) return ErrorId::none;
-  const bool in_time = is_phasing(job.kind) && job.mode == ProfileReference::in_time;
+  const auto& shift = job.as<ShiftJob>();
+  if (shift.profile == ShiftProfileReference::cancel_waiting) return ErrorId::none;
+  const bool in_time = is_phasing(job.kind) && shift.profile == ShiftProfileReference::dynamics;
   if (in_time && base != nullptr && base->kind == JobKind::MC_CamIn) return ErrorId::phasing_in_time;
   if (motion_ != Motion::synchronous) return ErrorId::not_synchronous;
   // A leading axis that is not interconnected at all is an alarm.
   const bool of_another =
-      is_phasing(job.kind) && job.master != coupled_.leading && find_leading_value(job.master) != nullptr;
+      is_phasing(job.kind) && shift.master != coupled_.leading && find_leading_value(shift.master) != nullptr;
   return of_another ? ErrorId::not_synchronous : ErrorId::none;
 }
 
 ErrorId AxisOrders::check_cam(const Job& job) const noexcept {
-  if (job.cam->restarting()) return ErrorId::restarting;
-  if (job.cam->in_interpolation()) return ErrorId::cam_in_interpolation;
+  const auto& asked = job.as<CamJob>();
+  if (asked.cam->restarting()) return ErrorId::restarting;
+  if (asked.cam->in_interpolation()) return ErrorId::cam_in_interpolation;
   const Job* base = jobs_[kBase];
   const bool camming = base != nullptr && base->kind == JobKind::MC_CamIn && motion_ == Motion::synchronous;
-  return job.mode == kAtCamEnd && !camming ? ErrorId::no_camming : ErrorId::none;
+  return asked.profile == SyncProfileReference::at_cam_end && !camming ? ErrorId::no_camming : ErrorId::none;
 }
 
 /// Profile 5: ends a shift that waits; one that runs and the shift in effect stay.
@@ -111,12 +115,14 @@ int AxisOrders::missing_precondition(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_MoveAbsolute && !homed_) return alarm::kNotHomed;
   if (job.kind == JobKind::MC_Home) return missing_for_homing(job);
   if (!couples(job.kind) && !is_phasing(job.kind)) return 0;
-  const LeadingValue* leading = find_leading_value(job.master);
+  const LeadingObject* const master = master_of(job);
+  const LeadingValue* leading = find_leading_value(master);
   if (leading == nullptr) return alarm::kLeadingAxis;
   if (is_phasing(job.kind)) return 0;
-  if (!job.master->actual_values_valid()) return alarm::kLeadingAxis;
-  if (job.kind == JobKind::MC_CamIn && !job.cam->interpolated()) return alarm::kCamNotInterpolated;
-  const bool controlled = job.kind == JobKind::MC_GearInVelocity || job.master->position_controlled() ||
+  if (!master->actual_values_valid()) return alarm::kLeadingAxis;
+  if (job.kind == JobKind::MC_CamIn && !job.as<CamJob>().cam->interpolated())
+    return alarm::kCamNotInterpolated;
+  const bool controlled = job.kind == JobKind::MC_GearInVelocity || master->position_controlled() ||
                           leading->coupling == Coupling::actual;
   if (!controlled) return alarm::kLeadingAxisNotPositionControlled;
   return couples_at_position(job.kind) && !homed_ ? alarm::kNotHomed : 0;

@@ -133,7 +133,8 @@ void Axis::publish() noexcept {
   } else {
     publish_awaited();
   }
-  if (jobs_[kWaiting] != nullptr && jobs_[kWaiting]->cam != nullptr) jobs_[kWaiting]->cam->show_use();
+  const Job* const waiting = jobs_[kWaiting];
+  if (waiting != nullptr && waiting->kind == JobKind::MC_CamIn) waiting->as<CamJob>().cam->show_use();
   publish_status();
   if (leads_by_actual_value()) publish_extrapolation(data.Extrapolation, data.StatusExtrapolation);
 }

@@ -8,6 +8,21 @@
 #include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
+namespace {
+
+/// How a coupling at positions synchronizes.
+SyncProfileReference profile_of(const Job& job) noexcept {
+  return job.kind == JobKind::MC_CamIn ? job.as<CamJob>().profile : job.as<GearJob>().profile;
+}
+
+/// By what a phase shift moves an axis that is coupled; 1 for a cam, whose shifts go over a distance.
+double ratio_of(const Job& coupling) noexcept {
+  if (coupling.kind == JobKind::MC_CamIn) return 1.0;
+  const auto& gear = coupling.as<GearJob>();
+  return std::abs(static_cast<double>(gear.numerator) / gear.denominator);
+}
+
+}  // namespace
 
 void AxisOrders::begin_gear_in(Job& job) noexcept {
   absorb_superimposed();
@@ -19,21 +34,21 @@ void AxisOrders::begin_gear_in(Job& job) noexcept {
   }
   jobs_.put(kBase, job, JobPhase::active);
   set_position_control(job.position_controlled);
-  synchronous_.begin_at_velocity(coupling_request(job, *find_leading_value(job.master), dynamics));
+  synchronous_.begin_at_velocity(coupling_request(job, *find_leading_value(master_of(job)), dynamics));
   show_coupling(job, Motion::synchronizing);
 }
 
 /// One that is rejected leaves what waits already.
 void AxisOrders::begin_waiting(Job& job) noexcept {
   const Dynamics dynamics = effective_dynamics(job);
-  const int alarm_number = job.mode == ProfileReference::in_time ? limits_.zero_limit(dynamics)
-                                                                 : 0;  // profile 0 is planned with them
+  const bool in_time = profile_of(job) == SyncProfileReference::dynamics;
+  const int alarm_number = in_time ? limits_.zero_limit(dynamics) : 0;  // only that is planned with them
   if (alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
   }
   SynchronousMotion planned = awaited_;
-  const CouplingRequest request = coupling_request(job, *find_leading_value(job.master), dynamics);
+  const CouplingRequest request = coupling_request(job, *find_leading_value(master_of(job)), dynamics);
   const SyncRefusal refusal = planned.begin_waiting(request, setpoint_);
   if (refusal != SyncRefusal::none) return job.fail(error_of(refusal));
   if (!override_running(class_of(job, false), job)) return;
@@ -65,17 +80,19 @@ void AxisOrders::watch_waiting() noexcept {
 /// The waiting job becomes active: now it overrides what moves the axis.
 void AxisOrders::activate_waiting(Motion motion) noexcept {
   Job& job = *jobs_[kWaiting];
-  if (!awaited_axis_in_order || led_by_this(job.master))
+  if (!awaited_axis_in_order || led_by_this(master_of(job)))
     return end_job(kWaiting, JobPhase::failed, ErrorId::recursive_coupling);
   if (jobs_.locked()) return end_job(kWaiting, JobPhase::failed, ErrorId::locked);
   if (simulating()) return end_job(kWaiting, JobPhase::failed, ErrorId::simulated);
   jobs_.take(kWaiting);
   data.StatusSynchronizedMotion.WaitingFunctionState =
       waiting_function_state(jobs_[kWaiting], jobs_[kWaitingOut]);
-  const bool at_cam_end = job.kind == JobKind::MC_CamIn && job.mode == kAtCamEnd;
+  const bool at_cam_end =
+      job.kind == JobKind::MC_CamIn && job.as<CamJob>().profile == SyncProfileReference::at_cam_end;
   if (at_cam_end && jobs_[kBase] != nullptr) {
-    ++jobs_[kBase]->ends;
-    jobs_[kBase]->end_of_profile = true;
+    auto& ended = jobs_[kBase]->as<CamJob>();
+    ++ended.ends;
+    ended.end_of_profile = true;
   }
   if (!override_running(class_of(job, true), job)) {
     coupling_changed = true;
@@ -102,17 +119,20 @@ void AxisOrders::activate_waiting(Motion motion) noexcept {
 void AxisOrders::show_coupling(const Job& job, Motion motion) noexcept {
   motion_ = motion;
   coupling_changed = true;
-  coupled_ = {job.master, job.cam};
+  LeadingObject* const master = master_of(job);
   auto& status = data.StatusSynchronizedMotion;
   status.FunctionState = function_state(job.kind);
-  status.ActualMaster = job.master->number;
+  status.ActualMaster = master->number;
   status.PhaseShift = status.Offset = 0.0;
+  coupled_ = {master, nullptr};
   if (job.kind != JobKind::MC_CamIn) return clear_cam_status();
-  status.ActualCam = job.cam->number;
+  const auto& cam = job.as<CamJob>();
+  coupled_.cam = cam.cam;
+  status.ActualCam = cam.cam->number;
   status.MasterOffset = synchronous_.leading_offset();
-  status.MasterScaling = job.master_scaling;
+  status.MasterScaling = cam.master_scaling;
   status.SlaveOffset = synchronous_.following_offset_at_start();
-  status.SlaveScaling = job.slave_scaling;
+  status.SlaveScaling = cam.slave_scaling;
 }
 
 void AxisOrders::clear_cam_status() noexcept {
@@ -127,7 +147,10 @@ void AxisOrders::clear_cam_status() noexcept {
 
 /// What the coupling depends on in this tick: ratio, leading value, shifts.
 void AxisOrders::look_at_coupling(const Job& job) noexcept {
-  if (job.update) synchronous_.change_ratio({job.numerator, job.denominator});
+  if (job.kind == JobKind::MC_GearInVelocity) {
+    const auto& gear = job.as<GearJob>();
+    if (gear.update) synchronous_.change_ratio({gear.numerator, gear.denominator});
+  }
   synchronous_.look_at_leading();
   if (synchronous_.shifted()) advance_shifts();
 }
@@ -166,7 +189,7 @@ void AxisOrders::step_synchronous() noexcept {
 /// The leading value has reached an end of the cam. One that is passed once ends its job: the axis stands at
 /// the end, or brakes if the cam ends with a slope.
 void AxisOrders::meet_cam_end() noexcept {
-  Job& job = *jobs_[kBase];
+  auto& job = jobs_[kBase]->as<CamJob>();
   ++job.ends;
   if (!synchronous_.passed_once()) return synchronous_.clear_cam_end();
   job.end_of_profile = true;
@@ -204,24 +227,23 @@ void AxisOrders::take_additive() noexcept {
 
 /// MC_Phasing… and MC_Offset…
 void AxisOrders::begin_shift(Job& job) noexcept {
+  auto& asked = job.as<ShiftJob>();
   const bool phasing = is_phasing(job.kind);
   const bool relative = job.kind == JobKind::MC_PhasingRelative || job.kind == JobKind::MC_OffsetRelative;
   Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
-  Dynamics dynamics =
-      phasing && job.mode == ProfileReference::in_time ? effective_dynamics(job) : limits_.maximum();
+  const bool in_time = phasing && asked.profile == ShiftProfileReference::dynamics;
+  const Dynamics dynamics = in_time ? effective_dynamics(job) : limits_.maximum();
   if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
     return job.fail(ErrorId::technology_alarm);
   }
   // The dynamics are those of the following axis; a phase shift moves it by the ratio.
-  const double ratio =
-      phasing ? std::abs(static_cast<double>(jobs_[kBase]->numerator) / jobs_[kBase]->denominator)
-              : 1.0;  // and 1 for a cam, whose shifts go over a distance
+  const double ratio = phasing ? ratio_of(*jobs_[kBase]) : 1.0;
   const Dynamics of_shift{dynamics.velocity / ratio, dynamics.acceleration / ratio,
                           dynamics.deceleration / ratio, dynamics.jerk / ratio};
-  const DoubleDouble target = relative ? shift.value() + job.position : DoubleDouble{job.position, 0.0};
-  const ShiftRequest request = shift_request(job, target, of_shift);
-  job.shift_base = relative ? shift.value() : DoubleDouble{};
+  const DoubleDouble target = relative ? shift.value() + asked.shift : DoubleDouble{asked.shift, 0.0};
+  const ShiftRequest request = shift_request(asked, target, of_shift);
+  asked.base = relative ? shift.value() : DoubleDouble{};
   if (shift.begin(request, period_) != PlanResult::ok) {
     shift.halt();
     return job.fail(ErrorId::unspecified);
@@ -246,7 +268,8 @@ void AxisOrders::advance_shifts() noexcept {
 void AxisOrders::show_shift(Slot slot, const Shift& shift, Shift::Event event) noexcept {
   Job& job = *jobs_[slot];
   job.phase = shift.phase() == Shift::Phase::waiting ? JobPhase::waiting : JobPhase::active;
-  job.covered = rounded_difference(shift.value(), job.shift_base);
+  auto& asked = job.as<ShiftJob>();
+  asked.covered = rounded_difference(shift.value(), asked.base);
   if (event == Shift::Event::none) return;
   if (event == Shift::Event::done) return end_job(slot, JobPhase::done, ErrorId::none);
   end_job(slot, JobPhase::failed, ErrorId::leading_value_reversed);

@@ -6,70 +6,84 @@
 namespace lockstep {
 namespace {
 
-SyncStartRule start_rule_of(DINT profile) noexcept {
-  switch (static_cast<SyncProfileReference>(profile)) {
-    case SyncProfileReference::kDynamics:
+SyncStartRule start_rule_of(SyncProfileReference profile) noexcept {
+  switch (profile) {
+    case SyncProfileReference::dynamics:
       return SyncStartRule::dynamics;
-    case SyncProfileReference::kAhead:
+    case SyncProfileReference::ahead:
       return SyncStartRule::ahead;
-    case SyncProfileReference::kDirect:
+    case SyncProfileReference::direct:
       return SyncStartRule::direct;
-    case SyncProfileReference::kSubsequent:
+    case SyncProfileReference::subsequent:
       return SyncStartRule::subsequent;
-    case SyncProfileReference::kSubsequentFromHere:
+    case SyncProfileReference::subsequent_from_here:
       return SyncStartRule::subsequent_from_here;
-    case SyncProfileReference::kAtCamEnd:
+    case SyncProfileReference::at_cam_end:
       return SyncStartRule::at_cam_end;
-    case SyncProfileReference::kAheadFromHere:
+    case SyncProfileReference::ahead_from_here:
       return SyncStartRule::ahead_from_here;
   }
   return SyncStartRule::dynamics;
 }
 
-ShiftRule shift_rule_of(DINT profile) noexcept {
-  if (is(profile, ShiftProfileReference::kDynamics)) return ShiftRule::dynamics;
-  return is(profile, ShiftProfileReference::kFromPosition) ? ShiftRule::from_position : ShiftRule::from_here;
+ShiftRule shift_rule_of(ShiftProfileReference profile) noexcept {
+  if (profile == ShiftProfileReference::dynamics) return ShiftRule::dynamics;
+  return profile == ShiftProfileReference::from_position ? ShiftRule::from_position : ShiftRule::from_here;
 }
 
-SyncDirection direction_of(DINT direction) noexcept {
-  if (is(direction, PublishedDirection::kPositive)) return SyncDirection::kPositive;
-  return is(direction, PublishedDirection::kNegative) ? SyncDirection::kNegative
-                                                      : SyncDirection::kShortestPath;
+SyncDirection direction_of(PublishedDirection direction) noexcept {
+  if (direction == PublishedDirection::positive) return SyncDirection::kPositive;
+  return direction == PublishedDirection::negative ? SyncDirection::kNegative : SyncDirection::kShortestPath;
+}
+
+void ask_for_gear(const GearJob& gear, CouplingRequest& request) noexcept {
+  request.ratio = {gear.numerator, gear.denominator};
+  request.start = start_rule_of(gear.profile);
+  request.direction = direction_of(gear.direction);
+  request.leading_position = gear.master_sync_position;
+  request.following_position = gear.slave_sync_position;
+  request.leading_distance = gear.master_start_distance;
+}
+
+/// The kernel numbers the modes of a cam as they are published.
+void ask_for_cam(const CamJob& cam, CouplingRequest& request) noexcept {
+  request.curve = &cam.cam->function();
+  request.start = start_rule_of(cam.profile);
+  request.direction = direction_of(cam.direction);
+  request.leading_position = cam.master_sync_position;
+  request.leading_distance = cam.master_start_distance;
+  request.use = {cam.master_scaling, cam.slave_scaling, static_cast<CamMode>(cam.application_mode)};
+  request.leading_offset = cam.master_offset;
+  request.following_offset = cam.slave_offset;
 }
 
 }  // namespace
 
 CouplingRequest coupling_request(const Job& job, const LeadingValue& leading,
                                  const Dynamics& dynamics) noexcept {
-  const CamUse use{job.master_scaling, job.slave_scaling, static_cast<CamMode>(job.application_mode)};
-  return {.source = leading.source,
-          .coupling = leading.coupling,
-          .velocity_only = job.kind == JobKind::MC_GearInVelocity,
-          .dynamics = dynamics,
-          .ratio = {job.numerator, job.denominator},
-          .curve = job.cam != nullptr ? &job.cam->function() : nullptr,
-          .start = start_rule_of(job.mode),
-          .direction = direction_of(job.direction),
-          .leading_position = job.master_sync_position,
-          .following_position = job.slave_sync_position,
-          .leading_distance = job.master_start_distance,
-          .use = use,
-          .leading_offset = job.master_offset,
-          .following_offset = job.slave_offset};
+  CouplingRequest request{.source = leading.source,
+                          .coupling = leading.coupling,
+                          .velocity_only = job.kind == JobKind::MC_GearInVelocity,
+                          .dynamics = dynamics};
+  if (job.kind == JobKind::MC_CamIn)
+    ask_for_cam(job.as<CamJob>(), request);
+  else
+    ask_for_gear(job.as<GearJob>(), request);
+  return request;
 }
 
-LeavingRequest leaving_request(const Job& job) noexcept {
-  return {.over_distance = is(job.mode, SyncOutProfileReference::kOverDistance),
+LeavingRequest leaving_request(const LeavingJob& job) noexcept {
+  return {.over_distance = job.profile == SyncOutProfileReference::over_distance,
           .direction = direction_of(job.direction),
           .position = job.position,
-          .distance = job.master_start_distance};
+          .distance = job.master_stop_distance};
 }
 
-ShiftRequest shift_request(const Job& job, DoubleDouble target, const Dynamics& dynamics) noexcept {
+ShiftRequest shift_request(const ShiftJob& job, DoubleDouble target, const Dynamics& dynamics) noexcept {
   const SyncDirection direction = direction_of(job.direction);
   return {.target = target,
-          .rule = shift_rule_of(job.mode),
-          .distance = job.master_start_distance,
+          .rule = shift_rule_of(job.profile),
+          .distance = job.distance,
           .start_position = job.start_position,
           .direction = direction == SyncDirection::kPositive   ? 1
                        : direction == SyncDirection::kNegative ? -1

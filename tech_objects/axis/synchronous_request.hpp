@@ -9,15 +9,15 @@
 
 namespace lockstep {
 
-/// MC_GearIn, MC_GearInVelocity, MC_GearInPos, MC_CamIn. @param leading that of `job.master`
+/// MC_GearIn, MC_GearInVelocity, MC_GearInPos, MC_CamIn. @param leading that of `master_of(job)`
 CouplingRequest coupling_request(const Job& job, const LeadingValue& leading,
                                  const Dynamics& dynamics) noexcept;
 
 /// MC_GearOut, MC_CamOut.
-LeavingRequest leaving_request(const Job& job) noexcept;
+LeavingRequest leaving_request(const LeavingJob& job) noexcept;
 
 /// MC_Phasing…, MC_Offset…. @param target total shift at the end  @param dynamics of the shift
-ShiftRequest shift_request(const Job& job, DoubleDouble target, const Dynamics& dynamics) noexcept;
+ShiftRequest shift_request(const ShiftJob& job, DoubleDouble target, const Dynamics& dynamics) noexcept;
 
 /// What a block shows.
 ErrorId error_of(SyncRefusal refusal) noexcept;

@@ -2,11 +2,14 @@
 /// plain struct per family. What all jobs have stands in `Job`.
 #pragma once
 
+#include "tech_objects/arithmetic/double_double.hpp"
 #include "tech_objects/jobs/modes.hpp"
 #include "tech_objects/types/types.hpp"
 
 namespace lockstep {
 
+class Cam;
+class LeadingObject;
 struct CamCopy;
 
 // ---- Of every object
@@ -27,6 +30,64 @@ struct HomingJob {
   // Written by the object.
   int direction{};        ///< in which an active homing heads
   LREAL mark_position{};  ///< position assigned to the homing mark [u]
+};
+
+// ---- Synchronous operation of axes
+
+/// MC_GearIn, MC_GearInVelocity, MC_GearInPos.
+struct GearJob {
+  LeadingObject* master = nullptr;
+  DINT numerator = 1;
+  DINT denominator = 1;
+  bool update = false;  ///< MC_GearInVelocity: the ratio counts in every cycle
+
+  // MC_GearInPos.
+  SyncProfileReference profile{};
+  PublishedDirection direction = PublishedDirection::either;
+  LREAL master_sync_position{};   ///< [u] of the leading axis
+  LREAL slave_sync_position{};    ///< [u]
+  LREAL master_start_distance{};  ///< [u] of the leading axis
+};
+
+/// MC_CamIn.
+struct CamJob {
+  LeadingObject* master = nullptr;
+  Cam* cam = nullptr;
+  SyncProfileReference profile{};
+  CamApplicationMode application_mode{};
+  PublishedDirection direction = PublishedDirection::either;
+  LREAL master_offset{};  ///< of the cam [u] of the leading axis
+  LREAL slave_offset{};   ///< of the cam [u]
+  LREAL master_scaling = 1.0;
+  LREAL slave_scaling = 1.0;
+  LREAL master_sync_position{};   ///< from the start of the cam [u] of the leading axis
+  LREAL master_start_distance{};  ///< [u] of the leading axis
+
+  // Written by the axis.
+  UDINT ends{};                 ///< ends of the cam reached so far
+  bool end_of_profile = false;  ///< the job has ended at the end of its cam
+};
+
+/// MC_GearOut, MC_CamOut.
+struct LeavingJob {
+  LREAL position{};  ///< where the axis rests [u]
+  SyncOutProfileReference profile{};
+  PublishedDirection direction = PublishedDirection::either;
+  LREAL master_stop_distance{};  ///< [u] of the leading axis
+};
+
+/// MC_PhasingAbsolute, MC_PhasingRelative, MC_OffsetAbsolute, MC_OffsetRelative.
+struct ShiftJob {
+  LeadingObject* master = nullptr;  ///< MC_Phasing…
+  LREAL shift{};                    ///< [u], of a phase shift those of the leading axis
+  ShiftProfileReference profile{};
+  PublishedDirection direction = PublishedDirection::either;
+  LREAL distance{};        ///< over which it is made [u] of the leading axis
+  LREAL start_position{};  ///< from which it is made [u] of the leading axis
+
+  // Written by the axis.
+  LREAL covered{};    ///< share made so far [u]
+  DoubleDouble base{};  ///< from which that share counts [u]
 };
 
 // ---- Of measuring inputs

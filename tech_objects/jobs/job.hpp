@@ -6,14 +6,10 @@
 #include <variant>
 
 #include "tech_objects/alarms/alarms.hpp"
-#include "tech_objects/arithmetic/double_double.hpp"
 #include "tech_objects/jobs/families.hpp"
 #include "tech_objects/types/types.hpp"
 
 namespace lockstep {
-
-class Cam;
-class LeadingObject;
 
 /// The instruction that a job comes from.
 enum class JobKind : std::uint8_t {
@@ -78,9 +74,6 @@ constexpr bool is_shift(JobKind kind) noexcept {
   return is_phasing(kind) || kind == JobKind::MC_OffsetAbsolute || kind == JobKind::MC_OffsetRelative;
 }
 
-inline constexpr DINT kCancelWaiting = 5;  ///< profile of shifts, MC_GearOut and MC_CamOut: end what waits
-inline constexpr DINT kAtCamEnd = 5;       ///< profile of MC_CamIn: at the end of the running cam
-
 /// When a job begins that finds another one running.
 /// @source PLCopen Motion Control Part 1 v2.0, 2.4.2 (MC_BUFFER_MODE)
 enum class BufferMode : std::uint8_t {
@@ -105,7 +98,8 @@ enum class JobPhase : std::uint8_t {
 };
 
 /// What a job asks for besides, by the family of its kind; nothing for a job that only names its object.
-using JobFamily = std::variant<std::monostate, ResetJob, HomingJob, MeasuringJob, CamCopyJob>;
+using JobFamily = std::variant<std::monostate, ResetJob, HomingJob, GearJob, CamJob, LeavingJob, ShiftJob,
+                               MeasuringJob, CamCopyJob>;
 
 /// A request and its fate. It lives in the block that asks; the axis writes `phase` and `error`.
 /// Dynamic values: > 0 is used, < 0 stands for the default of the technology object (the block's pins decide
@@ -115,17 +109,16 @@ struct Job {
   const Job* replaces = nullptr;
   JobKind kind{};
   JobPhase phase = JobPhase::idle;
-  BOOL update{};  ///< MC_GearInVelocity: the ratio counts in every cycle
   ErrorId error = ErrorId::none;
   JobFamily asks;
 
-  LREAL position{};           ///< target, distance or shift [u]
+  LREAL position{};           ///< target or distance [u]
   LREAL velocity = -1.0;      ///< [u/s]
   LREAL acceleration = -1.0;  ///< [u/s²]
   LREAL deceleration = -1.0;  ///< [u/s²]
   LREAL jerk = -1.0;          ///< [u/s³]; 0: trapezoidal
-  DINT direction{};           ///< Direction or SyncDirection
-  DINT mode{};                ///< Mode, SyncProfileReference
+  DINT direction{};           ///< Direction
+  DINT mode{};                ///< Mode
   BOOL current{};             ///< MC_MoveVelocity: keep the present velocity
   BOOL position_controlled = true;
   BufferMode buffer_mode{};   ///< MC_MoveAbsolute, MC_MoveRelative, MC_MoveVelocity, MC_Halt
@@ -133,26 +126,6 @@ struct Job {
   BOOL hold{};                ///< MC_Stop: Execute is still TRUE, so the axis stays locked after the stop;
                               ///< MC_MotionIn…: Enable is still TRUE
   ErrorId input_error{};      ///< MC_MotionIn…: an input of this call is not permitted
-
-  LeadingObject* master{};
-  DINT numerator = 1;
-  DINT denominator = 1;
-  LREAL master_sync_position{};   ///< [u] of the leading axis
-  LREAL slave_sync_position{};    ///< [u]
-  LREAL master_start_distance{};  ///< MasterStartDistance, PhasingDistance, … [u] of the leading axis
-  LREAL start_position{};         ///< StartPosition of the leading value [u]
-  Cam* cam{};
-  LREAL master_offset{};  ///< of the cam [u] of the leading axis
-  LREAL slave_offset{};   ///< of the cam [u]
-  LREAL master_scaling = 1.0;
-  LREAL slave_scaling = 1.0;
-  DINT application_mode{};
-
-  // Written by the axis.
-  LREAL covered{};          ///< share of a shift made so far [u]
-  UDINT ends{};             ///< ends of the cam reached so far
-  BOOL end_of_profile{};    ///< the job has ended at the end of its cam
-  DoubleDouble shift_base;  ///< from which that share counts [u]
 
   /// What a job of that family asks for; the kind says which it is.
   template <class Family>
@@ -172,5 +145,13 @@ struct Job {
   }
 };
 static_assert(std::is_trivially_copyable_v<Job>, "a job is copied in the cycle");
+
+/// The leading object that a job names: that of a coupling, or of a phase shift; nullptr: none.
+inline LeadingObject* master_of(const Job& job) noexcept {
+  if (const auto* gear = std::get_if<GearJob>(&job.asks)) return gear->master;
+  if (const auto* cam = std::get_if<CamJob>(&job.asks)) return cam->master;
+  const auto* shift = std::get_if<ShiftJob>(&job.asks);
+  return shift != nullptr ? shift->master : nullptr;
+}
 
 }  // namespace lockstep

@@ -53,47 +53,40 @@ enum class MeasuringMode : DINT {
   falling_then_rising = 4
 };
 
-/// SyncProfileReference of couplings, ProfileReference of shifts, as far as they have that in common.
-struct ProfileReference {
-  enum : DINT {
-    in_time = 0,       ///< by dynamic values
-    over_distance = 1  ///< over a distance of the leading value
-  };
-};
-
 /// Pin SyncProfileReference of MC_GearInPos (0, 1, 3) and MC_CamIn.
 enum class SyncProfileReference : DINT {
-  kDynamics = 0,            ///< with the dynamics of the job
-  kAhead = 1,               ///< over the leading distance before the synchronous position
-  kDirect = 2,              ///< the positions at hand belong together
-  kSubsequent = 3,          ///< over the leading distance from the synchronous position on
-  kSubsequentFromHere = 4,  ///< … from the present position on
-  kAtCamEnd = 5,            ///< at the end of the running cam
-  kAheadFromHere = 6        ///< over the leading distance from here on; the cam lies at its end
+  dynamics = 0,              ///< with the dynamics of the job
+  ahead = 1,                 ///< over the leading distance before the synchronous position
+  direct = 2,                ///< the positions at hand belong together
+  subsequent = 3,            ///< over the leading distance from the synchronous position on
+  subsequent_from_here = 4,  ///< … from the present position on
+  at_cam_end = 5,            ///< at the end of the running cam
+  ahead_from_here = 6        ///< over the leading distance from here on; the cam lies at its end
 };
 
 /// Pin ProfileReference of MC_Phasing…, MC_Offset….
 enum class ShiftProfileReference : DINT {
-  kDynamics = 0,      ///< with the dynamics of the job
-  kFromHere = 1,      ///< over the leading distance from here on
-  kFromPosition = 2,  ///< over the leading distance from a start position on
-  kCancelWaiting = 5  ///< ends what waits
+  dynamics = 0,       ///< with the dynamics of the job
+  from_here = 1,      ///< over the leading distance from here on
+  from_position = 2,  ///< over the leading distance from a start position on
+  cancel_waiting = 5  ///< ends what waits
 };
 
 /// Pin SyncProfileReference of MC_GearOut and MC_CamOut.
 enum class SyncOutProfileReference : DINT {
-  kDynamics = 0,      ///< with the dynamics of the job
-  kOverDistance = 1,  ///< over the leading distance
-  kCancelWaiting = 5  ///< ends what waits
+  dynamics = 0,       ///< with the dynamics of the job
+  over_distance = 1,  ///< over the leading distance
+  cancel_waiting = 5  ///< ends what waits
 };
 
 /// Pins SyncDirection, SyncOutDirection and Direction of a shift: of the axis, or of the leading value.
-enum class PublishedDirection : DINT { kPositive = 1, kNegative = 2, kEither = 3 };
+enum class PublishedDirection : DINT { positive = 1, negative = 2, either = 3 };
 
-/// Whether the number of a pin is that value.
-template <class Published>
-constexpr bool is(DINT number, Published value) noexcept {
-  return number == static_cast<DINT>(value);
-}
+/// Pin ApplicationMode of MC_CamIn.
+enum class CamApplicationMode : DINT {
+  once = 0,     ///< from end to end
+  cyclic = 1,   ///< again and again, over the same following values
+  appended = 2  ///< again and again, each pass begins where the one before has ended
+};
 
 }  // namespace lockstep
