@@ -17,16 +17,14 @@ void EnableBlock::call(std::int64_t /*now*/) noexcept {
 
 /// A job that has been let go in this very tick and still runs is taken up again.
 void EnableBlock::start() noexcept {
+  const bool running = job_.running();
   if (const ErrorId error = check_inputs(); error != ErrorId::none) {
-    job_.input_error = error;
+    if (running) job_.as<MotionInJob>().error = error;
     set_phase(JobPhase::failed, error);
     return;
   }
-  const bool running = job_.running();
   if (!running) job_ = Job{};
   request(job_);
-  job_.hold = true;
-  job_.input_error = ErrorId::none;
   if (!running) target()->submit(job_);
   set_phase(job_.phase, job_.error);
 }
@@ -36,12 +34,12 @@ void EnableBlock::go_on() noexcept {
   set_phase(job_.phase, job_.error);
   if (!job_.running()) return;
   if (!Enable) {
-    job_.hold = false;
+    job_.as<MotionInJob>().hold = false;
     set_phase(JobPhase::idle, ErrorId::none);
     return;
   }
   if (const ErrorId error = check_inputs(); error != ErrorId::none) {
-    job_.input_error = error;
+    job_.as<MotionInJob>().error = error;
     set_phase(JobPhase::failed, error);
     return;
   }

@@ -19,7 +19,7 @@ class EnableBlock : public JobBlock {
   void start() noexcept;
   void go_on() noexcept;
 
-  Job job_;
+  Job job_;  // of the family MotionInJob
   bool last_enable_ = false;
 };
 

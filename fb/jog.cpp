@@ -41,8 +41,8 @@ ErrorId MC_MoveJog::check() const noexcept {
 }
 
 /// The inputs of a running job count in every call; the axis compares them with what it has planned.
-void MC_MoveJog::update(DINT direction) noexcept {
-  job_.direction = direction;
+void MC_MoveJog::update(int direction) noexcept {
+  job_.asks = JogJob{.direction = direction};
   if (direction == 0) return;  // the last valid dynamics brake
   job_.velocity = std::abs(Velocity);
   job_.acceleration = Acceleration;

@@ -45,7 +45,7 @@ struct MC_MoveJog final : Block {
 
  private:
   ErrorId check() const noexcept;
-  void update(DINT direction) noexcept;
+  void update(int direction) noexcept;
   void brake(ErrorId error) noexcept;
 
   Job job_{};

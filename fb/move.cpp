@@ -24,14 +24,13 @@ bool MC_MoveAbsolute::has_modulo(const Block& block) noexcept {
 
 void MC_MoveAbsolute::request(Job& job) const noexcept {
   job.kind = JobKind::MC_MoveAbsolute;
-  job.position = Position;
-  job.direction = Direction;
+  job.asks = MoveAbsoluteJob{.position = Position, .direction = static_cast<lockstep::Direction>(Direction)};
   take_inputs(*this, job);
 }
 
 void MC_MoveRelative::request(Job& job) const noexcept {
   job.kind = JobKind::MC_MoveRelative;
-  job.position = Distance;
+  job.asks = DistanceJob{.distance = Distance};
   take_inputs(*this, job);
 }
 
@@ -40,7 +39,7 @@ void MC_MoveVelocity::request(Job& job) const noexcept {
   take_inputs(*this, job);
   if (Direction == 1) job.velocity = std::abs(Velocity);
   if (Direction == 2) job.velocity = -std::abs(Velocity);
-  job.current = Current;
+  job.asks = VelocityJob{.current = Current};
   job.position_controlled = PositionControlled;
 }
 

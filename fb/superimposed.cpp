@@ -4,7 +4,7 @@ namespace lockstep {
 
 void MC_MoveSuperimposed::request(Job& job) const noexcept {
   job.kind = JobKind::MC_MoveSuperimposed;
-  job.position = Distance;
+  job.asks = DistanceJob{.distance = Distance};
   job.velocity = VelocityDiff;
   job.acceleration = Acceleration;
   job.deceleration = Deceleration;
@@ -15,14 +15,12 @@ void MC_HaltSuperimposed::request(Job& job) const noexcept {
   job.kind = JobKind::MC_HaltSuperimposed;
   job.deceleration = Deceleration;
   job.jerk = Jerk;
-  job.abort_acceleration = AbortAcceleration;
+  job.asks = StopJob{.abort_acceleration = AbortAcceleration};
 }
 
 void MC_MotionInSuperimposed::request(Job& job) const noexcept {
   job.kind = JobKind::MC_MotionInSuperimposed;
-  job.position = Distance;
-  job.velocity = VelocityDiff;
-  job.acceleration = AccelerationDiff;
+  job.asks = MotionInJob{.position = Distance, .velocity = VelocityDiff, .acceleration = AccelerationDiff};
 }
 
 }  // namespace lockstep

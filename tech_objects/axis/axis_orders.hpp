@@ -103,6 +103,7 @@ class AxisOrders : public AxisParts {
   ErrorId target_refusal(const Job& job) const noexcept;
   void begin_base_motion(Job& job) noexcept;
   PlanResult plan(Job& job, const Dynamics& dynamics) noexcept;
+  PlanResult plan_stop(const StopJob& asked, const Dynamics& given) noexcept;
   void show_target(const AxisPosition& target) noexcept;
   PlanResult move_by(DoubleDouble way, const Job& job, const Dynamics& dynamics) noexcept;
   void begin_stop(const Dynamics& dynamics, bool abort_acceleration) noexcept;

@@ -84,13 +84,14 @@ NextMotion AxisOrders::motion_after_target(const Job& job) noexcept {
   NextMotion next{.distance = 0.0, .endless = false, .dynamics = effective_dynamics(job)};
   switch (job.kind) {
     case JobKind::MC_MoveAbsolute:
-      next.distance = absolute_distance(job, single_.target().value, modulo_);
+      next.distance = absolute_distance(job.as<MoveAbsoluteJob>(), single_.target().value, modulo_);
       break;
     case JobKind::MC_MoveRelative:
-      next.distance = job.position;
+      next.distance = job.as<DistanceJob>().distance;
       break;
     case JobKind::MC_MoveVelocity:
-      next.distance = job.current ? single_.target_velocity() : job.velocity;  // its direction
+      next.distance =
+          job.as<VelocityJob>().current ? single_.target_velocity() : job.velocity;  // its direction
       next.endless = true;
       break;
     default:  // MC_Halt: wherever the axis comes to rest, but in the direction in which it goes

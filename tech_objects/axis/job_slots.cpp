@@ -42,8 +42,8 @@ Overriding JobSlots::overriding(JobClass new_job, const Job& job, bool position_
     if (running == nullptr) continue;
     const JobClass running_class = class_of(*running, slot == kBase);
     const OverrideEffect effect = override_effect(new_job, running_class, position_controlled);
-    const bool weaker =
-        effect == OverrideEffect::abort_by_rank && stop_rank(job.mode) < stop_rank(running->mode);
+    const bool weaker = effect == OverrideEffect::abort_by_rank &&
+                        stop_rank(job.as<StopJob>().mode) < stop_rank(running->as<StopJob>().mode);
     if (effect == OverrideEffect::reject || weaker) return {rejection(new_job, running_class), {}};
     result.ends[slot] = effect == OverrideEffect::abort || effect == OverrideEffect::abort_by_rank;
   }
@@ -57,14 +57,14 @@ bool JobSlots::runs_or_waits(bool cam) const noexcept {
   return runs || of_kind(running_[kWaiting]) || of_kind(running_[kWaitingOut]);
 }
 
-int JobSlots::stop_rank(DINT mode) noexcept {
+int JobSlots::stop_rank(StopMode mode) noexcept {
   return mode == StopMode::emergency_ramp ? 3 : mode == StopMode::maximum_dynamics ? 2 : 1;
 }
 
 bool JobSlots::stops_harder_than(AlarmReaction reaction) const noexcept {
   const Job* const base = running_[kBase];
   return base != nullptr && base->kind == JobKind::MC_Stop &&
-         stop_rank(base->mode) > static_cast<int>(reaction);
+         stop_rank(base->as<StopJob>().mode) > static_cast<int>(reaction);
 }
 
 }  // namespace lockstep

@@ -79,7 +79,7 @@ class JobSlots {
   // ---- MC_Stop
 
   /// Strength of its stop reaction: emergency stop over maximum dynamics over given dynamics.
-  static int stop_rank(DINT mode) noexcept;
+  static int stop_rank(StopMode mode) noexcept;
   /// MC_Stop locks the axis while it runs, and while it is done with its Execute TRUE.
   void lock(const Job& stop) noexcept { stop_ = &stop; }
   void unlock() noexcept { stop_ = nullptr; }
@@ -88,7 +88,8 @@ class JobSlots {
     if (stop_ != nullptr && stop_->phase != JobPhase::done) stop_ = nullptr;
   }
   bool locked() const noexcept {
-    return stop_ != nullptr && (stop_->running() || (stop_->phase == JobPhase::done && stop_->hold));
+    return stop_ != nullptr &&
+           (stop_->running() || (stop_->phase == JobPhase::done && stop_->as<StopJob>().hold));
   }
   /// Whether a running MC_Stop stops harder than an alarm asks for: then it goes on.
   /// @source S7-1500T axis functions, MC_Stop, rank of stop reactions

@@ -51,8 +51,8 @@ void AxisOrders::start(Job& job) noexcept {
 /// Whether the state of the axis permits the job at all.
 ErrorId AxisOrders::check(const Job& job) const noexcept {
   if (job.kind == JobKind::MC_Home) return check_homing(job);
-  const bool stronger = job.kind == JobKind::MC_Stop &&
-                        JobSlots::stop_rank(job.mode) >= static_cast<int>(data.ErrorDetail.Reaction);
+  const bool stronger = job.kind == JobKind::MC_Stop && JobSlots::stop_rank(job.as<StopJob>().mode) >=
+                                                            static_cast<int>(data.ErrorDetail.Reaction);
   if (pending_alarm() != 0 && !stronger) return ErrorId::technology_alarm;
   if (!enabled()) return ErrorId::locked;
   if (jobs_.locked() && job.kind != JobKind::MC_Stop) return ErrorId::locked;

@@ -7,6 +7,23 @@
 #include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
+namespace {
+
+/// The position at which a job has its target; nullptr: it is a distance away.
+const LREAL* target_position(const Job& job) noexcept {
+  if (job.kind == JobKind::MC_Home) return &job.as<HomingJob>().position;
+  return job.kind == JobKind::MC_MoveAbsolute ? &job.as<MoveAbsoluteJob>().position : nullptr;
+}
+
+/// Whether two jobs of MC_MoveJog ask for the same motion.
+bool same_motion(const Job& one, const Job& other) noexcept {
+  return one.as<JogJob>().direction == other.as<JogJob>().direction && one.velocity == other.velocity &&
+         one.acceleration == other.acceleration && one.deceleration == other.deceleration &&
+         one.jerk == other.jerk;
+}
+
+}  // namespace
+
 // ---- Dynamics
 // ---------------------------------------------------------------------------------------------------
 
@@ -42,7 +59,7 @@ void AxisOrders::begin_base_motion(Job& job) noexcept {
   absorb_superimposed();
   cut_acceleration();
   Dynamics dynamics = own_dynamics(job);
-  if (job.kind == JobKind::MC_Stop && job.mode == StopMode::emergency_ramp)
+  if (job.kind == JobKind::MC_Stop && job.as<StopJob>().mode == StopMode::emergency_ramp)
     dynamics.jerk = 0.0;  // the emergency ramp has none
   if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
     raise(alarm_number);
@@ -83,19 +100,23 @@ ErrorId AxisOrders::target_refusal(const Job& job) const noexcept {
     default:
       return ErrorId::none;
   }
-  return std::abs(from + job.position) <= kPositionRange ? ErrorId::none : ErrorId::distance;
+  return std::abs(from + job.as<DistanceJob>().distance) <= kPositionRange ? ErrorId::none
+                                                                           : ErrorId::distance;
 }
 
 PlanResult AxisOrders::plan(Job& job, const Dynamics& dynamics) noexcept {
   switch (job.kind) {
     case JobKind::MC_MoveAbsolute:
-      return move_by(absolute_distance(job, setpoint_, beyond_target_, dynamics, modulo_), job, dynamics);
+      return move_by(
+          absolute_distance(job.as<MoveAbsoluteJob>(), setpoint_, beyond_target_, dynamics, modulo_), job,
+          dynamics);
     case JobKind::MC_MoveRelative:
-      return move_by(DoubleDouble{job.position, 0.0} - beyond_target_, job, dynamics);
+      return move_by(DoubleDouble{job.as<DistanceJob>().distance, 0.0} - beyond_target_, job, dynamics);
     case JobKind::MC_MoveVelocity: {
-      if (job.current) {  // from now on a velocity like any other, of which the override is part already
+      auto& asked = job.as<VelocityJob>();
+      if (asked.current) {  // from now on a velocity like any other, of which the override is part already
         const double own = data.Override.Velocity / 100.0;
-        job.current = false;
+        asked.current = false;
         job.velocity = own > 0.0 ? setpoint_.velocity / own : setpoint_.velocity;
         if (own > 0.0) return single_.run_at(setpoint_, setpoint_.velocity, maximum_for_current(dynamics));
       }
@@ -105,18 +126,24 @@ PlanResult AxisOrders::plan(Job& job, const Dynamics& dynamics) noexcept {
       return plan_homing(job, dynamics);
     case JobKind::MC_MoveJog:
       jogged_ = job;
-      return single_.run_at(setpoint_, dynamics.velocity * job.direction, dynamics);
+      return single_.run_at(setpoint_, dynamics.velocity * job.as<JogJob>().direction, dynamics);
     case JobKind::MC_Stop:
       jobs_.lock(job);
-      if (job.mode == StopMode::emergency_ramp) {
-        ask_for_emergency_ramp();
-        return single_.stop(setpoint_, limits_.emergency(), job.abort_acceleration);
-      }
-      if (job.mode == StopMode::maximum_dynamics)
-        return single_.stop(setpoint_, limits_.maximum(), job.abort_acceleration);
+      if (job.as<StopJob>().mode == StopMode::emergency_ramp) ask_for_emergency_ramp();
       [[fallthrough]];
     default:  // MC_Halt
-      return single_.stop(setpoint_, dynamics, job.abort_acceleration);
+      return plan_stop(job.as<StopJob>(), dynamics);
+  }
+}
+
+PlanResult AxisOrders::plan_stop(const StopJob& asked, const Dynamics& given) noexcept {
+  switch (asked.mode) {
+    case StopMode::emergency_ramp:
+      return single_.stop(setpoint_, limits_.emergency(), asked.abort_acceleration);
+    case StopMode::maximum_dynamics:
+      return single_.stop(setpoint_, limits_.maximum(), asked.abort_acceleration);
+    default:
+      return single_.stop(setpoint_, given, asked.abort_acceleration);
   }
 }
 
@@ -135,10 +162,9 @@ void AxisOrders::show_target(const AxisPosition& target) noexcept {
 PlanResult AxisOrders::move_by(DoubleDouble exact_way, const Job& job, const Dynamics& dynamics) noexcept {
   const double way = exact_way.rounded();
   AxisPosition target = advanced(setpoint_.position, exact_way, modulo_);
-  if (job.kind == JobKind::MC_MoveAbsolute || job.kind == JobKind::MC_Home) {
+  if (const LREAL* const given = target_position(job)) {
     // The way is rounded; the target is the given position itself.
-    const double given = job.kind == JobKind::MC_Home ? job.as<HomingJob>().position : job.position;
-    target.value = modulo_.enabled ? normalised({0, given}, modulo_).value : given;
+    target.value = modulo_.enabled ? normalised({0, *given}, modulo_).value : *given;
   }
   show_target(target);
   if (dynamics.velocity > 0.0) return single_.move_to(setpoint_, target, way, dynamics);
@@ -174,10 +200,7 @@ void AxisOrders::step_single_axis() noexcept {
 /// Limits and override count at once; so do the inputs of a jogging block. Seldom: not part of every cycle.
 [[gnu::noinline]] void AxisOrders::follow_changes(Job& job) noexcept {
   const bool jog = job.kind == JobKind::MC_MoveJog;
-  const bool inputs_changed =
-      jog && (job.direction != jogged_.direction || job.velocity != jogged_.velocity ||
-              job.acceleration != jogged_.acceleration || job.deceleration != jogged_.deceleration ||
-              job.jerk != jogged_.jerk);
+  const bool inputs_changed = jog && !same_motion(job, jogged_);
   if (!inputs_changed && !limits_.changed()) return;
   if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || leaves(job.kind)) return;
   limits_.remember();
@@ -211,7 +234,7 @@ void AxisOrders::watch_base_job(Job& job) noexcept {
       job.phase = JobPhase::reached;
       break;
     case JobKind::MC_MoveJog:
-      if (job.direction != 0) {
+      if (job.as<JogJob>().direction != 0) {
         job.phase = JobPhase::reached;
       } else {
         end_job(kBase, JobPhase::done, ErrorId::none);

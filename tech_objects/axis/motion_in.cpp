@@ -19,25 +19,26 @@ void AxisOrders::begin_motion_in(Job& job) noexcept {
 /// The values of the last call. Without Enable they go to zero at once, and the position stays.
 void AxisOrders::step_given() noexcept {
   const Job& job = *jobs_[kBase];
-  if (job.input_error != ErrorId::none) {
-    end_job(kBase, JobPhase::failed, job.input_error);
+  const auto& asked = job.as<MotionInJob>();
+  if (asked.error != ErrorId::none) {
+    end_job(kBase, JobPhase::failed, asked.error);
     begin_stop(limits_.maximum(), false);
     return step_single_axis();
   }
-  if (!job.hold) {
+  if (!asked.hold) {
     end_job(kBase, JobPhase::done, ErrorId::none);
     setpoint_.velocity = setpoint_.acceleration = 0.0;
     motion_ = Motion::single_axis;
     return single_.stand(setpoint_);
   }
   if (job.kind == JobKind::MC_MotionInPosition) {
-    setpoint_.position = next_to(setpoint_.position, job.position, modulo_);
+    setpoint_.position = next_to(setpoint_.position, asked.position, modulo_);
   } else {
-    const double way = 0.5 * (setpoint_.velocity + job.velocity) * period_;
+    const double way = 0.5 * (setpoint_.velocity + asked.velocity) * period_;
     setpoint_.position = advanced(setpoint_.position, way, modulo_);
   }
-  setpoint_.velocity = job.velocity;
-  setpoint_.acceleration = job.acceleration;
+  setpoint_.velocity = asked.velocity;
+  setpoint_.acceleration = asked.acceleration;
   set_bit(data.StatusMotionIn.StatusWord, MotionInBit::MaxVelocityExceeded,
           std::abs(setpoint_.velocity) > data.DynamicLimits.MaxVelocity);
 }

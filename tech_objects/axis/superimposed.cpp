@@ -118,15 +118,16 @@ void AxisOrders::follow_share() noexcept {
 
 /// MC_MotionInSuperimposed: the values of the last call. Without Enable they go to zero at once.
 void AxisOrders::follow_given_superimposed(Job& job) noexcept {
-  if (job.input_error != ErrorId::none) {
-    end_job(kSuperimposed, JobPhase::failed, job.input_error);
+  const auto& asked = job.as<MotionInJob>();
+  if (asked.error != ErrorId::none) {
+    end_job(kSuperimposed, JobPhase::failed, asked.error);
     return superimposed_.brake(base_motion(), limits_);
   }
-  if (!job.hold) {
+  if (!asked.hold) {
     superimposed_.rest();
     return end_job(kSuperimposed, JobPhase::done, ErrorId::none);
   }
-  superimposed_.give(job.position, job.velocity, job.acceleration);
+  superimposed_.give(asked.position, asked.velocity, asked.acceleration);
 }
 
 void AxisOrders::add_superimposed() noexcept {

@@ -55,7 +55,8 @@ PlanResult SuperimposedMotion::begin_motion(const Job& job, const BaseMotion& ba
   const bool halts = job.kind == JobKind::MC_HaltSuperimposed;
   wanted_.velocity = halts ? limits.velocity() : limits.velocity_or_default(job);
   const Dynamics share = quick_enough(first_share(base, limits), base, limits);
-  return halts ? part_.stop(share, job.abort_acceleration) : part_.move_by(job.position, share);
+  return halts ? part_.stop(share, job.as<StopJob>().abort_acceleration)
+               : part_.move_by(job.as<DistanceJob>().distance, share);
 }
 
 void SuperimposedMotion::brake(const BaseMotion& base, MotionLimits& limits) noexcept {
@@ -191,7 +192,7 @@ bool SuperimposedMotion::stays_against(const BaseMotion& base, const Job* job,
     case JobKind::MC_MoveVelocity:
       return side * job->velocity <= 0.0;
     case JobKind::MC_MoveJog:
-      return side * job->direction <= 0;
+      return side * job->as<JogJob>().direction <= 0;
     case JobKind::MC_MoveAbsolute:
     case JobKind::MC_MoveRelative:  // with less it may pass its target and come back
       return dynamics.deceleration >= before.deceleration && !less_jerk;

@@ -61,10 +61,11 @@ void ask_for_cam(const CamJob& cam, CouplingRequest& request) noexcept {
 
 CouplingRequest coupling_request(const Job& job, const LeadingValue& leading,
                                  const Dynamics& dynamics) noexcept {
-  CouplingRequest request{.source = leading.source,
-                          .coupling = leading.coupling,
-                          .velocity_only = job.kind == JobKind::MC_GearInVelocity,
-                          .dynamics = dynamics};
+  CouplingRequest request;
+  request.source = leading.source;
+  request.coupling = leading.coupling;
+  request.velocity_only = job.kind == JobKind::MC_GearInVelocity;
+  request.dynamics = dynamics;
   if (job.kind == JobKind::MC_CamIn)
     ask_for_cam(job.as<CamJob>(), request);
   else

@@ -30,7 +30,7 @@ double beyond_stopping_distance(double distance, const Setpoint& from, const Dyn
 
 }  // namespace
 
-double absolute_distance(const Job& job, double here, const Modulo& modulo) noexcept {
+double absolute_distance(const MoveAbsoluteJob& job, double here, const Modulo& modulo) noexcept {
   if (!modulo.enabled) return job.position - here;
   const double target = normalised({0, job.position}, modulo).value;
   const double shortest = shortest_distance(here, target, modulo);
@@ -39,7 +39,7 @@ double absolute_distance(const Job& job, double here, const Modulo& modulo) noex
                                               : negative_distance(here, target, modulo);
 }
 
-DoubleDouble absolute_distance(const Job& job, const Setpoint& from, DoubleDouble beyond_target,
+DoubleDouble absolute_distance(const MoveAbsoluteJob& job, const Setpoint& from, DoubleDouble beyond_target,
                                const Dynamics& dynamics, const Modulo& modulo) noexcept {
   const bool directed = modulo.enabled && job.direction != Direction::shortest;
   const auto reachable = [&](double distance) noexcept {

@@ -102,16 +102,17 @@ ErrorId AxisOrders::check_at_fixed_stop(const Job& job) const noexcept {
     case JobKind::MC_HaltSuperimposed:
       return ErrorId::none;
     case JobKind::MC_MoveAbsolute:
-      return away_from_stop(absolute_distance(job, setpoint_.position.value, modulo_), side);
+      return away_from_stop(absolute_distance(job.as<MoveAbsoluteJob>(), setpoint_.position.value, modulo_),
+                            side);
     case JobKind::MC_MoveRelative:
     case JobKind::MC_MoveSuperimposed:
-      return away_from_stop(job.position, side);
+      return away_from_stop(job.as<DistanceJob>().distance, side);
     case JobKind::MC_MoveVelocity:
       if (!job.position_controlled) return ErrorId::fixed_stop_position_control;
-      return away_from_stop(job.current ? 0.0 : job.velocity, side);
+      return away_from_stop(job.as<VelocityJob>().current ? 0.0 : job.velocity, side);
     case JobKind::MC_MoveJog:
       if (!job.position_controlled) return ErrorId::fixed_stop_position_control;
-      return away_from_stop(job.direction, side);
+      return away_from_stop(job.as<JogJob>().direction, side);
     case JobKind::MC_Home:
       return class_of(job, false) == JobClass::home_active ? ErrorId::towards_fixed_stop : ErrorId::none;
     case JobKind::MC_GearInVelocity:

@@ -2,6 +2,7 @@
 /// plain struct per family. What all jobs have stands in `Job`.
 #pragma once
 
+#include "tech_objects/alarms/alarms.hpp"
 #include "tech_objects/arithmetic/double_double.hpp"
 #include "tech_objects/jobs/modes.hpp"
 #include "tech_objects/types/types.hpp"
@@ -30,6 +31,46 @@ struct HomingJob {
   // Written by the object.
   int direction{};        ///< in which an active homing heads
   LREAL mark_position{};  ///< position assigned to the homing mark [u]
+};
+
+// ---- Motion of axes of their own
+
+/// MC_MoveAbsolute.
+struct MoveAbsoluteJob {
+  LREAL position{};  ///< [u]
+  Direction direction{};
+};
+
+/// MC_MoveRelative, MC_MoveSuperimposed.
+struct DistanceJob {
+  LREAL distance{};  ///< [u]
+};
+
+/// MC_MoveVelocity, whose velocity has the sign of its direction.
+struct VelocityJob {
+  bool current = false;  ///< keep the present velocity
+};
+
+/// MC_MoveJog, whose inputs count in every cycle.
+struct JogJob {
+  int direction{};  ///< 1, -1; 0: it brakes
+};
+
+/// MC_Halt, MC_Stop, MC_HaltSuperimposed.
+struct StopJob {
+  StopMode mode = StopMode::given_dynamics;  ///< MC_Stop
+  bool abort_acceleration = false;           ///< drop a present acceleration at once
+  bool hold = false;  ///< MC_Stop: Execute is still TRUE, so the axis stays locked after the stop
+};
+
+/// MC_MotionInVelocity, MC_MotionInPosition, MC_MotionInSuperimposed, whose values are setpoints and count in
+/// every cycle.
+struct MotionInJob {
+  LREAL position{};               ///< MC_MotionInSuperimposed: the distance [u]
+  LREAL velocity{};               ///< [u/s]
+  LREAL acceleration{};           ///< [u/s²]
+  bool hold = true;               ///< Enable is still TRUE
+  ErrorId error = ErrorId::none;  ///< of an input of this call that is not permitted
 };
 
 // ---- Synchronous operation of axes
@@ -86,7 +127,7 @@ struct ShiftJob {
   LREAL start_position{};  ///< from which it is made [u] of the leading axis
 
   // Written by the axis.
-  LREAL covered{};    ///< share made so far [u]
+  LREAL covered{};      ///< share made so far [u]
   DoubleDouble base{};  ///< from which that share counts [u]
 };
 

@@ -98,34 +98,30 @@ enum class JobPhase : std::uint8_t {
 };
 
 /// What a job asks for besides, by the family of its kind; nothing for a job that only names its object.
-using JobFamily = std::variant<std::monostate, ResetJob, HomingJob, GearJob, CamJob, LeavingJob, ShiftJob,
-                               MeasuringJob, CamCopyJob>;
+using JobFamily =
+    std::variant<std::monostate, ResetJob, HomingJob, MoveAbsoluteJob, DistanceJob, VelocityJob, JogJob,
+                 StopJob, MotionInJob, GearJob, CamJob, LeavingJob, ShiftJob, MeasuringJob, CamCopyJob>;
 
-/// A request and its fate. It lives in the block that asks; the axis writes `phase` and `error`.
-/// Dynamic values: > 0 is used, < 0 stands for the default of the technology object (the block's pins decide
-/// what is permitted). Thread: the cycle.
+/// A request and its fate: what all jobs have, and what a family of instructions asks for. It lives in the
+/// block that asks; the object that carries it out writes `phase`, `error` and what its family says. Thread:
+/// the cycle.
 struct Job {
   /// The job of the same instance that waits behind another, and whose place this one takes; nullptr: none.
   const Job* replaces = nullptr;
   JobKind kind{};
   JobPhase phase = JobPhase::idle;
   ErrorId error = ErrorId::none;
-  JobFamily asks;
+  BufferMode buffer_mode{};
+  bool position_controlled = true;  ///< whether the axis is, from when the job moves it by a base motion
 
-  LREAL position{};           ///< target or distance [u]
-  LREAL velocity = -1.0;      ///< [u/s]
+  // Dynamic values of a motion, where its instruction has them: > 0 is used, < 0 stands for the default of
+  // the technology object (the block's pins decide what is permitted).
+  LREAL velocity = -1.0;      ///< [u/s]; of MC_MoveVelocity with its sign
   LREAL acceleration = -1.0;  ///< [u/s²]
   LREAL deceleration = -1.0;  ///< [u/s²]
   LREAL jerk = -1.0;          ///< [u/s³]; 0: trapezoidal
-  DINT direction{};           ///< Direction
-  DINT mode{};                ///< Mode
-  BOOL current{};             ///< MC_MoveVelocity: keep the present velocity
-  BOOL position_controlled = true;
-  BufferMode buffer_mode{};   ///< MC_MoveAbsolute, MC_MoveRelative, MC_MoveVelocity, MC_Halt
-  BOOL abort_acceleration{};  ///< drop a present acceleration at once
-  BOOL hold{};                ///< MC_Stop: Execute is still TRUE, so the axis stays locked after the stop;
-                              ///< MC_MotionIn…: Enable is still TRUE
-  ErrorId input_error{};      ///< MC_MotionIn…: an input of this call is not permitted
+
+  JobFamily asks;
 
   /// What a job of that family asks for; the kind says which it is.
   template <class Family>

@@ -18,14 +18,10 @@ struct PowerStopMode {
 };
 
 /// MC_Stop, Mode.
-struct StopMode {
-  enum : DINT { emergency_ramp = 0, maximum_dynamics = 2, given_dynamics = 3 };
-};
+enum class StopMode : DINT { emergency_ramp = 0, maximum_dynamics = 2, given_dynamics = 3 };
 
 /// MC_MoveAbsolute, Direction.
-struct Direction {
-  enum : DINT { positive = 1, negative = 2, shortest = 3 };
-};
+enum class Direction : DINT { positive = 1, negative = 2, shortest = 3 };
 
 /// MC_Home, Mode.
 enum class HomeMode : DINT {

@@ -7,10 +7,10 @@
 namespace lockstep {
 namespace {
 
-Job job_of(JobKind kind, DINT mode = 0) {
+Job job_of(JobKind kind, StopMode mode = StopMode::emergency_ramp) {
   Job job;
   job.kind = kind;
-  job.mode = mode;
+  job.asks = StopJob{.mode = mode};
   return job;
 }
 
@@ -38,7 +38,7 @@ TEST(JobSlots, TellWhomANewJobEnds) {
 
 TEST(JobSlots, EndNobodyWhereOneForbidsTheNewJob) {
   JobSlots jobs;
-  Job runs = job_of(JobKind::MC_Stop, 0), weaker = job_of(JobKind::MC_Stop, 3);
+  Job runs = job_of(JobKind::MC_Stop), weaker = job_of(JobKind::MC_Stop, StopMode::given_dynamics);
   jobs.put(kBase, runs, JobPhase::active);
   const Overriding effects = jobs.overriding(JobClass::stop, weaker, true);
   EXPECT_EQ(effects.refusal, ErrorId::locked);
@@ -48,14 +48,14 @@ TEST(JobSlots, EndNobodyWhereOneForbidsTheNewJob) {
 TEST(JobSlots, StayLockedByAStopThatIsDoneUntilItsExecuteFalls) {
   JobSlots jobs;
   Job stop = job_of(JobKind::MC_Stop);
-  stop.hold = true;
+  stop.as<StopJob>().hold = true;
   stop.phase = JobPhase::active;
   jobs.lock(stop);
   EXPECT_TRUE(jobs.locked());
   stop.phase = JobPhase::done;
   jobs.unlock_unless_done();
   EXPECT_TRUE(jobs.locked());
-  stop.hold = false;
+  stop.as<StopJob>().hold = false;
   EXPECT_FALSE(jobs.locked());
 }
 
