@@ -2,14 +2,9 @@
 
 namespace lockstep {
 
-void MC_SetAxisSTW::hand_over(Job& job) noexcept {
-  if (Axis->stopping() && !Axis->power.enable) {
-    job.phase = JobPhase::aborted;
-    return;
-  }
-  const ErrorId error = Axis->set_control_bits(STW1, STW1BitMask, STW2, STW2BitMask);
-  if (error != ErrorId::none) return job.fail(error);
-  job.phase = JobPhase::done;
+void MC_SetAxisSTW::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_SetAxisSTW;
+  job.asks = ControlBitsJob{.stw1 = STW1, .stw1_mask = STW1BitMask, .stw2 = STW2, .stw2_mask = STW2BitMask};
 }
 
 }  // namespace lockstep

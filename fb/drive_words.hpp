@@ -33,9 +33,8 @@ struct MC_SetAxisSTW final : ExecuteBlock {
 
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }
-  void request(Job& /*job*/) const noexcept override {}
+  void request(Job& job) const noexcept override;
   TechnologyObject* target() const noexcept override { return Axis; }
-  void hand_over(Job& job) noexcept override;
 };
 
 }  // namespace lockstep

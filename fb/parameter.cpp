@@ -9,24 +9,28 @@ constexpr DINT kLastCommunicationTime = 1012;
 
 }  // namespace
 
-void MC_WriteParameter::hand_over(Job& job) noexcept {
-  if (const ErrorId error = write(); error != ErrorId::none) return job.fail(error);
-  job.phase = JobPhase::done;
+void MC_WriteParameter::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_WriteParameter;
+  job.asks = LimitSwitchesJob{.active = Value == 1.0};
 }
 
-ErrorId MC_WriteParameter::write() const noexcept {
+void MC_WriteParameter::hand_over(Job& job) noexcept {
+  if (const ErrorId error = refusal(); error != ErrorId::none) return job.fail(error);
+  ExecuteBlock::hand_over(job);
+}
+
+ErrorId MC_WriteParameter::refusal() const noexcept {
   if (ParameterNumber >= kFirstCommunicationTime && ParameterNumber <= kLastCommunicationTime)
     return ErrorId::communication_times;
   if (ParameterNumber != kLimitSwitchesActive || !among(Axis->kind, kAnyAxis))
     return ErrorId::parameter_number;
-  if (Value != 0.0 && Value != 1.0) return ErrorId::parameter_type;
-  return static_cast<lockstep::Axis*>(Axis)->activate_limit_switches(Value == 1.0);
+  return Value == 0.0 || Value == 1.0 ? ErrorId::none : ErrorId::parameter_type;
 }
 
-void MC_SetSensor::hand_over(Job& job) noexcept {
-  const ErrorId error = Axis->set_sensor(Sensor, Mode, ReferenceSensor);
-  if (error != ErrorId::none) return job.fail(error);
-  job.phase = JobPhase::done;
+void MC_SetSensor::request(Job& job) const noexcept {
+  job.kind = JobKind::MC_SetSensor;
+  job.asks =
+      SensorJob{.sensor = Sensor, .mode = static_cast<SetSensorMode>(Mode), .reference = ReferenceSensor};
 }
 
 }  // namespace lockstep

@@ -29,12 +29,13 @@ struct MC_WriteParameter final : ExecuteBlock {
 
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }
-  void request(Job& /*job*/) const noexcept override {}
+  void request(Job& job) const noexcept override;
   TechnologyObject* target() const noexcept override { return Axis; }
   void hand_over(Job& job) noexcept override;
 
  private:
-  ErrorId write() const noexcept;
+  /// Why there is no such value to write.
+  ErrorId refusal() const noexcept;
 };
 
 /// Switches an axis to another of its encoders, or hands a position over from one to the other.
@@ -69,9 +70,8 @@ struct MC_SetSensor final : ExecuteBlock {
 
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }
-  void request(Job& /*job*/) const noexcept override {}
+  void request(Job& job) const noexcept override;
   TechnologyObject* target() const noexcept override { return Axis; }
-  void hand_over(Job& job) noexcept override;
 };
 
 }  // namespace lockstep

@@ -8,8 +8,8 @@ void MC_Power::call(std::int64_t /*now*/) noexcept {
   if (error == ErrorId::none || owns) {
     PowerRequest& power = Axis->power;
     if (error == ErrorId::none) {
-      power.start_mode = StartMode;
-      power.stop_mode = StopMode;
+      power.start_mode = static_cast<lockstep::StartMode>(StartMode);
+      power.stop_mode = static_cast<PowerStopMode>(StopMode);
     }
     // A mode that is not permitted enables nothing, and must not keep anything from being stopped.
     power.enable = Enable && (error == ErrorId::none || power.enable);

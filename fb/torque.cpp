@@ -50,7 +50,7 @@ ErrorId MC_TorqueLimiting::hold() const noexcept {
 
 void MC_TorqueLimiting::request() const noexcept {
   Axis->forces().limiting.limit = Limit;
-  Axis->forces().limiting.mode = Mode;
+  Axis->forces().limiting.mode = static_cast<TorqueLimitingMode>(Mode);
 }
 
 void MC_TorqueLimiting::show(bool active) noexcept {

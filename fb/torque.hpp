@@ -92,7 +92,9 @@ struct MC_TorqueLimiting final : TorqueBlock {
  protected:
   std::span<const Pin> pin_table() const noexcept override { return kPins; }
   const void*& owner() const noexcept override { return Axis->forces().limiting.owner; }
-  ErrorId refusal() const noexcept override { return Axis->torque_limiting_refusal(Mode); }
+  ErrorId refusal() const noexcept override {
+    return Axis->torque_limiting_refusal(static_cast<TorqueLimitingMode>(Mode));
+  }
   ErrorId check_together() const noexcept override;
   ErrorId hold() const noexcept override;
   void request() const noexcept override;

@@ -123,7 +123,7 @@ void AxisOrders::take_up_motion() noexcept {
   lead_with_position_control(controlled);
 }
 
-void AxisOrders::begin_braking(INT stop_mode) noexcept {
+void AxisOrders::begin_braking(PowerStopMode stop_mode) noexcept {
   end_all_jobs(JobPhase::aborted, ErrorId::none);
   if (has_drive_ && (stop_mode == PowerStopMode::quick_stop || stop_mode == PowerStopMode::coast_down)) {
     const bool stops = stop_mode == PowerStopMode::quick_stop && power_state_ != PowerState::switching_on;

@@ -26,25 +26,20 @@ class Axis final : public AxisOrders {
 
   // ---- Cycle: called by blocks
   // ------------------------------------------------------------------------------------
+  // They reach an axis by jobs and by claims alone; everything else they only look at. Claims are requests
+  // with an owner: `power`, `additive_request`, `simulation_request` and those of `forces`.
 
-  /// Hands a job over; it starts at the next interpolator tick. With no space left it fails with 16#8014 at
-  /// once. The job stays where it is until it has ended.
+  /// Hands a job over; it starts at the next interpolator tick, and one that acts at once is over already.
+  /// With no space left it fails with 16#8014 at once. The job stays where it is until it has ended.
   void submit(Job& job) noexcept override;
 
-  /// Requests of the torque blocks, which write them only when nothing is refused, and what has become of
+  /// Claims of the torque blocks, which write them only when nothing is refused, and what has become of
   /// them.
   AxisForces& forces() noexcept { return forces_; }
   const Clamping& clamping() const noexcept { return clamping_; }
-  ErrorId torque_limiting_refusal(DINT mode) const noexcept;
+  ErrorId torque_limiting_refusal(TorqueLimitingMode mode) const noexcept;
   ErrorId torque_range_refusal() const noexcept;
   ErrorId torque_additive_refusal() const noexcept;
-  /// Drives bits of the control words that the axis does not use itself: STW1 8, 9, 11 to 15, STW2 0 to 11.
-  /// They stay until the next call or a restart.
-  ErrorId set_control_bits(WORD stw1, WORD stw1_mask, WORD stw2, WORD stw2_mask) noexcept;
-  /// What MC_WriteParameter may write at run time.
-  ErrorId activate_limit_switches(bool active) noexcept;
-  /// MC_SetSensor, at once. @param sensor, reference 1 to 4
-  ErrorId set_sensor(DINT sensor, DINT mode, DINT reference) noexcept;
 
   // ---- Cycle: called by the scheduler
   // -----------------------------------------------------------------------------
@@ -106,6 +101,15 @@ class Axis final : public AxisOrders {
   /// of a run.
   double largest_synchronous_deviation() const noexcept { return largest_deviation_; }
   bool was_synchronous() const noexcept { return was_synchronous_; }
+
+ private:
+  /// A job that acts at once.
+  ErrorId carry_out(const Job& job) noexcept;
+  /// Drives bits of the control words that the axis does not use itself: STW1 8, 9, 11 to 15, STW2 0 to 11.
+  /// They stay until the next such job or a restart.
+  ErrorId set_control_bits(const ControlBitsJob& job) noexcept;
+  ErrorId activate_limit_switches(bool active) noexcept;
+  ErrorId set_sensor(const SensorJob& job) noexcept;
 };
 
 }  // namespace lockstep

@@ -22,7 +22,7 @@ class AxisOrders : public AxisParts {
   void step_power() noexcept;
   void switch_on() noexcept;
   void take_up_motion() noexcept;
-  void begin_braking(INT stop_mode) noexcept;
+  void begin_braking(PowerStopMode stop_mode) noexcept;
   void switch_off() noexcept;
   void follow_actual() noexcept;
   void set_position_control(bool on) noexcept;

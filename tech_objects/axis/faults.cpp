@@ -65,16 +65,16 @@ void AxisOrders::control_drive(std::uint16_t stw1) noexcept {
   sent_stw1_ = stw1;
 }
 
-ErrorId Axis::set_control_bits(WORD stw1, WORD stw1_mask, WORD stw2, WORD stw2_mask) noexcept {
-  const auto mask1 = static_cast<std::uint16_t>(stw1_mask);
-  const auto mask2 = static_cast<std::uint16_t>(stw2_mask);
+ErrorId Axis::set_control_bits(const ControlBitsJob& job) noexcept {
+  const auto mask1 = static_cast<std::uint16_t>(job.stw1_mask);
+  const auto mask2 = static_cast<std::uint16_t>(job.stw2_mask);
   if ((mask1 & ~kFreeBits1) != 0 || (mask2 & ~kFreeBits2) != 0) return ErrorId::control_bits;
   if (!has_drive_) return ErrorId::unspecified;
   const auto changed = [](std::uint16_t word, WORD bits, std::uint16_t mask) {
     return static_cast<std::uint16_t>((word & ~mask) | (static_cast<std::uint16_t>(bits) & mask));
   };
-  free_bits_.stw1 = changed(free_bits_.stw1, stw1, mask1);
-  free_bits_.stw2 = changed(free_bits_.stw2, stw2, mask2);
+  free_bits_.stw1 = changed(free_bits_.stw1, job.stw1, mask1);
+  free_bits_.stw2 = changed(free_bits_.stw2, job.stw2, mask2);
   control_drive(sent_stw1_);
   return ErrorId::none;
 }

@@ -39,7 +39,7 @@ double factor_of(const Factor (&table)[N], UDINT unit) noexcept {
 
 }  // namespace
 
-ErrorId AxisForces::limiting_refusal(DINT mode, bool enabled) const noexcept {
+ErrorId AxisForces::limiting_refusal(TorqueLimitingMode mode, bool enabled) const noexcept {
   if (range.owner != nullptr) return ErrorId::torque_limits_exclude;
   return mode == TorqueLimitingMode::fixed_stop_detection && !enabled ? ErrorId::locked : ErrorId::none;
 }

@@ -5,6 +5,7 @@
 #include "tech_objects/alarms/alarms.hpp"
 #include "tech_objects/data_blocks/data_block.hpp"
 #include "tech_objects/drive/drive.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 
@@ -12,7 +13,7 @@ namespace lockstep {
 struct TorqueLimitingRequest {
   const void* owner = nullptr;  ///< nullptr: not active
   LREAL limit = -1.0;           ///< < 0: TorqueLimiting.LimitDefaults
-  DINT mode{};                  ///< TorqueLimitingMode
+  TorqueLimitingMode mode{};
 };
 /// What MC_TorqueRange wants.
 struct TorqueRangeRequest {
@@ -35,7 +36,7 @@ class AxisForces {
   TorqueAdditiveRequest additive;
 
   /// Limiting and range exclude each other; a fixed stop is detected of an enabled axis only.
-  ErrorId limiting_refusal(DINT mode, bool enabled) const noexcept;
+  ErrorId limiting_refusal(TorqueLimitingMode mode, bool enabled) const noexcept;
   ErrorId range_refusal() const noexcept;
 
   /// Whether the drive has to be told of something, or that there is nothing any more.

@@ -15,7 +15,24 @@ constexpr int kLongestChain = 65536;
 }  // namespace
 
 void Axis::submit(Job& job) noexcept {
-  jobs_.submit(job);
+  if (!acts_at_once(job.kind)) return jobs_.submit(job);
+  if (job.kind == JobKind::MC_SetAxisSTW && stopping() && !power.enable) {
+    job.phase = JobPhase::aborted;  // by disabling, like all jobs
+    return;
+  }
+  if (const ErrorId error = carry_out(job); error != ErrorId::none) return job.fail(error);
+  job.phase = JobPhase::done;
+}
+
+ErrorId Axis::carry_out(const Job& job) noexcept {
+  switch (job.kind) {
+    case JobKind::MC_SetSensor:
+      return set_sensor(job.as<SensorJob>());
+    case JobKind::MC_SetAxisSTW:
+      return set_control_bits(job.as<ControlBitsJob>());
+    default:  // MC_WriteParameter
+      return activate_limit_switches(job.as<LimitSwitchesJob>().active);
+  }
 }
 
 void Axis::start_jobs() noexcept {

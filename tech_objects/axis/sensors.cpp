@@ -84,25 +84,26 @@ void AxisOrders::read_encoders(DriveActual& now) noexcept {
 // ---- MC_SetSensor
 // ---------------------------------------------------------------------------------------------------
 
-ErrorId Axis::set_sensor(DINT sensor, DINT mode, DINT reference) noexcept {
+ErrorId Axis::set_sensor(const SensorJob& job) noexcept {
   const auto exists = [this](DINT number) { return data.Sensor[number - 1].Existent; };
   const auto valid = [this](DINT number) {
     return data.StatusSensor[number - 1].State == SensorState::valid;
   };
-  if (!exists(sensor)) return ErrorId::sensor;
-  if (mode == SetSensorMode::copy_from_reference && (!exists(reference) || reference == sensor))
+  if (!exists(job.sensor)) return ErrorId::sensor;
+  const bool from_reference = job.mode == SetSensorMode::copy_from_reference;
+  const bool from_axis = job.mode == SetSensorMode::copy_from_axis;
+  if (from_reference && (!exists(job.reference) || job.reference == job.sensor))
     return ErrorId::reference_sensor;
   if (homing_now_) return ErrorId::homing_active;
-  if (!valid(sensor) || (mode == SetSensorMode::copy_from_reference && !valid(reference)) ||
-      (mode == SetSensorMode::copy_from_axis && encoders_.lost()))
+  if (!valid(job.sensor) || (from_reference && !valid(job.reference)) || (from_axis && encoders_.lost()))
     return ErrorId::actual_values_invalid;
-  const auto target = static_cast<std::size_t>(sensor - 1);
-  if (mode == SetSensorMode::copy_from_axis) {
+  const auto target = static_cast<std::size_t>(job.sensor - 1);
+  if (from_axis) {
     place_encoder(target, actual_);
-  } else if (mode == SetSensorMode::copy_from_reference) {
-    place_encoder(target, encoders_.position(static_cast<std::size_t>(reference - 1), actual_));
+  } else if (from_reference) {
+    place_encoder(target, encoders_.position(static_cast<std::size_t>(job.reference - 1), actual_));
   } else if (target != encoders_.operative()) {
-    switch_encoder(target, mode == SetSensorMode::switch_aligned);
+    switch_encoder(target, job.mode == SetSensorMode::switch_aligned);
   }
   return ErrorId::none;
 }

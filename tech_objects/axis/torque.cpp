@@ -11,7 +11,7 @@ namespace lockstep {
 // ---- Limits
 // ------------------------------------------------------------------------------------------------------
 
-ErrorId Axis::torque_limiting_refusal(DINT mode) const noexcept {
+ErrorId Axis::torque_limiting_refusal(TorqueLimitingMode mode) const noexcept {
   return has_drive_ ? forces_.limiting_refusal(mode, enabled()) : ErrorId::no_torque_reduction;
 }
 

@@ -33,6 +33,28 @@ struct HomingJob {
   LREAL mark_position{};  ///< position assigned to the homing mark [u]
 };
 
+// ---- Settings of axes
+
+/// MC_SetSensor.
+struct SensorJob {
+  DINT sensor = 1;  ///< 1 to 4
+  SetSensorMode mode{};
+  DINT reference = 1;  ///< 1 to 4; copy_from_reference: whose position is taken
+};
+
+/// MC_SetAxisSTW: bits of both control words, those that the masks have.
+struct ControlBitsJob {
+  WORD stw1{};
+  WORD stw1_mask{};
+  WORD stw2{};
+  WORD stw2_mask{};
+};
+
+/// MC_WriteParameter, of PositionLimits_HW.Active.
+struct LimitSwitchesJob {
+  bool active = false;
+};
+
 // ---- Motion of axes of their own
 
 /// MC_MoveAbsolute.

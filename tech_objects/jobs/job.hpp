@@ -41,9 +41,17 @@ enum class JobKind : std::uint8_t {
   MC_MeasuringInputCyclic,
   MC_AbortMeasuringInput,
   MC_InterpolateCam,
-  MC_CopyCamData
+  MC_CopyCamData,
+  MC_SetSensor,
+  MC_SetAxisSTW,
+  MC_WriteParameter
 };
 
+/// Whether an axis carries it out in the call that hands it over, and not at its next tick.
+constexpr bool acts_at_once(JobKind kind) noexcept {
+  return kind == JobKind::MC_SetSensor || kind == JobKind::MC_SetAxisSTW ||
+         kind == JobKind::MC_WriteParameter;
+}
 /// Whether it couples the axis to a leading value.
 constexpr bool couples(JobKind kind) noexcept {
   return kind == JobKind::MC_GearIn || kind == JobKind::MC_GearInPos || kind == JobKind::MC_GearInVelocity ||
@@ -98,9 +106,9 @@ enum class JobPhase : std::uint8_t {
 };
 
 /// What a job asks for besides, by the family of its kind; nothing for a job that only names its object.
-using JobFamily =
-    std::variant<std::monostate, ResetJob, HomingJob, MoveAbsoluteJob, DistanceJob, VelocityJob, JogJob,
-                 StopJob, MotionInJob, GearJob, CamJob, LeavingJob, ShiftJob, MeasuringJob, CamCopyJob>;
+using JobFamily = std::variant<std::monostate, ResetJob, SensorJob, ControlBitsJob, LimitSwitchesJob,
+                               HomingJob, MoveAbsoluteJob, DistanceJob, VelocityJob, JogJob, StopJob,
+                               MotionInJob, GearJob, CamJob, LeavingJob, ShiftJob, MeasuringJob, CamCopyJob>;
 
 /// A request and its fate: what all jobs have, and what a family of instructions asks for. It lives in the
 /// block that asks; the object that carries it out writes `phase`, `error` and what its family says. Thread:

@@ -8,17 +8,24 @@
 namespace lockstep {
 
 /// MC_Power, StartMode.
-struct StartMode {
-  enum : DINT { without_position_control = 0, position_control = 1 };
-};
+enum class StartMode : DINT { without_position_control = 0, position_control = 1 };
 
 /// MC_Power, StopMode.
-struct PowerStopMode {
-  enum : INT { emergency_ramp = 0, quick_stop = 1, maximum_dynamics = 2, coast_down = 3 };
-};
+enum class PowerStopMode : INT { emergency_ramp = 0, quick_stop = 1, maximum_dynamics = 2, coast_down = 3 };
 
 /// MC_Stop, Mode.
 enum class StopMode : DINT { emergency_ramp = 0, maximum_dynamics = 2, given_dynamics = 3 };
+
+/// MC_SetSensor, Mode.
+enum class SetSensorMode : DINT {
+  switch_aligned = 0,      ///< the actual position goes along
+  switch_as_it_is = 1,     ///< the difference becomes a control deviation
+  copy_from_axis = 2,      ///< no switch-over
+  copy_from_reference = 3  ///< no switch-over
+};
+
+/// MC_TorqueLimiting, Mode.
+enum class TorqueLimitingMode : DINT { limiting = 0, fixed_stop_detection = 1 };
 
 /// MC_MoveAbsolute, Direction.
 enum class Direction : DINT { positive = 1, negative = 2, shortest = 3 };

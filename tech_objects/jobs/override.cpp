@@ -111,6 +111,9 @@ JobClass class_of(const Job& job, bool active) noexcept {
     case JobKind::MC_Reset:
     case JobKind::MC_InterpolateCam:
     case JobKind::MC_CopyCamData:
+    case JobKind::MC_SetSensor:
+    case JobKind::MC_SetAxisSTW:
+    case JobKind::MC_WriteParameter:
       break;  // stand beside the tables
   }
   return JobClass::home_direct;

@@ -7,6 +7,7 @@
 
 #include "tech_objects/arithmetic/axis_position.hpp"
 #include "tech_objects/arithmetic/cache_line.hpp"
+#include "tech_objects/jobs/modes.hpp"
 #include "tech_objects/objects/extrapolation.hpp"
 #include "tech_objects/objects/technology_object.hpp"
 #include "tech_objects/synchronous/leading_source.hpp"
@@ -17,8 +18,8 @@ namespace lockstep {
 struct PowerRequest {
   const void* owner = nullptr;  ///< the instance of MC_Power in charge; nullptr: none yet
   BOOL enable{};
-  DINT start_mode = 1;  ///< 0: without, 1: with position control
-  INT stop_mode{};      ///< 0 emergency ramp, 1 quick stop, 2 maximum dynamics, 3 coast down
+  StartMode start_mode = StartMode::position_control;
+  PowerStopMode stop_mode{};
 };
 
 /// A technology object with a position that following axes follow. It is stepped before them. The functions

@@ -32,16 +32,6 @@ struct SensorState {
   enum : DINT { not_valid = 0, valid = 2 };
 };
 
-/// MC_SetSensor, Mode.
-struct SetSensorMode {
-  enum : DINT {
-    switch_aligned = 0,      ///< the actual position goes along
-    switch_as_it_is = 1,     ///< the difference becomes a control deviation
-    copy_from_axis = 2,      ///< no switch-over
-    copy_from_reference = 3  ///< no switch-over
-  };
-};
-
 /// TorqueLimiting.LimitBase.
 struct LimitBase {
   enum : DINT { motor_side = 0, load_side = 1 };
@@ -50,11 +40,6 @@ struct LimitBase {
 /// TorqueLimiting.PositionBasedMonitors.
 struct PositionBasedMonitors {
   enum : DINT { deactivated = 0, activated = 1 };
-};
-
-/// MC_TorqueLimiting, Mode.
-struct TorqueLimitingMode {
-  enum : DINT { limiting = 0, fixed_stop_detection = 1 };
 };
 
 /// PositionLimits_HW.Mode.

@@ -124,7 +124,11 @@ TEST(AnotherDrive, LosesItsTorqueByAFaultThatMC_ResetAcknowledges) {
 TEST(AnotherDrive, WithoutSignalsHasNoMarkToHomeAt) {
   Stepping rig;
   EXPECT_FALSE(rig.a.drive().signals().zero_marks.has_value());
-  EXPECT_EQ(rig.a.activate_limit_switches(true), ErrorId::limit_switches_missing);
+  Job job;
+  job.kind = JobKind::MC_WriteParameter;
+  job.asks = LimitSwitchesJob{.active = true};
+  rig.a.submit(job);
+  EXPECT_EQ(job.error, ErrorId::limit_switches_missing);
 }
 
 TEST(DriveModels, AreFoundByTheNamesOfProjects) {

@@ -136,7 +136,7 @@ TEST(SpeedAxis, IsLimitedInItsTorqueButFindsNoFixedStop) {
   limiting.Mode = 1;
   rig.run(5);
   EXPECT_EQ(limiting.ErrorID, static_cast<WORD>(ErrorId::mode)) << "in every call";
-  EXPECT_EQ(rig.fan.forces().limiting.mode, 0) << "the last permitted one goes on";
+  EXPECT_EQ(rig.fan.forces().limiting.mode, TorqueLimitingMode::limiting) << "the last permitted one goes on";
 }
 
 TEST(SpeedAxis, StopsWhenItIsDisabledWhateverTheStopMode) {
