@@ -37,8 +37,9 @@ void MC_MoveRelative::request(Job& job) const noexcept {
 void MC_MoveVelocity::request(Job& job) const noexcept {
   job.kind = JobKind::MC_MoveVelocity;
   take_inputs(*this, job);
-  if (Direction == 1) job.velocity = std::abs(Velocity);
-  if (Direction == 2) job.velocity = -std::abs(Velocity);
+  const auto direction = static_cast<lockstep::Direction>(Direction);
+  if (direction == lockstep::Direction::positive) job.velocity = std::abs(Velocity);
+  if (direction == lockstep::Direction::negative) job.velocity = -std::abs(Velocity);
   job.asks = VelocityJob{.current = Current};
   job.position_controlled = PositionControlled;
 }

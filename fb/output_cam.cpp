@@ -42,19 +42,23 @@ OutputCamRequest MC_OutputCam::wanted() const noexcept {
           .on_position = OnPosition,
           .off_position = OffPosition,
           .duration = Duration,
-          .mode = Mode,
-          .direction = Direction};
+          .mode = static_cast<OutputCamMode>(Mode),
+          .direction = static_cast<PublishedDirection>(Direction)};
 }
 
 void MC_CamTrack::request() const noexcept {
-  CamTrack->request = {.owner = this, .enable = true, .mode = Mode, .invert = InvertOutput, .called = true};
+  CamTrack->request = {.owner = this,
+                       .enable = true,
+                       .mode = static_cast<CamTrackMode>(Mode),
+                       .invert = InvertOutput,
+                       .called = true};
 }
 
 /// A track of Mode 1 runs to its end, and this instance stays in charge until then.
 void MC_CamTrack::let_go() const noexcept {
   CamTrack->request.enable = false;
-  if (Mode >= 0 && Mode <= 2) CamTrack->request.mode = Mode;
-  if (CamTrack->request.mode != 1 || !CamTrack->active()) CamTrack->request = {};
+  if (Mode >= 0 && Mode <= 2) CamTrack->request.mode = static_cast<CamTrackMode>(Mode);
+  if (CamTrack->request.mode != CamTrackMode::next_track || !CamTrack->active()) CamTrack->request = {};
 }
 
 }  // namespace lockstep

@@ -27,7 +27,17 @@ enum class SetSensorMode : DINT {
 /// MC_TorqueLimiting, Mode.
 enum class TorqueLimitingMode : DINT { limiting = 0, fixed_stop_detection = 1 };
 
-/// MC_MoveAbsolute, Direction.
+/// MC_OutputCam, Mode.
+enum class OutputCamMode : DINT { normal = 1, inverted = 2, always_on = 3 };
+
+/// MC_CamTrack, Mode.
+enum class CamTrackMode : DINT {
+  at_once = 0,     ///< changes and the end count at once
+  next_track = 1,  ///< … when the track is over
+  always_on = 2
+};
+
+/// MC_MoveAbsolute, MC_MoveVelocity (0: by the sign of the velocity), Direction.
 enum class Direction : DINT { positive = 1, negative = 2, shortest = 3 };
 
 /// MC_Home, Mode.
@@ -82,7 +92,8 @@ enum class SyncOutProfileReference : DINT {
   cancel_waiting = 5  ///< ends what waits
 };
 
-/// Pins SyncDirection, SyncOutDirection and Direction of a shift: of the axis, or of the leading value.
+/// Pins SyncDirection, SyncOutDirection and Direction of a shift: of the axis, or of the leading value; and
+/// Direction of MC_OutputCam.
 enum class PublishedDirection : DINT { positive = 1, negative = 2, either = 3 };
 
 /// Pin ApplicationMode of MC_CamIn.

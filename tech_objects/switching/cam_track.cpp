@@ -11,10 +11,6 @@ namespace {
 constexpr DINT kInactive = 0;
 constexpr DINT kActive = 1;
 constexpr DINT kWaitsForNextCycle = 2;
-/// Values of Mode.
-constexpr DINT kAtOnce = 0;
-constexpr DINT kNextTrack = 1;
-constexpr DINT kAlwaysOn = 2;
 
 }  // namespace
 
@@ -86,7 +82,7 @@ void CamTrack::servo(std::int64_t now) noexcept {
     active_data_ = data.Parameter;
     waiting_ = false;
   }
-  const bool goes_on = active_ && request.owner != nullptr && request.mode == kNextTrack;
+  const bool goes_on = active_ && request.owner != nullptr && request.mode == CamTrackMode::next_track;
   if (!faulty() && (request.enable || goes_on)) {
     take_data();
     const int alarm_number = alarm_of();
@@ -128,7 +124,7 @@ double CamTrack::place_of(double position) const noexcept {
 void CamTrack::process(Edges& edges) noexcept {
   if (!has_position()) return stop(path_.time(), edges);
   const Stretch& way = path_.stretch();
-  const bool at_once = waiting_ && request.mode != kNextTrack;
+  const bool at_once = waiting_ && request.mode != CamTrackMode::next_track;
   if (!active_ || !path_.moved() || at_once) {
     if (at_once) {
       stop(way.to_time, edges);  // time cams that run are ended
@@ -228,7 +224,7 @@ void CamTrack::Edges::add(std::size_t cam, const SwitchingEdges& edges) noexcept
 
 /// The state of the output at this tick, and when it has changed since the one before.
 void CamTrack::show(const Edges& edges) noexcept {
-  const bool always = active_ && request.mode == kAlwaysOn;
+  const bool always = active_ && request.mode == CamTrackMode::always_on;
   bool last = output();
   for (std::size_t i = 0; i < edges.count; ++i) {
     const Edges::Edge& edge = edges.list[i];

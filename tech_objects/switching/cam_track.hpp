@@ -14,7 +14,7 @@ namespace lockstep {
 struct CamTrackRequest {
   const void* owner = nullptr;  ///< nullptr: none
   BOOL enable{};
-  DINT mode = 1;  ///< 0 changes act at once, 1 with the next track, 2 output on
+  CamTrackMode mode = CamTrackMode::next_track;
   BOOL invert{};
   BOOL called{};  ///< the data of the object are to be taken over
 };

@@ -9,9 +9,6 @@ namespace {
 /// Values of Parameter.OutputCamType.
 constexpr DINT kTimeCam = 1;
 constexpr DINT kSwitchingCam = 2;
-/// Values of Mode.
-constexpr DINT kInverted = 2;
-constexpr DINT kAlwaysOn = 3;
 
 }  // namespace
 
@@ -45,7 +42,7 @@ SwitchingShape OutputCam::shape() const noexcept {
 /// Why these data cannot be processed; 0: they can.
 int OutputCam::alarm_of(const SwitchingShape& shape) const noexcept {
   if (!position_valid()) return alarm::kPositionInvalid;
-  if (request.mode == kAlwaysOn) return 0;
+  if (request.mode == OutputCamMode::always_on) return 0;
   if (shape.timed ? shape.duration + shape.on_lead <= shape.off_lead : shape.on == shape.off)
     return alarm::kOutputCamData;
   return leads_within_range(std::max(shape.on_lead, shape.off_lead)) ? 0 : alarm::kSwitchingPosition;
@@ -72,8 +69,8 @@ void OutputCam::servo(std::int64_t now) noexcept {
     cam_.end(path_.time(), edges);
     active_ = false;
   }
-  inverted_ = active_ && request.mode == kInverted;
-  show(active_ && (request.mode == kAlwaysOn || cam_.on() != inverted_), edges);
+  inverted_ = active_ && request.mode == OutputCamMode::inverted;
+  show(active_ && (request.mode == OutputCamMode::always_on || cam_.on() != inverted_), edges);
   finish();
 }
 
@@ -105,7 +102,7 @@ void OutputCam::step_cam(const SwitchingShape& shape, SwitchingEdges& edges) noe
 
 /// The state of the output at this tick, and when it has changed since the one before.
 void OutputCam::show(bool on, const SwitchingEdges& edges) noexcept {
-  const bool by_cam = active_ && request.mode != kAlwaysOn;
+  const bool by_cam = active_ && request.mode != OutputCamMode::always_on;
   bool shown = output();
   for (std::size_t i = 0; by_cam && i < edges.count; ++i) {
     const bool to = edges.list[i].on != inverted_;

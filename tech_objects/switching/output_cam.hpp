@@ -16,8 +16,8 @@ struct OutputCamRequest {
   LREAL on_position{};   ///< [u]
   LREAL off_position{};  ///< [u]
   LREAL duration{};      ///< [ms]
-  DINT mode = 1;
-  DINT direction = 1;
+  OutputCamMode mode = OutputCamMode::normal;
+  PublishedDirection direction = PublishedDirection::positive;
 };
 
 class OutputCam final : public SwitchingObject<OutputCamData, ProcessingEnd::output_cam> {

@@ -11,6 +11,7 @@
 
 #include "tech_objects/data_blocks/object_bits.hpp"
 #include "tech_objects/data_blocks/output_cam.hpp"
+#include "tech_objects/jobs/modes.hpp"
 #include "tech_objects/jobs/new_jobs.hpp"
 #include "tech_objects/objects/object_alarms.hpp"
 #include "tech_objects/switching/single_cam.hpp"
