@@ -1,17 +1,19 @@
 /// An axis: TO_SpeedAxis, TO_PositioningAxis and TO_SynchronousAxis. It owns its motion; a function block
 /// only asks.
 ///
+/// It is an order of calls over its families, and the one place in which a tick begins and ends.
+///
 /// In the interpolator each axis goes through start_jobs → step → guard → publish, leading axes before
 /// following ones. All functions below "Cycle" run in the thread of the cycle; they neither allocate nor
 /// block. Data that blocks and the project see directly are declared with the parts.
 /// @source S7-1500T synchronous operation V7, 4.5, 6, 13.1; S7-1500T axis functions
 #pragma once
 
-#include "tech_objects/axis/axis_orders.hpp"
+#include "tech_objects/axis/axis_families.hpp"
 
 namespace lockstep {
 
-class Axis final : public AxisOrders {
+class Axis final : public AxisFamilies {
  public:
   Axis(ObjectKind kind, std::string name, DB_ANY number);
 
@@ -41,6 +43,9 @@ class Axis final : public AxisOrders {
   ErrorId torque_range_refusal() const noexcept;
   ErrorId torque_additive_refusal() const noexcept;
 
+  /// Raises a technology alarm: shows it and has its reaction carried out.
+  void raise(int alarm_number) noexcept { reactions_.raise(alarm_number); }
+
   // ---- Cycle: called by the scheduler
   // -----------------------------------------------------------------------------
 
@@ -62,7 +67,7 @@ class Axis final : public AxisOrders {
     __builtin_prefetch(&additive_request, 1);
     __builtin_prefetch(jobs_.address(), 1);
     __builtin_prefetch(&period_, 1);
-    __builtin_prefetch(&standstill_, 1);
+    __builtin_prefetch(&shown_before_, 1);
     __builtin_prefetch(&data.Position, 1);
     __builtin_prefetch(&data.StatusSynchronizedMotion, 1);
     __builtin_prefetch(&data.StatusSynchronizedMotion.EffectiveLeadingValue, 1);
@@ -81,7 +86,7 @@ class Axis final : public AxisOrders {
   Axis* awaited_leading_axis() const noexcept;
 
   bool leading_value_stands() const noexcept override {
-    const bool stands = setpoint_is_actual() ? !moving(setpoint_.velocity) : setpoint_.velocity == 0.0;
+    const bool stands = setpoint_is_actual() ? !moving(setpoint_.velocity, data) : setpoint_.velocity == 0.0;
     return stands && (!handing_over_ || hand_over_.finished());
   }
 
@@ -99,17 +104,32 @@ class Axis final : public AxisOrders {
   const Drive& drive() const noexcept { return *drive_; }
   /// Largest distance between actual position and synchronous function while synchronous [u], for the summary
   /// of a run.
-  double largest_synchronous_deviation() const noexcept { return largest_deviation_; }
-  bool was_synchronous() const noexcept { return was_synchronous_; }
+  double largest_synchronous_deviation() const noexcept { return shown_before_.largest_deviation; }
+  bool was_synchronous() const noexcept { return shown_before_.synchronous; }
 
  private:
-  /// A job that acts at once.
+  // axis.cpp
+  void take_start_values() noexcept;
+  void configure_servo();
+  void restart_servo() noexcept;
+  void restart() noexcept;
+
+  // jobs.cpp
   ErrorId carry_out(const Job& job) noexcept;
-  /// Drives bits of the control words that the axis does not use itself: STW1 8, 9, 11 to 15, STW2 0 to 11.
-  /// They stay until the next such job or a restart.
-  ErrorId set_control_bits(const ControlBitsJob& job) noexcept;
-  ErrorId activate_limit_switches(bool active) noexcept;
-  ErrorId set_sensor(const SensorJob& job) noexcept;
+  void start(Job& job) noexcept;
+  void install(Job& job) noexcept;
+  void home(Job& job) noexcept;
+  ErrorId reset(bool restart) noexcept;
+
+  // cycle.cpp
+  void take_additive() noexcept;
+  void step_superimposed() noexcept;
+  void step_base() noexcept;
+  void step_single_axis() noexcept;
+  void step_synchronous() noexcept;
+  void step_waiting_to_leave(const Setpoint& candidate) noexcept;
+  void meet_cam_end() noexcept;
+  void guard() noexcept;
 };
 
 }  // namespace lockstep

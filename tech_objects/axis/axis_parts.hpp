@@ -2,19 +2,16 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "tech_objects/arithmetic/axis_position.hpp"
 #include "tech_objects/axis/arrival.hpp"
+#include "tech_objects/axis/axis_requests.hpp"
+#include "tech_objects/axis/axis_state.hpp"
 #include "tech_objects/axis/backlash.hpp"
 #include "tech_objects/axis/blending.hpp"
 #include "tech_objects/axis/clamping.hpp"
-#include "tech_objects/axis/course_hand_over.hpp"
 #include "tech_objects/axis/encoders.hpp"
 #include "tech_objects/axis/forces.hpp"
 #include "tech_objects/axis/homing_course.hpp"
@@ -22,42 +19,19 @@
 #include "tech_objects/axis/limit_switches.hpp"
 #include "tech_objects/axis/motion_limits.hpp"
 #include "tech_objects/axis/position_loop.hpp"
+#include "tech_objects/axis/shown_before.hpp"
 #include "tech_objects/axis/software_limits.hpp"
 #include "tech_objects/axis/superimposed_motion.hpp"
-#include "tech_objects/data_blocks/standstill.hpp"
+#include "tech_objects/data_blocks/status_bits.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 #include "tech_objects/drive/drive.hpp"
-#include "tech_objects/jobs/job.hpp"
-#include "tech_objects/jobs/override.hpp"
 #include "tech_objects/objects/leading_object.hpp"
 #include "tech_objects/profile/single_axis_motion.hpp"
-#include "tech_objects/profile/superimposed.hpp"
-#include "tech_objects/sensing/homing_marks.hpp"
 #include "tech_objects/synchronous/synchronous_motion.hpp"
 
 namespace lockstep {
 
-/// What MC_LeadingValueAdditive and MC_SynchronizedMotionSimulation want; written by the instance that was
-/// enabled last.
-struct AdditiveRequest {
-  const void* owner = nullptr;  ///< nullptr: none is enabled
-  bool counts = false;          ///< whether the value counts; else the job waits for the enable of the axis
-  AdditiveLeadingValue value;
-};
-struct SimulationRequest {
-  const void* owner = nullptr;  ///< nullptr: no instance has asked yet
-  BOOL enable{};
-  ErrorId error = ErrorId::none;  ///< written by the axis: why it has not begun, or cannot end
-};
-
-/// Adjustment of an absolute encoder, for a store that outlasts the controller.
-struct EncoderAdjustment {
-  bool adjusted = false;
-  /// [u] StatusSensor[].AbsEncoderOffset: position of the axis less that of the encoder.
-  double offset = 0.0;
-};
-
-/// The parts of an axis, each with its own state; what moves between them is the matter of `AxisOrders`. What
+/// The parts of an axis, each with its own state; what is done with them is the matter of its families. What
 /// every interpolator cycle touches lies together, and so does what every servo cycle touches.
 class AxisParts : public LeadingObject {
  public:
@@ -91,25 +65,8 @@ class AxisParts : public LeadingObject {
   bool simulating() const noexcept { return simulated_ != nullptr; }
 
  protected:
-  // Values of Units.VelocityUnit of a speed axis.
-  static constexpr UDINT kTurnsPerSecond = 1082;
-  static constexpr UDINT kTurnsPerMinute = 1083;
-  static constexpr std::uint8_t kNothingShown = 0xFF;
-
-  /// What generates the setpoint.
-  enum class Motion : std::uint8_t { none, single_axis, given, synchronizing, synchronous, desynchronizing };
-  enum class EmergencyRamp : std::uint8_t { none, due, running };
-
-  /// Whether a velocity is one beyond the standstill signal.
-  bool moving(double velocity) const noexcept {
-    return std::abs(velocity) > data.StandstillSignal.VelocityThreshold;
-  }
   /// Whether another object leads the axis.
-  bool led() const noexcept { return motion_ >= Motion::synchronizing; }
-  /// The setpoint without what is superimposed on it.
-  const Setpoint& base_setpoint() const noexcept {
-    return superimposed_.in_use() ? superimposed_.base() : setpoint_;
-  }
+  bool led() const noexcept { return lockstep::led(motion_); }
 
   // From here to `additive_`: what every interpolator cycle touches, in lines of the cache.
  public:
@@ -124,12 +81,13 @@ class AxisParts : public LeadingObject {
   bool awaited_axis_in_order = true;
 
  protected:
-  Motion motion_ = Motion::none;
+  AxisMotion motion_ = AxisMotion::none;
   bool homed_ = false;
   bool has_drive_ = false;
   SoftwareLimits software_limits_;
   EmergencyRamp emergency_ramp_ = EmergencyRamp::none;
-  bool homing_now_ = false;  // a mark is being looked for, or an active homing is under way
+  bool control_switched_ = false;  // position control, in this tick
+  bool homing_now_ = false;        // a mark is being looked for, or an active homing is under way
 
   alignas(kCacheLine) JobSlots jobs_;
 
@@ -140,21 +98,13 @@ class AxisParts : public LeadingObject {
   double actual_velocity_ = 0.0;  // [u/s]
   int servo_tick_ = 0;            // since the last interpolator tick
   bool signals_watched_ = false;
-  std::uint8_t drive_shown_ = kNothingShown;  // of StatusDrive
 
-  /// What leads the axis by `synchronous_`; nullptr without coupling, and without cam.
-  struct Coupled {
-    LeadingObject* leading = nullptr;
-    Cam* cam = nullptr;
-  };
   Coupled coupled_;
   SynchronousMotion synchronous_;
 
   // One line, with the end of the one and the begin of the other.
   SuperimposedMotion superimposed_;
-  Standstill standstill_;
-  double largest_deviation_ = 0.0;
-  bool was_synchronous_ = false;
+  ShownBefore shown_before_;
   AdditiveLeadingValues additive_;
 
   alignas(kCacheLine) MotionLimits limits_{data};
@@ -164,12 +114,9 @@ class AxisParts : public LeadingObject {
   // Positioning.
   Arrival arrival_;
   Blending blending_;
-  DoubleDouble beyond_target_;  // way that the axis has made since the target of the motion before [u]
-  Job jogged_;                  // inputs of MC_MoveJog that are planned for
 
   // Jobs.
   SynchronousMotion awaited_;  // what the waiting job prepares
-  Setpoint ghost_;             // where it would have the axis
   AxisData start_values_;
 
   // Homing.
@@ -186,7 +133,6 @@ class AxisParts : public LeadingObject {
   double way_per_motor_turn_ = 1.0;  // [u]
   double motor_limit_ = 0.0;         // what the motor can do [u/s]
   double actual_torque_ = 0.0;       // at the motor, in the direction of the axis
-  std::uint16_t sent_stw1_ = kControlOff;
   Encoders encoders_;
   AxisForces forces_;
   Clamping clamping_;
@@ -194,13 +140,6 @@ class AxisParts : public LeadingObject {
   DriveProperties drive_properties_;
   PositionLoop loop_;
 
-  // Servo, seldom of account.
-  CourseHandOver hand_over_;
-  struct ControlBits {
-    std::uint16_t stw1 = 0;
-    std::uint16_t stw2 = 0;
-  };
-  ControlBits free_bits_;  // of MC_SetAxisSTW
   Backlash backlash_;
 };
 

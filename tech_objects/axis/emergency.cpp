@@ -1,9 +1,9 @@
-// The emergency ramp of an axis with a drive: MC_Stop Mode 0, MC_Power StopMode 0, alarm reactions.
-// @source S7-1500T axis functions, stop reactions; synchronous operation V7, 13.1.22, 13.1.24
+#include "tech_objects/axis/emergency.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "tech_objects/axis/axis.hpp"
+#include "tech_objects/axis/software_limits.hpp"
 
 namespace lockstep {
 namespace {
@@ -13,29 +13,22 @@ constexpr double kRounding = 1e-12;
 
 }  // namespace
 
-/// The stop that has just been planned, from the setpoint, is to begin where the axis is. That is done in the
-/// next step, with the actual values of that tick. A virtual axis is where its setpoint is.
-void AxisOrders::ask_for_emergency_ramp() noexcept {
-  emergency_ramp_ = has_drive_ ? EmergencyRamp::due : EmergencyRamp::none;
-}
-
-/// Each step while such a ramp is asked for or under way, before the setpoint goes on.
-void AxisOrders::step_emergency_ramp() noexcept {
+void EmergencyOrders::step() noexcept {
   if (emergency_ramp_ == EmergencyRamp::due) return brake_from_actual();
-  if (motion_ != Motion::single_axis || setpoint_.standing()) emergency_ramp_ = EmergencyRamp::none;
+  if (motion_ != AxisMotion::single_axis || setpoint_.standing()) emergency_ramp_ = EmergencyRamp::none;
 }
 
 /// The setpoint becomes the actual state and brakes from there; no following error is worked off any more. At
 /// a fixed stop it stays: what holds the part is the following error. An axis that rests in its positioning
 /// window has nothing to brake.
-void AxisOrders::brake_from_actual() noexcept {
+void EmergencyOrders::brake_from_actual() noexcept {
   emergency_ramp_ = EmergencyRamp::none;
-  const bool stops = motion_ == Motion::single_axis && single_.aim() == SingleAxisMotion::Aim::stand;
+  const bool stops = motion_ == AxisMotion::single_axis && single_.aim() == SingleAxisMotion::Aim::stand;
   if (!stops || encoders_.lost() || clamping_.found()) return;
   const double away = position_controlled_ ? rounded_difference(actual_, setpoint_.position, modulo_) : 0.0;
-  const bool rests = setpoint_.standing() && !moving(actual_velocity_);
+  const bool rests = setpoint_.standing() && !moving(actual_velocity_, data);
   if (rests && std::abs(away) <= data.PositioningMonitoring.Window) return;
-  const Setpoint seen = led_setpoint();
+  const Setpoint seen = hand_over_.led_setpoint();
   const double commanded = commanded_velocity();
   take_actual_state(commanded);
   if (single_.stop(setpoint_, limits_.emergency(), false) != PlanResult::ok) {
@@ -44,26 +37,26 @@ void AxisOrders::brake_from_actual() noexcept {
   }
   emergency_ramp_ = EmergencyRamp::running;
   loop_.switch_over(setpoint_.velocity - commanded, data.PositionControl.SmoothingTimeByChangeDifference);
-  hand_over(seen, setpoint_);
+  hand_over_.begin(seen, setpoint_);
 }
 
 /// Under position control ahead by what filter and drive are late: there the drive still runs on to. One that
 /// brakes already is told of no higher velocity than it has been.
-void AxisOrders::take_actual_state(double commanded) noexcept {
+void EmergencyOrders::take_actual_state(double commanded) noexcept {
   const Setpoint before = setpoint_;
   const double velocity = std::clamp(actual_velocity_, std::min(commanded, 0.0), std::max(commanded, 0.0));
   setpoint_ = {before.position, velocity, 0.0};
   if (position_controlled_) {
-    setpoint_.position = advanced(actual_, actual_velocity_ * setpoint_delay(), modulo_);
+    setpoint_.position = advanced(actual_, actual_velocity_ * position_control_.setpoint_delay(), modulo_);
     if (data.PositionLimits_SW.Active && homed_) stay_within_limits(before);
-    reset_servo({setpoint_.position, actual_velocity_});
+    position_control_.begin_anew({setpoint_.position, actual_velocity_});
   }
   last_setpoint_ = setpoint_;
 }
 
 /// Where the setpoint could stop in front of a software limit switch, so can the actual state, though it may
 /// be a little ahead or faster: what is missing remains as following error.
-void AxisOrders::stay_within_limits(const Setpoint& before) noexcept {
+void EmergencyOrders::stay_within_limits(const Setpoint& before) noexcept {
   const double deceleration = std::max(limits_.maximum().deceleration, limits_.emergency().deceleration);
   const auto room = [&](const Setpoint& from, int side, double limit) {
     const double v = std::max(side * from.velocity, 0.0);
@@ -80,11 +73,10 @@ void AxisOrders::stay_within_limits(const Setpoint& before) noexcept {
 }
 
 // ---- The drive
-// --------------------------------------------------------------------------------------------------
 
 /// What the drive has been told last, by axis and position loop together [u/s].
-double AxisOrders::commanded_velocity() const noexcept {
-  if (!position_controlled_ || !loop_in_drive()) return data.VelocitySetpoint;
+double EmergencyOrders::commanded_velocity() const noexcept {
+  if (!position_controlled_ || !position_control_.loop_in_drive()) return data.VelocitySetpoint;
   return data.VelocitySetpoint + data.PositionControl.Kv * data.StatusServo.ControlDifference;
 }
 

@@ -1,19 +1,10 @@
-// What goes wrong at drive and encoder of an axis: alarms, their acknowledgement, and control words.
-// @source S7-1500T alarms 411, 421, 431; PROFIdrive state machine
-#include "tech_objects/axis/axis.hpp"
+#include "tech_objects/axis/faults.hpp"
+
 #include "tech_objects/types/published.hpp"
 
 namespace lockstep {
-namespace {
 
-// Bits of the control words that an axis does not use itself.
-constexpr std::uint16_t kFreeBits1 = 0xFB00;
-constexpr std::uint16_t kFreeBits2 = 0x0FFF;
-
-}  // namespace
-
-/// Each servo cycle in which the drive reports something wrong, and the one in which that ends.
-void AxisOrders::watch_drive(const DriveActual& now) noexcept {
+void DriveFaults::watch(const DriveActual& now) noexcept {
   drive_in_trouble_ = now.trouble;
   data.StatusDrive.Error = now.fault;
   data.StatusDrive.CommunicationOK = !now.silent && !now.fault;
@@ -21,18 +12,18 @@ void AxisOrders::watch_drive(const DriveActual& now) noexcept {
   sensor.Error = now.encoder_failed;
   sensor.CommunicationOK = !now.silent;
   if (now.silent || now.encoder_failed) lose_sensor();
-  raise_drive_alarms(now);
+  raise_alarms(now);
 }
 
 /// A fault of the drive matters once the axis is, or is to be, enabled.
-void AxisOrders::raise_drive_alarms(const DriveActual& now) noexcept {
-  if (now.silent) return raise(alarm::kCommunication);
-  if (now.encoder_failed) raise(alarm::kEncoder);
-  if (now.fault && (power.enable || power_state_ != PowerState::off)) raise(alarm::kDriveFault);
+void DriveFaults::raise_alarms(const DriveActual& now) noexcept {
+  if (now.silent) return reactions_.raise(alarm::kCommunication);
+  if (now.encoder_failed) reactions_.raise(alarm::kEncoder);
+  if (now.fault && (power.enable || power_state_ != PowerState::off)) reactions_.raise(alarm::kDriveFault);
 }
 
 /// Actual values do not count until the alarm has been acknowledged.
-void AxisOrders::lose_sensor() noexcept {
+void DriveFaults::lose_sensor() noexcept {
   if (encoders_.lost()) return;
   encoders_.lose();
   data.StatusSensor[encoders_.operative()].State = SensorState::not_valid;
@@ -41,42 +32,21 @@ void AxisOrders::lose_sensor() noexcept {
 }
 
 /// The axis goes on from where it was seen last; an absolute encoder knows better.
-void AxisOrders::regain_sensor() noexcept {
+void DriveFaults::regain_sensor() noexcept {
   data.StatusSensor[encoders_.operative()].State = SensorState::valid;
   encoders_.count(drive_->read().position);
-  encoders_.regain(actual_, play());
+  encoders_.regain(actual_, sensors_.play());
 }
 
-/// MC_Reset at the drive. What is still wrong is told again at once.
-void AxisOrders::acknowledge_drive() noexcept {
+void DriveFaults::acknowledge() noexcept {
   const std::uint16_t off = power_state_ == PowerState::on ? kControlOn : kControlOff;
-  control_drive(off);
-  control_drive(off | bit_mask(stw1::kAcknowledgeFault));
-  control_drive(off);
+  drive_control_.send(off);
+  drive_control_.send(off | bit_mask(stw1::kAcknowledgeFault));
+  drive_control_.send(off);
   DriveActual now = drive_->read();
-  if (encoders_.several()) read_encoders(now);
+  if (encoders_.several()) sensors_.read(now);
   if (!now.silent && !now.encoder_failed && encoders_.lost()) regain_sensor();
-  watch_drive(now);
-}
-
-void AxisOrders::control_drive(std::uint16_t stw1) noexcept {
-  const std::uint16_t free = free_bits_.stw1;
-  drive_->control(static_cast<std::uint16_t>(stw1 | free), free_bits_.stw2);
-  sent_stw1_ = stw1;
-}
-
-ErrorId Axis::set_control_bits(const ControlBitsJob& job) noexcept {
-  const auto mask1 = static_cast<std::uint16_t>(job.stw1_mask);
-  const auto mask2 = static_cast<std::uint16_t>(job.stw2_mask);
-  if ((mask1 & ~kFreeBits1) != 0 || (mask2 & ~kFreeBits2) != 0) return ErrorId::control_bits;
-  if (!has_drive_) return ErrorId::unspecified;
-  const auto changed = [](std::uint16_t word, WORD bits, std::uint16_t mask) {
-    return static_cast<std::uint16_t>((word & ~mask) | (static_cast<std::uint16_t>(bits) & mask));
-  };
-  free_bits_.stw1 = changed(free_bits_.stw1, job.stw1, mask1);
-  free_bits_.stw2 = changed(free_bits_.stw2, job.stw2, mask2);
-  control_drive(sent_stw1_);
-  return ErrorId::none;
+  watch(now);
 }
 
 }  // namespace lockstep

@@ -48,6 +48,10 @@ ErrorId AxisForces::range_refusal() const noexcept {
   return limiting.owner != nullptr ? ErrorId::torque_limits_exclude : ErrorId::none;
 }
 
+bool AxisForces::position_monitoring_off(const AxisData& settings) const noexcept {
+  return limited() && settings.TorqueLimiting.PositionBasedMonitors == PositionBasedMonitors::deactivated;
+}
+
 bool AxisForces::detects_fixed_stop() const noexcept {
   return limiting.owner != nullptr && limiting.mode == TorqueLimitingMode::fixed_stop_detection;
 }

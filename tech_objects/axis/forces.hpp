@@ -43,6 +43,8 @@ class AxisForces {
   bool due() const noexcept { return active() || told_; }
   bool limited() const noexcept { return limiting.owner != nullptr || range.owner != nullptr; }
   bool detects_fixed_stop() const noexcept;
+  /// Whether what goes by the distance from the setpoint is not watched, since the axis may never get there.
+  bool position_monitoring_off(const AxisData& settings) const noexcept;
 
   /// One interpolator cycle: what the drive is told, in the direction of the axis.
   /// @param enabled whether the axis is: nothing is added while it is not

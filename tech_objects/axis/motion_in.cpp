@@ -1,35 +1,35 @@
-// Setpoints given by the program: MC_MotionInVelocity, MC_MotionInPosition.
+#include "tech_objects/axis/motion_in.hpp"
+
 #include <cmath>
 
-#include "tech_objects/axis/axis.hpp"
 #include "tech_objects/axis/target_distance.hpp"
+#include "tech_objects/data_blocks/status_bits.hpp"
 
 namespace lockstep {
 
-/// No profile leads there: the first values given count in this very cycle.
-void AxisOrders::begin_motion_in(Job& job) noexcept {
-  absorb_superimposed();
-  leave_synchronous();
-  set_position_control(job.position_controlled);
+void GivenOrders::begin(Job& job) noexcept {
+  stops_.absorb_superimposed();
+  coupling_.leave();
+  position_control_.set(job.position_controlled);
   jobs_.put(kBase, job, JobPhase::active);
-  motion_ = Motion::given;
-  show_motion_in_command();
+  motion_ = AxisMotion::given;
+  ends_.show_motion_in_command();
 }
 
-/// The values of the last call. Without Enable they go to zero at once, and the position stays.
-void AxisOrders::step_given() noexcept {
+bool GivenOrders::step() noexcept {
   const Job& job = *jobs_[kBase];
   const auto& asked = job.as<MotionInJob>();
   if (asked.error != ErrorId::none) {
-    end_job(kBase, JobPhase::failed, asked.error);
-    begin_stop(limits_.maximum(), false);
-    return step_single_axis();
+    ends_.end(kBase, JobPhase::failed, asked.error);
+    stops_.begin(limits_.maximum(), false);
+    return true;
   }
   if (!asked.hold) {
-    end_job(kBase, JobPhase::done, ErrorId::none);
+    ends_.end(kBase, JobPhase::done, ErrorId::none);
     setpoint_.velocity = setpoint_.acceleration = 0.0;
-    motion_ = Motion::single_axis;
-    return single_.stand(setpoint_);
+    motion_ = AxisMotion::single_axis;
+    single_.stand(setpoint_);
+    return false;
   }
   if (job.kind == JobKind::MC_MotionInPosition) {
     setpoint_.position = next_to(setpoint_.position, asked.position, modulo_);
@@ -41,16 +41,7 @@ void AxisOrders::step_given() noexcept {
   setpoint_.acceleration = asked.acceleration;
   set_bit(data.StatusMotionIn.StatusWord, MotionInBit::MaxVelocityExceeded,
           std::abs(setpoint_.velocity) > data.DynamicLimits.MaxVelocity);
-}
-
-void AxisOrders::show_motion_in_command() noexcept {
-  const Job* job = jobs_[kBase];
-  DINT state = 0;
-  if (job != nullptr && job->kind == JobKind::MC_MotionInVelocity) state = 1;
-  if (job != nullptr && job->kind == JobKind::MC_MotionInPosition) state = 2;
-  set_bit(data.StatusWord, StatusBit::MotionInCommand, state != 0);
-  data.StatusMotionIn.FunctionState = state;
-  if (state == 0) set_bit(data.StatusMotionIn.StatusWord, MotionInBit::MaxVelocityExceeded, false);
+  return false;
 }
 
 }  // namespace lockstep

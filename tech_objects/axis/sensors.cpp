@@ -1,36 +1,21 @@
-// What an axis shows of its encoders, MC_SetSensor, and the adjustment of absolute encoders.
-// @source S7-1500T axis functions, encoders of an axis, MC_SetSensor
+#include "tech_objects/axis/sensors.hpp"
+
 #include <cmath>
 
-#include "tech_objects/axis/axis.hpp"
+#include "tech_objects/jobs/job.hpp"
+#include "tech_objects/jobs/modes.hpp"
 #include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 
-// ---- At the start, and after a restart
-// ----------------------------------------------------------------------------
-
-/// Every encoder begins at the position that the axis has; an absolute one that is adjusted knows better.
-void AxisOrders::begin_encoders(AxisPosition here) noexcept {
-  const std::size_t operative = encoders_.operative();
-  encoders_.begin(encoders_.origin_at(operative, here, play()));
-  if (encoders_.absolute(operative)) {
-    const AxisPosition origin = adjusted_origin(operative);
-    shift_positions(encoders_.distance_to_origin(origin));
-    encoders_.begin(origin);
-    counted_from_ = 0;
-    homed_ = encoder_adjustments[operative].adjusted;
-  }
-  for (std::size_t i = 0; i < Encoders::kCount; ++i) {
-    if (!encoders_.beside(i)) continue;
-    const AxisPosition origin =
-        encoders_.absolute(i) ? adjusted_origin(i) : encoders_.origin_at(i, actual_, play());
-    encoders_.begin_beside(i, origin, play());
-  }
+std::size_t SensorOrders::sensor_of(const Job& job) const noexcept {
+  const DINT sensor = job.as<HomingJob>().sensor;
+  return sensor > 0 ? static_cast<std::size_t>(sensor - 1) : encoders_.operative();
 }
 
-/// Where an absolute encoder shows 0, by the adjustment that has been kept.
-AxisPosition AxisOrders::adjusted_origin(std::size_t encoder) noexcept {
+// ---- Adjustment
+
+AxisPosition SensorOrders::adjusted_origin(std::size_t encoder) noexcept {
   EncoderAdjustment& kept = encoder_adjustments[encoder];
   if (!kept.adjusted || !std::isfinite(kept.offset)) kept = {};
   data.StatusSensor[encoder].AbsEncoderOffset = kept.offset;
@@ -38,9 +23,7 @@ AxisPosition AxisOrders::adjusted_origin(std::size_t encoder) noexcept {
   return encoders_.adjusted_origin(encoder, kept.offset);
 }
 
-/// The encoder is adjusted to the positions as they are now.
-/// @param store whether an offset of an absolute encoder that is kept already is replaced
-void AxisOrders::adjust_encoder(std::size_t encoder, bool store) noexcept {
+void SensorOrders::adjust(std::size_t encoder, bool store) noexcept {
   data.StatusSensor[encoder].Adjusted = 1;
   EncoderAdjustment& kept = encoder_adjustments[encoder];
   if (!encoders_.absolute(encoder) || (kept.adjusted && !store)) return;
@@ -49,10 +32,8 @@ void AxisOrders::adjust_encoder(std::size_t encoder, bool store) noexcept {
 }
 
 // ---- What is shown
-// --------------------------------------------------------------------------------------------------
 
-/// What there is of the encoders, as long as nothing is wrong with them.
-void AxisOrders::show_sensor() noexcept {
+void SensorOrders::show() noexcept {
   data.OperativeSensor = static_cast<UDINT>(encoders_.operative() + 1);
   for (std::size_t i = 0; i < Encoders::kCount; ++i) {
     auto& status = data.StatusSensor[i];
@@ -64,13 +45,17 @@ void AxisOrders::show_sensor() noexcept {
   data.StatusDrive.CommunicationOK = true;
 }
 
-void AxisOrders::show_place(std::size_t encoder, AxisPosition place) noexcept {
+void SensorOrders::show_place(std::size_t encoder, AxisPosition place) noexcept {
   data.StatusSensor[encoder].Position = place.value;
   data.StatusSensor[encoder].ModuloCycle = static_cast<DINT>(place.turns - counted_from_);
 }
 
-/// Of an axis with encoders beside that of the drive: reads and shows them all.
-void AxisOrders::read_encoders(DriveActual& now) noexcept {
+void SensorOrders::show_places() noexcept {
+  for (std::size_t i = 0; i < Encoders::kCount; ++i)
+    if (i == encoders_.operative() || encoders_.beside(i)) show_place(i, encoders_.position(i, actual_));
+}
+
+void SensorOrders::read(DriveActual& now) noexcept {
   encoders_.read(now, *drive_);
   for (std::size_t i = 0; i < Encoders::kCount; ++i) {
     if (!encoders_.beside(i)) continue;
@@ -82,9 +67,8 @@ void AxisOrders::read_encoders(DriveActual& now) noexcept {
 }
 
 // ---- MC_SetSensor
-// ---------------------------------------------------------------------------------------------------
 
-ErrorId Axis::set_sensor(const SensorJob& job) noexcept {
+ErrorId SensorOrders::set(const SensorJob& job) noexcept {
   const auto exists = [this](DINT number) { return data.Sensor[number - 1].Existent; };
   const auto valid = [this](DINT number) {
     return data.StatusSensor[number - 1].State == SensorState::valid;
@@ -110,24 +94,24 @@ ErrorId Axis::set_sensor(const SensorJob& job) noexcept {
 
 /// An encoder tells this position from now on, where it is. Of the operative one the difference acts as a
 /// control deviation.
-void AxisOrders::place_encoder(std::size_t encoder, AxisPosition place) noexcept {
+void SensorOrders::place_encoder(std::size_t encoder, AxisPosition place) noexcept {
   encoders_.place(encoder, place, actual_, play());
   if (encoder == encoders_.operative()) deviate(place);
 }
 
-void AxisOrders::switch_encoder(std::size_t encoder, bool aligned) noexcept {
+void SensorOrders::switch_encoder(std::size_t encoder, bool aligned) noexcept {
   if (aligned) encoders_.place(encoder, actual_, actual_, play());
   const AxisPosition told = encoders_.position(encoder, actual_);
   actual_velocity_ = encoders_.switch_to(encoder, actual_);
-  show_sensor();
+  show();
   if (!aligned) deviate(told);
 }
 
 /// The actual position is another one from now on; with a smoothing time position control notices bit by bit.
-void AxisOrders::deviate(AxisPosition place) noexcept {
+void SensorOrders::deviate(AxisPosition place) noexcept {
   const double by = rounded_difference(place, actual_, modulo_);
   actual_ = place;
-  hand_over_.make_due(motion_ == Motion::none);  // the setpoint is there as well
+  hand_over_.make_due(motion_ == AxisMotion::none);  // the setpoint is there as well
   loop_.deviate(by, data.PositionControl.SmoothingTimeByChangeDifference);
 }
 

@@ -64,6 +64,8 @@ class SuperimposedMotion {
 
   /// The base motion's setpoint while there is a superimposed part.
   const Setpoint& base() const noexcept { return base_; }
+  /// A setpoint without what is superimposed on it.
+  const Setpoint& base_of(const Setpoint& setpoint) const noexcept { return in_use() ? base_ : setpoint; }
   void shift_base(double by, const Modulo& modulo) noexcept {
     base_.position = advanced(base_.position, by, modulo);
   }

@@ -37,29 +37,10 @@ void LeadingObject::shift_leading(double by) noexcept {
   extrapolation_.shift(by);
   led_.position = advanced(led_.position, by, modulo_);
   last_led_.position = advanced(last_led_.position, by, modulo_);
-  for (UncontrolledLead* const lead : {&uncontrolled_, &before_switch_}) {
-    lead->now.position = advanced(lead->now.position, by, modulo_);
-    lead->last.position = advanced(lead->last.position, by, modulo_);
-  }
+  uncontrolled_.now.position = advanced(uncontrolled_.now.position, by, modulo_);
+  uncontrolled_.last.position = advanced(uncontrolled_.last.position, by, modulo_);
   leading_actual_.position = advanced(leading_actual_.position, by, modulo_);
   last_leading_actual_.position = advanced(last_leading_actual_.position, by, modulo_);
-}
-
-/// The turn is the one on which they are: nobody turns back over the turns that have been made.
-void LeadingObject::lead_with_zero() noexcept {
-  const Setpoint& seen = uncontrolled_.returning ? uncontrolled_.now : led_setpoint();
-  uncontrolled_.returning = false;
-  ++uncontrolled_.times;
-  uncontrolled_.zero = zero_on_turn(seen.position.turns, modulo_);
-}
-
-bool LeadingObject::takes_switch_back() noexcept {
-  control_switched_ = !control_switched_;
-  if (control_switched_)
-    before_switch_ = uncontrolled_;
-  else
-    uncontrolled_ = before_switch_;
-  return !control_switched_;
 }
 
 void LeadingObject::count_homing(const Job& job) noexcept {

@@ -70,6 +70,9 @@ class LeadingObject : public TechnologyObject, public LeadingSource {
   /// Whether it stands, so that a coupling may be taken over to its simulation.
   virtual bool leading_value_stands() const noexcept = 0;
 
+  /// Positions have other names from now on, each by this more [u].
+  void shift_leading(double by) noexcept;
+
   /// Load time: somebody follows the actual value, which has to be extrapolated from then on.
   void lead_by_actual_value() noexcept { leads_by_actual_value_ = true; }
 
@@ -79,31 +82,16 @@ class LeadingObject : public TechnologyObject, public LeadingSource {
   void reset_leading(AxisPosition actual) noexcept;
   /// One interpolator tick of the actual value.
   void extrapolate(AxisPosition actual, double velocity, const TO_Struct_Extrapolation& settings) noexcept;
-  void shift_leading(double by) noexcept;
   /// Of a job of MC_Home that has been accepted: counts it if the override rules have it end what measures.
   void count_homing(const Job& job) noexcept;
   void publish_extrapolation(TO_Struct_Extrapolation& settings,
                              TO_Struct_StatusExtrapolation& status) const noexcept;
   bool leads_by_actual_value() const noexcept { return leads_by_actual_value_; }
-  /// The setpoint as following axes see it at this tick, while it is not the setpoint itself.
-  void lead_by(const Setpoint& led) noexcept {
-    last_led_ = led_;
-    led_ = led;
-    handing_over_ = true;
-  }
 
-  /// Position control is left: from now on axes that follow the position see zero.
-  void lead_with_zero() noexcept;
-  /// A switch of position control. @return whether it takes back another one of this tick, which nobody has
-  /// seen: then all is as it was before
-  bool takes_switch_back() noexcept;
-
-  bool control_switched_ = false;  // in this tick
   std::uint32_t restarts_ = 0;
   std::uint32_t homings_ = 0;
 
  private:
-  UncontrolledLead before_switch_;
   Extrapolation extrapolation_;
   DoubleDouble renamed_;
 };

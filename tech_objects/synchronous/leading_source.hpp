@@ -29,6 +29,9 @@ struct UncontrolledLead {
 /// writes them before those that follow are stepped. Thread: the cycle.
 class LeadingSource {
  public:
+  /// `drive_stops`: switched off, and the drive comes to rest by itself.
+  enum class PowerState : std::uint8_t { off, switching_on, drive_stops, on, braking };
+
   Modulo modulo() const noexcept { return modulo_; }
 
   /// Whether an axis coupled like this sees what `leading_state` tells: the actual value, or the setpoint as
@@ -58,9 +61,6 @@ class LeadingSource {
   bool setpoint_is_actual() const noexcept { return power_state_ < PowerState::on; }
 
  protected:
-  /// `drive_stops`: switched off, and the drive comes to rest by itself.
-  enum class PowerState : std::uint8_t { off, switching_on, drive_stops, on, braking };
-
   Setpoint leading_actual_;
   Setpoint last_leading_actual_;
   Setpoint led_;

@@ -1,0 +1,46 @@
+/// How the jobs of an axis end, and what their ends leave behind.
+#pragma once
+
+#include "tech_objects/axis/axis_state.hpp"
+#include "tech_objects/axis/homing_course.hpp"
+#include "tech_objects/axis/job_slots.hpp"
+#include "tech_objects/axis/switches.hpp"
+#include "tech_objects/synchronous/synchronous_motion.hpp"
+
+namespace lockstep {
+
+/// The jobs, and what ends with them.
+struct JobEndParts {
+  AxisData& data;
+  JobSlots& jobs_;
+  SynchronousMotion& synchronous_;
+  Job* const& simulated_;
+  const bool& position_controlled_;
+  HomingCourse& homing_;
+  bool& homing_now_;
+  bool& coupling_changed;
+  SwitchOrders& switches_;
+};
+
+/// Ends jobs, and shows of it what is not written in every cycle. Moves nothing, raises nothing. Thread: the
+/// cycle.
+class JobEnds : private JobEndParts {
+ public:
+  explicit JobEnds(const JobEndParts& parts) noexcept : JobEndParts(parts) {}
+
+  void end(Slot slot, JobPhase phase, ErrorId error) noexcept;
+  /// Those that are handed over as well; the lock of MC_Stop falls unless that is done.
+  void end_all(JobPhase phase, ErrorId error) noexcept;
+  /// Ends the running jobs that a new one overrides; false if one of them forbids it.
+  bool override_running(JobClass new_job, Job& job) noexcept;
+  /// A running homing ends, whatever the reason.
+  void leave_homing() noexcept;
+
+  // ---- What is shown of the jobs that run
+
+  void show_waiting() noexcept;
+  void show_superimposed_command() noexcept;
+  void show_motion_in_command() noexcept;
+};
+
+}  // namespace lockstep

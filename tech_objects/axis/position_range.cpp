@@ -1,0 +1,81 @@
+#include "tech_objects/axis/position_range.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tech_objects/axis/stopping_distance.hpp"
+#include "tech_objects/axis/turning_back.hpp"
+#include "tech_objects/data_blocks/status_bits.hpp"
+
+namespace lockstep {
+namespace {
+
+/// What positions may be apart by rounding, relative to their size.
+constexpr double kRounding = 1e-12;
+
+/// Where an axis comes to rest at the latest that nears the end of its range [u]: before the end by more than
+/// the stop may be rounded.
+constexpr double kEndOfRange = kPositionRange * (1.0 - kRounding);
+
+}  // namespace
+
+/// From few operations and without a division: `maximum_stopping_distance` ≤ margin, times 4 · deceleration ·
+/// jerk².
+bool far_from_end_of_range(const Setpoint& setpoint, const Modulo& modulo,
+                           const TO_Struct_DynamicLimits& limits) noexcept {
+  const double room = kEndOfRange - std::abs(setpoint.position.value);
+  if (modulo.enabled) return room > 0.0;
+  const double d = limits.MaxDeceleration;
+  const double j = limits.MaxJerk;
+  const double v = std::abs(setpoint.velocity);
+  const double a = std::abs(setpoint.acceleration);
+  const double reached = 2.0 * j * v + a * a;  // velocity once the acceleration is run down, times 2 · jerk
+  return reached * (d * (2.0 * a + d) + 0.5 * reached) < 4.0 * room * d * j * j;
+}
+
+void RangeOrders::watch() noexcept {
+  // A setpoint that has just been taken up does not come out of the last one.
+  const bool generated = power_state_ == PowerState::on && has_bit(data.StatusWord, StatusBit::Enable);
+  if (generated && !modulo_.enabled && keep_in(1)) keep_in(-1);
+  const double here = setpoint_.position.value;
+  if (std::abs(here) <= kPositionRange * (1.0 + kRounding)) return;
+  const int side = sign(here);
+  if (side * setpoint_.velocity > 0.0 || side * (here - last_setpoint_.position.value) > 0.0) pass_end();
+}
+
+/// @return whether the setpoint made for this cycle stays; if not, another one has been made
+bool RangeOrders::keep_in(int side) noexcept {
+  const double here = side * setpoint_.position.value;
+  const double room = std::max(kEndOfRange - here, 0.0);
+  const Dynamics dynamics = limits_.maximum();
+  Setpoint from = setpoint_;  // as a stop begins
+  from.acceleration = limits_.tolerable_acceleration(from.acceleration, limits_.margin(from));
+  const Heading heading{from, side};
+  if (maximum_stopping_distance(heading, dynamics) <= room) return true;
+  // A target may be the very end.
+  if (turns_in_time(side, std::max(kPositionRange * (1.0 + kRounding) - here, 0.0), dynamics.jerk, motion_,
+                    setpoint_, single_, superimposed_))
+    return true;
+  if (stopping_distance(heading, dynamics) <= room) return true;
+  constexpr auto kReaction = AlarmReaction::stop_maximum;
+  const bool reacts =
+      data.ErrorDetail.Reaction < static_cast<DINT>(kReaction) && !jobs_.stops_harder_than(kReaction);
+  if (reacts) setpoint_ = last_setpoint_;
+  reactions_.raise(alarm::kPositionRangeReached, kReaction);
+  if (reacts) single_.advance(setpoint_);
+  return !reacts;
+}
+
+void RangeOrders::pass_end() noexcept {
+  const bool reacts = power_state_ == PowerState::on &&
+                      data.ErrorDetail.Reaction < static_cast<DINT>(AlarmReaction::remove_enable);
+  if (reacts) setpoint_ = last_setpoint_;
+  reactions_.raise(alarm::kPositionRangeExceeded);
+  if (!reacts) return;  // it brakes already
+  if (motion_ == AxisMotion::single_axis)
+    single_.advance(setpoint_);
+  else  // the drive brakes; the setpoint is the actual value from the next tick on
+    setpoint_.position = advanced(setpoint_.position, setpoint_.velocity * period_, modulo_);
+}
+
+}  // namespace lockstep

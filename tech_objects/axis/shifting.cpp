@@ -1,0 +1,78 @@
+#include "tech_objects/axis/shifting.hpp"
+
+#include <cmath>
+
+#include "tech_objects/axis/synchronous_request.hpp"
+#include "tech_objects/jobs/modes.hpp"
+
+namespace lockstep {
+namespace {
+
+/// By what a phase shift moves an axis that is coupled; 1 for a cam, whose shifts go over a distance.
+double ratio_of(const Job& coupling) noexcept {
+  if (coupling.kind == JobKind::MC_CamIn) return 1.0;
+  const auto& gear = coupling.as<GearJob>();
+  return std::abs(static_cast<double>(gear.numerator) / gear.denominator);
+}
+
+}  // namespace
+
+void ShiftOrders::begin(Job& job) noexcept {
+  auto& asked = job.as<ShiftJob>();
+  const bool phasing = is_phasing(job.kind);
+  const bool relative = job.kind == JobKind::MC_PhasingRelative || job.kind == JobKind::MC_OffsetRelative;
+  Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
+  const bool in_time = phasing && asked.profile == ShiftProfileReference::dynamics;
+  const Dynamics dynamics = in_time ? dynamics_.effective(job) : limits_.maximum();
+  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
+    reactions_.raise(alarm_number);
+    return job.fail(ErrorId::technology_alarm);
+  }
+  // The dynamics are those of the following axis; a phase shift moves it by the ratio.
+  const double ratio = phasing ? ratio_of(*jobs_[kBase]) : 1.0;
+  const Dynamics of_shift{dynamics.velocity / ratio, dynamics.acceleration / ratio,
+                          dynamics.deceleration / ratio, dynamics.jerk / ratio};
+  const DoubleDouble target = relative ? shift.value() + asked.shift : DoubleDouble{asked.shift, 0.0};
+  const ShiftRequest request = shift_request(asked, target, of_shift);
+  asked.base = relative ? shift.value() : DoubleDouble{};
+  if (shift.begin(request, period_) != PlanResult::ok) {
+    shift.halt();
+    return job.fail(ErrorId::unspecified);
+  }
+  const bool runs = shift.phase() == Shift::Phase::running;
+  jobs_.put(phasing ? kPhasing : kOffset, job, runs ? JobPhase::active : JobPhase::waiting);
+}
+
+void ShiftOrders::cancel_waiting(Job& job) noexcept {
+  const Slot slot = is_phasing(job.kind) ? kPhasing : kOffset;
+  if (jobs_[slot] != nullptr && jobs_[slot]->phase == JobPhase::waiting) {
+    ends_.end(slot, JobPhase::aborted, ErrorId::none);
+    (slot == kPhasing ? synchronous_.phase_shift() : synchronous_.following_offset()).cancel();
+  }
+  job.phase = JobPhase::done;
+}
+
+void ShiftOrders::advance() noexcept {
+  const Shift& phase = synchronous_.phase_shift();
+  const Shift& offset = synchronous_.following_offset();
+  if (jobs_[kPhasing] != nullptr)
+    show(kPhasing, phase, synchronous_.advance_phase_shift());
+  else if (phase.settling())
+    synchronous_.advance_phase_shift();
+  if (jobs_[kOffset] != nullptr)
+    show(kOffset, offset, synchronous_.advance_following_offset());
+  else if (offset.settling())
+    synchronous_.advance_following_offset();
+}
+
+void ShiftOrders::show(Slot slot, const Shift& shift, Shift::Event event) noexcept {
+  Job& job = *jobs_[slot];
+  job.phase = shift.phase() == Shift::Phase::waiting ? JobPhase::waiting : JobPhase::active;
+  auto& asked = job.as<ShiftJob>();
+  asked.covered = rounded_difference(shift.value(), asked.base);
+  if (event == Shift::Event::none) return;
+  if (event == Shift::Event::done) return ends_.end(slot, JobPhase::done, ErrorId::none);
+  ends_.end(slot, JobPhase::failed, ErrorId::leading_value_reversed);
+}
+
+}  // namespace lockstep

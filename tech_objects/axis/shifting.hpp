@@ -1,0 +1,43 @@
+/// Shifts of a synchronous axis: MC_Phasing… and MC_Offset…
+/// @source S7-1500T synchronous operation V7, 4.5
+#pragma once
+
+#include "tech_objects/axis/job_dynamics.hpp"
+
+namespace lockstep {
+
+/// Jobs, and the coupling whose shifts they are.
+struct ShiftingParts {
+  JobSlots& jobs_;
+  const MotionLimits& limits_;
+  const double& period_;
+  SynchronousMotion& synchronous_;
+  JobEnds& ends_;
+  JobDynamics& dynamics_;
+  Reactions& reactions_;
+};
+
+/// Thread: the cycle.
+class ShiftOrders : private ShiftingParts {
+ public:
+  explicit ShiftOrders(const ShiftingParts& parts) noexcept : ShiftingParts(parts) {}
+
+  void begin(Job& job) noexcept;
+  /// Profile 5: ends a shift that waits; one that runs and the shift in effect stay.
+  void cancel_waiting(Job& job) noexcept;
+  /// What the coupling depends on in this tick: ratio, leading value, shifts. @param job that couples
+  void look_at_coupling(const Job& job) noexcept {
+    if (job.kind == JobKind::MC_GearInVelocity) {
+      const auto& gear = job.as<GearJob>();
+      if (gear.update) synchronous_.change_ratio({gear.numerator, gear.denominator});
+    }
+    synchronous_.look_at_leading();
+    if (synchronous_.shifted()) advance();
+  }
+
+ private:
+  void advance() noexcept;
+  void show(Slot slot, const Shift& shift, Shift::Event event) noexcept;
+};
+
+}  // namespace lockstep
