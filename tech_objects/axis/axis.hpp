@@ -74,7 +74,11 @@ class Axis final : public AxisOrders {
     __builtin_prefetch(&data.StatusWord, 1);
   }
 
-  /// One interpolator cycle: the setpoint of this tick. Leading axes have to be stepped before.
+  /// One interpolator cycle: `step` and `publish`, by the shortest way. Leading axes have to be through
+  /// theirs before.
+  void cycle() noexcept;
+
+  /// The setpoint of this tick.
   void step() noexcept;
 
   /// Checks the setpoint and shows everything in the data block.
@@ -106,6 +110,17 @@ class Axis final : public AxisOrders {
   /// of a run.
   double largest_synchronous_deviation() const noexcept { return largest_deviation_; }
   bool was_synchronous() const noexcept { return was_synchronous_; }
+
+ private:
+  // plain_cycle.cpp: a cycle in which nothing but the base motion happens
+  bool left_alone() const noexcept;
+  bool plain() const noexcept;
+  bool step_plainly() noexcept;
+  bool advance_plainly() noexcept;
+  bool within_range() const noexcept;
+  void publish_plainly() noexcept;
+  void publish_coupling_plainly() noexcept;
+  void publish_shifts() noexcept;
 };
 
 }  // namespace lockstep

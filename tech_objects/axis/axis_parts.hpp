@@ -95,6 +95,7 @@ class AxisParts : public LeadingObject {
   static constexpr UDINT kTurnsPerSecond = 1082;
   static constexpr UDINT kTurnsPerMinute = 1083;
   static constexpr std::uint8_t kNothingShown = 0xFF;
+  static constexpr std::uint8_t kOperatingShown = 1;  // in operation, not disabled
 
   /// What generates the setpoint.
   enum class Motion : std::uint8_t { none, single_axis, given, synchronizing, synchronous, desynchronizing };
@@ -118,6 +119,8 @@ class AxisParts : public LeadingObject {
   /// Whether a control panel has the axis in its hands: it has enabled it, or a job of it runs. Written by
   /// the program of the panel.
   BOOL control_panel{};
+  /// Has every cycle carried out in full, whatever happens in it: for comparisons.
+  bool never_plain = false;
   /// Raised when a coupling has changed, so that the order of the axes is built anew.
   bool coupling_changed = false;
   /// Whether the awaited leading axis is stepped before this one; told by the order.
