@@ -115,8 +115,9 @@ class Axis final : public AxisOrders {
   // plain_cycle.cpp: a cycle in which nothing but the base motion happens
   bool left_alone() const noexcept;
   bool plain() const noexcept;
-  bool step_plainly() noexcept;
   bool advance_plainly() noexcept;
+  void finish_cycle() noexcept;
+  void show_where_it_is() noexcept;
   bool within_range() const noexcept;
   void publish_plainly() noexcept;
   void publish_coupling_plainly() noexcept;

@@ -16,8 +16,11 @@ void Axis::cycle() noexcept {
     step();
     return publish();
   }
-  if (step_plainly() || plain()) return publish_plainly();
-  publish();
+  last_setpoint_ = setpoint_;
+  servo_tick_ = 0;
+  if (!advance_plainly() || !within_range()) return finish_cycle();
+  show_where_it_is();
+  publish_plainly();
 }
 
 /// Whether none of what others ask of the axis between two cycles has to be looked at. All flags at once:
@@ -38,22 +41,24 @@ inline bool Axis::plain() const noexcept {
          simulated_ == nullptr;
 }
 
-/// @return whether the axis still is plain without a look; else it may have met the end of a job, or an alarm
-inline bool Axis::step_plainly() noexcept {
-  last_setpoint_ = setpoint_;
-  servo_tick_ = 0;
-  bool undisturbed = advance_plainly();
+/// The base motion has been advanced by more than a new setpoint: a job may have met its end, or an alarm.
+[[gnu::noinline]] void Axis::finish_cycle() noexcept {
+  if (!within_range()) guard();
+  if (handing_over_) step_hand_over();
+  show_where_it_is();
+  if (plain())
+    publish_plainly();
+  else
+    publish();
+}
+
+/// As the end of `step`: a virtual axis is where its setpoint is.
+inline void Axis::show_where_it_is() noexcept {
   software_limits_.release();
-  if (!within_range()) {
-    guard();
-    undisturbed = false;
-  }
-  if (!undisturbed && handing_over_) step_hand_over();
   control_switched_ = false;
   actual_.turns = setpoint_.position.turns;
   actual_.value = setpoint_.position.value;
   actual_velocity_ = setpoint_.velocity;
-  return undisturbed;
 }
 
 /// The base motion. @return whether nothing but the setpoint has changed
@@ -85,7 +90,7 @@ inline bool Axis::within_range() const noexcept {
          std::isfinite(setpoint_.acceleration);
 }
 
-inline void Axis::publish_plainly() noexcept {
+void Axis::publish_plainly() noexcept {
   data.ActualPosition = data.Position = setpoint_.position.value;
   data.VelocitySetpoint = data.ActualVelocity = data.Velocity = setpoint_.velocity;
   data.ActualAcceleration = data.Acceleration = setpoint_.acceleration;
