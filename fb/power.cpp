@@ -2,9 +2,24 @@
 
 namespace lockstep {
 
+/// In most calls the instance is in charge, with inputs that are permitted.
 void MC_Power::call(std::int64_t /*now*/) noexcept {
+  if (!in_charge()) return call_without_charge();
+  PowerRequest& power = Axis->power;
+  power.start_mode = static_cast<lockstep::StartMode>(StartMode);
+  power.stop_mode = static_cast<PowerStopMode>(StopMode);
+  const bool enable = Enable;
+  power.enable = enable;
+  Status = enable && Axis->enabled();
+  Busy = enable || !Axis->off();
+  const bool failed = enable && Axis->enable_removed();
+  Error = failed;
+  ErrorID = static_cast<WORD>(failed ? ErrorId::technology_alarm : ErrorId::none);
+}
+
+[[gnu::noinline]] void MC_Power::call_without_charge() noexcept {
   const bool owns = Axis != nullptr && Axis->power.owner == this;
-  ErrorId error = in_charge() ? ErrorId::none : take_charge();
+  ErrorId error = take_charge();
   if (error == ErrorId::none || owns) {
     PowerRequest& power = Axis->power;
     if (error == ErrorId::none) {

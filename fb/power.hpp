@@ -51,6 +51,7 @@ struct MC_Power final : Block {
   /// Whether the inputs are those that the table of pins has permitted, and the object is this instance's.
   bool in_charge() const noexcept;
   ErrorId take_charge() noexcept;
+  void call_without_charge() noexcept;
 
   Modes permitted_{-1, -1};  // looked up again only when they change
 };

@@ -105,8 +105,7 @@ void Controller::step_axes_in_turn(std::span<Axis* const> axes) noexcept {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     Axis* const axis = axes[i];
     if (i + 1 < axes.size()) axes[i + 1]->come_near();
-    axis->step();
-    axis->publish();
+    axis->cycle();
     if (axis->data.ErrorDetail.Number != 0) ++alarms;
   }
   if (alarms != 0) alarms_now_.fetch_add(alarms, std::memory_order_relaxed);

@@ -75,16 +75,22 @@ void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept
   const Instruction* const end = first + instructions_.size();
   for (const Instruction* at = first; at != end;) {
     const Instruction& instruction = *at++;
+    // The two commonest come before the others, which are told apart by a table.
+    if (instruction.op == Op::call) {
+      instruction.block->call(now);
+      continue;
+    }
+    if (instruction.op == Op::copy_flag_and_call) {
+      *instruction.flag = *instruction.source;
+      instruction.block->call(now);
+      continue;
+    }
     switch (instruction.op) {
       case Op::call:
-        instruction.block->call(now);
+      case Op::copy_flag_and_call:
         break;
       case Op::copy_flag:
         *instruction.flag = *instruction.source;
-        break;
-      case Op::copy_flag_and_call:
-        *instruction.flag = *instruction.source;
-        instruction.block->call(now);
         break;
       case Op::assign_flag:
         *instruction.flag = instruction.expression->evaluate(counters).u != 0;

@@ -18,7 +18,6 @@ class Axis final : public AxisFamilies {
   Axis(ObjectKind kind, std::string name, DB_ANY number);
 
   // ---- Load time
-  // --------------------------------------------------------------------------------------------------
 
   /// Takes over the start values. Call once, after `data` is set and before the first tick.
   /// @param servo_period period of MC_Servo [s]  @param ratio servo ticks per interpolator tick, 1 to 32
@@ -27,7 +26,6 @@ class Axis final : public AxisFamilies {
   void* start_values() noexcept override { return &start_values_; }
 
   // ---- Cycle: called by blocks
-  // ------------------------------------------------------------------------------------
   // They reach an axis by jobs and by claims alone; everything else they only look at. Claims are requests
   // with an owner: `power`, `additive_request`, `simulation_request` and those of `forces`.
 
@@ -47,7 +45,6 @@ class Axis final : public AxisFamilies {
   void raise(int alarm_number) noexcept { reactions_.raise(alarm_number); }
 
   // ---- Cycle: called by the scheduler
-  // -----------------------------------------------------------------------------
 
   /// One servo tick: reads actual values, closes the position loop, writes the setpoint to the drive.
   bool takes_part(Phase phase) const noexcept override { return phase == Phase::servo && !is_virtual(); }
@@ -74,7 +71,11 @@ class Axis final : public AxisFamilies {
     __builtin_prefetch(&data.StatusWord, 1);
   }
 
-  /// One interpolator cycle: the setpoint of this tick. Leading axes have to be stepped before.
+  /// One interpolator cycle: `step` and `publish`, by the shortest way. Leading axes have to be through
+  /// theirs before.
+  void cycle() noexcept;
+
+  /// The setpoint of this tick.
   void step() noexcept;
 
   /// Checks the setpoint and shows everything in the data block.
@@ -130,6 +131,18 @@ class Axis final : public AxisFamilies {
   void step_waiting_to_leave(const Setpoint& candidate) noexcept;
   void meet_cam_end() noexcept;
   void guard() noexcept;
+
+  // plain_cycle.cpp: a cycle in which nothing but the base motion happens
+  bool left_alone() const noexcept;
+  bool plain() const noexcept;
+  bool advance_plainly() noexcept;
+  void finish_cycle() noexcept;
+  void show_where_it_is() noexcept;
+  bool within_range() const noexcept;
+  void publish_plainly() noexcept;
+  void publish_coupling_plainly() noexcept;
+  void publish_shifts() noexcept;
+  void show_operation() noexcept;
 };
 
 }  // namespace lockstep

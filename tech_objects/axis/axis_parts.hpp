@@ -75,6 +75,8 @@ class AxisParts : public LeadingObject {
   /// Whether a control panel has the axis in its hands: it has enabled it, or a job of it runs. Written by
   /// the program of the panel.
   BOOL control_panel{};
+  /// Has every cycle carried out in full, whatever happens in it: for comparisons.
+  bool never_plain = false;
   /// Raised when a coupling has changed, so that the order of the axes is built anew.
   bool coupling_changed = false;
   /// Whether the awaited leading axis is stepped before this one; told by the order.

@@ -36,20 +36,26 @@ class JobSlots {
  public:
   Job* operator[](std::size_t slot) const noexcept { return running_[slot]; }
   bool empty(Slot slot) const noexcept { return running_[slot] == nullptr; }
+  /// Whether no job runs or waits but, perhaps, in slots of a set: bits 1 << Slot.
+  bool none_but(unsigned slots) const noexcept { return (taken_ & ~slots) == 0; }
   /// Address of the slots, for the prefetch.
   const void* address() const noexcept { return running_.data(); }
 
   /// @param phase that the job has from now on
   void put(Slot slot, Job& job, JobPhase phase) noexcept {
-    running_[slot] = &job;
+    put_back(slot, job);
     job.phase = phase;
   }
   /// A job goes on from where it has been put aside.
-  void put_back(Slot slot, Job& job) noexcept { running_[slot] = &job; }
+  void put_back(Slot slot, Job& job) noexcept {
+    running_[slot] = &job;
+    taken_ = static_cast<std::uint8_t>(taken_ | 1u << slot);
+  }
   /// The job leaves its slot, and goes on or ends elsewhere; nullptr: there is none.
   Job* take(Slot slot) noexcept {
     Job* const job = running_[slot];
     running_[slot] = nullptr;
+    taken_ = static_cast<std::uint8_t>(taken_ & ~(1u << slot));
     return job;
   }
 
@@ -83,6 +89,8 @@ class JobSlots {
   /// MC_Stop locks the axis while it runs, and while it is done with its Execute TRUE.
   void lock(const Job& stop) noexcept { stop_ = &stop; }
   void unlock() noexcept { stop_ = nullptr; }
+  /// Whether some MC_Stop may lock the axis; `locked` looks whether it does.
+  bool lockable() const noexcept { return stop_ != nullptr; }
   /// One that is done keeps the axis locked until its Execute falls.
   void unlock_unless_done() noexcept {
     if (stop_ != nullptr && stop_->phase != JobPhase::done) stop_ = nullptr;
@@ -102,6 +110,7 @@ class JobSlots {
   std::array<Job*, kNewJobs> new_{};    // handed over, in order
   const Job* stop_ = nullptr;           // the MC_Stop that may lock the axis
   std::uint8_t new_count_ = 0;          // last, beside what an axis touches in every cycle
+  std::uint8_t taken_ = 0;              // slots with a job: bits 1 << Slot
 };
 
 }  // namespace lockstep

@@ -144,7 +144,7 @@ PlanResult SingleAxisMotion::replan(const Setpoint& from, const Dynamics& dynami
 }
 
 void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
-  if (aim_ == Aim::stand && finished_) {
+  if (stands()) {
     setpoint.velocity = 0.0;
     setpoint.acceleration = 0.0;
     return;

@@ -46,6 +46,8 @@ class SingleAxisMotion {
   Aim aim() const noexcept { return aim_; }
   /// Whether the aim is reached: at rest at the target, or at the velocity.
   bool finished() const noexcept { return finished_; }
+  /// Whether it stands, and goes on to.
+  bool stands() const noexcept { return aim_ == Aim::stand && finished_; }
   AxisPosition target() const noexcept { return target_; }
   double target_velocity() const noexcept { return target_velocity_; }
   const Dynamics& dynamics() const noexcept { return dynamics_; }

@@ -141,6 +141,7 @@ void GearFunction::anchor_at(double way) noexcept {
 
 /// Takes the double-double origin from the integer part.
 void GearFunction::rebase() noexcept {
+  near_ = anchor_ == 0.0 ? reach_ : -1.0;
   if (following_.enabled) {
     const double high = static_cast<double>(static_cast<std::uint64_t>(place_.units >> 64)) * 0x1p64;
     const auto low_word = static_cast<std::uint64_t>(place_.units);
@@ -172,7 +173,19 @@ void GearFunction::add_leading_turns(std::int64_t turns) noexcept {
 
 AxisPosition GearFunction::value(AxisPosition leading) noexcept {
   const std::int64_t turn = wrapping_difference(leading.turns, leading_turns_);
-  if (turn != turn_) turn_to(turn);
+  if (turn != turn_) return value_in_turn(leading, turn);
+  const DoubleDouble way = two_difference(leading.value, leading_value_);
+  if (!(std::abs(way.hi) <= near_)) return value_from_anchor(leading);
+  return after(geared(way));
+}
+
+/// Of another turn of the leading axis. Seldom, as what follows: kept apart, so that `value` calls nothing.
+[[gnu::noinline]] AxisPosition GearFunction::value_in_turn(AxisPosition leading, std::int64_t turn) noexcept {
+  turn_to(turn);
+  return value(leading);
+}
+
+[[gnu::noinline]] AxisPosition GearFunction::value_from_anchor(AxisPosition leading) noexcept {
   DoubleDouble way = two_difference(leading.value, leading_value_);
   if (anchor_ != 0.0) way = way - anchor_;
   if (std::abs(way.hi) > reach_) {
@@ -180,15 +193,24 @@ AxisPosition GearFunction::value(AxisPosition leading) noexcept {
     anchor_at(way.hi);
     way = way - anchor_;
   }
+  return after(geared(way));
+}
+
+inline DoubleDouble GearFunction::geared(DoubleDouble way) const noexcept {
   const DoubleDouble product = two_product(way.hi, ratio_.hi, ratio_halves_);
-  way = {product.hi, product.lo + (way.hi * ratio_.lo + way.lo * ratio_.hi)};
+  return {product.hi, product.lo + (way.hi * ratio_.lo + way.lo * ratio_.hi)};
+}
+
+/// The position a following way behind the origin.
+inline AxisPosition GearFunction::after(DoubleDouble way) noexcept {
   const DoubleDouble position = fast_sum(origin_, way);
   if (position.hi >= lowest_ && position.hi < end_) return {turns_, position.hi};
-  return following_.enabled ? on_ring(way) : AxisPosition{0, position.hi};
+  return beyond_window(way);
 }
 
 /// Moves the window to the following turn in which origin + way lies.
-AxisPosition GearFunction::on_ring(DoubleDouble way) noexcept {
+[[gnu::noinline]] AxisPosition GearFunction::beyond_window(DoubleDouble way) noexcept {
+  if (!following_.enabled) return {0, fast_sum(origin_, way).hi};
   const double length = following_.length;
   const double start = following_.start;
   const DoubleDouble whole = base_ + way;

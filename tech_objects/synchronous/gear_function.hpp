@@ -65,13 +65,17 @@ class GearFunction {
   void turn_to(std::int64_t turn) noexcept;
   void anchor_at(double way) noexcept;
   void rebase() noexcept;
-  AxisPosition on_ring(DoubleDouble way) noexcept;
+  DoubleDouble geared(DoubleDouble way) const noexcept;
+  AxisPosition value_in_turn(AxisPosition leading, std::int64_t turn) noexcept;
+  AxisPosition value_from_anchor(AxisPosition leading) noexcept;
+  AxisPosition after(DoubleDouble way) noexcept;
+  AxisPosition beyond_window(DoubleDouble way) noexcept;
 
   DoubleDouble ratio_;
   Halves ratio_halves_;
   double leading_value_ = 0.0;  // L0
   double anchor_ = 0.0;         // [leading u] the double-double part counts from L0 + anchor_
-  double reach_ = 0.0;          // [leading u] farthest way from the anchor
+  double near_ = 0.0;           // [leading u] farthest way from L0 that needs no look at the anchor
   DoubleDouble origin_;         // following position at the anchor, less the turns in wraps_
   double lowest_ = 0.0;         // window of positions that need no reduction
   double end_ = 0.0;
@@ -79,6 +83,7 @@ class GearFunction {
   std::int64_t turn_ = 0;           // leading turns from L0 that origin_ stands for
   std::int64_t turns_ = 0;          // following turns of the window
   // From here on only what a change of the turn needs.
+  double reach_ = 0.0;           // [leading u] farthest way from the anchor
   DoubleDouble base_;            // following position at the anchor on the ring
   std::int64_t wraps_ = 0;       // whole following lengths between base_ and origin_
   Place place_;                  // way geared from L0 to the anchor in turn_

@@ -37,6 +37,14 @@ class LeadingCoupling {
   void end() noexcept { source_ = nullptr; }
   bool coupled() const noexcept { return source_ != nullptr; }
 
+  /// Takes up the leading value of this tick where it is nothing but what the source tells: in most ticks.
+  /// @param last_counts as in `look`  @return false: `look` has to
+  bool look_at_plain(bool last_counts) noexcept {
+    if (!source_->leads_as_it_is(coupling_) || additive_->in_use) return false;
+    now_ = source_->leading_state(coupling_);
+    if (last_counts) last_ = source_->last_leading_state(coupling_);
+    return true;
+  }
   /// Takes up the leading value of this tick.
   /// @param last_counts whether that of the tick before is asked for as well
   /// @return by how many turns the leading axis counts otherwise from now on, at the same place

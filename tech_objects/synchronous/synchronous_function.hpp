@@ -58,19 +58,22 @@ class SynchronousFunction {
   }
 
   /// The value of this tick, also to `result`. Written value by value: copying a whole setpoint would make
-  /// the processor wait until its parts have left for memory. The share of the shift is added behind a gear,
-  /// where nothing is rounded in between. @param phase nullptr: none is in use
-  void evaluate(const Setpoint& leading, const Shift* phase, Setpoint& result) noexcept {
-    if (is_cam()) return evaluate_cam(leading, phase, result);
-    AxisPosition position = gear_.value(leading.position);
+  /// the processor wait until its parts have left for memory.
+  void evaluate(const Setpoint& leading, Setpoint& result) noexcept {
+    if (is_cam()) return evaluate_cam(leading, result);
+    show(gear_.value(leading.position), gear_.velocity(leading.velocity),
+         gear_.acceleration(leading.acceleration), result);
+  }
+  /// With a phase shift. Its share is added behind a gear, where nothing is rounded in between.
+  void evaluate(const Setpoint& leading, const Shift& phase, Setpoint& result) noexcept {
+    if (is_cam()) return evaluate_cam(shifted(leading, phase), result);
+    const AxisPosition position =
+        advanced(gear_.value(leading.position), geared_phase_.of(phase.value(), gear_.ratio()), following_);
     double velocity = gear_.velocity(leading.velocity);
     double acceleration = gear_.acceleration(leading.acceleration);
-    if (phase != nullptr) {
-      position = advanced(position, geared_phase_.of(phase->value(), gear_.ratio()), following_);
-      if (phase->moves()) {
-        velocity += gear_.velocity(phase->velocity());
-        acceleration += gear_.acceleration(phase->acceleration());
-      }
+    if (phase.moves()) {
+      velocity += gear_.velocity(phase.velocity());
+      acceleration += gear_.acceleration(phase.acceleration());
     }
     show(position, velocity, acceleration, result);
   }
@@ -102,7 +105,11 @@ class SynchronousFunction {
     DoubleDouble product_;
   };
 
-  void evaluate_cam(const Setpoint& leading, const Shift* phase, Setpoint& result) noexcept;
+  void evaluate_cam(const Setpoint& leading, Setpoint& result) noexcept;
+  Setpoint shifted(const Setpoint& leading, const Shift& phase) const noexcept {
+    return {advanced(leading.position, phase.value(), leading_), leading.velocity + phase.velocity(),
+            leading.acceleration + phase.acceleration()};
+  }
   void add_turns(std::int64_t turns) noexcept {
     if (is_cam())
       cam_.add_turns(turns);

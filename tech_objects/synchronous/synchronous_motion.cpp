@@ -18,7 +18,8 @@ void SynchronousMotion::end() noexcept {
 // ---- Every tick
 // -------------------------------------------------------------------------------------------------
 
-void SynchronousMotion::look_at_leading() noexcept {
+/// A leading value that is made of more than the setpoint of its source, or of another one.
+void SynchronousMotion::look_closely() noexcept {
   const std::int64_t turned = leading_.look(!synchronous_ || shifted_);
   if (turned == 0) return;
   function_.turn_leading(turned);
@@ -26,7 +27,8 @@ void SynchronousMotion::look_at_leading() noexcept {
   desynchronizing_.turn_leading(turned);
 }
 
-void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
+/// With a shift, by the velocity alone, on the way in or out.
+void SynchronousMotion::advance_otherwise(Setpoint& setpoint) noexcept {
   if (synchronous_ && !leading_.velocity_only()) {
     evaluate(setpoint);
     if (shifted_ && shifts_.offset().in_use()) shifts_.add_offset(setpoint, function_.following());
@@ -39,7 +41,10 @@ void SynchronousMotion::advance(Setpoint& setpoint) noexcept {
 
 /// effective leading value → + phase shift → function
 inline void SynchronousMotion::evaluate(Setpoint& result) noexcept {
-  function_.evaluate(leading_.now(), phase_in_use(), result);
+  if (const Shift* const phase = phase_in_use(); phase != nullptr)
+    function_.evaluate(leading_.now(), *phase, result);
+  else
+    function_.evaluate(leading_.now(), result);
 }
 
 /// The velocity follows, whatever the position.

@@ -43,9 +43,16 @@ class SynchronousMotion {
   // ---- Every tick
 
   /// Takes up the leading value of this tick; before all that advances.
-  void look_at_leading() noexcept;
+  void look_at_leading() noexcept {
+    if (!leading_.look_at_plain(!synchronous_ || shifted_)) look_closely();
+  }
   /// The setpoint of this tick from the leading value of this tick.
-  void advance(Setpoint& setpoint) noexcept;
+  void advance(Setpoint& setpoint) noexcept {
+    if (synchronous_ && !shifted_ && !leading_.velocity_only())
+      function_.evaluate(leading_.now(), setpoint);
+    else
+      advance_otherwise(setpoint);
+  }
   /// Another ratio, which counts once an axis that follows the velocity alone is synchronous.
   void change_ratio(const GearRatio& ratio) noexcept;
 
@@ -130,6 +137,8 @@ class SynchronousMotion {
   const Shift* phase_in_use() const noexcept {
     return shifted_ && shifts_.phase().in_use() ? &shifts_.phase() : nullptr;
   }
+  void look_closely() noexcept;
+  void advance_otherwise(Setpoint& setpoint) noexcept;
   void evaluate(Setpoint& result) noexcept;
   void advance_in_velocity(Setpoint& setpoint) noexcept;
   void advance_in(Setpoint& setpoint) noexcept;

@@ -1,0 +1,129 @@
+/// The words of bits that an axis shows in its data block, and what goes with them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "tech_objects/arithmetic/setpoint.hpp"
+#include "tech_objects/axis/job_slots.hpp"
+#include "tech_objects/data_blocks/data_block.hpp"
+#include "tech_objects/data_blocks/status_bits.hpp"
+
+namespace lockstep::status_words {
+
+/// A word of these bits.
+template <class... Bit>
+constexpr std::uint32_t word_of(Bit... bits) noexcept {
+  return (std::uint32_t{0} | ... | (std::uint32_t{1} << static_cast<unsigned>(bits)));
+}
+
+/// A word of one bit, without a branch.
+template <class Bit>
+constexpr std::uint32_t when(bool value, Bit bit) noexcept {
+  return static_cast<std::uint32_t>(value) << static_cast<unsigned>(bit);
+}
+
+/// Of `word`, the shown bits anew; the others keep what they are.
+constexpr DWORD renewed(DWORD word, std::uint32_t shown, std::uint32_t bits) noexcept {
+  return static_cast<DWORD>((static_cast<std::uint32_t>(word) & ~shown) | bits);
+}
+
+/// What the base motion's job shows in the StatusWord.
+constexpr std::uint32_t command_bits(JobKind kind) noexcept {
+  switch (kind) {
+    case JobKind::MC_MoveAbsolute:
+    case JobKind::MC_MoveRelative:
+      return word_of(StatusBit::PositioningCommand);
+    case JobKind::MC_MoveJog:
+      return word_of(StatusBit::JogCommand);
+    case JobKind::MC_MoveVelocity:
+      return word_of(StatusBit::VelocityCommand);
+    default:
+      return 0;
+  }
+}
+
+/// Bits that publish_status shows; others are of the functions that they belong to.
+inline constexpr std::uint32_t kStatusBits =
+    word_of(StatusBit::Enable, StatusBit::Error, StatusBit::HomingDone, StatusBit::OnlineStartValuesChanged,
+            StatusBit::ControlPanelActive, StatusBit::Done, StatusBit::Standstill,
+            StatusBit::PositioningCommand, StatusBit::JogCommand, StatusBit::VelocityCommand,
+            StatusBit::HomingCommand, StatusBit::ConstantVelocity, StatusBit::Accelerating,
+            StatusBit::Decelerating, StatusBit::SWLimitMinActive, StatusBit::SWLimitMaxActive,
+            StatusBit::HWLimitMinActive, StatusBit::HWLimitMaxActive, StatusBit::Synchronizing,
+            StatusBit::Synchronous, StatusBit::PhasingCommand, StatusBit::NonPositionControlled);
+inline constexpr std::uint32_t kStatus2Bits =
+    word_of(Status2Bit::StopCommand, Status2Bit::DesynchronizingCommand, Status2Bit::PhasingCommandWaiting,
+            Status2Bit::OffsetCommand, Status2Bit::OffsetCommandWaiting);
+inline constexpr std::uint32_t kSynchronizedMotionBits =
+    word_of(SynchronizedMotionBit::MaxVelocityExceeded, SynchronizedMotionBit::MaxAccelerationExceeded,
+            SynchronizedMotionBit::MaxDecelerationExceeded, SynchronizedMotionBit::InSimulation,
+            SynchronizedMotionBit::LeadingValueAdditiveCommand);
+
+/// Share of the highest velocity by which the difference of two may be rounded up.
+inline constexpr double kRounding = 1e-13;
+
+/// The bits of the StatusWord that a speed axis has.
+inline constexpr std::uint32_t kOfSpeedAxis = 0x0E00765F;
+
+/// A setpoint, the one before it, and what limits the axis.
+struct Excess {
+  const Setpoint& now;
+  const Setpoint& last;
+  const TO_Struct_DynamicLimits& limits;
+  double period;
+
+  /// Which limits the setpoint exceeds: none, most of the time.
+  std::uint32_t bits() const noexcept {
+    const double steepest = std::min(limits.MaxAcceleration, limits.MaxDeceleration);
+    const double change = now.velocity - last.velocity;
+    const bool within = std::abs(now.velocity) <= limits.MaxVelocity &&
+                        std::abs(now.acceleration) <= steepest && std::abs(change) <= steepest * period;
+    return within ? 0 : bits_beyond_limits();
+  }
+
+  std::uint32_t bits_beyond_limits() const noexcept {
+    const double push = now.velocity < 0.0 ? -now.acceleration : now.acceleration;
+    // A velocity may step where the acceleration of the function does not tell: with a changed ratio, at a
+    // corner of a cam.
+    const double change = now.velocity - last.velocity;
+    const double gained = sign(now.velocity) * change;
+    const double lost = -sign(last.velocity) * change;
+    const double rounding = kRounding * limits.MaxVelocity;
+    const bool too_quick =
+        push > limits.MaxAcceleration || gained - rounding > limits.MaxAcceleration * period;
+    const bool too_hard = -push > limits.MaxDeceleration || lost - rounding > limits.MaxDeceleration * period;
+    return when(std::abs(now.velocity) > limits.MaxVelocity, SynchronizedMotionBit::MaxVelocityExceeded) |
+           when(too_quick, SynchronizedMotionBit::MaxAccelerationExceeded) |
+           when(too_hard, SynchronizedMotionBit::MaxDecelerationExceeded);
+  }
+};
+
+/// Whether the acceleration of a setpoint makes it quicker or slower.
+inline std::uint32_t pace_bits(const Setpoint& setpoint) noexcept {
+  const double push = sign(setpoint.velocity) * setpoint.acceleration;  // a product of both may be none
+  return when(push > 0.0 || setpoint.velocity == 0.0, StatusBit::Accelerating) |
+         when(push < 0.0, StatusBit::Decelerating);
+}
+
+/// What the shifts show.
+inline std::uint32_t shift_bits(const JobSlots& jobs, std::uint32_t& word) noexcept {
+  std::uint32_t word2 = 0;
+  if (const Job* const phasing = jobs[kPhasing]) {
+    word |= when(phasing->phase == JobPhase::active, StatusBit::PhasingCommand);
+    word2 |= when(phasing->phase == JobPhase::waiting, Status2Bit::PhasingCommandWaiting);
+  }
+  if (const Job* const offset = jobs[kOffset])
+    word2 |= when(offset->phase == JobPhase::active, Status2Bit::OffsetCommand) |
+             when(offset->phase == JobPhase::waiting, Status2Bit::OffsetCommandWaiting);
+  return word2;
+}
+
+inline void show(TO_Struct_EffectiveLeadingValue& shown, const Setpoint& effective) noexcept {
+  shown.Position = effective.position.value;
+  shown.Velocity = effective.velocity;
+  shown.Acceleration = effective.acceleration;
+}
+
+}  // namespace lockstep::status_words
