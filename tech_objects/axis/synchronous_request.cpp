@@ -74,11 +74,7 @@ ShiftRequest shift_request(const Job& job, DoubleDouble target, const Dynamics& 
           .direction = direction == SyncDirection::kPositive   ? 1
                        : direction == SyncDirection::kNegative ? -1
                                                                : 0,
-          .limits = {.velocity_max = dynamics.velocity,
-                     .velocity_min = -dynamics.velocity,
-                     .acceleration = dynamics.acceleration,
-                     .deceleration = dynamics.deceleration,
-                     .jerk = dynamics.jerk}};
+          .limits = limits_of(dynamics)};
 }
 
 ErrorId error_of(SyncRefusal refusal) noexcept {

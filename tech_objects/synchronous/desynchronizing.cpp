@@ -42,11 +42,8 @@ double way_over(const Chain& chain, double distance, AxisPosition leading, int h
 double stopping_way(const Setpoint& from, int heading, const Dynamics& dynamics) noexcept {
   Profile profile;
   const double velocity = std::max(std::abs(from.velocity), dynamics.velocity);
-  const ProfileLimits limits{.velocity_max = velocity,
-                             .velocity_min = -velocity,
-                             .acceleration = dynamics.deceleration,
-                             .deceleration = dynamics.deceleration,
-                             .jerk = dynamics.jerk};
+  const ProfileLimits limits =
+      limits_of({velocity, dynamics.deceleration, dynamics.deceleration, dynamics.jerk});
   const MotionState state{0.0, from.velocity, from.acceleration};
   if (plan_stop(state, limits, PresentAcceleration::keep, profile) != PlanResult::ok) return std::nan("");
   return heading * profile.target().position;
