@@ -83,7 +83,7 @@ void AxisOrders::activate_sync_out(Job& job, const Dynamics& dynamics) noexcept 
     status.PhaseShift = status.Offset = 0.0;
     return step_synchronous();
   }
-  const double way = synchronous_.leaving().way();
+  const double way = synchronous_.leaving().stop_distance();
   const AxisPosition position = synchronous_.leaving().position();
   leave_synchronous();
   cut_acceleration();

@@ -42,8 +42,8 @@ Synchronizing::Start Synchronizing::watch_time(const Chain& chain, const Setpoin
   if (!in_time) return Start::not_yet;  // too late for this pass
   if (way > step && reaches(led.now, way - step, own.velocity * chain.period, next)) return Start::not_yet;
 
-  const double following_distance = following_way(chain, own, slope_ * led.last.velocity);
-  const AxisPosition following = advanced(own.position, following_distance, chain.function.following());
+  const double covered = following_way(chain, own, slope_ * led.last.velocity);
+  const AxisPosition following = advanced(own.position, covered, chain.function.following());
   if (chain.function.is_cam())
     take_joint(chain, chain.function.cam().joined_at(leading_at(chain, way), direction), following.turns);
   else
