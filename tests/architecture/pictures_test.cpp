@@ -63,7 +63,7 @@ TEST(Pictures, ShowRoomsThatAreThere) {
   const std::string picture = pictures().at(0);
   const std::string lowest = picture.substr(picture.find("│ tech_objects "));
   for (const std::string room : {"axis", "sensing", "switching", "cam_object", "drive", "synchronous", "cam",
-                                 "profile", "arithmetic"}) {
+                                 "profile", "filters", "arithmetic"}) {
     EXPECT_NE(lowest.find(" " + room + " "), std::string::npos) << room;
     EXPECT_TRUE(fs::is_directory(fs::path(LOCKSTEP_SOURCE_DIR) / "tech_objects" / room)) << room;
   }
