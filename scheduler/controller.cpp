@@ -109,12 +109,12 @@ void Controller::finish() {
   lay_objects_into_large_pages();
 }
 
-void Controller::employ_processors() {
-  const std::size_t most = std::max(axes.size(), driven_.size());
-  if (clock.processors <= 1 || most < kWorthSharing || most > Crew::kMostItems) return;
+void Controller::employ_processors(int there) {
+  const int processors = std::min(clock.processors, there);
+  if (processors <= 1 || axes.size() < kWorthSharing || axes.size() > Crew::kMostItems) return;
   levels_.reserve(axes.size(), static_cast<std::uint32_t>(objects.back()->number));
   levels_.rebuild(order_.axes());
-  crew_ = std::make_unique<Crew>(clock.processors - 1);
+  crew_ = std::make_unique<Crew>(processors - 1);
 }
 
 std::vector<pthread_t> Controller::helping_threads() {

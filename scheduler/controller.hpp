@@ -32,7 +32,7 @@ namespace lockstep {
 struct Clock {
   std::int64_t servo_cycle = 1'000'000;  ///< period of MC_Servo [ns]
   int interpolator_ratio = 1;  ///< MC_Interpolator runs on every so many executed servo ticks, 1 to 32
-  int processors = 1;          ///< that a tick uses for the axes, 1 to `kMostProcessors`
+  int processors = 1;          ///< that a tick may use for the axes, 1 to `kMostProcessors`
 
   std::int64_t interpolator_cycle() const noexcept { return servo_cycle * interpolator_ratio; }  ///< [ns]
 
@@ -136,11 +136,12 @@ class Controller {
   /// Call once when all is loaded: sorts programs and stimuli and readies the axes for the clock.
   void finish();
 
-  /// Has ticks use `clock.processors` processors, by starting threads that help with the axes; nothing if
-  /// that is 1, or if there are too few axes to gain by it. The bits of what is computed stay the same. After
-  /// `finish`, before the first tick.
+  /// Has ticks use `clock.processors` processors, but no more than there are, by starting threads that help
+  /// with the axes; nothing if that is 1, or if there are too few axes to gain by it. The bits of what is
+  /// computed stay the same. Between two ticks, after `finish`.
+  /// @param there processors of the machine
   /// @throws std::system_error if a thread cannot be started
-  void employ_processors();
+  void employ_processors(int there);
   /// The threads that help, to give them a priority; none without them.
   std::vector<pthread_t> helping_threads();
 

@@ -66,12 +66,12 @@ std::vector<std::string> RealTimeRun::start() {
     interpolating_.store(true, std::memory_order_relaxed);
     interpolation_ = std::thread([this] { interpolate_cams(); });
   }
-  controller_.employ_processors();
-  const int wanted = controller_.clock.processors;
   const auto there = static_cast<int>(std::thread::hardware_concurrency());
-  if (there > 0 && wanted > there)
-    warnings.push_back("the project asks for " + std::to_string(wanted) + " processors, this machine has " +
-                       std::to_string(there) + ": its ticks take longer than with as many threads");
+  controller_.employ_processors(there);
+  if (const int wanted = controller_.clock.processors; there > 0 && wanted > there)
+    warnings.push_back("the project asks for " + std::to_string(wanted) +
+                       " processors and this machine has " + std::to_string(there) +
+                       ", which is what its ticks use");
   thread_ = std::thread([this] { run(); });
   if (processor_ >= 0)
     if (const int error = keep_on_processor(thread_.native_handle(), processor_); error != 0)

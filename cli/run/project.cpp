@@ -68,7 +68,7 @@ void simulate(Project& project, RunSurroundings& surroundings, Display& display,
   const Forgetting at_the_end{ending};
   ending.run([&surroundings] { surroundings.wait_no_more(); });
   bool last = false;
-  controller.employ_processors();
+  controller.employ_processors(static_cast<int>(std::thread::hardware_concurrency()));
   for (std::uint64_t tick = 0; !last && surroundings.wait_for_recorder(); ++tick) {
     last =
         (duration >= 0 && controller.now() + controller.clock.servo_cycle >= duration) || ending.requested();

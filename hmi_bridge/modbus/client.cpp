@@ -35,7 +35,7 @@ std::size_t lines_of(const std::vector<ModbusEntry>& entries) {
 
 }  // namespace
 
-std::string ModbusClientOptions::place() const {
+std::string ModbusClientOptions::endpoint() const {
   return connect ? to_string(*connect) : serial.device;
 }
 
@@ -228,8 +228,8 @@ bool ModbusClient::exchange(Device& device, std::vector<Block>& blocks, bool is_
 bool ModbusClient::take_apart(std::vector<Block>& blocks, std::size_t index) {
   const std::vector<Block> parts = parts_of(blocks[index]);
   if (parts.size() < 2) return false;
-  const auto place = blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(index));
-  blocks.insert(place, parts.begin(), parts.end());
+  const auto next = blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(index));
+  blocks.insert(next, parts.begin(), parts.end());
   return true;
 }
 

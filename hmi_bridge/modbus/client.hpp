@@ -49,7 +49,7 @@ struct ModbusClientOptions {
   std::vector<ModbusDevice> devices;
 
   /// Where it connects to, for messages.
-  std::string place() const;
+  std::string endpoint() const;
 };
 
 /// What a client has seen. Any thread may read.

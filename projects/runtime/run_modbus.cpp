@@ -79,7 +79,7 @@ void RunSurroundings::tell_failures(const ModbusClient& client) const {
   const ModbusClientCounters& counters = client.counters();
   const auto warn = [&](const std::atomic<std::uint64_t>& count, std::string_view text) {
     if (count != 0)
-      messages_.warn(fmt::format("Modbus client of {}: {} {}", client.options().place(), count.load(), text));
+      messages_.warn(fmt::format("Modbus client of {}: {} {}", client.options().endpoint(), count.load(), text));
   };
   warn(counters.unreachable, "attempts to connect failed");
   warn(counters.failed, "requests without a good answer");

@@ -61,7 +61,7 @@ LeavingOrders::Next LeavingOrders::activate(Job& job, const Dynamics& dynamics) 
     status.PhaseShift = status.Offset = 0.0;
     return Next::way_out;
   }
-  const double way = synchronous_.leaving().way();
+  const double way = synchronous_.leaving().stop_distance();
   const AxisPosition position = synchronous_.leaving().position();
   coupling_.leave();
   stops_.cut_acceleration();

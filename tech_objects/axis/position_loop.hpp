@@ -8,7 +8,7 @@
 #include "tech_objects/data_blocks/data_block.hpp"
 #include "tech_objects/drive/position_controller.hpp"
 #include "tech_objects/drive/setpoint_filter.hpp"
-#include "tech_objects/objects/extrapolation.hpp"
+#include "tech_objects/filters/first_order_lag.hpp"
 
 namespace lockstep {
 

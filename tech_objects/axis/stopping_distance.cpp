@@ -30,11 +30,7 @@ double stopping_distance(const Heading& from, const Dynamics& dynamics) noexcept
 bool find_stop(double velocity, double acceleration, const Dynamics& dynamics, double& distance) noexcept {
   // No limit to a stop; the planner wants one.
   const double most = std::max(dynamics.velocity, velocity) + 1.0;
-  const ProfileLimits limits{.velocity_max = most,
-                             .velocity_min = -most,
-                             .acceleration = dynamics.acceleration,
-                             .deceleration = dynamics.deceleration,
-                             .jerk = dynamics.jerk};
+  const ProfileLimits limits = limits_of({most, dynamics.acceleration, dynamics.deceleration, dynamics.jerk});
   Profile stop;
   if (plan_stop({0.0, velocity, acceleration}, limits, PresentAcceleration::keep, stop) != PlanResult::ok)
     return false;

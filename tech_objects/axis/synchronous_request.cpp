@@ -89,11 +89,7 @@ ShiftRequest shift_request(const ShiftJob& job, DoubleDouble target, const Dynam
           .direction = direction == SyncDirection::kPositive   ? 1
                        : direction == SyncDirection::kNegative ? -1
                                                                : 0,
-          .limits = {.velocity_max = dynamics.velocity,
-                     .velocity_min = -dynamics.velocity,
-                     .acceleration = dynamics.acceleration,
-                     .deceleration = dynamics.deceleration,
-                     .jerk = dynamics.jerk}};
+          .limits = limits_of(dynamics)};
 }
 
 ErrorId error_of(SyncRefusal refusal) noexcept {

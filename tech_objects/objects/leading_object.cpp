@@ -9,11 +9,22 @@ namespace {
 /// tick.
 constexpr double kAcquisitionTime = 0.0;
 
+/// The variables Extrapolation of the data block, as the kernel takes them.
+ExtrapolationSettings settings_of(const TO_Struct_Extrapolation& from) noexcept {
+  return {.makes_up_for_leading_axis = from.Settings.SystemDefinedExtrapolation != 0,
+          .velocity_of_positions = from.Settings.ExtrapolatedVelocityMode == 1,
+          .further_time = from.FollowingAxisDependentTime,
+          .position_lags = {from.PositionFilter.T1, from.PositionFilter.T2},
+          .velocity_lags = {from.VelocityFilter.T1, from.VelocityFilter.T2},
+          .velocity_tolerance = from.VelocityTolerance.Range,
+          .hysteresis = from.Hysteresis.Value};
+}
+
 }  // namespace
 
 void LeadingObject::configure_leading(double period, TO_Struct_Extrapolation& settings) noexcept {
   extrapolation_.configure(modulo_, period, kAcquisitionTime);
-  settings.LeadingAxisDependentTime = extrapolation_.leading_axis_time(settings);
+  settings.LeadingAxisDependentTime = extrapolation_.leading_axis_time(settings_of(settings));
 }
 
 void LeadingObject::reset_leading(AxisPosition actual) noexcept {
@@ -27,7 +38,7 @@ void LeadingObject::reset_leading(AxisPosition actual) noexcept {
 /// of differences of what an encoder reports would be noise.
 void LeadingObject::extrapolate(AxisPosition actual, double velocity,
                                 const TO_Struct_Extrapolation& settings) noexcept {
-  const ExtrapolatedValues& values = extrapolation_.step(actual, velocity, settings);
+  const ExtrapolatedValues& values = extrapolation_.step(actual, velocity, settings_of(settings));
   last_leading_actual_ = leading_actual_;
   leading_actual_ = {values.position, values.velocity, 0.0};
 }
@@ -51,7 +62,7 @@ void LeadingObject::count_homing(const Job& job) noexcept {
 void LeadingObject::publish_extrapolation(TO_Struct_Extrapolation& settings,
                                           TO_Struct_StatusExtrapolation& status) const noexcept {
   const ExtrapolatedValues& values = extrapolation_.values();
-  settings.LeadingAxisDependentTime = extrapolation_.leading_axis_time(settings);
+  settings.LeadingAxisDependentTime = extrapolation_.leading_axis_time(settings_of(settings));
   status.FilteredPosition = values.filtered_position.value;
   status.FilteredVelocity = values.filtered_velocity;
   status.ExtrapolatedPosition = values.position.value;

@@ -7,8 +7,9 @@
 
 #include "tech_objects/arithmetic/axis_position.hpp"
 #include "tech_objects/arithmetic/cache_line.hpp"
+#include "tech_objects/data_blocks/data_block.hpp"
+#include "tech_objects/filters/extrapolation.hpp"
 #include "tech_objects/jobs/modes.hpp"
-#include "tech_objects/objects/extrapolation.hpp"
 #include "tech_objects/objects/technology_object.hpp"
 #include "tech_objects/synchronous/leading_source.hpp"
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <span>
 
+#include "tech_objects/arithmetic/setpoint.hpp"
+
 namespace lockstep {
 
 /// Where an axis is and how it moves.
@@ -25,6 +27,15 @@ struct ProfileLimits {
   double deceleration{};  ///< [u/s²] > 0: greatest amount while slowing down
   double jerk{};          ///< [u/s³] > 0; 0: no limit, the acceleration steps (trapezoidal profile)
 };
+
+/// Limits that are alike in both directions. @param dynamics its velocity has to be above 0 for a plan
+inline ProfileLimits limits_of(const Dynamics& dynamics) noexcept {
+  return {.velocity_max = dynamics.velocity,
+          .velocity_min = -dynamics.velocity,
+          .acceleration = dynamics.acceleration,
+          .deceleration = dynamics.deceleration,
+          .jerk = dynamics.jerk};
+}
 
 /// What became of a request for a profile.
 enum class PlanResult : std::uint8_t {

@@ -22,12 +22,9 @@ constexpr double kSameTime = 1.0 + 16.0 * std::numeric_limits<double>::epsilon()
 constexpr double kNoVelocity = 1e-12;
 
 ProfileLimits profile_limits(const Dynamics& dynamics) noexcept {
-  const double velocity = std::max(dynamics.velocity, kNoVelocity);
-  return {.velocity_max = velocity,
-          .velocity_min = -velocity,
-          .acceleration = dynamics.acceleration,
-          .deceleration = dynamics.deceleration,
-          .jerk = dynamics.jerk};
+  Dynamics positive = dynamics;
+  positive.velocity = std::max(dynamics.velocity, kNoVelocity);
+  return limits_of(positive);
 }
 
 MotionState local_state(const Setpoint& from) noexcept {

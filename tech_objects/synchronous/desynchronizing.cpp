@@ -22,8 +22,8 @@ double without_turning_back(double curvature, double slope, double distance) noe
 /// Over another way w it is less by 30 u² (1 - u)² (s / 2 + c / 12 - w): positive to the end where
 /// c ≤ 20 w - 8 s. An axis that makes more than its gear would pass the stop position and come back: its
 /// acceleration steps as well, so that it is braked early enough.
-double without_passing(double curvature, double slope, double way, double distance) noexcept {
-  const double most = (20.0 * way / distance - 8.0 * slope) / distance;
+double without_passing(double curvature, double slope, double stop_distance, double distance) noexcept {
+  const double most = (20.0 * stop_distance / distance - 8.0 * slope) / distance;
   return without_turning_back(std::min(curvature, most), slope, distance);
 }
 
@@ -42,11 +42,8 @@ double way_over(const Chain& chain, double distance, AxisPosition leading, int h
 double stopping_way(const Setpoint& from, int heading, const Dynamics& dynamics) noexcept {
   Profile profile;
   const double velocity = std::max(std::abs(from.velocity), dynamics.velocity);
-  const ProfileLimits limits{.velocity_max = velocity,
-                             .velocity_min = -velocity,
-                             .acceleration = dynamics.deceleration,
-                             .deceleration = dynamics.deceleration,
-                             .jerk = dynamics.jerk};
+  const ProfileLimits limits =
+      limits_of({velocity, dynamics.deceleration, dynamics.deceleration, dynamics.jerk});
   const MotionState state{0.0, from.velocity, from.acceleration};
   if (plan_stop(state, limits, PresentAcceleration::keep, profile) != PlanResult::ok) return std::nan("");
   return heading * profile.target().position;
@@ -86,14 +83,14 @@ bool Desynchronizing::meets(const Chain& chain, const LeavingRequest& request, c
   if (!(change > 0.0) || !(spare >= 0.0 && spare <= change) || !(before + spare > 0.0)) return false;
   const double led_way = (before + spare) * std::abs(leading_step.last.velocity);
   if (over_distance && std::abs(last.velocity) * distance > kSteepest * led_way) return false;
-  way_ = heading * (before + spare);
+  stop_distance_ = heading * (before + spare);
   distance_ = distance + spare / change * std::abs(led);
   set_position(last, target, following);
   return true;
 }
 
 void Desynchronizing::set_position(const Setpoint& last, double target, const Modulo& following) noexcept {
-  position_ = advanced(last.position, way_, following);
+  position_ = advanced(last.position, stop_distance_, following);
   if (following.enabled) {
     // The way is rounded: at the end of the ring the turn may be the neighbour's.
     const double off = position_.value - target;
@@ -106,7 +103,7 @@ void Desynchronizing::set_position(const Setpoint& last, double target, const Mo
 void Desynchronizing::begin(const LeadingStep& leading, const Setpoint& last) noexcept {
   complete_ = false;
   progress_.begin(leading.last.position, sign(leading.way()));
-  SyncOffset start{.position = -way_};
+  SyncOffset start{.position = -stop_distance_};
   const int direction = progress_.direction();
   const double way_velocity = direction * leading.last.velocity;
   if (way_velocity > 0.0) {
@@ -114,9 +111,9 @@ void Desynchronizing::begin(const LeadingStep& leading, const Setpoint& last) no
     start.curvature = (last.acceleration - start.slope * direction * leading.last.acceleration) /
                       (way_velocity * way_velocity);
   }
-  const double heading = way_ < 0.0 ? -1.0 : 1.0;
+  const double heading = stop_distance_ < 0.0 ? -1.0 : 1.0;
   start.curvature =
-      heading * without_passing(heading * start.curvature, heading * start.slope, std::abs(way_), distance_);
+      heading * without_passing(heading * start.curvature, heading * start.slope, std::abs(stop_distance_), distance_);
   remainder_.set(start, distance_);
 }
 

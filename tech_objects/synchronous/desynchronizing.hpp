@@ -16,7 +16,7 @@ class Desynchronizing {
   bool meets(const Chain& chain, const LeavingRequest& request, const Setpoint& last,
              const Setpoint& candidate, const Dynamics& dynamics) noexcept;
   /// After `meets`: way to the stop position [u], and that position.
-  double way() const noexcept { return way_; }
+  double stop_distance() const noexcept { return stop_distance_; }
   AxisPosition position() const noexcept { return position_; }
 
   /// From here on over the leading distance.
@@ -39,7 +39,7 @@ class Desynchronizing {
   void set_position(const Setpoint& last, double target, const Modulo& following) noexcept;
 
   LeadingProgress progress_;
-  double way_ = 0.0;  // to the stop position [u], signed
+  double stop_distance_ = 0.0;  // to the stop position [u], signed
   AxisPosition position_;
   double distance_ = 0.0;  // leading distance [u]
   bool complete_ = false;

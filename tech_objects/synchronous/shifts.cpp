@@ -14,11 +14,7 @@ bool under_way(const Shift& shift) noexcept {
 
 bool Shifts::settle(const Shifts& ended, const LeadingStep& step, const Dynamics& dynamics,
                     double period) noexcept {
-  const ProfileLimits limits{.velocity_max = dynamics.velocity,
-                             .velocity_min = -dynamics.velocity,
-                             .acceleration = dynamics.acceleration,
-                             .deceleration = dynamics.deceleration,
-                             .jerk = dynamics.jerk};
+  const ProfileLimits limits = limits_of(dynamics);
   const bool phasing = under_way(ended.phase_);
   const bool offsetting = under_way(ended.offset_);
   if (phasing) {

@@ -95,10 +95,10 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
   double turns = 0.0;
   if (following.enabled) {
     const double length = following.length;
-    const DoubleDouble way = two_product(end_slope, distance) - 0.5 * target.curvature * distance * distance -
-                             ahead;  // of the following axis, to be chosen
+    const DoubleDouble to_choose = two_product(end_slope, distance) - 0.5 * target.curvature * distance * distance -
+                             ahead;  // of the following axis: which of its turns is to be chosen
     if (direction == SyncDirection::kShortestPath) {
-      turns = -std::floor(way.hi / length + 0.5);
+      turns = -std::floor(to_choose.hi / length + 0.5);
     } else {
       const double to = direction == SyncDirection::kPositive ? 1.0 : -1.0;
       if (to * end_slope < 0.0) return SyncPlan::kFunctionRunsTheOtherWay;
@@ -117,7 +117,7 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
       if (!on_function && !(least <= std::min(kFarthest * natural, 0x1p52 * length) + length))
         return SyncPlan::kAxisMovesTheOtherWay;
       const double rounding = std::max(kOnSynchronousValue, kRounding * (1.0 + std::abs(least / length)));
-      turns = on_function ? nearest : to * std::ceil((least - to * way.hi) / length - rounding);
+      turns = on_function ? nearest : to * std::ceil((least - to * to_choose.hi) / length - rounding);
     }
     ahead = ahead - two_product(turns, length);
   }

@@ -6,6 +6,7 @@
 #include "tech_objects/arithmetic/axis_position.hpp"
 #include "tech_objects/arithmetic/double_double.hpp"
 #include "tech_objects/arithmetic/remainder.hpp"
+#include "tech_objects/arithmetic/setpoint.hpp"
 
 namespace lockstep {
 
@@ -31,6 +32,16 @@ struct SyncStart {
   double velocity = 0.0;      ///< [u/s] of the following axis
   double acceleration = 0.0;  ///< [u/s²] of the following axis
 };
+
+/// A start from where both axes are.
+inline SyncStart start_from(const Setpoint& leading, const Setpoint& following) noexcept {
+  return {.leading = leading.position,
+          .leading_velocity = leading.velocity,
+          .leading_acceleration = leading.acceleration,
+          .following = following.position,
+          .velocity = following.velocity,
+          .acceleration = following.acceleration};
+}
 
 /// The synchronous function that the profile joins: straight over the distance, or a parabola.
 struct SyncTarget {

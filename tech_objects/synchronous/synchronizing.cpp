@@ -34,7 +34,7 @@ bool same_place(double distance, double position) noexcept {
 // --------------------------------------------------------------------------------------------------
 
 void Synchronizing::couple(const CouplingRequest& request, double ratio) noexcept {
-  way_ = Way::none;
+  method_ = Method::none;
   progress_.begin({}, 0);
   slope_ = ratio;
   curvature_ = 0.0;
@@ -174,12 +174,7 @@ Synchronizing::Start Synchronizing::watch_distance(const Chain& chain, const Set
   AxisPosition following{own.position.turns, following_sync_position_};
   anchor(chain, way_to_sync, following);
   const Setpoint& from = chain.leading.last();
-  const SyncStart start{.leading = from.position,
-                        .leading_velocity = from.velocity,
-                        .leading_acceleration = from.acceleration,
-                        .following = own.position,
-                        .velocity = own.velocity,
-                        .acceleration = own.acceleration};
+  const SyncStart start = start_from(from, own);
   const SyncTarget target{.at_start = chain.function.gear_value(from.position),
                           .slope = chain.function.gear().ratio().rounded()};
   const SyncPlan plan = distance_profile_.plan(start, target, distance_, direction < 0, direction_,
@@ -189,7 +184,7 @@ Synchronizing::Start Synchronizing::watch_distance(const Chain& chain, const Set
     return reject(SyncRefusal::leading_distance);
   following.turns += distance_profile_.turns();
   anchor(chain, way_to_sync, following);
-  return begin_profile(Way::distance, from.position);
+  return begin_profile(Method::distance, from.position);
 }
 
 /// Whether velocity and acceleration of the axis, led on by a leading axis that creeps, would carry it far
@@ -202,8 +197,8 @@ bool Synchronizing::shoots_beyond(const SyncOffset& start, double distance,
   return own > kSteepest * natural;
 }
 
-Synchronizing::Start Synchronizing::begin_profile(Way way, AxisPosition start) noexcept {
-  way_ = way;
+Synchronizing::Start Synchronizing::begin_profile(Method method, AxisPosition start) noexcept {
+  method_ = method;
   progress_.begin(start, progress_.direction());
   return Start::synchronizing;
 }
@@ -249,7 +244,7 @@ bool Synchronizing::follow_profile(const Chain& chain, Setpoint& setpoint) const
 
 /// What the axis is ahead of its function, over the leading distance covered.
 SyncOffset Synchronizing::ahead(double way) const noexcept {
-  if (way_ == Way::distance) return distance_profile_.value(way);
+  if (method_ == Method::distance) return distance_profile_.value(way);
   const MotionState state = time_profile_.at(way / time_velocity_);
   if (way < 0.0) {  // turned back before the start, within the tolerance
     const double slope = state.velocity / time_velocity_;

@@ -18,7 +18,7 @@ class Synchronizing {
   /// A new request; nothing leads the axis yet.
   void couple(const CouplingRequest& request, double ratio) noexcept;
   /// The request is to bring velocity and acceleration to those of the function, at once.
-  void begin_tracking() noexcept { way_ = Way::velocity; }
+  void begin_tracking() noexcept { method_ = Method::velocity; }
   /// The request is to wait for its start: takes the synchronous positions over.
   SyncRefusal begin_waiting(const CouplingRequest& request, const Chain& chain, const Setpoint& own) noexcept;
 
@@ -30,10 +30,10 @@ class Synchronizing {
 
   /// Each tick on the way in, before what advances.
   void watch_reversal(const LeadingStep& leading, double tolerance) noexcept {
-    progress_.watch(leading, tolerance, way_ == Way::velocity);
+    progress_.watch(leading, tolerance, method_ == Method::velocity);
   }
   bool reversed() const noexcept { return progress_.reversed(); }
-  bool tracks_velocity() const noexcept { return way_ == Way::velocity; }
+  bool tracks_velocity() const noexcept { return method_ == Method::velocity; }
   /// The setpoint of this tick; true once it is that of the function.
   bool track(const Chain& chain, Setpoint& setpoint) noexcept;
   /// The function of this tick plus what the axis is ahead of it; false, and no setpoint, once that is over.
@@ -46,7 +46,7 @@ class Synchronizing {
   void turn_leading(std::int64_t turns) noexcept { progress_.turn_leading(turns); }
 
  private:
-  enum class Way : std::uint8_t {
+  enum class Method : std::uint8_t {
     none,
     velocity,  ///< towards velocity and acceleration of the function
     distance,  ///< a function of the leading value over a distance
@@ -55,7 +55,7 @@ class Synchronizing {
 
   // synchronizing.cpp: what gear and cam share, and the gear
   Start reject(SyncRefusal why) noexcept;
-  Start begin_profile(Way way, AxisPosition start) noexcept;
+  Start begin_profile(Method method, AxisPosition start) noexcept;
   void watch_acceleration(const Chain& chain) noexcept;
   bool standing_on_sync_positions(const Chain& chain, const Setpoint& own) const noexcept;
   bool on_following_sync_position(double here, const Modulo& following) const noexcept;
@@ -88,7 +88,7 @@ class Synchronizing {
   Start watch_cam_end(const Chain& chain, const ChainView* active) noexcept;
 
   // What every tick of the way in touches.
-  Way way_ = Way::none;
+  Method method_ = Method::none;
   LeadingProgress progress_;
   double distance_ = 0.0;       // leading distance of the profile [u]
   double time_velocity_ = 1.0;  // leading velocity for which a profile in time was planned [u/s] > 0

@@ -80,12 +80,7 @@ Synchronizing::Start Synchronizing::watch_cam_distance(const Chain& chain, const
   const CamPlace place = cam.joined_at(end, direction);
   take_joint(chain, place, own.position.turns);
   curvature_ = stands_at(own, joint_, following) ? 0.0 : place.curvature;
-  const SyncStart start{.leading = from.position,
-                        .leading_velocity = from.velocity,
-                        .leading_acceleration = from.acceleration,
-                        .following = own.position,
-                        .velocity = own.velocity,
-                        .acceleration = own.acceleration};
+  const SyncStart start = start_from(from, own);
   SyncPlan plan = plan_along_tangent(chain, start);
   if (plan == SyncPlan::kAxisMovesTheOtherWay && curvature_ != 0.0) {
     curvature_ = 0.0;  // only the acceleration of the cam stands against SyncDirection: it steps there
@@ -97,7 +92,7 @@ Synchronizing::Start Synchronizing::watch_cam_distance(const Chain& chain, const
     return reject(SyncRefusal::leading_distance);
   cam.add_turns(distance_profile_.turns());
   joint_.turns += distance_profile_.turns();
-  return begin_profile(Way::distance, from.position);
+  return begin_profile(Method::distance, from.position);
 }
 
 /// Places the cam for a profile that ends at a leading position, which may be given its exact name.

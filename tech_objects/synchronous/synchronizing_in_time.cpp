@@ -42,8 +42,8 @@ Synchronizing::Start Synchronizing::watch_time(const Chain& chain, const Setpoin
   if (!in_time) return Start::not_yet;  // too late for this pass
   if (way > step && reaches(led.now, way - step, own.velocity * chain.period, next)) return Start::not_yet;
 
-  const double following_distance = following_way(chain, own, slope_ * led.last.velocity);
-  const AxisPosition following = advanced(own.position, following_distance, chain.function.following());
+  const double covered = following_way(chain, own, slope_ * led.last.velocity);
+  const AxisPosition following = advanced(own.position, covered, chain.function.following());
   if (chain.function.is_cam())
     take_joint(chain, chain.function.cam().joined_at(leading_at(chain, way), direction), following.turns);
   else
@@ -51,7 +51,7 @@ Synchronizing::Start Synchronizing::watch_time(const Chain& chain, const Setpoin
   time_profile_ = now;
   time_velocity_ = std::abs(led.last.velocity);
   distance_ = way;
-  return begin_profile(Way::time, led.last.position);
+  return begin_profile(Method::time, led.last.position);
 }
 
 /// Of SyncDirection: 1, -1; 0: the axis may turn either way.
@@ -76,11 +76,7 @@ double Synchronizing::following_way(const Chain& chain, const Setpoint& own,
   if (way < -there) way += following.length;
   const double acceleration = std::min(dynamics_.acceleration, dynamics_.deceleration) -
                               std::abs(curvature_) * leading_velocity * leading_velocity;
-  const ProfileLimits limits{.velocity_max = dynamics_.velocity,
-                             .velocity_min = -dynamics_.velocity,
-                             .acceleration = acceleration,
-                             .deceleration = acceleration,
-                             .jerk = dynamics_.jerk};
+  const ProfileLimits limits = limits_of({dynamics_.velocity, acceleration, acceleration, dynamics_.jerk});
   Profile change;
   const MotionState start{.velocity = own.velocity, .acceleration = own.acceleration};
   if (plan_velocity(start, synchronous_velocity, limits, change) != PlanResult::ok) return to * way;

@@ -194,7 +194,7 @@ Machine::Machine(const MachinePlan& plan) : plan_(plan) {
     trace_ = std::make_unique<TraceRing>(std::move(signals));
     project_.controller->trace = trace_.get();
   }
-  project_.controller->employ_processors();
+  project_.controller->employ_processors(plan.processors);
   run(kWarmUp);
   check();
 }

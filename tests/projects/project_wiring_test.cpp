@@ -344,7 +344,7 @@ TEST(ModbusMapping, LinesAndClientsAreReadAsTheyStand) {
   EXPECT_EQ(server.serial->silence, std::chrono::milliseconds(5));
   EXPECT_EQ(server.serial_unit, 12);
   const ModbusClientConfig& client = project.modbus.clients.at(0);
-  EXPECT_EQ(client.options.place(), "[::1]:502");
+  EXPECT_EQ(client.options.endpoint(), "[::1]:502");
   EXPECT_EQ(client.options.timeout, std::chrono::milliseconds(250));
   const ModbusDevice& device = client.options.devices.at(0);
   EXPECT_EQ(device.unit, 3);

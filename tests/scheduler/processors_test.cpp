@@ -117,7 +117,7 @@ TEST_P(Processors, ChangeNoBit) {
     Machine shared(GetParam(), one.seed);
     alone.tick();
     shared.tick();
-    shared.controller.employ_processors();
+    shared.controller.employ_processors(GetParam());
     ASSERT_EQ(shared.controller.helping_threads().size(), static_cast<std::size_t>(GetParam() - 1));
     std::mt19937_64 first(one.seed);
     std::mt19937_64 second(one.seed);
@@ -144,8 +144,18 @@ TEST(Processors, AreNotEmployedForAFewAxes) {
   rig.controller.clock.processors = 4;
   for (int i = 0; i < 20; ++i) rig.axis("Axis" + std::to_string(i));
   rig.tick();
-  rig.controller.employ_processors();
+  rig.controller.employ_processors(4);
   EXPECT_TRUE(rig.controller.helping_threads().empty());
+}
+
+/// More threads than processors would wait for each other.
+TEST(Processors, AreNoMoreThanTheMachineHas) {
+  Machine machine(64, 1);
+  machine.tick();
+  machine.controller.employ_processors(1);
+  EXPECT_TRUE(machine.controller.helping_threads().empty());
+  machine.controller.employ_processors(3);
+  EXPECT_EQ(machine.controller.helping_threads().size(), 2u);
 }
 
 // ---- Levels

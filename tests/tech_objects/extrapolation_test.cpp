@@ -1,5 +1,5 @@
 // The extrapolation of a leading actual value, against filters written down independently.
-#include "tech_objects/objects/extrapolation.hpp"
+#include "tech_objects/filters/extrapolation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,11 +48,16 @@ struct ReferencePt2 {
   long double step(long double next) { return second.step(first.step(next)); }
 };
 
-TO_Struct_Extrapolation settings_of(double position_t1, double position_t2, double velocity_t1,
-                                    double velocity_t2) {
-  TO_Struct_Extrapolation settings;
-  settings.PositionFilter = {position_t1, position_t2};
-  settings.VelocityFilter = {velocity_t1, velocity_t2};
+void set(double (&lags)[2], double first, double second) {
+  lags[0] = first;
+  lags[1] = second;
+}
+
+ExtrapolationSettings settings_of(double position_t1, double position_t2, double velocity_t1,
+                                  double velocity_t2) {
+  ExtrapolationSettings settings;
+  set(settings.position_lags, position_t1, position_t2);
+  set(settings.velocity_lags, velocity_t1, velocity_t2);
   return settings;
 }
 
@@ -62,7 +67,7 @@ struct OnLine : Extrapolation {
     configure({}, period, 0.0);
     reset({});
   }
-  double position(double actual, double velocity, const TO_Struct_Extrapolation& settings) {
+  double position(double actual, double velocity, const ExtrapolationSettings& settings) {
     return step({0, actual}, velocity, settings).position.value;
   }
 };
@@ -137,7 +142,7 @@ TEST(ExtrapolationFilters, AgreeWithTheClosedSolutionForAnyInput) {
 
 TEST(Extrapolation, HasNoErrorAtConstantVelocity) {
   auto settings = settings_of(0.004, 0.003, 0.02, 0.03);
-  settings.FollowingAxisDependentTime = 0.0055;
+  settings.further_time = 0.0055;
   OnLine extrapolation;
   const double v = 250.0;
   const double ahead = kPeriod + 0.0055;  // the rest makes up for the filters
@@ -164,8 +169,8 @@ TEST(Extrapolation, CountsTheAgeOfTheActualValueAsLeadingAxisPart) {
 
 TEST(Extrapolation, WithoutTheLeadingAxisPartLeavesItsLag) {
   auto settings = settings_of(0.004, 0.003, 0.0, 0.0);
-  settings.Settings.SystemDefinedExtrapolation = 0;
-  settings.FollowingAxisDependentTime = 0.001;
+  settings.makes_up_for_leading_axis = false;
+  settings.further_time = 0.001;
   OnLine extrapolation;
   double seen = 0.0;
   for (int i = 1; i <= 1000; ++i) seen = extrapolation.position(100.0 * seconds(i), 100.0, settings);
@@ -200,9 +205,9 @@ TEST(Extrapolation, WithNoiseStaysWithinBandHysteresisAndFilteredNoise) {
   std::mt19937_64 random(test::seed_of_test(77));
   std::uniform_real_distribution<double> noise(-1.0, 1.0);
   auto settings = settings_of(0.006, 0.004, 0.05, 0.03);
-  settings.VelocityTolerance.Range = 4.0;
-  settings.Hysteresis.Value = 0.02;
-  settings.FollowingAxisDependentTime = 0.003;
+  settings.velocity_tolerance = 4.0;
+  settings.hysteresis = 0.02;
+  settings.further_time = 0.003;
   const double time = kPeriod + 0.010 + 0.003;
   for (const double v : {120.0, -35.0, 0.0}) {
     OnLine extrapolation;
@@ -227,8 +232,8 @@ TEST(Extrapolation, WithNoiseStaysWithinBandHysteresisAndFilteredNoise) {
 // ---------------------------------------------------------------------------------------------
 
 TEST(ExtrapolationToleranceBand, MovesOnlyWhenTheVelocityLeavesItAndStaysHalfItsWidthBehind) {
-  TO_Struct_Extrapolation settings;
-  settings.VelocityTolerance.Range = 10.0;
+  ExtrapolationSettings settings;
+  settings.velocity_tolerance = 10.0;
   OnLine extrapolation;
   const std::vector<std::array<double, 2>> steps = {
       {4.0, 0.0},    // within half the band
@@ -251,8 +256,8 @@ TEST(ExtrapolationToleranceBand, MovesOnlyWhenTheVelocityLeavesItAndStaysHalfIts
 TEST(ExtrapolationToleranceBand, OfTheWidthOfTheNoiseHidesTheNoise) {
   std::mt19937_64 random(test::seed_of_test(5));
   std::uniform_real_distribution<double> noise(-1.0, 1.0);
-  TO_Struct_Extrapolation settings;
-  settings.VelocityTolerance.Range = 2.0;
+  ExtrapolationSettings settings;
+  settings.velocity_tolerance = 2.0;
   OnLine extrapolation;
   for (int i = 0; i < 3000; ++i) extrapolation.step({}, 50.0 + noise(random), settings);
   const double settled = extrapolation.values().filtered_velocity;
@@ -265,8 +270,8 @@ TEST(ExtrapolationToleranceBand, OfTheWidthOfTheNoiseHidesTheNoise) {
 // -------------------------------------------------------------------------------------------------
 
 TEST(ExtrapolationHysteresis, HoldsAReversalBackUntilItExceedsTheValue) {
-  TO_Struct_Extrapolation settings;
-  settings.Hysteresis.Value = 1.0;
+  ExtrapolationSettings settings;
+  settings.hysteresis = 1.0;
   OnLine extrapolation;
   const std::vector<std::array<double, 2>> steps = {
       {0.5, 0.5},  {3.0, 3.0},              // forward, as it is
@@ -280,8 +285,8 @@ TEST(ExtrapolationHysteresis, HoldsAReversalBackUntilItExceedsTheValue) {
 }
 
 TEST(ExtrapolationHysteresis, TakesTheFirstMotionAsTheOneThatIsNotHeldBack) {
-  TO_Struct_Extrapolation settings;
-  settings.Hysteresis.Value = 1.0;
+  ExtrapolationSettings settings;
+  settings.hysteresis = 1.0;
   OnLine extrapolation;
   const std::vector<std::array<double, 2>> steps = {{-2.0, -2.0}, {-1.5, -2.0}, {0.0, -1.0}, {-3.0, -3.0}};
   for (const auto& [position, shown] : steps)
@@ -291,8 +296,8 @@ TEST(ExtrapolationHysteresis, TakesTheFirstMotionAsTheOneThatIsNotHeldBack) {
 TEST(ExtrapolationHysteresis, NeverReversesForNoiseSmallerThanItself) {
   std::mt19937_64 random(test::seed_of_test(9));
   std::uniform_real_distribution<double> noise(-0.5, 0.5);
-  TO_Struct_Extrapolation settings;
-  settings.Hysteresis.Value = 1.0;
+  ExtrapolationSettings settings;
+  settings.hysteresis = 1.0;
   OnLine extrapolation;
   double last = extrapolation.position(1.0, 0.0, settings);
   for (int i = 0; i < 5000; ++i) {
@@ -303,12 +308,12 @@ TEST(ExtrapolationHysteresis, NeverReversesForNoiseSmallerThanItself) {
 }
 
 TEST(ExtrapolationHysteresis, ThatBecomesSmallerDoesNotStep) {
-  TO_Struct_Extrapolation settings;
-  settings.Hysteresis.Value = 1.0;
+  ExtrapolationSettings settings;
+  settings.hysteresis = 1.0;
   OnLine extrapolation;
   extrapolation.position(5.0, 0.0, settings);
   EXPECT_EQ(extrapolation.position(3.0, 0.0, settings), 4.0);
-  settings.Hysteresis.Value = 0.25;
+  settings.hysteresis = 0.25;
   EXPECT_EQ(extrapolation.position(2.9, 0.0, settings), 3.9);
   EXPECT_EQ(extrapolation.position(3.8, 0.0, settings), 3.9);  // used up but for 0.1
   EXPECT_DOUBLE_EQ(extrapolation.position(3.5, 0.0, settings), 3.75);
@@ -319,9 +324,9 @@ TEST(ExtrapolationHysteresis, ThatBecomesSmallerDoesNotStep) {
 
 TEST(ExtrapolatedVelocity, IsTheDifferenceOfThePositionsWhereItIsDifferentiated) {
   auto settings = settings_of(0.004, 0.003, 0.02, 0.0);
-  settings.Settings.ExtrapolatedVelocityMode = 1;
-  settings.Hysteresis.Value = 0.1;
-  settings.VelocityTolerance.Range = 1.0;
+  settings.velocity_of_positions = true;
+  settings.hysteresis = 0.1;
+  settings.velocity_tolerance = 1.0;
   OnLine extrapolation;
   double last = 0.0;
   for (int i = 1; i < 2000; ++i) {
@@ -339,8 +344,8 @@ TEST(ExtrapolatedVelocity, IsTheDifferenceOfThePositionsWhereItIsDifferentiated)
 TEST(ExtrapolationOnARing, IsThatOfALineAcrossTheEndsAndAfterAnyNumberOfTurns) {
   const Modulo ring{true, 360.0, -180.0};
   auto settings = settings_of(0.004, 0.003, 0.02, 0.03);
-  settings.Hysteresis.Value = 0.5;
-  settings.VelocityTolerance.Range = 2.0;
+  settings.hysteresis = 0.5;
+  settings.velocity_tolerance = 2.0;
   for (const std::int64_t turns : {std::int64_t{0}, std::int64_t{1} << 40, std::int64_t{1} << 62}) {
     OnLine line;
     Extrapolation extrapolation;
@@ -395,7 +400,7 @@ TEST(ExtrapolationSettingsAtRunTime, ChangingThePositionFilterAtConstantVelocity
       ++tick;
       const double seen = extrapolation.position(v * seconds(tick), v, settings);
       if (!check) continue;
-      const double shift = kPeriod + settings.PositionFilter.T1 + settings.PositionFilter.T2;
+      const double shift = kPeriod + settings.position_lags[0] + settings.position_lags[1];
       ASSERT_NEAR(seen, v * (seconds(tick) + kPeriod), 1e-9);
       ASSERT_NEAR(extrapolation.values().filtered_position.value, v * (seconds(tick) + kPeriod - shift),
                   1e-9);
@@ -403,23 +408,23 @@ TEST(ExtrapolationSettingsAtRunTime, ChangingThePositionFilterAtConstantVelocity
   };
   run(1000, false);
   for (const auto& [t1, t2] : filters) {
-    settings.PositionFilter = {t1, t2};
+    set(settings.position_lags, t1, t2);
     run(200, true);
   }
 }
 
 TEST(ExtrapolationSettingsAtRunTime, ChangingTheFiltersInAcceleratedMotionDoesNotStep) {
-  for (const DINT compensated : {0, 1}) {
+  for (const bool compensated : {false, true}) {
     auto settings = settings_of(0.02, 0.01, 0.03, 0.02);
-    settings.Settings.SystemDefinedExtrapolation = compensated;
+    settings.makes_up_for_leading_axis = compensated;
     OnLine extrapolation;
     double last = 0.0;
     for (int i = 1; i < 3000; ++i) {
       const double t = seconds(i);
       if (i % 100 == 0) {
         const double more = i % 200 == 0 ? 1.0 : 1.5;
-        settings.PositionFilter = {0.02 * more, 0.01 / more};
-        settings.VelocityFilter = {0.03 / more, 0.02 * more};
+        set(settings.position_lags, 0.02 * more, 0.01 / more);
+        set(settings.velocity_lags, 0.03 / more, 0.02 * more);
       }
       const double seen =
           extrapolation.position(10.0 * (1.0 - std::cos(5.0 * t)), 50.0 * std::sin(5.0 * t), settings);
@@ -431,10 +436,10 @@ TEST(ExtrapolationSettingsAtRunTime, ChangingTheFiltersInAcceleratedMotionDoesNo
 }
 
 TEST(ExtrapolationSettingsAtRunTime, FollowingAxisDependentTimeCountsAtOnce) {
-  TO_Struct_Extrapolation settings;
+  ExtrapolationSettings settings;
   OnLine extrapolation;
   for (int i = 1; i <= 10; ++i) extrapolation.position(100.0 * seconds(i), 100.0, settings);
-  settings.FollowingAxisDependentTime = 0.001;
+  settings.further_time = 0.001;
   EXPECT_DOUBLE_EQ(extrapolation.position(100.0 * seconds(11), 100.0, settings),
                    100.0 * (seconds(11) + kPeriod + 0.001));
 }
@@ -442,12 +447,12 @@ TEST(ExtrapolationSettingsAtRunTime, FollowingAxisDependentTimeCountsAtOnce) {
 TEST(ExtrapolationSettingsAtRunTime, WhatIsNegativeOrNoNumberCountsAsZero) {
   OnLine plain;
   OnLine strange;
-  const TO_Struct_Extrapolation none;
+  const ExtrapolationSettings none;
   for (const double value : {std::nan(""), -1.0, -std::numeric_limits<double>::infinity()}) {
     auto settings = settings_of(value, value, value, value);
-    settings.FollowingAxisDependentTime = value;
-    settings.VelocityTolerance.Range = value;
-    settings.Hysteresis.Value = value;
+    settings.further_time = value;
+    settings.velocity_tolerance = value;
+    settings.hysteresis = value;
     for (int i = 1; i < 20; ++i)
       ASSERT_EQ(strange.position(i, 10.0 * i, settings), plain.position(i, 10.0 * i, none));
   }
@@ -456,11 +461,11 @@ TEST(ExtrapolationSettingsAtRunTime, WhatIsNegativeOrNoNumberCountsAsZero) {
 TEST(ExtrapolationSettingsAtRunTime, TimesWithoutEndGiveFiniteValues) {
   const double infinity = std::numeric_limits<double>::infinity();
   auto settings = settings_of(infinity, 1e12, infinity, 1e12);
-  settings.FollowingAxisDependentTime = infinity;
+  settings.further_time = infinity;
   OnLine extrapolation;
   for (int i = 1; i < 100; ++i) {
     ASSERT_TRUE(std::isfinite(extrapolation.position(i, 1.0, settings)));
-    settings.PositionFilter.T1 = i % 2 == 0 ? infinity : 0.0;
+    settings.position_lags[0] = i % 2 == 0 ? infinity : 0.0;
   }
 }
 
@@ -469,8 +474,8 @@ TEST(ExtrapolationSettingsAtRunTime, TimesWithoutEndGiveFiniteValues) {
 
 TEST(ExtrapolationShiftedByHoming, GoesOnAsIfThePositionsHadAlwaysBeenThere) {
   auto settings = settings_of(0.004, 0.003, 0.02, 0.03);
-  settings.Settings.ExtrapolatedVelocityMode = 1;
-  settings.Hysteresis.Value = 0.25;
+  settings.velocity_of_positions = true;
+  settings.hysteresis = 0.25;
   OnLine shifted;
   OnLine plain;
   double by = 0.0;

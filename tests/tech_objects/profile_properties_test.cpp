@@ -40,17 +40,17 @@ class Requests {
   explicit Requests(double decades) : decades_(decades) {}
 
   Request next() {
-    const double way = power(-decades_, decades_), time = power(-0.6 * decades_, 0.6 * decades_);
+    const double length = power(-decades_, decades_), time = power(-0.6 * decades_, 0.6 * decades_);
     Request r{};
-    r.limits.velocity_max = way / time * power(-1.0, 1.0);
-    r.limits.velocity_min = one_of(3) ? -r.limits.velocity_max : -way / time * power(-1.0, 1.0);
-    r.limits.acceleration = way / time / time * power(-1.0, 1.0);
-    r.limits.deceleration = one_of(3) ? r.limits.acceleration : way / time / time * power(-1.0, 1.0);
-    r.limits.jerk = one_of(8) ? 0.0 : way / time / time / time * power(-1.5, 2.5);
-    r.start.position = one_of(3) ? 0.0 : 10.0 * way * between(-1.0, 1.0);
+    r.limits.velocity_max = length / time * power(-1.0, 1.0);
+    r.limits.velocity_min = one_of(3) ? -r.limits.velocity_max : -length / time * power(-1.0, 1.0);
+    r.limits.acceleration = length / time / time * power(-1.0, 1.0);
+    r.limits.deceleration = one_of(3) ? r.limits.acceleration : length / time / time * power(-1.0, 1.0);
+    r.limits.jerk = one_of(8) ? 0.0 : length / time / time / time * power(-1.5, 2.5);
+    r.start.position = one_of(3) ? 0.0 : 10.0 * length * between(-1.0, 1.0);
     r.start.velocity = within(std::max(r.limits.velocity_max, -r.limits.velocity_min));
     r.start.acceleration = within(std::max(r.limits.acceleration, r.limits.deceleration));
-    r.position = r.start.position + distance(way);
+    r.position = r.start.position + distance(length);
     r.velocity = end_velocity(r);
     return r;
   }

@@ -48,8 +48,8 @@ TEST(SyncProfile, BeginsWithTheMotionOfTheAxisAndEndsOnTheFunctionToTheLastBit) 
     EXPECT_NEAR(
         target.slope * start.leading_acceleration + begin.acceleration(way_velocity, way_acceleration),
         start.acceleration, 1e-6);
-    for (const double way : {distance, distance * 1.5}) {
-      const SyncOffset end = profile.value(way);
+    for (const double covered : {distance, distance * 1.5}) {
+      const SyncOffset end = profile.value(covered);
       EXPECT_TRUE(end.position == 0.0 && end.slope == 0.0 && end.curvature == 0.0);
     }
     const double step = distance * 1e-6;  // joins with position, slope and curvature

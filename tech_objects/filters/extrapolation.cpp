@@ -1,9 +1,7 @@
-#include "tech_objects/objects/extrapolation.hpp"
+#include "tech_objects/filters/extrapolation.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "tech_objects/arithmetic/decay.hpp"
 
 namespace lockstep {
 namespace {
@@ -20,12 +18,6 @@ double time_of(double value) noexcept {
 }
 
 }  // namespace
-
-void FirstOrderLag::tune(double time_constant, double period) noexcept {
-  time_constant_ = time_constant;
-  decay_ = time_constant > 0.0 ? decay_within(period / time_constant) : 1.0;
-  gain_ = time_constant / period * decay_;
-}
 
 void Extrapolation::configure(const Modulo& modulo, double period, double acquisition) noexcept {
   modulo_ = modulo;
@@ -55,40 +47,39 @@ void Extrapolation::shift(double by) noexcept {
   values_.position = advanced(values_.position, by, modulo_);
 }
 
-double Extrapolation::leading_axis_time(const TO_Struct_Extrapolation& settings) const noexcept {
-  return acquisition_ + period_ + time_of(settings.PositionFilter.T1) + time_of(settings.PositionFilter.T2);
+double Extrapolation::leading_axis_time(const ExtrapolationSettings& settings) const noexcept {
+  return acquisition_ + period_ + time_of(settings.position_lags[0]) + time_of(settings.position_lags[1]);
 }
 
 const ExtrapolatedValues& Extrapolation::step(AxisPosition actual, double velocity,
-                                              const TO_Struct_Extrapolation& settings) noexcept {
+                                              const ExtrapolationSettings& settings) noexcept {
   tune(settings);
   position_filter_.step(rounded_difference(actual, actual_, modulo_));
   velocity_filter_.step(velocity - velocity_);
   actual_ = actual;
   velocity_ = velocity;
 
-  pass_tolerance_band(velocity - velocity_filter_.behind(), not_negative(settings.VelocityTolerance.Range));
-  const double leading_part =
-      settings.Settings.SystemDefinedExtrapolation != 0 ? leading_axis_time(settings) : 0.0;
-  const double time = leading_part + time_of(settings.FollowingAxisDependentTime);
+  pass_tolerance_band(velocity - velocity_filter_.behind(), not_negative(settings.velocity_tolerance));
+  const double leading_part = settings.makes_up_for_leading_axis ? leading_axis_time(settings) : 0.0;
+  const double time = leading_part + time_of(settings.further_time);
   const double behind = position_filter_.behind();
   values_.filtered_position = advanced(actual, -behind, modulo_);
   const AxisPosition last = values_.position;
   pass_hysteresis(advanced(actual, values_.filtered_velocity * time - behind, modulo_),
-                  not_negative(settings.Hysteresis.Value));
-  values_.velocity = settings.Settings.ExtrapolatedVelocityMode == 1
+                  not_negative(settings.hysteresis));
+  values_.velocity = settings.velocity_of_positions
                          ? rounded_difference(values_.position, last, modulo_) / period_
                          : values_.filtered_velocity;
   return values_;
 }
 
 /// Takes changed time constants over; without a change four comparisons.
-void Extrapolation::tune(const TO_Struct_Extrapolation& settings) noexcept {
-  const bool compensated = settings.Settings.SystemDefinedExtrapolation != 0;
-  tune_position(position_filter_.first, time_of(settings.PositionFilter.T1), compensated);
-  tune_position(position_filter_.second, time_of(settings.PositionFilter.T2), compensated);
-  const double t1 = time_of(settings.VelocityFilter.T1);
-  const double t2 = time_of(settings.VelocityFilter.T2);
+void Extrapolation::tune(const ExtrapolationSettings& settings) noexcept {
+  const bool compensated = settings.makes_up_for_leading_axis;
+  tune_position(position_filter_.first, time_of(settings.position_lags[0]), compensated);
+  tune_position(position_filter_.second, time_of(settings.position_lags[1]), compensated);
+  const double t1 = time_of(settings.velocity_lags[0]);
+  const double t2 = time_of(settings.velocity_lags[1]);
   if (t1 != velocity_filter_.first.time_constant()) velocity_filter_.first.tune(t1, period_);
   if (t2 != velocity_filter_.second.time_constant()) velocity_filter_.second.tune(t2, period_);
 }

@@ -1,0 +1,85 @@
+// Words that CONTRIBUTING.md has a term of the field for: no identifier is made of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/architecture/source_text.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kFolders[] = {"tech_objects", "fb", "scheduler", "hmi_bridge", "projects", "cli"};
+
+// distance, maximum, minimum are said instead.
+const std::set<std::string> kNotTheTerm = {"way", "ways", "greatest", "most", "least", "fewest"};
+// Of the language, or with another meaning.
+const std::set<std::string> kAllowed = {"at_most", "at_least", "is_in_the_way", "on_the_way"};
+
+// The words of an identifier, in lower case: of `kMostWays` and `most_ways` both "most", "ways".
+std::vector<std::string> words_of(std::string_view identifier) {
+  std::vector<std::string> words(1);
+  for (const char c : identifier) {
+    if (c == '_' || std::isupper(static_cast<unsigned char>(c)) != 0) words.emplace_back();
+    if (c != '_') words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return words;
+}
+
+bool is_of_the_field(const std::string& identifier) {
+  if (kAllowed.contains(identifier)) return true;
+  const std::vector<std::string> words = words_of(identifier);
+  return std::none_of(words.begin(), words.end(),
+                      [](const auto& word) { return kNotTheTerm.contains(word); });
+}
+
+std::set<std::string> identifiers_of(const std::string& code) {
+  std::set<std::string> identifiers;
+  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (auto from = code.begin(); from != code.end();) {
+    from = std::find_if(from, code.end(), is_word);
+    const auto to = std::find_if_not(from, code.end(), is_word);
+    if (from != to && std::isdigit(static_cast<unsigned char>(*from)) == 0) identifiers.emplace(from, to);
+    from = to;
+  }
+  return identifiers;
+}
+
+std::string faults_of(const fs::path& source) {
+  std::ifstream file(source, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string faults;
+  for (const std::string& identifier : identifiers_of(code_of(text, false)))
+    if (!is_of_the_field(identifier)) faults += source.string() + ": " + identifier + "\n";
+  return faults;
+}
+
+TEST(Names, AreMadeOfTheTermsOfTheField) {
+  std::string faults;
+  for (const std::string_view folder : kFolders)
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(fs::path(LOCKSTEP_SOURCE_DIR) / folder))
+      if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp")
+        faults += faults_of(entry.path());
+  EXPECT_EQ(faults, "") << "CONTRIBUTING.md, Words, says which terms these have";
+}
+
+TEST(Names, AreTakenApartIntoWords) {
+  EXPECT_FALSE(is_of_the_field("kMostClients"));
+  EXPECT_FALSE(is_of_the_field("way_to_rest_"));
+  EXPECT_TRUE(is_of_the_field("at_most"));
+  EXPECT_TRUE(is_of_the_field("always"));
+  EXPECT_EQ(identifiers_of("int way2 = 0x1f; f(a_b);"), (std::set<std::string>{"int", "way2", "f", "a_b"}));
+}
+
+}  // namespace
+}  // namespace lockstep
