@@ -13,6 +13,7 @@
 #include "fb/interpolate_cam.hpp"
 #include "fb/jog.hpp"
 #include "fb/leading_value.hpp"
+#include "fb/long_counters.hpp"
 #include "fb/measuring_input.hpp"
 #include "fb/motion_in.hpp"
 #include "fb/move.hpp"
@@ -86,6 +87,9 @@ constexpr BlockType kTypes[] = {
     block_type<CTU>(),
     block_type<CTD>(),
     block_type<CTUD>(),
+    block_type<CTU_DINT>(),
+    block_type<CTD_DINT>(),
+    block_type<CTUD_DINT>(),
 };
 // clang-format on
 

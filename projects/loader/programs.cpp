@@ -2,12 +2,9 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "fb/cam_in.hpp"
 #include "projects/expressions/constant.hpp"
-#include "projects/loader/cam_calls.hpp"
+#include "projects/loader/call_checks.hpp"
 #include "projects/loader/loader.hpp"
-#include "tech_objects/cam/motion.hpp"
-#include "tech_objects/cam_design/design_check.hpp"
 
 namespace lockstep {
 namespace {
@@ -71,11 +68,11 @@ std::string message_of(const ExpressionError& error) {
 class ProgramLoader {
  public:
   ProgramLoader(Program& program, const Loading& loading)
-      : program_(program), loading_(loading), problems_(loading.problems) {}
+      : program_(program), loading_(loading), problems_(loading.problems), call_checks_(loading.problems) {}
 
   void load_calls(const JsonValue* calls);
   /// Behind all calls: what several of them have to do with each other.
-  void look_at_all() const { cam_calls_.warn_of_exchanges(problems_); }
+  void look_at_all() const { call_checks_.look_at_all(); }
 
  private:
   void load_call(const JsonValue& json);
@@ -94,9 +91,6 @@ class ProgramLoader {
   void load_object_pin(const JsonValue& json, const Pin& pin, Instance& instance);
   void check_constants(const Instance& instance);
   void check_leading_value(const JsonValue& in, Instance& instance);
-  void look_at_cam(const JsonValue& in, const Instance& instance);
-  void check_closed(const JsonValue& in, const MC_CamIn& block);
-  void check_copied(const JsonValue& in, const Instance& instance, std::string_view what);
 
   /// What the place of a type gets: a JSON boolean or number, or an expression; none if it is reported.
   std::optional<Expression> compile(const JsonValue* json, Type type);
@@ -109,7 +103,7 @@ class ProgramLoader {
   const Loading& loading_;
   Problems& problems_;
   std::vector<std::pair<const Pin*, const JsonValue*>> constants_;  // of the call that is being loaded
-  CamCalls cam_calls_;
+  CallChecks call_checks_;
 };
 
 void ProgramLoader::load_calls(const JsonValue* calls) {
@@ -292,9 +286,7 @@ void ProgramLoader::load_pins(const JsonValue* in, const JsonValue& call, Instan
   if (in == nullptr) return;
   check_constants(instance);
   check_leading_value(*in, instance);
-  if (instance.type->name == MC_CamIn::kName) look_at_cam(*in, instance);
-  if (instance.type->name == "MC_CopyCamData")
-    for (const std::string_view what : {"Point", "Segment"}) check_copied(*in, instance, what);
+  call_checks_.add(*in, instance, constants_);
 }
 
 void ProgramLoader::load_pin(const std::string& name, const JsonValue& json, Instance& instance) {
@@ -372,66 +364,6 @@ void ProgramLoader::check_leading_value(const JsonValue& in, Instance& instance)
     return;
   problems_.warn(*master, master->shown() + " is not among the leading_values of '" + following->name +
                               "'; the job of '" + instance.name + "' will fail");
-}
-
-void ProgramLoader::look_at_cam(const JsonValue& in, const Instance& instance) {
-  const auto& block = static_cast<const MC_CamIn&>(*instance.block);
-  const auto computed = [&](std::string_view name) {
-    const auto is_it = [&](const auto& known) { return known.first->name == name; };
-    return in.find(name) != nullptr && std::none_of(constants_.begin(), constants_.end(), is_it);
-  };
-  if (!computed("ApplicationMode") && !computed("SlaveScaling")) check_closed(in, block);
-  if (!computed("SyncProfileReference") && !computed("MasterScaling") && !computed("SlaveScaling"))
-    cam_calls_.add(in, block);
-}
-
-/// Warns of a cam that is to be passed again and again and does not close.
-void ProgramLoader::check_closed(const JsonValue& in, const MC_CamIn& block) {
-  if (block.ApplicationMode != static_cast<DINT>(CamMode::cyclic) || block.Slave == nullptr ||
-      block.Cam == nullptr || !block.Cam->interpolated())
-    return;
-  const TO_Struct_Modulo& ring = block.Slave->data.Modulo;
-  const CamFunction& cam = block.Cam->function();
-  if (CamFollowing::closes(cam, block.SlaveScaling, {ring.Enable, ring.Length, ring.StartValue})) {
-    for (const CamJoint& joint : joints_of(cam, true))
-      if (joint.wrap && joint.keeps == Continuity::position)
-        problems_.warn(*in.find("ApplicationMode"), "with '" + block.Cam->name + "' " + step_text(joint) +
-                                                        ": the following axis gets that step in each pass");
-    return;
-  }
-  problems_.warn(*in.find("ApplicationMode"),
-                 "1 needs a cam that ends as it begins, and '" + block.Cam->name + "' begins with " +
-                     value_text({.r = cam.start_following_value()}, Type::LREAL) + " and ends with " +
-                     value_text({.r = cam.end_following_value()}, Type::LREAL) +
-                     "; the block will report error 16#80AC unless MC_InterpolateCam changes the cam before; "
-                     "allowed with this cam: 0, 2");
-}
-
-/// Warns of elements that are to be copied and that the array does not have, as far as that is constant.
-void ProgramLoader::check_copied(const JsonValue& in, const Instance& instance, std::string_view what) {
-  const std::string element(what);
-  const auto constant = [&](const std::string& name) -> std::optional<std::int64_t> {
-    const Pin& pin = *instance.type->find_pin(name);
-    const auto is_it = [&](const auto& known) { return known.first == &pin; };
-    if (in.find(name) != nullptr && std::none_of(constants_.begin(), constants_.end(), is_it))
-      return std::nullopt;
-    return pin.signal(*instance.block).load().i;
-  };
-  const JsonValue* const number_json = in.find("NumberOf" + element + "s");
-  const auto number = constant("NumberOf" + element + "s");
-  const auto start = constant("Start" + element + "Array");
-  if (number_json == nullptr || !number || *number <= 0 || !start) return;
-  const std::string pin = "ArrayOf" + element + "s";
-  if (in.find(pin) == nullptr)
-    return problems_.warn(*number_json, pin + " is not given; the block will report an error");
-  Block& block = *instance.block;
-  const auto* const array =
-      *static_cast<const Array* const*>(instance.type->find_pin(pin)->signal(block).address);
-  if (array == nullptr || (array->holds(*start) && *number <= std::int64_t{array->upper} - *start + 1))
-    return;
-  problems_.warn(*number_json, std::to_string(*number) + " from " + std::to_string(*start) +
-                                   " on are more than " + in.find(pin)->shown() + " has, an " +
-                                   array_type_name(*array) + "; the block will report an error");
 }
 
 /// A cycle of a program, which is there where its organization block needs one.

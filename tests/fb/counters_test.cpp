@@ -11,8 +11,8 @@ constexpr INT kMost = std::numeric_limits<INT>::max();
 constexpr INT kLeast = std::numeric_limits<INT>::min();
 
 // One rising edge: a call with the input FALSE and one with it TRUE.
-template <class Block>
-void pulse(Block& block, BOOL Block::*input) {
+template <class Block, class Owner>
+void pulse(Block& block, BOOL Owner::*input) {
   block.*input = false;
   block.call(0);
   block.*input = true;

@@ -116,6 +116,8 @@ std::string problems(const std::string& cam) {
 std::vector<Problem> warnings_of(const std::string& text) {
   LoadedProject loaded = load_project(text);
   EXPECT_TRUE(loaded.problems.empty()) << lines_of(loaded.problems);
+  const LoadedProject looked_at = load_project(text, "", {}, LoadedFor::looking);
+  EXPECT_EQ(looked_at.warnings, loaded.warnings) << "as 'lockstep check' tells them";
   std::erase_if(loaded.warnings, [](const Problem& warning) { return warning.place.starts_with("/tags/"); });
   return std::move(loaded.warnings);
 }

@@ -1,0 +1,63 @@
+#include "fb/long_counters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace lockstep {
+namespace {
+
+constexpr DINT kMost = std::numeric_limits<DINT>::max();
+constexpr DINT kLeast = std::numeric_limits<DINT>::min();
+
+// One rising edge: a call with the input FALSE and one with it TRUE.
+template <class Block, class Owner>
+void pulse(Block& block, BOOL Owner::*input) {
+  block.*input = false;
+  block.call(0);
+  block.*input = true;
+  block.call(0);
+}
+
+TEST(CTU_DINT, CountsBeyondTheGreatestInt) {
+  CTU_DINT counter;
+  counter.PV = 32'769;
+  for (int i = 0; i < 32'768; ++i) pulse(counter, &CTU_DINT::CU);
+  EXPECT_EQ(counter.CV, 32'768);
+  EXPECT_FALSE(counter.Q);
+  pulse(counter, &CTU_DINT::CU);
+  EXPECT_TRUE(counter.Q);
+}
+
+TEST(CTU_DINT, StopsAtTheGreatestDint) {
+  CTU_DINT counter;
+  counter.CV = kMost - 1;
+  pulse(counter, &CTU_DINT::CU);
+  pulse(counter, &CTU_DINT::CU);
+  EXPECT_EQ(counter.CV, kMost);
+}
+
+TEST(CTD_DINT, StopsAtTheLeastDint) {
+  CTD_DINT counter;
+  counter.LD = true;
+  counter.PV = kLeast + 1;
+  counter.call(0);
+  counter.LD = false;
+  pulse(counter, &CTD_DINT::CD);
+  pulse(counter, &CTD_DINT::CD);
+  EXPECT_EQ(counter.CV, kLeast);
+  EXPECT_TRUE(counter.Q);
+}
+
+TEST(CTUD_DINT, StopsAtBothEnds) {
+  CTUD_DINT counter;
+  counter.CV = kMost;
+  pulse(counter, &CTUD_DINT::CU);
+  EXPECT_EQ(counter.CV, kMost);
+  counter.CV = kLeast;
+  pulse(counter, &CTUD_DINT::CD);
+  EXPECT_EQ(counter.CV, kLeast);
+}
+
+}  // namespace
+}  // namespace lockstep
