@@ -139,6 +139,7 @@ void Controller::tell_jobs() {
 
 void Controller::skip(std::int64_t ticks) noexcept {
   next_tick_ += ticks;
+  last_missed_ = now();
   counters_.missed_ticks += static_cast<std::uint64_t>(ticks);
   for (const auto& object : objects) object->skip(ticks);
 }

@@ -227,7 +227,8 @@ class Controller {
   std::unique_ptr<CamInterpolator> interpolator_;  // for the largest cam; none without cams
   std::size_t next_stimulus_ = 0;
   std::int64_t next_tick_ = 0;
-  std::int64_t last_time_ = -1;  // of the last executed tick [ns]; -1: none yet
+  std::int64_t last_time_ = -1;    // of the last executed tick [ns]; -1: none yet
+  std::int64_t last_missed_ = -1;  // of the tick after those missed last [ns]; -1: none was
   bool shutting_down_ = false;
   CycleCounters counters_;
   std::vector<AxisSummary> summary_;  // of the axes

@@ -4,6 +4,11 @@
 #include "scheduler/controller.hpp"
 
 namespace lockstep {
+namespace {
+
+constexpr std::int64_t kLateFor = 1'000'000'000;  // [ns] after missed ticks, for what may have come of them
+
+}  // namespace
 
 void Controller::tick() noexcept {
   const std::int64_t t = now();
@@ -165,8 +170,9 @@ void Controller::tell_events(std::int64_t t) noexcept {
 }
 
 void Controller::tell(EventKind kind, std::size_t source, int number, int reaction, std::int64_t t) noexcept {
+  const bool late = last_missed_ >= 0 && t - last_missed_ <= kLateFor;
   events->push({kind, static_cast<std::int16_t>(reaction), static_cast<std::uint32_t>(source), number, t,
-                static_cast<std::uint64_t>(next_tick_)});
+                static_cast<std::uint64_t>(next_tick_), late});
 }
 
 void Controller::count_overrun() noexcept {

@@ -37,6 +37,7 @@ struct Event {
   std::int32_t number = 0;    ///< of an alarm; ErrorID of a job that has failed
   std::int64_t t = 0;         ///< of the tick [ns] since the start of the run
   std::uint64_t tick = 0;     ///< number of the servo tick
+  bool late = false;          ///< ticks were missed within a second before it
 };
 
 /// The crossing of events: a ring with one writer and one reader, neither of which waits for the other inside

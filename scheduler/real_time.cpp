@@ -1,48 +1,19 @@
 #include "scheduler/real_time.hpp"
 
 #include <pthread.h>
-#include <sched.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <time.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstring>
 
 #include "scheduler/processor.hpp"
+#include "scheduler/real_time_rights.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr int kPriority = 80;                     // of SCHED_FIFO, below the kernel's own threads
 constexpr int kOverrunsToStop = 3;                // in a row
 constexpr std::chrono::milliseconds kCamPoll{1};  // how often the interpolation of cams looks for work
 constexpr std::int64_t kLongestShutdown = 10'000'000'000;  // [ns] for bringing the axes to rest
-
-std::int64_t clock_now() noexcept {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
-
-void sleep_until(std::int64_t due) noexcept {
-  const timespec time{static_cast<time_t>(due / 1'000'000'000), static_cast<long>(due % 1'000'000'000)};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {
-  }
-}
-
-/// Locks what is there. What comes later is locked only where there is no limit: with one, an allocation of
-/// another thread would fail.
-bool lock_memory() noexcept {
-  if (mlockall(MCL_CURRENT) != 0) return false;
-  rlimit limit{};
-  const bool unlimited =
-      geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
-  return !unlimited || mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
-}
 
 template <class T>
 void raise_to(std::atomic<T>& place, T value) noexcept {
@@ -51,8 +22,9 @@ void raise_to(std::atomic<T>& place, T value) noexcept {
 
 }  // namespace
 
-RealTimeRun::RealTimeRun(Controller& controller, OverrunPolicy policy, std::int64_t duration, int processor)
-    : controller_(controller), policy_(policy), duration_(duration), processor_(processor) {}
+RealTimeRun::RealTimeRun(Controller& controller, OverrunPolicy policy, std::int64_t duration, int processor,
+                         WaitingClock& clock)
+    : controller_(controller), policy_(policy), duration_(duration), processor_(processor), clock_(clock) {}
 
 RealTimeRun::~RealTimeRun() {
   stop();
@@ -77,17 +49,18 @@ std::vector<std::string> RealTimeRun::start() {
     if (const int error = keep_on_processor(thread_.native_handle(), processor_); error != 0)
       warnings.push_back("the cycle cannot be kept on processor " + std::to_string(processor_) + " (" +
                          std::strerror(error) + "): it runs on the others");
-  if (!lock_memory())
-    warnings.push_back(std::string("memory cannot be locked (") + std::strerror(errno) +
+  const int memory = lock_memory();
+  rights_.memory = memory == 0;
+  if (!rights_.memory)
+    warnings.push_back(std::string("memory cannot be locked (") + std::strerror(memory) +
                        "): a page fault may delay a tick");
-  const sched_param parameters{kPriority};
-  if (const int error = pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &parameters); error != 0)
-    warnings.push_back(std::string("real-time priority is not permitted (") + std::strerror(error) +
+  const int priority = give_priority(thread_.native_handle(), kCyclePriority);
+  rights_.priority = priority == 0;
+  if (!rights_.priority)
+    warnings.push_back(std::string("real-time priority is not permitted (") + std::strerror(priority) +
                        "): other processes may delay a tick");
   // One below the cycle, so that a helper never keeps it from a processor that both may use.
-  const sched_param below{kPriority - 1};
-  for (const pthread_t helper : controller_.helping_threads())
-    pthread_setschedparam(helper, SCHED_FIFO, &below);
+  for (const pthread_t helper : controller_.helping_threads()) give_priority(helper, kCyclePriority - 1);
   return warnings;
 }
 
@@ -109,14 +82,14 @@ void RealTimeRun::interpolate_cams() noexcept {
 void RealTimeRun::run() noexcept {
   pthread_setname_np(pthread_self(), "cycle");  // for top and strace
   const std::int64_t cycle = controller_.clock.servo_cycle;
-  const std::int64_t start = clock_now() + cycle;
+  const std::int64_t start = clock_.now() + cycle;
   bool shutting_down = false;
   std::int64_t shutdown_begin = 0;
   for (;;) {
     const std::int64_t t = controller_.now();
     const std::int64_t due = start + t;
-    sleep_until(due);
-    const std::int64_t begin = clock_now();
+    clock_.sleep_until(due);
+    const std::int64_t begin = clock_.now();
     raise_to(status_.worst_lateness, begin - due);
 
     const bool ended = duration_ >= 0 && t >= duration_;
@@ -135,7 +108,7 @@ void RealTimeRun::run() noexcept {
     status_.ticks.fetch_add(1, std::memory_order_relaxed);
     status_.time.store(t, std::memory_order_relaxed);
 
-    const std::int64_t end = clock_now();
+    const std::int64_t end = clock_.now();
     raise_to(status_.longest_tick, end - begin);
     const std::int64_t late = end - (due + cycle);
     // The grid of ticks stays; those whose time has passed are left out.

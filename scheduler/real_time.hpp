@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scheduler/controller.hpp"
+#include "scheduler/waiting_clock.hpp"
 
 namespace lockstep {
 
@@ -30,12 +31,20 @@ struct RealTimeStatus {
       false};  ///< the axes are off, or the time for it is over; ticks go on until `wait`
 };
 
+/// What the system has given to the thread of a cycle.
+struct RealTimeRights {
+  bool priority = false;  ///< of SCHED_FIFO, `kCyclePriority`
+  bool memory = false;    ///< is locked
+};
+
 /// Owns the thread of the cycle. Threads: one that starts, stops and waits.
 class RealTimeRun {
  public:
   /// @param duration runs the ticks with t < duration [ns]; negative: until `stop`
   /// @param processor of the cycle, which others have left (`leave_processor`); negative: any
-  RealTimeRun(Controller& controller, OverrunPolicy policy, std::int64_t duration, int processor = -1);
+  /// @param clock that it waits for; it outlives this
+  RealTimeRun(Controller& controller, OverrunPolicy policy, std::int64_t duration, int processor = -1,
+              WaitingClock& clock = monotonic_clock());
   ~RealTimeRun();
   RealTimeRun(const RealTimeRun&) = delete;
   RealTimeRun& operator=(const RealTimeRun&) = delete;
@@ -43,6 +52,8 @@ class RealTimeRun {
   /// Starts the thread with real-time priority and locked memory as far as the system permits.
   /// @return what was not permitted, as plain warnings
   std::vector<std::string> start();
+  /// What it permitted. After `start`.
+  const RealTimeRights& rights() const noexcept { return rights_; }
 
   /// Asks the run to end: axes are brought to rest, then ticks go on until somebody waits for the end. Any
   /// thread.
@@ -62,6 +73,8 @@ class RealTimeRun {
   OverrunPolicy policy_;
   std::int64_t duration_;
   int processor_;
+  WaitingClock& clock_;
+  RealTimeRights rights_;
   std::atomic<bool> stop_requested_{false};
   std::atomic<bool> may_end_{false};
   RealTimeStatus status_;

@@ -4,6 +4,12 @@
 #include "tech_objects/alarms/reactions.hpp"
 
 namespace lockstep {
+namespace {
+
+constexpr std::string_view kAfterMissedTicks =
+    "; ticks were missed within the second before, which it may come from";
+
+}  // namespace
 
 std::string_view event_kind_text(EventKind kind) noexcept {
   constexpr std::string_view texts[] = {
@@ -35,6 +41,7 @@ TraceEvent EventTexts::of(const Event& event, std::uint64_t lost) const {
   if (event.kind == EventKind::alarm) {
     const Alarm* const alarm = find_alarm(event.number);
     if (alarm != nullptr) told.text = alarm->text;
+    if (event.late) told.text += kAfterMissedTicks;
     told.reaction_text = alarm_reaction_text(event.reaction);
   }
   if (event.kind == EventKind::job_failed) told.text = error_text(static_cast<ErrorId>(event.number));

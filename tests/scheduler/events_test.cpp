@@ -71,6 +71,33 @@ TEST(Events, TellAlarmsAndTheirAcknowledgementInTheirTicks) {
   EXPECT_EQ(acknowledged[0].kind, EventKind::acknowledged);
 }
 
+TEST(Events, TellWhetherTicksWereMissedWithinASecondBefore) {
+  Rig rig;
+  Axis& axis = rig.axis("Axis");
+  EventQueue queue;
+  rig.controller.events = &queue;
+  const auto alarm_is_late = [&] {
+    axis.raise(alarm::kVelocityLimitZero);
+    rig.tick();
+    const std::vector<Event> told = taken(queue);
+    EXPECT_EQ(told.size(), 1u);
+    auto& reset = rig.block<MC_Reset>();
+    reset.Axis = &axis;
+    reset.Execute = true;
+    rig.run(3);
+    taken(queue);
+    return !told.empty() && told[0].late;
+  };
+  rig.run(10);
+  EXPECT_FALSE(alarm_is_late()) << "none was missed";
+  rig.controller.skip(20);
+  EXPECT_TRUE(alarm_is_late()) << "in the next tick";
+  rig.run(900);
+  EXPECT_TRUE(alarm_is_late());
+  rig.run(200);
+  EXPECT_FALSE(alarm_is_late()) << "more than a second later";
+}
+
 TEST(Events, TellHowJobsStartAndEnd) {
   Controller controller;
   controller.clock = {1'000'000, 1};
