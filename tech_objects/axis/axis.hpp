@@ -136,8 +136,11 @@ class Axis final : public AxisFamilies {
   bool left_alone() const noexcept;
   bool plain() const noexcept;
   bool advance_plainly() noexcept;
+  bool follow_plainly() noexcept;
+  bool follow_shifted() noexcept;
   void finish_cycle() noexcept;
   void show_where_it_is() noexcept;
+  bool far_inside() const noexcept;
   bool within_range() const noexcept;
   void publish_plainly() noexcept;
   void publish_coupling_plainly() noexcept;
