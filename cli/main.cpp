@@ -42,6 +42,7 @@ int carry_out(int argc, char** argv) {
   add_plot_command(app, action);
   add_monitor_command(app, action);
   add_cam_command(app, action);
+  add_doctor_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

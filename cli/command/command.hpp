@@ -35,6 +35,7 @@ void add_write_command(CLI::App& app, Action& action);
 void add_plot_command(CLI::App& app, Action& action);
 void add_monitor_command(CLI::App& app, Action& action);
 void add_cam_command(CLI::App& app, Action& action);
+void add_doctor_command(CLI::App& app, Action& action);
 
 /// Whether warnings of a project are told: not by commands that use it and do not judge it.
 enum class Warnings : std::uint8_t { told, kept };

@@ -9,6 +9,10 @@
 
 namespace lockstep::cli {
 
+void clear_line() noexcept {
+  if (isatty(STDERR_FILENO) == 1) write_message("\r\033[K", 0);
+}
+
 void tell_alarm(const TraceEvent& event, int patience) {
   std::string text;
   const double seconds = static_cast<double>(event.t) * 1e-9;

@@ -17,8 +17,7 @@
 #include "hmi_bridge/network/thread_stacks.hpp"
 #include "projects/runtime/kept_values.hpp"
 #include "projects/runtime/run_surroundings.hpp"
-#include "scheduler/processor.hpp"
-#include "scheduler/real_time.hpp"
+#include "projects/runtime/runtime.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -26,7 +25,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kRefresh = 100ms;                        // of the display
-constexpr auto kLookWhileBraking = 10ms;                // whether the axes are at rest
 constexpr std::size_t kDescriptors = 40;                // beside those of Modbus clients
 constexpr std::size_t kMemory = std::size_t{32} << 20;  // [byte] stacks, and what grows with the run
 constexpr std::uint64_t kTicksBetweenLooks = 4096;      // of a simulation, at the clock and for signals
@@ -38,7 +36,10 @@ class ToldOnStandardError final : public Messages {
   explicit ToldOnStandardError(int patience) : patience_(patience) {}
 
   void inform(const std::string& text) noexcept override { tell(text); }
-  void warn(const std::string& text) noexcept override { tell("warning: " + text, Gravity::warning); }
+  void warn(const std::string& text) noexcept override {
+    clear_line();
+    tell("warning: " + text, Gravity::warning);
+  }
   void event(const TraceEvent& event) override { tell_alarm(event, patience_); }
 
  private:
@@ -50,14 +51,6 @@ struct Forgetting {
   Ending& ending;
   ~Forgetting() { ending.finished(); }
 };
-
-/// From here on time is limited, and what is not finished in it is told.
-void end(RunSurroundings& surroundings, Display& display, Ending& ending) {
-  ending.limit([&surroundings] { return surroundings.unfinished(); });
-  surroundings.end();
-  ending.finished();
-  display.close();
-}
 
 /// Virtual time: as fast as the machine can; waits for the disk, never for the clock.
 void simulate(Project& project, RunSurroundings& surroundings, Display& display, Ending& ending,
@@ -82,7 +75,11 @@ void simulate(Project& project, RunSurroundings& surroundings, Display& display,
   }
   controller.take_summary();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  end(surroundings, display, ending);
+  // From here on time is limited, and what is not finished in it is told.
+  ending.limit([&surroundings] { return surroundings.unfinished(); });
+  surroundings.end();
+  ending.finished();
+  display.close();
   const double simulated = static_cast<double>(controller.now()) * 1e-9;
   write_message(fmt::format("simulated {:.3f} s in {:.3f} s ({:.0f} × real time), {} ticks\n", simulated,
                             spent.count(), simulated / spent.count(), controller.counters().ticks));
@@ -113,33 +110,26 @@ void tell_moving(const Controller& controller) {
            " was not at rest when the time for it was over; nothing brakes it now");
 }
 
-/// Real time, on a thread of its own; this one only looks and tells.
-int run_in_real_time(Project& project, RunSurroundings& surroundings, Display& display, Ending& ending,
-                     const RunOptions& options) {
-  const OverrunPolicy policy = project.stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
-  ServiceManager manager(project.controller->clock.servo_cycle);
-  RealTimeRun run(*project.controller, policy, options.duration, options.cpu);
-  for (const std::string& warning : run.start()) tell("warning: " + warning);
-  const RealTimeStatus& status = run.status();
-  const Forgetting at_the_end{ending};
-  ending.run([&run] { run.stop(); });
-  while (!status.at_rest.load(std::memory_order_acquire)) {
-    ending.wait(ending.requested() ? kLookWhileBraking : manager.interval(kRefresh));
+/// Waits for the end of a run, and shows meanwhile how it goes.
+void wait_for_end(Runtime& machine, Display& display, ServiceManager& manager, Ending& ending) {
+  const RealTimeStatus& status = machine.status();
+  ending.run([&machine] { machine.stop(); });
+  while (!machine.wait_for_rest(manager.interval(kRefresh))) {
     manager.look(status.ticks.load());
-    if (ending.requested()) {
-      manager.stopping();
-      surroundings.hear_no_more();
-    }
+    if (ending.requested()) manager.stopping();
     display.show(status.time.load(), trouble(status));
-    surroundings.look();
   }
   manager.look(status.ticks.load());
   manager.stopping();
-  // What is acknowledged up to here is taken by the tick that comes before the end.
-  ending.limit({});
-  surroundings.take_no_more();
-  run.wait();
-  end(surroundings, display, ending);
+  // From here on time is limited, and what is not finished in it is told.
+  ending.limit([&machine] { return machine.unfinished(); });
+  while (!machine.wait()) continue;
+  ending.finished();
+  display.close();
+}
+
+/// How the run was, and its exit status.
+int tell_end(const RealTimeStatus& status, const Controller& controller) {
   write_message(fmt::format(
       "ran {:.3f} s: {} ticks, {} overruns, {} missed ticks, worst lateness {:.1f} µs, longest tick "
       "{:.1f} µs\n",
@@ -147,7 +137,7 @@ int run_in_real_time(Project& project, RunSurroundings& surroundings, Display& d
       status.missed_ticks.load(), static_cast<double>(status.worst_lateness.load()) * 1e-3,
       static_cast<double>(status.longest_tick.load()) * 1e-3));
   tell_missed(status);
-  tell_moving(*project.controller);
+  tell_moving(controller);
   if (!status.stopped_by_overrun.load()) return kOk;
   tell("stopped: three interpolator cycles in a row were not over in time (clock.overrun is \"stop\")",
        Gravity::error);
@@ -180,27 +170,44 @@ std::size_t clients_of(const Project& project) {
   return clients;
 }
 
-int run_project(Project& project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,
-                Messages& messages) {
-  if (options.cpu >= 0)
-    if (const std::string problem = leave_processor(options.cpu); !problem.empty())
-      throw CouldNotStart(options.mark + "cpu: " + problem);
-  project.controller->apply_stimuli = options.simulate || options.stimuli;
-  const bool alone = options.simulate && options.modbus.empty();  // virtual time, without Modbus
-  require_descriptors(kDescriptors + (alone ? 0 : clients_of(project)));
+/// Before the axes move: whether what a run may need can be had.
+void require_means(const Project& project, bool modbus) {
+  require_descriptors(kDescriptors + (modbus ? clients_of(project) : 0));
   require_memory(kMemory);
+}
+
+int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,
+                  Messages& messages) {
+  project.controller->apply_stimuli = true;
+  require_means(project, !options.modbus.empty());
   Ending ending;
   RunSurroundings surroundings(project, options, std::move(keeper), messages);
   Display display(project, surroundings.signals(), options.duration);
-  int status = kOk;
-  if (options.simulate) {
-    simulate(project, surroundings, display, ending, options.duration);
-  } else {
-    status = run_in_real_time(project, surroundings, display, ending, options);
-  }
+  simulate(project, surroundings, display, ending, options.duration);
   surroundings.tell_losses();
   tell_axes(*project.controller);
   tell_counters(*project.controller);
+  return kOk;
+}
+
+/// The threads of the run do the work; this one only looks and tells.
+int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,
+                     std::shared_ptr<Messages> messages) {
+  std::unique_ptr<Display> display;  // of whose image the cycle knows: it goes after the cycle
+  Runtime machine(std::move(project), std::move(keeper), options, std::move(messages));
+  machine.leave_processor();
+  require_means(machine.project(), true);
+  Ending ending;
+  machine.prepare();
+  display = std::make_unique<Display>(machine.project(), machine.trace_signals(), options.duration);
+  const Controller& controller = *machine.project().controller;
+  ServiceManager manager(controller.clock.servo_cycle);
+  const Forgetting at_the_end{ending};
+  machine.start();
+  wait_for_end(machine, *display, manager, ending);
+  const int status = tell_end(machine.status(), controller);
+  tell_axes(controller);
+  tell_counters(controller);
   return status;
 }
 
@@ -208,13 +215,15 @@ int run_project(Project& project, std::unique_ptr<RetainWriter> keeper, const Ru
 
 int run_project(const RunOptions& options) {
   keep_stacks_small();
-  ToldOnStandardError messages(options.simulate ? 500 : 0);
+  const auto messages = std::make_shared<ToldOnStandardError>(options.simulate ? 500 : 0);
   try {
     std::unique_ptr<RetainWriter> keeper;
     int status = kOk;
     std::optional<Project> project = load_or_tell(
-        options.file, status, [&](Project& loaded) { keeper = restore_kept(loaded, options, messages); });
-    return project ? run_project(*project, std::move(keeper), options, messages) : status;
+        options.file, status, [&](Project& loaded) { keeper = restore_kept(loaded, options, *messages); });
+    if (!project) return status;
+    return options.simulate ? run_simulated(std::move(*project), std::move(keeper), options, *messages)
+                            : run_in_real_time(std::move(*project), std::move(keeper), options, messages);
   } catch (const CouldNotStart& error) {
     tell(with_help(error.what()), Gravity::error);
   } catch (const RetainFileError& error) {

@@ -10,6 +10,7 @@
 #include "projects/loader/simulation.hpp"
 #include "projects/runtime/kept_values.hpp"
 #include "projects/runtime/run_surroundings.hpp"
+#include "projects/runtime/system_facts.hpp"
 #include "scheduler/processor.hpp"
 
 namespace lockstep {
@@ -36,11 +37,17 @@ class Runtime::Run {
         messages_(messages ? std::move(messages) : std::make_shared<Unheard>()) {
     if (options_.simulate)
       throw CouldNotStart(options_.mark + "simulate: a run in virtual time is stepped by its owner");
-    load();
+  }
+
+  void load();
+  void take(Project project, std::unique_ptr<RetainWriter> keeper) {
+    project_ = std::move(project);
+    keeper_ = std::move(keeper);
   }
 
   Project& project() noexcept { return *project_; }
   const std::vector<Endpoint>& modbus_endpoints() const noexcept { return modbus_endpoints_; }
+  const std::vector<NamedSignal>& trace_signals() const noexcept { return trace_signals_; }
   std::vector<std::string> unfinished() const {
     return state() == RuntimeState::ending ? surroundings_->unfinished() : std::vector<std::string>{};
   }
@@ -55,15 +62,17 @@ class Runtime::Run {
     return state_;
   }
 
+  void leave_processor();
+  void prepare();
   /// Up to the first tick.
   void start();
   void stop() noexcept;
   bool wait(std::chrono::milliseconds patience);
+  bool wait_for_rest(std::chrono::milliseconds time);
   /// From the first tick to the end.
   void look_after() noexcept;
 
  private:
-  void load();
   void look_until_at_rest();
   void enter(RuntimeState state) noexcept;
   template <class Call>
@@ -76,6 +85,9 @@ class Runtime::Run {
   std::unique_ptr<RunSurroundings> surroundings_;
   std::unique_ptr<RealTimeRun> cycle_;
   std::vector<Endpoint> modbus_endpoints_;
+  std::vector<NamedSignal> trace_signals_;
+  bool left_ = false;  // the processor of the cycle
+  bool prepared_ = false;
   bool started_ = false;
   mutable std::mutex mutex_;  // guards those below
   std::condition_variable changed_;
@@ -95,18 +107,31 @@ void Runtime::Run::load() {
   project_ = std::move(loaded.project);
 }
 
-void Runtime::Run::start() {
-  if (std::exchange(started_, true)) throw std::logic_error("a runtime is started once");
-  if (options_.cpu >= 0)
-    if (const std::string problem = leave_processor(options_.cpu); !problem.empty())
-      throw CouldNotStart(options_.mark + "cpu: " + problem);
+void Runtime::Run::leave_processor() {
+  if (options_.cpu < 0 || std::exchange(left_, true)) return;
+  if (const std::string problem = lockstep::leave_processor(options_.cpu); !problem.empty())
+    throw CouldNotStart(options_.mark + "cpu: " + problem);
+}
+
+void Runtime::Run::prepare() {
+  if (std::exchange(prepared_, true)) throw std::logic_error("a runtime is prepared once");
+  leave_processor();
   project_->controller->apply_stimuli = options_.stimuli;
   surroundings_ = std::make_unique<RunSurroundings>(*project_, options_, std::move(keeper_), *messages_);
   modbus_endpoints_ = surroundings_->modbus_endpoints();
+  trace_signals_ = surroundings_->signals();
+}
+
+void Runtime::Run::start() {
+  if (std::exchange(started_, true)) throw std::logic_error("a runtime is started once");
+  if (!prepared_) prepare();
+  if (!surroundings_) throw std::logic_error("a runtime that could not be prepared cannot be started");
   const OverrunPolicy policy = project_->stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
   cycle_ = std::make_unique<RealTimeRun>(*project_->controller, policy, options_.duration, options_.cpu);
   try {
-    for (const std::string& warning : cycle_->start()) messages_->warn(warning);
+    const std::vector<std::string> warnings = cycle_->start();
+    messages_->inform(system_text(read_system_facts(), cycle_->rights(), options_.cpu));
+    for (const std::string& warning : warnings) messages_->warn(warning);
   } catch (...) {
     cycle_.reset();
     surroundings_.reset();
@@ -128,6 +153,12 @@ bool Runtime::Run::wait(std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return state_ != RuntimeState::running; });
   return changed_.wait_for(lock, patience, [this] { return state_ != RuntimeState::ending; });
+}
+
+bool Runtime::Run::wait_for_rest(std::chrono::milliseconds time) {
+  std::unique_lock lock(mutex_);
+  if (state_ == RuntimeState::running) changed_.wait_for(lock, time);
+  return state_ != RuntimeState::running;
 }
 
 void Runtime::Run::enter(RuntimeState state) noexcept {
@@ -166,9 +197,9 @@ void Runtime::Run::look_after() noexcept {
   attempt([this] { look_until_at_rest(); });
   // For a look that has failed: the axes are at rest otherwise.
   cycle_->stop();
+  enter(RuntimeState::ending);
   // What is acknowledged up to here is taken by the tick that comes before the end.
   attempt([this] { surroundings_->take_no_more(); });
-  enter(RuntimeState::ending);
   cycle_->wait();
   attempt([this] { surroundings_->end(); });
   attempt([this] { surroundings_->tell_losses(); });
@@ -176,7 +207,15 @@ void Runtime::Run::look_after() noexcept {
 }
 
 Runtime::Runtime(RunOptions options, std::shared_ptr<Messages> messages)
-    : run_(std::make_shared<Run>(std::move(options), std::move(messages))) {}
+    : run_(std::make_shared<Run>(std::move(options), std::move(messages))) {
+  run_->load();
+}
+
+Runtime::Runtime(Project project, std::unique_ptr<RetainWriter> keeper, RunOptions options,
+                 std::shared_ptr<Messages> messages)
+    : run_(std::make_shared<Run>(std::move(options), std::move(messages))) {
+  run_->take(std::move(project), std::move(keeper));
+}
 
 Runtime::~Runtime() {
   if (!thread_.joinable()) return;
@@ -185,6 +224,14 @@ Runtime::~Runtime() {
     thread_.join();
   else
     thread_.detach();
+}
+
+void Runtime::leave_processor() {
+  run_->leave_processor();
+}
+
+void Runtime::prepare() {
+  run_->prepare();
 }
 
 void Runtime::start() {
@@ -206,6 +253,10 @@ bool Runtime::wait(std::chrono::milliseconds patience) {
   return run_->wait(patience);
 }
 
+bool Runtime::wait_for_rest(std::chrono::milliseconds time) {
+  return run_->wait_for_rest(time);
+}
+
 RuntimeState Runtime::state() const {
   return run_->state();
 }
@@ -220,6 +271,10 @@ std::vector<std::string> Runtime::unfinished() const {
 
 std::vector<Endpoint> Runtime::modbus_endpoints() const {
   return run_->modbus_endpoints();
+}
+
+const std::vector<NamedSignal>& Runtime::trace_signals() const {
+  return run_->trace_signals();
 }
 
 Project& Runtime::project() noexcept {

@@ -14,6 +14,8 @@
 #include <thread>
 #include <vector>
 
+#include "hmi_bridge/retain/writer.hpp"
+#include "hmi_bridge/traces/columns.hpp"
 #include "projects/loader/project.hpp"
 #include "projects/runtime/messages.hpp"
 #include "projects/runtime/run_options.hpp"
@@ -29,10 +31,11 @@ enum class RuntimeState : std::uint8_t {
   ended     ///< nothing goes on any more
 };
 
-/// A project that runs in real time as `lockstep run` does: with its Modbus server and clients, traces and
-/// commands over LCM, kept values, flight recorder and audit log. Its threads are the cycle's, those of what
-/// is around it, and one that looks after them; it runs once. Signals of the process, exit statuses and the
-/// service manager stay with the program that embeds it. In virtual time there is `Simulation`.
+/// A project that runs in real time, which is what `lockstep run` is made of: with its Modbus server and
+/// clients, traces and commands over LCM, kept values, flight recorder and audit log. Its threads are the
+/// cycle's, those of what is around it, and one that looks after them; it runs once. Signals of the process,
+/// exit statuses and the service manager stay with the program that embeds it. In virtual time there is
+/// `Simulation`.
 class Runtime {
  public:
   /// For what comes after the axes are at rest; that itself takes ten seconds at most.
@@ -42,17 +45,30 @@ class Runtime {
   /// @param messages hears what the run tells; it lives as long as something of it does; nullptr: nobody
   /// @throws InvalidProject, UnreadableFile, RetainFileError, and CouldNotStart for options of virtual time
   explicit Runtime(RunOptions options, std::shared_ptr<Messages> messages = nullptr);
+  /// The same for a project that has been loaded.
+  /// @param keeper as `restore_kept` has given it for this project; nullptr: nothing is kept
+  Runtime(Project project, std::unique_ptr<RetainWriter> keeper, RunOptions options,
+          std::shared_ptr<Messages> messages = nullptr);
   /// Stops and waits. What does not come to its end in time is left alone with all that it needs, and may
   /// go on until the process ends.
   ~Runtime();
   Runtime(const Runtime&) = delete;
   Runtime& operator=(const Runtime&) = delete;
 
-  /// Starts all that is around the cycle, then the cycle. With `cpu` the calling thread, and those that it
-  /// starts from then on, leave that processor. The memory of the process is locked as far as the system
-  /// permits, the stacks of its threads included: `keep_stacks_small` limits those.
+  /// With `cpu`, leaves that processor with the calling thread, and so with those that it starts from then
+  /// on; nothing otherwise, and after the first call. Before threads of the program that are to leave it too.
+  /// @throws CouldNotStart
+  void leave_processor();
+
+  /// Leaves the processor, and starts all that is around the cycle. Between this and `start` a program adds
+  /// images of its own to the controller.
   /// @throws CouldNotStart, std::logic_error if it has been called before; std::exception where the system
-  ///   gives no threads or memory. Nothing runs then, and this object cannot be started any more
+  ///   gives no threads or memory. This object cannot be started any more then
+  void prepare();
+
+  /// Prepares, if that has not been done, and starts the cycle. The memory of the process is locked as far
+  /// as the system permits, the stacks of its threads included: `keep_stacks_small` limits those.
+  /// @throws as `prepare`. Nothing runs then, and this object cannot be started any more
   void start();
 
   /// Asks the run to end: its axes are brought to rest. Any thread; returns at once.
@@ -63,6 +79,9 @@ class Runtime {
   /// @param patience for what comes after that
   /// @return false if something does not come to its end (`unfinished`); it may be called again
   bool wait(std::chrono::milliseconds patience = kPatience);
+  /// The same until the axes are at rest, for so long at most, or until `stop`, if that comes first.
+  /// @return whether they are
+  bool wait_for_rest(std::chrono::milliseconds time);
 
   /// Any thread.
   RuntimeState state() const;
@@ -72,8 +91,10 @@ class Runtime {
   /// What has not come to its end, a line each. Any thread.
   std::vector<std::string> unfinished() const;
   /// Where the Modbus server listens, with the ports that the system gave; empty: there is none over TCP.
-  /// From `start` on.
+  /// From `prepare` on.
   std::vector<Endpoint> modbus_endpoints() const;
+  /// Of the trace, as options and project say. From `prepare` on.
+  const std::vector<NamedSignal>& trace_signals() const;
 
   /// The loaded project. Between `start` and `ended` its controller belongs to the cycle: what a program
   /// wants to see or write then goes through a `ProcessImage` that it adds to `controller->images` before.

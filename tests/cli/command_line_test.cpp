@@ -6,7 +6,8 @@
 namespace lockstep::cli {
 namespace {
 
-constexpr const char* kCommands[] = {"check", "run", "describe", "tags", "read", "write", "plot", "monitor"};
+constexpr const char* kCommands[] = {"check", "run",  "describe", "tags",  "read",
+                                     "write", "plot", "monitor",  "doctor"};
 
 TEST(CommandLine, EveryCommandHasAHelpThatNamesItsExitStatuses) {
   const Ended all = lockstep({"--help"});

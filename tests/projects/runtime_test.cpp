@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "projects/loader/simulation.hpp"
@@ -180,6 +181,48 @@ TEST(Runtime, IsStoppedBeforeItsFirstTickToo) {
   machine.stop();
   machine.start();
   EXPECT_TRUE(machine.wait(kLimit));
+  EXPECT_THROW(machine.start(), std::logic_error);
+}
+
+TEST(Runtime, RunsAProjectThatIsLoadedAndShowsItToItsOwnerFromBeforeTheFirstTick) {
+  const Given given;
+  const RunOptions wanted = given.options();
+  LoadedProject loaded = load_project_file(wanted.file);
+  ASSERT_TRUE(loaded.project);
+  Runtime machine(std::move(*loaded.project), nullptr, wanted);
+  machine.prepare();
+  EXPECT_EQ(machine.state(), RuntimeState::loaded);
+  ASSERT_EQ(machine.trace_signals().size(), 2u);
+  EXPECT_EQ(machine.trace_signals()[1].name, "twice");
+  ProcessImage image({machine.trace_signals()[1].signal});
+  machine.project().controller->images.push_back(&image);
+  machine.start();
+  EXPECT_TRUE(comes_true([&] {
+    image.refresh();
+    return image.value(0).i == 6;
+  }));
+  EXPECT_FALSE(machine.wait_for_rest(1ms));
+  machine.stop();
+  EXPECT_TRUE(comes_true([&] { return machine.wait_for_rest(10ms); }));
+  EXPECT_TRUE(machine.wait(kLimit));
+  EXPECT_THROW(machine.prepare(), std::logic_error);
+}
+
+TEST(Runtime, TellsWhatTheSystemGives) {
+  const Given given;
+  const auto heard = std::make_shared<Heard>();
+  Runtime machine(given.options(), heard);
+  machine.start();
+  EXPECT_TRUE(heard->has("the system gives "));
+  EXPECT_TRUE(heard->has(", kernel "));
+}
+
+TEST(Runtime, CannotBeStartedWhenItCouldNotBePrepared) {
+  const Given given;
+  RunOptions wanted = given.options();
+  wanted.signals = {"nobody"};
+  Runtime machine(wanted);
+  EXPECT_THROW(machine.prepare(), CouldNotStart);
   EXPECT_THROW(machine.start(), std::logic_error);
 }
 

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <thread>
+#include <utility>
 
 #include "hmi_bridge/retain/file.hpp"
 #include "tests/hmi_bridge/serial_cable.hpp"
@@ -146,14 +147,20 @@ class UnreadPipe {
   UnreadPipe& operator=(const UnreadPipe&) = delete;
 
   const std::string& path() const { return path_; }
+  /// Whether nothing has come for a second: a write that does not fit as a whole may leave a part of the page
+  /// empty while it waits.
   bool is_full() const {
     int waiting = 0;
-    return ::ioctl(reader_, FIONREAD, &waiting) == 0 && waiting >= 4096;
+    EXPECT_EQ(::ioctl(reader_, FIONREAD, &waiting), 0);
+    if (waiting != std::exchange(seen_, waiting)) since_ = Clock::now();
+    return waiting > 0 && Clock::now() - since_ > 1s;
   }
 
  private:
   std::string path_;
   int reader_ = -1;
+  mutable int seen_ = 0;                            // [byte] at the last look
+  mutable Clock::time_point since_ = Clock::now();  // that many stand there
 };
 
 class EndingWithAHungTrace : public testing::TestWithParam<const char*> {};
