@@ -27,7 +27,7 @@ void Axis::cycle() noexcept {
   }
   last_setpoint_ = setpoint_;
   servo_tick_ = 0;
-  if (!advance_plainly() || !within_range()) return finish_cycle();
+  if (!advance_plainly()) return finish_cycle();
   show_where_it_is();
   publish_plainly();
 }
@@ -52,7 +52,7 @@ inline bool Axis::plain() const noexcept {
 
 /// The base motion has been advanced by more than a new setpoint: a job may have met its end, or an alarm.
 [[gnu::noinline]] void Axis::finish_cycle() noexcept {
-  if (!within_range()) guard();
+  guard();
   if (handing_over_) hand_over_.step();
   show_where_it_is();
   if (plain())
@@ -70,34 +70,46 @@ inline void Axis::show_where_it_is() noexcept {
   actual_velocity_ = setpoint_.velocity;
 }
 
-/// The base motion. @return whether nothing but the setpoint has changed
+/// The base motion. @return whether the axis still is plain, with a setpoint at which `guard` finds nothing.
+/// The ends of a shift and of a motion of its own leave it plain; what an alarm does is not.
 inline bool Axis::advance_plainly() noexcept {
-  if (motion_ == AxisMotion::synchronous) {
-    if (asks_for_ratio(*jobs_[kBase]) || synchronous_.shifted()) {
-      step_synchronous();
-      return false;
-    }
-    synchronous_.look_at_leading();
-    synchronous_.advance(setpoint_);
-    if (!synchronous_.at_cam_end()) return true;
-    meet_cam_end();
-    return false;
-  }
+  if (motion_ == AxisMotion::synchronous) return follow_plainly() && within_range();
   if (jobs_[kBase] == nullptr && single_.stands()) {
     setpoint_.velocity = 0.0;
     setpoint_.acceleration = 0.0;
-    return true;
+    return far_inside();
   }
   step_single_axis();
+  return pending_alarm() == 0 && within_range();
+}
+
+inline bool Axis::follow_plainly() noexcept {
+  if (asks_for_ratio(*jobs_[kBase]) || synchronous_.shifted()) return follow_shifted();
+  synchronous_.look_at_leading();
+  synchronous_.advance(setpoint_);
+  if (!synchronous_.at_cam_end()) return true;
+  meet_cam_end();
   return false;
+}
+
+/// With shifts, or with a ratio that may change.
+[[gnu::noinline]] bool Axis::follow_shifted() noexcept {
+  shifting_.look_at_coupling(*jobs_[kBase]);
+  synchronous_.advance(setpoint_);
+  if (!synchronous_.at_cam_end()) return true;
+  meet_cam_end();
+  return false;
+}
+
+/// Where an axis that stands has no end of its range to watch.
+inline bool Axis::far_inside() const noexcept {
+  return std::abs(setpoint_.position.value) < 0.5 * kPositionRange;
 }
 
 /// Whether `guard` would find nothing. A comparison with what is not finite is false.
 inline bool Axis::within_range() const noexcept {
-  if (!modulo_.enabled && !setpoint_.standing())
-    return far_from_end_of_range(setpoint_, modulo_, data.DynamicLimits);
-  return std::abs(setpoint_.position.value) < 0.5 * kPositionRange && std::isfinite(setpoint_.velocity) &&
-         std::isfinite(setpoint_.acceleration);
+  if (!modulo_.enabled) return far_from_end_of_range(setpoint_, modulo_, data.DynamicLimits);
+  return far_inside() && std::isfinite(setpoint_.velocity) && std::isfinite(setpoint_.acceleration);
 }
 
 void Axis::publish_plainly() noexcept {

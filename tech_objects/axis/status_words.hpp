@@ -100,11 +100,11 @@ struct Excess {
   }
 };
 
-/// Whether the acceleration of a setpoint makes it quicker or slower.
+/// Whether the acceleration of a setpoint, which is not 0, makes it quicker or slower.
 inline std::uint32_t pace_bits(const Setpoint& setpoint) noexcept {
-  const double push = sign(setpoint.velocity) * setpoint.acceleration;  // a product of both may be none
-  return when(push > 0.0 || setpoint.velocity == 0.0, StatusBit::Accelerating) |
-         when(push < 0.0, StatusBit::Decelerating);
+  // By their signs: a product of both may be none.
+  const bool quicker = (setpoint.velocity < 0.0) == (setpoint.acceleration < 0.0);
+  return word_of(quicker || setpoint.velocity == 0.0 ? StatusBit::Accelerating : StatusBit::Decelerating);
 }
 
 /// What the shifts show.

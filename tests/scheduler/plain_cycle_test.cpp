@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fb/cam_in.hpp"
 #include "fb/gear_in.hpp"
 #include "fb/gear_in_velocity.hpp"
 #include "fb/leading_value.hpp"
@@ -17,6 +18,8 @@
 #include "fb/stop.hpp"
 #include "fb/superimposed.hpp"
 #include "fb/sync_out.hpp"
+#include "tech_objects/cam_object/cam.hpp"
+#include "tech_objects/cam_object/interpolation.hpp"
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
@@ -40,6 +43,7 @@ struct Blocks {
   MC_GearIn* gear;
   MC_GearInPos* gear_at;
   MC_GearInVelocity* gear_velocity;
+  MC_CamIn* cam;
   MC_GearOut* out;
   MC_PhasingRelative* phase;
   MC_OffsetRelative* offset;
@@ -51,8 +55,13 @@ struct Blocks {
 struct Machine : Rig {
   static constexpr int kAxes = 12;
 
-  Machine(bool never_plain, std::uint64_t seed) {
+  Machine(bool never_plain, std::uint64_t seed)
+      : cam(static_cast<Cam&>(controller.add_object(ObjectKind::TO_Cam, "Wave"))) {
     std::mt19937_64 random(seed);
+    for (std::size_t i = 0; i <= 8; ++i)
+      cam.define_point(i, {45.0 * static_cast<double>(i), i % 2 == 0 ? 0.0 : 20.0});
+    CamInterpolator interpolator(cam.point_count());
+    EXPECT_EQ(cam.interpolate(interpolator), ErrorId::none);
     for (int i = 0; i < kAxes; ++i) {
       Axis& made = axis("Axis" + std::to_string(i), [&](AxisData& data) {
         data.VirtualAxis.Mode = i % 6 == 5 ? 0 : 1;
@@ -97,6 +106,7 @@ struct Machine : Rig {
              .gear = following<MC_GearIn>(own),
              .gear_at = following<MC_GearInPos>(own),
              .gear_velocity = following<MC_GearInVelocity>(own),
+             .cam = following<MC_CamIn>(own),
              .out = following<MC_GearOut>(own),
              .phase = following<MC_PhasingRelative>(own),
              .offset = following<MC_OffsetRelative>(own),
@@ -104,7 +114,10 @@ struct Machine : Rig {
              .simulation = following<MC_SynchronizedMotionSimulation>(own)};
     b.power->Enable = true;
     b.home->Mode = 1;
-    b.gear->Master = b.gear_at->Master = b.gear_velocity->Master = b.phase->Master = &master;
+    b.gear->Master = b.gear_at->Master = b.gear_velocity->Master = b.cam->Master = b.phase->Master = &master;
+    b.cam->Cam = &cam;
+    b.cam->SyncProfileReference = 2;
+    b.cam->ApplicationMode = static_cast<DINT>(random() % 2);
     b.gear->RatioNumerator = static_cast<DINT>(random() % 7) - 3;
     if (b.gear->RatioNumerator == 0) b.gear->RatioNumerator = 5;
     b.gear->RatioDenominator = static_cast<DINT>(1 + random() % 5);
@@ -123,7 +136,7 @@ struct Machine : Rig {
     Blocks& b = blocks[i];
     AxisData& data = axes[i]->data;
     const double number = static_cast<double>(random() % 400) - 200.0;
-    switch (random() % 20) {
+    switch (random() % 21) {
       case 0:
         b.power->Enable = !b.power->Enable || random() % 4 != 0;
         break;
@@ -186,6 +199,9 @@ struct Machine : Rig {
         b.simulation->Enable = !b.simulation->Enable && random() % 3 == 0;
         break;
       case 18:
+        b.cam->Execute = !b.cam->Execute;
+        break;
+      case 19:
         data.PositionLimits_SW.Active = random() % 4 == 0;
         break;
       default:
@@ -196,6 +212,7 @@ struct Machine : Rig {
     }
   }
 
+  Cam& cam;
   std::vector<Axis*> axes;
   std::vector<Blocks> blocks;
 };
@@ -218,6 +235,7 @@ struct Machine : Rig {
 
 TEST(PlainCycle, ShowsWhatTheWholeCycleShows) {
   int synchronous = 0;
+  int camming = 0;
   int shifted = 0;
   int standing = 0;
   int moving = 0;
@@ -238,6 +256,7 @@ TEST(PlainCycle, ShowsWhatTheWholeCycleShows) {
         ASSERT_TRUE(same(*whole.axes[i], *plain.axes[i])) << "in tick " << tick;
         const AxisData& data = plain.axes[i]->data;
         synchronous += has_bit(data.StatusWord, StatusBit::Synchronous) ? 1 : 0;
+        camming += data.StatusSynchronizedMotion.ActualCam != DB_ANY{} ? 1 : 0;
         shifted += has_bit(data.StatusWord2, Status2Bit::OffsetCommand) ? 1 : 0;
         standing += has_bit(data.StatusWord, StatusBit::Done) ? 1 : 0;
         moving += has_bit(data.StatusWord, StatusBit::PositioningCommand) ? 1 : 0;
@@ -246,6 +265,7 @@ TEST(PlainCycle, ShowsWhatTheWholeCycleShows) {
     }
   });
   EXPECT_GT(synchronous, 1000);
+  EXPECT_GT(camming, 1000);
   EXPECT_GT(shifted, 100);
   EXPECT_GT(standing, 1000);
   EXPECT_GT(moving, 1000);
