@@ -114,14 +114,12 @@ class Axis final : public AxisFamilies {
   void configure_servo();
   void restart_servo() noexcept;
   void restart() noexcept;
-
   // jobs.cpp
   ErrorId carry_out(const Job& job) noexcept;
   void start(Job& job) noexcept;
   void install(Job& job) noexcept;
   void home(Job& job) noexcept;
   ErrorId reset(bool restart) noexcept;
-
   // cycle.cpp
   void take_additive() noexcept;
   void step_superimposed() noexcept;
@@ -131,7 +129,6 @@ class Axis final : public AxisFamilies {
   void step_waiting_to_leave(const Setpoint& candidate) noexcept;
   void meet_cam_end() noexcept;
   void guard() noexcept;
-
   // plain_cycle.cpp: a cycle in which nothing but the base motion happens
   bool left_alone() const noexcept;
   bool plain() const noexcept;
