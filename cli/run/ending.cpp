@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <condition_variable>
 #include <csignal>
 #include <exception>
 #include <memory>
@@ -66,12 +67,6 @@ Ending::~Ending() {
   if (thread_.joinable()) thread_.join();
   ::close(wake_);
   ::close(signals_in_);
-}
-
-void Ending::wait(std::chrono::milliseconds time) {
-  std::unique_lock lock(mutex_);
-  const int before = signals_;
-  asked_.wait_for(lock, time, [&] { return signals_ != before; });
 }
 
 void Ending::run(std::function<void()> stop) {
@@ -138,7 +133,6 @@ void Ending::take_signal() noexcept {
   if (::read(signals_in_, &info, sizeof info) != sizeof info) return;
   const std::lock_guard lock(mutex_);
   ++signals_;
-  asked_.notify_all();
   if (stop_) std::exchange(stop_, nullptr)();
 }
 

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -36,8 +35,6 @@ class Ending {
 
   /// Whether a signal has asked the run to end. Any thread.
   bool requested() const noexcept { return signals_ > 0; }
-  /// Returns after this time, or when a signal comes.
-  void wait(std::chrono::milliseconds time);
 
   /// The run begins; `stop` is called once, in the thread of the watch, when a signal asks for the end. It
   /// must not block.
@@ -66,7 +63,6 @@ class Ending {
   std::atomic<std::int64_t> spent_{0};  // [ms] of the stage, while time counts
   std::atomic<bool> over_{false};
   std::mutex mutex_;  // guards those below
-  std::condition_variable asked_;
   std::function<void()> stop_;
   std::function<std::vector<std::string>()> lost_;
   std::thread thread_;

@@ -203,12 +203,24 @@ std::multimap<std::string, std::string> processors_of_threads(pid_t process) {
   return threads;
 }
 
+/// Whether all threads of a process are stopped: on a busy machine that takes a while.
+bool stands(pid_t process) {
+  const std::string tasks = "/proc/" + std::to_string(process) + "/task";
+  for (const auto& thread : std::filesystem::directory_iterator(tasks)) {
+    std::ifstream status(thread.path() / "status");
+    for (std::string line; std::getline(status, line);)
+      if (line.starts_with("State:") && !line.starts_with("State:\tT")) return false;
+  }
+  return true;
+}
+
 TEST(RealTime, TicksThatItMissesAreToldWithWhatTheyMayExplain) {
   const Directory directory;
   RunningLockstep run(slow_to_brake(directory));
   ModbusClient client(run.port());
   ASSERT_TRUE(running_at_200(client));
   run.send(SIGSTOP);
+  EXPECT_TRUE(wait_until([&] { return stands(run.pid()); }));
   const auto stopped = Clock::now();
   EXPECT_TRUE(wait_until([&] { return Clock::now() - stopped > std::chrono::milliseconds(100); }));
   run.send(SIGCONT);
