@@ -31,7 +31,7 @@ Instruction load_instruction(const Signal& signal, Mode mode) {
   return result;
 }
 
-inline std::uint64_t run(const Instruction* code, EvaluationCounters& counters) noexcept {
+std::uint64_t run(const Instruction* code, EvaluationCounters& counters) noexcept {
   std::uint64_t slots[ExpressionBuilder::kMostValues];  // each is written before it is read
   return code->step(code, 0, slots, counters);
 }
