@@ -44,7 +44,7 @@ constexpr std::uint32_t command_bits(JobKind kind) noexcept {
   }
 }
 
-/// Bits that publish_status shows; others are of the functions that they belong to.
+/// Bits that `show_status` shows; others are of the functions that they belong to.
 inline constexpr std::uint32_t kStatusBits =
     word_of(StatusBit::Enable, StatusBit::Error, StatusBit::HomingDone, StatusBit::OnlineStartValuesChanged,
             StatusBit::ControlPanelActive, StatusBit::Done, StatusBit::Standstill,
