@@ -20,6 +20,8 @@ constexpr Topic kTopics[] = {
     {"alarms", "technology alarms; describe 608: one of them", &alarms_subject},
     {"errors", "error identifiers of blocks; describe 16#8026: one of them", &errors_subject},
     {"override", "what a new job does to those that run; describe override MC_GearInPos", &overrides_subject},
+    {"keys", "keys of the project file; describe keys technology_objects.drive",
+     [] { return keys_subject(""); }},
 };
 
 std::string overview_text(std::size_t width) {
@@ -114,6 +116,15 @@ Subject find_object(std::string_view word, std::string& problem) {
   return word.empty() ? Subject{} : variables_subject("", word);
 }
 
+Subject find_keys(std::string_view path, std::string& problem) {
+  if (Subject subject = keys_subject(path)) return subject;
+  const std::vector<std::string> paths = key_paths();
+  problem = "the project file has no keys at " + quote(path) +
+            did_you_mean(path, std::vector<std::string_view>(paths.begin(), paths.end())) +
+            "; lockstep describe keys lists its structures";
+  return {};
+}
+
 std::string unknown(std::string_view word) {
   std::vector<std::string_view> names = variable_names();
   for (const BlockType& type : block_types()) names.push_back(type.name);
@@ -145,8 +156,10 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
   if (words.empty()) return overview();
   const std::string& word = words.front();
   if (words.size() > 1) {
+    if (same_name(word, "keys")) return find_keys(words[1], problem);
     if (!same_name(word, "override")) {
-      problem = quote(word) + " takes no second name; only override does, as in override MC_GearInPos";
+      problem = quote(word) +
+                " takes no second name; only override and keys do, as in override MC_GearInPos, keys clock";
       return {};
     }
     if (Subject subject = override_subject(words[1])) return subject;
@@ -183,6 +196,7 @@ void add_describe_command(CLI::App& app, Action& action) {
       "  608, alarms                              a technology alarm, all of them\n"
       "  16#8026, errors                          an ErrorID, all of them\n"
       "  override MC_GearInPos                    what such a job does to those that run\n"
+      "  keys, keys technology_objects.drive      keys of the project file\n"
       "Exit status: 0, or 1 if there is nothing of that name");
   command->callback([&action, words, json] { action = [words, json] { return describe(*words, *json); }; });
 }

@@ -47,6 +47,13 @@ Subject overrides_subject();
 Subject override_subject(std::string_view instruction);
 std::vector<std::string_view> override_names();
 
+/// The keys of the project file that stand at a path, without regard to case: of a structure
+/// (`technology_objects.drive.plant`), or one (`clock.servo_cycle`); for an empty one all structures.
+/// @return an empty subject if the path names nothing
+Subject keys_subject(std::string_view path);
+/// Paths of all structures and keys, for suggestions.
+std::vector<std::string> key_paths();
+
 /// The subject that the words of the command line name; an empty one if they name none.
 /// @param problem then gets what is wrong, with a suggestion
 Subject find_subject(const std::vector<std::string>& words, std::string& problem);

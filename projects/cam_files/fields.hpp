@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "projects/json/project_keys.hpp"
+#include "projects/json/key.hpp"
 #include "tech_objects/cam_design/design.hpp"
 #include "tech_objects/cam_design/design_check.hpp"
 

@@ -1,7 +1,6 @@
 #include "projects/expressions/constant.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -18,12 +17,6 @@ class NoNames final : public Scope {
     return {std::nullopt, quote(name) + " is a name, and only constants can stand here"};
   }
 };
-
-std::string number_text(double number) {
-  char buffer[32];
-  const auto [end, error] = std::to_chars(std::begin(buffer), std::end(buffer), number);
-  return {buffer, end};
-}
 
 std::string allowed_values(Type type) {
   if (type == Type::BOOL) return "true, false";
@@ -100,7 +93,7 @@ std::optional<Value> read_constant(const JsonValue& json, Type type, Problems& p
 
 std::string value_text(Value value, Type type) {
   if (type == Type::BOOL) return value.u != 0 ? "TRUE" : "FALSE";
-  if (is_real(type)) return number_text(value.r);
+  if (is_real(type)) return decimal_text(value.r);
   if (is_signed_integer(type)) return std::to_string(value.i);
   if (type == Type::TIME) return std::to_string(value.i) + "ns";
   return std::to_string(value.u);
@@ -122,8 +115,8 @@ std::string range_problem(Value value, Type type, const Range& range, std::span<
     }
     return text;
   }
-  text += "from " + number_text(range.lowest) + " to " + number_text(range.highest);
-  if (std::isfinite(range.excluded)) text += ", without " + number_text(range.excluded);
+  text += "from " + decimal_text(range.lowest) + " to " + decimal_text(range.highest);
+  if (std::isfinite(range.excluded)) text += ", without " + decimal_text(range.excluded);
   return text;
 }
 

@@ -9,17 +9,43 @@
 namespace lockstep {
 namespace {
 
-std::string text_of(double value) {
+std::string range_text(std::string_view lowest, std::string_view highest) {
+  return "from " + std::string(lowest) + " to " + std::string(highest);
+}
+
+/// Names of the variants that have a key.
+std::vector<std::string_view> variants_with(std::string_view key, std::span<const KeyVariant> variants) {
+  std::vector<std::string_view> names;
+  for (const KeyVariant& variant : variants)
+    if (std::ranges::find(variant.keys, key, &Key::name) != variant.keys.end()) names.push_back(variant.name);
+  return names;
+}
+
+void check_keys(const JsonValue& value, Keys keys, std::span<const KeyVariant> variants,
+                std::string_view variant, Problems& problems) {
+  std::vector<std::string_view> names;
+  for (const Key& key : keys) names.push_back(key.name);
+  for (const auto& [name, member] : value.members) {
+    if (std::ranges::find(names, name) != names.end()) continue;
+    const auto others = variants_with(name, variants);
+    const std::string hint = others.empty()
+                                 ? did_you_mean(name, names)
+                                 : " in a " + std::string(variant) + "; allowed with: " + list_of(others);
+    problems.report(*member, "unknown key " + quote(name) + hint + "; allowed: " + list_of(names));
+  }
+  for (const Key& key : keys)
+    if (key.required && value.find(key.name) == nullptr)
+      problems.report(value, "the key '" + std::string(key.name) + "' is missing");
+}
+
+}  // namespace
+
+std::string decimal_text(double value) {
   char buffer[32];
   const auto [end, error] = std::to_chars(std::begin(buffer), std::end(buffer), value);
   return {buffer, end};
 }
 
-std::string range_text(std::string_view lowest, std::string_view highest) {
-  return "from " + std::string(lowest) + " to " + std::string(highest);
-}
-
-/// A duration in the largest unit in which it is whole.
 std::string duration_text(std::int64_t nanoseconds) {
   constexpr std::pair<std::int64_t, std::string_view> kUnits[] = {{3'600'000'000'000, "h"},
                                                                   {60'000'000'000, "min"},
@@ -31,8 +57,6 @@ std::string duration_text(std::int64_t nanoseconds) {
       return std::to_string(nanoseconds / unit) + std::string(name);
   return std::to_string(nanoseconds) + "ns";
 }
-
-}  // namespace
 
 void report_kind(const JsonValue& value, std::string_view allowed, Problems& problems) {
   if (value.kind == JsonKind::unusable) return;
@@ -70,7 +94,7 @@ std::optional<double> read_number(const JsonValue* value, double lowest, double 
   if (value == nullptr) return std::nullopt;
   if (value->kind == JsonKind::number && value->number >= lowest && value->number <= highest)
     return value->number;
-  report_kind(*value, "a number " + range_text(text_of(lowest), text_of(highest)), problems);
+  report_kind(*value, "a number " + range_text(decimal_text(lowest), decimal_text(highest)), problems);
   return std::nullopt;
 }
 
@@ -130,16 +154,14 @@ const JsonValue* read_array(const JsonValue* value, Problems& problems) {
 }
 
 Fields::Fields(const JsonValue& value, Keys keys, Problems& problems) : value_(value) {
-  if (read_object(&value, problems) == nullptr) return;
-  std::vector<std::string_view> names;
-  for (const Key& key : keys) names.push_back(key.name);
-  for (const auto& [name, member] : value.members)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      problems.report(
-          *member, "unknown key " + quote(name) + did_you_mean(name, names) + "; allowed: " + list_of(names));
-  for (const Key& key : keys)
-    if (key.required && value.find(key.name) == nullptr)
-      problems.report(value, "the key '" + std::string(key.name) + "' is missing");
+  if (read_object(&value, problems) != nullptr) check_keys(value, keys, {}, {}, problems);
+}
+
+Fields::Fields(const JsonValue& value, std::span<const KeyVariant> variants, std::size_t variant,
+               Problems& problems)
+    : value_(value) {
+  if (read_object(&value, problems) != nullptr)
+    check_keys(value, variants[variant].keys, variants, variants[variant].name, problems);
 }
 
 }  // namespace lockstep

@@ -8,14 +8,19 @@
 #include <string_view>
 
 #include "projects/json/document.hpp"
+#include "projects/json/key.hpp"
 #include "projects/json/problem.hpp"
-#include "projects/json/project_keys.hpp"
 
 namespace lockstep {
 
 /// Reports that a value is of the wrong kind, unless its problem is known already.
 /// @param allowed such as "a string"
 void report_kind(const JsonValue& value, std::string_view allowed, Problems& problems);
+
+/// A number so that reading it back gives the same double; a duration [ns] in the largest unit in which it is
+/// whole.
+std::string decimal_text(double value);
+std::string duration_text(std::int64_t nanoseconds);
 
 /// Each reads one value and reports it if it is none of that kind; `value` may be nullptr, which gives none.
 std::optional<std::string_view> read_string(const JsonValue* value, Problems& problems);
@@ -41,6 +46,9 @@ const JsonValue* read_array(const JsonValue* value, Problems& problems);
 class Fields {
  public:
   Fields(const JsonValue& value, Keys keys, Problems& problems);
+  /// The same for one of several kinds of objects: of a key of another kind it is told where it is allowed.
+  Fields(const JsonValue& value, std::span<const KeyVariant> variants, std::size_t variant,
+         Problems& problems);
 
   /// Whether it is an object at all.
   bool usable() const noexcept { return value_.kind == JsonKind::object; }

@@ -5,7 +5,9 @@
 
 #include "hmi_bridge/lcm/commands.hpp"
 #include "hmi_bridge/lcm/messages.hpp"
+#include "projects/keys/project.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
@@ -82,32 +84,21 @@ void load_signals(const JsonValue& json, std::vector<NamedSignal>& signals, cons
   }
 }
 
-constexpr std::int64_t kLongestBefore = 600'000'000'000;  // [ns]
-constexpr std::int64_t kLongestAfter = 3'600'000'000'000;
-constexpr std::int64_t kMostRows = 1'000'000'000;
-
-void load_trigger(const JsonValue& json, TraceChannelConfig& channel, const Loading& loading) {
+/// The signal of a trigger whose other keys have been read.
+void load_occasion(const JsonValue& json, TraceChannelConfig& channel, const Loading& loading) {
   Problems& problems = loading.problems;
-  const Fields fields(json, keys::kTrigger, problems);
-  const auto kind = read_word(fields["on"], words::kTriggers, problems);
-  TraceSelection& selection = channel.selection;
-  if (const auto time = read_duration(fields["before"], 0, kLongestBefore, problems))
-    selection.before = *time;
-  if (const auto time = read_duration(fields["after"], 0, kLongestAfter, problems)) selection.after = *time;
-  if (const auto level = read_number(fields["level"], -1e300, 1e300, problems)) selection.level = *level;
-  if (!kind) return;
-  selection.trigger = static_cast<TriggerKind>(*kind + 1);
-  const JsonValue* const signal = fields["signal"];
+  const TraceSelection& selection = channel.selection;
+  if (selection.trigger == TriggerKind::none) return;  // which is reported
+  const JsonValue* const signal = json.find("signal");
   if (selection.trigger == TriggerKind::alarm) {
-    for (const JsonValue* const other : {signal, fields["level"]})
+    for (const JsonValue* const other : {signal, json.find("level")})
       if (other != nullptr)
         problems.report(*other,
                         "an alarm has no signal and no level; allowed with: above, below, rising, falling");
     return;
   }
   if (signal == nullptr) {
-    if (json.kind == JsonKind::object)
-      problems.report(json, "'signal' is missing; it is required with: above, below, rising, falling");
+    problems.report(json, "'signal' is missing; it is required with: above, below, rising, falling");
     return;
   }
   const auto path = read_string(signal, problems);
@@ -150,8 +141,8 @@ void report_same_channel(const JsonValue& at, std::string_view name, std::string
 
 void load_channel(const JsonValue& json, TraceConfig& trace, const Loading& loading) {
   Problems& problems = loading.problems;
-  const Fields fields(json, keys::kTraceChannel, problems);
   TraceChannelConfig& channel = trace.channels.emplace_back();
+  const Fields fields = read_struct(json, keys::kTraceChannel, channel.selection, loading);
   if (const auto name = read_channel(fields["channel"], problems)) {
     const JsonValue& at = *fields["channel"];
     if (!trace.channel.empty()) report_same_channel(at, *name, trace.channel, problems);
@@ -160,9 +151,7 @@ void load_channel(const JsonValue& json, TraceConfig& trace, const Loading& load
     channel.channel = *name;
   }
   if (const JsonValue* const signals = fields["signals"]) load_signals(*signals, channel.signals, loading);
-  if (const auto every = read_integer(fields["every"], 1, kMostRows, problems))
-    channel.selection.every = *every;
-  if (const JsonValue* const trigger = fields["trigger"]) load_trigger(*trigger, channel, loading);
+  if (const JsonValue* const trigger = fields["trigger"]) load_occasion(*trigger, channel, loading);
 }
 
 /// Whatever may change: tags, pins, and what the runtime computes of the objects.
@@ -247,23 +236,14 @@ void load_trace(const JsonValue& trace, const Loading& loading) {
 
 void load_flight_recorder(const JsonValue& json, const Loading& loading) {
   Problems& problems = loading.problems;
-  const Fields fields(json, keys::kFlightRecorder, problems);
   FlightRecorderConfig config;
-  if (const auto time = read_duration(fields["before"], 1, kLongestBefore, problems))
-    config.options.before = *time;
-  if (const auto time = read_duration(fields["after"], 0, kLongestAfter, problems))
-    config.options.after = *time;
-  if (const auto file = read_title(fields["file"], problems)) {
-    config.options.file = *file;
-    const std::string_view name = file->substr(file->find_last_of('/') + 1);  // npos + 1 is 0
+  const Fields fields = read_struct(json, keys::kFlightRecorder, config.options, loading);
+  if (const std::string_view file = config.options.file; !file.empty()) {
+    const std::string_view name = file.substr(file.find_last_of('/') + 1);  // npos + 1 is 0
     if (name.empty() || name == "." || name == "..")
       problems.report(*fields["file"],
                       fields["file"]->shown() + " is a folder; allowed: how the names of files in it begin");
   }
-  if (const auto files = read_integer(fields["files"], 1, 1000, problems))
-    config.options.files = static_cast<int>(*files);
-  if (const auto keep = read_integer(fields["keep"], 1, 10'000, problems))
-    config.options.keep = static_cast<int>(*keep);
   if (const JsonValue* const signals = fields["signals"])
     load_signals(*signals, config.signals, loading);
   else

@@ -2,7 +2,9 @@
 #include <algorithm>
 
 #include "projects/cam_files/definition.hpp"
+#include "projects/keys/objects.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
 #include "tech_objects/cam_design/findings.hpp"
 
 namespace lockstep {
@@ -36,7 +38,7 @@ const JsonValue& place_of(const CamFinding& finding, const JsonValue& cam) {
 /// programs.
 void load_cam(const JsonValue& json, Cam& cam, const Loading& loading) {
   Problems& problems = loading.problems;
-  const Fields fields(json, keys::kCam, problems);
+  const Fields fields(json, keys::kObjects, variant_of(cam), problems);
   const std::size_t before = problems.count();
   if (const JsonValue* const config = fields["config"]) load_configuration(*config, cam, loading);
   CamDefinition definition;

@@ -6,8 +6,10 @@
 #include <stdexcept>
 
 #include "hmi_bridge/lcm/url.hpp"
+#include "projects/keys/project.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/looked_at_axis.hpp"
+#include "projects/loader/read_keys.hpp"
 #include "tech_objects/axis/velocity_unit.hpp"
 
 namespace lockstep {
@@ -186,7 +188,7 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
   Problems& problems = loading.problems;
   CommandsConfig& commands = loading.project.commands;
   const Fields fields(json, keys::kCommandAxis, problems);
-  const auto limit = read_number(fields["jog_velocity"], 1e-12, 1e12, problems);
+  const auto limit = read_value(fields, keys::kCommandAxis["jog_velocity"], loading);
   const Names::FoundObject found = loading.names().find_object(name, kAnyDrivenAxis);
   if (!found.problem.empty()) problems.report(json, found.problem);
   if (found.object == nullptr) return;
@@ -200,9 +202,9 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
   const std::string enabled_by = power_of(loading.controller(), *found.object);
   const Place speed = names.find(axis.name + ".Override.Velocity").place.value();
   PanelInputs& inputs = commands.inputs.emplace_back();
-  commands.axes.push_back({axis.name, limit.value_or(usual), enabled_by, signals_of(axis, inputs, names),
-                           std::string(kind_name(axis.kind)), std::string(velocity_unit_text(axis)),
-                           axis.has_position()});
+  commands.axes.push_back({axis.name, limit ? limit->number : usual, enabled_by,
+                           signals_of(axis, inputs, names), std::string(kind_name(axis.kind)),
+                           std::string(velocity_unit_text(axis)), axis.has_position()});
   PanelProgram(program, loading, axis).build(inputs, enabled_by.empty(), speed);
 }
 

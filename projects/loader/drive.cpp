@@ -1,70 +1,33 @@
 #include "projects/loader/drive.hpp"
 
+#include "projects/keys/drive.hpp"
+#include "projects/loader/read_keys.hpp"
+
 namespace lockstep {
 namespace {
 
-constexpr double kMost = 1e12;
-constexpr double kLeast = 1e-12;  // of what has to be greater than 0
-
-void load_fixed_stop(const JsonValue& json, MachinePlantSettings& plant, const Loading& loading) {
-  Problems& problems = loading.problems;
-  const Fields fields(json, keys::kFixedStop, problems);
-  const auto position = read_number(fields["position"], -kMost, kMost, problems);
-  const auto stiffness = read_number(fields["stiffness"], kLeast, kMost, problems);
-  const JsonValue* const direction = fields["direction"];
-  const auto word = direction == nullptr ? std::optional<std::size_t>{0}
-                                         : read_word(direction, words::kDirections, problems);
-  if (!position || !stiffness || !word) return;
-  plant.has_stop = true;
-  plant.stop = {*position, *word == 0 ? 1 : -1, *stiffness};
-}
-
 void load_sensor(const JsonValue& json, Axis& axis, const Loading& loading) {
   Problems& problems = loading.problems;
-  const Fields fields(json, keys::kSensor, problems);
-  const JsonValue* const number = fields["sensor"];
-  const auto index = read_integer(number, 2, Axis::kSensors, problems);
   SimulatedSensor sensor{.exists = true};
-  const JsonValue* const ratio = fields["ratio"];
-  if (const auto value = read_number(ratio, -kMost, kMost, problems)) {
-    sensor.ratio = *value;
-    if (*value == 0.0) problems.report(*ratio, "0 is not allowed; allowed: any other number");
-  }
-  if (const auto value = read_number(fields["resolution"], 0.0, kMost, problems)) sensor.resolution = *value;
-  if (const auto value = read_bool(fields["inverted"], problems)) sensor.inverted = *value;
-  if (const auto value = read_number(fields["start_position"], -kMost, kMost, problems))
-    sensor.start_position = *value;
-  sensor.fault = find_bool_tag(fields["fault"], loading);
-  if (!index) return;
-  SimulatedSensor& place = axis.drive_settings.sensors[static_cast<std::size_t>(*index - 2)];
-  if (place.exists) return problems.report(*number, "there is an encoder " + number->shown() + " already");
-  if (!axis.data.Sensor[*index - 1].Existent)
-    return problems.report(
-        *number, R"(the axis has no such encoder; allowed: one with "config": { "Sensor[)" + number->shown() +
-                     R"(]": { "Existent": true } })");
+  const Fields fields = read_struct(json, keys::kSensor, sensor, loading);
+  const auto number = read_value(fields, keys::kSensor["sensor"], loading);
+  if (!number) return;
+  const JsonValue& at = *fields["sensor"];
+  const auto index = static_cast<std::size_t>(number->integer);
+  SimulatedSensor& place = axis.drive_settings.sensors[index - 2];
+  if (place.exists) return problems.report(at, "there is an encoder " + at.shown() + " already");
+  if (!axis.data.Sensor[index - 1].Existent)
+    return problems.report(at, R"(the axis has no such encoder; allowed: one with "config": { "Sensor[)" +
+                                   at.shown() + R"(]": { "Existent": true } })");
   place = sensor;
 }
 
-}  // namespace
-
-const bool* find_bool_tag(const JsonValue* json, const Loading& loading) {
-  if (json == nullptr) return nullptr;
-  const auto tag = read_string(json, loading.problems);
-  if (!tag) return nullptr;
-  const auto found = loading.find(*json, *tag);
-  if (!found) return nullptr;
-  if (found->tag == nullptr || found->signal.type != Type::BOOL) {
-    loading.problems.report(*json, json->shown() + " is not allowed here; allowed: the name of a BOOL tag");
-    return nullptr;
-  }
-  return static_cast<const bool*>(found->signal.address);
+void load_sensors(const JsonValue* json, Axis& axis, const Loading& loading) {
+  if (read_array(json, loading.problems) == nullptr) return;
+  for (const JsonValue* const sensor : json->elements) load_sensor(*sensor, axis, loading);
 }
 
-void load_sensors(const JsonValue& json, Axis& axis, const Loading& loading) {
-  if (read_array(&json, loading.problems) == nullptr) return;
-  for (const JsonValue* const sensor : json.elements) load_sensor(*sensor, axis, loading);
-}
-
+/// Position control begins with an encoder that is there.
 void check_operative_sensor(const JsonValue& json, const Axis& axis, const Loading& loading) {
   const UDINT first = axis.data.PositionControl.InitialOperativeSensor;
   if (first < 2 || first > Axis::kSensors || axis.drive_settings.sensors[first - 2].exists) return;
@@ -72,25 +35,34 @@ void check_operative_sensor(const JsonValue& json, const Axis& axis, const Loadi
                                     ", but 'sensors' has no such encoder");
 }
 
-void load_plant(const JsonValue& json, DriveSettings& drive, const Loading& loading) {
-  Problems& problems = loading.problems;
-  const Fields fields(json, keys::kPlant, problems);
-  MachinePlantSettings& plant = drive.plant;
-  if (const auto inertia = read_number(fields["inertia"], kLeast, kMost, problems)) plant.inertia = *inertia;
-  if (const auto friction = read_number(fields["friction"], 0.0, kMost, problems)) plant.friction = *friction;
-  if (const auto torque = read_number(fields["load_torque"], -kMost, kMost, problems))
-    plant.load_torque = *torque;
-  if (const auto torque = read_number(fields["maximum_torque"], kLeast, kMost, problems))
-    plant.maximum_torque = *torque;
-  if (const JsonValue* const stop = fields["fixed_stop"]) load_fixed_stop(*stop, plant, loading);
+/// The memory of a drive goes as far as a number of servo cycles.
+void check_dead_time(const Fields& fields, const DriveSettings& drive, const Loading& loading) {
+  constexpr double kSecond = 1e9;  // [ns]
+  const std::int64_t longest =
+      static_cast<std::int64_t>(keys::kMostDeadCycles) * loading.controller().clock.servo_cycle;
+  if (drive.dead_time <= static_cast<double>(longest) / kSecond) return;
+  report_kind(*fields["dead_time"], "a duration from 0ns to " + duration_text(longest), loading.problems);
 }
 
-void load_faults(const JsonValue& json, SimulatedFaults& faults, const Loading& loading) {
-  const Fields fields(json, keys::kFaults, loading.problems);
-  faults.drive = find_bool_tag(fields["drive"], loading);
-  faults.encoder = find_bool_tag(fields["encoder"], loading);
-  faults.communication = find_bool_tag(fields["communication"], loading);
-  faults.blocked = find_bool_tag(fields["blocked"], loading);
+void check_limit_switches(const Fields& fields, const MachineSignals& signals, const Loading& loading) {
+  if (signals.limit_min && signals.limit_max && *signals.limit_min >= *signals.limit_max)
+    loading.problems.report(*fields["limit_switches"], "min has to be less than max");
+}
+
+}  // namespace
+
+void load_drive(const JsonValue& json, Axis& axis, const Loading& loading) {
+  const std::size_t model = read_variant(json, keys::kDrives, loading.problems).value_or(0);
+  axis.drive_model = &kDriveModels[model];
+  DriveSettings& drive = axis.drive_settings;
+  const Fields fields(json, keys::kDrives, model, loading.problems);
+  read_members(fields, keys::kDrives[model].keys, &drive, loading);
+  const JsonValue* const plant = fields["plant"];
+  drive.plant.has_stop = plant != nullptr && plant->find("fixed_stop") != nullptr;
+  check_dead_time(fields, drive, loading);
+  check_limit_switches(fields, drive.signals, loading);
+  load_sensors(fields["sensors"], axis, loading);
+  check_operative_sensor(json, axis, loading);
 }
 
 }  // namespace lockstep

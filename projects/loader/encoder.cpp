@@ -1,14 +1,10 @@
 // External encoders: what they measure.
-#include <algorithm>
-
-#include "projects/loader/drive.hpp"
+#include "projects/keys/objects.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
-
-constexpr double kLargest = kPositionRange;  // of lengths [u]
-constexpr double kShortestWrap = 0.001;      // [u]
 
 /// A signal that an encoder can read: a whole number.
 std::optional<Signal> find_number(const JsonValue& json, const Loading& loading) {
@@ -26,31 +22,21 @@ std::optional<Signal> find_number(const JsonValue& json, const Loading& loading)
   return signal;
 }
 
-void load_source(const Fields& fields, SimulatedEncoderSettings& source, const Loading& loading) {
-  Problems& problems = loading.problems;
+/// What goes with one of the two things that an encoder may measure.
+void check_source(const Fields& fields, Problems& problems) {
   const JsonValue* const follows = fields["follows"];
   const JsonValue* const signal = fields["signal"];
   if ((follows == nullptr) == (signal == nullptr))
     problems.report(fields.value(),
                     "an encoder measures one thing; allowed is one of the keys 'follows' (an axis) and "
                     "'signal' (a number)");
-  if (follows != nullptr)
-    source.follows = static_cast<LeadingObject*>(loading.find_object(follows, kAnyAxis));
-  if (signal != nullptr)
-    if (const auto found = find_number(*signal, loading)) source.signal = *found;
   const JsonValue* const valid = fields["valid"];
-  source.valid = find_bool_tag(valid, loading);
   if (valid != nullptr && signal == nullptr && follows != nullptr)
     problems.report(*valid, "'valid' is allowed with 'signal' only");
   const JsonValue* const ratio = fields["ratio"];
-  if (const auto value = read_number(ratio, -kLargest, kLargest, problems)) {
-    source.ratio = *value;
-    if (*value == 0.0) problems.report(*ratio, "0 is not allowed; allowed: any other number");
-  }
   if (ratio != nullptr && follows == nullptr && signal != nullptr)
     problems.report(*ratio, "'ratio' is allowed with 'follows' only");
   const JsonValue* const wrap = fields["wrap"];
-  if (const auto value = read_number(wrap, kShortestWrap, kLargest, problems)) source.wrap = *value;
   if (wrap != nullptr && signal == nullptr && follows != nullptr)
     problems.report(*wrap, "'wrap' is allowed with 'signal' only: an axis counts its turns");
 }
@@ -59,19 +45,17 @@ void load_source(const Fields& fields, SimulatedEncoderSettings& source, const L
 
 void load_encoder(const JsonValue& json, ExternalEncoder& encoder, const Loading& loading) {
   Problems& problems = loading.problems;
-  const Fields object(json, keys::kEncoderObject, problems);
+  const Fields object(json, keys::kObjects, variant_of(encoder), problems);
   if (const JsonValue* const config = object["config"]) load_configuration(*config, encoder, loading);
   const JsonValue* const source = object["encoder"];
   if (source == nullptr) return;
-  const Fields fields(*source, keys::kEncoder, problems);
+  const std::size_t model = read_variant(*source, keys::kEncoders, problems).value_or(0);
+  const Fields fields(*source, keys::kEncoders, model, problems);
   if (!fields.usable()) return;
-  read_word(fields["model"], words::kModels, problems);
-  load_source(fields, encoder.source_settings, loading);
-  if (const auto resolution = read_number(fields["resolution"], 0.0, kLargest, problems))
-    encoder.source_settings.resolution = *resolution;
-  if (const auto noise = read_number(fields["noise"], 0.0, kLargest, problems))
-    encoder.source_settings.noise = *noise;
-  load_homing_marks(fields, encoder.source_settings.signals, loading);
+  check_source(fields, problems);
+  read_members(fields, keys::kEncoders[model].keys, &encoder.source_settings, loading);
+  if (const JsonValue* const signal = fields["signal"])
+    if (const auto found = find_number(*signal, loading)) encoder.source_settings.signal = *found;
 }
 
 }  // namespace lockstep

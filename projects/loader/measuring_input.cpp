@@ -1,30 +1,25 @@
 // Measuring inputs: what they see, and of what they measure the position.
 #include "projects/expressions/constant.hpp"
+#include "projects/keys/objects.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr double kShortestPeriod = 0.001;  // of marks [u]
-
 void load_marks(const JsonValue& json, MeasuringInput& input, const Loading& loading) {
   Problems& problems = loading.problems;
-  const Fields fields(json, keys::kMarks, problems);
+  const std::size_t before = problems.count();
   PrintMarks marks;
-  const auto period = read_number(fields["period"], kShortestPeriod, kPositionRange, problems);
-  if (!period) return;
-  marks.period = *period;
-  marks.width = 0.5 * *period;
-  if (const auto offset = read_number(fields["offset"], -kPositionRange, kPositionRange, problems))
-    marks.offset = *offset;
-  const JsonValue* const width = fields["width"];
-  if (const auto value = read_number(width, 0.0, kPositionRange, problems)) {
-    marks.width = *value;
-    if (!(*value > 0.0 && *value < *period))
-      problems.report(*width,
-                      width->shown() + " is not allowed; allowed: greater than 0 and less than 'period'");
-  }
+  const Fields fields = read_struct(json, keys::kMarks, marks, loading);
   input.marks = marks;
+  if (problems.count() != before) return;
+  const JsonValue* const width = fields["width"];
+  if (width == nullptr)
+    input.marks->width = 0.5 * marks.period;
+  else if (!(marks.width > 0.0 && marks.width < marks.period))
+    problems.report(*width,
+                    width->shown() + " is not allowed; allowed: greater than 0 and less than 'period'");
 }
 
 /// What cannot be remembered cannot be looked up.
@@ -53,15 +48,15 @@ void check_type(const JsonValue& config, const MeasuringInput& input, const Load
 
 void load_measuring_input(const JsonValue& json, MeasuringInput& input, const Loading& loading) {
   Problems& problems = loading.problems;
-  const Fields fields(json, keys::kMeasuringInputObject, problems);
+  const Fields fields(json, keys::kObjects, variant_of(input), problems);
   const std::size_t before = problems.count();
   const JsonValue* const config = fields["config"];
   if (config != nullptr) load_configuration(*config, input, loading);
   const bool sure = problems.count() == before;
   if (sure && config != nullptr) check_correction(*config, input, loading);
   if (sure && config != nullptr) check_type(*config, input, loading);
-  if (const JsonValue* const assigned = fields["assigned_to"])
-    input.measured = static_cast<LeadingObject*>(loading.find_object(assigned, kLeading));
+  if (const auto assigned = read_value(fields, keys::kMeasuringInputObject["assigned_to"], loading))
+    key_detail::assign(input.measured, *assigned);
   const JsonValue* const marks = fields["marks"];
   if (marks != nullptr) load_marks(*marks, input, loading);
   const bool address = input.data.Interface.Address != nullptr;

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "projects/keys/modbus.hpp"
+#include "projects/loader/read_keys.hpp"
+
 namespace lockstep {
 namespace {
 
-constexpr double kMost = std::numeric_limits<double>::max();
 constexpr std::uint64_t kAddresses = 65536;
 constexpr std::size_t kMostSignals = 100'000;  // of arrays, so that no file takes the machine down
 
@@ -78,12 +80,13 @@ void MapLoader::load_units(const JsonValue* units, std::optional<std::size_t> se
   for (const JsonValue* const json : units->elements) {
     const Fields fields(*json, keys::kUnit, problems_);
     if (!fields.usable()) continue;
-    const auto unit = read_integer(fields["unit"], 0, 255, problems_);
-    if (unit && std::find(seen.begin(), seen.end(), *unit) != seen.end())
+    const auto read = read_value(fields, keys::kUnit["unit"], loading_);
+    const std::int64_t unit = read ? read->integer : 0;
+    if (read && std::find(seen.begin(), seen.end(), unit) != seen.end())
       problems_.report(*fields["unit"],
-                       "unit " + std::to_string(*unit) + " is there twice; each unit id is allowed once");
-    if (unit) seen.push_back(*unit);
-    load(fields["map"], fields["watchdog"], server, static_cast<std::uint8_t>(unit.value_or(0)));
+                       "unit " + std::to_string(unit) + " is there twice; each unit id is allowed once");
+    if (read) seen.push_back(unit);
+    load(fields["map"], fields["watchdog"], server, static_cast<std::uint8_t>(unit));
   }
 }
 
@@ -104,10 +107,10 @@ void MapLoader::finish() {
 
 /// Whether a client may write: tags where the table allows it, a variable only if the entry asks for it.
 bool MapLoader::read_access(const JsonValue* json, const Place& place, ModbusTable table) {
-  const auto word = read_word(json, words::kAccesses, problems_);
+  const auto access = read_value(json, keys::kMapEntry["access"], loading_);
   const bool tag = place.tag != nullptr || place.array != nullptr;
-  if (!word) return tag && is_writable_table(table);
-  if (*word == 0) return false;
+  if (!access) return tag && is_writable_table(table);
+  if (access->integer == 0) return false;
   const std::string reason = why_not_writable(place);
   if (!reason.empty()) problems_.report(*json, reason);
   return reason.empty();
@@ -119,10 +122,10 @@ std::optional<ModbusEntry> MapLoader::load_diagnostic(const JsonValue& json, con
   for (const CycleDiagnostic& one : kCycleDiagnostics) names.push_back(one.name);
   for (const ModbusCounterName& one : kModbusCounters) names.push_back(one.name);
   const auto word = read_word(&json, names, problems_);
-  const auto access = read_word(fields["access"], words::kAccesses, problems_);
-  if (access == std::size_t{1})
+  const auto access = read_value(fields, keys::kMapEntry["access"], loading_);
+  if (access && access->integer == 1)
     problems_.report(*fields["access"], "a diagnostic cannot be written; allowed: read");
-  auto entry = read_modbus_shape(fields, Type::ULINT, problems_);
+  auto entry = read_modbus_shape(fields, Type::ULINT, loading_);
   if (!word || !entry) return std::nullopt;
   if (*word >= std::size(kCycleDiagnostics)) {
     entry->counter = kModbusCounters[*word - std::size(kCycleDiagnostics)].counter;
@@ -141,7 +144,7 @@ void MapLoader::load_tag(const Fields& fields, std::uint32_t line, Draft& draft)
   if (const StringTag* const text = path ? loading_.names().find_string(*path) : nullptr)
     return load_text(fields, *text, line, draft);
   const auto source = path ? find_modbus_source(tag, *path, loading_) : std::nullopt;
-  auto entry = read_modbus_shape(fields, source ? std::optional(source->type()) : std::nullopt, problems_);
+  auto entry = read_modbus_shape(fields, source ? std::optional(source->type()) : std::nullopt, loading_);
   if (!source || !entry) return;
   entry->writable = read_access(fields["access"], source->place, entry->table);
   entry->range = written_range(source->place);
@@ -152,10 +155,10 @@ void MapLoader::load_tag(const Fields& fields, std::uint32_t line, Draft& draft)
 }
 
 void MapLoader::load_text(const Fields& fields, const StringTag& tag, std::uint32_t line, Draft& draft) {
-  auto entry = read_modbus_text(fields, problems_);
-  const auto access = read_word(fields["access"], words::kAccesses, problems_);
+  auto entry = read_modbus_text(fields, loading_);
+  const auto access = read_value(fields, keys::kMapEntry["access"], loading_);
   if (!entry) return;
-  entry->writable = access ? *access == 1 : is_writable_table(entry->table);
+  entry->writable = access ? access->integer == 1 : is_writable_table(entry->table);
   entry->line = line;
   const std::size_t first = draft.entries.size();
   if (add_modbus_text(*entry, tag, fields, problems_, draft.entries, modbus_.signals) > 0)
@@ -198,7 +201,7 @@ void load_server(const JsonValue& json, const Loading& loading, MapLoader& maps)
                     "this server has no map of its own; allowed: a watchdog beside the 'map' that has its "
                     "heartbeat");
   maps.load_units(fields["units"], index);
-  load_modbus_place(json, fields, loading.project.modbus, problems);
+  load_modbus_place(json, fields, loading);
 }
 
 void load_servers(const JsonValue& json, const Loading& loading, MapLoader& maps) {
@@ -235,8 +238,6 @@ void read_scale(const Fields& fields, ModbusEntry& entry, Problems& problems) {
     problems.report(fields.value(),
                     "the key 'type' is missing: a scaled value needs the integer that it has on "
                     "the wire, such as INT");
-  entry.scale = read_number(fields["scale"], -kMost, kMost, problems).value_or(1.0);
-  entry.offset = read_number(fields["offset"], -kMost, kMost, problems).value_or(0.0);
   if (!(std::abs(entry.scale) >= std::numeric_limits<double>::min()))
     problems.report(*fields["scale"], "a scale of 0 makes all values the same; allowed: any other number");
 }
@@ -257,22 +258,14 @@ Range written_range(const Place& place) {
 }
 
 std::optional<ModbusEntry> read_modbus_shape(const Fields& fields, std::optional<Type> signal,
-                                             Problems& problems) {
+                                             const Loading& loading) {
+  Problems& problems = loading.problems;
   const std::size_t before = problems.count();
-  const auto table = read_word(fields["table"], words::kTables, problems);
-  const auto address = read_integer(fields["address"], 0, 65535, problems);
-  const auto order = read_word(fields["word_order"], words::kWordOrders, problems);
-  const auto bytes = read_word(fields["byte_order"], words::kWordOrders, problems);
-  const auto bit = read_integer(fields["bit"], 0, 15, problems);
   ModbusEntry entry;
+  read_keys(fields, keys::kEntryShape, entry, loading);
   read_scale(fields, entry, problems);
-  if (!signal || !table || !address) return std::nullopt;
-  entry.table = *modbus_table(words::kTables[*table]);
-  entry.address = static_cast<std::uint32_t>(*address);
+  if (!signal || fields["table"] == nullptr || fields["address"] == nullptr) return std::nullopt;
   entry.type = read_type(fields["type"], *signal, entry.is_scaled, problems);
-  entry.word_order = order.value_or(0) == 0 ? WordOrder::big : WordOrder::little;
-  entry.byte_order = bytes.value_or(0) == 0 ? ByteOrder::big : ByteOrder::little;
-  entry.bit = static_cast<std::int8_t>(bit.value_or(-1));
   if (problems.count() != before) return std::nullopt;
   return entry;
 }
@@ -341,14 +334,15 @@ std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& sou
   return elements.count();
 }
 
-std::optional<ModbusEntry> read_modbus_text(const Fields& fields, Problems& problems) {
+std::optional<ModbusEntry> read_modbus_text(const Fields& fields, const Loading& loading) {
+  Problems& problems = loading.problems;
   const std::size_t before = problems.count();
   for (const char* const key : {"type", "word_order", "bit", "scale", "offset"})
     if (const JsonValue* const field = fields[key])
       problems.report(*field,
                       "a text has no '" + std::string(key) + "'; allowed: table, address, byte_order");
   if (problems.count() != before) return std::nullopt;
-  auto entry = read_modbus_shape(fields, Type::WORD, problems);
+  auto entry = read_modbus_shape(fields, Type::WORD, loading);
   if (!entry) return std::nullopt;
   if (is_bit_table(entry->table)) {
     problems.report(*fields["table"], "a text does not fit the one bit of the table " +

@@ -14,7 +14,7 @@ namespace lockstep {
 /// the entry is as it begins.
 /// @param signal type of its value; none: not known, since its name is faulty; then there is no entry
 std::optional<ModbusEntry> read_modbus_shape(const Fields& fields, std::optional<Type> signal,
-                                             Problems& problems);
+                                             const Loading& loading);
 
 /// What an entry shows: a value, or several elements.
 struct ModbusSource {
@@ -39,7 +39,7 @@ std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& sou
 
 /// The same for a text: the shape of its first entry (none: it is reported), and the entries. The first
 /// character of a register is its more significant byte, unless `byte_order` is little.
-std::optional<ModbusEntry> read_modbus_text(const Fields& fields, Problems& problems);
+std::optional<ModbusEntry> read_modbus_text(const Fields& fields, const Loading& loading);
 std::size_t add_modbus_text(const ModbusEntry& shape, const StringTag& tag, const Fields& fields,
                             Problems& problems, std::vector<ModbusEntry>& entries,
                             std::vector<NamedSignal>& signals);
@@ -54,10 +54,7 @@ void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* con
 void load_watchdogs(const JsonValue& json, const ModbusMap* map, const Loading& loading);
 
 /// Reads where the last of the servers is and whom it lets in; the keys of its maps are not looked at.
-void load_modbus_place(const JsonValue& json, const Fields& fields, ModbusConfig& modbus, Problems& problems);
-
-/// Reads the keys of a serial line.
-SerialOptions read_serial(const JsonValue& json, Problems& problems);
+void load_modbus_place(const JsonValue& json, const Fields& fields, const Loading& loading);
 
 /// Reports a serial line that has more than one user among servers and clients: each would take bytes that
 /// are for another.

@@ -3,14 +3,13 @@
 #include <set>
 #include <utility>
 
+#include "projects/keys/modbus.hpp"
 #include "projects/loader/modbus.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr std::int64_t kShortestCycle = 1'000'000;         // [ns]
-constexpr std::int64_t kLongestCycle = 3'600'000'000'000;  // [ns]
-constexpr std::int64_t kLongestTimeout = 60'000'000'000;   // [ns]
 constexpr int kHighestUnit = 247;
 constexpr int kTcpUnit = 255;
 
@@ -54,32 +53,28 @@ void ClientLoader::load(const JsonValue& json) {
     if (options.connect && options.connect->port == 0)
       problems_.report(*fields["connect"], "nobody can be reached at port 0; allowed: from 1 to 65535");
   }
-  if (const JsonValue* const serial = fields["serial"]) {
-    options.serial = read_serial(*serial, problems_);
+  read_keys(fields, keys::kClient, options, loading_);
+  if (const JsonValue* const serial = fields["serial"])
     report_taken_line(*serial, loading_.project.modbus, options.serial.device, problems_);
-  }
-  if (const auto timeout = read_duration(fields["timeout"], 1'000'000, kLongestTimeout, problems_))
-    options.timeout = std::chrono::milliseconds(*timeout / 1'000'000);
   if (read_array(fields["devices"], problems_) == nullptr) return;
   for (const JsonValue* const device : fields["devices"]->elements) load_device(*device);
 }
 
 int ClientLoader::read_unit(const JsonValue* json) {
+  Key key = keys::kDevice["unit"];
   const bool is_tcp = client_.options.connect.has_value();
-  const auto unit = read_integer(json, is_tcp ? 0 : 1, is_tcp ? kTcpUnit : kHighestUnit, problems_);
-  if (unit && *unit > kHighestUnit && *unit != kTcpUnit)
+  if (!is_tcp) key.range = {1, kHighestUnit};
+  const auto unit = read_value(json, key, loading_);
+  if (unit && unit->integer > kHighestUnit && unit->integer != kTcpUnit)
     problems_.report(*json, json->shown() + " is no unit id; allowed: from 0 to 247, 255");
-  return static_cast<int>(unit.value_or(1));
+  return unit ? static_cast<int>(unit->integer) : 1;
 }
 
 void ClientLoader::load_device(const JsonValue& json) {
-  const Fields fields(json, keys::kDevice, problems_);
-  if (!fields.usable()) return;
   ModbusDevice device;
-  device.name = read_title(fields["name"], problems_).value_or("");
+  const Fields fields = read_struct(json, keys::kDevice, device, loading_);
+  if (!fields.usable()) return;
   device.unit = read_unit(fields["unit"]);
-  if (const auto cycle = read_duration(fields["cycle"], kShortestCycle, kLongestCycle, problems_))
-    device.cycle = std::chrono::nanoseconds(*cycle);
   device.quality = load_tag(fields["quality"], Type::BOOL);
   device.age = load_tag(fields["age"], Type::TIME);
   device.reads = load_entries(fields["read"], false, device);
@@ -134,10 +129,9 @@ void ClientLoader::load_entry(const JsonValue& json, ModbusLineState& state,
   const StringTag* const text = path ? loading_.names().find_string(*path) : nullptr;
   const auto source =
       path && text == nullptr ? find_modbus_source(*fields["tag"], *path, loading_) : std::nullopt;
-  auto entry =
-      text != nullptr
-          ? read_modbus_text(fields, problems_)
-          : read_modbus_shape(fields, source ? std::optional(source->type()) : std::nullopt, problems_);
+  auto entry = text != nullptr ? read_modbus_text(fields, loading_)
+                               : read_modbus_shape(
+                                     fields, source ? std::optional(source->type()) : std::nullopt, loading_);
   if ((!source && text == nullptr) || !entry) return;
   if (source && !is_write) {
     if (const std::string reason = why_not_writable(source->place); !reason.empty())

@@ -2,15 +2,12 @@
 #include <algorithm>
 #include <string>
 
+#include "projects/keys/modbus.hpp"
 #include "projects/loader/modbus.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
-
-constexpr std::int64_t kMostClients = 1000;
-constexpr std::int64_t kHighestRate = 1'000'000;
-constexpr std::int64_t kShortestIdle = 1'000'000'000;      // [ns]
-constexpr std::int64_t kLongestIdle = 86'400'000'000'000;  // [ns]
 
 void load_listen(const JsonValue& json, ModbusServerOptions& options, Problems& problems) {
   std::vector<const JsonValue*> places = json.elements;
@@ -77,17 +74,16 @@ void load_line(const Fields& fields, const ModbusConfig& modbus, ModbusServerOpt
     if (const JsonValue* const field = fields[key])
       problems.report(*field, "'" + std::string(key) + "' is for TCP; a server has it or 'serial'");
   options.listen.clear();
-  options.serial = read_serial(*fields["serial"], problems);
   report_taken_line(*fields["serial"], modbus, options.serial->device, problems);
-  if (const auto unit = read_integer(fields["unit"], 1, 247, problems))
-    options.serial_unit = static_cast<std::uint8_t>(*unit);
 }
 
 }  // namespace
 
-void load_modbus_place(const JsonValue& json, const Fields& fields, ModbusConfig& modbus,
-                       Problems& problems) {
+void load_modbus_place(const JsonValue& json, const Fields& fields, const Loading& loading) {
+  Problems& problems = loading.problems;
+  ModbusConfig& modbus = loading.project.modbus;
   ModbusServerOptions& options = modbus.servers.back();
+  read_keys(fields, keys::kServer, options, loading);
   if (fields["serial"] != nullptr) return load_line(fields, modbus, options, problems);
   if (fields["listen"] == nullptr)
     problems.report(json, "the key 'listen' is missing, or 'serial' in its place");
@@ -98,14 +94,6 @@ void load_modbus_place(const JsonValue& json, const Fields& fields, ModbusConfig
     report_taken_places(fields, modbus, problems);
   }
   load_allow(fields["allow"], options, problems);
-  if (const auto most = read_integer(fields["max_clients"], 1, kMostClients, problems))
-    options.max_clients = static_cast<std::size_t>(*most);
-  if (const auto share = read_integer(fields["max_clients_per_address"], 1, kMostClients, problems))
-    options.max_clients_per_address = static_cast<std::size_t>(*share);
-  if (const auto rate = read_integer(fields["max_requests_per_second"], 1, kHighestRate, problems))
-    options.requests_per_second = static_cast<std::uint32_t>(*rate);
-  if (const auto idle = read_duration(fields["idle_timeout"], kShortestIdle, kLongestIdle, problems))
-    options.idle_limit = std::chrono::milliseconds(*idle / 1'000'000);
   warn_of_open_server(fields, options, problems);
 }
 
@@ -120,27 +108,6 @@ void report_taken_line(const JsonValue& serial, const ModbusConfig& modbus, cons
   if (users > 1 && at != nullptr && !device.empty())
     problems.report(
         *at, at->shown() + " is the line of another server or client already; each line is allowed once");
-}
-
-SerialOptions read_serial(const JsonValue& json, Problems& problems) {
-  SerialOptions options;
-  const Fields fields(json, keys::kSerial, problems);
-  if (!fields.usable()) return options;
-  options.device = read_title(fields["device"], problems).value_or("");
-  if (const auto baud = read_integer(fields["baud"], kBauds.front(), kBauds.back(), problems)) {
-    options.baud = static_cast<int>(*baud);
-    std::vector<std::string> texts;
-    for (const int allowed : kBauds) texts.push_back(std::to_string(allowed));
-    if (std::find(kBauds.begin(), kBauds.end(), options.baud) == kBauds.end())
-      report_kind(*fields["baud"], list_of(std::vector<std::string_view>(texts.begin(), texts.end())),
-                  problems);
-  }
-  if (const auto parity = read_word(fields["parity"], words::kParities, problems))
-    options.parity = static_cast<Parity>(*parity);
-  options.stop_bits = static_cast<int>(read_integer(fields["stop_bits"], 1, 2, problems).value_or(1));
-  if (const auto silence = read_duration(fields["silence"], 100'000, 1'000'000'000, problems))
-    options.silence = std::chrono::microseconds(*silence / 1000);
-  return options;
 }
 
 }  // namespace lockstep

@@ -1,19 +1,17 @@
 // Technology objects: axes with their drives and their leading values.
+#include "projects/keys/objects.hpp"
+
 #include <algorithm>
-#include <limits>
+#include <array>
 #include <memory>
 
 #include "projects/loader/drive.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/looked_at_axis.hpp"
-#include "tech_objects/drive/drive_models.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
-
-constexpr std::int64_t kLongestLag = 10'000'000'000;  // of a drive [ns]
-constexpr std::int64_t kMostDeadCycles = 254;         // of MC_Servo, as dead time of a drive
-constexpr double kSecond = 1e9;                       // [ns]
 
 /// Published types that are not there yet.
 constexpr std::string_view kLaterTypes[] = {"TO_Kinematics", "TO_LeadingAxisProxy"};
@@ -22,15 +20,33 @@ bool known(std::span<const std::string_view> words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+constexpr auto kTypeNames = [] {
+  std::array<std::string_view, kObjectKinds.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = kObjectKinds[i].name;
+  return names;
+}();
+
 std::optional<ObjectKind> read_kind(const JsonValue* type, Problems& problems) {
   if (type != nullptr && type->kind == JsonKind::string && known(kLaterTypes, type->text)) {
     problems.report(*type, "technology objects of type " + type->shown() +
-                               " are not yet supported; allowed: " + list_of(words::kObjectTypes));
+                               " are not yet supported; allowed: " + list_of(kTypeNames));
     return std::nullopt;
   }
-  const auto word = read_word(type, words::kObjectTypes, problems);
+  const auto word = read_word(type, kTypeNames, problems);
   if (!word) return std::nullopt;
   return kObjectKinds[*word].kind;
+}
+
+/// Of an object whose type is not known: what no type has.
+void report_wrong_keys(const JsonValue& json, Problems& problems) {
+  std::vector<Key> all;
+  for (const KeyVariant& type : keys::kObjects)
+    for (const Key& key : type.keys) {
+      if (std::ranges::find(all, key.name, &Key::name) != all.end()) continue;
+      all.push_back(key);
+      all.back().required = key.kind == KeyKind::selector;
+    }
+  const Fields fields(json, all, problems);
 }
 
 void declare_object(const std::string& name, const JsonValue& json, const Loading& loading) {
@@ -38,68 +54,38 @@ void declare_object(const std::string& name, const JsonValue& json, const Loadin
   if (read_object(&json, loading.problems) == nullptr) return;
   const JsonValue* const type = json.find("type");
   const auto kind = read_kind(type, loading.problems);
-  if (!kind) {
-    const Fields fields(json, keys::kObject,
-                        loading.problems);  // reports wrong keys; the rest has no meaning
-    return;
-  }
+  if (!kind) return report_wrong_keys(json, loading.problems);
   // The object is there even if its name is not free, so that its configuration is looked at.
   TechnologyObject& object = loading.add_object(*kind, name);
   if (named) loading.names().define(name, &object);
 }
 
-void load_drive(const JsonValue& json, Axis& axis, const Loading& loading) {
-  Problems& problems = loading.problems;
-  const Fields fields(json, keys::kDrive, problems);
-  if (const auto model = read_word(fields["model"], kDriveModelNames, problems))
-    axis.drive_model = &kDriveModels[*model];
-  DriveSettings& drive = axis.drive_settings;
-  if (const auto time = read_duration(fields["time_constant"], 0, kLongestLag, problems))
-    drive.time_constant = static_cast<double>(*time) / kSecond;
-  const std::int64_t longest_dead_time = kMostDeadCycles * loading.controller().clock.servo_cycle;
-  if (const auto time = read_duration(fields["dead_time"], 0, longest_dead_time, problems))
-    drive.dead_time = static_cast<double>(*time) / kSecond;
-  constexpr double kCoarsest = 1e12;
-  if (const auto resolution = read_number(fields["encoder_resolution"], 0.0, kCoarsest, problems))
-    drive.resolution = *resolution;
-  if (const auto inverted = read_bool(fields["inverted"], problems)) drive.inverted = *inverted;
-  constexpr double kHardest = 1e12;  // [u/s²]
-  if (const auto stop = read_number(fields["quick_stop_deceleration"], 0.0, kHardest, problems))
-    drive.quick_stop = *stop;
-  if (const JsonValue* const plant = fields["plant"]) load_plant(*plant, drive, loading);
-  if (const JsonValue* const faults = fields["faults"]) load_faults(*faults, drive.faults, loading);
-  load_signals(fields, drive.signals, loading);
-  constexpr std::int64_t kShortestCycle = 10'000, kLongestCycle = 1'000'000'000;  // [ns]
-  if (const auto cycle = read_duration(fields["position_cycle"], kShortestCycle, kLongestCycle, problems))
-    drive.position_cycle = static_cast<double>(*cycle) / kSecond;
-  if (const JsonValue* const sensors = fields["sensors"]) load_sensors(*sensors, axis, loading);
-  check_operative_sensor(json, axis, loading);
-}
-
 /// An encoder has no setpoint: it leads by its actual value.
 std::optional<Coupling> read_coupling(const JsonValue* json, const LeadingObject* source,
-                                      Problems& problems) {
+                                      const Loading& loading) {
+  Problems& problems = loading.problems;
   const bool encoder = source != nullptr && source->kind == ObjectKind::TO_ExternalEncoder;
   if (json == nullptr) return encoder ? Coupling::actual : Coupling::setpoint;
   if (json->kind == JsonKind::string && json->text == "delayed") {
-    problems.report(*json, "the coupling 'delayed' (cross-controller) is not yet supported; allowed: " +
-                               list_of(words::kCouplings));
+    problems.report(
+        *json, "the coupling 'delayed' (cross-controller) is not yet supported; allowed: setpoint, actual");
     return std::nullopt;
   }
-  const auto word = read_word(json, words::kCouplings, problems);
+  const auto word = read_value(json, keys::kLeadingValue["coupling"], loading);
   if (!word) return std::nullopt;
-  if (encoder && *word == 0) {
+  const auto coupling = static_cast<Coupling>(word->integer);
+  if (encoder && coupling == Coupling::setpoint) {
     problems.report(*json, "an external encoder has no setpoint; allowed: 'actual'");
     return std::nullopt;
   }
-  return *word == 0 ? Coupling::setpoint : Coupling::actual;
+  return coupling;
 }
 
 void load_leading_value(const JsonValue& json, Axis& axis, const Loading& loading) {
   const Fields fields(json, keys::kLeadingValue, loading.problems);
   const JsonValue* const to = fields["to"];
   auto* const source = static_cast<LeadingObject*>(loading.find_object(to, kLeading));
-  const auto coupling = read_coupling(fields["coupling"], source, loading.problems);
+  const auto coupling = read_coupling(fields["coupling"], source, loading);
   if (source == nullptr || !coupling) return;
   if (source->number == axis.number) return loading.problems.report(*to, "an axis cannot follow itself");
   const auto same = [&](const LeadingValue& other) { return other.source == source; };
@@ -110,9 +96,6 @@ void load_leading_value(const JsonValue& json, Axis& axis, const Loading& loadin
 
 void load_leading_values(const JsonValue& json, Axis& axis, const Loading& loading) {
   if (read_array(&json, loading.problems) == nullptr) return;
-  if (axis.kind != ObjectKind::TO_SynchronousAxis && !json.elements.empty())
-    return loading.problems.report(json, "a " + std::string(kind_name(axis.kind)) +
-                                             " has no leading values; allowed with: TO_SynchronousAxis");
   for (const JsonValue* const leading_value : json.elements)
     load_leading_value(*leading_value, axis, loading);
 }
@@ -126,7 +109,7 @@ void load_position_limits(const JsonValue& config, const Axis& axis, const Loadi
 
 void load_axis(const JsonValue& json, Axis& axis, const Loading& loading) {
   Problems& problems = loading.problems;
-  const Fields fields(json, keys::kObject, problems);
+  const Fields fields(json, keys::kObjects, variant_of(axis), problems);
   const std::size_t before = problems.count();
   if (const JsonValue* const config = fields["config"]) {
     load_configuration(*config, axis, loading);
@@ -142,7 +125,9 @@ void load_axis(const JsonValue& json, Axis& axis, const Loading& loading) {
         json,
         "the axis is neither virtual nor has it a drive; allowed: \"config\": { \"VirtualAxis\": { "
         "\"Mode\": 1 } }, or \"drive\": { \"model\": \"simulated\" }");
-  if (const JsonValue* const values = fields["leading_values"]) load_leading_values(*values, axis, loading);
+  const JsonValue* const values = fields["leading_values"];
+  if (values != nullptr && axis.kind == ObjectKind::TO_SynchronousAxis)
+    load_leading_values(*values, axis, loading);
 }
 
 /// One axis after the other is loaded whole, and what is asked for later stays.

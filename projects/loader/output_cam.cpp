@@ -2,22 +2,12 @@
 // stand.
 #include <unordered_map>
 
+#include "projects/keys/objects.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
-
-double* read_time_tag(const JsonValue* json, const Loading& loading) {
-  const auto name = read_string(json, loading.problems);
-  if (!name) return nullptr;
-  const auto found = loading.find(*json, *name);
-  if (!found) return nullptr;
-  if (found->tag == nullptr || found->signal.type != Type::LREAL) {
-    loading.problems.report(*json, json->shown() + " is not allowed here; allowed: the name of an LREAL tag");
-    return nullptr;
-  }
-  return static_cast<double*>(found->signal.address);
-}
 
 const JsonValue* member(const JsonValue* json, std::string_view name) {
   return json == nullptr || json->kind != JsonKind::object ? nullptr : json->find(name);
@@ -27,23 +17,20 @@ const JsonValue* member(const JsonValue* json, std::string_view name) {
 template <class Cam>
 void load_switching(const JsonValue& json, Cam& cam, const Loading& loading) {
   Problems& problems = loading.problems;
-  const Fields fields(json, keys::kOutputCamObject, problems);
+  const Fields fields(json, keys::kObjects, variant_of(cam), problems);
   const JsonValue* const config = fields["config"];
   const std::size_t before = problems.count();
   if (config != nullptr) load_configuration(*config, cam, loading);
   const bool sure = problems.count() == before;
-  if (const JsonValue* const assigned = fields["assigned_to"])
-    cam.assigned = static_cast<LeadingObject*>(loading.find_object(assigned, kLeading));
+  if (const auto assigned = read_value(fields, keys::kAssignedTo, loading))
+    key_detail::assign(cam.assigned, *assigned);
   const bool encoder = cam.assigned != nullptr && cam.assigned->kind == ObjectKind::TO_ExternalEncoder;
   if (const JsonValue* const type = member(member(config, "Parameter"), "PositionType");
       sure && encoder && type != nullptr && cam.data.Parameter.PositionType == 0)
     problems.report(*type, "an external encoder has no setpoint; allowed: 1 (actual position)");
   if (encoder) cam.data.Parameter.PositionType = 1;
-  if (const JsonValue* const times = fields["switching_times"]) {
-    const Fields of_times(*times, keys::kSwitchingTimes, problems);
-    cam.switching_times.on = read_time_tag(of_times["on"], loading);
-    cam.switching_times.off = read_time_tag(of_times["off"], loading);
-  }
+  if (const JsonValue* const times = fields["switching_times"])
+    read_struct(*times, keys::kSwitchingTimes, cam.switching_times, loading);
 }
 
 }  // namespace

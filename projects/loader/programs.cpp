@@ -3,13 +3,14 @@
 #include <unordered_set>
 
 #include "projects/expressions/constant.hpp"
+#include "projects/keys/project.hpp"
 #include "projects/loader/call_checks.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr std::int64_t kLongestCycle = 86'400'000'000'000;  // of a program: a day [ns]
 constexpr int kDefaultPriority = 8;
 
 /// What a call is, by the key that only it has.
@@ -381,13 +382,13 @@ std::int64_t read_cycle(const Fields& fields, Ob ob, const Loading& loading) {
                                 " runs with motion control and has no cycle; allowed with: Main, Cyclic");
     return 0;
   }
-  const auto cycle = read_duration(json, 1, kLongestCycle, loading.problems);
+  const auto cycle = read_value(json, keys::kProgram["cycle"], loading);
   const std::int64_t servo_cycle = loading.controller().clock.servo_cycle;
-  if (cycle && *cycle % servo_cycle != 0)
+  if (cycle && cycle->integer % servo_cycle != 0)
     loading.problems.report(*json, json->shown() +
                                        " is no whole multiple of servo_cycle; allowed: multiples of " +
                                        std::to_string(servo_cycle) + "ns");
-  return cycle.value_or(servo_cycle);
+  return cycle ? cycle->integer : servo_cycle;
 }
 
 int read_priority(const Fields& fields, Ob ob, const Loading& loading) {
@@ -397,8 +398,8 @@ int read_priority(const Fields& fields, Ob ob, const Loading& loading) {
         *json, "a program of " + fields["ob"]->shown() + " has no priority; allowed with: Cyclic");
     return 0;
   }
-  return static_cast<int>(
-      read_integer(json, kLowestPriority, kHighestPriority, loading.problems).value_or(kDefaultPriority));
+  const auto priority = read_value(json, keys::kProgram["priority"], loading);
+  return priority ? static_cast<int>(priority->integer) : kDefaultPriority;
 }
 
 class ProgramsLoader {
@@ -409,8 +410,9 @@ class ProgramsLoader {
     const Fields fields(json, keys::kProgram, problems_);
     if (!fields.usable()) return;
     const std::string name = read_name(fields["name"]);
-    const Ob ob = static_cast<Ob>(read_word(fields["ob"], words::kObs, problems_).value_or(kNoOb));
-    const bool known_ob = static_cast<std::size_t>(ob) != kNoOb;
+    const auto read_ob = read_value(fields, keys::kProgram["ob"], loading_);
+    const bool known_ob = read_ob.has_value();
+    const Ob ob = known_ob ? static_cast<Ob>(read_ob->integer) : kNoOb;
     const std::int64_t cycle = known_ob ? read_cycle(fields, ob, loading_) : 0;
     const int priority = known_ob ? read_priority(fields, ob, loading_) : 0;
     Program& program = loading_.controller().programs.emplace_back(name, ob, cycle, priority);
@@ -420,7 +422,7 @@ class ProgramsLoader {
   }
 
  private:
-  static constexpr std::size_t kNoOb = 255;
+  static constexpr Ob kNoOb{255};
 
   std::string read_name(const JsonValue* json) {
     const auto name = read_string(json, problems_);

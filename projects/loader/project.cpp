@@ -2,14 +2,13 @@
 
 #include <filesystem>
 
+#include "projects/keys/project.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/looked_at_axis.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
-
-constexpr std::int64_t kShortestServoCycle = 1'000;  // what a call of the system's clock takes some of [ns]
-constexpr std::int64_t kLongestServoCycle = 60'000'000'000;  // [ns]
 
 /// Warns of what nothing refers to: it may be a name that was mistyped elsewhere.
 void warn_of_unused(const JsonValue& root, const Names::Uses& uses, const Loading& loading) {
@@ -24,9 +23,11 @@ void warn_of_unused(const JsonValue& root, const Names::Uses& uses, const Loadin
 }
 
 void load_identity(const Fields& fields, const Loading& loading) {
-  read_integer(fields["lockstep"], 1, 1, loading.problems);
-  loading.project.name = read_title(fields["name"], loading.problems).value_or("");
-  loading.project.description = read_string(fields["description"], loading.problems).value_or("");
+  read_value(fields, keys::kProject["lockstep"], loading);
+  if (const auto name = read_value(fields, keys::kProject["name"], loading))
+    loading.project.name = name->text;
+  if (const auto text = read_value(fields, keys::kProject["description"], loading))
+    loading.project.description = text->text;
 }
 
 void load_sections(const JsonValue& root, const Loading& loading) {
@@ -99,17 +100,9 @@ TechnologyObject* Loading::find_object(const JsonValue* name, ObjectKinds kinds)
 }
 
 void load_clock(const JsonValue& clock, const Loading& loading) {
-  const Fields fields(clock, keys::kClock, loading.problems);
-  Clock& result = loading.controller().clock;
-  if (const auto cycle =
-          read_duration(fields["servo_cycle"], kShortestServoCycle, kLongestServoCycle, loading.problems))
-    result.servo_cycle = *cycle;
-  if (const auto ratio = read_integer(fields["interpolator_ratio"], 1, 32, loading.problems))
-    result.interpolator_ratio = static_cast<int>(*ratio);
-  if (const auto processors = read_integer(fields["processors"], 1, Clock::kMostProcessors, loading.problems))
-    result.processors = static_cast<int>(*processors);
-  loading.project.stop_on_overrun =
-      read_word(fields["overrun"], words::kOverrun, loading.problems).value_or(0) == 1;
+  const Fields fields = read_struct(clock, keys::kClock, loading.controller().clock, loading);
+  if (const auto overrun = read_value(fields, keys::kClock["overrun"], loading))
+    loading.project.stop_on_overrun = overrun->integer != 0;
 }
 
 LoadedProject load_project(std::string_view text, const std::string& folder, const Prepare& prepare,

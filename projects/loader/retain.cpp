@@ -2,15 +2,14 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "projects/keys/project.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 #include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
-
-constexpr std::int64_t kShortestInterval = 1'000'000;         // [ns]
-constexpr std::int64_t kLongestInterval = 3'600'000'000'000;  // [ns]
 
 /// Structures of the data block on which the meaning of an encoder's value depends.
 constexpr std::string_view kScales[] = {"Sensor[]", "LoadGear.",  "Mechanics.", "Modulo.",
@@ -99,9 +98,8 @@ void load_retain(const JsonValue* retain, const Loading& loading) {
     else
       config.file = (std::filesystem::path(loading.folder) / *file).string();
   }
-  if (const auto interval =
-          read_duration(fields["interval"], kShortestInterval, kLongestInterval, loading.problems))
-    config.interval = std::chrono::nanoseconds(*interval);
+  if (const auto interval = read_value(fields, keys::kRetain["interval"], loading))
+    config.interval = std::chrono::nanoseconds(interval->integer);
 }
 
 }  // namespace lockstep

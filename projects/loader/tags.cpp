@@ -4,7 +4,9 @@
 #include "projects/expressions/array_type.hpp"
 #include "projects/expressions/constant.hpp"
 #include "projects/expressions/string_type.hpp"
+#include "projects/keys/project.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
@@ -53,11 +55,16 @@ bool may_retain(std::size_t values, const JsonValue& json, const Loading& loadin
   return false;
 }
 
+bool read_retain(const Fields& fields, const Loading& loading) {
+  const auto retain = read_value(fields, keys::kTag["retain"], loading);
+  return retain && retain->integer != 0;
+}
+
 void load_array(const std::string& name, const JsonValue& json, const Loading& loading, bool named) {
   const Fields fields(json, keys::kTag, loading.problems);
   const auto array = read_array_type(*fields["type"], loading.problems);
   const auto comment = read_string(fields["comment"], loading.problems);
-  const bool retain = read_bool(fields["retain"], loading.problems).value_or(false);
+  const bool retain = read_retain(fields, loading);
   if (!array) return;
   std::size_t memory = array->count() * array->element->size;
   for (const ArrayTag& other : loading.controller().arrays)
@@ -78,7 +85,7 @@ void load_string(const std::string& name, const JsonValue& json, const Loading& 
   const Fields fields(json, keys::kTag, loading.problems);
   const auto room = read_string_type(*fields["type"], loading.problems);
   const auto comment = read_string(fields["comment"], loading.problems);
-  const bool retain = read_bool(fields["retain"], loading.problems).value_or(false);
+  const bool retain = read_retain(fields, loading);
   if (!room) return;
   if (loading.controller().strings.size() == kMostStrings)
     return loading.problems.report(*fields["type"], "there are more than " + std::to_string(kMostStrings) +
@@ -101,7 +108,7 @@ void load_tag(const std::string& name, const JsonValue& json, const Loading& loa
   const Fields fields(json, keys::kTag, loading.problems);
   if (!fields.usable()) return;
   const auto type = read_type(fields["type"], loading.problems);
-  const bool retain = read_bool(fields["retain"], loading.problems).value_or(false);
+  const bool retain = read_retain(fields, loading);
   const auto comment = read_string(fields["comment"], loading.problems);
   if (!type) return;
   Tag tag{.name = name, .type = *type, .retain = retain, .comment = std::string(comment.value_or(""))};
@@ -121,9 +128,9 @@ void read_text_assignment(const StringTag& tag, const JsonValue& json, const Loa
 
 void load_stimulus(const JsonValue& json, const Loading& loading) {
   const Fields fields(json, keys::kStimulus, loading.problems);
-  const auto at = read_duration(fields["at"], 0, INT64_MAX, loading.problems);
+  const auto at = read_value(fields, keys::kStimulus["at"], loading);
   for (const Assignment& one : read_assignments(fields["set"], "a stimulus", loading))
-    if (at) loading.controller().stimuli.push_back({*at, one.place, one.value});
+    if (at) loading.controller().stimuli.push_back({at->integer, one.place, one.value});
 }
 
 }  // namespace

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
+#include "projects/keys/modbus.hpp"
 #include "projects/loader/modbus.hpp"
+#include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
 namespace {
-
-constexpr std::int64_t kLongestTimeout = 86'400'000'000'000;  // [ns]
 
 /// Whether two places are one, or one is a bit of the other.
 bool is_same(const Signal& a, const Signal& b) {
@@ -79,6 +79,13 @@ void claim_set(const JsonValue& set, const Loading& loading) {
   }
 }
 
+/// A silence cannot be shorter than the time after which it is looked for.
+std::optional<KeyValue> read_timeout(const Fields& fields, const Loading& loading) {
+  Key key = keys::kWatchdog["timeout"];
+  key.range.lowest = static_cast<double>(loading.controller().clock.servo_cycle);
+  return read_value(fields, key, loading);
+}
+
 void load_watchdog(const JsonValue& json, const ModbusMap* map, const Loading& loading) {
   Problems& problems = loading.problems;
   const std::size_t before = problems.count();
@@ -86,7 +93,7 @@ void load_watchdog(const JsonValue& json, const ModbusMap* map, const Loading& l
   if (!fields.usable()) return;
   const auto heartbeat = find_heartbeat(fields["tag"], map, loading);
   const std::int64_t cycle = loading.controller().clock.servo_cycle;
-  const auto timeout = read_duration(fields["timeout"], cycle, kLongestTimeout, problems);
+  const auto timeout = read_timeout(fields, loading);
   const auto status = find_status(fields["status"], loading);
   const JsonValue* const set = fields["set"];
   std::vector<Assignment> values;
@@ -100,8 +107,8 @@ void load_watchdog(const JsonValue& json, const ModbusMap* map, const Loading& l
   if (status) claim(*fields["status"], {*status, WatchdogTag::Role::status}, loading);
   if (set != nullptr) claim_set(*set, loading);
   if (problems.count() != before) return;
-  loading.controller().watchdogs.emplace_back(*heartbeat, (*timeout + cycle - 1) / cycle, std::move(values),
-                                              status);
+  loading.controller().watchdogs.emplace_back(*heartbeat, (timeout->integer + cycle - 1) / cycle,
+                                              std::move(values), status);
 }
 
 }  // namespace

@@ -224,6 +224,15 @@ TEST(Describe, TellsTheOverrideTableOfMeasuringInputs) {
   EXPECT_EQ(found, homing.size());
 }
 
+TEST(Describe, KeysOfTheProjectFile) {
+  const json cycle = described({"keys", "clock.servo_cycle"});
+  EXPECT_EQ(cycle["value"], "duration from 1us to 1min");
+  EXPECT_EQ(cycle["required"], true);
+  const json plant = described({"keys", "technology_objects.drive.plant"});
+  EXPECT_EQ(plant["structures"][0]["keys"][0]["name"], "inertia");
+  EXPECT_GT(described({"keys"})["structures"].size(), 40u);
+}
+
 TEST(Describe, AnUnknownNameExitsWith1AndASuggestion) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> unknown = {
       {{"MC_GaerInPos"}, "did you mean 'MC_GearInPos'?"},
@@ -238,6 +247,7 @@ TEST(Describe, AnUnknownNameExitsWith1AndASuggestion) {
       {{"99999999999999999999"}, "there is nothing called"},
       {{"override", "MC_GaerIn"}, "did you mean 'MC_GearIn'?"},
       {{"alarms", "608"}, "takes no second name"},
+      {{"keys", "clock.servo_cycel"}, "did you mean 'clock.servo_cycle'?"},
   };
   for (const auto& [names, suggestion] : unknown) {
     std::vector<std::string> arguments = names;

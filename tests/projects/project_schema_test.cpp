@@ -100,7 +100,7 @@ TEST_F(Schema, RefusesNothingThatTheLoaderAccepts) {
 
 TEST_F(Schema, DescribesEveryVariableThatAProjectMaySet) {
   const json schema = json::parse(project_schema());
-  const json& config = schema.at("definitions").at("config").at("properties");
+  const json& config = schema.at("definitions").at("TO_SynchronousAxis").at("properties");
   EXPECT_EQ(config.at("Modulo").at("properties").at("Length").at("default"), 360.0);
   EXPECT_EQ(config.at("Properties").at("properties").at("MotionType").at("enum"), json({0, 1}));
   EXPECT_TRUE(config.contains("Sensor[4]"));

@@ -1,0 +1,154 @@
+/// The keys of a project file, from its root on.
+#pragma once
+
+#include "hmi_bridge/audit/file.hpp"
+#include "hmi_bridge/traces/channel.hpp"
+#include "hmi_bridge/traces/flight_recorder.hpp"
+#include "projects/keys/modbus.hpp"
+#include "projects/keys/objects.hpp"
+#include "scheduler/controller.hpp"
+
+namespace lockstep::keys {
+
+/// Priorities of a Cyclic program.
+inline constexpr int kLowestPriority = 1;
+inline constexpr int kHighestPriority = 26;
+
+inline constexpr double kShortestServoCycle = 1e3;  // what a call of the system's clock takes some of [ns]
+inline constexpr Word kOverruns[] = {{"report", 0}, {"stop", 1}};
+inline constexpr auto kClock = key_table<Clock>(
+    key::duration<&Clock::servo_cycle>("servo_cycle", {kShortestServoCycle, kLongestServoCycle},
+                                       "period of MC_Servo")
+        .needed(),
+    key::integer<&Clock::interpolator_ratio>("interpolator_ratio", {1, 32},
+                                             "servo cycles per interpolator cycle"),
+    key::integer<&Clock::processors>("processors", {1, Clock::kMostProcessors},
+                                     "that a tick uses for the axes, where there are many"),
+    key::word("overrun", kOverruns, "what three overruns in a row do").otherwise_is("report"));
+
+inline constexpr auto kTag = key_table<void>(
+    key::defined(
+        "type", "tag_type", "type",
+        "elementary type, STRING[n], or ARRAY[lower..upper] OF an elementary type or of a structure of cams")
+        .needed(),
+    key::defined("init", "initial_value", "constant",
+                 "value at the start; of an array [element, ...] from the first one on"),
+    key::boolean("retain", "kept across runs").otherwise_is("false"), key::text("comment", "for the reader"));
+
+inline constexpr Word kObs[] = {word_of("MC_PreServo", Ob::MC_PreServo),
+                                word_of("MC_PostServo", Ob::MC_PostServo),
+                                word_of("MC_PreInterpolator", Ob::MC_PreInterpolator),
+                                word_of("Cyclic", Ob::Cyclic), word_of("Main", Ob::Main)};
+inline constexpr auto kProgram = key_table<void>(
+    key::text("name", "name of the program").needed(),
+    key::word("ob", kObs, "organization block in which it runs").needed(),
+    key::duration("cycle", {1, kDay}, "period of a Main or Cyclic program, a whole multiple of servo_cycle"),
+    key::integer("priority", {kLowestPriority, kHighestPriority},
+                 "of a Cyclic program; the higher runs first")
+        .otherwise_is("8"),
+    key::defined("calls", "call", "call", "what runs, in this order").list().needed());
+inline constexpr auto kCall = key_table<void>(
+    key::defined("fb", "function_block", "name of a function block", "function block").needed(),
+    key::text("name", "name of the instance").needed(),
+    key::constant("in", "pin: value, expression or technology object").named());
+inline constexpr auto kSet =
+    key_table<void>(key::signal("set", "tag or writable variable to assign to").needed(),
+                    key::constant("to", "value or expression").needed());
+inline constexpr auto kSetStart = key_table<void>(
+    key::signal("set_start", "variable whose start value is changed; it counts with a restart by MC_Reset")
+        .needed(),
+    key::constant("to", "value or expression").needed());
+inline constexpr auto kIf =
+    key_table<void>(key::constant("if", "BOOL value or expression").needed(),
+                    key::defined("then", "call", "call", "what runs if it is TRUE").list().needed(),
+                    key::defined("else", "call", "call", "what runs if it is FALSE").list());
+
+inline constexpr auto kStimulus =
+    key_table<void>(key::duration("at", {0, kAny.highest}, "time since the start").needed(),
+                    key::constant("set", "tag: value").named().needed());
+
+constexpr auto signals_key(std::string_view text) {
+  return key::signal("signals", text).list();
+}
+inline constexpr auto kCommandAxis =
+    key_table<void>(key::number("jog_velocity", kAboveZero, "",
+                                "highest velocity of jogging, in the unit of the axis' velocities")
+                        .otherwise_is("DynamicDefaults.Velocity"));
+inline constexpr auto kCommands = key_table<void>(
+    key::structure("axes", kCommandAxis, "name of an axis, a speed axis too: its limits").named().needed());
+inline constexpr auto kLcm = key_table<void>(
+    key::text("url", "network, such as udpm://239.255.76.67:7667?ttl=0").needed(),
+    key::title("channel", "channel of the rows").needed(),
+    key::structure("commands", kCommands, "axes that take commands from panels").otherwise_is("none does"));
+
+inline constexpr double kLongestBefore = 600e9;  // [ns]
+inline constexpr Word kTriggers[] = {
+    word_of("above", TriggerKind::above), word_of("below", TriggerKind::below),
+    word_of("rising", TriggerKind::rising), word_of("falling", TriggerKind::falling),
+    word_of("alarm", TriggerKind::alarm)};
+inline constexpr auto kTrigger = key_table<TraceSelection>(
+    key::word<&TraceSelection::trigger>("on", kTriggers,
+                                        "above, below: rows with the signal beyond the level; rising, "
+                                        "falling: around the row in which it passes "
+                                        "the level; alarm: around an alarm")
+        .needed(),
+    key::signal("signal", "tag, instance.Pin, variable"),
+    key::number<&TraceSelection::level>("level", {-1e300, 1e300}, "", "of the signal"),
+    key::duration<&TraceSelection::before>("before", {0, kLongestBefore},
+                                           "of which the rows before count as well"),
+    key::duration<&TraceSelection::after>("after", {0, kHour}, "of which the rows after count as well"));
+inline constexpr auto kTraceChannel = key_table<TraceSelection>(
+    key::title("channel", "channel of the rows").needed(), signals_key("columns").needed(),
+    key::integer<&TraceSelection::every>("every", {1, 1e9}, "only each n-th row"),
+    key::group<TraceSelection>("trigger", kTrigger, "only the rows at an occasion"));
+inline constexpr auto kTrace = key_table<void>(
+    key::structure("lcm", kLcm, "the network on which the trace goes out"),
+    signals_key("columns of the trace"),
+    key::structure("channels", kTraceChannel, "further channels of LCM, each with a part of the trace")
+        .list());
+
+inline constexpr auto kFlightRecorder = key_table<FlightRecorderOptions>(
+    key::duration<&FlightRecorderOptions::before>("before", {1, kLongestBefore},
+                                                  "how much is kept for the time before an alarm")
+        .needed(),
+    key::duration<&FlightRecorderOptions::after>("after", {0, kHour}, "how much is added behind it"),
+    key::title<&FlightRecorderOptions::file>(
+        "file",
+        "FILE_20261123T115200Z_17.csv and its like are written, one for each alarm: time (UTC) and a number "
+        "that "
+        "goes on from run to run; relative to the project file, in a service to its state directory")
+        .needed(),
+    key::integer<&FlightRecorderOptions::files>("files", {1, 1000}, "at most so many in a run"),
+    key::integer<&FlightRecorderOptions::keep>(
+        "keep", {1, 10'000}, "so many stay, those of earlier runs among them; the oldest are removed"),
+    signals_key("what is kept").otherwise_is("everything that may change"));
+
+inline constexpr auto kRetain = key_table<void>(
+    key::text("file", "where kept values stand, relative to the project file"),
+    key::duration("interval", {kMilli, kHour}, "between two writes of changed values").otherwise_is("1s"));
+
+inline constexpr auto kAudit = key_table<AuditOptions>(
+    key::title<&AuditOptions::file>("file", "one JSON object a line for each write and command from outside")
+        .needed(),
+    key::integer<&AuditOptions::size>("size", {4096, 1099511627776.0},
+                                      "of a file, behind which the next one begins")
+        .of("byte"),
+    key::integer<&AuditOptions::files>("files", {2, 1000},
+                                       "in all: FILE, FILE.1 and so on; the oldest gives way"));
+
+inline constexpr int kVersions[] = {1};
+inline constexpr auto kProject = key_table<void>(
+    key::one_of("lockstep", kVersions, "version of the format").needed(),
+    key::title("name", "name of the project").needed(), key::text("description", "what the project does"),
+    key::structure("clock", kClock, "when things run").needed(),
+    key::variants("technology_objects", kObjects, "name: technology object").named(),
+    key::structure("tags", kTag, "name: tag").named(),
+    key::structure("programs", kProgram, "programs").list(),
+    key::structure("stimuli", kStimulus, "changes of tags in a simulation").list(),
+    key::structure("modbus", kModbus, "servers and foreign devices"),
+    key::structure("trace", kTrace, "what is recorded and sent"),
+    key::structure("retain", kRetain, "what is kept across runs"),
+    key::structure("flight_recorder", kFlightRecorder, "keeps what happened before an alarm"),
+    key::structure("audit", kAudit, "who has written or commanded what"));
+
+}  // namespace lockstep::keys

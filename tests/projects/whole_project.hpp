@@ -1,0 +1,77 @@
+/// The example project with an object of every type, and every structure that a project may have.
+#pragma once
+
+#include "changed_project.hpp"
+
+namespace lockstep {
+
+inline constexpr char kRestOfProject[] = R"json({
+  "technology_objects": {
+    "Fan": { "type": "TO_SpeedAxis", "config": {}, "drive": { "model": "simulated" } },
+    "Arm": {
+      "type": "TO_PositioningAxis",
+      "config": { "Sensor[2]": { "Existent": true } },
+      "drive": {
+        "model": "simulated",
+        "zero_marks": { "position": 3.0, "period": 10.0 },
+        "limit_switches": { "min": -200.0, "max": 400.0 },
+        "digital_inputs": [ { "tag": "switch", "range": [1.0, 2.0] } ],
+        "plant": { "inertia": 0.002, "fixed_stop": { "position": 100.0, "stiffness": 200.0 } },
+        "faults": { "drive": "fault" },
+        "sensors": [ { "sensor": 2 } ]
+      }
+    },
+    "Encoder": {
+      "type": "TO_ExternalEncoder",
+      "config": {},
+      "encoder": { "model": "simulated", "signal": "speed", "zero_marks": { "position": 1.0 } }
+    },
+    "Probe": { "type": "TO_MeasuringInput", "config": {}, "assigned_to": "Knife", "marks": { "period": 10.0 } },
+    "Glue": {
+      "type": "TO_OutputCam", "config": {}, "assigned_to": "Knife", "switching_times": { "on": "seconds" }
+    },
+    "Track": {
+      "type": "TO_CamTrack", "config": {}, "assigned_to": "Knife", "switching_times": { "off": "seconds" }
+    },
+    "Curve": { "type": "TO_Cam", "config": {}, "points": [ [0.0, 0.0], [1.0, 1.0] ] },
+    "Curve10": { "type": "TO_Cam_10k", "config": {}, "points": [ [0.0, 0.0], [1.0, 1.0] ] }
+  },
+  "tags": {
+    "switch": { "type": "BOOL" }, "fault": { "type": "BOOL" }, "seconds": { "type": "LREAL" },
+    "silent": { "type": "BOOL" }, "heard": { "type": "BOOL" }, "since": { "type": "TIME" },
+    "remote": { "type": "INT" }
+  },
+  "modbus": {
+    "server": [
+      { "listen": "127.0.0.1:1502",
+        "map": [ { "tag": "switch", "table": "coil", "address": 7 } ],
+        "watchdog": { "tag": "switch", "timeout": "1s", "status": "silent" } },
+      { "serial": { "device": "/dev/ttyS0" } }
+    ],
+    "units": [ { "unit": 7, "map": [ { "tag": "fault", "table": "coil", "address": 0 } ],
+                 "watchdog": { "tag": "fault", "timeout": "1s", "set": { "synced": false } } } ],
+    "clients": [
+      { "connect": "127.0.0.1:1600", "devices": [
+        { "name": "drive", "cycle": "100ms",
+          "read": [ { "tag": "remote", "table": "input_register", "address": 1 } ],
+          "write": [ { "tag": "remote", "table": "holding_register", "address": 1 } ] } ] },
+      { "serial": { "device": "/dev/ttyS1" }, "devices": [] }
+    ]
+  },
+  "trace": {
+    "lcm": { "commands": { "axes": { "Fan": {} } } },
+    "channels": [ { "channel": "SLOW", "signals": [ "speed" ], "trigger": { "on": "above", "signal": "speed" } } ]
+  },
+  "retain": { "file": "kept", "interval": "1s" },
+  "flight_recorder": { "before": "1s", "file": "flight", "signals": [ "speed" ] }
+})json";
+
+inline Json whole_project() {
+  Json project = Json::parse(kExampleProject);
+  project.merge_patch(Json::parse(kRestOfProject));
+  project["programs"][0]["calls"].push_back(
+      Json::parse(R"({ "set_start": "Knife.Modulo.Length", "to": 180.0 })"));
+  return project;
+}
+
+}  // namespace lockstep
