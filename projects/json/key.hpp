@@ -77,15 +77,14 @@ struct Key {
   KeyShape shape = KeyShape::one;
   Range range = kAny;  ///< of a number, integer or duration [ns]; infinite ends: as far as its type goes
   std::string_view unit{};
-  std::string_view text{};  ///< meaning
-  std::string_view
-      otherwise{};  ///< what holds if it is not given, where the default of the member does not tell
+  std::string_view text{};       ///< meaning
+  std::string_view otherwise{};  ///< what holds if it is not given; empty: the default of the member
   std::span<const Word> words{};
   std::span<const int> numbers{};          ///< the integers that are allowed, where they are few
   Type type = Type::BOOL;                  ///< of a tag
   ObjectKinds objects = 0;                 ///< that it may name
   Keys keys{};                             ///< of a structure
-  std::span<const KeyVariant> variants{};  ///< of an object, or that a selector chooses from
+  std::span<const KeyVariant> variants{};  ///< of which an object is one
   std::string_view definition{};           ///< under which the schema has it, so that it stands there once
   std::string_view what{};                 ///< what stands there, where that is defined elsewhere
   const void* member = nullptr;  ///< tells the member of the struct from others; nullptr: it has none
@@ -134,17 +133,17 @@ struct Held<std::vector<T, A>> {
 
 /// A member of a struct, or of a struct within it.
 template <auto... Path>
-struct Path_ {
+struct MemberPath {
   using Owner = void;
 };
 template <auto First, auto... Rest>
-struct Path_<First, Rest...> {
+struct MemberPath<First, Rest...> {
   using Owner = typename MemberOf<decltype(First)>::Owner;
   static auto& of(Owner& owner) {
     if constexpr (sizeof...(Rest) == 0)
       return owner.*First;
     else
-      return Path_<Rest...>::of(owner.*First);
+      return MemberPath<Rest...>::of(owner.*First);
   }
   using Value = std::remove_reference_t<decltype(of(std::declval<Owner&>()))>;
 };
@@ -193,12 +192,12 @@ void assign(T& member, const KeyValue& value) {
 
 template <auto... Path>
 void store(void* owner, const KeyValue& value) {
-  assign(Path_<Path...>::of(*static_cast<typename Path_<Path...>::Owner*>(owner)), value);
+  assign(MemberPath<Path...>::of(*static_cast<typename MemberPath<Path...>::Owner*>(owner)), value);
 }
 
 template <auto... Path>
 void* part(void* owner) {
-  auto& member = Path_<Path...>::of(*static_cast<typename Path_<Path...>::Owner*>(owner));
+  auto& member = MemberPath<Path...>::of(*static_cast<typename MemberPath<Path...>::Owner*>(owner));
   using M = std::remove_reference_t<decltype(member)>;
   using V = typename Held<M>::Type;
   if constexpr (std::is_same_v<M, V>)
@@ -228,10 +227,10 @@ std::optional<KeyValue> shown(const T& member) {
 
 template <auto... Path>
 std::optional<KeyValue> fresh() {
-  using Owner = typename Path_<Path...>::Owner;
+  using Owner = typename MemberPath<Path...>::Owner;
   if constexpr (std::is_default_constructible_v<Owner>) {
     const auto made = std::make_unique<Owner>();
-    return shown(std::as_const(Path_<Path...>::of(*made)));
+    return shown(std::as_const(MemberPath<Path...>::of(*made)));
   }
   return std::nullopt;
 }
@@ -296,7 +295,7 @@ consteval KeyTable<S, sizeof...(K)> key_table(K... list) {
 namespace key {
 
 template <auto... Path>
-using KeyOfPath = KeyOf<typename key_detail::Path_<Path...>::Owner>;
+using KeyOfPath = KeyOf<typename key_detail::MemberPath<Path...>::Owner>;
 
 template <auto... Path>
 constexpr auto of(std::string_view name, KeyKind kind, std::string_view text) {

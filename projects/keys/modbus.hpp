@@ -12,18 +12,20 @@ namespace lockstep::keys {
 inline constexpr double kMilli = 1e6, kSecond = 1e9, kMinute = 60e9, kHour = 3600e9, kDay = 86400e9;  // [ns]
 
 template <class E>
-constexpr Word word_of(std::string_view word, E value) {
+constexpr Word word_for(std::string_view word, E value) {
   return {word, static_cast<std::int64_t>(value)};
 }
 
-inline constexpr Word kTables[] = {word_of("coil", ModbusTable::coil),
-                                   word_of("discrete_input", ModbusTable::discrete_input),
-                                   word_of("input_register", ModbusTable::input_register),
-                                   word_of("holding_register", ModbusTable::holding_register)};
-inline constexpr Word kWordOrders[] = {word_of("big", WordOrder::big), word_of("little", WordOrder::little)};
-inline constexpr Word kByteOrders[] = {word_of("big", ByteOrder::big), word_of("little", ByteOrder::little)};
-inline constexpr Word kParities[] = {word_of("none", Parity::none), word_of("even", Parity::even),
-                                     word_of("odd", Parity::odd)};
+inline constexpr Word kTables[] = {word_for("coil", ModbusTable::coil),
+                                   word_for("discrete_input", ModbusTable::discrete_input),
+                                   word_for("input_register", ModbusTable::input_register),
+                                   word_for("holding_register", ModbusTable::holding_register)};
+inline constexpr Word kWordOrders[] = {word_for("big", WordOrder::big),
+                                       word_for("little", WordOrder::little)};
+inline constexpr Word kByteOrders[] = {word_for("big", ByteOrder::big),
+                                       word_for("little", ByteOrder::little)};
+inline constexpr Word kParities[] = {word_for("none", Parity::none), word_for("even", Parity::even),
+                                     word_for("odd", Parity::odd)};
 inline constexpr Word kAccesses[] = {{"read", 0}, {"write", 1}};
 
 inline constexpr auto kTable = key::word<&ModbusEntry::table>("table", kTables, "table of Modbus").needed();

@@ -35,10 +35,10 @@ inline constexpr auto kTag = key_table<void>(
                  "value at the start; of an array [element, ...] from the first one on"),
     key::boolean("retain", "kept across runs").otherwise_is("false"), key::text("comment", "for the reader"));
 
-inline constexpr Word kObs[] = {word_of("MC_PreServo", Ob::MC_PreServo),
-                                word_of("MC_PostServo", Ob::MC_PostServo),
-                                word_of("MC_PreInterpolator", Ob::MC_PreInterpolator),
-                                word_of("Cyclic", Ob::Cyclic), word_of("Main", Ob::Main)};
+inline constexpr Word kObs[] = {word_for("MC_PreServo", Ob::MC_PreServo),
+                                word_for("MC_PostServo", Ob::MC_PostServo),
+                                word_for("MC_PreInterpolator", Ob::MC_PreInterpolator),
+                                word_for("Cyclic", Ob::Cyclic), word_for("Main", Ob::Main)};
 inline constexpr auto kProgram = key_table<void>(
     key::text("name", "name of the program").needed(),
     key::word("ob", kObs, "organization block in which it runs").needed(),
@@ -83,9 +83,9 @@ inline constexpr auto kLcm = key_table<void>(
 
 inline constexpr double kLongestBefore = 600e9;  // [ns]
 inline constexpr Word kTriggers[] = {
-    word_of("above", TriggerKind::above), word_of("below", TriggerKind::below),
-    word_of("rising", TriggerKind::rising), word_of("falling", TriggerKind::falling),
-    word_of("alarm", TriggerKind::alarm)};
+    word_for("above", TriggerKind::above), word_for("below", TriggerKind::below),
+    word_for("rising", TriggerKind::rising), word_for("falling", TriggerKind::falling),
+    word_for("alarm", TriggerKind::alarm)};
 inline constexpr auto kTrigger = key_table<TraceSelection>(
     key::word<&TraceSelection::trigger>("on", kTriggers,
                                         "above, below: rows with the signal beyond the level; rising, "
