@@ -90,7 +90,7 @@ class ModbusServer {
   /// The port on which it listens first; 0 if it does not. Thread: the owner.
   std::uint16_t port() const noexcept { return places_.empty() ? std::uint16_t{0} : places_.front().port; }
   /// Where it listens, in the order of the options, with the ports that the system gave. Thread: the owner.
-  const std::vector<Endpoint>& places() const noexcept { return places_; }
+  const std::vector<Endpoint>& endpoints() const noexcept { return places_; }
 
   const ModbusCounters& counters() const noexcept { return counters_; }
 

@@ -6,7 +6,7 @@
 namespace lockstep {
 
 std::vector<Endpoint> RunSurroundings::modbus_endpoints() const {
-  return server_ ? server_->places() : std::vector<Endpoint>{};
+  return server_ ? server_->endpoints() : std::vector<Endpoint>{};
 }
 
 /// What the audit log calls the signals of the map.
@@ -56,7 +56,7 @@ void RunSurroundings::start_modbus() {
   server_ = std::make_unique<ModbusServer>(std::move(services), *image_, identity);
   if (audit_) server_->audit_to(*audit_, modbus_names());
   if (const std::string error = server_->start(); !error.empty()) throw CouldNotStart("Modbus: " + error);
-  for (const Endpoint& place : server_->places()) messages_.inform("Modbus server on " + to_string(place));
+  for (const Endpoint& endpoint : server_->endpoints()) messages_.inform("Modbus server on " + to_string(endpoint));
   if (asked) return;
   for (const ModbusServerOptions& server : project_.modbus.servers)
     if (server.serial)

@@ -48,12 +48,12 @@ class Service : public ::testing::Test {
 
 TEST_F(Service, ListensAtSeveralAddresses) {
   serve(at({{"127.0.0.1", 0}, {"127.0.0.2", 0}, {"localhost", 0}}));
-  ASSERT_EQ(server->places().size(), 3u);
+  ASSERT_EQ(server->endpoints().size(), 3u);
   for (const std::size_t place : {0u, 2u}) {
-    RawClient client(server->places()[place].port);
+    RawClient client(server->endpoints()[place].port);
     expect_served(client);
   }
-  EXPECT_NE(server->places()[0].port, server->places()[2].port);
+  EXPECT_NE(server->endpoints()[0].port, server->endpoints()[2].port);
 }
 
 TEST_F(Service, ListensOnIpv6WhereTheMachineHasIt) {
@@ -72,17 +72,17 @@ TEST_F(Service, ListensOnIpv6WhereTheMachineHasIt) {
 TEST_F(Service, EachPlaceServesItsOwnMap) {
   const ModbusMap empty({}, {});
   serve({{at({{"127.0.0.1", 0}}), machine.map}, {at({{"127.0.0.1", 0}}), empty}});
-  RawClient first(server->places()[0].port);
+  RawClient first(server->endpoints()[0].port);
   expect_served(first);
-  RawClient second(server->places()[1].port);
+  RawClient second(server->endpoints()[1].port);
   ASSERT_TRUE(second.send(kRequest));
   EXPECT_EQ(second.receive(9), (Bytes{0, 1, 0, 0, 0, 3, 1, 0x83, 2}));
 }
 
 TEST_F(Service, AWriteAtOnePlaceIsReadAtAnotherAtOnce) {
   serve({{at({{"127.0.0.1", 0}}), machine.map}, {at({{"127.0.0.1", 0}}), machine.map}});
-  RawClient first(server->places()[0].port);
-  RawClient second(server->places()[1].port);
+  RawClient first(server->endpoints()[0].port);
+  RawClient second(server->endpoints()[1].port);
   for (std::uint8_t n = 1; n < 100; ++n) {
     ASSERT_TRUE(first.send({0, 1, 0, 0, 0, 6, 1, 6, 0, 200, 0, n}));
     ASSERT_EQ(first.receive(12).size(), 12u);
@@ -102,7 +102,7 @@ TEST_F(Service, AClientFromElsewhereIsRefusedAndCounted) {
   EXPECT_EQ(server->counters().not_allowed, 3u);
   EXPECT_EQ(server->counters().refused, 0u);
   EXPECT_EQ(server->counters().connections, 0u);
-  RawClient at_the_other_place(server->places()[1].port);
+  RawClient at_the_other_place(server->endpoints()[1].port);
   expect_served(at_the_other_place);
 }
 
@@ -124,7 +124,7 @@ TEST_F(Service, AClientThatAsksTooOftenWaitsAndGetsEveryAnswer) {
   Bytes all;
   for (int i = 0; i < 30; ++i) all.insert(all.end(), kRequest.begin(), kRequest.end());
   ASSERT_TRUE(client.send(all));
-  RawClient unlimited(server->places()[1].port);
+  RawClient unlimited(server->endpoints()[1].port);
   for (int i = 0; i < 200; ++i) expect_served(unlimited);
   for (int i = 0; i < 30; ++i) ASSERT_EQ(client.receive(kAnswer.size()), kAnswer);
   // 30 requests at 50 per second, of which the first ones may come 100 ms ahead.
@@ -148,11 +148,11 @@ TEST_F(Service, TheLimitOfClientsIsThatOfEachPlace) {
   ModbusServerOptions one = at({{"127.0.0.1", 0}});
   one.max_clients = 1;
   serve({{one, machine.map}, {one, machine.map}});
-  RawClient first(server->places()[0].port);
+  RawClient first(server->endpoints()[0].port);
   expect_served(first);
-  RawClient refused(server->places()[0].port);
+  RawClient refused(server->endpoints()[0].port);
   EXPECT_TRUE(refused.is_hung_up_on());
-  RawClient second(server->places()[1].port);
+  RawClient second(server->endpoints()[1].port);
   expect_served(second);
   EXPECT_EQ(server->counters().refused, 1u);
 }
@@ -162,7 +162,7 @@ TEST_F(Service, APlaceThatIsTakenIsToldByItsNameAndNothingStarts) {
   ModbusMachine other;
   ModbusServer second({{at({{"127.0.0.1", 0}, {"127.0.0.1", server->port()}}), other.map}}, other.image);
   EXPECT_EQ(second.start(), "127.0.0.1:" + std::to_string(server->port()) + ": Address already in use");
-  EXPECT_TRUE(second.places().empty());
+  EXPECT_TRUE(second.endpoints().empty());
 }
 
 }  // namespace
