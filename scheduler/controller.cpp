@@ -26,10 +26,10 @@ ArrayTag& Controller::add_array(std::string name, Array array) {
   return tag;
 }
 
-StringTag& Controller::add_string(StringTag tag, std::size_t room) {
+StringTag& Controller::add_string(StringTag tag, std::size_t capacity) {
   StringTag& added = strings.emplace_back(std::move(tag));
-  added.memory.resize(room);
-  added.text = {added.memory.data(), room};
+  added.memory.resize(capacity);
+  added.text = {added.memory.data(), capacity};
   added.text.assign(added.initial);
   return added;
 }
@@ -73,7 +73,7 @@ void Controller::assign_parts() {
   Part ordered;
   for (const auto& object : objects) ordered.push_back(object.get());
   std::stable_sort(ordered.begin(), ordered.end(), [](const TechnologyObject* a, const TechnologyObject* b) {
-    return place_in_phase(a->kind) < place_in_phase(b->kind);
+    return index_in_phase(a->kind) < index_in_phase(b->kind);
   });
   for (TechnologyObject* object : ordered) {
     if (object->takes_part(Phase::servo)) {
@@ -91,9 +91,9 @@ void Controller::finish() {
   const double servo_period = static_cast<double>(clock.servo_cycle) * 1e-9;
   for (auto& object : objects) object->configure(servo_period, clock.interpolator_ratio);
   assign_parts();
-  std::size_t most_points = 0;
-  for (const Cam* cam : cams_) most_points = std::max(most_points, cam->point_count());
-  if (most_points > 0) interpolator_ = std::make_unique<CamInterpolator>(most_points);
+  std::size_t maximum_points = 0;
+  for (const Cam* cam : cams_) maximum_points = std::max(maximum_points, cam->point_count());
+  if (maximum_points > 0) interpolator_ = std::make_unique<CamInterpolator>(maximum_points);
   interpolate_cams_elsewhere(cams_interpolated_elsewhere_);
   summary_.resize(axes.size());
   for (Watchdog& watchdog : watchdogs) watchdog.remember();
@@ -111,7 +111,7 @@ void Controller::finish() {
 
 void Controller::employ_processors(int there) {
   const int processors = std::min(clock.processors, there);
-  if (processors <= 1 || axes.size() < kWorthSharing || axes.size() > Crew::kMostItems) return;
+  if (processors <= 1 || axes.size() < kWorthSharing || axes.size() > Crew::kMaximumItems) return;
   levels_.reserve(axes.size(), static_cast<std::uint32_t>(objects.back()->number));
   levels_.rebuild(order_.axes());
   crew_ = std::make_unique<Crew>(processors - 1);

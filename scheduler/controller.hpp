@@ -32,11 +32,11 @@ namespace lockstep {
 struct Clock {
   std::int64_t servo_cycle = 1'000'000;  ///< period of MC_Servo [ns]
   int interpolator_ratio = 1;  ///< MC_Interpolator runs on every so many executed servo ticks, 1 to 32
-  int processors = 1;          ///< that a tick may use for the axes, 1 to `kMostProcessors`
+  int processors = 1;          ///< that a tick may use for the axes, 1 to `kMaximumProcessors`
 
   std::int64_t interpolator_cycle() const noexcept { return servo_cycle * interpolator_ratio; }  ///< [ns]
 
-  static constexpr int kMostProcessors = 64;
+  static constexpr int kMaximumProcessors = 64;
 };
 
 /// A tag: a named value of the project.
@@ -127,7 +127,7 @@ class Controller {
   /// An array tag whose elements are 0. `array.memory` is set here.
   ArrayTag& add_array(std::string name, Array array);
   /// A tag of type STRING[room] with its initial text; its memory is made here.
-  StringTag& add_string(StringTag tag, std::size_t room);
+  StringTag& add_string(StringTag tag, std::size_t capacity);
   /// Adds an object of any kind; its number is its place among all.
   TechnologyObject& add_object(ObjectKind kind, std::string name);
   Axis& add_axis(ObjectKind kind, std::string name);

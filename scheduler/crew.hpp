@@ -24,7 +24,7 @@ class Crew {
   /// Items that are taken at a time.
   static constexpr std::size_t kPortion = 32;
   /// Items in a piece of work, at most.
-  static constexpr std::size_t kMostItems = (std::size_t{1} << 24) - 1;
+  static constexpr std::size_t kMaximumItems = (std::size_t{1} << 24) - 1;
 
   /// Load time. @param helpers threads beside that of the cycle, at least 1
   /// @throws std::system_error if a thread cannot be started
@@ -50,7 +50,7 @@ class Crew {
 
   // `offer_` is the number of the piece of work, and how many of its items have been taken: all, between two
   // pieces. A helper that takes some by compare and exchange has read what belongs to that number.
-  alignas(64) std::atomic<std::uint64_t> offer_{kMostItems};  // all taken
+  alignas(64) std::atomic<std::uint64_t> offer_{kMaximumItems};  // all taken
   std::atomic<std::size_t> count_{0};
   std::atomic<Work> work_{nullptr};
   std::atomic<void*> context_{nullptr};

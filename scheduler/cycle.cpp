@@ -109,7 +109,7 @@ void Controller::step_axes_in_turn(std::span<Axis* const> axes) noexcept {
   std::uint64_t alarms = 0;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     Axis* const axis = axes[i];
-    if (i + 1 < axes.size()) axes[i + 1]->come_near();
+    if (i + 1 < axes.size()) axes[i + 1]->prefetch();
     axis->cycle();
     if (axis->data.ErrorDetail.Number != 0) ++alarms;
   }

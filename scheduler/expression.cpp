@@ -32,7 +32,7 @@ Instruction load_instruction(const Signal& signal, Mode mode) {
 }
 
 std::uint64_t run(const Instruction* code, EvaluationCounters& counters) noexcept {
-  std::uint64_t slots[ExpressionBuilder::kMostValues];  // each is written before it is read
+  std::uint64_t slots[ExpressionBuilder::kMaximumValues];  // each is written before it is read
   return code->step(code, 0, slots, counters);
 }
 
@@ -96,7 +96,7 @@ void ExpressionBuilder::push(Instruction::Step plain, Instruction::Step resting,
     next.step = resting;
     next.slot = static_cast<std::uint16_t>(values_.size() - 1);
   }
-  if (values_.size() > kMostValues) fits_ = false;
+  if (values_.size() > kMaximumValues) fits_ = false;
   values_.push_back({code_.size(), is_constant});
   code_.push_back(next);
 }

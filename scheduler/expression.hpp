@@ -147,7 +147,7 @@ class Expression {
 /// Operations on constants alone are done at once, unless they divide by zero, which has to be counted.
 class ExpressionBuilder {
  public:
-  static constexpr std::size_t kMostValues = 64;  ///< values that may rest at the same time
+  static constexpr std::size_t kMaximumValues = 64;  ///< values that may rest at the same time
 
   void signal(const Signal& signal);
   void constant(Value value);

@@ -65,16 +65,16 @@ Word load_bit(const Instruction* at, Word accumulator, Word* slots, EvaluationCo
 Word take_index(const Instruction* at, Word accumulator, Word* slots, EvaluationCounters& counters) noexcept {
   const Word packed = at->operand.constant;
   const ElementRange range{static_cast<DINT>(packed >> 32), static_cast<std::uint32_t>(packed), at->slot};
-  const Word way = range.offset_of(static_cast<std::int64_t>(accumulator));
-  if (way == ElementRange::kOutside) ++counters.indices_out_of_range;
-  return next(at, way, slots, counters);
+  const Word distance = range.offset_of(static_cast<std::int64_t>(accumulator));
+  if (distance == ElementRange::kOutside) ++counters.indices_out_of_range;
+  return next(at, distance, slots, counters);
 }
 
 template <class T, bool one_bit>
-Word load_element(const Instruction* at, Word way, Word* slots, EvaluationCounters& counters) noexcept {
-  if (way == ElementRange::kOutside) return next(at, 0, slots, counters);
+Word load_element(const Instruction* at, Word distance, Word* slots, EvaluationCounters& counters) noexcept {
+  if (distance == ElementRange::kOutside) return next(at, 0, slots, counters);
   T value;
-  std::memcpy(&value, static_cast<const char*>(at->operand.address) + way, sizeof value);
+  std::memcpy(&value, static_cast<const char*>(at->operand.address) + distance, sizeof value);
   if constexpr (one_bit)
     return next(at, (static_cast<Word>(value) >> at->bit) & 1u, slots, counters);
   else

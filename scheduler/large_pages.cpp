@@ -20,14 +20,14 @@ struct Range {
 };
 
 /// The mapping of this process that holds a place; an empty one if it cannot be told.
-Range mapping_of(std::uintptr_t place) noexcept {
+Range mapping_of(std::uintptr_t address) noexcept {
   const auto close = [](std::FILE* file) { std::fclose(file); };
   const std::unique_ptr<std::FILE, decltype(close)> maps(std::fopen("/proc/self/maps", "re"), close);
   char line[512];
   while (maps != nullptr && std::fgets(line, sizeof line, maps.get()) != nullptr) {
     Range range;
-    if (std::sscanf(line, "%" SCNxPTR "-%" SCNxPTR, &range.begin, &range.end) == 2 && range.begin <= place &&
-        place < range.end)
+    if (std::sscanf(line, "%" SCNxPTR "-%" SCNxPTR, &range.begin, &range.end) == 2 &&
+        range.begin <= address && address < range.end)
       return range;
   }
   return {};
@@ -44,9 +44,9 @@ void lay_into_large_pages(const void* lowest, const void* highest) noexcept {
       std::max(first / kLargePage, (mapping.begin + kLargePage - 1) / kLargePage) * kLargePage;
   const std::uintptr_t end = std::min(last / kLargePage + 1, mapping.end / kLargePage) * kLargePage;
   if (begin >= end) return;
-  char* const place =
+  char* const address =
       static_cast<char*>(const_cast<void*>(lowest)) + static_cast<std::ptrdiff_t>(begin - first);
-  static_cast<void>(madvise(place, end - begin, kCollapse));
+  static_cast<void>(madvise(address, end - begin, kCollapse));
 }
 
 }  // namespace lockstep

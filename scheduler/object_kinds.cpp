@@ -40,15 +40,15 @@ constexpr Entry kClasses[] = {
 
 }  // namespace
 
-std::size_t place_in_phase(ObjectKind kind) noexcept {
-  std::size_t place = 0;
-  while (place < std::size(kClasses) && !among(kind, kClasses[place].kinds)) ++place;
-  return place;
+std::size_t index_in_phase(ObjectKind kind) noexcept {
+  std::size_t index = 0;
+  while (index < std::size(kClasses) && !among(kind, kClasses[index].kinds)) ++index;
+  return index;
 }
 
 std::unique_ptr<TechnologyObject> make_object(ObjectKind kind, std::string name, DB_ANY number) {
-  const std::size_t place = place_in_phase(kind);
-  return place < std::size(kClasses) ? kClasses[place].make(kind, std::move(name), number) : nullptr;
+  const std::size_t index = index_in_phase(kind);
+  return index < std::size(kClasses) ? kClasses[index].make(kind, std::move(name), number) : nullptr;
 }
 
 }  // namespace lockstep

@@ -14,6 +14,6 @@ std::unique_ptr<TechnologyObject> make_object(ObjectKind kind, std::string name,
 
 /// Where the kind stands in the order in which objects take part in a phase of a tick: what others look at
 /// comes first. Objects of one kind take part in the order of the project.
-std::size_t place_in_phase(ObjectKind kind) noexcept;
+std::size_t index_in_phase(ObjectKind kind) noexcept;
 
 }  // namespace lockstep

@@ -21,9 +21,9 @@ std::pair<std::vector<Signal>, std::vector<std::uint32_t>> variables_of(const st
                    [](const Signal& a, const Signal& b) { return a.type < b.type; });
   for (std::size_t i = 0; i < variables.size(); ++i)
     numbers[variables[i].address] = static_cast<std::uint32_t>(i);
-  std::vector<std::uint32_t> places;
-  for (const Signal& signal : signals) places.push_back(numbers[signal.address]);
-  return {variables, places};
+  std::vector<std::uint32_t> indices;
+  for (const Signal& signal : signals) indices.push_back(numbers[signal.address]);
+  return {variables, indices};
 }
 
 /// What a variable holds after a write to it: part of an integer may change its sign, a REAL is rounded.
@@ -40,17 +40,17 @@ Value written(const Signal& variable, Value before, const VariableWrite& write) 
 }  // namespace
 
 std::size_t ProcessImage::WriteSet::add(std::uint32_t variable, Value value, std::uint64_t mask) noexcept {
-  std::uint32_t& place = places_[variable];
-  if (place == 0) {  // never beyond what is reserved: each variable once
+  std::uint32_t& index = indices_[variable];
+  if (index == 0) {  // never beyond what is reserved: each variable once
     writes_.push_back({variable, Value{}, 0});
-    place = static_cast<std::uint32_t>(writes_.size());
+    index = static_cast<std::uint32_t>(writes_.size());
   }
-  writes_[place - 1].add(value, mask);
-  return place - 1;
+  writes_[index - 1].add(value, mask);
+  return index - 1;
 }
 
 void ProcessImage::WriteSet::clear() noexcept {
-  for (const VariableWrite& write : writes_) places_[write.variable] = 0;
+  for (const VariableWrite& write : writes_) indices_[write.variable] = 0;
   writes_.clear();
   last = 0;
 }
@@ -58,7 +58,7 @@ void ProcessImage::WriteSet::clear() noexcept {
 ProcessImage::ProcessImage(std::vector<Signal> signals)
     : signals_(std::move(signals)),
       variables_(variables_of(signals_).first),
-      places_(variables_of(signals_).second),
+      indices_(variables_of(signals_).second),
       snapshot_([this] {
         Snapshot first{.lines = std::vector<Line>(variables_.size() / kPerLine + 1)};
         fill(first.lines);
@@ -72,8 +72,8 @@ ProcessImage::ProcessImage(std::vector<Signal> signals)
 void ProcessImage::take_writes() noexcept {
   // What this tick is going to need and the bridge has touched is fetched at once; what publishing needs
   // comes while the tick computes.
-  mailbox_.come_near();
-  snapshot_.come_near();
+  mailbox_.prefetch();
+  snapshot_.prefetch();
   if (const std::uint64_t number = mailbox_.apply(); number != 0) applied_ = number;
 }
 
@@ -120,8 +120,8 @@ void ProcessImage::add(const SignalWrite& write) noexcept {
     mask = std::uint64_t{1} << signal.bit;
   }
   if (mask == 0) return;
-  const std::size_t place = waiting_.add(places_[write.signal], value, mask);
-  mailbox_.put(place, waiting_.at(place));
+  const std::size_t index = waiting_.add(indices_[write.signal], value, mask);
+  mailbox_.put(index, waiting_.at(index));
 }
 
 void ProcessImage::post(std::span<const SignalWrite> batch) noexcept {

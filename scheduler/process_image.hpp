@@ -59,7 +59,7 @@ class ProcessImage {
   /// Value of a signal at that tick, with the posted writes which that tick did not know yet.
   /// `signal` < size(). Thread: the bridge.
   Value value(std::size_t signal) const noexcept {
-    const std::uint32_t variable = places_[signal];
+    const std::uint32_t variable = indices_[signal];
     Value value = shown_[variable];
     if (is_behind_) value = with_own_writes(variable, value);
     if (const int bit = signals_[signal].bit; bit >= 0) value.u = value.u >> bit & 1u;
@@ -84,22 +84,22 @@ class ProcessImage {
   /// Merged writes, by variable: what applying one after the other would give.
   class WriteSet {
    public:
-    explicit WriteSet(std::size_t variables) : places_(variables) { writes_.reserve(variables); }
+    explicit WriteSet(std::size_t variables) : indices_(variables) { writes_.reserve(variables); }
     /// @return the place of the write to this variable
     std::size_t add(std::uint32_t variable, Value value, std::uint64_t mask) noexcept;
     void clear() noexcept;
     std::size_t size() const noexcept { return writes_.size(); }
-    const VariableWrite& at(std::size_t place) const noexcept { return writes_[place]; }
+    const VariableWrite& at(std::size_t index) const noexcept { return writes_[index]; }
     /// nullptr: there is none
     const VariableWrite* to(std::uint32_t variable) const noexcept {
-      return places_[variable] == 0 ? nullptr : &writes_[places_[variable] - 1];
+      return indices_[variable] == 0 ? nullptr : &writes_[indices_[variable] - 1];
     }
 
     std::uint64_t last = 0;  ///< number of the last batch in it; 0: none
 
    private:
     std::vector<VariableWrite> writes_;
-    std::vector<std::uint32_t> places_;  ///< by variable, plus one; 0: no write
+    std::vector<std::uint32_t> indices_;  ///< by variable, plus one; 0: no write
   };
 
   void fill(std::vector<Line>& lines) const noexcept;
@@ -108,8 +108,8 @@ class ProcessImage {
 
   // Fixed after construction. Several signals may lie in one variable: the word and its bits.
   const std::vector<Signal> signals_;
-  std::vector<Signal> variables_;      ///< the distinct variables, whole, by type
-  std::vector<std::uint32_t> places_;  ///< variable of each signal
+  std::vector<Signal> variables_;       ///< the distinct variables, whole, by type
+  std::vector<std::uint32_t> indices_;  ///< variable of each signal
 
   TripleBuffer<Snapshot> snapshot_;
   WriteMailbox mailbox_;

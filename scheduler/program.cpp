@@ -17,7 +17,7 @@ void Program::add_assignment(Expression expression, Signal place) {
   const bool whole_flag = place.type == Type::BOOL && place.bit < 0;
   if (!whole_flag) {
     instructions_.emplace_back(Op::assign, keep(std::move(expression))).place =
-        &places_.emplace_back(Place{place, nullptr});
+        &places_.emplace_back(Operand{place, nullptr});
     return;
   }
   const bool* const source = expression.flag();
@@ -31,13 +31,13 @@ void Program::add_assignment(Expression expression, Signal place) {
 
 void Program::add_assignment(Expression expression, Signal place, const Variable& variable) {
   instructions_.emplace_back(Op::assign_variable, keep(std::move(expression))).place =
-      &places_.emplace_back(Place{place, &variable});
+      &places_.emplace_back(Operand{place, &variable});
 }
 
 void Program::add_assignment(Expression expression, Signal first, const Variable* variable, Expression index,
                              const ElementRange& range) {
   instructions_.emplace_back(Op::assign_element, keep(std::move(expression))).place =
-      &places_.emplace_back(Place{first, variable, keep(std::move(index)), range});
+      &places_.emplace_back(Operand{first, variable, keep(std::move(index)), range});
 }
 
 void Program::add_assignment(const TextSource& from, Text to) {
@@ -117,21 +117,21 @@ void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept
   }
 }
 
-void Program::assign_element(const Place& place, Value value, EvaluationCounters& counters) const noexcept {
-  const std::uint64_t way = place.range.offset_of(place.index->evaluate(counters).i);
-  if (way == ElementRange::kOutside) {
+void Program::assign_element(const Operand& place, Value value, EvaluationCounters& counters) const noexcept {
+  const std::uint64_t distance = place.range.offset_of(place.index->evaluate(counters).i);
+  if (distance == ElementRange::kOutside) {
     ++counters.indices_out_of_range;
     return;
   }
-  Place chosen = place;
-  chosen.signal.address = static_cast<char*>(place.signal.address) + way;
+  Operand chosen = place;
+  chosen.signal.address = static_cast<char*>(place.signal.address) + distance;
   if (place.variable == nullptr)
     chosen.signal.store(value);
   else
     assign_variable(chosen, value);
 }
 
-void Program::assign_variable(const Place& place, Value value) const noexcept {
+void Program::assign_variable(const Operand& place, Value value) const noexcept {
   const Variable& variable = *place.variable;
   if (place.signal.bit < 0) {
     const double number = as_double(value, variable.type);

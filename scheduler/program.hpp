@@ -71,7 +71,7 @@ class Program {
     jump,
     jump_unless
   };
-  struct Place {
+  struct Operand {
     Signal signal;
     const Variable* variable = nullptr;
     const Expression* index = nullptr;  // of an element
@@ -93,15 +93,15 @@ class Program {
     };
     union {
       bool* flag = nullptr;  // a whole BOOL, as most pins with an expression are
-      const Place* place;
+      const Operand* place;
       const TextAssignment* text;
     };
     Block* block = nullptr;
   };
 
   const Expression* keep(Expression expression);
-  void assign_variable(const Place& place, Value value) const noexcept;
-  void assign_element(const Place& place, Value value, EvaluationCounters& counters) const noexcept;
+  void assign_variable(const Operand& place, Value value) const noexcept;
+  void assign_element(const Operand& place, Value value, EvaluationCounters& counters) const noexcept;
 
   std::string name_;
   Ob ob_;
@@ -110,7 +110,7 @@ class Program {
   std::vector<Instruction> instructions_;
   std::size_t last_target_ = 0;         // of the jumps so far
   std::deque<Expression> expressions_;  // where they are they stay: instructions point at them
-  std::deque<Place> places_;
+  std::deque<Operand> places_;
   std::deque<TextAssignment> texts_;
   mutable std::uint64_t refused_ = 0;
 };

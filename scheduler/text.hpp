@@ -19,7 +19,7 @@ inline constexpr std::size_t kLongestText = 254;
 /// Where a text lives: characters of one byte (ISO 8859-1), up to the first zero or to the end of its room.
 struct Text {
   char* characters = nullptr;
-  std::size_t room = 0;  ///< n of STRING[n], 1 to kLongestText
+  std::size_t capacity = 0;  ///< n of STRING[n], 1 to kLongestText
 
   std::string_view view() const noexcept;
   /// Replaces the text. What has no room is cut off, the rest of the room becomes zero. `text` may be this
@@ -34,7 +34,7 @@ struct TextSource {
 
   std::string_view view() const noexcept { return tag ? tag->view() : literal; }
   /// The most characters that it may have.
-  std::size_t room() const noexcept { return tag ? tag->room : literal.size(); }
+  std::size_t capacity() const noexcept { return tag ? tag->capacity : literal.size(); }
 };
 
 /// `left = right` or `left <> right`; letters of both cases differ.
@@ -47,13 +47,13 @@ struct TextComparison {
 };
 
 /// "STRING[20]".
-std::string text_type_name(std::size_t room);
+std::string text_type_name(std::size_t capacity);
 
 /// The text as signals, for what carries values: two characters in a WORD, the first in its low byte; the
 /// last one of an odd room is a BYTE.
 std::vector<Signal> text_signals(const Text& text);
 /// The values of these signals that make them hold a text, and the text that they hold.
-std::vector<Value> text_values(std::string_view text, std::size_t room);
-std::string text_of(std::span<const Value> values, std::size_t room);
+std::vector<Value> text_values(std::string_view text, std::size_t capacity);
+std::string text_of(std::span<const Value> values, std::size_t capacity);
 
 }  // namespace lockstep

@@ -27,7 +27,7 @@ class TripleBuffer {
   T& back() noexcept { return slots_[back_].value; }
 
   /// Fetches what the reader has touched and `publish` needs, some time before it. Thread: the writer.
-  void come_near() const noexcept {
+  void prefetch() const noexcept {
     come_near_for_writing(&shared_);
     come_near_for_writing(&slots_[back_]);
   }

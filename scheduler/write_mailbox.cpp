@@ -18,7 +18,7 @@ constexpr std::size_t kFirst = 2;
 constexpr std::uint64_t kTaken = 0;
 
 constexpr std::size_t kPerWrite = 3;
-constexpr std::size_t kMostLinesNear = 8;
+constexpr std::size_t kMaximumLinesNear = 8;
 
 constexpr std::size_t cells_of(std::size_t writes) noexcept {
   return kFirst + kPerWrite * writes;
@@ -26,7 +26,7 @@ constexpr std::size_t cells_of(std::size_t writes) noexcept {
 
 /// Lines that it is worth to move before they are needed.
 constexpr std::size_t lines_near(std::size_t writes, std::size_t per_line) noexcept {
-  return std::min(kMostLinesNear, (cells_of(writes) + per_line - 1) / per_line);
+  return std::min(kMaximumLinesNear, (cells_of(writes) + per_line - 1) / per_line);
 }
 
 /// The bits of a value as they stand in the memory of a variable, from the lowest on.
@@ -86,9 +86,9 @@ bool WriteMailbox::take_back() noexcept {
   return false;
 }
 
-void WriteMailbox::put(std::size_t place, const VariableWrite& write) noexcept {
+void WriteMailbox::put(std::size_t index, const VariableWrite& write) noexcept {
   const Signal& variable = variables_[write.variable];
-  Cell* const cells = slots_[filled_].cells + cells_of(place);
+  Cell* const cells = slots_[filled_].cells + cells_of(index);
   cells[0] = std::bit_cast<std::uint64_t>(variable.address);
   cells[1] = in_memory(variable.type, write.value);
   cells[2] = write.mask & whole_[write.variable];
@@ -101,7 +101,7 @@ void WriteMailbox::hand_on(std::size_t count, std::uint64_t number) noexcept {
   for (std::size_t i = 0; i < lines_near(count, kPerLine); ++i) send_away(cells + i * kPerLine);
 }
 
-void WriteMailbox::come_near() const noexcept {
+void WriteMailbox::prefetch() const noexcept {
   const std::vector<Line>& lines = slots_[awaited_].lines;
   come_near_for_writing(lines.data());
   for (std::size_t i = 1; i < lines_near_; ++i) come_near_for_reading(&lines[i]);

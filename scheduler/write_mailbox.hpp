@@ -39,13 +39,13 @@ class WriteMailbox {
   /// put begins anew. Thread: the bridge.
   bool take_back() noexcept;
   /// Puts a write at a place, below the number of variables. Thread: the bridge, after `take_back`.
-  void put(std::size_t place, const VariableWrite& write) noexcept;
+  void put(std::size_t index, const VariableWrite& write) noexcept;
   /// Hands on what stands at the first `count` places, as batch `number` ≥ 1, greater than those before.
   /// Thread: the bridge.
   void hand_on(std::size_t count, std::uint64_t number) noexcept;
 
   /// Fetches what `apply` is going to read. Thread: the cycle.
-  void come_near() const noexcept;
+  void prefetch() const noexcept;
   /// Writes to the variables. @return the number of the batch; 0: there is nothing. Thread: the cycle.
   std::uint64_t apply() noexcept;
 

@@ -81,12 +81,12 @@ std::string extremes(const CamFunction& cam) {
 
 std::string joints(const CamFunction& cam) {
   std::string text;
-  constexpr std::size_t kMost = 20;
+  constexpr std::size_t kMaximum = 20;
   const std::vector<CamJoint> all = joints_of(cam, true);
   std::size_t told = 0, left_out = 0;
   for (const CamJoint& joint : all) {
     if (joint.keeps >= Continuity::acceleration) continue;  // steps of the jerk are usual
-    if (++told > kMost) {
+    if (++told > kMaximum) {
       ++left_out;
       continue;
     }

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostSamples = 10'000'000;
+constexpr std::size_t kMaximumSamples = 10'000'000;
 
 struct SampleOptions {
   CamInput input;
@@ -58,7 +58,7 @@ void add_cam_sample(CLI::App& cam, Action& action) {
   auto options = std::make_shared<SampleOptions>();
   add_cam_input(*command, options->input);
   command->add_option("--count", options->count, "points; without it: 361")
-      ->check(CLI::Range(std::size_t{2}, kMostSamples));
+      ->check(CLI::Range(std::size_t{2}, kMaximumSamples));
   command->add_option("--from", options->from, "first leading value; without it: the start of the cam");
   command->add_option("--to", options->to, "last leading value; without it: its end");
   command->add_flag("--derivatives", options->derivatives, "velocity, acceleration and jerk as well");

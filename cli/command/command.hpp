@@ -48,8 +48,8 @@ std::optional<Project> load_or_tell(const std::string& path, int& status, const 
 
 /// Writes a text to standard error, as far as that takes it. A closed terminal, a pipe without reader or a
 /// full disk is no reason to end a run, and one that takes nothing, such as a stopped terminal, holds nothing
-/// up for longer than `patience` [ms]. The text goes out as it is; what others wrote goes through `tell`.
-void write_message(const std::string& text, int patience = 500) noexcept;
+/// up for longer than `timeout` [ms]. The text goes out as it is; what others wrote goes through `tell`.
+void write_message(const std::string& text, int timeout = 500) noexcept;
 
 /// How grave a message is. Where standard error is the journal of systemd, it is told that.
 enum class Gravity : std::uint8_t { error = 3, warning = 4, information = 6 };

@@ -51,11 +51,11 @@ ssize_t write_some(int output, const char* text, std::size_t size) noexcept {
 
 }  // namespace
 
-void write_message(const std::string& text, int patience) noexcept {
+void write_message(const std::string& text, int timeout) noexcept {
   // Where nobody has read for the time of one message, the next ones do not wait as well.
   static std::atomic<bool> is_unread{false};
   const int place = error_output();
-  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(is_unread ? 0 : patience);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(is_unread ? 0 : timeout);
   for (std::size_t written = 0; written < text.size();) {
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
@@ -63,7 +63,7 @@ void write_message(const std::string& text, int patience) noexcept {
     const int ready = poll(&output, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
     if (ready < 0 && errno == EINTR) continue;
     if (ready != 1) {
-      is_unread = is_unread || patience > 0;
+      is_unread = is_unread || timeout > 0;
       return;
     }
     if ((output.revents & POLLOUT) == 0) return;

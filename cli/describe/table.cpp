@@ -12,7 +12,7 @@ namespace lockstep::cli {
 namespace {
 
 constexpr std::size_t kUsualWidth = 80;
-constexpr std::size_t kLeastLast = 30;  // columns, below which the last column goes on lines of its own
+constexpr std::size_t kMinimumLast = 30;  // columns, below which the last column goes on lines of its own
 constexpr std::size_t kGap = 2;
 
 void trim_end(std::string& line) {
@@ -100,7 +100,7 @@ std::string Table::text(std::size_t indent, std::size_t width) const {
   const std::vector<std::size_t> columns = widths();
   std::size_t start = indent;  // of the last column
   for (const std::size_t column : columns) start += column == 0 ? 0 : column + kGap;
-  const bool below = start + kLeastLast > width;
+  const bool below = start + kMinimumLast > width;
   const std::size_t last_start = below ? indent + 4 : start;
   std::string result;
   const auto add = [&](const std::vector<std::string>& cells, const std::vector<std::string>& last) {

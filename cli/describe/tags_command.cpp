@@ -51,7 +51,7 @@ void sort_entry(const Project& project, Entry entry, Entries& entries) {
   const auto& arrays = project.controller->arrays;
   for (std::size_t i = 0; i < arrays.size() && entry.elements > 0; ++i)
     if (same_name(arrays[i].name, entry.name)) return entries.of_arrays[i].push_back(std::move(entry));
-  const FoundPlace found = entry.elements > 0 ? FoundPlace{} : project.names.find(entry.name);
+  const FoundOperand found = entry.elements > 0 ? FoundOperand{} : project.names.find(entry.name);
   for (std::size_t i = 0; i < tags.size() && found.place && found.place->signal.bit < 0; ++i)
     if (found.place->tag == &tags[i]) return entries.of_tags[i].push_back(std::move(entry));
   entries.others.push_back(std::move(entry));
@@ -61,7 +61,7 @@ void add_text(const Project& project, const ModbusMapConfig& map, const ModbusTe
   const auto& strings = project.controller->strings;
   for (std::size_t i = 0; i < strings.size(); ++i)
     if (&strings[i] == text.tag)
-      entries.of_strings[i].push_back({text.tag->name, text_type_name(text.tag->text.room), Unit::kNone,
+      entries.of_strings[i].push_back({text.tag->name, text_type_name(text.tag->text.capacity), Unit::kNone,
                                        &map.map.entries()[text.first], &map,
                                        static_cast<std::uint32_t>(text.count()), 0, text.tag});
 }
@@ -185,9 +185,10 @@ std::string strings_text(const Project& project, const Entries& entries, std::si
   Table table({"Text", "Type", "Initial", "Retain", "Modbus", "Address", "As", "Access", "Comment"});
   for (std::size_t i = 0; i < project.controller->strings.size(); ++i) {
     const StringTag& tag = project.controller->strings[i];
-    add_rows(table,
-             {tag.name, text_type_name(tag.text.room), text_literal(tag.initial), tag.retain ? "retain" : ""},
-             entries.of_strings[i], tag.comment);
+    add_rows(
+        table,
+        {tag.name, text_type_name(tag.text.capacity), text_literal(tag.initial), tag.retain ? "retain" : ""},
+        entries.of_strings[i], tag.comment);
   }
   return table.empty() ? "" : "\n" + table.text(0, width);
 }
@@ -280,7 +281,7 @@ nlohmann::ordered_json strings_json(const Project& project, const Entries& entri
   for (std::size_t i = 0; i < project.controller->strings.size(); ++i) {
     const StringTag& tag = project.controller->strings[i];
     strings.push_back({{"name", tag.name},
-                       {"type", text_type_name(tag.text.room)},
+                       {"type", text_type_name(tag.text.capacity)},
                        {"initial", text_to_utf8(tag.initial)},
                        {"retain", tag.retain},
                        {"comment", tag.comment},

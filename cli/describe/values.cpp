@@ -13,7 +13,7 @@
 namespace lockstep::cli {
 namespace {
 
-constexpr double kGreatest = std::numeric_limits<double>::max();
+constexpr double kMaximum = std::numeric_limits<double>::max();
 
 template <class Real>
 std::string shortest(Real value, std::chars_format format) {
@@ -46,11 +46,11 @@ std::string bound(Type type, double value) {
 
 /// Whether the type has no values beyond the bound.
 bool open_below(Type type, double lowest_allowed) {
-  if (lowest_allowed <= -kGreatest) return true;
+  if (lowest_allowed <= -kMaximum) return true;
   return !is_real(type) && type != Type::TIME && lowest_allowed <= static_cast<double>(lowest(type));
 }
 bool open_above(Type type, double highest_allowed) {
-  if (highest_allowed >= kGreatest) return true;
+  if (highest_allowed >= kMaximum) return true;
   return !is_real(type) && type != Type::TIME && highest_allowed >= static_cast<double>(highest(type));
 }
 

@@ -95,7 +95,7 @@ std::size_t take_index(std::string& path) {
 
 Selection select(ObjectKind kind, std::string_view path) {
   Selection selection;
-  if (const VariablePlace place = find_variable(kind, path); place.variable != nullptr)
+  if (const VariableAddress place = find_variable(kind, path); place.variable != nullptr)
     return {{place.variable}, place.bit, true, 0};
   std::string wanted = fold(path);
   const std::size_t index = take_index(wanted);

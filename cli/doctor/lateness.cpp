@@ -15,11 +15,11 @@ constexpr std::size_t kBuckets = 20'001;     // up to 20 ms
 Lateness::Lateness() : buckets_(kBuckets) {}
 
 void Lateness::add(std::int64_t late) noexcept {
-  const std::int64_t least = std::max<std::int64_t>(late, 0);
-  const auto bucket = static_cast<std::size_t>((least + kMicrosecond - 1) / kMicrosecond);
+  const std::int64_t minimum = std::max<std::int64_t>(late, 0);
+  const auto bucket = static_cast<std::size_t>((minimum + kMicrosecond - 1) / kMicrosecond);
   ++buckets_[std::min(bucket, kBuckets - 1)];
   count_.fetch_add(1, std::memory_order_relaxed);
-  if (least > worst()) worst_.store(least, std::memory_order_relaxed);
+  if (minimum > worst()) worst_.store(minimum, std::memory_order_relaxed);
 }
 
 std::int64_t Lateness::quantile(double share) const {

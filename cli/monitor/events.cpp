@@ -4,9 +4,9 @@
 
 namespace lockstep::cli {
 
-void HeardEvents::put(std::deque<ToldEvent>& list, ToldEvent told, std::size_t most) {
+void HeardEvents::put(std::deque<ToldEvent>& list, ToldEvent told, std::size_t maximum) {
   list.push_front(std::move(told));
-  if (list.size() > most) list.pop_back();
+  if (list.size() > maximum) list.pop_back();
 }
 
 void HeardEvents::accept(const std::string& channel, const event_t& event) {
@@ -15,19 +15,19 @@ void HeardEvents::accept(const std::string& channel, const event_t& event) {
   times_[channel] = event.t;
   const ToldEvent told{channel, event};
   const std::pair key(channel, event.source);
-  if (event.kind == "alarm" || event.kind == "acknowledged") return put(alarms_, told, kMostAlarms);
-  if (event.kind.starts_with("command")) return put(answers_, told, kMostAnswers);
+  if (event.kind == "alarm" || event.kind == "acknowledged") return put(alarms_, told, kMaximumAlarms);
+  if (event.kind.starts_with("command")) return put(answers_, told, kMaximumAnswers);
   if (event.kind == "overrun") {
     ++overruns_;
     return;
   }
   if (event.kind == "job started") {
-    if (running_.size() < kMostJobs || running_.contains(key)) running_[key] = event;
+    if (running_.size() < kMaximumJobs || running_.contains(key)) running_[key] = event;
     return;
   }
   if (!event.kind.starts_with("job ")) return;
   running_.erase(key);
-  put(ended_, told, kMostJobs);
+  put(ended_, told, kMaximumJobs);
 }
 
 std::size_t HeardEvents::pending() const {

@@ -19,9 +19,9 @@ struct ToldEvent {
 /// What events say of one network. Anything may come: the lists have an end.
 class HeardEvents {
  public:
-  static constexpr std::size_t kMostAlarms = 200;
-  static constexpr std::size_t kMostJobs = 500;
-  static constexpr std::size_t kMostAnswers = 20;
+  static constexpr std::size_t kMaximumAlarms = 200;
+  static constexpr std::size_t kMaximumJobs = 500;
+  static constexpr std::size_t kMaximumAnswers = 20;
 
   void accept(const std::string& channel, const event_t& event);
 
@@ -38,7 +38,7 @@ class HeardEvents {
   std::int64_t overruns() const noexcept { return overruns_; }
 
  private:
-  static void put(std::deque<ToldEvent>& list, ToldEvent told, std::size_t most);
+  static void put(std::deque<ToldEvent>& list, ToldEvent told, std::size_t maximum);
 
   std::deque<ToldEvent> alarms_, ended_, answers_;
   std::map<std::pair<std::string, std::string>, event_t> running_;

@@ -14,8 +14,8 @@ void History::add(std::int64_t t, double value) {
   if (!std::isfinite(value)) return;
   Slot& slot = slots_[static_cast<std::size_t>(number) % kSlots];
   if (slot.number != number) slot = {number, {value, value}};
-  slot.span.least = std::min(slot.span.least, value);
-  slot.span.greatest = std::max(slot.span.greatest, value);
+  slot.span.minimum = std::min(slot.span.minimum, value);
+  slot.span.maximum = std::max(slot.span.maximum, value);
 }
 
 std::vector<std::optional<History::Span>> History::parts(std::int64_t window, std::size_t count) const {
@@ -29,8 +29,8 @@ std::vector<std::optional<History::Span>> History::parts(std::int64_t window, st
     const auto back = static_cast<std::size_t>(age) * count / static_cast<std::size_t>(slots);
     auto& part = parts[count - 1 - back];
     if (!part) part = slot.span;
-    part->least = std::min(part->least, slot.span.least);
-    part->greatest = std::max(part->greatest, slot.span.greatest);
+    part->minimum = std::min(part->minimum, slot.span.minimum);
+    part->maximum = std::max(part->maximum, slot.span.maximum);
   }
   return parts;
 }

@@ -15,8 +15,8 @@ class History {
 
   /// Least and greatest value of a time.
   struct Span {
-    double least;
-    double greatest;
+    double minimum;
+    double maximum;
   };
 
   /// Takes a value; one that is not finite leaves no mark. A time before the last one begins anew: it is

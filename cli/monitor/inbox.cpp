@@ -51,7 +51,7 @@ void Inbox::listen() noexcept {
 void Inbox::put(const LcmMessage& message) {
   Letter letter{std::string(message.channel), {message.data.begin(), message.data.end()}};
   const std::lock_guard lock(mutex_);
-  if (letters_.size() >= kMostMessages || bytes_ + letter.data.size() > kMostBytes) {
+  if (letters_.size() >= kMaximumMessages || bytes_ + letter.data.size() > kMaximumBytes) {
     ++dropped_;
     return;
   }
@@ -75,10 +75,10 @@ bool Inbox::pop(Letter& letter) {
   return true;
 }
 
-void Inbox::take(std::size_t most,
+void Inbox::take(std::size_t maximum,
                  const std::function<void(const std::string&, std::span<const std::uint8_t>)>& handler) {
   Letter letter;
-  for (std::size_t i = 0; i < most && pop(letter); ++i) handler(letter.channel, letter.data);
+  for (std::size_t i = 0; i < maximum && pop(letter); ++i) handler(letter.channel, letter.data);
 }
 
 }  // namespace lockstep::cli

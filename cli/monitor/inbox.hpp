@@ -20,8 +20,8 @@ namespace lockstep::cli {
 /// dropped and counted.
 class Inbox {
  public:
-  static constexpr std::size_t kMostMessages = 20'000;
-  static constexpr std::size_t kMostBytes = 32u << 20;
+  static constexpr std::size_t kMaximumMessages = 20'000;
+  static constexpr std::size_t kMaximumBytes = 32u << 20;
 
   /// @param joined tells the network; outlives this
   /// @throws std::runtime_error where it cannot be joined or no thread begun
@@ -33,7 +33,7 @@ class Inbox {
   /// Readable when something waits, for poll().
   int descriptor() const noexcept { return event_; }
   /// Hands on what waits, at most so many messages.
-  void take(std::size_t most,
+  void take(std::size_t maximum,
             const std::function<void(const std::string& channel, std::span<const std::uint8_t>)>& handler);
   std::uint64_t dropped() const noexcept { return dropped_; }
 

@@ -52,9 +52,9 @@ bool Model::accept(const std::string& channel, std::span<const std::uint8_t> byt
     histories_ -= histories.size();
     histories.clear();  // another trace
   }
-  const std::size_t room = std::min(signals - histories.size(), kMostHistories - histories_);
-  if (room > 0) histories.resize(histories.size() + room);
-  histories_ += room;
+  const std::size_t capacity = std::min(signals - histories.size(), kMaximumHistories - histories_);
+  if (capacity > 0) histories.resize(histories.size() + capacity);
+  histories_ += capacity;
   const TraceRow row = trace.row();
   for (std::size_t i = 0; i < histories.size(); ++i)
     histories[i].add(row.t, as_double(row.values[i], trace.signals()[i].type));
@@ -84,7 +84,7 @@ std::vector<SignalRow> Model::rows() const {
     const auto moves = [&](const SignalRow& row) {
       const History* const lately = history(row);
       const auto span = lately != nullptr ? lately->whole(window()) : std::nullopt;
-      return span && span->greatest > span->least;
+      return span && span->maximum > span->minimum;
     };
     const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(first);
     if (order == Order::by_name)
@@ -105,8 +105,8 @@ void Model::move(std::ptrdiff_t steps) {
   if (all.empty()) return;
   const auto last = static_cast<std::ptrdiff_t>(all.size()) - 1;
   const auto from = static_cast<std::ptrdiff_t>(chosen(all));
-  const std::ptrdiff_t way = std::clamp(steps, -last, last);
-  chosen_ = all[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(from + way, 0, last))];
+  const std::ptrdiff_t distance = std::clamp(steps, -last, last);
+  chosen_ = all[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(from + distance, 0, last))];
 }
 
 const TraceSignal& Model::signal(const SignalRow& row) const {

@@ -36,7 +36,7 @@ enum class Order : std::uint8_t { as_told, by_name, by_movement };
 class Model {
  public:
   using Clock = HeardTrace::Clock;
-  static constexpr std::size_t kMostHistories = 2048;
+  static constexpr std::size_t kMaximumHistories = 2048;
   static constexpr std::size_t kLongestNote = 4096;  ///< message of an event or a panel that is kept [byte]
   static constexpr int kWindows[] = {5, 10, 20, 30, 60};  ///< [s]
 

@@ -7,7 +7,7 @@ namespace lockstep::cli {
 
 void Panel::accept(const std::string& channel, const panel_t& state, Clock::time_point now) {
   const std::pair key(channel, state.axis);
-  if (!axes_.contains(key) && axes_.size() >= kMostAxes) return;
+  if (!axes_.contains(key) && axes_.size() >= kMaximumAxes) return;
   axes_[key] = {channel, state, now};
 }
 

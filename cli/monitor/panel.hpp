@@ -29,7 +29,7 @@ struct OutgoingCommand {
 class Panel {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::size_t kMostAxes = 64;
+  static constexpr std::size_t kMaximumAxes = 64;
   static constexpr std::chrono::seconds kSilent{1};  ///< after which an axis takes no commands any more
   static constexpr int kPercents[] = {1, 5, 10, 25, 50, 100};
 

@@ -16,10 +16,10 @@ std::string_view mark(std::size_t level, Characters characters) {
 
 /// Which of so many equal steps from least to greatest; the middle one where there is no way between them.
 std::size_t step_of(double value, const History::Span& whole, std::size_t steps) {
-  const double span = whole.greatest - whole.least;
+  const double span = whole.maximum - whole.minimum;
   if (!(span > 0.0)) return steps / 2;
   // Halves, so that the difference of the largest numbers does not overflow.
-  const double share = (value / 2.0 - whole.least / 2.0) / (whole.greatest / 2.0 - whole.least / 2.0);
+  const double share = (value / 2.0 - whole.minimum / 2.0) / (whole.maximum / 2.0 - whole.minimum / 2.0);
   const double step = std::clamp(share * static_cast<double>(steps), 0.0, static_cast<double>(steps - 1));
   return static_cast<std::size_t>(step);
 }
@@ -31,7 +31,7 @@ std::string sparkline(const History& history, std::int64_t window, std::size_t w
   std::string line;
   for (const auto& part : history.parts(window, width)) {
     if (part)
-      line += mark(step_of(part->least / 2.0 + part->greatest / 2.0, *whole, kLevels), characters);
+      line += mark(step_of(part->minimum / 2.0 + part->maximum / 2.0, *whole, kLevels), characters);
     else
       line += ' ';
   }
@@ -44,8 +44,8 @@ std::vector<std::string> curve(const History& history, std::int64_t window, std:
   const auto whole = history.whole(window);
   const std::size_t fine = characters == Characters::blocks ? kLevels : 1;
   for (const auto& part : history.parts(window, width)) {
-    const std::size_t from = part ? step_of(part->least, *whole, height * fine) : 0;
-    const std::size_t to = part ? step_of(part->greatest, *whole, height * fine) : 0;
+    const std::size_t from = part ? step_of(part->minimum, *whole, height * fine) : 0;
+    const std::size_t to = part ? step_of(part->maximum, *whole, height * fine) : 0;
     for (std::size_t line = 0; line < height; ++line) {
       const std::size_t cell = height - 1 - line;  // from the bottom
       if (!part || from / fine > cell || to / fine < cell)

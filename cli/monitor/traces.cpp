@@ -136,10 +136,10 @@ void HeardTraces::accept(const std::string& channel, std::span<const std::uint8_
   const auto known = traces_.find(name);
   if (const std::size_t signals = LcmDecoder::signals_announced(bytes); signals > 0) {
     const std::size_t own = known == traces_.end() ? 0 : known->second.memory();
-    if (memory() - own + HeardTrace::memory_of(bytes.size(), signals) > kMostMemory) return;
+    if (memory() - own + HeardTrace::memory_of(bytes.size(), signals) > kMaximumMemory) return;
   }
   if (known != traces_.end()) return known->second.accept(bytes, now);
-  if (!header || traces_.size() >= kMost) return;
+  if (!header || traces_.size() >= kMaximum) return;
   HeardTrace trace;
   trace.accept(bytes, now);
   if (trace.described()) traces_.emplace(name, std::move(trace));

@@ -70,8 +70,8 @@ class HeardTrace {
 /// behind, and there is an end to the number of traces and to the memory of all that they describe.
 class HeardTraces {
  public:
-  static constexpr std::size_t kMost = 100;
-  static constexpr std::size_t kMostMemory = 64u << 20;  ///< of descriptions and last rows [byte], about
+  static constexpr std::size_t kMaximum = 100;
+  static constexpr std::size_t kMaximumMemory = 64u << 20;  ///< of descriptions and last rows [byte], about
 
   /// Takes any message of the network.
   void accept(const std::string& channel, std::span<const std::uint8_t> bytes,

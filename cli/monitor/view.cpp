@@ -16,10 +16,10 @@ using Time = Model::Clock::time_point;
 
 constexpr std::size_t kValue = 13;
 constexpr std::size_t kUnit = 5;
-constexpr std::size_t kLimit = 10;      // columns of a least or greatest value
-constexpr std::size_t kPlotHeight = 6;  // of a curve
-constexpr std::size_t kListHeight = 4;  // of a list below the table
-constexpr std::size_t kLeastTable = 4;  // lines that the table keeps when panes are open
+constexpr std::size_t kLimit = 10;        // columns of a least or greatest value
+constexpr std::size_t kPlotHeight = 6;    // of a curve
+constexpr std::size_t kListHeight = 4;    // of a list below the table
+constexpr std::size_t kMinimumTable = 4;  // lines that the table keeps when panes are open
 
 constexpr const char* kHelp[] = {"arrows PgUp PgDn Home End  choose a signal",
                                  "/   search part of a name; Enter ends, Esc shows all again",
@@ -74,13 +74,13 @@ struct Columns {
   std::size_t name, curve;
 
   Columns(const Model& model, const std::vector<SignalRow>& rows, std::size_t width) {
-    constexpr std::size_t kLeastCurve = 10;
+    constexpr std::size_t kMinimumCurve = 10;
     constexpr std::size_t kGaps = 8;
     const std::size_t others = kValue + kUnit + 2 * kLimit + kGaps;
     name = 8;
     for (const SignalRow& row : rows) name = std::max(name, shown_width(printable(model.signal(row).name)));
-    const std::size_t room = width > others + kLeastCurve + 8 ? width - others - kLeastCurve : 8;
-    name = std::min(name, room);
+    const std::size_t capacity = width > others + kMinimumCurve + 8 ? width - others - kMinimumCurve : 8;
+    name = std::min(name, capacity);
     curve = width > others + name ? std::min<std::size_t>(width - others - name, 60) : 0;
   }
 };
@@ -98,7 +98,7 @@ std::string table_line(const Model& model, const SignalRow& row, const Columns& 
   line += sparkline(*history, model.window(), columns.curve, characters);
   const auto span = history->whole(model.window());
   if (span)
-    line += fmt::format(" {:>{}} {:>{}}", number(span->least), kLimit, number(span->greatest), kLimit);
+    line += fmt::format(" {:>{}} {:>{}}", number(span->minimum), kLimit, number(span->maximum), kLimit);
   return line;
 }
 
@@ -144,18 +144,18 @@ Lines plot(const Model& model, std::size_t width, Characters characters) {
   std::string head = "-- " + printable(signal.name);
   if (!signal.unit.empty()) head += " [" + printable(signal.unit) + "]";
   lines.push_back(
-      {head + fmt::format("  min {}  max {}", number(span->least), number(span->greatest)), Look::heading});
+      {head + fmt::format("  min {}  max {}", number(span->minimum), number(span->maximum)), Look::heading});
   constexpr std::size_t kAxis = 12;
-  const std::size_t room = width > kAxis ? width - kAxis : 1;
-  const auto drawn = curve(*history, model.window(), room, kPlotHeight, characters);
+  const std::size_t capacity = width > kAxis ? width - kAxis : 1;
+  const auto drawn = curve(*history, model.window(), capacity, kPlotHeight, characters);
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const std::string label = i == 0                  ? number(span->greatest)
-                              : i + 1 == drawn.size() ? number(span->least)
+    const std::string label = i == 0                  ? number(span->maximum)
+                              : i + 1 == drawn.size() ? number(span->minimum)
                                                       : "";
     lines.push_back({fmt::format("{:>10} |", label) + drawn[i]});
   }
   const std::string from = fmt::format("-{} s", model.window() / 1'000'000'000);
-  lines.push_back({std::string(kAxis, ' ') + padded(from, room > 3 ? room - 3 : 1) + "now"});
+  lines.push_back({std::string(kAxis, ' ') + padded(from, capacity > 3 ? capacity - 3 : 1) + "now"});
   return lines;
 }
 
@@ -292,7 +292,7 @@ struct Panes {
     const std::size_t around = 2 + (model.panel ? 2 * panel_height(size.width) : 0);  // title, keys and panel
     table = size.height > around ? size.height - around : 0;
     const auto open = [&](bool wanted, std::size_t lines) {
-      if (!wanted || table < kLeastTable + lines) return std::size_t{0};
+      if (!wanted || table < kMinimumTable + lines) return std::size_t{0};
       table -= lines;
       return lines;
     };

@@ -101,7 +101,7 @@ std::vector<PanelName> ModbusPanel::all() const {
 }
 
 PanelName ModbusPanel::name_of(const ModbusMapConfig& map, const ModbusText& text) const {
-  PanelName name{text.tag->name, {}, false, text.tag->text.room};
+  PanelName name{text.tag->name, {}, false, text.tag->text.capacity};
   for (std::size_t i = 0; i < text.count(); ++i)
     name.entries.push_back(place_of(map, map.map.entries()[text.first + i]));
   return name;
@@ -129,7 +129,7 @@ bool ModbusPanel::tell_unknown(const std::string& name) const {
     return false;
   }
   // An index that is out of bounds, say.
-  if (const FoundPlace found = project_.names.find(name); name.find('[') != name.npos && !found.place) {
+  if (const FoundOperand found = project_.names.find(name); name.find('[') != name.npos && !found.place) {
     tell("the Modbus map has no " + quote(name) + ": " + found.problem);
     return false;
   }
@@ -191,16 +191,16 @@ std::vector<ModbusPanel::Block> ModbusPanel::blocks_of(std::span<const PanelEntr
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const ModbusEntry& entry = *entries[i].entry;
     const std::uint32_t span = modbus_span(entry);
-    const std::uint32_t most = is_bit_table(entry.table)
-                                   ? (to_write ? kMostBitsWritten : kMostBitsRead)
-                                   : (to_write ? kMostRegistersWritten : kMostRegistersRead);
+    const std::uint32_t maximum = is_bit_table(entry.table)
+                                      ? (to_write ? kMaximumBitsWritten : kMaximumBitsRead)
+                                      : (to_write ? kMaximumRegistersWritten : kMaximumRegistersRead);
     if (i > 0 && entries[i - 1].unit == entries[i].unit && entries[i - 1].entry->table == entry.table &&
         (entries[i - 1].entry->bit >= 0) == (entry.bit >= 0)) {
       Block& block = blocks.back();
       const std::uint32_t end = block.address + block.count;
       const bool is_same = entry.bit >= 0 && entry.address + 1 == end;
       const bool is_next = entry.address == end && (entry.bit < 0 || !to_write);
-      if (is_same || (is_next && block.count + span <= most)) {
+      if (is_same || (is_next && block.count + span <= maximum)) {
         block.count = entry.address + span - block.address;
         block.end = i + 1;
         continue;
@@ -213,7 +213,7 @@ std::vector<ModbusPanel::Block> ModbusPanel::blocks_of(std::span<const PanelEntr
 
 std::optional<std::vector<Value>> ModbusPanel::read(const PanelName& name) {
   std::vector<Value> values;
-  std::array<std::uint16_t, kMostBitsRead> words{};
+  std::array<std::uint16_t, kMaximumBitsRead> words{};
   for (const Block& block : blocks_of(name.entries, false)) {
     const PanelEntry& first = name.entries[block.begin];
     const auto all = std::span(words).first(block.count);
@@ -250,7 +250,7 @@ std::optional<Value> ModbusPanel::value_of(const PanelEntry& place,
 }
 
 bool ModbusPanel::write(const PanelName& name, std::span<const Value> values) {
-  std::array<std::uint16_t, kMostBitsWritten> words{};
+  std::array<std::uint16_t, kMaximumBitsWritten> words{};
   for (const Block& block : blocks_of(name.entries, true)) {
     const PanelEntry& first = name.entries[block.begin];
     const auto all = std::span(words).first(block.count);
@@ -277,12 +277,12 @@ struct Limits {
 };
 
 Limits limits_of(const ModbusEntry& entry, Type type) {
-  const auto least = static_cast<double>(lowest(entry.type));
-  const auto greatest = static_cast<double>(highest(entry.type));
+  const auto minimum = static_cast<double>(lowest(entry.type));
+  const auto maximum = static_cast<double>(highest(entry.type));
   Limits limits;
   if (entry.is_scaled) {
     std::tie(limits.lowest.r, limits.highest.r) = std::minmax(
-        {as_written(least * entry.scale + entry.offset), as_written(greatest * entry.scale + entry.offset)},
+        {as_written(minimum * entry.scale + entry.offset), as_written(maximum * entry.scale + entry.offset)},
         [](double a, double b) { return a < b; });
   } else if (is_real(type)) {
     limits.highest.r = std::numeric_limits<float>::max();

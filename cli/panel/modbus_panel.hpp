@@ -42,7 +42,7 @@ struct PanelName {
   std::vector<PanelEntry>
       entries;  ///< of a value one, of elements one each, of a text one for two characters
   bool is_list = false;
-  std::size_t room = 0;  ///< characters of a text; 0: it is none
+  std::size_t capacity = 0;  ///< characters of a text; 0: it is none
 
   Type type() const { return entries.front().type(); }
 };

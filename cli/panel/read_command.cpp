@@ -12,7 +12,7 @@ namespace lockstep::cli {
 namespace {
 
 nlohmann::ordered_json shown_json(const PanelName& name, const std::vector<Value>& values) {
-  if (name.room > 0) return text_to_utf8(text_of(values, name.room));
+  if (name.capacity > 0) return text_to_utf8(text_of(values, name.capacity));
   if (!name.is_list) return json_value(values.front(), name.type());
   auto list = nlohmann::ordered_json::array();
   for (const Value value : values) list.push_back(json_value(value, name.type()));
@@ -21,7 +21,7 @@ nlohmann::ordered_json shown_json(const PanelName& name, const std::vector<Value
 
 /// As `lockstep write` takes it.
 std::string shown_text(const PanelName& name, const std::vector<Value>& values) {
-  if (name.room > 0) return text_literal(text_of(values, name.room));
+  if (name.capacity > 0) return text_literal(text_of(values, name.capacity));
   std::string text;
   for (const Value value : values) text += (text.empty() ? "" : ", ") + literal(value, name.type());
   return name.is_list ? "[" + text + "]" : text;

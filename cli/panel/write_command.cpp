@@ -53,10 +53,10 @@ std::optional<std::vector<Value>> values_of_text(const PanelName& name, const st
   const auto text = given.starts_with('\'') ? read_text_literal(given, problem) : text_from_utf8(given);
   if (!text && problem.empty())
     problem = quote(given) + " is no text; allowed: printable characters of ISO 8859-1";
-  if (text && text->size() > name.room)
+  if (text && text->size() > name.capacity)
     problem = quote(given) + " has " + std::to_string(text->size()) + " characters; allowed: up to " +
-              std::to_string(name.room);
-  if (problem.empty()) return text_values(*text, name.room);
+              std::to_string(name.capacity);
+  if (problem.empty()) return text_values(*text, name.capacity);
   tell(name.name + ": " + problem);
   return std::nullopt;
 }
@@ -71,7 +71,7 @@ std::optional<Assignment> assignment(const ModbusPanel& panel, const std::string
   auto name = panel.find(text.substr(0, equals), true);
   if (!name) return std::nullopt;
   const std::string given = text.substr(equals + 1);
-  if (name->room > 0) {
+  if (name->capacity > 0) {
     auto values = values_of_text(*name, given);
     return values ? std::optional(Assignment{std::move(*name), std::move(*values)}) : std::nullopt;
   }

@@ -11,8 +11,8 @@
 namespace lockstep::cli {
 namespace {
 
-constexpr int kBins = 1500;                 // of the time, about a pixel each
-constexpr std::size_t kMostIntervals = 60;  // of a state, beyond which it is drawn as a curve
+constexpr int kBins = 1500;                    // of the time, about a pixel each
+constexpr std::size_t kMaximumIntervals = 60;  // of a state, beyond which it is drawn as a curve
 
 /// What a signal is, as far as that is known.
 struct Kind {
@@ -48,7 +48,7 @@ std::optional<Kind> kind_of_name(std::string_view name) {
   if (point == name.npos) return std::nullopt;
   const std::string_view path = name.substr(point + 1);
   for (const ObjectKindText& known : kObjectKinds)
-    if (const VariablePlace place = find_variable(known.kind, path); place.variable != nullptr)
+    if (const VariableAddress place = find_variable(known.kind, path); place.variable != nullptr)
       return place.bit >= 0 ? Kind{Type::BOOL, ""}
                             : Kind{place.variable->type, std::string(unit_text(place.variable->unit))};
   return kind_of_pin(path);
@@ -118,7 +118,7 @@ class Arrangement {
     if (kind.type == Type::BOOL)
       picture_.lanes.push_back(
           {known.name, true, true_times(intervals, (picture_.end - picture_.begin) / (2 * kBins))});
-    else if (intervals.size() <= kMostIntervals)
+    else if (intervals.size() <= kMaximumIntervals)
       picture_.lanes.push_back({known.name, false, std::move(intervals)});
     else
       add_curve(known.name, kind.unit, values, true);
@@ -183,18 +183,18 @@ class Arrangement {
 }  // namespace
 
 void set_range(Diagram& diagram) {
-  double least = INFINITY, most = -INFINITY;
+  double minimum = INFINITY, maximum = -INFINITY;
   for (const Curve& curve : diagram.curves)
     for (const auto& piece : curve.pieces)
       for (const Point& point : piece) {
-        least = std::min(least, point.second);
-        most = std::max(most, point.second);
+        minimum = std::min(minimum, point.second);
+        maximum = std::max(maximum, point.second);
       }
-  if (least > most) least = most = 0.0;
-  const double span = most - least;
-  const double margin = span > 0.0 ? 0.06 * span : std::max(0.1 * std::abs(most), 1e-9);
-  diagram.lowest = std::max(least - margin, -1e300);
-  diagram.highest = std::min(most + margin, 1e300);
+  if (minimum > maximum) minimum = maximum = 0.0;
+  const double span = maximum - minimum;
+  const double margin = span > 0.0 ? 0.06 * span : std::max(0.1 * std::abs(maximum), 1e-9);
+  diagram.lowest = std::max(minimum - margin, -1e300);
+  diagram.highest = std::min(maximum + margin, 1e300);
 }
 
 Picture arrange(const TraceTable& trace, const PlotRange& range, bool typed) {

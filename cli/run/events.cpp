@@ -13,7 +13,7 @@ void clear_line() noexcept {
   if (isatty(STDERR_FILENO) == 1) write_message("\r\033[K", 0);
 }
 
-void tell_alarm(const TraceEvent& event, int patience) {
+void tell_alarm(const TraceEvent& event, int timeout) {
   std::string text;
   const double seconds = static_cast<double>(event.t) * 1e-9;
   if (event.kind == EventKind::alarm) {
@@ -26,7 +26,7 @@ void tell_alarm(const TraceEvent& event, int patience) {
     return;
   }
   // On a terminal the line of live values stands where the message goes.
-  write_message((isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + text, patience);
+  write_message((isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + text, timeout);
 }
 
 }  // namespace lockstep::cli

@@ -33,17 +33,17 @@ constexpr std::uint64_t kTicksBetweenLooks = 4096;      // of a simulation, at t
 class ToldOnStandardError final : public Messages {
  public:
   /// @param patience how long an alarm waits for a reader [ms]
-  explicit ToldOnStandardError(int patience) : patience_(patience) {}
+  explicit ToldOnStandardError(int timeout) : timeout_(timeout) {}
 
   void inform(const std::string& text) noexcept override { tell(text); }
   void warn(const std::string& text) noexcept override {
     clear_line();
     tell("warning: " + text, Gravity::warning);
   }
-  void event(const TraceEvent& event) override { tell_alarm(event, patience_); }
+  void event(const TraceEvent& event) override { tell_alarm(event, timeout_); }
 
  private:
-  int patience_;
+  int timeout_;
 };
 
 /// What a signal is to do is forgotten with what it is done to.

@@ -45,7 +45,7 @@ socklen_t set_address(sockaddr_un& address, std::string_view name) noexcept {
 }  // namespace
 
 ServiceManager::ServiceManager(std::int64_t servo_cycle)
-    : patience_(2 * servo_cycle), advanced_(std::chrono::steady_clock::now()) {
+    : timeout_(2 * servo_cycle), advanced_(std::chrono::steady_clock::now()) {
   const char* const name = std::getenv("NOTIFY_SOCKET");
   size_ = name == nullptr ? 0 : set_address(address_, name);
   if (size_ == 0) return;
@@ -81,7 +81,7 @@ void ServiceManager::look(std::uint64_t ticks) noexcept {
   if (!ready_ && ticks > 0) ready_ = send("READY=1");
   if (period_ == 0us || !ready_ || now - sent_ < period_) return;
   // With a slow clock there may be no new tick between two messages.
-  if (!advances_ && now - advanced_ > patience_) return;
+  if (!advances_ && now - advanced_ > timeout_) return;
   if (!send("WATCHDOG=1")) return;
   sent_ = now;
   advances_ = false;

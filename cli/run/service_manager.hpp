@@ -38,13 +38,13 @@ class ServiceManager {
 
   sockaddr_un address_{};
   socklen_t size_ = 0;
-  int socket_ = -1;                          // negative: nobody asks
-  std::chrono::microseconds period_{0};      // of the watchdog's messages; 0: none
-  const std::chrono::nanoseconds patience_;  // with ticks that do not advance
-  std::uint64_t ticks_ = 0;                  // at the last look
-  Time advanced_;                            // when they were seen to advance
-  bool advances_ = false;                    // since the last message
-  Time sent_;                                // the last message of the watchdog
+  int socket_ = -1;                         // negative: nobody asks
+  std::chrono::microseconds period_{0};     // of the watchdog's messages; 0: none
+  const std::chrono::nanoseconds timeout_;  // with ticks that do not advance
+  std::uint64_t ticks_ = 0;                 // at the last look
+  Time advanced_;                           // when they were seen to advance
+  bool advances_ = false;                   // since the last message
+  Time sent_;                               // the last message of the watchdog
   bool ready_ = false;
   bool stopping_ = false;
 };

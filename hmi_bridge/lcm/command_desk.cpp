@@ -39,12 +39,12 @@ CommandDesk::CommandDesk(std::vector<CommandAxis> axes, ProcessImage& image, std
       jogs_(axes_.size()),
       requests_(axes_.size() * kPanelSignals) {}
 
-bool CommandDesk::Allowance::take(Clock::time_point now, int most) noexcept {
+bool CommandDesk::Allowance::take(Clock::time_point now, int maximum) noexcept {
   if (now - second >= 1s) {
     second = now;
     used = 0;
   }
-  return used++ < most;
+  return used++ < maximum;
 }
 
 Value CommandDesk::value(std::size_t axis, PanelSignal signal) const noexcept {
@@ -82,7 +82,7 @@ std::optional<CommandDesk::Answer> CommandDesk::refuse(const Refusal& refusal, c
                                                        Clock::time_point now) {
   ++(counters_.*refusal.count);
   if (watch_) watch_({command, refusal.count, refusal.reason, "", ""});
-  if (!told_.take(now, kMostTold)) return std::nullopt;
+  if (!told_.take(now, kMaximumTold)) return std::nullopt;
   if (command == nullptr) return Answer{false, "", "", refusal.reason};
   return Answer{false, command->axis.substr(0, kLongestName), std::string(action_text(command->action)),
                 refusal.reason};
@@ -120,16 +120,17 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge_sender(const command_t& c
   const bool behind = known != senders_.end() && command.sequence <= known->second.sequence;
   if (behind && !calms(command.action))
     return Refusal{&CommandCounters::stale, "repeated, or overtaken by a later one"};
-  if (known == senders_.end() && senders_.size() >= kMostSenders)
+  if (known == senders_.end() && senders_.size() >= kMaximumSenders)
     // What a forgotten one has sent is too old by then.
     std::erase_if(senders_, [&](const auto& sender) { return now - sender.second.last > 2s; });
-  const bool room = known != senders_.end() || senders_.size() < kMostSenders;
-  if (!room && !calms(command.action))
-    return Refusal{&CommandCounters::too_many, "too many panels; allowed: " + std::to_string(kMostSenders)};
-  if (room && !behind) senders_[command.sender] = {command.sequence, now};
-  if (!commands_.take(now, kMostPerSecond) && !calms(command.action))
+  const bool capacity = known != senders_.end() || senders_.size() < kMaximumSenders;
+  if (!capacity && !calms(command.action))
     return Refusal{&CommandCounters::too_many,
-                   "too many commands; allowed: " + std::to_string(kMostPerSecond) + " in a second"};
+                   "too many panels; allowed: " + std::to_string(kMaximumSenders)};
+  if (capacity && !behind) senders_[command.sender] = {command.sequence, now};
+  if (!commands_.take(now, kMaximumPerSecond) && !calms(command.action))
+    return Refusal{&CommandCounters::too_many,
+                   "too many commands; allowed: " + std::to_string(kMaximumPerSecond) + " in a second"};
   return std::nullopt;
 }
 

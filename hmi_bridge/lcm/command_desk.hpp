@@ -69,9 +69,9 @@ class CommandDesk {
   static constexpr std::int64_t kOldestBeat = 10;
   /// While it has come within this time, a jog command keeps other panels from jogging the axis.
   static constexpr std::chrono::milliseconds kHold{300};
-  static constexpr int kMostPerSecond = 200;  ///< commands beyond it are refused, but for stop and disable
-  static constexpr int kMostTold = 20;        ///< refusals told in a second; the others are only counted
-  static constexpr std::size_t kMostSenders = 16;  ///< panels of the last seconds
+  static constexpr int kMaximumPerSecond = 200;  ///< commands beyond it are refused, but for stop and disable
+  static constexpr int kMaximumTold = 20;        ///< refusals told in a second; the others are only counted
+  static constexpr std::size_t kMaximumSenders = 16;  ///< panels of the last seconds
 
   /// What is to be told of a command.
   struct Answer {
@@ -126,7 +126,7 @@ class CommandDesk {
   struct Allowance {
     Clock::time_point second;
     int used = 0;
-    bool take(Clock::time_point now, int most) noexcept;
+    bool take(Clock::time_point now, int maximum) noexcept;
   };
 
   std::optional<Refusal> judge(const command_t& command, Clock::time_point now);

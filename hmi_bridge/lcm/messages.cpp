@@ -47,13 +47,13 @@ std::int64_t fingerprint(const trace_header_t& header) noexcept {
   return id.value();
 }
 
-constexpr std::size_t kLeastSignal = 3 * 5 + 4;  // three empty strings and an index
+constexpr std::size_t kMinimumSignal = 3 * 5 + 4;  // three empty strings and an index
 
 /// Whether a header holds all that it says.
 bool header_fits(std::span<const std::uint8_t> bytes) noexcept {
   LcmWalk walk(bytes);
   walk.skip(8);  // hash
-  const std::uint64_t signals = walk.count(kLeastSignal);
+  const std::uint64_t signals = walk.count(kMinimumSignal);
   walk.skip(8);  // id
   walk.string();
   walk.string();
@@ -160,7 +160,7 @@ LcmDecoder::Message LcmDecoder::accept(std::span<const std::uint8_t> bytes) {
 std::size_t LcmDecoder::signals_announced(std::span<const std::uint8_t> bytes) noexcept {
   LcmWalk walk(bytes);
   const auto hash = static_cast<std::int64_t>(walk.number(8));
-  return hash == trace_header_t::getHash() ? walk.count(kLeastSignal) : 0;
+  return hash == trace_header_t::getHash() ? walk.count(kMinimumSignal) : 0;
 }
 
 LcmDecoder::Message LcmDecoder::accept_header(std::span<const std::uint8_t> bytes) {

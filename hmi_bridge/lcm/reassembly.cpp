@@ -21,11 +21,11 @@ std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at, std
 
 /// The characters up to the 0, which the channel of a message ends with; none if there is no channel.
 std::optional<std::string_view> channel_at(std::span<const std::uint8_t> bytes) noexcept {
-  const auto most = bytes.first(std::min(bytes.size(), LcmReassembly::kLongestChannel + 1));
-  const auto end = std::find(most.begin(), most.end(), std::uint8_t{0});
-  if (end == most.end() || end == most.begin()) return std::nullopt;
+  const auto maximum = bytes.first(std::min(bytes.size(), LcmReassembly::kLongestChannel + 1));
+  const auto end = std::find(maximum.begin(), maximum.end(), std::uint8_t{0});
+  if (end == maximum.end() || end == maximum.begin()) return std::nullopt;
   return std::string_view(reinterpret_cast<const char*>(bytes.data()),
-                          static_cast<std::size_t>(end - most.begin()));
+                          static_cast<std::size_t>(end - maximum.begin()));
 }
 
 }  // namespace
@@ -151,7 +151,7 @@ void LcmReassembly::forget(Partials::iterator partial) noexcept {
 }
 
 void LcmReassembly::give_up_late(Clock::time_point now) noexcept {
-  while (!partial_.empty() && now - partial_.front().begun > bounds_.patience) {
+  while (!partial_.empty() && now - partial_.front().begun > bounds_.timeout) {
     ++counters_.given_up;
     forget(partial_.begin());
   }

@@ -28,7 +28,7 @@ struct LcmBounds {
   std::size_t message = 8u << 20;  ///< of one message in fragments [byte]; 0: fragments are refused
   std::size_t memory = 16u << 20;  ///< of all fragments that wait, with what it costs to keep them [byte]
   std::size_t incomplete = 16;     ///< messages at a time
-  std::chrono::milliseconds patience{1000};  ///< from the first fragment of a message to its last
+  std::chrono::milliseconds timeout{1000};  ///< from the first fragment of a message to its last
 };
 
 /// What has become of the datagrams.

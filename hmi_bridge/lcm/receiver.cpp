@@ -71,9 +71,9 @@ int LcmReceiver::descriptor() const noexcept {
   return own_ != nullptr ? lcm_get_fileno(own_) : socket_;
 }
 
-int LcmReceiver::take(int most) {
+int LcmReceiver::take(int maximum) {
   int taken = 0;
-  while (taken < most && (own_ != nullptr ? lcm_handle_timeout(own_, 0) > 0 : take_datagram())) ++taken;
+  while (taken < maximum && (own_ != nullptr ? lcm_handle_timeout(own_, 0) > 0 : take_datagram())) ++taken;
   return taken;
 }
 

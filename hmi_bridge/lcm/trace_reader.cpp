@@ -40,8 +40,8 @@ std::int64_t size_of_file(std::FILE* file) noexcept {
   return ::fstat(::fileno(file), &status) == 0 && S_ISREG(status.st_mode) ? std::int64_t{status.st_size} : 0;
 }
 
-constexpr std::size_t kMostTraces = 10'000;  // that are told apart; a log that holds more is no run's
-constexpr std::size_t kMostListed = 24;      // in a message
+constexpr std::size_t kMaximumTraces = 10'000;  // that are told apart; a log that holds more is no run's
+constexpr std::size_t kMaximumListed = 24;      // in a message
 
 /// The traces of a log by their channels, in the order of their headers. To find one takes as many steps as
 /// their number has bits, whatever the channels are, since they are a stranger's.
@@ -52,7 +52,7 @@ class TracesInLog {
 
   /// Notes a header on a channel.
   void add(std::string_view channel) {
-    if (by_channel_.size() < kMostTraces && by_channel_.find(channel) == by_channel_.end())
+    if (by_channel_.size() < kMaximumTraces && by_channel_.find(channel) == by_channel_.end())
       by_channel_.emplace(channel, by_channel_.size());
   }
   /// Notes a message that is no header.
@@ -69,9 +69,9 @@ class TracesInLog {
   std::string list() const {
     const std::vector<std::string> channels = in_order();
     std::string list;
-    for (std::size_t i = 0; i < std::min(channels.size(), kMostListed); ++i)
+    for (std::size_t i = 0; i < std::min(channels.size(), kMaximumListed); ++i)
       list += (list.empty() ? "" : ", ") + visible(channels[i]);
-    return channels.size() > kMostListed ? list + ", …" : list;
+    return channels.size() > kMaximumListed ? list + ", …" : list;
   }
 
  private:

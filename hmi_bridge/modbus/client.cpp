@@ -40,7 +40,7 @@ std::string ModbusClientOptions::endpoint() const {
 }
 
 ModbusClient::ModbusClient(ModbusClientOptions options, ProcessImage& image)
-    : options_(std::move(options)), image_(image), words_(kMostBitsRead) {
+    : options_(std::move(options)), image_(image), words_(kMaximumBitsRead) {
   for (const ModbusDevice& device : options_.devices) {
     devices_.push_back({.options = &device, .reads = {}, .writes = {}});
     make_blocks(devices_.back());
@@ -55,19 +55,19 @@ ModbusClient::~ModbusClient() {
 
 /// Neighbours go into one request. A gap ends it: devices refuse addresses that they do not have.
 std::vector<ModbusClient::Block> ModbusClient::blocks_of(std::vector<ModbusEntry> entries,
-                                                         std::uint32_t most_registers,
-                                                         std::uint32_t most_bits) {
+                                                         std::uint32_t maximum_registers,
+                                                         std::uint32_t maximum_bits) {
   std::stable_sort(entries.begin(), entries.end(), [](const ModbusEntry& a, const ModbusEntry& b) {
     return std::tie(a.table, a.address) < std::tie(b.table, b.address);
   });
   std::vector<Block> blocks;
   for (const ModbusEntry& entry : entries) {
-    const std::uint32_t most = is_bit_table(entry.table) ? most_bits : most_registers;
+    const std::uint32_t maximum = is_bit_table(entry.table) ? maximum_bits : maximum_registers;
     const std::uint32_t end = entry.address + modbus_span(entry);
     // Bits of one register stand at the same address.
     const bool goes_on = !blocks.empty() && blocks.back().table == entry.table &&
                          entry.address <= blocks.back().address + blocks.back().count &&
-                         end - blocks.back().address <= most;
+                         end - blocks.back().address <= maximum;
     if (!goes_on) blocks.push_back({entry.table, entry.address, 0, {}});
     Block& block = blocks.back();
     block.count = std::max(block.count, end - block.address);
@@ -82,8 +82,8 @@ void ModbusClient::make_blocks(Device& device) const {
   const std::vector<ModbusEntry> writes = numbered(device.options->writes);
   device.lines[0].resize(lines_of(reads));
   device.lines[1].resize(lines_of(writes));
-  device.reads = blocks_of(reads, kMostRegistersRead, kMostBitsRead);
-  device.writes = blocks_of(writes, kMostRegistersWritten, kMostBitsWritten);
+  device.reads = blocks_of(reads, kMaximumRegistersRead, kMaximumBitsRead);
+  device.writes = blocks_of(writes, kMaximumRegistersWritten, kMaximumBitsWritten);
   device.cycles_apart = 0;
 }
 

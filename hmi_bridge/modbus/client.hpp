@@ -119,8 +119,8 @@ class ModbusClient {
     Retry retry{};
   };
 
-  static std::vector<Block> blocks_of(std::vector<ModbusEntry> entries, std::uint32_t most_registers,
-                                      std::uint32_t most_bits);
+  static std::vector<Block> blocks_of(std::vector<ModbusEntry> entries, std::uint32_t maximum_registers,
+                                      std::uint32_t maximum_bits);
   void run() noexcept;
   void turn(Device& device);
   bool wait_until(Clock::time_point time);

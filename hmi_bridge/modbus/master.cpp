@@ -38,10 +38,10 @@ struct ModbusMaster::Library {
   modbus_t* context;
 };
 
-ModbusMaster::ModbusMaster(const Endpoint& place, std::chrono::milliseconds timeout)
+ModbusMaster::ModbusMaster(const Endpoint& endpoint, std::chrono::milliseconds timeout)
     : library_(std::make_unique<Library>(
-          modbus_new_tcp_pi(place.host.c_str(), std::to_string(place.port).c_str()))),
-      host_(place.host),
+          modbus_new_tcp_pi(endpoint.host.c_str(), std::to_string(endpoint.port).c_str()))),
+      host_(endpoint.host),
       timeout_(timeout) {}
 
 ModbusMaster::ModbusMaster(const SerialOptions& line, std::chrono::milliseconds timeout)

@@ -15,8 +15,8 @@
 namespace lockstep {
 
 /// The most that one request may read or write.
-inline constexpr std::uint32_t kMostRegistersRead = 125, kMostRegistersWritten = 123;
-inline constexpr std::uint32_t kMostBitsRead = 2000, kMostBitsWritten = 1968;
+inline constexpr std::uint32_t kMaximumRegistersRead = 125, kMaximumRegistersWritten = 123;
+inline constexpr std::uint32_t kMaximumBitsRead = 2000, kMaximumBitsWritten = 1968;
 
 /// A connection. Each function waits for its whole answer, for the time-out at most and on a serial line for
 /// what its characters take besides (a name server may take longer). An answer that is not one to the
@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kMostBitsRead = 2000, kMostBitsWritten = 1968;
 /// functions: one thread.
 class ModbusMaster {
  public:
-  ModbusMaster(const Endpoint& place, std::chrono::milliseconds timeout);
+  ModbusMaster(const Endpoint& endpoint, std::chrono::milliseconds timeout);
   ModbusMaster(const SerialOptions& line, std::chrono::milliseconds timeout);
   ~ModbusMaster();
   ModbusMaster(const ModbusMaster&) = delete;

@@ -17,9 +17,9 @@ std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) n
 
 /// True if a count lies in 1…most and the list of bytes after it, which says its own length, has that length
 /// and the one that the count asks for.
-bool is_list(std::span<const std::uint8_t> list, std::uint32_t count, std::uint32_t most,
+bool is_list(std::span<const std::uint8_t> list, std::uint32_t count, std::uint32_t maximum,
              std::uint32_t bytes) noexcept {
-  return count >= 1 && count <= most && list[0] == bytes && list.size() == 1 + bytes;
+  return count >= 1 && count <= maximum && list[0] == bytes && list.size() == 1 + bytes;
 }
 
 }  // namespace
@@ -193,10 +193,10 @@ ModbusException ModbusResponder::read_bits(ModbusTable table, Bytes pdu) {
 }
 
 /// Puts plain registers one after the other, up to the first that is none. @return how many
-std::uint32_t ModbusResponder::put_plain(ModbusTable table, std::uint32_t address, std::uint32_t most,
+std::uint32_t ModbusResponder::put_plain(ModbusTable table, std::uint32_t address, std::uint32_t maximum,
                                          std::uint8_t* bytes) const noexcept {
   const std::span<const PlainRegister> plain = map_->plain_from(table, address);
-  const std::size_t end = std::min<std::size_t>(most, plain.size());
+  const std::size_t end = std::min<std::size_t>(maximum, plain.size());
   std::size_t count = 0;
   for (; count < end && plain[count].exists(); ++count) {
     const auto word = static_cast<std::uint16_t>(image_.value(plain[count].signal).u);

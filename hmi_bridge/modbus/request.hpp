@@ -78,7 +78,7 @@ class ModbusResponder {
   ModbusException perform(Bytes pdu);
   ModbusException read_bits(ModbusTable table, Bytes pdu);
   ModbusException read_registers(ModbusTable table, std::uint32_t address, std::uint32_t count);
-  std::uint32_t put_plain(ModbusTable table, std::uint32_t address, std::uint32_t most,
+  std::uint32_t put_plain(ModbusTable table, std::uint32_t address, std::uint32_t maximum,
                           std::uint8_t* bytes) const noexcept;
   ModbusException write_one_bit(Bytes pdu);
   ModbusException write_many_bits(Bytes pdu);

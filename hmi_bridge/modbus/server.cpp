@@ -56,11 +56,11 @@ void step_back() noexcept {
 
 /// The addresses of a host, those of IPv4 first.
 struct Addresses {
-  explicit Addresses(const Endpoint& place) {
+  explicit Addresses(const Endpoint& endpoint) {
     addrinfo hints{};
     hints.ai_family = AF_UNSPEC;
     hints.ai_socktype = SOCK_STREAM;
-    code = ::getaddrinfo(place.host.c_str(), std::to_string(place.port).c_str(), &hints, &found);
+    code = ::getaddrinfo(endpoint.host.c_str(), std::to_string(endpoint.port).c_str(), &hints, &found);
     for (const int family : {AF_INET, AF_INET6})
       for (const addrinfo* one = found; one != nullptr && code == 0; one = one->ai_next)
         if (one->ai_family == family) list.push_back(one);
@@ -100,9 +100,9 @@ int open_listener(sockaddr_storage& address, socklen_t size) noexcept {
   if (socket < 0) return -1;
   set_option(socket, SOL_SOCKET, SO_REUSEADDR, 1);
   if (address.ss_family == AF_INET6) set_option(socket, IPPROTO_IPV6, IPV6_V6ONLY, 1);
-  auto* const place = reinterpret_cast<sockaddr*>(&address);
-  if (::bind(socket, place, size) == 0 && ::listen(socket, SOMAXCONN) == 0 &&
-      ::getsockname(socket, place, &size) == 0)
+  auto* const endpoint = reinterpret_cast<sockaddr*>(&address);
+  if (::bind(socket, endpoint, size) == 0 && ::listen(socket, SOMAXCONN) == 0 &&
+      ::getsockname(socket, endpoint, &size) == 0)
     return socket;
   const int error = errno;
   ::close(socket);
@@ -158,9 +158,9 @@ void ModbusServer::make_responders() {
 }
 
 std::string ModbusServer::listen(std::size_t service) {
-  for (const Endpoint& place : services_[service].options.listen)
-    if (const std::string problem = listen_at(place, service); !problem.empty())
-      return to_string(place) + ": " + problem;
+  for (const Endpoint& endpoint : services_[service].options.listen)
+    if (const std::string problem = listen_at(endpoint, service); !problem.empty())
+      return to_string(endpoint) + ": " + problem;
   return {};
 }
 
@@ -174,22 +174,22 @@ std::string ModbusServer::open_line(std::size_t service) {
 
 /// Listens at all addresses of a place. An address that this machine does not have is passed over if another
 /// one of the same name is there: "localhost" on a machine without IPv6.
-std::string ModbusServer::listen_at(Endpoint place, std::size_t service) {
-  const Addresses addresses(place);
+std::string ModbusServer::listen_at(Endpoint endpoint, std::size_t service) {
+  const Addresses addresses(endpoint);
   if (addresses.code != 0) return ::gai_strerror(addresses.code);
   if (addresses.list.empty()) return "has no address";
   bool is_first = true;
   for (const addrinfo* one : addresses.list) {
     sockaddr_storage address{};
     std::memcpy(&address, one->ai_addr, one->ai_addrlen);
-    set_port(address, place.port);
+    set_port(address, endpoint.port);
     const int socket = open_listener(address, one->ai_addrlen);
     const bool is_absent = errno == EADDRNOTAVAIL || errno == EAFNOSUPPORT;
     if (socket < 0 && (is_first || !is_absent)) return std::strerror(errno);
     if (socket < 0) continue;
     listeners_.push_back({socket, service});
-    place.port = port_of(address);  // the system's choice for the first is that of all
-    if (is_first) places_.push_back(place);
+    endpoint.port = port_of(address);  // the system's choice for the first is that of all
+    if (is_first) endpoints_.push_back(endpoint);
     is_first = false;
   }
   return {};
@@ -199,7 +199,7 @@ void ModbusServer::close_sockets() noexcept {
   for (const Listener& listener : listeners_) ::close(listener.socket);
   listeners_.clear();
   lines_.clear();
-  places_.clear();
+  endpoints_.clear();
   if (wake_ >= 0) ::close(wake_);
   wake_ = -1;
   responders_.clear();
@@ -405,8 +405,8 @@ void ModbusServer::accept_clients(const Listener& listener, Clock::time_point no
       return;
     }
     const bool is_admitted = admits(peer, listener.service);
-    const bool has_room = is_admitted && make_room(listener.service, address_of(peer), now);
-    auto* client = has_room ? new (std::nothrow) ModbusConnection(socket, now) : nullptr;
+    const bool has_capacity = is_admitted && make_room(listener.service, address_of(peer), now);
+    auto* client = has_capacity ? new (std::nothrow) ModbusConnection(socket, now) : nullptr;
     if (client == nullptr) {
       if (is_admitted) ++counters_.refused;
       ::close(socket);
@@ -468,8 +468,8 @@ bool ModbusServer::make_room(std::size_t service, const Address& address, Clock:
 /// Among the clients that count: where there are as many as may be, the one that has been silent longest
 /// goes.
 template <class Counts>
-bool ModbusServer::make_room_among(std::size_t most, const Counts& counts, const ModbusServerOptions& options,
-                                   Clock::time_point now) {
+bool ModbusServer::make_room_among(std::size_t maximum, const Counts& counts,
+                                   const ModbusServerOptions& options, Clock::time_point now) {
   std::size_t count = 0;
   auto silent = clients_.end();
   for (auto client = clients_.begin(); client != clients_.end(); ++client) {
@@ -478,7 +478,7 @@ bool ModbusServer::make_room_among(std::size_t most, const Counts& counts, const
     if (silent == clients_.end() || client->connection->last_progress() < silent->connection->last_progress())
       silent = client;
   }
-  if (count < most) return true;
+  if (count < maximum) return true;
   if (now - silent->connection->last_progress() < options.idle_time) return false;
   ++counters_.displaced;
   clients_.erase(silent);

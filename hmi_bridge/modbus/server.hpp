@@ -88,9 +88,11 @@ class ModbusServer {
   void stop();
 
   /// The port on which it listens first; 0 if it does not. Thread: the owner.
-  std::uint16_t port() const noexcept { return places_.empty() ? std::uint16_t{0} : places_.front().port; }
+  std::uint16_t port() const noexcept {
+    return endpoints_.empty() ? std::uint16_t{0} : endpoints_.front().port;
+  }
   /// Where it listens, in the order of the options, with the ports that the system gave. Thread: the owner.
-  const std::vector<Endpoint>& endpoints() const noexcept { return places_; }
+  const std::vector<Endpoint>& endpoints() const noexcept { return endpoints_; }
 
   const ModbusCounters& counters() const noexcept { return counters_; }
 
@@ -122,7 +124,7 @@ class ModbusServer {
 
   std::string listen(std::size_t service);
   std::string open_line(std::size_t service);
-  std::string listen_at(Endpoint place, std::size_t service);
+  std::string listen_at(Endpoint endpoint, std::size_t service);
   void make_responders();
   void close_sockets() noexcept;
   void wake() noexcept;
@@ -138,7 +140,7 @@ class ModbusServer {
   static Address address_of(const sockaddr_storage& peer) noexcept;
   bool make_room(std::size_t service, const Address& address, Clock::time_point now);
   template <class Counts>
-  bool make_room_among(std::size_t most, const Counts& counts, const ModbusServerOptions& options,
+  bool make_room_among(std::size_t maximum, const Counts& counts, const ModbusServerOptions& options,
                        Clock::time_point now);
   bool serve(Client& client, short events, Clock::time_point now);
   bool is_too_late(const Client& client, Clock::time_point now);
@@ -153,7 +155,7 @@ class ModbusServer {
   ModbusCounters counters_;
   AuditLog* audit_ = nullptr;
   std::vector<std::string> names_;
-  std::vector<Endpoint> places_;
+  std::vector<Endpoint> endpoints_;
   std::vector<Listener> listeners_;
   std::vector<Line> lines_;
   int wake_ = -1;  ///< event that ends the thread's waiting

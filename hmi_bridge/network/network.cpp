@@ -62,15 +62,15 @@ bool IpNetwork::same_prefix(const Address& other) const noexcept {
 bool IpNetwork::contains(const sockaddr_storage& peer) const noexcept {
   Address address{};
   if (is_v6_ && peer.ss_family == AF_INET6) {
-    sockaddr_in6 place;
-    std::memcpy(&place, &peer, sizeof place);
-    std::memcpy(address.data(), &place.sin6_addr, 16);
+    sockaddr_in6 endpoint;
+    std::memcpy(&endpoint, &peer, sizeof endpoint);
+    std::memcpy(address.data(), &endpoint.sin6_addr, 16);
     return same_prefix(address);
   }
   if (is_v6_ || peer.ss_family != AF_INET) return false;
-  sockaddr_in place;
-  std::memcpy(&place, &peer, sizeof place);
-  std::memcpy(address.data(), &place.sin_addr, 4);
+  sockaddr_in endpoint;
+  std::memcpy(&endpoint, &peer, sizeof endpoint);
+  std::memcpy(address.data(), &endpoint.sin_addr, 4);
   return same_prefix(address);
 }
 

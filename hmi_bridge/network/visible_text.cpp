@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kMostShown = 60;  // characters of a value in a message
+constexpr std::size_t kMaximumShown = 60;  // characters of a value in a message
 
 /// Whether a terminal obeys a character instead of showing it: the controls C0 and C1, ends of lines and
 /// paragraphs, and what turns the direction of others, so that a text reads as something else.
@@ -33,10 +33,10 @@ std::size_t character(std::string_view text) {
 }
 
 /// The text, with "?" for what cannot be shown. @param most characters
-std::string shown_up_to(std::string_view text, std::size_t most) {
+std::string shown_up_to(std::string_view text, std::size_t maximum) {
   std::string result;
   for (std::size_t characters = 0; !text.empty(); ++characters) {
-    if (characters == most) return result + "…";
+    if (characters == maximum) return result + "…";
     const std::size_t size = character(text);
     if (size == 0)
       result += '?';
@@ -50,7 +50,7 @@ std::string shown_up_to(std::string_view text, std::size_t most) {
 }  // namespace
 
 std::string shown(std::string_view text) {
-  return shown_up_to(text, kMostShown);
+  return shown_up_to(text, kMaximumShown);
 }
 
 std::string visible(std::string_view text) {

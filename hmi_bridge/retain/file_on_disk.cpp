@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostAside = 99;
-constexpr int kMostLinks = 40;
+constexpr int kMaximumAside = 99;
+constexpr int kMaximumLinks = 40;
 
 /// Where a name leads, of which the file itself need not be there.
 fs::path target_of(fs::path path) {
   std::error_code none;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, none); ++i)
+  for (int i = 0; i < kMaximumLinks && fs::is_symlink(path, none); ++i)
     path = path.parent_path() / fs::read_symlink(path, none);
   return path;
 }
@@ -96,7 +96,7 @@ int give_name(const std::string& fresh, const std::string& path) {
 int put_aside(const std::string& path, std::string& aside) {
   const std::string target = target_of(path).string();
   int error = EEXIST;
-  for (int i = 1; i <= kMostAside && error == EEXIST; ++i) {
+  for (int i = 1; i <= kMaximumAside && error == EEXIST; ++i) {
     aside = target + ".aside-" + std::to_string(i);
     if (stamp_of(aside).exists) continue;
     // Its journal first: nothing of the old file may be rolled back into a new one.

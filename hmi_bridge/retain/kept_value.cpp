@@ -74,15 +74,15 @@ std::string KeptValue::type() const {
 }
 
 std::string KeptValue::text(std::span<const Value> values) const {
-  return room > 0 ? text_literal(text_of(values, room)) : kept_texts(values, signals());
+  return capacity > 0 ? text_literal(text_of(values, capacity)) : kept_texts(values, signals());
 }
 
 std::optional<std::vector<Value>> KeptValue::values(std::string_view text) const {
-  if (room == 0) return kept_values(text, signals());
+  if (capacity == 0) return kept_values(text, signals());
   std::string problem;
   const auto characters = read_text_literal(text, problem);
-  if (!characters || characters->size() > room) return std::nullopt;
-  return text_values(*characters, room);
+  if (!characters || characters->size() > capacity) return std::nullopt;
+  return text_values(*characters, capacity);
 }
 
 std::string kept_texts(std::span<const Value> values, std::span<const Signal> signals) {

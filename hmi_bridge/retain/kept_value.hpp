@@ -23,7 +23,7 @@ struct KeptValue {
   /// `text_signals`; empty: a single value.
   std::vector<Signal> elements{};
   std::string array_type{};  ///< "ARRAY[1..100] OF LREAL", "STRING[20]"
-  std::size_t room = 0;      ///< of a text; 0: it is none
+  std::size_t capacity = 0;  ///< of a text; 0: it is none
 
   std::span<const Signal> signals() const noexcept {
     return elements.empty() ? std::span(&signal, 1) : std::span(elements);

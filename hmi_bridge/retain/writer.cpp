@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kMostNews = 16;  // that nobody has asked for
+constexpr std::size_t kMaximumNews = 16;  // that nobody has asked for
 
 std::size_t count_of(const std::vector<KeptValue>& values) {
   std::size_t count = 0;
@@ -34,8 +34,8 @@ std::vector<Signal> signals_of(const std::vector<KeptValue>& values, EncoderSavi
 
 /// The beginning of a text that may be that of a long array.
 std::string beginning_of(const std::string& text) {
-  constexpr std::size_t kMost = 200;
-  return text.size() <= kMost ? text : text.substr(0, kMost) + "…";
+  constexpr std::size_t kMaximum = 200;
+  return text.size() <= kMaximum ? text : text.substr(0, kMaximum) + "…";
 }
 
 /// What there is to say of a row of another type; that of an array is put aside.
@@ -243,7 +243,7 @@ void RetainWriter::note(const std::string& problem) {
 
 /// Where nobody asks, the oldest ones stay.
 void RetainWriter::add_news(std::string text) {
-  if (!text.empty() && news_.size() < kMostNews) news_.push_back(std::move(text));
+  if (!text.empty() && news_.size() < kMaximumNews) news_.push_back(std::move(text));
 }
 
 /// To the job that waits: the disk has what the last look saw, or why it has not.

@@ -98,8 +98,8 @@ void TraceChannel::claim_kept(std::int64_t from) {
   due_ = kept_.size();
 }
 
-void TraceChannel::give_due(std::size_t most) {
-  for (; due_ > 0 && most > 0; --due_, --most) {
+void TraceChannel::give_due(std::size_t maximum) {
+  for (; due_ > 0 && maximum > 0; --due_, --maximum) {
     Kept& kept = kept_.front();
     kept.row.values = kept.values;
     give(kept.row);

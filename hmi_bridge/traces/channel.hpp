@@ -67,7 +67,7 @@ class TraceChannel final : public TraceSink {
   void add(const TraceRow& row);
   void keep(const TraceRow& row);
   void claim_kept(std::int64_t from);
-  void give_due(std::size_t most);
+  void give_due(std::size_t maximum);
 
   const std::unique_ptr<TraceSink> sink_;
   const std::vector<std::size_t> columns_;

@@ -53,7 +53,7 @@ void TraceRecorder::stop() {
 
 void TraceRecorder::tell(TraceEvent event) {
   const std::lock_guard lock(mutex_);
-  if (told_.size() < kMostTold)
+  if (told_.size() < kMaximumTold)
     told_.push_back(std::move(event));
   else
     ++lost_told_;
@@ -149,7 +149,7 @@ bool TraceRecorder::drain() noexcept {
 
 void TraceRecorder::take_told() noexcept try {
   const std::lock_guard lock(mutex_);
-  if (waiting_.size() >= kMostTold) return;
+  if (waiting_.size() >= kMaximumTold) return;
   waiting_.insert(waiting_.end(), told_.begin(), told_.end());
   told_.clear();
 } catch (...) {

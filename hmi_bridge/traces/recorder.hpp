@@ -32,7 +32,7 @@ class TraceRecorder {
   /// meanwhile.
   static constexpr std::chrono::milliseconds kPoll{2};
   /// Events of the bridge that wait at most; those beyond are counted as lost.
-  static constexpr std::size_t kMostTold = 4096;
+  static constexpr std::size_t kMaximumTold = 4096;
   /// How long rows stay in a sink's buffer at most.
   static constexpr std::chrono::milliseconds kFlush{250};
 

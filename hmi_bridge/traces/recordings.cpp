@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kEnding = ".csv";
 constexpr std::string_view kStamp = "00000000T000000Z";  // 0 stands for any digit
-constexpr std::size_t kMostDigits = 15;                  // so that there is always a next number
+constexpr std::size_t kMaximumDigits = 15;               // so that there is always a next number
 constexpr int kAttempts = 100;  // other runs may take the same number at the same moment
 
 bool is_digit(char c) noexcept {
@@ -60,7 +60,7 @@ std::uint64_t Recordings::number_of(std::string_view name, std::string_view begi
   name.remove_suffix(kEnding.size());
   if (name[0] != '_' || !is_stamp(name.substr(1, kStamp.size())) || name[kStamp.size() + 1] != '_') return 0;
   name.remove_prefix(kStamp.size() + 2);
-  if (name.size() > kMostDigits) return 0;
+  if (name.size() > kMaximumDigits) return 0;
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   return error == std::errc{} && end == name.data() + name.size() && name[0] != '0' ? number : 0;

@@ -11,7 +11,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kMostProblems = 1000;
+constexpr std::size_t kMaximumProblems = 1000;
 constexpr double kLargest = 1.0e12;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8, as spreadsheets begin a file
 
@@ -87,7 +87,7 @@ class TableReader {
   }
 
   void read() {
-    while (!text_.empty() && problems_.size() < kMostProblems) {
+    while (!text_.empty() && problems_.size() < kMaximumProblems) {
       const std::size_t end = std::min(text_.find('\n'), text_.size());
       std::string_view line = text_.substr(0, end);
       text_.remove_prefix(std::min(end + 1, text_.size()));
@@ -96,7 +96,7 @@ class TableReader {
       const std::size_t first = line.find_first_not_of(" \t,;");
       if (first != line.npos && line[first] != '#') read_row(cells_of(line));
     }
-    if (problems_.size() == kMostProblems)
+    if (problems_.size() == kMaximumProblems)
       tell(1, "there are more problems; the rest of the file is not looked at");
     if (rows_ == 0 && problems_.empty()) tell(1, "the file has no points and no segments");
   }
@@ -128,13 +128,13 @@ class TableReader {
 
   /// Whether a row with commas has one reading alone; if not, that is told with both.
   /// @param most decimal commas that such a row may have
-  bool is_clear(std::span<const Cell> numbers, std::size_t most) {
+  bool is_clear(std::span<const Cell> numbers, std::size_t maximum) {
     bool decimal = false;
     for (std::size_t i = 1; i < numbers.size(); ++i) decimal |= may_be_one(numbers[i - 1], numbers[i]);
     if (!decimal) return true;
     tell(numbers.front().column,
          "the commas may part numbers, " + reading(numbers, 0, false) + ", or some be decimal commas, " +
-             reading(numbers, most, numbers.size() == 3) +
+             reading(numbers, maximum, numbers.size() == 3) +
              "; allowed: ';' or a tab between the numbers, or numbers with a decimal point");
     return false;
   }
@@ -181,9 +181,10 @@ class TableReader {
                                    "; allowed: P for a point, S for a segment, I for the interpolation");
   }
 
-  bool has_cells(const std::vector<Cell>& cells, std::size_t least, std::size_t most, std::string_view what) {
-    if (cells.size() >= least && cells.size() <= most) return true;
-    const std::size_t at = std::min(cells.size(), most + 1) - 1;
+  bool has_cells(const std::vector<Cell>& cells, std::size_t minimum, std::size_t maximum,
+                 std::string_view what) {
+    if (cells.size() >= minimum && cells.size() <= maximum) return true;
+    const std::size_t at = std::min(cells.size(), maximum + 1) - 1;
     tell(cells[at].column,
          "the row has " + std::to_string(cells.size()) + " values; allowed: " + std::string(what));
     return false;
@@ -270,13 +271,15 @@ class TableReader {
   void read_interpolation(const std::vector<Cell>& cells) {
     if (!has_cells(cells, 3, 3, "I,InterpolationMode,BoundaryConditions")) return;
     TO_Cam_Struct_InterpolationSettings& settings = definition_.design.interpolation;
-    const auto read = [&](const Cell& cell, DINT most, DINT& target) {
+    const auto read = [&](const Cell& cell, DINT maximum, DINT& target) {
       DINT value = -1;
       const auto [end, error] = std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
-      if (error == std::errc{} && end == cell.text.data() + cell.text.size() && value >= 0 && value <= most)
+      if (error == std::errc{} && end == cell.text.data() + cell.text.size() && value >= 0 &&
+          value <= maximum)
         target = value;
       else
-        tell(cell.column, quote(cell.text) + " is not allowed here; allowed: 0 to " + std::to_string(most));
+        tell(cell.column,
+             quote(cell.text) + " is not allowed here; allowed: 0 to " + std::to_string(maximum));
     };
     read(cells[1], 2, settings.InterpolationMode);
     read(cells[2], 1, settings.BoundaryConditions);

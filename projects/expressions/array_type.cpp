@@ -11,7 +11,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kMostElements = 100'000;
+constexpr std::size_t kMaximumElements = 100'000;
 
 /// Reads a text from left to right, blanks left out.
 class Reader {
@@ -115,9 +115,9 @@ std::optional<Array> read_array_type(const JsonValue& json, Problems& problems) 
   if (array.upper < array.lower)
     problems.report(json, "the upper bound " + std::to_string(array.upper) +
                               " is less than the lower bound " + std::to_string(array.lower));
-  else if (array.count() > kMostElements)
+  else if (array.count() > kMaximumElements)
     problems.report(json, json.shown() + " has " + std::to_string(array.count()) + " elements; allowed are " +
-                              std::to_string(kMostElements));
+                              std::to_string(kMaximumElements));
   else if (array.element != nullptr)
     return array;
   return std::nullopt;

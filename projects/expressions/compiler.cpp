@@ -68,7 +68,7 @@ CompiledExpression compile(std::string_view text, Type wanted, const Scope& scop
     result.expression = std::move(code).finish(wanted);
   else
     result.errors.push_back({1, "the expression needs more than " +
-                                    std::to_string(ExpressionBuilder::kMostValues) +
+                                    std::to_string(ExpressionBuilder::kMaximumValues) +
                                     " intermediate values at a time"});
   return result;
 }

@@ -81,7 +81,7 @@ FoundElements find_several(const Names& names, std::string_view path) {
     open_path += "[]";
     brackets = Brackets{path.size(), path.size() + 1};
   }
-  FoundPlace found = names.find_elements(open_path);
+  FoundOperand found = names.find_elements(open_path);
   if (!found.place) return {std::nullopt, std::move(found.problem), found.known_problem};
   const ElementRange range = found.place->elements;
   if (range.count == 0)

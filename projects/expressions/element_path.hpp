@@ -19,7 +19,7 @@ struct ElementPath {
   std::string name;          ///< "heights" for all of an array of elementary values, else "points[1..4].x"
   std::string type;          ///< "ARRAY[1..4] OF LREAL"
   bool is_all = false;       ///< the path says no range
-  Place place;               ///< of the first one
+  Operand place;             ///< of the first one
   std::uint32_t stride = 0;  ///< from one to the next [byte]
 
   std::size_t count() const noexcept { return static_cast<std::size_t>(last - first + 1); }

@@ -32,7 +32,7 @@ struct Function {
 };
 
 constexpr std::string_view kPair = "IN1,IN2";
-constexpr std::size_t kMostInputs = 32;  ///< of functions with any number of them
+constexpr std::size_t kMaximumInputs = 32;  ///< of functions with any number of them
 
 constexpr std::array kFunctions = {Function{"ABS", Kind::kAbsolute, Operation::kAbsolute, "IN"},
                                    Function{"SQRT", Kind::kReal, Operation::kSquareRoot, "IN"},
@@ -111,9 +111,9 @@ std::optional<std::vector<Term>> Typing::inputs_in_order(const Syntax& syntax, s
                                                          bool more) {
   const std::vector<std::string_view> declared = split(names);
   const std::size_t count = syntax.operands.size();
-  if (count < declared.size() || count > (more ? kMostInputs : declared.size())) {
+  if (count < declared.size() || count > (more ? kMaximumInputs : declared.size())) {
     settling_.error(syntax.column, syntax.text + " takes " + std::to_string(declared.size()) +
-                                       (more ? " to " + std::to_string(kMostInputs) : "") + " input" +
+                                       (more ? " to " + std::to_string(kMaximumInputs) : "") + " input" +
                                        (declared.size() == 1 ? "" : "s") + " (" + std::string(names) +
                                        "), not " + std::to_string(count));
     return std::nullopt;

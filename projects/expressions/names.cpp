@@ -113,12 +113,12 @@ int take_bit(std::string_view& path) {
   return number;
 }
 
-FoundPlace refuse(std::string problem) {
+FoundOperand refuse(std::string problem) {
   return {std::nullopt, std::move(problem), false};
 }
 
 /// The place, or one bit of it.
-FoundPlace with_bit(Place place, int bit, std::string_view name) {
+FoundOperand with_bit(Operand place, int bit, std::string_view name) {
   if (bit < 0) return {place, "", false};
   const Type type = place.signal.type;
   if (!is_integer(type) && !is_bit_string(type))
@@ -131,7 +131,7 @@ FoundPlace with_bit(Place place, int bit, std::string_view name) {
   return {place, "", false};
 }
 
-FoundPlace find_pin(const Instance& instance, std::string_view path) {
+FoundOperand find_pin(const Instance& instance, std::string_view path) {
   const std::string_view whole = path;
   int bit = -1;
   const Pin* pin = instance.type->find_pin(path);
@@ -156,7 +156,7 @@ FoundPlace find_pin(const Instance& instance, std::string_view path) {
 }
 
 /// What follows the index of an array: a member, and perhaps a bit.
-FoundPlace find_member(const ArrayTag& tag, Place place, std::string_view path) {
+FoundOperand find_member(const ArrayTag& tag, Operand place, std::string_view path) {
   const ElementType& element = *tag.array.element;
   const std::string what = "'" + tag.name + "' is an " + array_type_name(tag.array);
   int bit = -1;
@@ -183,7 +183,7 @@ FoundPlace find_member(const ArrayTag& tag, Place place, std::string_view path) 
   return {place, "", false};
 }
 
-FoundPlace find_element(const ArrayTag& tag, std::string_view path) {
+FoundOperand find_element(const ArrayTag& tag, std::string_view path) {
   const Array& array = tag.array;
   const std::string what = "'" + tag.name + "' is an " + array_type_name(array);
   const auto close = path.find(']');
@@ -191,7 +191,7 @@ FoundPlace find_element(const ArrayTag& tag, std::string_view path) {
     return refuse(what + "; an index has to follow, as in " + tag.name + "[" + std::to_string(array.lower) +
                   "]");
   const std::string_view text = path.substr(1, close - 1);
-  Place place{.signal = {array.memory, array.element->type}, .array = &tag};
+  Operand place{.signal = {array.memory, array.element->type}, .array = &tag};
   if (text.empty()) {
     place.elements = {array.lower, static_cast<std::uint32_t>(array.count()),
                       static_cast<std::uint32_t>(array.element->size)};
@@ -207,33 +207,33 @@ FoundPlace find_element(const ArrayTag& tag, std::string_view path) {
 }
 
 /// The elements of a variable of which a path with "[]" leaves the index open.
-FoundPlace find_variable_of(TechnologyObject& object, std::string_view path);
-FoundPlace find_variables_of(TechnologyObject& object, std::string_view path, std::size_t brackets) {
+FoundOperand find_variable_of(TechnologyObject& object, std::string_view path);
+FoundOperand find_variables_of(TechnologyObject& object, std::string_view path, std::size_t brackets) {
   std::string first(path);
   first.insert(brackets + 1, "1");
-  FoundPlace found = find_variable_of(object, first);
+  FoundOperand found = find_variable_of(object, first);
   if (found.place && found.place->variable != nullptr)
     found.place->elements = {1, static_cast<std::uint32_t>(found.place->variable->count),
                              static_cast<std::uint32_t>(found.place->variable->stride)};
   return found;
 }
 
-FoundPlace find_variable_of(TechnologyObject& object, std::string_view path) {
+FoundOperand find_variable_of(TechnologyObject& object, std::string_view path) {
   if (const auto brackets = path.find("[]"); brackets != path.npos)
     return find_variables_of(object, path, brackets);
   void* const data = object.data_block();
-  const VariablePlace place = find_variable(object.kind, path);
+  const VariableAddress place = find_variable(object.kind, path);
   if (place.variable != nullptr) {
     if (place.variable->type == Type::TAG) return refuse(quote(path) + " names a tag and has no value");
-    return {Place{.signal = place.signal(data),
-                  .unit = place.variable->unit,
-                  .variable = place.variable,
-                  .object = &object},
+    return {Operand{.signal = place.signal(data),
+                    .unit = place.variable->unit,
+                    .variable = place.variable,
+                    .object = &object},
             "", false};
   }
   std::string_view word = path;
   if (const int bit = take_bit(word); bit >= 0)
-    if (const VariablePlace whole = find_variable(object.kind, word); whole.variable != nullptr)
+    if (const VariableAddress whole = find_variable(object.kind, word); whole.variable != nullptr)
       return with_bit({.signal = whole.signal(data)}, bit, word);
   const std::string what =
       "'" + object.name + "' is a technology object (" + std::string(kind_name(object.kind)) + ")";
@@ -272,7 +272,7 @@ std::string kind_names(ObjectKinds kinds) {
   return list_of(names);
 }
 
-std::string why_not_writable(const Place& place) {
+std::string why_not_writable(const Operand& place) {
   if (place.tag != nullptr || place.array != nullptr) return "";
   if (place.pin != nullptr)
     return "a pin cannot be written from outside its call; allowed: tags, and variables that take effect at "
@@ -289,7 +289,7 @@ std::string why_not_writable(const Place& place) {
   return "";
 }
 
-std::string why_no_start_value(const Place& place) {
+std::string why_no_start_value(const Operand& place) {
   if (place.variable == nullptr || place.signal.bit >= 0)
     return "only variables of technology objects have start values that can be changed";
   const std::string name = "'" + std::string(place.variable->path) + "'";
@@ -350,11 +350,11 @@ Names::FoundObject Names::find_object(std::string_view name, ObjectKinds kinds) 
                        "; allowed: " + kind_names(kinds)};
 }
 
-FoundPlace Names::unknown(std::string_view name) const {
+FoundOperand Names::unknown(std::string_view name) const {
   return refuse("unknown name " + quote(name) + nearest_name(name));
 }
 
-FoundPlace Names::find_within(const Entry& entry, std::string_view path) const {
+FoundOperand Names::find_within(const Entry& entry, std::string_view path) const {
   if (const auto* tag = std::get_if<const Tag*>(&entry.entity)) {
     const std::string_view whole = path;
     const int bit = take_bit(path);
@@ -363,7 +363,7 @@ FoundPlace Names::find_within(const Entry& entry, std::string_view path) const {
   }
   if (const auto* array = std::get_if<const ArrayTag*>(&entry.entity)) return find_element(**array, path);
   if (const auto* string = std::get_if<const StringTag*>(&entry.entity)) {
-    const std::string what = "'" + entry.name + "' is a " + text_type_name((*string)->text.room);
+    const std::string what = "'" + entry.name + "' is a " + text_type_name((*string)->text.capacity);
     if (!path.empty()) return refuse(what + ", which has no part " + quote(path));
     return refuse(what + ", a text; allowed here: a number, a bit string, a BOOL or a TIME");
   }
@@ -387,8 +387,8 @@ const StringTag* Names::find_string(std::string_view name) const {
   return string == nullptr ? nullptr : *string;
 }
 
-FoundPlace Names::find(std::string_view path) const {
-  FoundPlace found = find_elements(path);
+FoundOperand Names::find(std::string_view path) const {
+  FoundOperand found = find_elements(path);
   if (found.place && found.place->elements.count > 0)
     return refuse(
         "the index is missing in " + quote(path) +
@@ -397,7 +397,7 @@ FoundPlace Names::find(std::string_view path) const {
   return found;
 }
 
-FoundPlace Names::find_elements(std::string_view path) const {
+FoundOperand Names::find_elements(std::string_view path) const {
   const auto end = path.find_first_of(".[");
   const std::string_view name = path.substr(0, end);
   const Entry* const found = entry(name);
@@ -412,7 +412,7 @@ Reference Names::resolve(std::string_view name, std::string_view path) const {
   const Entry* const found = entry(name);
   if (const StringTag* const string = path.empty() ? find_string(name) : nullptr)
     return {.signal = std::nullopt, .error = "", .elements = {}, .text = string->text};
-  FoundPlace place = found == nullptr ? unknown(name) : find_within(*found, path);
+  FoundOperand place = found == nullptr ? unknown(name) : find_within(*found, path);
   if (!place.place) return {std::nullopt, std::move(place.problem)};
   return {place.place->signal, "", place.place->elements, {}};
 }

@@ -26,7 +26,7 @@ std::string identifier_problem(std::string_view name);
 std::string kind_names(ObjectKinds kinds);
 
 /// A value of the project, found by its path. Exactly one of tag, array, pin and variable is set.
-struct Place {
+struct Operand {
   Signal signal;
   Unit unit = Unit::kNone;
   const Tag* tag = nullptr;
@@ -38,17 +38,17 @@ struct Place {
 };
 
 /// A place, or what is wrong with the path.
-struct FoundPlace {
-  std::optional<Place> place;
+struct FoundOperand {
+  std::optional<Operand> place;
   std::string problem;         ///< what is wrong, what is allowed; empty if there is a place
   bool known_problem = false;  ///< the path leads to something whose declaration has been reported already
 };
 
 /// Why a program may not write there at run time; empty if it may.
-std::string why_not_writable(const Place& place);
+std::string why_not_writable(const Operand& place);
 
 /// Why a program may not change the start value of what is there; empty if it may.
-std::string why_no_start_value(const Place& place);
+std::string why_no_start_value(const Operand& place);
 
 /// The names of tags, instances and technology objects; they share one name space without regard to case.
 /// What is named has to stay where it is. Looking up writes nothing, so that any number of threads may do it
@@ -96,9 +96,9 @@ class Names final : public Scope {
   const StringTag* find_string(std::string_view name) const;
 
   /// The place to which a path leads, in any case.
-  FoundPlace find(std::string_view path) const;
+  FoundOperand find(std::string_view path) const;
   /// The same; an index may be missing, as in "points[].x": then the place tells what it may choose from.
-  FoundPlace find_elements(std::string_view path) const;
+  FoundOperand find_elements(std::string_view path) const;
 
   /// For the compiler of expressions.
   Reference resolve(std::string_view name, std::string_view path) const override;
@@ -113,8 +113,8 @@ class Names final : public Scope {
   };
 
   const Entry* entry(std::string_view name) const;
-  FoundPlace find_within(const Entry& entry, std::string_view path) const;
-  FoundPlace unknown(std::string_view name) const;
+  FoundOperand find_within(const Entry& entry, std::string_view path) const;
+  FoundOperand unknown(std::string_view name) const;
   std::string nearest_name(std::string_view name) const;
 
   std::unordered_map<std::string, Entry> entries_;  // by folded name

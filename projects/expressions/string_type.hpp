@@ -16,7 +16,8 @@ bool is_string_type(std::string_view text) noexcept;
 /// n of "STRING[20]", 1 to kLongestText; what is wrong is reported.
 std::optional<std::size_t> read_string_type(const JsonValue& json, Problems& problems);
 
-/// A text of up to `room` printable characters of ISO 8859-1, one byte each; what is wrong is reported.
-std::optional<std::string> read_text_constant(const JsonValue& json, std::size_t room, Problems& problems);
+/// A text of up to `capacity` printable characters of ISO 8859-1, one byte each; what is wrong is reported.
+std::optional<std::string> read_text_constant(const JsonValue& json, std::size_t capacity,
+                                              Problems& problems);
 
 }  // namespace lockstep

@@ -177,8 +177,8 @@ JsonValue JsonBuilder::next_place() const {
 
 JsonValue* JsonBuilder::add(JsonKind kind) {
   JsonValue place = next_place();
-  if (document_.values_.size() == JsonDocument::kMostValues) {
-    fail(place, "the file has more than " + std::to_string(JsonDocument::kMostValues) + " values");
+  if (document_.values_.size() == JsonDocument::kMaximumValues) {
+    fail(place, "the file has more than " + std::to_string(JsonDocument::kMaximumValues) + " values");
     return nullptr;
   }
   const bool unusable = overflows_.contains(document_.values_.size());
@@ -260,11 +260,11 @@ JsonDocument::JsonDocument(std::string_view text) {
   }
   // A number that no LREAL holds ends the parser. It is replaced and the text read again, so that the rest of
   // the file is looked at as well.
-  constexpr int kMostOverflows = 20;
+  constexpr int kMaximumOverflows = 20;
   std::string readable(text);
   std::set<std::size_t> overflows;
   std::vector<Problem> told;
-  for (int i = 0; i < kMostOverflows; ++i) {
+  for (int i = 0; i < kMaximumOverflows; ++i) {
     values_.clear();
     root_ = nullptr;
     problems_.clear();

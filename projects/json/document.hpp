@@ -63,7 +63,7 @@ class JsonDocument {
  public:
   static constexpr int kDeepest = 64;                 ///< levels of nesting
   static constexpr std::size_t kLongest = 16u << 20;  ///< length of the text [byte]
-  static constexpr std::size_t kMostValues = 2'000'000;
+  static constexpr std::size_t kMaximumValues = 2'000'000;
 
   /// Reads a text. Problems are syntax errors ("line:column"), duplicate keys, numbers that no LREAL holds,
   /// nesting that is too deep, too many values.

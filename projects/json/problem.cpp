@@ -8,28 +8,29 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kMostListed = 24;  // names of a list in a message
+constexpr std::size_t kMaximumListed = 24;  // names of a list in a message
 
 char lower(char c) noexcept {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// Number of letters to insert, remove, replace or exchange to get from one name to the other, up to `most`
+/// Number of letters to insert, remove, replace or exchange to get from one name to the other, up to
+/// `maximum`
 /// + 1.
-std::size_t distance(std::string_view a, std::string_view b, std::size_t most) {
+std::size_t distance(std::string_view a, std::string_view b, std::size_t maximum) {
   std::vector<std::size_t> two_up, up(b.size() + 1), row(b.size() + 1);
   std::iota(up.begin(), up.end(), std::size_t{0});
   two_up = up;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
-    std::size_t least = i;
+    std::size_t minimum = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({up[j] + 1, row[j - 1] + 1, up[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         row[j] = std::min(row[j], two_up[j - 2] + 1);
-      least = std::min(least, row[j]);
+      minimum = std::min(minimum, row[j]);
     }
-    if (least > most) return most + 1;
+    if (minimum > maximum) return maximum + 1;
     std::swap(two_up, up);
     std::swap(up, row);
   }
@@ -57,7 +58,7 @@ std::string quote(std::string_view text) {
 std::string list_of(std::span<const std::string_view> names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i == kMostListed) return text + ", …";
+    if (i == kMaximumListed) return text + ", …";
     if (i != 0) text += ", ";
     text += names[i];
   }
@@ -68,12 +69,12 @@ std::string did_you_mean(std::string_view wrong, std::span<const std::string_vie
   constexpr std::size_t kLongest = 100;  // no name that anybody has mistyped is longer
   if (wrong.size() > kLongest) return "";
   const std::string folded = fold(wrong);
-  const std::size_t most = std::max<std::size_t>(1, wrong.size() / 3);
+  const std::size_t maximum = std::max<std::size_t>(1, wrong.size() / 3);
   std::string_view best;
-  std::size_t best_distance = most + 1;
+  std::size_t best_distance = maximum + 1;
   for (const std::string_view name : names) {
-    if (name.size() > wrong.size() + most || wrong.size() > name.size() + most) continue;
-    const std::size_t d = distance(folded, fold(name), most);
+    if (name.size() > wrong.size() + maximum || wrong.size() > name.size() + maximum) continue;
+    const std::size_t d = distance(folded, fold(name), maximum);
     if (d >= best_distance) continue;
     best = name;
     best_distance = d;

@@ -11,8 +11,8 @@ struct UnreadableFile : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The content of a file, or its first `most` + 1 bytes.
+/// The content of a file, or its first `maximum` + 1 bytes.
 /// @throws UnreadableFile
-std::string read_text_file(const std::string& path, std::size_t most);
+std::string read_text_file(const std::string& path, std::size_t maximum);
 
 }  // namespace lockstep

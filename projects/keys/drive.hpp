@@ -72,12 +72,12 @@ inline constexpr auto kSensor = key_table<SimulatedSensor>(
                                                   "what it tells at the beginning, of an absolute one"),
     key::tag<&SimulatedSensor::fault>("fault", "BOOL tag: while TRUE it tells nothing"));
 
-inline constexpr double kMostDeadCycles = 254;      // of MC_Servo, as dead time of a drive
+inline constexpr double kMaximumDeadCycles = 254;   // of MC_Servo, as dead time of a drive
 inline constexpr double kLongestServoCycle = 60e9;  // [ns]
 inline constexpr auto kSimulatedDrive = key_table<DriveSettings>(
     key::selector("model", "kind of the drive"),
     key::duration<&DriveSettings::time_constant>("time_constant", {0, 10e9}, "lag of the velocity loop"),
-    key::duration<&DriveSettings::dead_time>("dead_time", {0, kMostDeadCycles* kLongestServoCycle},
+    key::duration<&DriveSettings::dead_time>("dead_time", {0, kMaximumDeadCycles* kLongestServoCycle},
                                              "dead time of the velocity loop, up to 254 servo cycles"),
     key::number<&DriveSettings::resolution>("encoder_resolution", kLength, "u",
                                             "increment of the encoder; 0: none"),

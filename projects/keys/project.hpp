@@ -22,7 +22,7 @@ inline constexpr auto kClock = key_table<Clock>(
         .needed(),
     key::integer<&Clock::interpolator_ratio>("interpolator_ratio", {1, 32},
                                              "servo cycles per interpolator cycle"),
-    key::integer<&Clock::processors>("processors", {1, Clock::kMostProcessors},
+    key::integer<&Clock::processors>("processors", {1, Clock::kMaximumProcessors},
                                      "that a tick uses for the axes, where there are many"),
     key::word("overrun", kOverruns, "what three overruns in a row do").otherwise_is("report"));
 

@@ -45,8 +45,8 @@ std::optional<std::string> take_digits(std::string_view& text) {
     ++i;
   }
   text.remove_prefix(i);
-  constexpr std::size_t kMostDigits = 30;  // beyond any duration, and safe in 128 bits
-  if (digits.empty() || digits.size() > kMostDigits) return std::nullopt;
+  constexpr std::size_t kMaximumDigits = 30;  // beyond any duration, and safe in 128 bits
+  if (digits.empty() || digits.size() > kMaximumDigits) return std::nullopt;
   return digits;
 }
 
@@ -80,21 +80,21 @@ std::string_view take_letters(std::string_view& text) {
   return letters;
 }
 
-constexpr WideInteger kMost = std::numeric_limits<std::int64_t>::max();
+constexpr WideInteger kMaximum = std::numeric_limits<std::int64_t>::max();
 
 /// The exact number of nanoseconds; none, with a message, if it is not whole or too large.
 std::optional<WideInteger> nanoseconds(Decimal number, std::int64_t unit, std::string& message) {
   while (!number.fraction.empty() && number.fraction.back() == '0') number.fraction.pop_back();
-  constexpr std::size_t kMostDecimals = 18;  // a day has 8.64e13 ns = 2^17 · 3^3 · 5^14
+  constexpr std::size_t kMaximumDecimals = 18;  // a day has 8.64e13 ns = 2^17 · 3^3 · 5^14
   WideInteger scale = 1;
-  for (std::size_t i = 0; i < number.fraction.size() && i < kMostDecimals; ++i) scale *= 10;
-  const WideInteger part = integer_of(number.fraction.substr(0, kMostDecimals)) * unit;
-  if (number.fraction.size() > kMostDecimals || part % scale != 0) {
+  for (std::size_t i = 0; i < number.fraction.size() && i < kMaximumDecimals; ++i) scale *= 10;
+  const WideInteger part = integer_of(number.fraction.substr(0, kMaximumDecimals)) * unit;
+  if (number.fraction.size() > kMaximumDecimals || part % scale != 0) {
     message = "is not a whole number of nanoseconds";
     return std::nullopt;
   }
   const WideInteger whole = integer_of(number.whole);
-  if (whole > kMost / unit + 1 || whole * unit + part / scale > kMost + 1) {
+  if (whole > kMaximum / unit + 1 || whole * unit + part / scale > kMaximum + 1) {
     message = "is longer than 9223372036854775807 ns (about 292 years)";
     return std::nullopt;
   }
@@ -103,7 +103,7 @@ std::optional<WideInteger> nanoseconds(Decimal number, std::int64_t unit, std::s
 
 std::optional<std::int64_t> with_sign(WideInteger value, bool negative, std::string& message) {
   if (negative) value = -value;
-  if (value > kMost) {
+  if (value > kMaximum) {
     message = "is longer than 9223372036854775807 ns (about 292 years)";
     return std::nullopt;
   }

@@ -81,10 +81,10 @@ std::string decimal(WideInteger value) {
 }
 
 std::string quoted(std::string_view text) {
-  constexpr std::size_t kMost = 40;
+  constexpr std::size_t kMaximum = 40;
   std::string result = "'";
-  for (const char c : text.substr(0, kMost)) result += c >= ' ' && c <= '~' ? c : '?';
-  if (text.size() > kMost) result += "…";
+  for (const char c : text.substr(0, kMaximum)) result += c >= ' ' && c <= '~' ? c : '?';
+  if (text.size() > kMaximum) result += "…";
   return result + "'";
 }
 

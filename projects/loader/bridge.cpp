@@ -158,7 +158,7 @@ void load_channel(const JsonValue& json, TraceConfig& trace, const Loading& load
 std::vector<NamedSignal> all_signals(const Loading& loading) {
   std::vector<NamedSignal> all;
   const auto add = [&](const std::string& name) {
-    const FoundPlace found = loading.names().find(name);
+    const FoundOperand found = loading.names().find(name);
     if (!found.place) return;
     const Type type = found.place->signal.value_type();
     if (type != Type::AXIS && type != Type::TAG)
@@ -248,11 +248,11 @@ void load_flight_recorder(const JsonValue& json, const Loading& loading) {
     load_signals(*signals, config.signals, loading);
   else
     config.signals = all_signals(loading);
-  constexpr std::int64_t kMostValues = std::int64_t{1} << 26;  // 512 MiB
+  constexpr std::int64_t kMaximumValues = std::int64_t{1} << 26;  // 512 MiB
   const std::int64_t rows = config.options.before / loading.controller().clock.interpolator_cycle();
   const auto columns = static_cast<std::int64_t>(config.signals.size());
   if (const JsonValue* const before = fields["before"];
-      before != nullptr && columns > 0 && rows > kMostValues / columns)
+      before != nullptr && columns > 0 && rows > kMaximumValues / columns)
     problems.report(*before, std::to_string(columns) + " signals for " + before->shown() +
                                  " take more than 512 MiB; allowed: a shorter time or fewer 'signals'");
   loading.project.flight_recorder = std::move(config);

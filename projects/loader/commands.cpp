@@ -42,7 +42,7 @@ class PanelProgram {
   PanelProgram(Program& program, const Loading& loading, Axis& axis)
       : program_(program), loading_(loading), axis_(axis) {}
 
-  void build(PanelInputs& inputs, bool enables, const Place& speed) {
+  void build(PanelInputs& inputs, bool enables, const Operand& speed) {
     add_inputs(inputs);
     jog();
     if (enables) enable();
@@ -200,7 +200,7 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
       return problems.report(json, quote(name) + " is there twice; each axis is allowed once");
   const double usual = names.find(axis.name + ".DynamicDefaults.Velocity").place.value().signal.load().r;
   const std::string enabled_by = power_of(loading.controller(), *found.object);
-  const Place speed = names.find(axis.name + ".Override.Velocity").place.value();
+  const Operand speed = names.find(axis.name + ".Override.Velocity").place.value();
   PanelInputs& inputs = commands.inputs.emplace_back();
   commands.axes.push_back({axis.name, limit ? limit->number : usual, enabled_by,
                            signals_of(axis, inputs, names), std::string(kind_name(axis.kind)),

@@ -88,7 +88,7 @@ void ConfigurationLoader::report_unknown(const std::string& key, const JsonValue
 
 void ConfigurationLoader::load_variable(const JsonValue& json, const Variable& variable, std::size_t index) {
   const std::size_t offset = index == 0 ? 0 : (index - 1) * variable.stride;
-  const Signal place = VariablePlace{&variable, variable.offset + offset, -1}.signal(object_.data_block());
+  const Signal place = VariableAddress{&variable, variable.offset + offset, -1}.signal(object_.data_block());
   if (variable.type == Type::TAG) return load_tag_reference(json, place);
   const auto value = read_plain_constant(json, variable.type, problems_);
   if (!value) return;

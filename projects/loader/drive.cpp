@@ -39,7 +39,7 @@ void check_operative_sensor(const JsonValue& json, const Axis& axis, const Loadi
 void check_dead_time(const Fields& fields, const DriveSettings& drive, const Loading& loading) {
   constexpr double kSecond = 1e9;  // [ns]
   const std::int64_t longest =
-      static_cast<std::int64_t>(keys::kMostDeadCycles) * loading.controller().clock.servo_cycle;
+      static_cast<std::int64_t>(keys::kMaximumDeadCycles) * loading.controller().clock.servo_cycle;
   if (drive.dead_time <= static_cast<double>(longest) / kSecond) return;
   report_kind(*fields["dead_time"], "a duration from 0ns to " + duration_text(longest), loading.problems);
 }

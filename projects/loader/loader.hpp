@@ -32,9 +32,9 @@ struct Loading {
   /// Adds a name, or reports what is wrong with it.
   bool add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const;
   /// The place to which a path leads, or none: then that is reported, unless the problem is known already.
-  std::optional<Place> find(const JsonValue& at, std::string_view path) const;
+  std::optional<Operand> find(const JsonValue& at, std::string_view path) const;
   /// The same for a path whose index may be missing, as in "points[].x".
-  std::optional<Place> find_elements(const JsonValue& at, std::string_view path) const;
+  std::optional<Operand> find_elements(const JsonValue& at, std::string_view path) const;
   /// A technology object of one of the kinds, or nullptr: then that is reported, unless the problem is known
   /// already.
   TechnologyObject* find_object(const JsonValue* name, ObjectKinds kinds) const;

@@ -12,7 +12,7 @@ namespace lockstep {
 namespace {
 
 constexpr std::uint64_t kAddresses = 65536;
-constexpr std::size_t kMostSignals = 100'000;  // of arrays, so that no file takes the machine down
+constexpr std::size_t kMaximumSignals = 100'000;  // of arrays, so that no file takes the machine down
 
 /// A number of the run that a map may show, besides the counters of the server.
 struct CycleDiagnostic {
@@ -56,7 +56,7 @@ class MapLoader {
   void load_tag(const Fields& fields, std::uint32_t line, Draft& draft);
   void load_text(const Fields& fields, const StringTag& tag, std::uint32_t line, Draft& draft);
   std::optional<ModbusEntry> load_diagnostic(const JsonValue& json, const Fields& fields);
-  bool read_access(const JsonValue* json, const Place& place, ModbusTable table);
+  bool read_access(const JsonValue* json, const Operand& place, ModbusTable table);
 
   ModbusConfig& modbus_;
   const Loading& loading_;
@@ -106,7 +106,7 @@ void MapLoader::finish() {
 }
 
 /// Whether a client may write: tags where the table allows it, a variable only if the entry asks for it.
-bool MapLoader::read_access(const JsonValue* json, const Place& place, ModbusTable table) {
+bool MapLoader::read_access(const JsonValue* json, const Operand& place, ModbusTable table) {
   const auto access = read_value(json, keys::kMapEntry["access"], loading_);
   const bool tag = place.tag != nullptr || place.array != nullptr;
   if (!access) return tag && is_writable_table(table);
@@ -244,16 +244,16 @@ void read_scale(const Fields& fields, ModbusEntry& entry, Problems& problems) {
 
 }  // namespace
 
-Range written_range(const Place& place) {
+Range written_range(const Operand& place) {
   if (place.variable == nullptr || place.signal.bit >= 0) return kAny;
   const Variable& variable = *place.variable;
   Range range = variable.range;
   if (variable.choices.empty() || variable.type == Type::BOOL) return range;
-  const auto [least, most] =
+  const auto [minimum, maximum] =
       std::minmax_element(variable.choices.begin(), variable.choices.end(),
                           [](const Choice& a, const Choice& b) { return a.value < b.value; });
-  range.lowest = std::max(range.lowest, static_cast<double>(least->value));
-  range.highest = std::min(range.highest, static_cast<double>(most->value));
+  range.lowest = std::max(range.lowest, static_cast<double>(minimum->value));
+  range.highest = std::min(range.highest, static_cast<double>(maximum->value));
   return range;
 }
 
@@ -286,15 +286,15 @@ std::optional<ModbusSource> find_modbus_source(const JsonValue& at, std::string_
 namespace {
 
 /// Whether several elements fit behind the address of the first, and among the signals that there are.
-bool has_room(const ModbusEntry& shape, std::size_t elements, std::uint64_t addresses, std::string_view path,
-              const Fields& fields, std::size_t signals, Problems& problems) {
+bool has_capacity(const ModbusEntry& shape, std::size_t elements, std::uint64_t addresses,
+                  std::string_view path, const Fields& fields, std::size_t signals, Problems& problems) {
   if (shape.address + addresses > kAddresses)
     problems.report(*fields["address"], std::to_string(elements) + " elements on " +
                                             std::to_string(addresses) + " addresses from " +
                                             std::to_string(shape.address) + " on go beyond 65535");
-  else if (signals + elements > kMostSignals)
+  else if (signals + elements > kMaximumSignals)
     problems.report(*fields["tag"], "with the " + std::to_string(elements) + " elements of " + quote(path) +
-                                        " there are more than " + std::to_string(kMostSignals) +
+                                        " there are more than " + std::to_string(kMaximumSignals) +
                                         " values on Modbus; allowed are these");
   else
     return true;
@@ -321,7 +321,7 @@ std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& sou
   const std::uint64_t addresses = is_bit
                                       ? (static_cast<std::uint64_t>(shape.bit) + elements.count() + 15) / 16
                                       : elements.count() * modbus_span(shape);
-  if (!has_room(shape, elements.count(), addresses, path, fields, signals.size(), problems)) return 0;
+  if (!has_capacity(shape, elements.count(), addresses, path, fields, signals.size(), problems)) return 0;
   for (std::int64_t index = elements.first; index <= elements.last; ++index) {
     add(elements.name_of(index), elements.signal_of(index));
     if (!is_bit) {
@@ -359,7 +359,7 @@ std::size_t add_modbus_text(const ModbusEntry& shape, const StringTag& tag, cons
                             Problems& problems, std::vector<ModbusEntry>& entries,
                             std::vector<NamedSignal>& signals) {
   const std::vector<Signal> parts = text_signals(tag.text);
-  if (!has_room(shape, parts.size(), parts.size(), tag.name, fields, signals.size(), problems)) return 0;
+  if (!has_capacity(shape, parts.size(), parts.size(), tag.name, fields, signals.size(), problems)) return 0;
   ModbusEntry entry = shape;
   for (const Signal& part : parts) {
     entry.signal = static_cast<std::uint32_t>(signals.size());

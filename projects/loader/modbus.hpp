@@ -18,7 +18,7 @@ std::optional<ModbusEntry> read_modbus_shape(const Fields& fields, std::optional
 
 /// What an entry shows: a value, or several elements.
 struct ModbusSource {
-  Place place;  ///< of the value, or of the first element
+  Operand place;  ///< of the value, or of the first element
   std::optional<ElementPath> elements;
 
   Type type() const noexcept { return place.signal.value_type(); }
@@ -64,7 +64,7 @@ void report_taken_line(const JsonValue& serial, const ModbusConfig& modbus, cons
 
 /// What may be written to a variable from outside: its range, which for an enumeration goes from its first to
 /// its last value; for anything else any value.
-Range written_range(const Place& place);
+Range written_range(const Operand& place);
 
 /// Reads the clients of the project.
 void load_modbus_clients(const JsonValue* clients, const Loading& loading);

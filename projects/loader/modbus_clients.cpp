@@ -30,7 +30,7 @@ class ClientLoader {
   std::vector<ModbusEntry> load_entries(const JsonValue* json, bool is_write, ModbusDevice& device);
   void load_entry(const JsonValue& json, ModbusLineState& state, std::vector<ModbusEntry>& entries);
   std::optional<std::uint32_t> load_tag(const JsonValue* json, Type type);
-  std::uint32_t add_signal(std::string_view path, const Place& place);
+  std::uint32_t add_signal(std::string_view path, const Operand& place);
   void note_filled(const JsonValue& at, const ModbusSource& source);
   void note_filled(const JsonValue& at, const void* address, int bit);
 
@@ -82,7 +82,7 @@ void ClientLoader::load_device(const JsonValue& json) {
   client_.options.devices.push_back(std::move(device));
 }
 
-std::uint32_t ClientLoader::add_signal(std::string_view path, const Place& place) {
+std::uint32_t ClientLoader::add_signal(std::string_view path, const Operand& place) {
   client_.signals.push_back({std::string(path), place.signal, place.unit});
   return static_cast<std::uint32_t>(client_.signals.size() - 1);
 }

@@ -79,12 +79,12 @@ class ProgramLoader {
   void load_call(const JsonValue& json);
   void load_branch(const JsonValue& json);
   void load_set(const JsonValue& json);
-  void assign(const JsonValue& to, const Place& place, std::optional<Expression> index);
+  void assign(const JsonValue& to, const Operand& place, std::optional<Expression> index);
   void assign_text(const JsonValue* to, const StringTag& tag);
   void load_set_start(const JsonValue& json);
   struct Target;
   std::optional<Target> read_target(const JsonValue& json, std::string_view path);
-  void check_range(const JsonValue& json, const Expression& expression, const Place& place);
+  void check_range(const JsonValue& json, const Expression& expression, const Operand& place);
   void load_block(const JsonValue& json);
   void load_pins(const JsonValue* in, const JsonValue& call, Instance& instance);
   void load_pin(const std::string& name, const JsonValue& json, Instance& instance);
@@ -171,7 +171,7 @@ void ProgramLoader::load_branch(const JsonValue& json) {
 
 /// Where something is to be set.
 struct ProgramLoader::Target {
-  Place place;
+  Operand place;
   std::optional<Expression> index;  ///< chooses the element; none: the place is fixed
 };
 
@@ -217,15 +217,15 @@ void ProgramLoader::assign_text(const JsonValue* to, const StringTag& tag) {
   CompiledText compiled = compile_text(to->text, loading_.names());
   report(*to, compiled.errors);
   if (!compiled.text) return;
-  if (compiled.text->room() > tag.text.room)
-    return problems_.report(*to, to->shown() + " may have " + std::to_string(compiled.text->room()) +
+  if (compiled.text->capacity() > tag.text.capacity)
+    return problems_.report(*to, to->shown() + " may have " + std::to_string(compiled.text->capacity()) +
                                      " characters; allowed for '" + tag.name + "': up to " +
-                                     std::to_string(tag.text.room));
+                                     std::to_string(tag.text.capacity));
   program_.add_assignment(*compiled.text, tag.text);
 }
 
 /// @param index chooses the element; none: the place is fixed
-void ProgramLoader::assign(const JsonValue& to, const Place& place, std::optional<Expression> index) {
+void ProgramLoader::assign(const JsonValue& to, const Operand& place, std::optional<Expression> index) {
   auto expression = compile(&to, place.signal.value_type());
   if (!expression) return;
   if (place.variable != nullptr) check_range(to, *expression, place);
@@ -239,7 +239,7 @@ void ProgramLoader::assign(const JsonValue& to, const Place& place, std::optiona
 }
 
 /// Warns of a constant that the variable will not take.
-void ProgramLoader::check_range(const JsonValue& json, const Expression& expression, const Place& place) {
+void ProgramLoader::check_range(const JsonValue& json, const Expression& expression, const Operand& place) {
   const Variable& variable = *place.variable;
   const auto value = constant_value(expression);
   if (!value || place.signal.bit >= 0) return;
@@ -253,7 +253,7 @@ void ProgramLoader::load_set_start(const JsonValue& json) {
   const auto path = read_string(fields["set_start"], problems_);
   auto target = path ? read_target(*fields["set_start"], *path) : std::nullopt;
   if (!target) return;
-  Place& place = target->place;
+  Operand& place = target->place;
   if (const std::string reason = why_no_start_value(place); !reason.empty())
     return problems_.report(*fields["set_start"], reason);
   TechnologyObject& object = *place.object;

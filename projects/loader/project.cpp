@@ -79,14 +79,14 @@ bool Loading::add_name(const JsonValue& at, std::string_view name, Names::Entity
   return problem.empty();
 }
 
-std::optional<Place> Loading::find(const JsonValue& at, std::string_view path) const {
-  const FoundPlace found = names().find(path);
+std::optional<Operand> Loading::find(const JsonValue& at, std::string_view path) const {
+  const FoundOperand found = names().find(path);
   if (!found.place && !found.known_problem) problems.report(at, found.problem);
   return found.place;
 }
 
-std::optional<Place> Loading::find_elements(const JsonValue& at, std::string_view path) const {
-  const FoundPlace found = names().find_elements(path);
+std::optional<Operand> Loading::find_elements(const JsonValue& at, std::string_view path) const {
+  const FoundOperand found = names().find_elements(path);
   if (!found.place && !found.known_problem) problems.report(at, found.problem);
   return found.place;
 }

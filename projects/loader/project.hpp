@@ -51,7 +51,7 @@ struct ModbusText {
   const StringTag* tag;
   std::size_t first;  ///< index of the first entry in the map; the others follow
 
-  std::size_t count() const noexcept { return (tag->text.room + 1) / 2; }
+  std::size_t count() const noexcept { return (tag->text.capacity + 1) / 2; }
 };
 
 /// A map, and for whom it is.

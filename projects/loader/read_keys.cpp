@@ -6,9 +6,9 @@ namespace lockstep {
 namespace {
 
 std::int64_t integer_of(double limit) {
-  constexpr double kMost = 9.2e18;
-  if (limit > kMost) return INT64_MAX;
-  return limit < -kMost ? INT64_MIN : static_cast<std::int64_t>(limit);
+  constexpr double kMaximum = 9.2e18;
+  if (limit > kMaximum) return INT64_MAX;
+  return limit < -kMaximum ? INT64_MIN : static_cast<std::int64_t>(limit);
 }
 
 std::optional<KeyValue> read_number(const JsonValue& json, const Key& key, Problems& problems) {

@@ -71,8 +71,8 @@ KeptValue array_of(const ArrayTag& tag) {
 
 KeptValue text_of(const StringTag& tag) {
   KeptValue kept{.name = tag.name, .signal = {}, .elements = text_signals(tag.text)};
-  kept.array_type = text_type_name(tag.text.room);
-  kept.room = tag.text.room;
+  kept.array_type = text_type_name(tag.text.capacity);
+  kept.capacity = tag.text.capacity;
   kept.signal = kept.elements.front();
   return kept;
 }

@@ -48,8 +48,8 @@ void Simulation::run_for(std::chrono::nanoseconds duration) noexcept {
   while (project_.controller->now() < end) step();
 }
 
-Place Simulation::find(std::string_view path) const {
-  const FoundPlace found = project_.names.find(path);
+Operand Simulation::find(std::string_view path) const {
+  const FoundOperand found = project_.names.find(path);
   if (!found.place) throw std::out_of_range(found.problem);
   return *found.place;
 }
@@ -60,7 +60,7 @@ double Simulation::read(std::string_view path) const {
 }
 
 void Simulation::write(std::string_view path, double value) {
-  const Place place = find(path);
+  const Operand place = find(path);
   if (const std::string reason = why_not_writable(place); !reason.empty()) throw std::out_of_range(reason);
   if (place.variable != nullptr && !place.variable->range.allows(value))
     throw std::domain_error(std::string(path) + " may not be " + std::to_string(value));

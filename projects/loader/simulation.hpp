@@ -55,7 +55,7 @@ class Simulation {
 
  private:
   explicit Simulation(LoadedProject loaded);
-  Place find(std::string_view path) const;
+  Operand find(std::string_view path) const;
 
   Project project_;
 };

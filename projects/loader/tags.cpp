@@ -25,12 +25,12 @@ std::optional<Type> read_type(const JsonValue* json, Problems& problems) {
 }
 
 /// Memory for all arrays of a project, so that no file takes the machine down [byte].
-constexpr std::size_t kMostArrayMemory = 64u << 20;
+constexpr std::size_t kMaximumArrayMemory = 64u << 20;
 
 /// Values in arrays and texts that are kept: each is copied at the end of every tick.
-constexpr std::size_t kMostKept = 10'000;
+constexpr std::size_t kMaximumKept = 10'000;
 
-constexpr std::size_t kMostStrings = 10'000;
+constexpr std::size_t kMaximumStrings = 10'000;
 
 std::size_t values_of(const Array& array) {
   return array.count() * std::max<std::size_t>(array.element->members.size(), 1);
@@ -38,7 +38,7 @@ std::size_t values_of(const Array& array) {
 
 /// As many as two characters need.
 std::size_t values_of(const Text& text) {
-  return (text.room + 1) / 2;
+  return (text.capacity + 1) / 2;
 }
 
 /// Whether so many values more may be kept; if not, that is reported.
@@ -47,11 +47,11 @@ bool may_retain(std::size_t values, const JsonValue& json, const Loading& loadin
   for (const ArrayTag* const other : loading.project.retain.arrays) kept += values_of(other->array);
   for (const StringTag& other : loading.controller().strings)
     if (other.retain) kept += values_of(other.text);
-  if (kept <= kMostKept) return true;
+  if (kept <= kMaximumKept) return true;
   loading.problems.report(json, "with the " + std::to_string(values) + " values of this tag " +
                                     std::to_string(kept) +
                                     " values of arrays and texts are kept; allowed are " +
-                                    std::to_string(kMostKept) + " in all of the project");
+                                    std::to_string(kMaximumKept) + " in all of the project");
   return false;
 }
 
@@ -69,9 +69,9 @@ void load_array(const std::string& name, const JsonValue& json, const Loading& l
   std::size_t memory = array->count() * array->element->size;
   for (const ArrayTag& other : loading.controller().arrays)
     memory += other.memory.size() * sizeof(std::uint64_t);
-  if (memory > kMostArrayMemory)
+  if (memory > kMaximumArrayMemory)
     return loading.problems.report(*fields["type"], "the arrays of the project take more than " +
-                                                        std::to_string(kMostArrayMemory >> 20) +
+                                                        std::to_string(kMaximumArrayMemory >> 20) +
                                                         " MiB; that is all there is for them");
   ArrayTag& tag = loading.controller().add_array(name, *array);
   tag.comment = comment.value_or("");
@@ -83,17 +83,17 @@ void load_array(const std::string& name, const JsonValue& json, const Loading& l
 
 void load_string(const std::string& name, const JsonValue& json, const Loading& loading, bool named) {
   const Fields fields(json, keys::kTag, loading.problems);
-  const auto room = read_string_type(*fields["type"], loading.problems);
+  const auto capacity = read_string_type(*fields["type"], loading.problems);
   const auto comment = read_string(fields["comment"], loading.problems);
   const bool retain = read_retain(fields, loading);
-  if (!room) return;
-  if (loading.controller().strings.size() == kMostStrings)
-    return loading.problems.report(*fields["type"], "there are more than " + std::to_string(kMostStrings) +
+  if (!capacity) return;
+  if (loading.controller().strings.size() == kMaximumStrings)
+    return loading.problems.report(*fields["type"], "there are more than " + std::to_string(kMaximumStrings) +
                                                         " tags of type STRING; allowed are these");
   StringTag tag{.name = name, .comment = std::string(comment.value_or("")), .initial = {}, .memory = {}};
   if (const JsonValue* const init = fields["init"])
-    tag.initial = read_text_constant(*init, *room, loading.problems).value_or("");
-  StringTag& added = loading.controller().add_string(std::move(tag), *room);
+    tag.initial = read_text_constant(*init, *capacity, loading.problems).value_or("");
+  StringTag& added = loading.controller().add_string(std::move(tag), *capacity);
   if (retain) added.retain = may_retain(values_of(added.text), *fields["retain"], loading);
   if (named) loading.names().define(name, &added);
 }
@@ -119,10 +119,10 @@ void load_tag(const std::string& name, const JsonValue& json, const Loading& loa
 
 void read_text_assignment(const StringTag& tag, const JsonValue& json, const Loading& loading,
                           std::vector<Assignment>& assignments) {
-  const auto text = read_text_constant(json, tag.text.room, loading.problems);
+  const auto text = read_text_constant(json, tag.text.capacity, loading.problems);
   if (!text) return;
   const std::vector<Signal> signals = text_signals(tag.text);
-  const std::vector<Value> values = text_values(*text, tag.text.room);
+  const std::vector<Value> values = text_values(*text, tag.text.capacity);
   for (std::size_t i = 0; i < signals.size(); ++i) assignments.push_back({signals[i], values[i]});
 }
 

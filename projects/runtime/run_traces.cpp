@@ -41,7 +41,7 @@ void RunSurroundings::choose_signals() {
     return;
   }
   for (const std::string& name : options_.signals) {
-    const FoundPlace found = project_.names.find(name);
+    const FoundOperand found = project_.names.find(name);
     if (!found.place) throw CouldNotStart(named("signals") + found.problem);
     const Type type = found.place->signal.type;
     if (type >= Type::AXIS) throw CouldNotStart(named("signals") + name + " has no value to record");

@@ -67,7 +67,7 @@ class Runtime::Run {
   /// Up to the first tick.
   void start();
   void stop() noexcept;
-  bool wait(std::chrono::milliseconds patience);
+  bool wait(std::chrono::milliseconds timeout);
   bool wait_for_rest(std::chrono::milliseconds time);
   /// From the first tick to the end.
   void look_after() noexcept;
@@ -149,10 +149,10 @@ void Runtime::Run::stop() noexcept {
   changed_.notify_all();
 }
 
-bool Runtime::Run::wait(std::chrono::milliseconds patience) {
+bool Runtime::Run::wait(std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return state_ != RuntimeState::running; });
-  return changed_.wait_for(lock, patience, [this] { return state_ != RuntimeState::ending; });
+  return changed_.wait_for(lock, timeout, [this] { return state_ != RuntimeState::ending; });
 }
 
 bool Runtime::Run::wait_for_rest(std::chrono::milliseconds time) {
@@ -249,8 +249,8 @@ void Runtime::stop() noexcept {
   run_->stop();
 }
 
-bool Runtime::wait(std::chrono::milliseconds patience) {
-  return run_->wait(patience);
+bool Runtime::wait(std::chrono::milliseconds timeout) {
+  return run_->wait(timeout);
 }
 
 bool Runtime::wait_for_rest(std::chrono::milliseconds time) {

@@ -78,7 +78,7 @@ class Runtime {
   /// long as the axes are not at rest. One thread at a time.
   /// @param patience for what comes after that
   /// @return false if something does not come to its end (`unfinished`); it may be called again
-  bool wait(std::chrono::milliseconds patience = kPatience);
+  bool wait(std::chrono::milliseconds timeout = kPatience);
   /// The same until the axes are at rest, for so long at most, or until `stop`, if that comes first.
   /// @return whether they are
   bool wait_for_rest(std::chrono::milliseconds time);

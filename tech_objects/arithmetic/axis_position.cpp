@@ -16,25 +16,25 @@ struct Reduced {
 };
 
 /// A way along the line as whole turns and the rest.
-Reduced reduced(DoubleDouble way, double length) noexcept {
-  double count = std::floor(way.hi / length);
-  DoubleDouble rest = way - two_product(count, length);
+Reduced reduced(DoubleDouble distance, double length) noexcept {
+  double count = std::floor(distance.hi / length);
+  DoubleDouble rest = distance - two_product(count, length);
   // The quotient is rounded: it may be one off, either way.
   if (rest.hi < 0.0) {
     count -= 1.0;
-    rest = way - two_product(count, length);
+    rest = distance - two_product(count, length);
   } else if (!(rest < to_double_double(length))) {
     count += 1.0;
-    rest = way - two_product(count, length);
+    rest = distance - two_product(count, length);
   }
   return {static_cast<std::int64_t>(count), rest};
 }
 
 /// Positive way from `from` to `target` on the ring, unrounded.
-DoubleDouble way_on_ring(double from, double target, const Modulo& modulo) noexcept {
-  const DoubleDouble way = two_difference(target, from);
-  if (!(std::abs(way.hi) <= 0x1p52 * modulo.length)) return way;
-  return reduced(way, modulo.length).rest;
+DoubleDouble distance_on_ring(double from, double target, const Modulo& modulo) noexcept {
+  const DoubleDouble distance = two_difference(target, from);
+  if (!(std::abs(distance.hi) <= 0x1p52 * modulo.length)) return distance;
+  return reduced(distance, modulo.length).rest;
 }
 
 }  // namespace
@@ -51,12 +51,12 @@ AxisPosition normalised(std::int64_t turns, DoubleDouble value, const Modulo& mo
 
 double positive_distance(double from, double target, const Modulo& modulo) noexcept {
   if (!modulo.enabled) return target - from;
-  return way_on_ring(from, target, modulo).rounded();
+  return distance_on_ring(from, target, modulo).rounded();
 }
 
 double negative_distance(double from, double target, const Modulo& modulo) noexcept {
   if (!modulo.enabled) return target - from;
-  return -way_on_ring(target, from, modulo).rounded();
+  return -distance_on_ring(target, from, modulo).rounded();
 }
 
 double shortest_distance(double from, double target, const Modulo& modulo) noexcept {

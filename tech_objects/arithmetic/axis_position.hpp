@@ -74,8 +74,8 @@ class WayOrigin {
   void shift(double by) noexcept { value_ = value_ + by; }
 
   /// The position after a way [u] from the place: exact, then rounded once.
-  AxisPosition after(double way, const Modulo& modulo) noexcept {
-    const DoubleDouble value = value_ + way;
+  AxisPosition after(double distance, const Modulo& modulo) noexcept {
+    const DoubleDouble value = value_ + distance;
     if (modulo.contains(value.hi)) return {turns_, value.rounded()};
     const AxisPosition position = normalised(turns_, value, modulo);
     const auto passed = static_cast<std::int64_t>(static_cast<std::uint64_t>(position.turns) -

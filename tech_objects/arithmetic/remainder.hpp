@@ -10,11 +10,11 @@ struct SyncOffset {
   double slope = 0.0;      ///< [u / leading u] dy/dλ
   double curvature = 0.0;  ///< [u / leading u²] d²y/dλ²
 
-  /// [u/s] dy/dt; `way_velocity` = dλ/dt [leading u/s].
-  double velocity(double way_velocity) const noexcept { return slope * way_velocity; }
+  /// [u/s] dy/dt; `distance_velocity` = dλ/dt [leading u/s].
+  double velocity(double distance_velocity) const noexcept { return slope * distance_velocity; }
   /// [u/s²] d²y/dt².
-  double acceleration(double way_velocity, double way_acceleration) const noexcept {
-    return slope * way_acceleration + curvature * way_velocity * way_velocity;
+  double acceleration(double distance_velocity, double distance_acceleration) const noexcept {
+    return slope * distance_acceleration + curvature * distance_velocity * distance_velocity;
   }
 };
 
@@ -33,14 +33,14 @@ class Remainder {
   }
 
   double distance() const noexcept { return distance_; }
-  bool complete(double way) const noexcept { return !(way < distance_); }
+  bool complete(double distance) const noexcept { return !(distance < distance_); }
 
   /// y and its derivatives; exactly 0 from λ = D on; λ < 0 continues the quintic.
-  SyncOffset value(double way) const noexcept {
-    if (complete(way)) return {};
-    const double u = way * per_distance_;
+  SyncOffset value(double distance) const noexcept {
+    if (complete(distance)) return {};
+    const double u = distance * per_distance_;
     // Exact at both ends, without a division.
-    const double v = u < 0.5 ? 1.0 - u : (distance_ - way) * per_distance_;
+    const double v = u < 0.5 ? 1.0 - u : (distance_ - distance) * per_distance_;
     const double q = a_ + u * (b_ + u * c_);
     const double dq = b_ + 2.0 * u * c_;
     return {.position = v * v * v * q,

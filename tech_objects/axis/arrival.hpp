@@ -13,7 +13,7 @@ namespace lockstep {
 /// cycle.
 class Arrival {
  public:
-  enum class Verdict : std::uint8_t { under_way, arrived, missed };
+  enum class Verdict : std::uint8_t { in_progress, arrived, missed };
 
   /// @param period of the interpolator [s]
   void configure(double period) noexcept { period_ = period; }
@@ -31,7 +31,7 @@ class Arrival {
     in_window_ = distance <= settings.Window ? in_window_ + 1 : 0;
     if (in_window_ > ticks_of(settings.MinDwellTime)) return Verdict::arrived;
     const bool late = in_window_ == 0 && since_target_ > ticks_of(settings.ToleranceTime);
-    return late && monitored ? Verdict::missed : Verdict::under_way;
+    return late && monitored ? Verdict::missed : Verdict::in_progress;
   }
 
   /// Each tick from the end of a stop on, where the velocity counts. @param dwell_time [s]; 0: arrived as
@@ -39,7 +39,7 @@ class Arrival {
   Verdict watch_rest(bool stands, bool dwells, double dwell_time) noexcept {
     in_window_ = stands ? in_window_ + 1 : 0;
     const bool arrived = stands && !(dwells && in_window_ <= ticks_of(dwell_time));
-    return arrived ? Verdict::arrived : Verdict::under_way;
+    return arrived ? Verdict::arrived : Verdict::in_progress;
   }
 
  private:

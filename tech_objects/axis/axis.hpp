@@ -58,7 +58,7 @@ class Axis final : public AxisFamilies {
   void watch_leading_object() noexcept;
 
   /// Begins to bring near, while another axis is stepped, what `step` and `publish` touch first.
-  void come_near() const noexcept {
+  void prefetch() const noexcept {
     __builtin_prefetch(&power, 1);
     __builtin_prefetch(&setpoint_, 1);
     __builtin_prefetch(&additive_request, 1);

@@ -416,7 +416,7 @@ AxisFamilies::AxisFamilies(ObjectKind object_kind, std::string object_name, DB_A
               .ratio_ = ratio_,
               .servo_tick_ = servo_tick_,
               .setpoint_sign_ = setpoint_sign_,
-              .way_per_motor_turn_ = way_per_motor_turn_,
+              .distance_per_motor_turn_ = distance_per_motor_turn_,
               .motor_limit_ = motor_limit_,
               .actual_torque_ = actual_torque_,
               .drive_running_ = drive_running_,

@@ -132,9 +132,9 @@ class AxisParts : public LeadingObject {
   bool drive_inhibited_ = false;
   double setpoint_sign_ = 1.0;  // -1: the drive turns the other way round
 
-  double way_per_motor_turn_ = 1.0;  // [u]
-  double motor_limit_ = 0.0;         // what the motor can do [u/s]
-  double actual_torque_ = 0.0;       // at the motor, in the direction of the axis
+  double distance_per_motor_turn_ = 1.0;  // [u]
+  double motor_limit_ = 0.0;              // what the motor can do [u/s]
+  double actual_torque_ = 0.0;            // at the motor, in the direction of the axis
   Encoders encoders_;
   AxisForces forces_;
   Clamping clamping_;

@@ -98,8 +98,9 @@ bool Blending::reachable_later(const Setpoint& now, double distance,
                                const Dynamics& dynamics) const noexcept {
   const double heading = distance < 0.0 ? -1.0 : 1.0;
   const double velocity = heading * now.velocity;
-  const double most = std::max(dynamics.velocity, std::abs(velocity)) + 1.0;
-  const ProfileLimits limits = limits_of({most, dynamics.acceleration, dynamics.deceleration, dynamics.jerk});
+  const double maximum = std::max(dynamics.velocity, std::abs(velocity)) + 1.0;
+  const ProfileLimits limits =
+      limits_of({maximum, dynamics.acceleration, dynamics.deceleration, dynamics.jerk});
   Profile rise;
   const MotionState from{0.0, velocity, heading * now.acceleration};
   if (plan_velocity(from, dynamics.velocity, limits, rise) != PlanResult::ok) return true;

@@ -145,7 +145,7 @@ void Axis::step_waiting_to_leave(const Setpoint& candidate) noexcept {
     case LeavingOrders::Next::own_motion:
       step_single_axis();
       break;
-    case LeavingOrders::Next::way_out:
+    case LeavingOrders::Next::distance_out:
       step_synchronous();
       break;
     case LeavingOrders::Next::nothing:

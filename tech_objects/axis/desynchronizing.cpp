@@ -59,9 +59,9 @@ LeavingOrders::Next LeavingOrders::activate(Job& job, const Dynamics& dynamics) 
     auto& status = data.StatusSynchronizedMotion;
     status.FunctionState = function_state(job.kind);
     status.PhaseShift = status.Offset = 0.0;
-    return Next::way_out;
+    return Next::distance_out;
   }
-  const double way = synchronous_.leaving().stop_distance();
+  const double distance = synchronous_.leaving().stop_distance();
   const AxisPosition position = synchronous_.leaving().position();
   coupling_.leave();
   stops_.cut_acceleration();
@@ -69,7 +69,7 @@ LeavingOrders::Next LeavingOrders::activate(Job& job, const Dynamics& dynamics) 
   Dynamics own = dynamics;
   own.acceleration = own.deceleration;
   own.velocity = std::max(own.velocity, std::abs(setpoint_.velocity));
-  if (single_.move_to(setpoint_, position, way, own) != PlanResult::ok) {
+  if (single_.move_to(setpoint_, position, distance, own) != PlanResult::ok) {
     ends_.end(kBase, JobPhase::failed, ErrorId::unspecified);
     stops_.begin(limits_.maximum(), false);
     return Next::nothing;

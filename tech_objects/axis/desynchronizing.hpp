@@ -32,10 +32,10 @@ class LeavingOrders : private LeavingParts {
  public:
   /// What makes the setpoint of this tick.
   enum class Next : std::uint8_t {
-    coupling,    ///< the candidate stays
-    own_motion,  ///< the axis goes on by a motion of its own
-    way_out,     ///< it is led on the way out
-    nothing      ///< it stays where it is
+    coupling,      ///< the candidate stays
+    own_motion,    ///< the axis goes on by a motion of its own
+    distance_out,  ///< it is led on the way out
+    nothing        ///< it stays where it is
   };
 
   explicit LeavingOrders(const LeavingParts& parts) noexcept : LeavingParts(parts) {}

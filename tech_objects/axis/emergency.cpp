@@ -58,7 +58,7 @@ void EmergencyOrders::take_actual_state(double commanded) noexcept {
 /// be a little ahead or faster: what is missing remains as following error.
 void EmergencyOrders::stay_within_limits(const Setpoint& before) noexcept {
   const double deceleration = std::max(limits_.maximum().deceleration, limits_.emergency().deceleration);
-  const auto room = [&](const Setpoint& from, int side, double limit) {
+  const auto margin = [&](const Setpoint& from, int side, double limit) {
     const double v = std::max(side * from.velocity, 0.0);
     const AxisPosition border{before.position.turns, limit};
     return side * rounded_difference(border, from.position, modulo_) - v * v / (2.0 * deceleration);
@@ -66,8 +66,8 @@ void EmergencyOrders::stay_within_limits(const Setpoint& before) noexcept {
   const SoftwareLimits::Range range = SoftwareLimits::in_effect(data.PositionLimits_SW, modulo_);
   for (const int side : {1, -1}) {
     const double limit = side > 0 ? range.maximum : range.minimum;
-    if (!std::isfinite(limit) || room(before, side, limit) < -kRounding * (1.0 + std::abs(limit))) continue;
-    const double missing = -room(setpoint_, side, limit);
+    if (!std::isfinite(limit) || margin(before, side, limit) < -kRounding * (1.0 + std::abs(limit))) continue;
+    const double missing = -margin(setpoint_, side, limit);
     if (missing > 0.0) setpoint_.position = advanced(setpoint_.position, -side * missing, modulo_);
   }
 }

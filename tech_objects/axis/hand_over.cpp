@@ -4,10 +4,10 @@ namespace lockstep {
 
 void HandOverOrders::begin(const Setpoint& seen, const Setpoint& now) noexcept {
   handing_over_ = false;
-  const double way = rounded_difference(seen.position, now.position, modulo_);
+  const double distance = rounded_difference(seen.position, now.position, modulo_);
   const double velocity = seen.velocity - now.velocity;
-  if (way == 0.0 && velocity == 0.0) return;
-  if (course_.begin({{0, way}, velocity, 0.0}, dynamics())) lead_by(seen);
+  if (distance == 0.0 && velocity == 0.0) return;
+  if (course_.begin({{0, distance}, velocity, 0.0}, dynamics())) lead_by(seen);
 }
 
 Dynamics HandOverOrders::dynamics() const noexcept {
@@ -26,9 +26,9 @@ void HandOverOrders::switch_position_control(bool on) noexcept {
   if (uncontrolled_.times == 0) return;  // a speed axis, or one that has been off since its start
   const Setpoint course = handing_over_ ? course_.course(setpoint_, modulo_) : setpoint_;
   uncontrolled_.zero = zero_on_turn(course.position.turns, modulo_);
-  const double way = rounded_difference(uncontrolled_.zero, course.position, modulo_);
+  const double distance = rounded_difference(uncontrolled_.zero, course.position, modulo_);
   uncontrolled_.returning =
-      course_.begin_return({{0, way}, -course.velocity, -course.acceleration}, dynamics());
+      course_.begin_return({{0, distance}, -course.velocity, -course.acceleration}, dynamics());
   uncontrolled_.now = {uncontrolled_.zero, 0.0, 0.0};
   if (!handing_over_ && uncontrolled_.returning) {
     course_.settle();

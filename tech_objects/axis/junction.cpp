@@ -13,9 +13,9 @@ bool positions(const Job& job) noexcept {
 
 void JunctionOrders::plan() noexcept {
   const Job& base = *jobs_[kBase];
-  const bool under_way =
+  const bool in_progress =
       positions(base) && !single_.finished() && single_.aim() == SingleAxisMotion::Aim::position;
-  if (!under_way || single_.dynamics().velocity <= 0.0) return;
+  if (!in_progress || single_.dynamics().velocity <= 0.0) return;
   const Job& next = *jobs_[kBuffered];
   if (blending_.plan(single_, superimposed_.base_of(setpoint_), motion_after_target(next), next.buffer_mode,
                      limits_.velocity(), modulo_))

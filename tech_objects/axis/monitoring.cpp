@@ -34,14 +34,14 @@ void LimitOrders::watch() noexcept {
 bool LimitOrders::keep_within(int side, double limit) noexcept {
   if (!std::isfinite(limit)) return true;
   const AxisPosition border{last_setpoint_.position.turns, limit};
-  const double room = side * rounded_difference(border, setpoint_.position, modulo_);
+  const double margin = side * rounded_difference(border, setpoint_.position, modulo_);
   const Dynamics dynamics = limit_dynamics();
   const Heading heading{setpoint_, side};
-  if (maximum_stopping_distance(heading, dynamics) <= room) return true;
+  if (maximum_stopping_distance(heading, dynamics) <= margin) return true;
   const double slack = kRounding * (1.0 + std::abs(limit));
-  if (turns_in_time(side, room + slack, dynamics.jerk, motion_, setpoint_, single_, superimposed_))
+  if (turns_in_time(side, margin + slack, dynamics.jerk, motion_, setpoint_, single_, superimposed_))
     return true;
-  if (stopping_distance(heading, dynamics) <= room + slack) return true;
+  if (stopping_distance(heading, dynamics) <= margin + slack) return true;
   stop_at_limit(side, border, dynamics);
   return false;
 }
@@ -62,9 +62,9 @@ void LimitOrders::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics)
   const Setpoint made = setpoint_;
   setpoint_ = last_setpoint_;
   stops_.cut_acceleration();
-  const double room = side * rounded_difference(limit, setpoint_.position, modulo_);
+  const double margin = side * rounded_difference(limit, setpoint_.position, modulo_);
   const Heading heading{setpoint_, side};
-  const bool possible = find_braking(heading, room, limits_.maximum(), dynamics);
+  const bool possible = find_braking(heading, margin, limits_.maximum(), dynamics);
   reactions_.raise(alarm::kSoftwareLimitReached, reaction);
   stops_.absorb_superimposed();
   set_bit(data.WarningWord, side > 0 ? WarningBit::SWLimitMax : WarningBit::SWLimitMin, true);
@@ -73,9 +73,9 @@ void LimitOrders::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics)
     const double reached =
         std::max(Heading{setpoint_, side}.velocity_reached(dynamics.jerk), side * made.velocity);
     // Led by another axis it may be faster than its own limit.
-    const double most = std::max(limits_.velocity(), std::abs(setpoint_.velocity));
-    dynamics.velocity = reached > 0.0 ? std::min(reached, most) : most;
-    return approach_limit(side * room, limit, dynamics);
+    const double maximum = std::max(limits_.velocity(), std::abs(setpoint_.velocity));
+    dynamics.velocity = reached > 0.0 ? std::min(reached, maximum) : maximum;
+    return approach_limit(side * margin, limit, dynamics);
   }
   if (reacts) {
     single_.advance(setpoint_);
@@ -94,10 +94,10 @@ AlarmReaction LimitOrders::reaction_at_limit() const noexcept {
 }
 
 /// With no higher velocity than it reaches anyway, though there may be room for that.
-void LimitOrders::approach_limit(double way, AxisPosition limit, const Dynamics& dynamics) noexcept {
+void LimitOrders::approach_limit(double distance, AxisPosition limit, const Dynamics& dynamics) noexcept {
   coupling_.leave();
   motion_ = AxisMotion::single_axis;
-  if (single_.move_to(setpoint_, limit, way, dynamics) != PlanResult::ok)
+  if (single_.move_to(setpoint_, limit, distance, dynamics) != PlanResult::ok)
     return stops_.begin(limits_.maximum(), false);
   single_.advance(setpoint_);
 }

@@ -34,8 +34,8 @@ bool GivenOrders::step() noexcept {
   if (job.kind == JobKind::MC_MotionInPosition) {
     setpoint_.position = next_to(setpoint_.position, asked.position, modulo_);
   } else {
-    const double way = 0.5 * (setpoint_.velocity + asked.velocity) * period_;
-    setpoint_.position = advanced(setpoint_.position, way, modulo_);
+    const double distance = 0.5 * (setpoint_.velocity + asked.velocity) * period_;
+    setpoint_.position = advanced(setpoint_.position, distance, modulo_);
   }
   setpoint_.velocity = asked.velocity;
   setpoint_.acceleration = asked.acceleration;

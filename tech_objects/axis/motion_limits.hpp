@@ -85,8 +85,8 @@ class MotionLimits {
   /// A synchronous motion, or one without jerk limit, may leave an acceleration that not even MaxJerk can run
   /// down within the margin to the velocity limit: what is too much is dropped [u/s²].
   double tolerable_acceleration(double acceleration, double margin) const noexcept {
-    const double most = std::sqrt(2.0 * data_.DynamicLimits.MaxJerk * margin);
-    return std::abs(acceleration) > most ? std::copysign(most, acceleration) : acceleration;
+    const double maximum = std::sqrt(2.0 * data_.DynamicLimits.MaxJerk * margin);
+    return std::abs(acceleration) > maximum ? std::copysign(maximum, acceleration) : acceleration;
   }
   /// The velocity limit counts more than the jerk that a job asks for: with too low a one, the velocity would
   /// pass the limit while a present acceleration is run down.

@@ -9,10 +9,11 @@ namespace lockstep {
 namespace {
 
 /// Permissible following error at a velocity setpoint [u].
-double permissible_error(double velocity, double most, const TO_Struct_FollowingError& monitoring) noexcept {
+double permissible_error(double velocity, double maximum,
+                         const TO_Struct_FollowingError& monitoring) noexcept {
   const double above = std::abs(velocity) - monitoring.MinVelocity;
   if (above <= 0.0) return monitoring.MinValue;
-  const double span = most - monitoring.MinVelocity;
+  const double span = maximum - monitoring.MinVelocity;
   if (above >= span) return monitoring.MaxValue;
   return monitoring.MinValue + (monitoring.MaxValue - monitoring.MinValue) * (above / span);
 }
@@ -57,16 +58,16 @@ PositionLoop::Output PositionLoop::step(const Input& input, const PositionContro
   if (smoothed != 0.0) smoothing_.step(0.0);
   const AxisPosition seen = smoothed == 0.0 ? input.actual : advanced(input.actual, -smoothed, modulo_);
   const PositionControlled controlled = controller_.step(position, velocity, seen, modulo_);
-  const double most = control.max_velocity;
+  const double maximum = control.max_velocity;
   output.velocity = controlled.velocity;
   if (input.in_drive) {  // the drive adds what the control difference asks for
-    output.velocity = std::clamp(0.01 * control.kpc * velocity, -most, most);
+    output.velocity = std::clamp(0.01 * control.kpc * velocity, -maximum, maximum);
     output.xerr = controlled.xerr;
     output.pace = velocity;
   }
-  output.velocity = switched_over(output.velocity, most);
+  output.velocity = switched_over(output.velocity, maximum);
   if (input.passes) {
-    output.velocity = std::clamp(output.velocity + input.passing, -most, most);
+    output.velocity = std::clamp(output.velocity + input.passing, -maximum, maximum);
     output.pace += input.passing;
   }
   output.balanced = controlled.balanced.value;
@@ -119,11 +120,11 @@ double PositionLoop::switched_over(double velocity, double limit) noexcept {
 // ----------------------------------------------------------------------------------------------
 
 PositionLoop::FollowingErrorLevel PositionLoop::level_of(
-    double error, double velocity, double most, const TO_Struct_FollowingError& monitoring) noexcept {
+    double error, double velocity, double maximum, const TO_Struct_FollowingError& monitoring) noexcept {
   const double warning = 0.01 * monitoring.WarningLevel;
   if (error < warning * std::min(monitoring.MinValue, monitoring.MaxValue))
     return FollowingErrorLevel::permitted;
-  const double permissible = permissible_error(velocity, most, monitoring);
+  const double permissible = permissible_error(velocity, maximum, monitoring);
   if (error > permissible) return FollowingErrorLevel::exceeded;
   return error > warning * permissible ? FollowingErrorLevel::warning : FollowingErrorLevel::permitted;
 }

@@ -70,7 +70,7 @@ class PositionLoop {
   double switched_over(double velocity, double limit) noexcept;
 
   /// @param velocity of the setpoint before the controller [u/s]  @param most MaxVelocity [u/s]
-  static FollowingErrorLevel level_of(double error, double velocity, double most,
+  static FollowingErrorLevel level_of(double error, double velocity, double maximum,
                                       const TO_Struct_FollowingError& monitoring) noexcept;
 
  private:

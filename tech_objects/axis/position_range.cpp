@@ -23,14 +23,14 @@ constexpr double kEndOfRange = kPositionRange * (1.0 - kRounding);
 /// jerk².
 bool far_from_end_of_range(const Setpoint& setpoint, const Modulo& modulo,
                            const TO_Struct_DynamicLimits& limits) noexcept {
-  const double room = kEndOfRange - std::abs(setpoint.position.value);
-  if (modulo.enabled) return room > 0.0;
+  const double margin = kEndOfRange - std::abs(setpoint.position.value);
+  if (modulo.enabled) return margin > 0.0;
   const double d = limits.MaxDeceleration;
   const double j = limits.MaxJerk;
   const double v = std::abs(setpoint.velocity);
   const double a = std::abs(setpoint.acceleration);
   const double reached = 2.0 * j * v + a * a;  // velocity once the acceleration is run down, times 2 · jerk
-  return reached * (d * (2.0 * a + d) + 0.5 * reached) < 4.0 * room * d * j * j;
+  return reached * (d * (2.0 * a + d) + 0.5 * reached) < 4.0 * margin * d * j * j;
 }
 
 void RangeOrders::watch() noexcept {
@@ -46,17 +46,17 @@ void RangeOrders::watch() noexcept {
 /// @return whether the setpoint made for this cycle stays; if not, another one has been made
 bool RangeOrders::keep_in(int side) noexcept {
   const double here = side * setpoint_.position.value;
-  const double room = std::max(kEndOfRange - here, 0.0);
+  const double margin = std::max(kEndOfRange - here, 0.0);
   const Dynamics dynamics = limits_.maximum();
   Setpoint from = setpoint_;  // as a stop begins
   from.acceleration = limits_.tolerable_acceleration(from.acceleration, limits_.margin(from));
   const Heading heading{from, side};
-  if (maximum_stopping_distance(heading, dynamics) <= room) return true;
+  if (maximum_stopping_distance(heading, dynamics) <= margin) return true;
   // A target may be the very end.
   if (turns_in_time(side, std::max(kPositionRange * (1.0 + kRounding) - here, 0.0), dynamics.jerk, motion_,
                     setpoint_, single_, superimposed_))
     return true;
-  if (stopping_distance(heading, dynamics) <= room) return true;
+  if (stopping_distance(heading, dynamics) <= margin) return true;
   constexpr auto kReaction = AlarmReaction::stop_maximum;
   const bool reacts =
       data.ErrorDetail.Reaction < static_cast<DINT>(kReaction) && !jobs_.stops_harder_than(kReaction);

@@ -20,10 +20,10 @@ constexpr double kRounding = 1e-12;
 void ServoOrders::take_settings() noexcept {
   const bool inverted = drive_settings.inverted;
   setpoint_sign_ = data.Actor.InverseDirection != inverted ? -1.0 : 1.0;
-  way_per_motor_turn_ = way_per_motor_turn();
+  distance_per_motor_turn_ = distance_per_motor_turn();
   motor_limit_ = data.Actor.MotorType == MotorType::linear
                      ? data.Actor.LinearMotorDriveParameter.MaxVelocity
-                     : data.Actor.DriveParameter.MaxSpeed / 60.0 * way_per_motor_turn_;
+                     : data.Actor.DriveParameter.MaxSpeed / 60.0 * distance_per_motor_turn_;
   encoders_.configure(data, drive_settings, has_drive_, modulo_, servo_period_);
   loop_.configure(modulo_, servo_period_);
   const double highest = motor_limit_ * (1.0 + kRounding);
@@ -43,7 +43,7 @@ PositionControlSettings ServoOrders::control_settings() const noexcept {
 }
 
 /// What the axis moves in one turn of the motor, through load gear and lead screw [u].
-double ServoOrders::way_per_motor_turn() const noexcept {
+double ServoOrders::distance_per_motor_turn() const noexcept {
   const double load_turns =
       static_cast<double>(data.LoadGear.Denominator) / static_cast<double>(data.LoadGear.Numerator);
   if (!has_position_) {
@@ -56,7 +56,7 @@ double ServoOrders::way_per_motor_turn() const noexcept {
 
 double ServoOrders::motor_angle_per_unit() const noexcept {
   constexpr double kTurn = 6.283185307179586;
-  return data.Actor.MotorType == MotorType::linear ? 1.0 : kTurn / way_per_motor_turn_;
+  return data.Actor.MotorType == MotorType::linear ? 1.0 : kTurn / distance_per_motor_turn_;
 }
 
 // ---- Every servo cycle
@@ -82,7 +82,7 @@ void ServoOrders::step() noexcept {
                             .xerr = setpoint_sign_ * controlled.xerr,
                             .kpc = data.PositionControl.Kv,
                             .pace = setpoint_sign_ * controlled.pace,
-                            .most = motor_limit_});
+                            .maximum = motor_limit_});
   else
     drive_->write(setpoint_sign_ * data.VelocitySetpoint);
 }
@@ -108,7 +108,7 @@ void ServoOrders::read_drive() noexcept {
   actual_velocity_ = now.velocity;
   data.StatusSensor[encoders_.operative()].Velocity = actual_velocity_;
   sensors_.show_place(encoders_.operative(), actual_);
-  data.ActualSpeed = actual_velocity_ / way_per_motor_turn_ * 60.0;
+  data.ActualSpeed = actual_velocity_ / distance_per_motor_turn_ * 60.0;
 }
 
 void ServoOrders::watch_signals() noexcept {
@@ -123,10 +123,11 @@ void ServoOrders::watch_signals() noexcept {
 /// The setpoint of this servo tick: between the last two interpolator results, one interpolator cycle later.
 ServoSetpoint ServoOrders::fine_setpoint_now() const noexcept {
   if (servo_tick_ >= ratio_) return {setpoint_.position, setpoint_.velocity};
-  const double way = rounded_difference(setpoint_.position, last_setpoint_.position, modulo_);
+  const double distance = rounded_difference(setpoint_.position, last_setpoint_.position, modulo_);
   const double part = static_cast<double>(servo_tick_) / ratio_;
-  const FineSetpoint fine = fine_setpoint(way, last_setpoint_.velocity, setpoint_.velocity, period_, part);
-  return {advanced(last_setpoint_.position, fine.way, modulo_), fine.velocity};
+  const FineSetpoint fine =
+      fine_setpoint(distance, last_setpoint_.velocity, setpoint_.velocity, period_, part);
+  return {advanced(last_setpoint_.position, fine.distance, modulo_), fine.velocity};
 }
 
 PositionLoop::Output ServoOrders::control_position() noexcept {

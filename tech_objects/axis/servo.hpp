@@ -25,7 +25,7 @@ struct ServoParts {
   const int& ratio_;
   int& servo_tick_;
   double& setpoint_sign_;
-  double& way_per_motor_turn_;
+  double& distance_per_motor_turn_;
   double& motor_limit_;
   double& actual_torque_;
   bool& drive_running_;
@@ -64,7 +64,7 @@ class ServoOrders : private ServoParts {
   void idle() noexcept;
 
  private:
-  double way_per_motor_turn() const noexcept;
+  double distance_per_motor_turn() const noexcept;
   void read_drive() noexcept;
   void watch_signals() noexcept;
   ServoSetpoint fine_setpoint_now() const noexcept;

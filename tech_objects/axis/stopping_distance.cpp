@@ -29,8 +29,9 @@ double stopping_distance(const Heading& from, const Dynamics& dynamics) noexcept
 
 bool find_stop(double velocity, double acceleration, const Dynamics& dynamics, double& distance) noexcept {
   // No limit to a stop; the planner wants one.
-  const double most = std::max(dynamics.velocity, velocity) + 1.0;
-  const ProfileLimits limits = limits_of({most, dynamics.acceleration, dynamics.deceleration, dynamics.jerk});
+  const double maximum = std::max(dynamics.velocity, velocity) + 1.0;
+  const ProfileLimits limits =
+      limits_of({maximum, dynamics.acceleration, dynamics.deceleration, dynamics.jerk});
   Profile stop;
   if (plan_stop({0.0, velocity, acceleration}, limits, PresentAcceleration::keep, stop) != PlanResult::ok)
     return false;
@@ -40,12 +41,12 @@ bool find_stop(double velocity, double acceleration, const Dynamics& dynamics, d
 
 bool find_braking(const Heading& from, double distance, const Dynamics& highest,
                   Dynamics& dynamics) noexcept {
-  const double most = distance + kRounding * (1.0 + distance);
-  if (stopping_distance(from, dynamics) <= most) return true;
+  const double maximum = distance + kRounding * (1.0 + distance);
+  if (stopping_distance(from, dynamics) <= maximum) return true;
   dynamics = highest;
-  if (stopping_distance(from, dynamics) <= most) return true;
+  if (stopping_distance(from, dynamics) <= maximum) return true;
   dynamics.jerk = 0.0;
-  return stopping_distance(from, dynamics) <= most;
+  return stopping_distance(from, dynamics) <= maximum;
 }
 
 }  // namespace lockstep

@@ -13,7 +13,7 @@ double rest_of(double limit, double used) noexcept {
 
 /// What a superimposed motion that comes to rest is left at least of the limits, or leaves; and what it is
 /// given if the base motion leaves it less.
-constexpr double kLeastPart = 0.1;
+constexpr double kMinimumPart = 0.1;
 constexpr double kHalf = 0.5;
 
 Dynamics part_of(const Dynamics& whole, double part) noexcept {
@@ -22,12 +22,12 @@ Dynamics part_of(const Dynamics& whole, double part) noexcept {
 }
 
 /// What is wanted, but no more than there is; a jerk of 0 is none that limits.
-Dynamics braking(const Dynamics& wanted, const Dynamics& most, double velocity) noexcept {
-  const bool jerk_limited = wanted.jerk > 0.0 && most.jerk > 0.0;
+Dynamics braking(const Dynamics& wanted, const Dynamics& maximum, double velocity) noexcept {
+  const bool jerk_limited = wanted.jerk > 0.0 && maximum.jerk > 0.0;
   return {.velocity = velocity,
-          .acceleration = std::min(wanted.acceleration, most.acceleration),
-          .deceleration = std::min(wanted.deceleration, most.deceleration),
-          .jerk = jerk_limited ? std::min(wanted.jerk, most.jerk) : std::max(wanted.jerk, most.jerk)};
+          .acceleration = std::min(wanted.acceleration, maximum.acceleration),
+          .deceleration = std::min(wanted.deceleration, maximum.deceleration),
+          .jerk = jerk_limited ? std::min(wanted.jerk, maximum.jerk) : std::max(wanted.jerk, maximum.jerk)};
 }
 
 }  // namespace
@@ -89,17 +89,17 @@ Dynamics SuperimposedMotion::first_share(const BaseMotion& base, MotionLimits& l
     if (share_.acceleration > 0.0 && share_.deceleration > 0.0) return share_;
     return braking(wanted_, part_.dynamics(), share_.velocity);
   }
-  const Dynamics most = limits.maximum();
+  const Dynamics maximum = limits.maximum();
   if (base.single_axis) {
-    const double whole = std::min(most.acceleration, most.deceleration);
-    part_.cut_acceleration(rest_of(whole, std::max(std::abs(base_.acceleration), kLeastPart * whole)));
+    const double whole = std::min(maximum.acceleration, maximum.deceleration);
+    part_.cut_acceleration(rest_of(whole, std::max(std::abs(base_.acceleration), kMinimumPart * whole)));
   }
-  const Dynamics least = braking(wanted_, part_of(most, kLeastPart), share_.velocity);
-  const bool enough = share_.acceleration >= least.acceleration &&
-                      share_.deceleration >= least.deceleration &&
-                      (share_.jerk <= 0.0 || share_.jerk >= least.jerk);
+  const Dynamics minimum = braking(wanted_, part_of(maximum, kMinimumPart), share_.velocity);
+  const bool enough = share_.acceleration >= minimum.acceleration &&
+                      share_.deceleration >= minimum.deceleration &&
+                      (share_.jerk <= 0.0 || share_.jerk >= minimum.jerk);
   if (enough) return share_;
-  Dynamics half = braking(wanted_, part_of(most, kHalf), share_.velocity);
+  Dynamics half = braking(wanted_, part_of(maximum, kHalf), share_.velocity);
   const double jerk = base.motion.dynamics().jerk;
   if (jerk > 0.0) half.jerk = std::min(half.jerk, jerk);
   limits.forget();
@@ -155,8 +155,8 @@ Dynamics SuperimposedMotion::quick_enough(Dynamics share, const BaseMotion& base
                                           const MotionLimits& limits) noexcept {
   const double a = part_.acceleration();
   const int side = a < 0.0 ? -1 : 1;
-  const double most = base.led ? limits.velocity() : velocity_left_by(base, limits.velocity(), side);
-  const double left = rest_of(most, side * part_.velocity());
+  const double maximum = base.led ? limits.velocity() : velocity_left_by(base, limits.velocity(), side);
+  const double left = rest_of(maximum, side * part_.velocity());
   const double maximum_jerk = limits.maximum().jerk;
   if (share.jerk > 0.0 && a * a > 2.0 * share.jerk * left)
     share.jerk = std::min(a * a / (2.0 * left), maximum_jerk);
@@ -205,16 +205,16 @@ void SuperimposedMotion::curb(Dynamics& dynamics, const Setpoint& now, const Bas
                               const MotionLimits& limits) noexcept {
   if (uses_.acceleration <= 0.0 || base.led) return;
   const Dynamics whole = dynamics;
-  const Dynamics most = limits.maximum();
+  const Dynamics maximum = limits.maximum();
   const auto cut = [](double& value, double left) {
     if (left > 0.0) value = std::min(value, left);
   };
   // The one may brake the way in which the other speeds up.
-  cut(dynamics.acceleration, most.acceleration - uses_.acceleration);
-  cut(dynamics.deceleration, most.deceleration - uses_.acceleration);
-  if (dynamics.jerk > 0.0 && uses_.jerk > 0.0) cut(dynamics.jerk, most.jerk - uses_.jerk);
+  cut(dynamics.acceleration, maximum.acceleration - uses_.acceleration);
+  cut(dynamics.deceleration, maximum.deceleration - uses_.acceleration);
+  if (dynamics.jerk > 0.0 && uses_.jerk > 0.0) cut(dynamics.jerk, maximum.jerk - uses_.jerk);
   if (!stays_against(base, job, dynamics))
-    dynamics.velocity = std::min(dynamics.velocity, rest_of(most.velocity, uses_.velocity));
+    dynamics.velocity = std::min(dynamics.velocity, rest_of(maximum.velocity, uses_.velocity));
   const double beside = maximum_velocity(now.acceleration < 0.0 ? -1.0 : 1.0);
   limits.keep_below(dynamics, now.acceleration, limits.margin(now, beside));
   base_curbed_ |= dynamics != whole;

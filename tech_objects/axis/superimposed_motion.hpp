@@ -33,7 +33,7 @@ class SuperimposedMotion {
   bool finished() const noexcept { return part_.finished(); }
   DoubleDouble value() const noexcept { return part_.value(); }  ///< [u]
   /// The distance that it still makes in a direction, 1 or -1 [u] ≥ 0.
-  double distance_left(int side) const noexcept { return part_.way_left(side); }
+  double distance_left(int side) const noexcept { return part_.distance_left(side); }
   /// What it adds to the velocity in a direction, now or when its acceleration is run down [u/s] ≥ 0.
   double maximum_velocity(double direction) const noexcept;
 

@@ -7,8 +7,8 @@
 namespace lockstep {
 namespace {
 
-ErrorId away_from_stop(double way, int side) noexcept {
-  return side * way > 0.0 ? ErrorId::towards_fixed_stop : ErrorId::none;
+ErrorId away_from_stop(double distance, int side) noexcept {
+  return side * distance > 0.0 ? ErrorId::towards_fixed_stop : ErrorId::none;
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ bool TorqueOrders::pushes_against_a_stop() const noexcept {
   if (setpoint_.velocity != 0.0) return setpoint_.velocity * error > 0.0;
   if (motion_ != AxisMotion::single_axis) return jobs_[kBase] != nullptr || led(motion_);
   // A job that has only just begun may lead away from what the axis pushes against already.
-  return jobs_[kBase] != nullptr && (single_.finished() || single_.way_left(error > 0.0 ? 1 : -1) > 0.0);
+  return jobs_[kBase] != nullptr && (single_.finished() || single_.distance_left(error > 0.0 ? 1 : -1) > 0.0);
 }
 
 void TorqueOrders::watch_fixed_stop() noexcept {

@@ -8,7 +8,7 @@ bool turns_in_time(int side, double distance, double jerk, AxisMotion motion, co
                    const SingleAxisMotion& single, const SuperimposedMotion& superimposed) noexcept {
   if (motion == AxisMotion::single_axis) {
     const double added = superimposed.in_use() ? superimposed.distance_left(side) : 0.0;
-    return single.way_left(side) + added <= distance;
+    return single.distance_left(side) + added <= distance;
   }
   return Heading{setpoint, side}.turning_back_within(distance, jerk);
 }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kCloses = 1e-9;  // of the stroke: how far both ends of a cyclic cam may be apart
 constexpr double kRests = 1e-9;   // of the stroke per pass: slope of a cam at rest
-constexpr double kMostPasses = 0x1p62;
+constexpr double kMaximumPasses = 0x1p62;
 constexpr double kBeside = 0x1p-40;  // of a pass: how far beside a corner its slope is read
 
 /// Whole numbers up to here are doubles.
@@ -98,16 +98,16 @@ DoubleDouble CamFollowing::base_of(std::int64_t turn, std::int64_t pass) const n
 
 CamFollowing::Pass CamFollowing::pass_at(AxisPosition leading) const noexcept {
   const std::int64_t turn = wrapped(leading.turns, start_turns_);
-  const DoubleDouble way = from_start(leading.value);
+  const DoubleDouble distance = from_start(leading.value);
   Pass pass{0, base_of(turn, 0), {}};
-  pass.rest = rest_in(pass.base, way);
+  pass.rest = rest_in(pass.base, distance);
   if (use_.mode == CamMode::once) return pass;
   const double count = std::floor(pass.rest.hi / pass_.hi);
-  if (!(std::abs(count) < kMostPasses)) return pass;  // not finite, or beyond what is counted
+  if (!(std::abs(count) < kMaximumPasses)) return pass;  // not finite, or beyond what is counted
   const auto move = [&](std::int64_t number) noexcept {
     pass.number = number;
     pass.base = base_of(turn, number);
-    pass.rest = rest_in(pass.base, way);
+    pass.rest = rest_in(pass.base, distance);
   };
   move(static_cast<std::int64_t>(count));
   if (std::abs(count) >= 0x1p50)  // the quotient is rounded, to several passes as the case may be
@@ -162,7 +162,7 @@ AxisPosition CamFollowing::raised(double following_value, const Lift& lift) cons
   return normalised(lift.turns, two_product(following_value, use_.slave_scaling) + lift.value, following_);
 }
 
-CamPlace CamFollowing::joined_at(AxisPosition leading, int direction) const noexcept {
+CamFollowingValue CamFollowing::joined_at(AxisPosition leading, int direction) const noexcept {
   const Pass pass = pass_at(leading);
   const AxisPosition position =
       raised(function_->value(first_ + pass.rest.hi * per_scaling_).position, lift_of(pass.number));
@@ -177,7 +177,7 @@ CamPlace CamFollowing::joined_at(AxisPosition leading, int direction) const noex
   return {position, slope * slope_, value.second_derivative * curvature_};
 }
 
-CamFollowing::LeadingPlace CamFollowing::end_place(CamEnd end) const noexcept {
+CamFollowing::LeadingPosition CamFollowing::end_place(CamEnd end) const noexcept {
   // rest = ±(value - start + base) = pass or 0
   const DoubleDouble rest = end == CamEnd::at_end ? pass_ : DoubleDouble{};
   return {start_turns_ + turn_, start_ - base_ + (backward_ ? -rest : rest)};
@@ -200,7 +200,7 @@ double CamFollowing::steepness(const CamValue& value) const noexcept {
   return std::abs(value.first_derivative) * (function_->end_leading_value() - first_) / stroke;
 }
 
-double CamFollowing::way(AxisPosition leading) const noexcept {
+double CamFollowing::distance(AxisPosition leading) const noexcept {
   const std::int64_t turn = wrapped(leading.turns, start_turns_);
   return rest_in(base_of(turn, 0), from_start(leading.value)).hi;
 }

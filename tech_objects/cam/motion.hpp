@@ -27,7 +27,7 @@ struct CamUse {
 };
 
 /// Following position at a leading position, and its derivatives with respect to the leading position.
-struct CamPlace {
+struct CamFollowingValue {
   AxisPosition position;
   double slope = 0.0;      ///< [u / leading u]
   double curvature = 0.0;  ///< [u / leading u²]
@@ -66,7 +66,7 @@ class CamFollowing {
 
   /// Place at a leading position (normalised, finite). Outside a cam that is passed once: that at the nearer
   /// end. The number of passes and `ended` count from here on.
-  CamPlace value(AxisPosition leading) noexcept {
+  CamFollowingValue value(AxisPosition leading) noexcept {
     const std::int64_t turn = wrapped(leading.turns, start_turns_);
     DoubleDouble rest = rest_in(base_, from_start(leading.value));
     if (turn != turn_ || !(rest.hi > 0.0 && rest.hi < pass_.hi)) rest = enter_pass(leading, turn);
@@ -76,7 +76,7 @@ class CamFollowing {
 
   /// The same seen from the side from which a leading axis comes that moves in `direction` (1, -1) beyond the
   /// place: derivatives at a corner are those ahead. Does not count.
-  CamPlace joined_at(AxisPosition leading, int direction) const noexcept;
+  CamFollowingValue joined_at(AxisPosition leading, int direction) const noexcept;
 
   /// Which end a leading axis at that position would have reached since the last value.
   CamEnd end_before(AxisPosition leading) const noexcept;
@@ -85,18 +85,18 @@ class CamFollowing {
   void clear_end() noexcept { ended_ = CamEnd::none; }
 
   /// Leading position of an end of the present pass, in turns and a value that need not be on the ring.
-  struct LeadingPlace {
+  struct LeadingPosition {
     std::int64_t turns = 0;
     DoubleDouble value;
   };
-  LeadingPlace end_place(CamEnd end) const noexcept;
+  LeadingPosition end_place(CamEnd end) const noexcept;
   /// Following position there.
   AxisPosition end_position(CamEnd end) const noexcept;
   /// Whether the cam has no slope there, but for rounding.
   bool rests_at(CamEnd end) const noexcept;
 
   /// Way from the start of the cam at a leading position, of all passes [leading u].
-  double way(AxisPosition leading) const noexcept;
+  double distance(AxisPosition leading) const noexcept;
   /// One pass [leading u] > 0.
   double pass_length() const noexcept { return pass_.hi; }
 
@@ -110,15 +110,15 @@ class CamFollowing {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
   }
   /// Way in the cam's direction from the start of a pass.
-  DoubleDouble rest_in(DoubleDouble base, DoubleDouble way_from_start) const noexcept {
-    const DoubleDouble sum = two_sum(way_from_start.hi, base.hi);
-    const DoubleDouble rest = quick_two_sum(sum.hi, sum.lo + (way_from_start.lo + base.lo));
+  DoubleDouble rest_in(DoubleDouble base, DoubleDouble distance_from_start) const noexcept {
+    const DoubleDouble sum = two_sum(distance_from_start.hi, base.hi);
+    const DoubleDouble rest = quick_two_sum(sum.hi, sum.lo + (distance_from_start.lo + base.lo));
     return backward_ ? -rest : rest;
   }
   DoubleDouble from_start(double leading_value) const noexcept {
-    DoubleDouble way = two_difference(leading_value, start_.hi);
-    way.lo -= start_.lo;
-    return way;
+    DoubleDouble distance = two_difference(leading_value, start_.hi);
+    distance.lo -= start_.lo;
+    return distance;
   }
   struct Pass {
     std::int64_t number = 0;
@@ -135,7 +135,7 @@ class CamFollowing {
   };
   Lift lift_of(std::int64_t pass) const noexcept;
   AxisPosition raised(double following_value, const Lift& lift) const noexcept;
-  CamPlace place_of(const CamValue& value) const noexcept {
+  CamFollowingValue place_of(const CamValue& value) const noexcept {
     const DoubleDouble position = two_product(value.position, use_.slave_scaling) + lift_.value;
     const bool inside = position.hi >= lowest_ && position.hi < highest_;
     return {inside ? AxisPosition{lift_.turns, position.hi} : normalised(lift_.turns, position, following_),

@@ -236,9 +236,9 @@ bool CamReport::ascending(double start, double end) {
   return false;
 }
 
-bool CamReport::count(std::string_view field, std::size_t value, std::size_t most) {
-  if (value >= 2 && value <= most) return true;
-  problem(field, std::to_string(value) + " is not allowed here; allowed: 2 to " + std::to_string(most));
+bool CamReport::count(std::string_view field, std::size_t value, std::size_t maximum) {
+  if (value >= 2 && value <= maximum) return true;
+  problem(field, std::to_string(value) + " is not allowed here; allowed: 2 to " + std::to_string(maximum));
   return false;
 }
 
@@ -252,9 +252,9 @@ ErrorId interpolate_all(std::span<const TO_Cam_Struct_PointData> points,
                         std::span<const TO_Cam_Struct_SegmentData> segments,
                         const TO_Cam_Struct_InterpolationSettings& settings, CamFunction& function,
                         CamFindings* findings) {
-  const std::size_t most = std::max(points.size(), segments.size());
-  const std::unique_ptr<BOOL[]> valid(new BOOL[most]);
-  std::fill_n(valid.get(), most, true);
+  const std::size_t maximum = std::max(points.size(), segments.size());
+  const std::unique_ptr<BOOL[]> valid(new BOOL[maximum]);
+  std::fill_n(valid.get(), maximum, true);
   const CamElements elements{
       points, {valid.get(), points.size()}, segments, {valid.get(), segments.size()}, settings};
   CamInterpolator interpolator(points.size());

@@ -34,7 +34,7 @@ class CamReport {
   /// A number of the data block: finite, -1.0E12 … 1.0E12.
   bool in_range(std::string_view field, std::optional<double> value);
   bool ascending(double start, double end);
-  bool count(std::string_view field, std::size_t value, std::size_t most);
+  bool count(std::string_view field, std::size_t value, std::size_t maximum);
 
  private:
   DesignedCam& cam_;

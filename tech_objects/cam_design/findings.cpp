@@ -137,14 +137,14 @@ class Reader {
   void look_at_range() {
     const double lowest = function_.lowest_following_value();
     const double highest = function_.highest_following_value();
-    const double greatest = std::abs(lowest) > std::abs(highest) ? lowest : highest;
-    if (std::abs(greatest) <= kPositionRange) return;
-    const double at = function_.leading_value(greatest, function_.start_leading_value())
+    const double maximum = std::abs(lowest) > std::abs(highest) ? lowest : highest;
+    if (std::abs(maximum) <= kPositionRange) return;
+    const double at = function_.leading_value(maximum, function_.start_leading_value())
                           .value_or(function_.start_leading_value());
     const CamInterpolator::Part* const part = part_at(at);
     const bool in_segment = part != nullptr && at >= part->from && at <= part->to;
     warn(in_segment ? part->index : CamFinding::kWhole, in_segment,
-         "the following value reaches " + number_text(greatest) + " at leading value " + number_text(at) +
+         "the following value reaches " + number_text(maximum) + " at leading value " + number_text(at) +
              ": MC_CamIn refuses the cam with 16#8024 unless SlaveScaling brings it to -1e12 to 1e12");
   }
 

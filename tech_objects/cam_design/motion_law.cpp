@@ -15,7 +15,7 @@ constexpr int kSamples = 128;  // per piece, to find the neighbourhood of a peak
 
 /// Greatest value of f over 0 … length: sampled, then narrowed by the golden section.
 template <class Function>
-double greatest(const Function& f, double length) noexcept {
+double maximum(const Function& f, double length) noexcept {
   int best = 0;
   double best_value = f(0.0);
   for (int k = 1; k <= kSamples; ++k)
@@ -73,13 +73,13 @@ MotionPeaks MotionLaw::peaks() const noexcept {
   const double direction = stroke_ < 0.0 ? -1.0 : 1.0;
   const auto raise = [](double& peak, double value) { peak = std::max(peak, value); };
   for (const MotionPiece& p : pieces()) {
-    raise(peaks.velocity, greatest([&](double d) { return std::abs(p.value(d).velocity); }, p.length));
+    raise(peaks.velocity, maximum([&](double d) { return std::abs(p.value(d).velocity); }, p.length));
     raise(peaks.acceleration,
-          greatest([&](double d) { return direction * p.value(d).acceleration; }, p.length));
+          maximum([&](double d) { return direction * p.value(d).acceleration; }, p.length));
     raise(peaks.deceleration,
-          greatest([&](double d) { return -direction * p.value(d).acceleration; }, p.length));
-    raise(peaks.jerk, greatest([&](double d) { return std::abs(p.value(d).jerk); }, p.length));
-    raise(peaks.torque, greatest(
+          maximum([&](double d) { return -direction * p.value(d).acceleration; }, p.length));
+    raise(peaks.jerk, maximum([&](double d) { return std::abs(p.value(d).jerk); }, p.length));
+    raise(peaks.torque, maximum(
                             [&](double d) {
                               const MotionValue value = p.value(d);
                               return std::abs(value.velocity * value.acceleration);

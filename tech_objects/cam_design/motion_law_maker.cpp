@@ -15,7 +15,7 @@ enum class Wave { constant, rising, falling, arch, none };
 
 constexpr double kMean[] = {1.0, 2.0 / kPi, 2.0 / kPi, 2.0 / kPi, 0.0};  // of the wave
 /// What a wave of unit length and height adds to the position.
-constexpr double kWay[] = {0.5, 2.0 / kPi - 4.0 / (kPi * kPi), 4.0 / (kPi * kPi), 1.0 / kPi, 0.0};
+constexpr double kDistance[] = {0.5, 2.0 / kPi - 4.0 / (kPi * kPi), 4.0 / (kPi * kPi), 1.0 / kPi, 0.0};
 
 /// Acceleration from one end of a law to its inflection point, as stretches of parts of that way.
 struct Half {
@@ -32,15 +32,15 @@ struct Half {
   }
 
   /// Share of the way that the rise of the velocity from 0 covers of that at full velocity.
-  double way() const noexcept {
+  double distance() const noexcept {
     double velocity = 0.0;
-    double way = 0.0;
+    double distance = 0.0;
     for (int i = 0; i < count; ++i) {
       const auto [wave, part] = stretches[i];
-      way += velocity * part + part * part * kWay[static_cast<int>(wave)];
+      distance += velocity * part + part * part * kDistance[static_cast<int>(wave)];
       velocity += part * kMean[static_cast<int>(wave)];
     }
-    return way / mean();
+    return distance / mean();
   }
 };
 
@@ -162,12 +162,12 @@ class MotionLawMaker {
   }
 
   /// What an end gives, with its derivatives taken over a way of 0 … 1.
-  static EndConditions conditions(const MotionBoundary& end, double way) noexcept {
+  static EndConditions conditions(const MotionBoundary& end, double distance) noexcept {
     EndConditions result;
     result.derivative[0] = end.y;
-    if (end.velocity) result.derivative[1] = *end.velocity * way;
-    if (end.acceleration) result.derivative[2] = *end.acceleration * way * way;
-    if (end.jerk) result.derivative[3] = *end.jerk * way * way * way;
+    if (end.velocity) result.derivative[1] = *end.velocity * distance;
+    if (end.acceleration) result.derivative[2] = *end.acceleration * distance * distance;
+    if (end.jerk) result.derivative[3] = *end.jerk * distance * distance * distance;
     return result;
   }
 
@@ -207,26 +207,27 @@ class MotionLawMaker {
     if (request_.ca || request_.ca_star || !request_.start.velocity || !request_.end.velocity)
       return MotionLawError::parameter;
     const double lambda = *request_.lambda;
-    const double k = way_of_polynomial(request_.start);
-    const double velocity = inflection_velocity(k, way_of_polynomial(request_.end), lambda);
-    const double ways[2] = {lambda * length_, request_.end.x - (request_.start.x + lambda * length_)};
+    const double k = distance_of_polynomial(request_.start);
+    const double velocity = inflection_velocity(k, distance_of_polynomial(request_.end), lambda);
+    const double distances[2] = {lambda * length_, request_.end.x - (request_.start.x + lambda * length_)};
     MotionBoundary inflection;
-    inflection.x = request_.start.x + ways[0];
-    inflection.y = request_.start.y + ways[0] * (start_velocity_ + (velocity - start_velocity_) * k);
+    inflection.x = request_.start.x + distances[0];
+    inflection.y = request_.start.y + distances[0] * (start_velocity_ + (velocity - start_velocity_) * k);
     inflection.velocity = velocity;
     inflection.acceleration = 0.0;
     double c[8];
-    if (!polynomial_between(conditions(request_.start, ways[0]), conditions(inflection, ways[0]), c))
+    if (!polynomial_between(conditions(request_.start, distances[0]), conditions(inflection, distances[0]),
+                            c))
       return MotionLawError::boundary;
-    add_polynomial(request_.start.x, ways[0], c);
-    if (!polynomial_between(conditions(inflection, ways[1]), conditions(request_.end, ways[1]), c))
+    add_polynomial(request_.start.x, distances[0], c);
+    if (!polynomial_between(conditions(inflection, distances[1]), conditions(request_.end, distances[1]), c))
       return MotionLawError::boundary;
-    add_polynomial(inflection.x, ways[1], c);
+    add_polynomial(inflection.x, distances[1], c);
     return MotionLawError::none;
   }
 
   /// Half::way for the polynomials 2-3, 3-4-5 and 4-5-6-7: the inverse of their greatest velocity.
-  static double way_of_polynomial(const MotionBoundary& end) noexcept {
+  static double distance_of_polynomial(const MotionBoundary& end) noexcept {
     if (end.jerk) return 16.0 / 35.0;
     return end.acceleration ? 8.0 / 15.0 : 2.0 / 3.0;
   }
@@ -268,7 +269,7 @@ class MotionLawMaker {
   std::optional<double> lambda_of_acceleration(const Half& first, const Half& second) const noexcept {
     const double unit = stroke_ / (length_ * length_);
     const auto excess = [&](double lambda) {
-      const double velocity = inflection_velocity(first.way(), second.way(), lambda);
+      const double velocity = inflection_velocity(first.distance(), second.distance(), lambda);
       if (request_.ca)
         return (velocity - start_velocity_) / (lambda * length_ * first.mean()) / unit - *request_.ca;
       return (velocity - end_velocity_) / ((1.0 - lambda) * length_ * second.mean()) / unit -
@@ -287,12 +288,12 @@ class MotionLawMaker {
     const double lag = 0.5 * kPi - 1.0;
     const double curvature = lag / *request_.ca + lag / *request_.ca_star;
     const double slope = lag * v0 / *request_.ca + lag * v1 / *request_.ca_star;
-    const double most = (0.5 + slope) / curvature;  // beyond it the ramps lose more than the line gains
-    const auto way = [&](double u) {
+    const double maximum = (0.5 + slope) / curvature;  // beyond it the ramps lose more than the line gains
+    const auto distance = [&](double u) {
       return u - lag * (u - v0) * (u - v0) / *request_.ca - lag * (u - v1) * (u - v1) / *request_.ca_star -
              1.0;
     };
-    const auto velocity = zero_between(way, std::max(v0, v1), most);
+    const auto velocity = zero_between(distance, std::max(v0, v1), maximum);
     if (!velocity) return MotionLawError::parameter;
     const double first = 0.5 * kPi * (*velocity - v0) / *request_.ca;
     const double second = 0.5 * kPi * (*velocity - v1) / *request_.ca_star;
@@ -337,18 +338,19 @@ class MotionLawMaker {
     x_ = request_.start.x;
     y_ = request_.start.y;
     velocity_ = start_velocity_;
-    const double ways[2] = {lambda * length_, (1.0 - lambda) * length_};
-    const double velocity = inflection_velocity(first.way(), second.way(), lambda);
-    const double heights[2] = {(velocity - start_velocity_) / (ways[0] * first.mean()),
-                               (end_velocity_ - velocity) / (ways[1] * second.mean())};
+    const double distances[2] = {lambda * length_, (1.0 - lambda) * length_};
+    const double velocity = inflection_velocity(first.distance(), second.distance(), lambda);
+    const double heights[2] = {(velocity - start_velocity_) / (distances[0] * first.mean()),
+                               (end_velocity_ - velocity) / (distances[1] * second.mean())};
     for (int i = 0; i < first.count; ++i) {
-      if (i + 1 == first.count && add_joined(first.stretches[i].wave, second.stretches[second.count - 1].wave,
-                                             first.stretches[i].part * ways[0],
-                                             second.stretches[second.count - 1].part * ways[1], heights)) {
+      if (i + 1 == first.count &&
+          add_joined(first.stretches[i].wave, second.stretches[second.count - 1].wave,
+                     first.stretches[i].part * distances[0],
+                     second.stretches[second.count - 1].part * distances[1], heights)) {
         joined_ = true;
         break;
       }
-      add_stretch(first.stretches[i].wave, first.stretches[i].part * ways[0], heights[0]);
+      add_stretch(first.stretches[i].wave, first.stretches[i].part * distances[0], heights[0]);
     }
     for (int i = second.count - 1 - (joined_ ? 1 : 0); i >= 0;
          --i) {  // towards the end the waves run backwards
@@ -357,7 +359,7 @@ class MotionLawMaker {
         wave = Wave::falling;
       else if (wave == Wave::falling)
         wave = Wave::rising;
-      add_stretch(wave, second.stretches[i].part * ways[1], heights[1]);
+      add_stretch(wave, second.stretches[i].part * distances[1], heights[1]);
     }
     MotionPiece& last = law_.pieces_[law_.count_ - 1];
     last.length = request_.end.x - last.start;

@@ -37,8 +37,8 @@ CamFault fault_of(const TO_Cam_Struct_SegmentData& s, std::size_t index) noexcep
 /// The point a third of the way from a to b on the line through a with a slope: with it as neighbour a
 /// B-spline runs evenly in x and leaves a with that slope.
 CamPoint guide(CamPoint a, CamPoint b, double slope) noexcept {
-  const double way = (b.x - a.x) / 3.0;
-  return {a.x + way, a.y + slope * way};
+  const double distance = (b.x - a.x) / 3.0;
+  return {a.x + distance, a.y + slope * distance};
 }
 
 double leg(CamPoint a, CamPoint b) noexcept {

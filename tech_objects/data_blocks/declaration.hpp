@@ -69,7 +69,7 @@ std::span<const Variable> axis_status_variables() noexcept;
 template <class Data>
 Value start_value_in(const Variable& variable, std::size_t element) {
   static Data data{};
-  return VariablePlace{&variable, variable.offset + element * variable.stride, -1}.signal(&data).load();
+  return VariableAddress{&variable, variable.offset + element * variable.stride, -1}.signal(&data).load();
 }
 
 }  // namespace lockstep

@@ -33,7 +33,7 @@ IndexedPath split_index(std::string_view path) {
   return {path.substr(0, open), path.substr(close + 1), index};
 }
 
-VariablePlace find_whole(ObjectKind kind, std::string_view path) {
+VariableAddress find_whole(ObjectKind kind, std::string_view path) {
   const IndexedPath indexed = split_index(path);
   for (const auto list : data_block_of(kind).lists()) {
     for (const Variable& variable : list) {
@@ -88,17 +88,17 @@ const DataBlock& data_block_of(ObjectKind kind) noexcept {
   return axis_data_block();
 }
 
-Signal VariablePlace::signal(void* data_block) const noexcept {
+Signal VariableAddress::signal(void* data_block) const noexcept {
   return {static_cast<char*>(data_block) + offset, variable->type, static_cast<std::int8_t>(bit)};
 }
 
-VariablePlace find_variable(ObjectKind kind, std::string_view path) noexcept {
-  if (const VariablePlace whole = find_whole(kind, path); whole.variable != nullptr) return whole;
+VariableAddress find_variable(ObjectKind kind, std::string_view path) noexcept {
+  if (const VariableAddress whole = find_whole(kind, path); whole.variable != nullptr) return whole;
   const auto dot = path.rfind('.');
   if (dot == path.npos) return {};
   const int bit = bit_number(path.substr(dot + 1));
   if (bit < 0) return {};
-  VariablePlace place = find_whole(kind, path.substr(0, dot));
+  VariableAddress place = find_whole(kind, path.substr(0, dot));
   if (place.variable == nullptr) return {};
   const Type type = place.variable->type;
   const bool has_bits = is_bit_string(type) || is_integer(type);

@@ -45,7 +45,7 @@ struct DataBlock {
 const DataBlock& data_block_of(ObjectKind kind) noexcept;
 
 /// A variable, an array element or a bit found by its path.
-struct VariablePlace {
+struct VariableAddress {
   const Variable* variable = nullptr;  ///< nullptr: no such path
   std::size_t offset = 0;              ///< in the data block [byte]
   int bit = -1;                        ///< bit of a word; -1: the whole variable
@@ -56,6 +56,6 @@ struct VariablePlace {
 
 /// Finds `Position`, `Sensor[1].Type`, `ValidPoint[7]`, `StatusWord.X22` without regard to case; array
 /// indices count as published.
-VariablePlace find_variable(ObjectKind kind, std::string_view path) noexcept;
+VariableAddress find_variable(ObjectKind kind, std::string_view path) noexcept;
 
 }  // namespace lockstep

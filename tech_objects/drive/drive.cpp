@@ -10,7 +10,7 @@ const MachineSignals kNone;
 }  // namespace
 
 void Drive::write_position(const PositionCommand& command) noexcept {
-  write(std::clamp(command.velocity + command.kpc * command.xerr, -command.most, command.most));
+  write(std::clamp(command.velocity + command.kpc * command.xerr, -command.maximum, command.maximum));
 }
 
 SensorActual Drive::read_sensor(std::size_t /*sensor*/) noexcept {

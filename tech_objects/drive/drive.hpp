@@ -42,7 +42,7 @@ struct PositionCommand {
   /// [u/s] At which what XERR refers to goes on until the next command. The telegram has no word for it: a
   /// drive takes it from one XERR to the next.
   double pace = 0.0;
-  double most = std::numeric_limits<double>::infinity();  ///< [u/s] > 0, limit of the velocity
+  double maximum = std::numeric_limits<double>::infinity();  ///< [u/s] > 0, limit of the velocity
 };
 
 /// What an encoder of the machine tells, beside that of the drive.

@@ -26,8 +26,8 @@ void MachinePlant::configure(const MachinePlantSettings& settings, double motor_
 }
 
 TorqueBand MachinePlant::permitted(const TorqueBand& limits) const noexcept {
-  const double most = settings_.maximum_torque;
-  return {std::clamp(limits.lower, -most, most), std::clamp(limits.upper, -most, most)};
+  const double maximum = settings_.maximum_torque;
+  return {std::clamp(limits.lower, -maximum, maximum), std::clamp(limits.upper, -maximum, maximum)};
 }
 
 /// What the stop pushes back with, against its side ≥ 0: spring and damper for place and velocity at the end
@@ -65,8 +65,8 @@ MachinePlant::Motion MachinePlant::step(const Begin& begin, const Motion& wanted
                            : begin.velocity + per_torque * settings_.load_torque;
   const double stopped = settings_.has_stop ? stop_torque(begin, velocity) : 0.0;
   velocity -= per_torque * settings_.stop.side * stopped;
-  const double most = per_torque * settings_.friction;
-  const double rubbed = std::clamp(velocity, -most, most);
+  const double maximum = per_torque * settings_.friction;
+  const double rubbed = std::clamp(velocity, -maximum, maximum);
   velocity -= rubbed;
   if (!pulses && velocity * begin.velocity <= 0.0) velocity = 0.0;
   const double against =
@@ -75,7 +75,7 @@ MachinePlant::Motion MachinePlant::step(const Begin& begin, const Motion& wanted
   // At the stop with the velocity of the end, as its torque has been found; else the means of the cycle.
   if (stopped > 0.0) return {velocity * cycle_, velocity};
   if (!pulses || limited_) return {0.5 * (begin.velocity + velocity) * cycle_, velocity};
-  return {wanted.way + 0.5 * (velocity - wanted.velocity) * cycle_, velocity};
+  return {wanted.distance + 0.5 * (velocity - wanted.velocity) * cycle_, velocity};
 }
 
 void MachinePlant::hold(double wanted_velocity, const TorqueBand& limits) noexcept {

@@ -53,7 +53,7 @@ class MachinePlant {
     double velocity;  // [u/s]
   };
   struct Motion {
-    double way;       // [u]
+    double distance;  // [u]
     double velocity;  // at the end [u/s]
   };
   /// @param wanted what the velocity loop alone would do

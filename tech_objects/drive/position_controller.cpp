@@ -21,10 +21,10 @@ void PositionController::reset(AxisPosition setpoint) noexcept {
   setpoints_.fill(setpoint);
 }
 
-void PositionController::reset(AxisPosition setpoint, double way, const Modulo& modulo) noexcept {
+void PositionController::reset(AxisPosition setpoint, double distance, const Modulo& modulo) noexcept {
   for (std::size_t age = 0; age < kDelay; ++age)
     setpoints_[(cycle_ + kDelay - 1 - age) % kDelay] =
-        advanced(setpoint, -way * static_cast<double>(age), modulo);
+        advanced(setpoint, -distance * static_cast<double>(age), modulo);
 }
 
 void PositionController::shift(double by, const Modulo& modulo) noexcept {

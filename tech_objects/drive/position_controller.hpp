@@ -43,8 +43,8 @@ class PositionController {
 
   /// Begins anew from a standing setpoint: before the first step, and after switching on.
   void reset(AxisPosition setpoint) noexcept;
-  /// Begins anew from a setpoint that has moved by `way` [u] in each servo cycle until now.
-  void reset(AxisPosition setpoint, double way, const Modulo& modulo) noexcept;
+  /// Begins anew from a setpoint that has moved by `distance` [u] in each servo cycle until now.
+  void reset(AxisPosition setpoint, double distance, const Modulo& modulo) noexcept;
 
   /// Shifts the history of setpoints [u], for homing: the controlled side does not notice.
   void shift(double by, const Modulo& modulo) noexcept;

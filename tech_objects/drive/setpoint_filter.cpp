@@ -23,7 +23,7 @@ void DynamicFilter::configure(const Modulo& modulo, double servo_cycle) noexcept
 }
 
 double DynamicFilter::dead_cycles(const TO_Struct_DynamicFilter& settings) const noexcept {
-  return std::min(time_of(settings.Tt) / servo_cycle_, static_cast<double>(kMostDeadCycles));
+  return std::min(time_of(settings.Tt) / servo_cycle_, static_cast<double>(kMaximumDeadCycles));
 }
 
 double DynamicFilter::delay(const TO_Struct_DynamicFilter& settings) const noexcept {
@@ -48,8 +48,8 @@ void DynamicFilter::reset(const ServoSetpoint& setpoint, const TO_Struct_Dynamic
   velocity_.first.set_behind(0.0);
   velocity_.second.set_behind(0.0);
   for (std::size_t age = 0; age < kKept; ++age) {
-    const double way = position_.behind() + setpoint.velocity * servo_cycle_ * static_cast<double>(age);
-    filtered_[(cycle_ + kKept - 1 - age) % kKept] = {advanced(setpoint.position, -way, modulo_),
+    const double distance = position_.behind() + setpoint.velocity * servo_cycle_ * static_cast<double>(age);
+    filtered_[(cycle_ + kKept - 1 - age) % kKept] = {advanced(setpoint.position, -distance, modulo_),
                                                      setpoint.velocity};
   }
 }

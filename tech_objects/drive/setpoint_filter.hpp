@@ -21,7 +21,7 @@ struct ServoSetpoint {
 /// PT2 filter and dead time. Behind a ramp it is late by T1 + T2 + Tt exactly. The cycle's thread.
 class DynamicFilter {
  public:
-  static constexpr std::size_t kMostDeadCycles = 16;  ///< of MC_Servo; a longer Tt counts as that
+  static constexpr std::size_t kMaximumDeadCycles = 16;  ///< of MC_Servo; a longer Tt counts as that
 
   void configure(const Modulo& modulo, double servo_cycle) noexcept;
 
@@ -37,7 +37,7 @@ class DynamicFilter {
   ServoSetpoint step(const ServoSetpoint& setpoint, const TO_Struct_DynamicFilter& settings) noexcept;
 
  private:
-  static constexpr std::size_t kKept = kMostDeadCycles + 2;
+  static constexpr std::size_t kKept = kMaximumDeadCycles + 2;
 
   void tune(const TO_Struct_DynamicFilter& settings) noexcept;
   double dead_cycles(const TO_Struct_DynamicFilter& settings) const noexcept;

@@ -19,7 +19,7 @@ constexpr double kRestVelocity = 0.01;
 constexpr double kLongestStop = 10.0;
 
 /// Steps of the drive's own position loop in a servo cycle, at most.
-constexpr int kMostSteps = 256;
+constexpr int kMaximumSteps = 256;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double 
   stopping_cycles_ = 0;
   ramp_ = last_setpoint_ = stop_velocity_ = 0.0;
   quick_stop_ = std::max(0.0, settings.quick_stop);
-  most_stop_cycles_ = kLongestStop / servo_cycle;
+  maximum_stop_cycles_ = kLongestStop / servo_cycle;
   faults_ = settings.faults;
   has_faults_ = faults_.drive != nullptr || faults_.encoder != nullptr || faults_.communication != nullptr ||
                 faults_.blocked != nullptr;
@@ -57,7 +57,7 @@ DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double 
   before_ = piece(dead.part * servo_cycle, time_constant);
   after_ = piece((1.0 - dead.part) * servo_cycle, time_constant);
   arrival_ = dead.part * servo_cycle;
-  const double steps = servo_cycle / std::max(settings.position_cycle, servo_cycle / kMostSteps);
+  const double steps = servo_cycle / std::max(settings.position_cycle, servo_cycle / kMaximumSteps);
   steps_ = std::max(1, static_cast<int>(std::floor(steps + 0.5)));
   step_ = piece(servo_cycle / steps_, time_constant);
   resolution_ = std::max(0.0, settings.resolution);
@@ -101,7 +101,7 @@ void SimulatedDrive::write(double velocity) noexcept {
 }
 
 void SimulatedDrive::write_position(const PositionCommand& command) noexcept {
-  next_target_ = {reported_ + command.xerr, command.kpc, command.pace, command.most};
+  next_target_ = {reported_ + command.xerr, command.kpc, command.pace, command.maximum};
   loop_cycles_ = kDelay;
   write(command.velocity);
 }
@@ -122,7 +122,7 @@ void SimulatedDrive::run_position_loop() noexcept {
     if (target.kpc > 0.0) {
       const double age = newer ? since : since + servo_cycle_;
       const double difference = (target.position - position_).rounded() + target.pace * age;
-      velocity = std::clamp(velocity + target.kpc * difference, -target.most, target.most);
+      velocity = std::clamp(velocity + target.kpc * difference, -target.maximum, target.maximum);
     }
     run(step_, velocity);
   }
@@ -148,7 +148,7 @@ void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velo
   const MachinePlant::Motion wanted{(position_ - position_before).rounded(), velocity_};
   const MachinePlant::Motion made = plant_.step({position_before.rounded(), velocity_before}, wanted,
                                                 states_.pulses(), torque_.band, torque_.additive);
-  if (made.way != wanted.way) position_ = position_before + made.way;
+  if (made.distance != wanted.distance) position_ = position_before + made.distance;
   velocity_ = made.velocity;
 }
 
@@ -156,7 +156,7 @@ void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velo
 void SimulatedDrive::watch_stop() noexcept {
   if (stopping_cycles_++ == 0) stop_velocity_ = std::abs(velocity_);
   const bool rests = std::abs(velocity_) <= std::max(kRest * stop_velocity_, kRestVelocity) && ramp_ == 0.0;
-  if (!rests && stopping_cycles_ < most_stop_cycles_) return;
+  if (!rests && stopping_cycles_ < maximum_stop_cycles_) return;
   stopping_cycles_ = 0;
   states_.stopped();
 }

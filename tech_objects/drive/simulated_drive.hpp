@@ -54,7 +54,7 @@ class SimulatedDrive final : public Drive {
     DoubleDouble position;  // [u]
     double kpc = 0.0;       // [1/s]; 0: the velocity counts alone
     double pace = 0.0;      // [u/s]
-    double most = 0.0;      // [u/s]
+    double maximum = 0.0;   // [u/s]
   };
   static Piece piece(double duration, double time_constant) noexcept;
   void run(const Piece& piece, double velocity) noexcept;
@@ -97,7 +97,7 @@ class SimulatedDrive final : public Drive {
   double stop_velocity_ = 0.0;  // at its begin [u/s]
   double quick_stop_ = 0.0;     // [u/s²]
   double ramp_ = 0.0;           // setpoint of a quick stop [u/s]
-  double most_stop_cycles_ = 0.0;
+  double maximum_stop_cycles_ = 0.0;
   std::array<Target, kDelay> targets_{};  // by cycle, as the velocity setpoints
   Target next_target_;
   int steps_ = 1;  // of the position loop in a servo cycle

@@ -14,8 +14,8 @@ struct Cycles {
 };
 
 /// @param most cycles that can be kept; a longer delay counts as that
-inline Cycles cycles_of(double delay, double servo_cycle, std::size_t most) noexcept {
-  const double cycles = std::clamp(delay / servo_cycle, 0.0, static_cast<double>(most));
+inline Cycles cycles_of(double delay, double servo_cycle, std::size_t maximum) noexcept {
+  const double cycles = std::clamp(delay / servo_cycle, 0.0, static_cast<double>(maximum));
   const double nearest = std::floor(cycles + 0.5);
   if (std::abs(cycles - nearest) < 1e-9) return {static_cast<std::size_t>(nearest), 0.0};
   const double whole = std::floor(cycles);

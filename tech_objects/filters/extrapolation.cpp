@@ -106,10 +106,10 @@ void Extrapolation::pass_tolerance_band(double velocity, double range) noexcept 
 /// stands until that has come back by the hysteresis, and then follows at this distance. So it never steps. A
 /// hysteresis that becomes smaller counts when the distance has been used up.
 void Extrapolation::pass_hysteresis(AxisPosition position, double hysteresis) noexcept {
-  const double way = rounded_difference(position, values_.position, modulo_);
+  const double distance = rounded_difference(position, values_.position, modulo_);
   const double width = std::max(hysteresis, held_);
-  if (direction_ == 0 || width == 0.0) direction_ = way > 0.0 ? 1 : way < 0.0 ? -1 : direction_;
-  const double back = -direction_ * way;
+  if (direction_ == 0 || width == 0.0) direction_ = distance > 0.0 ? 1 : distance < 0.0 ? -1 : direction_;
+  const double back = -direction_ * distance;
   if (back <= 0.0) {
     values_.position = position;
     held_ = 0.0;

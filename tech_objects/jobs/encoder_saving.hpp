@@ -11,12 +11,12 @@ namespace lockstep {
 /// `asked` and answers by `answered` and `error` through an image of signals.
 class EncoderSaving {
  public:
-  static constexpr int kMostInstances = 2;  ///< of the block, in a controller
+  static constexpr int kMaximumInstances = 2;  ///< of the block, in a controller
 
   // ---- Load time
 
   /// One more instance of the block; whether it may have jobs.
-  bool admit() noexcept { return ++instances_ <= kMostInstances; }
+  bool admit() noexcept { return ++instances_ <= kMaximumInstances; }
   bool kept = false;  ///< whether somebody writes what a job asks for
 
   // ---- Cycle

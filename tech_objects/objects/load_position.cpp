@@ -21,19 +21,19 @@ AxisPosition LoadPosition::fine_position() noexcept {
   velocity_ = to.velocity;
   if (tick_ >= ratio_) return to.position;
   const Modulo modulo = object_->modulo();
-  const double way = rounded_difference(to.position, from.position, modulo);
+  const double distance = rounded_difference(to.position, from.position, modulo);
   const double part = static_cast<double>(tick_) / ratio_;
-  const FineSetpoint fine = fine_setpoint(way, from.velocity, to.velocity, period_, part);
+  const FineSetpoint fine = fine_setpoint(distance, from.velocity, to.velocity, period_, part);
   velocity_ = fine.velocity;
-  return advanced(from.position, fine.way, modulo);
+  return advanced(from.position, fine.distance, modulo);
 }
 
 void LoadPosition::servo() noexcept {
   ++tick_;
   const bool measured = this->measured();
   const AxisPosition now = measured ? object_->actual_position() : fine_position();
-  const DoubleDouble line = measured ? object_->measured_line() : line_ + virtual_way(now);
-  way_ = begun_ ? line - line_ : DoubleDouble{};
+  const DoubleDouble line = measured ? object_->measured_line() : line_ + virtual_distance(now);
+  distance_ = begun_ ? line - line_ : DoubleDouble{};
   line_ = line;
   begun_ = true;
   position_ = now;
@@ -42,7 +42,7 @@ void LoadPosition::servo() noexcept {
 }
 
 /// What a virtual axis has moved. It stands while it is restarted, and may be on another ring then.
-DoubleDouble LoadPosition::virtual_way(AxisPosition now) const noexcept {
+DoubleDouble LoadPosition::virtual_distance(AxisPosition now) const noexcept {
   if (!begun_) return difference(now, {}, object_->modulo());
   if (restarts_ != object_->restarts()) return {};
   return difference(now, position_, object_->modulo()) - (object_->renamed() - renamed_);

@@ -27,7 +27,7 @@ class LoadPosition {
   /// Its place on a line from where it was called 0 at the start [u]; homing does not change it.
   DoubleDouble line() const noexcept { return line_; }
   /// What it has moved since the servo tick before [u].
-  DoubleDouble way() const noexcept { return way_; }
+  DoubleDouble distance() const noexcept { return distance_; }
   /// Whether it is an actual position that is read here.
   bool measured() const noexcept { return !setpoint_ && object_->measured_in_servo(); }
   /// Of a setpoint its velocity at this place [u/s]; of an actual position 0.
@@ -35,7 +35,7 @@ class LoadPosition {
 
  private:
   AxisPosition fine_position() noexcept;
-  DoubleDouble virtual_way(AxisPosition now) const noexcept;
+  DoubleDouble virtual_distance(AxisPosition now) const noexcept;
 
   const LeadingObject* object_ = nullptr;
   double period_ = 0.001;  // of the interpolator [s]
@@ -46,7 +46,7 @@ class LoadPosition {
   double velocity_ = 0.0;  // [u/s]
   AxisPosition position_;
   DoubleDouble line_;
-  DoubleDouble way_;
+  DoubleDouble distance_;
   // Of the object, when it was last looked at.
   DoubleDouble renamed_;
   std::uint32_t restarts_ = 0;

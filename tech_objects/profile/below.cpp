@@ -1,4 +1,4 @@
-// Motions that gain way against the direction in which the velocity changes. Everything but `way` of
+// Motions that gain way against the direction in which the velocity changes. Everything but `distance` of
 // plan_below is seen in the direction of that change: less way is wanted than the quickest change covers.
 #include <algorithm>
 #include <array>
@@ -27,28 +27,28 @@ PositionPlanner::Entry PositionPlanner::entry(const View& down) const noexcept {
   const double gain = 2.0 * jerk_.jerk * (edge - v);
   double square = a <= limit ? std::min(a * a + gain, limit * limit) : limit * limit;
   if (down.end > 0.0) {
-    const double least = std::min(rise_limits_.below, rise_limits_.above);
-    square = std::min(square, least * least - 2.0 * jerk_.jerk * edge);
+    const double minimum = std::min(rise_limits_.below, rise_limits_.above);
+    square = std::min(square, minimum * minimum - 2.0 * jerk_.jerk * edge);
   }
   square = std::max(square, a * a - gain);
   if (square >= 2.0 * jerk_.jerk * (down.end - edge)) return {{}, v, 0.0, 0.0, down.end};  // it ends before
   Entry entry{{}, edge, std::sqrt(square), 0.0, edge + square * 0.5 * jerk_.inverse};
   entry.part =
       rise_part(v, a, edge, entry.a, edge - v - (a * a - square) * 0.5 * jerk_.inverse, limit, jerk_);
-  entry.way = release_way(down) + entry.part.distance();
+  entry.distance = release_distance(down) + entry.part.distance();
   return entry;
 }
 
 // ---- ease ----
 
-/// The rest of the change after the acceleration at the entry is reduced; `way` is of the whole.
+/// The rest of the change after the acceleration at the entry is reduced; `distance` is of the whole.
 Rise PositionPlanner::eased(const View& down, const Entry& from, double reduction,
-                            double& way) const noexcept {
+                            double& distance) const noexcept {
   const double a = from.a - reduction;
   const double v = from.v + reduction * (from.a + a) * 0.5 * jerk_.inverse;
   const double t = reduction * jerk_.inverse;
   const Rise rise = make_rise(v, a, down.end, down.end - from.lowest, rise_limits_, jerk_);
-  way = from.way + t * (from.v + t * (2.0 * from.a + a) * (1.0 / 6.0)) + rise.distance();
+  distance = from.distance + t * (from.v + t * (2.0 * from.a + a) * (1.0 / 6.0)) + rise.distance();
   return rise;
 }
 
@@ -59,7 +59,7 @@ Rise PositionPlanner::eased(const View& down, const Entry& from, double reductio
 /// rise just meets the lower limit at standstill, p steps.
 std::array<double, 5> PositionPlanner::turning_reductions(const Entry& from, double end) const noexcept {
   const double s = from.lowest, j = jerk_.jerk;
-  const double least = std::min(rise_limits_.below, rise_limits_.above);
+  const double minimum = std::min(rise_limits_.below, rise_limits_.above);
   const auto on_limit = [&](double p) {
     return from.a - 0.25 * (p + std::sqrt(std::max(p * p + 16.0 * j * s, 0.0)));
   };
@@ -69,38 +69,38 @@ std::array<double, 5> PositionPlanner::turning_reductions(const Entry& from, dou
     return from.a - std::sqrt(std::max(square, 0.0));
   };
   return {on_limit(rise_limits_.below), on_limit(rise_limits_.above), at_peak(end - s),
-          at_peak(least * least * 0.5 * jerk_.inverse - s),
-          from.a - std::sqrt(std::max(j * s + 0.5 * least * least, 0.0))};
+          at_peak(minimum * minimum * 0.5 * jerk_.inverse - s),
+          from.a - std::sqrt(std::max(j * s + 0.5 * minimum * minimum, 0.0))};
 }
 
 /// The least reduction that covers a way; false if there is none.
-bool PositionPlanner::solve_ease(const View& down, const Entry& from, double way,
+bool PositionPlanner::solve_ease(const View& down, const Entry& from, double distance,
                                  double& reduction) const noexcept {
   const auto miss = [&](double by) {
     double covered = 0.0;
     eased(down, from, by, covered);
-    return covered - way;
+    return covered - distance;
   };
-  double most = from.a, miss_most = miss(most);
+  double maximum = from.a, miss_maximum = miss(maximum);
   if (from.v < 0.0 && down.end > 0.0) {
     for (const double by : turning_reductions(from, down.end)) {
-      if (!(by > 0.0 && by < most)) continue;
+      if (!(by > 0.0 && by < maximum)) continue;
       const double miss_by = miss(by);
       if (miss_by > 0.0) continue;
-      most = by;
-      miss_most = miss_by;
+      maximum = by;
+      miss_maximum = miss_by;
     }
   }
-  if (miss_most > 0.0) return false;
-  reduction = find_root([&](double by) { return -miss(by); }, 0.0, -miss(0.0), most, -miss_most,
-                        2.0 * kEpsilon * std::abs(way));
+  if (miss_maximum > 0.0) return false;
+  reduction = find_root([&](double by) { return -miss(by); }, 0.0, -miss(0.0), maximum, -miss_maximum,
+                        2.0 * kEpsilon * std::abs(distance));
   return true;
 }
 
 void PositionPlanner::build_eased(const View& down, const Entry& from, double reduction, double target,
                                   Profile& out) const noexcept {
-  double way = 0.0;
-  const Rise rise = eased(down, from, reduction, way);
+  double distance = 0.0;
+  const Rise rise = eased(down, from, reduction, distance);
   ProfileBuilder builder{out, start_, jerk_};
   if (from.part.duration() > 0.0) {
     if (down.a0 < 0.0) builder.add_release(down.sign, down.sign * down.stop);
@@ -117,24 +117,24 @@ void PositionPlanner::build_eased(const View& down, const Entry& from, double re
 PositionPlanner::Pair PositionPlanner::hold(const View& down, double at, double excess_to,
                                             double excess_from) const noexcept {
   Pair pair{climb(down, at, excess_to), make_rise(at, 0.0, down.end, excess_from, rise_limits_, jerk_), 0.0};
-  pair.way = release_way(down) + pair.first.distance() + pair.second.distance();
+  pair.distance = release_distance(down) + pair.first.distance() + pair.second.distance();
   return pair;
 }
 
 /// The velocity between `first` and `last` < `first` that splits the change so that it covers a way; false
 /// if there is none: `pair` is then split at `last`.
-bool PositionPlanner::solve_hold(const View& down, double first, double last, double way,
+bool PositionPlanner::solve_hold(const View& down, double first, double last, double distance,
                                  Pair& pair) const noexcept {
   const auto miss = [&](double below) {
     pair = hold(down, first - below, (first - down.stop) - below, (down.end - first) + below);
-    return way - pair.way;
+    return distance - pair.distance;
   };
-  const double most = first - last;
-  const double miss_most = miss(most);
-  if (miss_most < 0.0) return false;
-  const double miss_least = miss(0.0);
-  if (miss_least < 0.0)
-    miss(find_root(miss, 0.0, miss_least, most, miss_most, 2.0 * kEpsilon * std::abs(way)));
+  const double maximum = first - last;
+  const double miss_maximum = miss(maximum);
+  if (miss_maximum < 0.0) return false;
+  const double miss_minimum = miss(0.0);
+  if (miss_minimum < 0.0)
+    miss(find_root(miss, 0.0, miss_minimum, maximum, miss_maximum, 2.0 * kEpsilon * std::abs(distance)));
   return true;
 }
 
@@ -147,23 +147,24 @@ void PositionPlanner::build_hold(const View& down, const Pair& pair, double crui
   builder.finish(target, target_velocity_);
 }
 
-void PositionPlanner::plan_below(const View& up, double way, double target, Profile& out) const noexcept {
+void PositionPlanner::plan_below(const View& up, double distance, double target,
+                                 Profile& out) const noexcept {
   const View down = view(-up.sign);
   const Entry from = entry(down);
   double reduction = 0.0;
-  if (from.a > 0.0 && solve_ease(down, from, -way, reduction)) {
+  if (from.a > 0.0 && solve_ease(down, from, -distance, reduction)) {
     build_eased(down, from, reduction, target, out);
     return;
   }
   Pair pair;
   const double last = std::max(down.stop, -up.limit);
   const bool starts_beyond = up.stop > up.limit;
-  if ((starts_beyond || last < from.lowest) && solve_hold(down, from.lowest, last, -way, pair)) {
+  if ((starts_beyond || last < from.lowest) && solve_hold(down, from.lowest, last, -distance, pair)) {
     build_hold(down, pair, 0.0, target, out);
   } else if (starts_beyond) {
-    build_hold(down, pair, (way + pair.way) / up.limit, target, out);
+    build_hold(down, pair, (distance + pair.distance) / up.limit, target, out);
   } else {
-    const double cruise = solve_peak(up, up.stop, way, pair);
+    const double cruise = solve_peak(up, up.stop, distance, pair);
     build_peak(up, pair, cruise, target, out);
   }
 }

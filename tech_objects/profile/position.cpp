@@ -41,7 +41,7 @@ PositionPlanner::View PositionPlanner::view(double sign) const noexcept {
 }
 
 /// Way until an acceleration against the view's direction has fallen to 0.
-double PositionPlanner::release_way(const View& view) const noexcept {
+double PositionPlanner::release_distance(const View& view) const noexcept {
   if (view.a0 >= 0.0) return 0.0;
   const double t = -view.a0 * jerk_.inverse;
   return t * (view.v0 + t * view.a0 * (1.0 / 3.0));
@@ -71,18 +71,18 @@ void PositionPlanner::plan_direct(Profile& out) const noexcept {
 double PositionPlanner::rounding(const View& direct, const Rise& rise, double target) const noexcept {
   const double v = std::max(std::abs(direct.v0), std::abs(direct.end));
   if (v == 0.0 && direct.a0 == 0.0) return 0.0;
-  const double ways = std::abs(start_.position) + std::abs(target) + v * rise.duration();
+  const double distances = std::abs(start_.position) + std::abs(target) + v * rise.duration();
   const double of_acceleration = direct.a0 != 0.0 ? v * rise_limits_.above * jerk_.inverse : 0.0;
-  return 32.0 * kEpsilon * (ways + of_acceleration);
+  return 32.0 * kEpsilon * (distances + of_acceleration);
 }
 
 void PositionPlanner::plan_to(double target_position, Profile& out) const noexcept {
   const View up = view(1.0);
   const View direct = up.end >= up.stop ? up : view(-1.0);
   const Rise rise = climb(direct, direct.end, direct.end - direct.stop);
-  const double direct_way = release_way(direct) + rise.distance();
-  const double way = target_position - start_.position;
-  const double missing = way - direct.sign * direct_way;
+  const double direct_distance = release_distance(direct) + rise.distance();
+  const double distance = target_position - start_.position;
+  const double missing = distance - direct.sign * direct_distance;
 
   if (std::abs(missing) <= rounding(direct, rise, target_position)) {
     ProfileBuilder builder{out, start_, jerk_};
@@ -93,10 +93,10 @@ void PositionPlanner::plan_to(double target_position, Profile& out) const noexce
   const View side = view(missing > 0.0 ? 1.0 : -1.0);
   if (side.sign == direct.sign) {
     Pair pair;
-    const double cruise = solve_peak(side, side.end, side.sign * way, pair);
+    const double cruise = solve_peak(side, side.end, side.sign * distance, pair);
     build_peak(side, pair, cruise, target_position, out);
   } else {
-    plan_below(side, side.sign * way, target_position, out);
+    plan_below(side, side.sign * distance, target_position, out);
   }
 }
 
@@ -107,21 +107,21 @@ PositionPlanner::Pair PositionPlanner::peak(const View& view, double base, doubl
   const double top = base + over;
   Pair pair{climb(view, top, (base - view.stop) + over),
             make_rise(view.end, 0.0, top, (base - view.end) + over, rise_limits_.reversed(), jerk_), 0.0};
-  pair.way = release_way(view) + pair.first.distance() + pair.second.distance();
+  pair.distance = release_distance(view) + pair.first.distance() + pair.second.distance();
   return pair;
 }
 
 /// A peak near which the search starts. To the third order, the way gained is a polynomial in x = √over.
 /// @param pair the motion without a peak; a rise without length gains as √over, another one as over
 double PositionPlanner::first_guess(double base, double missing, const Pair& pair,
-                                    double most) const noexcept {
+                                    double maximum) const noexcept {
   const double a1 = pair.first.last_peak(), a2 = pair.second.last_peak();
-  if (base < 0.0 || jerk_.jerk == 0.0 || (a1 > 0.0 && a2 > 0.0)) return most;
+  if (base < 0.0 || jerk_.jerk == 0.0 || (a1 > 0.0 && a2 > 0.0)) return maximum;
   const double far_peak = std::max(a1, a2);
   const double count = (far_peak > 0.0 ? 1.0 : 2.0) / std::sqrt(jerk_.jerk);
   const double c1 = 2.0 * count * base, c3 = count;
   const double c2 = far_peak > 0.0 ? base / far_peak + far_peak * 0.5 * jerk_.inverse : 0.0;
-  double x = std::min(rough_cube_root(missing / c3) * 1.1, std::sqrt(most));
+  double x = std::min(rough_cube_root(missing / c3) * 1.1, std::sqrt(maximum));
   if (c1 > 0.0) x = std::min(x, missing / c1);
   for (int step = 0; step < 3; ++step) {
     const double gained = x * (c1 + x * (c2 + x * c3));
@@ -137,10 +137,11 @@ double PositionPlanner::gain(const Pair& pair, double top) const noexcept {
 }
 
 /// Finds the peak that covers a way; returns the time at constant velocity [s].
-double PositionPlanner::solve_peak(const View& view, double base, double way, Pair& pair) const noexcept {
+double PositionPlanner::solve_peak(const View& view, double base, double distance,
+                                   Pair& pair) const noexcept {
   PeakSearch search{0.0, std::max(view.limit - base, 0.0), 0.0, true};
   pair = peak(view, base, search.high);
-  if (pair.way <= way) return (way - pair.way) / view.limit;
+  if (pair.distance <= distance) return (distance - pair.distance) / view.limit;
 
   // From `flat` on the smaller rise has a plateau, and the way mostly is a quadratic polynomial.
   const bool near_is_second = view.end >= view.stop;
@@ -148,35 +149,35 @@ double PositionPlanner::solve_peak(const View& view, double base, double way, Pa
   const double flat = near_limit * near_limit * jerk_.inverse;
   if (flat < search.high) {
     pair = peak(view, base, flat);
-    search.by_root = pair.way >= way;
+    search.by_root = pair.distance >= distance;
     (search.by_root ? search.high : search.low) = flat;
   }
   if (search.by_root) {
     pair = peak(view, base, 0.0);
-    search.over = first_guess(base, way - pair.way, pair, search.high);
+    search.over = first_guess(base, distance - pair.distance, pair, search.high);
   } else {
-    const double missing = way - pair.way, linear = gain(pair, base + flat);
+    const double missing = distance - pair.distance, linear = gain(pair, base + flat);
     const double bend = 1.0 / pair.first.last_peak() + 1.0 / pair.second.last_peak();
     search.over = flat + 2.0 * missing / (linear + std::sqrt(linear * linear + 2.0 * bend * missing));
   }
   if (!(search.over > search.low && search.over < search.high))
     search.over = 0.5 * (search.low + search.high);
-  refine_peak(view, base, way, search, pair);
+  refine_peak(view, base, distance, search, pair);
   return 0.0;
 }
 
 /// Newton's method, in √over where the smaller rise has no plateau; bisection where that leaves the bracket.
-void PositionPlanner::refine_peak(const View& view, double base, double way, PeakSearch search,
+void PositionPlanner::refine_peak(const View& view, double base, double distance, PeakSearch search,
                                   Pair& pair) const noexcept {
-  constexpr int kMostSteps = 200;
+  constexpr int kMaximumSteps = 200;
   const double fastest = std::max(std::abs(view.v0), std::abs(view.end));
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaximumSteps; ++step) {
     const double over = search.over;
     pair = peak(view, base, over);
-    const double miss = pair.way - way;
-    const double ways = std::abs(way) + std::max(fastest, std::abs(base + over)) *
-                                            (pair.first.duration() + pair.second.duration());
-    if (std::abs(miss) <= kEpsilon * ways) return;
+    const double miss = pair.distance - distance;
+    const double distances = std::abs(distance) + std::max(fastest, std::abs(base + over)) *
+                                                      (pair.first.duration() + pair.second.duration());
+    if (std::abs(miss) <= kEpsilon * distances) return;
     (miss < 0.0 ? search.low : search.high) = over;
     const double slope = gain(pair, base + over);
     double next = over - miss / slope;

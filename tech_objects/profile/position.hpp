@@ -44,16 +44,16 @@ class PositionPlanner {
   /// Where `ease` begins, seen in the direction of the change: the start, or where it comes inside the
   /// limits.
   struct Entry {
-    RisePart part;  // from the start (or from `stop`) to here; without duration if it is the start
-    double v, a;    // a > 0, or nothing can be eased
-    double way;     // from the start to here
-    double lowest;  // velocity at which the acceleration is 0 if it falls from here
+    RisePart part;    // from the start (or from `stop`) to here; without duration if it is the start
+    double v, a;      // a > 0, or nothing can be eased
+    double distance;  // from the start to here
+    double lowest;    // velocity at which the acceleration is 0 if it falls from here
   };
   /// Two rises that meet at a velocity where the acceleration is 0.
   struct Pair {
     Rise first;
     Rise second;  // of a peak: run backwards
-    double way;
+    double distance;
   };
 
   /// Where the peak is looked for, as velocity above its base.
@@ -64,30 +64,31 @@ class PositionPlanner {
   };
 
   View view(double sign) const noexcept;
-  double release_way(const View& view) const noexcept;
+  double release_distance(const View& view) const noexcept;
   Rise climb(const View& view, double to, double excess) const noexcept;
   void build_climb(ProfileBuilder& builder, const View& view, const Rise& rise) const noexcept;
 
   Pair peak(const View& view, double base, double over) const noexcept;
   double rounding(const View& direct, const Rise& rise, double target) const noexcept;
-  double solve_peak(const View& view, double base, double way, Pair& pair) const noexcept;
-  void refine_peak(const View& view, double base, double way, PeakSearch search, Pair& pair) const noexcept;
+  double solve_peak(const View& view, double base, double distance, Pair& pair) const noexcept;
+  void refine_peak(const View& view, double base, double distance, PeakSearch search,
+                   Pair& pair) const noexcept;
   double gain(const Pair& pair, double top) const noexcept;
-  double first_guess(double base, double missing, const Pair& pair, double most) const noexcept;
+  double first_guess(double base, double missing, const Pair& pair, double maximum) const noexcept;
   void build_peak(const View& view, const Pair& pair, double cruise, double target,
                   Profile& out) const noexcept;
 
   Entry entry(const View& down) const noexcept;
-  Rise eased(const View& down, const Entry& from, double reduction, double& way) const noexcept;
+  Rise eased(const View& down, const Entry& from, double reduction, double& distance) const noexcept;
   std::array<double, 5> turning_reductions(const Entry& from, double end) const noexcept;
-  bool solve_ease(const View& down, const Entry& from, double way, double& reduction) const noexcept;
+  bool solve_ease(const View& down, const Entry& from, double distance, double& reduction) const noexcept;
   void build_eased(const View& down, const Entry& from, double reduction, double target,
                    Profile& out) const noexcept;
   Pair hold(const View& down, double at, double excess_to, double excess_from) const noexcept;
-  bool solve_hold(const View& down, double first, double last, double way, Pair& pair) const noexcept;
+  bool solve_hold(const View& down, double first, double last, double distance, Pair& pair) const noexcept;
   void build_hold(const View& down, const Pair& pair, double cruise, double target,
                   Profile& out) const noexcept;
-  void plan_below(const View& up, double way, double target, Profile& out) const noexcept;
+  void plan_below(const View& up, double distance, double target, Profile& out) const noexcept;
 
   MotionState start_;
   double target_velocity_;

@@ -9,8 +9,8 @@
 namespace lockstep {
 namespace {
 
-constexpr double kLeast = 1e-100;
-constexpr double kMost = 1e100;
+constexpr double kMinimum = 1e-100;
+constexpr double kMaximum = 1e100;
 
 bool finite(const ProfileLimits& limits) noexcept {
   return std::isfinite(limits.velocity_max) && std::isfinite(limits.velocity_min) &&
@@ -19,7 +19,7 @@ bool finite(const ProfileLimits& limits) noexcept {
 }
 
 bool in_range(double magnitude) noexcept {
-  return magnitude >= kLeast && magnitude <= kMost;
+  return magnitude >= kMinimum && magnitude <= kMaximum;
 }
 
 PlanResult check(const MotionState& start, double target_position, double target_velocity,
@@ -35,8 +35,8 @@ PlanResult check(const MotionState& start, double target_position, double target
     return PlanResult::beyond_limits;
   if (!in_range(limits.velocity_max) || !in_range(-limits.velocity_min) || !in_range(limits.acceleration) ||
       !in_range(limits.deceleration) || (limits.jerk != 0.0 && !in_range(limits.jerk)) ||
-      std::abs(start.position) > kMost || std::abs(start.velocity) > kMost ||
-      std::abs(start.acceleration) > kMost || std::abs(target_position) > kMost)
+      std::abs(start.position) > kMaximum || std::abs(start.velocity) > kMaximum ||
+      std::abs(start.acceleration) > kMaximum || std::abs(target_position) > kMaximum)
     return PlanResult::not_representable;
   return PlanResult::ok;
 }
@@ -51,9 +51,10 @@ bool reaches_target(const Profile& profile) noexcept {
   for (const Profile::Phase& phase : profile.phases())
     fastest = std::max(fastest, std::abs(phase.state.velocity));
   const double reached = profile.phases().back().at(profile.duration()).position;
-  const double ways =
+  const double distances =
       std::abs(profile.start().position) + std::abs(target.position) + fastest * profile.duration();
-  return std::abs(reached - target.position) <= 1e-9 * ways && ways <= std::numeric_limits<double>::max();
+  return std::abs(reached - target.position) <= 1e-9 * distances &&
+         distances <= std::numeric_limits<double>::max();
 }
 
 }  // namespace

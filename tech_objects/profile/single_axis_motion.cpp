@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t kRebaseTicks = 4096;
 
 /// By what ways are apart by rounding, relative to them.
-constexpr double kSameWay = 1e-12;
+constexpr double kSameDirection = 1e-12;
 
 /// A tick that misses the end of a profile by rounding is at it: what is left there is no motion, but would
 /// show as one.
@@ -171,21 +171,21 @@ Dynamics SingleAxisMotion::demand(const Setpoint& now) const noexcept {
   const double v = now.velocity, a = now.acceleration;
   const double run_down = dynamics_.jerk > 0.0 ? a * std::abs(a) / (2.0 * dynamics_.jerk) : 0.0;
   const double own = std::max(dynamics_.acceleration, dynamics_.deceleration);
-  const double most = std::abs(a) > own ? std::max(own, std::abs(profile_.start().acceleration)) : own;
+  const double maximum = std::abs(a) > own ? std::max(own, std::abs(profile_.start().acceleration)) : own;
   return {.velocity = std::max({dynamics_.velocity, std::abs(v), std::abs(v + run_down)}),
-          .acceleration = most,
-          .deceleration = most,
+          .acceleration = maximum,
+          .deceleration = maximum,
           .jerk = dynamics_.jerk};
 }
 
 double SingleAxisMotion::fastest(const Setpoint& now, int direction) const noexcept {
-  if (way_left(direction) <= kSameWay * (1.0 + std::abs(profile_.target().position))) return 0.0;
+  if (distance_left(direction) <= kSameDirection * (1.0 + std::abs(profile_.target().position))) return 0.0;
   const double v = direction * now.velocity, a = direction * now.acceleration;
   const double run_down = dynamics_.jerk > 0.0 ? a * std::abs(a) / (2.0 * dynamics_.jerk) : 0.0;
   return std::max({dynamics_.velocity, v, v + run_down});
 }
 
-double SingleAxisMotion::way_left(int direction) const noexcept {
+double SingleAxisMotion::distance_left(int direction) const noexcept {
   if (direction * target_velocity_ > 0.0) return std::numeric_limits<double>::infinity();
   const double now = static_cast<double>(ticks_) * period_;
   if (now >= profile_.duration()) return 0.0;  // at rest, or for ever in the other direction

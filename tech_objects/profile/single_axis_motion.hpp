@@ -41,7 +41,7 @@ class SingleAxisMotion {
   void shift(double distance) noexcept;
 
   /// The way that the motion still makes in a direction, 1 or -1 [u] ≥ 0; infinite if it goes on for ever.
-  double way_left(int direction) const noexcept;
+  double distance_left(int direction) const noexcept;
 
   Aim aim() const noexcept { return aim_; }
   /// Whether the aim is reached: at rest at the target, or at the velocity.

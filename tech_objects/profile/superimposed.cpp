@@ -9,8 +9,8 @@ namespace {
 /// By what ways may differ by rounding, relative to their size.
 constexpr double kRounding = 1e-12;
 
-bool usable(const Dynamics& room) noexcept {
-  return room.acceleration > 0.0 && room.deceleration > 0.0;
+bool usable(const Dynamics& margin) noexcept {
+  return margin.acceleration > 0.0 && margin.deceleration > 0.0;
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ void Superimposed::reset() noexcept {
   in_use_ = waits_ = given_ = false;
   anchor_ = {};
   local_ = {};
-  room_ = {};
+  margin_ = {};
   motion_.stand(local_);
 }
 
@@ -35,39 +35,39 @@ void Superimposed::settle() noexcept {
   waits_ = given_ = false;
 }
 
-PlanResult Superimposed::move_by(double distance, const Dynamics& room) noexcept {
+PlanResult Superimposed::move_by(double distance, const Dynamics& margin) noexcept {
   settle();
-  room_ = room;
-  if (resting() && (!usable(room) || room.velocity <= 0.0)) {
+  margin_ = margin;
+  if (resting() && (!usable(margin) || margin.velocity <= 0.0)) {
     waits_ = true;
     distance_ = distance;
     motion_.stand(local_);
     return PlanResult::ok;
   }
-  if (room.velocity > 0.0) return motion_.move_to(local_, {0, distance}, distance, room);
-  Dynamics crawl = room;  // no velocity is left: plan with the present one, then come to rest
+  if (margin.velocity > 0.0) return motion_.move_to(local_, {0, distance}, distance, margin);
+  Dynamics crawl = margin;  // no velocity is left: plan with the present one, then come to rest
   crawl.velocity = std::abs(local_.velocity) + 1.0;
   const PlanResult result = motion_.move_to(local_, {0, distance}, distance, crawl);
-  return result == PlanResult::ok ? motion_.replan(local_, room) : result;
+  return result == PlanResult::ok ? motion_.replan(local_, margin) : result;
 }
 
-PlanResult Superimposed::make_room(const Dynamics& room) noexcept {
-  if (room == room_) return PlanResult::ok;
-  if (waits_) return move_by(distance_, room);
-  Dynamics next = room;
-  if (!usable(room)) {
-    next = room_;
-    next.velocity = room.velocity;
-    if (next == room_) return PlanResult::ok;
+PlanResult Superimposed::make_room(const Dynamics& margin) noexcept {
+  if (margin == margin_) return PlanResult::ok;
+  if (waits_) return move_by(distance_, margin);
+  Dynamics next = margin;
+  if (!usable(margin)) {
+    next = margin_;
+    next.velocity = margin.velocity;
+    if (next == margin_) return PlanResult::ok;
   }
   const PlanResult result = motion_.replan(local_, next);
-  if (result == PlanResult::ok) room_ = next;
+  if (result == PlanResult::ok) margin_ = next;
   return result;
 }
 
 PlanResult Superimposed::stop(const Dynamics& dynamics, bool abort_acceleration) noexcept {
   settle();
-  room_ = dynamics;
+  margin_ = dynamics;
   return motion_.stop(local_, dynamics, abort_acceleration);
 }
 
@@ -77,8 +77,8 @@ void Superimposed::begin_giving() noexcept {
   given_ = true;
 }
 
-void Superimposed::give(double way, double velocity, double acceleration) noexcept {
-  local_ = {{0, way}, velocity, acceleration};
+void Superimposed::give(double distance, double velocity, double acceleration) noexcept {
+  local_ = {{0, distance}, velocity, acceleration};
 }
 
 void Superimposed::rest() noexcept {
@@ -91,8 +91,8 @@ void Superimposed::advance() noexcept {
   if (!given_) motion_.advance(local_);
 }
 
-double Superimposed::way_left(int direction) const noexcept {
-  if (!given_) return motion_.way_left(direction);
+double Superimposed::distance_left(int direction) const noexcept {
+  if (!given_) return motion_.distance_left(direction);
   return direction * local_.velocity > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
@@ -100,7 +100,7 @@ int Superimposed::direction() const noexcept {
   if (given_ || (!waits_ && motion_.aim() != SingleAxisMotion::Aim::position)) return 0;
   const double left = waits_ ? distance_ : motion_.target().value - local_.position.value;
   const int side = left > 0.0 ? 1 : -1;
-  return left != 0.0 && way_left(-side) <= kRounding * (1.0 + std::abs(left)) ? side : 0;
+  return left != 0.0 && distance_left(-side) <= kRounding * (1.0 + std::abs(left)) ? side : 0;
 }
 
 }  // namespace lockstep

@@ -27,17 +27,17 @@ class Superimposed {
 
   /// By a distance from here [u]. At rest, dynamic values of 0 leave no room: the motion waits until
   /// `make_room` tells of others. In motion only the velocity may be 0: it comes to rest and waits.
-  PlanResult move_by(double distance, const Dynamics& room) noexcept;
+  PlanResult move_by(double distance, const Dynamics& margin) noexcept;
   /// Other dynamic values for the distance under way; a motion goes on braking with those that it has.
-  PlanResult make_room(const Dynamics& room) noexcept;
+  PlanResult make_room(const Dynamics& margin) noexcept;
   /// To rest.
   PlanResult stop(const Dynamics& dynamics, bool abort_acceleration) noexcept;
-  /// Values as given, without a profile; `way` counts from where the part is at `begin_giving` [u].
+  /// Values as given, without a profile; `distance` counts from where the part is at `begin_giving` [u].
   void begin_giving() noexcept;
-  void give(double way, double velocity, double acceleration) noexcept;
+  void give(double distance, double velocity, double acceleration) noexcept;
   /// Cuts an acceleration that was given, so that a profile can run it down [u/s²].
-  void cut_acceleration(double most) noexcept {
-    local_.acceleration = std::clamp(local_.acceleration, -most, most);
+  void cut_acceleration(double maximum) noexcept {
+    local_.acceleration = std::clamp(local_.acceleration, -maximum, maximum);
   }
   /// At rest where it is, at once.
   void rest() noexcept;
@@ -48,13 +48,13 @@ class Superimposed {
   bool finished() const noexcept { return !waits_ && !given_ && motion_.finished(); }
   bool resting() const noexcept { return local_.standing(); }
   /// Dynamic values that the motion under way may use.
-  const Dynamics& dynamics() const noexcept { return room_; }
+  const Dynamics& dynamics() const noexcept { return margin_; }
   /// What that motion may yet use of the limits, with what it still runs down.
   Dynamics demand() const noexcept { return motion_.demand(local_); }
   /// Whether it moves by a profile.
   bool planned() const noexcept { return !given_ && !waits_ && !motion_.finished(); }
   /// The way that it still makes in a direction, 1 or -1 [u] ≥ 0.
-  double way_left(int direction) const noexcept;
+  double distance_left(int direction) const noexcept;
   /// 1 or -1: the motion by a distance, or the one that waits, makes all that is left of it in this
   /// direction; 0: it turns back, is over, or nobody knows.
   int direction() const noexcept;
@@ -69,7 +69,7 @@ class Superimposed {
   DoubleDouble anchor_;
   Setpoint local_;         // from the anchor on
   double distance_ = 0.0;  // that waits [u]
-  Dynamics room_;
+  Dynamics margin_;
   SingleAxisMotion motion_;
   bool waits_ = false;   // for room, at rest
   bool given_ = false;   // the values are given in every cycle

@@ -24,12 +24,12 @@ using Plan = std::array<Phase, 4>;
 
 /// Motion in the course of a tick.
 struct Course {
-  double way = 0.0;
+  double distance = 0.0;
   double velocity = 0.0;
   double acceleration = 0.0;
 
   void run(double jerk, double time) noexcept {
-    way += time * (velocity + time * (0.5 * acceleration + time * jerk / 6.0));
+    distance += time * (velocity + time * (0.5 * acceleration + time * jerk / 6.0));
     velocity += time * (acceleration + 0.5 * time * jerk);
     acceleration += time * jerk;
   }
@@ -76,14 +76,14 @@ TrackingStep step_with_jerk(TrackingMotion own, TrackingMotion target, Bounds bo
   for (const Phase& phase : plan) {
     if (phase.duration > left + kLate * period) {
       course.run(phase.jerk, std::max(left, 0.0));
-      return {course.way, course.velocity, course.acceleration, false};
+      return {course.distance, course.velocity, course.acceleration, false};
     }
     course.run(phase.jerk, phase.duration);
     left -= phase.duration;
   }
   course.acceleration = pace;
   course.run(0.0, left);
-  return {course.way, target.velocity, pace, pace == target.acceleration};
+  return {course.distance, target.velocity, pace, pace == target.acceleration};
 }
 
 /// One tick with a trapezoidal velocity profile, exact across the own reversal; own velocity ≥ 0.
@@ -109,7 +109,7 @@ TrackingStep step_without_jerk(TrackingMotion own, TrackingMotion target, const 
       course.run(0.0, meets);
       course.acceleration = pace;
       course.run(0.0, left - meets);
-      return {course.way, target.velocity, pace, pace == target.acceleration};
+      return {course.distance, target.velocity, pace, pace == target.acceleration};
     }
     if (!slows || rests >= left) break;
     course.run(0.0, rests);
@@ -117,7 +117,7 @@ TrackingStep step_without_jerk(TrackingMotion own, TrackingMotion target, const 
     left -= rests;
   }
   course.run(0.0, left);
-  return {course.way, course.velocity, course.acceleration, false};
+  return {course.distance, course.velocity, course.acceleration, false};
 }
 
 /// Whether the axis cannot but pass the velocity limit from where the step ends.
@@ -142,10 +142,10 @@ TrackingStep step_below_limit(TrackingMotion own, TrackingMotion target, Bounds 
 bool brakes_past_rest(const TrackingStep& step, const TrackingLimits& limits) noexcept {
   if (step.velocity < 0.0) return true;
   if (step.acceleration >= -limits.acceleration) return false;
-  const double way_back =
+  const double distance_back =
       (step.acceleration * step.acceleration - limits.acceleration * limits.acceleration) /
       (2.0 * limits.jerk);
-  return step.velocity < way_back;
+  return step.velocity < distance_back;
 }
 
 /// One tick of an axis with own velocity ≥ 0.
@@ -169,7 +169,7 @@ TrackingStep track_velocity(TrackingMotion own, TrackingMotion target, const Tra
   const double sign = own.velocity < 0.0 ? -1.0 : 1.0;
   TrackingStep step = step_forward({sign * own.velocity, sign * own.acceleration},
                                    {sign * target.velocity, sign * target.acceleration}, limits, period);
-  step.way *= sign;
+  step.distance *= sign;
   step.velocity *= sign;
   step.acceleration *= sign;
   if (limited) step.synchronous = false;

@@ -21,7 +21,7 @@ struct TrackingMotion {
 
 /// The axis one tick on.
 struct TrackingStep {
-  double way = 0.0;           ///< [u] covered in the tick, the exact integral of its velocity
+  double distance = 0.0;      ///< [u] covered in the tick, the exact integral of its velocity
   double velocity = 0.0;      ///< [u/s]
   double acceleration = 0.0;  ///< [u/s²]
   bool synchronous = false;   ///< velocity and acceleration are those of the target, to the last bit

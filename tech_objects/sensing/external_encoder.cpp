@@ -71,10 +71,10 @@ void ExternalEncoder::go_on_from_here(DoubleDouble line) noexcept {
 
 /// Takes a reading over; false where it cannot be one.
 bool ExternalEncoder::follow(DoubleDouble line) noexcept {
-  const double way = (line - line_).rounded();
-  const double most = leads_by_actual_value() ? 0.5 * modulo_.length : modulo_.length;
+  const double distance = (line - line_).rounded();
+  const double maximum = leads_by_actual_value() ? 0.5 * modulo_.length : modulo_.length;
   line_ = line;
-  if (modulo_.enabled && std::abs(way) > most) {
+  if (modulo_.enabled && std::abs(distance) > maximum) {
     fault(alarm::kActualValueRange);
     return false;
   }

@@ -20,7 +20,7 @@ constexpr DINT kError = 3;
 
 constexpr double kMilliseconds = 1e-3;  // [s]
 constexpr UDINT kHighestCount = 2147483647;
-constexpr std::int64_t kMostLost = 7;
+constexpr std::int64_t kMaximumLost = 7;
 
 bool cyclic(const Job& job) noexcept {
   return job.kind == JobKind::MC_MeasuringInputCyclic;
@@ -116,8 +116,8 @@ double MeasuringInput::position_at(double age) const noexcept {
   const double part = std::min(age - whole, 1.0);
   const std::size_t newer = tick_ + kHistory - static_cast<std::size_t>(whole);
   const DoubleDouble from = history_[newer % kHistory];
-  const DoubleDouble way = (history_[(newer - 1) % kHistory] - from) * part;
-  return advanced(load_.position(), from + way - load_.line(), modulo_).value;
+  const DoubleDouble distance = (history_[(newer - 1) % kHistory] - from) * part;
+  return advanced(load_.position(), from + distance - load_.line(), modulo_).value;
 }
 
 // ---- Measuring range
@@ -133,9 +133,9 @@ ErrorId MeasuringInput::take_range(const Job& job) noexcept {
     range_.length = std::abs(asked.end_position - asked.start_position);
     return ErrorId::none;
   }
-  const double way = std::abs(asked.end_position - asked.start_position);
-  if (way > modulo_.length) return ErrorId::measuring_range;
-  range_.limited = way < modulo_.length;  // no position lies outside of the whole ring
+  const double distance = std::abs(asked.end_position - asked.start_position);
+  if (distance > modulo_.length) return ErrorId::measuring_range;
+  range_.limited = distance < modulo_.length;  // no position lies outside of the whole ring
   range_.start = normalised({0, asked.start_position}, modulo_).value;
   range_.length = positive_distance(asked.start_position, asked.end_position, modulo_);
   return ErrorId::none;
@@ -157,21 +157,21 @@ bool MeasuringInput::in_lead_in(double position) const noexcept {
   const double time =
       (parameter.MeasuringRangeActivationTime + parameter.MeasuringRangeAdditionalActivationTime) *
       kMilliseconds;
-  const double way = load_.way().rounded() / servo_period_ * time;
+  const double distance = load_.distance().rounded() / servo_period_ * time;
   double place = place_in_range(position);
-  if (way < 0.0) return place > range_.length && place - range_.length <= -way;
+  if (distance < 0.0) return place > range_.length && place - range_.length <= -distance;
   if (modulo_.enabled) place -= modulo_.length;
-  return place < 0.0 && -place <= way;
+  return place < 0.0 && -place <= distance;
 }
 
 /// Whether the way of this servo cycle has left the range.
 bool MeasuringInput::range_passed() const noexcept {
   if (!range_.limited) return false;
-  const double way = load_.way().rounded();
+  const double distance = load_.distance().rounded();
   const double place = place_in_range(last_position_);
-  if (way < 0.0) return place >= 0.0 && place + way < 0.0;
-  if (place <= range_.length) return place + way > range_.length;
-  return modulo_.enabled && place + way > modulo_.length + range_.length;
+  if (distance < 0.0) return place >= 0.0 && place + distance < 0.0;
+  if (place <= range_.length) return place + distance > range_.length;
+  return modulo_.enabled && place + distance > modulo_.length + range_.length;
 }
 
 // ---- Measuring
@@ -248,7 +248,8 @@ void MeasuringInput::measure_cyclically(const Edges& seen) noexcept {
     ++job.measured.counter[index];
     data.Status = kCaptured;
   }
-  const std::int64_t lost = std::clamp<std::int64_t>(all - dropped - acquired[0] - acquired[1], 0, kMostLost);
+  const std::int64_t lost =
+      std::clamp<std::int64_t>(all - dropped - acquired[0] - acquired[1], 0, kMaximumLost);
   auto& values = data.MeasuredValues;
   UDINT* const counters[2] = {&values.LostEdgeCounter1, &values.LostEdgeCounter2};
   for (int index = 0; index < 2; ++index) {

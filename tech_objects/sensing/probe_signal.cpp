@@ -33,8 +33,8 @@ bool ProbeSignal::on_mark(const PrintMarks& marks, DoubleDouble place) noexcept 
 /// Borders are numbered together: mark n begins at 2n and ends at 2n + 1.
 void ProbeSignal::move(const PrintMarks& marks, DoubleDouble from, DoubleDouble to, Edges& edges) noexcept {
   const DoubleDouble first[2] = {to_double_double(marks.offset), two_sum(marks.offset, marks.width)};
-  const DoubleDouble way = to - from;
-  const bool forwards = way.hi > 0.0;
+  const DoubleDouble distance = to - from;
+  const bool forwards = distance.hi > 0.0;
   const auto borders_before = [&](DoubleDouble place) {
     const double begun = border_before(place, first[0], marks.period);
     const double ended = border_before(place, first[1], marks.period);
@@ -43,12 +43,12 @@ void ProbeSignal::move(const PrintMarks& marks, DoubleDouble from, DoubleDouble 
   const double before = borders_before(from);
   const double now = borders_before(to);
   const double all = std::abs(now - before);
-  const double told = std::min(all, static_cast<double>(Edges::kMost));
+  const double told = std::min(all, static_cast<double>(Edges::kMaximum));
   for (double i = 0.0; i < told; i += 1.0) {
     const double border = forwards ? before + 1.0 + i : before - i;
     const bool end = border - 2.0 * std::floor(0.5 * border) != 0.0;
     const DoubleDouble place = first[end ? 1 : 0] + two_product(std::floor(0.5 * border), marks.period);
-    const double part = ((place - from) / way.hi).rounded();
+    const double part = ((place - from) / distance.hi).rounded();
     edges.add({end != forwards, std::clamp(part, 0.0, 1.0)});
   }
   // Edges alternate; the first one is opposite to the level before.

@@ -24,14 +24,14 @@ struct Edge {
 
 /// The edges of a servo cycle in their order. Of more than can be told apart the number counts.
 struct Edges {
-  static constexpr std::size_t kMost = 32;
-  std::array<Edge, kMost> list{};
+  static constexpr std::size_t kMaximum = 32;
+  std::array<Edge, kMaximum> list{};
   std::size_t count = 0;     ///< of the list
   std::int64_t rising = 0;   ///< all in the cycle
   std::int64_t falling = 0;  ///< all in the cycle
 
   void add(Edge edge) noexcept {
-    if (count < kMost) list[count++] = edge;
+    if (count < kMaximum) list[count++] = edge;
   }
 };
 

@@ -116,37 +116,37 @@ void CamTrack::stop(double time, Edges& edges) noexcept {
 /// Where a position lies in its track, as if it had been reached upwards from the reference position.
 double CamTrack::place_of(double position) const noexcept {
   const double length = active_data_.CamTrackLength;
-  const double way = positive_distance(active_data_.ReferencePosition, position, path_.modulo());
-  const double place = way - length * std::floor(way / length);
+  const double distance = positive_distance(active_data_.ReferencePosition, position, path_.modulo());
+  const double place = distance - length * std::floor(distance / length);
   return place < length ? std::max(place, 0.0) : 0.0;
 }
 
 void CamTrack::process(Edges& edges) noexcept {
   if (!has_position()) return stop(path_.time(), edges);
-  const Stretch& way = path_.stretch();
+  const Stretch& distance = path_.stretch();
   const bool at_once = waiting_ && request.mode != CamTrackMode::next_track;
   if (!active_ || !path_.moved() || at_once) {
     if (at_once) {
-      stop(way.to_time, edges);  // time cams that run are ended
+      stop(distance.to_time, edges);  // time cams that run are ended
       active_data_ = waiting_data_;
     }
     active_ = true;
     waiting_ = false;
     place_ = place_of(path_.position());
-    return begin(edges, way.shifted(place_ - way.to), false);
+    return begin(edges, distance.shifted(place_ - distance.to), false);
   }
   // Homing is a step of the position; the wrap of a ring is none.
   const double before = place_;
-  const double from = path_.jumped() == 0.0 ? before : place_of(way.from);
+  const double from = path_.jumped() == 0.0 ? before : place_of(distance.from);
   if (from != before)
     for (SingleCam& cam : cams_) cam.rename(before, from);
-  place_ = from + (way.to - way.from);
+  place_ = from + (distance.to - distance.from);
   const double held = path_.free_from();
-  Stretch counted = way.shifted(from - way.from);
+  Stretch counted = distance.shifted(from - distance.from);
   if (held > 1.0) {
     for (std::size_t i = 0; i < kCams; ++i) {
       SwitchingEdges of_cam;
-      cams_[i].hold(way.to_time, of_cam);
+      cams_[i].hold(distance.to_time, of_cam);
       edges.add(i, of_cam);
     }
   } else {
@@ -163,27 +163,27 @@ void CamTrack::process(Edges& edges) noexcept {
 }
 
 /// Up to the end of the track what ran goes on; there new data begin, or the track ends.
-void CamTrack::step_to_border(Edges& edges, const Stretch& way) noexcept {
+void CamTrack::step_to_border(Edges& edges, const Stretch& distance) noexcept {
   const double length = active_data_.CamTrackLength;
   const bool ends = !request.enable;
-  const bool leaves = way.to >= length || way.to < 0.0;
-  if (!(waiting_ || ends) || !leaves) return step(edges, way);
-  const double border = way.to >= length ? length : 0.0;
-  const double part = std::clamp((border - way.from) / (way.to - way.from), 0.0, 1.0);
-  step(edges, way.part(0.0, part));
-  if (ends) return stop(way.part(part, 1.0).from_time, edges);
+  const bool leaves = distance.to >= length || distance.to < 0.0;
+  if (!(waiting_ || ends) || !leaves) return step(edges, distance);
+  const double border = distance.to >= length ? length : 0.0;
+  const double part = std::clamp((border - distance.from) / (distance.to - distance.from), 0.0, 1.0);
+  step(edges, distance.part(0.0, part));
+  if (ends) return stop(distance.part(part, 1.0).from_time, edges);
   const double reference = waiting_data_.ReferencePosition;
   const bool moved = reference != active_data_.ReferencePosition ||
                      waiting_data_.CamTrackLength != active_data_.CamTrackLength;
   for (std::size_t i = 0; i < kCams; ++i) {  // running distance cams end with the track
     if (active_data_.CamTrackType == 1) continue;
     SwitchingEdges of_cam;
-    cams_[i].end(way.part(part, 1.0).from_time, of_cam);
+    cams_[i].end(distance.part(part, 1.0).from_time, of_cam);
     edges.add(i, of_cam);
   }
   active_data_ = waiting_data_;
   waiting_ = false;
-  Stretch rest = way.part(part, 1.0);
+  Stretch rest = distance.part(part, 1.0);
   // The new track begins at its border, unless it lies elsewhere.
   const double new_end = moved ? place_of(path_.position()) : place_ - (border == 0.0 ? 0.0 : length);
   rest = rest.shifted(new_end - rest.to);
@@ -201,15 +201,15 @@ void CamTrack::begin(Edges& edges, const Stretch& at, bool inclusive) noexcept {
   }
 }
 
-void CamTrack::step(Edges& edges, const Stretch& way) noexcept {
+void CamTrack::step(Edges& edges, const Stretch& distance) noexcept {
   for (std::size_t i = 0; i < kCams; ++i) {
     SwitchingEdges of_cam;
     if (counts(active_data_, i))
-      cams_[i].step(shape(i), way, path_.direction(), of_cam);
+      cams_[i].step(shape(i), distance, path_.direction(), of_cam);
     else if (active_data_.CamTrackType == 1)
-      cams_[i].hold(way.to_time, of_cam);  // of the data before, it runs out
+      cams_[i].hold(distance.to_time, of_cam);  // of the data before, it runs out
     else
-      cams_[i].end(way.from_time, of_cam);
+      cams_[i].end(distance.from_time, of_cam);
     edges.add(i, of_cam);
   }
 }

@@ -33,13 +33,13 @@ class CamTrack final : public SwitchingObject<CamTrackData, ProcessingEnd::cam_t
  private:
   /// All edges of a servo cycle; what does not fit leaves the state at its end right.
   struct Edges {
-    static constexpr std::size_t kMost = 2 * kCams;
+    static constexpr std::size_t kMaximum = 2 * kCams;
     struct Edge {
       double time;
       std::uint8_t cam;
       bool on;
     };
-    std::array<Edge, kMost> list;
+    std::array<Edge, kMaximum> list;
     std::size_t count = 0;
     void add(std::size_t cam, const SwitchingEdges& edges) noexcept;
   };
@@ -53,8 +53,8 @@ class CamTrack final : public SwitchingObject<CamTrackData, ProcessingEnd::cam_t
   void take_data() noexcept;
   void process(Edges& edges) noexcept;
   void begin(Edges& edges, const Stretch& at, bool inclusive) noexcept;
-  void step(Edges& edges, const Stretch& way) noexcept;
-  void step_to_border(Edges& edges, const Stretch& way) noexcept;
+  void step(Edges& edges, const Stretch& distance) noexcept;
+  void step_to_border(Edges& edges, const Stretch& distance) noexcept;
   double place_of(double position) const noexcept;
   void stop(double time, Edges& edges) noexcept;
   void show(const Edges& edges) noexcept;

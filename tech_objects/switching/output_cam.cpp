@@ -89,15 +89,15 @@ void OutputCam::process(const SwitchingShape& shape, SwitchingEdges& edges) noex
 }
 
 void OutputCam::step_cam(const SwitchingShape& shape, SwitchingEdges& edges) noexcept {
-  const Stretch& way = path_.stretch();
-  cam_.rename(way.from - path_.renamed(), way.from);
-  if (path_.free_from() > 1.0) return cam_.hold(way.to_time, edges);
+  const Stretch& distance = path_.stretch();
+  cam_.rename(distance.from - path_.renamed(), distance.from);
+  if (path_.free_from() > 1.0) return cam_.hold(distance.to_time, edges);
   if (path_.free_from() > 0.0) {
-    const Stretch free = way.part(path_.free_from(), 1.0);
+    const Stretch free = distance.part(path_.free_from(), 1.0);
     cam_.hold(free.from_time, edges);
     return cam_.step(shape, free, path_.direction(), edges);
   }
-  cam_.step(shape, way, path_.direction(), edges);
+  cam_.step(shape, distance, path_.direction(), edges);
 }
 
 /// The state of the output at this tick, and when it has changed since the one before.

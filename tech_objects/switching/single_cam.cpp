@@ -117,12 +117,12 @@ void SingleCam::end(double time, SwitchingEdges& edges) noexcept {
   set(false, time, edges);
 }
 
-void SingleCam::step(const SwitchingShape& shape, const Stretch& way, int direction,
+void SingleCam::step(const SwitchingShape& shape, const Stretch& distance, int direction,
                      SwitchingEdges& edges) noexcept {
   if (shape.timed)
-    step_time(shape, way, direction, edges);
+    step_time(shape, distance, direction, edges);
   else
-    step_distance(shape, way, direction, edges);
+    step_distance(shape, distance, direction, edges);
 }
 
 void SingleCam::hold(double to_time, SwitchingEdges& edges) noexcept {
@@ -132,14 +132,14 @@ void SingleCam::hold(double to_time, SwitchingEdges& edges) noexcept {
   }
 }
 
-void SingleCam::step_distance(const SwitchingShape& shape, const Stretch& way, int direction,
+void SingleCam::step_distance(const SwitchingShape& shape, const Stretch& distance, int direction,
                               SwitchingEdges& edges) noexcept {
-  if (!shape.effective(direction)) return set(false, way.from_time, edges);
-  const Led from = led(shape, way.from, way.from_velocity);
-  const Led to = led(shape, way.to, way.to_velocity);
+  if (!shape.effective(direction)) return set(false, distance.from_time, edges);
+  const Led from = led(shape, distance.from, distance.from_velocity);
+  const Led to = led(shape, distance.to, distance.to_velocity);
   const bool down = direction < 0;
   Between at = between(shape, from, direction);
-  set(inside(shape, at), way.from_time, edges);
+  set(inside(shape, at), distance.from_time, edges);
   const Crossing lower =
       crossing(End::lower, shape.on, shape.period, down ? from.off : from.on, down ? to.off : to.on);
   const Crossing upper =
@@ -150,18 +150,18 @@ void SingleCam::step_distance(const SwitchingShape& shape, const Stretch& way, i
       at.lower = crossed.up ? crossed.n : crossed.n - 1.0;
     else
       at.upper = crossed.up ? crossed.n + 1.0 : crossed.n;
-    set(inside(shape, at), at_part(way.from_time, way.to_time, crossed.part), edges);
+    set(inside(shape, at), at_part(distance.from_time, distance.to_time, crossed.part), edges);
   };
   const bool lower_first = lower.part <= upper.part;
   pass(lower_first ? lower : upper, lower_first);
   pass(lower_first ? upper : lower, !lower_first);
-  set(inside(shape, between(shape, to, direction)), way.to_time, edges);
+  set(inside(shape, between(shape, to, direction)), distance.to_time, edges);
 }
 
-void SingleCam::step_time(const SwitchingShape& shape, const Stretch& way, int direction,
+void SingleCam::step_time(const SwitchingShape& shape, const Stretch& distance, int direction,
                           SwitchingEdges& edges) noexcept {
-  const double from = led(shape, way.from, way.from_velocity).on;
-  const double to = led(shape, way.to, way.to_velocity).on;
+  const double from = led(shape, distance.from, distance.from_velocity).on;
+  const double to = led(shape, distance.to, distance.to_velocity).on;
   if (direction != front_direction_) {
     // The first direction of all leads away from where the cam began; any other from where it turned.
     if (front_direction_ != 0) front_ = from;
@@ -176,7 +176,7 @@ void SingleCam::step_time(const SwitchingShape& shape, const Stretch& way, int d
       front_ = to;
       if (at.there && shape.effective(direction)) {
         const double part = from == to ? 1.0 : std::clamp((at.place - from) / (to - from), 0.0, 1.0);
-        const double time = at_part(way.from_time, way.to_time, part);
+        const double time = at_part(distance.from_time, distance.to_time, part);
         hold(time, edges);
         if (!on_) {
           set(true, time, edges);
@@ -187,7 +187,7 @@ void SingleCam::step_time(const SwitchingShape& shape, const Stretch& way, int d
       front_ = ahead;
     }
   }
-  hold(way.to_time, edges);
+  hold(distance.to_time, edges);
 }
 
 }  // namespace lockstep

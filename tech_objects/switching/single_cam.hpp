@@ -60,15 +60,16 @@ class SingleCam {
   void rename(double from, double to) noexcept { front_ = (front_ - from) + to; }
 
   /// One servo cycle or a part of it.
-  void step(const SwitchingShape& shape, const Stretch& way, int direction, SwitchingEdges& edges) noexcept;
+  void step(const SwitchingShape& shape, const Stretch& distance, int direction,
+            SwitchingEdges& edges) noexcept;
   /// One in which positions do not count; time goes on.
   void hold(double to_time, SwitchingEdges& edges) noexcept;
 
  private:
   void set(bool on, double time, SwitchingEdges& edges) noexcept;
-  void step_distance(const SwitchingShape& shape, const Stretch& way, int direction,
+  void step_distance(const SwitchingShape& shape, const Stretch& distance, int direction,
                      SwitchingEdges& edges) noexcept;
-  void step_time(const SwitchingShape& shape, const Stretch& way, int direction,
+  void step_time(const SwitchingShape& shape, const Stretch& distance, int direction,
                  SwitchingEdges& edges) noexcept;
 
   bool on_ = false;

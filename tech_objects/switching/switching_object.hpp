@@ -87,8 +87,9 @@ class SwitchingObject : public TechnologyObject {
   }
   /// Whether what it switches ahead of its place [s] stays within the range of positions.
   bool leads_within_range(double lead) const noexcept {
-    const Stretch& way = path_.stretch();
-    return std::max(std::abs(way.from_velocity), std::abs(way.to_velocity)) * lead <= kPositionRange;
+    const Stretch& distance = path_.stretch();
+    return std::max(std::abs(distance.from_velocity), std::abs(distance.to_velocity)) * lead <=
+           kPositionRange;
   }
   void raise(int alarm_number) noexcept {
     raise_alarm(alarm_number, kEnd, *this, data);

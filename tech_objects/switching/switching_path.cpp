@@ -58,10 +58,10 @@ void SwitchingPath::servo(std::int64_t now, double hysteresis) noexcept {
     stretch_.from_velocity = stretch_.to_velocity;
     return;
   }
-  const double way = load_.way().rounded();
-  connect(before, way);
+  const double distance = load_.distance().rounded();
+  connect(before, distance);
   const Modulo ring = modulo();
-  turn(way, ring.enabled ? std::min(hysteresis, 0.25 * ring.length) : hysteresis);
+  turn(distance, ring.enabled ? std::min(hysteresis, 0.25 * ring.length) : hysteresis);
 }
 
 /// Of a setpoint its own; of an actual position the mean over an interpolator cycle, as encoders show it.
@@ -80,14 +80,14 @@ double SwitchingPath::velocity(std::int64_t now) noexcept {
 
 /// Where the way began, in the names of its end. It is the very end of the one before, unless homing has
 /// renamed that, so that no place lies between two stretches or in both.
-void SwitchingPath::connect(double before, double way) noexcept {
+void SwitchingPath::connect(double before, double distance) noexcept {
   const Modulo ring = modulo();
   double begin = before;
-  if (ring.enabled) begin -= ring.length * std::nearbyint((before + way - stretch_.to) / ring.length);
-  const double rest = stretch_.to - (begin + way);
+  if (ring.enabled) begin -= ring.length * std::nearbyint((before + distance - stretch_.to) / ring.length);
+  const double rest = stretch_.to - (begin + distance);
   const double rounding = 1e-9 * std::max({1.0, std::abs(stretch_.to), std::abs(before)});
   if (std::abs(rest) > rounding) {
-    begin = stretch_.to - way;
+    begin = stretch_.to - distance;
     jumped_ = rest;
   }
   stretch_.from = begin;
@@ -95,16 +95,16 @@ void SwitchingPath::connect(double before, double way) noexcept {
 }
 
 /// The direction, and from where on positions count.
-void SwitchingPath::turn(double way, double hysteresis) noexcept {
+void SwitchingPath::turn(double distance, double hysteresis) noexcept {
   if (direction_ == 0) {
-    back_ += way;
+    back_ += distance;
     if (std::abs(back_) > hysteresis) {
       direction_ = back_ > 0.0 ? 1 : -1;
       back_ = 0.0;
     }
     return;
   }
-  const double along = direction_ * way;
+  const double along = direction_ * distance;
   const double was_back = back_;
   back_ = was_back - along;
   if (back_ > hysteresis) {

@@ -56,8 +56,8 @@ class SwitchingPath {
 
  private:
   double velocity(std::int64_t now) noexcept;
-  void connect(double before, double way) noexcept;
-  void turn(double way, double hysteresis) noexcept;
+  void connect(double before, double distance) noexcept;
+  void turn(double distance, double hysteresis) noexcept;
 
   struct Sample {
     std::int64_t time;

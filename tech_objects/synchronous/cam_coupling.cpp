@@ -68,12 +68,12 @@ void CamCoupling::place(AxisPosition leading) noexcept {
 
 bool CamCoupling::place_here(AxisPosition leading) noexcept {
   const AxisPosition begin = normalised({0, start() + leading_offset_}, leading_);
-  DoubleDouble way = two_difference(leading.value, begin.value);
+  DoubleDouble distance = two_difference(leading.value, begin.value);
   const bool backward = use_.master_scaling < 0.0;
-  if (leading_.enabled && !backward && way.hi < 0.0) way = way + leading_.length;
-  if (leading_.enabled && backward && way.hi > 0.0) way = way - leading_.length;
-  set(*curve_, use_, leading, way, leading_, following_);
-  const double inside = backward ? -way.hi : way.hi;
+  if (leading_.enabled && !backward && distance.hi < 0.0) distance = distance + leading_.length;
+  if (leading_.enabled && backward && distance.hi > 0.0) distance = distance - leading_.length;
+  set(*curve_, use_, leading, distance, leading_, following_);
+  const double inside = backward ? -distance.hi : distance.hi;
   return inside >= -kSamePlace * pass_length() && inside <= (1.0 + kSamePlace) * pass_length();
 }
 
@@ -89,7 +89,7 @@ DoubleDouble CamCoupling::place_at(AxisPosition leading, AxisPosition following)
   return two_difference(following.value, place.value);
 }
 
-DoubleDouble CamCoupling::place_at_end(const CamFollowing::LeadingPlace& end, DoubleDouble phase,
+DoubleDouble CamCoupling::place_at_end(const CamFollowing::LeadingPosition& end, DoubleDouble phase,
                                        AxisPosition following) noexcept {
   const DoubleDouble leading = end.value - phase;
   set_start(*curve_, use_, end.turns, leading - sync_distance_, leading_, following_);
@@ -102,7 +102,7 @@ DoubleDouble CamCoupling::place_at_end(const CamFollowing::LeadingPlace& end, Do
 
 bool CamCoupling::beyond_one_pass(AxisPosition leading) const noexcept {
   if (!passed_once()) return false;
-  const double inside = way(leading);
+  const double inside = distance(leading);
   const double tolerance = kSamePlace * pass_length();
   return inside < -tolerance || inside > pass_length() + tolerance;
 }

@@ -14,6 +14,7 @@ class CamCoupling : private CamFollowing {
   using CamFollowing::add_leading_turns;
   using CamFollowing::add_turns;
   using CamFollowing::clear_end;
+  using CamFollowing::distance;
   using CamFollowing::end_before;
   using CamFollowing::end_place;
   using CamFollowing::end_position;
@@ -22,7 +23,6 @@ class CamCoupling : private CamFollowing {
   using CamFollowing::pass_length;
   using CamFollowing::rests_at;
   using CamFollowing::value;
-  using CamFollowing::way;
 
   /// Takes scaling, offsets and synchronous position over; nothing is placed yet.
   /// @return why that cannot be
@@ -45,7 +45,7 @@ class CamCoupling : private CamFollowing {
   DoubleDouble place_at(AxisPosition leading, AxisPosition following) noexcept;
   /// Places the cam so that it goes on where another one has ended, which a phase shift had led there.
   /// @return how far the following position is from the cam's [u]
-  DoubleDouble place_at_end(const CamFollowing::LeadingPlace& end, DoubleDouble phase,
+  DoubleDouble place_at_end(const CamFollowing::LeadingPosition& end, DoubleDouble phase,
                             AxisPosition following) noexcept;
 
   double leading_offset() const noexcept { return leading_offset_; }      ///< [leading u]

@@ -44,9 +44,9 @@ class LeadingProgress {
   /// backwards counts as the reversal that it is for the profile; or the sum of all steps.
   /// @param tolerance leading distance by which the leading value may turn back [u]
   void watch(const LeadingStep& step, double tolerance, bool sum_of_steps) noexcept {
-    const double way = step.way();
-    if (direction_ == 0) direction_ = sign(way);
-    progress_ = sum_of_steps ? progress_ + direction_ * way : covered(step);
+    const double distance = step.distance();
+    if (direction_ == 0) direction_ = sign(distance);
+    progress_ = sum_of_steps ? progress_ + direction_ * distance : covered(step);
     if (progress_ > furthest_) furthest_ = progress_;
     reversed_ = furthest_ - progress_ > tolerance;
   }

@@ -23,23 +23,23 @@ double without_turning_back(double curvature, double slope, double distance) noe
 /// c ≤ 20 w - 8 s. An axis that makes more than its gear would pass the stop position and come back: its
 /// acceleration steps as well, so that it is braked early enough.
 double without_passing(double curvature, double slope, double stop_distance, double distance) noexcept {
-  const double most = (20.0 * stop_distance / distance - 8.0 * slope) / distance;
-  return without_turning_back(std::min(curvature, most), slope, distance);
+  const double maximum = (20.0 * stop_distance / distance - 8.0 * slope) / distance;
+  return without_turning_back(std::min(curvature, maximum), slope, distance);
 }
 
 /// The least curved way to rest over a leading distance: its velocity is a cubic of that distance.
-double way_over(const Chain& chain, double distance, AxisPosition leading, int heading) noexcept {
+double distance_over(const Chain& chain, double distance, AxisPosition leading, int heading) noexcept {
   if (!chain.function.is_cam()) return 0.5 * std::abs(chain.function.ratio()) * distance;
-  const int led = sign(chain.leading.step().way());
+  const int led = sign(chain.leading.step().distance());
   const AxisPosition shifted = advanced(leading, chain.shifts.phase().value(), chain.leading.modulo());
-  const CamPlace place = chain.function.cam().joined_at(shifted, led);
+  const CamFollowingValue place = chain.function.cam().joined_at(shifted, led);
   const double slope = heading * led * place.slope;
   const double curvature = without_turning_back(heading * place.curvature, slope, distance);
   return 0.5 * slope * distance + curvature * distance * distance / 12.0;
 }
 
 /// Way that the axis needs to stop in the direction it is heading [u]; NaN if that cannot be planned.
-double stopping_way(const Setpoint& from, int heading, const Dynamics& dynamics) noexcept {
+double stopping_distance(const Setpoint& from, int heading, const Dynamics& dynamics) noexcept {
   Profile profile;
   const double velocity = std::max(std::abs(from.velocity), dynamics.velocity);
   const ProfileLimits limits =
@@ -66,10 +66,11 @@ bool Desynchronizing::meets(const Chain& chain, const LeavingRequest& request, c
   const LeadingStep leading_step = chain.leading.step();
   const bool over_distance = request.over_distance;
   const double distance = request.distance;
-  const double led = leading_step.way();
+  const double led = leading_step.distance();
   if (over_distance && led == 0.0) return false;
   const auto braking = [&](const Setpoint& own, AxisPosition leading) noexcept {
-    return over_distance ? way_over(chain, distance, leading, heading) : stopping_way(own, heading, dynamics);
+    return over_distance ? distance_over(chain, distance, leading, heading)
+                         : stopping_distance(own, heading, dynamics);
   };
   const double before = braking(last, leading_step.last.position);
   const double change = std::abs(step) + braking(candidate, leading_step.now.position) - before;
@@ -81,8 +82,8 @@ bool Desynchronizing::meets(const Chain& chain, const LeavingRequest& request, c
     if (spare < 0.0) spare += following.length;
   }
   if (!(change > 0.0) || !(spare >= 0.0 && spare <= change) || !(before + spare > 0.0)) return false;
-  const double led_way = (before + spare) * std::abs(leading_step.last.velocity);
-  if (over_distance && std::abs(last.velocity) * distance > kSteepest * led_way) return false;
+  const double led_distance = (before + spare) * std::abs(leading_step.last.velocity);
+  if (over_distance && std::abs(last.velocity) * distance > kSteepest * led_distance) return false;
   stop_distance_ = heading * (before + spare);
   distance_ = distance + spare / change * std::abs(led);
   set_position(last, target, following);
@@ -102,27 +103,27 @@ void Desynchronizing::set_position(const Setpoint& last, double target, const Mo
 
 void Desynchronizing::begin(const LeadingStep& leading, const Setpoint& last) noexcept {
   complete_ = false;
-  progress_.begin(leading.last.position, sign(leading.way()));
+  progress_.begin(leading.last.position, sign(leading.distance()));
   SyncOffset start{.position = -stop_distance_};
   const int direction = progress_.direction();
-  const double way_velocity = direction * leading.last.velocity;
-  if (way_velocity > 0.0) {
-    start.slope = last.velocity / way_velocity;
+  const double distance_velocity = direction * leading.last.velocity;
+  if (distance_velocity > 0.0) {
+    start.slope = last.velocity / distance_velocity;
     start.curvature = (last.acceleration - start.slope * direction * leading.last.acceleration) /
-                      (way_velocity * way_velocity);
+                      (distance_velocity * distance_velocity);
   }
   const double heading = stop_distance_ < 0.0 ? -1.0 : 1.0;
-  start.curvature =
-      heading * without_passing(heading * start.curvature, heading * start.slope, std::abs(stop_distance_), distance_);
+  start.curvature = heading * without_passing(heading * start.curvature, heading * start.slope,
+                                              std::abs(stop_distance_), distance_);
   remainder_.set(start, distance_);
 }
 
 void Desynchronizing::advance(const LeadingStep& leading, const Modulo& following,
                               Setpoint& setpoint) noexcept {
   const int direction = progress_.direction();
-  const double way = progress_.covered(leading);
-  const SyncOffset left = remainder_.value(way);
-  complete_ = remainder_.complete(way);
+  const double distance = progress_.covered(leading);
+  const SyncOffset left = remainder_.value(distance);
+  complete_ = remainder_.complete(distance);
   setpoint.position = advanced(position_, left.position, following);
   setpoint.velocity = left.velocity(direction * leading.now.velocity);
   setpoint.acceleration =

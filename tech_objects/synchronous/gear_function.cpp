@@ -24,7 +24,7 @@ DoubleDouble fast_sum(DoubleDouble a, DoubleDouble b) noexcept {
 
 }  // namespace
 
-GearFunction::Place GearFunction::sum(Place a, const Place& b) const noexcept {
+GearFunction::RingPosition GearFunction::sum(RingPosition a, const RingPosition& b) const noexcept {
   a.fraction += b.fraction;
   a.units += b.units;
   a.turns += b.turns;
@@ -39,8 +39,8 @@ GearFunction::Place GearFunction::sum(Place a, const Place& b) const noexcept {
   return a;
 }
 
-GearFunction::Place GearFunction::negative(const Place& a) const noexcept {
-  Place result;
+GearFunction::RingPosition GearFunction::negative(const RingPosition& a) const noexcept {
+  RingPosition result;
   result.turns = std::uint64_t{0} - a.turns;
   Units whole = a.units;
   if (a.fraction != 0) {
@@ -54,8 +54,8 @@ GearFunction::Place GearFunction::negative(const Place& a) const noexcept {
   return result;
 }
 
-GearFunction::Place GearFunction::multiple(std::uint64_t times, Place a) const noexcept {
-  Place result;
+GearFunction::RingPosition GearFunction::multiple(std::uint64_t times, RingPosition a) const noexcept {
+  RingPosition result;
   for (; times != 0; times >>= 1) {
     if ((times & 1u) != 0) result = sum(result, a);
     a = sum(a, a);
@@ -64,16 +64,16 @@ GearFunction::Place GearFunction::multiple(std::uint64_t times, Place a) const n
 }
 
 /// way · numerator / denominator: way = whole · denominator + rest, so that nothing exceeds 128 bits.
-GearFunction::Place GearFunction::geared(Units way, bool negative_way) const noexcept {
-  const Units whole = way / denominator_;
-  const std::uint64_t rest = static_cast<std::uint64_t>(way % denominator_) * numerator_;  // < 2^62
-  Place result;
+GearFunction::RingPosition GearFunction::geared(Units distance, bool negative_distance) const noexcept {
+  const Units whole = distance / denominator_;
+  const std::uint64_t rest = static_cast<std::uint64_t>(distance % denominator_) * numerator_;  // < 2^62
+  RingPosition result;
   result.units = whole % length_;
   result.turns = static_cast<std::uint64_t>(whole / length_);
   result = multiple(numerator_, result);
-  const Place remainder{rest / denominator_, rest % denominator_, 0};  // < 2^31 units, length_ ≥ 2^52
+  const RingPosition remainder{rest / denominator_, rest % denominator_, 0};  // < 2^31 units, length_ ≥ 2^52
   result = sum(result, remainder);
-  return negative_way != mirrored_ ? negative(result) : result;
+  return negative_distance != mirrored_ ? negative(result) : result;
 }
 
 void GearFunction::set(std::int32_t numerator, std::int32_t denominator, AxisPosition leading_start,
@@ -92,7 +92,7 @@ void GearFunction::set(std::int32_t numerator, std::int32_t denominator, AxisPos
   following_start_ = following_start;
   anchor_ = 0.0;
   turn_ = 0;
-  place_ = per_turn_ = anchor_place_ = Place{};
+  place_ = per_turn_ = anchor_place_ = RingPosition{};
   if (following.enabled) {
     length_ = static_cast<Units>(following.length * kUnitsPerOne);
     // Within this reach 104 bits leave 2^-60 of the length and less.
@@ -115,8 +115,8 @@ void GearFunction::turn_to(std::int64_t turn) noexcept {
     const std::int64_t jump = wrapping_difference(turn, turn_);
     const std::uint64_t size =
         jump < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(jump) : static_cast<std::uint64_t>(jump);
-    const Place way = size == 1 ? per_turn_ : multiple(size, per_turn_);
-    place_ = sum(place_, jump < 0 ? negative(way) : way);
+    const RingPosition distance = size == 1 ? per_turn_ : multiple(size, per_turn_);
+    place_ = sum(place_, jump < 0 ? negative(distance) : distance);
   }
   turn_ = turn;
   rebase();
@@ -124,18 +124,18 @@ void GearFunction::turn_to(std::int64_t turn) noexcept {
 
 /// Moves the anchor along, so that what is left to double-double stays within its reach: for extreme ratios
 /// of ways only.
-void GearFunction::anchor_at(double way) noexcept {
-  const double size = std::abs(way);
+void GearFunction::anchor_at(double distance) noexcept {
+  const double size = std::abs(distance);
   if (!(size < 0x1p64)) return;
-  Place place;
+  RingPosition place;
   if (size >= 0x1p-10) {  // then it has no bit below 2^-62
-    place = geared(static_cast<Units>(size * kUnitsPerOne), way < 0.0);
+    place = geared(static_cast<Units>(size * kUnitsPerOne), distance < 0.0);
   } else {
-    way = 0.0;
+    distance = 0.0;
   }
   place_ = sum(sum(place_, negative(anchor_place_)), place);
   anchor_place_ = place;
-  anchor_ = way;
+  anchor_ = distance;
   rebase();
 }
 
@@ -148,9 +148,9 @@ void GearFunction::rebase() noexcept {
     const DoubleDouble low = {static_cast<double>(low_word >> 32) * 0x1p32,
                               static_cast<double>(low_word & 0xFFFFFFFFu)};
     const double fraction = static_cast<double>(place_.fraction) / static_cast<double>(denominator_);
-    DoubleDouble way = two_sum(high, low.hi) + low.lo + fraction;
-    way = {way.hi / kUnitsPerOne, way.lo / kUnitsPerOne};
-    base_ = way + following_start_.value;
+    DoubleDouble distance = two_sum(high, low.hi) + low.lo + fraction;
+    distance = {distance.hi / kUnitsPerOne, distance.lo / kUnitsPerOne};
+    base_ = distance + following_start_.value;
     wraps_ = 0;
     origin_ = base_;
     turns_ = wrapping_sum(following_start_.turns, static_cast<std::int64_t>(place_.turns));
@@ -174,9 +174,9 @@ void GearFunction::add_leading_turns(std::int64_t turns) noexcept {
 AxisPosition GearFunction::value(AxisPosition leading) noexcept {
   const std::int64_t turn = wrapping_difference(leading.turns, leading_turns_);
   if (turn != turn_) return value_in_turn(leading, turn);
-  const DoubleDouble way = two_difference(leading.value, leading_value_);
-  if (!(std::abs(way.hi) <= near_)) return value_from_anchor(leading);
-  return after(geared(way));
+  const DoubleDouble distance = two_difference(leading.value, leading_value_);
+  if (!(std::abs(distance.hi) <= near_)) return value_from_anchor(leading);
+  return after(geared(distance));
 }
 
 /// Of another turn of the leading axis. Seldom, as what follows: kept apart, so that `value` calls nothing.
@@ -186,41 +186,41 @@ AxisPosition GearFunction::value(AxisPosition leading) noexcept {
 }
 
 [[gnu::noinline]] AxisPosition GearFunction::value_from_anchor(AxisPosition leading) noexcept {
-  DoubleDouble way = two_difference(leading.value, leading_value_);
-  if (anchor_ != 0.0) way = way - anchor_;
-  if (std::abs(way.hi) > reach_) {
-    way = two_difference(leading.value, leading_value_);
-    anchor_at(way.hi);
-    way = way - anchor_;
+  DoubleDouble distance = two_difference(leading.value, leading_value_);
+  if (anchor_ != 0.0) distance = distance - anchor_;
+  if (std::abs(distance.hi) > reach_) {
+    distance = two_difference(leading.value, leading_value_);
+    anchor_at(distance.hi);
+    distance = distance - anchor_;
   }
-  return after(geared(way));
+  return after(geared(distance));
 }
 
-inline DoubleDouble GearFunction::geared(DoubleDouble way) const noexcept {
-  const DoubleDouble product = two_product(way.hi, ratio_.hi, ratio_halves_);
-  return {product.hi, product.lo + (way.hi * ratio_.lo + way.lo * ratio_.hi)};
+inline DoubleDouble GearFunction::geared(DoubleDouble distance) const noexcept {
+  const DoubleDouble product = two_product(distance.hi, ratio_.hi, ratio_halves_);
+  return {product.hi, product.lo + (distance.hi * ratio_.lo + distance.lo * ratio_.hi)};
 }
 
 /// The position a following way behind the origin.
-inline AxisPosition GearFunction::after(DoubleDouble way) noexcept {
-  const DoubleDouble position = fast_sum(origin_, way);
+inline AxisPosition GearFunction::after(DoubleDouble distance) noexcept {
+  const DoubleDouble position = fast_sum(origin_, distance);
   if (position.hi >= lowest_ && position.hi < end_) return {turns_, position.hi};
-  return beyond_window(way);
+  return beyond_window(distance);
 }
 
 /// Moves the window to the following turn in which origin + way lies.
-[[gnu::noinline]] AxisPosition GearFunction::beyond_window(DoubleDouble way) noexcept {
-  if (!following_.enabled) return {0, fast_sum(origin_, way).hi};
+[[gnu::noinline]] AxisPosition GearFunction::beyond_window(DoubleDouble distance) noexcept {
+  if (!following_.enabled) return {0, fast_sum(origin_, distance).hi};
   const double length = following_.length;
   const double start = following_.start;
-  const DoubleDouble whole = base_ + way;
+  const DoubleDouble whole = base_ + distance;
   const double count = std::floor((whole - start).hi / length);
   if (!(std::abs(count) < 0x1p52)) return {turns_, whole.hi};  // not finite
   const auto move_window = [&](std::int64_t wraps) noexcept {
     turns_ = wrapping_sum(turns_, wrapping_difference(wraps, wraps_));
     wraps_ = wraps;
     origin_ = base_ - two_product(static_cast<double>(wraps), length);
-    return fast_sum(origin_, way);
+    return fast_sum(origin_, distance);
   };
   DoubleDouble position = move_window(static_cast<std::int64_t>(count));
   if ((position - start).hi < 0.0)

@@ -50,26 +50,26 @@ class GearFunction {
 
   /// A place on the following ring: turns · length + (units + fraction / denominator) · 2^-62, exactly;
   /// units < length, fraction < denominator. Turns wrap.
-  struct Place {
+  struct RingPosition {
     Units units = 0;
     std::uint64_t fraction = 0;
     std::uint64_t turns = 0;
   };
 
-  Place sum(Place a, const Place& b) const noexcept;
-  Place negative(const Place& a) const noexcept;
-  Place multiple(std::uint64_t times, Place a) const noexcept;
-  Place geared(Units way, bool negative_way) const noexcept;
+  RingPosition sum(RingPosition a, const RingPosition& b) const noexcept;
+  RingPosition negative(const RingPosition& a) const noexcept;
+  RingPosition multiple(std::uint64_t times, RingPosition a) const noexcept;
+  RingPosition geared(Units distance, bool negative_distance) const noexcept;
   double geared(double quantity) const noexcept { return ratio_.hi * quantity + ratio_.lo * quantity; }
 
   void turn_to(std::int64_t turn) noexcept;
-  void anchor_at(double way) noexcept;
+  void anchor_at(double distance) noexcept;
   void rebase() noexcept;
-  DoubleDouble geared(DoubleDouble way) const noexcept;
+  DoubleDouble geared(DoubleDouble distance) const noexcept;
   AxisPosition value_in_turn(AxisPosition leading, std::int64_t turn) noexcept;
   AxisPosition value_from_anchor(AxisPosition leading) noexcept;
-  AxisPosition after(DoubleDouble way) noexcept;
-  AxisPosition beyond_window(DoubleDouble way) noexcept;
+  AxisPosition after(DoubleDouble distance) noexcept;
+  AxisPosition beyond_window(DoubleDouble distance) noexcept;
 
   DoubleDouble ratio_;
   Halves ratio_halves_;
@@ -86,9 +86,9 @@ class GearFunction {
   double reach_ = 0.0;           // [leading u] farthest way from the anchor
   DoubleDouble base_;            // following position at the anchor on the ring
   std::int64_t wraps_ = 0;       // whole following lengths between base_ and origin_
-  Place place_;                  // way geared from L0 to the anchor in turn_
-  Place per_turn_;               // way geared per leading turn
-  Place anchor_place_;           // way geared from L0 to the anchor
+  RingPosition place_;           // way geared from L0 to the anchor in turn_
+  RingPosition per_turn_;        // way geared per leading turn
+  RingPosition anchor_place_;    // way geared from L0 to the anchor
   Units length_ = 0;             // of the following ring
   std::uint64_t numerator_ = 1;  // magnitude
   std::uint64_t denominator_ = 1;

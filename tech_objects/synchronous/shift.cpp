@@ -75,30 +75,31 @@ Shift::Event Shift::wait_or_follow_time(const LeadingStep& step) noexcept {
 /// Whether the leading value can lead a moving shift on. One that stands, turns or creeps cannot: over its
 /// distance the shift would have to shoot far beyond its target. Then it comes to rest first.
 bool Shift::can_lead_on(const LeadingStep& step) const noexcept {
-  if (!(step.way() * step.last.velocity > 0.0)) return false;
+  if (!(step.distance() * step.last.velocity > 0.0)) return false;
   const SyncOffset start = remainder_at_start(step);
   const double distance = to_start_ + request_.distance;
-  const double most = kSteepest * std::abs(start.position);
-  return std::abs(start.slope) * distance <= most && std::abs(start.curvature) * distance * distance <= most;
+  const double maximum = kSteepest * std::abs(start.position);
+  return std::abs(start.slope) * distance <= maximum &&
+         std::abs(start.curvature) * distance * distance <= maximum;
 }
 
 /// What is left of the shift at the last tick, over the way of the leading value.
 SyncOffset Shift::remainder_at_start(const LeadingStep& step) const noexcept {
   SyncOffset start{.position = (value_ - request_.target).rounded()};
-  const double heading = std::copysign(1.0, step.way());
-  const double way_velocity = heading * step.last.velocity;
-  if (!(way_velocity > 0.0)) return start;
-  start.slope = velocity_ / way_velocity;
-  start.curvature =
-      (acceleration_ - start.slope * heading * step.last.acceleration) / (way_velocity * way_velocity);
+  const double heading = std::copysign(1.0, step.distance());
+  const double distance_velocity = heading * step.last.velocity;
+  if (!(distance_velocity > 0.0)) return start;
+  start.slope = velocity_ / distance_velocity;
+  start.curvature = (acceleration_ - start.slope * heading * step.last.acceleration) /
+                    (distance_velocity * distance_velocity);
   return start;
 }
 
 /// From here: starts where it is, if the leading value stands or moves the right way; else at the last
 /// tick before the start position is crossed.
 bool Shift::may_start(const LeadingStep& step) noexcept {
-  const double way = step.way();
-  const int heading = way > 0.0 ? 1 : way < 0.0 ? -1 : 0;
+  const double distance = step.distance();
+  const int heading = distance > 0.0 ? 1 : distance < 0.0 ? -1 : 0;
   to_start_ = 0.0;
   if (heading == 0) return request_.rule == ShiftRule::from_here && request_.direction == 0;
   if (request_.direction * heading < 0) return false;
@@ -111,7 +112,7 @@ bool Shift::may_start(const LeadingStep& step) noexcept {
     to_start_ = heading > 0 ? positive_distance(from, target, step.modulo)
                             : -negative_distance(from, target, step.modulo);
   }
-  return to_start_ >= 0.0 && to_start_ <= std::abs(way);
+  return to_start_ >= 0.0 && to_start_ <= std::abs(distance);
 }
 
 /// From the shift of the last tick, with its velocity and acceleration, to the target.
@@ -122,17 +123,17 @@ void Shift::start_over_distance(const LeadingStep& step) noexcept {
 }
 
 Shift::Event Shift::follow_leading(const LeadingStep& step) noexcept {
-  const double way = step.way();
+  const double distance = step.distance();
   if (heading_ == 0.0) {
-    if (!(way != 0.0)) return Event::none;
-    heading_ = std::copysign(1.0, way);
+    if (!(distance != 0.0)) return Event::none;
+    heading_ = std::copysign(1.0, distance);
   }
   if (!planned_) start_over_distance(step);
-  if (heading_ * way < 0.0) {
+  if (heading_ * distance < 0.0) {
     halt();
     return Event::reversed;
   }
-  covered_ += heading_ * way;
+  covered_ += heading_ * distance;
   if (remainder_.complete(covered_)) return arrive();
   const SyncOffset left = remainder_.value(covered_);
   value_ = request_.target + left.position;

@@ -17,7 +17,7 @@ struct LeadingStep {
   const Setpoint& now;
   const Modulo& modulo;
 
-  double way() const noexcept { return rounded_difference(now.position, last.position, modulo); }
+  double distance() const noexcept { return rounded_difference(now.position, last.position, modulo); }
 };
 
 /// How a shift changes.

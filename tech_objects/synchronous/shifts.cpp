@@ -8,15 +8,15 @@ Shift one_tick_on(const Shift& shift, const LeadingStep& step) noexcept {
   return moved;
 }
 
-bool under_way(const Shift& shift) noexcept {
+bool in_progress(const Shift& shift) noexcept {
   return shift.phase() != Shift::Phase::resting || shift.settling();
 }
 
 bool Shifts::settle(const Shifts& ended, const LeadingStep& step, const Dynamics& dynamics,
                     double period) noexcept {
   const ProfileLimits limits = limits_of(dynamics);
-  const bool phasing = under_way(ended.phase_);
-  const bool offsetting = under_way(ended.offset_);
+  const bool phasing = in_progress(ended.phase_);
+  const bool offsetting = in_progress(ended.offset_);
   if (phasing) {
     const Shift phase = one_tick_on(ended.phase_, step);
     phase_.settle_at(phase.value() - ended.phase_.value(), phase, limits, period);

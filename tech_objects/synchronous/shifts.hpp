@@ -46,6 +46,6 @@ class Shifts {
 Shift one_tick_on(const Shift& shift, const LeadingStep& step) noexcept;
 
 /// Whether it is no longer, or not yet, at rest.
-bool under_way(const Shift& shift) noexcept;
+bool in_progress(const Shift& shift) noexcept;
 
 }  // namespace lockstep

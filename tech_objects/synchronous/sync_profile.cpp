@@ -35,7 +35,7 @@ double quartic_root(double p, double q) noexcept {
 //   c0 + 4 c1 t + 6 c2 t² + 4 c3 t³ + c4 t⁴ ≥ 0 for all t ≥ 0,
 // hence where 6 c2 ≥ -min (c0/t² + 4 c1/t + 4 c3 t + c4 t²). That minimum is the only one: its equation,
 // times t³, has one change of sign.
-double least_monotone_way(double start_slope, double start_curvature, double end_slope) noexcept {
+double minimum_monotone_distance(double start_slope, double start_curvature, double end_slope) noexcept {
   const double c0 = start_slope;
   const double c1 = c0 + 0.25 * start_curvature;
   const double c4 = end_slope;
@@ -50,10 +50,10 @@ double least_monotone_way(double start_slope, double start_curvature, double end
   return (c2 + 2.0 * c4 + c1 + c0) / 5.0;
 }
 
-double least_monotone_way(double start_slope, double start_curvature, double end_slope,
-                          double end_curvature) noexcept {
+double minimum_monotone_distance(double start_slope, double start_curvature, double end_slope,
+                                 double end_curvature) noexcept {
   if (end_curvature == 0.0 && end_slope > 0.0)
-    return least_monotone_way(start_slope, start_curvature, end_slope);
+    return minimum_monotone_distance(start_slope, start_curvature, end_slope);
   const double c0 = start_slope;
   const double c1 = c0 + 0.25 * start_curvature;
   const double c4 = end_slope;
@@ -79,13 +79,13 @@ double least_monotone_way(double start_slope, double start_curvature, double end
 SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, double distance, bool backward,
                            SyncDirection direction, const Modulo& leading, const Modulo& following) noexcept {
   const double sign = backward ? -1.0 : 1.0;
-  const double way_velocity = sign * start.leading_velocity;
+  const double distance_velocity = sign * start.leading_velocity;
   double slope = 0.0;
   double curvature = 0.0;
-  if (way_velocity > 0.0) {
-    slope = start.velocity / way_velocity;
-    curvature =
-        (start.acceleration - slope * sign * start.leading_acceleration) / way_velocity / way_velocity;
+  if (distance_velocity > 0.0) {
+    slope = start.velocity / distance_velocity;
+    curvature = (start.acceleration - slope * sign * start.leading_acceleration) / distance_velocity /
+                distance_velocity;
     // A leading axis that creeps so slowly that nothing finite comes of it stands.
     if (!std::isfinite(slope * distance) || !std::isfinite(curvature * distance * distance))
       slope = curvature = 0.0;
@@ -95,13 +95,14 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
   double turns = 0.0;
   if (following.enabled) {
     const double length = following.length;
-    const DoubleDouble to_choose = two_product(end_slope, distance) - 0.5 * target.curvature * distance * distance -
-                             ahead;  // of the following axis: which of its turns is to be chosen
+    const DoubleDouble to_choose = two_product(end_slope, distance) -
+                                   0.5 * target.curvature * distance * distance -
+                                   ahead;  // of the following axis: which of its turns is to be chosen
     if (direction == SyncDirection::kShortestPath) {
       turns = -std::floor(to_choose.hi / length + 0.5);
     } else {
       const double to = direction == SyncDirection::kPositive ? 1.0 : -1.0;
-      if (to * end_slope < 0.0) return SyncPlan::kFunctionRunsTheOtherWay;
+      if (to * end_slope < 0.0) return SyncPlan::kFunctionRunsInOppositeDirection;
       const double nearest = std::floor(ahead.hi / length + 0.5);
       const double begin_slope = end_slope - target.curvature * distance;
       const double there = kOnSynchronousValue * length;
@@ -109,15 +110,15 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
                                std::abs(slope - begin_slope) * distance <= there &&
                                std::abs(curvature - target.curvature) * distance * distance <= there &&
                                to * begin_slope * distance >= -there;
-      const double least =
-          least_monotone_way(to * slope * distance, to * curvature * distance * distance,
-                             to * end_slope * distance, to * target.curvature * distance * distance);
+      const double minimum =
+          minimum_monotone_distance(to * slope * distance, to * curvature * distance * distance,
+                                    to * end_slope * distance, to * target.curvature * distance * distance);
       const double natural = (std::abs(slope) + std::abs(end_slope)) * distance +
                              (std::abs(curvature) + std::abs(target.curvature)) * distance * distance;
-      if (!on_function && !(least <= std::min(kFarthest * natural, 0x1p52 * length) + length))
-        return SyncPlan::kAxisMovesTheOtherWay;
-      const double rounding = std::max(kOnSynchronousValue, kRounding * (1.0 + std::abs(least / length)));
-      turns = on_function ? nearest : to * std::ceil((least - to * to_choose.hi) / length - rounding);
+      if (!on_function && !(minimum <= std::min(kFarthest * natural, 0x1p52 * length) + length))
+        return SyncPlan::kAxisMovesInOppositeDirection;
+      const double rounding = std::max(kOnSynchronousValue, kRounding * (1.0 + std::abs(minimum / length)));
+      turns = on_function ? nearest : to * std::ceil((minimum - to * to_choose.hi) / length - rounding);
     }
     ahead = ahead - two_product(turns, length);
   }
@@ -133,8 +134,8 @@ SyncPlan SyncProfile::plan(const SyncStart& start, const SyncTarget& target, dou
 }
 
 double SyncProfile::covered(AxisPosition leading) const noexcept {
-  const double way = rounded_difference(leading, leading_start_, leading_);
-  return backward_ ? -way : way;
+  const double distance = rounded_difference(leading, leading_start_, leading_);
+  return backward_ ? -distance : distance;
 }
 
 }  // namespace lockstep

@@ -53,9 +53,9 @@ struct SyncTarget {
 
 enum class SyncPlan : std::uint8_t {
   kReady,
-  kAxisMovesTheOtherWay,  ///< the following axis runs or speeds up against SyncDirection, or so nearly does
-                          ///< that it would shoot ahead before the end
-  kFunctionRunsTheOtherWay,  ///< the synchronous function runs against SyncDirection
+  kAxisMovesInOppositeDirection,  ///< the following axis runs or speeds up against SyncDirection, or so
+                                  ///< nearly does that it would shoot ahead before the end
+  kFunctionRunsInOppositeDirection,  ///< the synchronous function runs against SyncDirection
 };
 
 /// A quintic over the leading distance λ, in the direction in which the leading axis moves: from position,
@@ -89,11 +89,11 @@ class SyncProfile {
   /// λ [leading u]: way of the leading axis from the start, positive in the direction of the profile. Any
   /// thread.
   double covered(AxisPosition leading) const noexcept;
-  bool complete(double way) const noexcept { return remainder_.complete(way); }
+  bool complete(double distance) const noexcept { return remainder_.complete(distance); }
 
   /// y and its derivatives; exactly 0 from λ = D on. λ < 0 (leading axis turned back before the start, within
   /// its tolerance) continues the quintic. Any thread.
-  SyncOffset value(double way) const noexcept { return remainder_.value(way); }
+  SyncOffset value(double distance) const noexcept { return remainder_.value(distance); }
 
  private:
   AxisPosition leading_start_;
@@ -106,11 +106,11 @@ class SyncProfile {
 /// The least way [u] over the distance D with which the quintic x from slope `start_slope`, curvature
 /// `start_curvature` to slope `end_slope` > 0, curvature 0 never runs backward. All slopes are times D and
 /// the curvature times D², so in [u]. Infinite if there is none. Any thread.
-double least_monotone_way(double start_slope, double start_curvature, double end_slope) noexcept;
+double minimum_monotone_distance(double start_slope, double start_curvature, double end_slope) noexcept;
 
 /// The same for a quintic that ends with a slope ≥ 0 and a curvature (times D²); searched for, so about right
 /// to 1.0E-9.
-double least_monotone_way(double start_slope, double start_curvature, double end_slope,
-                          double end_curvature) noexcept;
+double minimum_monotone_distance(double start_slope, double start_curvature, double end_slope,
+                                 double end_curvature) noexcept;
 
 }  // namespace lockstep

@@ -114,13 +114,13 @@ Synchronizing::Start Synchronizing::watch_gear(const Chain& chain, const Setpoin
   const Modulo& following = chain.function.following();
   if (standing_on_sync_positions(chain, own)) {
     progress_.set_direction(1);
-    const double way = shortest_distance(chain.leading.last().position.value, leading_sync_position_,
-                                         chain.leading.modulo());
+    const double distance = shortest_distance(chain.leading.last().position.value, leading_sync_position_,
+                                              chain.leading.modulo());
     const double to_go = shortest_distance(own.position.value, following_sync_position_, following);
-    anchor(chain, way, advanced(own.position, to_go, following));
+    anchor(chain, distance, advanced(own.position, to_go, following));
     return Start::synchronous;
   }
-  progress_.set_direction(sign(chain.leading.step().way()));
+  progress_.set_direction(sign(chain.leading.step().distance()));
   if (progress_.direction() == 0) return Start::not_yet;
   const Start start = rule_ == SyncStartRule::dynamics ? watch_time(chain, own) : watch_distance(chain, own);
   if (start != Start::synchronizing) progress_.set_direction(0);
@@ -129,7 +129,7 @@ Synchronizing::Start Synchronizing::watch_gear(const Chain& chain, const Setpoin
 
 /// Way from the last leading position to a place, in the direction of motion [u]; negative: a linear axis has
 /// passed it.
-double Synchronizing::way_to(const Chain& chain, double place) const noexcept {
+double Synchronizing::distance_to(const Chain& chain, double place) const noexcept {
   const Modulo& modulo = chain.leading.modulo();
   const double from = chain.leading.last().position.value;
   if (!modulo.enabled) return progress_.direction() * (place - from);
@@ -140,15 +140,15 @@ double Synchronizing::way_to(const Chain& chain, double place) const noexcept {
 }
 
 /// Places the gear: the synchronous positions belong together, the leading one a way ahead of the last tick.
-void Synchronizing::anchor(const Chain& chain, double way, AxisPosition following) noexcept {
+void Synchronizing::anchor(const Chain& chain, double distance, AxisPosition following) noexcept {
   following.value = following_sync_position_;
-  chain.function.place_gear(leading_at(chain, way), following);
+  chain.function.place_gear(leading_at(chain, distance), following);
 }
 
 /// The synchronous position of the leading axis, a way ahead of the last tick.
-AxisPosition Synchronizing::leading_at(const Chain& chain, double way) const noexcept {
+AxisPosition Synchronizing::leading_at(const Chain& chain, double distance) const noexcept {
   const Modulo& modulo = chain.leading.modulo();
-  AxisPosition leading = advanced(chain.leading.last().position, progress_.direction() * way, modulo);
+  AxisPosition leading = advanced(chain.leading.last().position, progress_.direction() * distance, modulo);
   if (modulo.enabled) {
     // The way is rounded: at the end of the ring the turn may be the neighbour's.
     const double off = leading.value - leading_sync_position_;
@@ -165,14 +165,14 @@ Synchronizing::Start Synchronizing::watch_distance(const Chain& chain, const Set
   const int direction = progress_.direction();
   const double start_place =
       in_advance ? leading_sync_position_ - direction * start_distance_ : leading_sync_position_;
-  const double way = way_to(chain, start_place);
-  const double step = direction * chain.leading.step().way();
-  if (way < 0.0 || way > step) return Start::not_yet;
+  const double distance = distance_to(chain, start_place);
+  const double step = direction * chain.leading.step().distance();
+  if (distance < 0.0 || distance > step) return Start::not_yet;
 
-  const double way_to_sync = in_advance ? way + start_distance_ : way;
-  distance_ = way + start_distance_;
+  const double distance_to_sync = in_advance ? distance + start_distance_ : distance;
+  distance_ = distance + start_distance_;
   AxisPosition following{own.position.turns, following_sync_position_};
-  anchor(chain, way_to_sync, following);
+  anchor(chain, distance_to_sync, following);
   const Setpoint& from = chain.leading.last();
   const SyncStart start = start_from(from, own);
   const SyncTarget target{.at_start = chain.function.gear_value(from.position),
@@ -183,7 +183,7 @@ Synchronizing::Start Synchronizing::watch_distance(const Chain& chain, const Set
   if (shoots_beyond(distance_profile_.value(0.0), distance_, chain.function.following()))
     return reject(SyncRefusal::leading_distance);
   following.turns += distance_profile_.turns();
-  anchor(chain, way_to_sync, following);
+  anchor(chain, distance_to_sync, following);
   return begin_profile(Method::distance, from.position);
 }
 
@@ -220,7 +220,7 @@ bool Synchronizing::track(const Chain& chain, Setpoint& setpoint) noexcept {
                       .deceleration = dynamics_.deceleration,
                       .jerk = dynamics_.jerk},
                      chain.period);
-  setpoint.position = advanced(setpoint.position, step.way, chain.function.following());
+  setpoint.position = advanced(setpoint.position, step.distance, chain.function.following());
   setpoint.velocity = step.velocity;
   setpoint.acceleration = step.acceleration;
   chain.function.show(setpoint);
@@ -230,25 +230,25 @@ bool Synchronizing::track(const Chain& chain, Setpoint& setpoint) noexcept {
 }
 
 bool Synchronizing::follow_profile(const Chain& chain, Setpoint& setpoint) const noexcept {
-  const double way = progress_.covered(chain.leading.step());
-  if (way >= distance_) return false;
-  const SyncOffset rest = ahead(way);
-  const double way_velocity = progress_.direction() * chain.leading.now().velocity;
-  const double way_acceleration = progress_.direction() * chain.leading.now().acceleration;
-  const Setpoint joined = chain.function.is_cam() ? tangent(chain, way) : chain.function.value();
+  const double distance = progress_.covered(chain.leading.step());
+  if (distance >= distance_) return false;
+  const SyncOffset rest = ahead(distance);
+  const double distance_velocity = progress_.direction() * chain.leading.now().velocity;
+  const double distance_acceleration = progress_.direction() * chain.leading.now().acceleration;
+  const Setpoint joined = chain.function.is_cam() ? tangent(chain, distance) : chain.function.value();
   setpoint.position = advanced(joined.position, rest.position, chain.function.following());
-  setpoint.velocity = joined.velocity + rest.velocity(way_velocity);
-  setpoint.acceleration = joined.acceleration + rest.acceleration(way_velocity, way_acceleration);
+  setpoint.velocity = joined.velocity + rest.velocity(distance_velocity);
+  setpoint.acceleration = joined.acceleration + rest.acceleration(distance_velocity, distance_acceleration);
   return true;
 }
 
 /// What the axis is ahead of its function, over the leading distance covered.
-SyncOffset Synchronizing::ahead(double way) const noexcept {
-  if (method_ == Method::distance) return distance_profile_.value(way);
-  const MotionState state = time_profile_.at(way / time_velocity_);
-  if (way < 0.0) {  // turned back before the start, within the tolerance
+SyncOffset Synchronizing::ahead(double distance) const noexcept {
+  if (method_ == Method::distance) return distance_profile_.value(distance);
+  const MotionState state = time_profile_.at(distance / time_velocity_);
+  if (distance < 0.0) {  // turned back before the start, within the tolerance
     const double slope = state.velocity / time_velocity_;
-    return {state.position + slope * way, slope, 0.0};
+    return {state.position + slope * distance, slope, 0.0};
   }
   return {state.position, state.velocity / time_velocity_,
           state.acceleration / (time_velocity_ * time_velocity_)};

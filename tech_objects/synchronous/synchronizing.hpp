@@ -59,31 +59,32 @@ class Synchronizing {
   void watch_acceleration(const Chain& chain) noexcept;
   bool standing_on_sync_positions(const Chain& chain, const Setpoint& own) const noexcept;
   bool on_following_sync_position(double here, const Modulo& following) const noexcept;
-  double way_to(const Chain& chain, double place) const noexcept;
-  AxisPosition leading_at(const Chain& chain, double way) const noexcept;
-  void anchor(const Chain& chain, double way, AxisPosition following) noexcept;
+  double distance_to(const Chain& chain, double place) const noexcept;
+  AxisPosition leading_at(const Chain& chain, double distance) const noexcept;
+  void anchor(const Chain& chain, double distance, AxisPosition following) noexcept;
   Start watch_gear(const Chain& chain, const Setpoint& own) noexcept;
   Start watch_distance(const Chain& chain, const Setpoint& own) noexcept;
   bool shoots_beyond(const SyncOffset& start, double distance, const Modulo& following) const noexcept;
-  SyncOffset ahead(double way) const noexcept;
+  SyncOffset ahead(double distance) const noexcept;
 
   // synchronizing_in_time.cpp
   Start watch_time(const Chain& chain, const Setpoint& own) noexcept;
   int forced_direction(const Modulo& following) const noexcept;
-  double following_way(const Chain& chain, const Setpoint& own, double synchronous_velocity) const noexcept;
-  bool plan_time(const Chain& chain, const Setpoint& own, const Setpoint& leading, double way, double ahead,
-                 Profile& profile) const noexcept;
+  double following_distance(const Chain& chain, const Setpoint& own,
+                            double synchronous_velocity) const noexcept;
+  bool plan_time(const Chain& chain, const Setpoint& own, const Setpoint& leading, double distance,
+                 double ahead, Profile& profile) const noexcept;
 
   // synchronizing_cam.cpp
   Start watch_cam(const Chain& chain, const Setpoint& own, const ChainView* active) noexcept;
   bool stands_on_cam(const Chain& chain, const Setpoint& own) noexcept;
-  void take_joint(const Chain& chain, const CamPlace& place, std::int64_t turns) noexcept;
+  void take_joint(const Chain& chain, const CamFollowingValue& place, std::int64_t turns) noexcept;
   Start watch_cam_distance(const Chain& chain, const Setpoint& own) noexcept;
-  SyncRefusal place_for_distance(const Chain& chain, double way, AxisPosition& end) noexcept;
+  SyncRefusal place_for_distance(const Chain& chain, double distance, AxisPosition& end) noexcept;
   SyncPlan plan_along_tangent(const Chain& chain, const SyncStart& start) noexcept;
-  void aim_at_cam(const Chain& chain, double way) noexcept;
+  void aim_at_cam(const Chain& chain, double distance) noexcept;
   bool stands_at(const Setpoint& own, AxisPosition joint, const Modulo& following) const noexcept;
-  Setpoint tangent(const Chain& chain, double way) const noexcept;
+  Setpoint tangent(const Chain& chain, double distance) const noexcept;
   Start set_on_cam(const Chain& chain, const Setpoint& own) noexcept;
   Start watch_cam_end(const Chain& chain, const ChainView* active) noexcept;
 

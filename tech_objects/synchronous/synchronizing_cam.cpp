@@ -14,7 +14,7 @@ Synchronizing::Start Synchronizing::watch_cam(const Chain& chain, const Setpoint
   if (rule_ == SyncStartRule::at_cam_end) return watch_cam_end(chain, active);
   if (rule_ == SyncStartRule::direct) return set_on_cam(chain, own);
   if (stands_on_cam(chain, own)) return Start::synchronous;
-  progress_.set_direction(sign(chain.leading.step().way()));
+  progress_.set_direction(sign(chain.leading.step().distance()));
   if (progress_.direction() == 0) return Start::not_yet;
   const Start start =
       rule_ == SyncStartRule::dynamics ? watch_time(chain, own) : watch_cam_distance(chain, own);
@@ -38,8 +38,8 @@ bool Synchronizing::stands_on_cam(const Chain& chain, const Setpoint& own) noexc
   }
   if (!standing_on_sync_positions(chain, own)) return false;
   progress_.set_direction(1);
-  const double way = shortest_distance(leading.value, leading_sync_position_, chain.leading.modulo());
-  const AxisPosition place = leading_at(chain, way);
+  const double distance = shortest_distance(leading.value, leading_sync_position_, chain.leading.modulo());
+  const AxisPosition place = leading_at(chain, distance);
   if (!from_here) cam.place(place);
   const double to_go = shortest_distance(own.position.value, following_sync_position_, following);
   take_joint(chain, cam.joined_at(place, progress_.direction()),
@@ -48,7 +48,8 @@ bool Synchronizing::stands_on_cam(const Chain& chain, const Setpoint& own) noexc
 }
 
 /// Where profile and cam meet: the cam is moved by whole turns, so that it is there.
-void Synchronizing::take_joint(const Chain& chain, const CamPlace& place, std::int64_t turns) noexcept {
+void Synchronizing::take_joint(const Chain& chain, const CamFollowingValue& place,
+                               std::int64_t turns) noexcept {
   CamCoupling& cam = chain.function.cam();
   const Modulo& following = chain.function.following();
   joint_ = advanced(place.position, cam.following_offset(), following);
@@ -64,25 +65,25 @@ Synchronizing::Start Synchronizing::watch_cam_distance(const Chain& chain, const
   const Modulo& following = chain.function.following();
   const Setpoint& from = chain.leading.last();
   const int direction = progress_.direction();
-  double way = 0.0;  // to the start
+  double distance = 0.0;  // to the start
   if (rule_ == SyncStartRule::ahead)
-    way = way_to(chain, leading_sync_position_ - direction * start_distance_);
-  if (rule_ == SyncStartRule::subsequent) way = way_to(chain, leading_sync_position_);
-  const double step = direction * chain.leading.step().way();
-  if (way < 0.0 || way > step) return Start::not_yet;
+    distance = distance_to(chain, leading_sync_position_ - direction * start_distance_);
+  if (rule_ == SyncStartRule::subsequent) distance = distance_to(chain, leading_sync_position_);
+  const double step = direction * chain.leading.step().distance();
+  if (distance < 0.0 || distance > step) return Start::not_yet;
 
-  distance_ = way + start_distance_;
+  distance_ = distance + start_distance_;
   AxisPosition end = advanced(from.position, direction * distance_, chain.leading.modulo());
-  if (const SyncRefusal why = place_for_distance(chain, way, end); why != SyncRefusal::none)
+  if (const SyncRefusal why = place_for_distance(chain, distance, end); why != SyncRefusal::none)
     return reject(why);
   if (cam.beyond_one_pass(end)) return reject(SyncRefusal::leading_distance);  // before the axis follows it
 
-  const CamPlace place = cam.joined_at(end, direction);
+  const CamFollowingValue place = cam.joined_at(end, direction);
   take_joint(chain, place, own.position.turns);
   curvature_ = stands_at(own, joint_, following) ? 0.0 : place.curvature;
   const SyncStart start = start_from(from, own);
   SyncPlan plan = plan_along_tangent(chain, start);
-  if (plan == SyncPlan::kAxisMovesTheOtherWay && curvature_ != 0.0) {
+  if (plan == SyncPlan::kAxisMovesInOppositeDirection && curvature_ != 0.0) {
     curvature_ = 0.0;  // only the acceleration of the cam stands against SyncDirection: it steps there
     plan = plan_along_tangent(chain, start);
   }
@@ -96,7 +97,8 @@ Synchronizing::Start Synchronizing::watch_cam_distance(const Chain& chain, const
 }
 
 /// Places the cam for a profile that ends at a leading position, which may be given its exact name.
-SyncRefusal Synchronizing::place_for_distance(const Chain& chain, double way, AxisPosition& end) noexcept {
+SyncRefusal Synchronizing::place_for_distance(const Chain& chain, double distance,
+                                              AxisPosition& end) noexcept {
   CamCoupling& cam = chain.function.cam();
   if (rule_ == SyncStartRule::subsequent_from_here)
     return cam.place_here(chain.leading.last().position) ? SyncRefusal::none : SyncRefusal::outside_cam;
@@ -105,7 +107,7 @@ SyncRefusal Synchronizing::place_for_distance(const Chain& chain, double way, Ax
     cam.offset_to(end.value);
   }
   if (rule_ == SyncStartRule::subsequent) {
-    cam.place(leading_at(chain, way));
+    cam.place(leading_at(chain, distance));
   } else {
     end = leading_at(chain, distance_);
     cam.place(end);
@@ -121,20 +123,20 @@ SyncPlan Synchronizing::plan_along_tangent(const Chain& chain, const SyncStart& 
 
 /// In time: the parabola that touches the cam in the synchronous position. Its bend counts as far as the
 /// limits leave room for it; else the acceleration steps to that of the cam.
-void Synchronizing::aim_at_cam(const Chain& chain, double way) noexcept {
+void Synchronizing::aim_at_cam(const Chain& chain, double distance) noexcept {
   CamCoupling& cam = chain.function.cam();
   const double velocity = chain.leading.now().velocity;
   const int direction = progress_.direction();
-  const AxisPosition leading = leading_at(chain, way);
+  const AxisPosition leading = leading_at(chain, distance);
   cam.place(leading);
-  const CamPlace place = cam.joined_at(leading, direction);
+  const CamFollowingValue place = cam.joined_at(leading, direction);
   slope_ = place.slope;
   const double bend = place.curvature * velocity * velocity;
-  const double room = std::min(dynamics_.acceleration, dynamics_.deceleration);
-  curvature_ = dynamics_.jerk > 0.0 && std::abs(bend) <= 0.5 * room ? place.curvature : 0.0;
+  const double margin = std::min(dynamics_.acceleration, dynamics_.deceleration);
+  curvature_ = dynamics_.jerk > 0.0 && std::abs(bend) <= 0.5 * margin ? place.curvature : 0.0;
   // In one direction a parabola that turns back, there or before, cannot be followed.
   const int forced = forced_direction(chain.function.following());
-  const double begin_slope = slope_ - curvature_ * direction * way;
+  const double begin_slope = slope_ - curvature_ * direction * distance;
   const bool against = forced * begin_slope * velocity < 0.0;
   if (forced != 0 && (slope_ == 0.0 || against)) curvature_ = 0.0;
 }
@@ -149,8 +151,8 @@ bool Synchronizing::stands_at(const Setpoint& own, AxisPosition joint,
 }
 
 /// What a profile joins: the cam's tangent, or parabola, in the joint. @param way leading distance covered
-Setpoint Synchronizing::tangent(const Chain& chain, double way) const noexcept {
-  const double ahead = progress_.direction() * (way - distance_);
+Setpoint Synchronizing::tangent(const Chain& chain, double distance) const noexcept {
+  const double ahead = progress_.direction() * (distance - distance_);
   const double slope = slope_ + curvature_ * ahead;
   const double velocity = chain.leading.now().velocity;
   return {advanced(joint_, slope_ * ahead + 0.5 * curvature_ * ahead * ahead, chain.function.following()),
@@ -178,7 +180,7 @@ Synchronizing::Start Synchronizing::watch_cam_end(const Chain& chain, const Chai
   const CamCoupling& old = active->function.cam();
   // The active motion has not been advanced yet: what its phase shift will be decides whether it is at the
   // end.
-  const DoubleDouble now = under_way(shift) ? one_tick_on(shift, chain.leading.step()).value() : phase;
+  const DoubleDouble now = in_progress(shift) ? one_tick_on(shift, chain.leading.step()).value() : phase;
   const CamEnd end = old.end_before(advanced(chain.leading.now().position, now, chain.leading.modulo()));
   if (end == CamEnd::none) return Start::not_yet;
   const AxisPosition following =

@@ -18,8 +18,8 @@ Synchronizing::Start Synchronizing::watch_time(const Chain& chain, const Setpoin
   const LeadingStep led = chain.leading.step();
   const int direction = progress_.direction();
   const double leading_velocity = led.now.velocity;
-  const double way = way_to(chain, leading_sync_position_);
-  if (chain.function.is_cam()) aim_at_cam(chain, way);
+  const double distance = distance_to(chain, leading_sync_position_);
+  if (chain.function.is_cam()) aim_at_cam(chain, distance);
   const double synchronous_velocity = slope_ * leading_velocity;
   if (led.last.velocity == 0.0 || sign(leading_velocity) != direction) return Start::not_yet;
   if (std::abs(synchronous_velocity) >= dynamics_.velocity) return reject(SyncRefusal::velocity);
@@ -27,30 +27,32 @@ Synchronizing::Start Synchronizing::watch_time(const Chain& chain, const Setpoin
   if (forced != 0 && (sign(synchronous_velocity) == -forced || forced * own.velocity < 0.0))
     return reject(SyncRefusal::direction);
 
-  const double step = direction * led.way();
+  const double step = direction * led.distance();
   Profile now, next;
   const auto reaches = [&](const Setpoint& leading, double left, double ahead, Profile& profile) noexcept {
     return plan_time(chain, own, leading, left, ahead, profile) &&
            profile.duration() * std::abs(leading.velocity) <= left;
   };
-  if (way < 0.0) return Start::not_yet;
-  bool in_time = reaches(led.last, way, 0.0, now);
+  if (distance < 0.0) return Start::not_yet;
+  bool in_time = reaches(led.last, distance, 0.0, now);
   if (!in_time && forced != 0 && curvature_ != 0.0) {  // it need not bend as the cam does
     curvature_ = 0.0;
-    in_time = reaches(led.last, way, 0.0, now);
+    in_time = reaches(led.last, distance, 0.0, now);
   }
   if (!in_time) return Start::not_yet;  // too late for this pass
-  if (way > step && reaches(led.now, way - step, own.velocity * chain.period, next)) return Start::not_yet;
+  if (distance > step && reaches(led.now, distance - step, own.velocity * chain.period, next))
+    return Start::not_yet;
 
-  const double covered = following_way(chain, own, slope_ * led.last.velocity);
+  const double covered = following_distance(chain, own, slope_ * led.last.velocity);
   const AxisPosition following = advanced(own.position, covered, chain.function.following());
   if (chain.function.is_cam())
-    take_joint(chain, chain.function.cam().joined_at(leading_at(chain, way), direction), following.turns);
+    take_joint(chain, chain.function.cam().joined_at(leading_at(chain, distance), direction),
+               following.turns);
   else
-    anchor(chain, way, following);
+    anchor(chain, distance, following);
   time_profile_ = now;
   time_velocity_ = std::abs(led.last.velocity);
-  distance_ = way;
+  distance_ = distance;
   return begin_profile(Method::time, led.last.position);
 }
 
@@ -62,8 +64,8 @@ int Synchronizing::forced_direction(const Modulo& following) const noexcept {
 
 /// Way of the following axis to its synchronous position, as SyncDirection has it [u]: with a turn more where
 /// it could not get the synchronous velocity on the way.
-double Synchronizing::following_way(const Chain& chain, const Setpoint& own,
-                                    double synchronous_velocity) const noexcept {
+double Synchronizing::following_distance(const Chain& chain, const Setpoint& own,
+                                         double synchronous_velocity) const noexcept {
   const Modulo& following = chain.function.following();
   const double leading_velocity = chain.leading.now().velocity;
   const double here = own.position.value;
@@ -72,26 +74,26 @@ double Synchronizing::following_way(const Chain& chain, const Setpoint& own,
   const int to = forced_direction(following);
   const double there = kOnSynchronousValue * following.length;
   if (to == 0) return shortest;
-  double way = to * shortest;
-  if (way < -there) way += following.length;
+  double distance = to * shortest;
+  if (distance < -there) distance += following.length;
   const double acceleration = std::min(dynamics_.acceleration, dynamics_.deceleration) -
                               std::abs(curvature_) * leading_velocity * leading_velocity;
   const ProfileLimits limits = limits_of({dynamics_.velocity, acceleration, acceleration, dynamics_.jerk});
   Profile change;
   const MotionState start{.velocity = own.velocity, .acceleration = own.acceleration};
-  if (plan_velocity(start, synchronous_velocity, limits, change) != PlanResult::ok) return to * way;
-  const double least = to * change.target().position;
-  if (least > there && way < least + there)
-    way += following.length * std::ceil((least + there - way) / following.length);
-  return to * way;
+  if (plan_velocity(start, synchronous_velocity, limits, change) != PlanResult::ok) return to * distance;
+  const double minimum = to * change.target().position;
+  if (minimum > there && distance < minimum + there)
+    distance += following.length * std::ceil((minimum + there - distance) / following.length);
+  return to * distance;
 }
 
 /// The motion relative to the function, at the leading velocity at hand, that ends on it at rest.
 /// @param way leading distance that is left  @param ahead way that the axis itself makes until then [u]
-bool Synchronizing::plan_time(const Chain& chain, const Setpoint& own, const Setpoint& leading, double way,
-                              double ahead, Profile& profile) const noexcept {
+bool Synchronizing::plan_time(const Chain& chain, const Setpoint& own, const Setpoint& leading,
+                              double distance, double ahead, Profile& profile) const noexcept {
   // Of a cam it is the parabola that touches it in the synchronous position.
-  const double slope = slope_ - curvature_ * progress_.direction() * way;
+  const double slope = slope_ - curvature_ * progress_.direction() * distance;
   const double function_velocity = slope * leading.velocity;
   const double bend = curvature_ * leading.velocity * leading.velocity;
   const double slowest = std::min(function_velocity, slope_ * leading.velocity);
@@ -112,8 +114,8 @@ bool Synchronizing::plan_time(const Chain& chain, const Setpoint& own, const Set
   const double seen = chain.leading.follows_actual_value() ? watched_acceleration_ : leading.acceleration;
   if (std::abs(relative_velocity / leading.velocity * seen) > acceleration) return false;
   const MotionState start{
-      .position = slope_ * progress_.direction() * way - 0.5 * curvature_ * way * way -
-                  (following_way(chain, own, slope_ * leading.velocity) - ahead),
+      .position = slope_ * progress_.direction() * distance - 0.5 * curvature_ * distance * distance -
+                  (following_distance(chain, own, slope_ * leading.velocity) - ahead),
       .velocity = relative_velocity,
       .acceleration = own.acceleration - slope * leading.acceleration - bend - slope_change};
   return plan_position(start, 0.0, 0.0, limits, profile) == PlanResult::ok;

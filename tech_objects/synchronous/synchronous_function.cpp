@@ -5,7 +5,7 @@ namespace lockstep {
 void SynchronousFunction::evaluate_cam(const Setpoint& leading, Setpoint& result) noexcept {
   const double velocity = leading.velocity;
   const double acceleration = leading.acceleration;
-  const CamPlace place = cam_.value(leading.position);
+  const CamFollowingValue place = cam_.value(leading.position);
   show(place.position, place.slope * velocity,
        place.curvature * velocity * velocity + place.slope * acceleration, result);
 }

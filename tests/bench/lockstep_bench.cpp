@@ -77,7 +77,7 @@ bool read(char** arguments, Options& options) {
     } else if (name == "--runs") {
       options.runs = std::max(1, std::atoi(*argument));
     } else if (name == "--processors") {
-      options.processors = std::clamp(std::atoi(*argument), 1, Clock::kMostProcessors);
+      options.processors = std::clamp(std::atoi(*argument), 1, Clock::kMaximumProcessors);
     } else if (name == "--axes") {
       options.axes = std::max(1, std::atoi(*argument));
     } else if (name == "--filter") {

@@ -225,8 +225,8 @@ void Machine::check() const {
     if (runs(axis->data)) ++right;
   }
   // While one positioning is over and the next not yet begun, an axis shows none.
-  const int least = plan_.motion == Motion::positioning ? plan_.axes - plan_.axes / 4 - 1 : plan_.axes;
-  if (right < least)
+  const int minimum = plan_.motion == Motion::positioning ? plan_.axes - plan_.axes / 4 - 1 : plan_.axes;
+  if (right < minimum)
     throw std::runtime_error(plan_.name() + ": only " + std::to_string(right) + " axes run as planned");
   if (trace_ && trace_->dropped() != 0) throw std::runtime_error(plan_.name() + ": trace rows are dropped");
 }

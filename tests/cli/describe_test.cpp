@@ -28,14 +28,14 @@ json described(std::vector<std::string> names) {
 
 // A bound is shown where the type has values beyond it.
 void expect_range(const json& object, Type type, const Range& range, const std::string& what) {
-  constexpr double kGreatest = std::numeric_limits<double>::max();
+  constexpr double kMaximum = std::numeric_limits<double>::max();
   const bool wide = is_real(type) || type == Type::TIME;
-  const double least = wide ? -kGreatest : static_cast<double>(lowest(type));
-  const double most = wide ? kGreatest : static_cast<double>(highest(type));
+  const double minimum = wide ? -kMaximum : static_cast<double>(lowest(type));
+  const double maximum = wide ? kMaximum : static_cast<double>(highest(type));
   const json bounds = object.value("range", json::object());
   json expected = json::object();
-  if (range.lowest > least) expected["lowest"] = range.lowest;
-  if (range.highest < most) expected["highest"] = range.highest;
+  if (range.lowest > minimum) expected["lowest"] = range.lowest;
+  if (range.highest < maximum) expected["highest"] = range.highest;
   if (!std::isnan(range.excluded)) expected["excluded"] = range.excluded;
   EXPECT_EQ(bounds, expected) << what;
 }

@@ -26,7 +26,7 @@ TEST(MonitorMemory, HasAnEndHoweverManySignalsAreDescribed) {
   const auto many = header_of("X", 60'000);
   for (int i = 0; i < 20; ++i) {
     model.accept("X" + std::to_string(i) + "_HEADER", many, kNow);
-    ASSERT_LE(model.heard().traces.memory(), HeardTraces::kMostMemory);
+    ASSERT_LE(model.heard().traces.memory(), HeardTraces::kMaximumMemory);
   }
   const auto& traces = model.heard().traces.all();
   EXPECT_GE(traces.size(), 2u) << "a description of 60,000 signals alone is no attack";
@@ -36,7 +36,7 @@ TEST(MonitorMemory, HasAnEndHoweverManySignalsAreDescribed) {
   EXPECT_FALSE(traces.contains("LONG"));
   model.accept("GOOD", header_of("GOOD", 150'000), kNow);
   EXPECT_EQ(traces.at("GOOD").signals().size(), 3u);
-  EXPECT_LE(model.heard().traces.memory(), HeardTraces::kMostMemory);
+  EXPECT_LE(model.heard().traces.memory(), HeardTraces::kMaximumMemory);
 }
 
 TEST(MonitorMemory, HoldsNoRowThatIsLargerThanItsDescription) {
@@ -83,7 +83,7 @@ TEST(MonitorMemory, HoldsNoMoreThanItMayOfWhatNobodyLooksAt) {
   const std::string data(kMessage, 'x');
   for (std::size_t i = 0; i < kSent; ++i)
     ASSERT_EQ(lcm_publish(publisher.instance(), "C", data.data(), kMessage), 0);
-  constexpr std::size_t kHeld = Inbox::kMostBytes / kMessage;
+  constexpr std::size_t kHeld = Inbox::kMaximumBytes / kMessage;
   ASSERT_TRUE(wait_until([&] { return inbox.dropped() == kSent - kHeld; })) << inbox.dropped();
   std::size_t messages = 0;
   inbox.take(kSent, [&](const std::string& channel, std::span<const std::uint8_t> bytes) {

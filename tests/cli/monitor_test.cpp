@@ -197,13 +197,13 @@ class Picture {
     };
     const std::size_t first = number(parameters);
     const std::size_t second = semicolon == std::string::npos ? 0 : number(parameters.substr(semicolon + 1));
-    const std::size_t way = std::max<std::size_t>(first, 1);
-    if (kind == 'H') row_ = std::min(way, cells_.size()) - 1;
+    const std::size_t distance = std::max<std::size_t>(first, 1);
+    if (kind == 'H') row_ = std::min(distance, cells_.size()) - 1;
     if (kind == 'H') column_ = std::min(std::max<std::size_t>(second, 1), cells_[0].size()) - 1;
-    if (kind == 'A') row_ -= std::min(row_, way);
-    if (kind == 'B') row_ = std::min(row_ + way, cells_.size() - 1);
-    if (kind == 'C') column_ = std::min(column_ + way, cells_[0].size() - 1);
-    if (kind == 'D') column_ -= std::min(column_, way);
+    if (kind == 'A') row_ -= std::min(row_, distance);
+    if (kind == 'B') row_ = std::min(row_ + distance, cells_.size() - 1);
+    if (kind == 'C') column_ = std::min(column_ + distance, cells_[0].size() - 1);
+    if (kind == 'D') column_ -= std::min(column_, distance);
     if (kind == 'K' || kind == 'J') clear(kind == 'J', first);
   }
   /// Of the line, or of all lines: 0 from the cursor on, 1 up to it, 2 everything.

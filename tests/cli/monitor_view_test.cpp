@@ -436,9 +436,9 @@ TEST(MonitorModel, BearsAnyMessageAndKeepsNoMoreThanItMay) {
       for (const char c : line.text)
         ASSERT_FALSE(static_cast<unsigned char>(c) < 0x20 || c == 0x7F) << line.text;
   }
-  EXPECT_LE(monitored.model.heard().traces.all().size(), HeardTraces::kMost);
-  EXPECT_LE(monitored.model.panel->axes().size(), Panel::kMostAxes);
-  EXPECT_LE(monitored.model.heard().events.running().size(), HeardEvents::kMostJobs);
+  EXPECT_LE(monitored.model.heard().traces.all().size(), HeardTraces::kMaximum);
+  EXPECT_LE(monitored.model.panel->axes().size(), Panel::kMaximumAxes);
+  EXPECT_LE(monitored.model.heard().events.running().size(), HeardEvents::kMaximumJobs);
 }
 
 TEST(MonitorHistory, KeepsLeastAndGreatestOfAMinute) {
@@ -448,17 +448,17 @@ TEST(MonitorHistory, KeepsLeastAndGreatestOfAMinute) {
     history.add(t * 1'000'000, t == 100'050 ? 99.0 : static_cast<double>(t % 2));
   const auto minute = history.whole(60'000'000'000);
   ASSERT_TRUE(minute);
-  EXPECT_EQ(minute->least, 0.0);
-  EXPECT_EQ(minute->greatest, 99.0) << "a peak of one value is seen";
-  EXPECT_EQ(history.whole(10'000'000'000)->greatest, 1.0);
+  EXPECT_EQ(minute->minimum, 0.0);
+  EXPECT_EQ(minute->maximum, 99.0) << "a peak of one value is seen";
+  EXPECT_EQ(history.whole(10'000'000'000)->maximum, 1.0);
   const auto parts = history.parts(60'000'000'000, 60);
-  EXPECT_EQ(parts[40]->greatest, 99.0);
-  EXPECT_EQ(parts[39]->greatest, 1.0);
+  EXPECT_EQ(parts[40]->maximum, 99.0);
+  EXPECT_EQ(parts[39]->maximum, 1.0);
   history.add(5'000'000'000, 3.0);
-  EXPECT_EQ(history.whole(60'000'000'000)->greatest, 3.0) << "another run";
+  EXPECT_EQ(history.whole(60'000'000'000)->maximum, 3.0) << "another run";
   history.add(6'000'000'000, std::nan(""));
   history.add(7'000'000'000, HUGE_VAL);
-  EXPECT_EQ(history.whole(60'000'000'000)->greatest, 3.0);
+  EXPECT_EQ(history.whole(60'000'000'000)->maximum, 3.0);
 }
 
 }  // namespace

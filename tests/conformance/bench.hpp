@@ -163,8 +163,8 @@ class Bench {
   }
 
   template <class Condition>
-  bool run_until(Condition condition, int most) {
-    for (int i = 0; i < most; ++i) {
+  bool run_until(Condition condition, int maximum) {
+    for (int i = 0; i < maximum; ++i) {
       tick();
       if (condition()) return true;
     }
@@ -275,13 +275,13 @@ class Bench {
       return;
     }
     if (axis.pending_alarm() == alarm::kPositionRangeExceeded) return;  // at the end of the numbers it stands
-    const double most_v = std::max(BenchLimits::kVelocity, std::abs(before.setpoint.velocity));
-    if (std::abs(s.velocity) > most_v * (1 + kSlack))
+    const double maximum_v = std::max(BenchLimits::kVelocity, std::abs(before.setpoint.velocity));
+    if (std::abs(s.velocity) > maximum_v * (1 + kSlack))
       fault(axis.name + ": velocity " + std::to_string(s.velocity) + " beyond its limit");
     const bool speeding_up = s.velocity * s.acceleration > 0.0;
-    const double most_a = std::max(speeding_up ? BenchLimits::kAcceleration : BenchLimits::kEmergency,
-                                   std::abs(before.setpoint.acceleration));
-    if (std::abs(s.acceleration) > most_a * (1 + kSlack))
+    const double maximum_a = std::max(speeding_up ? BenchLimits::kAcceleration : BenchLimits::kEmergency,
+                                      std::abs(before.setpoint.acceleration));
+    if (std::abs(s.acceleration) > maximum_a * (1 + kSlack))
       fault(axis.name + ": acceleration " + std::to_string(s.acceleration) + " beyond its limit");
     // The emergency ramp of an axis with a drive begins with its actual velocity.
     const double lag = axis.is_virtual() ? 0.0 : std::abs(before.actual_velocity - before.setpoint.velocity);
@@ -321,17 +321,17 @@ class Bench {
                    double handed_on) noexcept {
     constexpr double kPeriod = static_cast<double>(BenchLimits::kPeriod) * 1e-9;
     const double at_ticks = std::max(std::abs(before.acceleration), std::abs(s.acceleration));
-    const double most_a = between * std::max(BenchLimits::kEmergency, at_ticks);
-    const double most_change = most_a * kPeriod + handed_on;
-    if (std::abs(s.velocity - before.velocity) > most_change * (1 + kSlack) + kSlack)
+    const double maximum_a = between * std::max(BenchLimits::kEmergency, at_ticks);
+    const double maximum_change = maximum_a * kPeriod + handed_on;
+    if (std::abs(s.velocity - before.velocity) > maximum_change * (1 + kSlack) + kSlack)
       fault(axis.name + ": step of the velocity from " + std::to_string(before.velocity) + " to " +
             std::to_string(s.velocity));
     if (positions_may_step()) return;
-    const double way = difference(s.position, before.position, axis.modulo()).rounded();
+    const double distance = difference(s.position, before.position, axis.modulo()).rounded();
     const double mean = 0.5 * (s.velocity + before.velocity) * kPeriod;
     const double rounding = 1e-12 * std::abs(s.position.value);
-    if (std::abs(way - mean) > most_change * kPeriod + rounding + kSlack)
-      fault(axis.name + ": step of the position by " + std::to_string(way));
+    if (std::abs(distance - mean) > maximum_change * kPeriod + rounding + kSlack)
+      fault(axis.name + ": step of the position by " + std::to_string(distance));
   }
 
   bool positions_may_step() const noexcept { return controller.counters().ticks <= position_steps_until_; }

@@ -22,8 +22,8 @@ constexpr std::uint64_t kFirstSeed = 20260;
 constexpr int kSequencesOfASeed = 100;  // on one machine, one after another
 constexpr int kSeeds = 1000;            // a hundredth of the soak
 constexpr int kSoakSeeds = 100000;      // 10^7 sequences
-constexpr int kMostActions = 6;
-constexpr int kMostWait = 14;        // [ticks] between two actions
+constexpr int kMaximumActions = 6;
+constexpr int kMaximumWait = 14;     // [ticks] between two actions
 constexpr int kLongWait = 150;       // seldom
 constexpr int kRunDown = 200;        // [ticks] to run an acceleration down that a lowered limit finds
 constexpr int kStoppingTicks = 400;  // within which an axis is surely off
@@ -126,11 +126,11 @@ class OneAxis {
 
   void sequence() {
     make_ready();
-    const int actions = 1 + pick(kMostActions);
+    const int actions = 1 + pick(kMaximumActions);
     for (int i = 0; i < actions && fault_.empty(); ++i) {
       act();
-      const int most_wait = chance(0.1) ? kLongWait : kMostWait;
-      for (int wait = pick(most_wait); wait >= 0; --wait) tick();
+      const int maximum_wait = chance(0.1) ? kLongWait : kMaximumWait;
+      for (int wait = pick(maximum_wait); wait >= 0; --wait) tick();
     }
     finish();
   }
@@ -318,14 +318,14 @@ class OneAxis {
   void watch_limits(const Seen& before) {
     const Setpoint& s = last_.setpoint;
     const double lowered = lowered_ticks_ > 0 ? lowered_from_ : 0.0;
-    const double most_v = std::max({last_.limit, lowered, std::abs(before.setpoint.velocity)});
-    if (std::abs(s.velocity) > most_v * (1 + kSlack) && !lands_on_actual(before) && !brakes_from_actual())
+    const double maximum_v = std::max({last_.limit, lowered, std::abs(before.setpoint.velocity)});
+    if (std::abs(s.velocity) > maximum_v * (1 + kSlack) && !lands_on_actual(before) && !brakes_from_actual())
       note("velocity " + std::to_string(s.velocity) + " beyond its limit");
     const bool speeding_up = s.velocity * s.acceleration > 0.0;
-    const double most_a =
+    const double maximum_a =
         std::max(speeding_up ? kAcceleration : kEmergency, std::abs(before.setpoint.acceleration));
     // Two motions, one on top of the other, may each have the acceleration that is left to it.
-    if (std::abs(s.acceleration) > most_a * (1 + kSlack))
+    if (std::abs(s.acceleration) > maximum_a * (1 + kSlack))
       note("acceleration " + std::to_string(s.acceleration) + " beyond its limit");
     watch_position_limits(before.inside);
   }
@@ -368,28 +368,29 @@ class OneAxis {
     // A motion on top of the ramp, which may be over within the tick.
     const bool handed_over = s.position != last_.setpoint.position ||
                              before.led.position != before.setpoint.position || lands_on_actual(before);
-    const double most = std::max(handed_over ? kEmergency + kAcceleration : kEmergency, at_ticks) * kSeconds;
-    if (std::abs(s.velocity - before.led.velocity) > most * (1 + kSlack) + kSlack)
+    const double maximum =
+        std::max(handed_over ? kEmergency + kAcceleration : kEmergency, at_ticks) * kSeconds;
+    if (std::abs(s.velocity - before.led.velocity) > maximum * (1 + kSlack) + kSlack)
       note("step of the velocity from " + std::to_string(before.led.velocity) + " to " +
            std::to_string(s.velocity));
     if (positions_may_step_ > 0) return;
-    const double way = difference(s.position, before.led.position, axis_.modulo()).rounded();
+    const double distance = difference(s.position, before.led.position, axis_.modulo()).rounded();
     const double mean = 0.5 * (s.velocity + before.led.velocity) * kSeconds;
-    if (std::abs(way - mean) > most * kSeconds + kSlack)
-      note("step of the position by " + std::to_string(way));
+    if (std::abs(distance - mean) > maximum * kSeconds + kSlack)
+      note("step of the position by " + std::to_string(distance));
   }
 
   /// Where the setpoint goes over to the actual value and back, axes that follow see no step. A machine that
   /// is blocked stands at once, one that is heard of again moves at once: half of its way within a tick.
   void watch_hand_over(const Seen& before) {
     if (!before.controlled || !last_.controlled || positions_may_step_ > 0) return;
-    const double way = difference(last_.led.position, before.led.position, axis_.modulo()).rounded();
+    const double distance = difference(last_.led.position, before.led.position, axis_.modulo()).rounded();
     const double mean = 0.5 * (last_.led.velocity + before.led.velocity) * kSeconds;
     const double fastest =
         std::max({kVelocity, std::abs(last_.setpoint.velocity), std::abs(before.setpoint.velocity)});
     constexpr double kOfJerk = kJerk * kSeconds * kSeconds * kSeconds / 12.0;  // of the way back from before
-    if (std::abs(way - mean) > 0.5 * fastest * kSeconds * (1 + kSlack) + kOfJerk)
-      note("step of the leading position by " + std::to_string(way - mean));
+    if (std::abs(distance - mean) > 0.5 * fastest * kSeconds * (1 + kSlack) + kOfJerk)
+      note("step of the leading position by " + std::to_string(distance - mean));
   }
 
   double now() const { return static_cast<double>(controller_.now()) * 1e-9; }

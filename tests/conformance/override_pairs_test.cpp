@@ -270,16 +270,16 @@ TEST(OverridePairs, EndAndGoOnAsTheTablesSayInEverySituationThatExists) {
       ++awaited[job.block + (job.mode < 0 ? "" : " Mode " + std::to_string(job.mode))];
       continue;
     }
-    const std::vector<Situation> ways = situations(pair.running);
-    EXPECT_FALSE(ways.empty()) << pair.name() << ": no situation brings the running job about";
+    const std::vector<Situation> distances = situations(pair.running);
+    EXPECT_FALSE(distances.empty()) << pair.name() << ": no situation brings the running job about";
     bool active = false;
-    for (const Situation& way : ways) {
-      SCOPED_TRACE(pair.name() + ", " + way.name);
-      const OverrideEffect effect = expected_effect(pair, way.position_controlled);
+    for (const Situation& distance : distances) {
+      SCOPED_TRACE(pair.name() + ", " + distance.name);
+      const OverrideEffect effect = expected_effect(pair, distance.position_controlled);
       const OverrideEffect waiting = pair.new_job.state == "active"
-                                         ? effect_while_waiting(pairs, pair, way.position_controlled)
+                                         ? effect_while_waiting(pairs, pair, distance.position_controlled)
                                          : effect;
-      active |= Encounter(pair, way).run(effect, waiting);
+      active |= Encounter(pair, distance).run(effect, waiting);
       ++runs;
     }
     EXPECT_TRUE(active || pair.new_job.state != "active") << pair.name() << ": never became active";

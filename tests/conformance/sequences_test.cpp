@@ -171,7 +171,7 @@ class Sequence {
   void expect_no_function_where_none_is_declared() {
     for (const Variable& variable : data_block_of(bench_.following.kind).status) {
       if (!variable.later) continue;
-      const VariablePlace place{&variable, variable.offset};
+      const VariableAddress place{&variable, variable.offset};
       const Value value = place.signal(&bench_.following.data).load();
       if (as_double(value, variable.type) != as_double(variable.start_value(), variable.type))
         bench_.fault(std::string(variable.path) + " has a function");

@@ -74,7 +74,7 @@ struct CamRig : test::Rig {
 
   CamData1k& data() { return *static_cast<CamData1k*>(cam.data_block()); }
   bool status(CamStatusBit bit) {
-    const VariablePlace word = find_variable(cam.kind, "StatusWord");
+    const VariableAddress word = find_variable(cam.kind, "StatusWord");
     return (word.signal(cam.data_block()).load().u >> static_cast<unsigned>(bit) & 1u) != 0;
   }
   ErrorId copied() {

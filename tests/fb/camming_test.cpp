@@ -520,10 +520,11 @@ TEST(MC_CamIn, Profile5ChangesTheCamAtItsEndWithoutAStep) {
   const auto first = rig.l.setpoint().position.turns;
   for (int i = 0; i < 2000; ++i) {
     rig.tick();
-    const double way = rig.leading() + 360.0 * static_cast<double>(rig.l.setpoint().position.turns - first);
-    const double pass = std::floor(way / 180.0);
+    const double distance =
+        rig.leading() + 360.0 * static_cast<double>(rig.l.setpoint().position.turns - first);
+    const double pass = std::floor(distance / 180.0);
     ASSERT_NEAR(rig.f.setpoint().position.value,
-                rig.feed.function().value((way - 180.0 * pass) / 0.5).position + 40.0 * pass, 1e-9);
+                rig.feed.function().value((distance - 180.0 * pass) / 0.5).position + 40.0 * pass, 1e-9);
   }
 }
 

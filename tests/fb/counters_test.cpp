@@ -7,8 +7,8 @@
 namespace lockstep {
 namespace {
 
-constexpr INT kMost = std::numeric_limits<INT>::max();
-constexpr INT kLeast = std::numeric_limits<INT>::min();
+constexpr INT kMaximum = std::numeric_limits<INT>::max();
+constexpr INT kMinimum = std::numeric_limits<INT>::min();
 
 // One rising edge: a call with the input FALSE and one with it TRUE.
 template <class Block, class Owner>
@@ -70,13 +70,13 @@ TEST(CTU, LosesEdgesWhileItIsReset) {
 
 TEST(CTU, StopsAtTheGreatestInt) {
   CTU counter;
-  counter.PV = kMost;
-  counter.CV = kMost - 1;
+  counter.PV = kMaximum;
+  counter.CV = kMaximum - 1;
   pulse(counter, &CTU::CU);
-  EXPECT_EQ(counter.CV, kMost);
+  EXPECT_EQ(counter.CV, kMaximum);
   EXPECT_TRUE(counter.Q);
   pulse(counter, &CTU::CU);
-  EXPECT_EQ(counter.CV, kMost);
+  EXPECT_EQ(counter.CV, kMaximum);
 }
 
 TEST(CTU, FormsItsOutputInEveryCall) {
@@ -139,11 +139,11 @@ TEST(CTD, FollowsThePresetAndLosesEdgesWhileItLoads) {
 
 TEST(CTD, StopsAtTheLeastInt) {
   CTD counter;
-  load(counter, kLeast + 1);
+  load(counter, kMinimum + 1);
   pulse(counter, &CTD::CD);
-  EXPECT_EQ(counter.CV, kLeast);
+  EXPECT_EQ(counter.CV, kMinimum);
   pulse(counter, &CTD::CD);
-  EXPECT_EQ(counter.CV, kLeast);
+  EXPECT_EQ(counter.CV, kMinimum);
 }
 
 TEST(CTUD, CountsBothWays) {
@@ -214,12 +214,12 @@ TEST(CTUD, RanksResetAboveLoadAboveCounting) {
 
 TEST(CTUD, StopsAtTheLimitsOfInt) {
   CTUD counter;
-  load(counter, kMost);
+  load(counter, kMaximum);
   pulse(counter, &CTUD::CU);
-  EXPECT_EQ(counter.CV, kMost);
-  load(counter, kLeast);
+  EXPECT_EQ(counter.CV, kMaximum);
+  load(counter, kMinimum);
   pulse(counter, &CTUD::CD);
-  EXPECT_EQ(counter.CV, kLeast);
+  EXPECT_EQ(counter.CV, kMinimum);
 }
 
 }  // namespace

@@ -56,9 +56,9 @@ struct Geared : Rig {
     run(ticks);
   }
   /// To its end, without turning back.
-  void desynchronize(int most) {
+  void desynchronize(int maximum) {
     out.Execute = true;
-    for (int i = 0; i < most && !out.Done; ++i) {
+    for (int i = 0; i < maximum && !out.Done; ++i) {
       tick();  // the rig looks for steps
       const double velocity = f.setpoint().velocity;
       ASSERT_TRUE(!out.StartSyncOut || velocity >= -1e-9) << i << " " << velocity;

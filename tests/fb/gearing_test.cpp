@@ -39,8 +39,8 @@ struct Pair : CoupledRig {
   }
 
   double following_minus_function(double numerator, double denominator, double l0, double f0) const {
-    const double ways = numerator / denominator * (l.setpoint().position.value - l0) + f0;
-    return f.setpoint().position.value - ways;
+    const double distances = numerator / denominator * (l.setpoint().position.value - l0) + f0;
+    return f.setpoint().position.value - distances;
   }
 
   MC_GearIn& gear;
@@ -430,9 +430,9 @@ TEST_P(MC_GearInPosWays, WaitsSynchronizesWithoutAStepAndIsThenExact) {
   const AxisPosition start = rig.f.setpoint().position;
   double lowest = 0.0, highest = 0.0;
   ASSERT_TRUE(rig.run_until([&] {
-    const double way = difference(rig.f.setpoint().position, start, rig.f.modulo()).rounded();
-    lowest = std::min(lowest, way);
-    highest = std::max(highest, way);
+    const double distance = difference(rig.f.setpoint().position, start, rig.f.modulo()).rounded();
+    lowest = std::min(lowest, distance);
+    highest = std::max(highest, distance);
     return rig.pos.InSync;
   }));
   EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));

@@ -7,8 +7,8 @@
 namespace lockstep {
 namespace {
 
-constexpr DINT kMost = std::numeric_limits<DINT>::max();
-constexpr DINT kLeast = std::numeric_limits<DINT>::min();
+constexpr DINT kMaximum = std::numeric_limits<DINT>::max();
+constexpr DINT kMinimum = std::numeric_limits<DINT>::min();
 
 // One rising edge: a call with the input FALSE and one with it TRUE.
 template <class Block, class Owner>
@@ -31,32 +31,32 @@ TEST(CTU_DINT, CountsBeyondTheGreatestInt) {
 
 TEST(CTU_DINT, StopsAtTheGreatestDint) {
   CTU_DINT counter;
-  counter.CV = kMost - 1;
+  counter.CV = kMaximum - 1;
   pulse(counter, &CTU_DINT::CU);
   pulse(counter, &CTU_DINT::CU);
-  EXPECT_EQ(counter.CV, kMost);
+  EXPECT_EQ(counter.CV, kMaximum);
 }
 
 TEST(CTD_DINT, StopsAtTheLeastDint) {
   CTD_DINT counter;
   counter.LD = true;
-  counter.PV = kLeast + 1;
+  counter.PV = kMinimum + 1;
   counter.call(0);
   counter.LD = false;
   pulse(counter, &CTD_DINT::CD);
   pulse(counter, &CTD_DINT::CD);
-  EXPECT_EQ(counter.CV, kLeast);
+  EXPECT_EQ(counter.CV, kMinimum);
   EXPECT_TRUE(counter.Q);
 }
 
 TEST(CTUD_DINT, StopsAtBothEnds) {
   CTUD_DINT counter;
-  counter.CV = kMost;
+  counter.CV = kMaximum;
   pulse(counter, &CTUD_DINT::CU);
-  EXPECT_EQ(counter.CV, kMost);
-  counter.CV = kLeast;
+  EXPECT_EQ(counter.CV, kMaximum);
+  counter.CV = kMinimum;
   pulse(counter, &CTUD_DINT::CD);
-  EXPECT_EQ(counter.CV, kLeast);
+  EXPECT_EQ(counter.CV, kMinimum);
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ struct Cams : Rig {
     tick();
   }
   bool output() const { return cam.data.CamOutput; }
-  ::testing::AssertionResult switched(bool to, int most = 20000) {
-    return run_until([&, to] { return output() == to; }, most);
+  ::testing::AssertionResult switched(bool to, int maximum = 20000) {
+    return run_until([&, to] { return output() == to; }, maximum);
   }
 
   Axis& c;
@@ -552,8 +552,8 @@ struct Track : Rig {
     return static_cast<double>(controller.now()) * 1e-9 - c.data.Position / speed;
   }
   bool output() const { return track.data.TrackOutput; }
-  ::testing::AssertionResult switched(bool to, int most = 20000) {
-    return run_until([&, to] { return output() == to; }, most);
+  ::testing::AssertionResult switched(bool to, int maximum = 20000) {
+    return run_until([&, to] { return output() == to; }, maximum);
   }
   std::uint32_t cams() const { return static_cast<std::uint32_t>(track.data.SingleCamState); }
 

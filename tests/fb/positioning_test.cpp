@@ -136,7 +136,7 @@ TEST(MC_MoveAbsolute, IsRetargetedOnTheFlyWithoutAStep) {
 struct ModuloCase {
   double from, to;
   INT direction;
-  double way;
+  double distance;
 };
 
 class MC_MoveAbsoluteModulo : public ::testing::TestWithParam<ModuloCase> {};
@@ -158,7 +158,7 @@ TEST_P(MC_MoveAbsoluteModulo, GoesTheWayThatDirectionNames) {
   rig.move.Acceleration = 10000.0;
   rig.move.Execute = true;
   ASSERT_TRUE(rig.run_until([&] { return rig.move.Done; }));
-  EXPECT_NEAR(difference(rig.a.setpoint().position, start, rig.a.modulo()).rounded(), c.way, 1e-9);
+  EXPECT_NEAR(difference(rig.a.setpoint().position, start, rig.a.modulo()).rounded(), c.distance, 1e-9);
   EXPECT_DOUBLE_EQ(rig.a.data.Position, std::fmod(std::fmod(c.to, 360.0) + 360.0, 360.0));
 }
 

@@ -246,7 +246,7 @@ TEST(MC_MoveSuperimposed, FollowsTheOverrideWithinTheLimits) {
 }
 
 TEST(MC_MoveSuperimposed, GoesOverIntoTheMotionThatEndsBoth) {
-  for (int way = 0; way < 4; ++way) {
+  for (int distance = 0; distance < 4; ++distance) {
     Machine m;
     m.run_at(100.0);
     m.move.Distance = 1000.0;
@@ -255,18 +255,18 @@ TEST(MC_MoveSuperimposed, GoesOverIntoTheMotionThatEndsBoth) {
     const Setpoint before = m.axis_.setpoint();
     EXPECT_GT(before.velocity, 110.0);
     EXPECT_NE(before.acceleration, 0.0) << "in the middle of it, so that a step would show";
-    if (way == 0) m.relative.Distance = 300.0, m.relative.Execute = true;
-    if (way == 1) m.halt.Execute = true;
-    if (way == 2) m.stop.Execute = true, m.stop.Mode = 2;
-    if (way == 3) m.jog.JogBackward = true;
+    if (distance == 0) m.relative.Distance = 300.0, m.relative.Execute = true;
+    if (distance == 1) m.halt.Execute = true;
+    if (distance == 2) m.stop.Execute = true, m.stop.Mode = 2;
+    if (distance == 3) m.jog.JogBackward = true;
     m.run(2);
     EXPECT_TRUE(m.move.CommandAborted);
     EXPECT_TRUE(m.run_velocity.CommandAborted);
     EXPECT_FALSE(m.shows(StatusBit::MoveSuperimposedCommand));
     EXPECT_EQ(m.superimposed(), 0.0);
     m.run(5000);
-    EXPECT_EQ(m.resting(), way != 3);
-    EXPECT_TRUE(way != 0 || m.position() == m.axis_.data.StatusPositioning.TargetPosition);
+    EXPECT_EQ(m.resting(), distance != 3);
+    EXPECT_TRUE(distance != 0 || m.position() == m.axis_.data.StatusPositioning.TargetPosition);
   }
 }
 
@@ -594,8 +594,8 @@ TEST(MC_HaltSuperimposed, KeepsTheAccelerationOfTheSumAtRandom) {
     };
     Machine m;
     m.continuity[1] = {false, false, 5000.0, 100000.0};
-    const double most = uniform(1000.0, 5000.0);
-    m.axis_.data.DynamicLimits.MaxAcceleration = m.axis_.data.DynamicLimits.MaxDeceleration = most;
+    const double maximum = uniform(1000.0, 5000.0);
+    m.axis_.data.DynamicLimits.MaxAcceleration = m.axis_.data.DynamicLimits.MaxDeceleration = maximum;
     const bool halts = one.seed % 2 == 0;
     if (halts) m.run_at(uniform(50.0, 450.0));
     auto set = [&](auto& job) {
@@ -625,7 +625,7 @@ TEST(MC_HaltSuperimposed, KeepsTheAccelerationOfTheSumAtRandom) {
     }
     for (int i = 0; i < 1500; ++i) {
       m.tick();
-      ASSERT_LE(std::abs(m.axis_.data.Acceleration), most * (1 + 1e-9)) << i;
+      ASSERT_LE(std::abs(m.axis_.data.Acceleration), maximum * (1 + 1e-9)) << i;
     }
     braked += m.halt_superimposed.Done || m.given.Error;
   });
@@ -640,7 +640,7 @@ struct Sine {
   explicit Sine(double t) : w{3.14159265358979 * std::clamp(t, 0.0, 1.0)}, on{t > 0.0 && t < 1.0} {}
   double w;
   bool on;
-  double way() const { return 5.0 * (1.0 - std::cos(w)); }
+  double distance() const { return 5.0 * (1.0 - std::cos(w)); }
   double velocity() const { return on ? 5.0 * 3.14159265358979 * std::sin(w) : 0.0; }
 };
 
@@ -652,11 +652,11 @@ TEST(MC_MotionInSuperimposed, AddsTheGivenValuesInEveryCycle) {
   m.tick();
   for (int i = 1; i <= 1200; ++i) {
     const Sine given(0.001 * i);
-    m.given.Distance = given.way();
+    m.given.Distance = given.distance();
     m.given.VelocityDiff = given.velocity();
     m.tick();  // seen by the next cycle
     const Sine counts(0.001 * (i - 1));
-    ASSERT_NEAR(m.position(), start + 0.1 * (i + 1) + counts.way(), 1e-9);
+    ASSERT_NEAR(m.position(), start + 0.1 * (i + 1) + counts.distance(), 1e-9);
     ASSERT_NEAR(m.velocity(), 100.0 + counts.velocity(), 1e-9);
     ASSERT_TRUE(m.given.Busy);
   }
@@ -777,9 +777,9 @@ TEST(SuperimposedOnAGear, IsExactlyTheLastTermOfTheChain) {
       m.tick();
       const auto& status = m.axis_.data.StatusSynchronizedMotion;
       const double sum = status.FunctionFollowingValue.Position + status.Offset;
-      const double way = m.position() - sum;
+      const double distance = m.position() - sum;
       const double permitted = 4.0 * ulp(std::max(std::abs(m.position()), std::abs(sum)));
-      worst = std::max(worst, std::abs(std::abs(way) - m.superimposed()) / permitted);
+      worst = std::max(worst, std::abs(std::abs(distance) - m.superimposed()) / permitted);
       moving += m.move.Busy;
     }
     ASSERT_TRUE(m.move.Done);

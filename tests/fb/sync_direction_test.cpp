@@ -72,7 +72,7 @@ struct Placed : test::CoupledRig {
       tick();
       if (job.InSync) break;  // what comes now is the function's
       const AxisPosition now = f.setpoint().position;
-      way = difference(now, from, f.modulo()).rounded();
+      distance = difference(now, from, f.modulo()).rounded();
       const double step = difference(now, last, f.modulo()).rounded();
       forth += std::max(step, 0.0);
       back += std::max(-step, 0.0);
@@ -83,9 +83,9 @@ struct Placed : test::CoupledRig {
   MC_GearInPos& pos;
   MC_CamIn& in;
   Cam& cam;
-  double way = 0.0;    // until it is synchronous [u]
-  double forth = 0.0;  // in the positive direction [u]
-  double back = 0.0;   // in the negative one [u]
+  double distance = 0.0;  // until it is synchronous [u]
+  double forth = 0.0;     // in the positive direction [u]
+  double back = 0.0;      // in the negative one [u]
 };
 
 // ---- Where the function rests: there is nothing to do
@@ -205,7 +205,7 @@ TEST(SyncDirection, OnASynchronousValueWithAVelocityTheAxisGainsItInOneTurn) {
         rig.synchronize(rig.pos, 100.0);
         ASSERT_TRUE(rig.pos.InSync);
         EXPECT_EQ(ratio > 0 ? rig.back : rig.forth, 0.0);
-        EXPECT_NEAR(rig.way, ratio * (kRing + short_by), 0.2);
+        EXPECT_NEAR(rig.distance, ratio * (kRing + short_by), 0.2);
         EXPECT_NEAR(std::remainder(rig.f.data.Position - 50.0 - ratio * (rig.l.data.Position - 200.0), kRing),
                     0.0, 1e-9);
       }
@@ -222,7 +222,7 @@ TEST(SyncDirection, FarEnoughBeforeTheSynchronousValueNoTurnIsAdded) {
     rig.synchronize(rig.pos, 100.0);
     ASSERT_TRUE(rig.pos.InSync);
     EXPECT_EQ(rig.back, 0.0);
-    EXPECT_NEAR(rig.way, 45.0, 0.2);
+    EXPECT_NEAR(rig.distance, 45.0, 0.2);
   }
 }
 
@@ -299,7 +299,7 @@ TEST(SyncDirection, AtRandomNeverTurnsBackAndTurnsNothingWhereNothingIsToDo) {
     if (rests && std::abs(wanted.beside) <= kThere) {
       EXPECT_LE(rig.forth + rig.back, kThere * 1.001) << "nothing is to do";
       ++still;
-    } else if (std::abs(rig.way) > 0.9 * kRing) {
+    } else if (std::abs(rig.distance) > 0.9 * kRing) {
       ++turned;
     }
   });

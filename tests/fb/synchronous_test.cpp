@@ -636,11 +636,11 @@ TEST(MC_SynchronizedMotionSimulation, IsNotEndedByALeadingAxisThatPassesThePlace
 }
 
 TEST(MC_SynchronizedMotionSimulation, EndsOnARingAfterAnyNumberOfTurns) {
-  for (const double way : {720.0, -720.0, 720.0 + 0.2, -720.0 - 0.2}) {
+  for (const double distance : {720.0, -720.0, 720.0 + 0.2, -720.0 - 0.2}) {
     Geared rig(ring);
     auto& turn = rig.block<MC_MoveRelative>();
     turn.Axis = &rig.l;
-    turn.Distance = way;
+    turn.Distance = distance;
     turn.Velocity = 2000.0;
     rig.engage();
     rig.simulation.Enable = true;
@@ -649,12 +649,12 @@ TEST(MC_SynchronizedMotionSimulation, EndsOnARingAfterAnyNumberOfTurns) {
     ASSERT_TRUE(rig.run_until([&] { return turn.Done; }));
     rig.simulation.Enable = false;
     rig.run(2);
-    EXPECT_FALSE(rig.simulation.InSimulation) << way;
-    EXPECT_FALSE(rig.simulation.Error) << way;
+    EXPECT_FALSE(rig.simulation.InSimulation) << distance;
+    EXPECT_FALSE(rig.simulation.Error) << distance;
     // The axis has made none of the turns of its function; what is left is within the positioning window.
     const AxisPosition& there = rig.f.setpoint().position;
-    const double left = way - std::copysign(720.0, way);
-    EXPECT_NEAR(difference(there, {}, rig.f.modulo()).rounded(), 1.5 * left, 1e-9) << way;
+    const double left = distance - std::copysign(720.0, distance);
+    EXPECT_NEAR(difference(there, {}, rig.f.modulo()).rounded(), 1.5 * left, 1e-9) << distance;
     rig.start_leading(100.0);
     ASSERT_TRUE(rig.run_until([&] { return rig.f.data.ModuloCycle == 3; }));
     EXPECT_TRUE(bit(rig.f, StatusBit::Synchronous));

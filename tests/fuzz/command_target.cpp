@@ -15,7 +15,7 @@ constexpr std::int64_t kRun = 77;
 constexpr double kFastest = 50.0;
 
 /// The place of an axis in the cycle.
-struct Place {
+struct Operand {
   BOOL flags[3]{};
   UDINT counts[5]{};
   LREAL reals[6]{};
@@ -56,7 +56,7 @@ command_t aimed(Bytes bytes, std::int64_t beat, std::int64_t sequence) {
   return command;
 }
 
-void check(const Place& place) {
+void check(const Operand& place) {
   require(place.reals[0] >= 0.0 && place.reals[0] <= kFastest, "no jog is faster than it may be");
   require(std::abs(place.reals[1]) <= 1e12, "a position is a position");
   require(place.reals[2] >= 0.0 && place.reals[2] <= 200.0, "an override is in its range");
@@ -64,7 +64,7 @@ void check(const Place& place) {
 }
 
 /// Of an axis with a position, and of one without.
-std::vector<Signal> both(Place& knife, Place& fan) {
+std::vector<Signal> both(Operand& knife, Operand& fan) {
   std::vector<Signal> signals = knife.signals();
   for (const Signal& signal : fan.signals()) signals.push_back(signal);
   return signals;
@@ -94,7 +94,7 @@ std::vector<std::string> seeds() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lockstep;
-  fuzz::Place knife, fan;
+  fuzz::Operand knife, fan;
   ProcessImage image(fuzz::both(knife, fan));
   CommandDesk desk({{"Knife", fuzz::kFastest, "", knife.signals()},
                     {"Fan", fuzz::kFastest, "", fan.signals(), "TO_SpeedAxis", "1/min", false}},

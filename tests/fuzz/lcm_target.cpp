@@ -54,7 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     traces.accept(channel, rest.subspan(3, length), begin + std::chrono::milliseconds(i));
     rest = rest.subspan(3 + length);
   }
-  fuzz::require(traces.all().size() <= cli::HeardTraces::kMost, "there is an end to the number of traces");
+  fuzz::require(traces.all().size() <= cli::HeardTraces::kMaximum, "there is an end to the number of traces");
   for (const std::string& line : cli::trace_lines(traces, begin + std::chrono::seconds(1), fuzz::kWidth)) {
     fuzz::require(std::none_of(line.begin(), line.end(),
                                [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }),

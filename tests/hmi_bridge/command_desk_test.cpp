@@ -244,16 +244,16 @@ TEST_F(Commands, AJogIsToldOnceNotWithEachRepetition) {
 TEST_F(Commands, AFloodIsHeldBackCountedAndToldAFewTimesOnlyAndStopsGetThrough) {
   int told = 0;
   for (int i = 0; i < 5000; ++i) told += give(command(command_t::RESET)).has_value() ? 1 : 0;
-  EXPECT_EQ(knife_.resets, static_cast<UDINT>(CommandDesk::kMostPerSecond));
-  EXPECT_EQ(told, CommandDesk::kMostPerSecond + CommandDesk::kMostTold);
-  EXPECT_EQ(desk_.counters().too_many, 5000u - CommandDesk::kMostPerSecond);
+  EXPECT_EQ(knife_.resets, static_cast<UDINT>(CommandDesk::kMaximumPerSecond));
+  EXPECT_EQ(told, CommandDesk::kMaximumPerSecond + CommandDesk::kMaximumTold);
+  EXPECT_EQ(desk_.counters().too_many, 5000u - CommandDesk::kMaximumPerSecond);
   EXPECT_TRUE(accepted(command(command_t::STOP)));
   now_ += 1s;
   EXPECT_TRUE(accepted(command(command_t::RESET)));
 }
 
 TEST_F(Commands, PanelsThatAreTooManyAreRefusedUntilOthersAreSilent) {
-  for (std::size_t i = 0; i < CommandDesk::kMostSenders; ++i) {
+  for (std::size_t i = 0; i < CommandDesk::kMaximumSenders; ++i) {
     command_t one = command(command_t::RESET);
     one.sender = 100 + static_cast<std::int64_t>(i);
     EXPECT_TRUE(accepted(one));

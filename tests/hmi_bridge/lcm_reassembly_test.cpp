@@ -37,7 +37,7 @@ class Reassembly : public testing::Test {
     return message ? text_of(*message) : "";
   }
 
-  LcmReassembly reassembly_{{.message = 1000, .memory = 3000, .incomplete = 4, .patience = 100ms}};
+  LcmReassembly reassembly_{{.message = 1000, .memory = 3000, .incomplete = 4, .timeout = 100ms}};
   LcmReassembly::Clock::time_point now_{1h};
 };
 

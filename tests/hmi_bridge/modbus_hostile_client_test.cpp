@@ -72,8 +72,8 @@ class Hostile : public ::testing::Test {
     Bytes flood;
     for (int i = 0; i < 1000; ++i) flood = std::move(flood) + request(7);
     std::size_t sent = 0;
-    pollfd room{client.socket(), POLLOUT, 0};
-    while (::poll(&room, 1, 100) > 0) {
+    pollfd capacity{client.socket(), POLLOUT, 0};
+    while (::poll(&capacity, 1, 100) > 0) {
       const std::size_t from = sent % flood.size();
       const ssize_t count =
           ::send(client.socket(), flood.data() + from, flood.size() - from, MSG_DONTWAIT | MSG_NOSIGNAL);
@@ -242,8 +242,8 @@ TEST_F(Hostile, OneClientTooManyIsRefusedAndTheOthersAreServed) {
 class ClientOfAddress {
  public:
   ClientOfAddress(std::uint8_t last_byte, std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    const timeval patience{20, 0};
-    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    const timeval timeout{20, 0};
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     sockaddr_in own{}, server{};
     own.sin_family = server.sin_family = AF_INET;
     own.sin_addr.s_addr = htonl(0x7F000000u | last_byte);

@@ -155,21 +155,21 @@ TEST(RetainCrash, AFileCutShortIsRefusedUnlessWhatIsMissingIsEmpty) {
 }
 
 TEST(RetainFullDisk, IsToldHurtsNothingAndIsOverWhenThereIsSpace) {
-  for (std::size_t room = 0; room <= 40'000; room += 512) {
+  for (std::size_t capacity = 0; capacity <= 40'000; capacity += 512) {
     MemoryDisk disk;
     RetainFile file(kFile, kProject, disk.name());
     ASSERT_EQ(file.write(snapshot(1)), "");
     const DiskContent before = disk.content;
-    disk.space = room;
+    disk.space = capacity;
     int number = 1;
     std::string problem;
     while (problem.empty() && number < 12) problem = file.write(snapshot(++number));
-    if (room < 10'000) {
+    if (capacity < 10'000) {
       EXPECT_NE(problem.find("full"), std::string::npos) << problem;
     }
     if (!problem.empty()) {
       EXPECT_EQ(by_name(file.rows()), by_name(snapshot(number - 1)));
-      EXPECT_EQ(held(disk.content, 12), number - 1) << "what is on the disk, with " << room;
+      EXPECT_EQ(held(disk.content, 12), number - 1) << "what is on the disk, with " << capacity;
     }
     disk.space = SIZE_MAX;
     EXPECT_EQ(file.write(snapshot(number)), "");

@@ -55,11 +55,11 @@ class PseudoTerminal {
   void send(const std::vector<std::uint8_t>& bytes) const {
     EXPECT_EQ(::write(control_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
-  /// As many bytes as asked for, or what has come when nothing more does for `patience` [ms].
-  std::vector<std::uint8_t> receive(std::size_t count, int patience = 20'000) const {
+  /// As many bytes as asked for, or what has come when nothing more does for `timeout` [ms].
+  std::vector<std::uint8_t> receive(std::size_t count, int timeout = 20'000) const {
     std::vector<std::uint8_t> bytes;
     pollfd place{control_, POLLIN, 0};
-    while (bytes.size() < count && ::poll(&place, 1, patience) > 0) {
+    while (bytes.size() < count && ::poll(&place, 1, timeout) > 0) {
       std::uint8_t byte = 0;
       if (::read(control_, &byte, 1) != 1) break;
       bytes.push_back(byte);

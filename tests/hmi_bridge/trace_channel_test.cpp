@@ -75,18 +75,18 @@ TEST(TraceChannel, HandsRowsFromBeforeAnOccasionOnAFewAtATimeAndNoneIsLeftAtTheE
   Ticks ticks;
   TraceChannel channel(std::make_unique<Heard>(ticks), {1}, selection, 0);
   channel.begin(std::array{TraceSignal{"signal", Type::LREAL, ""}, TraceSignal{"tick", Type::ULINT, ""}});
-  std::size_t most = 0;
+  std::size_t maximum = 0;
   const auto run = [&](std::uint64_t from, std::uint64_t to) {
     for (std::uint64_t i = from; i < to; ++i) {
       const Value values[] = {{.r = i == 50 || i == 58 ? 1.0 : 0.0}, {.u = i}};
       const std::size_t before = ticks.size();
       channel.row({static_cast<std::int64_t>(i) * kRow, i, 0, values});
-      most = std::max(most, ticks.size() - before);
+      maximum = std::max(maximum, ticks.size() - before);
     }
   };
   run(0, 60);  // the second occasion comes while rows of the first one still wait
   EXPECT_GT(ticks.size(), 20u);
-  EXPECT_LE(most, TraceChannel::kAtOnce);
+  EXPECT_LE(maximum, TraceChannel::kAtOnce);
   channel.end();
   Ticks expected;
   for (std::uint64_t i = 10; i < 60; ++i) expected.push_back(i);

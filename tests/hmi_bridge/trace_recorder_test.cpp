@@ -168,13 +168,13 @@ TEST(TraceRecorder, WhatTheBridgeTellsStandsBeforeEventsOfLaterTicks) {
 
 TEST(TraceRecorder, WhatTheBridgeTellsBeyondTheRoomForItIsCounted) {
   Told run;
-  for (std::size_t i = 0; i < 5 * TraceRecorder::kMostTold; ++i) run.recorder.tell(answer("", 7));
+  for (std::size_t i = 0; i < 5 * TraceRecorder::kMaximumTold; ++i) run.recorder.tell(answer("", 7));
   const std::vector<std::string> losses = run.recorder.losses();
   ASSERT_EQ(losses.size(), 1u);
   EXPECT_NE(losses[0].find("list of events incomplete: "), std::string::npos) << losses[0];
   run.recorder.stop();
-  EXPECT_LE(run.lines.size(), 2 * TraceRecorder::kMostTold);
-  EXPECT_GE(run.lines.size(), TraceRecorder::kMostTold);
+  EXPECT_LE(run.lines.size(), 2 * TraceRecorder::kMaximumTold);
+  EXPECT_GE(run.lines.size(), TraceRecorder::kMaximumTold);
 }
 
 TEST(TraceRecorder, ASinkThatThrowsIsReportedAndHoldsNobodyUp) {

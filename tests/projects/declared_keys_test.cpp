@@ -23,7 +23,7 @@ namespace {
 using Pointer = Json::json_pointer;
 
 // An object of the whole project, and what is declared of it.
-struct Place {
+struct Operand {
   Pointer pointer;
   Keys keys;
 };
@@ -33,11 +33,11 @@ class Places {
  public:
   explicit Places(const Json& project) : project_(project) { walk(Pointer(""), keys::kProject); }
 
-  std::vector<Place> found;
+  std::vector<Operand> found;
 
   bool has(Keys keys) const {
     return std::any_of(found.begin(), found.end(),
-                       [&](const Place& place) { return place.keys.data() == keys.data(); });
+                       [&](const Operand& place) { return place.keys.data() == keys.data(); });
   }
 
  private:

@@ -100,7 +100,7 @@ TEST(JsonDocument, GivesUpOnTooManyOverflows) {
 
 TEST(JsonDocument, GivesUpOnTooManyValues) {
   std::string text = "[0";
-  for (std::size_t i = 0; i < JsonDocument::kMostValues; ++i) text += ",0";
+  for (std::size_t i = 0; i < JsonDocument::kMaximumValues; ++i) text += ",0";
   const JsonDocument document(text + "]");
   EXPECT_FALSE(document.usable());
   ASSERT_EQ(document.problems().size(), 1u);

@@ -19,7 +19,7 @@ constexpr int kSteps = 1000;
 constexpr std::chrono::milliseconds kStep{10};
 
 Signal element(const Variable& variable, std::size_t i, TechnologyObject& object) {
-  const VariablePlace place{&variable, variable.offset + i * variable.stride, -1};
+  const VariableAddress place{&variable, variable.offset + i * variable.stride, -1};
   return place.signal(object.data_block());
 }
 

@@ -23,13 +23,13 @@ Project load(std::string_view text) {
 }
 
 Value value_of(const Project& project, std::string_view path) {
-  const FoundPlace found = project.names.find(path);
+  const FoundOperand found = project.names.find(path);
   EXPECT_TRUE(found.place.has_value()) << found.problem;
   return found.place ? found.place->signal.load() : Value{};
 }
 
 void store(const Project& project, std::string_view path, Value value) {
-  const FoundPlace found = project.names.find(path);
+  const FoundOperand found = project.names.find(path);
   ASSERT_TRUE(found.place.has_value()) << found.problem;
   found.place->signal.store(value);
 }

@@ -107,11 +107,11 @@ void expect_smooth(const char* project, const CsvTable& table, const std::string
   const double period = table["t"][1] - table["t"][0];
   for (std::size_t i = 1; i < table.rows; ++i) {
     const double step = position[i] - position[i - 1];
-    const double way = length ? ring_distance(position[i], position[i - 1], *length) : step;
+    const double distance = length ? ring_distance(position[i], position[i - 1], *length) : step;
     ASSERT_LE(std::abs(speed[i]), velocity * (1 + 1e-12)) << axis << " at " << table["t"][i];
     ASSERT_LE(std::abs(speed[i] - speed[i - 1]), acceleration * period * (1 + 1e-9) + 1e-9)
         << axis << " at " << table["t"][i];
-    ASSERT_NEAR(way, 0.5 * (speed[i] + speed[i - 1]) * period, acceleration * period * period + 1e-9)
+    ASSERT_NEAR(distance, 0.5 * (speed[i] + speed[i - 1]) * period, acceleration * period * period + 1e-9)
         << axis << " at " << table["t"][i];
   }
 }
@@ -299,13 +299,13 @@ TEST(CrossCutter, HitsEveryMarkWhateverTheSpeedAndMissesThemWithoutCorrection) {
     int in_step = 0;  // cuts since the drum became synchronous
     double largest = 0.0;
     for (std::size_t i = 1; i < table.rows; ++i) {
-      const double way = ring_distance(table["Web.Position"][i], table["Web.Position"][i - 1], 300.0);
+      const double distance = ring_distance(table["Web.Position"][i], table["Web.Position"][i - 1], 300.0);
       const double before = table["Cutter.Position"][i - 1];
       const double after = table["Cutter.Position"][i];
-      web += way;
+      web += distance;
       if (table["gear.InSync"][i] == 0.0) in_step = 0;
       if (table["gear.InSync"][i] == 0.0 || !(before < 180.0 && after >= 180.0)) continue;
-      const double place = web - way * (after - 180.0) / (after - before);
+      const double place = web - distance * (after - 180.0) / (after - before);
       const double marks = (place - 200.0 - 40.0) / 300.4;
       ++cuts;
       if (++in_step > 2) largest = std::max(largest, std::abs(marks - std::round(marks)) * 300.4);
@@ -579,19 +579,20 @@ TEST(LineShaft, EveryRollKeepsItsRatioWhileItIsSynchronous) {
     const double following_ring = *ring("03_line_shaft", following);
     const double leading_ring = *ring("03_line_shaft", leading);
     // Ways since the roll became synchronous, added up over the turns of the rings.
-    double following_way = 0.0;
-    double leading_way = 0.0;
+    double following_distance = 0.0;
+    double leading_distance = 0.0;
     double largest = 0.0;
     std::size_t rows = 0;
     for (std::size_t i = 1; i < table.rows; ++i) {
       if (synchronous[i] == 0.0 || synchronous[i - 1] == 0.0) {
-        following_way = leading_way = 0.0;
+        following_distance = leading_distance = 0.0;
         continue;
       }
-      following_way += ring_distance(table[following][i], table[following][i - 1], following_ring);
-      if (following == "Impression.Position") following_way -= offset[i] - offset[i - 1];
-      leading_way += ring_distance(table[leading][i], table[leading][i - 1], leading_ring);
-      largest = std::max(largest, std::abs(following_way - leading_way * roll.numerator / roll.denominator));
+      following_distance += ring_distance(table[following][i], table[following][i - 1], following_ring);
+      if (following == "Impression.Position") following_distance -= offset[i] - offset[i - 1];
+      leading_distance += ring_distance(table[leading][i], table[leading][i - 1], leading_ring);
+      largest = std::max(largest,
+                         std::abs(following_distance - leading_distance * roll.numerator / roll.denominator));
       ++rows;
     }
     EXPECT_LT(largest, 1e-7) << roll.following;

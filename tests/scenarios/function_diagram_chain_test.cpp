@@ -170,7 +170,7 @@ TEST_P(GearOutDiagram, WaitsDesynchronizesAndRestsAtTheStopPosition) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, GearOutDiagram, testing::Values("GearOut-1A", "GearOut-1B"),
-                         [](const auto& way) { return std::string(1, way.param[9]); });
+                         [](const auto& distance) { return std::string(1, distance.param[9]); });
 
 // ---- Velocity gear
 // ----------------------------------------------------------------------------------------------

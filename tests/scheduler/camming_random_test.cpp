@@ -56,7 +56,7 @@ class RandomCamming : test::Rig {
 
   void run(Outcomes& outcomes) {
     begin();
-    const double bound = greatest_velocity();
+    const double bound = maximum_velocity();
     in_.Execute = true;
     int in_step = 0;
     for (int i = 0; i < kLongestWait && in_step < kLongestRun && !in_.Error; ++i) {
@@ -155,20 +155,20 @@ class RandomCamming : test::Rig {
 
   /// What a profile may take: the cam's own velocity, that of catching up over the distance (the way to the
   /// cam, turns of a ring, and what bending needs), or that of the dynamic parameters.
-  double greatest_velocity() const {
+  double maximum_velocity() const {
     const double scale = std::max(std::abs(in_.SlaveScaling), std::abs(first_.SlaveScaling));
     const double pass = std::min(std::abs(in_.MasterScaling), std::abs(first_.MasterScaling));
     const double slope = bounds_.slope * scale / pass;
     const double curvature = bounds_.curvature * scale / (pass * pass);
     const double distance = in_.MasterStartDistance;
-    const double way =
+    const double distance =
         360.0 + 100.0 + bounds_.value * scale + 720.0 + 2.0 * distance * (slope + 0.5 * curvature * distance);
     double ratio = slope;
     double own = 0.0;
     if (in_.SyncProfileReference == 0)
       own = in_.Velocity;
     else if (in_.SyncProfileReference != 2 && in_.SyncProfileReference != 5)
-      ratio += 2.5 * way / distance + curvature * distance;
+      ratio += 2.5 * distance / distance + curvature * distance;
     return 1.01 * (std::abs(velocity_) * ratio + own) + 1e-6;
   }
 

@@ -107,7 +107,7 @@ struct Chain : Rig {
   /// what is permitted. Of the superimposed part the data block shows the size; it has either sign.
   double deviation() const {
     const auto& status = f.data.StatusSynchronizedMotion;
-    const auto geared = [&](Wide way) { return way * gear.RatioNumerator / gear.RatioDenominator; };
+    const auto geared = [&](Wide distance) { return distance * gear.RatioNumerator / gear.RatioDenominator; };
     const Wide leading_part = geared(effective() - leading_start);
     const Wide phase_part = geared(status.PhaseShift);
     const LREAL superimposed = f.data.StatusPositioning.SuperimposedDistance;
@@ -317,9 +317,9 @@ class Sequence {
     const double dt = chain_.period();
     const double change = std::abs(now.acceleration - before.acceleration);
     const double highest_jerk = 2e5 * (2.0 + std::abs(chain_.ratio()));
-    const double way = difference(now.position, before.position, chain_.f.modulo()).rounded();
+    const double distance = difference(now.position, before.position, chain_.f.modulo()).rounded();
     const double rounding = 8.0 * ulp(std::max(std::abs(now.position.value), chain_.f.modulo().length));
-    ASSERT_NEAR(way, 0.5 * (before.velocity + now.velocity) * dt,
+    ASSERT_NEAR(distance, 0.5 * (before.velocity + now.velocity) * dt,
                 dt * dt * (change + highest_jerk * dt) + rounding)
         << "step of the position at " << ticks_;
     ASSERT_NEAR(now.velocity - before.velocity, 0.5 * (before.acceleration + now.acceleration) * dt,
@@ -461,9 +461,9 @@ struct Synchronizing : Chain {
     EXPECT_TRUE(run_until([&] { return l.data.Position > 150.0; }));
     EXPECT_TRUE(pos.StartSync);
   }
-  void home_leading_by(double way) {
+  void home_leading_by(double distance) {
     home_l.Mode = 1;
-    home_l.Position = way;
+    home_l.Position = distance;
     home_l.Execute = true;
     run(2);
   }

@@ -116,13 +116,13 @@ TEST(DynamicLimits, OfTheJerkThatAreLoweredInMotionCountAtOnce) {
   m.move.Execute = true;
   m.run(100);
   m.a.data.DynamicLimits.MaxJerk = 10000.0;
-  double before = m.now().acceleration, most = 0.0;
+  double before = m.now().acceleration, maximum = 0.0;
   ASSERT_TRUE(m.run_until([&] {
-    most = std::max(most, std::abs(m.now().acceleration - before));
+    maximum = std::max(maximum, std::abs(m.now().acceleration - before));
     before = m.now().acceleration;
     return m.move.Done;
   }));
-  EXPECT_NEAR(most, 10000.0 * m.period(), 1e-9);
+  EXPECT_NEAR(maximum, 10000.0 * m.period(), 1e-9);
   EXPECT_EQ(m.a.data.Position, 60.0);
 }
 

@@ -297,18 +297,18 @@ TEST_P(Directions, OfAShiftAreThoseInWhichTheLeadingValueMoves) {
     rig.gear.RatioNumerator = ratio;
     rig.gear.Execute = true;
     ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear; }));
-    const double way = direction == 1 ? 1.0 : -1.0;
-    const double start = profile == 2 ? way * 330.0 : -way * 100.0;
+    const double distance = direction == 1 ? 1.0 : -1.0;
+    const double start = profile == 2 ? distance * 330.0 : -distance * 100.0;
     rig.phase.PhaseShift = rig.offset.Offset = 20.0;
     rig.phase.PhasingDistance = rig.offset.OffsetDistance = 60.0;
     rig.phase.StartPosition = rig.offset.StartPosition = on_ring ? start + 720.0 : start;
     rig.phase.ProfileReference = rig.offset.ProfileReference = profile;
     rig.phase.Direction = rig.offset.Direction = direction;
-    rig.run_at(rig.run_l, -way * 100.0);
+    rig.run_at(rig.run_l, -distance * 100.0);
     (phasing ? rig.phase.Execute : rig.offset.Execute) = true;
     ASSERT_TRUE(rig.run_until([&] {
       const AxisPosition there = rig.l.setpoint().position;
-      return difference(there, {}, rig.l.modulo()).rounded() * way <= -400.0;
+      return difference(there, {}, rig.l.modulo()).rounded() * distance <= -400.0;
     }));
     const auto runs = [&] { return phasing ? rig.phase.StartPhasing : rig.offset.StartOffset; };
     const auto waits = [&] {
@@ -316,11 +316,11 @@ TEST_P(Directions, OfAShiftAreThoseInWhichTheLeadingValueMoves) {
     };
     EXPECT_TRUE(waits() && !runs()) << phasing;
     EXPECT_EQ(phasing ? rig.status().PhaseShift : rig.status().Offset, 0.0);
-    rig.run_l.Velocity = way * 100.0;
+    rig.run_l.Velocity = distance * 100.0;
     rig.start(rig.run_l);
     ASSERT_TRUE(rig.run_until([&] { return runs(); }));
     EXPECT_FALSE(waits());
-    EXPECT_GT(way * rig.l.data.Velocity, 0.0);
+    EXPECT_GT(distance * rig.l.data.Velocity, 0.0);
     const double begun = difference(rig.l.setpoint().position, {}, rig.l.modulo()).rounded();
     if (profile == 2) {
       const double place = on_ring ? std::remainder(begun - start, 360.0) : begun - start;
@@ -343,18 +343,18 @@ TEST_P(Directions, OfMC_GearOutAreThoseInWhichTheFollowingAxisMoves) {
   rig.gear.RatioNumerator = ratio;
   rig.gear.Execute = true;
   ASSERT_TRUE(rig.run_until([&] { return rig.gear.InGear; }));
-  const double way = direction == 1 ? 1.0 : -1.0;  // of the following axis
-  const double led = ratio > 0 ? way : -way;
+  const double distance = direction == 1 ? 1.0 : -1.0;  // of the following axis
+  const double led = ratio > 0 ? distance : -distance;
   rig.out.SyncProfileReference = profile - 1;  // 0, 1
   rig.out.SyncOutDirection = direction;
-  rig.out.SlavePosition = on_ring ? 45.0 : way * 45.0;
+  rig.out.SlavePosition = on_ring ? 45.0 : distance * 45.0;
   rig.out.MasterStopDistance = 700.0;  // several turns of the following axis
   rig.out.Deceleration = 10.0;
   rig.run_at(rig.run_l, -led * 100.0);
   rig.start(rig.out);
   ASSERT_TRUE(rig.run_until([&] {
     const AxisPosition there = rig.f.setpoint().position;
-    return difference(there, {}, rig.f.modulo()).rounded() * way <= -beyond;
+    return difference(there, {}, rig.f.modulo()).rounded() * distance <= -beyond;
   }));
   EXPECT_TRUE(rig.out.Busy && !rig.out.StartSyncOut && rig.gear.InGear);
   rig.run_l.Velocity = led * 100.0;
@@ -365,7 +365,7 @@ TEST_P(Directions, OfMC_GearOutAreThoseInWhichTheFollowingAxisMoves) {
   ASSERT_TRUE(rig.run_until(
       [&] {
         const double now = difference(rig.f.setpoint().position, {}, rig.f.modulo()).rounded();
-        EXPECT_GE((now - last) * way, -1e-9);
+        EXPECT_GE((now - last) * distance, -1e-9);
         last = now;
         return rig.out.Done;
       },

@@ -46,12 +46,12 @@ struct Slow : Rig {
     move.Velocity = 100.0;
     move.Execute = true;
     run(750);
-    double most = 0.0;
+    double maximum = 0.0;
     for (int i = 0; i < 250; ++i) {
       tick();
-      most = std::max(most, std::abs(a.data.ActualPosition - 20.0));
+      maximum = std::max(maximum, std::abs(a.data.ActualPosition - 20.0));
     }
-    return most;
+    return maximum;
   }
 
   Axis& a;

@@ -57,10 +57,12 @@ struct Driven : Rig {
   }
 
   /// What an axis that brakes from here at once may make of it [u], and when it stands [s].
-  double least_way() const { return a.data.ActualVelocity * a.data.ActualVelocity / (2.0 * kDeceleration); }
+  double minimum_distance() const {
+    return a.data.ActualVelocity * a.data.ActualVelocity / (2.0 * kDeceleration);
+  }
 
   /// Runs until the axis stands; tells the way that it has really made [u].
-  double way_to_rest() {
+  double distance_to_rest() {
     const double from = a.data.ActualPosition;
     ticks = 0;
     fastest = a.data.ActualVelocity;
@@ -111,10 +113,10 @@ TEST(EmergencyRamp, OfADriveThatLagsNeverSpeedsItUp) {
   const double until_heard = gained_within(3.0, rig);
   rig.stop.Execute = true;
   rig.stop.Mode = 0;
-  const double least = rig.least_way();
-  const double way = rig.way_to_rest();
+  const double minimum = rig.minimum_distance();
+  const double distance = rig.distance_to_rest();
   EXPECT_LE(rig.fastest, v + until_heard);
-  EXPECT_NEAR(way, least + v * 0.04, 0.4) << "the ramp, and what the drive runs on by its lag";
+  EXPECT_NEAR(distance, minimum + v * 0.04, 0.4) << "the ramp, and what the drive runs on by its lag";
   EXPECT_TRUE(rig.stop.Done);
 }
 
@@ -124,9 +126,9 @@ TEST(EmergencyRamp, DoesNotWorkOffTheFollowingError) {
   ASSERT_NEAR(rig.a.data.StatusPositioning.FollowingError, 10.0, 0.5);
   rig.stop.Execute = true;
   rig.stop.Mode = 0;
-  const double least = rig.least_way();
-  const double way = rig.way_to_rest();
-  EXPECT_NEAR(way, least, 0.5);
+  const double minimum = rig.minimum_distance();
+  const double distance = rig.distance_to_rest();
+  EXPECT_NEAR(distance, minimum, 0.5);
   EXPECT_LE(rig.stood_after, 25 + 20) << "v / a = 25 ms, and the lag";
   EXPECT_NEAR(rig.hardest, kDeceleration, 0.1 * kDeceleration) << "a ramp, not a blow";
   EXPECT_TRUE(rig.stop.Done);
@@ -141,8 +143,8 @@ TEST(EmergencyRamp, OfDynamicServoControlDoesNotWorkItOffEither) {
   rig.set_out();
   ASSERT_GT(rig.a.data.StatusPositioning.FollowingError, 5.0);
   rig.stop.Execute = true;
-  const double least = rig.least_way();
-  EXPECT_NEAR(rig.way_to_rest(), least, 0.5);
+  const double minimum = rig.minimum_distance();
+  EXPECT_NEAR(rig.distance_to_rest(), minimum, 0.5);
   EXPECT_LE(rig.stood_after, 45);
 }
 
@@ -150,8 +152,8 @@ TEST(EmergencyRamp, OfFallingEnableWithStopMode0IsTheSame) {
   Driven rig(&lags_behind);
   rig.set_out();
   rig.power.Enable = false;
-  const double least = rig.least_way();
-  EXPECT_NEAR(rig.way_to_rest(), least, 0.5);
+  const double minimum = rig.minimum_distance();
+  EXPECT_NEAR(rig.distance_to_rest(), minimum, 0.5);
   EXPECT_FALSE(rig.power.Status);
 }
 
@@ -166,7 +168,7 @@ TEST(EmergencyRamp, AtAHardwareLimitSwitchEndsShortlyBehindIt) {
   ASSERT_TRUE(rig.run_until([&] { return rig.a.pending_alarm() != 0; }, 2000));
   EXPECT_EQ(rig.a.pending_alarm(), alarm::kHardwareLimitSwitch);
   EXPECT_EQ(rig.a.data.ErrorDetail.Reaction, 3);
-  rig.way_to_rest();
+  rig.distance_to_rest();
   EXPECT_NEAR(rig.a.data.ActualPosition, 50.0 + 100.0 * 100.0 / (2.0 * kDeceleration), 0.6);
   EXPECT_TRUE(rig.power.Status);
 }
@@ -175,8 +177,8 @@ TEST(EmergencyRamp, BeginsWhereTheAxisIsWhateverTheInterpolatorCycle) {
   Driven rig(&lags_behind, 8);
   rig.set_out(2000);
   rig.stop.Execute = true;
-  const double least = rig.least_way();
-  EXPECT_LT(rig.way_to_rest(), least + 100.0 * 0.016 + 0.4) << "up to two interpolator cycles later";
+  const double minimum = rig.minimum_distance();
+  EXPECT_LT(rig.distance_to_rest(), minimum + 100.0 * 0.016 + 0.4) << "up to two interpolator cycles later";
 }
 
 TEST(EmergencyRamp, WithoutPositionControlBeginsAtTheActualVelocity) {
@@ -187,7 +189,7 @@ TEST(EmergencyRamp, WithoutPositionControlBeginsAtTheActualVelocity) {
   ASSERT_GT(rig.a.data.VelocitySetpoint, v + 20.0);
   const double until_heard = gained_within(3.0, rig);
   rig.stop.Execute = true;
-  rig.way_to_rest();
+  rig.distance_to_rest();
   EXPECT_LE(rig.fastest, v + until_heard);
   EXPECT_TRUE(rig.stop.Done);
   EXPECT_FALSE(rig.a.position_controlled()) << "MC_Stop keeps it as it is";
@@ -199,14 +201,14 @@ TEST(EmergencyRamp, WeakerStopsGoOnFromTheSetpoint) {
   rig.stop.Execute = true;
   rig.stop.Mode = 2;
   rig.continuity[0].velocity = true;
-  EXPECT_GT(rig.way_to_rest(), 10.0) << "the following error is worked off";
+  EXPECT_GT(rig.distance_to_rest(), 10.0) << "the following error is worked off";
 }
 
 // ---- The manipulated value
 // ---------------------------------------------------------------------------------------
 
 /// The largest change of what the drive is told from one tick to the next, in the first ones of the ramp.
-double greatest_step(double smoothing) {
+double maximum_step(double smoothing) {
   Driven rig([smoothing](Axis& axis) {
     axis.drive_settings.time_constant = 0.04;
     axis.data.PositionControl.SmoothingTimeByChangeDifference = smoothing;
@@ -224,8 +226,8 @@ double greatest_step(double smoothing) {
 }
 
 TEST(EmergencyRamp, IsSwitchedOverToWithTheSmoothingTime) {
-  EXPECT_GT(greatest_step(0.0), 20.0);
-  EXPECT_LT(greatest_step(0.02), 10.0);
+  EXPECT_GT(maximum_step(0.0), 20.0);
+  EXPECT_LT(maximum_step(0.02), 10.0);
 }
 
 // ---- Limited torque

@@ -129,9 +129,9 @@ TEST(Expression, UnsignedArithmeticWrapsForEveryPairOfEightBits) {
 
 TEST(Expression, TheLeastIntegerDividedByMinusOneWraps) {
   EvaluationCounters counters;
-  const auto check = [&]<class T>(T least) {
-    EXPECT_EQ((Forms<T>(Operation::kDivide, type_of<T>()).of_tags(least, T{-1}, counters)), least);
-    EXPECT_EQ((Forms<T>(Operation::kModulo, type_of<T>()).of_tags(least, T{-1}, counters)), 0);
+  const auto check = [&]<class T>(T minimum) {
+    EXPECT_EQ((Forms<T>(Operation::kDivide, type_of<T>()).of_tags(minimum, T{-1}, counters)), minimum);
+    EXPECT_EQ((Forms<T>(Operation::kModulo, type_of<T>()).of_tags(minimum, T{-1}, counters)), 0);
   };
   check(std::numeric_limits<SINT>::min());
   check(std::numeric_limits<INT>::min());
@@ -293,11 +293,12 @@ TEST(Program, CopiesAFlagIntoAFlag) {
 TEST(Expression, ValuesMayRestUpToTheLimit) {
   DINT one = 1;
   EvaluationCounters counters;
-  for (const std::size_t resting : {ExpressionBuilder::kMostValues, ExpressionBuilder::kMostValues + 1}) {
+  for (const std::size_t resting :
+       {ExpressionBuilder::kMaximumValues, ExpressionBuilder::kMaximumValues + 1}) {
     ExpressionBuilder code;
     for (std::size_t i = 0; i <= resting; ++i) code.signal(signal_of(one));
     for (std::size_t i = 0; i < resting; ++i) ASSERT_TRUE(code.apply(Operation::kAdd, Type::DINT));
-    ASSERT_EQ(code.fits(), resting <= ExpressionBuilder::kMostValues);
+    ASSERT_EQ(code.fits(), resting <= ExpressionBuilder::kMaximumValues);
     if (code.fits()) {
       EXPECT_EQ(std::move(code).finish(Type::DINT).evaluate(counters).i,
                 static_cast<std::int64_t>(resting) + 1);

@@ -334,13 +334,13 @@ TEST(HandOver, IsNoStepOfASimulatedCouplingEither) {
   ASSERT_TRUE(rig.run_until([&] { return rig.simulation.InSimulation; }, 2000));
   rig.run_leading(kSpeed);
   const auto& value = rig.f.data.StatusSynchronizedMotion.FunctionFollowingValue;
-  const double most = rig.continuity[1].highest_acceleration;
+  const double maximum = rig.continuity[1].highest_acceleration;
   double position = value.Position, velocity = value.Velocity;
   rig.switch_off(Off::stop_mode_2);
   for (int i = 0; i < 500; ++i) {
     rig.tick();
-    ASSERT_NEAR(value.Velocity, velocity, most * 1e-3) << i;
-    ASSERT_NEAR(value.Position - position, 0.5 * (value.Velocity + velocity) * 1e-3, most * 1e-6) << i;
+    ASSERT_NEAR(value.Velocity, velocity, maximum * 1e-3) << i;
+    ASSERT_NEAR(value.Position - position, 0.5 * (value.Velocity + velocity) * 1e-3, maximum * 1e-6) << i;
     position = value.Position;
     velocity = value.Velocity;
   }

@@ -48,7 +48,7 @@ struct Machine : Rig {
   }
 
   /// Homes and lets the axis settle.
-  ::testing::AssertionResult home_with(INT mode, LREAL position = 0.0, int most = 60000) {
+  ::testing::AssertionResult home_with(INT mode, LREAL position = 0.0, int maximum = 60000) {
     start(home, mode, position);
     highest_velocity = 0.0;
     const auto ended = run_until(
@@ -56,7 +56,7 @@ struct Machine : Rig {
           highest_velocity = std::max(highest_velocity, std::abs(slide.setpoint().velocity));
           return home.Done || home.Error || home.CommandAborted;
         },
-        most);
+        maximum);
     if (!ended) return ended;
     if (!home.Done) return ::testing::AssertionFailure() << "alarm " << slide.pending_alarm();
     run(3000);
@@ -64,12 +64,12 @@ struct Machine : Rig {
   }
 
   /// Moves at a velocity until the machine has come as far as a place on its scale.
-  void pass(double velocity, double way) {
+  void pass(double velocity, double distance) {
     run_at.Execute = false;
     run(2);
     run_at.Velocity = velocity;
     run_at.Execute = true;
-    run(static_cast<int>(std::abs(way / velocity) * 1e3));
+    run(static_cast<int>(std::abs(distance / velocity) * 1e3));
   }
   void stop() {
     halt.Execute = false;

@@ -26,12 +26,12 @@ TEST(FollowingErrorMonitoring, RemovesTheEnableWhenADriveDoesNotFollow) {
   EXPECT_EQ(find_alarm(alarm::kFollowingErrorWarning)->warning_bit,
             static_cast<int>(WarningBit::FollowingErrorWarning));
   bool warned = false;
-  double greatest = 0.0;
+  double maximum = 0.0;
   double velocity = 0.0;
   ASSERT_TRUE(rig.run_until([&] {
     warned = warned || (rig.a.pending_alarm() == 0 &&
                         has_bit(rig.a.data.WarningWord, WarningBit::FollowingErrorWarning));
-    greatest = std::max(greatest, std::abs(rig.a.data.StatusPositioning.FollowingError));
+    maximum = std::max(maximum, std::abs(rig.a.data.StatusPositioning.FollowingError));
     if (rig.a.pending_alarm() != 0) return true;
     velocity = rig.a.data.Velocity;
     return false;
@@ -41,7 +41,7 @@ TEST(FollowingErrorMonitoring, RemovesTheEnableWhenADriveDoesNotFollow) {
   EXPECT_TRUE(has_bit(rig.a.data.ErrorWord, ErrorBit::FollowingErrorFault));
   EXPECT_TRUE(warned);
   // 2 mm up to 100 mm/s, 20 mm at 1000 mm/s.
-  EXPECT_NEAR(greatest, 2.0 + 18.0 * (velocity - 100.0) / 900.0, 0.2);
+  EXPECT_NEAR(maximum, 2.0 + 18.0 * (velocity - 100.0) / 900.0, 0.2);
   EXPECT_GT(velocity, 550.0);
   rig.run(100);
   EXPECT_FALSE(rig.power.Status);
@@ -58,16 +58,16 @@ TEST(FollowingErrorMonitoring, HoldsMinValueBelowMinVelocity) {
   rig.run_a.Execute = true;
   rig.continuity[1].velocity = false;
   double at_warning = 0.0;
-  double greatest = 0.0;
+  double maximum = 0.0;
   ASSERT_TRUE(rig.run_until([&] {
     const double error = rig.a.data.StatusPositioning.FollowingError;
-    greatest = std::max(greatest, error);
+    maximum = std::max(maximum, error);
     if (at_warning == 0.0 && has_bit(rig.a.data.WarningWord, WarningBit::FollowingErrorWarning))
       at_warning = error;
     return rig.a.pending_alarm() != 0;
   }));
   EXPECT_EQ(rig.a.pending_alarm(), 521);
-  EXPECT_NEAR(greatest, 1.0, 0.03);
+  EXPECT_NEAR(maximum, 1.0, 0.03);
   EXPECT_NEAR(at_warning, 0.5, 0.03);
 }
 

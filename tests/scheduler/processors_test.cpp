@@ -169,7 +169,7 @@ TEST(Levels, HoldWhatCanBeSteppedSideBySide) {
   levels.reserve(machine.axes.size(), static_cast<std::uint32_t>(machine.axes.back()->number));
   CouplingOrder order;
   order.set_axes(machine.axes);
-  std::size_t most = 0;
+  std::size_t maximum = 0;
   for (int tick = 0; tick < 300; ++tick) {
     machine.act(random);
     machine.tick();
@@ -192,9 +192,9 @@ TEST(Levels, HoldWhatCanBeSteppedSideBySide) {
       }
     }
     ASSERT_EQ(axes, machine.axes.size());
-    most = std::max(most, levels.count());
+    maximum = std::max(maximum, levels.count());
   }
-  EXPECT_GT(most, 3u);
+  EXPECT_GT(maximum, 3u);
 }
 
 }  // namespace

@@ -139,21 +139,21 @@ std::pair<double, double> velocities_after_a_switch(double smoothing) {
   EXPECT_EQ(slide.a.data.OperativeSensor, 2u);
   slide.tick();
   const double first = std::abs(slide.a.data.VelocitySetpoint);
-  double most = first;
+  double maximum = first;
   for (int i = 0; i < 3000; ++i) {
     slide.tick();
-    most = std::max(most, std::abs(slide.a.data.VelocitySetpoint));
+    maximum = std::max(maximum, std::abs(slide.a.data.VelocitySetpoint));
   }
   EXPECT_NEAR(slide.a.data.ActualPosition, 100.0, 1e-6);
-  return {first, most};
+  return {first, maximum};
 }
 
 TEST(SetSensorMode1, IsSmoothedWithTheTimeOfTheManipulatedVariable) {
-  const auto [hard_first, hard_most] = velocities_after_a_switch(0.0);
+  const auto [hard_first, hard_maximum] = velocities_after_a_switch(0.0);
   EXPECT_NEAR(hard_first, 10.0, 0.2) << "Kv times the difference, at once";
-  const auto [soft_first, soft_most] = velocities_after_a_switch(0.2);
+  const auto [soft_first, soft_maximum] = velocities_after_a_switch(0.2);
   EXPECT_LT(soft_first, 0.2);
-  EXPECT_LT(soft_most, 0.5 * hard_most);
+  EXPECT_LT(soft_maximum, 0.5 * hard_maximum);
 }
 
 TEST(SetSensorModes2And3, CopyAPositionWithoutSwitchingOver) {

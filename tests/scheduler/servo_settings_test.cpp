@@ -252,16 +252,16 @@ TEST(PositionControl, ChangesItsGainWithTheSmoothingTimeOfTheManipulatedVariable
       ASSERT_NEAR(commanded(), 50.0, 0.1);
       m.slide.data.PositionControl.Kv = 50.0;
       double last = commanded() + (in_drive ? -40.0 * m.slide.data.StatusServo.ControlDifference : 0.0);
-      double most = 0.0;
+      double maximum = 0.0;
       for (int i = 0; i < 500; ++i) {
         m.tick();
-        most = std::max(most, std::abs(commanded() - last));
+        maximum = std::max(maximum, std::abs(commanded() - last));
         last = commanded();
       }
       if (time > 0.0)
-        EXPECT_LT(most, 10.0) << (in_drive ? "DSC" : "");
+        EXPECT_LT(maximum, 10.0) << (in_drive ? "DSC" : "");
       else
-        EXPECT_GT(most, 150.0) << (in_drive ? "DSC" : "");
+        EXPECT_GT(maximum, 150.0) << (in_drive ? "DSC" : "");
       EXPECT_NEAR(commanded(), 50.0, 0.1);
     }
   }

@@ -45,11 +45,11 @@ class RandomJobs {
   }
 
   void configure(AxisData& data) {
-    least_ = uniform(-200.0, -5.0);
-    greatest_ = uniform(5.0, 200.0);
-    lowest_ = least_;
-    highest_ = greatest_;
-    use_limits(data, least_, greatest_);
+    minimum_ = uniform(-200.0, -5.0);
+    maximum_ = uniform(5.0, 200.0);
+    lowest_ = minimum_;
+    highest_ = maximum_;
+    use_limits(data, minimum_, maximum_);
     data.PositionLimits_SW.LimitReachedBehavior = pick(2);
     data.PositionLimits_SW.LimitExceededBehavior = pick(2);
     data.DynamicLimits.MaxDeceleration = uniform(1500.0, 20000.0);
@@ -67,13 +67,13 @@ class RandomJobs {
     passed_ = passed_ || rig_.a.pending_alarm() == 534;
     if (!before || !controlled_) {
       // Switched off it goes where the drive runs out to; from there it may only come back.
-      highest_ = std::max(greatest_, rig_.position());
-      lowest_ = std::min(least_, rig_.position());
+      highest_ = std::max(maximum_, rig_.position());
+      lowest_ = std::min(minimum_, rig_.position());
       return;
     }
     furthest_ = std::max({furthest_, rig_.position() - highest_, lowest_ - rig_.position()});
-    if (last <= greatest_) highest_ = greatest_;
-    if (last >= least_) lowest_ = least_;
+    if (last <= maximum_) highest_ = maximum_;
+    if (last >= minimum_) lowest_ = minimum_;
   }
 
   template <class B>
@@ -92,7 +92,7 @@ class RandomJobs {
   void act() {
     switch (pick(10)) {
       case 0:
-        rig_.move.Position = chance(0.3) ? greatest_ : uniform(-300.0, 300.0);
+        rig_.move.Position = chance(0.3) ? maximum_ : uniform(-300.0, 300.0);
         rig_.move.Velocity = uniform(5.0, 800.0);
         set_dynamics(rig_.move);
         return start(rig_.move);
@@ -140,8 +140,8 @@ class RandomJobs {
   }
 
   std::mt19937_64 random_;
-  double least_ = 0.0;
-  double greatest_ = 0.0;
+  double minimum_ = 0.0;
+  double maximum_ = 0.0;
   double lowest_ = 0.0;  // what is permitted now
   double highest_ = 0.0;
   double furthest_ = 0.0;

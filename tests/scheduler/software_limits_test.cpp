@@ -148,14 +148,14 @@ double deceleration_at_limit(int behavior) {
   rig.run_a.Velocity = 200.0;
   rig.run_a.Deceleration = 500.0;
   rig.run_a.Execute = true;
-  double greatest = 0.0;
+  double maximum = 0.0;
   for (int i = 0; i < 4000; ++i) {
     rig.tick();
-    greatest = std::max(greatest, -rig.a.setpoint().acceleration);
+    maximum = std::max(maximum, -rig.a.setpoint().acceleration);
   }
   EXPECT_EQ(rig.position(), 100.0);
   EXPECT_EQ(rig.a.data.ErrorDetail.Reaction, behavior == 1 ? 1 : 2);
-  return greatest;
+  return maximum;
 }
 
 TEST(SoftwareLimits, AreApproachedWithMaximumOrCurrentDynamicsAsConfigured) {
@@ -357,10 +357,10 @@ TEST(SoftwareLimits, HoldForTheRampOfMC_Power) {
 }
 
 TEST(SoftwareLimits, OnARingLetTheOtherSideEndAtItsBorder) {
-  const auto ring = [](double least, double greatest) {
+  const auto ring = [](double minimum, double maximum) {
     return [=](AxisData& data) {
       data.Modulo.Enable = true;
-      use_limits(data, least, greatest);
+      use_limits(data, minimum, maximum);
     };
   };
   Limited both(1, false, ring(0.0, 270.0));

@@ -12,8 +12,8 @@ namespace lockstep {
 namespace {
 
 // Limits of the axis.
-constexpr double kMost = 5000.0;    // [u/s²]
-constexpr double kFastest = 500.0;  // [u/s]
+constexpr double kMaximum = 5000.0;  // [u/s²]
+constexpr double kFastest = 500.0;   // [u/s]
 
 struct Machine : test::Superimposing {
   Machine() { continuity[1].acceleration = false; }
@@ -21,23 +21,23 @@ struct Machine : test::Superimposing {
   double acceleration() const { return axis_.data.Acceleration; }
 
   /// The greatest acceleration of some ticks.
-  double greatest(int ticks) {
-    double most = 0.0;
+  double maximum(int ticks) {
+    double maximum = 0.0;
     for (int i = 0; i < ticks; ++i) {
       tick();
-      most = std::max(most, std::abs(acceleration()));
+      maximum = std::max(maximum, std::abs(acceleration()));
     }
-    return most;
+    return maximum;
   }
 
   /// The greatest velocity of some ticks.
   double fastest(int ticks) {
-    double most = 0.0;
+    double maximum = 0.0;
     for (int i = 0; i < ticks; ++i) {
       tick();
-      most = std::max(most, std::abs(velocity()));
+      maximum = std::max(maximum, std::abs(velocity()));
     }
-    return most;
+    return maximum;
   }
 
   /// The first superimposed motion, without jerk limit, or a further one.
@@ -79,9 +79,9 @@ TEST(SumOfAccelerations, CountsWhatTheBaseMotionRunsDownYet) {
   m.move.Acceleration = 5000.0;
   m.move.Jerk = 0.0;
   m.move.Execute = true;
-  EXPECT_LE(m.greatest(60), kMost);
+  EXPECT_LE(m.maximum(60), kMaximum);
   EXPECT_TRUE(m.move.Busy);
-  EXPECT_GT(m.greatest(100), 4500.0) << "all but the 300 that the halt has later";
+  EXPECT_GT(m.maximum(100), 4500.0) << "all but the 300 that the halt has later";
 }
 
 TEST(SumOfAccelerations, CountsWhatTheSuperimposedMotionRunsDownYet) {
@@ -95,8 +95,8 @@ TEST(SumOfAccelerations, CountsWhatTheSuperimposedMotionRunsDownYet) {
   m.superimpose(100.0, 100.0, 50000.0);  // runs down the 2500 in 48 ms
   m.run(2);
   m.axis_.data.Override.Velocity = 250.0;  // so that the base motion is planned anew
-  EXPECT_LE(m.greatest(45), kMost * (1 + 1e-12));
-  EXPECT_NEAR(m.greatest(10), 4900.0, 1e-6) << "it has got back what was only run down";
+  EXPECT_LE(m.maximum(45), kMaximum * (1 + 1e-12));
+  EXPECT_NEAR(m.maximum(10), 4900.0, 1e-6) << "it has got back what was only run down";
 }
 
 TEST(SumOfAccelerations, CountsTheLastTickOfWhatIsSuperimposed) {
@@ -114,7 +114,7 @@ TEST(SumOfAccelerations, CountsTheLastTickOfWhatIsSuperimposed) {
   m.axis_.data.Override.Velocity = 50.0;
   const double before = m.velocity();
   m.tick();
-  EXPECT_GE(m.velocity(), before - 0.001 * kMost * (1 + 1e-9));
+  EXPECT_GE(m.velocity(), before - 0.001 * kMaximum * (1 + 1e-9));
 }
 
 TEST(SumOfAccelerations, CutsWhatWasGivenToWhatTheBaseMotionLeaves) {
@@ -132,9 +132,9 @@ TEST(SumOfAccelerations, CutsWhatWasGivenToWhatTheBaseMotionLeaves) {
   m.halt_superimposed.Jerk = 5000.0;
   m.halt_superimposed.Execute = true;
   m.run(1);
-  const double most = m.greatest(60);
-  EXPECT_LE(most, kMost);
-  EXPECT_GT(most, kMost - 10.0);
+  const double maximum = m.maximum(60);
+  EXPECT_LE(maximum, kMaximum);
+  EXPECT_GT(maximum, kMaximum - 10.0);
   EXPECT_TRUE(m.halt_superimposed.Busy);
 }
 
@@ -143,7 +143,7 @@ TEST(SumOfAccelerations, IsKeptWhereHomingHasFoundItsMark) {
   Axis& axis = rig.axis("Axis", [](AxisData& data) {
     data.VirtualAxis.Mode = 0;
     test::Superimposing::limit(data);
-    data.DynamicDefaults.Acceleration = data.DynamicDefaults.Deceleration = kMost;
+    data.DynamicDefaults.Acceleration = data.DynamicDefaults.Deceleration = kMaximum;
     data.DynamicDefaults.Jerk = 100000.0;
     data.Homing.ApproachVelocity = 200.0;
     data.Homing.ReferencingVelocity = 100.0;
@@ -165,13 +165,13 @@ TEST(SumOfAccelerations, IsKeptWhereHomingHasFoundItsMark) {
   move.Acceleration = move.Deceleration = 200.0;
   move.Jerk = 2000.0;
   move.Execute = true;
-  double most = 0.0;
+  double maximum = 0.0;
   ASSERT_TRUE(rig.run_until([&] {
-    most = std::max(most, std::abs(axis.data.Acceleration));
+    maximum = std::max(maximum, std::abs(axis.data.Acceleration));
     return home.Done;
   }));
-  EXPECT_LE(most, kMost * (1 + 1e-12));
-  EXPECT_GT(most, 4500.0);
+  EXPECT_LE(maximum, kMaximum * (1 + 1e-12));
+  EXPECT_GT(maximum, 4500.0);
 }
 
 // ---- Velocities
@@ -193,10 +193,10 @@ TEST(SumOfVelocities, CountsMoreThanTheJerkThatIsSuperimposed) {
 
 TEST(SumOfVelocities, IsKeptByAJogThatHasAJerkLimitFromNowOn) {
   Machine m;
-  m.jog_at(kFastest, kMost, 0.0);
+  m.jog_at(kFastest, kMaximum, 0.0);
   m.run(90);
   ASSERT_GT(m.velocity(), 430.0);
-  m.jog_at(kFastest, kMost, 50000.0);
+  m.jog_at(kFastest, kMaximum, 50000.0);
   EXPECT_LE(m.fastest(300), kFastest * (1 + 1e-12));
   EXPECT_EQ(m.velocity(), kFastest);
 }
@@ -262,7 +262,7 @@ class TakingOver {
       act();
       for (int i = pick(chance(0.2) ? 150 : 25); i >= 0 && kept_; --i) tick();
     }
-    return most_;
+    return maximum_;
   }
 
  private:
@@ -276,8 +276,8 @@ class TakingOver {
 
   void tick() {
     m_.tick();
-    most_ = std::max(most_, std::abs(m_.acceleration()));
-    kept_ = most_ <= kMost * (1 + 1e-9) && std::abs(m_.velocity()) <= kFastest * (1 + 1e-9);
+    maximum_ = std::max(maximum_, std::abs(m_.acceleration()));
+    kept_ = maximum_ <= kMaximum * (1 + 1e-9) && std::abs(m_.velocity()) <= kFastest * (1 + 1e-9);
     EXPECT_TRUE(kept_) << "acceleration " << m_.acceleration() << ", velocity " << m_.velocity() << " at "
                        << m_.controller.now();
   }
@@ -334,17 +334,17 @@ class TakingOver {
 
   std::mt19937_64 random_;
   Machine m_;
-  double most_ = 0.0;
+  double maximum_ = 0.0;
   bool kept_ = true;
 };
 
 TEST(SumOfAccelerations, IsKeptByJobsThatTakeOverAtRandom) {
-  double most = 0.0;
+  double maximum = 0.0;
   const test::Cases ran = test::for_each_seed(1, test::cases(300, 100000), [&](const test::Case& one) {
-    most = std::max(most, TakingOver(one.seed).run());
+    maximum = std::max(maximum, TakingOver(one.seed).run());
   });
   if (ran.alone) return;
-  EXPECT_GT(most, 4990.0);
+  EXPECT_GT(maximum, 4990.0);
 }
 
 }  // namespace

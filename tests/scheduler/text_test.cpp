@@ -46,17 +46,17 @@ TEST(Text, IsTheSameWhateverStandsBehindItsEnd) {
 }
 
 TEST(Text, GoesThroughItsSignalsInAnyRoom) {
-  for (std::size_t room = 1; room <= kLongestText; ++room)
-    for (const std::size_t size : {std::size_t{0}, room / 2, room}) {
+  for (std::size_t capacity = 1; capacity <= kLongestText; ++capacity)
+    for (const std::size_t size : {std::size_t{0}, capacity / 2, capacity}) {
       std::string text;
-      for (std::size_t i = 0; i < size; ++i) text += static_cast<char>(1 + (7 * i + room) % 255);
-      const std::vector<Value> values = text_values(text, room);
-      ASSERT_EQ(values.size(), (room + 1) / 2);
-      ASSERT_EQ(text_of(values, room), text) << room;
-      std::string memory(room + 1, '#');
-      const std::vector<Signal> signals = text_signals({memory.data(), room});
+      for (std::size_t i = 0; i < size; ++i) text += static_cast<char>(1 + (7 * i + capacity) % 255);
+      const std::vector<Value> values = text_values(text, capacity);
+      ASSERT_EQ(values.size(), (capacity + 1) / 2);
+      ASSERT_EQ(text_of(values, capacity), text) << capacity;
+      std::string memory(capacity + 1, '#');
+      const std::vector<Signal> signals = text_signals({memory.data(), capacity});
       for (std::size_t i = 0; i < signals.size(); ++i) signals[i].store(values[i]);
-      ASSERT_EQ(Text({memory.data(), room}).view(), text);
+      ASSERT_EQ(Text({memory.data(), capacity}).view(), text);
       ASSERT_EQ(memory.back(), '#') << "nothing behind the room is touched";
     }
   EXPECT_EQ(text_values("ab", 3)[0].u, 0x6261u) << "the first one in the low byte";

@@ -19,10 +19,10 @@ using Configure = std::function<void(AxisData&)>;
 
 inline constexpr double kRounding = 1e-9;  ///< [u] what a position may be off by rounding
 
-inline void use_limits(AxisData& data, double least, double greatest) {
+inline void use_limits(AxisData& data, double minimum, double maximum) {
   data.PositionLimits_SW.Active = true;
-  data.PositionLimits_SW.MinPosition = least;
-  data.PositionLimits_SW.MaxPosition = greatest;
+  data.PositionLimits_SW.MinPosition = minimum;
+  data.PositionLimits_SW.MaxPosition = maximum;
 }
 
 inline void within_a_hundred(AxisData& data) {
@@ -76,11 +76,11 @@ struct Limited : Rig {
   double position() const { return a.setpoint().position.value; }
 
   /// Asserts over a time that the setpoint stays on its side of both limits.
-  void run_within(int ticks, double least = -100.0, double greatest = 100.0) {
+  void run_within(int ticks, double minimum = -100.0, double maximum = 100.0) {
     for (int i = 0; i < ticks; ++i) {
       tick();
-      ASSERT_LE(position(), greatest + kRounding) << "at " << controller.now();
-      ASSERT_GE(position(), least - kRounding) << "at " << controller.now();
+      ASSERT_LE(position(), maximum + kRounding) << "at " << controller.now();
+      ASSERT_GE(position(), minimum - kRounding) << "at " << controller.now();
     }
   }
 

@@ -35,12 +35,12 @@ struct Cases {
 /// seed; how many cases there were and from which seed on is printed.
 template <class Run>
 Cases for_each_seed(std::uint64_t first, int count, Run run) {
-  constexpr int kMostFailures = 10;
+  constexpr int kMaximumFailures = 10;
   const auto alone = seed_of("LOCKSTEP_SEED");
   Cases ran{alone.value_or(seed_of("LOCKSTEP_FIRST_SEED").value_or(first)), 0, alone.has_value()};
   const testing::TestResult& result = *testing::UnitTest::GetInstance()->current_test_info()->result();
   int failed = 0;
-  while (ran.count < (ran.alone ? 1 : count) && failed < kMostFailures) {
+  while (ran.count < (ran.alone ? 1 : count) && failed < kMaximumFailures) {
     const std::uint64_t seed = ran.first + static_cast<std::uint64_t>(ran.count++);
     SCOPED_TRACE("follow it with LOCKSTEP_SEED=" + std::to_string(seed));
     const int parts = result.total_part_count();

@@ -78,13 +78,13 @@ class Rig {
     for (int i = 0; i < ticks; ++i) tick();
   }
 
-  /// Runs until a condition holds; fails after `most` ticks.
-  ::testing::AssertionResult run_until(const std::function<bool()>& condition, int most = 20000) {
-    for (int i = 0; i < most; ++i) {
+  /// Runs until a condition holds; fails after `maximum` ticks.
+  ::testing::AssertionResult run_until(const std::function<bool()>& condition, int maximum = 20000) {
+    for (int i = 0; i < maximum; ++i) {
       tick();
       if (condition()) return ::testing::AssertionSuccess();
     }
-    return ::testing::AssertionFailure() << "not within " << most << " ticks";
+    return ::testing::AssertionFailure() << "not within " << maximum << " ticks";
   }
 
   double period() const { return static_cast<double>(controller.clock.interpolator_cycle()) * 1e-9; }
@@ -111,12 +111,12 @@ class Rig {
         << axis.name << " at " << controller.now();
     if (last.known && controller.counters().interpolator_ticks != seen_ && rule.velocity) {
       const double dt = period();
-      const double way = difference(now.position, last.setpoint.position, axis.modulo()).rounded();
+      const double distance = difference(now.position, last.setpoint.position, axis.modulo()).rounded();
       const double mean = 0.5 * (now.velocity + last.setpoint.velocity) * dt;
       const double slack = rule.highest_acceleration * dt * dt + 1e-9;
       const bool renamed = rule.homing && (axis.renamed() - last.names).rounded() != 0.0;
-      ASSERT_TRUE(renamed || std::abs(way - mean) <= slack)
-          << axis.name << ": step of the position by " << way - mean << " at " << controller.now();
+      ASSERT_TRUE(renamed || std::abs(distance - mean) <= slack)
+          << axis.name << ": step of the position by " << distance - mean << " at " << controller.now();
       ASSERT_LE(std::abs(now.velocity - last.setpoint.velocity),
                 rule.highest_acceleration * dt * (1 + 1e-9) + 1e-9)
           << axis.name << ": step of the velocity at " << controller.now();

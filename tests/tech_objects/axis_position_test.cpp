@@ -72,8 +72,8 @@ TEST(AxisPosition, DistancesOnTheRingGoTheWayAsked) {
 }
 
 TEST(AxisPosition, DifferencesOverManyTurnsKeepTheirLastBits) {
-  const DoubleDouble way = difference({INT64_MAX, 0.25}, {0, 0.0}, kRing);
-  const DoubleDouble turns = way - 0.25;
+  const DoubleDouble distance = difference({INT64_MAX, 0.25}, {0, 0.0}, kRing);
+  const DoubleDouble turns = distance - 0.25;
   EXPECT_EQ(turns.hi, 0x1p63 * 360.0);
   EXPECT_EQ(turns.lo, -360.0);
   EXPECT_EQ(difference({INT64_MIN, 1.0}, {INT64_MAX, 359.0}, kRing).rounded(), 2.0);

@@ -52,7 +52,7 @@ TEST(CamFollowing, IsTheScaledAndShiftedCurve) {
   cam.clear_end();
   for (double leading = 100.0; leading < 820.0; leading += 7.3) {
     const CamValue reference = f.value((leading - 100.0) / 2.0);
-    const CamPlace place = cam.value({0, leading});
+    const CamFollowingValue place = cam.value({0, leading});
     EXPECT_NEAR(place.position.value, -0.5 * reference.position, 1e-13) << leading;
     EXPECT_NEAR(place.slope, -0.5 * reference.first_derivative / 2.0, 1e-14);
     EXPECT_NEAR(place.curvature, -0.5 * reference.second_derivative / 4.0, 1e-15);
@@ -65,7 +65,7 @@ TEST(CamFollowing, RunsTheOtherWayWithANegativeMasterScaling) {
   CamFollowing cam = applied(f, {-1.0, 1.0, CamMode::cyclic});
   for (double leading = -1000.0; leading <= 1000.0; leading += 13.7) {
     double u = -leading - 360.0 * std::floor(-leading / 360.0);
-    const CamPlace place = cam.value({0, leading});
+    const CamFollowingValue place = cam.value({0, leading});
     EXPECT_NEAR(place.position.value, f.value(u).position, 1e-11) << leading;
     EXPECT_NEAR(place.slope, -f.value(u).first_derivative, 1e-12) << leading;
   }
@@ -199,7 +199,7 @@ TEST(CamFollowing, KnowsWhereAPassEnds) {
   const CamFunction f = feed();
   CamFollowing cam = applied(f, {0.1, 1.0, CamMode::appended}, kRing, kLine);
   cam.value({5, 100.0});
-  const CamFollowing::LeadingPlace end = cam.end_place(CamEnd::at_end);
+  const CamFollowing::LeadingPosition end = cam.end_place(CamEnd::at_end);
   const AxisPosition position = normalised(end.turns, end.value, kRing);
   const AxisPosition following = cam.end_position(CamEnd::at_end);
   EXPECT_NEAR(difference(position, {5, 100.0}, kRing).rounded(), 36.0 - std::fmod(1900.0, 36.0), 1e-9);

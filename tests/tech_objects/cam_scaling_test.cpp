@@ -41,8 +41,8 @@ double exact_leading_value(double position, double scaling) {
   return std::ldexp(static_cast<double>(rest), unit) / scaling;
 }
 
-double log_uniform(std::mt19937_64& random, double least, double most) {
-  return least * std::exp(std::uniform_real_distribution<double>(0.0, std::log(most / least))(random));
+double log_uniform(std::mt19937_64& random, double minimum, double maximum) {
+  return minimum * std::exp(std::uniform_real_distribution<double>(0.0, std::log(maximum / minimum))(random));
 }
 
 TEST(CamScaling, RepeatsExactlyAtEveryPositionThatThereIs) {
@@ -71,7 +71,7 @@ TEST(CamScaling, PassedOnceIsTheCurveHoweverShort) {
     cam.set(f, {scaling, 1.0, CamMode::once}, {0, 0.0}, {}, kLine, kLine);
     for (int i = 0; i < 20; ++i) {
       const double place = std::uniform_real_distribution<double>(0.0, kLength)(random);
-      const CamPlace at = cam.value({0, place * scaling});
+      const CamFollowingValue at = cam.value({0, place * scaling});
       const CamValue reference = f.value(place);
       ASSERT_NEAR(at.position.value, reference.position, 1e-11);
       ASSERT_NEAR(at.slope * scaling, reference.first_derivative, 1e-12);
@@ -88,12 +88,12 @@ TEST(CamScaling, OfTheFollowingSideBy0RestsEverywhere) {
       CamFollowing cam;
       cam.set(f, {1.0, 0.0, mode}, {0, 0.0}, {}, kLine, following);
       for (double leading = 0.5; leading < (mode == CamMode::once ? 360.0 : 3000.0); leading += 7.3) {
-        const CamPlace at = cam.value({0, leading});
+        const CamFollowingValue at = cam.value({0, leading});
         ASSERT_EQ(at.position.value, 0.0);
         ASSERT_EQ(at.position.turns, 0);
         ASSERT_EQ(at.slope, 0.0);
         ASSERT_EQ(at.curvature, 0.0);
-        const CamPlace joined = cam.joined_at({0, leading}, 1);
+        const CamFollowingValue joined = cam.joined_at({0, leading}, 1);
         ASSERT_EQ(joined.slope, 0.0);
         ASSERT_EQ(joined.curvature, 0.0);
       }

@@ -117,7 +117,7 @@ TEST_P(CamVariables, AreFoundByTheirPathsInTheDataBlock) {
   Cam cam(GetParam(), "Cam", DB_ANY{1});
   cam.define_point(6, {70.0, 7.0});
   const auto read = [&](const char* path) {
-    const VariablePlace place = find_variable(GetParam(), path);
+    const VariableAddress place = find_variable(GetParam(), path);
     EXPECT_NE(place.variable, nullptr) << path;
     const Signal signal = place.signal(cam.data_block());
     return as_double(signal.load(), signal.value_type());

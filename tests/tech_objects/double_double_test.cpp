@@ -32,9 +32,9 @@ TEST(DoubleDouble, AQuotientTimesItsDivisorIsTheDividend) {
 }
 
 TEST(DoubleDouble, A64BitIntegerIsExact) {
-  const DoubleDouble most = to_double_double(INT64_MAX);
-  EXPECT_EQ(most.hi, 0x1p63);
-  EXPECT_EQ(most.lo, -1.0);
+  const DoubleDouble maximum = to_double_double(INT64_MAX);
+  EXPECT_EQ(maximum.hi, 0x1p63);
+  EXPECT_EQ(maximum.lo, -1.0);
   EXPECT_EQ(to_double_double(INT64_MIN).hi, -0x1p63);
 }
 

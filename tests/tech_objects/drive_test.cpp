@@ -45,8 +45,8 @@ struct Loop {
     for (int i = 0; i < cycles; ++i) {
       const double time = i * kCycle;
       const double ramp = velocity / acceleration;
-      const double way = time < ramp ? 0.5 * acceleration * time * time : velocity * (time - 0.5 * ramp);
-      cycle(advanced(origin, way, modulo), std::min(acceleration * time, velocity));
+      const double distance = time < ramp ? 0.5 * acceleration * time * time : velocity * (time - 0.5 * ramp);
+      cycle(advanced(origin, distance, modulo), std::min(acceleration * time, velocity));
       largest = std::max(largest, std::abs(last.control_difference));
     }
     return largest;

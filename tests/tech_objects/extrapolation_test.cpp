@@ -358,11 +358,11 @@ TEST(ExtrapolationOnARing, IsThatOfALineAcrossTheEndsAndAfterAnyNumberOfTurns) {
       const ExtrapolatedValues& on_line = line.step({0, position}, velocity, settings);
       const ExtrapolatedValues& values =
           extrapolation.step(advanced({turns, 0.0}, position, ring), velocity, settings);
-      const auto way = [&](AxisPosition to) { return difference(to, {turns, 0.0}, ring).rounded(); };
+      const auto distance = [&](AxisPosition to) { return difference(to, {turns, 0.0}, ring).rounded(); };
       ASSERT_TRUE(ring.contains(values.position.value));
       ASSERT_TRUE(ring.contains(values.filtered_position.value));
-      ASSERT_NEAR(way(values.position), on_line.position.value, 1e-10);
-      ASSERT_NEAR(way(values.filtered_position), on_line.filtered_position.value, 1e-10);
+      ASSERT_NEAR(distance(values.position), on_line.position.value, 1e-10);
+      ASSERT_NEAR(distance(values.filtered_position), on_line.filtered_position.value, 1e-10);
       ASSERT_EQ(values.velocity, on_line.velocity);
     }
   }

@@ -52,8 +52,8 @@ TEST(ZeroMarks, AreNeitherMissedNorMetTwice) {
       met += marks.between(here, next).has_value() ? 1 : 0;
       here = next;
     }
-    const double way = std::abs(here - 0.05);
-    EXPECT_NEAR(met, way / 0.3, 1.0) << step;
+    const double distance = std::abs(here - 0.05);
+    EXPECT_NEAR(met, distance / 0.3, 1.0) << step;
   }
 }
 

@@ -35,8 +35,8 @@ class HandMadeMotion {
     state_.velocity += t * (state_.acceleration + t * jerk / 2);
     state_.acceleration += t * jerk;
     time_ += t;
-    least_ = std::min(least_, state_.velocity);
-    most_ = std::max(most_, state_.velocity);
+    minimum_ = std::min(minimum_, state_.velocity);
+    maximum_ = std::max(maximum_, state_.velocity);
   }
 
   /// With full jerk to an acceleration, and then along it.
@@ -50,7 +50,7 @@ class HandMadeMotion {
   bool keeps_limits() const { return keeps_; }
   const MotionState& state() const { return state_; }
   double time() const { return time_; }
-  double fastest() const { return std::max(most_, -least_); }
+  double fastest() const { return std::max(maximum_, -minimum_); }
 
  private:
   // Within an arc the acceleration is monotone, and the velocity has at most one extremum, where it is 0.
@@ -69,8 +69,8 @@ class HandMadeMotion {
       const double t = jerk != 0.0 && root >= 0.0 ? (-a + sign * std::sqrt(root)) / jerk
                                                   : (a != 0.0 && jerk == 0.0 ? -start_velocity / a : -1.0);
       if (t <= 0.0 || t >= duration) continue;
-      const double least = std::min(limits_.acceleration, limits_.deceleration);
-      if (std::abs(a + t * jerk) > least * (1 + 1e-12)) keeps_ = false;
+      const double minimum = std::min(limits_.acceleration, limits_.deceleration);
+      if (std::abs(a + t * jerk) > minimum * (1 + 1e-12)) keeps_ = false;
     }
   }
   void keep_velocity(double v) {
@@ -83,7 +83,7 @@ class HandMadeMotion {
 
   ProfileLimits limits_;
   MotionState state_;
-  double time_{}, least_{}, most_{};
+  double time_{}, minimum_{}, maximum_{};
   bool keeps_{true};
 };
 

@@ -78,9 +78,9 @@ class Requests {
         return limit * between(-1.0, 1.0);
     }
   }
-  double distance(double way) {
+  double distance(double distance) {
     if (one_of(6)) return 0.0;
-    return way * between(-1.0, 1.0) * (one_of(5) ? power(-12.0, 0.0) : power(-2.0, 2.0));
+    return distance * between(-1.0, 1.0) * (one_of(5) ? power(-12.0, 0.0) : power(-2.0, 2.0));
   }
   double end_velocity(const Request& r) {
     switch (random_() % 4) {
@@ -158,12 +158,12 @@ void expect_exact_ends(const Request& r, const Profile& profile) {
 void expect_velocity_in_limits(const Request& r, const Profile& profile, const Scale& scale) {
   const double a = r.start.acceleration;
   const double stop = r.start.velocity + (r.limits.jerk > 0.0 ? a * std::abs(a) / 2 / r.limits.jerk : 0.0);
-  const double most = std::max({r.limits.velocity_max, r.start.velocity, stop});
-  const double least = std::min({r.limits.velocity_min, r.start.velocity, stop});
+  const double maximum = std::max({r.limits.velocity_max, r.start.velocity, stop});
+  const double minimum = std::min({r.limits.velocity_min, r.start.velocity, stop});
   for (int i = 0; i <= 50; ++i) {
     const double v = profile.at(profile.duration() * i / 50).velocity;
-    ASSERT_LE(v, most + 1e-12 * scale.velocity);
-    ASSERT_GE(v, least - 1e-12 * scale.velocity);
+    ASSERT_LE(v, maximum + 1e-12 * scale.velocity);
+    ASSERT_GE(v, minimum - 1e-12 * scale.velocity);
   }
 }
 

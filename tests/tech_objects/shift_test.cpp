@@ -32,7 +32,7 @@ struct Leading {
 
 /// The greatest amount of a shift from 0 to 5 whose target becomes 8 over a distance of 50 after some ticks;
 /// the leading value stands until some more ticks are over, then it speeds up.
-double greatest_amount(int ticks_before, int ticks_of_rest) {
+double maximum_amount(int ticks_before, int ticks_of_rest) {
   Shift shift;
   EXPECT_EQ(shift.begin({.target = {5.0, 0.0}, .rule = ShiftRule::dynamics, .limits = kLimits}, kPeriod),
             PlanResult::ok);
@@ -41,7 +41,7 @@ double greatest_amount(int ticks_before, int ticks_of_rest) {
   EXPECT_EQ(
       shift.begin({.target = {8.0, 0.0}, .distance = 50.0, .direction = -1, .limits = kLimits}, kPeriod),
       PlanResult::ok);
-  double most = 0.0;
+  double maximum = 0.0;
   for (int i = 0; i < 3000; ++i) {
     if (i == ticks_of_rest) {
       leading.now.velocity = -0.2;
@@ -49,11 +49,11 @@ double greatest_amount(int ticks_before, int ticks_of_rest) {
     }
     leading.tick();
     shift.advance(leading.step());
-    most = std::max(most, std::abs(shift.value().rounded()));
+    maximum = std::max(maximum, std::abs(shift.value().rounded()));
   }
   EXPECT_EQ(shift.phase(), Shift::Phase::resting) << "it has not arrived";
   EXPECT_EQ(shift.value().rounded(), 8.0);
-  return most;
+  return maximum;
 }
 
 /// While it brakes, its velocity passes small amounts with a large acceleration: a leading value that sets
@@ -62,7 +62,7 @@ double greatest_amount(int ticks_before, int ticks_of_rest) {
 TEST(Shift, IsNotThrownBeyondItsTargetByTheAccelerationItBrakesWith) {
   for (int before = 5; before < 90; before += 7)
     for (int rest = 0; rest < 60; ++rest)
-      ASSERT_LT(greatest_amount(before, rest), 40.0) << before << " ticks, then " << rest;
+      ASSERT_LT(maximum_amount(before, rest), 40.0) << before << " ticks, then " << rest;
 }
 
 }  // namespace

@@ -16,11 +16,11 @@ constexpr Modulo kLine{};
 constexpr Modulo kRing{true, 360.0, 0.0};
 
 /// Least slope of the following position x = F + y over the profile, times `to`.
-double least_slope(const SyncProfile& profile, double end_slope, double to) {
-  double least = INFINITY;
+double minimum_slope(const SyncProfile& profile, double end_slope, double to) {
+  double minimum = INFINITY;
   for (int i = 0; i <= 2000; ++i)
-    least = std::min(least, to * (end_slope + profile.value(profile.distance() * i / 2000.0).slope));
-  return least;
+    minimum = std::min(minimum, to * (end_slope + profile.value(profile.distance() * i / 2000.0).slope));
+  return minimum;
 }
 
 TEST(SyncProfile, BeginsWithTheMotionOfTheAxisAndEndsOnTheFunctionToTheLastBit) {
@@ -40,14 +40,15 @@ TEST(SyncProfile, BeginsWithTheMotionOfTheAxisAndEndsOnTheFunctionToTheLastBit) 
     SyncProfile profile;
     ASSERT_EQ(profile.plan(start, target, distance, backward, SyncDirection::kShortestPath, kLine, kLine),
               SyncPlan::kReady);
-    const double way_velocity = std::abs(start.leading_velocity);
-    const double way_acceleration = (backward ? -1.0 : 1.0) * start.leading_acceleration;
+    const double distance_velocity = std::abs(start.leading_velocity);
+    const double distance_acceleration = (backward ? -1.0 : 1.0) * start.leading_acceleration;
     const SyncOffset begin = profile.value(0.0);
     EXPECT_EQ(begin.position, start.following.value - target.at_start.value);
-    EXPECT_NEAR(target.slope * start.leading_velocity + begin.velocity(way_velocity), start.velocity, 1e-9);
-    EXPECT_NEAR(
-        target.slope * start.leading_acceleration + begin.acceleration(way_velocity, way_acceleration),
-        start.acceleration, 1e-6);
+    EXPECT_NEAR(target.slope * start.leading_velocity + begin.velocity(distance_velocity), start.velocity,
+                1e-9);
+    EXPECT_NEAR(target.slope * start.leading_acceleration +
+                    begin.acceleration(distance_velocity, distance_acceleration),
+                start.acceleration, 1e-6);
     for (const double covered : {distance, distance * 1.5}) {
       const SyncOffset end = profile.value(covered);
       EXPECT_TRUE(end.position == 0.0 && end.slope == 0.0 && end.curvature == 0.0);
@@ -70,12 +71,12 @@ TEST(SyncProfile, SlopeAndCurvatureAreTheDerivatives) {
   start.following = {0, 12.0};
   SyncProfile profile;
   profile.plan(start, {{0, 3.0}, 1.5}, 40.0, false, SyncDirection::kShortestPath, kLine, kLine);
-  for (double way = 1.0; way < 39.0; way += 0.7) {
+  for (double distance = 1.0; distance < 39.0; distance += 0.7) {
     constexpr double kStep = 1e-3;
-    const SyncOffset low = profile.value(way - kStep);
-    const SyncOffset high = profile.value(way + kStep);
-    EXPECT_NEAR((high.position - low.position) / (2.0 * kStep), profile.value(way).slope, 1e-6);
-    EXPECT_NEAR((high.slope - low.slope) / (2.0 * kStep), profile.value(way).curvature, 1e-6);
+    const SyncOffset low = profile.value(distance - kStep);
+    const SyncOffset high = profile.value(distance + kStep);
+    EXPECT_NEAR((high.position - low.position) / (2.0 * kStep), profile.value(distance).slope, 1e-6);
+    EXPECT_NEAR((high.slope - low.slope) / (2.0 * kStep), profile.value(distance).curvature, 1e-6);
   }
 }
 
@@ -106,7 +107,7 @@ TEST(SyncProfile, TheShortestPathIsAtMostHalfATurn) {
   const SyncTarget target{{0, 350.0}, 1.0};
   const struct {
     double start;
-    double way;
+    double distance;
   } rows[] = {{350.0, 100.0}, {100.0, -10.0}, {200.0, -110.0}, {269.0, -179.0}, {271.0, 179.0}};
   for (const auto& row : rows) {
     SyncStart start;
@@ -114,7 +115,7 @@ TEST(SyncProfile, TheShortestPathIsAtMostHalfATurn) {
     SyncProfile profile;
     ASSERT_EQ(profile.plan(start, target, 100.0, false, SyncDirection::kShortestPath, kLine, kRing),
               SyncPlan::kReady);
-    EXPECT_DOUBLE_EQ(100.0 - profile.value(0.0).position, row.way) << "from " << row.start;
+    EXPECT_DOUBLE_EQ(100.0 - profile.value(0.0).position, row.distance) << "from " << row.start;
   }
 }
 
@@ -143,7 +144,7 @@ TEST(SyncProfile, OneWaySynchronizingTakesTheFewestTurnsThatNeverReverse) {
       return;
     }
     const double scale = std::abs(end_slope) + std::abs(start.velocity) / 10.0;
-    EXPECT_GE(least_slope(profile, end_slope, to), -1e-9 * scale);
+    EXPECT_GE(minimum_slope(profile, end_slope, to), -1e-9 * scale);
     // With one turn less it would reverse, or there would be no way left to go.
     SyncStart shifted = start;
     shifted.following.turns += static_cast<std::int64_t>(to) - profile.turns();
@@ -152,7 +153,7 @@ TEST(SyncProfile, OneWaySynchronizingTakesTheFewestTurnsThatNeverReverse) {
     SyncStart on_line = start;
     on_line.following = {0, ahead};
     shorter.plan(on_line, {{0, 0.0}, target.slope}, distance, backward, direction, kLine, kLine);
-    EXPECT_LT(least_slope(shorter, end_slope, to), 1e-3 * scale);
+    EXPECT_LT(minimum_slope(shorter, end_slope, to), 1e-3 * scale);
     more_than_one += std::abs(end_slope * distance - profile.value(0.0).position) > 720.0 ? 1 : 0;
   });
   if (ran.alone) return;
@@ -171,9 +172,9 @@ TEST(SyncProfile, OneWaySynchronizingDoesNotShootIntoAFunctionThatAllButTurnsBac
       if (profile.plan(start, target, 50.0, false, SyncDirection::kPositive, kLine, kRing) !=
           SyncPlan::kReady)
         continue;
-      const double way = 50.0 * slope - 0.5 * curvature * 2500.0 - profile.value(0.0).position;
-      EXPECT_GE(way, -1e-9) << slope << ' ' << curvature;
-      EXPECT_LT(way, 2.0 * (50.0 * slope + 2500.0 * std::abs(curvature)) + 720.0)
+      const double distance = 50.0 * slope - 0.5 * curvature * 2500.0 - profile.value(0.0).position;
+      EXPECT_GE(distance, -1e-9) << slope << ' ' << curvature;
+      EXPECT_LT(distance, 2.0 * (50.0 * slope + 2500.0 * std::abs(curvature)) + 720.0)
           << slope << ' ' << curvature;
     }
 }
@@ -187,11 +188,11 @@ TEST(SyncProfile, OneWaySynchronizingIsRejectedWhereItIsImpossible) {
     start.acceleration = acceleration;
     return profile.plan(start, {{0, 5.0}, slope}, 50.0, false, direction, kLine, kRing);
   };
-  EXPECT_EQ(plan(-1.0, 0.0, 1.0, SyncDirection::kPositive), SyncPlan::kAxisMovesTheOtherWay);
-  EXPECT_EQ(plan(0.0, -1.0, 1.0, SyncDirection::kPositive), SyncPlan::kAxisMovesTheOtherWay);
-  EXPECT_EQ(plan(1.0, 0.0, -1.0, SyncDirection::kNegative), SyncPlan::kAxisMovesTheOtherWay);
-  EXPECT_EQ(plan(0.0, 0.0, -1.0, SyncDirection::kPositive), SyncPlan::kFunctionRunsTheOtherWay);
-  EXPECT_EQ(plan(0.0, 0.0, 1.0, SyncDirection::kNegative), SyncPlan::kFunctionRunsTheOtherWay);
+  EXPECT_EQ(plan(-1.0, 0.0, 1.0, SyncDirection::kPositive), SyncPlan::kAxisMovesInOppositeDirection);
+  EXPECT_EQ(plan(0.0, -1.0, 1.0, SyncDirection::kPositive), SyncPlan::kAxisMovesInOppositeDirection);
+  EXPECT_EQ(plan(1.0, 0.0, -1.0, SyncDirection::kNegative), SyncPlan::kAxisMovesInOppositeDirection);
+  EXPECT_EQ(plan(0.0, 0.0, -1.0, SyncDirection::kPositive), SyncPlan::kFunctionRunsInOppositeDirection);
+  EXPECT_EQ(plan(0.0, 0.0, 1.0, SyncDirection::kNegative), SyncPlan::kFunctionRunsInOppositeDirection);
   EXPECT_EQ(plan(0.0, 0.0, 1.0, SyncDirection::kPositive), SyncPlan::kReady);
 }
 
@@ -214,12 +215,12 @@ TEST(SyncProfile, TheAxisRunsIntoTheGearWithoutAStepAcrossModuloWraps) {
   double step_before = start.velocity * 0.001;
   for (int i = 0; i < 2500; ++i) {
     leading = advanced(leading, 0.1, kRing);
-    const double way = profile.covered(leading);
-    const AxisPosition now = advanced(gear.value(leading), profile.value(way).position, kRing);
+    const double distance = profile.covered(leading);
+    const AxisPosition now = advanced(gear.value(leading), profile.value(distance).position, kRing);
     const double step = difference(now, before, kRing).rounded();
     ASSERT_LE(step, 1e-12);
     ASSERT_NEAR(step, step_before, 0.01) << i;
-    if (profile.complete(way)) {
+    if (profile.complete(distance)) {
       ASSERT_EQ(now, gear.value(leading));
     }
     before = now;

@@ -271,7 +271,7 @@ TEST(FindVariable, FindsEachPathEachElementAndEachBit) {
     for (std::size_t i = 1; i <= std::max<std::size_t>(variable->count, 1); ++i) {
       const std::string path = concrete(variable->path, i);
       for (const std::string& spelled : {path, upper(path)}) {
-        const VariablePlace place = find_variable(ObjectKind::TO_SynchronousAxis, spelled);
+        const VariableAddress place = find_variable(ObjectKind::TO_SynchronousAxis, spelled);
         ASSERT_EQ(place.variable, variable) << spelled;
         EXPECT_EQ(place.bit, -1) << spelled;
         EXPECT_EQ(place.offset, variable->offset + (i - 1) * variable->stride) << spelled;
@@ -282,7 +282,7 @@ TEST(FindVariable, FindsEachPathEachElementAndEachBit) {
       }
       const int width = 8 * size_of(variable->type);
       for (int bit = 0; bit < width; ++bit) {
-        const VariablePlace place =
+        const VariableAddress place =
             find_variable(ObjectKind::TO_SynchronousAxis, path + ".X" + std::to_string(bit));
         ASSERT_EQ(place.variable, variable) << path << ".X" << bit;
         EXPECT_EQ(place.bit, bit);

@@ -21,7 +21,7 @@ using Target = std::function<TrackingMotion(double time)>;
 struct Chase {
   int synchronous_at = -1;  // tick
   TrackingMotion last;
-  double way = 0.0;
+  double distance = 0.0;
 };
 
 /// Follows the target for `ticks` and asserts in each that limits and continuity hold and that the axis, once
@@ -32,14 +32,14 @@ Chase follow(TrackingMotion own, const Target& target, const TrackingLimits& lim
   for (int tick = 1; tick <= ticks; ++tick) {
     const TrackingMotion goal = target(tick * period);
     const TrackingStep step = track_velocity(own, goal, limits, period);
-    const double most = std::max(limits.acceleration, limits.deceleration) * (1.0 + 1e-12);
-    EXPECT_LE(std::abs(step.acceleration), most) << tick;
+    const double maximum = std::max(limits.acceleration, limits.deceleration) * (1.0 + 1e-12);
+    EXPECT_LE(std::abs(step.acceleration), maximum) << tick;
     const double bound = step.velocity * step.acceleration > 0.0   ? limits.acceleration
                          : step.velocity * step.acceleration < 0.0 ? limits.deceleration
-                                                                   : most;
+                                                                   : maximum;
     EXPECT_LE(std::abs(step.acceleration), bound * (1.0 + 1e-12))
         << "at " << step.velocity << " in tick " << tick;
-    EXPECT_LE(std::abs(step.velocity - own.velocity), most * period + 1e-12 * std::abs(step.velocity))
+    EXPECT_LE(std::abs(step.velocity - own.velocity), maximum * period + 1e-12 * std::abs(step.velocity))
         << tick;
     if (step.velocity * own.velocity > 0.0 && std::abs(step.velocity) > std::abs(own.velocity)) {
       EXPECT_LE(std::abs(step.velocity - own.velocity),
@@ -48,10 +48,10 @@ Chase follow(TrackingMotion own, const Target& target, const TrackingLimits& lim
     }
     if (limits.jerk > 0.0) {
       EXPECT_LE(std::abs(step.acceleration - own.acceleration),
-                limits.jerk * period * (1.0 + 1e-12) + 1e-13 * most)
+                limits.jerk * period * (1.0 + 1e-12) + 1e-13 * maximum)
           << tick;
       const double trapezoid = 0.5 * (own.velocity + step.velocity) * period;
-      EXPECT_NEAR(step.way, trapezoid,
+      EXPECT_NEAR(step.distance, trapezoid,
                   limits.jerk * period * period * period / 6.0 + 1e-13 * std::abs(trapezoid))
           << "way and velocity part in tick " << tick;
     }
@@ -67,7 +67,7 @@ Chase follow(TrackingMotion own, const Target& target, const TrackingLimits& lim
           << tick;
     }
     own = {step.velocity, step.acceleration};
-    run.way += step.way;
+    run.distance += step.distance;
     if (::testing::Test::HasFailure()) break;
   }
   run.last = own;
@@ -99,7 +99,7 @@ TEST(VelocityTracking, AConstantVelocityIsReachedInTheTimeOptimalTime) {
         kLimits, period, 2000);
     // 50 ms up, 50 ms hold, 50 ms down.
     EXPECT_NEAR(run.synchronous_at * period, 0.15, 1.001 * period) << period;
-    EXPECT_NEAR(run.way, 100.0 * 2000 * period - 7.5, 1e-9) << period;
+    EXPECT_NEAR(run.distance, 100.0 * 2000 * period - 7.5, 1e-9) << period;
   }
 }
 
@@ -163,10 +163,10 @@ TEST(VelocityTracking, AReversalKeepsSpeedingUpAndSlowingDownApart) {
             return TrackingMotion{-from, 0.0};
           },
           limits, 0.001, 2000);
-      const double least = 300.0 / limits.acceleration + 300.0 / limits.deceleration;
+      const double minimum = 300.0 / limits.acceleration + 300.0 / limits.deceleration;
       const double corners = limits.jerk > 0.0 ? 2500.0 / limits.jerk : 0.0;
-      EXPECT_GE(run.synchronous_at * 0.001, least - 0.001);
-      EXPECT_LE(run.synchronous_at * 0.001, least + corners + 0.003);
+      EXPECT_GE(run.synchronous_at * 0.001, minimum - 0.001);
+      EXPECT_LE(run.synchronous_at * 0.001, minimum + corners + 0.003);
     }
   }
 }
@@ -180,14 +180,14 @@ TEST(VelocityTracking, WithoutJerkTheWayIsExactAcrossTheMeeting) {
       },
       limits, 0.001, 200);
   EXPECT_EQ(run.synchronous_at, 100);
-  EXPECT_NEAR(run.way, 99.7 * 0.2 - 99.7 * 99.7 / 2000.0, 1e-12);
+  EXPECT_NEAR(run.distance, 99.7 * 0.2 - 99.7 * 99.7 / 2000.0, 1e-12);
   const Chase reversal = follow(
       {100.0, 0.0},
       [](double) {
         return TrackingMotion{-50.0, 0.0};
       },
       limits, 0.0007, 400);
-  EXPECT_NEAR(reversal.way, 5.0 - 1.25 - 50.0 * (0.28 - 0.15), 1e-12);
+  EXPECT_NEAR(reversal.distance, 5.0 - 1.25 - 50.0 * (0.28 - 0.15), 1e-12);
 }
 
 TEST(VelocityTracking, TakesTheTimeAndTheWayOfAnIndependentTimeOptimalGenerator) {
@@ -211,7 +211,7 @@ TEST(VelocityTracking, TakesTheTimeAndTheWayOfAnIndependentTimeOptimalGenerator)
         limits, period, 180);
     EXPECT_NEAR(run.synchronous_at * period, duration, 1.001 * period) << line;
     EXPECT_GE(run.synchronous_at * period, duration * (1.0 - 1e-6)) << line;
-    EXPECT_NEAR(run.way, distance + v1 * (180 * period - duration), 1e-6 * (1.0 + std::abs(distance)))
+    EXPECT_NEAR(run.distance, distance + v1 * (180 * period - duration), 1e-6 * (1.0 + std::abs(distance)))
         << line;
   }
   EXPECT_GT(rows, 1900);
@@ -230,9 +230,9 @@ TEST(VelocityTracking, RandomSituationsConvergeInsideTheirLimits) {
     const double gentle = std::min(limits.acceleration, limits.deceleration);
     TrackingMotion own{600.0 * any(random), 0.0};
     if (one.seed % 2 == 0) {  // moving, with an acceleration that is not bound to pass the velocity limit
-      const double most =
+      const double maximum =
           std::min({limits.acceleration, limits.deceleration, std::sqrt(600.0 * limits.jerk)});
-      own.acceleration = most * any(random);
+      own.acceleration = maximum * any(random);
       if (own.velocity * own.acceleration < 0.0) own.acceleration = -own.acceleration;
     }
     const double end = 800.0 * any(random);
