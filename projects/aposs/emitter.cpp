@@ -104,7 +104,7 @@ std::uint32_t Emitter::place_of(const EmittedOperand& operand) const {
   return kNoCell;
 }
 
-Image Emitter::finish(Messages& messages, std::size_t most_variables) {
+Image Emitter::finish(Messages& messages, std::size_t arrays, std::size_t most_variables) {
   rest_where_nothing_changes();
   Image image;
   const auto refuse = [&messages](const std::string& what, std::size_t count, std::size_t most) {
@@ -112,7 +112,7 @@ Image Emitter::finish(Messages& messages, std::size_t most_variables) {
       messages.error(
           {}, "the program has " + std::to_string(count) + " " + what + "; allowed: " + std::to_string(most));
   };
-  refuse("variables and arrays", names_.size() + image.arrays.size(), most_variables);
+  refuse("variables and arrays", names_.size() + arrays, most_variables);
   refuse("temporaries", most_temporaries_, kMostTemporaries);
   refuse("internal commands", code_.size(), Image::kMostInstructions);
   refuse("variables, temporaries and constants", names_.size() + most_temporaries_ + constants_.size(),

@@ -22,8 +22,8 @@ struct Cell {
 /// An operand: a cell, or a number that stands for something else.
 struct EmittedOperand {
   EmittedOperand() = default;
-  EmittedOperand(Cell value) noexcept : cell(value) {}                             // NOLINT: as written
-  EmittedOperand(std::uint32_t value) noexcept : is_cell(false), number(value) {}  // NOLINT: likewise
+  EmittedOperand(Cell value) noexcept : cell(value) {}
+  EmittedOperand(std::uint32_t value) noexcept : is_cell(false), number(value) {}
   bool is_cell = true;
   Cell cell{};
   std::uint32_t number = 0;
@@ -56,7 +56,8 @@ class Emitter {
   std::uint16_t print_list(PrintList list);
 
   /// Moves everything to its place. What is too much is told.
-  Image finish(Messages& messages, std::size_t most_variables);
+  /// @param arrays each counts as a variable
+  Image finish(Messages& messages, std::size_t arrays, std::size_t most_variables);
 
  private:
   struct Emitted {

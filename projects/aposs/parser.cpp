@@ -433,7 +433,7 @@ void Parser::look_at_reads() {
 }
 
 Image Parser::finish(std::size_t most_variables) {
-  Image image = emitter_.finish(messages_, most_variables - std::min(most_variables, arrays_.size()));
+  Image image = emitter_.finish(messages_, arrays_.size(), most_variables);
   image.arrays = std::move(arrays_);
   image.routines = std::move(routines_);
   return image;

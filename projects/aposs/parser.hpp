@@ -151,8 +151,8 @@ class Parser {
 
   Cell value(const Expression& expression);
   void into(Cell cell, const Expression& expression);
-  Cell gathered(std::vector<ExpressionPointer>& arguments);
-  void emit_command(const Place& place, Command command, std::vector<ExpressionPointer>& arguments,
+  Cell gathered(const std::vector<ExpressionPointer>& arguments);
+  void emit_command(const Place& place, Command command, const std::vector<ExpressionPointer>& arguments,
                     Cell result = {});
   void jump_to(const Place& place, Operation operation, EmittedOperand second = std::uint32_t{0});
   void resolve();

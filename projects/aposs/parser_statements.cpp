@@ -37,14 +37,12 @@ void Parser::dim_statement() {
     expect_symbol("]", "behind the number of elements");
     if (at_symbol("["))
       fail(peek().place, "arrays of two dimensions are of the later edition and not built yet");
-    const auto [known, fresh] =
-        array_numbers_.try_emplace(name.folded, static_cast<std::uint16_t>(arrays_.size()));
+    const auto number = static_cast<std::uint16_t>(arrays_.size());
+    const bool fresh = array_numbers_.try_emplace(name.folded, number).second;
     if (!fresh || assigned_.contains(name.folded))
       messages_.error(name.place, quote(name.text) + (fresh ? " is a variable too" : " is declared twice"));
     else
       arrays_.push_back({name.text, static_cast<std::uint32_t>(size.number)});
-    static_cast<void>(known);
-    if (!fresh) continue;
     if (arrays_.size() > 1000) fail(name.place, "too many arrays");
   } while (accept_symbol(","));
 }
@@ -377,9 +375,7 @@ void Parser::into(Cell cell, const Expression& expression) {
     }
     case Expression::Kind::kCommand: {
       const std::uint32_t mark = emitter_.mark();
-      std::vector<ExpressionPointer> none;
-      auto& operands = const_cast<Expression&>(expression).operands;
-      emit_command(expression.place, expression.command, operands, cell);
+      emit_command(expression.place, expression.command, expression.operands, cell);
       emitter_.release(mark);
       return;
     }
@@ -394,7 +390,7 @@ void Parser::into(Cell cell, const Expression& expression) {
 }
 
 // The arguments in cells one behind the other.
-Cell Parser::gathered(std::vector<ExpressionPointer>& arguments) {
+Cell Parser::gathered(const std::vector<ExpressionPointer>& arguments) {
   if (arguments.empty()) return {};
   if (arguments.size() == 1) return value(*arguments[0]);
   std::vector<std::int32_t> constants;
@@ -407,8 +403,8 @@ Cell Parser::gathered(std::vector<ExpressionPointer>& arguments) {
   return cells;
 }
 
-void Parser::emit_command(const Place& place, Command command, std::vector<ExpressionPointer>& arguments,
-                          Cell result) {
+void Parser::emit_command(const Place& place, Command command,
+                          const std::vector<ExpressionPointer>& arguments, Cell result) {
   const Cell cells = gathered(arguments);
   const EmittedOperand first = arguments.empty() ? EmittedOperand(std::uint32_t{0}) : EmittedOperand(cells);
   emitter_.emit(place, Operation::kCommand, static_cast<std::uint32_t>(command), first, result);
