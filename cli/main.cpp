@@ -4,6 +4,7 @@
 #include <exception>
 #include <sstream>
 
+#include "cli/aposs/aposs_command.hpp"
 #include "cli/command/command.hpp"
 #include "cli/command/shortage.hpp"
 #include "cli/command/standard_streams.hpp"
@@ -43,6 +44,7 @@ int carry_out(int argc, char** argv) {
   add_monitor_command(app, action);
   add_cam_command(app, action);
   add_doctor_command(app, action);
+  add_aposs_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

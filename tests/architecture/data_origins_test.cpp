@@ -29,8 +29,9 @@ std::string content(const fs::path& path) {
 
 TEST(DataOrigins, AreToldOfEveryFileAndOfNoOther) {
   std::set<std::string> there;
-  for (const auto& entry : fs::directory_iterator(kData))
-    if (entry.path().filename() != "origins.json") there.insert(entry.path().filename());
+  for (const auto& entry : fs::recursive_directory_iterator(kData))
+    if (entry.is_regular_file() && entry.path().filename() != "origins.json")
+      there.insert(entry.path().lexically_relative(kData));
   std::set<std::string> told;
   const nlohmann::json all = origins();
   for (const auto& [name, origin] : all.items()) {

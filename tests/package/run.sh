@@ -66,7 +66,7 @@ for page in man1/lockstep.1 man5/lockstep-project.5; do
 done
 text=$(groff -k -man -Tascii -P-c -P-b -P-u "$work/root/usr/share/man/man1/lockstep.1" 2>/dev/null)
 for word in $("$lockstep" run --help | grep -o '^  --[a-z-]*'); do expect "$text" "$word"; done
-for command in check run describe tags read write plot monitor cam doctor; do expect "$text" "lockstep $command"; done
+for command in check run describe tags read write plot monitor cam doctor aposs; do expect "$text" "lockstep $command"; done
 text=$(groff -k -man -Tascii -P-c -P-b -P-u "$work/root/usr/share/man/man5/lockstep-project.5" 2>/dev/null)
 for key in servo_cycle technology_objects programs retain listen; do expect "$text" "$key"; done
 

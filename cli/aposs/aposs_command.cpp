@@ -1,0 +1,60 @@
+// lockstep aposs: what its parts share.
+#include "cli/aposs/aposs_command.hpp"
+
+#include <CLI/App.hpp>
+
+#include "projects/json/text_file.hpp"
+
+namespace lockstep::cli {
+
+void add_compiler_options(CLI::App& command, aposs::CompilerSettings& settings) {
+  command
+      .add_option("--max-variables", settings.most_variables,
+                  "variables and arrays that a program may have (92)")
+      ->check(CLI::Range(1, 20000));
+}
+
+std::optional<aposs::CompiledProgram> compile_or_tell(const std::string& path,
+                                                      const aposs::CompilerSettings& settings, int& status) {
+  try {
+    aposs::CompiledProgram compiled = aposs::compile_file(path, settings);
+    for (const aposs::Message& error : compiled.errors)
+      tell_line(to_string(compiled.files, error), Gravity::error);
+    if (compiled.errors_found > compiled.errors.size())
+      tell_line(path + ": " + std::to_string(compiled.errors_found - compiled.errors.size()) +
+                    " further problems are not told",
+                Gravity::error);
+    for (aposs::Message warning : compiled.warnings) {
+      warning.text = "warning: " + warning.text;
+      tell_line(to_string(compiled.files, warning), Gravity::warning);
+    }
+    status = kNotValid;
+    if (!compiled.image) return std::nullopt;
+    return compiled;
+  } catch (const UnreadableFile& error) {
+    tell(error.what(), Gravity::error);
+    status = kCouldNotStart;
+    return std::nullopt;
+  }
+}
+
+void add_aposs_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("aposs", "Programs in APOSS, the language of the MCO 305");
+  command->require_subcommand(1);
+  command->footer(
+      "What is there: the language, that is variables, arrays, arithmetic, blocks, subprograms, interrupts, "
+      "PRINT\n"
+      "and time. What is not: the machine; commands that move something are checked, and refused when they "
+      "run.\n"
+      "  lockstep aposs check palletizer.m\n"
+      "  lockstep aposs list palletizer.m\n"
+      "  lockstep aposs run palletizer.m --duration 5s --in 1=0.5s:1\n"
+      "Problems go to standard error, one a line: FILE:line:column: what is wrong, what is allowed\n"
+      "Exit status: 0 done, 1 the program is not valid or ended by an error, 2 a file cannot be read, or the "
+      "command\nline is wrong");
+  add_aposs_check(*command, action);
+  add_aposs_list(*command, action);
+  add_aposs_run(*command, action);
+}
+
+}  // namespace lockstep::cli

@@ -1,0 +1,56 @@
+#include "projects/aposs/compiler.hpp"
+
+#include <filesystem>
+
+#include "projects/json/text_file.hpp"
+
+namespace lockstep::aposs {
+namespace {
+
+constexpr std::size_t kLargestFile = 1 << 20;
+
+}  // namespace
+
+CompiledProgram compile_program(std::string name, std::string_view text, const ReadIncluded& read,
+                                const CompilerSettings& settings) {
+  Messages messages;
+  CompiledProgram result;
+  Tokens tokens = cut(std::move(name), text, read, messages);
+  Parser parser(tokens.list, messages);
+  parser.program();
+  Image image = parser.finish(settings.most_variables);
+  image.files = result.files = std::move(tokens.files);
+  result.uses = parser.take_uses();
+  if (messages.errors_found() == 0) result.image = std::move(image);
+  result.errors_found = messages.errors_found();
+  result.errors = messages.take_errors();
+  result.warnings = messages.take_warnings();
+  return result;
+}
+
+CompiledProgram compile_file(const std::string& path, const CompilerSettings& settings) {
+  const std::string text = read_text_file(path, kLargestFile);
+  const ReadIncluded read = [&path](const std::string& name) -> std::optional<std::string> {
+    try {
+      return read_text_file(std::filesystem::path(path).parent_path() / name, kLargestFile);
+    } catch (const UnreadableFile&) {
+      return std::nullopt;
+    }
+  };
+  CompiledProgram result = compile_program(path, text, read, settings);
+  if (text.size() > kLargestFile) {
+    result.image.reset();
+    result.errors.insert(result.errors.begin(), {{}, "the file is larger than 1 MiB"});
+    ++result.errors_found;
+  }
+  return result;
+}
+
+std::string to_string(const std::vector<std::string>& files, const Message& message) {
+  const std::string file = message.place.file < files.size() ? files[message.place.file] : "";
+  if (message.place.line == 0) return file + ": " + message.text;
+  return file + ":" + std::to_string(message.place.line) + ":" + std::to_string(message.place.column) + ": " +
+         message.text;
+}
+
+}  // namespace lockstep::aposs

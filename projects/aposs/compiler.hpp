@@ -1,0 +1,38 @@
+/// Compiles a program in APOSS.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "projects/aposs/lexer.hpp"
+#include "projects/aposs/message.hpp"
+#include "projects/aposs/parser.hpp"
+#include "scheduler/aposs/image.hpp"
+
+namespace lockstep::aposs {
+
+struct CompilerSettings {
+  std::size_t most_variables = 92;  ///< with the arrays, as published
+};
+
+struct CompiledProgram {
+  std::optional<Image> image;  ///< none if there are errors
+  std::vector<std::string> files;
+  std::vector<Message> errors;  ///< the first twenty
+  std::vector<Message> warnings;
+  std::size_t errors_found = 0;
+  Uses uses;
+};
+
+/// Never throws on account of the text, whatever it is.
+CompiledProgram compile_program(std::string name, std::string_view text, const ReadIncluded& read = {},
+                                const CompilerSettings& settings = {});
+/// Reads a file, and those that it includes from beside it. @throws UnreadableFile
+CompiledProgram compile_file(const std::string& path, const CompilerSettings& settings = {});
+
+/// "teddy.m:14:9: text".
+std::string to_string(const std::vector<std::string>& files, const Message& message);
+
+}  // namespace lockstep::aposs

@@ -1,0 +1,102 @@
+// ON …, DISABLE, ENABLE.
+#include "projects/aposs/parameter_names.hpp"
+#include "projects/aposs/parser.hpp"
+#include "projects/json/problem.hpp"
+#include "scheduler/aposs/interrupts.hpp"
+
+namespace lockstep::aposs {
+namespace {
+
+constexpr std::string_view kKinds[] = {"ERROR",   "INT",   "APOS", "MAPOS",  "MCPOS", "COMBIT",
+                                       "STATBIT", "PARAM", "TIME", "PERIOD", "DELETE"};
+constexpr std::string_view kClasses[] = {"ALL",     "INT",   "POSINT", "COMBIT",
+                                         "STATBIT", "PARAM", "TIME",   "PERIOD"};
+static_assert(std::size(kClasses) == kInterruptClasses);
+
+}  // namespace
+
+void Parser::on_statement() {
+  const Place place = take().place;
+  const bool is_signed = at_symbol("+") || at_symbol("-");
+  const std::string word = peek(is_signed ? 1 : 0).folded;
+  if (word == "APOS" || word == "MAPOS" || word == "MCPOS") return on_position(place);
+  for (const CommandRow& row : commands())
+    if (row.refusal != Refusal::kNone && row.name == "ON " + word) refuse(row, place);
+  if (accept_word("ERROR")) {
+    expect_word("GOSUB", "behind ON ERROR");
+    return subprogram_reference(emitter_.emit(place, Operation::kOnError));
+  }
+  if (accept_word("INT")) return on_source(place, Operation::kOnInput);
+  if (accept_word("COMBIT")) return on_source(place, Operation::kOnCombit);
+  if (accept_word("STATBIT")) return on_source(place, Operation::kOnStatbit);
+  if (accept_word("TIME")) return on_source(place, Operation::kOnTime);
+  if (accept_word("PERIOD")) return on_source(place, Operation::kOnPeriod);
+  if (accept_word("PARAM")) return on_parameter(place);
+  if (accept_word("DELETE")) return on_delete(place);
+  fail(peek().place, "ON " + peek().text + ": " + shown() + " is no interrupt" + did_you_mean(word, kKinds) +
+                         "; allowed: " + list_of(kKinds));
+}
+
+void Parser::on_source(const Place& place, Operation operation) {
+  const Token& at = peek();
+  const ExpressionPointer number = argument("ON");
+  if (number->kind == Expression::Kind::kConstant) {
+    const std::int64_t n = number->value, size = n < 0 ? -n : n;
+    const bool input = operation == Operation::kOnInput;
+    if (input && !((size >= 1 && size <= 12) || (size >= 18 && size <= 33)))
+      messages_.error(at.place, "ON INT " + std::to_string(n) +
+                                    "; allowed: inputs 1 to 12 and 18 to 33, below 0 for "
+                                    "the falling edge");
+    if ((operation == Operation::kOnCombit || operation == Operation::kOnStatbit) && (size < 1 || size > 32))
+      messages_.error(at.place, "there is no bit " + std::to_string(n) +
+                                    "; allowed: 1 to 32, below 0 for the falling "
+                                    "edge");
+    if (input) uses_.inputs.insert(static_cast<std::int32_t>(size));
+  }
+  const Cell cell = value(*number);
+  expect_word("GOSUB", "behind what the interrupt watches");
+  subprogram_reference(emitter_.emit(place, operation, cell));
+}
+
+void Parser::on_position(const Place& place) {
+  const bool has_sign = at_symbol("+") || at_symbol("-");
+  const bool negative = at_symbol("-");
+  if (has_sign) take();
+  const Token& source = take();
+  const std::string name = folded(source.text);
+  if (!has_sign && name == "MCPOS")
+    messages_.warn(source.place, "ON MCPOS without a sign is taken for ON +MCPOS");
+  else if (!has_sign)
+    fail(source.place,
+         "ON " + name + ": the sign says in which direction; allowed: ON +" + name + ", ON -" + name);
+  const std::uint32_t kind = name == "APOS" ? 0 : name == "MAPOS" ? 1 : 2;
+  const ExpressionPointer position = argument("ON " + name);
+  if (at_word("SETOUT")) refuse(row_of(Command::kOnPosintSetout), peek().place);
+  const Cell cell = value(*position);
+  expect_word("GOSUB", "behind the position");
+  subprogram_reference(emitter_.emit(place, Operation::kOnPosition, kind * 2 + (negative ? 1 : 0), cell));
+}
+
+void Parser::on_parameter(const Place& place) {
+  const bool by_name = peek().kind == Token::Kind::kName;
+  // Those of the drive count as well, so a number is taken as it is.
+  const ExpressionPointer number = by_name ? parameter("ON PARAM") : drive_parameter("ON PARAM");
+  const Cell cell = value(*number);
+  expect_word("GOSUB", "behind the parameter");
+  subprogram_reference(emitter_.emit(place, Operation::kOnParameter, cell));
+}
+
+// The position is published as without meaning.
+void Parser::on_delete(const Place& place) {
+  argument("ON DELETE");
+  expect_word("GOSUB", "behind ON DELETE and a number");
+  subprogram_reference(emitter_.emit(place, Operation::kOnDelete));
+}
+
+void Parser::disable_statement(Operation operation, const Place& place) {
+  const ExpressionPointer which =
+      word_argument(kClasses, operation == Operation::kDisable ? "DISABLE" : "ENABLE");
+  emitter_.emit(place, operation, static_cast<std::uint32_t>(which->value));
+}
+
+}  // namespace lockstep::aposs

@@ -1,0 +1,57 @@
+#include "scheduler/aposs/frame.hpp"
+
+#include <algorithm>
+
+namespace lockstep::aposs {
+
+int Arrays::fit(std::span<const ArrayDeclaration> wanted) {
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (i < count_) {
+      if (extents_[i].size != wanted[i].size) return 170;
+      continue;
+    }
+    const std::size_t first = i == 0 ? 0 : extents_[i - 1].first + extents_[i - 1].size;
+    if (wanted[i].size == 0 || wanted[i].size > kMostCells - first) return 175;
+    extents_.resize(i);
+    extents_.push_back({static_cast<std::uint32_t>(first), wanted[i].size});
+    cells_.resize(first);
+    cells_.resize(first + wanted[i].size, 0);
+    count_ = i + 1;
+  }
+  return 0;
+}
+
+bool Stack::call(std::uint16_t from) noexcept {
+  if (calls_count_ == calls_.size()) return false;
+  calls_[calls_count_++] = {from, static_cast<std::uint8_t>(loops_count_)};
+  return true;
+}
+
+bool Stack::leave(std::uint16_t& to) noexcept {
+  if (calls_count_ == 0) return false;
+  loops_count_ = loops_of_caller();
+  to = calls_[--calls_count_].instruction;
+  return true;
+}
+
+Stack::Turn Stack::turn(std::uint16_t instruction, std::int32_t count) noexcept {
+  const std::size_t base = loops_of_caller();
+  std::size_t at = loops_count_;
+  while (at > base && loops_[at - 1].instruction != instruction) --at;
+  if (at > base) {
+    loops_count_ = at;  // loops within this one have been left by GOTO
+  } else {
+    if (count <= 0) return Turn::kOver;
+    if (loops_count_ - base == kMostLoops) return Turn::kTooDeep;
+    loops_[loops_count_++] = {instruction, count};
+  }
+  Loop& loop = loops_[loops_count_ - 1];
+  if (loop.remaining == 0) {
+    --loops_count_;
+    return Turn::kOver;
+  }
+  --loop.remaining;
+  return Turn::kAgain;
+}
+
+}  // namespace lockstep::aposs
