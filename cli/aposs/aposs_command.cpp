@@ -9,7 +9,7 @@ namespace lockstep::cli {
 
 void add_compiler_options(CLI::App& command, aposs::CompilerSettings& settings) {
   command
-      .add_option("--max-variables", settings.most_variables,
+      .add_option("--max-variables", settings.maximum_variables,
                   "variables and arrays that a program may have (92)")
       ->check(CLI::Range(1, 20000));
 }

@@ -18,7 +18,7 @@ CompiledProgram compile_program(std::string name, std::string_view text, const R
   Tokens tokens = cut(std::move(name), text, read, messages);
   Parser parser(tokens.list, messages);
   parser.program();
-  Image image = parser.finish(settings.most_variables);
+  Image image = parser.finish(settings.maximum_variables);
   image.files = result.files = std::move(tokens.files);
   result.uses = parser.take_uses();
   if (messages.errors_found() == 0) result.image = std::move(image);

@@ -14,7 +14,7 @@
 namespace lockstep::aposs {
 
 struct CompilerSettings {
-  std::size_t most_variables = 92;  ///< with the arrays, as published
+  std::size_t maximum_variables = 92;  ///< with the arrays, as published
 };
 
 struct CompiledProgram {

@@ -45,7 +45,7 @@ Cell Emitter::variable(const std::string& folded_name, const std::string& name) 
 Cell Emitter::temporary(std::uint32_t count) {
   const Cell cell{Cell::Space::kTemporary, temporaries_};
   temporaries_ += count;
-  most_temporaries_ = std::max(most_temporaries_, temporaries_);
+  maximum_temporaries_ = std::max(maximum_temporaries_, temporaries_);
   return cell;
 }
 
@@ -97,34 +97,34 @@ std::uint32_t Emitter::place_of(const EmittedOperand& operand) const {
     case Cell::Space::kTemporary:
       return variables + operand.cell.index;
     case Cell::Space::kConstant:
-      return variables + most_temporaries_ + operand.cell.index;
+      return variables + maximum_temporaries_ + operand.cell.index;
     case Cell::Space::kNone:
       break;
   }
   return kNoCell;
 }
 
-Image Emitter::finish(Messages& messages, std::size_t arrays, std::size_t most_variables) {
+Image Emitter::finish(Messages& messages, std::size_t arrays, std::size_t maximum_variables) {
   rest_where_nothing_changes();
   Image image;
-  const auto refuse = [&messages](const std::string& what, std::size_t count, std::size_t most) {
-    if (count > most)
-      messages.error(
-          {}, "the program has " + std::to_string(count) + " " + what + "; allowed: " + std::to_string(most));
+  const auto refuse = [&messages](const std::string& what, std::size_t count, std::size_t maximum) {
+    if (count > maximum)
+      messages.error({}, "the program has " + std::to_string(count) + " " + what +
+                             "; allowed: " + std::to_string(maximum));
   };
-  refuse("variables and arrays", names_.size() + arrays, most_variables);
-  refuse("temporaries", most_temporaries_, kMostTemporaries);
-  refuse("internal commands", code_.size(), Image::kMostInstructions);
-  refuse("variables, temporaries and constants", names_.size() + most_temporaries_ + constants_.size(),
-         Image::kMostCells);
-  refuse("texts", texts_.size(), Image::kMostCells);
+  refuse("variables and arrays", names_.size() + arrays, maximum_variables);
+  refuse("temporaries", maximum_temporaries_, kMaximumTemporaries);
+  refuse("internal commands", code_.size(), Image::kMaximumInstructions);
+  refuse("variables, temporaries and constants", names_.size() + maximum_temporaries_ + constants_.size(),
+         Image::kMaximumCells);
+  refuse("texts", texts_.size(), Image::kMaximumCells);
   for (const Emitted& at : code_) {
     const auto operand = [&](std::size_t i) { return static_cast<std::uint16_t>(place_of(at.operands[i])); };
     image.code.push_back({at.operation, operand(0), operand(1), operand(2)});
     image.places.push_back(at.place);
   }
   image.variables = std::move(names_);
-  image.temporaries = static_cast<std::uint16_t>(most_temporaries_);
+  image.temporaries = static_cast<std::uint16_t>(maximum_temporaries_);
   image.constants = std::move(constants_);
   image.texts = std::move(texts_);
   image.prints = std::move(prints_);

@@ -31,7 +31,7 @@ struct EmittedOperand {
 
 class Emitter {
  public:
-  static constexpr std::uint32_t kMostTemporaries = 256;
+  static constexpr std::uint32_t kMaximumTemporaries = 256;
 
   /// @return the number of the instruction
   std::uint32_t emit(const Place& place, Operation operation, EmittedOperand a = std::uint32_t{0},
@@ -57,7 +57,7 @@ class Emitter {
 
   /// Moves everything to its place. What is too much is told.
   /// @param arrays each counts as a variable
-  Image finish(Messages& messages, std::size_t arrays, std::size_t most_variables);
+  Image finish(Messages& messages, std::size_t arrays, std::size_t maximum_variables);
 
  private:
   struct Emitted {
@@ -72,7 +72,7 @@ class Emitter {
   std::vector<Emitted> code_;
   std::map<std::string, std::uint32_t> variables_;
   std::vector<std::string> names_;
-  std::uint32_t temporaries_ = 0, most_temporaries_ = 0;
+  std::uint32_t temporaries_ = 0, maximum_temporaries_ = 0;
   std::vector<std::int32_t> constants_;
   std::map<std::vector<std::int32_t>, std::uint32_t> sequences_;
   std::vector<std::string> texts_;

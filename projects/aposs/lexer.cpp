@@ -8,8 +8,8 @@
 namespace lockstep::aposs {
 namespace {
 
-constexpr std::size_t kMostTokens = 400'000;
-constexpr std::size_t kMostFiles = 64;
+constexpr std::size_t kMaximumTokens = 400'000;
+constexpr std::size_t kMaximumFiles = 64;
 constexpr std::size_t kDeepestInclude = 8;
 
 bool is_letter(char c) noexcept {
@@ -149,8 +149,9 @@ class Cutter {
     const bool glued = !skip_blanks() && !fresh_line_;
     fresh_line_ = false;
     if (done()) return false;
-    if (result_.list.size() >= kMostTokens) {
-      messages_.error(place_, "the program is too long; allowed: " + std::to_string(kMostTokens) + " words");
+    if (result_.list.size() >= kMaximumTokens) {
+      messages_.error(place_,
+                      "the program is too long; allowed: " + std::to_string(kMaximumTokens) + " words");
       at_ = text_.size();
       return false;
     }
@@ -321,9 +322,9 @@ class Cutter {
       return messages_.error(place, "#INCLUDE of " + quote(file) + allowed);
     if (std::find(files_open_.begin(), files_open_.end(), folded(file)) != files_open_.end())
       return messages_.error(place, "#INCLUDE of " + quote(file) + ": the file includes itself");
-    if (depth_ + 1 > kDeepestInclude || result_.files.size() >= kMostFiles)
+    if (depth_ + 1 > kDeepestInclude || result_.files.size() >= kMaximumFiles)
       return messages_.error(place, "#INCLUDE of " + quote(file) +
-                                        ": too many files; allowed: " + std::to_string(kMostFiles) + ", " +
+                                        ": too many files; allowed: " + std::to_string(kMaximumFiles) + ", " +
                                         std::to_string(kDeepestInclude) + " within each other");
     const std::optional<std::string> text = read_ ? read_(file) : std::nullopt;
     if (!text)

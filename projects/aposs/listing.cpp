@@ -129,10 +129,10 @@ class LongestRun {
       stack.pop_back();
       if (mark_[at] == Mark::kDone) continue;
       mark_[at] = Mark::kDone;
-      std::size_t most = 0, called = 0;
-      for (const std::size_t one : followers(image_.code[at], at)) most = std::max(most, known_[one]);
+      std::size_t maximum = 0, called = 0;
+      for (const std::size_t one : followers(image_.code[at], at)) maximum = std::max(maximum, known_[one]);
       if (image_.code[at].operation == Operation::kGosub) called = known_[image_.code[at].a];
-      known_[at] = 1 + most + called;
+      known_[at] = 1 + maximum + called;
     }
     return known_[entry];
   }

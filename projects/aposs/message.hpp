@@ -17,14 +17,14 @@ struct Message {
 /// Collects messages in the order in which they are found; errors are counted on beyond those that are kept.
 class Messages {
  public:
-  static constexpr std::size_t kMostKept = 20;
+  static constexpr std::size_t kMaximumKept = 20;
 
   void error(const Place& place, std::string text) {
     ++errors_found_;
-    if (errors_.size() < kMostKept) errors_.push_back({place, std::move(text)});
+    if (errors_.size() < kMaximumKept) errors_.push_back({place, std::move(text)});
   }
   void warn(const Place& place, std::string text) {
-    if (warnings_.size() < kMostKept) warnings_.push_back({place, std::move(text)});
+    if (warnings_.size() < kMaximumKept) warnings_.push_back({place, std::move(text)});
   }
   std::size_t errors_found() const noexcept { return errors_found_; }
   std::vector<Message> take_errors() noexcept { return std::move(errors_); }

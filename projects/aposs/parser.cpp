@@ -432,8 +432,8 @@ void Parser::look_at_reads() {
                                      nearest_name(read.name, assigned_));
 }
 
-Image Parser::finish(std::size_t most_variables) {
-  Image image = emitter_.finish(messages_, arrays_.size(), most_variables);
+Image Parser::finish(std::size_t maximum_variables) {
+  Image image = emitter_.finish(messages_, arrays_.size(), maximum_variables);
   image.arrays = std::move(arrays_);
   image.routines = std::move(routines_);
   return image;

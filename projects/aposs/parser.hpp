@@ -28,7 +28,7 @@ class Parser {
   Parser(std::span<const Token> tokens, Messages& messages);
 
   void program();
-  Image finish(std::size_t most_variables);
+  Image finish(std::size_t maximum_variables);
   Uses take_uses() { return std::move(uses_); }
 
  private:

@@ -10,7 +10,7 @@ namespace lockstep::aposs {
 namespace {
 
 constexpr std::size_t kDeepest = 64;
-constexpr std::size_t kMostOperators = 1000;
+constexpr std::size_t kMaximumOperators = 1000;
 
 struct BinaryOperator {
   std::string_view sign;
@@ -70,8 +70,8 @@ ExpressionPointer Parser::expression() {
 }
 
 void Parser::count_operator(const Place& place) {
-  if (++operators_ > kMostOperators)
-    fail(place, "the expression is too long; allowed: " + std::to_string(kMostOperators) + " operators");
+  if (++operators_ > kMaximumOperators)
+    fail(place, "the expression is too long; allowed: " + std::to_string(kMaximumOperators) + " operators");
 }
 
 ExpressionPointer Parser::binary(int level) {

@@ -11,7 +11,7 @@ int Arrays::fit(std::span<const ArrayDeclaration> wanted) {
       continue;
     }
     const std::size_t first = i == 0 ? 0 : extents_[i - 1].first + extents_[i - 1].size;
-    if (wanted[i].size == 0 || wanted[i].size > kMostCells - first) return 175;
+    if (wanted[i].size == 0 || wanted[i].size > kMaximumCells - first) return 175;
     extents_.resize(i);
     extents_.push_back({static_cast<std::uint32_t>(first), wanted[i].size});
     cells_.resize(first);
@@ -42,7 +42,7 @@ Stack::Turn Stack::turn(std::uint16_t instruction, std::int32_t count) noexcept 
     loops_count_ = at;  // loops within this one have been left by GOTO
   } else {
     if (count <= 0) return Turn::kOver;
-    if (loops_count_ - base == kMostLoops) return Turn::kTooDeep;
+    if (loops_count_ - base == kMaximumLoops) return Turn::kTooDeep;
     loops_[loops_count_++] = {instruction, count};
   }
   Loop& loop = loops_[loops_count_ - 1];

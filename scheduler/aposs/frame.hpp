@@ -39,7 +39,7 @@ class Arrays {
     return {&cells_[extents_[array].first], extents_[array].size};
   }
 
-  static constexpr std::size_t kMostCells = std::size_t{1} << 22;
+  static constexpr std::size_t kMaximumCells = std::size_t{1} << 22;
 
  private:
   std::vector<std::int32_t> cells_;
@@ -47,8 +47,9 @@ class Arrays {
   std::size_t count_ = 0;
 };
 
-inline constexpr std::size_t kMostCalls = 10;  ///< GOSUB within GOSUB: the next one is error 151
-inline constexpr std::size_t kMostLoops = 10;  ///< LOOP within LOOP of one routine: the next one is error 114
+inline constexpr std::size_t kMaximumCalls = 10;  ///< GOSUB within GOSUB: the next one is error 151
+inline constexpr std::size_t kMaximumLoops =
+    10;  ///< LOOP within LOOP of one routine: the next one is error 114
 
 /// A place to go back to.
 struct Call {
@@ -81,8 +82,8 @@ class Stack {
     return calls_count_ == 0 ? 0 : calls_[calls_count_ - 1].loops;
   }
 
-  std::array<Call, kMostCalls> calls_{};
-  std::array<Loop, kMostLoops*(kMostCalls + 1)> loops_{};
+  std::array<Call, kMaximumCalls> calls_{};
+  std::array<Loop, kMaximumLoops*(kMaximumCalls + 1)> loops_{};
   std::size_t calls_count_ = 0, loops_count_ = 0;
 };
 

@@ -172,7 +172,7 @@ std::size_t PrintList::cells() const noexcept {
 int Image::fault() const noexcept {
   if (version != kVersion) return 196;
   constexpr int kUnknown = 110;
-  if (code.empty() || code.size() > kMostInstructions || cells() > kMostCells) return kUnknown;
+  if (code.empty() || code.size() > kMaximumInstructions || cells() > kMaximumCells) return kUnknown;
   if (places.size() != code.size() || goes_on(code.back().operation)) return kUnknown;
   for (const Instruction& instruction : code)
     if (!sound(*this, instruction) || !sound_arguments(*this, instruction)) return kUnknown;

@@ -143,8 +143,8 @@ struct PrintList {
 /// Cells: variables, then temporaries, then constants.
 struct Image {
   static constexpr std::uint16_t kVersion = 1;
-  static constexpr std::size_t kMostInstructions = 60'000;
-  static constexpr std::size_t kMostCells = 60'000;
+  static constexpr std::size_t kMaximumInstructions = 60'000;
+  static constexpr std::size_t kMaximumCells = 60'000;
 
   std::uint16_t version = kVersion;
   std::vector<Instruction> code;

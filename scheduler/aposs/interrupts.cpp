@@ -29,18 +29,18 @@ std::int64_t shortest(std::int64_t distance, std::int64_t period) noexcept {
 
 bool passed(std::int32_t from, std::int32_t to, std::int32_t at, bool negative,
             std::int64_t period) noexcept {
-  std::int64_t way = shortest(std::int64_t{to} - from, period);
+  std::int64_t distance = shortest(std::int64_t{to} - from, period);
   std::int64_t up_to = std::int64_t{at} - from;
   if (negative) {
-    way = -way;
+    distance = -distance;
     up_to = -up_to;
   }
-  if (way <= 0) return false;
+  if (distance <= 0) return false;
   if (period > 0) {  // the next place of that name ahead
     up_to %= period;
     if (up_to <= 0) up_to += period;
   }
-  return up_to > 0 && up_to <= way;
+  return up_to > 0 && up_to <= distance;
 }
 
 void Interrupts::clear() noexcept {

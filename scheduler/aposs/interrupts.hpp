@@ -28,19 +28,19 @@ inline constexpr std::size_t kInterruptClasses = 8;
 using PositionInterrupt = std::uint16_t;
 inline constexpr std::size_t kPositionInterrupts = 6;
 
-inline constexpr std::size_t kMostInputInterrupts = 32;
-inline constexpr std::size_t kMostBitInterrupts = 32;
-inline constexpr std::size_t kMostPositionInterrupts = 20;
-inline constexpr std::size_t kMostParameterInterrupts = 10;
-inline constexpr std::size_t kMostTimeInterrupts = 12;
+inline constexpr std::size_t kMaximumInputInterrupts = 32;
+inline constexpr std::size_t kMaximumBitInterrupts = 32;
+inline constexpr std::size_t kMaximumPositionInterrupts = 20;
+inline constexpr std::size_t kMaximumParameterInterrupts = 10;
+inline constexpr std::size_t kMaximumTimeInterrupts = 12;
 
 /// A list that never allocates and keeps its order.
-template <class T, std::size_t most>
+template <class T, std::size_t maximum>
 class FixedList {
  public:
   T* begin() noexcept { return items_.data(); }
   T* end() noexcept { return items_.data() + count_; }
-  bool full() const noexcept { return count_ == most; }
+  bool full() const noexcept { return count_ == maximum; }
   void push(const T& item) noexcept { items_[count_++] = item; }
   void clear() noexcept { count_ = 0; }
   void erase(T* at) noexcept {
@@ -49,7 +49,7 @@ class FixedList {
   }
 
  private:
-  std::array<T, most> items_{};
+  std::array<T, maximum> items_{};
   std::size_t count_ = 0;
 };
 
@@ -106,8 +106,8 @@ class Interrupts {
     std::int32_t period = 0;  ///< 0: once
     Entry entry = 0;
   };
-  using Edges = FixedList<Edge, kMostBitInterrupts>;
-  static_assert(kMostInputInterrupts == kMostBitInterrupts);
+  using Edges = FixedList<Edge, kMaximumBitInterrupts>;
+  static_assert(kMaximumInputInterrupts == kMaximumBitInterrupts);
 
   Edges& edges(EdgeSource source) noexcept { return edges_[static_cast<std::size_t>(source)]; }
   void compare_edges(EdgeSource source, InterruptClass which, Device& device) noexcept;
@@ -118,9 +118,9 @@ class Interrupts {
   std::optional<Entry> take_timer(std::int64_t now) noexcept;
 
   std::array<Edges, 3> edges_;
-  FixedList<Position, kMostPositionInterrupts> positions_;
-  FixedList<Parameter, kMostParameterInterrupts> parameters_;
-  FixedList<Timer, kMostTimeInterrupts> timers_;
+  FixedList<Position, kMaximumPositionInterrupts> positions_;
+  FixedList<Parameter, kMaximumParameterInterrupts> parameters_;
+  FixedList<Timer, kMaximumTimeInterrupts> timers_;
   std::array<bool, kInterruptClasses> disabled_{};
 };
 

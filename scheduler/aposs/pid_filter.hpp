@@ -22,16 +22,16 @@ class PidFilter {
   }
   std::int32_t step(std::int32_t deviation) noexcept {
     const auto [proportional, derivative, integral, limit, timer] = coefficients_;
-    const std::int64_t most = limit < 0 ? -std::int64_t{limit} : limit;
+    const std::int64_t maximum = limit < 0 ? -std::int64_t{limit} : limit;
     sum_ += deviation;
-    if (sum_ > most) sum_ = most;
-    if (sum_ < -most) sum_ = -most;
+    if (sum_ > maximum) sum_ = maximum;
+    if (sum_ < -maximum) sum_ = -maximum;
     const Wide value = (Wide{proportional} * deviation +
                         Wide{derivative} * (std::int64_t{deviation} - last_) + Wide{integral} * sum_) /
                        timer;
     last_ = deviation;
-    constexpr Wide kMost = std::numeric_limits<std::int32_t>::max();
-    return static_cast<std::int32_t>(std::clamp<Wide>(value, -kMost - 1, kMost));
+    constexpr Wide kMaximum = std::numeric_limits<std::int32_t>::max();
+    return static_cast<std::int32_t>(std::clamp<Wide>(value, -kMaximum - 1, kMaximum));
   }
 
  private:

@@ -28,7 +28,7 @@ TEST(AposArrays, OfAnotherSizeOrWithoutMemoryAreErrors) {
   ASSERT_EQ(arrays.fit(first), 0);
   const ArrayDeclaration other[] = {{"a", 4}};
   EXPECT_EQ(arrays.fit(other), 170);
-  const ArrayDeclaration large[] = {{"a", 3}, {"b", Arrays::kMostCells}};
+  const ArrayDeclaration large[] = {{"a", 3}, {"b", Arrays::kMaximumCells}};
   EXPECT_EQ(arrays.fit(large), 175);
 }
 
