@@ -161,14 +161,14 @@ class RandomCamming : test::Rig {
     const double slope = bounds_.slope * scale / pass;
     const double curvature = bounds_.curvature * scale / (pass * pass);
     const double distance = in_.MasterStartDistance;
-    const double distance =
+    const double covered =
         360.0 + 100.0 + bounds_.value * scale + 720.0 + 2.0 * distance * (slope + 0.5 * curvature * distance);
     double ratio = slope;
     double own = 0.0;
     if (in_.SyncProfileReference == 0)
       own = in_.Velocity;
     else if (in_.SyncProfileReference != 2 && in_.SyncProfileReference != 5)
-      ratio += 2.5 * distance / distance + curvature * distance;
+      ratio += 2.5 * covered / distance + curvature * distance;
     return 1.01 * (std::abs(velocity_) * ratio + own) + 1e-6;
   }
 
