@@ -31,7 +31,8 @@ constexpr Exception kExceptions[] = {
     {"projects/loader/commands.cpp", "MC_Reset", kPanel},
     {"projects/loader/commands.cpp", "TOF", kPanel},
     {"projects/expressions/names.cpp", "MC_Reset", kMessage},
-    {"projects/loader/project_schema.cpp", "MC_Reset", kMessage},
+    {"projects/keys/drive.hpp", "MC_Power", kMessage},
+    {"projects/keys/project.hpp", "MC_Reset", kMessage},
 };
 
 std::string text_of(const fs::path& path) {
