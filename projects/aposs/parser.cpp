@@ -218,9 +218,10 @@ void Parser::statement() {
     }
   } catch (const Unreadable&) {
     open_.resize(std::min(open_.size(), blocks));
-    skip_line(peek().place);
-    if (peek().place.line == first.place.line && peek().place.file == first.place.file)
-      skip_line(first.place);
+    // What has been read of it may end on a further line; the line behind that is another's.
+    const Place& last = tokens_[at_ > 0 ? at_ - 1 : 0].place;
+    skip_line(last);
+    skip_line(first.place);
   }
   emitter_.release(mark);
 }

@@ -64,7 +64,7 @@ inline AxisPosition advanced(AxisPosition position, double increment, const Modu
 
 /// A place that ways are counted from. It turns along with the positions asked for, a whole turn at a time,
 /// so that a motion has to be brought onto the ring only where it passes the ring's end. Thread: the cycle.
-class WayOrigin {
+class DistanceOrigin {
  public:
   void set(AxisPosition place) noexcept {
     turns_ = place.turns;

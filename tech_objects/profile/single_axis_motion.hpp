@@ -68,7 +68,7 @@ class SingleAxisMotion {
   bool finished_ = true;
   bool exact_target_ = false;  // whether `target_` was given; else it is where the stop ends
   double target_velocity_ = 0.0;
-  WayOrigin origin_;  // where the profile's position is 0
+  DistanceOrigin origin_;  // where the profile's position is 0
   AxisPosition target_;
   double wanted_velocity_ = 0.0;  // before the limit
   ProfileWalk walk_;              // along the profile

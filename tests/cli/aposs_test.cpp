@@ -1,0 +1,123 @@
+// lockstep aposs: through the built program.
+#include <gtest/gtest.h>
+
+#include "tests/cli/command_run.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+const std::string kProgram =
+    "DIM list[3]\n"
+    "ON INT 1 GOSUB pressed\n"
+    "ON ERROR GOSUB fault\n"
+    "list[1] = GET 1900\n"
+    "PRINT \"parameter\", list[1]\n"
+    "WAITI 2 ON\n"
+    "PRINT \"input 2 at\", TIME\n"
+    "OUT 3 1\n"
+    "SUBMAINPROG\n"
+    "SUBPROG pressed\n"
+    " PRINT \"pressed at\", TIME\n"
+    "RETURN\n"
+    "SUBPROG fault\n"
+    " WHILE ERRNO DO\n"
+    "  ERRCLR\n"
+    " ENDWHILE\n"
+    "RETURN\n"
+    "ENDPROG\n";
+
+TEST(Aposs, CheckTellsWhatProgramsNeed) {
+  const Directory folder;
+  const std::string file = folder.write("p.m", kProgram);
+  const Ended ended = lockstep({"aposs", "check", file});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  EXPECT_NE(ended.out.find("  arrays list[3]\n"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("  inputs 1, 2\n"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("  outputs 3\n"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("  parameters 1900\n"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("pressed (at most 3 internal commands), fault (any number of internal commands)"),
+            std::string::npos)
+      << ended.out;
+}
+
+TEST(Aposs, CheckTellsEveryProblemOfEveryFile) {
+  const Directory folder;
+  const std::string good = folder.write("good.m", "x = 1\n");
+  const std::string bad = folder.write("bad.m", "OUT 11\nSET SYNCMPULS 5\n");
+  const Ended ended = lockstep({"aposs", "check", bad, good});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.err.find(bad + ":1:1: OUT 11"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find(bad + ":2:5: 'SYNCMPULS' is no parameter"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.out.find(good + ": 2 internal commands"), std::string::npos) << ended.out;
+  EXPECT_EQ(lockstep({"aposs", "check", folder.file("none.m")}).status, 2);
+}
+
+TEST(Aposs, RunPrintsInVirtualTime) {
+  const Directory folder;
+  const std::string file = folder.write("p.m", kProgram);
+  const Ended ended =
+      lockstep({"aposs", "run", file, "--set", "1900=7", "--in", "2=1.5s:1", "--in", "1=20ms:1"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.out, "parameter 7\npressed at 20\ninput 2 at 1500\n");
+  EXPECT_NE(ended.err.find("outputs that are on: 3"), std::string::npos) << ended.err;
+}
+
+TEST(Aposs, RunSaysPlainlyWhatNeedsAMachine) {
+  const Directory folder;
+  const std::string file = folder.write("p.m", "PRINT \"before\"\nPOSA 1000\nPRINT \"behind\"\n");
+  const Ended ended = lockstep({"aposs", "run", file});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.out, "before\n");
+  EXPECT_NE(ended.err.find(file + ":2:1: POSA needs a machine, and that is not built yet"), std::string::npos)
+      << ended.err;
+}
+
+TEST(Aposs, RunTellsAnErrorWithoutAHandler) {
+  const Directory folder;
+  const std::string file = folder.write("p.m", "DIM a[3]\ni = 9\nx = a[i]\n");
+  const Ended ended = lockstep({"aposs", "run", file});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.err.find(file + ":3:5: error 171: "), std::string::npos) << ended.err;
+}
+
+TEST(Aposs, RunEndsAfterItsDuration) {
+  const Directory folder;
+  const std::string file =
+      folder.write("p.m",
+                   "ON PERIOD 100 GOSUB s\nhere: GOTO here\nSUBMAINPROG\nSUBPROG s\nPRINT TIME\n"
+                   "RETURN\nENDPROG\n");
+  const Ended ended = lockstep({"aposs", "run", file, "--duration", "350ms"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.out, "100\n200\n300\n");
+}
+
+TEST(Aposs, RunRefusesOptionsThatCannotBeRead) {
+  const Directory folder;
+  const std::string file = folder.write("p.m", "x = 1\n");
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--in", "40=1"},
+                                                  {"--in", "1=x:1"},
+                                                  {"--in", "1=1s:2"},
+                                                  {"--set", "1899=1"},
+                                                  {"--set", "1900"},
+                                                  {"--duration", "5"},
+                                                  {"--steps-per-ms", "0"}}) {
+    std::vector<std::string> arguments = {"aposs", "run", file};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(lockstep(arguments).status, 2) << options[1 % options.size()];
+  }
+}
+
+TEST(Aposs, ListShowsSourceAndInternalCommands) {
+  const Directory folder;
+  folder.write("part.m", "y = x * 2\n");
+  const std::string file = folder.write("p.m", "x = 1\n#INCLUDE part.m\n");
+  const Ended ended = lockstep({"aposs", "list", file});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.out.find("1: x = 1\n     0  MOVE x, 1\npart.m:1: y = x * 2\n     1  MUL y, x, 2\n"),
+            std::string::npos)
+      << ended.out;
+}
+
+}  // namespace
+}  // namespace lockstep::cli
