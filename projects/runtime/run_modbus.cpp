@@ -56,7 +56,8 @@ void RunSurroundings::start_modbus() {
   server_ = std::make_unique<ModbusServer>(std::move(services), *image_, identity);
   if (audit_) server_->audit_to(*audit_, modbus_names());
   if (const std::string error = server_->start(); !error.empty()) throw CouldNotStart("Modbus: " + error);
-  for (const Endpoint& endpoint : server_->endpoints()) messages_.inform("Modbus server on " + to_string(endpoint));
+  for (const Endpoint& endpoint : server_->endpoints())
+    messages_.inform("Modbus server on " + to_string(endpoint));
   if (asked) return;
   for (const ModbusServerOptions& server : project_.modbus.servers)
     if (server.serial)
@@ -79,7 +80,8 @@ void RunSurroundings::tell_failures(const ModbusClient& client) const {
   const ModbusClientCounters& counters = client.counters();
   const auto warn = [&](const std::atomic<std::uint64_t>& count, std::string_view text) {
     if (count != 0)
-      messages_.warn(fmt::format("Modbus client of {}: {} {}", client.options().endpoint(), count.load(), text));
+      messages_.warn(
+          fmt::format("Modbus client of {}: {} {}", client.options().endpoint(), count.load(), text));
   };
   warn(counters.unreachable, "attempts to connect failed");
   warn(counters.failed, "requests without a good answer");

@@ -53,8 +53,8 @@ struct SyncTarget {
 
 enum class SyncPlan : std::uint8_t {
   kReady,
-  kAxisMovesInOppositeDirection,  ///< the following axis runs or speeds up against SyncDirection, or so
-                                  ///< nearly does that it would shoot ahead before the end
+  kAxisMovesInOppositeDirection,     ///< the following axis runs or speeds up against SyncDirection, or so
+                                     ///< nearly does that it would shoot ahead before the end
   kFunctionRunsInOppositeDirection,  ///< the synchronous function runs against SyncDirection
 };
 
