@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
     finish_output();
     return status;
   } catch (const OutputFailed& error) {
-    tell(error.what(), Gravity::error);
+    tell(error.what(), Severity::error);
   } catch (const std::exception& error) {
     return tell_failure(error);
   }

@@ -19,20 +19,20 @@ std::optional<aposs::CompiledProgram> compile_or_tell(const std::string& path,
   try {
     aposs::CompiledProgram compiled = aposs::compile_file(path, settings);
     for (const aposs::Message& error : compiled.errors)
-      tell_line(to_string(compiled.files, error), Gravity::error);
+      tell_line(to_string(compiled.files, error), Severity::error);
     if (compiled.errors_found > compiled.errors.size())
       tell_line(path + ": " + std::to_string(compiled.errors_found - compiled.errors.size()) +
                     " further problems are not told",
-                Gravity::error);
+                Severity::error);
     for (aposs::Message warning : compiled.warnings) {
       warning.text = "warning: " + warning.text;
-      tell_line(to_string(compiled.files, warning), Gravity::warning);
+      tell_line(to_string(compiled.files, warning), Severity::warning);
     }
     status = kNotValid;
     if (!compiled.image) return std::nullopt;
     return compiled;
   } catch (const UnreadableFile& error) {
-    tell(error.what(), Gravity::error);
+    tell(error.what(), Severity::error);
     status = kCouldNotStart;
     return std::nullopt;
   }

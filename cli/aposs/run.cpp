@@ -117,12 +117,12 @@ int tell_end(const aposs::CompiledProgram& program, aposs::Machine& machine,
   if (machine.prints().dropped_lines() != 0)
     tell("warning: " + std::to_string(machine.prints().dropped_lines()) +
              " printed lines did not fit and are lost",
-         Gravity::warning);
+         Severity::warning);
   if (machine.counters().divisions_by_zero != 0)
     tell("warning: " + std::to_string(machine.counters().divisions_by_zero) + " divisions by 0 gave 0",
-         Gravity::warning);
+         Severity::warning);
   const auto at = [&program](const aposs::Place& place, const std::string& text) {
-    tell_line(aposs::to_string(program.files, {place, text}), Gravity::error);
+    tell_line(aposs::to_string(program.files, {place, text}), Severity::error);
     return static_cast<int>(kNotValid);
   };
   if (machine.state() == aposs::ProgramState::kRefused)
@@ -144,7 +144,7 @@ int run(const RunOptions& options) {
   aposs::Machine machine(device, arrays);
   for (const auto& [number, value] : options.parameters) device.set_parameter(number, value);
   if (const int error = machine.load(*program->image); error != 0) {
-    tell(options.file + ": " + text_of(error), Gravity::error);
+    tell(options.file + ": " + text_of(error), Severity::error);
     return kNotValid;
   }
   Printer printer(*program->image);

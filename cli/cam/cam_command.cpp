@@ -23,15 +23,15 @@ void add_cam_input(CLI::App& command, CamInput& input) {
 std::optional<CamDefinition> load_cam_or_tell(const CamInput& input, int& status) {
   try {
     LoadedCam loaded = load_cam_file(input.file, input.name, input.large ? kCam10kPoints : kCamPoints);
-    for (const Problem& problem : loaded.problems) tell_line(to_string(input.file, problem), Gravity::error);
+    for (const Problem& problem : loaded.problems) tell_line(to_string(input.file, problem), Severity::error);
     for (Problem warning : loaded.warnings) {
       warning.text = "warning: " + warning.text;
-      tell_line(to_string(input.file, warning), Gravity::warning);
+      tell_line(to_string(input.file, warning), Severity::warning);
     }
     status = kNotValid;
     return std::move(loaded.definition);
   } catch (const UnreadableFile& error) {
-    tell(error.what(), Gravity::error);
+    tell(error.what(), Severity::error);
     status = kCouldNotStart;
     return std::nullopt;
   }

@@ -41,7 +41,7 @@ int with_cam(const CamInput& input, const Work& work) {
   try {
     return work(*definition);
   } catch (const std::runtime_error& error) {
-    tell(error.what(), Gravity::error);
+    tell(error.what(), Severity::error);
     return kCouldNotStart;
   }
 }

@@ -27,7 +27,7 @@ void warn_of_wrap(const CamInput& input, const CamDefinition& definition) {
       tell_line(fmt::format("{}: warning: the cam closes, and {}: passed cyclically, the following axis gets "
                             "a step; \"cyclic\" and \"continuity\" in its checks look for it",
                             input.file, step_text(joint)),
-                Gravity::warning);
+                Severity::warning);
 }
 
 int check(const CamInput& input, bool json, const CamDefinition& definition) {
@@ -44,7 +44,7 @@ int check(const CamInput& input, bool json, const CamDefinition& definition) {
   if (json)
     write_output("", list.dump(2) + "\n");
   else
-    for (const std::string& line : lines) tell_line(line, Gravity::error);
+    for (const std::string& line : lines) tell_line(line, Severity::error);
   return findings.empty() ? kOk : kNotValid;
 }
 

@@ -10,16 +10,16 @@ std::optional<Project> load_or_tell(const std::string& path, int& status, const 
                                     Warnings warnings, LoadedFor use) {
   try {
     LoadedProject loaded = load_project_file(path, prepare, use);
-    for (const Problem& problem : loaded.problems) tell_line(to_string(path, problem), Gravity::error);
+    for (const Problem& problem : loaded.problems) tell_line(to_string(path, problem), Severity::error);
     if (warnings == Warnings::kept) loaded.warnings.clear();
     for (Problem warning : loaded.warnings) {
       warning.text = "warning: " + warning.text;
-      tell_line(to_string(path, warning), Gravity::warning);
+      tell_line(to_string(path, warning), Severity::warning);
     }
     status = kNotValid;
     return std::move(loaded.project);
   } catch (const UnreadableFile& error) {
-    tell(with_help(error.what()), Gravity::error);
+    tell(with_help(error.what()), Severity::error);
     status = kCouldNotStart;
     return std::nullopt;
   }

@@ -52,12 +52,12 @@ std::optional<Project> load_or_tell(const std::string& path, int& status, const 
 void write_message(const std::string& text, int timeout = 500) noexcept;
 
 /// How grave a message is. Where standard error is the journal of systemd, it is told that.
-enum class Gravity : std::uint8_t { error = 3, warning = 4, information = 6 };
+enum class Severity : std::uint8_t { error = 3, warning = 4, information = 6 };
 
 /// Writes one line to standard error: "lockstep: " and the text, which begins with "warning: " for a warning.
 /// Parts of it may come from files and networks: what a terminal would obey is shown as "?".
-void tell(const std::string& text, Gravity gravity = Gravity::information) noexcept;
+void tell(const std::string& text, Severity severity = Severity::information) noexcept;
 /// The same without the name of the program.
-void tell_line(const std::string& text, Gravity gravity) noexcept;
+void tell_line(const std::string& text, Severity severity) noexcept;
 
 }  // namespace lockstep::cli

@@ -95,7 +95,7 @@ std::string with_help(const std::string& text) {
 int tell_failure(const std::exception& error) noexcept {
   const char* const shortage = shortage_of(error);
   if (shortage == nullptr) {
-    tell(std::string("internal fault: ") + error.what(), Gravity::error);
+    tell(std::string("internal fault: ") + error.what(), Severity::error);
     return kStoppedByFault;
   }
   // What the system says of it, such as what could not be opened.

@@ -78,14 +78,14 @@ void write_message(const std::string& text, int timeout) noexcept {
   is_unread = false;
 }
 
-void tell_line(const std::string& text, Gravity gravity) noexcept {
-  const std::string mark = is_journal() ? "<" + std::to_string(static_cast<int>(gravity)) + ">" : "";
+void tell_line(const std::string& text, Severity severity) noexcept {
+  const std::string mark = is_journal() ? "<" + std::to_string(static_cast<int>(severity)) + ">" : "";
   write_message(mark + visible(text) + "\n");
 }
 
-void tell(const std::string& text, Gravity gravity) noexcept {
-  const bool warning = gravity == Gravity::information && text.starts_with("warning: ");
-  tell_line("lockstep: " + text, warning ? Gravity::warning : gravity);
+void tell(const std::string& text, Severity severity) noexcept {
+  const bool warning = severity == Severity::information && text.starts_with("warning: ");
+  tell_line("lockstep: " + text, warning ? Severity::warning : severity);
 }
 
 }  // namespace lockstep::cli

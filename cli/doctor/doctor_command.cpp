@@ -96,7 +96,7 @@ int run_doctor(DoctorOptions options) {
   }
   if (options.cpu >= 0)
     if (const std::string problem = leave_processor(options.cpu); !problem.empty()) {
-      tell("--cpu: " + problem, Gravity::error);
+      tell("--cpu: " + problem, Severity::error);
       return kCouldNotStart;
     }
   const Findings findings = examine(options);

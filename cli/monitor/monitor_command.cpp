@@ -238,7 +238,7 @@ int monitor(const MonitorOptions& options) {
     if (options.once) return show_once(listener);
     return terminal ? show_on_terminal(listener, options) : show_in_pipe(listener);
   } catch (const std::runtime_error& error) {
-    tell(error.what(), Gravity::error);
+    tell(error.what(), Severity::error);
     return kCouldNotStart;
   }
 }

@@ -114,7 +114,7 @@ int plot(const PlotOptions& options) {
     write_file(options.picture, run_gnuplot(plot_script(picture, format)));
     return kOk;
   } catch (const std::runtime_error& error) {
-    tell(error.what(), Gravity::error);
+    tell(error.what(), Severity::error);
     return kCouldNotStart;
   }
 }

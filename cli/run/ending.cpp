@@ -138,10 +138,10 @@ void Ending::take_signal() noexcept {
 
 void Ending::tell_lost() {
   if (stage_ == Stage::starting)
-    return tell("was asked to end while it starts, and something holds that up", Gravity::error);
+    return tell("was asked to end while it starts, and something holds that up", Severity::error);
   tell(stage_ == Stage::running ? "the run does not come to its end: nothing brakes its axes now"
                                 : "the end is not finished in time; it ends without waiting any longer",
-       Gravity::error);
+       Severity::error);
   // Held on to, so that what it asks is not taken apart meanwhile.
   const std::lock_guard lock(mutex_);
   if (!lost_) return;

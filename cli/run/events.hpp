@@ -9,7 +9,7 @@ namespace lockstep::cli {
 void clear_line() noexcept;
 
 /// Tells an alarm or its acknowledgement on standard error; nothing of other events.
-/// @param patience how long the message waits for a reader [ms]
+/// @param timeout how long the message waits for a reader [ms]
 void tell_alarm(const TraceEvent& event, int timeout);
 
 }  // namespace lockstep::cli

@@ -32,13 +32,13 @@ constexpr std::uint64_t kTicksBetweenLooks = 4096;      // of a simulation, at t
 /// Tells on standard error what the run has to say.
 class ToldOnStandardError final : public Messages {
  public:
-  /// @param patience how long an alarm waits for a reader [ms]
+  /// @param timeout how long an alarm waits for a reader [ms]
   explicit ToldOnStandardError(int timeout) : timeout_(timeout) {}
 
   void inform(const std::string& text) noexcept override { tell(text); }
   void warn(const std::string& text) noexcept override {
     clear_line();
-    tell("warning: " + text, Gravity::warning);
+    tell("warning: " + text, Severity::warning);
   }
   void event(const TraceEvent& event) override { tell_alarm(event, timeout_); }
 
@@ -140,7 +140,7 @@ int tell_end(const RealTimeStatus& status, const Controller& controller) {
   tell_moving(controller);
   if (!status.stopped_by_overrun.load()) return kOk;
   tell("stopped: three interpolator cycles in a row were not over in time (clock.overrun is \"stop\")",
-       Gravity::error);
+       Severity::error);
   return kStoppedByFault;
 }
 
@@ -225,9 +225,9 @@ int run_project(const RunOptions& options) {
     return options.simulate ? run_simulated(std::move(*project), std::move(keeper), options, *messages)
                             : run_in_real_time(std::move(*project), std::move(keeper), options, messages);
   } catch (const CouldNotStart& error) {
-    tell(with_help(error.what()), Gravity::error);
+    tell(with_help(error.what()), Severity::error);
   } catch (const RetainFileError& error) {
-    tell(with_help(error.what()), Gravity::error);
+    tell(with_help(error.what()), Severity::error);
     tell(
         "--retain FILE keeps values in another file; --no-retain begins with their init values and keeps "
         "nothing");

@@ -33,7 +33,7 @@ class LcmReceiver {
 
   /// Readable when something waits, for poll().
   int descriptor() const noexcept;
-  /// Takes what waits and hands the messages on; does not wait. @param most datagrams  @return how many
+  /// Takes what waits and hands the messages on; does not wait. @param maximum datagrams  @return how many
   int take(int maximum);
 
   const LcmDatagramCounters& counters() const noexcept { return reassembly_.counters(); }

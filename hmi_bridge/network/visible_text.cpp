@@ -32,7 +32,7 @@ std::size_t character(std::string_view text) {
   return is_character && !is_control(code) ? size : 0;
 }
 
-/// The text, with "?" for what cannot be shown. @param most characters
+/// The text, with "?" for what cannot be shown. @param maximum characters
 std::string shown_up_to(std::string_view text, std::size_t maximum) {
   std::string result;
   for (std::size_t characters = 0; !text.empty(); ++characters) {

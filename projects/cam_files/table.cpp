@@ -127,7 +127,7 @@ class TableReader {
   }
 
   /// Whether a row with commas has one reading alone; if not, that is told with both.
-  /// @param most decimal commas that such a row may have
+  /// @param maximum decimal commas that such a row may have
   bool is_clear(std::span<const Cell> numbers, std::size_t maximum) {
     bool decimal = false;
     for (std::size_t i = 1; i < numbers.size(); ++i) decimal |= may_be_one(numbers[i - 1], numbers[i]);

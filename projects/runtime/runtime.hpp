@@ -76,7 +76,7 @@ class Runtime {
 
   /// Waits until the run has ended: because of `stop`, its duration, or the overrun policy. Not limited as
   /// long as the axes are not at rest. One thread at a time.
-  /// @param patience for what comes after that
+  /// @param timeout for what comes after that
   /// @return false if something does not come to its end (`unfinished`); it may be called again
   bool wait(std::chrono::milliseconds timeout = kPatience);
   /// The same until the axes are at rest, for so long at most, or until `stop`, if that comes first.

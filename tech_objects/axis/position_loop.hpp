@@ -69,7 +69,7 @@ class PositionLoop {
   /// What of a velocity is to reach the drive now, within ±`limit` [u/s].
   double switched_over(double velocity, double limit) noexcept;
 
-  /// @param velocity of the setpoint before the controller [u/s]  @param most MaxVelocity [u/s]
+  /// @param velocity of the setpoint before the controller [u/s]  @param maximum MaxVelocity [u/s]
   static FollowingErrorLevel level_of(double error, double velocity, double maximum,
                                       const TO_Struct_FollowingError& monitoring) noexcept;
 

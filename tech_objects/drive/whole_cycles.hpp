@@ -13,7 +13,7 @@ struct Cycles {
   double part;  // 0 … 1
 };
 
-/// @param most cycles that can be kept; a longer delay counts as that
+/// @param maximum cycles that can be kept; a longer delay counts as that
 inline Cycles cycles_of(double delay, double servo_cycle, std::size_t maximum) noexcept {
   const double cycles = std::clamp(delay / servo_cycle, 0.0, static_cast<double>(maximum));
   const double nearest = std::floor(cycles + 0.5);

@@ -9,8 +9,8 @@ struct FineSetpoint {
   double velocity = 0.0;  // [u/s]
 };
 
-/// @param way between the ticks [u]  @param from_velocity, to_velocity at them [u/s]  @param period of the
-/// interpolator [s] > 0  @param u part of the interpolator cycle, 0 to 1. Any thread.
+/// @param distance between the ticks [u]  @param from_velocity, to_velocity at them [u/s]  @param period of
+/// the interpolator [s] > 0  @param u part of the interpolator cycle, 0 to 1. Any thread.
 inline FineSetpoint fine_setpoint(double distance, double from_velocity, double to_velocity, double period,
                                   double u) noexcept {
   const double a = from_velocity * period;

@@ -150,7 +150,8 @@ bool Synchronizing::stands_at(const Setpoint& own, AxisPosition joint,
          kOnSynchronousValue * following.length;
 }
 
-/// What a profile joins: the cam's tangent, or parabola, in the joint. @param way leading distance covered
+/// What a profile joins: the cam's tangent, or parabola, in the joint. @param distance leading distance
+/// covered
 Setpoint Synchronizing::tangent(const Chain& chain, double distance) const noexcept {
   const double ahead = progress_.direction() * (distance - distance_);
   const double slope = slope_ + curvature_ * ahead;

@@ -89,7 +89,8 @@ double Synchronizing::following_distance(const Chain& chain, const Setpoint& own
 }
 
 /// The motion relative to the function, at the leading velocity at hand, that ends on it at rest.
-/// @param way leading distance that is left  @param ahead way that the axis itself makes until then [u]
+/// @param distance of the leading axis that is left  @param ahead distance that the axis itself makes until
+/// then [u]
 bool Synchronizing::plan_time(const Chain& chain, const Setpoint& own, const Setpoint& leading,
                               double distance, double ahead, Profile& profile) const noexcept {
   // Of a cam it is the parabola that touches it in the synchronous position.
