@@ -1,7 +1,7 @@
-/// The standard functions.
-/// @source IEC 61131-3:2013, 6.6.2.5; TRUNC, ROUND, CEIL and FLOOR as in S7-SCL
+// How calls of the standard functions are typed.
+#include "projects/expressions/functions.hpp"
+
 #include <algorithm>
-#include <array>
 #include <string>
 #include <utility>
 
@@ -9,68 +9,6 @@
 
 namespace lockstep {
 namespace {
-
-enum class Kind {
-  kReal,
-  kOperator,
-  kExtremum,
-  kLimit,
-  kSelect,
-  kMultiplex,
-  kShift,
-  kRounding,
-  kAbsolute,
-  kMove
-};
-
-struct Function {
-  std::string_view name;
-  Kind kind;
-  Operation operation;
-  std::string_view inputs;  ///< their names; the last one ends in a number where more may follow
-  bool more = false;        ///< any number of further inputs
-};
-
-constexpr std::string_view kPair = "IN1,IN2";
-constexpr std::size_t kMaximumInputs = 32;  ///< of functions with any number of them
-
-constexpr std::array kFunctions = {Function{"ABS", Kind::kAbsolute, Operation::kAbsolute, "IN"},
-                                   Function{"SQRT", Kind::kReal, Operation::kSquareRoot, "IN"},
-                                   Function{"LN", Kind::kReal, Operation::kNaturalLog, "IN"},
-                                   Function{"LOG", Kind::kReal, Operation::kDecimalLog, "IN"},
-                                   Function{"EXP", Kind::kReal, Operation::kExponential, "IN"},
-                                   Function{"SIN", Kind::kReal, Operation::kSine, "IN"},
-                                   Function{"COS", Kind::kReal, Operation::kCosine, "IN"},
-                                   Function{"TAN", Kind::kReal, Operation::kTangent, "IN"},
-                                   Function{"ASIN", Kind::kReal, Operation::kArcSine, "IN"},
-                                   Function{"ACOS", Kind::kReal, Operation::kArcCosine, "IN"},
-                                   Function{"ATAN", Kind::kReal, Operation::kArcTangent, "IN"},
-                                   Function{"ATAN2", Kind::kReal, Operation::kAtan2, "Y,X"},
-                                   Function{"EXPT", Kind::kReal, Operation::kPower, kPair},
-                                   Function{"MIN", Kind::kExtremum, Operation::kMinimum, kPair, true},
-                                   Function{"MAX", Kind::kExtremum, Operation::kMaximum, kPair, true},
-                                   Function{"LIMIT", Kind::kLimit, Operation::kMinimum, "MN,IN,MX"},
-                                   Function{"SEL", Kind::kSelect, Operation::kAnd, "G,IN0,IN1"},
-                                   Function{"MUX", Kind::kMultiplex, Operation::kAnd, "K,IN0,IN1", true},
-                                   Function{"TRUNC", Kind::kRounding, Operation::kTruncate, "IN"},
-                                   Function{"ROUND", Kind::kRounding, Operation::kRound, "IN"},
-                                   Function{"CEIL", Kind::kRounding, Operation::kCeiling, "IN"},
-                                   Function{"FLOOR", Kind::kRounding, Operation::kFloor, "IN"},
-                                   Function{"SHL", Kind::kShift, Operation::kShiftLeft, "IN,N"},
-                                   Function{"SHR", Kind::kShift, Operation::kShiftRight, "IN,N"},
-                                   Function{"ROL", Kind::kShift, Operation::kRotateLeft, "IN,N"},
-                                   Function{"ROR", Kind::kShift, Operation::kRotateRight, "IN,N"},
-                                   Function{"ADD", Kind::kOperator, Operation::kAdd, kPair, true},
-                                   Function{"MUL", Kind::kOperator, Operation::kMultiply, kPair, true},
-                                   Function{"SUB", Kind::kOperator, Operation::kSubtract, kPair},
-                                   Function{"DIV", Kind::kOperator, Operation::kDivide, kPair},
-                                   Function{"GT", Kind::kOperator, Operation::kGreater, kPair},
-                                   Function{"GE", Kind::kOperator, Operation::kGreaterEqual, kPair},
-                                   Function{"EQ", Kind::kOperator, Operation::kEqual, kPair},
-                                   Function{"LE", Kind::kOperator, Operation::kLessEqual, kPair},
-                                   Function{"LT", Kind::kOperator, Operation::kLess, kPair},
-                                   Function{"NE", Kind::kOperator, Operation::kUnequal, kPair},
-                                   Function{"MOVE", Kind::kMove, Operation::kAdd, "IN"}};
 
 std::vector<std::string_view> split(std::string_view list) {
   std::vector<std::string_view> parts;
@@ -82,13 +20,28 @@ std::vector<std::string_view> split(std::string_view list) {
   return parts;
 }
 
-/// The types of a conversion's name, "TO_INT" or "REAL_TO_INT".
-struct Conversion {
-  std::optional<Type> from;
-  Type to;
-};
+std::string unknown_function(std::string_view name) {
+  std::string message = "the function " + quoted(name) + " is unknown; there are";
+  for (const StandardFunction& function : standard_functions()) message += " " + std::string(function.name);
+  return message + ", TO_type and type_TO_type";
+}
 
-std::optional<Conversion> conversion_named(std::string_view name) {
+}  // namespace
+
+const StandardFunction* find_function(std::string_view name) noexcept {
+  const auto functions = standard_functions();
+  const auto found = std::ranges::find(functions, name, &StandardFunction::name);
+  return found == functions.end() ? nullptr : &*found;
+}
+
+std::string signature(const StandardFunction& function) {
+  std::string text = std::string(function.name) + "(";
+  for (const std::string_view input : split(function.inputs))
+    text += (text.ends_with('(') ? "" : ", ") + std::string(input);
+  return text + (function.more ? ", …)" : ")");
+}
+
+std::optional<Conversion> conversion_named(std::string_view name) noexcept {
   const bool any = name.starts_with("TO_");
   const std::size_t middle = any ? 0 : name.find("_TO_");
   if (middle == std::string_view::npos) return std::nullopt;
@@ -97,14 +50,6 @@ std::optional<Conversion> conversion_named(std::string_view name) {
   if (!to || (!any && !from)) return std::nullopt;
   return Conversion{any ? std::nullopt : from, *to};
 }
-
-std::string unknown_function(std::string_view name) {
-  std::string message = "the function " + quoted(name) + " is unknown; there are";
-  for (const Function& function : kFunctions) message += " " + std::string(function.name);
-  return message + ", TO_type and type_TO_type";
-}
-
-}  // namespace
 
 /// Types the inputs in the order of the declaration; none, with an error, if they do not match it.
 std::optional<std::vector<Term>> Typing::inputs_in_order(const Syntax& syntax, std::string_view names,
@@ -148,8 +93,8 @@ Term Typing::call(const Syntax& syntax) {
     return inputs ? conversion(syntax, std::move(inputs->front()), found->from, found->to)
                   : faulty(syntax.column);
   }
-  const auto function = std::ranges::find(kFunctions, syntax.text, &Function::name);
-  if (function == kFunctions.end()) {
+  const StandardFunction* const function = find_function(syntax.text);
+  if (function == nullptr) {
     settling_.error(syntax.column, unknown_function(syntax.text));
     return faulty(syntax.column);
   }
@@ -158,28 +103,28 @@ Term Typing::call(const Syntax& syntax) {
   std::vector<Term>& inputs = *found;
   const int column = syntax.column;
   switch (function->kind) {
-    case Kind::kReal:
+    case FunctionKind::real:
       return real_operation(function->operation, syntax.text, column, std::move(inputs));
-    case Kind::kExtremum:
+    case FunctionKind::extremum:
       return extremum(function->operation, syntax, std::move(inputs));
-    case Kind::kLimit: {
+    case FunctionKind::limit: {
       // MIN(MAX(IN, MN), MX): with MN > MX the upper limit holds.
       std::vector<Term> ordered;
       for (const std::size_t i : {1u, 0u, 2u}) ordered.push_back(std::move(inputs[i]));
       return extremum(Operation::kMinimum, syntax, std::move(ordered));
     }
-    case Kind::kSelect:
-    case Kind::kMultiplex:
-      return choice(syntax, std::move(inputs), function->kind == Kind::kSelect);
-    case Kind::kShift:
+    case FunctionKind::select:
+    case FunctionKind::multiplex:
+      return choice(syntax, std::move(inputs), function->kind == FunctionKind::select);
+    case FunctionKind::shift:
       return shift(function->operation, syntax, std::move(inputs));
-    case Kind::kRounding:
+    case FunctionKind::rounding:
       return rounding(function->operation, syntax, std::move(inputs.front()));
-    case Kind::kMove:
+    case FunctionKind::move:
       return std::move(inputs.front());
-    case Kind::kAbsolute:
+    case FunctionKind::absolute:
       return absolute(syntax, std::move(inputs));
-    case Kind::kOperator:
+    case FunctionKind::arithmetic:
       break;
   }
   Term result = std::move(inputs.front());

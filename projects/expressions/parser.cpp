@@ -1,31 +1,19 @@
 #include "projects/expressions/parser.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "projects/expressions/lexer.hpp"
+#include "projects/expressions/operators.hpp"
 
 namespace lockstep {
 namespace {
 
-struct BinaryOperator {
-  std::string_view text;
-  int strength;
-  Operation operation;
-};
-
-constexpr std::array kBinaryOperators = {
-    BinaryOperator{"OR", 1, Operation::kOr},        BinaryOperator{"XOR", 2, Operation::kXor},
-    BinaryOperator{"AND", 3, Operation::kAnd},      BinaryOperator{"&", 3, Operation::kAnd},
-    BinaryOperator{"=", 4, Operation::kEqual},      BinaryOperator{"<>", 4, Operation::kUnequal},
-    BinaryOperator{"<", 5, Operation::kLess},       BinaryOperator{">", 5, Operation::kGreater},
-    BinaryOperator{"<=", 5, Operation::kLessEqual}, BinaryOperator{">=", 5, Operation::kGreaterEqual},
-    BinaryOperator{"+", 6, Operation::kAdd},        BinaryOperator{"-", 6, Operation::kSubtract},
-    BinaryOperator{"*", 7, Operation::kMultiply},   BinaryOperator{"/", 7, Operation::kDivide},
-    BinaryOperator{"MOD", 7, Operation::kModulo},   BinaryOperator{"**", 8, Operation::kPower}};
-
-constexpr std::array<std::string_view, 5> kReserved = {"AND", "OR", "XOR", "MOD", "NOT"};
+/// Whether a name is an operator, and so no value.
+bool is_reserved(std::string_view word) {
+  return std::ranges::any_of(expression_operators(),
+                             [&](const ExpressionOperator& one) { return one.text == word; });
+}
 
 class Parser {
  public:
@@ -86,16 +74,18 @@ class Parser {
     advance();
   }
 
-  const BinaryOperator* binary_operator() const {
-    for (const BinaryOperator& candidate : kBinaryOperators)
-      if (at(candidate.text) || at_keyword(candidate.text)) return &candidate;
+  /// The operator with so many operands that the token is.
+  const ExpressionOperator* operator_here(int operands) const {
+    for (const ExpressionOperator& candidate : expression_operators())
+      if (candidate.operands == operands && (at(candidate.text) || at_keyword(candidate.text)))
+        return &candidate;
     return nullptr;
   }
 
   Syntax binary(int weakest) {
     Syntax left = unary();
-    for (const BinaryOperator* found = binary_operator(); found != nullptr && found->strength >= weakest;
-         found = binary_operator()) {
+    for (const ExpressionOperator* found = operator_here(2); found != nullptr && found->strength >= weakest;
+         found = operator_here(2)) {
       Syntax node;
       node.kind = Syntax::Kind::kOperator;
       node.column = token_.column;
@@ -118,15 +108,14 @@ class Parser {
   }
 
   Syntax unary() {
-    const bool plus = at("+");  // an addition of one operand: gives the operand
-    const bool minus = at("-");
-    if (!plus && !minus && !at_keyword("NOT")) return primary();
+    const ExpressionOperator* const found = operator_here(1);
+    if (found == nullptr) return primary();
     const Level level(*this);
     Syntax node;
     node.kind = Syntax::Kind::kOperator;
     node.column = token_.column;
-    node.text = plus ? "+" : minus ? "-" : "NOT";
-    node.operation = plus ? Operation::kAdd : minus ? Operation::kNegate : Operation::kNot;
+    node.text = found->text;
+    node.operation = found->operation;
     advance();
     node.operands.push_back(unary());
     measure(node);
@@ -173,8 +162,7 @@ class Parser {
 
   Syntax named(Syntax node) {
     node.text = token_.text;
-    for (const std::string_view word : kReserved)
-      if (at_keyword(word)) throw unexpected("a value");
+    if (is_reserved(upper_case(token_.text))) throw unexpected("a value");
     advance();
     if (at("(")) return call(std::move(node));
     node.kind = Syntax::Kind::kReference;

@@ -7,32 +7,12 @@
 
 #include "tests/scenarios/csv_table.hpp"
 #include "tests/scenarios/modbus_client.hpp"
+#include "tests/support/marked_blocks.hpp"
 
 namespace lockstep::test {
 namespace {
 
 const std::string kSource = LOCKSTEP_SOURCE_DIR "/";
-
-/// A fenced block of the README with the mark before it: `<!-- tested: MARK -->`.
-struct Block {
-  std::string mark;
-  std::string text;
-};
-
-std::vector<Block> marked_blocks(const std::string& document) {
-  std::vector<Block> blocks;
-  std::istringstream lines(document);
-  const std::string begin = "<!-- tested: ";
-  for (std::string line; std::getline(lines, line);) {
-    if (line.rfind(begin, 0) != 0) continue;
-    Block block{line.substr(begin.size(), line.find(" -->") - begin.size()), ""};
-    std::getline(lines, line);
-    EXPECT_EQ(line.rfind("```", 0), 0u) << "no block after the mark " << block.mark;
-    while (std::getline(lines, line) && line != "```") block.text += line + "\n";
-    blocks.push_back(block);
-  }
-  return blocks;
-}
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
