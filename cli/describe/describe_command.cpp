@@ -22,6 +22,9 @@ constexpr Topic kTopics[] = {
     {"override", "what a new job does to those that run; describe override MC_GearInPos", &overrides_subject},
     {"keys", "keys of the project file; describe keys technology_objects.drive",
      [] { return keys_subject(""); }},
+    {"functions", "standard functions of expressions; describe SEL, TO_INT: one of them", &functions_subject},
+    {"operators", "operators of expressions; describe MOD: one of them", &operators_subject},
+    {"types", "types and literals; describe LREAL: one of them", &types_subject},
 };
 
 std::string overview_text(std::size_t width) {
@@ -130,6 +133,7 @@ std::string unknown(std::string_view word) {
   for (const BlockType& type : block_types()) names.push_back(type.name);
   for (const ObjectKindText& object : kObjectKinds) names.emplace_back(object.name);
   for (const Topic& topic : kTopics) names.push_back(topic.name);
+  for (const std::string_view name : language_names()) names.push_back(name);
   return "there is nothing called " + quote(word) + did_you_mean(word, names) +
          "; lockstep describe lists what there is";
 }
@@ -152,6 +156,17 @@ Subject overview() {
   return {&overview_text, &overview_json};
 }
 
+std::vector<std::string> describable_names() {
+  std::vector<std::string> names;
+  for (const Topic& topic : kTopics) names.emplace_back(topic.name);
+  for (const BlockType& type : block_types()) names.emplace_back(type.name);
+  for (const ObjectKindText& object : kObjectKinds) names.emplace_back(object.name);
+  for (const std::string_view name : language_names())
+    if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == name.npos)
+      names.emplace_back(name);
+  return names;
+}
+
 Subject find_subject(const std::vector<std::string>& words, std::string& problem) {
   if (words.empty()) return overview();
   const std::string& word = words.front();
@@ -172,6 +187,7 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
   bool hexadecimal = false;
   if (const auto number = number_of(word, hexadecimal))
     return find_number(word, hexadecimal, *number, problem);
+  if (Subject subject = language_subject(word)) return subject;
   if (Subject subject = find_block(word, problem)) return subject;
   if (problem.empty())
     if (Subject subject = find_object(word, problem)) return subject;
@@ -181,7 +197,7 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
 
 void add_describe_command(CLI::App& app, Action& action) {
   CLI::App* command =
-      app.add_subcommand("describe", "Tell about function blocks, technology objects, alarms");
+      app.add_subcommand("describe", "Tell about function blocks, technology objects, alarms, functions");
   auto words = std::make_shared<std::vector<std::string>>();
   auto json = std::make_shared<bool>(false);
   command->add_option("NAME", *words, "what to tell about; without it: a list of what there is")
@@ -197,6 +213,8 @@ void add_describe_command(CLI::App& app, Action& action) {
       "  16#8026, errors                          an ErrorID, all of them\n"
       "  override MC_GearInPos                    what such a job does to those that run\n"
       "  keys, keys technology_objects.drive      keys of the project file\n"
+      "  functions, operators, types              those of expressions\n"
+      "  SEL, TO_INT, MOD, LREAL                  one of them\n"
       "Exit status: 0, or 1 if there is nothing of that name");
   command->callback([&action, words, json] { action = [words, json] { return describe(*words, *json); }; });
 }

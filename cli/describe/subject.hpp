@@ -24,6 +24,8 @@ struct Subject {
 
 /// What there is to describe.
 Subject overview();
+/// Names that people ask for: topics, blocks, objects, functions, operators in words, types.
+std::vector<std::string> describable_names();
 
 /// A function block, or one pin of it. @param pin nullptr: all
 Subject block_subject(const BlockType& type, const Pin* pin);
@@ -53,6 +55,16 @@ std::vector<std::string_view> override_names();
 Subject keys_subject(std::string_view path);
 /// Paths of all structures and keys, for suggestions.
 std::vector<std::string> key_paths();
+
+/// The standard functions, operators and types of expressions.
+Subject functions_subject();
+Subject operators_subject();
+Subject types_subject();
+/// A function, a conversion (`TO_INT`), an operator or a type, without regard to case.
+/// @return an empty subject if the word is none of them
+Subject language_subject(std::string_view word);
+/// Their names, for suggestions.
+std::vector<std::string_view> language_names();
 
 /// The subject that the words of the command line name; an empty one if they name none.
 /// @param problem then gets what is wrong, with a suggestion

@@ -1,0 +1,67 @@
+// lockstep describe of functions, operators and types against the tables of the compiler.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "projects/expressions/functions.hpp"
+#include "projects/expressions/operators.hpp"
+#include "projects/expressions/type_table.hpp"
+#include "tests/cli/command_run.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+using nlohmann::json;
+
+json described(const std::string& name) {
+  const Ended ended = lockstep({"describe", name, "--json"});
+  EXPECT_EQ(ended.status, 0) << name << ": " << ended.err;
+  return json::parse(ended.out, nullptr, false);
+}
+
+TEST(DescribeLanguage, ListsEachFunctionOperatorAndType) {
+  EXPECT_EQ(described("functions")["functions"].size(), standard_functions().size());
+  EXPECT_EQ(described("operators")["operators"].size(), expression_operators().size());
+  EXPECT_EQ(described("types")["types"].size(), elementary_types().size());
+  const std::string functions = lockstep({"describe", "functions"}).out;
+  for (const StandardFunction& function : standard_functions())
+    EXPECT_NE(functions.find("\n" + signature(function)), std::string::npos) << function.name;
+  const std::string types = lockstep({"describe", "types"}).out;
+  for (const TypeText& type : elementary_types())
+    EXPECT_NE(types.find("\n" + std::string(type_name(type.type)) + " "), std::string::npos);
+}
+
+TEST(DescribeLanguage, TellsOfAFunctionItsInputsItsEdgesAndItsExamples) {
+  const json shown = described("limit");
+  EXPECT_EQ(shown["name"], "LIMIT");
+  EXPECT_EQ(shown["signature"], "LIMIT(MN, IN, MX)");
+  EXPECT_EQ(shown["edges"], "with MN above MX the result is MX; with a NaN among them NaN");
+  EXPECT_EQ(shown["examples"][2]["expression"], "LIMIT(10, 5, 0)");
+  EXPECT_EQ(shown["examples"][2]["result"], "0");
+  const std::string text = lockstep({"describe", "LIMIT"}).out;
+  for (const char* part : {"LIMIT(MN, IN, MX)\n", "Takes", "Edges", "LIMIT(10, 5, 0)"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST(DescribeLanguage, TellsOfEachTypeConversionAndOperator) {
+  EXPECT_EQ(described("usint")["range"], "0 to 255");
+  EXPECT_EQ(described("USINT")["widens_to"][0], "INT");
+  for (const TypeText& type : elementary_types())
+    EXPECT_EQ(described(std::string(type_name(type.type)))["text"], type.meaning);
+  const json minus = described("-")["operators"];
+  ASSERT_EQ(minus.size(), 2u) << "before its operand, and between two";
+  EXPECT_EQ(minus[0]["operands"], 1);
+  EXPECT_EQ(described("mod")["operators"][0]["name"], "MOD");
+  EXPECT_EQ(described("to_int")["name"], "TO_INT");
+  EXPECT_EQ(described("REAL_TO_INT")["text"], "a value of REAL as one of INT");
+}
+
+TEST(DescribeLanguage, SuggestsTheNearestName) {
+  const Ended ended = lockstep({"describe", "LIMITS"});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.err.find("did you mean 'LIMIT'?"), std::string::npos) << ended.err;
+  EXPECT_EQ(lockstep({"describe", "REAL_TO_WORD"}).status, 1) << "there is no such conversion";
+}
+
+}  // namespace
+}  // namespace lockstep::cli
