@@ -139,6 +139,7 @@ inline constexpr auto kAudit = key_table<AuditOptions>(
 inline constexpr int kVersions[] = {1};
 inline constexpr auto kProject = key_table<void>(
     key::one_of("lockstep", kVersions, "version of the format").needed(),
+    key::text("$schema", "for editors: where the schema of the file stands"),
     key::title("name", "name of the project").needed(), key::text("description", "what the project does"),
     key::structure("clock", kClock, "when things run").needed(),
     key::variants("technology_objects", kObjects, "name: technology object").named(),
