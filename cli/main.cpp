@@ -45,6 +45,7 @@ int carry_out(int argc, char** argv) {
   add_cam_command(app, action);
   add_doctor_command(app, action);
   add_aposs_command(app, action);
+  add_completion_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

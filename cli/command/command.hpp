@@ -36,6 +36,8 @@ void add_plot_command(CLI::App& app, Action& action);
 void add_monitor_command(CLI::App& app, Action& action);
 void add_cam_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);
+/// Behind all others, whose declarations it reads when it is carried out.
+void add_completion_command(CLI::App& app, Action& action);
 
 /// Whether warnings of a project are told: not by commands that use it and do not judge it.
 enum class Warnings : std::uint8_t { told, kept };

@@ -1,0 +1,124 @@
+// lockstep completion: the scripts, carried out by the shells for which they are.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+
+#include "fb/block.hpp"
+#include "tests/cli/command_run.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+/// The script of a shell, in a file.
+std::string script(const Directory& folder, const std::string& shell) {
+  const Ended ended = lockstep({"completion", shell});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  folder.write(shell, ended.out);
+  return folder.file(shell);
+}
+
+/// What a bash offers for a line whose last word is being written.
+std::set<std::string> offered(const std::string& line) {
+  const Directory folder;
+  std::string words;
+  int count = 0;
+  std::istringstream list(line);
+  for (std::string word; list >> word; ++count) words += " '" + word + "'";
+  if (line.ends_with(' ')) {
+    words += " ''";
+    ++count;
+  }
+  const Ended ended =
+      run({"bash", "-c",
+           "cd '" + folder.file("") + "' && touch machine.json && . '" + script(folder, "bash") +
+               "' && COMP_WORDS=(" + words + ") && COMP_CWORD=" + std::to_string(count - 1) +
+               " && _lockstep && printf '%s\\n' \"${COMPREPLY[@]}\""});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  std::set<std::string> result;
+  std::istringstream lines(ended.out);
+  for (std::string one; std::getline(lines, one);) result.insert(one);
+  return result;
+}
+
+TEST(Completion, OfBashOffersEachCommand) {
+  const std::set<std::string> commands = offered("lockstep ");
+  for (const char* command : {"check", "run", "describe", "tags", "read", "write", "plot", "monitor", "cam",
+                              "doctor", "aposs", "completion"})
+    EXPECT_TRUE(commands.contains(command)) << command;
+  EXPECT_EQ(offered("lockstep che"), std::set<std::string>{"check"});
+  EXPECT_TRUE(offered("lockstep --v").contains("--version"));
+}
+
+/// Each option that `--help` tells is offered, of every command.
+TEST(Completion, OfBashOffersEachOption) {
+  for (const std::string command : {"run", "plot", "doctor", "read", "cam convert", "aposs run"}) {
+    std::vector<std::string> words;
+    std::istringstream parts(command);
+    for (std::string part; parts >> part;) words.push_back(part);
+    words.emplace_back("--help");
+    std::istringstream help(lockstep(words).out);
+    const std::set<std::string> options = offered("lockstep " + command + " --");
+    std::size_t told = 0;
+    for (std::string line; std::getline(help, line);) {
+      const std::size_t begin = line.find("--");
+      if (line.rfind("  -", 0) != 0 || begin == line.npos) continue;
+      const std::string option = line.substr(begin, line.find_first_of(" ,=:", begin) - begin);
+      EXPECT_TRUE(options.contains(option)) << command << " " << option;
+      ++told;
+    }
+    EXPECT_GT(told, 1u) << command;
+  }
+}
+
+TEST(Completion, OfBashOffersValuesFilesAndNames) {
+  EXPECT_EQ(offered("lockstep cam convert --as d"), (std::set<std::string>{"design", "data"}));
+  EXPECT_EQ(offered("lockstep check m"), std::set<std::string>{"machine.json"});
+  EXPECT_EQ(offered("lockstep run machine.json --trace m"), std::set<std::string>{"machine.json"});
+  EXPECT_EQ(offered("lockstep completion f"), std::set<std::string>{"fish"});
+  EXPECT_TRUE(offered("lockstep cam ").contains("info"));
+  EXPECT_EQ(offered("lockstep describe MC_GearInP"), std::set<std::string>{"MC_GearInPos"});
+  const std::set<std::string> names = offered("lockstep describe ");
+  for (const BlockType& type : block_types())
+    EXPECT_TRUE(names.contains(std::string(type.name))) << type.name;
+  EXPECT_TRUE(names.contains("SEL"));
+}
+
+TEST(Completion, OfTheOtherShellsIsReadByThem) {
+  const Directory folder;
+  const Ended zsh = run({"zsh", "-n", script(folder, "zsh")});
+  EXPECT_EQ(zsh.status, 0) << zsh.err;
+  const Ended fish = run({"fish", "--no-execute", script(folder, "fish")});
+  EXPECT_EQ(fish.status, 0) << fish.err;
+}
+
+/// Of fish, which can be asked from outside.
+TEST(Completion, OfFishOffersCommandsOptionsAndValues) {
+  const Directory folder;
+  const auto offered_by_fish = [&](const std::string& line) {
+    return run({"env", "HOME=" + folder.file(""), "fish", "--no-config", "-c",
+                "source '" + script(folder, "fish") + "'; complete -C '" + line + "'"})
+        .out;
+  };
+  EXPECT_EQ(offered_by_fish("lockstep che").rfind("check\t", 0), 0u) << offered_by_fish("lockstep che");
+  EXPECT_NE(offered_by_fish("lockstep run --tr").find("--trace\t"), std::string::npos);
+  EXPECT_NE(offered_by_fish("lockstep cam in").find("info\t"), std::string::npos);
+  EXPECT_NE(offered_by_fish("lockstep cam convert --as des").find("design"), std::string::npos);
+  EXPECT_NE(offered_by_fish("lockstep describe MC_GearInP").find("MC_GearInPos"), std::string::npos);
+}
+
+TEST(Completion, OfZshHasEachCommandAndItsOptions) {
+  const std::string text = lockstep({"completion", "zsh"}).out;
+  EXPECT_EQ(text.rfind("#compdef lockstep\n", 0), 0u);
+  for (const char* part :
+       {"_lockstep_run() {", "_lockstep_cam_info() {", "'--trace[", "(design data points)"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST(Completion, OfAShellThatIsNotKnownIsRefused) {
+  EXPECT_EQ(lockstep({"completion", "tcsh"}).status, 2);
+  EXPECT_EQ(lockstep({"completion"}).status, 2);
+}
+
+}  // namespace
+}  // namespace lockstep::cli
