@@ -51,6 +51,8 @@ SIGINT and SIGTERM end a run: programs stop, the axes are brought to rest within
 nothing.
 .SH SEE ALSO
 .BR lockstep\-project (5),
+.BR lockstep\-language (7),
+.BR lockstep\-blocks (7),
 .BR systemctl (1)
 TAIL
 mv "$output.new" "$output"

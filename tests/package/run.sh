@@ -42,7 +42,9 @@ rehearse postrm purge >/dev/null
 [[ -d $work/stage/etc/lockstep/press ]] || fail "a purge takes projects along"
 
 echo "what is in it"
-for path in bin/lockstep share/man/man1/lockstep.1.gz share/man/man5/lockstep-project.5.gz \
+for path in bin/lockstep share/man/man1/lockstep.1.gz share/man/man5/lockstep-project.5.gz share/man/man7/lockstep-language.7.gz \
+  share/man/man7/lockstep-blocks.7.gz share/bash-completion/completions/lockstep share/zsh/vendor-completions/_lockstep \
+  share/fish/vendor_completions.d/lockstep.fish share/lockstep/LANGUAGE.md share/lockstep/FUNCTIONS.md share/lockstep/KEYS.md \
   lib/systemd/system/lockstep@.service include/lockstep/projects/loader/simulation.hpp \
   share/lockstep/project.schema.json share/lockstep/projects/02_rotary_knife/project.json \
   share/doc/lockstep/lockstep.spdx.json share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md share/doc/lockstep/AUDIT.md \
@@ -57,24 +59,61 @@ done
 echo "its program runs"
 lockstep=$work/root/usr/bin/lockstep
 "$lockstep" check "$work/root/usr/share/lockstep/projects/02_rotary_knife/project.json"
+version=$(sed -n 's/^project(lockstep VERSION \([0-9.]*\).*/\1/p' "$sources/CMakeLists.txt")
+[[ $("$lockstep" --version) == "lockstep $version" ]] || fail "it is $("$lockstep" --version), not $version"
+[[ $(dpkg-deb -f "$package" Version) == "$version" ]] || fail "the package has another version"
+
+echo "the first motion that README tells, with what is in the package"
+mkdir -p "$work/first"
+{
+  printf 'set -e\ncd "%s"\napt() { :; }\nlockstep() { "%s" "$@"; }\n' "$work/first" "$lockstep"
+  sed -n '/^## See it run/,/^## Your first/p' "$sources/README.md" | sed -n '/^```sh$/,/^```$/{/^```/d;p}' |
+    sed "s|/usr/share/lockstep|$work/root/usr/share/lockstep|g"
+} >"$work/first.sh"
+grep -q -- --simulate "$work/first.sh" || fail "README tells no first motion"
+begin=$SECONDS
+bash "$work/first.sh" >"$work/first.log" 2>&1 || fail "the first motion: $(cat "$work/first.log")"
+((SECONDS - begin < 120)) || fail "it takes $((SECONDS - begin)) s"
+[[ -s $work/first/motion.csv && -s $work/first/motion.svg ]] || fail "no trace or no picture of it"
+
+echo "shells find what completes its command line"
+bash -c '. "$1"; complete -p lockstep' sh "$work/root/usr/share/bash-completion/completions/lockstep" >/dev/null ||
+  fail "bash gets no completion"
+cmp <("$lockstep" completion fish) "$work/root/usr/share/fish/vendor_completions.d/lockstep.fish" || fail "that of fish is not its own"
+cmp <("$lockstep" completion zsh) "$work/root/usr/share/zsh/vendor-completions/_lockstep" || fail "that of zsh is not its own"
 
 echo "its man pages are well formed and complete"
 gunzip -k "$work/root/usr/share/man"/man?/lockstep*.gz
-for page in man1/lockstep.1 man5/lockstep-project.5; do
+for page in man1/lockstep.1 man5/lockstep-project.5 man7/lockstep-language.7 man7/lockstep-blocks.7; do
   complaints=$(groff -k -man -Tutf8 -ww -z "$work/root/usr/share/man/$page" 2>&1)
   [[ -z $complaints ]] || fail "$page: $complaints"
 done
 text=$(groff -k -man -Tascii -P-c -P-b -P-u "$work/root/usr/share/man/man1/lockstep.1" 2>/dev/null)
 for word in $("$lockstep" run --help | grep -o '^  --[a-z-]*'); do expect "$text" "$word"; done
-for command in check run describe tags read write plot monitor cam doctor aposs; do expect "$text" "lockstep $command"; done
+for command in check run describe tags read write plot monitor cam doctor aposs completion; do expect "$text" "lockstep $command"; done
 text=$(groff -k -man -Tascii -P-c -P-b -P-u "$work/root/usr/share/man/man5/lockstep-project.5" 2>/dev/null)
 for key in servo_cycle technology_objects programs retain listen; do expect "$text" "$key"; done
+# Each key of the program's own tables is a paragraph of the page, with what is said of it.
+keys=$("$lockstep" describe keys --json | python3 -c 'import json, sys
+for key in {key["name"] for structure in json.load(sys.stdin)["structures"] for key in structure["keys"]}: print(key)')
+for key in fb in set set_start if then else to config $keys; do
+  grep -qE "^ +$key( |\$)" <<<"$text" || fail "lockstep-project(5) says nothing of $key"
+done
+grep -A1 -E '^ +config( |$)' <<<"$text" | grep -q variables || fail "nothing is said of config"
+text=$(groff -k -man -Tascii -P-c -P-b -P-u "$work/root/usr/share/man/man7/lockstep-language.7" 2>/dev/null)
+for function in $("$lockstep" describe functions --json | python3 -c 'import json, sys
+for function in json.load(sys.stdin)["functions"]: print(function["name"])'); do
+  grep -qE "^ +$function\(" <<<"$text" || fail "lockstep-language(7) says nothing of $function"
+done
 
 echo "its bill of materials is SPDX and whole"
 bill=$work/root/usr/share/doc/lockstep/lockstep.spdx.json
 "$sources/tests/package/check_sbom.py" "$bill" "$lockstep" || fail "the bill of materials"
+"$sources/tests/package/check_notices.py" "$work/root/usr/share/doc/lockstep/copyright" "$bill" || fail "the notices"
+grep -v "Niels Lohmann" "$work/root/usr/share/doc/lockstep/copyright" >"$work/copyright"
+! "$sources/tests/package/check_notices.py" "$work/copyright" "$bill" 2>/dev/null || fail "a notice that is missing is not told"
 for _ in 1 2; do
-  SOURCE_DATE_EPOCH=1 "$sources/cli/packaging/sbom.py" "$sources" "$build" "$build/lockstep" 0.1.0 "$work/again.json"
+  SOURCE_DATE_EPOCH=1 "$sources/cli/packaging/sbom.py" "$sources" "$build" "$build/lockstep" "$version" "$work/again.json"
   cat "$work/again.json" >>"$work/both.json"
 done
 expect "$(cat "$work/again.json")" '"created": "1970-01-01T00:00:01Z"'
