@@ -1,6 +1,7 @@
 // The walk through a first project in the README does what it says, and its links lead somewhere.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <regex>
 #include <string>
@@ -31,6 +32,7 @@ class Reader {
                                                               << written_;
       return;
     }
+    if (block.mark == "alarm") return expect_lines(block.text);
     if (block.mark == "commands") return carry_out(block.text, 0);
     if (block.mark == "commands, status 1") return carry_out(block.text, 1);
     FAIL() << "unknown mark " << block.mark;
@@ -48,7 +50,10 @@ class Reader {
     directory_.write(name, replaced(text, "127.0.0.1:1502", "127.0.0.1:0"));
   }
   std::vector<std::string> shell(const std::string& commands) const {
-    std::string script = "cd " + directory_.file("") + "\n" + commands;
+    // What the package brings is that of the sources here; the test of the package runs it as it is.
+    std::string script = "cd " + directory_.file("") +
+                         "\napt() { :; }\nlockstep() { " LOCKSTEP_PROGRAM " \"$@\"; }\n" +
+                         replaced(commands, "/usr/share/lockstep/", kSource);
     script = replaced(script, "build/release/lockstep", LOCKSTEP_PROGRAM);
     return {"bash", "-e", "-c", replaced(script, "-p 1502", "-p " + std::to_string(port_))};
   }
@@ -56,6 +61,13 @@ class Reader {
     Process process(shell(commands));
     EXPECT_EQ(process.status(), status) << commands << process.out() << process.err();
     written_ = process.out() + process.err();
+    said_ += written_;
+  }
+  /// Each line stands in what the commands so far have said.
+  void expect_lines(const std::string& text) const {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_NE(said_.find(line), std::string::npos) << line << "\n" << said_;
   }
   void start(const std::string& command) {
     beside_ = std::make_unique<Process>(shell("exec " + command));
@@ -70,17 +82,18 @@ class Reader {
 
   Directory directory_;
   std::unique_ptr<Process> beside_;
-  std::string written_;
+  std::string written_;  ///< by the last commands
+  std::string said_;     ///< by all of them
   int port_ = 1502;
 };
 
 TEST(Readme, TheFirstProjectInTenMinutesDoesWhatItSays) {
   const std::string document = content(kSource + "README.md");
   const std::vector<Block> blocks = marked_blocks(document);
-  EXPECT_EQ(blocks.size(), 11u) << "the walk of the README";
+  EXPECT_EQ(blocks.size(), 16u) << "the walk of the README";
   const std::regex fence("\n```[a-z]+\n");
   const auto fences = std::distance(std::sregex_iterator(document.begin(), document.end(), fence), {});
-  EXPECT_EQ(static_cast<std::size_t>(fences) + 2, blocks.size())
+  EXPECT_EQ(static_cast<std::size_t>(fences) + 3, blocks.size())
       << "every block is tested; those of outputs name no language";
   Reader reader;
   for (const Block& block : blocks) reader.read(block);
@@ -100,6 +113,80 @@ TEST(Readme, TheFirstProjectInTenMinutesDoesWhatItSays) {
   EXPECT_EQ(table["Belt.Velocity"].back(), 0.0) << "the operator of the stimuli has stopped it";
   EXPECT_EQ(table["gear.InGear"].back(), 1.0);
   EXPECT_GT(read_csv(reader.file("real.csv")).rows, 0u);
+}
+
+/// What a stranger does who has read the README: the flying shear in it.
+class FlyingShear : public ::testing::Test {
+ protected:
+  FlyingShear() {
+    for (const Block& block : marked_blocks(content(kSource + "README.md")))
+      if (block.mark == "file shear.json") directory_.write("shear.json", block.text);
+  }
+  Process run() const {
+    return Process({LOCKSTEP_PROGRAM, "run", directory_.file("shear.json"), "--simulate", "--duration", "20s",
+                    "--trace", directory_.file("shear.csv")});
+  }
+
+  Directory directory_;
+};
+
+TEST_F(FlyingShear, CutsPiecesOfOneLengthBeforeAndAfterItHasJammed) {
+  Process process = run();
+  ASSERT_EQ(process.status(), 0) << process.err();
+  const CsvTable table = read_csv(directory_.file("shear.csv"));
+  std::vector<double> cuts;  // the place of the web, with its turns, at which the blade comes down
+  double web = 0.0;
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    web += ring_distance(table["Web.Position"][i], table["Web.Position"][i - 1], 600.0);
+    if (table["blade"][i] == 0.0) continue;
+    ASSERT_NEAR(table["Shear.Velocity"][i], 200.0, 1e-6) << "it runs along while the blade is down";
+    if (table["blade"][i - 1] == 0.0) cuts.push_back(web);
+  }
+  ASSERT_GE(cuts.size(), 5u);
+  EXPECT_EQ(static_cast<double>(cuts.size()), table["cuts.CV"].back());
+  for (std::size_t i = 1; i < cuts.size(); ++i)
+    EXPECT_NEAR(cuts[i] - cuts[i - 1], 600.0, 1.0)
+        << "piece " << i << ", to the cycle in which the blade falls";
+}
+
+TEST_F(FlyingShear, TellsOnTheConsoleWhatHasHappenedAndWhereToReadOn) {
+  Process process = run();
+  ASSERT_EQ(process.status(), 0) << process.err();
+  const std::string said = process.err();
+  const std::size_t at = said.find("Shear: alarm 521");
+  ASSERT_NE(at, std::string::npos) << said;
+  EXPECT_EQ(said.find("alarm 521", at + 20), std::string::npos) << "it comes once\n" << said;
+  EXPECT_NE(said.find("Shear: alarms acknowledged", at), std::string::npos) << said;
+  Process described({LOCKSTEP_PROGRAM, "describe", "521"});
+  ASSERT_EQ(described.status(), 0);
+  for (const char* part : {"ollowing error", "MC_Reset"})
+    EXPECT_NE(described.out().find(part), std::string::npos) << part << "\n" << described.out();
+}
+
+TEST_F(FlyingShear, IsWrittenWithWordsThatTheReferenceKnows) {
+  const std::string project = content(directory_.file("shear.json"));
+  std::size_t words = 0;
+  const std::regex block(R"x("fb": "([A-Z_a-z]+)")x");
+  const std::regex word(R"(\b(AND|OR|NOT|BOOL)\b)");
+  const auto expect_described = [&](const std::regex& pattern) {
+    for (std::sregex_iterator found(project.begin(), project.end(), pattern), end; found != end;
+         ++found, ++words) {
+      Process described({LOCKSTEP_PROGRAM, "describe", (*found)[1].str()});
+      EXPECT_EQ(described.status(), 0) << described.err();
+    }
+  };
+  expect_described(block);
+  expect_described(word);
+  EXPECT_GT(words, 15u);
+}
+
+/// What stands before the first project is what one sees first: it fits a screen.
+TEST(Readme, SaysOnOneScreenWhatItIsAndHowItIsRun) {
+  const std::string document = content(kSource + "README.md");
+  const std::string first = document.substr(0, document.find("\n## Your first project"));
+  constexpr std::ptrdiff_t kScreen = 40;
+  EXPECT_LE(std::count(first.begin(), first.end(), '\n'), kScreen);
+  EXPECT_NE(first.find("apt install ./lockstep_"), std::string::npos);
 }
 
 TEST(Readme, ThoseOfTheFoldersAndThisOneLinkToFilesThatAreThere) {
