@@ -97,7 +97,7 @@ for key in servo_cycle technology_objects programs retain listen; do expect "$te
 keys=$("$lockstep" describe keys --json | python3 -c 'import json, sys
 for key in {key["name"] for structure in json.load(sys.stdin)["structures"] for key in structure["keys"]}: print(key)')
 for key in fb in set set_start if then else to config $keys; do
-  grep -qE "^ +$key( |\$)" <<<"$text" || fail "lockstep-project(5) says nothing of $key"
+  awk -v key="$key" '$1 == key { found = 1 } END { exit !found }' <<<"$text" || fail "lockstep-project(5) says nothing of $key"
 done
 grep -A1 -E '^ +config( |$)' <<<"$text" | grep -q variables || fail "nothing is said of config"
 text=$(groff -k -man -Tascii -P-c -P-b -P-u "$work/root/usr/share/man/man7/lockstep-language.7" 2>/dev/null)
