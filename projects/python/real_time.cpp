@@ -19,6 +19,7 @@
 #include "projects/python/places.hpp"
 #include "projects/python/problems.hpp"
 #include "projects/python/raise.hpp"
+#include "projects/python/sealed.hpp"
 #include "projects/python/values.hpp"
 #include "projects/runtime/kept_values.hpp"
 #include "projects/runtime/runtime.hpp"
@@ -269,9 +270,9 @@ std::vector<std::string> RealTimeProject::modbus_endpoints() {
   return endpoints;
 }
 
-std::unique_ptr<RealTimeProject> make(const std::string& file,
-                                      const std::optional<std::vector<std::string>>& signals,
-                                      const py::dict& options) {
+std::unique_ptr<RealTimeProject> start(const std::string& file,
+                                       const std::optional<std::vector<std::string>>& signals,
+                                       const py::dict& options) {
   RunOptions wanted;
   wanted.file = file;
   wanted.duration =
@@ -291,10 +292,10 @@ std::unique_ptr<RealTimeProject> make(const std::string& file,
 }  // namespace
 
 void add_real_time_project(py::module_& module) {
-  py::class_<RealTimeProject>(module, "RealTimeProject",
-                              "A project in real time; lockstep.RealTime is its face.")
-      .def(py::init(&make), py::arg("file"), py::arg("signals"), py::arg("options"))
-      .def("stop", &RealTimeProject::stop)
+  py::class_<RealTimeProject> type(module, "RealTimeProject",
+                                   "A project in real time; lockstep.RealTime is its face.");
+  seal(type);
+  type.def("stop", &RealTimeProject::stop)
       .def("wait", &RealTimeProject::wait, py::arg("seconds"))
       .def("close", &RealTimeProject::close)
       .def_property_readonly("closed", &RealTimeProject::closed)
@@ -307,6 +308,8 @@ void add_real_time_project(py::module_& module) {
       .def("status", &RealTimeProject::status)
       .def_property_readonly("state", &RealTimeProject::state)
       .def_property_readonly("name", &RealTimeProject::name);
+  module.def("start", &start, py::arg("file"), py::arg("signals"), py::arg("options"),
+             "A project in real time, running.");
 }
 
 }  // namespace lockstep::python

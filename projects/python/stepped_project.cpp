@@ -15,6 +15,7 @@
 #include "projects/python/places.hpp"
 #include "projects/python/problems.hpp"
 #include "projects/python/raise.hpp"
+#include "projects/python/sealed.hpp"
 #include "projects/python/trace_arrays.hpp"
 #include "projects/runtime/stepped_run.hpp"
 
@@ -162,17 +163,20 @@ py::tuple check(std::string_view text, const std::string& folder) {
   return py::make_tuple(listed(loaded.problems), listed(loaded.warnings));
 }
 
+std::unique_ptr<SteppedProject> load(std::string_view text, const std::string& folder,
+                                     const std::optional<std::vector<std::string>>& signals, bool jobs) {
+  return std::make_unique<SteppedProject>(text, folder, signals, jobs);
+}
+
 }  // namespace
 
 void add_stepped_project(py::module_& module) {
   module.def("check", &check, py::arg("text"), py::arg("folder"),
              "(problems, warnings), each (place, text).");
-  py::class_<SteppedProject>(module, "SteppedProject",
-                             "A project in virtual time; lockstep.Project is its face.")
-      .def(py::init<std::string_view, const std::string&, const std::optional<std::vector<std::string>>&,
-                    bool>(),
-           py::arg("text"), py::arg("folder"), py::arg("signals"), py::arg("jobs"))
-      .def("close", &SteppedProject::close)
+  py::class_<SteppedProject> type(module, "SteppedProject",
+                                  "A project in virtual time; lockstep.Project is its face.");
+  seal(type);
+  type.def("close", &SteppedProject::close)
       .def_property_readonly("closed", &SteppedProject::closed)
       .def("step", &SteppedProject::step, py::arg("ticks"))
       .def("run", &SteppedProject::run, py::arg("seconds"), py::arg("until"))
@@ -189,6 +193,8 @@ void add_stepped_project(py::module_& module) {
       .def_property_readonly("now", &SteppedProject::now)
       .def_property_readonly("ticks", &SteppedProject::ticks)
       .def_property_readonly("servo_cycle", &SteppedProject::servo_cycle);
+  module.def("load", &load, py::arg("text"), py::arg("folder"), py::arg("signals"), py::arg("jobs"),
+             "A project in virtual time, at its beginning.");
 }
 
 }  // namespace lockstep::python

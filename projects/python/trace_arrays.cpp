@@ -8,6 +8,7 @@
 #include "hmi_bridge/lcm/trace_reader.hpp"
 #include "hmi_bridge/traces/csv_reader.hpp"
 #include "projects/python/raise.hpp"
+#include "projects/python/sealed.hpp"
 
 namespace py = pybind11;
 
@@ -79,8 +80,10 @@ TraceView::TraceView(const StoredTrace& trace)
     : block_(trace.block()), signals_(trace.signals()), rows_(trace.rows()) {}
 
 void add_trace(py::module_& module) {
-  py::class_<TraceView>(module, "TraceView", "The memory of a trace; what its arrays have as their base.")
-      .def_property_readonly("rows", &TraceView::rows)
+  py::class_<TraceView> type(module, "TraceView",
+                             "The memory of a trace; what its arrays have as their base.");
+  seal(type);
+  type.def_property_readonly("rows", &TraceView::rows)
       .def_property_readonly("signals", &described, "(name, type, unit) of each column.")
       .def_property_readonly(
           "address",

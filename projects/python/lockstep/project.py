@@ -119,7 +119,7 @@ class Project:
         pointers = _pointers(changes or {}, others=True)
         source = changed(source, pointers)
         self._file = source.file
-        self._run = _lockstep.SteppedProject(source.text, source.folder, paths_of(signals), bool(jobs))
+        self._run = _lockstep.load(source.text, source.folder, paths_of(signals), bool(jobs))
         for path, value in (changes or {}).items():
             if path not in pointers:
                 self[path] = value

@@ -78,7 +78,7 @@ class RealTime:
             options[f"no_{name}"] = place is False
         with open(file, "rb"):
             pass  # what cannot be read is told as Python tells it
-        self._run = _lockstep.RealTimeProject(os.fspath(file), paths_of(signals), options)
+        self._run = _lockstep.start(os.fspath(file), paths_of(signals), options)
 
     def wait(self, seconds: float | datetime.timedelta) -> bool:
         """Waits for the end of the run, for so long at most [s].
