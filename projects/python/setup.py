@@ -17,9 +17,11 @@ WORK = BUILD / "python"  # what setuptools leaves behind
 
 class BuildWithCMake(build_ext):
     def build_extension(self, ext: Extension) -> None:
-        options = [f"-DPython_EXECUTABLE={sys.executable}", "-DCMAKE_BUILD_TYPE=Release", "-DLOCKSTEP_PYTHON=ON"]
+        # Of a virtual environment the interpreter beneath it, which is still there when that is gone.
+        interpreter = getattr(sys, "_base_executable", sys.executable)
+        options = [f"-DPython_EXECUTABLE={interpreter}", "-DLOCKSTEP_PYTHON=ON"]
         if not (BUILD / "CMakeCache.txt").exists():
-            options.append("-DLOCKSTEP_TESTS=OFF")
+            options += ["-DCMAKE_BUILD_TYPE=Release", "-DLOCKSTEP_TESTS=OFF"]
         subprocess.run(["cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", *options], check=True)
         jobs = str(os.cpu_count() or 1)
         subprocess.run(["cmake", "--build", BUILD, "--parallel", jobs, "--target", "lockstep_python"], check=True)
