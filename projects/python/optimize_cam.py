@@ -42,15 +42,16 @@ MACHINE = {
             ],
         },
     },
-    "tags": {"turn": {"type": "BOOL"}},
     "programs": [
         {
             "name": "Main", "ob": "Main", "cycle": "1ms",
             "calls": [
                 {"fb": "MC_Power", "name": "master_on", "in": {"Axis": "Master", "Enable": True}},
                 {"fb": "MC_Power", "name": "lift_on", "in": {"Axis": "Lift", "Enable": True}},
+                {"fb": "MC_Home", "name": "master_home", "in": {"Axis": "Master", "Execute": "master_on.Status", "Mode": 0}},
+                {"fb": "MC_Home", "name": "lift_home", "in": {"Axis": "Lift", "Execute": "lift_on.Status", "Mode": 0}},
                 {"fb": "MC_CamIn", "name": "follow",
-                 "in": {"Master": "Master", "Slave": "Lift", "Cam": "Profile", "Execute": "master_on.Status AND lift_on.Status",
+                 "in": {"Master": "Master", "Slave": "Lift", "Cam": "Profile", "Execute": "master_home.Done AND lift_home.Done",
                         "SyncProfileReference": 2, "ApplicationMode": 1}},
                 {"fb": "MC_MoveVelocity", "name": "run",
                  "in": {"Axis": "Master", "Execute": "follow.InSync", "Velocity": 360.0}},
@@ -64,7 +65,7 @@ MACHINE = {
 # %% What is judged: the peak of the acceleration, from the trace of a run.
 def judge(project: lockstep.Project) -> dict[str, float]:
     """Called where the variant ran, with the project as it is then."""
-    return {"peak": abs(project.trace["Lift.Acceleration"]).max(), "lift": project.trace["Lift.Position"].max()}
+    return {"peak": abs(project.trace["Lift.Acceleration"]).max(), "stroke": project.trace["Lift.Position"].max()}
 
 
 def upper_rest(start: float) -> dict[str, float]:
@@ -81,7 +82,7 @@ def search(pool: ProcessPoolExecutor, low: float = 60.0, high: float = 260.0, re
         starts = [low + step * i for i in range(11)]
         rows = lockstep.sweep(MACHINE, map(upper_rest, starts), pool, seconds=3.0, function=judge)
         for row in rows:
-            assert row.error is None, row.error
+            assert row.error is None and abs(row.values["stroke"] - STROKE) < 0.01, row
         best = min(rows, key=lambda row: row.values["peak"])
         start = starts[best.index]
         print(f"{low:7.2f}° to {high:6.2f}°: the best is {start:7.3f}° with {best.values['peak']:8.1f} mm/s²")

@@ -1,4 +1,4 @@
-/// Raising the exceptions of the package, which are declared in lockstep/errors.py.
+/// Raising the exceptions of the package, which are declared in src/lockstep/errors.py.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -131,7 +131,7 @@ def test_an_unknown_path_is_told(small, path):
         project[path]
     assert isinstance(error.value, KeyError)
     text = str(error.value)
-    assert text == error.value.args[0] and (path == "" or path.split(".")[0].split("[")[0] in text)
+    assert text == error.value.args[0] and (path == "" or path.split(".")[-1].split("[")[0] in text)
     with pytest.raises(lockstep.PathError):
         project[path] = 1
     assert path not in project
@@ -257,7 +257,7 @@ def test_changes_are_keys_by_pointers_and_values_by_paths(small):
             lockstep.Project(small, changes={pointer: 1})
     with pytest.raises(lockstep.InvalidProject, match="servo_cycle"):
         lockstep.Project(small, changes={"/clock/servo_cycle": 3})
-    assert lockstep.check(small, changes={"/name": "9"})[0].place == "/name"
+    assert lockstep.check(small, changes={"/name": ""})[0].place == "/name"
     with pytest.raises(lockstep.PathError):
         lockstep.check(small, changes={"speed": 1.0})
     with pytest.raises(TypeError):

@@ -258,11 +258,7 @@ def _opened(
     if path is None:
         yield None, {}
         return
-    with open(path, "a+b") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise SweepError(f"{os.fspath(path)}: another sweep writes to it") from None
+    with open(path, "a+b") as file, _alone(path, file):
         file.seek(0)
         *lines, cut_short = file.read().split(b"\n")
         mark = _mark_of(work, wanted)
@@ -278,6 +274,28 @@ def _opened(
             file.write(mark.encode() + b"\n")
             file.flush()
         yield file, rows
+
+
+_written: set[str] = set()
+"""Files of the sweeps of this process."""
+
+
+@contextmanager
+def _alone(path: str | os.PathLike[str], file: IO[bytes]) -> Iterator[None]:
+    """Keeps other sweeps from a file. The lock is one of a process: workers that it forked, and that outlive it for a
+    moment when it is killed, do not have it; so sweeps of the same process are told by the list."""
+    name = os.path.realpath(path)
+    if name in _written:
+        raise SweepError(f"{os.fspath(path)}: another sweep writes to it")
+    _written.add(name)
+    try:
+        try:
+            fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except (BlockingIOError, PermissionError):
+            raise SweepError(f"{os.fspath(path)}: another sweep writes to it") from None
+        yield
+    finally:
+        _written.discard(name)
 
 
 def _rows_of(path: str | os.PathLike[str], lines: list[bytes], count: int) -> dict[int, Row]:
