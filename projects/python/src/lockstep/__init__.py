@@ -27,7 +27,7 @@ from .errors import (
 )
 from .project import Event, PathInfo, Project, check
 from .real_time import RealTime
-from .sweep import Row, sweep, variants
+from .sweeps import Row, sweep, variants
 from .trace import Trace, read_trace
 
 __version__: str = _lockstep.__version__
