@@ -159,6 +159,8 @@ Lines plot(const Model& model, std::size_t width, Characters characters) {
   return lines;
 }
 
+constexpr std::size_t kBesideTime = 14;  // columns before the text of an event
+
 std::string time_text(const event_t& event) {
   return fmt::format("{:>10.3f} s  ", seconds(event.t));
 }
@@ -176,6 +178,7 @@ Lines jobs(const Model& model, std::size_t height) {
     if (told.event.number != 0)
       line +=
           fmt::format(" 16#{:04X} {}", static_cast<unsigned>(told.event.number), printable(told.event.text));
+    for (const std::string& detail : told.details) line += ", " + printable(detail);
     lines.push_back({line, told.event.kind == "job failed" ? Look::alarm : Look::plain});
   }
   lines.resize(height);
@@ -197,6 +200,8 @@ Lines alarms(const Model& model, std::size_t height) {
                        Look::alarm});
     else
       lines.push_back({time_text(event) + printable(event.source) + "  acknowledged"});
+    for (const std::string& detail : told.details)
+      lines.push_back({std::string(kBesideTime, ' ') + printable(detail)});
   }
   lines.resize(height);
   return lines;
