@@ -221,7 +221,8 @@ std::string axis_text(const PanelAxis& axis, Time now) {
 std::string motion_text(const PanelAxis& axis, int percent) {
   const panel_t& state = axis.state;
   const std::string unit = printable(state.velocity_unit);
-  return (state.has_position != 0 ? fmt::format("{:.4f} u  ", state.position) : "") +
+  const std::string_view length = std::string_view(unit).substr(0, unit.rfind("/s"));
+  return (state.has_position != 0 ? fmt::format("{:.4f} {}  ", state.position, length) : "") +
          fmt::format("{:.3f} {}  ovr {:.0f} %  jog {} % ({} {})", state.velocity, unit, state.speed, percent,
                      number(state.jog_velocity * percent / 100.0), unit);
 }
