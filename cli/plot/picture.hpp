@@ -59,8 +59,8 @@ struct PlotRange {
 
 /// Arranges signals into diagrams and lanes. Types and units that a CSV file does not have are taken from the
 /// names of variables and pins, or else from the values.
-/// @param range not empty
-Picture arrange(const TraceTable& trace, const PlotRange& range, bool typed);
+/// @param range not empty  @param typed for each signal whether its type and unit are known
+Picture arrange(const TraceTable& trace, const PlotRange& range, const std::vector<bool>& typed);
 
 /// Sets the axis of a diagram so that all its points are within.
 void set_range(Diagram& diagram);

@@ -1,5 +1,6 @@
 // lockstep run: puts the parts together, runs them and tells how it went.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -40,10 +41,19 @@ class ToldOnStandardError final : public Messages {
     clear_line();
     tell("warning: " + text, Severity::warning);
   }
-  void event(const TraceEvent& event) override { tell_alarm(event, timeout_); }
+  void event(const TraceEvent& event) override {
+    const std::string text = events_.of(event);
+    // On a terminal the line of live values stands where the message goes.
+    if (!text.empty()) write_message((isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + text, timeout_);
+  }
+  /// What has been counted only. After the run.
+  void tell_rest() {
+    if (const std::string text = events_.rest(); !text.empty()) write_message(text);
+  }
 
  private:
   int timeout_;
+  EventMessages events_;
 };
 
 /// What a signal is to do is forgotten with what it is done to.
@@ -177,13 +187,14 @@ void require_means(const Project& project, bool modbus) {
 }
 
 int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,
-                  Messages& messages) {
+                  ToldOnStandardError& messages) {
   project.controller->apply_stimuli = true;
   require_means(project, !options.modbus.empty());
   Ending ending;
   RunSurroundings surroundings(project, options, std::move(keeper), messages);
   Display display(project, surroundings.signals(), options.duration);
   simulate(project, surroundings, display, ending, options.duration);
+  messages.tell_rest();
   surroundings.tell_losses();
   tell_axes(*project.controller);
   tell_counters(*project.controller);
@@ -192,9 +203,9 @@ int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const R
 
 /// The threads of the run do the work; this one only looks and tells.
 int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,
-                     std::shared_ptr<Messages> messages) {
+                     const std::shared_ptr<ToldOnStandardError>& messages) {
   std::unique_ptr<Display> display;  // of whose image the cycle knows: it goes after the cycle
-  Runtime machine(std::move(project), std::move(keeper), options, std::move(messages));
+  Runtime machine(std::move(project), std::move(keeper), options, messages);
   machine.leave_processor();
   require_means(machine.project(), true);
   Ending ending;
@@ -205,6 +216,7 @@ int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, cons
   const Forgetting at_the_end{ending};
   machine.start();
   wait_for_end(machine, *display, manager, ending);
+  messages->tell_rest();
   const int status = tell_end(machine.status(), controller);
   tell_axes(controller);
   tell_counters(controller);

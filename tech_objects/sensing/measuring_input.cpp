@@ -65,7 +65,8 @@ void MeasuringInput::servo(std::int64_t /*now*/) noexcept {
   const Edges seen = edges();
   remember();
   if (job_ != nullptr && !measured->actual_values_valid()) {
-    raise_alarm(alarm::kPositionInvalid, ProcessingEnd::measuring_input, *this, data);
+    raise_alarm(alarm::kPositionInvalid, ProcessingEnd::measuring_input, *this, data,
+                {.object = static_cast<std::uint16_t>(measured->number)});
     end_in_error(ErrorId::technology_alarm);
   }
   if (job_ != nullptr && homings_ != measured->homings()) abort();
