@@ -24,6 +24,7 @@ struct RunOptions {
   std::string retain{};                ///< file; empty: as the project says
   bool no_retain = false;              ///< begins with the init values and keeps nothing
   std::string audit{};                 ///< file; empty: as the project says
+  bool job_events = false;             ///< messages hear of jobs too, whether a trace has them or not
   std::string mark{};  ///< stands before the name of an option in messages; "--" on a command line
 };
 

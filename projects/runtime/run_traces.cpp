@@ -105,6 +105,7 @@ void RunSurroundings::add_lcm() {
     for (const TraceChannelConfig& channel : project_.trace.channels)
       add_part(std::make_unique<LcmPublisher>(url, identity(channel.channel), false), channel);
     if (!jobs_told_) project_.controller->tell_jobs();
+    jobs_told_ = true;
   } catch (const std::exception& error) {
     if (asked) throw CouldNotStart(named("lcm") + error.what());
     messages_.warn(std::string("no traces over LCM: ") + error.what());
@@ -129,6 +130,10 @@ void RunSurroundings::start_trace() {
   add_trace_file();
   add_lcm();
   add_flight_recorder();
+  if (options_.job_events && !jobs_told_) {
+    project_.controller->tell_jobs();
+    jobs_told_ = true;
+  }
   const bool rows = !sinks_.empty();
   sinks_.insert(sinks_.begin(), std::make_unique<ToldEvents>(messages_));
   std::vector<Signal> places = columns_.places();
