@@ -143,6 +143,14 @@ class Expression {
   bool constant_;
 };
 
+/// What SEL and MUX do with texts.
+struct TextChoice {
+  Expression chooser;              ///< a BOOL, or a LINT from 0; below the first is taken, above the last one
+  std::vector<TextSource> inputs;  ///< one at least
+
+  const TextSource& chosen(EvaluationCounters& counters) const noexcept;
+};
+
 /// Puts an expression together in postfix order while loading: operands first, then what is done with them.
 /// Operations on constants alone are done at once, unless they divide by zero, which has to be counted.
 class ExpressionBuilder {

@@ -42,6 +42,8 @@ class ToldOnStandardError final : public Messages {
     tell("warning: " + text, Severity::warning);
   }
   void event(const TraceEvent& event) override {
+    if (event.kind == EventKind::alarm) ++alarms_;
+    if (event.kind == EventKind::job_failed) ++failed_jobs_;
     const std::string text = events_.of(event);
     // On a terminal the line of live values stands where the message goes.
     if (!text.empty()) write_message((isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + text, timeout_);
@@ -51,7 +53,12 @@ class ToldOnStandardError final : public Messages {
     if (const std::string text = events_.rest(); !text.empty()) write_message(text);
   }
 
+  std::uint64_t alarms() const noexcept { return alarms_; }
+  std::uint64_t failed_jobs() const noexcept { return failed_jobs_; }
+
  private:
+  std::atomic<std::uint64_t> alarms_{0};       // counted by the recorder
+  std::atomic<std::uint64_t> failed_jobs_{0};  // the same
   int timeout_;
   EventMessages events_;
 };
@@ -186,8 +193,25 @@ void require_means(const Project& project, bool modbus) {
   require_memory(kMemory);
 }
 
+/// The exit status of a run that would have had another one. Whether there was what it is to fail on is in
+/// doubt where events were lost.
+int status_of(int status, const FailOn& fail_on, const ToldOnStandardError& told,
+              const Controller& controller) {
+  if (status != kOk || (!fail_on.alarm && !fail_on.job)) return status;
+  std::string reason;
+  if (fail_on.alarm && told.alarms() > 0) reason = fmt::format("{} alarms", told.alarms());
+  if (fail_on.job && told.failed_jobs() > 0)
+    reason += fmt::format("{}{} failed jobs", reason.empty() ? "" : ", ", told.failed_jobs());
+  if (const std::uint64_t lost = controller.events == nullptr ? 0 : controller.events->lost();
+      reason.empty() && lost > 0)
+    reason = fmt::format("{} events were lost, which may have been such ones", lost);
+  if (reason.empty()) return status;
+  tell("failed: " + reason + " (--fail-on)", Severity::error);
+  return kFailedOn;
+}
+
 int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,
-                  ToldOnStandardError& messages) {
+                  const FailOn& fail_on, ToldOnStandardError& messages) {
   project.controller->apply_stimuli = true;
   require_means(project, !options.modbus.empty());
   Ending ending;
@@ -198,12 +222,12 @@ int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const R
   surroundings.tell_losses();
   tell_axes(*project.controller);
   tell_counters(*project.controller);
-  return kOk;
+  return status_of(kOk, fail_on, messages, *project.controller);
 }
 
 /// The threads of the run do the work; this one only looks and tells.
 int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,
-                     const std::shared_ptr<ToldOnStandardError>& messages) {
+                     const FailOn& fail_on, const std::shared_ptr<ToldOnStandardError>& messages) {
   std::unique_ptr<Display> display;  // of whose image the cycle knows: it goes after the cycle
   Runtime machine(std::move(project), std::move(keeper), options, messages);
   machine.leave_processor();
@@ -220,12 +244,12 @@ int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, cons
   const int status = tell_end(machine.status(), controller);
   tell_axes(controller);
   tell_counters(controller);
-  return status;
+  return status_of(status, fail_on, *messages, controller);
 }
 
 }  // namespace
 
-int run_project(const RunOptions& options) {
+int run_project(const RunOptions& options, FailOn fail_on) {
   keep_stacks_small();
   const auto messages = std::make_shared<ToldOnStandardError>(options.simulate ? 500 : 0);
   try {
@@ -234,8 +258,9 @@ int run_project(const RunOptions& options) {
     std::optional<Project> project = load_or_tell(
         options.file, status, [&](Project& loaded) { keeper = restore_kept(loaded, options, *messages); });
     if (!project) return status;
-    return options.simulate ? run_simulated(std::move(*project), std::move(keeper), options, *messages)
-                            : run_in_real_time(std::move(*project), std::move(keeper), options, messages);
+    return options.simulate
+               ? run_simulated(std::move(*project), std::move(keeper), options, fail_on, *messages)
+               : run_in_real_time(std::move(*project), std::move(keeper), options, fail_on, messages);
   } catch (const CouldNotStart& error) {
     tell(with_help(error.what()), Severity::error);
   } catch (const RetainFileError& error) {
