@@ -143,7 +143,7 @@ class Controller {
   ArrayTag& add_array(std::string name, Array array);
   /// A tag of type STRING[room] with its initial text; its memory is made here.
   StringTag& add_string(StringTag tag, std::size_t capacity);
-  /// Adds an object of any kind; its number is its place among all.
+  /// Adds an object of any kind; its number is its index among all.
   TechnologyObject& add_object(ObjectKind kind, std::string name);
   Axis& add_axis(ObjectKind kind, std::string name);
   Instance& add_instance(const BlockType& type, std::string name);

@@ -14,7 +14,7 @@
 
 namespace lockstep {
 
-/// The greatest n of a STRING[n].
+/// The maximum n of a STRING[n].
 inline constexpr std::size_t kLongestText = 254;
 
 /// Where a text lives: characters of one byte (ISO 8859-1), up to the first zero or to the end of its room.
@@ -39,7 +39,7 @@ struct TextSource {
 
   /// The text now; neither allocates nor fails. Thread: the cycle.
   std::string_view view(EvaluationCounters& counters) const noexcept;
-  /// The most characters that it may have.
+  /// The maximum number of characters that it may have.
   std::size_t capacity() const noexcept;
 };
 

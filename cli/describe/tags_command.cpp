@@ -143,7 +143,7 @@ bool is_kept(const Project& project, const ArrayTag& tag) {
   return std::find(arrays.begin(), arrays.end(), &tag) != arrays.end();
 }
 
-/// A row with the first of some places, and one more for each further place; the comment stands last.
+/// A row with the first of some addresses, and one more for each further one; the comment stands last.
 void add_rows(Table& table, std::vector<std::string> row, const std::vector<Entry>& places,
               const std::string& comment) {
   const std::size_t before = row.size();
@@ -330,8 +330,8 @@ std::string csv_cell(std::string_view text) {
   return is_plain ? cell : "\"" + cell + "\"";
 }
 
-/// One line for each place on Modbus, for the import of HMI systems; an array is one of ARRAY type, with the
-/// addresses of all its elements.
+/// One line for each address on Modbus, for the import of HMI systems; an array is one of ARRAY type, with
+/// the addresses of all its elements.
 std::string project_csv(const Project& project) {
   std::string text =
       "name,type,unit,table,address,length,wire_type,word_order,byte_order,bit,scale,offset,access,server,"

@@ -16,7 +16,7 @@ using Time = Model::Clock::time_point;
 
 constexpr std::size_t kValue = 13;
 constexpr std::size_t kUnit = 5;
-constexpr std::size_t kLimit = 10;        // columns of a least or greatest value
+constexpr std::size_t kLimit = 10;        // columns of a minimum or maximum value
 constexpr std::size_t kPlotHeight = 6;    // of a curve
 constexpr std::size_t kListHeight = 4;    // of a list below the table
 constexpr std::size_t kMinimumTable = 4;  // lines that the table keeps when panes are open

@@ -66,7 +66,7 @@ Picture arrange(const TraceTable& trace, const PlotRange& range, const std::vect
 void set_range(Diagram& diagram);
 
 /// Fewer points that look the same: of the points of a `bin`-th part of the time, first, last, least and
-/// greatest.
+/// maximum.
 std::vector<Point> thinned(const std::vector<Point>& points, double begin, double end, int bins);
 
 /// Splits the values of a column where they are not finite and, if `wraps`, where a modulo position wraps:

@@ -161,7 +161,7 @@ class ModbusMap {
   std::vector<std::uint32_t> next_;  ///< per entry: the next bit in its register or kNone
 };
 
-/// The maps of one place where clients ask: which one answers depends on the unit id. The maps outlive it.
+/// The maps of one endpoint: which one answers depends on the unit id. The maps outlive it.
 struct ModbusUnits {
   /// One map for every unit id.
   ModbusUnits(const ModbusMap& map) noexcept : every(&map) {}

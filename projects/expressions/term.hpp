@@ -56,7 +56,7 @@ struct Term {
   Operation operation = Operation::kAdd;
   std::vector<Term> operands;
   WideInteger integer = 0;  ///< of an integer literal
-  WideInteger lowest = 0;   ///< least and greatest integer literal within
+  WideInteger lowest = 0;   ///< minimum and maximum integer literal within
   WideInteger highest = 0;
   int division_column = 0;    ///< where the integer division stands that gave this integer; 0: none
   int divisions_by_zero = 0;  ///< found in an integer literal when it was computed

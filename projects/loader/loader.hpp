@@ -27,7 +27,7 @@ struct Loading {
 
   Controller& controller() const { return *project.controller; }
   Names& names() const { return project.names; }
-  /// Adds a technology object; its number is its place among all.
+  /// Adds a technology object; its number is its index among all.
   TechnologyObject& add_object(ObjectKind kind, const std::string& name) const;
   /// The leading values of a synchronous axis.
   const std::vector<LeadingValue>& leading_values_of(const TechnologyObject& axis) const;

@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-/// What positions and ways may be apart by rounding, relative to their size.
+/// What positions and distances may be apart by rounding, relative to their size.
 constexpr double kRounding = 1e-12;
 
 }  // namespace

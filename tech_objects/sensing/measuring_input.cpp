@@ -165,7 +165,7 @@ bool MeasuringInput::in_lead_in(double position) const noexcept {
   return place < 0.0 && -place <= distance;
 }
 
-/// Whether the way of this servo cycle has left the range.
+/// Whether the distance of this servo cycle has left the range.
 bool MeasuringInput::range_passed() const noexcept {
   if (!range_.limited) return false;
   const double distance = load_.distance().rounded();
