@@ -21,7 +21,8 @@ struct Finding {
   std::string_view kind;
   std::string name;  ///< by which `describe` tells more
   std::string text;
-  int rank = 0;  ///< the higher, the nearer
+  std::size_t own = 0;  ///< where the part of the name begins that is its own; before it stands its owner
+  int rank = 0;         ///< the higher, the nearer
 };
 
 bool is_letter(char c) noexcept {
@@ -49,11 +50,13 @@ int fit(std::string_view word, std::string_view text) {
   return best;
 }
 
-/// A name counts for more than what is said of it; 0 if a word is nowhere.
+/// A name counts for more than what is said of it or whose it is; 0 if a word is nowhere.
 int rank_of(const std::vector<std::string>& words, const Finding& finding) {
   int rank = 0;
   for (const std::string& word : words) {
-    const int in_name = fit(word, finding.name), in_text = fit(word, finding.text);
+    const std::string_view name = finding.name;
+    const int in_name = fit(word, name.substr(finding.own));
+    const int in_text = std::max(fit(word, finding.text), fit(word, name.substr(0, finding.own)));
     // Within another word of a sentence a word means something else, as "cam" in "became".
     const int fits = std::max(4 * in_name, in_text < 2 ? 0 : in_text);
     if (fits == 0) return 0;
@@ -69,7 +72,8 @@ void add_blocks(std::vector<Finding>& all) {
     for (const Pin& pin : type.pins)
       // Pins that many blocks share are told once, of the first.
       if (seen.insert(std::string(pin.name) + "\n" + std::string(pin.text)).second)
-        all.push_back({"pin", std::string(type.name) + "." + std::string(pin.name), std::string(pin.text)});
+        all.push_back({"pin", std::string(type.name) + "." + std::string(pin.name), std::string(pin.text),
+                       type.name.size() + 1});
   }
 }
 
@@ -97,7 +101,10 @@ void add_keys(std::vector<Finding>& all) {
   for (const KeySection& section : key_sections())
     for (const Key& key : section.keys) {
       std::string path = (section.path.empty() ? "" : section.path + ".") + std::string(key.name);
-      if (seen.insert(path).second) all.push_back({"key", "keys " + path, std::string(meaning_text(key))});
+      if (seen.insert(path).second) {
+        const std::size_t own = 5 + path.size() - key.name.size();
+        all.push_back({"key", "keys " + path, std::string(meaning_text(key)), own});
+      }
     }
 }
 

@@ -16,6 +16,7 @@
 
 #include "hmi_bridge/network/visible_text.hpp"
 #include "projects/python/events.hpp"
+#include "projects/python/gil.hpp"
 #include "projects/python/places.hpp"
 #include "projects/python/problems.hpp"
 #include "projects/python/raise.hpp"
@@ -148,7 +149,7 @@ RealTimeProject::RealTimeProject(RunOptions options, const std::optional<std::ve
   try {
     std::unique_ptr<RetainWriter> keeper;
     LoadedProject loaded = [&] {
-      const py::gil_scoped_release release;
+      const WithoutGil without_gil;
       return load_project_file(options.file,
                                [&](Project& project) { keeper = restore_kept(project, options, *kept_); });
     }();
@@ -158,7 +159,7 @@ RealTimeProject::RealTimeProject(RunOptions options, const std::optional<std::ve
         std::make_unique<Runtime>(std::move(*loaded.project), std::move(keeper), std::move(options), kept_);
     runtime_->prepare();
     add_image(runtime_->project(), signals);
-    const py::gil_scoped_release release;
+    const WithoutGil without_gil;
     runtime_->start();
   } catch (const CouldNotStart& error) {
     raise("RunError", error.what());
@@ -178,7 +179,7 @@ bool RealTimeProject::wait(double seconds) {
     explicit Waiting(int& waiting) : count(waiting) { ++count; }
     ~Waiting() { --count; }
   } const waiting(waiting_);
-  const py::gil_scoped_release release;
+  const WithoutGil without_gil;
   const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(std::llround(seconds * 1e9));
   while (runtime.state() != RuntimeState::ended) {
     const auto left = end - std::chrono::steady_clock::now();
@@ -186,8 +187,7 @@ bool RealTimeProject::wait(double seconds) {
     const auto slice = std::min<std::chrono::nanoseconds>(left, kBetweenLooks);
     const auto rounded = std::chrono::ceil<std::chrono::milliseconds>(slice);
     if (runtime.wait_for_rest(rounded)) runtime.wait(rounded);
-    const py::gil_scoped_acquire acquire;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    look_at_signals();
   }
   return true;
 }
@@ -201,7 +201,7 @@ void RealTimeProject::close() {
 void RealTimeProject::end() noexcept {
   if (!runtime_) return;
   const std::unique_ptr<Runtime> runtime = std::move(runtime_);
-  const py::gil_scoped_release release;
+  const WithoutGil without_gil;
   runtime->stop();
   const bool was_started = runtime->state() != RuntimeState::loaded;
   if (was_started && !runtime->wait()) static_cast<void>(image_.release());

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "projects/python/events.hpp"
+#include "projects/python/gil.hpp"
 #include "projects/python/places.hpp"
 #include "projects/python/problems.hpp"
 #include "projects/python/raise.hpp"
@@ -100,7 +101,7 @@ class SteppedProject {
 SteppedProject::SteppedProject(std::string_view text, const std::string& folder,
                                const std::optional<std::vector<std::string>>& signals, bool jobs) {
   LoadedProject loaded = [&] {
-    const py::gil_scoped_release release;
+    const WithoutGil without_gil;
     return load_project(text, folder);
   }();
   Project& project = valid(loaded);
@@ -115,7 +116,7 @@ SteppedProject::SteppedProject(std::string_view text, const std::string& folder,
 bool SteppedProject::run_ticks(std::uint64_t ticks, const Expression* until) {
   SteppedRun& run = idle();
   const Running running(*this);
-  const py::gil_scoped_release release;
+  const WithoutGil without_gil;
   auto next_look = std::chrono::steady_clock::now() + kBetweenLooks;
   EvaluationCounters counters;
   while (ticks != 0) {
@@ -124,8 +125,7 @@ bool SteppedProject::run_ticks(std::uint64_t ticks, const Expression* until) {
     ticks -= now;
     if (until != nullptr && until->evaluate(counters).u != 0) return true;
     if (const auto time = std::chrono::steady_clock::now(); time >= next_look) {
-      const py::gil_scoped_acquire acquire;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      look_at_signals();
       next_look = time + kBetweenLooks;
     }
   }
@@ -157,7 +157,7 @@ bool SteppedProject::run(double seconds, const std::optional<std::string>& until
 
 py::tuple check(std::string_view text, const std::string& folder) {
   const LoadedProject loaded = [&] {
-    const py::gil_scoped_release release;
+    const WithoutGil without_gil;
     return load_project(text, folder, {}, LoadedFor::looking);
   }();
   return py::make_tuple(listed(loaded.problems), listed(loaded.warnings));

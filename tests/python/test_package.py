@@ -88,6 +88,64 @@ def test_the_example_finds_the_cam_that_the_figures_of_the_laws_promise():
     assert found == pytest.approx(expected, abs=0.5)
 
 
+FORGOTTEN = {
+    "a run in a daemon thread": """
+project = lockstep.Project(knife, signals=[])
+threading.Thread(target=lambda: project.run(1e7), daemon=True).start()
+while True:
+    try:
+        project.time
+    except lockstep.BusyError:
+        break
+""",
+    "a wait in a daemon thread": """
+machine = lockstep.RealTime(knife, modbus=False, lcm=False, retain=False)
+threading.Thread(target=lambda: machine.wait(1e7), daemon=True).start()
+""",
+    "a run in real time": """
+machine = lockstep.RealTime(knife, modbus=False, lcm=False, retain=False)
+machine["start"] = True
+""",
+    "a run in real time that nobody collects": """
+import builtins
+builtins.kept = [lockstep.RealTime(knife, modbus=False, lcm=False, retain=False)]
+builtins.kept.append(builtins.kept)
+""",
+}
+
+
+@pytest.mark.parametrize("what", FORGOTTEN)
+def test_an_interpreter_that_ends_meanwhile_ends_well(what, knife):
+    script = f"import lockstep, threading\nknife = {str(knife)!r}\n" + FORGOTTEN[what]
+    for _ in range(3):
+        ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+        assert (ended.returncode, ended.stderr) == (0, "")
+
+
+def test_a_trace_without_room_is_told_and_the_project_goes_on():
+    script = """
+import resource, lockstep
+from conftest import SMALL
+project = lockstep.Project(SMALL)
+project.step()
+with open("/proc/self/statm") as file:
+    pages = int(file.read().split()[0])
+limit = pages * resource.getpagesize() + (64 << 20)
+resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+try:
+    project.run(1e6)
+except MemoryError:
+    before = project.trace
+    assert before.rows > 100_000 and before["total"][-1] == 2 * before.rows - 1
+    project["go"] = True
+    print("told", project.time > 0)
+"""
+    ended = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=300, cwd=Path(__file__).parent
+    )
+    assert ended.stdout == "told True\n", ended.stderr
+
+
 def test_the_first_steps_of_the_readme_run(tmp_path, monkeypatch):
     blocks = re.findall(r"```python\n(.*?)```", (ROOT / "projects" / "python" / "README.md").read_text(), re.DOTALL)
     assert len(blocks) >= 3

@@ -117,8 +117,9 @@ def test_what_cannot_be_started_is_told(file, tmp_path):
             lockstep.RealTime(file, **wrong)
     with pytest.raises(lockstep.PathError):
         lockstep.RealTime(file, signals=["nothing"], **QUIET)
-    with pytest.raises(TypeError):
-        lockstep.RealTime(file, modbus=True)
+    for wrong in (dict(modbus=True), dict(lcm=3), dict(cpu=1.5), dict(cpu="0"), dict(signals="go"), dict(signals=[3])):
+        with pytest.raises(TypeError):
+            lockstep.RealTime(file, **wrong)
 
 
 def test_it_is_brought_to_rest_when_nobody_has_it_any_more(file):

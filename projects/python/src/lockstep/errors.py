@@ -33,10 +33,10 @@ class InvalidProject(LockstepError, ValueError):
     """A project is not valid; ``problems`` has all that is wrong, not the first only."""
 
     def __init__(self, errors: Iterable[tuple[str, str]], warnings: Iterable[tuple[str, str]] = ()) -> None:
-        self.problems: list[Problem] = problems_from([tuple(e)[:2] for e in errors], [tuple(w)[:2] for w in warnings])
+        self.problems: list[Problem] = problems_from(errors, warnings)
         super().__init__(
-            [tuple(p[:2]) for p in self.problems if p.severity == "error"],
-            [tuple(p[:2]) for p in self.problems if p.severity == "warning"],
+            [(problem.place, problem.text) for problem in self.problems if problem.severity == "error"],
+            [(problem.place, problem.text) for problem in self.problems if problem.severity == "warning"],
         )
 
     def __str__(self) -> str:

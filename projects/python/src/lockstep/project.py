@@ -6,16 +6,12 @@ import datetime
 import operator
 from collections.abc import Iterable, Iterator, Mapping
 from types import TracebackType
-from typing import Any, NamedTuple, Union
+from typing import Any, NamedTuple
 
 from . import _lockstep
 from .errors import OutOfRange, PathError, Problem, problems_from
 from .source import ProjectSource, Text, changed, text_of
 from .trace import Trace
-
-Value = Union[bool, int, float, str, "list[bool]", "list[int]", "list[float]"]
-"""A value of a project: BOOL as bool, integers and bit strings as int, REAL and LREAL as float, TIME as float [s],
-STRING as str, several elements of an array as list."""
 
 
 class Event(NamedTuple):
@@ -75,7 +71,9 @@ class Project:
     ...     knife["Knife.ActualPosition"], knife.trace["Knife.Velocity"].max()
 
     ``project[path]`` reads and writes tags, pins of block instances, variables of technology objects and bits of them:
-    ``start``, ``gear.InSync``, ``Knife.StatusWord.X22``, ``heights[2]``, ``heights`` (a list).
+    ``start``, ``gear.InSync``, ``Knife.StatusWord.X22``, ``heights[2]``, ``heights``. BOOL is bool, integers and bit
+    strings are int, REAL and LREAL float, TIME float [s] (a ``timedelta`` can be written), STRING str; several elements
+    of an array are a list.
 
     Threads: one at a time. The GIL is released while ticks run; what another thread asks meanwhile raises
     :class:`BusyError`. Ctrl-C ends a long run within a fraction of a second; the project stays where it is then.
@@ -168,7 +166,7 @@ class Project:
 
     # Values.
 
-    def __getitem__(self, path: str) -> Value:
+    def __getitem__(self, path: str) -> Any:
         return self._run.read(path_of(path))
 
     def __setitem__(self, path: str, value: Any) -> None:
@@ -197,7 +195,7 @@ class Project:
         """
         return PathInfo(*self._run.describe(path_of(path)))
 
-    def evaluate(self, expression: str) -> Value:
+    def evaluate(self, expression: str) -> Any:
         """The value of an expression in Structured Text, as things stand: ``"ABS(Knife.Velocity) > speed"``.
 
         :raises ExpressionError: it is none, or names what is not there

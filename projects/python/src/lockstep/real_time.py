@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import operator
 import os
 from collections.abc import Iterable, Iterator
 from types import TracebackType
@@ -10,7 +11,7 @@ from typing import Any, Union
 
 from . import _lockstep
 from .errors import OutOfRange
-from .project import Event, Value, path_of, paths_of, pending, seconds_of
+from .project import Event, path_of, paths_of, pending, seconds_of
 
 Place = Union[str, bool, None]
 """Where something is: a text; None: as the project says; False: nowhere."""
@@ -63,8 +64,10 @@ class RealTime:
         stimuli: bool = False,
         cpu: int | None = None,
     ) -> None:
-        options: dict[str, Any] = {"stimuli": bool(stimuli), "cpu": cpu, "duration": None}
-        if cpu is not None and cpu < 0:
+        options: dict[str, Any] = {"stimuli": bool(stimuli), "cpu": None, "duration": None}
+        if cpu is not None:
+            options["cpu"] = operator.index(cpu)
+        if cpu is not None and not 0 <= cpu < 2**31:
             raise OutOfRange(f"cpu may not be {cpu}; allowed: from 0 on, None")
         if duration is not None:
             options["duration"] = seconds_of(duration)
@@ -99,7 +102,7 @@ class RealTime:
         """
         self._run.close()
 
-    def __getitem__(self, path: str) -> Value:
+    def __getitem__(self, path: str) -> Any:
         return self._run.read(path_of(path))
 
     def __setitem__(self, path: str, value: Any) -> None:
