@@ -1,5 +1,6 @@
 // The `lockstep` command.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <sstream>
@@ -9,6 +10,7 @@
 #include "cli/command/shortage.hpp"
 #include "cli/command/standard_streams.hpp"
 #include "hmi_bridge/network/visible_text.hpp"
+#include "projects/json/problem.hpp"
 
 namespace {
 
@@ -21,6 +23,19 @@ std::string lines_shown(const std::string& text) {
   std::string result, line;
   for (std::istringstream lines(text); std::getline(lines, line);) result += lockstep::visible(line) + "\n";
   return result;
+}
+
+/// What to say of a first word that is no command and no option; empty for any other mistake.
+std::string nearest_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return "";
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return "";
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  return "there is no command " + lockstep::quote(word) + lockstep::did_you_mean(word, known) +
+         "; commands: " + lockstep::list_of(known) + "; lockstep describe tells what a name means";
 }
 
 int carry_out(int argc, char** argv) {
@@ -36,6 +51,7 @@ int carry_out(int argc, char** argv) {
   Action action;
   add_check_command(app, action);
   add_run_command(app, action);
+  add_test_command(app, action);
   add_describe_command(app, action);
   add_tags_command(app, action);
   add_read_command(app, action);
@@ -49,6 +65,10 @@ int carry_out(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const std::string near = nearest_command(app, argc, argv); !near.empty()) {
+      tell(near, Severity::error);
+      return kCouldNotStart;
+    }
     std::ostringstream data, messages;
     const int status = app.exit(error, data, messages);
     write_data(data.str());

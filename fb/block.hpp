@@ -12,6 +12,7 @@
 namespace lockstep {
 
 class EncoderSaving;
+struct Job;
 
 /// An instance of a function block. Created at load time; `call` is the only thing that happens in the cycle.
 class alignas(kCacheLine) Block {
@@ -26,6 +27,10 @@ class alignas(kCacheLine) Block {
 
   /// Takes up what a controller has once for all its instances. At load time, once.
   virtual void connect(EncoderSaving& /*saving*/) noexcept {}
+
+  /// The job that the outputs show; nullptr: none, or a block whose jobs tell nothing besides. Thread: the
+  /// cycle.
+  virtual const Job* shown_job() const noexcept { return nullptr; }
 
  protected:
   Block() = default;

@@ -18,6 +18,7 @@ class ExecuteBlock : public JobBlock {
   BOOL Done{};
 
   void call(std::int64_t now) noexcept final;
+  const Job* shown_job() const noexcept override { return job_; }
 
  protected:
   /// Carries the job out or hands it over. The default submits it to the target.

@@ -37,7 +37,7 @@ class JobBlock : public Block {
   JobPhase phase_ = JobPhase::idle;
 };
 
-/// Positions and ways that an axis can represent [u].
+/// Positions and distances that an axis can represent [u].
 inline constexpr Range kPositions{-kPositionRange, kPositionRange};
 
 /// Pins that many blocks share, spelled once.

@@ -130,10 +130,12 @@ void Controller::lay_objects_into_large_pages() const {
   lay_into_large_pages(*lowest, *highest);
 }
 
-void Controller::tell_jobs() {
+void Controller::tell_jobs(JobsTold told) {
+  jobs_told_ = told;
+  job_watches_.clear();
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const JobWatch watch(*instances[i].type, *instances[i].block, static_cast<std::uint32_t>(i));
-    if (watch.usable()) job_watches_.push_back(watch);
+    if (watch.usable(told)) job_watches_.push_back(watch);
   }
 }
 

@@ -91,6 +91,20 @@ struct CycleCounters {
   EvaluationCounters evaluation;         ///< of all expressions
 };
 
+/// The alarm that has come last, of all objects, for panels. Written by the cycle.
+struct NewestAlarm {
+  std::uint64_t count = 0;    ///< alarms since the start of the run
+  std::uint64_t number = 0;   ///< 0: none has come yet
+  std::uint64_t object = 0;   ///< number of the object, from 1, in the order of `technology_objects`
+  std::uint64_t cause = 0;    ///< AlarmCause
+  std::uint64_t address = 0;  ///< number of the sensor, or of another object that it concerns
+  std::uint64_t tick = 0;     ///< number of the servo tick
+  std::int64_t time = 0;      ///< [ns] since the start of the run
+  std::int64_t clock = 0;     ///< [µs] wall clock, since 1970-01-01 UTC; in virtual time since the start
+  double value = 0.0;         ///< measured, in the unit of the alarm; 0: not known
+  double limit = 0.0;         ///< what it was held against; 0: not known
+};
+
 /// How an axis stood when its run ended, for the summary.
 struct AxisSummary {
   DWORD status_word{};
@@ -119,16 +133,17 @@ class Controller {
   std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
 
+  std::int64_t epoch = 0;        ///< wall clock at the start of the run [µs] since 1970; 0: virtual time
   EventQueue* events = nullptr;  ///< crossing of alarms, jobs and overruns; nullptr: none
   /// Has jobs told as well, which costs a look at each instance in every tick. After all instances.
-  void tell_jobs();
+  void tell_jobs(JobsTold told = JobsTold::all);
 
   Tag& add_tag(Tag tag);
   /// An array tag whose elements are 0. `array.memory` is set here.
   ArrayTag& add_array(std::string name, Array array);
   /// A tag of type STRING[room] with its initial text; its memory is made here.
   StringTag& add_string(StringTag tag, std::size_t capacity);
-  /// Adds an object of any kind; its number is its place among all.
+  /// Adds an object of any kind; its number is its index among all.
   TechnologyObject& add_object(ObjectKind kind, std::string name);
   Axis& add_axis(ObjectKind kind, std::string name);
   Instance& add_instance(const BlockType& type, std::string name);
@@ -169,6 +184,12 @@ class Controller {
   /// Time of the next tick [ns]: its number times the servo cycle.
   std::int64_t now() const noexcept { return next_tick_ * clock.servo_cycle; }
   const CycleCounters& counters() const noexcept { return counters_; }
+  const NewestAlarm& newest_alarm() const noexcept { return newest_alarm_; }
+  /// Where a part of it lives, for snapshots. @param type of the part
+  template <class Part>
+  Signal newest_alarm(Part NewestAlarm::*part, Type type) noexcept {
+    return {&(newest_alarm_.*part), type, -1};
+  }
   /// Where a counter lives, for snapshots, which read it and never write.
   Signal counter(std::uint64_t CycleCounters::*member) noexcept {
     return {&(counters_.*member), Type::ULINT, -1};
@@ -203,7 +224,9 @@ class Controller {
   void step_axes_in_turn(std::span<Axis* const> axes) noexcept;
   void rebuild_order() noexcept;
   void tell_events(std::int64_t now) noexcept;
-  void tell(EventKind kind, std::size_t source, int number, int reaction, std::int64_t now) noexcept;
+  void tell(Event event, std::int64_t now) noexcept;
+  void tell_job(const JobWatch& watch, EventKind kind, int number, std::int64_t now) noexcept;
+  void note_newest(const AlarmNote& note, std::size_t object, std::int64_t now) noexcept;
   void show(std::int64_t now, bool interpolator_tick) noexcept;
 
   /// Axes of a level from which on it is shared: below, one processor is done before another has come.
@@ -220,6 +243,7 @@ class Controller {
   bool cams_interpolated_elsewhere_ = false;
   std::vector<SwitchedOutput> outputs_;  // that cams switch
   std::vector<JobWatch> job_watches_;    // none unless jobs are told
+  JobsTold jobs_told_{};
   CouplingOrder order_;
   Levels levels_;                                  // of that order, where a crew steps the axes
   std::unique_ptr<Crew> crew_;                     // none where one processor steps them
@@ -231,6 +255,7 @@ class Controller {
   std::int64_t last_missed_ = -1;  // of the tick after those missed last [ns]; -1: none was
   bool shutting_down_ = false;
   CycleCounters counters_;
+  NewestAlarm newest_alarm_;
   std::vector<AxisSummary> summary_;  // of the axes
 };
 

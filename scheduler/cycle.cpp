@@ -1,4 +1,6 @@
 // The cycle, from top to bottom as section 4 of the contract has it. Nothing here allocates, locks or blocks.
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "scheduler/controller.hpp"
@@ -161,23 +163,55 @@ void Controller::tell_events(std::int64_t t) noexcept {
     if (!object->alarm_notes.any()) continue;
     const auto source = static_cast<std::size_t>(object->number) - 1;
     object->alarm_notes.take([&](const AlarmNote& note) {
-      tell(note.number == 0 ? EventKind::acknowledged : EventKind::alarm, source, note.number, note.reaction,
+      const bool raised = note.number != 0;
+      tell({.kind = raised ? EventKind::alarm : EventKind::acknowledged,
+            .reaction = note.reaction,
+            .source = static_cast<std::uint32_t>(source),
+            .number = note.number,
+            .detail = note.detail},
            t);
+      if (raised) note_newest(note, source + 1, t);
     });
   }
   for (JobWatch& watch : job_watches_)
-    watch.look([&](EventKind kind, int number) { tell(kind, watch.instance(), number, 0, t); });
+    watch.look(jobs_told_, [&](EventKind kind, int number) { tell_job(watch, kind, number, t); });
 }
 
-void Controller::tell(EventKind kind, std::size_t source, int number, int reaction, std::int64_t t) noexcept {
-  const bool late = last_missed_ >= 0 && t - last_missed_ <= kLateFor;
-  events->push({kind, static_cast<std::int16_t>(reaction), static_cast<std::uint32_t>(source), number, t,
-                static_cast<std::uint64_t>(next_tick_), late});
+void Controller::tell_job(const JobWatch& watch, EventKind kind, int number, std::int64_t t) noexcept {
+  Event event{.kind = kind, .source = watch.instance(), .number = number, .object = watch.object()};
+  const Job* const job = kind == EventKind::job_aborted ? watch.job() : nullptr;
+  if (job != nullptr) {
+    event.aborted_by = job->aborted_by;
+    event.aborted_by_job = job->aborted_by_job;
+  }
+  tell(event, t);
+}
+
+void Controller::note_newest(const AlarmNote& note, std::size_t object, std::int64_t t) noexcept {
+  const auto known = [](double value) { return std::isfinite(value) ? value : 0.0; };
+  const AlarmDetail& detail = note.detail;
+  newest_alarm_ = {.count = newest_alarm_.count + 1,
+                   .number = static_cast<std::uint64_t>(note.number),
+                   .object = object,
+                   .cause = static_cast<std::uint64_t>(detail.cause),
+                   .address = std::uint64_t{std::max<std::uint16_t>(detail.object, detail.sensor)},
+                   .tick = static_cast<std::uint64_t>(next_tick_),
+                   .time = t,
+                   .clock = epoch + t / 1000,
+                   .value = known(detail.value),
+                   .limit = known(detail.limit)};
+}
+
+void Controller::tell(Event event, std::int64_t t) noexcept {
+  event.t = t;
+  event.tick = static_cast<std::uint64_t>(next_tick_);
+  event.late = last_missed_ >= 0 && t - last_missed_ <= kLateFor;
+  events->push(event);
 }
 
 void Controller::count_overrun() noexcept {
   ++counters_.overruns;
-  if (events != nullptr) tell(EventKind::overrun, 0, 0, 0, last_time_);
+  if (events != nullptr) tell({.kind = EventKind::overrun}, last_time_);
 }
 
 /// The image for Modbus, and on interpolator ticks the trace row.

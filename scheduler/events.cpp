@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <cstring>
 #include <thread>
+
+#include "tech_objects/objects/technology_object.hpp"
 
 namespace lockstep {
 
@@ -31,7 +34,16 @@ bool EventQueue::wait_for_space() const noexcept {
   return true;
 }
 
-JobWatch::JobWatch(const BlockType& type, Block& block, std::uint32_t instance) : instance_(instance) {
+/// An object derives from its base alone, so that a pin of any kind of object holds the address of that.
+std::uint16_t JobWatch::object() const noexcept {
+  if (object_ == nullptr) return 0;
+  const TechnologyObject* object = nullptr;
+  std::memcpy(&object, object_, sizeof object);
+  return object == nullptr ? std::uint16_t{0} : static_cast<std::uint16_t>(object->number);
+}
+
+JobWatch::JobWatch(const BlockType& type, Block& block, std::uint32_t instance)
+    : instance_(instance), block_(&block) {
   const auto output = [&](std::string_view name) -> const void* {
     const Pin* const pin = type.find_pin(name);
     return pin == nullptr ? nullptr : pin->signal(block).address;
@@ -43,6 +55,14 @@ JobWatch::JobWatch(const BlockType& type, Block& block, std::uint32_t instance) 
   error_ = static_cast<const bool*>(output("Error"));
   error_id_ = static_cast<const WORD*>(output("ErrorID"));
   if (error_id_ == nullptr) error_ = nullptr;
+  shifts_ =
+      aborted_ != nullptr && (type.name.starts_with("MC_Offset") || type.name.starts_with("MC_Phasing"));
+  // The object that carries it out: the first but the one that leads.
+  for (const Pin& pin : type.pins) {
+    if (pin.type != Type::AXIS || pin.name == "Master") continue;
+    object_ = pin.signal(block).address;
+    break;
+  }
 }
 
 }  // namespace lockstep

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "fb/block.hpp"
+#include "tech_objects/alarms/detail.hpp"
 #include "tech_objects/arithmetic/cache_line.hpp"
+#include "tech_objects/jobs/job.hpp"
 #include "tech_objects/types/types.hpp"
 
 namespace lockstep {
@@ -38,6 +40,11 @@ struct Event {
   std::int64_t t = 0;         ///< of the tick [ns] since the start of the run
   std::uint64_t tick = 0;     ///< number of the servo tick
   bool late = false;          ///< ticks were missed within a second before it
+  AbortedBy aborted_by{};     ///< of an aborted job
+  /// Number of the object that a job is of, from 1; 0: it is of none, or an alarm.
+  std::uint16_t object = 0;
+  AlarmDetail detail{};                 ///< of an alarm
+  const Job* aborted_by_job = nullptr;  ///< of an aborted job: whose address tells the instance
 };
 
 /// The crossing of events: a ring with one writer and one reader, neither of which waits for the other inside
@@ -80,6 +87,12 @@ class EventQueue {
   std::atomic<bool> closed_{false};
 };
 
+/// Which events of jobs are told.
+enum class JobsTold : std::uint8_t {
+  failures,  ///< those that have failed, and aborted shifts
+  all
+};
+
 /// Looks at the outputs of an instance in every tick and tells when its job starts and how it ends. Thread:
 /// the cycle.
 class JobWatch {
@@ -87,11 +100,14 @@ class JobWatch {
   /// @param instance its index; a block without Busy has no jobs: `usable` is false then
   JobWatch(const BlockType& type, Block& block, std::uint32_t instance);
 
-  bool usable() const noexcept { return busy_ != nullptr; }
+  bool usable(JobsTold told) const noexcept {
+    return told == JobsTold::all ? busy_ != nullptr : error_ != nullptr;
+  }
 
   /// Hands what has happened since the last look to `tell(kind, number)`.
   template <class Tell>
-  void look(Tell tell) noexcept {
+  void look(JobsTold told, Tell tell) noexcept {
+    if (told == JobsTold::failures) return look_for_failures(tell);
     const auto on = [](const bool* pin) { return pin != nullptr && *pin; };
     const State now{on(execute_), *busy_, on(done_), on(aborted_), on(error_)};
     const State last = last_;
@@ -103,13 +119,30 @@ class JobWatch {
     if (last.busy && !now.busy && !now.error && !now.done && !now.aborted) tell(EventKind::job_ended, 0);
   }
   std::uint32_t instance() const noexcept { return instance_; }
+  /// Number of the object that carries the job out; 0: none is wired.
+  std::uint16_t object() const noexcept;
+  /// The job that the block shows; nullptr: none that tells more.
+  const Job* job() const noexcept { return block_->shown_job(); }
 
  private:
+  template <class Tell>
+  void look_for_failures(Tell tell) noexcept {
+    const bool failed = *error_, aborted = shifts_ && *aborted_;
+    if (failed == last_.error && aborted == last_.aborted) return;
+    if (failed && !last_.error) tell(EventKind::job_failed, static_cast<int>(*error_id_));
+    if (aborted && !last_.aborted) tell(EventKind::job_aborted, 0);
+    last_.error = failed;
+    last_.aborted = aborted;
+  }
+
   struct State {
     bool execute = false, busy = false, done = false, aborted = false, error = false;
   };
 
   std::uint32_t instance_;
+  bool shifts_ = false;  // a phase shift or an offset
+  const Block* block_;
+  const void* object_ = nullptr;  // the pin, which holds its address
   const bool *execute_ = nullptr, *busy_ = nullptr, *done_ = nullptr, *aborted_ = nullptr, *error_ = nullptr;
   const WORD* error_id_ = nullptr;
   State last_;

@@ -8,7 +8,7 @@
 ///
 /// Semantics, all of them total functions:
 /// - integers wrap at the width of their type; a division truncates, MOD has the sign of the dividend, the
-///   least number divided by -1 wraps; a division by zero gives 0 and is counted;
+///   minimum number divided by -1 wraps; a division by zero gives 0 and is counted;
 /// - REAL is rounded to single precision after each operation; a real division gives infinity or NaN;
 /// - an element of an array whose index is out of range is 0 or FALSE, which is counted;
 /// - with a NaN every comparison but <> is FALSE, and MIN, MAX and LIMIT give NaN;
@@ -67,7 +67,7 @@ enum class Operation : std::uint8_t {
   kRotateRight,   ///< bit string, LINT
   kNegate,        ///< numbers, TIME
   kNot,           ///< BOOL, bit strings
-  kAbsolute,      ///< numbers; the least integer stays what it is
+  kAbsolute,      ///< numbers; the minimum integer stays what it is
   kSquareRoot,    ///< reals, from here on
   kNaturalLog,
   kDecimalLog,
@@ -141,6 +141,14 @@ class Expression {
   Texts texts_;  ///< to which instructions point
   Type type_;
   bool constant_;
+};
+
+/// What SEL and MUX do with texts.
+struct TextChoice {
+  Expression chooser;              ///< a BOOL, or a LINT from 0; below the first is taken, above the last one
+  std::vector<TextSource> inputs;  ///< one at least
+
+  const TextSource& chosen(EvaluationCounters& counters) const noexcept;
 };
 
 /// Puts an expression together in postfix order while loading: operands first, then what is done with them.

@@ -57,7 +57,7 @@ struct Divide {
         return 0;
       }
       if constexpr (std::signed_integral<T>)
-        if (b == -1) return static_cast<T>(Word{0} - static_cast<Word>(a));  // the least number wraps
+        if (b == -1) return static_cast<T>(Word{0} - static_cast<Word>(a));  // the minimum number wraps
       return static_cast<T>(a / b);
     } else {
       return a / b;

@@ -85,7 +85,7 @@ template <Mode mode>
 Word compare_step(const Instruction* at, Word accumulator, Word* slots,
                   EvaluationCounters& counters) noexcept {
   if constexpr (mode == Mode::kResting) slots[at->slot] = accumulator;
-  const bool holds = static_cast<const TextComparison*>(at->operand.address)->holds();
+  const bool holds = static_cast<const TextComparison*>(at->operand.address)->holds(counters);
   return next(at, encode(holds), slots, counters);
 }
 

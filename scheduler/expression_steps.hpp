@@ -25,7 +25,7 @@ enum class Right {
 
 Instruction::Step load(const Signal& signal, Mode mode) noexcept;
 Instruction::Step constant(Mode mode) noexcept;
-/// An index in the accumulator becomes the way to its element [byte]; `element` loads what is there.
+/// An index in the accumulator becomes the distance to its element [byte]; `element` loads what is there.
 Instruction::Step index() noexcept;
 Instruction::Step element(const Signal& first) noexcept;
 /// Two operands; null also where the right one cannot come from there.

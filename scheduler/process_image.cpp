@@ -126,8 +126,8 @@ void ProcessImage::add(const SignalWrite& write) noexcept {
 
 void ProcessImage::post(std::span<const SignalWrite> batch) noexcept {
   if (!mailbox_.take_back()) {
-    // The cycle has taken what waited, in a tick that followed the snapshot which this finds at the least. So
-    // every later one shows it, and until then it is put on top.
+    // The cycle has taken what waited, in a tick that followed the snapshot which this finds at the earliest.
+    // So every later one shows it, and until then it is put on top.
     refresh();
     std::swap(waiting_, taken_by_cycle_);
     waiting_.clear();

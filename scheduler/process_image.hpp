@@ -85,7 +85,7 @@ class ProcessImage {
   class WriteSet {
    public:
     explicit WriteSet(std::size_t variables) : indices_(variables) { writes_.reserve(variables); }
-    /// @return the place of the write to this variable
+    /// @return the index of the write to this variable
     std::size_t add(std::uint32_t variable, Value value, std::uint64_t mask) noexcept;
     void clear() noexcept;
     std::size_t size() const noexcept { return writes_.size(); }

@@ -105,7 +105,7 @@ void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept
         assign_element(*instruction.place, instruction.expression->evaluate(counters), counters);
         break;
       case Op::assign_text:
-        instruction.text->to.assign(instruction.text->from.view());
+        instruction.text->to.assign(instruction.text->from.view(counters));
         break;
       case Op::jump:
         at = first + instruction.target;

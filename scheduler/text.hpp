@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace lockstep {
 
-/// The greatest n of a STRING[n].
+/// The maximum n of a STRING[n].
 inline constexpr std::size_t kLongestText = 254;
 
 /// Where a text lives: characters of one byte (ISO 8859-1), up to the first zero or to the end of its room.
@@ -27,14 +28,19 @@ struct Text {
   void assign(std::string_view text) const noexcept;
 };
 
-/// A text in an expression: that of a tag as it stands, or a literal.
-struct TextSource {
-  std::optional<Text> tag;  ///< none: the literal counts
-  std::string literal;
+struct EvaluationCounters;
+struct TextChoice;
 
-  std::string_view view() const noexcept { return tag ? tag->view() : literal; }
-  /// The most characters that it may have.
-  std::size_t capacity() const noexcept { return tag ? tag->capacity : literal.size(); }
+/// A text in an expression: that of a tag as it stands, a literal, or one that SEL or MUX choose.
+struct TextSource {
+  std::optional<Text> tag;  ///< none: the choice or the literal counts
+  std::string literal;
+  std::shared_ptr<const TextChoice> choice = nullptr;  ///< none: the literal counts
+
+  /// The text now; neither allocates nor fails. Thread: the cycle.
+  std::string_view view(EvaluationCounters& counters) const noexcept;
+  /// The maximum number of characters that it may have.
+  std::size_t capacity() const noexcept;
 };
 
 /// `left = right` or `left <> right`; letters of both cases differ.
@@ -43,7 +49,9 @@ struct TextComparison {
   TextSource right;
   bool is_equality = true;
 
-  bool holds() const noexcept { return (left.view() == right.view()) == is_equality; }
+  bool holds(EvaluationCounters& counters) const noexcept {
+    return (left.view(counters) == right.view(counters)) == is_equality;
+  }
 };
 
 /// "STRING[20]".

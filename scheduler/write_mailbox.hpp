@@ -38,9 +38,9 @@ class WriteMailbox {
   /// Takes back what the cycle has not begun to apply. @return whether there was something; if not, what is
   /// put begins anew. Thread: the bridge.
   bool take_back() noexcept;
-  /// Puts a write at a place, below the number of variables. Thread: the bridge, after `take_back`.
+  /// Puts a write at an index, below the number of variables. Thread: the bridge, after `take_back`.
   void put(std::size_t index, const VariableWrite& write) noexcept;
-  /// Hands on what stands at the first `count` places, as batch `number` ≥ 1, greater than those before.
+  /// Hands on what stands at the first `count` indices, as batch `number` ≥ 1, greater than those before.
   /// Thread: the bridge.
   void hand_on(std::size_t count, std::uint64_t number) noexcept;
 

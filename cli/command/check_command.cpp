@@ -3,6 +3,7 @@
 
 #include "cli/command/command.hpp"
 #include "cli/command/shortage.hpp"
+#include "cli/command/standard_streams.hpp"
 
 namespace lockstep::cli {
 
@@ -28,14 +29,22 @@ std::optional<Project> load_or_tell(const std::string& path, int& status, const 
 void add_check_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("check", "Validate a project file and tell every problem in it");
   auto file = std::make_shared<std::string>();
+  auto expanded = std::make_shared<bool>(false);
   command->add_option("FILE", *file, "the project file")->required();
+  command->add_flag(
+      "--expanded", *expanded,
+      "write a valid project to standard output as one file: what it includes, and instances of "
+      "templates, in their places");
   command->footer(
-      "Problems go to standard error, one a line: FILE:/json/pointer: what is wrong, what is allowed\n"
+      "Problems go to standard error, one a line: FILE:/json/pointer: what is wrong, what is allowed (line, "
+      "column,\n"
+      "call or object, instance of a template); FILE is the file that is included where it is wrong there\n"
       "Exit status: 0 valid, 1 not valid, 2 cannot be read");
-  command->callback([&action, file] {
-    action = [file] {
+  command->callback([&action, file, expanded] {
+    action = [file, expanded] {
       int status = kOk;
       const bool valid = load_or_tell(*file, status, {}, Warnings::told, LoadedFor::looking).has_value();
+      if (valid && *expanded) write_data(expanded_project(*file));
       return valid ? static_cast<int>(kOk) : status;
     };
   });

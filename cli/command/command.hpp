@@ -18,9 +18,10 @@ namespace lockstep::cli {
 /// Exit statuses, as the contract has them.
 enum ExitStatus : int {
   kOk = 0,
-  kNotValid = 1,       ///< the project is not valid; a name is unknown
-  kCouldNotStart = 2,  ///< a file cannot be read, a port is taken, the command line is wrong
-  kStoppedByFault = 3  ///< an internal fault, or the overrun policy
+  kNotValid = 1,        ///< the project is not valid; a name is unknown; an expectation does not hold
+  kCouldNotStart = 2,   ///< a file cannot be read, a port is taken, the command line is wrong
+  kStoppedByFault = 3,  ///< an internal fault, or the overrun policy
+  kFailedOn = 4         ///< there was what --fail-on names
 };
 
 /// What a command does once the command line has been read; gives the exit status.
@@ -28,6 +29,7 @@ using Action = std::function<int()>;
 
 void add_check_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
+void add_test_command(CLI::App& app, Action& action);
 void add_describe_command(CLI::App& app, Action& action);
 void add_tags_command(CLI::App& app, Action& action);
 void add_read_command(CLI::App& app, Action& action);

@@ -45,6 +45,10 @@ nlohmann::ordered_json alarm_json(const Alarm& alarm) {
                               {"reaction", alarm.reaction},
                               {"reaction_text", reaction_text(alarm)},
                               {"class", class_name(alarm.alarm_class)}};
+  if (!alarm.cause.empty()) json["cause"] = alarm.cause;
+  if (!alarm.remedy.empty()) json["remedy"] = alarm.remedy;
+  if (!alarm.values.value.empty()) json["value"] = alarm.values.value;
+  if (!alarm.values.limit.empty()) json["limit"] = alarm.values.limit;
   if (alarm.error_bit >= 0) json["error_bit"] = alarm.error_bit;
   if (alarm.warning_bit >= 0) json["warning_bit"] = alarm.warning_bit;
   if (!alarm.not_raised.empty()) json["not_raised"] = alarm.not_raised;
@@ -57,6 +61,12 @@ std::string alarm_text(const Alarm& alarm, std::size_t width) {
   table.row({"Shown in", "ErrorDetail.Number, ErrorDetail.Reaction" +
                              (bit_text(alarm).empty() ? "" : ", " + bit_text(alarm))});
   table.row({"Class", std::string(class_text(alarm.alarm_class))});
+  if (!alarm.cause.empty()) table.row({"Cause", std::string(alarm.cause)});
+  if (!alarm.remedy.empty()) table.row({"Remedy", std::string(alarm.remedy)});
+  if (!alarm.values.value.empty())
+    table.row(
+        {"Told with it", std::string(alarm.values.value) +
+                             (alarm.values.limit.empty() ? "" : ", " + std::string(alarm.values.limit))});
   if (!alarm.not_raised.empty()) table.row({"Never raised", std::string(alarm.not_raised)});
   return "Alarm " + std::to_string(alarm.number) + "\n" + paragraph(alarm.text, 2, width) + "\n" +
          table.text(2, width);
@@ -90,9 +100,12 @@ std::string error_page(ErrorId id, std::size_t width) {
 
 std::string alarms_text(std::size_t width) {
   Table table({"Alarm", "Reaction", "Class", "Meaning"});
-  for (const Alarm& alarm : alarms())
+  for (const Alarm& alarm : alarms()) {
     table.row({std::to_string(alarm.number), std::to_string(alarm.reaction),
                std::string(class_name(alarm.alarm_class)), std::string(alarm.text)});
+    if (!alarm.cause.empty()) table.note("cause: " + std::string(alarm.cause));
+    if (!alarm.remedy.empty()) table.note("remedy: " + std::string(alarm.remedy));
+  }
   std::string text = "Technology alarms\n";
   text += paragraph("ErrorDetail.Number of an object; lockstep describe NUMBER tells more.", 2, width) + "\n";
   text += table.text(0, width) + "\n";

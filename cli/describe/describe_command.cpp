@@ -1,10 +1,12 @@
 // lockstep describe: tells what function blocks, technology objects, alarms and errors there are and mean.
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "cli/command/command.hpp"
 #include "cli/command/standard_streams.hpp"
+#include "cli/describe/search.hpp"
 #include "cli/describe/subject.hpp"
 #include "cli/describe/table.hpp"
 #include "projects/json/problem.hpp"
@@ -128,6 +130,12 @@ Subject find_keys(std::string_view path, std::string& problem) {
   return {};
 }
 
+std::string quoted(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + quote(word);
+  return text;
+}
+
 std::string unknown(std::string_view word) {
   std::vector<std::string_view> names = variable_names();
   for (const BlockType& type : block_types()) names.push_back(type.name);
@@ -173,8 +181,12 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
   if (words.size() > 1) {
     if (same_name(word, "keys")) return find_keys(words[1], problem);
     if (!same_name(word, "override")) {
-      problem = quote(word) +
-                " takes no second name; only override and keys do, as in override MC_GearInPos, keys clock";
+      const bool topic = std::any_of(std::begin(kTopics), std::end(kTopics),
+                                     [&](const Topic& known) { return same_name(known.name, word); });
+      if (Subject subject = topic ? Subject{} : search_subject(words)) return subject;
+      problem = topic ? quote(word) + " takes no second name"
+                      : "there is nothing that has to do with all of " + quoted(words);
+      problem += "; only override and keys take one, as in override MC_GearInPos, keys clock";
       return {};
     }
     if (Subject subject = override_subject(words[1])) return subject;
@@ -191,7 +203,10 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
   if (Subject subject = find_block(word, problem)) return subject;
   if (problem.empty())
     if (Subject subject = find_object(word, problem)) return subject;
-  if (problem.empty()) problem = unknown(word);
+  if (!problem.empty()) return {};
+  if (word.find('.') == word.npos)
+    if (Subject subject = search_subject(words)) return subject;
+  problem = unknown(word);
   return {};
 }
 
@@ -215,6 +230,7 @@ void add_describe_command(CLI::App& app, Action& action) {
       "  keys, keys technology_objects.drive      keys of the project file\n"
       "  functions, operators, types              those of expressions\n"
       "  SEL, TO_INT, MOD, LREAL                  one of them\n"
+      "  gear, following error                    what has to do with these words, nearest first\n"
       "Exit status: 0, or 1 if there is nothing of that name");
   command->callback([&action, words, json] { action = [words, json] { return describe(*words, *json); }; });
 }

@@ -17,8 +17,8 @@ namespace {
 /// An entry of the Modbus map with the name of its signal, or those of elements that follow each other.
 struct Entry {
   std::string name;
-  std::string type;  ///< of the signal
-  Unit unit;
+  std::string type;          ///< of the signal
+  std::string unit;          ///< as the project has it; empty for none
   const ModbusEntry* place;  ///< the first one
   const ModbusMapConfig* map;
   std::uint32_t span;  ///< addresses of all
@@ -61,7 +61,7 @@ void add_text(const Project& project, const ModbusMapConfig& map, const ModbusTe
   const auto& strings = project.controller->strings;
   for (std::size_t i = 0; i < strings.size(); ++i)
     if (&strings[i] == text.tag)
-      entries.of_strings[i].push_back({text.tag->name, text_type_name(text.tag->text.capacity), Unit::kNone,
+      entries.of_strings[i].push_back({text.tag->name, text_type_name(text.tag->text.capacity), "",
                                        &map.map.entries()[text.first], &map,
                                        static_cast<std::uint32_t>(text.count()), 0, text.tag});
 }
@@ -82,7 +82,7 @@ void sort_map(const Project& project, const ModbusMapConfig& map, Entries& entri
       const ModbusEntry& last = places[i + elements.count() - 1];
       sort_entry(
           project,
-          {elements.name, elements.type, elements.place.unit, &place, &map,
+          {elements.name, elements.type, std::string(unit_text(elements.place.unit)), &place, &map,
            last.address + modbus_span(last) - place.address, static_cast<std::uint32_t>(elements.count())},
           entries);
       i += elements.count() - 1;
@@ -91,8 +91,8 @@ void sort_map(const Project& project, const ModbusMapConfig& map, Entries& entri
     }
     const NamedSignal signal = project.modbus.signal_of(place);
     sort_entry(project,
-               {signal.name, std::string(type_name(map.map.signal_type(place))), signal.unit, &place, &map,
-                modbus_span(place)},
+               {signal.name, std::string(type_name(map.map.signal_type(place))), unit_of(signal), &place,
+                &map, modbus_span(place)},
                entries);
   }
 }
@@ -143,7 +143,7 @@ bool is_kept(const Project& project, const ArrayTag& tag) {
   return std::find(arrays.begin(), arrays.end(), &tag) != arrays.end();
 }
 
-/// A row with the first of some places, and one more for each further place; the comment stands last.
+/// A row with the first of some addresses, and one more for each further one; the comment stands last.
 void add_rows(Table& table, std::vector<std::string> row, const std::vector<Entry>& places,
               const std::string& comment) {
   const std::size_t before = row.size();
@@ -196,7 +196,7 @@ std::string strings_text(const Project& project, const Entries& entries, std::si
 std::string others_text(const Entries& entries, std::size_t width) {
   Table table({"Also on Modbus", "Type", "Unit", "Modbus", "Address", "As", "Access", ""});
   for (const Entry& entry : entries.others) {
-    std::vector<std::string> row{entry.name, entry.type, std::string(unit_text(entry.unit))};
+    std::vector<std::string> row{entry.name, entry.type, entry.unit};
     for (std::string& cell : cells(entry)) row.push_back(std::move(cell));
     row.emplace_back();
     table.row(std::move(row));
@@ -304,7 +304,7 @@ nlohmann::ordered_json project_json(const Project& project) {
   auto& others = json["other_modbus"] = nlohmann::ordered_json::array();
   for (const Entry& entry : entries.others) {
     nlohmann::ordered_json other{{"name", entry.name}, {"type", entry.type}};
-    if (entry.unit != Unit::kNone) other["unit"] = unit_text(entry.unit);
+    if (!entry.unit.empty()) other["unit"] = entry.unit;
     other["modbus"] = place_json(entry);
     others.push_back(std::move(other));
   }
@@ -330,8 +330,8 @@ std::string csv_cell(std::string_view text) {
   return is_plain ? cell : "\"" + cell + "\"";
 }
 
-/// One line for each place on Modbus, for the import of HMI systems; an array is one of ARRAY type, with the
-/// addresses of all its elements.
+/// One line for each address on Modbus, for the import of HMI systems; an array is one of ARRAY type, with
+/// the addresses of all its elements.
 std::string project_csv(const Project& project) {
   std::string text =
       "name,type,unit,table,address,length,wire_type,word_order,byte_order,bit,scale,offset,access,server,"
@@ -342,8 +342,8 @@ std::string project_csv(const Project& project) {
     const auto order = [](bool is_big) { return is_big ? "big" : "little"; };
     text +=
         fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(entry.name),
-                    csv_cell(entry.type), unit_text(entry.unit), modbus_table_name(place.table),
-                    place.address, entry.span, wire_type(entry), order(place.word_order == WordOrder::big),
+                    csv_cell(entry.type), entry.unit, modbus_table_name(place.table), place.address,
+                    entry.span, wire_type(entry), order(place.word_order == WordOrder::big),
                     order(is_big_byte_order(entry)), place.bit >= 0 ? std::to_string(place.bit) : "",
                     place.is_scaled ? fmt::format("{}", place.scale) : "",
                     place.is_scaled ? fmt::format("{}", place.offset) : "", place.writable ? "write" : "read",

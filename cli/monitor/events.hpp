@@ -5,7 +5,9 @@
 #include <deque>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "lockstep/event_detail_t.hpp"
 #include "lockstep/event_t.hpp"
 
 namespace lockstep::cli {
@@ -14,6 +16,7 @@ namespace lockstep::cli {
 struct ToldEvent {
   std::string channel;
   event_t event;
+  std::vector<std::string> details;  ///< what is known besides, a line each
 };
 
 /// What events say of one network. Anything may come: the lists have an end.
@@ -24,6 +27,8 @@ class HeardEvents {
   static constexpr std::size_t kMaximumAnswers = 20;
 
   void accept(const std::string& channel, const event_t& event);
+  /// What is known besides of an event that has come already.
+  void accept(const std::string& channel, const event_detail_t& detail);
 
   /// Alarms and acknowledgements, newest first.
   const std::deque<ToldEvent>& alarms() const noexcept { return alarms_; }

@@ -1,4 +1,4 @@
-/// What a signal was lately: least and greatest values of short times.
+/// What a signal was lately: minimum and maximum values of short times.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace lockstep::cli {
 
-/// A ring of least and greatest values, each over `kSlot` of the time of the run. Any one thread.
+/// A ring of minimum and maximum values, each over `kSlot` of the time of the run. Any one thread.
 class History {
  public:
   static constexpr std::int64_t kSlot = 100'000'000;  ///< [ns]
   static constexpr std::size_t kSlots = 600;          ///< a minute
 
-  /// Least and greatest value of a time.
+  /// Minimum and maximum value of a time.
   struct Span {
     double minimum;
     double maximum;

@@ -34,6 +34,12 @@ bool Model::accept(const std::string& channel, std::span<const std::uint8_t> byt
     if (event) heard_.events.accept(*name, *event);
     return event.has_value();
   }
+  if (const auto name = before(channel, kDetailSuffix); name && known(*name)) {
+    if (bytes.size() > kLongestNote) return false;
+    const auto detail = decode_detail(bytes);
+    if (detail) heard_.events.accept(*name, *detail);
+    return detail.has_value();
+  }
   if (const auto name = before(channel, kPanelSuffix); name && panel) {
     const auto state = bytes.size() <= kLongestNote ? decode_panel(bytes) : std::nullopt;
     if (state) panel->accept(*name, *state, now);

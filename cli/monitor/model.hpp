@@ -57,7 +57,7 @@ class Model {
 
   /// The signals that the search lets through, in the chosen order, channel by channel.
   std::vector<SignalRow> rows() const;
-  /// The place of the chosen signal among them; 0 if it is not there.
+  /// The index of the chosen signal among them; 0 if it is not there.
   std::size_t chosen(const std::vector<SignalRow>& rows) const;
   /// Chooses another signal. @param steps down
   void move(std::ptrdiff_t steps);

@@ -16,7 +16,7 @@ using Time = Model::Clock::time_point;
 
 constexpr std::size_t kValue = 13;
 constexpr std::size_t kUnit = 5;
-constexpr std::size_t kLimit = 10;        // columns of a least or greatest value
+constexpr std::size_t kLimit = 10;        // columns of a minimum or maximum value
 constexpr std::size_t kPlotHeight = 6;    // of a curve
 constexpr std::size_t kListHeight = 4;    // of a list below the table
 constexpr std::size_t kMinimumTable = 4;  // lines that the table keeps when panes are open
@@ -159,6 +159,8 @@ Lines plot(const Model& model, std::size_t width, Characters characters) {
   return lines;
 }
 
+constexpr std::size_t kBesideTime = 14;  // columns before the text of an event
+
 std::string time_text(const event_t& event) {
   return fmt::format("{:>10.3f} s  ", seconds(event.t));
 }
@@ -176,6 +178,7 @@ Lines jobs(const Model& model, std::size_t height) {
     if (told.event.number != 0)
       line +=
           fmt::format(" 16#{:04X} {}", static_cast<unsigned>(told.event.number), printable(told.event.text));
+    for (const std::string& detail : told.details) line += ", " + printable(detail);
     lines.push_back({line, told.event.kind == "job failed" ? Look::alarm : Look::plain});
   }
   lines.resize(height);
@@ -197,6 +200,8 @@ Lines alarms(const Model& model, std::size_t height) {
                        Look::alarm});
     else
       lines.push_back({time_text(event) + printable(event.source) + "  acknowledged"});
+    for (const std::string& detail : told.details)
+      lines.push_back({std::string(kBesideTime, ' ') + printable(detail)});
   }
   lines.resize(height);
   return lines;
@@ -216,7 +221,8 @@ std::string axis_text(const PanelAxis& axis, Time now) {
 std::string motion_text(const PanelAxis& axis, int percent) {
   const panel_t& state = axis.state;
   const std::string unit = printable(state.velocity_unit);
-  return (state.has_position != 0 ? fmt::format("{:.4f} u  ", state.position) : "") +
+  const std::string_view length = std::string_view(unit).substr(0, unit.rfind("/s"));
+  return (state.has_position != 0 ? fmt::format("{:.4f} {}  ", state.position, length) : "") +
          fmt::format("{:.3f} {}  ovr {:.0f} %  jog {} % ({} {})", state.velocity, unit, state.speed, percent,
                      number(state.jog_velocity * percent / 100.0), unit);
 }

@@ -107,7 +107,7 @@ PanelName ModbusPanel::name_of(const ModbusMapConfig& map, const ModbusText& tex
   return name;
 }
 
-/// The first place of a text in the maps.
+/// The first address of a text in the maps.
 std::optional<PanelName> ModbusPanel::find_text(const StringTag& tag, bool to_write) const {
   for (const ModbusMapConfig* map : target_.maps)
     for (const ModbusText& text : map->texts)
@@ -271,7 +271,7 @@ bool ModbusPanel::write(const PanelName& name, std::span<const Value> values) {
 
 namespace {
 
-/// The least and the greatest value of a signal that its registers can show.
+/// The minimum and maximum value of a signal that its registers can show.
 struct Limits {
   Value lowest{}, highest{};
 };

@@ -20,9 +20,10 @@ struct PanelOptions {
   std::string place;    ///< HOST:PORT
   std::string project;  ///< file
   std::vector<std::string> names;
-  std::optional<std::size_t> server;  ///< index in `modbus.server`; none: the one that listens at the place
-  int unit = 1;                       ///< of maps that are for every unit id
-  double timeout = 2.0;               ///< [s]
+  std::optional<std::size_t>
+      server;            ///< index in `modbus.server`; none: the one that listens at the endpoint
+  int unit = 1;          ///< of maps that are for every unit id
+  double timeout = 2.0;  ///< [s]
   bool json = false;
 };
 
@@ -70,7 +71,7 @@ class ModbusPanel {
 
   /// What a name stands for, or nothing: then that is told. Of "heights" and "heights[*]" those elements
   /// count that the map has; of "heights[2..5]" it has to have all.
-  /// @param to_write places that can be written
+  /// @param to_write addresses that can be written
   std::optional<PanelName> find(const std::string& name, bool to_write) const;
   /// All names of the maps, each once.
   std::vector<PanelName> all() const;

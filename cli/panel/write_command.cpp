@@ -30,7 +30,7 @@ std::vector<std::string> parts_of(const std::string& text, bool is_list) {
   return parts;
 }
 
-/// A value for a place, or nothing: then that is told. A coil is 0 or 1 to whoever comes from Modbus.
+/// A value for an address, or nothing: then that is told. A coil is 0 or 1 to whoever comes from Modbus.
 std::optional<Value> value_for(const PanelEntry& place, std::string text) {
   if (place.type() == Type::BOOL && (text == "0" || text == "1")) text = text == "1" ? "TRUE" : "FALSE";
   JsonValue json;

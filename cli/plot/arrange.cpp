@@ -6,6 +6,7 @@
 
 #include "cli/plot/picture.hpp"
 #include "fb/block.hpp"
+#include "tech_objects/data_blocks/choices.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 
 namespace lockstep::cli {
@@ -52,6 +53,12 @@ std::optional<Kind> kind_of_name(std::string_view name) {
       return place.bit >= 0 ? Kind{Type::BOOL, ""}
                             : Kind{place.variable->type, std::string(unit_text(place.variable->unit))};
   return kind_of_pin(path);
+}
+
+/// Whether it is a unit of positions: that of any object, or one that a project may choose.
+bool is_length(std::string_view unit) {
+  return unit == "u" || std::any_of(std::begin(kUnitsLengthUnit), std::end(kUnitsLengthUnit),
+                                    [unit](const Choice& choice) { return choice.text == unit; });
 }
 
 /// What the values of an unknown signal look like.
@@ -108,8 +115,10 @@ class Arrangement {
   void add(std::size_t signal, bool typed) {
     const TraceSignal& known = trace_.signals[signal];
     const auto& values = trace_.columns[signal];
+    const bool real = signal < trace_.reals.size() && trace_.reals[signal];
     Kind kind{known.type, known.unit};
-    if (!typed) kind = kind_of_name(known.name).value_or(kind_of_values(values, range_));
+    if (!typed)
+      kind = kind_of_name(known.name).value_or(real ? Kind{Type::LREAL, ""} : kind_of_values(values, range_));
     if (is_real(kind.type) || kind.type == Type::TIME) {
       if (kind.type == Type::TIME) kind.unit = "s";
       return add_curve(known.name, kind.unit, values, false);
@@ -138,10 +147,12 @@ class Arrangement {
     std::string quantity(quantity_of(name));
     int rank = 4;
     constexpr std::pair<std::string_view, std::string_view> kKnown[] = {
-        {"u", "position"}, {"u/s", "velocity"}, {"u/s²", "acceleration"}, {"u/s³", "jerk"}};
-    for (int i = 0; i < static_cast<int>(std::size(kKnown)); ++i) {
+        {"", "position"}, {"/s", "velocity"}, {"/s²", "acceleration"}, {"/s³", "jerk"}};
+    const std::string_view length = std::string_view(unit).substr(0, unit.find("/s"));
+    const std::string_view rate = std::string_view(unit).substr(length.size());
+    for (int i = 0; i < static_cast<int>(std::size(kKnown)) && is_length(length); ++i) {
       const bool position = i == 0;
-      if (unit != kKnown[i].first || (position && !quantity.ends_with("Position"))) continue;
+      if (rate != kKnown[i].first || (position && !quantity.ends_with("Position"))) continue;
       quantity = kKnown[i].second;
       rank = i;
     }
@@ -197,9 +208,9 @@ void set_range(Diagram& diagram) {
   diagram.highest = std::min(maximum + margin, 1e300);
 }
 
-Picture arrange(const TraceTable& trace, const PlotRange& range, bool typed) {
+Picture arrange(const TraceTable& trace, const PlotRange& range, const std::vector<bool>& typed) {
   Arrangement arrangement(trace, range);
-  for (const std::size_t signal : range.signals) arrangement.add(signal, typed);
+  for (const std::size_t signal : range.signals) arrangement.add(signal, typed[signal]);
   return arrangement.finish();
 }
 

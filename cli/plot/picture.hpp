@@ -59,14 +59,14 @@ struct PlotRange {
 
 /// Arranges signals into diagrams and lanes. Types and units that a CSV file does not have are taken from the
 /// names of variables and pins, or else from the values.
-/// @param range not empty
-Picture arrange(const TraceTable& trace, const PlotRange& range, bool typed);
+/// @param range not empty  @param typed for each signal whether its type and unit are known
+Picture arrange(const TraceTable& trace, const PlotRange& range, const std::vector<bool>& typed);
 
 /// Sets the axis of a diagram so that all its points are within.
 void set_range(Diagram& diagram);
 
 /// Fewer points that look the same: of the points of a `bin`-th part of the time, first, last, least and
-/// greatest.
+/// maximum.
 std::vector<Point> thinned(const std::vector<Point>& points, double begin, double end, int bins);
 
 /// Splits the values of a column where they are not finite and, if `wraps`, where a modulo position wraps:

@@ -28,6 +28,7 @@ struct PlotOptions {
   std::string from, to;
   std::string channel;
   std::string title;
+  std::string project;
 };
 
 /// What the user asked for cannot be drawn; the text says why.
@@ -45,6 +46,26 @@ TraceTable read_trace(const PlotOptions& options) {
   if (options.trace.ends_with(".csv")) return read_csv_trace(options.trace);
   if (options.trace.ends_with(".lcm")) return read_lcm_trace(options.trace, options.channel);
   throw CannotPlot("'" + options.trace + "' is no trace; it has to end in .csv or .lcm");
+}
+
+/// Which signals have a known type and unit: all of an LCM trace, which tells them, else those of the
+/// project.
+std::vector<bool> know_signals(const PlotOptions& options, TraceTable& trace) {
+  std::vector<bool> known(trace.signals.size(), options.trace.ends_with(".lcm"));
+  if (options.project.empty()) return known;
+  int status = kOk;
+  const std::optional<Project> project = load_or_tell(options.project, status, {}, Warnings::kept);
+  if (!project) throw CannotPlot("--project: the units and types of the signals cannot be taken from there");
+  for (std::size_t i = 0; i < trace.signals.size(); ++i) {
+    TraceSignal& signal = trace.signals[i];
+    const FoundOperand found = project->names.find(signal.name);
+    if (!found.place) continue;
+    const Operand& place = *found.place;
+    signal.type = place.signal.value_type();
+    signal.unit = unit_of(NamedSignal{signal.name, place.signal, place.unit, place.object, place.instance});
+    known[i] = true;
+  }
+  return known;
 }
 
 /// A time of the trace [s]: a number of seconds or a duration; `open` for an empty text.
@@ -106,9 +127,10 @@ void write_file(const std::string& path, const std::string& bytes) {
 int plot(const PlotOptions& options) {
   try {
     const PictureFormat format = format_of(options.picture);
-    const TraceTable trace = read_trace(options);
+    TraceTable trace = read_trace(options);
     if (!trace.remark.empty()) tell("warning: " + trace.remark);
-    Picture picture = arrange(trace, chosen_range(trace, options), options.trace.ends_with(".lcm"));
+    const std::vector<bool> known = know_signals(options, trace);
+    Picture picture = arrange(trace, chosen_range(trace, options), known);
     picture.title =
         options.title.empty() ? std::filesystem::path(options.trace).filename().string() : options.title;
     write_file(options.picture, run_gnuplot(plot_script(picture, format)));
@@ -132,6 +154,8 @@ void add_plot_command(CLI::App& app, Action& action) {
   command->add_option("--to", options->to, "leave out what is after this time");
   command->add_option("--channel", options->channel,
                       "trace in an LCM log; without it: the first that has rows");
+  command->add_option("--project", options->project,
+                      "project of a CSV trace, for the units and types of its signals");
   command->add_option("--title", options->title, "title; without it: the name of the file");
   command->footer(
       "One diagram for each quantity, BOOL and integer states as lanes below, one time axis. The line of a\n"

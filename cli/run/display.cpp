@@ -8,7 +8,7 @@
 
 #include "cli/command/command.hpp"
 #include "cli/run/run_command.hpp"
-#include "tech_objects/axis/velocity_unit.hpp"
+#include "scheduler/units.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -54,11 +54,14 @@ std::string place_text(const AxisSummary& end, const Axis& now) {
   const bool braked = brought_to_rest(end, now);
   if (!now.has_position()) {
     const double velocity = std::abs(end.position) < kTurns ? 0.0 : end.position;
-    return fmt::format("at {:.6g} {}", velocity, velocity_unit_text(now)) +
+    return fmt::format("at {:.6g} {}", velocity, unit_of(Unit::kVelocity, now)) +
            (braked ? "; brought to rest" : "");
   }
-  const std::string place = fmt::format("at {:.6g}", std::abs(end.position) < kRest ? 0.0 : end.position);
-  return braked ? place + fmt::format("; brought to rest at {:.6g}", now.data.ActualPosition) : place;
+  const std::string unit = unit_of(Unit::kPosition, now);
+  const double position = std::abs(end.position) < kRest ? 0.0 : end.position;
+  const std::string place = fmt::format("at {:.6g} {}", position, unit);
+  return braked ? place + fmt::format("; brought to rest at {:.6g} {}", now.data.ActualPosition, unit)
+                : place;
 }
 
 }  // namespace
@@ -103,7 +106,8 @@ void tell_axes(const Controller& controller) {
     std::string line = fmt::format("  {:<{}}  {:<14} {}", axis.name, width,
                                    state_text(end, axis.has_position()), place_text(end, axis));
     if (axis.was_synchronous())
-      line += fmt::format("; largest deviation while synchronous {:.3g}", end.largest_deviation);
+      line += fmt::format("; largest deviation while synchronous {:.3g} {}", end.largest_deviation,
+                          unit_of(Unit::kPosition, axis));
     write_message(line + "\n");
   }
 }

@@ -1,5 +1,6 @@
 // lockstep run: puts the parts together, runs them and tells how it went.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -40,10 +41,26 @@ class ToldOnStandardError final : public Messages {
     clear_line();
     tell("warning: " + text, Severity::warning);
   }
-  void event(const TraceEvent& event) override { tell_alarm(event, timeout_); }
+  void event(const TraceEvent& event) override {
+    if (event.kind == EventKind::alarm) ++alarms_;
+    if (event.kind == EventKind::job_failed) ++failed_jobs_;
+    const std::string text = events_.of(event);
+    // On a terminal the line of live values stands where the message goes.
+    if (!text.empty()) write_message((isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + text, timeout_);
+  }
+  /// What has been counted only. After the run.
+  void tell_rest() {
+    if (const std::string text = events_.rest(); !text.empty()) write_message(text);
+  }
+
+  std::uint64_t alarms() const noexcept { return alarms_; }
+  std::uint64_t failed_jobs() const noexcept { return failed_jobs_; }
 
  private:
+  std::atomic<std::uint64_t> alarms_{0};       // counted by the recorder
+  std::atomic<std::uint64_t> failed_jobs_{0};  // the same
   int timeout_;
+  EventMessages events_;
 };
 
 /// What a signal is to do is forgotten with what it is done to.
@@ -176,25 +193,43 @@ void require_means(const Project& project, bool modbus) {
   require_memory(kMemory);
 }
 
+/// The exit status of a run that would have had another one. Whether there was what it is to fail on is in
+/// doubt where events were lost.
+int status_of(int status, const FailOn& fail_on, const ToldOnStandardError& told,
+              const Controller& controller) {
+  if (status != kOk || (!fail_on.alarm && !fail_on.job)) return status;
+  std::string reason;
+  if (fail_on.alarm && told.alarms() > 0) reason = fmt::format("{} alarms", told.alarms());
+  if (fail_on.job && told.failed_jobs() > 0)
+    reason += fmt::format("{}{} failed jobs", reason.empty() ? "" : ", ", told.failed_jobs());
+  if (const std::uint64_t lost = controller.events == nullptr ? 0 : controller.events->lost();
+      reason.empty() && lost > 0)
+    reason = fmt::format("{} events were lost, which may have been such ones", lost);
+  if (reason.empty()) return status;
+  tell("failed: " + reason + " (--fail-on)", Severity::error);
+  return kFailedOn;
+}
+
 int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,
-                  Messages& messages) {
+                  const FailOn& fail_on, ToldOnStandardError& messages) {
   project.controller->apply_stimuli = true;
   require_means(project, !options.modbus.empty());
   Ending ending;
   RunSurroundings surroundings(project, options, std::move(keeper), messages);
   Display display(project, surroundings.signals(), options.duration);
   simulate(project, surroundings, display, ending, options.duration);
+  messages.tell_rest();
   surroundings.tell_losses();
   tell_axes(*project.controller);
   tell_counters(*project.controller);
-  return kOk;
+  return status_of(kOk, fail_on, messages, *project.controller);
 }
 
 /// The threads of the run do the work; this one only looks and tells.
 int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,
-                     std::shared_ptr<Messages> messages) {
+                     const FailOn& fail_on, const std::shared_ptr<ToldOnStandardError>& messages) {
   std::unique_ptr<Display> display;  // of whose image the cycle knows: it goes after the cycle
-  Runtime machine(std::move(project), std::move(keeper), options, std::move(messages));
+  Runtime machine(std::move(project), std::move(keeper), options, messages);
   machine.leave_processor();
   require_means(machine.project(), true);
   Ending ending;
@@ -205,15 +240,16 @@ int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, cons
   const Forgetting at_the_end{ending};
   machine.start();
   wait_for_end(machine, *display, manager, ending);
+  messages->tell_rest();
   const int status = tell_end(machine.status(), controller);
   tell_axes(controller);
   tell_counters(controller);
-  return status;
+  return status_of(status, fail_on, *messages, controller);
 }
 
 }  // namespace
 
-int run_project(const RunOptions& options) {
+int run_project(const RunOptions& options, FailOn fail_on) {
   keep_stacks_small();
   const auto messages = std::make_shared<ToldOnStandardError>(options.simulate ? 500 : 0);
   try {
@@ -222,8 +258,9 @@ int run_project(const RunOptions& options) {
     std::optional<Project> project = load_or_tell(
         options.file, status, [&](Project& loaded) { keeper = restore_kept(loaded, options, *messages); });
     if (!project) return status;
-    return options.simulate ? run_simulated(std::move(*project), std::move(keeper), options, *messages)
-                            : run_in_real_time(std::move(*project), std::move(keeper), options, messages);
+    return options.simulate
+               ? run_simulated(std::move(*project), std::move(keeper), options, fail_on, *messages)
+               : run_in_real_time(std::move(*project), std::move(keeper), options, fail_on, messages);
   } catch (const CouldNotStart& error) {
     tell(with_help(error.what()), Severity::error);
   } catch (const RetainFileError& error) {

@@ -2,6 +2,7 @@
 #include "cli/run/run_command.hpp"
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -51,6 +52,13 @@ void add_run_command(CLI::App& app, Action& action) {
       ->check([](const std::string& name) {
         return name.empty() ? std::string("needs the name of a file") : "";
       });
+  auto fail_on = std::make_shared<std::vector<std::string>>();
+  command
+      ->add_option(
+          "--fail-on", *fail_on,
+          "exit with 4 if there was an alarm, or a job that failed: alarm, job, or both, comma separated")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"alarm", "job"}));
   command->footer(
       "Without --simulate it runs in real time until SIGINT or SIGTERM (or --duration), then brings its axes "
       "to\n"
@@ -62,8 +70,10 @@ void add_run_command(CLI::App& app, Action& action) {
       "systemd.\n"
       "Exit status: 0 ended as asked, 1 project not valid, 2 could not start, 3 stopped by an internal fault "
       "or by\n"
-      "the overrun policy, or something did not come to its end");
-  command->callback([&action, options, duration] {
+      "the overrun policy, or something did not come to its end, 4 there was what --fail-on names, or events "
+      "were lost\n"
+      "and nobody knows");
+  command->callback([&action, options, duration, fail_on] {
     if (!duration->empty()) {
       std::string problem;
       const auto value = parse_duration(*duration, problem);
@@ -72,7 +82,9 @@ void add_run_command(CLI::App& app, Action& action) {
         throw CLI::ValidationError("--duration", *duration + ": has to be longer than nothing");
       options->duration = *value;
     }
-    action = [options] { return run_project(*options); };
+    const auto named = [&](const char* what) { return std::ranges::find(*fail_on, what) != fail_on->end(); };
+    const FailOn fails{.alarm = named("alarm"), .job = named("job")};
+    action = [options, fails] { return run_project(*options, fails); };
   });
 }
 

@@ -11,8 +11,14 @@
 
 namespace lockstep::cli {
 
+/// What makes a run fail that has otherwise ended as asked.
+struct FailOn {
+  bool alarm = false;
+  bool job = false;  ///< one that has failed or was rejected
+};
+
 /// Loads the project and carries the run out; gives the exit status.
-int run_project(const RunOptions& options);
+int run_project(const RunOptions& options, FailOn fail_on);
 
 /// Live values on a terminal; nothing in a pipe. Used by one thread, never the cycle's.
 class Display {

@@ -63,6 +63,22 @@ std::optional<event_t> decode_event(Bytes bytes) {
   return walk.at_end() ? decoded<event_t>(bytes) : std::nullopt;
 }
 
+std::optional<event_detail_t> decode_detail(Bytes bytes) {
+  LcmWalk walk(bytes);
+  if (!begins<event_detail_t>(walk)) return std::nullopt;
+  walk.skip(3 * 8);
+  walk.string();  // kind
+  walk.string();  // source
+  walk.skip(4);
+  for (int i = 0; i < 4; ++i) walk.string();  // object, cause, remedy, address
+  walk.skip(2 * 4);
+  const std::uint64_t values = walk.count(5 + 8);  // an empty name, and the value
+  for (std::uint64_t i = 0; i < values && walk.good(); ++i) walk.string();
+  walk.skip(8 * values);
+  walk.string();
+  return walk.at_end() ? decoded<event_detail_t>(bytes) : std::nullopt;
+}
+
 std::vector<std::uint8_t> encoded(const command_t& message) {
   return bytes_of(message);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lockstep/command_t.hpp"
+#include "lockstep/event_detail_t.hpp"
 #include "lockstep/event_t.hpp"
 #include "lockstep/panel_t.hpp"
 
@@ -26,6 +27,7 @@ std::string_view action_text(std::int32_t action) noexcept;
 std::optional<command_t> decode_command(std::span<const std::uint8_t> bytes);
 std::optional<panel_t> decode_panel(std::span<const std::uint8_t> bytes);
 std::optional<event_t> decode_event(std::span<const std::uint8_t> bytes);
+std::optional<event_detail_t> decode_detail(std::span<const std::uint8_t> bytes);
 
 std::vector<std::uint8_t> encoded(const command_t& message);
 std::vector<std::uint8_t> encoded(const panel_t& message);

@@ -23,6 +23,7 @@ LcmLog::LcmLog(const std::string& path, LcmTraceIdentity identity)
       channel_(identity_.channel),
       header_channel_(channel_ + std::string(kHeaderSuffix)),
       events_channel_(channel_ + std::string(kEventsSuffix)),
+      detail_channel_(channel_ + std::string(kDetailSuffix)),
       log_((check_channel(channel_), open(path))),
       file_(*this, log_->f) {}
 
@@ -41,6 +42,7 @@ void LcmLog::row(const TraceRow& row) {
 
 void LcmLog::event(const TraceEvent& event) {
   write(events_channel_, encoder_.value().event(event), event.t, 0);
+  if (has_detail(event)) write(detail_channel_, encoder_.value().detail(event), event.t, 0);
 }
 
 void LcmLog::flush() {

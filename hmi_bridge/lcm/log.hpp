@@ -53,6 +53,7 @@ class LcmLog final : public TraceSink {
   std::string channel_;
   std::string header_channel_;
   std::string events_channel_;
+  std::string detail_channel_;
   const std::unique_ptr<lcm_eventlog_t, Destroy> log_;
   TraceFile file_;
   std::optional<LcmEncoder> encoder_;

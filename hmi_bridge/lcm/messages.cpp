@@ -149,6 +149,37 @@ std::span<const std::uint8_t> LcmEncoder::event(const TraceEvent& event) {
   return encode(message);
 }
 
+bool has_detail(const TraceEvent& event) noexcept {
+  return event.kind == EventKind::alarm || event.kind == EventKind::job_failed ||
+         event.kind == EventKind::job_aborted;
+}
+
+std::span<const std::uint8_t> LcmEncoder::detail(const TraceEvent& event) {
+  event_detail_t message{};
+  message.utime = identity_.utime(event.t);
+  message.t = event.t;
+  message.tick = static_cast<std::int64_t>(event.tick);
+  message.kind = event_kind_text(event.kind);
+  message.source = event.source;
+  message.number = event.number;
+  message.object = event.object;
+  message.cause = event.kind == EventKind::job_aborted ? event.text : event.cause;
+  message.remedy = event.remedy;
+  message.address = event.address;
+  message.cause_number = event.cause_number;
+  message.sensor = event.sensor;
+  const auto add = [&](const std::string& name, double value) {
+    message.names.push_back(name);
+    message.values.push_back(value);
+    ++message.n;
+  };
+  if (event.has_value()) add(event.value_name, event.value);
+  if (event.has_value() && event.has_limit()) add(event.limit_name, event.limit);
+  message.unit = event.unit;
+  bytes_.resize(std::max(bytes_.size(), static_cast<std::size_t>(message.getEncodedSize())));
+  return encode(message);
+}
+
 LcmDecoder::Message LcmDecoder::accept(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 8 || bytes.size() > INT32_MAX) return Message::kForeign;
   const auto hash = static_cast<std::int64_t>(LcmWalk(bytes).number(8));

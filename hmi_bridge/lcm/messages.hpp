@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hmi_bridge/traces/sink.hpp"
+#include "lockstep/event_detail_t.hpp"
 #include "lockstep/event_t.hpp"
 #include "lockstep/trace_header_t.hpp"
 #include "lockstep/trace_row_t.hpp"
@@ -22,6 +23,10 @@ inline constexpr std::string_view kHeaderSuffix = "_HEADER";
 
 /// … and the channel of the events.
 inline constexpr std::string_view kEventsSuffix = "_EVENTS";
+/// … and the channel of what is known of events besides.
+inline constexpr std::string_view kDetailSuffix = "_DETAIL";
+/// Whether there is anything to be said of an event besides.
+bool has_detail(const TraceEvent& event) noexcept;
 
 /// What a trace is, apart from its signals.
 struct LcmTraceIdentity {
@@ -49,6 +54,7 @@ class LcmEncoder {
   /// Rows are numbered in the order of the calls.
   std::span<const std::uint8_t> row(const TraceRow& row);
   std::span<const std::uint8_t> event(const TraceEvent& event);
+  std::span<const std::uint8_t> detail(const TraceEvent& event);
 
   std::size_t header_size() const { return static_cast<std::size_t>(header_.getEncodedSize()); }
   std::size_t row_size() const { return static_cast<std::size_t>(row_.getEncodedSize()); }

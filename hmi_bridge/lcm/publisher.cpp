@@ -41,6 +41,7 @@ LcmPublisher::LcmPublisher(const std::string& url, LcmTraceIdentity identity, bo
       identity_(std::move(identity)),
       header_channel_(identity_.channel + std::string(kHeaderSuffix)),
       events_channel_(identity_.channel + std::string(kEventsSuffix)),
+      detail_channel_(identity_.channel + std::string(kDetailSuffix)),
       events_(events),
       lcm_((check_channel(identity_.channel), join(url))) {}
 
@@ -55,7 +56,9 @@ void LcmPublisher::row(const TraceRow& row) {
 }
 
 void LcmPublisher::event(const TraceEvent& event) {
-  if (events_) publish(events_channel_, encoder_.value().event(event), 0);
+  if (!events_) return;
+  publish(events_channel_, encoder_.value().event(event), 0);
+  if (has_detail(event)) publish(detail_channel_, encoder_.value().detail(event), 0);
 }
 
 void LcmPublisher::flush() {

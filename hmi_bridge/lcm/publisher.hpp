@@ -49,6 +49,7 @@ class LcmPublisher final : public TraceSink {
   const LcmTraceIdentity identity_;
   const std::string header_channel_;
   const std::string events_channel_;
+  const std::string detail_channel_;
   const bool events_;
   const std::unique_ptr<lcm_t, Destroy> lcm_;
   std::optional<LcmEncoder> encoder_;

@@ -14,7 +14,7 @@ struct ModbusCounters {
   std::atomic<std::uint64_t> connections{0};   ///< accepted
   std::atomic<std::uint64_t> refused{0};       ///< connections closed at once: too many
   std::atomic<std::uint64_t> not_allowed{0};   ///< connections closed at once: from where none may come
-  std::atomic<std::uint64_t> displaced{0};     ///< silent clients whose place a new one got
+  std::atomic<std::uint64_t> displaced{0};     ///< silent clients whose connection a new one got
   std::atomic<std::uint64_t> malformed{0};     ///< connections closed: not Modbus
   std::atomic<std::uint64_t> stalled{0};       ///< connections closed: owed something for too long
   std::atomic<std::uint64_t> idle{0};          ///< connections closed: asked for nothing for too long

@@ -312,6 +312,8 @@ void ModbusMap::place(std::size_t index) {
                         std::string(modbus_table_name(entry.table)) + " is taken by entry " +
                         line_of(at[address]) + " of the map already");
   if (at.size() < end) at.resize(end, kNone);
+  std::uint32_t& first = first_[static_cast<std::size_t>(entry.table)];
+  first = std::min(first, entry.address);
   std::fill(at.begin() + entry.address, at.begin() + end, static_cast<std::uint32_t>(index));
   if (!bits_as_they_are(entry, signal_type(entry))) return;
   std::vector<PlainRegister>& plain = plain_[static_cast<std::size_t>(entry.table)];

@@ -115,6 +115,14 @@ class ModbusMap {
     const std::vector<std::uint32_t>& at = at_[static_cast<std::size_t>(table)];
     return address >= at.size() || at[address] == kNone ? nullptr : &entries_[at[address]];
   }
+  /// From now on what lies between entries of a table is read as 0, and written by nobody.
+  void read_gaps_as_zero() noexcept { gaps_are_zero_ = true; }
+  /// Whether an address lies between entries of a table, has none, and is read as 0.
+  bool is_gap(ModbusTable table, std::uint32_t address) const noexcept {
+    const auto index = static_cast<std::size_t>(table);
+    return gaps_are_zero_ && address >= first_[index] && address < at_[index].size() &&
+           at_[index][address] == kNone;
+  }
   /// The plain register at an address; one without a signal if there is another one, or none.
   PlainRegister plain(ModbusTable table, std::uint32_t address) const noexcept {
     const std::vector<PlainRegister>& plain = plain_[static_cast<std::size_t>(table)];
@@ -148,10 +156,12 @@ class ModbusMap {
   std::vector<ModbusMapProblem> problems_;
   std::array<std::vector<std::uint32_t>, 4> at_;     ///< per table and address: index of the entry or kNone
   std::array<std::vector<PlainRegister>, 4> plain_;  ///< per table and address
-  std::vector<std::uint32_t> next_;                  ///< per entry: the next bit in its register or kNone
+  std::array<std::uint32_t, 4> first_{kNone, kNone, kNone, kNone};  ///< per table: lowest address of an entry
+  bool gaps_are_zero_ = false;
+  std::vector<std::uint32_t> next_;  ///< per entry: the next bit in its register or kNone
 };
 
-/// The maps of one place where clients ask: which one answers depends on the unit id. The maps outlive it.
+/// The maps of one endpoint: which one answers depends on the unit id. The maps outlive it.
 struct ModbusUnits {
   /// One map for every unit id.
   ModbusUnits(const ModbusMap& map) noexcept : every(&map) {}

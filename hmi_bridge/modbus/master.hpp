@@ -14,7 +14,7 @@
 
 namespace lockstep {
 
-/// The most that one request may read or write.
+/// The maximum that one request may read or write.
 inline constexpr std::uint32_t kMaximumRegistersRead = 125, kMaximumRegistersWritten = 123;
 inline constexpr std::uint32_t kMaximumBitsRead = 2000, kMaximumBitsWritten = 1968;
 

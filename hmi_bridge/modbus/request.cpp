@@ -142,7 +142,8 @@ ModbusException ModbusResponder::write_many_registers(Bytes pdu) {
 ModbusException ModbusResponder::check_read(ModbusTable table, std::uint32_t address,
                                             std::uint32_t count) const {
   for (std::uint32_t i = 0; i < count; ++i)
-    if (map_->find(table, address + i) == nullptr) return ModbusException::illegal_data_address;
+    if (map_->find(table, address + i) == nullptr && !map_->is_gap(table, address + i))
+      return ModbusException::illegal_data_address;
   return ModbusException::none;
 }
 
@@ -187,7 +188,8 @@ ModbusException ModbusResponder::read_bits(ModbusTable table, Bytes pdu) {
   std::uint8_t* const bytes = begin_list((count + 7) / 8);
   std::fill_n(bytes, (count + 7) / 8, std::uint8_t{0});
   for (std::uint32_t i = 0; i < count; ++i)
-    if (image_.value(map_->find(table, address + i)->signal).u != 0)
+    if (const ModbusEntry* const entry = map_->find(table, address + i);
+        entry != nullptr && image_.value(entry->signal).u != 0)
       bytes[i / 8] |= static_cast<std::uint8_t>(1u << (i % 8));
   return ModbusException::none;
 }
@@ -222,7 +224,11 @@ ModbusException ModbusResponder::read_registers(ModbusTable table, std::uint32_t
       continue;
     }
     const ModbusEntry* const entry = map_->find(table, i);
-    if (entry == nullptr) return ModbusException::illegal_data_address;
+    if (entry == nullptr) {
+      if (!map_->is_gap(table, i++)) return ModbusException::illegal_data_address;
+      put(0);
+      continue;
+    }
     const ModbusWords words = words_of(*entry);
     const std::uint32_t end = std::min(address + count, entry->address + modbus_span(*entry));
     for (; i < end; ++i) put(words[i - entry->address]);
@@ -314,7 +320,8 @@ ModbusException ModbusResponder::mask_register(std::uint32_t address, std::uint1
   batch_.assign(1, {entry.signal, *value});
   // Bits that the request leaves alone stay what they are when the write enters, not what they were when it
   // was asked for: a program may own them. Where the register is not the signal itself, the whole value goes.
-  if (size_of(type) == 2 && !entry.is_scaled) {
+  // Where not every value is allowed, the one that was judged has to be the one that is written.
+  if (size_of(type) == 2 && !entry.is_scaled && entry.range.unbounded()) {
     const auto named = static_cast<std::uint16_t>(~and_mask);
     batch_[0].mask = entry.byte_order == ByteOrder::big ? named : std::uint16_t(named << 8 | named >> 8);
   }

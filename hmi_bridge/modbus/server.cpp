@@ -77,7 +77,7 @@ struct Addresses {
 };
 
 std::uint16_t port_of(const sockaddr_storage& address) noexcept {
-  // Both families have their port at the same place.
+  // Both families have their port at the same offset.
   return ntohs(reinterpret_cast<const sockaddr_in&>(address).sin_port);
 }
 
@@ -172,8 +172,8 @@ std::string ModbusServer::open_line(std::size_t service) {
   return {};
 }
 
-/// Listens at all addresses of a place. An address that this machine does not have is passed over if another
-/// one of the same name is there: "localhost" on a machine without IPv6.
+/// Listens at all addresses of an endpoint. An address that this machine does not have is passed over if
+/// another one of the same name is there: "localhost" on a machine without IPv6.
 std::string ModbusServer::listen_at(Endpoint endpoint, std::size_t service) {
   const Addresses addresses(endpoint);
   if (addresses.code != 0) return ::gai_strerror(addresses.code);

@@ -42,7 +42,7 @@ struct ModbusServerOptions {
   std::uint32_t requests_per_second = 0;  ///< of one client; what is more waits; 0: as many as it likes
   /// A client that does not end a request, or take an answer, for this long is disconnected.
   std::chrono::milliseconds stall_time{10'000};
-  /// Where all places are taken, a new client gets the place of the one that has been silent longest, if that
+  /// Where all connections are taken, a new client gets that of the one that has been silent longest, if that
   /// is this long at least.
   std::chrono::milliseconds idle_time{10'000};
   /// A client that asks for nothing for this long is disconnected; 0: never.

@@ -24,8 +24,7 @@ enum class TriggerKind : std::uint8_t {
 
 /// Which rows of a trace count.
 struct TraceSelection {
-  std::int64_t every =
-      1;  ///< of the rows that the trigger lets through only each n-th, by its place in the run
+  std::int64_t every = 1;  ///< of the rows that the trigger lets through only each n-th, counted in the run
   TriggerKind trigger = TriggerKind::none;
   double level = 0.5;
   std::int64_t before = 0;  ///< rows of that time before the occasion count as well [ns]

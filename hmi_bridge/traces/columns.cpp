@@ -2,7 +2,15 @@
 
 #include <algorithm>
 
+#include "scheduler/units.hpp"
+
 namespace lockstep {
+
+std::string unit_of(const NamedSignal& signal) {
+  if (signal.object != nullptr) return unit_of(signal.unit, *signal.object);
+  if (signal.instance != nullptr) return unit_of(signal.unit, *signal.instance);
+  return std::string(unit_text(signal.unit));
+}
 
 std::vector<Signal> places_of(const std::vector<NamedSignal>& signals) {
   std::vector<Signal> places;
@@ -27,7 +35,7 @@ std::vector<std::size_t> TraceColumns::of(const std::vector<NamedSignal>& signal
 std::vector<TraceSignal> TraceColumns::described() const {
   std::vector<TraceSignal> signals;
   for (const NamedSignal& column : columns_)
-    signals.push_back({column.name, column.signal.value_type(), std::string(unit_text(column.unit))});
+    signals.push_back({column.name, column.signal.value_type(), unit_of(column)});
   return signals;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hmi_bridge/traces/sink.hpp"
+#include "scheduler/controller.hpp"
 #include "tech_objects/types/declaration.hpp"
 #include "tech_objects/types/types.hpp"
 
@@ -16,7 +17,12 @@ struct NamedSignal {
   std::string name;
   Signal signal;
   Unit unit = Unit::kNone;
+  const TechnologyObject* object = nullptr;  ///< whose variable it is
+  const Instance* instance = nullptr;        ///< whose pin it is
 };
+
+/// The unit of a signal in words, as the project has it. Once everything is loaded.
+std::string unit_of(const NamedSignal& signal);
 
 /// Where the values of some signals stand, in their order.
 std::vector<Signal> places_of(const std::vector<NamedSignal>& signals);

@@ -54,6 +54,7 @@ class Parser {
       begin = end + 1;
     }
     table_.columns.resize(table_.signals.size());
+    table_.reals.resize(table_.signals.size());
   }
 
   void values(std::string_view line) {
@@ -61,7 +62,9 @@ class Parser {
     for (std::size_t column = 0; begin <= line.size(); ++column) {
       if (column > table_.columns.size()) fail(begin + 1, "more values than names: " + expected());
       const std::size_t end = std::min(line.find(',', begin), line.size());
-      const double value = number(line.substr(begin, end - begin), begin + 1);
+      const std::string_view text = line.substr(begin, end - begin);
+      const double value = number(text, begin + 1);
+      if (column > 0 && text.find_first_of(".einEIN") != text.npos) table_.reals[column - 1] = true;
       (column == 0 ? table_.t : table_.columns[column - 1]).push_back(value);
       begin = end + 1;
       if (end == line.size() && column < table_.columns.size())

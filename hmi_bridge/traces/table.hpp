@@ -14,6 +14,8 @@ struct TraceTable {
   std::vector<TraceSignal> signals;
   std::vector<double> t;                     ///< [s]
   std::vector<std::vector<double>> columns;  ///< one for each signal; BOOL as 0 or 1, TIME in seconds
+  /// Of a CSV file: columns of which a value was written as a real number, with a point or an exponent.
+  std::vector<bool> reals;
   /// What is missing, such as a last row that was cut short when a run was killed; empty if nothing is.
   std::string remark;
 };

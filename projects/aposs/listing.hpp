@@ -17,7 +17,8 @@ std::string instruction_text(const Image& image, std::size_t instruction);
 /// All of them, each line of the source above those that it became. `sources` are the texts of the files.
 std::string listing(const Image& image, const std::vector<std::string>& sources);
 
-/// The most internal commands from an entry to its RETURN; none where a loop may make it any number.
+/// The maximum number of internal commands from an entry to its RETURN; none where a loop may make it any
+/// number.
 std::optional<std::size_t> longest_run(const Image& image, std::uint16_t entry);
 /// Subprograms that interrupts call.
 std::vector<Routine> handlers_of(const Image& image);

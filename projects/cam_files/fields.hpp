@@ -146,15 +146,11 @@ namespace keys {
 
 /// What defines a cam, in a cam file and in a technology object of a project alike.
 inline constexpr Key kCamDefinition[] = {{"elements"}, {"optimization"}, {"points"}, {"segments"}, {"file"}};
-inline constexpr Key kCamFile[] = {{"lockstep_cam", kRequired},
-                                   {"name"},
-                                   {"description"},
-                                   {"type"},
-                                   {"interpolation"},
-                                   {"elements"},
-                                   {"optimization"},
-                                   {"points"},
-                                   {"segments"},
+inline constexpr Key kCamFile[] = {{"$schema"},  {"lockstep_cam", kRequired},
+                                   {"name"},     {"description"},
+                                   {"type"},     {"interpolation"},
+                                   {"elements"}, {"optimization"},
+                                   {"points"},   {"segments"},
                                    {"checks"}};
 inline constexpr Key kCamInterpolation[] = {{"mode"}, {"boundary"}};
 inline constexpr Key kCamOptimization[] = {{"continuity"}, {"goal"}};

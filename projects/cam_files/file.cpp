@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "projects/assembly/sources.hpp"
 #include "projects/cam_files/fields.hpp"
 #include "projects/cam_files/table.hpp"
 #include "projects/json/fields.hpp"
@@ -49,7 +50,24 @@ void read_project(const JsonValue& root, const std::string& folder, const std::s
   definition.name = name;
   definition.capacity = found->find("type")->text == "TO_Cam_10k" ? kCam10kPoints : kCamPoints;
   read_settings(*found, definition.design.interpolation, problems);
-  read_cam_definition(*found, folder, CamWithoutCurve::refused, definition, problems);
+  const JsonValue* const file = found->find("file");
+  read_cam_definition(*found, file != nullptr ? file->source()->folder() : folder, CamWithoutCurve::refused,
+                      definition, problems);
+}
+
+/// The cam of a project, of which other files may be parts.
+LoadedCam load_from_project(std::string_view text, const std::string& folder, const std::string& name) {
+  LoadedCam loaded;
+  ProjectSources sources(text, folder);
+  loaded.problems = sources.take_problems();
+  if (!sources.usable()) return loaded;
+  CamDefinition definition;
+  Problems problems;
+  read_project(sources.root(), folder, name, definition, problems);
+  for (Problem& problem : problems.take_errors()) loaded.problems.push_back(std::move(problem));
+  loaded.warnings = problems.take_warnings();
+  if (loaded.problems.empty()) loaded.definition = std::move(definition);
+  return loaded;
 }
 
 LoadedCam load_json(std::string_view text, const std::string& folder, const std::string& name) {
@@ -60,9 +78,8 @@ LoadedCam load_json(std::string_view text, const std::string& folder, const std:
   CamDefinition definition;
   Problems problems;
   const JsonValue& root = document.root();
-  if (root.find("lockstep") != nullptr)
-    read_project(root, folder, name, definition, problems);
-  else if (!name.empty())
+  if (root.find("lockstep") != nullptr) return load_from_project(text, folder, name);
+  if (!name.empty())
     problems.report(root, "--cam names a cam of a project, and this file is none");
   else
     read_cam_document(root, definition, problems);
@@ -77,7 +94,9 @@ LoadedCam load_json(std::string_view text, const std::string& folder, const std:
 LoadedCam load_cam(std::string_view text, const std::string& folder, const std::string& name,
                    std::size_t capacity) {
   LoadedCam loaded;
-  const auto first = text.find_first_not_of(" \t\r\n");
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  const auto first =
+      text.find_first_not_of(" \t\r\n", text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
   if (first == text.npos) {
     loaded.problems.push_back(
         {"1:1", "the file is empty; a cam is a JSON object or a table of points or elements"});
@@ -88,7 +107,8 @@ LoadedCam load_cam(std::string_view text, const std::string& folder, const std::
         {"1:1", "the file is longer than " + std::to_string(JsonDocument::kLongest >> 20) + " MiB"});
     return loaded;
   }
-  if (text[first] == '{' || text[first] == '[') return load_json(text, folder, name);
+  constexpr std::string_view kJsonBegins = "{[/";  // an object, an array, a comment
+  if (kJsonBegins.find(text[first]) != kJsonBegins.npos) return load_json(text, folder, name);
   if (!name.empty()) {
     loaded.problems.push_back({"1:1", "--cam names a cam of a project, and this file is none"});
     return loaded;

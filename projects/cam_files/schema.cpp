@@ -64,6 +64,8 @@ Json object(const std::vector<Key>& keys, const Members& members) {
     properties[std::string(key.name)] = member->second;
     if (key.required) required.push_back(key.name);
   }
+  const std::string comment(keys::kComment.name);
+  if (!properties.contains(comment)) properties[comment] = text(keys::kComment.text);
   Json schema = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) schema["required"] = required;
   return schema;
@@ -75,7 +77,7 @@ class ObjectSchema {
   ObjectSchema() = default;
   explicit ObjectSchema(std::string_view kind) {
     keys_ = {{"type", keys::kRequired}, {"comment"}};
-    members_ = {{"type", {{"const", kind}}}, {"comment", text("free text")}};
+    members_ = {{"type", {{"const", kind}}}, {"comment", text(keys::kComment.text)}};
   }
 
   template <class T>
@@ -212,7 +214,8 @@ std::string cam_schema() {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Lockstep cam"}};
   schema.update(object(
       list(keys::kCamFile),
-      {{"lockstep_cam", {{"const", 1}}},
+      {{"$schema", text("where the schema of the file is, for editors")},
+       {"lockstep_cam", {{"const", 1}}},
        {"name", text("name of the cam")},
        {"description", text("what it is for")},
        {"type", one_of("TO_Cam holds 1000 points, TO_Cam_10k 10000; both 50 segments", cam_words::kTypes)},

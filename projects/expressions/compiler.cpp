@@ -1,6 +1,7 @@
 #include "projects/expressions/compiler.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -11,10 +12,33 @@
 namespace lockstep {
 namespace {
 
+/// Thrown where more values would have to rest than there is room for.
+struct TooManyValues {};
+
+void emit(const Term& term, ExpressionBuilder& code);
+
+Expression finished(const Term& term, Type type) {
+  ExpressionBuilder code;
+  emit(term, code);
+  if (!code.fits()) throw TooManyValues();
+  return std::move(code).finish(type);
+}
+
+TextSource text_of(const Term& term) {
+  if (term.form != Term::Form::kTextChoice) return term.text;
+  std::vector<TextSource> inputs;
+  for (std::size_t i = 0; i + 1 < term.operands.size(); ++i) inputs.push_back(text_of(term.operands[i]));
+  const Term& chooser = term.operands.back();
+  return {.tag = std::nullopt,
+          .literal = "",
+          .choice = std::make_shared<const TextChoice>(
+              TextChoice{finished(chooser, chooser.type), std::move(inputs)})};
+}
+
 void emit(const Term& term, ExpressionBuilder& code) {
   if (term.form == Term::Form::kTextComparison)
     return code.compare_texts(
-        {term.operands[0].text, term.operands[1].text, term.operation == Operation::kEqual});
+        {text_of(term.operands[0]), text_of(term.operands[1]), term.operation == Operation::kEqual});
   for (std::size_t i = 0; i < term.operands.size(); ++i) {
     emit(term.operands[i], code);
     // MIN, MAX with many inputs: one after the other. An operation takes the type of its first operand.
@@ -44,10 +68,16 @@ void emit(const Term& term, ExpressionBuilder& code) {
       break;
     case Term::Form::kOperation:
     case Term::Form::kRounding:        // has become an operation
-    case Term::Form::kText:            // stands in comparisons only
+    case Term::Form::kText:            // stands in comparisons and choices only
+    case Term::Form::kTextChoice:      // the same
     case Term::Form::kTextComparison:  // see above
       break;
   }
+}
+
+ExpressionError too_many_values() {
+  return {1, "the expression needs more than " + std::to_string(ExpressionBuilder::kMaximumValues) +
+                 " intermediate values at a time"};
 }
 
 CompiledExpression compile(std::string_view text, Type wanted, const Scope& scope) {
@@ -62,14 +92,11 @@ CompiledExpression compile(std::string_view text, Type wanted, const Scope& scop
   result.errors = std::move(settling.errors);
   result.warnings = std::move(settling.warnings);
   if (!result.errors.empty()) return result;
-  ExpressionBuilder code;
-  emit(term, code);
-  if (code.fits())
-    result.expression = std::move(code).finish(wanted);
-  else
-    result.errors.push_back({1, "the expression needs more than " +
-                                    std::to_string(ExpressionBuilder::kMaximumValues) +
-                                    " intermediate values at a time"});
+  try {
+    result.expression = finished(term, wanted);
+  } catch (const TooManyValues&) {
+    result.errors.push_back(too_many_values());
+  }
   return result;
 }
 
@@ -81,13 +108,15 @@ CompiledText compile_text(std::string_view text, const Scope& scope) {
     Typing typing(scope);
     Term term = typing.type(parse_expression(text));
     if (!term.faulty && term.shape == Shape::kText)
-      result.text = std::move(term.text);
+      result.text = text_of(term);
     else if (!term.faulty)
       typing.settling().error(
           1, describe(term) + " is no text; allowed: a text such as 'ale', or a tag of type STRING");
     result.errors = std::move(typing.settling().errors);
   } catch (const SyntaxError& error) {
     result.errors.push_back({error.column, error.message});
+  } catch (const TooManyValues&) {
+    result.errors.push_back(too_many_values());
   }
   return result;
 }

@@ -32,7 +32,8 @@ std::optional<Value> whole_value(const JsonValue& number, Type type) {
   if (!number.whole) return std::nullopt;
   Value value{};
   if (number.negative && number.magnitude != 0) {
-    const std::uint64_t maximum = 0 - static_cast<std::uint64_t>(lowest(type));  // amount of the least number
+    const std::uint64_t maximum =
+        0 - static_cast<std::uint64_t>(lowest(type));  // amount of the minimum number
     if (number.magnitude > maximum) return std::nullopt;
     value.u = 0 - number.magnitude;
     return value;

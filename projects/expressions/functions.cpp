@@ -184,6 +184,16 @@ Term Typing::absolute(const Syntax& syntax, std::vector<Term> inputs) {
 Term Typing::choice(const Syntax& syntax, std::vector<Term> inputs, bool binary_choice) {
   Term chooser = std::move(inputs.front());
   inputs.erase(inputs.begin());
+  const auto is_text = [](const Term& input) { return input.shape == Shape::kText; };
+  if (std::ranges::all_of(inputs, is_text)) {
+    settling_.settle(chooser, binary_choice ? Type::BOOL : Type::LINT);
+    if (chooser.faulty) return faulty(syntax.column);
+    Term term = text_term(syntax.column, {});
+    term.form = Term::Form::kTextChoice;
+    term.operands = std::move(inputs);
+    term.operands.push_back(std::move(chooser));
+    return term;
+  }
   const auto common = join_all(inputs.data(), inputs.size());
   if (!common)
     return no_meaning(syntax.text, syntax.column, inputs, "the inputs to choose from need a common type");

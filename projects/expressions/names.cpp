@@ -152,7 +152,9 @@ FoundOperand find_pin(const Instance& instance, std::string_view path) {
     return refuse("the pin '" + std::string(pin->name) + "' takes an array and has no value");
   if (pin->type == Type::AXIS)
     return refuse("the pin '" + std::string(pin->name) + "' takes a technology object and has no value");
-  return with_bit({.signal = pin->signal(*instance.block), .unit = pin->unit, .pin = pin}, bit, path);
+  return with_bit(
+      {.signal = pin->signal(*instance.block), .unit = pin->unit, .pin = pin, .instance = &instance}, bit,
+      path);
 }
 
 /// What follows the index of an array: a member, and perhaps a bit.

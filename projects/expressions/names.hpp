@@ -34,6 +34,7 @@ struct Operand {
   const Pin* pin = nullptr;
   const Variable* variable = nullptr;
   TechnologyObject* object = nullptr;  ///< whose variable it is
+  const Instance* instance = nullptr;  ///< whose pin it is
   ElementRange elements{};             ///< of a path with "[]": `signal` is the first of them
 };
 

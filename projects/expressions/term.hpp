@@ -22,7 +22,7 @@ enum class Shape {
   kInteger,  ///< integer literals, or an operation on them alone: any number that holds them
   kReal,     ///< an operation in which a real literal has to decide: REAL or LREAL
   kBits,     ///< an operation on bits of literals: any bit string from `type` on
-  kText      ///< a text, which is only compared with another one, or assigned
+  kText      ///< a text, which is only compared with another one, chosen, or assigned
 };
 
 /// A node of the typed tree. A literal, and an operation on nothing but literals, keeps a shape until its
@@ -39,6 +39,7 @@ struct Term {
     kSelection,       ///< SEL: operands IN0, IN1, G
     kMultiplexer,     ///< MUX: operands IN0, IN1, …, K
     kText,            ///< `text`
+    kTextChoice,      ///< SEL, MUX of texts: operands IN0, IN1, …, and what chooses, of type BOOL or LINT
     kTextComparison,  ///< `operation` (kEqual, kUnequal) on two texts
     kRounding  ///< `operation` (TRUNC, …) on a real: an integer, or in a real place the real without fraction
   };
@@ -55,7 +56,7 @@ struct Term {
   Operation operation = Operation::kAdd;
   std::vector<Term> operands;
   WideInteger integer = 0;  ///< of an integer literal
-  WideInteger lowest = 0;   ///< least and greatest integer literal within
+  WideInteger lowest = 0;   ///< minimum and maximum integer literal within
   WideInteger highest = 0;
   int division_column = 0;    ///< where the integer division stands that gave this integer; 0: none
   int divisions_by_zero = 0;  ///< found in an integer literal when it was computed

@@ -10,16 +10,8 @@
 namespace lockstep {
 namespace {
 
-/// "line:column" behind so many bytes of the text, both from 1; columns count characters.
-std::string place_in(std::string_view text, std::size_t bytes) {
-  const std::string_view before = text.substr(0, std::min(bytes, text.size()));
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  const std::size_t newline = before.rfind('\n');
-  const std::string_view start = newline == before.npos ? before : before.substr(newline + 1);
-  const auto column = 1 + std::count_if(start.begin(), start.end(), [](char c) {
-                        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-                      });
-  return std::to_string(line) + ":" + std::to_string(column);
+std::string text_of(SourcePosition position) {
+  return std::to_string(position.line) + ":" + std::to_string(position.column);
 }
 
 /// What nlohmann's message says, without its number and place.
@@ -52,6 +44,16 @@ void append_segment(std::string& pointer, std::string_view key) {
   }
 }
 
+/// What the elements of an array, or the members of an object, are called; empty: nothing of its own.
+std::string_view called(std::string_view key) {
+  constexpr std::pair<std::string_view, std::string_view> kCalled[] = {
+      {"calls", "call"},       {"then", "call"},          {"else", "call"},
+      {"programs", "program"}, {"devices", "device"},     {"technology_objects", "object"},
+      {"tags", "tag"},         {"instances", "instance"}, {"templates", "template"}};
+  const auto* const found = std::ranges::find(kCalled, key, [](const auto& one) { return one.first; });
+  return found == std::end(kCalled) ? std::string_view() : found->second;
+}
+
 }  // namespace
 
 const JsonValue* JsonValue::find(std::string_view key) const noexcept {
@@ -73,6 +75,41 @@ std::string JsonValue::pointer() const {
       append_segment(result, lockstep::shown(value->key_));
   }
   return result;
+}
+
+/// The name under which the parent has it; of a copy in an instance of a template it is not that of the
+/// template.
+std::string JsonValue::name_in_parent() const {
+  if (instance_ != nullptr)
+    for (const Member& member : parent_->members)
+      if (member.value == this) return member.key;
+  return key_;
+}
+
+std::string JsonValue::named_part() const {
+  for (const JsonValue* value = this; value->parent_ != nullptr; value = value->parent_) {
+    const std::string_view what = called(value->parent_->key_);
+    if (what.empty()) continue;
+    if (value->parent_->kind == JsonKind::object)
+      return std::string(what) + " " + quote(value->name_in_parent());
+    const JsonValue* const name = value->find("name");
+    if (name != nullptr && name->kind == JsonKind::string) return std::string(what) + " " + quote(name->text);
+  }
+  return "";
+}
+
+std::string JsonValue::owner() const {
+  std::string text = named_part();
+  if (instance_ == nullptr) return text;
+  return text + (text.empty() ? "" : ", ") + *instance_;
+}
+
+SourcePosition JsonValue::position() const noexcept {
+  return source_ == nullptr ? SourcePosition{} : source_->position(offset_.value);
+}
+
+SourcePosition JsonValue::key_position() const noexcept {
+  return source_ == nullptr ? SourcePosition{} : source_->position(offset_.key);
 }
 
 std::string JsonValue::shown() const {
@@ -99,8 +136,9 @@ std::string JsonValue::shown() const {
 class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   /// @param overflows numbers, counted among all values, that were found too large for an LREAL before
-  JsonBuilder(JsonDocument& document, std::string_view text, const std::set<std::size_t>& overflows)
-      : document_(document), text_(text), overflows_(overflows) {}
+  JsonBuilder(JsonDocument& document, const std::vector<ValueOffset>& offsets,
+              const std::set<std::size_t>& overflows)
+      : document_(document), offsets_(offsets), overflows_(overflows) {}
 
   bool null() override { return add(JsonKind::null) != nullptr; }
   bool boolean(bool value) override {
@@ -152,20 +190,22 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool fail(const JsonValue& at, std::string text) {
-    document_.problems_.push_back({at.pointer(), std::move(text)});
+    document_.problems_.push_back(problem_at(at, std::move(text)));
     return false;
   }
   /// A value at the place of the next one, for messages.
   JsonValue next_place() const;
 
   JsonDocument& document_;
-  std::string_view text_;
+  const std::vector<ValueOffset>& offsets_;
   const std::set<std::size_t>& overflows_;
   std::vector<Open> open_;
 };
 
 JsonValue JsonBuilder::next_place() const {
   JsonValue place;
+  place.source_ = document_.source_.get();
+  if (document_.values_.size() < offsets_.size()) place.offset_ = offsets_[document_.values_.size()];
   if (open_.empty()) return place;
   place.parent_ = open_.back().value;
   if (place.parent_->kind == JsonKind::object)
@@ -194,7 +234,10 @@ JsonValue* JsonBuilder::add(JsonKind kind) {
   else if (parent.keys.insert(value.key_).second)
     parent.value->members.push_back({value.key_, &value});
   else
-    fail(value, "the key " + quote(value.key_) + " is there twice; each key is allowed once");
+    document_.problems_.push_back(
+        problem_at_key(value, "the key " + quote(value.key_) + " is there twice; each key is allowed once" +
+                                  ", the other one is in line " +
+                                  std::to_string(parent.value->find(value.key_)->key_position().line)));
   return &value;
 }
 
@@ -239,37 +282,48 @@ bool JsonBuilder::parse_error(std::size_t position, const std::string& token,
     overflow = {position - token.size(), position, document_.values_.size()};
     return false;
   }
+  const SourcePosition place = document_.source_->position(position == 0 ? 0 : position - 1);
   document_.problems_.push_back(
-      {place_in(text_, position == 0 ? 0 : position - 1), reason(exception.what())});
+      {.place = text_of(place), .text = reason(exception.what()), .file = document_.source_->file()});
   return false;
 }
 
-JsonDocument::JsonDocument(std::string_view text) {
+JsonDocument::JsonDocument(std::string_view text, std::string file, std::string folder) {
+  const auto refuse = [&](std::string place, std::string what) {
+    problems_.push_back({.place = std::move(place), .text = std::move(what), .file = file});
+  };
   if (text.size() > kLongest) {
-    problems_.push_back({"", "the file is longer than " + std::to_string(kLongest >> 20) + " MiB"});
-    return;
+    refuse("", "the file is longer than " + std::to_string(kLongest >> 20) + " MiB");
+  } else if (text.find_first_not_of(" \t\r\n") == text.npos) {
+    refuse("1:1", "the file is empty; a project is a JSON object");
+  } else {
+    source_ = std::make_unique<const SourceText>(text, file, std::move(folder));
+    // The parser takes a NUL for the end of the text.
+    const auto nul = text.find('\0');
+    if (nul == text.npos)
+      read();
+    else
+      refuse(text_of(source_->position(nul)), "a NUL character is not allowed");
   }
-  if (text.find_first_not_of(" \t\r\n") == text.npos) {
-    problems_.push_back({"1:1", "the file is empty; a project is a JSON object"});
-    return;
-  }
-  // The parser takes a NUL for the end of the text.
-  if (const auto nul = text.find('\0'); nul != text.npos) {
-    problems_.push_back({place_in(text, nul), "a NUL character is not allowed"});
-    return;
-  }
+}
+
+void JsonDocument::read() {
   // A number that no LREAL holds ends the parser. It is replaced and the text read again, so that the rest of
   // the file is looked at as well.
   constexpr int kMaximumOverflows = 20;
-  std::string readable(text);
+  std::string readable = source_->text();
+  const std::vector<ValueOffset> offsets = value_offsets(readable, kMaximumValues + 1);
   std::set<std::size_t> overflows;
   std::vector<Problem> told;
   for (int i = 0; i < kMaximumOverflows; ++i) {
     values_.clear();
     root_ = nullptr;
     problems_.clear();
-    JsonBuilder builder(*this, text, overflows);
-    if (nlohmann::json::sax_parse(readable, &builder)) break;
+    JsonBuilder builder(*this, offsets, overflows);
+    constexpr bool kStrict = true, kIgnoreComments = true;
+    if (nlohmann::json::sax_parse(readable, &builder, nlohmann::json::input_format_t::json, kStrict,
+                                  kIgnoreComments))
+      break;
     root_ = nullptr;
     if (!builder.overflow) break;
     told.push_back(problems_.back());

@@ -1,14 +1,17 @@
-/// Strict reading of JSON: every value knows its place, objects keep the order of their members.
+/// Strict reading of JSON with comments: every value knows its place, objects keep the order of their
+/// members.
 /// @source RFC 8259, RFC 6901 (pointers)
 #pragma once
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "projects/json/problem.hpp"
+#include "projects/json/source_text.hpp"
 
 namespace lockstep {
 
@@ -51,11 +54,35 @@ class JsonValue {
   /// The value for a message, such as `3.5`, `'text'` or `an object`.
   std::string shown() const;
 
+  /// What it is part of, such as "call 'gear'" or "object 'Knife'": the innermost that has a name; empty:
+  /// none.
+  std::string owner() const;
+
+  /// Where it begins; of a member of an object where its key begins.
+  SourcePosition position() const noexcept;
+  SourcePosition key_position() const noexcept;
+  /// The text in which it stands; nullptr if it is of no document.
+  const SourceText* source() const noexcept { return source_; }
+
+  /// Makes a copy of a value of a template part of a copy of what that one is part of.
+  /// @param parent nullptr: it stays what it is part of
+  /// @param instance for messages; outlives it
+  void belong_to(const JsonValue* parent, const std::string& instance) noexcept {
+    if (parent != nullptr) parent_ = parent;
+    instance_ = &instance;
+  }
+
  private:
   friend class JsonBuilder;
+  std::string name_in_parent() const;
+  std::string named_part() const;
+
+  const SourceText* source_ = nullptr;
+  ValueOffset offset_;
   const JsonValue* parent_ = nullptr;
-  std::string key_;        // in the parent, if that is an object
-  std::size_t index_ = 0;  // in the parent, if that is an array
+  const std::string* instance_ = nullptr;  // of a template, of which it is a part
+  std::string key_;                        // in the parent, if that is an object
+  std::size_t index_ = 0;                  // in the parent, if that is an array
 };
 
 /// A document. Reading it stops at the first syntax error; other problems are told all at once.
@@ -67,16 +94,21 @@ class JsonDocument {
 
   /// Reads a text. Problems are syntax errors ("line:column"), duplicate keys, numbers that no LREAL holds,
   /// nesting that is too deep, too many values.
-  explicit JsonDocument(std::string_view text);
+  /// @param file, folder see `SourceText`
+  explicit JsonDocument(std::string_view text, std::string file = "", std::string folder = "");
 
   /// Whether there is a document to look at; problems there may be nevertheless.
   bool usable() const noexcept { return root_ != nullptr; }
   /// Only if usable.
   const JsonValue& root() const noexcept { return *root_; }
+  std::size_t size() const noexcept { return values_.size(); }
   const std::vector<Problem>& problems() const noexcept { return problems_; }
 
  private:
   friend class JsonBuilder;
+  void read();
+
+  std::unique_ptr<const SourceText> source_;
   std::deque<JsonValue> values_;
   const JsonValue* root_ = nullptr;
   std::vector<Problem> problems_;

@@ -27,11 +27,16 @@ void check_keys(const JsonValue& value, Keys keys, std::span<const KeyVariant> v
   for (const Key& key : keys) names.push_back(key.name);
   for (const auto& [name, member] : value.members) {
     if (std::ranges::find(names, name) != names.end()) continue;
+    if (name == keys::kComment.name) {
+      read_string(member, problems);
+      continue;
+    }
     const auto others = variants_with(name, variants);
     const std::string hint = others.empty()
                                  ? did_you_mean(name, names)
                                  : " in a " + std::string(variant) + "; allowed with: " + list_of(others);
-    problems.report(*member, "unknown key " + quote(name) + hint + "; allowed: " + list_of(names));
+    problems.report_key(*member, "unknown key " + quote(name) + hint + "; allowed: " + list_of(names) + ", " +
+                                     std::string(keys::kComment.name));
   }
   for (const Key& key : keys)
     if (key.required && value.find(key.name) == nullptr)
@@ -151,6 +156,12 @@ const JsonValue* read_array(const JsonValue* value, Problems& problems) {
   if (value == nullptr || value->kind == JsonKind::array) return value;
   report_kind(*value, "an array", problems);
   return nullptr;
+}
+
+std::string_view Fields::comment() const noexcept {
+  const JsonValue* const text = value_.find(keys::kComment.name);
+  return text != nullptr && text->kind == JsonKind::string ? std::string_view(text->text)
+                                                           : std::string_view();
 }
 
 Fields::Fields(const JsonValue& value, Keys keys, Problems& problems) : value_(value) {

@@ -42,7 +42,8 @@ std::optional<std::string_view> read_title(const JsonValue* value, Problems& pro
 const JsonValue* read_object(const JsonValue* value, Problems& problems);
 const JsonValue* read_array(const JsonValue* value, Problems& problems);
 
-/// An object whose keys are known. Reports at once a value that is none, unknown keys and missing ones.
+/// An object whose keys are known. Reports at once a value that is none, unknown keys and missing ones. Each
+/// may have a comment as well.
 class Fields {
  public:
   Fields(const JsonValue& value, Keys keys, Problems& problems);
@@ -55,6 +56,8 @@ class Fields {
   const JsonValue& value() const noexcept { return value_; }
   /// The value of a key; nullptr if it is missing.
   const JsonValue* operator[](std::string_view key) const noexcept { return value_.find(key); }
+  /// What `keys::kComment` says; empty if it is missing.
+  std::string_view comment() const noexcept;
 
  private:
   const JsonValue& value_;

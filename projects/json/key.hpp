@@ -105,6 +105,9 @@ namespace keys {
 
 inline constexpr bool kRequired = true;
 
+/// Of every object whose keys are declared, without being among them.
+inline constexpr Key kComment{.name = "comment", .kind = KeyKind::text, .text = "for the reader"};
+
 }  // namespace keys
 
 namespace key_detail {

@@ -14,12 +14,24 @@ class JsonValue;
 
 /// One thing that is wrong with a project file, or that is legal and looks like a mistake.
 struct Problem {
-  std::string place;  ///< JSON pointer; "line:column" for a syntax error
-  std::string text;   ///< what is wrong, what is allowed; one line
+  std::string place;       ///< JSON pointer; "line:column" for a syntax error
+  std::string text;        ///< what is wrong, what is allowed; one line
+  std::string file{};      ///< in which it is, if that is not the project file but one that it includes
+  std::size_t line = 0;    ///< from 1; 0: not known, or the place tells it
+  std::size_t column = 0;  ///< in characters, from 1
+  std::string owner{};     ///< what it is part of, such as "call 'gear'"; empty: nothing that has a name
   bool operator==(const Problem&) const = default;
 };
 
-/// The line to show: "FILE:place: text".
+/// What is wrong with a value, or with the key of a member of an object.
+Problem problem_at(const JsonValue& value, std::string text);
+Problem problem_at_key(const JsonValue& member, std::string text);
+
+/// Where another value stands, for the message about one: " in line 3", " in axes.json, line 3".
+std::string other_place(const JsonValue& other, const JsonValue& value);
+
+/// The line to show: "FILE:place: text (line 3, column 5, call 'gear')".
+/// @param file the project file
 std::string to_string(std::string_view file, const Problem& problem);
 
 /// Collects what is found while a project is loaded, in the order in which it is found.
@@ -27,6 +39,8 @@ class Problems {
  public:
   /// Something for which the project is not valid.
   void report(const JsonValue& at, std::string text);
+  /// The same of the key of a member.
+  void report_key(const JsonValue& member, std::string text);
   /// Something that is legal and looks like a mistake.
   void warn(const JsonValue& at, std::string text);
 

@@ -50,6 +50,14 @@ inline constexpr auto kOffset = key::number<&ModbusEntry::offset>("offset", kFin
 inline constexpr auto kEntryShape =
     key_table<ModbusEntry>(kTable, kAddress, kWireType, kWordOrder, kByteOrder, kBit, kScale, kOffset);
 
+inline constexpr Word kGaps[] = {{"refused", 0}, {"zero", 1}};
+inline constexpr auto kGapsKey =
+    key::word(
+        "gaps", kGaps,
+        "a read of addresses without an entry, between entries of a table: refused with exception 2, or "
+        "zero")
+        .otherwise_is("refused");
+
 inline constexpr auto kMapEntry = key_table<ModbusEntry>(
     key::signal(
         "tag",
@@ -59,7 +67,14 @@ inline constexpr auto kMapEntry = key_table<ModbusEntry>(
               "in place of a tag: a number of the run, such as ticks, overruns, alarms, refused"),
     kTable, kAddress, kWireType, kWordOrder, kByteOrder, kBit, kScale, kOffset,
     key::word("access", kAccesses, "whether a client may write")
-        .otherwise_is("write for a tag in coils and holding registers, else read"));
+        .otherwise_is("write for a tag in coils and holding registers, else read"),
+    key::number(
+        "min", kFinite, "",
+        "lowest value that a client may write, in the unit of the signal (TIME: s); below it exception "
+        "3, and nothing of the request is written")
+        .otherwise_is("what the signal holds"),
+    key::number("max", kFinite, "", "highest value that a client may write, see min")
+        .otherwise_is("what the signal holds"));
 
 inline constexpr auto kWatchdog = key_table<void>(
     key::signal("tag",
@@ -78,8 +93,9 @@ inline constexpr auto kWatchdogKey =
 constexpr auto map_key(std::string_view text) {
   return key::structure("map", kMapEntry, text).list().defined_as("modbus_entry");
 }
-inline constexpr auto kUnit = key_table<void>(key::integer("unit", {0, 255}, "unit id").needed(),
-                                              map_key("which signal stands where").needed(), kWatchdogKey);
+inline constexpr auto kUnit =
+    key_table<void>(key::integer("unit", {0, 255}, "unit id").needed(),
+                    map_key("which signal stands where").needed(), kGapsKey, kWatchdogKey);
 inline constexpr auto kUnitsKey =
     key::structure("units", kUnit, "maps of single unit ids in place of the one for all").list();
 
@@ -110,7 +126,7 @@ inline constexpr auto kServer = key_table<ModbusServerOptions>(
     key::duration<&ModbusServerOptions::idle_limit>(
         "idle_timeout", {kSecond, kDay}, "a client that asks for nothing for this long is disconnected")
         .otherwise_is("never"),
-    map_key("a map of its own in place of the common one"), kWatchdogKey, kUnitsKey);
+    map_key("a map of its own in place of the common one"), kGapsKey, kWatchdogKey, kUnitsKey);
 
 inline constexpr auto kDeviceEntry = key_table<ModbusEntry>(
     key::signal("tag", "tag or variable, or elements of an array as in a map").needed(), kTable, kAddress,
@@ -136,7 +152,7 @@ inline constexpr auto kClient = key_table<ModbusClientOptions>(
 
 inline constexpr auto kModbus =
     key_table<void>(key::structure("server", kServer, "where clients may ask").one_or_list(),
-                    map_key("which signal stands where"), kWatchdogKey, kUnitsKey,
+                    map_key("which signal stands where"), kGapsKey, kWatchdogKey, kUnitsKey,
                     key::structure("clients", kClient, "foreign devices").list());
 
 }  // namespace lockstep::keys

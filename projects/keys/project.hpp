@@ -6,6 +6,7 @@
 #include "hmi_bridge/traces/flight_recorder.hpp"
 #include "projects/keys/modbus.hpp"
 #include "projects/keys/objects.hpp"
+#include "projects/keys/parts.hpp"
 #include "scheduler/controller.hpp"
 
 namespace lockstep::keys {
@@ -33,7 +34,7 @@ inline constexpr auto kTag = key_table<void>(
         .needed(),
     key::defined("init", "initial_value", "constant",
                  "value at the start; of an array [element, ...] from the first one on"),
-    key::boolean("retain", "kept across runs").otherwise_is("false"), key::text("comment", "for the reader"));
+    key::boolean("retain", "kept across runs").otherwise_is("false"));
 
 inline constexpr Word kObs[] = {word_for("MC_PreServo", Ob::MC_PreServo),
                                 word_for("MC_PostServo", Ob::MC_PostServo),
@@ -136,10 +137,16 @@ inline constexpr auto kAudit = key_table<AuditOptions>(
     key::integer<&AuditOptions::files>("files", {2, 1000},
                                        "in all: FILE, FILE.1 and so on; the oldest gives way"));
 
+inline constexpr auto kExpectation = key_table<void>(
+    key::duration("at", {0, kDay}, "time since the start").otherwise_is("at the end"),
+    key::text("expect", "BOOL expression; with value that of a number").needed(),
+    key::number("value", kFinite, "", "that the number is to have"),
+    key::number("tolerance", {0.0, 1e300}, "", "by which it may differ").otherwise_is("0"),
+    key::title("text", "what it means, for whoever reads the result").otherwise_is("the expression"));
+
 inline constexpr int kVersions[] = {1};
 inline constexpr auto kProject = key_table<void>(
-    key::one_of("lockstep", kVersions, "version of the format").needed(),
-    key::text("$schema", "for editors: where the schema of the file stands"),
+    kSchema, key::one_of("lockstep", kVersions, "version of the format").needed(),
     key::title("name", "name of the project").needed(), key::text("description", "what the project does"),
     key::structure("clock", kClock, "when things run").needed(),
     key::variants("technology_objects", kObjects, "name: technology object").named(),
@@ -150,6 +157,9 @@ inline constexpr auto kProject = key_table<void>(
     key::structure("trace", kTrace, "what is recorded and sent"),
     key::structure("retain", kRetain, "what is kept across runs"),
     key::structure("flight_recorder", kFlightRecorder, "keeps what happened before an alarm"),
-    key::structure("audit", kAudit, "who has written or commanded what"));
+    key::structure("audit", kAudit, "who has written or commanded what"), kTemplates, kInstances,
+    key::structure("expectations", kExpectation, "what lockstep test looks at").list(),
+    key::duration("duration", {1, kDay}, "how long lockstep test simulates")
+        .otherwise_is("to the last expectation with a time"));
 
 }  // namespace lockstep::keys

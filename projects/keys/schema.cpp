@@ -94,6 +94,8 @@ Json KeySchema::object(Keys keys) {
     properties[std::string(key.name)] = value(key);
     if (key.required) required.push_back(key.name);
   }
+  if (const std::string comment(keys::kComment.name); !properties.contains(comment))
+    properties[comment] = value(keys::kComment);
   Json schema = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) schema["required"] = required;
   return schema;

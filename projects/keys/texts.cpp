@@ -180,7 +180,10 @@ std::string keys_document() {
       "is "
       "defined.\n"
       "A path leaves out names and indices: `technology_objects.drive` is the key `drive` of an object among "
-      "`technology_objects`.\n";
+      "`technology_objects`.\n"
+      "Every object listed here may have a `comment` too, a text for the reader; `lockstep tags` shows those "
+      "of "
+      "tags. `//` and `/* */` are comments as well.\n";
   for (const KeySection& section : key_sections()) {
     text += "\n## " + heading_of(section) + "\n\n" + std::string(section.text) + "\n\n";
     if (!section.same_as.empty()) {

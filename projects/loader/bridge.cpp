@@ -80,7 +80,7 @@ void load_signals(const JsonValue& json, std::vector<NamedSignal>& signals, cons
       loading.problems.report(*element, element->shown() + " is there twice; each signal is allowed once");
       continue;
     }
-    signals.push_back({std::string(*path), place->signal, place->unit});
+    signals.push_back({std::string(*path), place->signal, place->unit, place->object, place->instance});
   }
 }
 
@@ -107,7 +107,8 @@ void load_occasion(const JsonValue& json, TraceChannelConfig& channel, const Loa
   const Type type = place->signal.value_type();
   if (type == Type::AXIS || type == Type::TAG)
     return problems.report(*signal, signal->shown() + " has no value to look at");
-  channel.occasion = NamedSignal{std::string(*path), place->signal, place->unit};
+  channel.occasion =
+      NamedSignal{std::string(*path), place->signal, place->unit, place->object, place->instance};
 }
 
 std::optional<std::string> read_channel(const JsonValue* json, Problems& problems) {
@@ -123,7 +124,8 @@ std::optional<std::string> read_channel(const JsonValue* json, Problems& problem
 bool is_beside(std::string_view name, std::string_view channel) {
   if (!name.starts_with(channel)) return false;
   name.remove_prefix(channel.size());
-  return name == kHeaderSuffix || name == kEventsSuffix || name == kCommandSuffix || name == kPanelSuffix;
+  return name == kHeaderSuffix || name == kEventsSuffix || name == kDetailSuffix || name == kCommandSuffix ||
+         name == kPanelSuffix;
 }
 
 /// @param other a channel that is there already
@@ -135,8 +137,8 @@ void report_same_channel(const JsonValue& at, std::string_view name, std::string
     problems.report(at, at.shown() + " and " + quote(other) +
                             " collide: beside a channel there are others with its name and " +
                             std::string(kHeaderSuffix) + ", " + std::string(kEventsSuffix) + ", " +
-                            std::string(kCommandSuffix) + ", " + std::string(kPanelSuffix) +
-                            "; allowed: another name");
+                            std::string(kDetailSuffix) + ", " + std::string(kCommandSuffix) + ", " +
+                            std::string(kPanelSuffix) + "; allowed: another name");
 }
 
 void load_channel(const JsonValue& json, TraceConfig& trace, const Loading& loading) {
@@ -162,7 +164,8 @@ std::vector<NamedSignal> all_signals(const Loading& loading) {
     if (!found.place) return;
     const Type type = found.place->signal.value_type();
     if (type != Type::AXIS && type != Type::TAG)
-      all.push_back({name, found.place->signal, found.place->unit});
+      all.push_back(
+          {name, found.place->signal, found.place->unit, found.place->object, found.place->instance});
   };
   for (const Tag& tag : loading.controller().tags) add(tag.name);
   for (const Instance& instance : loading.controller().instances)

@@ -10,7 +10,7 @@
 #include "projects/loader/loader.hpp"
 #include "projects/loader/looked_at_axis.hpp"
 #include "projects/loader/read_keys.hpp"
-#include "tech_objects/axis/velocity_unit.hpp"
+#include "scheduler/units.hpp"
 
 namespace lockstep {
 namespace {
@@ -204,7 +204,7 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
   PanelInputs& inputs = commands.inputs.emplace_back();
   commands.axes.push_back({axis.name, limit ? limit->number : usual, enabled_by,
                            signals_of(axis, inputs, names), std::string(kind_name(axis.kind)),
-                           std::string(velocity_unit_text(axis)), axis.has_position()});
+                           unit_of(Unit::kVelocity, axis), axis.has_position()});
   PanelProgram(program, loading, axis).build(inputs, enabled_by.empty(), speed);
 }
 

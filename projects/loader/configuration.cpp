@@ -83,7 +83,7 @@ void ConfigurationLoader::report_unknown(const std::string& key, const JsonValue
   std::string text = "unknown key " + quote(key) + did_you_mean(key, names);
   if (key.find('.') != key.npos && find_variable(object_.kind, key).variable != nullptr)
     text += R"(; structures are nested, as in { "DynamicDefaults": { "Velocity": 100.0 } })";
-  problems_.report(json, text + "; allowed: " + list_of(names));
+  problems_.report_key(json, text + "; allowed: " + list_of(names));
 }
 
 void ConfigurationLoader::load_variable(const JsonValue& json, const Variable& variable, std::size_t index) {

@@ -20,12 +20,14 @@ struct Loading {
   std::unordered_map<const JsonValue*, Instance*>& instances;
   /// Of the project file, to which names of files are relative; empty: the current one.
   std::string folder;
+  /// Where each name was added first, in lower case.
+  std::unordered_map<std::string, const JsonValue*>& named;
   /// Of a project that is looked at the axes are no `Axis` but a `LookedAtAxis` each.
   LoadedFor use;
 
   Controller& controller() const { return *project.controller; }
   Names& names() const { return project.names; }
-  /// Adds a technology object; its number is its place among all.
+  /// Adds a technology object; its number is its index among all.
   TechnologyObject& add_object(ObjectKind kind, const std::string& name) const;
   /// The leading values of a synchronous axis.
   const std::vector<LeadingValue>& leading_values_of(const TechnologyObject& axis) const;
@@ -75,5 +77,7 @@ void load_commands(const JsonValue& commands, const Loading& loading);
 void load_retain(const JsonValue* retain, const Loading& loading);
 void load_flight_recorder(const JsonValue& json, const Loading& loading);
 void load_audit(const JsonValue& json, const Loading& loading);
+/// What a test expects, and how long it goes on; either may be nullptr. When all names are there.
+void load_expectations(const JsonValue* json, const JsonValue* duration, const Loading& loading);
 
 }  // namespace lockstep

@@ -1,9 +1,12 @@
 // The Modbus servers of a project: their maps.
 #include "projects/loader/modbus.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "projects/keys/modbus.hpp"
 #include "projects/loader/read_keys.hpp"
@@ -24,16 +27,35 @@ constexpr CycleDiagnostic kCycleDiagnostics[] = {{"ticks", &CycleCounters::ticks
                                                  {"overruns", &CycleCounters::overruns},
                                                  {"alarms", &CycleCounters::alarms}};
 
+/// A part of the alarm that has come last.
+struct AlarmDiagnostic {
+  std::string_view name;
+  std::variant<std::uint64_t NewestAlarm::*, std::int64_t NewestAlarm::*, double NewestAlarm::*> part;
+  Type type;
+};
+constexpr AlarmDiagnostic kAlarmDiagnostics[] = {{"alarm_count", &NewestAlarm::count, Type::ULINT},
+                                                 {"alarm_number", &NewestAlarm::number, Type::ULINT},
+                                                 {"alarm_object", &NewestAlarm::object, Type::ULINT},
+                                                 {"alarm_cause", &NewestAlarm::cause, Type::ULINT},
+                                                 {"alarm_address", &NewestAlarm::address, Type::ULINT},
+                                                 {"alarm_tick", &NewestAlarm::tick, Type::ULINT},
+                                                 {"alarm_time", &NewestAlarm::time, Type::TIME},
+                                                 {"alarm_clock", &NewestAlarm::clock, Type::LINT},
+                                                 {"alarm_value", &NewestAlarm::value, Type::LREAL},
+                                                 {"alarm_limit", &NewestAlarm::limit, Type::LREAL}};
+constexpr std::size_t kCycleDiagnosticCount = std::size(kCycleDiagnostics) + std::size(kAlarmDiagnostics);
+
+/// What a client may write besides what signal and registers hold.
+void read_limits(const Fields& fields, ModbusEntry& entry, Type signal, const Loading& loading);
+
 /// Reads maps, and tells at its place what they say of their entries.
 class MapLoader {
  public:
   explicit MapLoader(const Loading& loading)
       : modbus_(loading.project.modbus), loading_(loading), problems_(loading.problems) {}
 
-  /// A map, or nullptr for an empty one.
-  /// @param watchdog of those who write to it; may be nullptr
-  void load(const JsonValue* map, const JsonValue* watchdog, std::optional<std::size_t> server,
-            std::optional<std::uint8_t> unit);
+  /// The map, and what stands beside it; an empty one where there is none.
+  void load(const Fields& fields, std::optional<std::size_t> server, std::optional<std::uint8_t> unit);
   /// The maps of unit ids.
   void load_units(const JsonValue* units, std::optional<std::size_t> server);
   /// Makes the maps, when all signals are known.
@@ -49,12 +71,14 @@ class MapLoader {
     std::vector<ModbusText> texts;
     const JsonValue* watchdog;
     bool is_whole = true;  // nothing in it is faulty
+    bool gaps_are_zero = false;
   };
 
   void load_line(const JsonValue& json, std::uint32_t line, Draft& draft);
   void load_entry(const Fields& fields, std::uint32_t line, Draft& draft);
   void load_tag(const Fields& fields, std::uint32_t line, Draft& draft);
   void load_text(const Fields& fields, const StringTag& tag, std::uint32_t line, Draft& draft);
+  Signal cycle_diagnostic(std::size_t number) const;
   std::optional<ModbusEntry> load_diagnostic(const JsonValue& json, const Fields& fields);
   bool read_access(const JsonValue* json, const Operand& place, ModbusTable table);
 
@@ -64,9 +88,12 @@ class MapLoader {
   std::vector<Draft> drafts_;
 };
 
-void MapLoader::load(const JsonValue* map, const JsonValue* watchdog, std::optional<std::size_t> server,
+void MapLoader::load(const Fields& fields, std::optional<std::size_t> server,
                      std::optional<std::uint8_t> unit) {
-  Draft& draft = drafts_.emplace_back(Draft{server, unit, {}, {}, {}, {}, watchdog});
+  const JsonValue* const map = fields["map"];
+  Draft& draft = drafts_.emplace_back(Draft{server, unit, {}, {}, {}, {}, fields["watchdog"]});
+  const auto gaps = read_value(fields["gaps"], keys::kGapsKey, loading_);
+  draft.gaps_are_zero = gaps && gaps->integer == 1;
   const std::size_t before = problems_.count();
   if (read_array(map, problems_) != nullptr)
     for (std::uint32_t line = 0; line < map->elements.size(); ++line)
@@ -86,7 +113,7 @@ void MapLoader::load_units(const JsonValue* units, std::optional<std::size_t> se
       problems_.report(*fields["unit"],
                        "unit " + std::to_string(unit) + " is there twice; each unit id is allowed once");
     if (read) seen.push_back(unit);
-    load(fields["map"], fields["watchdog"], server, static_cast<std::uint8_t>(unit));
+    load(fields, server, static_cast<std::uint8_t>(unit));
   }
 }
 
@@ -94,11 +121,12 @@ void MapLoader::finish() {
   std::vector<Type> types;
   for (const NamedSignal& signal : modbus_.signals) types.push_back(signal.signal.value_type());
   for (Draft& draft : drafts_) {
-    const ModbusMapConfig& made = modbus_.maps.emplace_back(ModbusMapConfig{draft.server,
-                                                                            draft.unit,
-                                                                            {std::move(draft.entries), types},
-                                                                            std::move(draft.arrays),
-                                                                            std::move(draft.texts)});
+    ModbusMapConfig& made = modbus_.maps.emplace_back(ModbusMapConfig{draft.server,
+                                                                      draft.unit,
+                                                                      {std::move(draft.entries), types},
+                                                                      std::move(draft.arrays),
+                                                                      std::move(draft.texts)});
+    if (draft.gaps_are_zero) made.map.read_gaps_as_zero();
     report_modbus_problems(made.map, draft.places, problems_);
     if (draft.watchdog != nullptr)
       load_watchdogs(*draft.watchdog, draft.is_whole ? &made.map : nullptr, loading_);
@@ -116,24 +144,38 @@ bool MapLoader::read_access(const JsonValue* json, const Operand& place, ModbusT
   return reason.empty();
 }
 
+/// Where a number of the run stands; no address: it is one of the server.
+Signal MapLoader::cycle_diagnostic(std::size_t number) const {
+  Controller& controller = loading_.controller();
+  if (number < std::size(kCycleDiagnostics)) return controller.counter(kCycleDiagnostics[number].counter);
+  if (number >= kCycleDiagnosticCount) return {nullptr, Type::ULINT, -1};
+  const auto& [name, part, type] = kAlarmDiagnostics[number - std::size(kCycleDiagnostics)];
+  return std::visit([&, wire = type](auto member) { return controller.newest_alarm(member, wire); }, part);
+}
+
 /// A number of the run or of the server.
 std::optional<ModbusEntry> MapLoader::load_diagnostic(const JsonValue& json, const Fields& fields) {
   std::vector<std::string_view> names;
   for (const CycleDiagnostic& one : kCycleDiagnostics) names.push_back(one.name);
+  for (const AlarmDiagnostic& one : kAlarmDiagnostics) names.push_back(one.name);
   for (const ModbusCounterName& one : kModbusCounters) names.push_back(one.name);
   const auto word = read_word(&json, names, problems_);
   const auto access = read_value(fields, keys::kMapEntry["access"], loading_);
   if (access && access->integer == 1)
     problems_.report(*fields["access"], "a diagnostic cannot be written; allowed: read");
-  auto entry = read_modbus_shape(fields, Type::ULINT, loading_);
-  if (!word || !entry) return std::nullopt;
-  if (*word >= std::size(kCycleDiagnostics)) {
-    entry->counter = kModbusCounters[*word - std::size(kCycleDiagnostics)].counter;
+  for (const char* const key : {"min", "max"})
+    if (fields[key] != nullptr)
+      problems_.report(*fields[key], "a diagnostic cannot be written and has no '" + std::string(key) + "'");
+  if (!word) return std::nullopt;
+  const Signal shown = cycle_diagnostic(*word);
+  auto entry = read_modbus_shape(fields, shown.type, loading_);
+  if (!entry) return std::nullopt;
+  if (shown.address == nullptr) {
+    entry->counter = kModbusCounters[*word - kCycleDiagnosticCount].counter;
     return entry;
   }
   entry->signal = static_cast<std::uint32_t>(modbus_.signals.size());
-  modbus_.signals.push_back({"diagnostic." + std::string(names[*word]),
-                             loading_.controller().counter(kCycleDiagnostics[*word].counter), Unit::kNone});
+  modbus_.signals.push_back({"diagnostic." + std::string(names[*word]), shown, Unit::kNone});
   return entry;
 }
 
@@ -149,6 +191,8 @@ void MapLoader::load_tag(const Fields& fields, std::uint32_t line, Draft& draft)
   entry->writable = read_access(fields["access"], source->place, entry->table);
   entry->range = written_range(source->place);
   entry->line = line;
+  if (problems_.count() != before) return;
+  read_limits(fields, *entry, source->type(), loading_);
   if (problems_.count() != before) return;
   if (source->elements) draft.arrays.push_back({*source->elements, draft.entries.size()});
   add_modbus_entries(*entry, *source, *path, fields, problems_, draft.entries, modbus_.signals);
@@ -195,11 +239,13 @@ void load_server(const JsonValue& json, const Loading& loading, MapLoader& maps)
   std::vector<ModbusServerOptions>& servers = loading.project.modbus.servers;
   const std::size_t index = servers.size();
   servers.emplace_back();
-  if (fields["map"] != nullptr) maps.load(fields["map"], fields["watchdog"], index, std::nullopt);
+  if (fields["map"] != nullptr) maps.load(fields, index, std::nullopt);
   if (fields["map"] == nullptr && fields["watchdog"] != nullptr)
     problems.report(*fields["watchdog"],
                     "this server has no map of its own; allowed: a watchdog beside the 'map' that has its "
                     "heartbeat");
+  if (fields["map"] == nullptr && fields["gaps"] != nullptr)
+    problems.report(*fields["gaps"], "this server has no map of its own; allowed: gaps beside its 'map'");
   maps.load_units(fields["units"], index);
   load_modbus_place(json, fields, loading);
 }
@@ -212,6 +258,55 @@ void load_servers(const JsonValue& json, const Loading& loading, MapLoader& maps
   } else {
     report_kind(json, "an object, or an array of them", loading.problems);
   }
+}
+
+/// What the registers of an entry can bring to its signal.
+Range reachable_range(const ModbusEntry& entry, Type signal) {
+  if (is_real(signal) && !entry.is_scaled) return kAny;
+  const Type wire = entry.type == Type::TIME ? Type::DINT : entry.type;
+  const double low = static_cast<double>(lowest(wire)), high = static_cast<double>(highest(wire));
+  if (entry.type == Type::TIME) return {low * 1e-3, high * 1e-3};
+  if (signal == Type::TIME) return {low * 1e-9, high * 1e-9};
+  if (!entry.is_scaled)
+    return {std::max(low, static_cast<double>(lowest(signal))),
+            std::min(high, static_cast<double>(highest(signal)))};
+  const auto [minimum, maximum] =
+      std::minmax(low * entry.scale + entry.offset, high * entry.scale + entry.offset);
+  return {minimum, maximum};
+}
+
+void read_limits(const Fields& fields, ModbusEntry& entry, Type signal, const Loading& loading) {
+  Problems& problems = loading.problems;
+  const Range reachable = reachable_range(entry, signal);
+  const Range possible{std::max(reachable.lowest, entry.range.lowest),
+                       std::min(reachable.highest, entry.range.highest)};
+  // A scaled value is rounded; one that is written as the limit has to be allowed.
+  const double rounding = entry.is_scaled ? 1e-6 * std::abs(entry.scale) : 0.0;
+  const auto read = [&](const Key& key, double& bound, double slack) {
+    const JsonValue* const json = fields[key.name];
+    const auto value = read_value(json, key, loading);
+    if (!value) return;
+    const std::string name(key.name);
+    if (!entry.writable)
+      problems.report(*json, "no client may write this entry, so that it has no '" + name +
+                                 "'; allowed with: \"access\": \"write\", tags in holding registers");
+    else if (signal == Type::BOOL || is_bit_string(signal))
+      problems.report(*json, "a value of type " + std::string(type_name(signal)) + " has no '" + name +
+                                 "'; allowed: integers, REAL, LREAL, TIME");
+    else if (!(value->number >= possible.lowest && value->number <= possible.highest))
+      problems.report(*json, json->shown() + " can never be written here; allowed: " +
+                                 fmt::format("{:.10g}", possible.lowest) + " to " +
+                                 fmt::format("{:.10g}", possible.highest));
+    else
+      bound = value->number + slack;
+  };
+  double minimum = entry.range.lowest, maximum = entry.range.highest;
+  read(keys::kMapEntry["min"], minimum, -rounding);
+  read(keys::kMapEntry["max"], maximum, rounding);
+  if (minimum > maximum)
+    problems.report(*fields["min"], "min is above max; allowed: up to " + fmt::format("{:.10g}", maximum));
+  entry.range.lowest = minimum;
+  entry.range.highest = maximum;
 }
 
 /// The type on the wire: the one that is given, or the usual one of the signal.
@@ -310,7 +405,8 @@ std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& sou
   const auto add = [&](std::string name, const Signal& signal) {
     entry.signal = static_cast<std::uint32_t>(signals.size());
     entries.push_back(entry);
-    signals.push_back({std::move(name), signal, source.place.unit});
+    signals.push_back(
+        {std::move(name), signal, source.place.unit, source.place.object, source.place.instance});
   };
   if (!source.elements) {
     add(std::string(path), source.place.signal);
@@ -337,7 +433,7 @@ std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& sou
 std::optional<ModbusEntry> read_modbus_text(const Fields& fields, const Loading& loading) {
   Problems& problems = loading.problems;
   const std::size_t before = problems.count();
-  for (const char* const key : {"type", "word_order", "bit", "scale", "offset"})
+  for (const char* const key : {"type", "word_order", "bit", "scale", "offset", "min", "max"})
     if (const JsonValue* const field = fields[key])
       problems.report(*field,
                       "a text has no '" + std::string(key) + "'; allowed: table, address, byte_order");
@@ -418,7 +514,7 @@ void load_modbus(const JsonValue* modbus, const Loading& loading) {
   none.kind = JsonKind::object;
   const Fields fields(modbus == nullptr ? none : *modbus, modbus == nullptr ? Keys{} : keys::kModbus,
                       loading.problems);
-  maps.load(fields["map"], fields["watchdog"], std::nullopt, std::nullopt);
+  maps.load(fields, std::nullopt, std::nullopt);
   maps.load_units(fields["units"], std::nullopt);
   if (fields["server"] != nullptr) load_servers(*fields["server"], loading, maps);
   maps.finish();

@@ -55,7 +55,7 @@ void warn_of_open_server(const Fields& fields, const ModbusServerOptions& option
                                            "networks clients may come");
 }
 
-/// Two servers cannot listen at one place; port 0 is another one each time.
+/// Two servers cannot listen at one endpoint; port 0 is another one each time.
 void report_taken_places(const Fields& fields, const ModbusConfig& modbus, Problems& problems) {
   for (const Endpoint& place : modbus.servers.back().listen)
     for (std::size_t i = 0; place.port != 0 && i + 1 < modbus.servers.size(); ++i) {

@@ -1,6 +1,6 @@
 // Programs: from JSON calls to compiled sequences.
 #include <algorithm>
-#include <unordered_set>
+#include <unordered_map>
 
 #include "projects/expressions/constant.hpp"
 #include "projects/keys/project.hpp"
@@ -298,11 +298,11 @@ void ProgramLoader::load_pin(const std::string& name, const JsonValue& json, Ins
     for (const Pin& candidate : type.pins)
       if (candidate.pin_class != PinClass::output) inputs.push_back(candidate.name);
     if (pin != nullptr && pin->pin_class == PinClass::output)
-      return problems_.report(json, quote(name) + " is an output of " + std::string(type.name) +
-                                        "; it is read as " + instance.name + "." + std::string(pin->name) +
-                                        "; allowed: " + list_of(inputs));
-    return problems_.report(json, std::string(type.name) + " has no input " + quote(name) +
-                                      did_you_mean(name, inputs) + "; allowed: " + list_of(inputs));
+      return problems_.report_key(json, quote(name) + " is an output of " + std::string(type.name) +
+                                            "; it is read as " + instance.name + "." +
+                                            std::string(pin->name) + "; allowed: " + list_of(inputs));
+    return problems_.report_key(json, std::string(type.name) + " has no input " + quote(name) +
+                                          did_you_mean(name, inputs) + "; allowed: " + list_of(inputs));
   }
   if (pin->type == Type::AXIS) return load_object_pin(json, *pin, instance);
   if (pin->type == Type::ARRAY) return load_array_pin(json, *pin, instance);
@@ -429,14 +429,15 @@ class ProgramsLoader {
     if (!name) return "";
     if (const std::string problem = identifier_problem(*name); !problem.empty())
       problems_.report(*json, problem);
-    else if (!names_.insert(fold(*name)).second)
-      problems_.report(*json, "there is a program " + quote(*name) + " already; each name is allowed once");
+    else if (const auto [first, added] = names_.try_emplace(fold(*name), json); !added)
+      problems_.report(*json, "there is a program " + quote(*name) + " already" +
+                                  other_place(*first->second, *json) + "; each name is allowed once");
     return std::string(*name);
   }
 
   const Loading& loading_;
   Problems& problems_;
-  std::unordered_set<std::string> names_;
+  std::unordered_map<std::string, const JsonValue*> names_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "projects/assembly/sources.hpp"
 #include "projects/keys/project.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/looked_at_axis.hpp"
@@ -50,6 +51,7 @@ void load_sections(const JsonValue& root, const Loading& loading) {
   load_retain(fields["retain"], loading);
   if (const auto* const recorder = fields["flight_recorder"]) load_flight_recorder(*recorder, loading);
   if (const auto* const audit = fields["audit"]) load_audit(*audit, loading);
+  load_expectations(fields["expectations"], fields["duration"], loading);
 }
 
 void load_root(const JsonValue& root, const Loading& loading) {
@@ -75,9 +77,12 @@ const std::vector<LeadingValue>& Loading::leading_values_of(const TechnologyObje
 }
 
 bool Loading::add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const {
-  const std::string problem = names().add(name, entity);
-  if (!problem.empty()) problems.report(at, problem);
-  return problem.empty();
+  std::string problem = names().add(name, entity);
+  const auto [first, added] = named.try_emplace(fold(name), &at);
+  if (problem.empty()) return true;
+  if (!added && first->second != &at) problem += "; it is" + other_place(*first->second, at);
+  problems.report_key(at, problem);
+  return false;
 }
 
 std::optional<Operand> Loading::find(const JsonValue& at, std::string_view path) const {
@@ -106,17 +111,18 @@ void load_clock(const JsonValue& clock, const Loading& loading) {
     loading.project.stop_on_overrun = overrun->integer != 0;
 }
 
-LoadedProject load_project(std::string_view text, const std::string& folder, const Prepare& prepare,
-                           LoadedFor use) {
+namespace {
+
+LoadedProject load(ProjectSources sources, const std::string& folder, const Prepare& prepare, LoadedFor use) {
   LoadedProject result;
-  const JsonDocument document(text);
-  result.problems = document.problems();
-  if (!document.usable()) return result;
+  result.problems = sources.take_problems();
+  if (!sources.usable()) return result;
   Project project;
   project.controller = std::make_unique<Controller>();
   Problems problems;
   std::unordered_map<const JsonValue*, Instance*> instances;
-  load_root(document.root(), {project, problems, instances, folder, use});
+  std::unordered_map<std::string, const JsonValue*> named;
+  load_root(sources.root(), {project, problems, instances, folder, named, use});
   const std::vector<Problem> found = problems.take_errors();
   result.problems.insert(result.problems.end(), found.begin(), found.end());
   result.warnings = problems.take_warnings();
@@ -127,9 +133,26 @@ LoadedProject load_project(std::string_view text, const std::string& folder, con
   return result;
 }
 
+std::string folder_of(const std::string& path) {
+  return std::filesystem::path(path).parent_path().string();
+}
+
+}  // namespace
+
+LoadedProject load_project(std::string_view text, const std::string& folder, const Prepare& prepare,
+                           LoadedFor use) {
+  return load(ProjectSources(text, folder), folder, prepare, use);
+}
+
 LoadedProject load_project_file(const std::string& path, const Prepare& prepare, LoadedFor use) {
-  return load_project(read_text_file(path, JsonDocument::kLongest),
-                      std::filesystem::path(path).parent_path().string(), prepare, use);
+  const std::string folder = folder_of(path);
+  return load(ProjectSources(read_text_file(path, JsonDocument::kLongest), folder, path), folder, prepare,
+              use);
+}
+
+std::string expanded_project(const std::string& path) {
+  const ProjectSources sources(read_text_file(path, JsonDocument::kLongest), folder_of(path), path);
+  return sources.usable() ? expanded_text(sources.root()) : "";
 }
 
 }  // namespace lockstep

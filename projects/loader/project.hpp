@@ -27,6 +27,7 @@
 #include "projects/expressions/names.hpp"
 #include "projects/json/problem.hpp"
 #include "projects/json/text_file.hpp"
+#include "projects/loader/expectations.hpp"
 #include "scheduler/controller.hpp"
 
 namespace lockstep {
@@ -150,6 +151,7 @@ struct Project {
   RetainConfig retain;
   std::optional<FlightRecorderConfig> flight_recorder;  ///< none: the project has none
   std::optional<AuditOptions> audit;                    ///< none: the project has no audit log
+  Expectations expectations;                            ///< of a simulated run
 };
 
 /// What loading gives: a project if there are no problems, else all problems. Warnings there may be either
@@ -180,5 +182,10 @@ LoadedProject load_project(std::string_view text, const std::string& folder = ""
 /// @throws UnreadableFile
 LoadedProject load_project_file(const std::string& path, const Prepare& prepare = {},
                                 LoadedFor use = LoadedFor::running);
+
+/// A valid project as the text of one file: what it includes and the instances of its templates are in their
+/// places.
+/// @throws UnreadableFile
+std::string expanded_project(const std::string& path);
 
 }  // namespace lockstep

@@ -137,6 +137,18 @@ void add_definitions(KeySchema& keys) {
       described("value at the start; of an array [element, ...] from the first one on",
                 {{"type", {"boolean", "number", "string", "array"}}});
   definitions["call"] = call_schema(keys);
+  // Parameters may stand in every value of a template, so that only the loader knows what is right.
+  definitions["named_parts"] = {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}};
+  definitions["list_of_parts"] = {{"type", "array"}};
+  definitions["parameter_value"] = {{"type", {"boolean", "number", "string"}}};
+  definitions["parameter_values"] = {{"type", "object"},
+                                     {"additionalProperties", reference("parameter_value")}};
+  definitions["parameter_range"] = {
+      {"type", "object"},
+      {"minProperties", 1},
+      {"maxProperties", 1},
+      {"additionalProperties",
+       {{"type", "array"}, {"items", {{"type", "integer"}}}, {"minItems", 2}, {"maxItems", 2}}}};
 }
 
 }  // namespace

@@ -63,7 +63,6 @@ bool read_retain(const Fields& fields, const Loading& loading) {
 void load_array(const std::string& name, const JsonValue& json, const Loading& loading, bool named) {
   const Fields fields(json, keys::kTag, loading.problems);
   const auto array = read_array_type(*fields["type"], loading.problems);
-  const auto comment = read_string(fields["comment"], loading.problems);
   const bool retain = read_retain(fields, loading);
   if (!array) return;
   std::size_t memory = array->count() * array->element->size;
@@ -74,7 +73,7 @@ void load_array(const std::string& name, const JsonValue& json, const Loading& l
                                                         std::to_string(kMaximumArrayMemory >> 20) +
                                                         " MiB; that is all there is for them");
   ArrayTag& tag = loading.controller().add_array(name, *array);
-  tag.comment = comment.value_or("");
+  tag.comment = fields.comment();
   if (const JsonValue* const init = fields["init"]) read_array_values(*init, tag.array, loading.problems);
   if (retain && may_retain(values_of(tag.array), *fields["retain"], loading))
     loading.project.retain.arrays.push_back(&tag);
@@ -84,13 +83,12 @@ void load_array(const std::string& name, const JsonValue& json, const Loading& l
 void load_string(const std::string& name, const JsonValue& json, const Loading& loading, bool named) {
   const Fields fields(json, keys::kTag, loading.problems);
   const auto capacity = read_string_type(*fields["type"], loading.problems);
-  const auto comment = read_string(fields["comment"], loading.problems);
   const bool retain = read_retain(fields, loading);
   if (!capacity) return;
   if (loading.controller().strings.size() == kMaximumStrings)
     return loading.problems.report(*fields["type"], "there are more than " + std::to_string(kMaximumStrings) +
                                                         " tags of type STRING; allowed are these");
-  StringTag tag{.name = name, .comment = std::string(comment.value_or("")), .initial = {}, .memory = {}};
+  StringTag tag{.name = name, .comment = std::string(fields.comment()), .initial = {}, .memory = {}};
   if (const JsonValue* const init = fields["init"])
     tag.initial = read_text_constant(*init, *capacity, loading.problems).value_or("");
   StringTag& added = loading.controller().add_string(std::move(tag), *capacity);
@@ -109,9 +107,8 @@ void load_tag(const std::string& name, const JsonValue& json, const Loading& loa
   if (!fields.usable()) return;
   const auto type = read_type(fields["type"], loading.problems);
   const bool retain = read_retain(fields, loading);
-  const auto comment = read_string(fields["comment"], loading.problems);
   if (!type) return;
-  Tag tag{.name = name, .type = *type, .retain = retain, .comment = std::string(comment.value_or(""))};
+  Tag tag{.name = name, .type = *type, .retain = retain, .comment = std::string(fields.comment())};
   if (const JsonValue* const init = fields["init"])
     tag.initial = read_constant(*init, *type, loading.problems).value_or(Value{});
   if (named) loading.names().define(name, &loading.controller().add_tag(std::move(tag)));

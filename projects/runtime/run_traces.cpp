@@ -45,7 +45,8 @@ void RunSurroundings::choose_signals() {
     if (!found.place) throw CouldNotStart(named("signals") + found.problem);
     const Type type = found.place->signal.type;
     if (type >= Type::AXIS) throw CouldNotStart(named("signals") + name + " has no value to record");
-    signals_.push_back({name, found.place->signal, found.place->unit});
+    signals_.push_back(
+        {name, found.place->signal, found.place->unit, found.place->object, found.place->instance});
   }
 }
 
@@ -105,6 +106,7 @@ void RunSurroundings::add_lcm() {
     for (const TraceChannelConfig& channel : project_.trace.channels)
       add_part(std::make_unique<LcmPublisher>(url, identity(channel.channel), false), channel);
     if (!jobs_told_) project_.controller->tell_jobs();
+    jobs_told_ = true;
   } catch (const std::exception& error) {
     if (asked) throw CouldNotStart(named("lcm") + error.what());
     messages_.warn(std::string("no traces over LCM: ") + error.what());
@@ -129,6 +131,8 @@ void RunSurroundings::start_trace() {
   add_trace_file();
   add_lcm();
   add_flight_recorder();
+  if (!jobs_told_) project_.controller->tell_jobs(JobsTold::failures);
+  project_.controller->epoch = options_.simulate ? 0 : epoch_;
   const bool rows = !sinks_.empty();
   sinks_.insert(sinks_.begin(), std::make_unique<ToldEvents>(messages_));
   std::vector<Signal> places = columns_.places();
@@ -137,8 +141,9 @@ void RunSurroundings::start_trace() {
                                       rows ? std::clamp<std::size_t>(fitting, 1 << 10, kTraceRows) : 2);
   if (rows) project_.controller->trace = ring_.get();
   project_.controller->events = &events_;
-  recorder_ = std::make_unique<TraceRecorder>(*ring_, columns_.described(), std::move(sinks_),
-                                              EventSource{&events_, EventTexts(*project_.controller), rows});
+  recorder_ = std::make_unique<TraceRecorder>(
+      *ring_, columns_.described(), std::move(sinks_),
+      EventSource{&events_, EventTexts(*project_.controller, project_.controller->epoch), rows});
 }
 
 void RunSurroundings::tell_recordings() const {

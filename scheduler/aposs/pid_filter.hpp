@@ -14,7 +14,7 @@ namespace lockstep::aposs {
 class PidFilter {
  public:
   void clear() noexcept { *this = PidFilter(); }
-  /// @param coefficient its place in `kPidCoefficients`; others, and a TIMER of 0, change nothing
+  /// @param coefficient its index in `kPidCoefficients`; others, and a TIMER of 0, change nothing
   void set(std::int32_t coefficient, std::int32_t value) noexcept {
     constexpr std::int32_t kTimer = 4;
     if (coefficient < 0 || coefficient > kTimer || (coefficient == kTimer && value == 0)) return;

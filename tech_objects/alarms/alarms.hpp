@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "tech_objects/types/declaration.hpp"
 #include "tech_objects/types/types.hpp"
 
 namespace lockstep {
@@ -142,6 +143,13 @@ enum class AlarmClass : std::uint8_t {
   fatal             ///< restart of the technology object
 };
 
+/// What the values are that come with an alarm, where any do.
+struct AlarmValues {
+  std::string_view value;  ///< name of what was measured; empty: none
+  std::string_view limit;  ///< name of what it was held against; empty: nothing
+  Unit unit = Unit::kNone;
+};
+
 /// One technology alarm.
 struct Alarm {
   int number;
@@ -150,7 +158,10 @@ struct Alarm {
   int error_bit;    ///< bit of ErrorWord; -1: none
   int warning_bit;  ///< bit of WarningWord; -1: none
   AlarmClass alarm_class;
+  std::string_view cause{};       ///< what has happened; empty where nothing raises it
+  std::string_view remedy{};      ///< what is to be done about it
   std::string_view not_raised{};  ///< why nothing raises it here; empty: something does
+  AlarmValues values{};
 };
 
 /// The alarm with a number; nullptr if there is none.

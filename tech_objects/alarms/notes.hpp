@@ -6,23 +6,26 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tech_objects/alarms/detail.hpp"
+
 namespace lockstep {
 
 /// An alarm that has come, or the acknowledgement of all.
 struct AlarmNote {
   std::int16_t number = 0;    ///< 0: all alarms of the object have been acknowledged
   std::int16_t reaction = 0;  ///< value of ErrorDetail.Reaction; 0: none
+  AlarmDetail detail;
 };
 
 /// An alarm is noted when it comes, not again while it is pending. Notes wait until they are taken; what does
 /// not fit any more is counted. Thread: the cycle.
 class AlarmNotes {
  public:
-  void raised(int number, int reaction) noexcept {
+  void raised(int number, int reaction, const AlarmDetail& detail = {}) noexcept {
     for (std::size_t i = 0; i < pending_count_; ++i)
       if (pending_[i] == number) return;
     if (pending_count_ < pending_.size()) pending_[pending_count_++] = static_cast<std::int16_t>(number);
-    note({static_cast<std::int16_t>(number), static_cast<std::int16_t>(reaction)});
+    note({static_cast<std::int16_t>(number), static_cast<std::int16_t>(reaction), detail});
   }
   /// Noted if an alarm was pending.
   void acknowledged() noexcept {

@@ -15,7 +15,7 @@ struct Reduced {
   DoubleDouble rest;  // in [0, length), or a hair outside where the 106 bits end
 };
 
-/// A way along the line as whole turns and the rest.
+/// A distance along the line as whole turns and the rest.
 Reduced reduced(DoubleDouble distance, double length) noexcept {
   double count = std::floor(distance.hi / length);
   DoubleDouble rest = distance - two_product(count, length);
@@ -30,7 +30,7 @@ Reduced reduced(DoubleDouble distance, double length) noexcept {
   return {static_cast<std::int64_t>(count), rest};
 }
 
-/// Positive way from `from` to `target` on the ring, unrounded.
+/// Positive distance from `from` to `target` on the ring, unrounded.
 DoubleDouble distance_on_ring(double from, double target, const Modulo& modulo) noexcept {
   const DoubleDouble distance = two_difference(target, from);
   if (!(std::abs(distance.hi) <= 0x1p52 * modulo.length)) return distance;

@@ -50,7 +50,7 @@ inline AxisPosition zero_on_turn(std::int64_t turns, const Modulo& modulo) noexc
   return {turns, normalised({0, 0.0}, modulo).value};
 }
 
-/// The position after a way of `increment` [u] of either sign: exact, then rounded once.
+/// The position after a distance of `increment` [u] of either sign: exact, then rounded once.
 /// Whoever adds up many increments keeps the sum as a DoubleDouble and adds it to where he began. Any thread.
 inline AxisPosition advanced(AxisPosition position, DoubleDouble increment, const Modulo& modulo) noexcept {
   const DoubleDouble value = increment + position.value;
@@ -62,8 +62,9 @@ inline AxisPosition advanced(AxisPosition position, double increment, const Modu
   return advanced(position, to_double_double(increment), modulo);
 }
 
-/// A place that ways are counted from. It turns along with the positions asked for, a whole turn at a time,
-/// so that a motion has to be brought onto the ring only where it passes the ring's end. Thread: the cycle.
+/// An origin that distances are counted from. It turns along with the positions asked for, a whole turn at a
+/// time, so that a motion has to be brought onto the ring only where it passes the ring's end. Thread: the
+/// cycle.
 class DistanceOrigin {
  public:
   void set(AxisPosition place) noexcept {
@@ -73,7 +74,7 @@ class DistanceOrigin {
 
   void shift(double by) noexcept { value_ = value_ + by; }
 
-  /// The position after a way [u] from the place: exact, then rounded once.
+  /// The position after a distance [u] from the origin: exact, then rounded once.
   AxisPosition after(double distance, const Modulo& modulo) noexcept {
     const DoubleDouble value = value_ + distance;
     if (modulo.contains(value.hi)) return {turns_, value.rounded()};
@@ -87,11 +88,11 @@ class DistanceOrigin {
 
  private:
   std::int64_t turns_ = 0;
-  DoubleDouble value_;  // the place, seen from the ring of these turns [u]
+  DoubleDouble value_;  // the origin, seen from the ring of these turns [u]
 };
 
-/// Way from `from` to `to` [u] with the turns (the shorter way round where these wrap), within 2^-103 of it.
-/// Any thread.
+/// Distance from `from` to `to` [u] with the turns (the shorter way round where these wrap), within 2^-103 of
+/// it. Any thread.
 inline DoubleDouble difference(AxisPosition to, AxisPosition from, const Modulo& modulo) noexcept {
   const DoubleDouble values = two_difference(to.value, from.value);
   if (!modulo.enabled || to.turns == from.turns) return values;
@@ -105,13 +106,15 @@ inline double rounded_difference(AxisPosition to, AxisPosition from, const Modul
   return to.turns == from.turns ? to.value - from.value : difference(to, from, modulo).rounded();
 }
 
-/// Way [u] from a position to a target on the ring in one direction: positive in [0, length], negative in
+/// Distance [u] from a position to a target on the ring in one direction: positive in [0, length], negative
+/// in
 /// [-length, 0]; length itself only where less than half an ulp is missing to a whole turn. The target may
 /// lie outside the ring and is brought onto it. Linear axis: target - from, whatever its sign. Any thread.
 double positive_distance(double from, double target, const Modulo& modulo) noexcept;
 double negative_distance(double from, double target, const Modulo& modulo) noexcept;
 
-/// The shorter of the two ways; the positive one when they are equal. Linear axis: target - from. Any thread.
+/// The shorter of the two distances; the positive one when they are equal. Linear axis: target - from. Any
+/// thread.
 double shortest_distance(double from, double target, const Modulo& modulo) noexcept;
 
 }  // namespace lockstep

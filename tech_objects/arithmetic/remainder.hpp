@@ -1,4 +1,4 @@
-/// What is left of a way, as a quintic over a distance that ends at zero.
+/// What is left of a distance, as a quintic over a distance that ends at zero.
 #pragma once
 
 namespace lockstep {

@@ -5,7 +5,7 @@
 
 namespace lockstep {
 
-/// Direction of a way or a velocity: 1, -1, or 0 (also for NaN).
+/// Direction of a distance or a velocity: 1, -1, or 0 (also for NaN).
 constexpr int sign(double value) noexcept {
   return value > 0.0 ? 1 : value < 0.0 ? -1 : 0;
 }

@@ -17,6 +17,8 @@ class Arrival {
 
   /// @param period of the interpolator [s]
   void configure(double period) noexcept { period_ = period; }
+  /// Whether the position was in the window at the last look.
+  bool in_window() const noexcept { return in_window_ > 0; }
   /// A motion begins.
   void begin() noexcept { in_window_ = since_target_ = 0; }
 

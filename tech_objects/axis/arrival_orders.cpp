@@ -44,7 +44,11 @@ void ArrivalOrders::watch_positioning() noexcept {
 
 void ArrivalOrders::take(Arrival::Verdict verdict) noexcept {
   if (verdict == Arrival::Verdict::arrived) ends_.end(kBase, JobPhase::done, ErrorId::none);
-  if (verdict == Arrival::Verdict::missed) reactions_.raise(alarm::kPositioning);
+  if (verdict == Arrival::Verdict::missed)
+    reactions_.raise(alarm::kPositioning,
+                     {.cause = arrival_.in_window() ? AlarmCause::left_window : AlarmCause::late_in_window,
+                      .value = rounded_difference(setpoint_.position, actual_, modulo_),
+                      .limit = data.PositioningMonitoring.Window});
 }
 
 /// A stop under position control is done when the actual position has settled as well. A drive whose torque

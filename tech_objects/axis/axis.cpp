@@ -67,7 +67,7 @@ void Axis::configure_servo() {
 
 /// The start values count from now on. The axis is where it was, on a ring of its own perhaps.
 void Axis::restart() noexcept {
-  ends_.end_all(JobPhase::aborted, ErrorId::none);
+  ends_.end_all(JobPhase::aborted, ErrorId::none, AbortedBy::restart);
   jobs_.unlock();
   coupling_.end_simulated(JobPhase::aborted, ErrorId::none);
   additive_request = {};

@@ -17,7 +17,7 @@ class CourseHandOver {
   bool begin(const Setpoint& ahead, const Dynamics& dynamics) noexcept {
     return run_down(to_setpoint_, ahead, dynamics);
   }
-  /// The same for the way back from zero.
+  /// The same for the distance back from zero.
   bool begin_return(const Setpoint& ahead, const Dynamics& dynamics) noexcept {
     return run_down(from_zero_, ahead, dynamics);
   }
@@ -33,7 +33,7 @@ class CourseHandOver {
   Setpoint course(const Setpoint& setpoint, const Modulo& modulo) const noexcept {
     return with(to_setpoint_, setpoint, modulo);
   }
-  /// That course with what is left of the way back from zero.
+  /// That course with what is left of the distance back from zero.
   Setpoint returning(const Setpoint& course, const Modulo& modulo) const noexcept {
     return with(from_zero_, course, modulo);
   }

@@ -18,8 +18,11 @@ void Axis::watch_leading_object() noexcept {
     return leading.restarted || !leading.actual_values_valid();
   };
   const bool led_by_lost = (led() || simulating()) && lost(*coupled_.leading);
-  if (led_by_lost || (waiting != nullptr && lost(*master_of(*waiting))))
-    reactions_.raise(alarm::kLeadingAxis);
+  if (!led_by_lost && (waiting == nullptr || !lost(*master_of(*waiting)))) return;
+  const LeadingObject& leading = led_by_lost ? *coupled_.leading : *master_of(*waiting);
+  reactions_.raise(alarm::kLeadingAxis,
+                   {.cause = leading.restarted ? AlarmCause::restarted : AlarmCause::values_invalid,
+                    .object = static_cast<std::uint16_t>(leading.number)});
 }
 
 void Axis::step() noexcept {

@@ -99,7 +99,7 @@ class Encoders {
   /// AbsEncoderOffset of an encoder as it is: position of the axis less that of the encoder [u].
   /// @param first turn that counts as 0
   double offset(std::size_t encoder, std::int64_t first) const noexcept;
-  /// Position of a place of the machine [u from where it was at the beginning].
+  /// Position of the machine [u from where it was at the beginning].
   AxisPosition position_of_machine(const DoubleDouble& place, double play) const noexcept;
 
  private:

@@ -17,8 +17,9 @@ void DriveFaults::watch(const DriveActual& now) noexcept {
 
 /// A fault of the drive matters once the axis is, or is to be, enabled.
 void DriveFaults::raise_alarms(const DriveActual& now) noexcept {
-  if (now.silent) return reactions_.raise(alarm::kCommunication);
-  if (now.encoder_failed) reactions_.raise(alarm::kEncoder);
+  const auto sensor = static_cast<std::uint8_t>(encoders_.operative() + 1);
+  if (now.silent) return reactions_.raise(alarm::kCommunication, {.sensor = sensor});
+  if (now.encoder_failed) reactions_.raise(alarm::kEncoder, {.sensor = sensor});
   if (now.fault && (power.enable || power_state_ != PowerState::off)) reactions_.raise(alarm::kDriveFault);
 }
 

@@ -26,7 +26,7 @@ void HomingOrders::begin_active(Job& job) noexcept {
   if (!names_.fit(names_.distance_to(mark)) || !names_.fit(names_.distance_to(asked.position)))
     return job.fail(ErrorId::position);
   // What acts on a coupling ends with it.
-  for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) ends_.end(slot, JobPhase::aborted, ErrorId::none);
+  ends_.abort_shifts(AbortedBy::job, &job);
   homed_ = false;
   homing_now_ = true;
   const bool has_switch = settings.Mode != static_cast<DINT>(HomingMark::zero_mark);
@@ -68,7 +68,11 @@ void HomingOrders::guide(Job& job) noexcept {
   const int direction = job.as<HomingJob>().direction;
   const bool at_limit_switch = switches_.homing_reverses() && limit_switches_.pressed(direction);
   const HomingCourse::Leg leg = homing_.guide(mark, direction, at_limit_switch);
-  if (leg.kind == HomingCourse::Leg::Kind::gives_up) return reactions_.raise(alarm::kMarkNotFound);
+  if (leg.kind == HomingCourse::Leg::Kind::gives_up)
+    return reactions_.raise(alarm::kMarkNotFound,
+                            {.cause = side_of(direction),
+                             .sensor = static_cast<std::uint8_t>(encoders_.operative() + 1),
+                             .value = actual_.value});
   if (leg.kind == HomingCourse::Leg::Kind::goes_on) return;
   if (leg.search != 0) switches_.search_mark(true, leg.search);
   head_for(job, leg.phase, leg.direction);
@@ -102,7 +106,9 @@ void HomingOrders::take_mark() noexcept {
   Job& job = passive != nullptr ? *passive : *jobs_[kBase];
   auto& asked = job.as<HomingJob>();
   asked.mark_position = passive != nullptr ? asked.position : homing_.settings().mark;
-  if (!names_.assign(place, asked.mark_position)) return reactions_.raise(alarm::kHomingNotPossible);
+  if (!names_.assign(place, asked.mark_position))
+    return reactions_.raise(alarm::kHomingNotPossible,
+                            {.value = asked.mark_position, .limit = kPositionRange});
   if (passive != nullptr) return ends_.end(kPassiveHoming, JobPhase::done, ErrorId::none);
   switches_.renew_watch();
   head_for(job, HomingCourse::Phase::travel, 0);

@@ -87,34 +87,44 @@ ErrorId JobChecks::check_homing(const Job& job) const noexcept {
   return coupled ? ErrorId::homing_while_coupled : ErrorId::none;
 }
 
-int JobChecks::missing_precondition(const Job& job) const noexcept {
-  if (job.kind == JobKind::MC_MoveAbsolute && !homed_) return alarm::kNotHomed;
+MissingPrecondition JobChecks::missing_precondition(const Job& job) const noexcept {
+  if (job.kind == JobKind::MC_MoveAbsolute && !homed_) return {alarm::kNotHomed};
   if (job.kind == JobKind::MC_Home) return missing_for_homing(job);
-  if (!couples(job.kind) && !is_phasing(job.kind)) return 0;
+  if (!couples(job.kind) && !is_phasing(job.kind)) return {};
   const LeadingObject* const master = master_of(job);
+  const std::uint16_t leader = master != nullptr ? static_cast<std::uint16_t>(master->number) : 0;
   const LeadingValue* leading = find_leading_value(leading_values, master);
-  if (leading == nullptr) return alarm::kLeadingAxis;
-  if (is_phasing(job.kind)) return 0;
-  if (!master->actual_values_valid()) return alarm::kLeadingAxis;
+  if (leading == nullptr) return {alarm::kLeadingAxis, {.cause = AlarmCause::not_assigned, .object = leader}};
+  if (is_phasing(job.kind)) return {};
+  if (!master->actual_values_valid())
+    return {alarm::kLeadingAxis, {.cause = AlarmCause::values_invalid, .object = leader}};
   if (job.kind == JobKind::MC_CamIn && !job.as<CamJob>().cam->interpolated())
-    return alarm::kCamNotInterpolated;
+    return {alarm::kCamNotInterpolated, {.object = static_cast<std::uint16_t>(job.as<CamJob>().cam->number)}};
   const bool controlled = job.kind == JobKind::MC_GearInVelocity || master->position_controlled() ||
                           leading->coupling == Coupling::actual;
-  if (!controlled) return alarm::kLeadingAxisNotPositionControlled;
-  return couples_at_position(job.kind) && !homed_ ? alarm::kNotHomed : 0;
+  if (!controlled) return {alarm::kLeadingAxisNotPositionControlled, {.object = leader}};
+  if (couples_at_position(job.kind) && !homed_) return {alarm::kNotHomed};
+  return {};
 }
 
-/// Alarm for what active and passive homing need and do not find; 0: all is there.
-int JobChecks::missing_for_homing(const Job& job) const noexcept {
+/// What active and passive homing need and do not find.
+MissingPrecondition JobChecks::missing_for_homing(const Job& job) const noexcept {
   const JobClass kind = class_of(job, true);
   const bool active = kind == JobClass::home_active;
-  if (!active && kind != JobClass::home_passive) return 0;
-  if (active && !(data.Homing.ApproachVelocity > 0.0 && data.Homing.ReferencingVelocity > 0.0))
-    return alarm::kHomingData;
-  if (!has_drive_) return 0;
-  const auto mark = static_cast<HomingMark>(active ? data.Sensor[encoders_.operative()].ActiveHoming.Mode
-                                                   : data.Sensor[encoders_.operative()].PassiveHoming.Mode);
-  return has_mark(mark, switches_.home_switch(active), drive_->signals()) ? 0 : alarm::kHomingNotSupported;
+  if (!active && kind != JobClass::home_passive) return {};
+  const double approach = data.Homing.ApproachVelocity, referencing = data.Homing.ReferencingVelocity;
+  if (active && !(approach > 0.0))
+    return {alarm::kHomingData, {.cause = AlarmCause::approach_velocity, .value = approach, .limit = 0.0}};
+  if (active && !(referencing > 0.0))
+    return {alarm::kHomingData,
+            {.cause = AlarmCause::referencing_velocity, .value = referencing, .limit = 0.0}};
+  if (!has_drive_) return {};
+  const std::size_t sensor = encoders_.operative();
+  const auto mark = static_cast<HomingMark>(active ? data.Sensor[sensor].ActiveHoming.Mode
+                                                   : data.Sensor[sensor].PassiveHoming.Mode);
+  const AlarmCause missing = missing_mark(mark, switches_.home_switch(active), drive_->signals());
+  if (missing == AlarmCause::none) return {};
+  return {alarm::kHomingNotSupported, {.cause = missing, .sensor = static_cast<std::uint8_t>(sensor + 1)}};
 }
 
 }  // namespace lockstep

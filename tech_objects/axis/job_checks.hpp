@@ -29,6 +29,12 @@ struct JobCheckParts {
   const MotionOrders& motion_orders_;
 };
 
+/// What a job needs and does not find.
+struct MissingPrecondition {
+  int alarm = 0;  ///< number of the alarm; 0: all is there
+  AlarmDetail detail{};
+};
+
 /// Changes nothing. Thread: the cycle.
 class JobChecks : private JobCheckParts {
  public:
@@ -36,14 +42,14 @@ class JobChecks : private JobCheckParts {
 
   /// Why the job is refused.
   ErrorId refusal(const Job& job) const noexcept;
-  /// The alarm for a precondition whose absence is one; 0: none is missing.
-  int missing_precondition(const Job& job) const noexcept;
+  /// The precondition that is missing, where its absence is an alarm.
+  MissingPrecondition missing_precondition(const Job& job) const noexcept;
 
  private:
   ErrorId check_synchronous(const Job& job) const noexcept;
   ErrorId check_cam(const Job& job) const noexcept;
   ErrorId check_homing(const Job& job) const noexcept;
-  int missing_for_homing(const Job& job) const noexcept;
+  MissingPrecondition missing_for_homing(const Job& job) const noexcept;
 };
 
 }  // namespace lockstep

@@ -4,10 +4,22 @@ namespace lockstep {
 
 Dynamics JobDynamics::effective(const Job& job) noexcept {
   const ExceededLimits exceeded = limits_.exceeded(job);
-  if (exceeded.velocity) reactions_.raise(alarm::kVelocityLimited);
-  if (exceeded.acceleration) reactions_.raise(alarm::kAccelerationLimited);
-  if (exceeded.jerk) reactions_.raise(alarm::kJerkLimited);
+  if (exceeded.any()) tell(exceeded, job);
   return limits_.effective(job);
+}
+
+void JobDynamics::tell(const ExceededLimits& exceeded, const Job& job) noexcept {
+  const auto& limits = limits_.configured();
+  const Dynamics asked = limits_.asked(job);
+  if (exceeded.velocity)
+    reactions_.raise(alarm::kVelocityLimited, {.value = asked.velocity, .limit = limits_.velocity()});
+  const bool accelerates = asked.acceleration > limits.MaxAcceleration;
+  if (exceeded.acceleration)
+    reactions_.raise(alarm::kAccelerationLimited,
+                     {.cause = accelerates ? AlarmCause::acceleration : AlarmCause::deceleration,
+                      .value = accelerates ? asked.acceleration : asked.deceleration,
+                      .limit = accelerates ? limits.MaxAcceleration : limits.MaxDeceleration});
+  if (exceeded.jerk) reactions_.raise(alarm::kJerkLimited, {.value = asked.jerk, .limit = limits.MaxJerk});
 }
 
 Dynamics JobDynamics::own(const Job& job) noexcept {

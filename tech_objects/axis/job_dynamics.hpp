@@ -29,6 +29,9 @@ class JobDynamics : private JobDynamicsParts {
   /// A base motion that is planned anew within a step leaves what is superimposed its share.
   void leave_to_superimposed(const Job* job, Dynamics& dynamics) noexcept;
   BaseMotion base_motion() const noexcept;
+
+ private:
+  void tell(const ExceededLimits& exceeded, const Job& job) noexcept;
 };
 
 }  // namespace lockstep

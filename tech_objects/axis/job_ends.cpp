@@ -24,8 +24,23 @@ void JobEnds::end(Slot slot, JobPhase phase, ErrorId error) noexcept {
   }
 }
 
-void JobEnds::end_all(JobPhase phase, ErrorId error) noexcept {
-  for (std::size_t slot = 0; slot < kSlots; ++slot) end(static_cast<Slot>(slot), phase, error);
+void JobEnds::abort(Slot slot, AbortedBy by, const Job* job) noexcept {
+  Job* const aborted = jobs_[slot];
+  if (aborted == nullptr) return;
+  aborted->aborted_by = by;
+  aborted->aborted_by_job = job;
+  end(slot, JobPhase::aborted, ErrorId::none);
+}
+
+void JobEnds::abort_shifts(AbortedBy by, const Job* job) noexcept {
+  for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) abort(slot, by, job);
+}
+
+void JobEnds::end_all(JobPhase phase, ErrorId error, AbortedBy by) noexcept {
+  for (std::size_t slot = 0; slot < kSlots; ++slot) {
+    if (Job* const job = jobs_[slot]; job != nullptr) job->aborted_by = by;
+    end(static_cast<Slot>(slot), phase, error);
+  }
   jobs_.end_new(phase, error);
   jobs_.unlock_unless_done();
 }
@@ -37,7 +52,7 @@ bool JobEnds::override_running(JobClass new_job, Job& job) noexcept {
     return false;
   }
   for (std::size_t slot = 0; slot < kSlots; ++slot)
-    if (effects.ends[slot]) end(static_cast<Slot>(slot), JobPhase::aborted, ErrorId::none);
+    if (effects.ends[slot]) abort(static_cast<Slot>(slot), AbortedBy::job, &job);
   return true;
 }
 

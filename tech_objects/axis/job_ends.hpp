@@ -29,8 +29,12 @@ class JobEnds : private JobEndParts {
   explicit JobEnds(const JobEndParts& parts) noexcept : JobEndParts(parts) {}
 
   void end(Slot slot, JobPhase phase, ErrorId error) noexcept;
+  /// Aborts a job, and notes what it was; nothing where the slot is empty.
+  void abort(Slot slot, AbortedBy by, const Job* job = nullptr) noexcept;
   /// Those that are handed over as well; the lock of MC_Stop falls unless that is done.
-  void end_all(JobPhase phase, ErrorId error) noexcept;
+  void end_all(JobPhase phase, ErrorId error, AbortedBy by = AbortedBy::unknown) noexcept;
+  /// What acts on a coupling is aborted with it.
+  void abort_shifts(AbortedBy by, const Job* job = nullptr) noexcept;
   /// Ends the running jobs that a new one overrides; false if one of them forbids it.
   bool override_running(JobClass new_job, Job& job) noexcept;
   /// A running homing ends, whatever the reason.

@@ -27,6 +27,8 @@ void JobSlots::submit(Job& job) noexcept {
     return;
   }
   job.phase = JobPhase::handed_over;
+  job.aborted_by = AbortedBy::unknown;
+  job.aborted_by_job = nullptr;
   new_[new_count_++] = &job;
 }
 

@@ -45,8 +45,8 @@ void Axis::start(Job& job) noexcept {
   if (clamping_.found())
     if (const ErrorId error = torque_.check_at_fixed_stop(job); error != ErrorId::none)
       return job.fail(error);
-  if (const int alarm_number = checks_.missing_precondition(job); alarm_number != 0) {
-    reactions_.raise(alarm_number);
+  if (const MissingPrecondition missing = checks_.missing_precondition(job); missing.alarm != 0) {
+    reactions_.raise(missing.alarm, missing.detail);
     return job.fail(ErrorId::technology_alarm);
   }
   if (is_shift(job.kind) && job.as<ShiftJob>().profile == ShiftProfileReference::cancel_waiting)
@@ -112,7 +112,7 @@ void Axis::home(Job& job) noexcept {
 ErrorId Axis::reset(bool restart) noexcept {
   // An alarm may have removed the enable; while MC_Power still asks for it the axis is not disabled.
   if (restart && (power.enable || power_state_ != PowerState::off)) {
-    reactions_.raise(alarm::kRestartNotCarriedOut);
+    reactions_.raise(alarm::kRestartNotCarriedOut, {.cause = AlarmCause::enabled});
     return ErrorId::restart_refused;
   }
   reactions_.acknowledge();

@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-/// What positions and ways may be apart by rounding, relative to their size.
+/// What positions and distances may be apart by rounding, relative to their size.
 constexpr double kRounding = 1e-12;
 
 }  // namespace
@@ -19,7 +19,9 @@ constexpr double kRounding = 1e-12;
 
 void LimitOrders::watch() noexcept {
   const SoftwareLimits::Range range = SoftwareLimits::in_effect(data.PositionLimits_SW, modulo_);
-  if (range.contradictory()) reactions_.raise(alarm::kSoftwareLimits);
+  if (range.contradictory())
+    reactions_.raise(alarm::kSoftwareLimits, {.value = data.PositionLimits_SW.MinPosition,
+                                              .limit = data.PositionLimits_SW.MaxPosition});
   if (!homed_ || range.contradictory()) return software_limits_.release();
   const bool controlled = power_state_ == PowerState::on || power_state_ == PowerState::braking;
   const bool moves = software_limits_.hold(range, setpoint_, last_setpoint_, controlled);
@@ -65,7 +67,8 @@ void LimitOrders::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics)
   const double margin = side * rounded_difference(limit, setpoint_.position, modulo_);
   const Heading heading{setpoint_, side};
   const bool possible = find_braking(heading, margin, limits_.maximum(), dynamics);
-  reactions_.raise(alarm::kSoftwareLimitReached, reaction);
+  const AlarmDetail detail{.cause = side_of(side), .value = setpoint_.position.value, .limit = limit.value};
+  reactions_.raise(alarm::kSoftwareLimitReached, reaction, detail);
   stops_.absorb_superimposed();
   set_bit(data.WarningWord, side > 0 ? WarningBit::SWLimitMax : WarningBit::SWLimitMin, true);
   software_limits_.approach(side);
@@ -83,9 +86,10 @@ void LimitOrders::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics)
     setpoint_ = made;  // it brakes already
   }
   if (side * rounded_difference(setpoint_.position, limit, modulo_) > 0.0)
-    reactions_.raise(alarm::kSoftwareLimitPassed, data.PositionLimits_SW.LimitExceededBehavior == 1
-                                                      ? AlarmReaction::stop_emergency
-                                                      : AlarmReaction::remove_enable);
+    reactions_.raise(alarm::kSoftwareLimitPassed,
+                     data.PositionLimits_SW.LimitExceededBehavior == 1 ? AlarmReaction::stop_emergency
+                                                                       : AlarmReaction::remove_enable,
+                     {.cause = side_of(side), .value = setpoint_.position.value, .limit = limit.value});
 }
 
 AlarmReaction LimitOrders::reaction_at_limit() const noexcept {
@@ -112,7 +116,8 @@ void LimitOrders::hold_limit_switches() noexcept {
   if (data.ErrorDetail.Reaction >= static_cast<DINT>(reaction)) return;  // it brakes already
   const Setpoint made = setpoint_;
   setpoint_ = last_setpoint_;
-  reactions_.raise(alarm::kHardwareLimitSwitch, reaction);
+  reactions_.raise(alarm::kHardwareLimitSwitch, reaction,
+                   {.cause = side_of(limit_switches_.beyond(1) ? 1 : -1), .value = setpoint_.position.value});
   if (power_state_ == PowerState::on) single_.advance(setpoint_);
   if (power_state_ == PowerState::braking) setpoint_ = made;
 }

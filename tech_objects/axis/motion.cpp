@@ -140,12 +140,12 @@ PlanResult MotionOrders::move_by(DoubleDouble exact_distance, const Job& job,
   const double distance = exact_distance.rounded();
   AxisPosition target = advanced(setpoint_.position, exact_distance, modulo_);
   if (const LREAL* const given = target_position(job)) {
-    // The way is rounded; the target is the given position itself.
+    // The distance is rounded; the target is the given position itself.
     target.value = modulo_.enabled ? normalised({0, *given}, modulo_).value : *given;
   }
   show_target(target);
   if (dynamics.velocity > 0.0) return single_.move_to(setpoint_, target, distance, dynamics);
-  Dynamics crawl = dynamics;  // an override of 0 %: plan with the least velocity, then hold at once
+  Dynamics crawl = dynamics;  // an override of 0 %: plan with the minimum velocity, then hold at once
   crawl.velocity = limits_.velocity();
   const PlanResult result = single_.move_to(setpoint_, target, distance, crawl);
   return result == PlanResult::ok ? single_.replan(setpoint_, dynamics) : result;

@@ -73,6 +73,14 @@ Dynamics MotionLimits::effective(const Job& job) const noexcept {
           .jerk = std::min(jerk, positive_or(limits.MaxJerk, jerk))};
 }
 
+Dynamics MotionLimits::asked(const Job& job) const noexcept {
+  const auto& defaults = data_.DynamicDefaults;
+  return {.velocity = wanted_velocity(job),
+          .acceleration = value_or(job.acceleration, defaults.Acceleration),
+          .deceleration = value_or(job.deceleration, defaults.Deceleration),
+          .jerk = value_or(job.jerk, defaults.Jerk)};
+}
+
 ExceededLimits MotionLimits::exceeded(const Job& job) const noexcept {
   const auto& defaults = data_.DynamicDefaults;
   const auto& limits = data_.DynamicLimits;

@@ -18,6 +18,8 @@ struct ExceededLimits {
   bool velocity = false;
   bool acceleration = false;  // or deceleration
   bool jerk = false;
+
+  bool any() const noexcept { return velocity || acceleration || jerk; }
 };
 
 /// Reads DynamicLimits, DynamicDefaults and Override of the data block, as they are at the time of the call;
@@ -68,6 +70,9 @@ class MotionLimits {
   /// Dynamic values of a job: defaults for negative ones, cut to the limits. A MaxJerk of 0.0 is an alarm
   /// where it would count (`zero_limit`); it takes no job its jerk.
   Dynamics effective(const Job& job) const noexcept;
+  /// The same, not cut.
+  Dynamics asked(const Job& job) const noexcept;
+  const TO_Struct_DynamicLimits& configured() const noexcept { return data_.DynamicLimits; }
   /// Where the job asks for more.
   ExceededLimits exceeded(const Job& job) const noexcept;
   /// An alarm for a limit of zero, which no motion can keep; 0: none. That of the jerk counts for a motion

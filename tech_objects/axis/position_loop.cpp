@@ -6,19 +6,6 @@
 #include "tech_objects/types/published.hpp"
 
 namespace lockstep {
-namespace {
-
-/// Permissible following error at a velocity setpoint [u].
-double permissible_error(double velocity, double maximum,
-                         const TO_Struct_FollowingError& monitoring) noexcept {
-  const double above = std::abs(velocity) - monitoring.MinVelocity;
-  if (above <= 0.0) return monitoring.MinValue;
-  const double span = maximum - monitoring.MinVelocity;
-  if (above >= span) return monitoring.MaxValue;
-  return monitoring.MinValue + (monitoring.MaxValue - monitoring.MinValue) * (above / span);
-}
-
-}  // namespace
 
 void PositionLoop::configure(const Modulo& modulo, double cycle) noexcept {
   modulo_ = modulo;
@@ -118,6 +105,15 @@ double PositionLoop::switched_over(double velocity, double limit) noexcept {
 
 // ---- Following error
 // ----------------------------------------------------------------------------------------------
+
+double PositionLoop::permissible_error(double velocity, double maximum,
+                                       const TO_Struct_FollowingError& monitoring) noexcept {
+  const double above = std::abs(velocity) - monitoring.MinVelocity;
+  if (above <= 0.0) return monitoring.MinValue;
+  const double span = maximum - monitoring.MinVelocity;
+  if (above >= span) return monitoring.MaxValue;
+  return monitoring.MinValue + (monitoring.MaxValue - monitoring.MinValue) * (above / span);
+}
 
 PositionLoop::FollowingErrorLevel PositionLoop::level_of(
     double error, double velocity, double maximum, const TO_Struct_FollowingError& monitoring) noexcept {

@@ -69,6 +69,9 @@ class PositionLoop {
   /// What of a velocity is to reach the drive now, within ±`limit` [u/s].
   double switched_over(double velocity, double limit) noexcept;
 
+  /// Permissible following error at a velocity setpoint [u]. @param maximum of the axis [u/s]
+  static double permissible_error(double velocity, double maximum,
+                                  const TO_Struct_FollowingError& monitoring) noexcept;
   /// @param velocity of the setpoint before the controller [u/s]  @param maximum MaxVelocity [u/s]
   static FollowingErrorLevel level_of(double error, double velocity, double maximum,
                                       const TO_Struct_FollowingError& monitoring) noexcept;

@@ -61,7 +61,9 @@ bool RangeOrders::keep_in(int side) noexcept {
   const bool reacts =
       data.ErrorDetail.Reaction < static_cast<DINT>(kReaction) && !jobs_.stops_harder_than(kReaction);
   if (reacts) setpoint_ = last_setpoint_;
-  reactions_.raise(alarm::kPositionRangeReached, kReaction);
+  reactions_.raise(
+      alarm::kPositionRangeReached, kReaction,
+      {.cause = side_of(side), .value = setpoint_.position.value, .limit = side * kPositionRange});
   if (reacts) single_.advance(setpoint_);
   return !reacts;
 }
@@ -70,7 +72,10 @@ void RangeOrders::pass_end() noexcept {
   const bool reacts = power_state_ == PowerState::on &&
                       data.ErrorDetail.Reaction < static_cast<DINT>(AlarmReaction::remove_enable);
   if (reacts) setpoint_ = last_setpoint_;
-  reactions_.raise(alarm::kPositionRangeExceeded);
+  reactions_.raise(alarm::kPositionRangeExceeded,
+                   {.cause = side_of(sign(setpoint_.position.value)),
+                    .value = setpoint_.position.value,
+                    .limit = std::copysign(kPositionRange, setpoint_.position.value)});
   if (!reacts) return;  // it brakes already
   if (motion_ == AxisMotion::single_axis)
     single_.advance(setpoint_);

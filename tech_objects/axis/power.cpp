@@ -72,7 +72,7 @@ void PowerOrders::take_up_motion() noexcept {
 }
 
 void PowerOrders::begin_braking(PowerStopMode stop_mode) noexcept {
-  ends_.end_all(JobPhase::aborted, ErrorId::none);
+  ends_.end_all(JobPhase::aborted, ErrorId::none, AbortedBy::disabling);
   if (has_drive_ && (stop_mode == PowerStopMode::quick_stop || stop_mode == PowerStopMode::coast_down)) {
     const bool stops = stop_mode == PowerStopMode::quick_stop && power_state_ != PowerState::switching_on;
     switch_off();

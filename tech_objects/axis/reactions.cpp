@@ -5,13 +5,13 @@
 
 namespace lockstep {
 
-void Reactions::raise(int alarm_number) noexcept {
-  raise(alarm_number, static_cast<AlarmReaction>(find_alarm(alarm_number)->reaction));
+void Reactions::raise(int alarm_number, const AlarmDetail& detail) noexcept {
+  raise(alarm_number, static_cast<AlarmReaction>(find_alarm(alarm_number)->reaction), detail);
 }
 
-void Reactions::raise(int alarm_number, AlarmReaction reaction) noexcept {
+void Reactions::raise(int alarm_number, AlarmReaction reaction, const AlarmDetail& detail) noexcept {
   const Alarm* alarm = find_alarm(alarm_number);
-  alarm_notes.raised(alarm_number, static_cast<int>(reaction));
+  alarm_notes.raised(alarm_number, static_cast<int>(reaction), detail);
   if (reaction == AlarmReaction::none) {
     set_bit(data.WarningWord, static_cast<unsigned>(alarm->warning_bit), true);
     return;

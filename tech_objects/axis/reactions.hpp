@@ -28,9 +28,9 @@ class Reactions : private ReactionParts {
  public:
   explicit Reactions(const ReactionParts& parts) noexcept : ReactionParts(parts) {}
 
-  void raise(int alarm_number) noexcept;
+  void raise(int alarm_number, const AlarmDetail& detail = {}) noexcept;
   /// For alarms whose reaction is a matter of configuration.
-  void raise(int alarm_number, AlarmReaction reaction) noexcept;
+  void raise(int alarm_number, AlarmReaction reaction, const AlarmDetail& detail = {}) noexcept;
   /// Nothing is pending any more, and the enable counts again.
   void acknowledge() noexcept;
 

@@ -27,7 +27,9 @@ void ServoOrders::take_settings() noexcept {
   encoders_.configure(data, drive_settings, has_drive_, modulo_, servo_period_);
   loop_.configure(modulo_, servo_period_);
   const double highest = motor_limit_ * (1.0 + kRounding);
-  if (has_drive_ && data.DynamicLimits.MaxVelocity > highest) reactions_.raise(alarm::kVelocityNotReachable);
+  if (has_drive_ && data.DynamicLimits.MaxVelocity > highest)
+    reactions_.raise(alarm::kVelocityNotReachable,
+                     {.value = data.DynamicLimits.MaxVelocity, .limit = motor_limit_});
 }
 
 void ServoOrders::show_execution_time() noexcept {
@@ -116,7 +118,8 @@ void ServoOrders::watch_signals() noexcept {
   if (data.PositionLimits_HW.Active)
     for (const int side : {-1, 1})
       if (switches_.meets_limit_switch(side, place))
-        reactions_.raise(alarm::kHardwareLimitSwitch, switches_.reaction());
+        reactions_.raise(alarm::kHardwareLimitSwitch, switches_.reaction(),
+                         {.cause = side_of(side), .value = actual_.value});
   switches_.look_for_mark(place);
 }
 
@@ -154,7 +157,8 @@ PositionLoop::Output ServoOrders::control_position() noexcept {
   data.StatusServo.PositionAfterDynamicFilter = output.filtered;
   data.StatusServo.BalancedPosition = output.balanced;
   data.StatusServo.ControlDifference = output.difference;
-  if (output.limited) reactions_.raise(alarm::kSpeedSetpointLimited);
+  if (output.limited)
+    reactions_.raise(alarm::kSpeedSetpointLimited, {.value = output.velocity, .limit = motor_limit_});
   if (data.FollowingError.EnableMonitoring && !forces_.position_monitoring_off(data))
     watch_following_error(output.controlled.velocity);
   return output;
@@ -163,14 +167,22 @@ PositionLoop::Output ServoOrders::control_position() noexcept {
 /// @param velocity setpoint before the position controller [u/s]
 void ServoOrders::watch_following_error(double velocity) noexcept {
   const double error = std::abs(data.StatusPositioning.FollowingError);
+  const auto following_error = [&](double share) {
+    const double maximum = data.DynamicLimits.MaxVelocity;
+    const double permitted = PositionLoop::permissible_error(velocity, maximum, data.FollowingError);
+    return AlarmDetail{.sensor = static_cast<std::uint8_t>(encoders_.operative() + 1),
+                       .value = data.StatusPositioning.FollowingError,
+                       .limit = share * permitted};
+  };
   switch (PositionLoop::level_of(error, velocity, data.DynamicLimits.MaxVelocity, data.FollowingError)) {
     case PositionLoop::FollowingErrorLevel::permitted:
       break;
     case PositionLoop::FollowingErrorLevel::warning:
-      reactions_.raise(alarm::kFollowingErrorWarning);
+      reactions_.raise(alarm::kFollowingErrorWarning,
+                       following_error(0.01 * data.FollowingError.WarningLevel));
       break;
     case PositionLoop::FollowingErrorLevel::exceeded:
-      reactions_.raise(alarm::kFollowingError);
+      reactions_.raise(alarm::kFollowingError, following_error(1.0));
       break;
   }
 }
@@ -178,8 +190,9 @@ void ServoOrders::watch_following_error(double velocity) noexcept {
 /// The speed setpoint of a speed axis keeps to what its motor can do.
 void ServoOrders::limit_speed() noexcept {
   if (std::abs(data.VelocitySetpoint) <= motor_limit_) return;
+  const AlarmDetail detail{.value = data.VelocitySetpoint, .limit = motor_limit_};
   data.VelocitySetpoint = std::copysign(motor_limit_, data.VelocitySetpoint);
-  reactions_.raise(alarm::kSpeedSetpointLimited);
+  reactions_.raise(alarm::kSpeedSetpointLimited, detail);
 }
 
 }  // namespace lockstep

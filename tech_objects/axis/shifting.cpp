@@ -46,7 +46,7 @@ void ShiftOrders::begin(Job& job) noexcept {
 void ShiftOrders::cancel_waiting(Job& job) noexcept {
   const Slot slot = is_phasing(job.kind) ? kPhasing : kOffset;
   if (jobs_[slot] != nullptr && jobs_[slot]->phase == JobPhase::waiting) {
-    ends_.end(slot, JobPhase::aborted, ErrorId::none);
+    ends_.abort(slot, AbortedBy::job, &job);
     (slot == kPhasing ? synchronous_.phase_shift() : synchronous_.following_offset()).cancel();
   }
   job.phase = JobPhase::done;

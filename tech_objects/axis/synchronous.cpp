@@ -115,7 +115,7 @@ bool FollowingOrders::meet_cam_end() noexcept {
   job.end_of_profile = true;
   const bool rests = synchronous_.rests_at_cam_end();
   ends_.end(kBase, JobPhase::done, ErrorId::none);
-  for (const Slot slot : {kPhasing, kOffset, kWaitingOut}) ends_.end(slot, JobPhase::aborted, ErrorId::none);
+  ends_.abort_shifts(AbortedBy::end_of_cam);
   coupling_.leave();
   if (rests) {
     stops_.stand();

@@ -44,7 +44,7 @@ void TorqueOrders::watch_fixed_stop() noexcept {
   if (clamping_.found()) return watch_clamping();
   if (!pushes_against_a_stop()) return;
   clamping_.find(data.StatusPositioning.FollowingError > 0.0 ? 1 : -1, actual_);
-  ends_.end_all(JobPhase::aborted, ErrorId::none);
+  ends_.end_all(JobPhase::aborted, ErrorId::none, AbortedBy::fixed_stop);
   stops_.freeze();
 }
 
@@ -59,7 +59,9 @@ void TorqueOrders::watch_clamping() noexcept {
       stops_.freeze();
       break;
     case Clamping::Outcome::torn_away:
-      reactions_.raise(alarm::kClamping);
+      reactions_.raise(alarm::kClamping, {.cause = side_of(clamping_.side()),
+                                          .value = actual_.value,
+                                          .limit = data.Clamping.PositionTolerance});
       break;
   }
 }

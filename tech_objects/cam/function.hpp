@@ -37,7 +37,7 @@ class CamFunction {
     return interpolated() && leading_value >= start_ && leading_value <= end_;
   }
 
-  /// Least and greatest following value [following u].
+  /// Minimum and maximum following value [following u].
   double lowest_following_value() const noexcept { return lowest_; }
   double highest_following_value() const noexcept { return highest_; }
 
@@ -104,7 +104,7 @@ class CamFunction {
     double per_length;
   };
 
-  /// Least and greatest following value of a piece or of a block of pieces.
+  /// Minimum and maximum following value of a piece or of a block of pieces.
   struct Extent {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -std::numeric_limits<double>::infinity();

@@ -88,7 +88,7 @@ void CamFollowing::add_leading_turns(std::int64_t turns) noexcept {
   start_turns_ += turns;
 }
 
-/// What has to be added to the way within a leading turn so that it counts from the start of a pass.
+/// What has to be added to the distance within a leading turn so that it counts from the start of a pass.
 DoubleDouble CamFollowing::base_of(std::int64_t turn, std::int64_t pass) const noexcept {
   const DoubleDouble turns =
       leading_.enabled ? two_product(leading_.length, static_cast<double>(turn)) : DoubleDouble{};

@@ -36,18 +36,18 @@ struct CamFollowingValue {
 /// An end of a pass.
 enum class CamEnd : std::uint8_t { none, at_end, at_start };
 
-/// F(L) = f(S + rest / MasterScaling) · SlaveScaling + pass · H, where rest is the way of the leading axis
-/// from the start of the cam, reduced to one pass of MasterScaling · (E - S) without rounding that adds up:
-/// the number of passes is an integer, and each place is computed from it anew, in double-double. H is what a
-/// pass adds on the following side: 0 unless passes are appended. (A cyclic cam on a modulo following axis
-/// whose ends lie whole turns apart goes on turning.)
+/// F(L) = f(S + rest / MasterScaling) · SlaveScaling + pass · H, where rest is the distance of the leading
+/// axis from the start of the cam, reduced to one pass of MasterScaling · (E - S) without rounding that adds
+/// up: the number of passes is an integer, and each place is computed from it anew, in double-double. H is
+/// what a pass adds on the following side: 0 unless passes are appended. (A cyclic cam on a modulo following
+/// axis whose ends lie whole turns apart goes on turning.)
 ///
 /// Below 2^53 turns of the leading axis and 2^62 passes. Thread: the cycle.
 class CamFollowing {
  public:
-  /// Applies a curve, which stays as it is meanwhile. The leading position `place` is where the way from the
-  /// start of the cam is `from_start` [leading u]. Following positions have `turns` turns more than the cam
-  /// itself says.
+  /// Applies a curve, which stays as it is meanwhile. The leading position `place` is where the distance from
+  /// the start of the cam is `from_start` [leading u]. Following positions have `turns` turns more than the
+  /// cam itself says.
   void set(const CamFunction& function, const CamUse& use, AxisPosition place, DoubleDouble from_start,
            const Modulo& leading, const Modulo& following) noexcept;
 
@@ -95,7 +95,7 @@ class CamFollowing {
   /// Whether the cam has no slope there, but for rounding.
   bool rests_at(CamEnd end) const noexcept;
 
-  /// Way from the start of the cam at a leading position, of all passes [leading u].
+  /// Distance from the start of the cam at a leading position, of all passes [leading u].
   double distance(AxisPosition leading) const noexcept;
   /// One pass [leading u] > 0.
   double pass_length() const noexcept { return pass_.hi; }
@@ -109,7 +109,7 @@ class CamFollowing {
   static std::int64_t wrapped(std::int64_t a, std::int64_t b) noexcept {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
   }
-  /// Way in the cam's direction from the start of a pass.
+  /// Distance in the cam's direction from the start of a pass.
   DoubleDouble rest_in(DoubleDouble base, DoubleDouble distance_from_start) const noexcept {
     const DoubleDouble sum = two_sum(distance_from_start.hi, base.hi);
     const DoubleDouble rest = quick_two_sum(sum.hi, sum.lo + (distance_from_start.lo + base.lo));
@@ -146,7 +146,7 @@ class CamFollowing {
   DoubleDouble start_;  // leading position of the start of the cam, less its turns
   std::int64_t start_turns_ = 0;
   std::int64_t turn_ = 0;     // leading turns from there for which base_ counts
-  DoubleDouble base_;         // way from the start of the pass to the start of the cam in that turn
+  DoubleDouble base_;         // distance from the start of the pass to the start of the cam in that turn
   DoubleDouble pass_;         // one pass [leading u] > 0
   double scaling_ = 1.0;      // magnitude of MasterScaling
   double per_scaling_ = 1.0;  // 1 / scaling_

@@ -74,7 +74,7 @@ struct CamPolynomial {
   std::optional<std::array<double, 7>> coefficients;
   std::optional<double> start_value, start_velocity, start_acceleration, start_jerk;
   std::optional<double> end_value, end_velocity, end_acceleration, end_jerk;
-  std::optional<double> lambda;     ///< place of the inflection point, 0 … 1 of the element
+  std::optional<double> lambda;     ///< position of the inflection point, 0 … 1 of the element
   std::optional<double> lambda_at;  ///< the same as a leading value
   std::optional<CamWave> wave;
 };
@@ -94,7 +94,7 @@ using CamShape =
 /// Such as "point group".
 std::string_view cam_shape_name(const CamShape& shape) noexcept;
 
-/// What a law is chosen by, if none is named: the least normalised peak.
+/// What a law is chosen by, if none is named: the minimum normalised peak.
 enum class CamGoal : std::uint8_t { none, velocity, acceleration, jerk, torque };
 
 /// A transition after a motion law. Without one, the interpolation of the cam closes the gap.
@@ -104,7 +104,7 @@ struct CamTransition {
   /// Up to which derivative the curve is to be continuous. None: as the design says; if that says nothing, as
   /// much as the law named keeps, at most the acceleration. Jerk at one end only.
   std::optional<Continuity> start_continuity, end_continuity;
-  std::optional<double> lambda;     ///< place of the inflection point, 0 … 1 of the transition
+  std::optional<double> lambda;     ///< position of the inflection point, 0 … 1 of the transition
   std::optional<double> lambda_at;  ///< the same as a leading value
   std::optional<double> ca, ca_star;
   std::size_t count = MotionLaw::kDefaultPoints;  ///< points of a law that becomes points
@@ -153,7 +153,7 @@ struct CamStretch {
   Continuity start_continuity = Continuity::position, end_continuity = Continuity::position;
   MotionBoundary at_start, at_end;  ///< of an element: its own; of a transition: those beside it
   std::optional<double> tolerance;
-  double deviation = 0.0;  ///< greatest, of the finished cam from `curve` [following u]
+  double deviation = 0.0;  ///< maximum, of the finished cam from `curve` [following u]
 };
 
 /// The outcome of a design, or of points and segments that are given as such.

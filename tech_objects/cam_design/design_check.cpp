@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Part of the greatest value, or of what the derivative below makes over the length of the cam, that is a
+/// Part of the maximum value, or of what the derivative below makes over the length of the cam, that is a
 /// rounding.
 constexpr double kRounding = 1.0e-6;
 

@@ -11,13 +11,13 @@
 
 namespace lockstep {
 
-/// Least and greatest of following value and derivatives over a stretch of a cam.
+/// Minimum and maximum of following value and derivatives over a stretch of a cam.
 struct CamExtremes {
   double lowest[4] = {};  ///< position, velocity, acceleration, jerk
   double highest[4] = {};
-  double torque = 0.0;  ///< greatest |velocity · acceleration|
+  double torque = 0.0;  ///< maximum |velocity · acceleration|
 
-  double peak(int order) const noexcept;  ///< greatest magnitude
+  double peak(int order) const noexcept;  ///< maximum magnitude
 };
 
 /// Extremes of the interpolated cam from one leading value to another, both within its range.

@@ -45,7 +45,7 @@ class CamReport {
 /// An element by itself.
 struct BuiltElement {
   MotionBoundary at_start, at_end;  ///< all derivatives given
-  double stroke = 0.0;              ///< greatest less least following value
+  double stroke = 0.0;              ///< maximum less minimum following value
   std::function<MotionValue(double)> curve;
   std::vector<TO_Cam_Struct_PointData> points;
   std::vector<TO_Cam_Struct_SegmentData> segments;

@@ -137,7 +137,7 @@ class TransitionMaker {
     return false;
   }
 
-  /// With a goal the law with the least peak, without one the polynomial.
+  /// With a goal the law with the minimum peak, without one the polynomial.
   bool make_best(MotionLaw& law) {
     const CamGoal goal = transition_.goal.value_or(design_.goal);
     if (goal == CamGoal::none) return make_named(MotionLawKind::polynomial, law);

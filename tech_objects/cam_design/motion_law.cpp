@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSamples = 128;  // per piece, to find the neighbourhood of a peak
 
-/// Greatest value of f over 0 … length: sampled, then narrowed by the golden section.
+/// Maximum value of f over 0 … length: sampled, then narrowed by the golden section.
 template <class Function>
 double maximum(const Function& f, double length) noexcept {
   int best = 0;

@@ -75,7 +75,7 @@ struct MotionLawRequest {
   /// Place of the inflection point, 0 … 1 exclusive, relative to the transition. None: where acceleration and
   /// deceleration are equally large between ends of equal velocity; a polynomial is then of one piece.
   std::optional<double> lambda;
-  /// Greatest acceleration and deceleration, normalised by stroke and length², > 0. One of them instead of
+  /// Maximum acceleration and deceleration, normalised by stroke and length², > 0. One of them instead of
   /// lambda (all laws with a single inflection point but the polynomial), or both for the sine-line
   /// combination.
   std::optional<double> ca;
@@ -98,7 +98,7 @@ struct MotionValue {
   double jerk = 0.0;
 };
 
-/// Greatest magnitudes over a transition. A jerk is infinite where the acceleration steps: inside, or at an
+/// Maximum magnitudes over a transition. A jerk is infinite where the acceleration steps: inside, or at an
 /// end whose task is rest or constant velocity.
 struct MotionPeaks {
   double velocity = 0.0;      ///< Cv

@@ -31,7 +31,7 @@ struct Half {
     return sum;
   }
 
-  /// Share of the way that the rise of the velocity from 0 covers of that at full velocity.
+  /// Share of the distance that the rise of the velocity from 0 covers of that at full velocity.
   double distance() const noexcept {
     double velocity = 0.0;
     double distance = 0.0;
@@ -161,7 +161,7 @@ class MotionLawMaker {
     return MotionLawError::none;
   }
 
-  /// What an end gives, with its derivatives taken over a way of 0 … 1.
+  /// What an end gives, with its derivatives taken over a distance of 0 … 1.
   static EndConditions conditions(const MotionBoundary& end, double distance) noexcept {
     EndConditions result;
     result.derivative[0] = end.y;
@@ -201,8 +201,9 @@ class MotionLawMaker {
   }
 
   /// Two polynomials that meet in the inflection point with acceleration 0. Its position and velocity are
-  /// those of the polynomial between rests, each half stretched to its way; so the acceleration changes its
-  /// sign there alone, which a smoother joint would not keep. The jerk steps unless lambda is in the middle.
+  /// those of the polynomial between rests, each half stretched to its distance; so the acceleration changes
+  /// its sign there alone, which a smoother joint would not keep. The jerk steps unless lambda is in the
+  /// middle.
   MotionLawError make_two_polynomials() noexcept {
     if (request_.ca || request_.ca_star || !request_.start.velocity || !request_.end.velocity)
       return MotionLawError::parameter;
@@ -226,7 +227,8 @@ class MotionLawMaker {
     return MotionLawError::none;
   }
 
-  /// Half::way for the polynomials 2-3, 3-4-5 and 4-5-6-7: the inverse of their greatest velocity.
+  /// Distance of a half (Half::mean) for the polynomials 2-3, 3-4-5 and 4-5-6-7: the inverse of their maximum
+  /// velocity.
   static double distance_of_polynomial(const MotionBoundary& end) noexcept {
     if (end.jerk) return 16.0 / 35.0;
     return end.acceleration ? 8.0 / 15.0 : 2.0 / 3.0;

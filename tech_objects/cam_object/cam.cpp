@@ -140,7 +140,7 @@ void Cam::submit(Job& job) noexcept {
 void Cam::warn_of_restart(bool refused) noexcept {
   set_bit(*block_.warning_word, WarningBit::CommandNotAccepted, refused);
   if (refused)
-    alarm_notes.raised(alarm::kRestartNotCarriedOut, 0);
+    alarm_notes.raised(alarm::kRestartNotCarriedOut, 0, {.cause = AlarmCause::in_use});
   else
     alarm_notes.acknowledged();
 }

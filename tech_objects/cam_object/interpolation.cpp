@@ -34,7 +34,7 @@ CamFault fault_of(const TO_Cam_Struct_SegmentData& s, std::size_t index) noexcep
   return {};
 }
 
-/// The point a third of the way from a to b on the line through a with a slope: with it as neighbour a
+/// The point a third of the distance from a to b on the line through a with a slope: with it as neighbour a
 /// B-spline runs evenly in x and leaves a with that slope.
 CamPoint guide(CamPoint a, CamPoint b, double slope) noexcept {
   const double distance = (b.x - a.x) / 3.0;

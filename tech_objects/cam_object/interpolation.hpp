@@ -57,7 +57,7 @@ struct CamFault {
 ///   cubic: splines through the points that take the slope of a segment beside them; without
 ///   BoundaryConditions natural at a free end, with them equal first and second derivative at both ends of
 ///   the cam; Bézier: clamped uniform cubic B-splines controlled by the points. Beside a segment a control
-///   point on its tangent, a third of the way to the next element, makes the slope continuous. With
+///   point on its tangent, a third of the distance to the next element, makes the slope continuous. With
 ///   BoundaryConditions the second and the last-but-one point of a cam of points move so that both end legs
 ///   have their mean slope (a third point between both: onto the line between the ends); free ends beside
 ///   segments get a control point.

@@ -40,7 +40,7 @@ struct MachinePlantSettings {
 /// The cycle's thread.
 class MachinePlant {
  public:
-  /// @param motor_angle of the motor per way of the machine [rad/u]; of a linear motor 1
+  /// @param motor_angle of the motor per distance of the machine [rad/u]; of a linear motor 1
   /// @param start place of the machine on its own scale [u]
   /// @param time_constant of the velocity loop [s] ≥ 0  @param cycle of the servo [s] > 0
   void configure(const MachinePlantSettings& settings, double motor_angle, double start, double time_constant,

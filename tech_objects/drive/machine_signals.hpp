@@ -23,8 +23,8 @@ struct ZeroMarks {
   double position = 0.0;
   double period = 0.0;
 
-  /// The first mark met on the way from one position to another [u]; one where the way begins is none, one
-  /// where it ends is. None if there is no such mark.
+  /// The first mark met on the way from one position to another [u]; one where the distance begins is none,
+  /// one where it ends is. None if there is no such mark.
   std::optional<double> between(double from, double to) const noexcept;
 };
 
@@ -85,7 +85,7 @@ class MarkSearch {
   bool begun_ = false;  // a position is known
   double last_position_ = 0.0;
   bool last_on_switch_ = false;
-  int heading_ = 0;   // direction of the last way
+  int heading_ = 0;   // direction of the last distance
   int left_cam_ = 0;  // direction in which the cam has been left; 0: not yet
   double place_ = 0.0;
 };

@@ -105,6 +105,16 @@ enum class JobPhase : std::uint8_t {
   failed    ///< `error` tells why
 };
 
+/// What has aborted a job.
+enum class AbortedBy : std::uint8_t {
+  unknown,
+  job,         ///< `Job::aborted_by_job`
+  disabling,   ///< of the axis, by MC_Power or at the end of a run
+  restart,     ///< of the object
+  fixed_stop,  ///< that the axis has met
+  end_of_cam   ///< of the coupling that it acts on
+};
+
 /// What a job asks for besides, by the family of its kind; nothing for a job that only names its object.
 using JobFamily = std::variant<std::monostate, ResetJob, SensorJob, ControlBitsJob, LimitSwitchesJob,
                                HomingJob, MoveAbsoluteJob, DistanceJob, VelocityJob, JogJob, StopJob,
@@ -116,10 +126,13 @@ using JobFamily = std::variant<std::monostate, ResetJob, SensorJob, ControlBitsJ
 struct Job {
   /// The job of the same instance that waits behind another, and whose place this one takes; nullptr: none.
   const Job* replaces = nullptr;
+  /// The job that has aborted this one, in the block that asked for it; nullptr: none has.
+  const Job* aborted_by_job = nullptr;
   JobKind kind{};
   JobPhase phase = JobPhase::idle;
   ErrorId error = ErrorId::none;
   BufferMode buffer_mode{};
+  AbortedBy aborted_by = AbortedBy::unknown;
   bool position_controlled = true;  ///< whether the axis is, from when the job moves it by a base motion
 
   // Dynamic values of a motion, where its instruction has them: > 0 is used, < 0 stands for the default of

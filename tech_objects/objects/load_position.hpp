@@ -24,13 +24,13 @@ class LoadPosition {
   bool begun() const noexcept { return begun_; }
   /// As the object counts it.
   AxisPosition position() const noexcept { return position_; }
-  /// Its place on a line from where it was called 0 at the start [u]; homing does not change it.
+  /// Its position on a line from where it was called 0 at the start [u]; homing does not change it.
   DoubleDouble line() const noexcept { return line_; }
   /// What it has moved since the servo tick before [u].
   DoubleDouble distance() const noexcept { return distance_; }
   /// Whether it is an actual position that is read here.
   bool measured() const noexcept { return !setpoint_ && object_->measured_in_servo(); }
-  /// Of a setpoint its velocity at this place [u/s]; of an actual position 0.
+  /// Of a setpoint its velocity at this position [u/s]; of an actual position 0.
   double setpoint_velocity() const noexcept { return velocity_; }
 
  private:

@@ -19,9 +19,10 @@ enum class ProcessingEnd : std::uint8_t {
 /// Shows an alarm in the words of a data block. The first alarm with a reaction stays in ErrorDetail until it
 /// is acknowledged. Thread: the cycle.
 template <class Data>
-void raise_alarm(int number, ProcessingEnd reaction, TechnologyObject& object, Data& data) noexcept {
+void raise_alarm(int number, ProcessingEnd reaction, TechnologyObject& object, Data& data,
+                 const AlarmDetail& detail = {}) noexcept {
   const Alarm* const alarm = find_alarm(number);
-  object.alarm_notes.raised(number, alarm->reaction == 0 ? 0 : static_cast<int>(reaction));
+  object.alarm_notes.raised(number, alarm->reaction == 0 ? 0 : static_cast<int>(reaction), detail);
   if (alarm->error_bit >= 0) set_bit(data.ErrorWord, static_cast<unsigned>(alarm->error_bit), true);
   if (alarm->warning_bit >= 0) set_bit(data.WarningWord, static_cast<unsigned>(alarm->warning_bit), true);
   if (alarm->error_bit < 0) return;

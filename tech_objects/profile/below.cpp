@@ -1,5 +1,6 @@
-// Motions that gain way against the direction in which the velocity changes. Everything but `distance` of
-// plan_below is seen in the direction of that change: less way is wanted than the quickest change covers.
+// Motions that gain distance against the direction in which the velocity changes. Everything but `distance`
+// of plan_below is seen in the direction of that change: less distance is wanted than the quickest change
+// covers.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,11 +53,11 @@ Rise PositionPlanner::eased(const View& down, const Entry& from, double reductio
   return rise;
 }
 
-/// Reductions at which the way may be least. Easing from a velocity against the change to one with it first
-/// takes way and then adds it. With a the acceleration it is eased to, p the one it rises to afterwards and s
-/// the velocity where it would be 0, the way grows with the reduction where 2 s + a (p - 2 a)/jerk > 0; p is
-/// a limit, or p² = a² + jerk · excess up to the end, or up to standstill where the limits change. Where the
-/// rise just meets the lower limit at standstill, p steps.
+/// Reductions at which the distance may be least. Easing from a velocity against the change to one with it
+/// first takes distance and then adds it. With a the acceleration it is eased to, p the one it rises to
+/// afterwards and s the velocity where it would be 0, the distance grows with the reduction where 2 s + a (p
+/// - 2 a)/jerk > 0; p is a limit, or p² = a² + jerk · excess up to the end, or up to standstill where the
+/// limits change. Where the rise just meets the lower limit at standstill, p steps.
 std::array<double, 5> PositionPlanner::turning_reductions(const Entry& from, double end) const noexcept {
   const double s = from.lowest, j = jerk_.jerk;
   const double minimum = std::min(rise_limits_.below, rise_limits_.above);
@@ -73,7 +74,7 @@ std::array<double, 5> PositionPlanner::turning_reductions(const Entry& from, dou
           from.a - std::sqrt(std::max(j * s + 0.5 * minimum * minimum, 0.0))};
 }
 
-/// The least reduction that covers a way; false if there is none.
+/// The minimum reduction that covers a distance; false if there is none.
 bool PositionPlanner::solve_ease(const View& down, const Entry& from, double distance,
                                  double& reduction) const noexcept {
   const auto miss = [&](double by) {
@@ -121,8 +122,8 @@ PositionPlanner::Pair PositionPlanner::hold(const View& down, double at, double 
   return pair;
 }
 
-/// The velocity between `first` and `last` < `first` that splits the change so that it covers a way; false
-/// if there is none: `pair` is then split at `last`.
+/// The velocity between `first` and `last` < `first` that splits the change so that it covers a distance;
+/// false if there is none: `pair` is then split at `last`.
 bool PositionPlanner::solve_hold(const View& down, double first, double last, double distance,
                                  Pair& pair) const noexcept {
   const auto miss = [&](double below) {

@@ -40,7 +40,7 @@ PositionPlanner::View PositionPlanner::view(double sign) const noexcept {
   return {sign, v0, a0, stop, end, sign > 0.0 ? limit_up_ : limit_down_};
 }
 
-/// Way until an acceleration against the view's direction has fallen to 0.
+/// Distance until an acceleration against the view's direction has fallen to 0.
 double PositionPlanner::release_distance(const View& view) const noexcept {
   if (view.a0 >= 0.0) return 0.0;
   const double t = -view.a0 * jerk_.inverse;
@@ -67,7 +67,8 @@ void PositionPlanner::plan_direct(Profile& out) const noexcept {
   builder.finish(builder.position(), target_velocity_);
 }
 
-/// What rounding leaves of a motion that is planned anew must not cost a detour: so much way does not count.
+/// What rounding leaves of a motion that is planned anew must not cost a detour: so much distance does not
+/// count.
 double PositionPlanner::rounding(const View& direct, const Rise& rise, double target) const noexcept {
   const double v = std::max(std::abs(direct.v0), std::abs(direct.end));
   if (v == 0.0 && direct.a0 == 0.0) return 0.0;
@@ -111,7 +112,7 @@ PositionPlanner::Pair PositionPlanner::peak(const View& view, double base, doubl
   return pair;
 }
 
-/// A peak near which the search starts. To the third order, the way gained is a polynomial in x = √over.
+/// A peak near which the search starts. To the third order, the distance gained is a polynomial in x = √over.
 /// @param pair the motion without a peak; a rise without length gains as √over, another one as over
 double PositionPlanner::first_guess(double base, double missing, const Pair& pair,
                                     double maximum) const noexcept {
@@ -130,20 +131,20 @@ double PositionPlanner::first_guess(double base, double missing, const Pair& pai
   return x * x;
 }
 
-/// How much way a higher peak adds, per velocity [s].
+/// How much distance a higher peak adds, per velocity [s].
 double PositionPlanner::gain(const Pair& pair, double top) const noexcept {
   const double a1 = pair.first.last_peak(), a2 = pair.second.last_peak();
   return top * (1.0 / a1 + 1.0 / a2) + (a1 + a2) * 0.5 * jerk_.inverse;
 }
 
-/// Finds the peak that covers a way; returns the time at constant velocity [s].
+/// Finds the peak that covers a distance; returns the time at constant velocity [s].
 double PositionPlanner::solve_peak(const View& view, double base, double distance,
                                    Pair& pair) const noexcept {
   PeakSearch search{0.0, std::max(view.limit - base, 0.0), 0.0, true};
   pair = peak(view, base, search.high);
   if (pair.distance <= distance) return (distance - pair.distance) / view.limit;
 
-  // From `flat` on the smaller rise has a plateau, and the way mostly is a quadratic polynomial.
+  // From `flat` on the smaller rise has a plateau, and the distance mostly is a quadratic polynomial.
   const bool near_is_second = view.end >= view.stop;
   const double near_limit = (base >= 0.0) == near_is_second ? rise_limits_.below : rise_limits_.above;
   const double flat = near_limit * near_limit * jerk_.inverse;

@@ -1,16 +1,16 @@
 /// The search for the time-optimal profile among the motions that can be one.
 ///
-/// The quickest change to the end velocity covers some way. If the target lies further in direction `s`, the
-/// motion gains way by going more in direction s, in this order, as more way is wanted:
+/// The quickest change to the end velocity covers some distance. If the target lies further in direction `s`,
+/// the motion gains distance by going more in direction s, in this order, as more distance is wanted:
 ///   1. ease: a present acceleration against s is reduced for a while before the change goes on;
 ///   2. hold: the change is split in two at a velocity where the acceleration is 0, if it starts
 ///   beyond a limit;
 ///   3. peak: the velocity goes to a peak in direction s beyond both ends, and from there to the end
 ///   velocity;
 ///   4. cruise: with the peak at the limit, it stays there.
-/// Duration grows along this order, so the first motion that fits is the quickest. The way may fall before it
-/// grows, but it passes the wanted way once, so that bracketing finds it; while easing it may do so more
-/// often, and the turning points are looked at.
+/// Duration grows along this order, so the first motion that fits is the quickest. The distance may fall
+/// before it grows, but it passes the wanted distance once, so that bracketing finds it; while easing it may
+/// do so more often, and the turning points are looked at.
 #pragma once
 
 #include <array>
@@ -33,13 +33,13 @@ class PositionPlanner {
   void plan_to(double target_position, Profile& out) const noexcept;
 
  private:
-  /// Everything as seen in one direction: velocities and ways with its sign.
+  /// Everything as seen in one direction: velocities and distances with its sign.
   struct View {
     double sign;
     double v0, a0;
     double stop;   // velocity at which a0 has fallen to 0
     double end;    // target velocity
-    double limit;  // greatest velocity
+    double limit;  // maximum velocity
   };
   /// Where `ease` begins, seen in the direction of the change: the start, or where it comes inside the
   /// limits.
@@ -60,7 +60,7 @@ class PositionPlanner {
   struct PeakSearch {
     double low, high;
     double over;   // the next to try
-    bool by_root;  // the way is smooth in √over
+    bool by_root;  // the distance is smooth in √over
   };
 
   View view(double sign) const noexcept;

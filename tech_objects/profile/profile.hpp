@@ -21,10 +21,10 @@ struct MotionState {
 /// What a profile must not exceed. "Speeding up" is a growing, "slowing down" a falling amount of the
 /// velocity.
 struct ProfileLimits {
-  double velocity_max{};  ///< [u/s] > 0: greatest velocity in the positive direction
-  double velocity_min{};  ///< [u/s] < 0: greatest velocity in the negative direction
-  double acceleration{};  ///< [u/s²] > 0: greatest amount while speeding up
-  double deceleration{};  ///< [u/s²] > 0: greatest amount while slowing down
+  double velocity_max{};  ///< [u/s] > 0: maximum velocity in the positive direction
+  double velocity_min{};  ///< [u/s] < 0: maximum velocity in the negative direction
+  double acceleration{};  ///< [u/s²] > 0: maximum amount while speeding up
+  double deceleration{};  ///< [u/s²] > 0: maximum amount while slowing down
   double jerk{};          ///< [u/s³] > 0; 0: no limit, the acceleration steps (trapezoidal profile)
 };
 
@@ -68,7 +68,7 @@ class Profile {
     }
   };
 
-  /// Enough for every profile: the way to a = 0, two changes of velocity with a limit that changes at
+  /// Enough for every profile: the distance to a = 0, two changes of velocity with a limit that changes at
   /// standstill (6 phases each), and the constant velocity between them.
   static constexpr int kMaxPhases = 16;
 
@@ -109,8 +109,9 @@ class Profile {
 /// beyond the limit for longer might be quicker.
 ///
 /// The phases meet the target but for rounding. A target that the quickest change of velocity misses by some
-/// 1e-14 of positions and way counts as met by it, so that a motion planned anew from its own setpoints does
-/// not turn back; with an end velocity other than 0, planning anew in every cycle lets such errors add up.
+/// 1e-14 of positions and distance counts as met by it, so that a motion planned anew from its own setpoints
+/// does not turn back; with an end velocity other than 0, planning anew in every cycle lets such errors add
+/// up.
 /// @param target_position [u] finite
 /// @param target_velocity [u/s] velocity_min … velocity_max
 /// @param out the profile; unchanged unless the result is ok

@@ -14,7 +14,7 @@ struct JerkLimit {
   double inverse;
 };
 
-/// Greatest acceleration [u/s²] of a rise below and above standstill.
+/// Maximum acceleration [u/s²] of a rise below and above standstill.
 struct RiseLimits {
   double below;
   double above;

@@ -11,7 +11,7 @@ namespace {
 /// Ticks after which an endless motion counts anew from where it is, so that its local positions stay small.
 constexpr std::int64_t kRebaseTicks = 4096;
 
-/// By what ways are apart by rounding, relative to them.
+/// By what distances are apart by rounding, relative to them.
 constexpr double kSameDirection = 1e-12;
 
 /// A tick that misses the end of a profile by rounding is at it: what is left there is no motion, but would
@@ -86,7 +86,7 @@ bool SingleAxisMotion::passes_ahead(const Setpoint& from, double distance, doubl
   for (const Profile::Phase& phase : profile.phases()) {
     if (phase.state.velocity * end_velocity < 0.0) return false;
     if (phase.jerk == 0.0) continue;
-    // Within a phase of constant jerk the velocity has its least amount where the acceleration passes 0.
+    // Within a phase of constant jerk the velocity has its minimum amount where the acceleration passes 0.
     const double t = phase.begin - phase.state.acceleration / phase.jerk;
     if (t > phase.begin && t < profile.duration() && profile.at(t).velocity * end_velocity < 0.0)
       return false;

@@ -40,7 +40,8 @@ class SingleAxisMotion {
   /// Shifts the whole motion, for homing [u].
   void shift(double distance) noexcept;
 
-  /// The way that the motion still makes in a direction, 1 or -1 [u] ≥ 0; infinite if it goes on for ever.
+  /// The distance that the motion still makes in a direction, 1 or -1 [u] ≥ 0; infinite if it goes on for
+  /// ever.
   double distance_left(int direction) const noexcept;
 
   Aim aim() const noexcept { return aim_; }

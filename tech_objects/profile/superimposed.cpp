@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-/// By what ways may differ by rounding, relative to their size.
+/// By what distances may differ by rounding, relative to their size.
 constexpr double kRounding = 1e-12;
 
 bool usable(const Dynamics& margin) noexcept {

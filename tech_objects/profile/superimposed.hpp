@@ -10,9 +10,9 @@
 
 namespace lockstep {
 
-/// A way on top of the base motion, with a velocity and an acceleration of its own. The sum of many ways
-/// carries its rounding error along. Every function that begins a motion goes on from the present velocity
-/// and acceleration. Thread: the cycle.
+/// A distance on top of the base motion, with a velocity and an acceleration of its own. The sum of many
+/// distances carries its rounding error along. Every function that begins a motion goes on from the present
+/// velocity and acceleration. Thread: the cycle.
 class Superimposed {
  public:
   /// @param period interpolator cycle [s]
@@ -53,7 +53,7 @@ class Superimposed {
   Dynamics demand() const noexcept { return motion_.demand(local_); }
   /// Whether it moves by a profile.
   bool planned() const noexcept { return !given_ && !waits_ && !motion_.finished(); }
-  /// The way that it still makes in a direction, 1 or -1 [u] ≥ 0.
+  /// The distance that it still makes in a direction, 1 or -1 [u] ≥ 0.
   double distance_left(int direction) const noexcept;
   /// 1 or -1: the motion by a distance, or the one that waits, makes all that is left of it in this
   /// direction; 0: it turns back, is over, or nobody knows.

@@ -35,7 +35,7 @@ struct Course {
   }
 };
 
-/// Time-optimal way of a relative velocity and acceleration to zero: back inside the bounds, then up to a
+/// Time-optimal course of a relative velocity and acceleration to zero: back inside the bounds, then up to a
 /// peak, hold it, and down.
 Plan plan_to_zero(double velocity, double acceleration, Bounds bounds, double jerk) noexcept {
   Plan plan{};

@@ -75,12 +75,12 @@ bool ExternalEncoder::follow(DoubleDouble line) noexcept {
   const double maximum = leads_by_actual_value() ? 0.5 * modulo_.length : modulo_.length;
   line_ = line;
   if (modulo_.enabled && std::abs(distance) > maximum) {
-    fault(alarm::kActualValueRange);
+    fault(alarm::kActualValueRange, {.value = std::abs(distance), .limit = maximum});
     return false;
   }
   const AxisPosition here = advanced(origin_, line, modulo_);
   if (!(std::abs(here.value) <= kPositionRange)) {
-    fault(alarm::kPositionRangeExceeded);
+    fault(alarm::kPositionRangeExceeded, {.value = here.value, .limit = kPositionRange});
     return false;
   }
   actual_ = here;
@@ -88,14 +88,14 @@ bool ExternalEncoder::follow(DoubleDouble line) noexcept {
 }
 
 /// The position is not known any more: it stays where it was seen last.
-void ExternalEncoder::fault(int alarm_number) noexcept {
+void ExternalEncoder::fault(int alarm_number, const AlarmDetail& detail) noexcept {
   lost |= !faulty();
   homed_ = false;
   data.StatusSensor.Adjusted = 0;
   end_passive_homing(JobPhase::failed, ErrorId::technology_alarm);
   data.StatusSensor.State = SensorState::not_valid;
   data.StatusSensor.Error = alarm_number == alarm::kEncoder;
-  raise_alarm(alarm_number, ProcessingEnd::external_encoder, *this, data);
+  raise_alarm(alarm_number, ProcessingEnd::external_encoder, *this, data, detail);
 }
 
 // ---- MC_Interpolator
@@ -152,7 +152,8 @@ void ExternalEncoder::start(Job& job) noexcept {
 
 ErrorId ExternalEncoder::reset(bool restart) noexcept {
   if (restart && power.enable) {
-    raise_alarm(alarm::kRestartNotCarriedOut, ProcessingEnd::external_encoder, *this, data);
+    raise_alarm(alarm::kRestartNotCarriedOut, ProcessingEnd::external_encoder, *this, data,
+                {.cause = AlarmCause::enabled});
     return ErrorId::restart_refused;
   }
   if (faulty()) go_on_from_here(line_);
@@ -207,8 +208,9 @@ ErrorId ExternalEncoder::begin_passive_homing(Job& job) noexcept {
   if (!fits(shortest_distance(actual_.value, asked.position, modulo_))) return ErrorId::position;
   const auto& settings = data.Sensor.PassiveHoming;
   const auto mark = static_cast<HomingMark>(settings.Mode);
-  if (!has_mark(mark, home_switch(), source_settings.signals)) {
-    fault(alarm::kHomingNotSupported);
+  const AlarmCause missing = missing_mark(mark, home_switch(), source_settings.signals);
+  if (missing != AlarmCause::none) {
+    fault(alarm::kHomingNotSupported, {.cause = missing, .sensor = 1});
     return ErrorId::technology_alarm;
   }
   end_passive_homing(JobPhase::aborted, ErrorId::none);
@@ -227,7 +229,7 @@ void ExternalEncoder::take_mark() noexcept {
   const AxisPosition mark =
       advanced(origin_, to_double_double(data.Sensor.InverseDirection ? -place : place), modulo_);
   const double by = shortest_distance(mark.value, asked.position, modulo_);
-  if (!fits(by)) return fault(alarm::kHomingNotPossible);
+  if (!fits(by)) return fault(alarm::kHomingNotPossible, {.value = asked.position, .limit = kPositionRange});
   shift(by);
   if (modulo_.enabled) counted_from_ = first_turn(advanced(mark, by, modulo_), modulo_);
   homed_ = true;

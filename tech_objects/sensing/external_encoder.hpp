@@ -64,7 +64,7 @@ class ExternalEncoder final : public LeadingObject {
   void go_on_from_here(DoubleDouble line) noexcept;
   bool follow(DoubleDouble line) noexcept;
   bool faulty() const noexcept { return data.ErrorDetail.Number != 0; }
-  void fault(int alarm_number) noexcept;
+  void fault(int alarm_number, const AlarmDetail& detail = {}) noexcept;
   void start(Job& job) noexcept;
   ErrorId reset(bool restart) noexcept;
   ErrorId home(Job& job) noexcept;

@@ -7,9 +7,11 @@ bool HomeSwitch::active(const MachineSignals& machine, double place, double turn
   return machine.reference_cam && machine.reference_cam->contains(place, turn);
 }
 
-bool has_mark(HomingMark mark, const HomeSwitch& home_switch, const MachineSignals& machine) noexcept {
-  if (mark != HomingMark::switch_edge && !machine.zero_marks) return false;
-  return mark == HomingMark::zero_mark || home_switch.exists(machine);
+AlarmCause missing_mark(HomingMark mark, const HomeSwitch& home_switch,
+                        const MachineSignals& machine) noexcept {
+  if (mark != HomingMark::switch_edge && !machine.zero_marks) return AlarmCause::no_zero_mark;
+  const bool found = mark == HomingMark::zero_mark || home_switch.exists(machine);
+  return found ? AlarmCause::none : AlarmCause::no_reference_switch;
 }
 
 void begin_search(MarkSearch& search, HomingMark mark, int direction, bool positive_side,

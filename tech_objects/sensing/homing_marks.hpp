@@ -3,6 +3,7 @@
 /// @source S7-1500/S7-1500T axis functions, homing; S7-1500T synchronous operation V7, 13.1.12
 #pragma once
 
+#include "tech_objects/alarms/detail.hpp"
 #include "tech_objects/arithmetic/axis_position.hpp"
 #include "tech_objects/drive/machine_signals.hpp"
 
@@ -22,8 +23,9 @@ struct HomeSwitch {
   bool active(const MachineSignals& machine, double place, double turn) const noexcept;
 };
 
-/// Whether the machine has everything that a kind of mark needs.
-bool has_mark(HomingMark mark, const HomeSwitch& home_switch, const MachineSignals& machine) noexcept;
+/// What the machine lacks of that which a kind of mark needs; none: it has everything.
+AlarmCause missing_mark(HomingMark mark, const HomeSwitch& home_switch,
+                        const MachineSignals& machine) noexcept;
 
 /// Begins to look for a mark that a motion passes.
 /// @param direction 1, -1: in which it has to be passed, as the object counts; 0: any

@@ -65,7 +65,8 @@ void MeasuringInput::servo(std::int64_t /*now*/) noexcept {
   const Edges seen = edges();
   remember();
   if (job_ != nullptr && !measured->actual_values_valid()) {
-    raise_alarm(alarm::kPositionInvalid, ProcessingEnd::measuring_input, *this, data);
+    raise_alarm(alarm::kPositionInvalid, ProcessingEnd::measuring_input, *this, data,
+                {.object = static_cast<std::uint16_t>(measured->number)});
     end_in_error(ErrorId::technology_alarm);
   }
   if (job_ != nullptr && homings_ != measured->homings()) abort();
@@ -164,7 +165,7 @@ bool MeasuringInput::in_lead_in(double position) const noexcept {
   return place < 0.0 && -place <= distance;
 }
 
-/// Whether the way of this servo cycle has left the range.
+/// Whether the distance of this servo cycle has left the range.
 bool MeasuringInput::range_passed() const noexcept {
   if (!range_.limited) return false;
   const double distance = load_.distance().rounded();

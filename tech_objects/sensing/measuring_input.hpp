@@ -43,7 +43,7 @@ class MeasuringInput final : public TechnologyObject {
   void before_axes() noexcept override { load_.interpolated(); }
 
  private:
-  /// The measuring range as a way from its lower end, on a ring or a line.
+  /// The measuring range as a distance from its lower end, on a ring or a line.
   struct MeasuringRange {
     bool limited = false;
     double start = 0.0;   // [u]

@@ -92,7 +92,7 @@ class SwitchingObject : public TechnologyObject {
            kPositionRange;
   }
   void raise(int alarm_number) noexcept {
-    raise_alarm(alarm_number, kEnd, *this, data);
+    raise_alarm(alarm_number, kEnd, *this, data, {.object = static_cast<std::uint16_t>(assigned->number)});
     path_.begin_anew();
   }
 

@@ -61,7 +61,7 @@ class LeadingProgress {
   AxisPosition start_;
   int direction_ = 0;
   double progress_ = 0.0;
-  double furthest_ = 0.0;  // greatest progress
+  double furthest_ = 0.0;  // maximum progress
   bool reversed_ = false;
 };
 

@@ -8,8 +8,8 @@
 namespace lockstep {
 namespace {
 
-/// Most that the velocity of an axis may make, over the leading distance, of its way to the stop position, as
-/// a multiple of that way: a leading value that creeps would throw the axis far beyond.
+/// Most that the velocity of an axis may make, over the leading distance, of its distance to the stop
+/// position, as a multiple of that way: a leading value that creeps would throw the axis far beyond.
 constexpr double kSteepest = 20.0;
 
 /// The velocity of the least curved way to rest is (1 - u)² (s + (2 s + c) u), with the slope and the
@@ -38,7 +38,7 @@ double distance_over(const Chain& chain, double distance, AxisPosition leading, 
   return 0.5 * slope * distance + curvature * distance * distance / 12.0;
 }
 
-/// Way that the axis needs to stop in the direction it is heading [u]; NaN if that cannot be planned.
+/// Distance that the axis needs to stop in the direction it is heading [u]; NaN if that cannot be planned.
 double stopping_distance(const Setpoint& from, int heading, const Dynamics& dynamics) noexcept {
   Profile profile;
   const double velocity = std::max(std::abs(from.velocity), dynamics.velocity);
@@ -75,7 +75,7 @@ bool Desynchronizing::meets(const Chain& chain, const LeavingRequest& request, c
   const double before = braking(last, leading_step.last.position);
   const double change = std::abs(step) + braking(candidate, leading_step.now.position) - before;
   const double target = normalised({0, request.position}, following).value;
-  // Way to the stop position; on a ring as many turns more as braking needs.
+  // Distance to the stop position; on a ring as many turns more as braking needs.
   double spare = heading * (target - last.position.value) - before;
   if (following.enabled) {
     spare = std::fmod(spare, following.length);
@@ -93,7 +93,7 @@ bool Desynchronizing::meets(const Chain& chain, const LeavingRequest& request, c
 void Desynchronizing::set_position(const Setpoint& last, double target, const Modulo& following) noexcept {
   position_ = advanced(last.position, stop_distance_, following);
   if (following.enabled) {
-    // The way is rounded: at the end of the ring the turn may be the neighbour's.
+    // The distance is rounded: at the end of the ring the turn may be the neighbour's.
     const double off = position_.value - target;
     if (off > 0.5 * following.length) ++position_.turns;
     if (off < -0.5 * following.length) --position_.turns;

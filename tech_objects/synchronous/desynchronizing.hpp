@@ -15,13 +15,13 @@ class Desynchronizing {
   /// setpoint and the candidate for this tick. @param dynamics where it is planned in time
   bool meets(const Chain& chain, const LeavingRequest& request, const Setpoint& last,
              const Setpoint& candidate, const Dynamics& dynamics) noexcept;
-  /// After `meets`: way to the stop position [u], and that position.
+  /// After `meets`: distance to the stop position [u], and that position.
   double stop_distance() const noexcept { return stop_distance_; }
   AxisPosition position() const noexcept { return position_; }
 
   /// From here on over the leading distance.
   void begin(const LeadingStep& leading, const Setpoint& last) noexcept;
-  /// The setpoint of this tick: what is left of the way to the stop position.
+  /// The setpoint of this tick: what is left of the distance to the stop position.
   void advance(const LeadingStep& leading, const Modulo& following, Setpoint& setpoint) noexcept;
   void watch_reversal(const LeadingStep& leading, double tolerance) noexcept {
     progress_.watch(leading, tolerance, false);
@@ -29,7 +29,7 @@ class Desynchronizing {
   bool reversed() const noexcept { return progress_.reversed(); }
   bool complete() const noexcept { return complete_; }
 
-  /// The axis has another name for every place [u]; the leading axis counts other turns.
+  /// The axis has another name for every position [u]; the leading axis counts other turns.
   void shift_following(double by, const Modulo& following) noexcept {
     position_ = advanced(position_, by, following);
   }

@@ -63,7 +63,8 @@ GearFunction::RingPosition GearFunction::multiple(std::uint64_t times, RingPosit
   return result;
 }
 
-/// way · numerator / denominator: way = whole · denominator + rest, so that nothing exceeds 128 bits.
+/// distance · numerator / denominator: distance = whole · denominator + rest, so that nothing exceeds 128
+/// bits.
 GearFunction::RingPosition GearFunction::geared(Units distance, bool negative_distance) const noexcept {
   const Units whole = distance / denominator_;
   const std::uint64_t rest = static_cast<std::uint64_t>(distance % denominator_) * numerator_;  // < 2^62
@@ -123,7 +124,7 @@ void GearFunction::turn_to(std::int64_t turn) noexcept {
 }
 
 /// Moves the anchor along, so that what is left to double-double stays within its reach: for extreme ratios
-/// of ways only.
+/// of distances only.
 void GearFunction::anchor_at(double distance) noexcept {
   const double size = std::abs(distance);
   if (!(size < 0x1p64)) return;
@@ -201,14 +202,14 @@ inline DoubleDouble GearFunction::geared(DoubleDouble distance) const noexcept {
   return {product.hi, product.lo + (distance.hi * ratio_.lo + distance.lo * ratio_.hi)};
 }
 
-/// The position a following way behind the origin.
+/// The position a following distance behind the origin.
 inline AxisPosition GearFunction::after(DoubleDouble distance) noexcept {
   const DoubleDouble position = fast_sum(origin_, distance);
   if (position.hi >= lowest_ && position.hi < end_) return {turns_, position.hi};
   return beyond_window(distance);
 }
 
-/// Moves the window to the following turn in which origin + way lies.
+/// Moves the window to the following turn in which origin + distance lies.
 [[gnu::noinline]] AxisPosition GearFunction::beyond_window(DoubleDouble distance) noexcept {
   if (!following_.enabled) return {0, fast_sum(origin_, distance).hi};
   const double length = following_.length;

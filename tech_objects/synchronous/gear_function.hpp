@@ -12,9 +12,9 @@ namespace lockstep {
 ///
 /// The reference is rational arithmetic on the doubles given: a modulo following axis is right to less than
 /// one ulp of its position (or of Modulo.Length, if that is larger), any other to less than one ulp of the
-/// largest term, at any number of turns and without drift: the way of whole leading turns is kept in integers
-/// (fixed point of 2^-62, a remainder over the denominator, turns of the following axis), and only the way
-/// within a leading turn is computed in double-double.
+/// largest term, at any number of turns and without drift: the distance of whole leading turns is kept in
+/// integers (fixed point of 2^-62, a remainder over the denominator, turns of the following axis), and only
+/// the distance within a leading turn is computed in double-double.
 /// @source S7-1500T synchronous operation V7, 6.1 (formula of the synchronous function)
 class GearFunction {
  public:
@@ -75,7 +75,7 @@ class GearFunction {
   Halves ratio_halves_;
   double leading_value_ = 0.0;  // L0
   double anchor_ = 0.0;         // [leading u] the double-double part counts from L0 + anchor_
-  double near_ = 0.0;           // [leading u] farthest way from L0 that needs no look at the anchor
+  double near_ = 0.0;           // [leading u] farthest distance from L0 that needs no look at the anchor
   DoubleDouble origin_;         // following position at the anchor, less the turns in wraps_
   double lowest_ = 0.0;         // window of positions that need no reduction
   double end_ = 0.0;
@@ -83,12 +83,12 @@ class GearFunction {
   std::int64_t turn_ = 0;           // leading turns from L0 that origin_ stands for
   std::int64_t turns_ = 0;          // following turns of the window
   // From here on only what a change of the turn needs.
-  double reach_ = 0.0;           // [leading u] farthest way from the anchor
+  double reach_ = 0.0;           // [leading u] farthest distance from the anchor
   DoubleDouble base_;            // following position at the anchor on the ring
   std::int64_t wraps_ = 0;       // whole following lengths between base_ and origin_
-  RingPosition place_;           // way geared from L0 to the anchor in turn_
-  RingPosition per_turn_;        // way geared per leading turn
-  RingPosition anchor_place_;    // way geared from L0 to the anchor
+  RingPosition place_;           // distance geared from L0 to the anchor in turn_
+  RingPosition per_turn_;        // distance geared per leading turn
+  RingPosition anchor_place_;    // distance geared from L0 to the anchor
   Units length_ = 0;             // of the following ring
   std::uint64_t numerator_ = 1;  // magnitude
   std::uint64_t denominator_ = 1;

@@ -16,7 +16,7 @@ enum class Coupling : std::uint8_t {
 };
 
 /// What axes see that have followed the position of an axis when that left position control: zero, and once
-/// position control has been taken up again a way from there back to the setpoint.
+/// position control has been taken up again a distance from there back to the setpoint.
 struct UncontrolledLead {
   std::uint32_t times = 0;  ///< how often position control has been left
   AxisPosition zero;        ///< on the turn of the time; on that of its end once it has ended

@@ -5,8 +5,8 @@
 namespace lockstep {
 namespace {
 
-/// Most that a shift's own velocity, and its acceleration, may make of its way over the leading distance, as
-/// a multiple of that way.
+/// Most that a shift's own velocity, and its acceleration, may make of its distance over the leading
+/// distance, as a multiple of that way.
 constexpr double kSteepest = 20.0;
 
 }  // namespace
@@ -83,7 +83,7 @@ bool Shift::can_lead_on(const LeadingStep& step) const noexcept {
          std::abs(start.curvature) * distance * distance <= maximum;
 }
 
-/// What is left of the shift at the last tick, over the way of the leading value.
+/// What is left of the shift at the last tick, over the distance of the leading value.
 SyncOffset Shift::remainder_at_start(const LeadingStep& step) const noexcept {
   SyncOffset start{.position = (value_ - request_.target).rounded()};
   const double heading = std::copysign(1.0, step.distance());

@@ -10,8 +10,8 @@
 
 namespace lockstep {
 
-/// The way of the effective leading value from one tick to the next, seen where it is kept: copying it while
-/// it is being made would cost more than looking.
+/// The distance of the effective leading value from one tick to the next, seen where it is kept: copying it
+/// while it is being made would cost more than looking.
 struct LeadingStep {
   const Setpoint& last;
   const Setpoint& now;
@@ -114,7 +114,7 @@ class Shift {
   double acceleration_ = 0.0;
 
   ShiftRequest request_;
-  double to_start_ = 0.0;  // leading way from the last tick to the start [u]
+  double to_start_ = 0.0;  // leading distance from the last tick to the start [u]
   double heading_ = 0.0;   // of the leading value while running: 1, -1; 0: it has not moved yet
   double covered_ = 0.0;   // leading distance since the start [u]
   Remainder remainder_;    // target - value over the leading distance, negative

@@ -10,8 +10,8 @@ namespace {
 /// What rounding of the planned quantities may amount to, against the length of a turn.
 constexpr double kRounding = 1e-13;
 
-/// How far a profile in one direction may go, as a multiple of the ways that the slopes and curvatures at its
-/// ends make over the leading distance: beyond it no turns are added any more.
+/// How far a profile in one direction may go, as a multiple of the distances that the slopes and curvatures
+/// at its ends make over the leading distance: beyond it no turns are added any more.
 constexpr double kFarthest = 2.0;
 
 /// The positive root of t⁴ + 2t³ - 2pt - q, q ≥ 0: there is one (Descartes), and Newton's iteration falls on
@@ -30,7 +30,7 @@ double quartic_root(double p, double q) noexcept {
 }  // namespace
 
 // In Bernstein form over [0, 1] the derivative of x has the coefficients
-//   c0 = start_slope, c1 = c0 + start_curvature / 4, c2 = 5 way - 2 c4 - c1 - c0, c3 = c4 = end_slope
+//   c0 = start_slope, c1 = c0 + start_curvature / 4, c2 = 5 distance - 2 c4 - c1 - c0, c3 = c4 = end_slope
 // (c0 and c1 add up to 2 c0 + start_curvature / 4). With t = u / (1 - u) it is not negative where
 //   c0 + 4 c1 t + 6 c2 t² + 4 c3 t³ + c4 t⁴ ≥ 0 for all t ≥ 0,
 // hence where 6 c2 ≥ -min (c0/t² + 4 c1/t + 4 c3 t + c4 t²). That minimum is the only one: its equation,

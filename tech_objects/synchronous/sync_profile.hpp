@@ -64,18 +64,18 @@ enum class SyncPlan : std::uint8_t {
 /// last bit: x = F(L) + y(λ).
 ///
 /// A start between two cycles begins at the last cycle before the crossing and spans the rest: `SyncStart` is
-/// that cycle, `distance` the way from its leading position to the end.
+/// that cycle, `distance` the distance from its leading position to the end.
 /// @source S7-1500T synchronous operation V7, 6.2.3.4, 6.2.3.5
 class SyncProfile {
  public:
   /// Plans the profile. `distance` [leading u] > 0; `backward`: the leading axis moves in negative direction.
-  /// The whole turns that the way of a modulo following axis needs are chosen by `direction`: for one-way
-  /// synchronizing the fewest with which the axis never reverses, but for `kOnSynchronousValue`; none if the
-  /// axis moves on the function already. They are not in the function passed: see `turns`. A linear following
-  /// axis goes to the function as it is, whatever `direction`. Velocity and acceleration of the following
-  /// axis count with a moving leading axis only; with one that stands or moves against `backward` the profile
-  /// starts with slope 0 (published step if the axis moves). A rejected plan leaves the profile as it was.
-  /// Bounded time; the cycle's thread.
+  /// The whole turns that the distance of a modulo following axis needs are chosen by `direction`: for
+  /// one-way synchronizing the fewest with which the axis never reverses, but for `kOnSynchronousValue`; none
+  /// if the axis moves on the function already. They are not in the function passed: see `turns`. A linear
+  /// following axis goes to the function as it is, whatever `direction`. Velocity and acceleration of the
+  /// following axis count with a moving leading axis only; with one that stands or moves against `backward`
+  /// the profile starts with slope 0 (published step if the axis moves). A rejected plan leaves the profile
+  /// as it was. Bounded time; the cycle's thread.
   SyncPlan plan(const SyncStart& start, const SyncTarget& target, double distance, bool backward,
                 SyncDirection direction, const Modulo& leading, const Modulo& following) noexcept;
 
@@ -86,8 +86,8 @@ class SyncProfile {
   double distance() const noexcept { return remainder_.distance(); }  ///< [leading u] D
   bool backward() const noexcept { return backward_; }
 
-  /// λ [leading u]: way of the leading axis from the start, positive in the direction of the profile. Any
-  /// thread.
+  /// λ [leading u]: distance of the leading axis from the start, positive in the direction of the profile.
+  /// Any thread.
   double covered(AxisPosition leading) const noexcept;
   bool complete(double distance) const noexcept { return remainder_.complete(distance); }
 
@@ -103,7 +103,7 @@ class SyncProfile {
   bool backward_ = false;
 };
 
-/// The least way [u] over the distance D with which the quintic x from slope `start_slope`, curvature
+/// The least distance [u] over the distance D with which the quintic x from slope `start_slope`, curvature
 /// `start_curvature` to slope `end_slope` > 0, curvature 0 never runs backward. All slopes are times D and
 /// the curvature times D², so in [u]. Infinite if there is none. Any thread.
 double minimum_monotone_distance(double start_slope, double start_curvature, double end_slope) noexcept;

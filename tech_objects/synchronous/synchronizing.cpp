@@ -17,8 +17,8 @@ constexpr double kSamePlace = 1e-14;
 /// No distance that an axis could be seen to make in a tick [u].
 constexpr double kNoDistance = 1e-6;
 
-/// Most that velocity and acceleration of the axis may make of its way over the leading distance, as a
-/// multiple of that way: the quintic then stays within some ten times the way.
+/// Most that velocity and acceleration of the axis may make of its distance over the leading distance, as a
+/// multiple of that way: the quintic then stays within some ten times the distance.
 constexpr double kSteepest = 100.0;
 
 /// Over how many ticks the change of the leading velocity is watched.
@@ -127,8 +127,8 @@ Synchronizing::Start Synchronizing::watch_gear(const Chain& chain, const Setpoin
   return start;
 }
 
-/// Way from the last leading position to a place, in the direction of motion [u]; negative: a linear axis has
-/// passed it.
+/// Distance from the last leading position to a place, in the direction of motion [u]; negative: a linear
+/// axis has passed it.
 double Synchronizing::distance_to(const Chain& chain, double place) const noexcept {
   const Modulo& modulo = chain.leading.modulo();
   const double from = chain.leading.last().position.value;
@@ -139,18 +139,19 @@ double Synchronizing::distance_to(const Chain& chain, double place) const noexce
                                    : -negative_distance(from, target, modulo);
 }
 
-/// Places the gear: the synchronous positions belong together, the leading one a way ahead of the last tick.
+/// Places the gear: the synchronous positions belong together, the leading one a distance ahead of the last
+/// tick.
 void Synchronizing::anchor(const Chain& chain, double distance, AxisPosition following) noexcept {
   following.value = following_sync_position_;
   chain.function.place_gear(leading_at(chain, distance), following);
 }
 
-/// The synchronous position of the leading axis, a way ahead of the last tick.
+/// The synchronous position of the leading axis, a distance ahead of the last tick.
 AxisPosition Synchronizing::leading_at(const Chain& chain, double distance) const noexcept {
   const Modulo& modulo = chain.leading.modulo();
   AxisPosition leading = advanced(chain.leading.last().position, progress_.direction() * distance, modulo);
   if (modulo.enabled) {
-    // The way is rounded: at the end of the ring the turn may be the neighbour's.
+    // The distance is rounded: at the end of the ring the turn may be the neighbour's.
     const double off = leading.value - leading_sync_position_;
     if (off > 0.5 * modulo.length) ++leading.turns;
     if (off < -0.5 * modulo.length) --leading.turns;
@@ -188,7 +189,7 @@ Synchronizing::Start Synchronizing::watch_distance(const Chain& chain, const Set
 }
 
 /// Whether velocity and acceleration of the axis, led on by a leading axis that creeps, would carry it far
-/// beyond the way that it has to make.
+/// beyond the distance that it has to make.
 bool Synchronizing::shoots_beyond(const SyncOffset& start, double distance,
                                   const Modulo& following) const noexcept {
   const double turn = following.enabled ? following.length : std::numeric_limits<double>::infinity();

@@ -22,8 +22,8 @@ class Synchronizing {
   /// The request is to wait for its start: takes the synchronous positions over.
   SyncRefusal begin_waiting(const CouplingRequest& request, const Chain& chain, const Setpoint& own) noexcept;
 
-  /// Looks whether the way between the last two leading values holds the start; `own` is the setpoint of the
-  /// last tick, `active` what leads the axis until then; nullptr: no synchronous motion.
+  /// Looks whether the distance between the last two leading values holds the start; `own` is the setpoint of
+  /// the last tick, `active` what leads the axis until then; nullptr: no synchronous motion.
   Start watch(const Chain& chain, const Setpoint& own, const ChainView* active) noexcept;
   /// Why `watch` has rejected the request.
   SyncRefusal refusal() const noexcept { return refusal_; }
@@ -39,7 +39,7 @@ class Synchronizing {
   /// The function of this tick plus what the axis is ahead of it; false, and no setpoint, once that is over.
   bool follow_profile(const Chain& chain, Setpoint& setpoint) const noexcept;
 
-  /// The axis has another name for every place [u]; the leading axis counts other turns.
+  /// The axis has another name for every position [u]; the leading axis counts other turns.
   void shift_following(double by, const Modulo& following) noexcept {
     joint_ = advanced(joint_, by, following);
   }

@@ -13,7 +13,8 @@ constexpr double kAgainst = 1e-3;
 
 }  // namespace
 
-/// Profile 0: starts at the last tick from which the way that is left still suffices for the planned time.
+/// Profile 0: starts at the last tick from which the distance that is left still suffices for the planned
+/// time.
 Synchronizing::Start Synchronizing::watch_time(const Chain& chain, const Setpoint& own) noexcept {
   const LeadingStep led = chain.leading.step();
   const int direction = progress_.direction();
@@ -62,8 +63,8 @@ int Synchronizing::forced_direction(const Modulo& following) const noexcept {
   return direction_ == SyncDirection::kPositive ? 1 : -1;
 }
 
-/// Way of the following axis to its synchronous position, as SyncDirection has it [u]: with a turn more where
-/// it could not get the synchronous velocity on the way.
+/// Distance of the following axis to its synchronous position, as SyncDirection has it [u]: with a turn more
+/// where it could not get the synchronous velocity on the way.
 double Synchronizing::following_distance(const Chain& chain, const Setpoint& own,
                                          double synchronous_velocity) const noexcept {
   const Modulo& following = chain.function.following();

@@ -81,7 +81,7 @@ class SynchronousFunction {
   const Setpoint& value() const noexcept { return value_; }
   /// What stands for it, while the axis is on its way in or out.
   void show(const Setpoint& value) noexcept { value_ = value; }
-  /// The axis has another name for every place [u].
+  /// The axis has another name for every position [u].
   void shift_shown(double by) noexcept { value_.position = advanced(value_.position, by, following_); }
 
   const Modulo& following() const noexcept { return following_; }

@@ -162,10 +162,11 @@ void SynchronousMotion::begin_leaving(const Setpoint& last) noexcept {
   desynchronizing_.begin(leading_.step(), last);
 }
 
-// ---- Names of places
+// ---- Names of positions
 // --------------------------------------------------------------------------------------------------------
 
-/// The axis has another name for every place. Of a cam that is a following value offset: its function stays.
+/// The axis has another name for every position. Of a cam that is a following value offset: its function
+/// stays.
 void SynchronousMotion::shift_following(double by) noexcept {
   if (!leading_.coupled() || leading_.velocity_only()) return;
   function_.shift_shown(by);

@@ -32,8 +32,8 @@ class SynchronousMotion {
   void begin_at_velocity(const CouplingRequest& request) noexcept;
   /// Prepares to wait for the start at positions of both axes. @return why that cannot be
   SyncRefusal begin_waiting(const CouplingRequest& request, const Setpoint& own) noexcept;
-  /// Looks whether the way between the last two leading values holds the start; `own` is the setpoint of the
-  /// last tick, `active` the synchronous motion that leads the axis until then; nullptr: none.
+  /// Looks whether the distance between the last two leading values holds the start; `own` is the setpoint of
+  /// the last tick, `active` the synchronous motion that leads the axis until then; nullptr: none.
   Start watch(const Setpoint& own, const SynchronousMotion* active) noexcept;
   /// Why `watch` has rejected the request.
   SyncRefusal refusal() const noexcept { return synchronizing_.refusal(); }
@@ -118,13 +118,13 @@ class SynchronousMotion {
   /// setpoint and the candidate for this tick. @param dynamics where that is planned in time
   bool meets_start_of_leaving(const LeavingRequest& request, const Setpoint& last, const Setpoint& candidate,
                               const Dynamics& dynamics) noexcept;
-  /// What it has met: way to the stop position [u], and that position.
+  /// What it has met: distance to the stop position [u], and that position.
   const Desynchronizing& leaving() const noexcept { return desynchronizing_; }
   /// Over the leading distance, from here on.
   void begin_leaving(const Setpoint& last) noexcept;
   bool left() const noexcept { return leaving_ && desynchronizing_.complete(); }
 
-  // ---- Names of places
+  // ---- Names of positions
 
   /// Shifts the following side of the function without motion, for homing [u].
   void shift_following(double by) noexcept;

@@ -73,7 +73,7 @@ bool is_real(Type type) noexcept;        ///< REAL LREAL
 bool is_numeric(Type type) noexcept;     ///< integers and reals
 bool is_bit_string(Type type) noexcept;  ///< BYTE WORD DWORD LWORD; BOOL is none of them here
 
-/// Least and greatest value of an integer or bit-string type.
+/// Minimum and maximum value of an integer or bit-string type.
 std::int64_t lowest(Type type) noexcept;
 std::uint64_t highest(Type type) noexcept;
 

@@ -24,8 +24,7 @@ constexpr std::ptrdiff_t kLongestHeader = 150;
 const std::set<std::string> kOfTheAxis = {"axis.hpp",           "axis.cpp",           "axis_families.hpp",
                                           "axis_families.cpp",  "jobs.cpp",           "cycle.cpp",
                                           "publish.cpp",        "plain_cycle.cpp",    "coupling_order.hpp",
-                                          "coupling_order.cpp", "coupling_chain.cpp", "velocity_unit.hpp",
-                                          "velocity_unit.cpp"};
+                                          "coupling_order.cpp", "coupling_chain.cpp"};
 constexpr const char* kTheAxis[] = {"tech_objects/axis/axis.hpp", "tech_objects/axis/axis_families.hpp",
                                     "tech_objects/axis/axis_parts.hpp"};
 

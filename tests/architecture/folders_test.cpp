@@ -42,6 +42,7 @@ constexpr Library kLibraries[] = {
     {"fstream", "hmi_bridge"},
     {"nlohmann/", "projects"},
     {"valijson/", "projects"},
+    {"pybind11/", "projects"},
     {"CLI/", "cli"},
     {"ncurses", "cli"},
     {"curses", "cli"},

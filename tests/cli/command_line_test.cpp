@@ -6,8 +6,8 @@
 namespace lockstep::cli {
 namespace {
 
-constexpr const char* kCommands[] = {"check", "run",  "describe", "tags",  "read",
-                                     "write", "plot", "monitor",  "doctor"};
+constexpr const char* kCommands[] = {"check", "run",   "test", "describe", "tags",
+                                     "read",  "write", "plot", "monitor",  "doctor"};
 
 TEST(CommandLine, EveryCommandHasAHelpThatNamesItsExitStatuses) {
   const Ended all = lockstep({"--help"});

@@ -233,6 +233,38 @@ TEST(Describe, KeysOfTheProjectFile) {
   EXPECT_GT(described({"keys"})["structures"].size(), 40u);
 }
 
+TEST(Describe, AWordThatIsNoNameFindsWhatHasToDoWithItNearestFirst) {
+  const Ended gear = lockstep({"describe", "gear"});
+  EXPECT_EQ(gear.status, 0) << gear.err;
+  const auto at = [&](const std::string& name) { return gear.out.find(" " + name + " "); };
+  for (const char* const name : {"MC_GearIn", "MC_GearInPos", "MC_GearOut", "LoadGear.Numerator"})
+    EXPECT_NE(at(name), std::string::npos) << name << gear.out;
+  EXPECT_LT(at("MC_GearIn"), at("16#8077")) << "a name counts for more than a mention";
+  EXPECT_LT(std::count(gear.out.begin(), gear.out.end(), '\n'), 60) << "short: " << gear.out;
+  const Ended two = lockstep({"describe", "following", "error"});
+  for (const char* const name : {" 521 ", "FollowingError.MaxValue", "StatusPositioning.FollowingError"})
+    EXPECT_NE(two.out.find(name), std::string::npos) << two.out;
+  const json found = described({"servo_cycle"});
+  EXPECT_EQ(found["found"][0]["name"], "keys clock.servo_cycle");
+  for (const json& one : found["found"]) EXPECT_TRUE(one["kind"].is_string() && one["text"].is_string());
+}
+
+TEST(Describe, TellsCauseAndRemedyOfAnAlarm) {
+  const Ended ended = lockstep({"describe", "531"});
+  for (const char* const name : {"Cause ", "Remedy ", "Told with it"})
+    EXPECT_NE(ended.out.find(name), std::string::npos) << ended.out;
+  const Ended all = lockstep({"describe", "alarms"});
+  EXPECT_NE(all.out.find("remedy: "), std::string::npos);
+}
+
+TEST(Describe, ACommandThatThereIsNotNamesTheNearestOne) {
+  const Ended wrong = lockstep({"decribe", "521"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("there is no command 'decribe' (did you mean 'describe'?)"), std::string::npos)
+      << wrong.err;
+  EXPECT_NE(lockstep({"simulate"}).err.find("commands: "), std::string::npos);
+}
+
 TEST(Describe, AnUnknownNameExitsWith1AndASuggestion) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> unknown = {
       {{"MC_GaerInPos"}, "did you mean 'MC_GearInPos'?"},
@@ -247,6 +279,7 @@ TEST(Describe, AnUnknownNameExitsWith1AndASuggestion) {
       {{"99999999999999999999"}, "there is nothing called"},
       {{"override", "MC_GaerIn"}, "did you mean 'MC_GearIn'?"},
       {{"alarms", "608"}, "takes no second name"},
+      {{"gear", "elephant"}, "there is nothing that has to do with all of"},
       {{"keys", "clock.servo_cycel"}, "did you mean 'clock.servo_cycle'?"},
   };
   for (const auto& [names, suggestion] : unknown) {

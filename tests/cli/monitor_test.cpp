@@ -52,7 +52,7 @@ TEST(Monitor, OnceShowsTheTraceOfARunningProject) {
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(ended.out.find("ROTARY_KNIFE: rotary_knife\n  t "), 0u) << ended.out;
   for (const char* text :
-       {"rows/s", "age 0.", "dropped 0", "\n  Knife.Position ", " u/s\n", "\n  gear.InSync "})
+       {"rows/s", "age 0.", "dropped 0", "\n  Knife.Position ", " °/s\n", "\n  gear.InSync "})
     EXPECT_NE(ended.out.find(text), std::string::npos) << text << "\n" << ended.out;
 }
 
@@ -333,7 +333,7 @@ TEST(Monitor, OnATerminalItIsATableThatSearchesPlotsPausesAndLeavesTheTerminalAs
     terminal.press("/veloc\r");
     EXPECT_TRUE(terminal.shows({"/veloc  s sort", "Velocity"}));
     terminal.press("g");
-    EXPECT_TRUE(terminal.shows({"[u/s]  min ", "now", "-20 s"}));
+    EXPECT_TRUE(terminal.shows({"[°/s]  min ", "now", "-20 s"}));
     terminal.press("-");
     EXPECT_TRUE(terminal.shows({"-10 s"}));
     terminal.press("p");

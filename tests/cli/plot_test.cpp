@@ -106,6 +106,36 @@ TEST(Plot, ALongTraceGivesASmallPictureThatStillHasItsPeak) {
   EXPECT_EQ(marks_of("100"), 1u);
 }
 
+constexpr char kWhole[] = R"json({
+  "lockstep": 1, "name": "whole", "clock": { "servo_cycle": "100ms" },
+  "technology_objects": { "Slide": { "type": "TO_PositioningAxis",
+    "config": { "VirtualAxis": { "Mode": 1 }, "Units": { "LengthUnit": 1010 } } } },
+  "tags": { "level": { "type": "LREAL" }, "state": { "type": "INT" } },
+  "programs": [ { "name": "Main", "ob": "Main", "cycle": "100ms", "calls": [
+    { "set": "level", "to": "level + 1.0" }, { "set": "state", "to": "state + 1" } ] } ] })json";
+
+TEST(Plot, DrawsARealAsACurveEvenIfItsValuesAreWholeAndTakesUnitsFromAProject) {
+  const Directory folder;
+  const std::string project = folder.write("project.json", kWhole);
+  const std::string trace = folder.file("run.csv"), picture = folder.file("run.svg");
+  const Ended run = lockstep({"run", project, "--simulate", "--duration", "1s", "--trace", trace, "--signals",
+                              "level,state,Slide.Position"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(content(trace).find(",2.0,2,0.0\n"), std::string::npos) << content(trace);
+  const auto drawn = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"plot", trace, "-o", picture};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ended ended = lockstep(words);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return content(picture);
+  };
+  constexpr char kCurve[] = "<path stroke='rgb(  0, 114, 178)'";
+  EXPECT_NE(drawn({"--signals", "level"}).find(kCurve), std::string::npos);
+  EXPECT_EQ(drawn({"--signals", "state"}).find(kCurve), std::string::npos);
+  EXPECT_NE(drawn({}).find("position [u]"), std::string::npos);
+  EXPECT_NE(drawn({"--project", project}).find("position [m]"), std::string::npos);
+}
+
 TEST(Plot, DrawsOddTraces) {
   const Directory folder;
   const std::pair<const char*, const char*> odd[] = {

@@ -109,6 +109,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const int kind = rest[0] % 4;
     if (kind == 1) decode_panel(message);
     if (kind == 2) decode_event(message);
+    if (kind == 2) decode_detail(message);
     if (kind == 0) desk.accept(message, now);
     if (kind == 3) desk.accept(encoded(fuzz::aimed(message, 1, i)), now);
     if (kind == 0 || kind == 3) ++given;

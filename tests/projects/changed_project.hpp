@@ -12,9 +12,11 @@ namespace lockstep {
 
 using Json = nlohmann::ordered_json;
 
+/// Places and texts alone.
 inline std::string lines(const std::vector<Problem>& problems) {
   std::string text;
-  for (const Problem& problem : problems) text += to_string("FILE", problem) + "\n";
+  for (const Problem& problem : problems)
+    text += to_string("FILE", {.place = problem.place, .text = problem.text}) + "\n";
   return text;
 }
 

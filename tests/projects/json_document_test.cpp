@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "projects/json/document.hpp"
 
@@ -45,7 +47,11 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Refused{"empty", "", "1:1", "empty"}, Refused{"blank", " \n\t ", "1:1", "empty"},
                     Refused{"cut_short", "{\"a\": 1", "1:8", "expected"},
                     Refused{"trailing_comma", "{\"a\": 1,}", "1:9", "expected string literal"},
-                    Refused{"comment", "// note\n{}", "1:1", "invalid literal"},
+                    Refused{"only_a_comment", "// note\n", "2:1", "expected"},
+                    Refused{"open_comment", "{} /* note", "1:11", "missing closing '*/'"},
+                    Refused{"half_a_comment", "{\n/ note\n}", "2:2", "invalid comment"},
+                    Refused{"behind_comments", "/* a\n b */ {\r\n// c\r\n\"d\" 1}", "4:5", "expected ':'"},
+                    Refused{"behind_a_mark", "\xEF\xBB\xBF{\"a\" 1}", "1:6", "expected ':'"},
                     Refused{"third_line", "{\n\"a\": 1,\n  \"b\" 2\n}", "3:7", "expected ':'"},
                     Refused{"column_counts_characters", "[\"äöü\", x]", "1:9", "invalid literal"},
                     Refused{"garbage_behind", "{} {}", "1:4", "end of input"},
@@ -88,6 +94,10 @@ TEST(JsonDocument, TellsEveryDuplicateAndEveryOverflow) {
   EXPECT_EQ(document.root().find("b")->kind, JsonKind::unusable);
   EXPECT_EQ(document.root().find("c")->elements[1]->magnitude, 3u);
   EXPECT_EQ(document.root().find("a")->magnitude, 1u) << "the first of duplicates is kept";
+  const std::string line = to_string("FILE", document.problems().back());
+  EXPECT_EQ(line,
+            "FILE:/a: the key 'a' is there twice; each key is allowed once, the other one is in line 1 "
+            "(line 1, column 50)");
 }
 
 TEST(JsonDocument, GivesUpOnTooManyOverflows) {
@@ -105,6 +115,70 @@ TEST(JsonDocument, GivesUpOnTooManyValues) {
   EXPECT_FALSE(document.usable());
   ASSERT_EQ(document.problems().size(), 1u);
   EXPECT_NE(document.problems()[0].text.find("2000000 values"), std::string::npos);
+}
+
+SourcePosition position_at(const JsonDocument& document, std::string_view pointer) {
+  const JsonValue* value = &document.root();
+  while (!pointer.empty()) {
+    const auto end = std::min(pointer.find('/', 1), pointer.size());
+    const std::string_view step = pointer.substr(1, end - 1);
+    value =
+        value->kind == JsonKind::array ? value->elements[std::stoul(std::string(step))] : value->find(step);
+    pointer.remove_prefix(end);
+  }
+  return value->position();
+}
+
+TEST(JsonDocument, KnowsWhereItsValuesBegin) {
+  const JsonDocument document(
+      "// \"no\": [1]\r\n{ \"a\\\"b:\": /* [ */ [ 1,\t-2e3, \"x\\\\\",\r\n"
+      "    { \"ä\": true /* } */ , \"c\" : null }, [], {} ] }");
+  ASSERT_TRUE(document.usable());
+  ASSERT_TRUE(document.problems().empty());
+  EXPECT_EQ(document.root().position(), (SourcePosition{2, 1}));
+  const JsonValue& list = *document.root().members[0].value;
+  EXPECT_EQ(document.root().members[0].key, "a\"b:");
+  EXPECT_EQ(list.key_position(), (SourcePosition{2, 3}));
+  EXPECT_EQ(list.position(), (SourcePosition{2, 19}));
+  const std::vector<SourcePosition> expected{{2, 21}, {2, 24}, {2, 30}, {3, 5}, {3, 42}, {3, 46}};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(list.elements[i]->position(), expected[i]) << i;
+  EXPECT_EQ(list.elements[3]->find("ä")->position(), (SourcePosition{3, 12}));
+  EXPECT_EQ(list.elements[3]->find("c")->key_position(), (SourcePosition{3, 27}));
+  EXPECT_EQ(list.elements[3]->find("c")->position(), (SourcePosition{3, 33}));
+}
+
+TEST(JsonDocument, CountsNoByteOrderMark) {
+  const JsonDocument document("\xEF\xBB\xBF{ \"a\": 1 }");
+  ASSERT_TRUE(document.usable());
+  EXPECT_EQ(position_at(document, ""), (SourcePosition{1, 1}));
+  EXPECT_EQ(position_at(document, "/a"), (SourcePosition{1, 8}));
+}
+
+TEST(JsonDocument, KnowsPositionsInLongLines) {
+  std::string text = "[";
+  for (int i = 0; i < 2000; ++i) text += "\"ä\", ";
+  const JsonDocument document(text + "{ \"end\": 1 } ]");
+  ASSERT_TRUE(document.usable());
+  for (const std::size_t i : {0u, 171u, 999u, 1999u})
+    EXPECT_EQ(document.root().elements[i]->position(), (SourcePosition{1, 2 + 5 * i})) << i;
+  EXPECT_EQ(position_at(document, "/2000/end"), (SourcePosition{1, 2 + 5 * 2000 + 9}));
+}
+
+TEST(JsonDocument, TellsWhatAValueIsPartOf) {
+  const JsonDocument document(R"({
+    "name": "machine",
+    "technology_objects": { "Knife": { "config": { "Modulo": 3 } } },
+    "programs": [ { "name": "Main", "calls": [ { "if": "x", "then": [ { "name": "gear", "in": { "a": 1 } } ] } ] } ]
+  })");
+  ASSERT_TRUE(document.usable());
+  const JsonValue& root = document.root();
+  EXPECT_EQ(root.owner(), "");
+  EXPECT_EQ(root.find("name")->owner(), "");
+  EXPECT_EQ(root.find("technology_objects")->find("Knife")->find("config")->find("Modulo")->owner(),
+            "object 'Knife'");
+  const JsonValue& branch = *root.find("programs")->elements[0]->find("calls")->elements[0];
+  EXPECT_EQ(branch.find("if")->owner(), "program 'Main'");
+  EXPECT_EQ(branch.find("then")->elements[0]->find("in")->find("a")->owner(), "call 'gear'");
 }
 
 TEST(JsonDocument, KeepsTheOrderOfMembers) {

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, LateExamples,
                                            Example{"05_press_feeder", 8}, Example{"06_encoder_conveyor", 8},
                                            Example{"07_emergency_door", 16}, Example{"08_filling_line", 11},
                                            Example{"09_flying_saw", 12}, Example{"10_fixed_stop", 16},
-                                           Example{"11_pick_and_place", 8}),
+                                           Example{"11_pick_and_place", 8}, Example{"14_twelve_stations", 7}),
                          [](const auto& example) { return std::string(example.param.project); });
 
 }  // namespace

@@ -56,6 +56,48 @@ TEST(Strings, AreComparedWithEachOtherAndWithLiterals) {
   EXPECT_EQ(machine.read("n"), 5.0) << "they are the same now";
 }
 
+TEST(Strings, AreChosenBySelAndMux) {
+  Simulation machine = Simulation::from_text(project(R"(
+    { "set": "kind", "to": "SEL(on, 'ale', MUX(n, 'mild', SEL(G := last = '', IN0 := kind, IN1 := 'stout'), 'bock'))" },
+    { "if": "MUX(n - 1, 'a', 'b', kind) = SEL(n > 2, 'b', kind)", "then": [ { "set": "last", "to": "MOVE(kind)" } ] })"));
+  machine.step();
+EXPECT_EQ(text(machine, "kind"), "ale");
+EXPECT_EQ(text(machine, "last"), "");
+machine.write("on", 1.0);
+machine.step();
+EXPECT_EQ(text(machine, "kind"), "mild");
+machine.write("n", 1.0);
+machine.step();
+EXPECT_EQ(text(machine, "kind"), "stout");
+machine.write("n", 2.0);
+machine.step();
+EXPECT_EQ(text(machine, "kind"), "bock");
+EXPECT_EQ(text(machine, "last"), "bock") << "MUX(1, 'a', 'b', kind) is 'b', as SEL(FALSE, 'b', kind)";
+machine.write("n", 1.0);
+machine.step();
+EXPECT_EQ(text(machine, "kind"), "bock");
+machine.write("n", 99.0);
+machine.step();
+EXPECT_EQ(text(machine, "kind"), "bock") << "above the last one the last one is taken";
+machine.write("n", -1.0);
+machine.step();
+EXPECT_EQ(text(machine, "kind"), "mild") << "below the first one the first one";
+}
+
+TEST(Strings, ThatAreChosenFitWhereTheyGo) {
+  const auto set = [](const std::string& to) {
+    return told(project(R"({ "set": "kind", "to": ")" + to + "\" }"));
+  };
+  const std::string to = "/programs/0/calls/0/to: ";
+  EXPECT_EQ(set("SEL(on, 'ale', 'stout')"), "0 problems");
+  EXPECT_EQ(set("SEL(on, 'ale', last)"),
+            to + "'SEL(on, 'ale', last)' may have 6 characters; allowed for 'kind': up to 5");
+  EXPECT_EQ(set("MUX(n, 'a', SEL(on, 'b', 'porter'))").substr(to.size(), 4), "'MUX");
+  EXPECT_NE(set("SEL(on, 'ale', n)").find("need a common type"), std::string::npos);
+  EXPECT_NE(set("SEL(kind, 'ale', last)").find("a text does not fit where BOOL is expected"),
+            std::string::npos);
+}
+
 TEST(Strings, AreSetByStimuli) {
   Simulation machine = Simulation::from_text(
       project("", R"(, "stimuli": [ { "at": "1ms", "set": { "kind": "K\u00F6l", "n": 3 } } ])"));
@@ -106,8 +148,9 @@ TEST(Strings, AreToldOfWhatIsWrongWhereTheyAreUsed) {
   EXPECT_NE(set("\"kind < last\"", "on").find("texts are compared with = and <>"), std::string::npos);
   for (const char* wrong :
        {"kind = n", "kind = 3", "kind AND on", "NOT kind", "kind + 'a' = 'b'", "-kind = n", "ABS(kind) = 1",
-        "MAX(kind, last) = kind", "SEL(on, kind, last) = kind", "SHL(kind, 1) = 1", "SQRT(kind) = 1.0",
-        "kind", "TRUNC(kind) = 1", "SEL(kind, 1, 2) = 1", "kind[1] = 3", "MUX(kind, 1, 2) = 1"})
+        "MAX(kind, last) = kind", "SEL(on, kind, n) = kind", "SEL(n, kind, last) = kind",
+        "SEL(on, kind, last)", "SHL(kind, 1) = 1", "SQRT(kind) = 1.0", "kind", "TRUNC(kind) = 1",
+        "SEL(kind, 1, 2) = 1", "kind[1] = 3", "MUX(kind, 1, 2) = 1"})
     EXPECT_EQ(set("\"" + std::string(wrong) + "\"", "on").substr(0, to.size()), to) << wrong;
 }
 

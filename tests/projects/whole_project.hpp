@@ -62,6 +62,11 @@ inline constexpr char kRestOfProject[] = R"json({
     "lcm": { "commands": { "axes": { "Fan": {} } } },
     "channels": [ { "channel": "SLOW", "signals": [ "speed" ], "trigger": { "on": "above", "signal": "speed" } } ]
   },
+  "templates": { "station": { "parameters": { "n": { "default": 1 } },
+                               "modbus": { "map": [] }, "trace": { "signals": [] } } },
+  "instances": [ { "template": "station", "name": "Station" } ],
+  "expectations": [ { "at": "1s", "expect": "TRUE" } ],
+  "duration": "2s",
   "retain": { "file": "kept", "interval": "1s" },
   "flight_recorder": { "before": "1s", "file": "flight", "signals": [ "speed" ] }
 })json";

@@ -54,7 +54,7 @@ struct Moving : Rig {
     run_v.Execute = true;
   }
 
-  /// Runs until the axis stands; the greatest deceleration and the greatest change of it in a tick.
+  /// Runs until the axis stands; the maximum deceleration and the maximum change of it in a tick.
   void watch_stop() {
     deceleration = change = 0.0;
     double last = a.setpoint().acceleration;

@@ -25,7 +25,7 @@ struct Outcomes {
   int refused[7] = {};
 };
 
-/// Greatest magnitudes of a cam, sampled.
+/// Maximum magnitudes of a cam, sampled.
 struct CamBounds {
   double value = 0.0;
   double slope = 0.0;

@@ -40,7 +40,7 @@ struct Slow : Rig {
     run(5);
   }
 
-  /// Greatest deviation from where it is to stand, in the last of four seconds after a positioning.
+  /// Maximum deviation from where it is to stand, in the last of four seconds after a positioning.
   double restlessness() {
     move.Position = 20.0;
     move.Velocity = 100.0;

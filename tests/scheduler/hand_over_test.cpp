@@ -24,7 +24,7 @@ using test::Rig;
 
 constexpr double kSpeed = 100.0;          // of the leading axis [u/s]
 constexpr double kDeceleration = 4000.0;  // of its emergency ramp and of the quick stop of its drive [u/s²]
-constexpr double kMaximum = 3000.0;       // its greatest acceleration [u/s²]
+constexpr double kMaximum = 3000.0;       // its maximum acceleration [u/s²]
 constexpr double kTimeConstant =
     0.025;                      // of its drive [s]: without setpoint it brakes with v / kTimeConstant
 constexpr double kRing = 37.0;  // [u]

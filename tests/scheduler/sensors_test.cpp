@@ -128,7 +128,7 @@ TEST(SetSensorMode1, MakesTheDifferenceAControlDeviation) {
   EXPECT_NEAR(slide.machine(), before - 1.0 / 1.01, 1e-5);
 }
 
-/// Greatest velocity setpoint in the first servo cycle after a switch, and in all.
+/// Maximum velocity setpoint in the first servo cycle after a switch, and in all.
 std::pair<double, double> velocities_after_a_switch(double smoothing) {
   Slide slide([&](Axis& axis) { axis.data.PositionControl.SmoothingTimeByChangeDifference = smoothing; });
   slide.go(100.0);

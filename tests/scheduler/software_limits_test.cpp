@@ -138,7 +138,7 @@ TEST_P(SoftwareLimit, DoesNotCountBeforeHomingOrWhileInactive) {
   ASSERT_TRUE(rig.run_until([&] { return rig.relative.Done; }));
 }
 
-/// Greatest deceleration on the way to the limit.
+/// Maximum deceleration on the way to the limit.
 double deceleration_at_limit(int behavior) {
   Limited rig(1, false, [&](AxisData& data) {
     within_a_hundred(data);

@@ -20,7 +20,7 @@ struct Machine : test::Superimposing {
 
   double acceleration() const { return axis_.data.Acceleration; }
 
-  /// The greatest acceleration of some ticks.
+  /// The maximum acceleration of some ticks.
   double maximum(int ticks) {
     double maximum = 0.0;
     for (int i = 0; i < ticks; ++i) {
@@ -30,7 +30,7 @@ struct Machine : test::Superimposing {
     return maximum;
   }
 
-  /// The greatest velocity of some ticks.
+  /// The maximum velocity of some ticks.
   double fastest(int ticks) {
     double maximum = 0.0;
     for (int i = 0; i < ticks; ++i) {
@@ -256,7 +256,7 @@ class TakingOver {
     m_.axis_.data.DynamicDefaults.Acceleration = m_.axis_.data.DynamicDefaults.Deceleration = 3000.0;
   }
 
-  /// The greatest acceleration that has come up [u/s²].
+  /// The maximum acceleration that has come up [u/s²].
   double run() {
     for (int action = 0; action < 40 && kept_; ++action) {
       act();

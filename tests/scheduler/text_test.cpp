@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "scheduler/expression.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -36,7 +38,8 @@ TEST(Text, IsTheSameWhateverStandsBehindItsEnd) {
   const Text left{memory.data(), memory.size()};
   const Text right{other.data(), other.size()};
   const auto holds = [](const TextSource& a, const TextSource& b, bool is_equality) {
-    return TextComparison{a, b, is_equality}.holds();
+    EvaluationCounters counters;
+    return TextComparison{a, b, is_equality}.holds(counters);
   };
   EXPECT_TRUE(holds({left, {}}, {right, {}}, true));
   EXPECT_FALSE(holds({left, {}}, {right, {}}, false));

@@ -28,6 +28,17 @@ TEST(AlarmNotes, TellEachAlarmOnceUntilItIsAcknowledged) {
   EXPECT_EQ(numbers(notes), (std::vector<int>{0, 541}));
 }
 
+TEST(AlarmNotes, KeepWhatIsAtHandWhenAnAlarmComes) {
+  AlarmNotes notes;
+  notes.raised(533, 2, {.cause = AlarmCause::positive_side, .value = 99.5, .limit = 100.0});
+  notes.raised(533, 2, {.cause = AlarmCause::negative_side, .value = 1.0, .limit = 2.0});
+  notes.take([](const AlarmNote& note) {
+    EXPECT_EQ(note.detail.cause, AlarmCause::positive_side);
+    EXPECT_EQ(note.detail.value, 99.5);
+    EXPECT_EQ(note.detail.limit, 100.0);
+  });
+}
+
 TEST(AlarmNotes, AcknowledgeNothingWithoutAnAlarm) {
   AlarmNotes notes;
   notes.acknowledged();

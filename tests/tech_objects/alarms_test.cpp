@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 
+#include "tech_objects/alarms/detail.hpp"
 #include "tech_objects/data_blocks/status_bits.hpp"
 
 namespace lockstep {
@@ -143,6 +144,25 @@ TEST(Alarms, AreRaisedAndTestedOrSayWhyTheyAreNot) {
         << alarm.number << " has no test";
   }
   for (const auto& [number, name] : names) EXPECT_NE(find_alarm(number), nullptr) << name;
+}
+
+TEST(Alarms, ThatAreRaisedTellCauseAndRemedy) {
+  for (const Alarm& alarm : alarms()) {
+    EXPECT_EQ(alarm.cause.empty(), !alarm.not_raised.empty()) << alarm.number;
+    EXPECT_EQ(alarm.remedy.empty(), !alarm.not_raised.empty()) << alarm.number;
+    EXPECT_TRUE(!alarm.values.value.empty() || alarm.values.limit.empty()) << alarm.number;
+    EXPECT_EQ(alarm.values.value.empty(), alarm.values.unit == Unit::kNone) << alarm.number;
+  }
+}
+
+TEST(Alarms, HaveCausesWithNumbersOfTheirOwn) {
+  std::set<AlarmCause> seen;
+  for (const CauseText& row : alarm_causes()) {
+    EXPECT_TRUE(seen.insert(row.cause).second) << row.text;
+    EXPECT_EQ(row.text.empty(), row.cause == AlarmCause::none);
+    EXPECT_EQ(&cause_text(row.cause), &row);
+  }
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(AlarmCause::used_by) + 1) << "each has a text";
 }
 
 TEST(ErrorIds, AreThoseOfTheCatalogue) {

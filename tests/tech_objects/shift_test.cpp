@@ -30,7 +30,7 @@ struct Leading {
   Setpoint now{};
 };
 
-/// The greatest amount of a shift from 0 to 5 whose target becomes 8 over a distance of 50 after some ticks;
+/// The maximum amount of a shift from 0 to 5 whose target becomes 8 over a distance of 50 after some ticks;
 /// the leading value stands until some more ticks are over, then it speeds up.
 double maximum_amount(int ticks_before, int ticks_of_rest) {
   Shift shift;

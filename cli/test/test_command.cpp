@@ -1,0 +1,116 @@
+// lockstep test: simulates projects and tells whether they come to what they expect.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "cli/command/command.hpp"
+#include "cli/command/standard_streams.hpp"
+#include "cli/test/junit.hpp"
+#include "hmi_bridge/network/visible_text.hpp"
+#include "projects/runtime/judge.hpp"
+
+namespace lockstep::cli {
+namespace {
+
+struct TestOptions {
+  std::vector<std::string> files;
+  std::string junit;
+};
+
+double seconds_of(std::int64_t nanoseconds) {
+  return static_cast<double>(nanoseconds) * 1e-9;
+}
+
+TestCase case_of(const Judgement& judgement) {
+  const Expectation& expectation = *judgement.expectation;
+  TestCase one{.name = title_of(expectation), .seconds = seconds_of(judgement.at)};
+  if (judgement.holds) return one;
+  one.result = TestCase::Result::failed;
+  one.message = "is " + judgement.actual;
+  if (expectation.value || !expectation.text.empty()) {
+    Expectation plain = expectation;
+    plain.text.clear();
+    one.message = "expected: " + title_of(plain) + "; " + one.message;
+  }
+  return one;
+}
+
+std::string line_of(const std::string& file, const Judgement& judgement, const TestCase& one) {
+  const Expectation& expectation = *judgement.expectation;
+  const std::string place =
+      fmt::format("{}:{}", expectation.file.empty() ? file : expectation.file, expectation.line);
+  const std::string actual = judgement.holds ? "is " + judgement.actual : one.message;
+  return fmt::format("{}  {:.6f} s  {}: {}: {}\n", judgement.holds ? "pass" : "FAIL", one.seconds, place,
+                     one.name, actual);
+}
+
+/// Its lines go to standard output as they come.
+TestSuite test(const std::string& file, int& status) {
+  TestSuite suite{.name = file, .file = file, .cases = {}};
+  int loading = kOk;
+  std::optional<Project> project = load_or_tell(file, loading, {}, Warnings::kept);
+  if (!project) {
+    status = std::max(status, loading);
+    suite.cases.push_back(
+        {.name = "check",
+         .result = TestCase::Result::error,
+         .message = loading == kNotValid ? "the project is not valid" : "the file cannot be read"});
+    return suite;
+  }
+  suite.name = project->name;
+  if (project->expectations.list.empty()) write_data(visible(file) + ": no expectations\n");
+  for (const Judgement& judgement : judge(*project)) {
+    suite.cases.push_back(case_of(judgement));
+    write_data(line_of(visible(file), judgement, suite.cases.back()));
+    if (!judgement.holds) status = std::max<int>(status, kNotValid);
+  }
+  return suite;
+}
+
+bool write_junit(const std::string& path, const std::vector<TestSuite>& suites) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out << junit_xml(suites);
+  out.close();
+  if (out) return true;
+  tell("--junit: " + path + ": " + std::strerror(errno), Severity::error);
+  return false;
+}
+
+int run_tests(const TestOptions& options) {
+  int status = kOk;
+  std::vector<TestSuite> suites;
+  std::size_t cases = 0, passed = 0;
+  for (const std::string& file : options.files) {
+    const TestSuite& suite = suites.emplace_back(test(file, status));
+    cases += suite.cases.size();
+    passed += suite.count(TestCase::Result::passed);
+  }
+  write_data(fmt::format("{} of {} expectations hold\n", passed, cases));
+  if (!options.junit.empty() && !write_junit(options.junit, suites)) return kCouldNotStart;
+  return status;
+}
+
+}  // namespace
+
+void add_test_command(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("test", "Simulate projects and tell whether their expectations hold");
+  auto options = std::make_shared<TestOptions>();
+  command->add_option("FILE", options->files, "project files")->required();
+  command->add_option("--junit", options->junit, "write the results to this file, as JUnit XML");
+  command->footer(
+      "Each project is simulated in virtual time, with its stimuli, to its last expectation or for its "
+      "\"duration\";\n"
+      "Modbus, LCM and kept values are off. Results go to standard output, one a line with the values that "
+      "there\n"
+      "were, problems of a project to standard error.\n"
+      "Exit status: 0 all expectations hold, 1 one does not or a project is not valid, 2 a file cannot be "
+      "read or\n"
+      "written");
+  command->callback([&action, options] { action = [options] { return run_tests(*options); }; });
+}
+
+}  // namespace lockstep::cli

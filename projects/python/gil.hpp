@@ -1,0 +1,26 @@
+/// Letting the GIL go, and coming back, also where the interpreter ends meanwhile: up to Python 3.13 it
+/// unwinds a thread that comes back then, and unwinding ends the process where it meets a destructor.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace lockstep::python {
+
+/// Lets the GIL go for its lifetime. A thread that comes back when the interpreter has ended stays here for
+/// ever.
+class WithoutGil {
+ public:
+  WithoutGil() : state_(PyEval_SaveThread()) {}
+  ~WithoutGil();
+  WithoutGil(const WithoutGil&) = delete;
+  WithoutGil& operator=(const WithoutGil&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
+/// In a thread that has let the GIL go: has handlers of signals run, as Ctrl-C asks for.
+/// @throws pybind11::error_already_set with what they raise, such as KeyboardInterrupt
+void look_at_signals();
+
+}  // namespace lockstep::python

@@ -1,0 +1,83 @@
+"""What can go wrong, and how it is told. Every exception of the package is a LockstepError."""
+
+from __future__ import annotations
+
+from typing import Iterable, NamedTuple
+
+
+class Problem(NamedTuple):
+    """One thing that is wrong with a project file, or that is legal and looks like a mistake."""
+
+    place: str
+    """JSON pointer, such as ``/tags/start/init``; ``line:column`` where the text is no JSON."""
+    text: str
+    """What is wrong, and what is allowed; one line."""
+    severity: str = "error"
+    """``error``: the project is not valid; ``warning``: it is."""
+
+    def __str__(self) -> str:
+        return f"{self.place}: {'warning: ' if self.severity == 'warning' else ''}{self.text}"
+
+
+def problems_from(errors: Iterable[tuple[str, str]], warnings: Iterable[tuple[str, str]]) -> list[Problem]:
+    """Problems as the runtime lists them: errors first."""
+    listed = [Problem(place, text) for place, text in errors]
+    return listed + [Problem(place, text, "warning") for place, text in warnings]
+
+
+class LockstepError(Exception):
+    """The base of all exceptions of this package."""
+
+
+class InvalidProject(LockstepError, ValueError):
+    """A project is not valid; ``problems`` has all that is wrong, not the first only."""
+
+    def __init__(self, errors: Iterable[tuple[str, str]], warnings: Iterable[tuple[str, str]] = ()) -> None:
+        self.problems: list[Problem] = problems_from(errors, warnings)
+        super().__init__(
+            [(problem.place, problem.text) for problem in self.problems if problem.severity == "error"],
+            [(problem.place, problem.text) for problem in self.problems if problem.severity == "warning"],
+        )
+
+    def __str__(self) -> str:
+        wrong = [str(problem) for problem in self.problems if problem.severity == "error"]
+        return "\n".join([f"the project is not valid ({len(wrong)} problem{'s'[: len(wrong) != 1]})", *wrong])
+
+
+class PathError(LockstepError, KeyError):
+    """A path leads to no value; the text says what is wrong and what is near."""
+
+    def __str__(self) -> str:
+        return str(self.args[0]) if self.args else ""
+
+
+class ReadOnly(LockstepError, TypeError):
+    """What is there cannot be written; the text says why."""
+
+
+class OutOfRange(LockstepError, ValueError):
+    """A value that its place does not take; the text says what is allowed."""
+
+
+class ExpressionError(LockstepError, ValueError):
+    """A text is no expression of the project; the text says where and why."""
+
+
+class BusyError(LockstepError, RuntimeError):
+    """Another thread runs or waits for what is asked for."""
+
+
+class ClosedError(LockstepError, ValueError):
+    """The project has been closed."""
+
+
+class RunError(LockstepError, RuntimeError):
+    """A run in real time could not be started; the text says what is wrong and why."""
+
+
+class TraceError(LockstepError, ValueError):
+    """A trace file cannot be read, or is damaged; the text names file and place."""
+
+
+class SweepError(LockstepError, RuntimeError):
+    """A sweep cannot be begun or resumed, such as with the results of another one."""

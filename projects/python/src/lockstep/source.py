@@ -1,0 +1,115 @@
+"""Where a project comes from: a file or its content, with keys changed by JSON pointers (RFC 6901)."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+
+from .errors import InvalidProject, PathError
+
+ProjectSource = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+"""A project file, or its content as ``json.load`` gives it."""
+
+_LONGEST = (16 << 20) + 1
+"""What is read of a file at most: a byte more than the loader takes, so that it tells."""
+
+
+class Text(NamedTuple):
+    """The text of a project, and the folder to which names of files in it are relative."""
+
+    text: bytes
+    folder: str
+    file: str
+    """Its name; empty: none."""
+
+
+def text_of(project: ProjectSource) -> Text:
+    """The text of a project.
+
+    :raises OSError: the file cannot be read
+    :raises TypeError: what is given is neither a path nor a mapping
+    """
+    if isinstance(project, Mapping):
+        return Text(json.dumps(plain(project)).encode(), "", "")
+    if not isinstance(project, (str, os.PathLike)):
+        kind = type(project).__name__
+        raise TypeError(f"a project is the path of its file, or its content as a mapping; not {kind}")
+    path = Path(project)
+    with path.open("rb") as file:
+        return Text(file.read(_LONGEST), str(path.parent), str(path))
+
+
+def plain(value: Any) -> Any:
+    """A value as JSON has it; NumPy's scalars and arrays and tuples become Python's numbers and lists.
+
+    :raises TypeError: JSON has no such value
+    """
+    if isinstance(value, (np.generic, np.ndarray)):
+        return plain(value.tolist())
+    if value is None or isinstance(value, (bool, int, float, str)):
+        return value
+    if isinstance(value, Mapping):
+        if not all(isinstance(key, str) for key in value):
+            raise TypeError("keys of an object have to be str")
+        return {key: plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    raise TypeError(f"JSON has no {type(value).__name__}; allowed: bool, int, float, str, None, list, dict")
+
+
+def changed(source: Text, changes: Mapping[str, Any]) -> Text:
+    """The project with other values at some JSON pointers. Of an object a member may be added, an array keeps its
+    elements.
+
+    :raises PathError: a pointer leads nowhere
+    :raises InvalidProject: the text is no JSON, or has a key twice
+    """
+    if not changes:
+        return source
+    try:
+        document = json.loads(source.text, object_pairs_hook=_each_once, parse_float=_number)
+    except (ValueError, RecursionError) as error:
+        raise InvalidProject([("1:1", f"the text cannot be changed: {error}")]) from None
+    for pointer, value in changes.items():
+        _set(document, pointer, plain(value))
+    return source._replace(text=json.dumps(document).encode())
+
+
+def _number(text: str) -> int | float:
+    """A number with a point or an exponent: ``3e2`` is whole in a project file, ``3.0`` is not."""
+    number = float(text)
+    return int(number) if "." not in text and abs(number) < 2**53 and number.is_integer() else number
+
+
+def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    members = dict(pairs)
+    if len(members) != len(pairs):
+        twice = next(key for key, _ in pairs if [name for name, _ in pairs].count(key) > 1)
+        raise ValueError(f"the key {twice!r} is there twice")
+    return members
+
+
+def _set(document: Any, pointer: str, value: Any) -> None:
+    keys = [key.replace("~1", "/").replace("~0", "~") for key in pointer.split("/")[1:]]
+    place = document
+    for depth, key in enumerate(keys):
+        is_last = depth == len(keys) - 1
+        at = "/" + "/".join(keys[:depth])
+        if isinstance(place, dict):
+            if not is_last and key not in place:
+                raise PathError(f"{pointer}: there is no {key!r} at {at}; there are: {', '.join(place) or 'none'}")
+        elif isinstance(place, list):
+            if not (key.isdecimal() and int(key) < len(place)):
+                raise PathError(f"{pointer}: {at} has {len(place)} elements, from 0; {key!r} is none of them")
+            key = int(key)  # type: ignore[assignment]
+        else:
+            raise PathError(f"{pointer}: {at} is {place!r}, which has no members")
+        if is_last:
+            place[key] = value
+        else:
+            place = place[key]

@@ -1,0 +1,446 @@
+"""Projects in virtual time: loading, stepping, reading, writing, and what goes wrong."""
+
+import copy
+import datetime
+import math
+import pickle
+import signal
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lockstep
+
+
+def test_a_valid_project_has_no_problems(knife):
+    assert [problem for problem in lockstep.check(knife) if problem.severity == "error"] == []
+    assert lockstep.check(str(knife)) == lockstep.check(knife)
+
+
+def test_all_problems_are_told_with_their_places(small):
+    wrong = copy.deepcopy(small)
+    wrong["tags"]["speed"]["type"] = "FLOAT"
+    wrong["clock"]["servo_cycle"] = "0ms"
+    problems = lockstep.check(wrong)
+    assert {"/tags/speed/type", "/clock/servo_cycle"} <= {problem.place for problem in problems}
+    with pytest.raises(lockstep.InvalidProject) as error:
+        lockstep.Project(wrong)
+    assert error.value.problems == problems
+    wrong_only = [problem for problem in problems if problem.severity == "error"]
+    assert all(str(problem) in str(error.value) for problem in wrong_only) and len(wrong_only) >= 2
+    again = pickle.loads(pickle.dumps(error.value))
+    assert again.problems == problems and str(again) == str(error.value)
+
+
+def test_what_is_no_json_is_told_at_its_line(tmp_path):
+    file = tmp_path / "broken.json"
+    file.write_bytes(b'{ "lockstep": 1,\n  "name" \xff }')
+    (problem, *_) = lockstep.check(file)
+    assert problem.place.startswith("2:")
+    with pytest.raises(FileNotFoundError):
+        lockstep.check(tmp_path / "none.json")
+    with pytest.raises(IsADirectoryError):
+        lockstep.Project(tmp_path)
+    for other in (None, 3, b"bytes"):
+        with pytest.raises(TypeError, match="path of its file"):
+            lockstep.check(other)
+
+
+def test_it_steps_by_ticks_and_by_seconds(small):
+    with lockstep.Project(small) as project:
+        project.step()
+        assert (project.ticks, project.time, project.servo_cycle) == (1, 0.001, 0.001)
+        project.step(4)
+        project.run(0.0101)  # rounded up to a whole tick
+        assert project.ticks == 16
+        project.run(datetime.timedelta(milliseconds=4))
+        project.step(0)
+        project.run(0)
+        assert project.time == 0.02
+
+
+@pytest.mark.parametrize("n", [-1, 2**63, 2**70])
+def test_a_number_of_ticks_has_a_range(small, n):
+    with pytest.raises(lockstep.OutOfRange):
+        lockstep.Project(small).step(n)
+
+
+@pytest.mark.parametrize("seconds", [-1e-9, math.nan, math.inf, 1e10])
+def test_a_duration_has_a_range(small, seconds):
+    project = lockstep.Project(small)
+    with pytest.raises(ValueError, match="seconds may not be"):
+        project.run(seconds)
+    assert project.ticks == 0
+
+
+def test_it_runs_until_a_condition_holds(small):
+    project = lockstep.Project(small, changes={"go": True})
+    assert project.run(10.0, until="run.InVelocity AND total > 5")
+    before = project.time
+    assert 0 < before < 10.0
+    assert project.run(10.0, until="run.InVelocity")
+    assert project.time == before
+    assert not project.run(0.01, until="count = 1")
+    with pytest.raises(lockstep.ExpressionError, match="column 1"):
+        project.run(1.0, until="runn.InVelocity")
+    with pytest.raises(lockstep.ExpressionError):
+        project.run(1.0, until="speed")
+
+
+VALUES = [
+    ("go", True, True),
+    ("go", np.bool_(True), True),
+    ("speed", 25, 25.0),
+    ("speed", np.float32(2.5), 2.5),
+    ("share", 0.1, float(np.float32(0.1))),
+    ("count", -32768, -32768),
+    ("count", np.int64(7), 7),
+    ("long", -(2**63), -(2**63)),
+    ("long", 2**63 - 1, 2**63 - 1),
+    ("total", 2**64 - 1, 2**64 - 1),
+    ("mask", 0xFFFF, 0xFFFF),
+    ("mask.X3", True, True),
+    ("pause", 0.25, 0.25),
+    ("pause", datetime.timedelta(seconds=2), 2.0),
+    ("kind", "stout", "stout"),
+    ("kind", "grün", "grün"),
+    ("heights", [1.0, 2.0, 3.0, 4.0], [1.0, 2.0, 3.0, 4.0]),
+    ("heights[1..2]", np.array([8.0, 9.0]), [8.0, 9.0]),
+    ("heights[3]", 4, 4.0),
+    ("points[*].x", (1.0, 2.0), [1.0, 2.0]),
+    ("Axis.Override.Velocity", 50.0, 50.0),
+    ("AXIS.override.VELOCITY", 50.0, 50.0),
+]
+
+
+@pytest.mark.parametrize("path, value, read", VALUES)
+def test_what_is_written_is_read_in_its_type(small, path, value, read):
+    project = lockstep.Project(small)
+    project[path] = value
+    assert project[path] == read
+    assert type(project[path]) is type(read)
+
+
+@pytest.mark.parametrize("path", ["nothing", "Axis.Positon", "Axis", "run", "heights[9]", "points", "", "a b", "power.Axis"])
+def test_an_unknown_path_is_told(small, path):
+    project = lockstep.Project(small)
+    with pytest.raises(lockstep.PathError) as error:
+        project[path]
+    assert isinstance(error.value, KeyError)
+    text = str(error.value)
+    assert text == error.value.args[0] and (path == "" or path.split(".")[-1].split("[")[0] in text)
+    with pytest.raises(lockstep.PathError):
+        project[path] = 1
+    assert path not in project
+
+
+def test_what_is_near_an_unknown_path_is_named(small):
+    with pytest.raises(lockstep.PathError, match="did you mean"):
+        lockstep.Project(small)["Axis.Positon"]
+
+
+WRONG = [
+    ("go", 1),
+    ("go", "TRUE"),
+    ("go", None),
+    ("speed", "10"),
+    ("speed", True),
+    ("speed", None),
+    ("speed", 1j),
+    ("speed", [1.0]),
+    ("count", 1.0),
+    ("count", True),
+    ("count", "1"),
+    ("pause", "1s"),
+    ("kind", 3),
+    ("kind", b"ale"),
+    ("heights", 1.0),
+    ("heights", "1234"),
+    ("heights", {1.0, 2.0, 3.0, 4.0}),
+    ("heights", [1.0, 2.0, "3.0", 4.0]),
+]
+
+
+@pytest.mark.parametrize("path, value", WRONG)
+def test_a_wrong_type_is_told(small, path, value):
+    project = lockstep.Project(small)
+    before = project[path]
+    with pytest.raises(TypeError, match="allowed"):
+        project[path] = value
+    assert project[path] == before
+
+
+OUTSIDE = [
+    ("speed", math.nan),
+    ("speed", math.inf),
+    ("speed", 10**400),
+    ("share", 1e300),
+    ("count", 32768),
+    ("count", -(10**30)),
+    ("total", -1),
+    ("total", 2**64),
+    ("mask", 65536),
+    ("pause", 1e10),
+    ("pause", math.nan),
+    ("kind", "a long text"),
+    ("kind", "漢"),
+    ("kind", "a\n"),
+    ("Axis.Override.Velocity", 300.0),
+]
+
+
+@pytest.mark.parametrize("path, value", OUTSIDE)
+def test_a_value_out_of_range_is_told(small, path, value):
+    project = lockstep.Project(small)
+    before = project[path]
+    with pytest.raises(lockstep.OutOfRange, match="allowed") as error:
+        project[path] = value
+    assert isinstance(error.value, ValueError) and path in str(error.value)
+    assert project[path] == before
+
+
+def test_another_number_of_elements_is_told(small):
+    with pytest.raises(ValueError, match="has 4 elements, not 3"):
+        lockstep.Project(small)["heights"] = [1.0, 2.0, 3.0]
+
+
+@pytest.mark.parametrize("path", ["Axis.Position", "Axis.StatusWord.X0", "run.Velocity", "Axis.VirtualAxis.Mode"])
+def test_what_is_read_only_is_told(small, path):
+    project = lockstep.Project(small)
+    value = project[path]
+    with pytest.raises(lockstep.ReadOnly, match="cannot be written") as error:
+        project[path] = value
+    assert isinstance(error.value, TypeError)
+    assert project.info(path).read_only
+
+
+def test_a_path_is_a_str(small):
+    project = lockstep.Project(small)
+    for path in (0, None, b"go", Path("go")):
+        with pytest.raises(TypeError, match="a path is a str"):
+            project[path]
+    with pytest.raises(TypeError):
+        lockstep.Project(small, signals="Axis.Position")
+
+
+def test_every_path_that_is_listed_can_be_read(knife):
+    project = lockstep.Project(knife)
+    paths = project.paths()
+    assert {"start", "gear.InSync", "Knife.ActualPosition"} <= set(paths) and len(paths) == len(set(paths))
+    for path in paths:
+        assert isinstance(project[path], (bool, int, float, str, list)), path
+    assert list(project) == paths == project._ipython_key_completions_()
+    assert project.info("Knife.Velocity") == ("LREAL", "u/s", project.info("Knife.Velocity").read_only)
+
+
+def test_expressions_are_evaluated_in_their_type(small):
+    project = lockstep.Project(small, changes={"speed": -2.5, "total": 2**64 - 1})
+    assert project.evaluate("ABS(speed) * 2.0") == 5.0
+    assert project.evaluate("speed < 0.0 AND kind = 'ale'") is True
+    assert project.evaluate("total") == 2**64 - 1
+    assert project.evaluate("count + 1") == 1
+    assert project.evaluate("pause") == 1.5
+    for wrong in ("speed +", "nothing", "kind", ""):
+        with pytest.raises(lockstep.ExpressionError, match="column"):
+            project.evaluate(wrong)
+
+
+def test_changes_are_keys_by_pointers_and_values_by_paths(small):
+    project = lockstep.Project(small, changes={"/clock/servo_cycle": "500us", "/tags/speed/init": 3e2, "count": 5})
+    assert (project.servo_cycle, project["speed"], project["count"]) == (0.0005, 300.0, 5)
+    assert small["clock"]["servo_cycle"] == "1ms"
+    for pointer in ("/tags/none/init", "/programs/3/name", "/programs/x/name", "/name/first"):
+        with pytest.raises(lockstep.PathError, match=pointer):
+            lockstep.Project(small, changes={pointer: 1})
+    with pytest.raises(lockstep.InvalidProject, match="servo_cycle"):
+        lockstep.Project(small, changes={"/clock/servo_cycle": 3})
+    assert lockstep.check(small, changes={"/name": ""})[0].place == "/name"
+    with pytest.raises(lockstep.PathError):
+        lockstep.check(small, changes={"speed": 1.0})
+    with pytest.raises(TypeError):
+        lockstep.Project(small, changes={"/name": object()})
+
+
+def test_a_changed_project_is_otherwise_the_same(tmp_path, knife):
+    text = knife.read_text().replace('"speed":   { "type": "LREAL", "init": 200.0', '"speed":   { "type": "LREAL", "init": 2e2')
+    file = tmp_path / "knife.json"
+    file.write_text(text.replace('"interpolator_ratio": 2 ', '"interpolator_ratio": 2e0 '))
+    assert file.read_text().count("2e") == 2
+    plain = lockstep.Project(file)
+    changed = lockstep.Project(file, changes={"/description": "another"})
+    for project in (plain, changed):
+        project.run(3.0)
+    assert plain.trace == changed.trace
+
+
+def test_jobs_are_events_if_they_are_asked_for(small):
+    project = lockstep.Project(small, jobs=True, changes={"go": True})
+    project.run(1.0)
+    started = [event for event in project.events if event.kind == "job started" and event.source == "run"]
+    assert started and started[0].type == "MC_MoveVelocity" and 0 <= started[0].time < 1.0
+    assert project.alarms == []
+    quiet = lockstep.Project(small, changes={"go": True})
+    quiet.run(1.0)
+    assert quiet.events == []
+
+
+def test_alarms_are_pending_until_they_are_acknowledged(small):
+    limited = copy.deepcopy(small)
+    axis = limited["technology_objects"]["Axis"]
+    axis["config"]["PositionLimits_SW"] = {"Active": True, "MaxPosition": 20.0}
+    limited["tags"]["reset"] = {"type": "BOOL"}
+    limited["programs"][0]["calls"] += [
+        {"fb": "MC_Reset", "name": "reset_axis", "in": {"Axis": "Axis", "Execute": "reset"}},
+        {"fb": "MC_Home", "name": "home", "in": {"Axis": "Axis", "Execute": "power.Status", "Mode": 0}},
+    ]
+    project = lockstep.Project(limited)
+    project.run(0.1)
+    project["go"] = True
+    project.run(9.9)
+    (alarm,) = project.alarms
+    assert (alarm.kind, alarm.source, alarm.type) == ("alarm", "Axis", "TO_PositioningAxis")
+    assert alarm.number == project["Axis.ErrorDetail.Number"] and alarm.text and alarm.reaction
+    assert 0 < alarm.time < 10.0
+    project["go"] = False
+    project["reset"] = True
+    project.run(0.1)
+    assert project.alarms == []
+    assert [event.kind for event in project.events] == ["alarm", "acknowledged"]
+
+
+def test_warnings_of_the_file_are_messages(small):
+    warned = copy.deepcopy(small)
+    warned["modbus"] = {"server": {"listen": "0.0.0.0:1502"}}
+    project = lockstep.Project(warned)
+    assert project.problems == [p for p in lockstep.check(warned) if p.severity == "warning"] != []
+    assert project.messages == [str(problem) for problem in project.problems]
+
+
+def test_a_closed_project_answers_with_an_error(small):
+    project = lockstep.Project(small)
+    project.step(100)
+    trace = project.trace
+    project.close()
+    project.close()
+    assert project.closed and project.name == "small" and "closed" in repr(project)
+    for use in (
+        lambda: project.step(),
+        lambda: project.run(1.0),
+        lambda: project["go"],
+        lambda: project.__setitem__("go", True),
+        lambda: "go" in project,
+        lambda: project.trace,
+        lambda: project.events,
+        lambda: project.alarms,
+        lambda: project.time,
+        lambda: project.paths(),
+        lambda: project.evaluate("go"),
+    ):
+        with pytest.raises(lockstep.ClosedError):
+            use()
+    assert trace.rows == 50
+
+
+def test_a_context_closes_it_also_after_an_error(small):
+    with pytest.raises(ZeroDivisionError):
+        with lockstep.Project(small) as project:
+            1 / 0
+    assert project.closed
+
+
+def test_another_thread_is_refused_while_it_runs_and_the_gil_is_free(small):
+    project = lockstep.Project(small, signals=[])
+    begun = threading.Event()
+    stop = []
+
+    def run():
+        begun.set()
+        try:
+            for _ in range(1000):
+                if stop:
+                    return
+                project.run(100.0)
+        except lockstep.BusyError:
+            stop.append("refused")
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    begun.wait()
+    refused = 0
+    end = time.monotonic() + 60
+    while refused < 10 and time.monotonic() < end:
+        for use in (lambda: project["speed"], lambda: project.step(), project.close, lambda: project.trace):
+            try:
+                use()
+            except lockstep.BusyError:  # told only while ticks run: this thread runs beside them
+                refused += 1
+            except lockstep.ClosedError:
+                refused = 10
+        if not thread.is_alive():
+            break
+    stop.append("enough")
+    thread.join()
+    assert refused >= 10
+
+
+def test_ctrl_c_ends_a_long_run(small):
+    project = lockstep.Project(small, signals=[])
+    pressed = []
+
+    def press():
+        pressed.append(time.monotonic())
+        signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+
+    timer = threading.Timer(0.2, press)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        project.run(1e8)
+    assert time.monotonic() - pressed[0] < 5.0  # a twentieth of a second on a machine with nothing else to do
+    timer.join()
+    at = project.ticks
+    assert 0 < at < 1e11
+    project.step()
+    assert project.ticks == at + 1
+
+
+def test_projects_are_independent_of_each_other(small):
+    projects = [lockstep.Project(small, changes={"go": True, "speed": float(10 + i)}) for i in range(4)]
+    threads = [threading.Thread(target=project.run, args=(3.0,)) for project in projects]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [project["Axis.Velocity"] for project in projects] == [10.0, 11.0, 12.0, 13.0]
+
+
+def test_a_project_tells_why_it_is_not_pickled(small):
+    with pytest.raises(TypeError, match="run in progress"):
+        pickle.dumps(lockstep.Project(small))
+
+
+def test_repr_says_what_it_is(small, knife):
+    project = lockstep.Project(small)
+    project.run(0.25)
+    assert repr(project) == "<lockstep.Project 'small', at 0.25 s>"
+    assert (project.name, project.description, project.file) == ("small", "An axis, and a tag of each kind.", "")
+    assert lockstep.Project(knife).file == str(knife)
+
+
+def test_misuse_of_the_extension_module_does_not_crash():
+    from lockstep import _lockstep
+
+    for wrong in (b"", b"\x00" * 100, b"[" * 1000, b"{}", b"null"):
+        with pytest.raises(lockstep.InvalidProject):
+            _lockstep.load(wrong, "", None, False)
+    # An object that has never been constructed.
+    for kind in (_lockstep.SteppedProject, _lockstep.RealTimeProject, _lockstep.TraceView):
+        for make in (kind, lambda: kind.__new__(kind), lambda: object.__new__(kind)):
+            with pytest.raises(TypeError):
+                make()
+    raw = lockstep.Project.__new__(lockstep.Project)
+    for use in (lambda: raw["go"], raw.step, raw.close, lambda: repr(raw)):
+        with pytest.raises(AttributeError):
+            use()
