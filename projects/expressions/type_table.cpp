@@ -36,8 +36,8 @@ constexpr TypeText kTypes[] = {
 
 constexpr OtherType kOthers[] = {
     {"STRING[n]",
-     "text of up to n printable characters of ISO 8859-1, n from 1 to 254; it is compared with = and <> and "
-     "assigned, nothing else"},
+     "text of up to n printable characters of ISO 8859-1, n from 1 to 254; it is compared with = and <>, "
+     "chosen by SEL and MUX, and assigned, nothing else"},
     {"ARRAY[lower..upper] OF type",
      "elements of an elementary type or of TO_Cam_Struct_PointData, TO_Cam_Struct_SegmentData; bounds of "
      "DINT, up to 100,000 elements"},
