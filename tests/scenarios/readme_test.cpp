@@ -155,12 +155,26 @@ TEST_F(FlyingShear, TellsOnTheConsoleWhatHasHappenedAndWhereToReadOn) {
   const std::string said = process.err();
   const std::size_t at = said.find("Shear: alarm 521");
   ASSERT_NE(at, std::string::npos) << said;
+  const std::string told = said.substr(at, said.find("lockstep: ", at) - at);
+  for (const char* part : {"cause: ", "remedy: "})
+    EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;
   EXPECT_EQ(said.find("alarm 521", at + 20), std::string::npos) << "it comes once\n" << said;
   EXPECT_NE(said.find("Shear: alarms acknowledged", at), std::string::npos) << said;
   Process described({LOCKSTEP_PROGRAM, "describe", "521"});
   ASSERT_EQ(described.status(), 0);
   for (const char* part : {"ollowing error", "MC_Reset"})
     EXPECT_NE(described.out().find(part), std::string::npos) << part << "\n" << described.out();
+}
+
+TEST_F(FlyingShear, IsDrawnInTheUnitsOfItsAxes) {
+  Process process = run();
+  ASSERT_EQ(process.status(), 0) << process.err();
+  Process drawn({LOCKSTEP_PROGRAM, "plot", directory_.file("shear.csv"), "--project",
+                 directory_.file("shear.json"), "-o", directory_.file("shear.svg")});
+  ASSERT_EQ(drawn.status(), 0) << drawn.err();
+  const std::string picture = content(directory_.file("shear.svg"));
+  EXPECT_NE(picture.find("mm/s"), std::string::npos);
+  EXPECT_EQ(picture.find("[u"), std::string::npos) << "a unit that is none";
 }
 
 TEST_F(FlyingShear, IsWrittenWithWordsThatTheReferenceKnows) {
