@@ -68,7 +68,7 @@ TEST(Aposs, RunMovesTheAxisOfADevice) {
   // 3000 RPM, 500 PPR: 100 qc/ms; in 500 ms up and 500 ms down, 150,000 counts between.
   const std::string file =
       folder.write("p.m",
-                   "VEL 100\nACC 100\nDEC 100\nt0 = TIME\nPOSA 200000\nt1 = (TIME - t0) / 10\n"
+                   "VEL 100\nACC 100\nDEC 100\nt0 = TIME\nPOSA 200000\nt1 = (TIME - t0) % 10\n"
                    "PRINT APOS, t1\n");
   const Ended ended =
       lockstep({"aposs", "run", file, "--set", "ENCODER=500", "--set", "32-80=3000", "--set", "RAMPMIN=0.5"});
