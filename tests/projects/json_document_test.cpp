@@ -4,7 +4,7 @@
 
 #include "projects/json/document.hpp"
 
-namespace lockstep {
+namespace lockstep::json_document_test {
 namespace {
 
 struct Refused {
@@ -180,4 +180,4 @@ TEST(DidYouMean, NamesTheNearestOneOrNone) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::json_document_test

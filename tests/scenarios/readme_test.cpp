@@ -8,7 +8,7 @@
 #include "tests/scenarios/csv_table.hpp"
 #include "tests/scenarios/modbus_client.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::readme_test {
 namespace {
 
 const std::string kSource = LOCKSTEP_SOURCE_DIR "/";
@@ -147,4 +147,4 @@ TEST(Readme, TheCommandsOfDevThatItNamesAreThere) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::readme_test

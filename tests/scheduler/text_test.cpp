@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace lockstep {
+namespace lockstep::text_test {
 namespace {
 
 TEST(Text, EndsAtTheFirstZeroOrWithItsRoom) {
@@ -63,4 +63,4 @@ TEST(Text, GoesThroughItsSignalsInAnyRoom) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::text_test

@@ -14,7 +14,7 @@
 
 #include "tech_objects/data_blocks/status_bits.hpp"
 
-namespace lockstep {
+namespace lockstep::alarms_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -195,4 +195,4 @@ TEST(ErrorIds, ThatTheRuntimeReportsHaveATextAndUnknownOnesHaveNone) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::alarms_test
