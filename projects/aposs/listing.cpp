@@ -4,14 +4,13 @@
 #include <array>
 #include <sstream>
 
+#include "projects/aposs/interrupt_classes.hpp"
 #include "scheduler/aposs/interrupts.hpp"
 
 namespace lockstep::aposs {
 namespace {
 
 constexpr std::string_view kPositions[] = {"+APOS", "-APOS", "+MAPOS", "-MAPOS", "+MCPOS", "-MCPOS"};
-constexpr std::string_view kClasses[] = {"ALL",     "INT",   "POSINT", "COMBIT",
-                                         "STATBIT", "PARAM", "TIME",   "PERIOD"};
 
 std::string cell_text(const Image& image, std::size_t cell) {
   if (cell < image.variables.size()) return image.variables[cell];
@@ -68,7 +67,7 @@ std::string operand_text(const Image& image, const Instruction& at, Operand kind
     case Operand::kPosition:
       return std::string(kPositions[value]);
     case Operand::kClass:
-      return std::string(kClasses[value]);
+      return std::string(kInterruptClassNames[value]);
     case Operand::kPrinted:
     case Operand::kNone:
       break;

@@ -7,7 +7,7 @@
 namespace lockstep::aposs {
 namespace {
 
-enum PublishedError : int {
+enum MachineError : int {
   kTooManyLoops = 114,
   kTooManyGosubs = 151,
   kTooManyReturns = 152,

@@ -3,7 +3,7 @@
 
 #include "tests/cli/command_run.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::aposs_test {
 namespace {
 
 const std::string kProgram =
@@ -134,4 +134,4 @@ TEST(Aposs, ListShowsSourceAndInternalCommands) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::aposs_test

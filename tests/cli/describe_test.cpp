@@ -13,7 +13,7 @@
 #include "tech_objects/jobs/override.hpp"
 #include "tests/cli/command_run.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::describe_test {
 namespace {
 
 using nlohmann::json;
@@ -300,4 +300,4 @@ TEST(Describe, AnUnknownNameExitsWith1AndASuggestion) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::describe_test

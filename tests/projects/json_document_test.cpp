@@ -6,7 +6,7 @@
 
 #include "projects/json/document.hpp"
 
-namespace lockstep {
+namespace lockstep::json_document_test {
 namespace {
 
 struct Refused {
@@ -254,4 +254,4 @@ TEST(DidYouMean, NamesTheNearestOneOrNone) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::json_document_test

@@ -6,7 +6,7 @@
 #include "changed_project.hpp"
 #include "projects/loader/project.hpp"
 
-namespace lockstep {
+namespace lockstep::project_problems_test {
 namespace {
 
 TEST(ProjectProblems, AreToldForSectionsOfAnotherKind) {
@@ -99,4 +99,4 @@ TEST(ProjectProblems, AreFoundInTimeAmongManyNames) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::project_problems_test

@@ -5,7 +5,7 @@
 
 #include "projects/loader/simulation.hpp"
 
-namespace lockstep {
+namespace lockstep::string_test {
 namespace {
 
 /// @param calls of the program
@@ -248,4 +248,4 @@ TEST(Strings, ThatAreKeptCountWithTheArrays) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::string_test

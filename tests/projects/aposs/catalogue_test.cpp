@@ -7,7 +7,7 @@
 #include "projects/aposs/parameter_names.hpp"
 #include "tests/projects/aposs/program_run.hpp"
 
-namespace lockstep::aposs {
+namespace lockstep::aposs::catalogue_test {
 namespace {
 
 nlohmann::json catalogue(const std::string& name) {
@@ -116,4 +116,4 @@ TEST(AposCatalogue, LetsEveryCommandOfTheDeviceReachIt) {
 }
 
 }  // namespace
-}  // namespace lockstep::aposs
+}  // namespace lockstep::aposs::catalogue_test
