@@ -4,7 +4,7 @@ namespace lockstep {
 namespace {
 
 template <class Block>
-void take_inputs(const Block& block, Job& job) noexcept {
+void take_range(const Block& block, Job& job) noexcept {
   job.asks = MeasuringJob{.mode = static_cast<MeasuringMode>(block.Mode),
                           .limited = block.MeasuringRange,
                           .start_position = block.StartPosition,
@@ -15,7 +15,7 @@ void take_inputs(const Block& block, Job& job) noexcept {
 
 void MC_MeasuringInput::request(Job& job) const noexcept {
   job.kind = JobKind::MC_MeasuringInput;
-  take_inputs(*this, job);
+  take_range(*this, job);
 }
 
 void MC_MeasuringInput::show(JobPhase /*phase*/) noexcept {
@@ -27,7 +27,7 @@ void MC_MeasuringInput::show(JobPhase /*phase*/) noexcept {
 
 void MC_MeasuringInputCyclic::request(Job& job) const noexcept {
   job.kind = JobKind::MC_MeasuringInputCyclic;
-  take_inputs(*this, job);
+  take_range(*this, job);
 }
 
 void MC_MeasuringInputCyclic::show(JobPhase /*phase*/) noexcept {

@@ -59,7 +59,7 @@ Json sections_json(const std::vector<KeySection>& sections) {
   return json;
 }
 
-std::string overview_text(std::size_t width) {
+std::string key_overview_text(std::size_t width) {
   const std::vector<KeySection> sections = key_sections();
   Table table({"Structure", ""});
   for (const KeySection& section : sections) {
@@ -93,7 +93,7 @@ std::vector<std::string> key_paths() {
 }
 
 Subject keys_subject(std::string_view path) {
-  if (path.empty()) return {&overview_text, [] { return sections_json(key_sections()); }};
+  if (path.empty()) return {&key_overview_text, [] { return sections_json(key_sections()); }};
   std::vector<KeySection> found;
   for (const KeySection& section : key_sections())
     if (same_name(section.path, path)) found.push_back(section);

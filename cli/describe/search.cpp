@@ -56,9 +56,10 @@ int rank_of(const std::vector<std::string>& words, const Finding& finding) {
   for (const std::string& word : words) {
     const std::string_view name = finding.name;
     const int in_name = fit(word, name.substr(finding.own));
-    const int in_text = std::max(fit(word, finding.text), fit(word, name.substr(0, finding.own)));
+    const int in_text = fit(word, finding.text);
+    const int in_owner = fit(word, name.substr(0, finding.own)) < 2 ? 0 : 1;
     // Within another word of a sentence a word means something else, as "cam" in "became".
-    const int fits = std::max(4 * in_name, in_text < 2 ? 0 : in_text);
+    const int fits = std::max({4 * in_name, in_text < 2 ? 0 : in_text, in_owner});
     if (fits == 0) return 0;
     rank += fits;
   }

@@ -32,11 +32,11 @@ using namespace std::chrono_literals;
 using Clock = HeardTrace::Clock;
 
 constexpr char kUsualUrl[] = "udpm://239.255.76.67:7667?ttl=0";
-constexpr auto kRefresh = 200ms;      // of the terminal
-constexpr auto kInterval = 1s;        // between two tables in a pipe
-constexpr auto kGather = 1200ms;      // of --once: every trace tells its signals once a second
-constexpr auto kPatience = 2000ms;    // of --once
-constexpr std::size_t kBurst = 1000;  // messages taken between two looks at the clock
+constexpr auto kRefresh = 200ms;               // of the terminal
+constexpr auto kInterval = 1s;                 // between two tables in a pipe
+constexpr auto kGather = 1200ms;               // of --once: every trace tells its signals once a second
+constexpr auto kPatience = 2000ms;             // of --once
+constexpr std::size_t kMessagesAtOnce = 1000;  // messages taken between two looks at the clock
 
 volatile std::sig_atomic_t end_requested = 0;
 
@@ -98,7 +98,7 @@ class Listener {
       if (poll(sources, count, static_cast<int>(left)) < 0) return;
       if (keys && sources[1].revents != 0) return;
       if (sources[0].revents != 0)
-        inbox_.take(kBurst, [this](const std::string& channel, std::span<const std::uint8_t> bytes) {
+        inbox_.take(kMessagesAtOnce, [this](const std::string& channel, std::span<const std::uint8_t> bytes) {
           take(channel, bytes);
         });
     }

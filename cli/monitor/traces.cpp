@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 constexpr auto kWindow = 2s;     // over which the rate is taken
 constexpr auto kSample = 100ms;  // between two counts of it
 constexpr double kSilent = 3.0;  // [s] without a row: the trace waits for its trigger; without a word: silent
-constexpr std::size_t kValue = 14;  // columns of a value
+constexpr std::size_t kValueWidth = 14;  // columns of a value
 
 double seconds(HeardTrace::Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -167,12 +167,12 @@ std::vector<std::string> trace_lines(const HeardTraces& traces, HeardTrace::Cloc
     std::size_t longest = 0;
     for (const TraceSignal& signal : signals)
       longest = std::max(longest, shown_width(printable(signal.name)));
-    longest = std::min(longest, width > kValue + 16 ? width - kValue - 16 : 8);
+    longest = std::min(longest, width > kValueWidth + 16 ? width - kValueWidth - 16 : 8);
     const TraceRow row = trace.row();
     for (std::size_t i = 0; i < signals.size(); ++i) {
       const std::string value = trace.has_row() ? signal_value_text(row.values[i], signals[i].type) : "-";
       const std::string name = padded(cut_to(printable(signals[i].name), longest), longest);
-      std::string line = fmt::format("  {}  {:>{}}", name, value, kValue);
+      std::string line = fmt::format("  {}  {:>{}}", name, value, kValueWidth);
       if (!signals[i].unit.empty()) line += " " + printable(signals[i].unit);
       lines.push_back(cut_to(line, width));
     }

@@ -18,7 +18,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::int64_t kEventHead = 28;  // mark, number, time and two lengths stand before channel and data
+constexpr std::int64_t kHeadSize = 28;  // mark, number, time and two lengths stand before channel and data
 constexpr std::uint32_t kMark = 0xEDA1DA01;
 constexpr std::size_t kTime = 12, kChannelLength = 20, kDataLength = 24;  // where they stand in the head
 // What LCM reads of a channel, and sends as a message [byte].
@@ -160,12 +160,12 @@ bool LcmTraceReader::next() {
 /// Reads the event that begins here; false if none does whose channel and data the file holds. LCM's own
 /// reader believes what the lengths claim and takes memory for up to 2 GiB.
 bool LcmTraceReader::next_event() {
-  std::array<std::uint8_t, kEventHead> head;
+  std::array<std::uint8_t, kHeadSize> head;
   if (std::fread(head.data(), 1, head.size(), log_.get()) != head.size() || number_at(head, 0) != kMark)
     return false;
   const std::uint32_t channel = number_at(head, kChannelLength), data = number_at(head, kDataLength);
   if (channel == 0 || channel > kLongestChannel || data > kLongestMessage) return false;
-  const std::int64_t end = offset_ + kEventHead + channel + data;
+  const std::int64_t end = offset_ + kHeadSize + channel + data;
   if (end > size_) size_ = size_of_file(log_.get());  // it may be growing
   if (end > size_) return false;
   event_.time = time_at(head, kTime);

@@ -14,7 +14,7 @@ namespace {
 constexpr int kCyclesApart = 100;  // for which lines are asked for alone after a refusal
 
 /// The thread that starts the client may be one of the cycle's: nothing of its priority is passed on.
-void step_back() noexcept {
+void leave_cycle_priority() noexcept {
   const sched_param ordinary{};
   ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary);
   ::pthread_setname_np(::pthread_self(), "modbus_client");
@@ -130,7 +130,7 @@ bool ModbusClient::wait_until(Clock::time_point time) {
 }
 
 void ModbusClient::run() noexcept {
-  step_back();
+  leave_cycle_priority();
   const Clock::time_point begin = Clock::now();
   for (Device& device : devices_) {
     device.next = device.last_good = begin;

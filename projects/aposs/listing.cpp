@@ -4,14 +4,13 @@
 #include <array>
 #include <sstream>
 
+#include "projects/aposs/interrupt_classes.hpp"
 #include "scheduler/aposs/interrupts.hpp"
 
 namespace lockstep::aposs {
 namespace {
 
 constexpr std::string_view kPositions[] = {"+APOS", "-APOS", "+MAPOS", "-MAPOS", "+MCPOS", "-MCPOS"};
-constexpr std::string_view kClasses[] = {"ALL",     "INT",   "POSINT", "COMBIT",
-                                         "STATBIT", "PARAM", "TIME",   "PERIOD"};
 
 std::string cell_text(const Image& image, std::size_t cell) {
   if (cell < image.variables.size()) return image.variables[cell];
@@ -68,7 +67,7 @@ std::string operand_text(const Image& image, const Instruction& at, Operand kind
     case Operand::kPosition:
       return std::string(kPositions[value]);
     case Operand::kClass:
-      return std::string(kClasses[value]);
+      return std::string(kInterruptClassNames[value]);
     case Operand::kPrinted:
     case Operand::kNone:
       break;
@@ -212,27 +211,6 @@ std::vector<Routine> handlers_of(const Image& image) {
     if (called) result.push_back(routine);
   }
   return result;
-}
-
-bool append_printed(std::string& line, const Image& image, const Printed& item) {
-  switch (item.kind) {
-    case Printed::Kind::kText:
-      line += image.texts[static_cast<std::size_t>(item.value)];
-      return false;
-    case Printed::Kind::kNumber:
-      line += std::to_string(item.value);
-      return false;
-    case Printed::Kind::kCharacter: {
-      // ISO 8859-1, as UTF-8.
-      const auto character = static_cast<unsigned char>(item.value);
-      if (character >= 0x80) line += static_cast<char>(0xc0 | (character >> 6));
-      line += static_cast<char>(character < 0x80 ? character : 0x80 | (character & 0x3f));
-      return false;
-    }
-    case Printed::Kind::kEndOfLine:
-      return true;
-  }
-  return true;
 }
 
 }  // namespace lockstep::aposs

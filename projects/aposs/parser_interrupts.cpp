@@ -1,4 +1,5 @@
 // ON …, DISABLE, ENABLE.
+#include "projects/aposs/interrupt_classes.hpp"
 #include "projects/aposs/parameter_names.hpp"
 #include "projects/aposs/parser.hpp"
 #include "projects/json/problem.hpp"
@@ -9,9 +10,6 @@ namespace {
 
 constexpr std::string_view kKinds[] = {"ERROR",   "INT",   "APOS", "MAPOS",  "MCPOS", "COMBIT",
                                        "STATBIT", "PARAM", "TIME", "PERIOD", "DELETE"};
-constexpr std::string_view kClasses[] = {"ALL",     "INT",   "POSINT", "COMBIT",
-                                         "STATBIT", "PARAM", "TIME",   "PERIOD"};
-static_assert(std::size(kClasses) == kInterruptClasses);
 
 }  // namespace
 
@@ -95,7 +93,7 @@ void Parser::on_delete(const Place& place) {
 
 void Parser::disable_statement(Operation operation, const Place& place) {
   const ExpressionPointer which =
-      word_argument(kClasses, operation == Operation::kDisable ? "DISABLE" : "ENABLE");
+      word_argument(kInterruptClassNames, operation == Operation::kDisable ? "DISABLE" : "ENABLE");
   emitter_.emit(place, operation, static_cast<std::uint32_t>(which->value));
 }
 

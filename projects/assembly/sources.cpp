@@ -58,7 +58,8 @@ ProjectSources::ProjectSources(std::string_view text, const std::string& folder,
   include_all(root, folder, &top);
   merge(root);
   for (Problem& problem : found_.take_errors()) problems_.push_back(std::move(problem));
-  if (root.kind == JsonKind::object) expand_templates(*root_, made_, texts_, problems_);
+  // With too many values there is nothing to look at.
+  if (root.kind == JsonKind::object && !expand_templates(*root_, made_, texts_, problems_)) root_ = nullptr;
 }
 
 const JsonDocument* ProjectSources::read(std::string_view text, std::string file, std::string folder) {
@@ -84,7 +85,7 @@ void ProjectSources::include(const JsonValue& name, const std::string& folder, c
   if (error)
     return found_.report(name, name.shown() + " cannot be included: " + error.message() +
                                    "; allowed: a file, relative to the one that includes it");
-  if (fs::path(name.text).is_absolute() || !is_within(path, top_))
+  if (fs::path(name.text).is_absolute() || top_.empty() || !is_within(path, top_))
     return found_.report(
         name, name.shown() + " leads out of the folder of the project; allowed: files in it and below it");
   if (!fs::is_regular_file(path, error))

@@ -32,7 +32,8 @@ class TemplateExpansion {
                     Problems& problems)
       : root_(root), made_(made), texts_(texts), problems_(problems) {}
 
-  void expand();
+  /// @return false if there are too many instances or values
+  bool expand();
 
  private:
   void look_at(const JsonValue& one) const;
@@ -55,19 +56,23 @@ class TemplateExpansion {
   bool over_ = false;
 };
 
-void TemplateExpansion::expand() {
+bool TemplateExpansion::expand() {
   const JsonValue* const templates = read_object(root_.find("templates"), problems_);
   if (templates != nullptr)
     for (const auto& [name, one] : templates->members) look_at(*one);
   const JsonValue* const instances = read_array(root_.find("instances"), problems_);
-  if (instances == nullptr) return;
+  if (instances == nullptr) return true;
   for (const JsonValue* const instance : instances->elements) add_instances(*instance);
+  return !over_;
 }
 
 /// What can be said of a template without an instance.
 void TemplateExpansion::look_at(const JsonValue& one) const {
   const Fields fields(one, keys::kTemplate, problems_);
   if (!fields.usable()) return;
+  if (const JsonValue* const modbus = fields["modbus"]) const Fields map(*modbus, keys::kPartMap, problems_);
+  if (const JsonValue* const trace = fields["trace"])
+    const Fields signals(*trace, keys::kPartSignals, problems_);
   const JsonValue* const parameters = read_object(fields["parameters"], problems_);
   if (parameters == nullptr) return;
   std::unordered_set<std::string> names;
@@ -311,11 +316,12 @@ void TemplateExpansion::put_section(std::string_view key, const JsonValue& secti
 
 }  // namespace
 
-void expand_templates(JsonValue& root, std::deque<JsonValue>& made, std::deque<std::string>& texts,
+bool expand_templates(JsonValue& root, std::deque<JsonValue>& made, std::deque<std::string>& texts,
                       std::vector<Problem>& problems) {
   Problems found;
-  TemplateExpansion(root, made, texts, found).expand();
+  const bool expanded = TemplateExpansion(root, made, texts, found).expand();
   for (Problem& problem : found.take_errors()) problems.push_back(std::move(problem));
+  return expanded;
 }
 
 }  // namespace lockstep

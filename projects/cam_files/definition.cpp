@@ -11,10 +11,8 @@
 namespace lockstep {
 namespace {
 
-constexpr double kLargest = 1.0e12;  // magnitude of every number of a cam
-
 std::optional<double> read_value(const JsonValue* value, Problems& problems) {
-  return read_number(value, -kLargest, kLargest, problems);
+  return read_number(value, -kLargestCamNumber, kLargestCamNumber, problems);
 }
 
 template <class T>
@@ -185,13 +183,6 @@ CamShape read_shape(std::size_t kind, const JsonValue& json, Problems& problems)
     default:
       return read_inverse_sine(json, problems);
   }
-}
-
-std::vector<std::string_view> law_names() {
-  std::vector<std::string_view> names;
-  for (std::size_t i = 0; i < kMotionLaws; ++i)
-    names.push_back(motion_law_name(static_cast<MotionLawKind>(i)));
-  return names;
 }
 
 /// A transition; none if it is left to the interpolation of the cam, of which the comment stays.

@@ -12,6 +12,17 @@
 
 namespace lockstep {
 
+/// Magnitude of every number of a cam.
+inline constexpr double kLargestCamNumber = 1.0e12;
+
+/// The motion laws by which a transition may be made, by their names.
+inline std::vector<std::string_view> law_names() {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < kMotionLaws; ++i)
+    names.push_back(motion_law_name(static_cast<MotionLawKind>(i)));
+  return names;
+}
+
 /// A member that is a number.
 template <class T>
 struct CamNumber {

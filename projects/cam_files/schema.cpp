@@ -13,8 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Members = std::vector<std::pair<std::string_view, Json>>;
 
-constexpr double kLargest = 1.0e12;
-
 Json described(std::string_view text, const Json& schema) {
   Json result = {{"description", text}};
   result.update(schema);
@@ -22,7 +20,8 @@ Json described(std::string_view text, const Json& schema) {
 }
 
 Json number(std::string_view text) {
-  return described(text, {{"type", "number"}, {"minimum", -kLargest}, {"maximum", kLargest}});
+  return described(text,
+                   {{"type", "number"}, {"minimum", -kLargestCamNumber}, {"maximum", kLargestCamNumber}});
 }
 Json flag(std::string_view text) {
   return described(text, {{"type", "boolean"}});
@@ -99,13 +98,6 @@ class ObjectSchema {
   std::vector<Key> keys_;
   Members members_;
 };
-
-std::vector<std::string_view> law_names() {
-  std::vector<std::string_view> names;
-  for (std::size_t i = 0; i < kMotionLaws; ++i)
-    names.push_back(motion_law_name(static_cast<MotionLawKind>(i)));
-  return names;
-}
 
 Json points_schema(std::string_view text) {
   return array(text, pair("leading value, following value"));

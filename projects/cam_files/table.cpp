@@ -12,7 +12,6 @@ namespace lockstep {
 namespace {
 
 constexpr std::size_t kMaximumProblems = 1000;
-constexpr double kLargest = 1.0e12;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8, as spreadsheets begin a file
 
 /// What parts the numbers of a table, by its first row: tab, else semicolon, else comma.
@@ -296,7 +295,8 @@ class TableReader {
     }
     if (comma != text.npos) text[comma] = '.';
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), target);
-    if (error == std::errc{} && end == text.data() + text.size() && target >= -kLargest && target <= kLargest)
+    if (error == std::errc{} && end == text.data() + text.size() && target >= -kLargestCamNumber &&
+        target <= kLargestCamNumber)
       return true;
     tell(cell.column,
          quote(cell.text) + " is not allowed here; allowed: a number from -1e12 to 1e12, such as 1.5");

@@ -5,16 +5,14 @@
 #include <limits>
 
 #include "hmi_bridge/traces/text_literal.hpp"
+#include "projects/expressions/letters.hpp"
 #include "projects/literals/duration.hpp"
 
 namespace lockstep {
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+bool begins_name(char c) {
+  return is_letter(c) || c == '_';
 }
 
 int digit_value(char c) {
@@ -33,7 +31,7 @@ Token Lexer::next() {
   Token token;
   token.column = column();
   if (at_ >= text_.size()) return token;
-  if (is_letter(peek())) return name(std::move(token));
+  if (begins_name(peek())) return name(std::move(token));
   if (is_digit(peek())) return number(std::move(token));
   if (peek() == '\'') return quoted_text(std::move(token));
   token.kind = Token::Kind::kSymbol;
@@ -82,7 +80,7 @@ void Lexer::skip_comment() {
 
 Token Lexer::name(Token token) {
   const std::size_t start = at_;
-  while (is_letter(peek()) || is_digit(peek())) ++at_;
+  while (begins_name(peek()) || is_digit(peek())) ++at_;
   token.kind = Token::Kind::kName;
   token.text = text_.substr(start, at_ - start);
   const std::string upper = upper_case(token.text);
@@ -145,7 +143,7 @@ WideInteger Lexer::take_integer() {
 }
 
 void Lexer::end_of_literal(int start) const {
-  if (is_letter(peek()) || is_digit(peek()) || peek() == '#' || (peek() == '.' && is_digit(peek(1))))
+  if (begins_name(peek()) || is_digit(peek()) || peek() == '#' || (peek() == '.' && is_digit(peek(1))))
     throw SyntaxError{column(), quoted(text_.substr(at_, 1)) +
                                     " may not follow the literal that begins at column " +
                                     std::to_string(start)};
@@ -233,7 +231,7 @@ Token Lexer::typed(Token token, Type type) {
 Token Lexer::duration(Token token) {
   const std::size_t start = at_;
   if (peek() == '-' || peek() == '+') ++at_;
-  while (is_letter(peek()) || is_digit(peek()) || (peek() == '.' && is_digit(peek(1)))) ++at_;
+  while (begins_name(peek()) || is_digit(peek()) || (peek() == '.' && is_digit(peek(1)))) ++at_;
   std::string message;
   const auto value = parse_iec_duration(text_.substr(start, at_ - start), message);
   if (!value)

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 
+#include "projects/expressions/letters.hpp"
 #include "projects/json/problem.hpp"
 
 namespace lockstep {
@@ -91,13 +92,6 @@ constexpr auto kKeywords = std::to_array<std::string_view>({"action",
                                                             "wstring",
                                                             "xor"});
 static_assert(std::is_sorted(kKeywords.begin(), kKeywords.end()));
-
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
 
 /// Takes `.Xn` off the end of a path; the number, or -1 if there is none.
 int take_bit(std::string_view& path) {

@@ -146,7 +146,7 @@ inline constexpr auto kExpectation = key_table<void>(
 
 inline constexpr int kVersions[] = {1};
 inline constexpr auto kProject = key_table<void>(
-    kSchema, key::one_of("lockstep", kVersions, "version of the format").needed(),
+    kSchema, kInclude, key::one_of("lockstep", kVersions, "version of the format").needed(),
     key::title("name", "name of the project").needed(), key::text("description", "what the project does"),
     key::structure("clock", kClock, "when things run").needed(),
     key::variants("technology_objects", kObjects, "name: technology object").named(),

@@ -26,7 +26,7 @@ void come_back(Call call) {
 }  // namespace
 
 WithoutGil::~WithoutGil() {
-  come_back([this] { PyEval_RestoreThread(state_); });
+  if (state_ != nullptr) come_back([this] { PyEval_RestoreThread(state_); });
 }
 
 void look_at_signals() {

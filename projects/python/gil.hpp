@@ -16,7 +16,7 @@ class WithoutGil {
   WithoutGil& operator=(const WithoutGil&) = delete;
 
  private:
-  PyThreadState* state_;
+  PyThreadState* state_;  // nullptr: it has not been let go
 };
 
 /// In a thread that has let the GIL go: has handlers of signals run, as Ctrl-C asks for.

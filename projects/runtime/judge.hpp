@@ -13,7 +13,7 @@ struct Judgement {
   const Expectation* expectation;
   std::int64_t at = 0;  ///< time of the tick behind which it was looked at [ns]
   bool holds = false;
-  std::string actual;  ///< values behind that tick, such as "FALSE (step = 3, done = FALSE)"
+  std::string actual{};  ///< values behind that tick, such as "FALSE (step = 3, done = FALSE)"
 };
 
 /// Simulates a project that has just been loaded for its duration, and looks at its expectations. The

@@ -874,12 +874,12 @@ constexpr CommandRow kCommands[] = {
      Refusal::kNone},
 };
 
-constexpr bool in_order() noexcept {
+constexpr bool commands_in_order() noexcept {
   for (std::size_t i = 0; i < std::size(kCommands); ++i)
     if (static_cast<std::size_t>(kCommands[i].command) != i) return false;
   return true;
 }
-static_assert(in_order(), "a command is found by its number");
+static_assert(commands_in_order(), "a command is found by its number");
 
 constexpr CommandAlias kAliases[] = {
     {"DEFORIGIN", "DEF ORIGIN", true},

@@ -86,12 +86,12 @@ constexpr OperationRow kOperations[] = {
     action(Operation::kEnable, "ENABLE", O::kClass),
 };
 
-constexpr bool in_order() noexcept {
+constexpr bool operations_in_order() noexcept {
   for (std::size_t i = 0; i < std::size(kOperations); ++i)
     if (static_cast<std::size_t>(kOperations[i].operation) != i) return false;
   return true;
 }
-static_assert(in_order(), "an operation is found by its number");
+static_assert(operations_in_order(), "an operation is found by its number");
 
 /// Looks at one operand; `instruction` gives the command or list that says how many cells are taken.
 bool sound(const Image& image, const Instruction& instruction, Operand kind, std::uint16_t value) noexcept {

@@ -5,7 +5,7 @@
 namespace lockstep::aposs {
 namespace {
 
-enum PublishedError : int { kUnknownParameter = 112, kLinkFailed = 155 };
+enum DeviceError : int { kUnknownParameter = 112, kLinkFailed = 155 };
 
 }  // namespace
 

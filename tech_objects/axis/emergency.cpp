@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tech_objects/axis/rounding.hpp"
 #include "tech_objects/axis/software_limits.hpp"
 
 namespace lockstep {
-namespace {
-
-/// By what a setpoint may be outside for no other reason than rounding, relative to its size.
-constexpr double kRounding = 1e-12;
-
-}  // namespace
-
 void EmergencyOrders::step() noexcept {
   if (emergency_ramp_ == EmergencyRamp::due) return brake_from_actual();
   if (motion_ != AxisMotion::single_axis || setpoint_.standing()) emergency_ramp_ = EmergencyRamp::none;
@@ -66,7 +60,8 @@ void EmergencyOrders::stay_within_limits(const Setpoint& before) noexcept {
   const SoftwareLimits::Range range = SoftwareLimits::in_effect(data.PositionLimits_SW, modulo_);
   for (const int side : {1, -1}) {
     const double limit = side > 0 ? range.maximum : range.minimum;
-    if (!std::isfinite(limit) || margin(before, side, limit) < -kRounding * (1.0 + std::abs(limit))) continue;
+    if (!std::isfinite(limit) || margin(before, side, limit) < -kRelativeRounding * (1.0 + std::abs(limit)))
+      continue;
     const double missing = -margin(setpoint_, side, limit);
     if (missing > 0.0) setpoint_.position = advanced(setpoint_.position, -side * missing, modulo_);
   }

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tech_objects/axis/rounding.hpp"
 #include "tech_objects/axis/stopping_distance.hpp"
 #include "tech_objects/axis/turning_back.hpp"
 #include "tech_objects/data_blocks/status_bits.hpp"
 
 namespace lockstep {
-namespace {
-
-/// What positions and distances may be apart by rounding, relative to their size.
-constexpr double kRounding = 1e-12;
-
-}  // namespace
-
 // ---- Software limit switches
 
 void LimitOrders::watch() noexcept {
@@ -40,7 +34,7 @@ bool LimitOrders::keep_within(int side, double limit) noexcept {
   const Dynamics dynamics = limit_dynamics();
   const Heading heading{setpoint_, side};
   if (maximum_stopping_distance(heading, dynamics) <= margin) return true;
-  const double slack = kRounding * (1.0 + std::abs(limit));
+  const double slack = kRelativeRounding * (1.0 + std::abs(limit));
   if (turns_in_time(side, margin + slack, dynamics.jerk, motion_, setpoint_, single_, superimposed_))
     return true;
   if (stopping_distance(heading, dynamics) <= margin + slack) return true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tech_objects/axis/rounding.hpp"
 #include "tech_objects/axis/stopping_distance.hpp"
 #include "tech_objects/axis/turning_back.hpp"
 #include "tech_objects/data_blocks/status_bits.hpp"
@@ -10,12 +11,9 @@
 namespace lockstep {
 namespace {
 
-/// What positions may be apart by rounding, relative to their size.
-constexpr double kRounding = 1e-12;
-
 /// Where an axis comes to rest at the latest that nears the end of its range [u]: before the end by more than
 /// the stop may be rounded.
-constexpr double kEndOfRange = kPositionRange * (1.0 - kRounding);
+constexpr double kEndOfRange = kPositionRange * (1.0 - kRelativeRounding);
 
 }  // namespace
 
@@ -38,7 +36,7 @@ void RangeOrders::watch() noexcept {
   const bool generated = power_state_ == PowerState::on && has_bit(data.StatusWord, StatusBit::Enable);
   if (generated && !modulo_.enabled && keep_in(1)) keep_in(-1);
   const double here = setpoint_.position.value;
-  if (std::abs(here) <= kPositionRange * (1.0 + kRounding)) return;
+  if (std::abs(here) <= kPositionRange * (1.0 + kRelativeRounding)) return;
   const int side = sign(here);
   if (side * setpoint_.velocity > 0.0 || side * (here - last_setpoint_.position.value) > 0.0) pass_end();
 }
@@ -53,8 +51,8 @@ bool RangeOrders::keep_in(int side) noexcept {
   const Heading heading{from, side};
   if (maximum_stopping_distance(heading, dynamics) <= margin) return true;
   // A target may be the very end.
-  if (turns_in_time(side, std::max(kPositionRange * (1.0 + kRounding) - here, 0.0), dynamics.jerk, motion_,
-                    setpoint_, single_, superimposed_))
+  if (turns_in_time(side, std::max(kPositionRange * (1.0 + kRelativeRounding) - here, 0.0), dynamics.jerk,
+                    motion_, setpoint_, single_, superimposed_))
     return true;
   if (stopping_distance(heading, dynamics) <= margin) return true;
   constexpr auto kReaction = AlarmReaction::stop_maximum;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tech_objects/axis/rounding.hpp"
 #include "tech_objects/data_blocks/status_bits.hpp"
 #include "tech_objects/profile/fine_interpolation.hpp"
 #include "tech_objects/types/published.hpp"
@@ -11,9 +12,6 @@ namespace {
 
 /// The emergency ramp is what the drive is to do, whatever precontrol other motions have [%].
 constexpr double kWholePrecontrol = 100.0;
-
-/// By what the velocity of a motor that is given by its speed may be rounded, relative to it.
-constexpr double kRounding = 1e-12;
 
 }  // namespace
 
@@ -26,7 +24,7 @@ void ServoOrders::take_settings() noexcept {
                      : data.Actor.DriveParameter.MaxSpeed / 60.0 * distance_per_motor_turn_;
   encoders_.configure(data, drive_settings, has_drive_, modulo_, servo_period_);
   loop_.configure(modulo_, servo_period_);
-  const double highest = motor_limit_ * (1.0 + kRounding);
+  const double highest = motor_limit_ * (1.0 + kRelativeRounding);
   if (has_drive_ && data.DynamicLimits.MaxVelocity > highest)
     reactions_.raise(alarm::kVelocityNotReachable,
                      {.value = data.DynamicLimits.MaxVelocity, .limit = motor_limit_});

@@ -4,16 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "tech_objects/axis/rounding.hpp"
 #include "tech_objects/profile/profile.hpp"
 
 namespace lockstep {
-namespace {
-
-/// What positions and distances may be apart by rounding, relative to their size.
-constexpr double kRounding = 1e-12;
-
-}  // namespace
-
 double stopping_distance(const Heading& from, const Dynamics& dynamics) noexcept {
   const double v = from.velocity;
   const double a = from.acceleration;
@@ -41,7 +35,7 @@ bool find_stop(double velocity, double acceleration, const Dynamics& dynamics, d
 
 bool find_braking(const Heading& from, double distance, const Dynamics& highest,
                   Dynamics& dynamics) noexcept {
-  const double maximum = distance + kRounding * (1.0 + distance);
+  const double maximum = distance + kRelativeRounding * (1.0 + distance);
   if (stopping_distance(from, dynamics) <= maximum) return true;
   dynamics = highest;
   if (stopping_distance(from, dynamics) <= maximum) return true;

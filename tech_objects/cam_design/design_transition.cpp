@@ -8,7 +8,7 @@ namespace lockstep {
 namespace {
 
 /// A derivative below this part of stroke / length^order is a rounding: the task would be another.
-constexpr double kRounding = 1.0e-8;
+constexpr double kStrokeRounding = 1.0e-8;
 
 std::string_view continuity_name(Continuity continuity) {
   constexpr std::string_view kNames[] = {"nothing", "position", "velocity", "acceleration", "jerk"};
@@ -19,7 +19,7 @@ std::string_view continuity_name(Continuity continuity) {
 MotionBoundary motion_beside(MotionBoundary end, const BuiltElement& element) {
   const double length = element.at_end.x - element.at_start.x;
   if (!(length > 0.0)) return end;
-  double scale = kRounding * element.stroke;
+  double scale = kStrokeRounding * element.stroke;
   for (std::optional<double>* derivative : {&end.velocity, &end.acceleration, &end.jerk}) {
     scale /= length;
     if (std::abs(**derivative) <= scale) *derivative = 0.0;

@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kRounding = 1.0e-9;  // share of the values or of the length that is no difference
+constexpr double kSameValue = 1.0e-9;  // share of the values or of the length that is no difference
 
 std::string range_text(double from, double to) {
   return "from " + number_text(from) + " to " + number_text(to);
@@ -109,7 +109,7 @@ class Reader {
         warn(i, false,
              "does not count: of the points at leading value " + number_text(point.x) +
                  " the last does, with the following value " + number_text(counting->at.y));
-      if (there || std::abs(function_.value(point.x).position - point.y) <= kRounding * scale) continue;
+      if (there || std::abs(function_.value(point.x).position - point.y) <= kSameValue * scale) continue;
       warn(i, false,
            "does not count: at leading value " + number_text(point.x) + " " +
                segment_text(part_at(point.x)->index) + " does, with the following value " +
@@ -118,7 +118,7 @@ class Reader {
   }
 
   void look_at_segments() {
-    const double rounding = kRounding * (function_.end_leading_value() - function_.start_leading_value());
+    const double rounding = kSameValue * (function_.end_leading_value() - function_.start_leading_value());
     for (std::size_t i = 0; i < elements_.Segment.size(); ++i) {
       if (!elements_.ValidSegment[i]) continue;
       const auto& segment = elements_.Segment[i];

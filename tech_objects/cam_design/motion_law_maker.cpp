@@ -1,6 +1,7 @@
 /// How each law is made: of two halves, from each end to the inflection point, or of polynomials.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tech_objects/cam_design/motion_law.hpp"
 #include "tech_objects/cam_design/motion_law_polynomial.hpp"
@@ -8,14 +9,14 @@
 namespace lockstep {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
+using std::numbers::pi;
 
 /// Course of the acceleration over a stretch: 1; sin from 0 to 1; cos from 1 to 0; sin from 0 over 1 to 0; 0.
 enum class Wave { constant, rising, falling, arch, none };
 
-constexpr double kMean[] = {1.0, 2.0 / kPi, 2.0 / kPi, 2.0 / kPi, 0.0};  // of the wave
+constexpr double kMean[] = {1.0, 2.0 / pi, 2.0 / pi, 2.0 / pi, 0.0};  // of the wave
 /// What a wave of unit length and height adds to the position.
-constexpr double kDistance[] = {0.5, 2.0 / kPi - 4.0 / (kPi * kPi), 4.0 / (kPi * kPi), 1.0 / kPi, 0.0};
+constexpr double kDistance[] = {0.5, 2.0 / pi - 4.0 / (pi * pi), 4.0 / (pi * pi), 1.0 / pi, 0.0};
 
 /// Acceleration from one end of a law to its inflection point, as stretches of parts of that way.
 struct Half {
@@ -239,8 +240,8 @@ class MotionLawMaker {
     const bool from_rest = law_.tasks_[0] == MotionTask::rest;
     MotionPiece& piece = add_piece(request_.start.x, length_);
     piece.coefficient[0] = request_.start.y + stroke_ * (from_rest ? 0.375 : 0.625);
-    piece.sine[0] = {-0.5 * stroke_, kPi / length_, 0.5 * kPi};
-    piece.sine[1] = {(from_rest ? 0.125 : -0.125) * stroke_, 2.0 * kPi / length_, 0.5 * kPi};
+    piece.sine[0] = {-0.5 * stroke_, pi / length_, 0.5 * pi};
+    piece.sine[1] = {(from_rest ? 0.125 : -0.125) * stroke_, 2.0 * pi / length_, 0.5 * pi};
     return MotionLawError::none;
   }
 
@@ -287,7 +288,7 @@ class MotionLawMaker {
     // Normalised: a ramp from v to u takes π/2 (u - v)/C of the length and lags (1 - 2/π)(u - v) times that.
     const double v0 = start_velocity_ * length_ / stroke_;
     const double v1 = end_velocity_ * length_ / stroke_;
-    const double lag = 0.5 * kPi - 1.0;
+    const double lag = 0.5 * pi - 1.0;
     const double curvature = lag / *request_.ca + lag / *request_.ca_star;
     const double slope = lag * v0 / *request_.ca + lag * v1 / *request_.ca_star;
     const double maximum = (0.5 + slope) / curvature;  // beyond it the ramps lose more than the line gains
@@ -297,8 +298,8 @@ class MotionLawMaker {
     };
     const auto velocity = zero_between(distance, std::max(v0, v1), maximum);
     if (!velocity) return MotionLawError::parameter;
-    const double first = 0.5 * kPi * (*velocity - v0) / *request_.ca;
-    const double second = 0.5 * kPi * (*velocity - v1) / *request_.ca_star;
+    const double first = 0.5 * pi * (*velocity - v0) / *request_.ca;
+    const double second = 0.5 * pi * (*velocity - v1) / *request_.ca_star;
     if (!(first > 0.0 && second > 0.0 && first + second <= 1.0)) return MotionLawError::parameter;
     const double lambda = 0.5 * (1.0 + first - second);  // the middle of the line
     add_halves(sine_line(first / lambda), sine_line(second / (1.0 - lambda)), lambda);
@@ -313,7 +314,7 @@ class MotionLawMaker {
     if (wave == Wave::constant) {
       piece.coefficient[2] = 0.5 * height;
     } else if (wave != Wave::none) {
-      const double w = (wave == Wave::arch ? kPi : 0.5 * kPi) / length;
+      const double w = (wave == Wave::arch ? pi : 0.5 * pi) / length;
       set_wave(piece, height, w, wave == Wave::falling);
     }
     advance(piece);
@@ -326,7 +327,7 @@ class MotionLawMaker {
       piece.coefficient[0] += amplitude;
     else
       piece.coefficient[1] += height / w;
-    piece.sine[0] = {-amplitude, w, cosine ? 0.5 * kPi : 0.0};
+    piece.sine[0] = {-amplitude, w, cosine ? 0.5 * pi : 0.0};
   }
 
   void advance(const MotionPiece& piece) noexcept {
@@ -388,7 +389,7 @@ class MotionLawMaker {
     MotionPiece& piece = add_piece(x_, length);
     piece.coefficient[0] = y_;
     piece.coefficient[1] = velocity_;
-    set_wave(piece, heights[0], (before == Wave::arch ? 2.0 : 1.0) * kPi / length, before == Wave::falling);
+    set_wave(piece, heights[0], (before == Wave::arch ? 2.0 : 1.0) * pi / length, before == Wave::falling);
     advance(piece);
     return true;
   }

@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kResolution = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -94,7 +94,7 @@ bool PositionPlanner::solve_ease(const View& down, const Entry& from, double dis
   }
   if (miss_maximum > 0.0) return false;
   reduction = find_root([&](double by) { return -miss(by); }, 0.0, -miss(0.0), maximum, -miss_maximum,
-                        2.0 * kEpsilon * std::abs(distance));
+                        2.0 * kResolution * std::abs(distance));
   return true;
 }
 
@@ -135,7 +135,7 @@ bool PositionPlanner::solve_hold(const View& down, double first, double last, do
   if (miss_maximum < 0.0) return false;
   const double miss_minimum = miss(0.0);
   if (miss_minimum < 0.0)
-    miss(find_root(miss, 0.0, miss_minimum, maximum, miss_maximum, 2.0 * kEpsilon * std::abs(distance)));
+    miss(find_root(miss, 0.0, miss_minimum, maximum, miss_maximum, 2.0 * kResolution * std::abs(distance)));
   return true;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 /// Most that the velocity of an axis may make, over the leading distance, of its distance to the stop
 /// position, as a multiple of that way: a leading value that creeps would throw the axis far beyond.
-constexpr double kSteepest = 20.0;
+constexpr double kSteepestDesynchronizing = 20.0;
 
 /// The velocity of the least curved way to rest is (1 - u)² (s + (2 s + c) u), with the slope and the
 /// curvature at its beginning over the distance: it does not change its sign where c ≥ -3 s. What a function
@@ -83,7 +83,8 @@ bool Desynchronizing::meets(const Chain& chain, const LeavingRequest& request, c
   }
   if (!(change > 0.0) || !(spare >= 0.0 && spare <= change) || !(before + spare > 0.0)) return false;
   const double led_distance = (before + spare) * std::abs(leading_step.last.velocity);
-  if (over_distance && std::abs(last.velocity) * distance > kSteepest * led_distance) return false;
+  if (over_distance && std::abs(last.velocity) * distance > kSteepestDesynchronizing * led_distance)
+    return false;
   stop_distance_ = heading * (before + spare);
   distance_ = distance + spare / change * std::abs(led);
   set_position(last, target, following);

@@ -7,7 +7,7 @@ namespace {
 
 /// Most that a shift's own velocity, and its acceleration, may make of its distance over the leading
 /// distance, as a multiple of that way.
-constexpr double kSteepest = 20.0;
+constexpr double kSteepestShift = 20.0;
 
 }  // namespace
 
@@ -78,7 +78,7 @@ bool Shift::can_lead_on(const LeadingStep& step) const noexcept {
   if (!(step.distance() * step.last.velocity > 0.0)) return false;
   const SyncOffset start = remainder_at_start(step);
   const double distance = to_start_ + request_.distance;
-  const double maximum = kSteepest * std::abs(start.position);
+  const double maximum = kSteepestShift * std::abs(start.position);
   return std::abs(start.slope) * distance <= maximum &&
          std::abs(start.curvature) * distance * distance <= maximum;
 }

@@ -12,20 +12,20 @@ namespace {
 
 /// How close "standing on the synchronous position" is, relative to the position: rounding of the last
 /// motion.
-constexpr double kSamePlace = 1e-14;
+constexpr double kSamePosition = 1e-14;
 
 /// No distance that an axis could be seen to make in a tick [u].
 constexpr double kNoDistance = 1e-6;
 
 /// Most that velocity and acceleration of the axis may make of its distance over the leading distance, as a
 /// multiple of that way: the quintic then stays within some ten times the distance.
-constexpr double kSteepest = 100.0;
+constexpr double kSteepestSynchronizing = 100.0;
 
 /// Over how many ticks the change of the leading velocity is watched.
 constexpr double kWatchedTicks = 16.0;
 
 bool same_place(double distance, double position) noexcept {
-  return std::abs(distance) <= kSamePlace * std::max(1.0, std::abs(position));
+  return std::abs(distance) <= kSamePosition * std::max(1.0, std::abs(position));
 }
 
 }  // namespace
@@ -195,7 +195,7 @@ bool Synchronizing::shoots_beyond(const SyncOffset& start, double distance,
   const double turn = following.enabled ? following.length : std::numeric_limits<double>::infinity();
   const double natural = std::min(std::abs(start.position), turn) + std::abs(slope_) * distance;
   const double own = std::abs(start.slope) * distance + std::abs(start.curvature) * distance * distance;
-  return own > kSteepest * natural;
+  return own > kSteepestSynchronizing * natural;
 }
 
 Synchronizing::Start Synchronizing::begin_profile(Method method, AxisPosition start) noexcept {

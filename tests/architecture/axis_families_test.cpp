@@ -13,7 +13,7 @@
 
 #include "tests/architecture/source_text.hpp"
 
-namespace lockstep {
+namespace lockstep::axis_families_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,4 +105,4 @@ TEST(AxisFamilyRules, FindOneThatIsGivenAnotherBelowIt) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::axis_families_test

@@ -12,7 +12,7 @@
 
 #include "tests/architecture/source_text.hpp"
 
-namespace lockstep {
+namespace lockstep::block_names_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ TEST(BlockNames, AreFoundAsWordsOfCodeAndOfLiterals) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::block_names_test

@@ -13,7 +13,7 @@
 
 #include "tests/architecture/source_text.hpp"
 
-namespace lockstep {
+namespace lockstep::blocks_and_axes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -113,4 +113,4 @@ TEST(WaysToAnAxis, AreJobsClaimsAndLooking) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::blocks_and_axes_test

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::data_origins_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ TEST(DataOrigins, AreWhatTheirCopiesAre) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::data_origins_test

@@ -7,7 +7,7 @@
 #include <regex>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::examples_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -33,4 +33,4 @@ TEST(Examples, HaveAReadmeThatShowsAPictureOfTheirs) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::examples_test

@@ -13,7 +13,7 @@
 
 #include "tests/architecture/source_text.hpp"
 
-namespace lockstep {
+namespace lockstep::folders_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -198,4 +198,4 @@ TEST(FolderRules, RefuseNamesThatSayNothing) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::folders_test

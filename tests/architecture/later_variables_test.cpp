@@ -11,7 +11,7 @@
 
 #include "tests/architecture/source_text.hpp"
 
-namespace lockstep {
+namespace lockstep::later_variables_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -183,4 +183,4 @@ TEST(VariablesOfLater, AreFoundWhereTheyAreUsed) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::later_variables_test

@@ -13,7 +13,7 @@
 
 #include "tests/architecture/source_text.hpp"
 
-namespace lockstep {
+namespace lockstep::names_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ TEST(Names, AreTakenApartIntoWords) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::names_test

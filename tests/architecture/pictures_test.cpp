@@ -10,7 +10,7 @@
 
 #include "tests/architecture/source_text.hpp"
 
-namespace lockstep {
+namespace lockstep::pictures_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ TEST(Pictures, ShowATickAsTheCycleRunsIt) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::pictures_test

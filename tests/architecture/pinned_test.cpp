@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::pinned_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,4 +149,4 @@ TEST(DecisionRules, ReadTheLastColumnOfTheirTables) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::pinned_test

@@ -15,7 +15,7 @@
 
 #include "tests/architecture/source_text.hpp"
 
-namespace lockstep {
+namespace lockstep::rooms_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -201,4 +201,4 @@ TEST(RoomRules, RefuseTheDeskInTheCycleAndLetItUseTheDesk) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::rooms_test

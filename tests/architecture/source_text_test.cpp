@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lockstep {
+namespace lockstep::source_text_test {
 namespace {
 
 TEST(SourceText, FindsIncludesAndHowTheyAreWritten) {
@@ -33,4 +33,4 @@ TEST(SourceText, FindsAWordOnlyWhereItIsCode) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::source_text_test

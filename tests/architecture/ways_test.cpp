@@ -10,7 +10,7 @@
 
 #include "tests/architecture/source_text.hpp"
 
-namespace lockstep {
+namespace lockstep::ways_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ TEST(WayRules, FindWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::ways_test

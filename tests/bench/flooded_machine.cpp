@@ -34,7 +34,7 @@ constexpr char kNetwork[] = "udpm://239.255.76.67:7667?ttl=0";
 constexpr char kWithinProcess[] = "memq://";
 constexpr int kNotCounted = 25;  // ticks at the beginning
 
-double processor_time() {  // of this thread [µs]
+double thread_time() {  // of this thread [µs]
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
@@ -42,11 +42,11 @@ double processor_time() {  // of this thread [µs]
 
 /// Without what reading the clock takes [µs].
 double time_of_tick(Controller& controller) {
-  processor_time();
-  const double first = processor_time();
-  const double begin = processor_time();
+  thread_time();
+  const double first = thread_time();
+  const double begin = thread_time();
   controller.tick();
-  return processor_time() - begin - (begin - first);
+  return thread_time() - begin - (begin - first);
 }
 
 [[noreturn]] void subscribe_and_stop() {

@@ -23,7 +23,7 @@ std::string joined(std::initializer_list<std::string_view> parts) {
   return text;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   return joined({"\"", text, "\""});
 }
 
@@ -48,8 +48,8 @@ std::string cam_object() {
 
 std::string axis_object(const MachinePlan& plan, int number) {
   const bool gear = follows(plan);
-  return joined({quoted(axis_name(number)), R"(: { "type": )",
-                 quoted(gear ? "TO_SynchronousAxis" : "TO_PositioningAxis"), R"(, "config": { )",
+  return joined({in_quotes(axis_name(number)), R"(: { "type": )",
+                 in_quotes(gear ? "TO_SynchronousAxis" : "TO_PositioningAxis"), R"(, "config": { )",
                  plan.drives ? "" : R"("VirtualAxis": { "Mode": 1 }, )", R"("Modulo": { "Enable": )",
                  number % 2 == 0 ? "true" : "false", R"( }, "PositioningMonitoring": { "MinDwellTime": 0.0 },
   "DynamicDefaults": { "Velocity": 1000.0, "Acceleration": 1.0E4, "Deceleration": 1.0E4, "Jerk": 1.0E5 } })",
@@ -71,8 +71,8 @@ constexpr std::string_view kLeadingCalls =
 /// One call: the block, the name of its instance, its axis, and its other inputs.
 std::string call(std::string_view block, const std::string& instance, std::string_view axis_pin,
                  const std::string& axis, std::string_view inputs) {
-  return joined({R"({ "fb": )", quoted(block), R"(, "name": )", quoted(instance), R"(, "in": { )",
-                 quoted(axis_pin), ": ", quoted(axis), ", ", inputs, " } }"});
+  return joined({R"({ "fb": )", in_quotes(block), R"(, "name": )", in_quotes(instance), R"(, "in": { )",
+                 in_quotes(axis_pin), ": ", in_quotes(axis), ", ", inputs, " } }"});
 }
 
 std::string axis_calls(const MachinePlan& plan, int number) {
@@ -82,25 +82,26 @@ std::string axis_calls(const MachinePlan& plan, int number) {
   const std::string power = call("MC_Power", "power" + n, "Axis", axis, R"("Enable": true)");
   if (plan.motion == Motion::idle) return power;
   if (plan.motion == Motion::gear || plan.motion == Motion::shifted) {
-    const std::string inputs = joined({R"("Master": "Leading", "RatioNumerator": )",
-                                       number % 2 == 0 ? "3" : "-7", R"(, "RatioDenominator": )",
-                                       std::to_string(1 + number % 11), R"(, "Execute": )", quoted(enabled)});
+    const std::string inputs =
+        joined({R"("Master": "Leading", "RatioNumerator": )", number % 2 == 0 ? "3" : "-7",
+                R"(, "RatioDenominator": )", std::to_string(1 + number % 11), R"(, "Execute": )",
+                in_quotes(enabled)});
     const std::string gear = call("MC_GearIn", "gear" + n, "Slave", axis, inputs);
     if (plan.motion == Motion::gear) return joined({power, ",\n", gear});
     const std::string phase =
         call("MC_PhasingRelative", "phase" + n, "Slave", axis,
              joined({R"("Master": "Leading", "PhaseShift": 5.0, "ProfileReference": 0, "Execute": )",
-                     quoted("gear" + n + ".InGear")}));
+                     in_quotes("gear" + n + ".InGear")}));
     const std::string offset =
         call("MC_OffsetRelative", "offset" + n, "Slave", axis,
              joined({R"("Offset": 1000.0, "ProfileReference": 1, "OffsetDistance": 1.0E9, "Execute": )",
-                     quoted("phase" + n + ".Done")}));
+                     in_quotes("phase" + n + ".Done")}));
     return joined({power, ",\n", gear, ",\n", phase, ",\n", offset});
   }
   if (plan.motion == Motion::cam) {
     const std::string inputs = joined(
         {R"("Master": "Leading", "Cam": "Cam", "SyncProfileReference": 2, "ApplicationMode": 1, "SlaveScaling": 0.)",
-         std::to_string(1 + number % 9), R"(, "Execute": )", quoted(enabled)});
+         std::to_string(1 + number % 9), R"(, "Execute": )", in_quotes(enabled)});
     return joined({power, ",\n", call("MC_CamIn", "cam" + n, "Slave", axis, inputs)});
   }
   const std::string forth = "forth" + n;
@@ -109,7 +110,7 @@ std::string axis_calls(const MachinePlan& plan, int number) {
   const std::string go_forth = joined({enabled, " AND NOT ", back, ".Busy AND NOT ", forth, ".Done"});
   const auto move = [&](const std::string& name, std::string_view sign, const std::string& execute) {
     return call("MC_MoveRelative", name, "Axis", axis,
-                joined({R"("Distance": )", sign, distance, R"(, "Execute": )", quoted(execute)}));
+                joined({R"("Distance": )", sign, distance, R"(, "Execute": )", in_quotes(execute)}));
   };
   return joined({power, ",\n", move(forth, "", go_forth), ",\n", move(back, "-", forth + ".Done")});
 }

@@ -7,7 +7,7 @@
 
 #include "tests/cli/command_run.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::cam_test {
 namespace {
 
 using nlohmann::json;
@@ -217,4 +217,4 @@ TEST(Cam, HelpTeaches) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::cam_test

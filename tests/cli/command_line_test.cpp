@@ -3,7 +3,7 @@
 
 #include "tests/cli/command_run.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::command_line_test {
 namespace {
 
 constexpr const char* kCommands[] = {"check", "run",   "test", "describe", "tags",
@@ -85,4 +85,4 @@ TEST(CommandLine, ARunTellsHowManyIndicesWereOutOfRange) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::command_line_test

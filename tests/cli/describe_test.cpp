@@ -13,7 +13,7 @@
 #include "tech_objects/jobs/override.hpp"
 #include "tests/cli/command_run.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::describe_test {
 namespace {
 
 using nlohmann::json;
@@ -234,16 +234,23 @@ TEST(Describe, KeysOfTheProjectFile) {
 }
 
 TEST(Describe, AWordThatIsNoNameFindsWhatHasToDoWithItNearestFirst) {
-  const Ended gear = lockstep({"describe", "gear"});
-  EXPECT_EQ(gear.status, 0) << gear.err;
-  const auto at = [&](const std::string& name) { return gear.out.find(" " + name + " "); };
+  const auto names_of = [](const json& search) {
+    std::vector<std::string> names;
+    for (const json& one : search["found"]) names.push_back(one["name"]);
+    return names;
+  };
+  const auto at = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) - names.begin();
+  };
+  const std::vector<std::string> gear = names_of(described({"gear"}));
   for (const char* const name : {"MC_GearIn", "MC_GearInPos", "MC_GearOut", "LoadGear.Numerator"})
-    EXPECT_NE(at(name), std::string::npos) << name << gear.out;
-  EXPECT_LT(at("MC_GearIn"), at("16#8077")) << "a name counts for more than a mention";
-  EXPECT_LT(std::count(gear.out.begin(), gear.out.end(), '\n'), 60) << "short: " << gear.out;
-  const Ended two = lockstep({"describe", "following", "error"});
-  for (const char* const name : {" 521 ", "FollowingError.MaxValue", "StatusPositioning.FollowingError"})
-    EXPECT_NE(two.out.find(name), std::string::npos) << two.out;
+    EXPECT_LT(at(gear, name), at(gear, "16#8077")) << "a name counts for more than a mention: " << name;
+  EXPECT_LT(at(gear, "16#8077"), static_cast<std::ptrdiff_t>(gear.size()));
+  const std::string shown = lockstep({"describe", "gear"}).out;
+  EXPECT_LT(std::count(shown.begin(), shown.end(), '\n'), 80) << "short: " << shown;
+  const std::vector<std::string> two = names_of(described({"following", "error"}));
+  for (const char* const name : {"521", "FollowingError.MaxValue", "StatusPositioning.FollowingError"})
+    EXPECT_LT(at(two, name), static_cast<std::ptrdiff_t>(two.size())) << name;
   const json found = described({"servo_cycle"});
   EXPECT_EQ(found["found"][0]["name"], "keys clock.servo_cycle");
   for (const json& one : found["found"]) EXPECT_TRUE(one["kind"].is_string() && one["text"].is_string());
@@ -293,4 +300,4 @@ TEST(Describe, AnUnknownNameExitsWith1AndASuggestion) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::describe_test

@@ -12,7 +12,7 @@
 #include "cli/doctor/report.hpp"
 #include "tests/cli/command_run.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::doctor_test {
 namespace {
 
 using nlohmann::json;
@@ -251,4 +251,4 @@ TEST(DoctorCommand, EndsWith2WhereItCannotMeasure) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::doctor_test

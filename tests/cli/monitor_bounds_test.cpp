@@ -5,7 +5,7 @@
 #include "cli/monitor/model.hpp"
 #include "tests/hmi_bridge/own_network.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::monitor_bounds_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -101,4 +101,4 @@ TEST(MonitorMemory, HoldsNoMoreThanItMayOfWhatNobodyLooksAt) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::monitor_bounds_test

@@ -17,7 +17,7 @@
 #include "tests/cli/command_run.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::monitor_test {
 namespace {
 
 constexpr char kKnife[] = LOCKSTEP_SOURCE_DIR "/projects/02_rotary_knife/project.json";
@@ -430,4 +430,4 @@ TEST(Monitor, APanelNeedsATerminal) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::monitor_test

@@ -10,7 +10,7 @@
 #include "cli/monitor/view.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::monitor_view_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -462,4 +462,4 @@ TEST(MonitorHistory, KeepsLeastAndGreatestOfAMinute) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::monitor_view_test

@@ -6,7 +6,7 @@
 
 #include "tests/cli/command_run.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::plot_test {
 namespace {
 
 constexpr char kPng[] = "\x89PNG\r\n\x1a\n";
@@ -193,4 +193,4 @@ TEST(Plot, WithoutGnuplotTheUserIsToldWhatToInstall) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::plot_test

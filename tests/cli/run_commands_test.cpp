@@ -13,7 +13,7 @@
 #include "tests/hmi_bridge/own_network.hpp"
 #include "tests/support/datagrams.hpp"
 
-namespace lockstep {
+namespace lockstep::run_commands_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -397,4 +397,4 @@ TEST(RunCommands, DatagramsThatLieEndNoRunNorTakeItsMemoryNorKeepCommandsAway) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::run_commands_test

@@ -6,7 +6,7 @@
 
 #include "tests/cli/command_run.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::tags_test {
 namespace {
 
 using nlohmann::json;
@@ -206,4 +206,4 @@ TEST(Tags, ExitsAsCheckDoes) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::tags_test

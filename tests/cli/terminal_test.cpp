@@ -9,7 +9,7 @@
 #include "projects/json/problem.hpp"
 #include "tests/cli/command_run.hpp"
 
-namespace lockstep::cli {
+namespace lockstep::cli::terminal_test {
 namespace {
 
 // Clears the screen, names the window, and the same by C1 in UTF-8; a carriage return; right to left.
@@ -128,4 +128,4 @@ TEST(Terminal, WhatTheMonitorShowsIsText) {
 }
 
 }  // namespace
-}  // namespace lockstep::cli
+}  // namespace lockstep::cli::terminal_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/allocations.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::allocation_test {
 
 TEST(CountAllocations, SeesWhatIsTakenAndGivenBackWhileItIsOpen) {
   const std::uint64_t before = allocations_counted();
@@ -20,4 +20,4 @@ TEST(CountAllocations, SeesWhatIsTakenAndGivenBackWhileItIsOpen) {
   EXPECT_GE(allocations_counted(), before + 4);
 }
 
-}  // namespace lockstep::test
+}  // namespace lockstep::test::allocation_test

@@ -9,7 +9,7 @@
 
 #include "tests/conformance/subject.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::block_document_test {
 namespace {
 
 constexpr const char* kFile = LOCKSTEP_SOURCE_DIR "/fb/BLOCKS.md";
@@ -101,4 +101,4 @@ TEST(BlockDocument, HasNoCellThatBreaksItsTable) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::block_document_test

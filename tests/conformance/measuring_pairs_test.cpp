@@ -13,7 +13,7 @@
 #include "tech_objects/sensing/measuring_input.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::measuring_pairs_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -149,4 +149,4 @@ TEST(MeasuringPairs, EndAndGoOnAsTheTableSaysWhateverIsMeasured) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::measuring_pairs_test

@@ -15,7 +15,7 @@
 #include "tests/conformance/subject.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::one_axis_test {
 namespace {
 
 constexpr std::uint64_t kFirstSeed = 20260;
@@ -443,4 +443,4 @@ TEST(OneAxisSequences, OfJobsFaultsAndLimitsKeepTheSetpointInOrder) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::one_axis_test

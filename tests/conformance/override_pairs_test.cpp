@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-namespace lockstep::test {
+namespace lockstep::test::override_pairs_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -339,4 +339,4 @@ TEST(OverridePairs, ProfileFiveEndsAWaitingShiftAndLeavesARunningOne) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::override_pairs_test

@@ -10,7 +10,7 @@
 #include "tests/conformance/bench.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::sequences_test {
 namespace {
 
 constexpr std::uint64_t kFirstSeed = 1517;
@@ -222,4 +222,4 @@ TEST(Sequences, OfRandomJobsEndInOrderWithoutAStep) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::sequences_test

@@ -9,7 +9,7 @@
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::axis_parameter_test {
 namespace {
 
 using test::Rig;
@@ -193,4 +193,4 @@ TEST(VelocityOverride, CountsFrom0To200PercentUpToTheLimit) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::axis_parameter_test

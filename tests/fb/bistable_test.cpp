@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lockstep {
+namespace lockstep::bistable_test {
 namespace {
 
 bool call(SR& block, bool s1, bool r) {
@@ -54,4 +54,4 @@ TEST(RS, ResetsWhenBothInputsAreTrue) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::bistable_test

@@ -14,7 +14,7 @@
 
 #include "fb/block.hpp"
 
-namespace lockstep {
+namespace lockstep::block_list_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -220,4 +220,4 @@ TEST(BlockList, HoldsEachPinInAPlaceOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::block_list_test

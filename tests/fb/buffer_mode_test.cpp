@@ -17,7 +17,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::buffer_mode_test {
 namespace {
 
 using test::Rig;
@@ -447,4 +447,4 @@ TEST(BufferMode, ChainsOfMotionsAtRandomGoOnWithoutAStep) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::buffer_mode_test

@@ -11,7 +11,7 @@
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_data_test {
 namespace {
 
 using Point = TO_Cam_Struct_PointData;
@@ -417,4 +417,4 @@ TEST(RestartOfACam, ShutsTheCamForEveryJob) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_data_test

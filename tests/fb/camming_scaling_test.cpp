@@ -9,7 +9,7 @@
 #include "fb/sync_out.hpp"
 #include "tests/support/coupled_rig.hpp"
 
-namespace lockstep {
+namespace lockstep::camming_scaling_test {
 namespace {
 
 constexpr double kLength = 360.0;  // of the cams [leading u]
@@ -223,4 +223,4 @@ TEST(CamProfile6, WithOneAxisElsewhereWaitsForMotion) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::camming_scaling_test

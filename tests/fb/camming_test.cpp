@@ -18,7 +18,7 @@
 #include "fb/sync_out.hpp"
 #include "tests/support/coupled_rig.hpp"
 
-namespace lockstep {
+namespace lockstep::camming_test {
 namespace {
 
 using test::CoupledRig;
@@ -968,4 +968,4 @@ TEST(MC_GetCamValue, ReadsTheCurveInBothDirections) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::camming_test

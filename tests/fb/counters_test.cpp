@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace lockstep {
+namespace lockstep::counters_test {
 namespace {
 
 constexpr INT kMaximum = std::numeric_limits<INT>::max();
@@ -223,4 +223,4 @@ TEST(CTUD, StopsAtTheLimitsOfInt) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::counters_test

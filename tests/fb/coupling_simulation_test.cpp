@@ -14,7 +14,7 @@
 #include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::coupling_simulation_test {
 namespace {
 
 using test::Rig;
@@ -434,4 +434,4 @@ TEST(SimulationOfMC_GearInPos, IsNotRenamedByHomingAsTheGearIsNot) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::coupling_simulation_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lockstep {
+namespace lockstep::edge_test {
 namespace {
 
 TEST(R_TRIG, IsTrueForOneCallAfterARise) {
@@ -46,4 +46,4 @@ TEST(BlockList, FindsTypesAndPinsWithoutRegardToCase) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::edge_test

@@ -4,7 +4,7 @@
 #include "fb/save_encoder_data.hpp"
 #include "scheduler/controller.hpp"
 
-namespace lockstep {
+namespace lockstep::encoder_saving_test {
 namespace {
 
 struct Saving {
@@ -104,4 +104,4 @@ TEST(MC_SaveAbsoluteEncoderData, IsRefusedWhereNothingIsKept) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::encoder_saving_test

@@ -11,7 +11,7 @@
 #include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::gear_out_test {
 namespace {
 
 using test::Rig;
@@ -164,4 +164,4 @@ TEST(MC_GearOutByDynamics, KeepsBelowTheVelocityLimitFromAStrongAcceleration) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::gear_out_test

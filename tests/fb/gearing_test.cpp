@@ -14,7 +14,7 @@
 #include "fb/stop.hpp"
 #include "tests/support/coupled_rig.hpp"
 
-namespace lockstep {
+namespace lockstep::gearing_test {
 namespace {
 
 using test::CoupledRig;
@@ -696,4 +696,4 @@ TEST(MC_GearInPos, ReversalWhileSynchronizingRaisesAlarm608) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::gearing_test

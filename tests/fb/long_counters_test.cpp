@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace lockstep {
+namespace lockstep::long_counters_test {
 namespace {
 
 constexpr DINT kMaximum = std::numeric_limits<DINT>::max();
@@ -60,4 +60,4 @@ TEST(CTUD_DINT, StopsAtBothEnds) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::long_counters_test

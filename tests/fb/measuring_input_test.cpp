@@ -12,7 +12,7 @@
 #include "tech_objects/sensing/measuring_input.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::measuring_input_test {
 namespace {
 
 using test::Rig;
@@ -627,4 +627,4 @@ TEST(MeasuringByTelegram, IsNeitherCyclicNorPossibleWithoutADrive) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::measuring_input_test

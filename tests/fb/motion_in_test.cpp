@@ -14,7 +14,7 @@
 #include "fb/superimposed.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::motion_in_test {
 namespace {
 
 using test::Rig;
@@ -307,4 +307,4 @@ TEST(MC_MotionIn, EndsWithTheEnable) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::motion_in_test

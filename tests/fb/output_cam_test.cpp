@@ -13,7 +13,7 @@
 #include "tech_objects/switching/output_cam.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::output_cam_test {
 namespace {
 
 using test::Rig;
@@ -792,4 +792,4 @@ TEST(CamTrackInstances, ASecondOneIsRefused) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::output_cam_test

@@ -8,7 +8,7 @@
 #include "fb/stop.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::positioning_test {
 namespace {
 
 using test::Rig;
@@ -403,4 +403,4 @@ TEST(MC_Reset, AcknowledgesAnAlarm) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::positioning_test

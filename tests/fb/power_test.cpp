@@ -6,7 +6,7 @@
 #include "fb/move.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::power_test {
 namespace {
 
 using test::Rig;
@@ -114,4 +114,4 @@ TEST(Restart, OfAnAxisWhoseEnableAnAlarmHasRemovedWaitsForTheFallOfEnable) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::power_test

@@ -12,7 +12,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/superimposing.hpp"
 
-namespace lockstep {
+namespace lockstep::superimposed_test {
 namespace {
 
 using Machine = test::Superimposing;
@@ -925,4 +925,4 @@ TEST(Superimposed, KeepsTheSumWithinTheLimitsUnderJobsAtRandom) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::superimposed_test

@@ -12,7 +12,7 @@
 #include "tests/support/coupled_rig.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::sync_direction_test {
 namespace {
 
 constexpr double kRing = 360.0;    // of both axes [u]
@@ -310,4 +310,4 @@ TEST(SyncDirection, AtRandomNeverTurnsBackAndTurnsNothingWhereNothingIsToDo) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::sync_direction_test

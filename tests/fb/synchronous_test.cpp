@@ -16,7 +16,7 @@
 #include "fb/sync_out.hpp"
 #include "tests/support/coupled_rig.hpp"
 
-namespace lockstep {
+namespace lockstep::synchronous_test {
 namespace {
 
 using test::CoupledRig;
@@ -731,4 +731,4 @@ TEST(PublishedStep, AFollowingAxisMovingWhenAStandingLeadingAxisStartsAProfileLo
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::synchronous_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::timers_test {
 namespace {
 
 constexpr std::int64_t kMillisecond = 1'000'000;
@@ -240,4 +240,4 @@ TEST(TP, TakesAChangedPresetWithTheNextEdge) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::timers_test

@@ -14,7 +14,7 @@
 #include "fb/stop.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::torque_test {
 namespace {
 
 using test::Rig;
@@ -505,4 +505,4 @@ TEST(TorqueData, HasToBeConfigured) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::torque_test

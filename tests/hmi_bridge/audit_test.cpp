@@ -14,7 +14,7 @@
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/support/directory.hpp"
 
-namespace lockstep {
+namespace lockstep::audit_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -373,4 +373,4 @@ TEST_F(AuditedModbus, RefusedWriteIsToldWithItsReasonAndAReadNotAtAll) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::audit_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::command_desk_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -305,4 +305,4 @@ TEST_F(Commands, ThePanelShowsHowAnAxisStands) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::command_desk_test

@@ -14,7 +14,7 @@
 #include "tests/hmi_bridge/trace_samples.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::csv_trace_test {
 namespace {
 
 std::string seconds(std::int64_t nanoseconds) {
@@ -181,4 +181,4 @@ TEST(CsvReader, ALastLineThatWasCutShortIsLeftOutWithARemark) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::csv_trace_test

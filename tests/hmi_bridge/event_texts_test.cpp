@@ -3,7 +3,7 @@
 
 #include "hmi_bridge/traces/event.hpp"
 
-namespace lockstep {
+namespace lockstep::event_texts_test {
 namespace {
 
 TEST(EventTexts, TellOfMissedTicksThatAnAlarmMayComeFrom) {
@@ -21,4 +21,4 @@ TEST(EventTexts, TellOfMissedTicksThatAnAlarmMayComeFrom) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::event_texts_test

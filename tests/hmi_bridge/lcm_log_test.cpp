@@ -8,7 +8,7 @@
 #include "hmi_bridge/lcm/trace_reader.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 
-namespace lockstep {
+namespace lockstep::lcm_log_test {
 namespace {
 
 constexpr std::int64_t kPeriod = 250'000'000;  // [ns]
@@ -300,4 +300,4 @@ TEST(LcmTraceReader, ADamagedMessageIsNamedByItsEvent) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::lcm_log_test

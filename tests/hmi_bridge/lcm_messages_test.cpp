@@ -8,7 +8,7 @@
 #include "tests/hmi_bridge/trace_samples.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::lcm_messages_test {
 namespace {
 
 using Message = LcmDecoder::Message;
@@ -183,4 +183,4 @@ TEST(LcmMessages, AChannelHasToLeaveRoomForThatOfItsHeader) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::lcm_messages_test

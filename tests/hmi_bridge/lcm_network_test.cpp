@@ -17,7 +17,7 @@
 #include "tests/hmi_bridge/own_network.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 
-namespace lockstep {
+namespace lockstep::lcm_network_test {
 namespace {
 
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
@@ -196,4 +196,4 @@ TEST(LcmNetwork, LcmLogplayerReplaysALogToASubscriber) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::lcm_network_test

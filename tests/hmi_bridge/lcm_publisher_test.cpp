@@ -7,7 +7,7 @@
 #include "hmi_bridge/traces/recorder.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 
-namespace lockstep {
+namespace lockstep::lcm_publisher_test {
 namespace {
 
 const LcmTraceIdentity kIdentity{"rotary_knife", "KNIFE", 2'000'000, 0};
@@ -112,4 +112,4 @@ TEST(LcmPublisher, TheRecorderPublishesFromItsOwnThread) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::lcm_publisher_test

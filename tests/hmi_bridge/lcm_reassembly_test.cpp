@@ -8,7 +8,7 @@
 #include "tests/support/datagrams.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::lcm_reassembly_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -167,4 +167,4 @@ TEST(ReassemblyOfCommands, RefusesFragments) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::lcm_reassembly_test

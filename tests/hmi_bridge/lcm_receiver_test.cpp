@@ -11,7 +11,7 @@
 #include "tests/hmi_bridge/own_network.hpp"
 #include "tests/support/datagrams.hpp"
 
-namespace lockstep {
+namespace lockstep::lcm_receiver_test {
 namespace {
 
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
@@ -123,4 +123,4 @@ TEST(LcmReceiver, HearsWithinItsProcess) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::lcm_receiver_test

@@ -5,7 +5,7 @@
 
 #include "hmi_bridge/lcm/url.hpp"
 
-namespace lockstep {
+namespace lockstep::lcm_url_test {
 namespace {
 
 std::string group_of(const std::string& url) try {
@@ -40,4 +40,4 @@ TEST(LcmUrl, TellsWhatIsHeardBeyondTheMachine) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::lcm_url_test

@@ -5,7 +5,7 @@
 
 #include "hmi_bridge/modbus/answer.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_answer_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -77,4 +77,4 @@ TEST(ModbusAnswer, MayBeAnExceptionOfThatUnitAndFunctionWithAKnownCode) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_answer_test

@@ -8,7 +8,7 @@
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/serial_cable.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_client_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -416,4 +416,4 @@ TEST_F(Client, ALateAnswerOnASerialLineIsNotTakenForThatOfAnotherRequest) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_client_test

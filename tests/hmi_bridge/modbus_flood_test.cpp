@@ -11,7 +11,7 @@
 #include "tests/support/flood.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_flood_test {
 namespace {
 
 constexpr int kRounds = 150;  // of each good client
@@ -72,4 +72,4 @@ TEST(Allocations, TheCountOfAllocationsSeesThem) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_flood_test

@@ -16,7 +16,7 @@
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_hostile_client_test {
 namespace {
 
 using Bytes = RawClient::Bytes;
@@ -349,4 +349,4 @@ TEST_F(Hostile, AnyStreamOfBytesLeavesTheServerAtItsWork) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_hostile_client_test

@@ -10,7 +10,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/values.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_map_test {
 namespace {
 
 using test::integer;
@@ -187,4 +187,4 @@ TEST(ModbusMap, TellsEveryLineThatIsWrongAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_map_test

@@ -11,7 +11,7 @@
 #include "tests/hmi_bridge/foreign_device.hpp"
 #include "tests/hmi_bridge/serial_cable.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_master_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -215,4 +215,4 @@ TEST(ModbusMaster, AnAnswerThatWasLateOnASerialLineIsNotTakenForTheNextOne) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_master_test

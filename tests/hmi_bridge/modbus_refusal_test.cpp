@@ -11,7 +11,7 @@
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/serial_cable.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_refusal_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -76,4 +76,4 @@ TEST(ModbusRefusal, IsToldOnALineTooAndWhatIsForAllIsNotCarriedOut) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_refusal_test

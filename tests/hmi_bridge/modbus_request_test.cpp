@@ -10,7 +10,7 @@
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_request_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -329,4 +329,4 @@ TEST_F(ModbusRequest, WritesThatNoTickWillTakeAreException4AndChangeNothing) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_request_test

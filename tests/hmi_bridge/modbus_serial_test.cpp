@@ -10,7 +10,7 @@
 #include "tests/hmi_bridge/serial_cable.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_serial_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -197,4 +197,4 @@ TEST(SerialLine, TheLibrarysMasterReadsAndWritesOverTheCable) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_serial_test

@@ -14,7 +14,7 @@
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_server_test {
 namespace {
 
 using Library = std::unique_ptr<modbus_t, void (*)(modbus_t*)>;
@@ -256,4 +256,4 @@ TEST_F(Served, ManyClientsAtOnceEachGetTheirOwnAnswers) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_server_test

@@ -8,7 +8,7 @@
 #include "tests/hmi_bridge/modbus_machine.hpp"
 #include "tests/hmi_bridge/modbus_raw_client.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_service_test {
 namespace {
 
 using Bytes = RawClient::Bytes;
@@ -166,4 +166,4 @@ TEST_F(Service, APlaceThatIsTakenIsToldByItsNameAndNothingStarts) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_service_test

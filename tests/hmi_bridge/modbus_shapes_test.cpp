@@ -8,7 +8,7 @@
 #include "hmi_bridge/modbus/request.hpp"
 #include "tests/support/values.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_shapes_test {
 namespace {
 
 using test::real;
@@ -248,4 +248,4 @@ TEST(Identification, ThatIsTooLongForOneAnswerGoesOnInTheNext) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_shapes_test

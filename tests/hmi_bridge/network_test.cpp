@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-namespace lockstep {
+namespace lockstep::network_test {
 namespace {
 
 sockaddr_storage peer(const char* text) {
@@ -71,4 +71,4 @@ TEST(Endpoint, OfIpv6StandsInBrackets) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::network_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lockstep {
+namespace lockstep::recordings_test {
 namespace {
 
 /// What is removed one day has to be a recording: its name says so in full.
@@ -16,4 +16,4 @@ TEST(Recordings, KnowTheirOwnNamesAlone) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::recordings_test

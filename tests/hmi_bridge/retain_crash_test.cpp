@@ -9,7 +9,7 @@
 #include "tests/hmi_bridge/memory_disk.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::retain_crash_test {
 namespace {
 
 constexpr const char* kFile = "machine.retain";
@@ -200,4 +200,4 @@ TEST(RetainFullDisk, ABrokenOneIsToldAndTriedAgain) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::retain_crash_test

@@ -13,7 +13,7 @@
 #include "hmi_bridge/retain/writer.hpp"
 #include "tests/support/directory.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::retain_outside_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -338,4 +338,4 @@ TEST(RetainOutsideFile, ThatWasMadeAndNeverWrittenIsNewAndLeavesNothingBeside) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::retain_outside_test

@@ -16,7 +16,7 @@
 #include "tests/hmi_bridge/memory_disk.hpp"
 #include "tests/support/values.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::retain_test {
 namespace {
 
 using test::integer;
@@ -490,4 +490,4 @@ TEST_F(RetainWriterTest, ATextThatIsNoValueOfItsTypeIsDamage) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::retain_test

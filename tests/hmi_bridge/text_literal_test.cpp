@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lockstep {
+namespace lockstep::text_literal_test {
 namespace {
 
 std::string problem_of(const std::string& literal) {
@@ -41,4 +41,4 @@ TEST(TextFromUtf8, TakesWhatCanBePrintedOfLatin1) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::text_literal_test

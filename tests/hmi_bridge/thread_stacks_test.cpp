@@ -6,7 +6,7 @@
 
 #include <thread>
 
-namespace lockstep {
+namespace lockstep::thread_stacks_test {
 namespace {
 
 std::size_t stack_of_a_thread() {
@@ -27,4 +27,4 @@ TEST(ThreadStacks, AreSmallOnceTheyAreAskedToBe) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::thread_stacks_test

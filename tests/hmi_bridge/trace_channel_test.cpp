@@ -6,7 +6,7 @@
 
 #include "hmi_bridge/traces/channel.hpp"
 
-namespace lockstep {
+namespace lockstep::trace_channel_test {
 namespace {
 
 using Ticks = std::vector<std::uint64_t>;
@@ -104,4 +104,4 @@ TEST(TraceChannel, RowsThatNoOccasionAsksForAreForgottenAlsoBehindThoseThatStill
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::trace_channel_test

@@ -3,7 +3,7 @@
 
 #include "hmi_bridge/traces/columns.hpp"
 
-namespace lockstep {
+namespace lockstep::trace_columns_test {
 namespace {
 
 TEST(TraceColumns, HoldASignalOnceHoweverManyAskForIt) {
@@ -22,4 +22,4 @@ TEST(TraceColumns, HoldASignalOnceHoweverManyAskForIt) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::trace_columns_test

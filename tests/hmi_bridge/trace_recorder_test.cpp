@@ -15,7 +15,7 @@
 #include "tests/hmi_bridge/own_network.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 
-namespace lockstep {
+namespace lockstep::trace_recorder_test {
 namespace {
 
 const std::vector<TraceSignal> kSignals = {{"x", Type::LREAL, "u"}, {"n", Type::ULINT, ""}};
@@ -295,4 +295,4 @@ TEST(TraceRecorder, AFileThatReachesItsLimitEndsWithAWholeRowAndTheRestIsCounted
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::trace_recorder_test

@@ -5,7 +5,7 @@
 
 #include "projects/loader/simulation.hpp"
 
-namespace lockstep {
+namespace lockstep::array_test {
 namespace {
 
 /// @param tags further tags  @param calls of the program
@@ -369,4 +369,4 @@ TEST(CamData, StartValuesAtAnIndexThatCannotBeAreToldWhenTheProjectIsLoaded) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::array_test

@@ -12,7 +12,7 @@
 #include "projects/cam_files/table.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_file_test {
 namespace {
 
 const std::string kCams = LOCKSTEP_SOURCE_DIR "/projects/cams";
@@ -350,4 +350,4 @@ TEST(CamFile, DamagedFilesEndInProblemsOrACurve) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_file_test

@@ -6,7 +6,7 @@
 #include "projects/loader/project.hpp"
 #include "projects/loader/simulation.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_project_test {
 namespace {
 
 std::string project(const std::string& cam, const std::string& calls = "") {
@@ -242,4 +242,4 @@ TEST(CamProject, WarnsOfACamThatTakesOverWithAnotherVelocity) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_project_test

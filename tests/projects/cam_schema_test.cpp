@@ -6,7 +6,7 @@
 #include "projects/cam_files/schema.hpp"
 #include "schema_check.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_schema_test {
 namespace {
 
 using nlohmann::json;
@@ -69,4 +69,4 @@ TEST_F(CamSchema, RefusesNothingThatTheReaderAccepts) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_schema_test

@@ -6,7 +6,7 @@
 #include "projects/cam_files/file.hpp"
 #include "projects/cam_files/table.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_table_test {
 namespace {
 
 LoadedCam read(const std::string& text) {
@@ -120,4 +120,4 @@ TEST(CamTable, KeepsTheOriginOfItsSegments) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_table_test

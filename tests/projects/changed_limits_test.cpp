@@ -3,7 +3,7 @@
 
 #include "projects/loader/simulation.hpp"
 
-namespace lockstep {
+namespace lockstep::changed_limits_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -47,4 +47,4 @@ TEST_F(LimitsOfAProgram, OfZeroStopTheAxisWithTheirAlarm) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::changed_limits_test

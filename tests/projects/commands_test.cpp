@@ -6,7 +6,7 @@
 #include "changed_project.hpp"
 #include "projects/loader/simulation.hpp"
 
-namespace lockstep {
+namespace lockstep::commands_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -263,4 +263,4 @@ TEST(PanelProject, WarnsOfANetworkThatLeavesTheMachine) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::commands_test

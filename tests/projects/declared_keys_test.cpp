@@ -17,7 +17,7 @@
 #include "struct_members.hpp"
 #include "whole_project.hpp"
 
-namespace lockstep {
+namespace lockstep::declared_keys_test {
 namespace {
 
 using Pointer = Json::json_pointer;
@@ -271,4 +271,4 @@ TEST(Keys, HaveAMeaning) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::declared_keys_test

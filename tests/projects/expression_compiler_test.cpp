@@ -6,7 +6,7 @@
 #include "projects/expressions/compiler.hpp"
 #include "tests/projects/expression_scope.hpp"
 
-namespace lockstep {
+namespace lockstep::expression_compiler_test {
 namespace {
 
 using ExpressionCompiler = ExpressionTest;
@@ -316,4 +316,4 @@ TEST_F(ExpressionCompiler, DivisionsByZeroGiveZeroAndAreCounted) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::expression_compiler_test

@@ -7,7 +7,7 @@
 
 #include "projects/literals/duration.hpp"
 
-namespace lockstep {
+namespace lockstep::expression_duration_test {
 namespace {
 
 TEST(Duration, NumbersWithAUnitAreExact) {
@@ -94,4 +94,4 @@ TEST(Duration, HostileTextsAreRefused) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::expression_duration_test

@@ -8,7 +8,7 @@
 
 #include "tests/projects/expression_scope.hpp"
 
-namespace lockstep {
+namespace lockstep::expression_functions_test {
 namespace {
 
 using ExpressionFunctions = ExpressionTest;
@@ -93,4 +93,4 @@ TEST_F(ExpressionFunctions, ThatRoundLeaveAnIntegerAsItIs) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::expression_functions_test

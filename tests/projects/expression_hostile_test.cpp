@@ -5,7 +5,7 @@
 #include "tests/projects/expression_scope.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::expression_hostile_test {
 namespace {
 
 using HostileExpression = ExpressionTest;
@@ -112,4 +112,4 @@ TEST_F(HostileExpression, RandomWordsNeverDoMoreThanFail) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::expression_hostile_test

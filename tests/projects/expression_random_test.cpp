@@ -8,7 +8,7 @@
 #include "tests/projects/expression_scope.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::expression_random_test {
 namespace {
 
 __extension__ typedef __int128 Exact;
@@ -331,4 +331,4 @@ TEST(RandomExpressions, ComputeTheSameWhileLoadingAndInTheCycle) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::expression_random_test

@@ -5,7 +5,7 @@
 
 #include "tests/projects/expression_scope.hpp"
 
-namespace lockstep {
+namespace lockstep::expression_typing_test {
 namespace {
 
 using ExpressionTyping = ExpressionTest;
@@ -341,4 +341,4 @@ TEST_F(ExpressionTyping, DurationsConvertInMilliseconds) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::expression_typing_test

@@ -13,7 +13,7 @@
 #include "projects/loader/simulation.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::late_examples_test {
 namespace {
 
 /// Stimuli and programs run by the clock: they ask for the same motions somewhere else.
@@ -81,4 +81,4 @@ INSTANTIATE_TEST_SUITE_P(Examples, LateExamples,
                          [](const auto& example) { return std::string(example.param.project); });
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::late_examples_test

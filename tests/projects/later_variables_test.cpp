@@ -9,7 +9,7 @@
 #include "projects/loader/simulation.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 
-namespace lockstep {
+namespace lockstep::later_variables_test {
 namespace {
 
 using Json = nlohmann::ordered_json;  // objects are numbered in their order
@@ -117,4 +117,4 @@ TEST(VariablesOfLater, HoldTheirStartValuesAndChangeNoExample) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::later_variables_test

@@ -5,7 +5,7 @@
 
 #include "projects/loader/project.hpp"
 
-namespace lockstep {
+namespace lockstep::modbus_array_test {
 namespace {
 
 std::string project(const std::string& map, const std::string& more = "") {
@@ -176,4 +176,4 @@ TEST(ModbusClientArrays, AreToldOfWhatIsWrongWithTheQualityOfAnEntry) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::modbus_array_test

@@ -8,7 +8,7 @@
 
 #include "projects/loader/project.hpp"
 
-namespace lockstep {
+namespace lockstep::names_test {
 namespace {
 
 constexpr char kText[] = R"({"lockstep": 1, "name": "names", "clock": {"servo_cycle": "1ms"},
@@ -71,4 +71,4 @@ TEST(NamesOfAProjectThatIsLoaded, AreRecordedAsLongAsTheLoaderAsks) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::names_test

@@ -7,7 +7,7 @@
 #include "projects/loader/project.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::project_fuzz_test {
 namespace {
 
 /// Damages a text in one of several ways.
@@ -73,4 +73,4 @@ TEST(DamagedProject, LoadsOrIsRefusedWithAReason) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::project_fuzz_test

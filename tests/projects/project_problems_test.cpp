@@ -6,7 +6,7 @@
 #include "changed_project.hpp"
 #include "projects/loader/project.hpp"
 
-namespace lockstep {
+namespace lockstep::project_problems_test {
 namespace {
 
 TEST(ProjectProblems, AreToldForSectionsOfAnotherKind) {
@@ -60,7 +60,8 @@ TEST(ProjectProblems, AreToldForDuplicateKeysAndWhatElseIsWrong) {
   const LoadedProject loaded = load_project(
       R"({"lockstep": 1, "lockstep": 2, "name": "x", "clock": {"servo_cycle": "1ms"}, "tags": {"a": {"type": "BOL"}}})");
   EXPECT_EQ(lines(loaded.problems),
-            "FILE:/lockstep: the key 'lockstep' is there twice; each key is allowed once\n"
+            "FILE:/lockstep: the key 'lockstep' is there twice; each key is allowed once, the other one is "
+            "in line 1\n"
             "FILE:/tags/a/type: unknown type 'BOL' (did you mean 'BOOL'?); allowed: BOOL, SINT, INT, DINT, "
             "LINT, USINT, "
             "UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD, REAL, LREAL, TIME, STRING[n], ARRAY[lower..upper] "
@@ -98,4 +99,4 @@ TEST(ProjectProblems, AreFoundInTimeAmongManyNames) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::project_problems_test

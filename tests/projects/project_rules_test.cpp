@@ -4,7 +4,7 @@
 #include "changed_project.hpp"
 #include "projects/loader/project.hpp"
 
-namespace lockstep {
+namespace lockstep::project_rules_test {
 namespace {
 
 struct Rule {
@@ -812,4 +812,4 @@ TEST(ModbusServers, ThatDoNotSayWhereTheyAreAreEachToldOf) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::project_rules_test

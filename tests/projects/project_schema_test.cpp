@@ -8,7 +8,7 @@
 #include "projects/loader/project.hpp"
 #include "schema_check.hpp"
 
-namespace lockstep {
+namespace lockstep::project_schema_test {
 namespace {
 
 using nlohmann::json;
@@ -109,4 +109,4 @@ TEST_F(Schema, DescribesEveryVariableThatAProjectMaySet) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::project_schema_test

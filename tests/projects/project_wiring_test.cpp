@@ -10,7 +10,7 @@
 #include "projects/loader/project.hpp"
 #include "tests/support/values.hpp"
 
-namespace lockstep {
+namespace lockstep::project_wiring_test {
 namespace {
 
 using test::integer;
@@ -422,4 +422,4 @@ TEST(LcmUrl, NamesAMulticastNetwork) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::project_wiring_test

@@ -6,7 +6,7 @@
 
 #include "projects/loader/simulation.hpp"
 
-namespace lockstep {
+namespace lockstep::restart_test {
 namespace {
 
 /// A ring and an axis that can follow it. `more` stands in for the text MORE in the calls.
@@ -121,4 +121,4 @@ TEST(StartValues, ThatCannotBeChangedAreToldWhenTheProjectIsLoaded) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::restart_test

@@ -4,7 +4,7 @@
 #include "changed_project.hpp"
 #include "projects/loader/project.hpp"
 
-namespace lockstep {
+namespace lockstep::retain_rules_test {
 namespace {
 
 TEST(ProjectRetain, ListsTagsAndTheAdjustmentsOfAbsoluteEncoders) {
@@ -90,4 +90,4 @@ TEST(ProjectRetain, ValuesGivenBackBeforeTheStartAreThoseTheAxisBeginsWith) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::retain_rules_test

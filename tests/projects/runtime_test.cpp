@@ -21,7 +21,7 @@
 #include "projects/loader/simulation.hpp"
 #include "tests/support/directory.hpp"
 
-namespace lockstep {
+namespace lockstep::runtime_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -311,4 +311,4 @@ TEST(Runtime, TellsInBoundedTimeWhatDoesNotComeToItsEnd) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::runtime_test

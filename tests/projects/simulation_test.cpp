@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lockstep {
+namespace lockstep::simulation_test {
 namespace {
 
 constexpr std::string_view kProject = R"({
@@ -90,4 +90,4 @@ TEST(Simulation, SwitchesTagsByOutputCamsAndTurnsSpeedAxes) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::simulation_test

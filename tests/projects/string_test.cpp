@@ -5,7 +5,7 @@
 
 #include "projects/loader/simulation.hpp"
 
-namespace lockstep {
+namespace lockstep::string_test {
 namespace {
 
 /// @param calls of the program
@@ -57,31 +57,31 @@ TEST(Strings, AreComparedWithEachOtherAndWithLiterals) {
 }
 
 TEST(Strings, AreChosenBySelAndMux) {
-  Simulation machine = Simulation::from_text(project(R"(
+  Simulation machine = Simulation::from_text(project(R"json(
     { "set": "kind", "to": "SEL(on, 'ale', MUX(n, 'mild', SEL(G := last = '', IN0 := kind, IN1 := 'stout'), 'bock'))" },
-    { "if": "MUX(n - 1, 'a', 'b', kind) = SEL(n > 2, 'b', kind)", "then": [ { "set": "last", "to": "MOVE(kind)" } ] })"));
+    { "if": "MUX(n - 1, 'a', 'b', kind) = SEL(n > 2, 'b', kind)", "then": [ { "set": "last", "to": "MOVE(kind)" } ] })json"));
   machine.step();
-EXPECT_EQ(text(machine, "kind"), "ale");
-EXPECT_EQ(text(machine, "last"), "");
-machine.write("on", 1.0);
-machine.step();
-EXPECT_EQ(text(machine, "kind"), "mild");
-machine.write("n", 1.0);
-machine.step();
-EXPECT_EQ(text(machine, "kind"), "stout");
-machine.write("n", 2.0);
-machine.step();
-EXPECT_EQ(text(machine, "kind"), "bock");
-EXPECT_EQ(text(machine, "last"), "bock") << "MUX(1, 'a', 'b', kind) is 'b', as SEL(FALSE, 'b', kind)";
-machine.write("n", 1.0);
-machine.step();
-EXPECT_EQ(text(machine, "kind"), "bock");
-machine.write("n", 99.0);
-machine.step();
-EXPECT_EQ(text(machine, "kind"), "bock") << "above the last one the last one is taken";
-machine.write("n", -1.0);
-machine.step();
-EXPECT_EQ(text(machine, "kind"), "mild") << "below the first one the first one";
+  EXPECT_EQ(text(machine, "kind"), "ale");
+  EXPECT_EQ(text(machine, "last"), "");
+  machine.write("on", 1.0);
+  machine.step();
+  EXPECT_EQ(text(machine, "kind"), "mild");
+  machine.write("n", 1.0);
+  machine.step();
+  EXPECT_EQ(text(machine, "kind"), "stout");
+  machine.write("n", 2.0);
+  machine.step();
+  EXPECT_EQ(text(machine, "kind"), "bock");
+  EXPECT_EQ(text(machine, "last"), "bock") << "MUX(1, 'a', 'b', kind) is 'b', as SEL(FALSE, 'b', kind)";
+  machine.write("n", 1.0);
+  machine.step();
+  EXPECT_EQ(text(machine, "kind"), "bock");
+  machine.write("n", 99.0);
+  machine.step();
+  EXPECT_EQ(text(machine, "kind"), "bock") << "above the last one the last one is taken";
+  machine.write("n", -1.0);
+  machine.step();
+  EXPECT_EQ(text(machine, "kind"), "mild") << "below the first one the first one";
 }
 
 TEST(Strings, ThatAreChosenFitWhereTheyGo) {
@@ -248,4 +248,4 @@ TEST(Strings, ThatAreKeptCountWithTheArrays) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::string_test

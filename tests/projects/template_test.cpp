@@ -77,7 +77,7 @@ TEST(Templates, TellTemplateInstanceAndLine) {
   EXPECT_EQ(told[0],
             "F:/templates/t/tags/b/init: '${m}': there is no parameter 'm'; there are: n, name (line 5, "
             "column 35, tag 'b', instance 'x' of the template 't' in line 7)");
-  EXPECT_EQ(told[2].substr(0, 52), "F:/templates/t/tags/a${n}/type: unknown type 'INT1'");
+  EXPECT_EQ(told[2].substr(0, 51), "F:/templates/t/tags/a${n}/type: unknown type 'INT1'");
   EXPECT_NE(told[2].find("(line 4, column 24, tag 'a1', instance 'x' of the template 't' in line 7)"),
             told[2].npos)
       << told[2];

@@ -4,7 +4,7 @@
 #include "changed_project.hpp"
 #include "projects/loader/simulation.hpp"
 
-namespace lockstep {
+namespace lockstep::watchdog_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -214,4 +214,4 @@ TEST(Watchdog, StandsBesideTheMapThatHasItsHeartbeat) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::watchdog_test

@@ -7,7 +7,7 @@
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::audit_test {
 namespace {
 
 Json machine() {
@@ -108,4 +108,4 @@ TEST(Audit, ThatCannotBeWrittenKeepsTheRunFromStarting) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::audit_test

@@ -7,7 +7,7 @@
 // Of a sanitizer's program callgrind counts nothing that would be the product's.
 #ifndef __SANITIZE_ADDRESS__
 
-namespace lockstep::test {
+namespace lockstep::test::check_growth_test {
 namespace {
 
 std::string name(const char* what, int i) {
@@ -121,6 +121,6 @@ TEST(Check, ReadiesNothingForTheCycle) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::check_growth_test
 
 #endif

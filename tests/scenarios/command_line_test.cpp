@@ -7,7 +7,7 @@
 #include "hmi_bridge/lcm/trace_reader.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::command_line_test {
 namespace {
 
 std::vector<std::string> examples() {
@@ -257,4 +257,4 @@ TEST(Run, EndsWith3WhenTheOverrunPolicySaysStop) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::command_line_test

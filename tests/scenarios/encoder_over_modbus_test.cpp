@@ -8,7 +8,7 @@
 #include "tests/scenarios/lockstep_process.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::encoder_over_modbus_test {
 namespace {
 
 /// A run that is read and written by the names of its map.
@@ -151,4 +151,4 @@ TEST(EncoderOverModbus, BeginsAtItsFirstValueAndALostLinkIsAFaultThatNothingFoll
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::encoder_over_modbus_test

@@ -13,7 +13,7 @@
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::ending_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -295,4 +295,4 @@ TEST(Ending, ALimitOfTheSizeOfFilesEndsNoRun) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::ending_test

@@ -12,7 +12,7 @@
 #include "lockstep/event_t.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::events_test {
 namespace {
 
 /// A slide that misses its window: alarm 541, acknowledged at 4 s, started again at 5 s and missed again.
@@ -382,4 +382,4 @@ TEST(TraceChannels, RowsOfOneInstantHaveOneTimeStampOnEveryChannel) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::events_test

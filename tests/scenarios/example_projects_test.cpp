@@ -10,7 +10,7 @@
 
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::example_projects_test {
 namespace {
 
 // ---- Stored traces
@@ -640,4 +640,4 @@ TEST(LineShaft, AllRollsComeIntoGearOneAfterAnotherAndNoneRaisesAnAlarm) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::example_projects_test

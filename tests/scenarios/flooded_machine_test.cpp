@@ -21,7 +21,7 @@
 #include "tests/support/flood.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::flooded_machine_test {
 namespace {
 
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
@@ -165,4 +165,4 @@ TEST(FloodedMachine, TheThreadOfTheCycleAsksTheSystemForNothingButTheTimeOfItsNe
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::flooded_machine_test

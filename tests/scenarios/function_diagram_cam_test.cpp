@@ -6,7 +6,7 @@
 
 #include "tests/scenarios/function_diagram.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::function_diagram_cam_test {
 namespace {
 
 constexpr double kPeriod = 1e-3;     // of the interpolator [s]
@@ -225,4 +225,4 @@ INSTANTIATE_TEST_SUITE_P(Shifts, ShiftOnACam,
                          });
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::function_diagram_cam_test

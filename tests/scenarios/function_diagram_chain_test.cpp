@@ -7,7 +7,7 @@
 
 #include "tests/scenarios/function_diagram.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::function_diagram_chain_test {
 namespace {
 
 constexpr double kPeriod = 1e-3;     // of the interpolator [s]
@@ -269,4 +269,4 @@ TEST(FunctionDiagram, LeadingValueAdditive1BShiftsTheSynchronousPosition) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::function_diagram_chain_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace lockstep::test {
+namespace lockstep::test::function_diagram_test {
 namespace {
 
 constexpr double kPeriod = 1e-3;  // of the interpolator [s]
@@ -137,4 +137,4 @@ INSTANTIATE_TEST_SUITE_P(Profiles, GearInPosDiagram,
                          });
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::function_diagram_test

@@ -8,7 +8,7 @@
 #include "hmi_bridge/lcm/trace_reader.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::lcm_scenario_test {
 namespace {
 
 /// Runs a script in a network in which only loopback is there, able to multicast; as root, or as the root of
@@ -189,4 +189,4 @@ TEST(LcmNetworkThatFails, IsToldAndHoldsNothingUp) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::lcm_scenario_test

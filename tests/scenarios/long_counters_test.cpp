@@ -5,7 +5,7 @@
 
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::long_counters_test {
 namespace {
 
 /// Each counter is loaded in the first tick, as far as it can be, and then gets an edge in every other one.
@@ -39,4 +39,4 @@ TEST(LongCounters, GoOnWhereThoseOfIntStop) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::long_counters_test

@@ -11,7 +11,7 @@
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::modbus_names_test {
 namespace {
 
 Json entry(const std::string& tag, const std::string& table, int address, const Json& more = Json::object()) {
@@ -464,4 +464,4 @@ TEST_F(Panel, OneControllerPollsAnother) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::modbus_names_test

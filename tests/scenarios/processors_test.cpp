@@ -6,7 +6,7 @@
 
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::processors_test {
 namespace {
 
 constexpr int kAxes = 150;
@@ -66,4 +66,4 @@ TEST(Processors, BeyondThoseOfTheMachineAreWarnedOf) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::processors_test

@@ -10,7 +10,7 @@
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/support/marked_blocks.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::readme_test {
 namespace {
 
 const std::string kSource = LOCKSTEP_SOURCE_DIR "/";
@@ -228,4 +228,4 @@ TEST(Readme, TheCommandsOfDevThatItNamesAreThere) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::readme_test

@@ -15,7 +15,7 @@
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::real_time_test {
 namespace {
 
 /// What `lockstep run` says of the ticks at its end.
@@ -348,4 +348,4 @@ TEST(RealTime, AClientThatStopsInTheMiddleOfARequestStallsNeitherTheTicksNorOthe
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::real_time_test

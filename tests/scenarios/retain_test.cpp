@@ -10,7 +10,7 @@
 #include "tests/scenarios/small_project.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::retain_test {
 namespace {
 
 /// Two tags and an array that change together in every millisecond, and go on from what was kept.
@@ -304,4 +304,4 @@ TEST(Retain, WhatMC_SaveAbsoluteEncoderDataHasDoneOutlivesTheRun) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::retain_test

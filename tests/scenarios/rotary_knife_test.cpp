@@ -6,7 +6,7 @@
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::rotary_knife_test {
 namespace {
 
 // Addresses of the README.
@@ -69,4 +69,4 @@ TEST(RotaryKnife, MbpollSpeaksWithItByTheCommandsOfTheReadme) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::rotary_knife_test

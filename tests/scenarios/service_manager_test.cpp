@@ -12,7 +12,7 @@
 
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::service_manager_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -164,4 +164,4 @@ TEST(ServiceManager, WhoseAddressIsNoneIsNoReasonNotToRun) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::service_manager_test

@@ -3,7 +3,7 @@
 
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::shortage_test {
 namespace {
 
 /// A run with everything that needs something: kept values, a server, a client, a trace, a cam.
@@ -113,4 +113,4 @@ TEST(Shortage, OfThreadsIsTold) {
 #endif
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::shortage_test

@@ -21,7 +21,7 @@
 #include "tests/scenarios/soak.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::soak_of_everything_test {
 namespace {
 
 /// An example, with kept values, an axis that takes commands, a drive that fails every minute of the
@@ -250,4 +250,4 @@ INSTANTIATE_TEST_SUITE_P(Machines, SoakOfEverything, testing::Values("03_line_sh
                          [](const auto& name) { return std::string(name.param).substr(3); });
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::soak_of_everything_test

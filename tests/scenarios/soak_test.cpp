@@ -11,7 +11,7 @@
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::soak_test {
 namespace {
 
 constexpr int kTicks = 900;  // address of the count of ticks
@@ -102,4 +102,4 @@ INSTANTIATE_TEST_SUITE_P(Machines, Soak, testing::Values("03_line_shaft", "05_pr
                          [](const auto& name) { return std::string(name.param).substr(3); });
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::soak_test

@@ -5,7 +5,7 @@
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::standard_streams_test {
 namespace {
 
 const std::string kExample = example("02_rotary_knife");
@@ -142,4 +142,4 @@ TEST(StandardStreams, ThatAreClosedAreNotTheSocketsOfARun) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::standard_streams_test

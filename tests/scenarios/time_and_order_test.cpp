@@ -5,7 +5,7 @@
 
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::time_and_order_test {
 namespace {
 
 /// A program; `details` are its cycle and priority, where it has them.
@@ -199,4 +199,4 @@ TEST(TimeAndOrder, ALeadingAndItsFollowersMoveInTheSameTickInWhateverOrderTheySt
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::time_and_order_test

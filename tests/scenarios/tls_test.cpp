@@ -12,7 +12,7 @@
 #include "tests/scenarios/lockstep_process.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::tls_test {
 namespace {
 
 const std::string kRecipe = LOCKSTEP_SOURCE_DIR "/hmi_bridge/tls/";
@@ -126,4 +126,4 @@ TEST_F(Tls, LetsPanelsWithACertificateInAndNobodyElse) {
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::tls_test

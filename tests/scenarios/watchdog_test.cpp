@@ -6,7 +6,7 @@
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
 
-namespace lockstep::test {
+namespace lockstep::test::watchdog_test {
 namespace {
 
 constexpr int kBeat = 0, kSpeed = 1;      // holding registers
@@ -85,4 +85,4 @@ TEST(WatchdogScenario, BringsTheFailSafeValuesWhenAPanelFallsSilentAndEndsWithIt
 }
 
 }  // namespace
-}  // namespace lockstep::test
+}  // namespace lockstep::test::watchdog_test

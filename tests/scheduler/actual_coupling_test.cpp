@@ -12,7 +12,7 @@
 #include "tests/support/bent_cam.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::actual_coupling_test {
 namespace {
 
 using test::Rig;
@@ -475,4 +475,4 @@ TEST(GearInPosByNoisyActualValue, SynchronizesWithAHysteresisThatHoldsReversalsB
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::actual_coupling_test

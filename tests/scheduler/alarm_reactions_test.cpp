@@ -10,7 +10,7 @@
 #include "fb/stop.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::alarm_reactions_test {
 namespace {
 
 using test::Rig;
@@ -289,4 +289,4 @@ TEST(MC_StopThatIsDone, LocksTheAxisBeyondAnAlarmAndItsEnable) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::alarm_reactions_test

@@ -11,7 +11,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::blending_test {
 namespace {
 
 using test::Rig;
@@ -232,4 +232,4 @@ TEST(DirectedPositioning, ThatCanStopInTimeDoesNotTurnOnceMore) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::blending_test

@@ -13,7 +13,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::camming_random_test {
 namespace {
 
 constexpr int kLongestWait = 2500;  // [ticks] for a synchronous position
@@ -213,4 +213,4 @@ TEST(CammingAtRandom, StaysFiniteAndNoFasterThanCamAndWayExplain) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::camming_random_test

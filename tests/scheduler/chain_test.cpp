@@ -22,7 +22,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::chain_test {
 namespace {
 
 using test::Continuity;
@@ -518,4 +518,4 @@ TEST(MC_GearOut, WithDynamicsFromBeyondTheVelocityLimitIsNotFasterThanItWas) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::chain_test

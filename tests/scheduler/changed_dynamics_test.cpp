@@ -9,7 +9,7 @@
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::changed_dynamics_test {
 namespace {
 
 using test::Rig;
@@ -261,4 +261,4 @@ TEST(VelocityOverride, OfZeroStopsAVelocityThatIsToBeHeld) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::changed_dynamics_test

@@ -14,7 +14,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::changed_limits_test {
 namespace {
 
 using test::Rig;
@@ -117,4 +117,4 @@ TEST(ChangedLimits, CountWhicheverOfThemChange) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::changed_limits_test

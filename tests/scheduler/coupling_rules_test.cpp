@@ -17,7 +17,7 @@
 #include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::coupling_rules_test {
 namespace {
 
 using test::Rig;
@@ -503,4 +503,4 @@ TEST(AdditiveLeadingValues, LeadAlone) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::coupling_rules_test

@@ -22,7 +22,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::coupling_status_test {
 namespace {
 
 using test::Rig;
@@ -423,4 +423,4 @@ TEST(PinsAndDataBlocks, TellTheSameInEveryTickOfRandomJobs) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::coupling_status_test

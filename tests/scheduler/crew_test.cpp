@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::crew_test {
 namespace {
 
 /// How often each item has been done.
@@ -57,4 +57,4 @@ TEST(Crews, ShowTheirThreads) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::crew_test

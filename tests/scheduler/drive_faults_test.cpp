@@ -10,7 +10,7 @@
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::drive_faults_test {
 namespace {
 
 using test::Rig;
@@ -383,4 +383,4 @@ TEST(SimulatedAxis, TakesItsDriveUpWithARestart) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::drive_faults_test

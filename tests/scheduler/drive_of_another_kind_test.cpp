@@ -9,7 +9,7 @@
 #include "tech_objects/drive/drive_models.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::drive_of_another_kind_test {
 namespace {
 
 using test::Rig;
@@ -138,4 +138,4 @@ TEST(DriveModels, AreFoundByTheNamesOfProjects) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::drive_of_another_kind_test

@@ -10,7 +10,7 @@
 #include "fb/stop.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::driven_axis_test {
 namespace {
 
 using test::Rig;
@@ -153,4 +153,4 @@ TEST(DrivenAxisPower, HomingShiftsSetpointAndActualPositionTogether) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::driven_axis_test

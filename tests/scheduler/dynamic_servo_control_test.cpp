@@ -9,7 +9,7 @@
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::dynamic_servo_control_test {
 namespace {
 
 using test::Rig;
@@ -139,4 +139,4 @@ TEST(DynamicServoControl, IsOfNoEffectForAnotherEncoderThanThatOfTheDrive) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::dynamic_servo_control_test

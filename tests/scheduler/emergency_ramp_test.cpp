@@ -14,7 +14,7 @@
 #include "fb/torque.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::emergency_ramp_test {
 namespace {
 
 using test::Rig;
@@ -351,4 +351,4 @@ TEST(EmergencyRamp, IsComeOverToWhileTheLeadingAxisIsHomedAndMovesOn) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::emergency_ramp_test

@@ -17,7 +17,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::end_of_range_test {
 namespace {
 
 using test::Rig;
@@ -405,4 +405,4 @@ TEST(EndOfRange, IsNoneToARing) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::end_of_range_test

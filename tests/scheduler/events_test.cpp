@@ -10,7 +10,7 @@
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::events_test {
 namespace {
 
 using test::Rig;
@@ -154,4 +154,4 @@ TEST(Events, CostNothingWithoutAQueue) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::events_test

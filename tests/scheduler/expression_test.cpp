@@ -12,7 +12,7 @@
 #include "tests/support/allocations.hpp"
 #include "tests/support/values.hpp"
 
-namespace lockstep {
+namespace lockstep::expression_test {
 namespace {
 
 using test::integer;
@@ -366,4 +366,4 @@ TEST(Texts, AreComparedAndAssignedWithoutAllocation) {
   EXPECT_EQ(kind.view(), "a pale ale of some l") << "what has no room is cut off";
 }
 
-}  // namespace lockstep
+}  // namespace lockstep::expression_test

@@ -16,7 +16,7 @@
 #include "fb/stop.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::external_encoder_test {
 namespace {
 
 using test::Rig;
@@ -789,4 +789,4 @@ TEST(FollowingAnEncoder, NeedsNoEnableOfTheEncoder) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::external_encoder_test

@@ -11,7 +11,7 @@
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::gear_extremes_test {
 namespace {
 
 using test::Rig;
@@ -112,4 +112,4 @@ TEST(AChainOfAThousandAxes, FollowsInTheSameTick) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::gear_extremes_test

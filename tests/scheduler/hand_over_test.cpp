@@ -17,7 +17,7 @@
 #include "tests/support/bent_cam.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::hand_over_test {
 namespace {
 
 using test::Rig;
@@ -482,4 +482,4 @@ TEST(HandOver, DoesNotConcernAxesThatFollowTheActualValue) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::hand_over_test

@@ -12,7 +12,7 @@
 #include "tests/support/rig.hpp"
 #include "tests/support/simulated_drive.hpp"
 
-namespace lockstep {
+namespace lockstep::homing_test {
 namespace {
 
 using test::Rig;
@@ -891,4 +891,4 @@ TEST(HardwareLimitSwitch, WithoutMonitoringIsNothing) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::homing_test

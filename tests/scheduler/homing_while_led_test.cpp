@@ -12,7 +12,7 @@
 #include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::homing_while_led_test {
 namespace {
 
 using test::Rig;
@@ -173,4 +173,4 @@ TEST_P(HomingWhileLed, ShiftsWhatLeadsTheAxisAndMovesNothing) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::homing_while_led_test

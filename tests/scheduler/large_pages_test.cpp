@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-namespace lockstep {
+namespace lockstep::large_pages_test {
 namespace {
 
 constexpr std::size_t kLarge = std::size_t{1} << 21;
@@ -72,4 +72,4 @@ TEST(LargePages, AreNotAskedForWhereThereIsNoMemory) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::large_pages_test

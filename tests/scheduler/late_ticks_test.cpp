@@ -15,7 +15,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::late_ticks_test {
 namespace {
 
 using test::Rig;
@@ -156,4 +156,4 @@ TEST_P(LateTicks, DoNotMakeAForeignEncoderFaster) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::late_ticks_test

@@ -10,7 +10,7 @@
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::limit_alarms_test {
 namespace {
 
 using test::Rig;
@@ -157,4 +157,4 @@ TEST(Setpoint, ThatIsNoNumberIsHeldBackWithAlarm203) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::limit_alarms_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/limited_axis.hpp"
 
-namespace lockstep {
+namespace lockstep::monitoring_test {
 namespace {
 
 using test::bit;
@@ -168,4 +168,4 @@ TEST(PositioningMonitoring, RaisesAlarm541WhenTheAxisLeavesTheWindowWithinTheDwe
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::monitoring_test

@@ -7,7 +7,7 @@
 #include "tests/support/bent_cam.hpp"
 #include "tests/support/coupled_rig.hpp"
 
-namespace lockstep {
+namespace lockstep::not_homed_test {
 namespace {
 
 constexpr double kPass = 100.0;  // of the cam [u]
@@ -146,4 +146,4 @@ TEST(NotHomed, ACouplingThatWaitsStaysWhenItsAxisLooksForAnotherMark) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::not_homed_test

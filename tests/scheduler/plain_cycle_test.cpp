@@ -23,7 +23,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::plain_cycle_test {
 namespace {
 
 using test::Rig;
@@ -273,4 +273,4 @@ TEST(PlainCycle, ShowsWhatTheWholeCycleShows) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::plain_cycle_test

@@ -17,7 +17,7 @@
 #include "tests/support/bent_cam.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::position_control_hand_over_test {
 namespace {
 
 using test::Rig;
@@ -551,4 +551,4 @@ TEST(RestartOfALeadingAxis, PutsPositionControlBack) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::position_control_hand_over_test

@@ -13,7 +13,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/values.hpp"
 
-namespace lockstep {
+namespace lockstep::process_image_test {
 namespace {
 
 using test::integer;
@@ -300,4 +300,4 @@ TEST(ProcessImage, BetweenThreadsEachWriteEntersExactlyOnce) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::process_image_test

@@ -13,7 +13,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::processors_test {
 namespace {
 
 using test::Rig;
@@ -198,4 +198,4 @@ TEST(Levels, HoldWhatCanBeSteppedSideBySide) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::processors_test

@@ -11,7 +11,7 @@
 #include "tests/support/rig.hpp"
 #include "tests/support/simulated_drive.hpp"
 
-namespace lockstep {
+namespace lockstep::sensors_test {
 namespace {
 
 using test::Rig;
@@ -280,4 +280,4 @@ TEST(AbsoluteSensor, KeepsItsOwnOffsetAndGivesBackWhatASwitchHasAdded) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::sensors_test

@@ -8,7 +8,7 @@
 #include "fb/power.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::servo_settings_test {
 namespace {
 
 using test::Rig;
@@ -307,4 +307,4 @@ TEST(Mechanics, CountAnewAfterARestart) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::servo_settings_test

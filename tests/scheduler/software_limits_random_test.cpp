@@ -7,7 +7,7 @@
 #include "tests/support/limited_axis.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::software_limits_random_test {
 namespace {
 
 using test::kRounding;
@@ -170,4 +170,4 @@ TEST(SoftwareLimits, AreNeverLeftByRandomJobs) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::software_limits_random_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/limited_axis.hpp"
 
-namespace lockstep {
+namespace lockstep::software_limits_test {
 namespace {
 
 using test::bit;
@@ -394,4 +394,4 @@ TEST(SoftwareLimits, OnARingLetTheOtherSideEndAtItsBorder) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::software_limits_test

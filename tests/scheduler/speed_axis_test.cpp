@@ -9,7 +9,7 @@
 #include "fb/torque.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::speed_axis_test {
 namespace {
 
 using test::Rig;
@@ -156,4 +156,4 @@ TEST(SpeedAxis, StopsWhenItIsDisabledWhateverTheStopMode) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::speed_axis_test

@@ -17,7 +17,7 @@
 #include "scheduler/real_time.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::stalled_clock_test {
 namespace {
 
 constexpr std::int64_t kCycle = 1'000'000;  // [ns]
@@ -178,4 +178,4 @@ TEST_P(StalledRun, DoesInEachOfItsTicksWhatOneWithoutStallsDoes) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::stalled_clock_test

@@ -8,7 +8,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/superimposing.hpp"
 
-namespace lockstep {
+namespace lockstep::superimposed_sum_test {
 namespace {
 
 // Limits of the axis.
@@ -348,4 +348,4 @@ TEST(SumOfAccelerations, IsKeptByJobsThatTakeOverAtRandom) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::superimposed_sum_test

@@ -6,7 +6,7 @@
 
 #include "scheduler/expression.hpp"
 
-namespace lockstep {
+namespace lockstep::text_test {
 namespace {
 
 TEST(Text, EndsAtTheFirstZeroOrWithItsRoom) {
@@ -66,4 +66,4 @@ TEST(Text, GoesThroughItsSignalsInAnyRoom) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::text_test

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::trace_ring_test {
 namespace {
 
 TEST(TraceRing, ARowHoldsTheValuesAtTheMomentOfThePush) {
@@ -134,4 +134,4 @@ TEST(TraceRing, EveryRowOfAHurriedWriterIsEitherReadOrCounted) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::trace_ring_test

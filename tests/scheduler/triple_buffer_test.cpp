@@ -5,7 +5,7 @@
 #include <array>
 #include <thread>
 
-namespace lockstep {
+namespace lockstep::triple_buffer_test {
 namespace {
 
 TEST(TripleBuffer, TheReaderSeesTheInitialValueBeforeTheFirstPublication) {
@@ -85,4 +85,4 @@ TEST(TripleBuffer, BetweenThreadsNoValueIsTornAndNoneIsOlderThanTheOneBefore) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::triple_buffer_test

@@ -10,7 +10,7 @@
 #include "tests/support/property.hpp"
 #include "tests/support/values.hpp"
 
-namespace lockstep {
+namespace lockstep::write_mailbox_test {
 namespace {
 
 using test::integer;
@@ -168,4 +168,4 @@ TEST(WriteMailbox, GivesBackWhatHasNotBeenTakenAndNothingWhileItIsAddedTo) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::write_mailbox_test

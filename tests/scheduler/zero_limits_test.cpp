@@ -15,7 +15,7 @@
 #include "fb/sync_out.hpp"
 #include "tests/support/rig.hpp"
 
-namespace lockstep {
+namespace lockstep::zero_limits_test {
 namespace {
 
 using test::Rig;
@@ -266,4 +266,4 @@ TEST(ZeroLimit, OfTheJerkTakesNoMotionItsJerkBeforeTheAlarm) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::zero_limits_test

@@ -4,7 +4,7 @@
 
 #include "tech_objects/alarms/notes.hpp"
 
-namespace lockstep {
+namespace lockstep::alarm_notes_test {
 namespace {
 
 std::vector<int> numbers(AlarmNotes& notes) {
@@ -54,4 +54,4 @@ TEST(AlarmNotes, CountWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::alarm_notes_test

@@ -15,7 +15,7 @@
 #include "tech_objects/alarms/detail.hpp"
 #include "tech_objects/data_blocks/status_bits.hpp"
 
-namespace lockstep {
+namespace lockstep::alarms_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -215,4 +215,4 @@ TEST(ErrorIds, ThatTheRuntimeReportsHaveATextAndUnknownOnesHaveNone) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::alarms_test

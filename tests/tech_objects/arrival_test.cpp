@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lockstep {
+namespace lockstep::arrival_test {
 namespace {
 
 using Verdict = Arrival::Verdict;
@@ -60,4 +60,4 @@ TEST_F(ArrivalOfAMotion, OfAStopIsThereAsSoonAsTheAxisStandsUnlessItDwells) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::arrival_test

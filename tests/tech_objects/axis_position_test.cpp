@@ -7,7 +7,7 @@
 
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::axis_position_test {
 namespace {
 
 constexpr Modulo kRing{true, 360.0, 0.0};
@@ -80,4 +80,4 @@ TEST(AxisPosition, DifferencesOverManyTurnsKeepTheirLastBits) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::axis_position_test

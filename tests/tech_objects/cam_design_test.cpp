@@ -11,7 +11,7 @@
 #include "tech_objects/cam_object/segment_data.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_design_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -687,4 +687,4 @@ TEST(CamChecks, ThirdDerivativesAreThoseOfTheSecond) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_design_test

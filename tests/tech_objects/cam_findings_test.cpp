@@ -5,7 +5,7 @@
 #include "tests/support/property.hpp"
 #include "tests/tech_objects/cam_cases.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_findings_test {
 namespace {
 
 using test::Cam;
@@ -150,4 +150,4 @@ TEST(CamFindings, APointCountsExactlyIfNothingIsToldOfIt) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_findings_test

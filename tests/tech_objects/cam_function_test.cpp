@@ -9,7 +9,7 @@
 #include "tests/support/property.hpp"
 #include "tests/tech_objects/cam_cases.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_function_test {
 namespace {
 
 using test::Cam;
@@ -229,4 +229,4 @@ TEST(CamSine, AgreesWithTheLibraryToTwoUlpOfOne) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_function_test

@@ -8,7 +8,7 @@
 #include "tests/support/property.hpp"
 #include "tests/tech_objects/cam_cases.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_interpolation_test {
 namespace {
 
 using test::Cam;
@@ -457,4 +457,4 @@ TEST(CamInterpolation, TenThousandPointsTakeMilliseconds) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_interpolation_test

@@ -10,7 +10,7 @@
 #include "tech_objects/cam_object/interpolation.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_motion_test {
 namespace {
 
 constexpr Modulo kRing{true, 360.0, 0.0};
@@ -239,4 +239,4 @@ TEST(CamFollowing, IsContinuousAcrossPassesWithRandomScaling) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_motion_test

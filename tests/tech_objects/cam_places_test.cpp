@@ -8,7 +8,7 @@
 #include "tech_objects/cam_design/design.hpp"
 #include "tech_objects/cam_design/design_check.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_places_test {
 namespace {
 
 struct Place {
@@ -137,4 +137,4 @@ TEST(CamJumps, AtTheWrapAreFoundWhereTheCamHasToClose) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_places_test

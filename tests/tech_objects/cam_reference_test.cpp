@@ -4,7 +4,7 @@
 
 #include "tests/tech_objects/cam_cases.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_reference_test {
 namespace {
 
 /// Compares every sample to a part of the range that position and derivatives span over the cam.
@@ -77,4 +77,4 @@ TEST(CamReference, DerivativesAreThoseOfTheValues) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_reference_test

@@ -10,7 +10,7 @@
 #include "tech_objects/cam_object/interpolation.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_scaling_test {
 namespace {
 
 constexpr Modulo kLine{};
@@ -103,4 +103,4 @@ TEST(CamScaling, OfTheFollowingSideBy0RestsEverywhere) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_scaling_test

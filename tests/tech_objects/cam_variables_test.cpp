@@ -11,7 +11,7 @@
 #include "tech_objects/cam_object/cam.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 
-namespace lockstep {
+namespace lockstep::cam_variables_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -138,4 +138,4 @@ INSTANTIATE_TEST_SUITE_P(BothKinds, CamVariables, testing::Values(ObjectKind::TO
                          [](const auto& one) { return std::string(kind_name(one.param)); });
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::cam_variables_test

@@ -5,7 +5,7 @@
 
 #include "tech_objects/axis/backlash.hpp"
 
-namespace lockstep {
+namespace lockstep::clamping_test {
 namespace {
 
 constexpr double kTolerance = 0.5;
@@ -63,4 +63,4 @@ TEST(Backlash, IsPassedWithItsVelocityWhenTheSetpointTurnsRound) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::clamping_test

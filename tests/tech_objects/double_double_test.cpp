@@ -7,7 +7,7 @@
 
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::double_double_test {
 namespace {
 
 TEST(DoubleDouble, SumsAndProductsOfDoublesLoseNothing) {
@@ -45,4 +45,4 @@ TEST(DoubleDouble, AManyTermSumIsTheRoundedExactSum) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::double_double_test

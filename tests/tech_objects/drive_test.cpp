@@ -8,7 +8,7 @@
 #include "tech_objects/drive/position_controller.hpp"
 #include "tech_objects/drive/simulated_drive.hpp"
 
-namespace lockstep {
+namespace lockstep::drive_test {
 namespace {
 
 constexpr double kCycle = 0.001;
@@ -227,4 +227,4 @@ TEST(PositionController, TwoRunsAreIdenticalToTheBit) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::drive_test

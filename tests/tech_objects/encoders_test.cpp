@@ -5,7 +5,7 @@
 
 #include "tech_objects/drive/simulated_drive.hpp"
 
-namespace lockstep {
+namespace lockstep::encoders_test {
 namespace {
 
 constexpr double kCycle = 0.001;
@@ -104,4 +104,4 @@ TEST(Encoders, GoOnFromWhereTheyWereSeenLastOnceTheyAreBack) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::encoders_test

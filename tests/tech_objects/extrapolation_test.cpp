@@ -13,7 +13,7 @@
 #include "tech_objects/arithmetic/decay.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::extrapolation_test {
 namespace {
 
 constexpr double kPeriod = 0.002;  // [s]
@@ -492,4 +492,4 @@ TEST(ExtrapolationShiftedByHoming, GoesOnAsIfThePositionsHadAlwaysBeenThere) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::extrapolation_test

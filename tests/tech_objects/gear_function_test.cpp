@@ -14,7 +14,7 @@
 
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::gear_function_test {
 namespace {
 
 constexpr Modulo kLine{false, 1.0, 0.0};
@@ -174,4 +174,4 @@ TEST(GearFunction, TurnsWrapAtSixtyFourBitsWithoutAStep) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::gear_function_test

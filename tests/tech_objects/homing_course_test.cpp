@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lockstep {
+namespace lockstep::homing_course_test {
 namespace {
 
 using Kind = HomingCourse::Leg::Kind;
@@ -77,4 +77,4 @@ TEST(HomingCourse, ThatHasEndedSeeksNothing) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::homing_course_test

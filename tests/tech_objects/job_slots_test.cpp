@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace lockstep {
+namespace lockstep::job_slots_test {
 namespace {
 
 Job job_of(JobKind kind, StopMode mode = StopMode::emergency_ramp) {
@@ -69,4 +69,4 @@ TEST(JobSlots, ShowAnAlarmAtAStopAsCommandAborted) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::job_slots_test

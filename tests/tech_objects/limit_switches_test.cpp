@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lockstep {
+namespace lockstep::limit_switches_test {
 namespace {
 
 constexpr TO_Struct_PositionLimitsHW kNotOverrun{.Active = true};
@@ -72,4 +72,4 @@ TEST(LimitSwitches, AreReadFromTheirTagAtItsLevelElseFromTheMachine) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::limit_switches_test

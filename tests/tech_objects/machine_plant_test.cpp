@@ -7,7 +7,7 @@
 
 #include "tech_objects/drive/simulated_drive.hpp"
 
-namespace lockstep {
+namespace lockstep::machine_plant_test {
 namespace {
 
 constexpr double kCycle = 0.001;
@@ -207,4 +207,4 @@ TEST(SimulatedFaults, WithoutCommunicationNothingChangesButTheDriveStopsByItself
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::machine_plant_test

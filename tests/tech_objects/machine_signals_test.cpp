@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::machine_signals_test {
 namespace {
 
 constexpr double kLine = 0.0;
@@ -104,4 +104,4 @@ TEST(MarkSearch, AsksForTheCamAgainAfterTurningBack) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::machine_signals_test

@@ -13,7 +13,7 @@
 
 #include "tests/tech_objects/cam_cases.hpp"
 
-namespace lockstep {
+namespace lockstep::motion_law_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -506,4 +506,4 @@ TEST(MotionLaw, TasksFollowFromVelocityAndAcceleration) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::motion_law_test

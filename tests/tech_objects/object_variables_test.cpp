@@ -13,7 +13,7 @@
 
 #include "tech_objects/data_blocks/variable.hpp"
 
-namespace lockstep {
+namespace lockstep::object_variables_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -192,4 +192,4 @@ INSTANTIATE_TEST_SUITE_P(Every, ObjectVariables, testing::ValuesIn(kinds_of_the_
                          [](const auto& kind) { return std::string(kind_name(kind.param)); });
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::object_variables_test

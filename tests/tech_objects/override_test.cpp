@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace lockstep {
+namespace lockstep::override_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -229,4 +229,4 @@ TEST(Override, KnowsEveryModeOfHoming) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::override_test

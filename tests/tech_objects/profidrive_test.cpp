@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::profidrive_test {
 namespace {
 
 using State = DriveStates::State;
@@ -155,4 +155,4 @@ TEST(Telegrams, NormaliseToTheReferenceAndCutAtTwiceOfIt) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::profidrive_test

@@ -14,7 +14,7 @@
 #include "tech_objects/profile/profile.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::profile_oracle_test {
 namespace {
 
 constexpr double kShortest = 0.01;  // below it rounding of the velocity is felt in the comparison
@@ -180,4 +180,4 @@ INSTANTIATE_TEST_SUITE_P(AccelerationAndDeceleration, ProfileOracle, testing::Bo
                          [](const auto& tested) { return tested.param ? "Equal" : "Unequal"; });
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::profile_oracle_test

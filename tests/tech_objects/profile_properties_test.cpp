@@ -12,7 +12,7 @@
 #include "tech_objects/profile/profile.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::profile_properties_test {
 namespace {
 
 int cases() {
@@ -266,4 +266,4 @@ INSTANTIATE_TEST_SUITE_P(OfMachines, ProfileProperties, testing::Values(2.0));
 INSTANTIATE_TEST_SUITE_P(OfAnySize, ProfileProperties, testing::Values(9.0, 30.0));
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::profile_properties_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace lockstep {
+namespace lockstep::profile_test {
 namespace {
 
 constexpr ProfileLimits kLimits{10.0, -10.0, 100.0, 100.0, 1000.0};
@@ -269,4 +269,4 @@ TEST(Profile, RefusesNumbersWhoseSquaresLeaveTheRangeOfDouble) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::profile_test

@@ -10,7 +10,7 @@
 
 #include "tech_objects/profile/profile.hpp"
 
-namespace lockstep {
+namespace lockstep::profile_vectors_test {
 namespace {
 
 constexpr double kNoLimit = 1e9;
@@ -70,4 +70,4 @@ TEST(ProfileVectors, MotionsFromAnyStateToAnyVelocityAreTimeOptimal) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::profile_vectors_test

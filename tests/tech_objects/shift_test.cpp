@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::shift_test {
 namespace {
 
 constexpr double kPeriod = 0.001;  // [s]
@@ -66,4 +66,4 @@ TEST(Shift, IsNotThrownBeyondItsTargetByTheAccelerationItBrakesWith) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::shift_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lockstep {
+namespace lockstep::single_axis_motion_test {
 namespace {
 
 /// Round numbers make profiles that last whole ticks but for rounding.
@@ -38,4 +38,4 @@ TEST(SingleAxisMotion, HasNoAccelerationLeftWhereItRests) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::single_axis_motion_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lockstep {
+namespace lockstep::software_limits_test {
 namespace {
 
 constexpr Modulo kLine{};
@@ -68,4 +68,4 @@ TEST(SoftwareLimits, ShowTheSideThatIsReachedOrInFrontOfWhichTheAxisBrakes) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::software_limits_test

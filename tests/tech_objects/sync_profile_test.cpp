@@ -9,7 +9,7 @@
 #include "tech_objects/synchronous/gear_function.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::sync_profile_test {
 namespace {
 
 constexpr Modulo kLine{};
@@ -230,4 +230,4 @@ TEST(SyncProfile, TheAxisRunsIntoTheGearWithoutAStepAcrossModuloWraps) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::sync_profile_test

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace lockstep {
+namespace lockstep::types_test {
 namespace {
 
 TEST(Types, TagTypesAreFoundByTheirPublishedNameOnly) {
@@ -60,4 +60,4 @@ TEST(Types, ATimeAsADoubleIsTheNearestToItsSeconds) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::types_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace lockstep {
+namespace lockstep::variable_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -365,4 +365,4 @@ TEST(Variables, AreSetByTheProjectUnlessTheRuntimeComputesThem) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::variable_test

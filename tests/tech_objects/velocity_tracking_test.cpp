@@ -12,7 +12,7 @@
 
 #include "tests/support/property.hpp"
 
-namespace lockstep {
+namespace lockstep::velocity_tracking_test {
 namespace {
 
 /// The target's motion over time.
@@ -254,4 +254,4 @@ TEST(VelocityTracking, RandomSituationsConvergeInsideTheirLimits) {
 }
 
 }  // namespace
-}  // namespace lockstep
+}  // namespace lockstep::velocity_tracking_test

@@ -7,7 +7,7 @@
 #include "projects/aposs/parameter_names.hpp"
 #include "tests/projects/aposs/program_run.hpp"
 
-namespace lockstep::aposs {
+namespace lockstep::aposs::catalogue_test {
 namespace {
 
 nlohmann::json catalogue(const std::string& name) {
@@ -81,7 +81,7 @@ TEST(AposCatalogue, HasEveryParameterWithItsMnemonic) {
     const std::string number = parameter.at("number"), name = parameter.at("name");
     if (number.find("..") == number.npos) published.insert({number, name.starts_with('(') ? "" : name});
   }
-  for (const ParameterName& parameter : parameter_names()) {
+  for (const mco305::Parameter& parameter : mco305::parameters()) {
     declared.insert({parameter_text(parameter.number), std::string(parameter.mnemonic)});
     if (!parameter.mnemonic.empty()) {
       EXPECT_EQ(parameter_number(parameter.mnemonic), parameter.number);
@@ -116,4 +116,4 @@ TEST(AposCatalogue, LetsEveryCommandOfTheDeviceReachIt) {
 }
 
 }  // namespace
-}  // namespace lockstep::aposs
+}  // namespace lockstep::aposs::catalogue_test

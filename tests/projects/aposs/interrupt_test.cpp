@@ -1,7 +1,7 @@
 // Interrupts of all classes: order, memory, blocking, what they do to waits.
 #include "tests/projects/aposs/program_run.hpp"
 
-namespace lockstep::aposs {
+namespace lockstep::aposs::interrupt_test {
 namespace {
 
 /// Subprograms that print their name.
@@ -266,4 +266,4 @@ TEST(AposInterrupts, OfFallingBitsOfTheBusAreTheirOwn) {
 }
 
 }  // namespace
-}  // namespace lockstep::aposs
+}  // namespace lockstep::aposs::interrupt_test

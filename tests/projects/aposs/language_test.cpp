@@ -1,7 +1,7 @@
 // Values, operators, blocks: what a program computes.
 #include "tests/projects/aposs/program_run.hpp"
 
-namespace lockstep::aposs {
+namespace lockstep::aposs::language_test {
 namespace {
 
 TEST(AposExpression, HasTheValuesOfThePublishedTables) {
@@ -198,4 +198,4 @@ TEST(AposArguments, WriteBitsOfProcessData) {
 }
 
 }  // namespace
-}  // namespace lockstep::aposs
+}  // namespace lockstep::aposs::language_test

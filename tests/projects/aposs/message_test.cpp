@@ -1,7 +1,7 @@
 // What the compiler says, with line and column.
 #include "tests/projects/aposs/program_run.hpp"
 
-namespace lockstep::aposs {
+namespace lockstep::aposs::message_test {
 namespace {
 
 TEST(AposMessages, TellTheNearestParameter) {
@@ -216,4 +216,4 @@ TEST(AposListing, TellsTheLongestRunOfAHandler) {
 }
 
 }  // namespace
-}  // namespace lockstep::aposs
+}  // namespace lockstep::aposs::message_test

@@ -7,7 +7,7 @@
 
 #include "tests/projects/aposs/program_run.hpp"
 
-namespace lockstep::aposs {
+namespace lockstep::aposs::printed_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -178,4 +178,4 @@ const std::map<std::string, Expected>& expected() {
 }
 
 }  // namespace
-}  // namespace lockstep::aposs
+}  // namespace lockstep::aposs::printed_program_test

@@ -2,7 +2,7 @@
 #include "tests/projects/aposs/program_run.hpp"
 #include "tests/support/allocations.hpp"
 
-namespace lockstep::aposs {
+namespace lockstep::aposs::running_test {
 namespace {
 
 TEST(AposMachine, WaitsForMotionsWithNowaitOffOnly) {
@@ -234,4 +234,4 @@ TEST(AposMachine, KeepsArraysFromOneProgramToTheNext) {
 }
 
 }  // namespace
-}  // namespace lockstep::aposs
+}  // namespace lockstep::aposs::running_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace lockstep::aposs {
+namespace lockstep::aposs::arithmetic_test {
 namespace {
 
 constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min();
@@ -88,4 +88,4 @@ TEST(AposArithmetic, ShowsPositionsWithinTheirRange) {
 }
 
 }  // namespace
-}  // namespace lockstep::aposs
+}  // namespace lockstep::aposs::arithmetic_test

@@ -8,7 +8,7 @@
 #include "scheduler/aposs/machine.hpp"
 #include "scheduler/aposs/plain_device.hpp"
 
-namespace lockstep::aposs {
+namespace lockstep::aposs::image_test {
 namespace {
 
 // a = 3; again: a = a - 1; LOAD; PRINT; OUT; loop.
@@ -102,4 +102,4 @@ TEST(AposImage, OfRandomInstructionsNeverLeavesItsMemory) {
 }
 
 }  // namespace
-}  // namespace lockstep::aposs
+}  // namespace lockstep::aposs::image_test

@@ -6,7 +6,7 @@
 #include "scheduler/aposs/pid_filter.hpp"
 #include "scheduler/aposs/print_queue.hpp"
 
-namespace lockstep::aposs {
+namespace lockstep::aposs::parts_test {
 namespace {
 
 TEST(AposArrays, AreKnownByTheirOrderAndKeepTheirContent) {
@@ -135,4 +135,4 @@ TEST(AposPosition, IsPassedOnceInItsDirection) {
 }
 
 }  // namespace
-}  // namespace lockstep::aposs
+}  // namespace lockstep::aposs::parts_test

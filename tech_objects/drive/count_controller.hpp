@@ -1,0 +1,82 @@
+/// Position controller of an axis that counts: PID on the following error, with feed-forward of velocity and
+/// acceleration, to a reference of so many parts of full scale.
+/// @source MCO 305 Design Guide, PID controller: 32-60 to 32-72; MG.33.L5.03: KILIMTIME
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace lockstep {
+
+/// In qc and ms; what is not printed is a decision (README of `mco305`).
+struct CountControllerSettings {
+  double proportional = 0.0;           ///< KPROP, per qc
+  double derivative = 0.0;             ///< KDER, per qc/ms of the actual value
+  double integral = 0.0;               ///< KINT, per summed qc
+  double integral_limit = 0.0;         ///< KILIM, of the sum [qc]; 0: no integral part
+  double bandwidth = 1000.0;           ///< BANDWIDTH [1/1000 of full scale], of the three parts together
+  double velocity_precontrol = 0.0;    ///< FFVEL, per qc/ms
+  double acceleration_precontrol = 0;  ///< FFACC, per qc/ms²
+  std::int64_t idle_below = 0;         ///< REGWMIN [qc]: a smaller error switches the controller off …
+  std::int64_t active_above = 0;       ///< REGWMAX [qc]: … until it is larger than this; 0: never
+  std::int32_t integral_time = 0;      ///< KILIMTIME [ms]: > 0 in motion only, < 0 at standstill only; fades
+  double scale = 1.0;
+};
+
+/// One axis; `step` once per sampling period.
+class CountController {
+ public:
+  static constexpr double kFullScale = 1'048'575.0;
+
+  void reset() noexcept {
+    sum_ = 0.0;
+    idle_ = false;
+    begun_ = false;
+    fade_ = 0.0;
+  }
+  /// @param velocity, acceleration of the setpoint [qc/ms], [qc/ms²]  @param period [ms] ≥ 1
+  /// @return the reference, -kFullScale to kFullScale
+  double step(const CountControllerSettings& settings, double setpoint, double actual, double velocity,
+              double acceleration, double period) noexcept {
+    const double error = setpoint - actual;
+    const double moved = begun_ ? actual - last_ : 0.0;
+    last_ = actual;
+    begun_ = true;
+    if (settings.active_above > 0) {
+      const double distance = error < 0.0 ? -error : error;
+      if (distance > static_cast<double>(settings.active_above)) idle_ = false;
+      if (distance < static_cast<double>(settings.idle_below)) idle_ = true;
+      if (idle_) {
+        sum_ = 0.0;
+        return 0.0;
+      }
+    } else {
+      idle_ = false;
+    }
+    const double limit = settings.integral_limit * faded(settings.integral_time, velocity, period);
+    sum_ = std::clamp(sum_ + error, -limit, limit);
+    const double band = kFullScale * settings.bandwidth / 1000.0;
+    const double pid = settings.scale * (settings.proportional * error + settings.integral * sum_ -
+                                         settings.derivative * moved);
+    const double precontrol = settings.scale * (settings.velocity_precontrol * velocity +
+                                                settings.acceleration_precontrol * acceleration);
+    return std::clamp(std::clamp(pid, -band, band) + precontrol, -kFullScale, kFullScale);
+  }
+  /// POSFLOAT: the error is within the control window.
+  bool idle() const noexcept { return idle_; }
+
+ private:
+  // What part of its limit the sum may have, 0 to 1.
+  double faded(std::int32_t time, double velocity, double period) noexcept {
+    if (time == 0) return 1.0;
+    const bool moves = velocity != 0.0;
+    const double change = period / static_cast<double>(time < 0 ? -time : time);
+    fade_ = std::clamp(fade_ + (moves == (time > 0) ? change : -change), 0.0, 1.0);
+    return fade_;
+  }
+
+  double sum_ = 0.0, last_ = 0.0, fade_ = 0.0;
+  bool idle_ = false, begun_ = false;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,300 @@
+// The steps of a device: from the drive to the drive.
+#include "tech_objects/mco305/device.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tech_objects/drive/drive_models.hpp"
+
+namespace lockstep::mco305 {
+namespace {
+
+constexpr std::int64_t kMonitoringPeriod = 20;  // [ms] of following error and drive
+constexpr double kMillisecondsPerSecond = 1000.0;
+
+std::int64_t counts_of(double position) noexcept {
+  return static_cast<std::int64_t>(std::floor(position));
+}
+
+}  // namespace
+
+void Device::configure(const DeviceSettings& settings, double servo_period) {
+  settings_ = settings;
+  virtual_ = !settings.has_drive;
+  refresh();
+  if (settings.has_drive) {
+    drive_ = kDriveModels[0].make();
+    drive_->configure(settings.drive, servo_period,
+                      2.0 * 3.14159265358979323846 / (4.0 * parameters_.real(kEncoder)));
+    machine_ = settings.drive.signals.start_position;
+  }
+  profile_.stand(0.0);
+  if (parameters_[kPowerUpState] != 0) motor_on();
+  was_reset_ = false;
+}
+
+// What steps ask for, computed where it changes.
+void Device::refresh() noexcept {
+  const ParameterValues& p = parameters_;
+  unit_ = {p[kPosFactZ], p[kPosFactN], p[kPosDirection] >= 3 ? -1 : 1};
+  velocity_maximum_ = p.real(kVelMax) * p.real(kEncoder) * 4.0 / 60'000.0;
+  acceleration_maximum_ = velocity_maximum_ / p.real(kRampMin);
+  profile_time_ = p[kProfTime];
+  sampling_ = p[kTimer];
+  position_error_ = p[kPosErr];
+  checks_limits_ = p[kSwNegLimAct] != 0 || p[kSwPosLimAct] != 0;
+  control_.proportional = p.real(kKProp);
+  control_.derivative = p.real(kKDer);
+  control_.integral = p.real(kKInt);
+  control_.integral_limit = p.real(kKILim);
+  control_.bandwidth = p.real(kBandwidth);
+  control_.velocity_precontrol = p.real(kFFVel);
+  control_.acceleration_precontrol = p.real(kFFAcc);
+  control_.active_above = p[kRegWMax];
+  control_.idle_below = p[kRegWMin];
+  control_.integral_time = p[kKILimTime];
+  control_.scale = settings_.controller_scale;
+  io_.assign(p);
+}
+
+int Device::set_parameter(std::int32_t number, std::int32_t value) noexcept {
+  const int error = parameters_.set(number, value);
+  if (error == 0 && !is_application_parameter(number)) refresh();
+  return error;
+}
+
+int Device::change_parameter(std::int32_t number, std::int32_t value) noexcept {
+  const int error = parameters_.change(number, value);
+  if (error == 0 && !is_application_parameter(number)) refresh();
+  return error;
+}
+
+void Device::servo(bool step) noexcept {
+  if (!virtual_) read_drive();
+  if (step) {
+    ++now_;
+    sample_inputs();
+    if (mode_ == MotionMode::kHome) step_home();
+    generate();
+    if (virtual_) {
+      const double before = machine_;
+      machine_ = profile_.state().position;
+      actual_ = counts_of(machine_ + 0.5);
+      if (machine_ != before) latch(before, machine_);
+    }
+    control();
+    look_at_arrival();
+    monitor();
+    positions_[static_cast<std::size_t>(now_) % kVelocityRing] = actual_;
+    write_outputs();
+  }
+  if (!virtual_) write_drive();
+}
+
+void Device::read_drive() noexcept {
+  drive_actual_ = drive_->read();
+  if (drive_actual_.silent || drive_actual_.encoder_failed) return;
+  const double moved = rounded_difference(drive_actual_.position, last_drive_position_);
+  last_drive_position_ = drive_actual_.position;
+  const double before = machine_;
+  machine_ += moved;
+  const double start = settings_.drive.signals.start_position;
+  actual_ = counts_of(machine_ - start);
+  if (moved != 0.0) latch(before, machine_);
+  for (const DigitalInput& input : settings_.drive.signals.digital_inputs)
+    *input.tag = input.range.contains(machine_, 0.0);
+}
+
+/// A zero pulse is met exactly, wherever in the tick it lies.
+void Device::latch(double from, double to) noexcept {
+  const auto& marks = settings_.drive.signals.zero_marks;
+  if (!marks || parameters_[kMarkerTypeSlave] >= 2) return;
+  const auto mark = marks->between(from, to);
+  if (!mark) return;
+  const double start = virtual_ ? 0.0 : settings_.drive.signals.start_position;
+  latched_ = counts_of(*mark - start + 0.5);
+  ++latches_;
+}
+
+void Device::sample_inputs() noexcept {
+  for (std::size_t i = 0; i < settings_.inputs.size(); ++i)
+    if (settings_.inputs[i] != nullptr) io_.set_input(i + 1, *settings_.inputs[i]);
+  const auto& cam = settings_.drive.signals.reference_cam;
+  const std::size_t home_switch = io_.input_of(InputFunction::kHomeSwitch);
+  if (cam && home_switch != 0 && settings_.inputs[home_switch - 1] == nullptr) {
+    const bool closed = parameters_[kFirstInputFunction + static_cast<std::int32_t>(home_switch) -
+                                    (home_switch <= 10 ? 1 : 0)] == 2;
+    io_.set_input(home_switch, cam->contains(machine_, 0.0) != closed);
+  }
+  // The marker of the following side is input 6.
+  const std::int32_t type = parameters_[kMarkerTypeSlave];
+  const bool marker = io_.input(6);
+  if (type >= 2 && marker != last_marker_input_ && marker == (type == 2)) {
+    latched_ = actual_;
+    ++latches_;
+  }
+  last_marker_input_ = marker;
+}
+
+void Device::generate() noexcept {
+  if (!on_) {
+    // MOTOR OFF: the set position is where the axis is.
+    if (!virtual_) profile_.stand(static_cast<double>(actual_));
+    last_velocity_ = 0.0;
+    return;
+  }
+  if (now_ % profile_time_ == 0) profile_.step(static_cast<double>(profile_time_));
+}
+
+void Device::control() noexcept {
+  const FourSlopeState& set = profile_.state();
+  if (!on_ || virtual_) {
+    reference_ = 0.0;
+    if (!on_) controller_.reset();
+    last_velocity_ = set.velocity;
+    return;
+  }
+  if (now_ % sampling_ != 0) return;
+  const auto period = static_cast<double>(sampling_);
+  reference_ = controller_.step(control_, static_cast<double>(set_counts()), static_cast<double>(actual_),
+                                set.velocity, (set.velocity - last_velocity_) / period, period);
+  last_velocity_ = set.velocity;
+}
+
+/// TESTWIN: the profile is at its end, the axis within the window, and it hardly moves.
+void Device::look_at_arrival() noexcept {
+  const bool ended = profile_.over() && profile_.state().velocity == 0.0;
+  moving_ = on_ && !(ended && mode_ != MotionMode::kHome);
+  if (mode_ == MotionMode::kStop && ended && brake_after_stop_) {
+    brake_ = true;
+    brake_after_stop_ = false;
+    motor_off();
+  }
+  if (arrived_ || !on_ || !ended) {
+    if (!ended) window_since_ = -1;
+    return;
+  }
+  const std::int64_t window = parameters_[kTestWin];
+  if (window == 0 || virtual_ || mode_ != MotionMode::kPosition) {
+    arrived_ = true;
+    return;
+  }
+  const std::int64_t distance = actual_ - target_, time = parameters_[kTestTim];
+  if (window_since_ < 0 || now_ - window_since_ >= time) {
+    const std::int64_t moved = actual_ - window_position_;
+    const bool still = window_since_ >= 0 && std::abs(moved) < parameters_[kTestVal];
+    arrived_ = still && std::abs(distance) <= window;
+    window_position_ = actual_;
+    window_since_ = now_;
+  }
+}
+
+void Device::monitor() noexcept {
+  look_at_limits();
+  if (!virtual_ && on_ && now_ % kMonitoringPeriod == 0) {
+    look_at_position_error();
+    look_at_drive();
+  }
+  const bool user_break = io_.active(InputFunction::kBreak);
+  if (user_break && !break_input_) raise(kUserAbort);
+  break_input_ = user_break;
+}
+
+void Device::look_at_limits() noexcept {
+  const bool negative = io_.active(InputFunction::kNegativeEnd),
+             positive = io_.active(InputFunction::kPositiveEnd);
+  const bool pressed = (negative && !at_negative_end_) || (positive && !at_positive_end_);
+  at_negative_end_ = negative;
+  at_positive_end_ = positive;
+  if (pressed) raise(kHardwareLimit);
+  if (!checks_limits_) return;
+  const std::int64_t at = (virtual_ ? set_counts() : actual_) - limits_origin_;
+  const bool below = parameters_[kSwNegLimAct] != 0 && at < parameters_[kNegLimit];
+  const bool above = parameters_[kSwPosLimAct] != 0 && at > parameters_[kPosLimit];
+  const bool moves_out =
+      (below && profile_.state().velocity < 0.0) || (above && profile_.state().velocity > 0.0);
+  const bool beyond = below || above;
+  if (beyond && !beyond_ && moves_out && on_) raise(kSoftwareLimit);
+  beyond_ = beyond;
+}
+
+void Device::look_at_position_error() noexcept {
+  const std::int64_t error = set_counts() - actual_;
+  if (std::abs(error) <= position_error_) {
+    over_since_ = -1;
+    return;
+  }
+  if (over_since_ < 0) over_since_ = now_;
+  if (now_ - over_since_ < parameters_[kPosErrTime] || pending_.has(kPositionError)) return;
+  raise(kPositionError);
+}
+
+void Device::look_at_drive() noexcept {
+  if (parameters_[kEncoderMonitoring] != 0 && drive_actual_.encoder_failed && !pending_.has(kEncoderError))
+    raise(kEncoderError);
+  if (parameters_[kStatusMonitoring] != 0 && (drive_actual_.fault || drive_actual_.silent) &&
+      !pending_.has(kDriveNotReady))
+    raise(kDriveNotReady);
+}
+
+void Device::write_outputs() noexcept {
+  io_.show({moving_, pending_.any(), brake_});
+  brake_ = false;
+  for (std::size_t i = 0; i < settings_.outputs.size(); ++i)
+    if (settings_.outputs[i] != nullptr) *settings_.outputs[i] = io_.output(i + 1);
+}
+
+void Device::write_drive() noexcept {
+  const double sign = parameters_[kPosDirection] % 2 == 0 ? -1.0 : 1.0;
+  drive_->write(sign * reference_ / CountController::kFullScale * velocity_maximum_ * kMillisecondsPerSecond);
+}
+
+void Device::raise(int error) noexcept {
+  if (raised_count_ < raised_.size()) raised_[raised_count_++] = error;
+}
+
+int Device::take_error() noexcept {
+  if (raised_count_ == 0) return 0;
+  const int error = raised_[0];
+  std::copy(raised_.begin() + 1, raised_.end(), raised_.begin());
+  --raised_count_;
+  return error;
+}
+
+void Device::react(int error) noexcept {
+  pending_.add(error);
+  if (!on_) return;
+  std::int32_t reaction = parameters_[kErrCond];
+  if (error == kHardwareLimit && parameters_[kEndSwMod] == 1 && reaction < 2) reaction = 2;
+  if (reaction == 5) return;
+  if (homing()) end_home(error);
+  if (reaction == 2 || reaction == 3) {
+    brake_after_stop_ = reaction == 3;
+    return stop(acceleration_maximum_, MotionMode::kStop);
+  }
+  brake_ = reaction == 1;
+  motor_off();
+}
+
+void Device::clear_error() noexcept {
+  pending_.clear_first();
+  over_since_ = -1;
+  if (!virtual_) {
+    constexpr std::uint16_t kAcknowledge = 1U << 7;
+    drive_->control(kControlOff | kAcknowledge, 0);
+  }
+  motor_on();
+}
+
+void Device::clear_all_errors() noexcept {
+  while (pending_.any()) clear_error();
+}
+
+void Device::escape() noexcept {
+  stop(acceleration_maximum_, MotionMode::kStop);
+  const std::int32_t condition = parameters_[kEscCond];
+  if (condition == 1 || condition == 2)
+    for (std::int32_t output = 1; output <= 8; ++output) io_.switch_output(output, condition == 2);
+}
+
+}  // namespace lockstep::mco305

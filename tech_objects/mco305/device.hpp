@@ -1,0 +1,215 @@
+/// The axis of an MCO 305: counters, zero points, generator, position controller, drive, limits and errors,
+/// in steps of 1 ms. What its program asks for are the members here; the program itself runs above.
+/// @source MCO 305 Design Guide; what it leaves open is decided in the README of this folder
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "tech_objects/drive/count_controller.hpp"
+#include "tech_objects/drive/drive.hpp"
+#include "tech_objects/mco305/inputs_outputs.hpp"
+#include "tech_objects/mco305/units.hpp"
+#include "tech_objects/mco305_catalogue/errors.hpp"
+#include "tech_objects/mco305_catalogue/parameters.hpp"
+#include "tech_objects/profile/four_slope_profile.hpp"
+
+namespace lockstep::mco305 {
+
+/// What a project says of a device.
+struct DeviceSettings {
+  bool later_edition = true;      ///< "firmware": "5.00"
+  bool has_drive = false;         ///< false: ENCODERTYPE 9, the actual position is the set position
+  DriveSettings drive{};          ///< in qc
+  double controller_scale = 1.0;  ///< of the parts of the position controller
+  std::array<const bool*, InputsOutputs::kInputs> inputs{};  ///< tags; nullptr: not wired
+  std::array<bool*, InputsOutputs::kOutputs> outputs{};
+};
+
+/// AXEND and what else a program sees of the motion.
+enum class MotionMode : std::uint8_t { kHold, kPosition, kSpeed, kStop, kHome };
+
+/// One device. Thread: that of the cycle, but for `configure`. Errors are published numbers; 0: none.
+class Device {
+ public:
+  /// Call once, with the parameters set. @param servo_period [s]
+  void configure(const DeviceSettings& settings, double servo_period);
+
+  /// One servo tick. @param step whether it is one of the device's steps, each 1 ms
+  void servo(bool step) noexcept;
+
+  // ---- Parameters
+
+  ParameterValues& parameters() noexcept { return parameters_; }
+  int set_parameter(std::int32_t number, std::int32_t value) noexcept;
+  /// As from a panel. @return as `ParameterValues::set`
+  int change_parameter(std::int32_t number, std::int32_t value) noexcept;
+  /// GET, with the read-outs. @return whether there is such a parameter
+  bool get_parameter(std::int32_t number, std::int32_t& value) const noexcept;
+
+  // ---- Motion
+
+  void set_velocity(std::int32_t velocity) noexcept { velocity_ = velocity; }  ///< VEL [1/VELRES]
+  void set_acceleration(std::int32_t acceleration) noexcept { acceleration_ = acceleration; }  ///< ACC
+  void set_deceleration(std::int32_t deceleration) noexcept { deceleration_ = deceleration; }  ///< DEC
+  int position_to(std::int32_t units, bool relative) noexcept;                                 ///< POSA, POSR
+  void set_speed(std::int32_t velocity) noexcept;                                              ///< CVEL
+  int start_speed() noexcept;                                                                  ///< CSTART
+  void stop_speed() noexcept;                                                                  ///< CSTOP
+  void motor_on() noexcept;
+  void motor_off() noexcept;
+  void motor_stop() noexcept;
+  int go_on() noexcept;  ///< CONTINUE
+  /// Whether the axis rests where it was told to: the end of POSA, POSR, MOTOR STOP, WAITAX.
+  bool arrived() const noexcept { return arrived_; }
+
+  // ---- Zero points, homing, index
+
+  void define_origin() noexcept;                    ///< DEF ORIGIN
+  void set_origin(std::int32_t units) noexcept;     ///< SET ORIGIN
+  void reset_origin() noexcept { temporary_ = 0; }  ///< RST ORIGIN
+  /// HOME, INDEX. They are over when `homing` is false; then `homing_error` says how.
+  int begin_home(bool index_only) noexcept;
+  bool homing() const noexcept { return mode_ == MotionMode::kHome; }
+  int homing_error() const noexcept { return home_.error; }
+  void give_up_home() noexcept;
+  /// How many zero pulses or markers have been latched: WAITNDX.
+  std::uint32_t latches() const noexcept { return latches_; }
+
+  // ---- Read-outs
+
+  std::int64_t milliseconds() const noexcept { return now_; }
+  std::int32_t actual_units() const noexcept { return shown_units(actual_); }    ///< APOS
+  std::int32_t set_units() const noexcept { return shown_units(set_counts()); }  ///< CPOS
+  std::int32_t latched_units() const noexcept { return shown_units(latched_); }  ///< IPOS
+  std::int32_t following_error() const noexcept;                                 ///< TRACKERR
+  std::int32_t velocity_units() const noexcept;                                  ///< AVEL
+  void set_velocity_window(std::int32_t milliseconds) noexcept;                  ///< _GETVEL
+  std::int32_t axis_end() const noexcept;                                        ///< AXEND
+  std::int32_t status() const noexcept;                                          ///< STAT
+  /// SYSVAR. @return whether it is one of those that are there
+  bool system_variable(std::int32_t index, std::int32_t& value) const noexcept;
+  double set_position() const noexcept { return profile_.state().position; }      ///< [qc] on the counter
+  double set_velocity_now() const noexcept { return profile_.state().velocity; }  ///< [qc/ms]
+  bool controlled() const noexcept { return on_; }
+  bool moving() const noexcept { return moving_; }
+  MotionMode mode() const noexcept { return mode_; }
+  /// [qc] True place of the machine, on its own scale.
+  double machine_position() const noexcept { return machine_; }
+
+  // ---- Inputs, outputs, errors
+
+  InputsOutputs& io() noexcept { return io_; }
+  const InputsOutputs& io() const noexcept { return io_; }
+  /// An error that has come up since it was asked last; 0: none.
+  int take_error() noexcept;
+  /// The reaction of ERRCOND.
+  void react(int error) noexcept;
+  /// ERRCLR, which is MOTOR ON as well.
+  void clear_error() noexcept;
+  void clear_all_errors() noexcept;
+  const PendingErrors& pending() const noexcept { return pending_; }
+  /// The end of a program by the user: ESCCOND.
+  void escape() noexcept;
+  /// The device raises an error.
+  void raise(int error) noexcept;
+
+ private:
+  /// The search of HOME and INDEX.
+  struct Home {
+    enum class Phase : std::uint8_t { kOver, kToSwitch, kOffSwitch, kToIndex, kToZero };
+    Phase phase = Phase::kOver;
+    bool index_only = false, by_index = false, turns = false;
+    bool seen = false;             // the switch, in the direction in which it is left
+    double search_velocity = 0.0;  // [qc/ms]
+    std::int64_t begin = 0;        // where the search for the index began [qc]
+    std::uint32_t latches = 0;
+    int error = 0;
+  };
+
+  static constexpr std::size_t kVelocityRing = 256;
+
+  void refresh() noexcept;
+  void read_drive() noexcept;
+  void latch(double from, double to) noexcept;
+  void sample_inputs() noexcept;
+  void generate() noexcept;
+  void control() noexcept;
+  void look_at_arrival() noexcept;
+  void monitor() noexcept;
+  void look_at_limits() noexcept;
+  void look_at_position_error() noexcept;
+  void look_at_drive() noexcept;
+  void write_outputs() noexcept;
+  void write_drive() noexcept;
+
+  bool may_move(int& error) const noexcept;
+  bool within_limits(std::int64_t target, int& error) const noexcept;
+  FourSlopeLimits limits() const noexcept;
+  double relative_velocity(std::int32_t velocity) const noexcept;
+  void move_to(double target) noexcept;
+  void move_with(double velocity) noexcept;
+  void stop(double deceleration, MotionMode mode) noexcept;
+  FourSlopeState state() const noexcept;
+
+  void step_home() noexcept;
+  FourSlopeLimits home_limits() const noexcept;
+  void search_with(double velocity) noexcept;
+  void home_from_switch() noexcept;
+  void to_home(double from) noexcept;
+  void search_index() noexcept;
+  void end_home(int error) noexcept;
+
+  std::int64_t zero() const noexcept { return origin_ + temporary_; }
+  std::int64_t set_counts() const noexcept;
+  std::int32_t shown_units(std::int64_t counter) const noexcept;
+  std::int32_t flags() const noexcept;
+
+  // What every step needs stands first.
+  bool on_ = false, moving_ = false, arrived_ = true, was_reset_ = false, virtual_ = true;
+  MotionMode mode_ = MotionMode::kHold;
+  MotionMode interrupted_ = MotionMode::kHold;    // by MOTOR STOP, an error or MOTOR OFF
+  std::int64_t now_ = -1;                         // [ms]
+  std::int64_t actual_ = 0;                       // [qc] counter
+  double machine_ = 0.0;                          // [qc]
+  double reference_ = 0.0;                        // of the controller, ±1,048,575
+  double velocity_maximum_ = 1.0;                 // [qc/ms]
+  double last_velocity_ = 0.0;                    // of the set position [qc/ms]
+  std::int64_t target_ = 0;                       // [qc] counter
+  std::int64_t profile_time_ = 1, sampling_ = 1;  // PROFTIME, TIMER [ms]
+  std::int64_t position_error_ = 20'000;          // POSERR [qc]
+  bool checks_limits_ = false;
+  bool brake_ = false, brake_after_stop_ = false;
+  FourSlopeProfile profile_;
+  CountController controller_;
+  CountControllerSettings control_;
+  InputsOutputs io_;
+  PendingErrors pending_;
+
+  DeviceSettings settings_;
+  std::unique_ptr<Drive> drive_;
+  DriveActual drive_actual_{};
+  DoubleDouble last_drive_position_{};
+  ParameterValues parameters_;
+  UserUnit unit_;
+  double acceleration_maximum_ = 1.0;                                   // [qc/ms²]
+  std::int32_t velocity_ = -1, acceleration_ = -1, deceleration_ = -1;  // below 0: as by default
+  std::int32_t speed_ = 0;
+  std::int64_t origin_ = 0, temporary_ = 0, limits_origin_ = 0;  // [qc]
+  bool homed_ = false;
+  Home home_;
+  std::int64_t latched_ = 0;
+  std::uint32_t latches_ = 0;
+  bool last_marker_input_ = false;
+  std::int64_t over_since_ = -1;  // following error [ms]
+  std::int64_t window_position_ = 0, window_since_ = -1;
+  bool at_negative_end_ = false, at_positive_end_ = false, beyond_ = false, break_input_ = false,
+       clear_input_ = false;
+  std::array<int, 8> raised_{};
+  std::size_t raised_count_ = 0;
+  std::int64_t velocity_window_ = 20;
+  std::array<std::int64_t, kVelocityRing> positions_{};
+};
+
+}  // namespace lockstep::mco305

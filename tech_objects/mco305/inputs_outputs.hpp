@@ -1,0 +1,77 @@
+/// Digital inputs and outputs of the option and what they are for.
+/// @source MCO 305 Design Guide, 33-5*, 33-6*; IN, INB, OUT, OUTB
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "tech_objects/mco305_catalogue/parameters.hpp"
+
+namespace lockstep::mco305 {
+
+/// Of an input, where it is normally open; one more where it is normally closed.
+enum class InputFunction : std::uint8_t {
+  kHomeSwitch = 1,
+  kNegativeEnd = 3,
+  kPositiveEnd = 5,
+  kErrorClear = 7,
+  kBreak = 9,
+  kContinue = 11,
+  kStart = 13,
+  kSelect = 15
+};
+
+/// What the functions of outputs show.
+struct Shown {
+  bool moving = false, error = false;
+  bool brake = false;  ///< it goes on with this, and off by OUT alone
+};
+
+class InputsOutputs {
+ public:
+  static constexpr std::size_t kInputs = 33;
+  static constexpr std::size_t kOutputs = 32;  ///< 30, 31, 32: the relays X34/1, X34/5, X34/10
+  static constexpr std::size_t kFunctionInputs = 12, kFunctionOutputs = 8;
+
+  void set_input(std::size_t number, bool level) noexcept {
+    if (number >= 1 && number <= kInputs) inputs_[number - 1] = level;
+  }
+  /// False for a number that is not there.
+  bool input(std::int32_t number) const noexcept {
+    return number >= 1 && number <= static_cast<std::int32_t>(kInputs) &&
+           inputs_[static_cast<std::size_t>(number - 1)];
+  }
+  /// INB. Byte 0: inputs 1 to 8, the lowest first; 1: 33 (lowest), 32, 29, 27, 19, 18; 2: 9 to 12.
+  std::int32_t input_byte(std::int32_t number) const noexcept;
+  bool output(std::size_t number) const noexcept {
+    return number >= 1 && number <= kOutputs && outputs_[number - 1];
+  }
+  /// OUT. False if there is no such output.
+  bool switch_output(std::int32_t number, bool on) noexcept;
+  std::int32_t output_byte() const noexcept;
+
+  /// Looks which input and output is for what; when parameters have changed.
+  void assign(const ParameterValues& parameters) noexcept;
+  /// The input that has a function, the lowest if there are several; 0: none.
+  std::size_t input_of(InputFunction function) const noexcept {
+    return input_of_[static_cast<std::size_t>(function)];
+  }
+  /// Whether what the function stands for is the case; false without an input for it.
+  bool active(InputFunction function) const noexcept {
+    const std::size_t number = input_of(function);
+    return number != 0 && inputs_[number - 1] != closed_[static_cast<std::size_t>(function)];
+  }
+  /// Switches the outputs that have a function, when what they show changes.
+  void show(const Shown& now) noexcept;
+
+ private:
+  std::array<bool, kInputs> inputs_{};
+  std::array<bool, kOutputs> outputs_{};
+  std::array<std::uint8_t, 16> input_of_{};
+  std::array<bool, 16> closed_{};
+  std::array<std::uint8_t, kFunctionOutputs> functions_{};
+  std::array<std::uint8_t, kFunctionOutputs> shown_{};  // 0: nothing yet; 1: off; 2: on
+};
+
+}  // namespace lockstep::mco305

@@ -1,0 +1,187 @@
+// What a program asks the axis to do.
+#include <algorithm>
+#include <cmath>
+
+#include "tech_objects/mco305/device.hpp"
+
+namespace lockstep::mco305 {
+
+FourSlopeState Device::state() const noexcept {
+  return profile_.state();
+}
+
+std::int64_t Device::set_counts() const noexcept {
+  return static_cast<std::int64_t>(std::floor(profile_.state().position + 0.5));
+}
+
+// [qc/ms]
+double Device::relative_velocity(std::int32_t velocity) const noexcept {
+  return static_cast<double>(velocity) / parameters_.real(kVelRes) * velocity_maximum_;
+}
+
+FourSlopeLimits Device::limits() const noexcept {
+  const auto of = [this](std::int32_t set, std::int32_t start) noexcept {
+    return static_cast<double>(set > 0 ? set : std::max(parameters_[start], 1)) / parameters_.real(kVelRes);
+  };
+  FourSlopeLimits limits;
+  limits.velocity =
+      std::abs(velocity_ < 0 ? relative_velocity(parameters_[kDfltVel]) : relative_velocity(velocity_));
+  limits.acceleration = of(acceleration_, kDfltAcc) * acceleration_maximum_;
+  limits.deceleration = of(deceleration_, kDfltAcc) * acceleration_maximum_;
+  limits.reverses = parameters_[kRevers] != 2;
+  const std::int32_t type = parameters_[kRampType];
+  limits.sinusoidal = type == 1;
+  if (type != 2) return limits;
+  const std::int32_t first = parameters_[kJerkMin];
+  for (std::size_t i = 0; i < limits.slopes.size(); ++i) {
+    const std::int32_t own = parameters_[kJerkMin + static_cast<std::int32_t>(i)];
+    limits.slopes[i] = static_cast<double>(std::max(own > 0 ? own : first, 0)) / acceleration_maximum_;
+  }
+  return limits;
+}
+
+bool Device::may_move(int& error) const noexcept {
+  error = 0;
+  if (pending_.any())
+    error = kErrorNotReset;
+  else if (parameters_[kHomeForce] != 0 && !homed_)
+    error = kHomeNotDone;
+  return error == 0;
+}
+
+/// From 5.00 on an axis beyond a limit may be driven back.
+bool Device::within_limits(std::int64_t target, int& error) const noexcept {
+  const std::int64_t to = target - limits_origin_, at = set_counts() - limits_origin_;
+  const auto outside = [](bool active, bool beyond) noexcept { return active && beyond; };
+  const bool below = outside(parameters_[kSwNegLimAct] != 0, to < parameters_[kNegLimit]);
+  const bool above = outside(parameters_[kSwPosLimAct] != 0, to > parameters_[kPosLimit]);
+  error = 0;
+  if (at_negative_end_ && to < at) error = kFurtherOut;
+  if (at_positive_end_ && to > at) error = kFurtherOut;
+  if (!below && !above) return error == 0 || !settings_.later_edition;
+  const bool was_outside = (below && at < parameters_[kNegLimit]) || (above && at > parameters_[kPosLimit]);
+  const bool back = (below && to > at) || (above && to < at);
+  if (settings_.later_edition && was_outside) {
+    if (back) return true;
+    error = kFurtherOut;
+    return false;
+  }
+  error = kSoftwareLimit;
+  return false;
+}
+
+void Device::move_to(double target) noexcept {
+  profile_.to_position(state(), target, limits());
+}
+
+void Device::move_with(double velocity) noexcept {
+  FourSlopeLimits all = limits();
+  all.velocity = std::max(velocity_maximum_, std::abs(state().velocity));
+  profile_.to_velocity(state(), velocity, all);
+}
+
+int Device::position_to(std::int32_t units, bool relative) noexcept {
+  int error = 0;
+  if (!may_move(error)) return error;
+  const std::int64_t target = unit_.counts(units) + (relative ? actual_ : zero());
+  if (!within_limits(target, error)) return error;
+  if (!on_) return kErrorNotReset;
+  mode_ = MotionMode::kPosition;
+  target_ = target;
+  arrived_ = false;
+  was_reset_ = false;
+  move_to(static_cast<double>(target));
+  return 0;
+}
+
+void Device::set_speed(std::int32_t velocity) noexcept {
+  speed_ = velocity;
+  if (mode_ == MotionMode::kSpeed && on_) start_speed();
+}
+
+int Device::start_speed() noexcept {
+  int error = 0;
+  if (!may_move(error)) return error;
+  if (!on_) return kErrorNotReset;
+  const auto sign = static_cast<double>(unit_.sign);
+  const double velocity = sign * relative_velocity(speed_);
+  const bool out = (velocity < 0.0 && at_negative_end_) || (velocity > 0.0 && at_positive_end_);
+  if (out && settings_.later_edition) return kFurtherOut;
+  mode_ = MotionMode::kSpeed;
+  arrived_ = false;
+  was_reset_ = false;
+  move_with(velocity);
+  return 0;
+}
+
+void Device::stop(double deceleration, MotionMode mode) noexcept {
+  if (!on_) return;
+  if (mode_ == MotionMode::kPosition || mode_ == MotionMode::kSpeed) interrupted_ = mode_;
+  FourSlopeLimits all = limits();
+  all.deceleration = deceleration;
+  all.velocity = std::max(all.velocity, std::abs(state().velocity));
+  profile_.to_velocity(state(), 0.0, all);
+  mode_ = mode;
+  arrived_ = false;
+}
+
+void Device::stop_speed() noexcept {
+  stop(limits().deceleration, MotionMode::kHold);
+}
+
+void Device::motor_stop() noexcept {
+  if (homing()) give_up_home();
+  stop(limits().deceleration, MotionMode::kStop);
+}
+
+void Device::motor_on() noexcept {
+  if (on_) return;
+  on_ = true;
+  was_reset_ = true;
+  mode_ = MotionMode::kHold;
+  arrived_ = true;
+  controller_.reset();
+  if (drive_ != nullptr) {
+    drive_->enable(true);
+    profile_.stand(static_cast<double>(actual_));
+  } else {
+    profile_.stand(profile_.state().position);
+  }
+}
+
+void Device::motor_off() noexcept {
+  if (mode_ == MotionMode::kPosition || mode_ == MotionMode::kSpeed) interrupted_ = mode_;
+  if (homing()) give_up_home();
+  on_ = false;
+  mode_ = MotionMode::kHold;
+  arrived_ = true;
+  reference_ = 0.0;
+  profile_.stand(virtual_ ? profile_.state().position : static_cast<double>(actual_));
+  if (drive_ != nullptr) drive_->enable(false);
+}
+
+int Device::go_on() noexcept {
+  const MotionMode what = interrupted_;
+  interrupted_ = MotionMode::kHold;
+  if (what == MotionMode::kSpeed) return start_speed();
+  if (what != MotionMode::kPosition) return 0;
+  int error = 0;
+  if (!may_move(error)) return error;
+  if (!on_) return kErrorNotReset;
+  mode_ = MotionMode::kPosition;
+  arrived_ = false;
+  move_to(static_cast<double>(target_));
+  return 0;
+}
+
+/// The limits stay where they are on the machine.
+void Device::define_origin() noexcept {
+  origin_ = actual_;
+  temporary_ = 0;
+}
+
+void Device::set_origin(std::int32_t units) noexcept {
+  temporary_ = unit_.counts(units);
+}
+
+}  // namespace lockstep::mco305

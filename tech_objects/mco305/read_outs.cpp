@@ -1,0 +1,180 @@
+// What a program, a trace or a panel reads of a device.
+#include <algorithm>
+#include <cmath>
+
+#include "tech_objects/mco305/device.hpp"
+
+namespace lockstep::mco305 {
+namespace {
+
+constexpr double kMillisecondsPerSecond = 1000.0;
+
+std::int32_t integer(double value) noexcept {
+  const double rounded = std::floor(value + 0.5);
+  return static_cast<std::int32_t>(std::clamp(rounded, -2147483648.0, 2147483647.0));
+}
+
+}  // namespace
+
+// A position shown is 31 bits wide, and so is what the conversion gets.
+std::int32_t Device::shown_units(std::int64_t counter) const noexcept {
+  return shown_position(unit_.units(shown_position(counter - zero())));
+}
+
+std::int32_t Device::following_error() const noexcept {
+  return shown_position(unit_.units(shown_position(set_counts() - actual_)));
+}
+
+void Device::set_velocity_window(std::int32_t milliseconds) noexcept {
+  velocity_window_ = std::clamp<std::int64_t>(milliseconds, 1, kVelocityRing - 1);
+}
+
+// [UU/s]
+std::int32_t Device::velocity_units() const noexcept {
+  const std::int64_t window = std::min(velocity_window_, now_);
+  if (window <= 0) return 0;
+  const std::int64_t moved = actual_ - positions_[static_cast<std::size_t>(now_ - window) % kVelocityRing];
+  return static_cast<std::int32_t>(unit_.units(moved * 1000 / window));
+}
+
+std::int32_t Device::axis_end() const noexcept {
+  constexpr std::int32_t kReached = 1, kPositioning = 2, kSpeed = 4, kStopped = 8, kOff = 64, kReset = 128;
+  if (!on_) return kOff | (arrived_ ? kReached : 0);
+  std::int32_t bits = was_reset_ ? kReset : 0;
+  if (arrived_ && !moving_) bits |= kReached;
+  if (mode_ == MotionMode::kPosition && !arrived_) bits |= kPositioning;
+  if (mode_ == MotionMode::kSpeed) bits |= kSpeed;
+  if (mode_ == MotionMode::kStop) bits |= kStopped;
+  return bits;
+}
+
+std::int32_t Device::status() const noexcept {
+  const std::uint32_t top = (moving_ ? 1U : 0U) | (controller_.idle() ? 8U : 0U);
+  const std::uint32_t second = (on_ ? 0U : 0x80U) | (arrived_ ? 4U : 0U);
+  const std::uint32_t lowest = (at_negative_end_ || at_positive_end_ ? 0x80U : 0U) |
+                               (io_.active(InputFunction::kHomeSwitch) ? 0x40U : 0U) |
+                               (io_.active(InputFunction::kStart) ? 0x20U : 0U) | (on_ ? 0U : 4U);
+  return static_cast<std::int32_t>(top << 24 | second << 16 | lowest);
+}
+
+// SYSVAR 4218.
+std::int32_t Device::flags() const noexcept {
+  return (moving_ ? 1 | 1 << 8 : 0) | (arrived_ ? 4 : 0) | (latches_ != 0 ? 8 : 0) |
+         (pending_.has(kPositionError) ? 32 : 0) | (on_ ? 0 : 128) | (controller_.idle() ? 8 << 8 : 0);
+}
+
+bool Device::system_variable(std::int32_t index, std::int32_t& value) const noexcept {
+  const FourSlopeState& set = profile_.state();
+  switch (index) {
+    case 1:
+    case 2:
+    case 3:
+      value = io_.input_byte(index - 1);
+      return true;
+    case 9:
+      value = io_.output_byte();
+      return true;
+    case 17:
+      value = status() >> 16 & 0xFFFF;
+      return true;
+    case 22:
+      value = static_cast<std::int32_t>(now_ & 0x7FFFFFFF);
+      return true;
+    case 4096:
+      value = shown_position(actual_ - origin_);
+      return true;
+    case 4097:
+      value = shown_position(set_counts() - origin_);
+      return true;
+    case 4098:
+      value = shown_position(latched_ - origin_);
+      return true;
+    case 4101:
+      value = shown_position(set_counts() - actual_);
+      return true;
+    case 4107:
+      value = integer(set.velocity);
+      return true;
+    case 4111:
+      value = integer(reference_);
+      return true;
+    case 4113:
+      value = parameters_[kTimer];
+      return true;
+    case 4114:
+      value = parameters_[kProfTime];
+      return true;
+    case 4123:
+      value = parameters_[kEncoderType];
+      return true;
+    case 4124:
+      value = parameters_[kEncoder];
+      return true;
+    case 4218:
+      value = flags();
+      return true;
+    case 4231:
+      value = integer(set.velocity * 128.0);
+      return true;
+    case 4275:
+      value = static_cast<std::int32_t>(profile_.phase());
+      return true;
+    case 4276:
+      value = integer(set.velocity * static_cast<double>(sampling_));
+      return true;
+    case 4277: {
+      FourSlopeLimits all = limits();
+      const std::int32_t first = parameters_[kJerkMin];
+      for (std::size_t i = 0; i < all.slopes.size(); ++i) {
+        const std::int32_t own = parameters_[kJerkMin + static_cast<std::int32_t>(i)];
+        all.slopes[i] = static_cast<double>(own > 0 ? own : first) / acceleration_maximum_;
+      }
+      value = integer(std::abs(FourSlopeProfile::stop_path(set.velocity, set.acceleration, all)));
+      return true;
+    }
+    default:
+      return false;
+  }
+}
+
+bool Device::get_parameter(std::int32_t number, std::int32_t& value) const noexcept {
+  const std::size_t index = parameter_index(number);
+  if (index == kNoParameter) return false;
+  switch (number) {
+    case 3440:
+      value = io_.input_byte(0) | io_.input_byte(1) << 8 | io_.input_byte(2) << 16;
+      return true;
+    case 3441:
+      value = io_.output_byte();
+      return true;
+    case 3450:
+      value = actual_units();
+      return true;
+    case 3451:
+      value = set_units();
+      return true;
+    case 3453:
+      value = latched_units();
+      return true;
+    case 3456:
+      value = following_error();
+      return true;
+    case 3458:
+      value = velocity_units();
+      return true;
+    case 3461:
+      value = status();
+      return true;
+    case 3470:
+      value = pending_.alarm_word(1);
+      return true;
+    case 3471:
+      value = pending_.alarm_word(2);
+      return true;
+    default:
+      value = parameters_[number];
+      return true;
+  }
+}
+
+}  // namespace lockstep::mco305

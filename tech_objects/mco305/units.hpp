@@ -1,0 +1,33 @@
+/// Counts and user units.
+/// @source MCO 305 Design Guide, user units
+#pragma once
+
+#include <cstdint>
+
+namespace lockstep::mco305 {
+
+/// 1 user unit = numerator / denominator counts (qc); both > 0.
+struct UserUnit {
+  std::int64_t numerator = 1;    ///< POSFACT_Z
+  std::int64_t denominator = 1;  ///< POSFACT_N
+  std::int64_t sign = 1;         ///< POSDRCT 3, 4: -1
+
+  /// Cut towards 0. Exact for 32 bits on all sides.
+  constexpr std::int64_t counts(std::int64_t units) const noexcept {
+    return sign * (units * numerator / denominator);
+  }
+  /// Rounded, half away from 0. @param counts within ±2^32
+  constexpr std::int64_t units(std::int64_t counts) const noexcept {
+    const std::int64_t scaled = sign * counts * denominator;
+    const std::int64_t half = numerator / 2;
+    return scaled < 0 ? -((-scaled + half) / numerator) : (scaled + half) / numerator;
+  }
+};
+
+/// A position as a program sees it: -2³⁰ … 2³⁰ - 1, wrapping at 2³¹.
+constexpr std::int32_t shown_position(std::int64_t position) noexcept {
+  constexpr std::int64_t kHalf = std::int64_t{1} << 30;
+  return static_cast<std::int32_t>(((position + kHalf) & (2 * kHalf - 1)) - kHalf);
+}
+
+}  // namespace lockstep::mco305

@@ -1,0 +1,133 @@
+/// The parameters of the option, declared once: compiler, project, `describe` and the device read this table.
+/// @source MCO 305 Design Guide, parameter reference; MG.33.L5.03 for those of the later edition
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace lockstep::mco305 {
+
+inline constexpr std::int32_t kLargestPosition = 1'073'741'823;  ///< MLONG
+
+/// What else bounds a range, beside its numbers.
+enum class Bound : std::uint8_t {
+  kNone,
+  kVelocityResolution,  ///< VELRES
+  kLeadingMarkers,      ///< SYNCMPULSM
+  kFollowingMarkers     ///< SYNCMPULSS
+};
+
+struct Parameter {
+  std::int32_t number;        ///< 32-67 as 3267
+  std::string_view mnemonic;  ///< empty: it has none
+  std::string_view title;
+  std::string_view unit;                ///< of what is printed
+  std::int32_t lowest, highest, start;  ///< as a program sees them
+  int decimals;                         ///< that what is printed has behind its point: RAMPMIN 0.5 s is 500
+  Bound bound;
+  bool later_edition;
+  bool effective;  ///< false: declared, without effect
+};
+
+inline constexpr std::size_t kNumberedParameters = 162;
+inline constexpr std::int32_t kFirstNumber = 3200;
+inline constexpr std::int32_t kFirstApplicationParameter = 1900, kLastApplicationParameter = 1999;
+inline constexpr std::size_t kApplicationParameters = 100;
+inline constexpr std::size_t kParameterCount = kNumberedParameters + kApplicationParameters;
+inline constexpr std::size_t kNoParameter = SIZE_MAX;
+
+/// Those with a number of their own, in its order; beside them 1900 to 1999.
+std::span<const Parameter> parameters() noexcept;
+
+constexpr bool is_application_parameter(std::int32_t number) noexcept {
+  return number >= kFirstApplicationParameter && number <= kLastApplicationParameter;
+}
+/// Where its value stands; `kNoParameter` if there is no such number.
+std::size_t parameter_index(std::int32_t number) noexcept;
+/// Process data and read-outs: a program reads them only.
+constexpr bool is_read_out(std::int32_t number) noexcept {
+  return number >= 3400;
+}
+
+/// Numbers that the device itself asks for.
+enum ParameterNumber : std::int32_t {
+  kEncoderType = 3200,
+  kEncoder = 3201,
+  kEncoderMonitoring = 3209,
+  kPosDirection = 3210,
+  kPosFactN = 3211,
+  kPosFactZ = 3212,
+  kKProp = 3260,
+  kKDer = 3261,
+  kKInt = 3262,
+  kKILim = 3263,
+  kBandwidth = 3264,
+  kFFVel = 3265,
+  kFFAcc = 3266,
+  kPosErr = 3267,
+  kRevers = 3268,
+  kTimer = 3269,
+  kProfTime = 3270,
+  kRegWMax = 3271,
+  kRegWMin = 3272,
+  kKILimTime = 3273,
+  kPosErrTime = 3274,
+  kVelMax = 3280,
+  kRampMin = 3281,
+  kRampType = 3282,
+  kVelRes = 3283,
+  kDfltVel = 3284,
+  kDfltAcc = 3285,
+  kJerkMin = 3286,
+  kHomeForce = 3300,
+  kHomeOffset = 3301,
+  kHomeRamp = 3302,
+  kHomeVel = 3303,
+  kHomeType = 3304,
+  kMarkerTypeSlave = 3320,
+  kEndSwMod = 3340,
+  kNegLimit = 3341,
+  kPosLimit = 3342,
+  kSwNegLimAct = 3343,
+  kSwPosLimAct = 3344,
+  kTestTim = 3345,
+  kTestVal = 3346,
+  kTestWin = 3347,
+  kFirstInputFunction = 3350,
+  kFirstOutputFunction = 3363,
+  kPrgPar = 3380,
+  kPowerUpState = 3381,
+  kStatusMonitoring = 3382,
+  kErrCond = 3383,
+  kEscCond = 3384,
+};
+
+/// The values of one device.
+class ParameterValues {
+ public:
+  ParameterValues() noexcept;
+
+  std::int32_t operator[](std::int32_t number) const noexcept { return values_[parameter_index(number)]; }
+  double real(std::int32_t number) const noexcept { return static_cast<double>((*this)[number]); }
+  /// From a program: no range is looked at, but a value with which nothing can be computed is refused.
+  /// @return 0, or 112 for a number that is not there or such a value
+  int set(std::int32_t number, std::int32_t value) noexcept;
+  /// As from a panel: ON PARAM sees it. @return as `set`
+  int change(std::int32_t number, std::int32_t value) noexcept;
+  /// All of them, in the order of `parameter_index`.
+  const std::array<std::int32_t, kParameterCount>& all() const noexcept { return values_; }
+  /// Counts every change.
+  std::uint32_t version() const noexcept { return version_; }
+  /// How often it has been changed from outside.
+  std::uint32_t changes(std::int32_t number) const noexcept;
+
+ private:
+  std::array<std::int32_t, kParameterCount> values_{};
+  std::array<std::uint16_t, kParameterCount> changes_{};
+  std::uint32_t version_ = 0;
+};
+
+}  // namespace lockstep::mco305

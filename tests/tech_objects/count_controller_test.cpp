@@ -1,0 +1,78 @@
+// The position controller of an axis that counts, against its formula.
+#include "tech_objects/drive/count_controller.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lockstep {
+namespace {
+
+TEST(CountController, WeighsTheFollowingError) {
+  CountController controller;
+  CountControllerSettings settings;
+  settings.proportional = 100.0;
+  EXPECT_EQ(controller.step(settings, 5243.0, 0.0, 0.0, 0.0, 1.0), 524'300.0);
+  EXPECT_EQ(controller.step(settings, 20'000.0, 0.0, 0.0, 0.0, 1.0), CountController::kFullScale);
+}
+
+TEST(CountController, DampsByTheActualVelocityAndCarriesTheSetpointBeforehand) {
+  CountController controller;
+  CountControllerSettings settings;
+  settings.derivative = 20.0;
+  settings.velocity_precontrol = 20.0;  // equal to KDER: together KDER·(v_set - v)
+  settings.acceleration_precontrol = 3.0;
+  controller.step(settings, 0.0, 0.0, 0.0, 0.0, 1.0);
+  EXPECT_EQ(controller.step(settings, 50.0, 40.0, 50.0, 0.0, 1.0), 200.0);
+  EXPECT_EQ(controller.step(settings, 90.0, 90.0, 50.0, 2.0, 1.0), 6.0);
+}
+
+TEST(CountController, LimitsItsSumAndThenWeighsIt) {
+  CountController controller;
+  CountControllerSettings settings;
+  settings.integral = 2.0;
+  settings.integral_limit = 25.0;
+  EXPECT_EQ(controller.step(settings, 10.0, 0.0, 0.0, 0.0, 1.0), 20.0);
+  EXPECT_EQ(controller.step(settings, 10.0, 0.0, 0.0, 0.0, 1.0), 40.0);
+  EXPECT_EQ(controller.step(settings, 10.0, 0.0, 0.0, 0.0, 1.0), 50.0);
+  settings.integral_limit = 0.0;
+  EXPECT_EQ(controller.step(settings, 10.0, 0.0, 0.0, 0.0, 1.0), 0.0);
+}
+
+TEST(CountController, LimitsItsPartsToTheBandwidthButNotThePrecontrol) {
+  CountController controller;
+  CountControllerSettings settings;
+  settings.proportional = 100.0;
+  settings.bandwidth = 200.0;
+  settings.velocity_precontrol = 100.0;
+  EXPECT_DOUBLE_EQ(controller.step(settings, 20'000.0, 0.0, 0.0, 0.0, 1.0), 209'715.0);
+  EXPECT_DOUBLE_EQ(controller.step(settings, 20'000.0, 0.0, 50.0, 0.0, 1.0), 214'715.0);
+}
+
+TEST(CountController, RestsWithinItsWindow) {
+  CountController controller;
+  CountControllerSettings settings;
+  settings.proportional = 1.0;
+  settings.idle_below = 5;
+  settings.active_above = 20;
+  EXPECT_EQ(controller.step(settings, 10.0, 0.0, 0.0, 0.0, 1.0), 10.0);
+  EXPECT_EQ(controller.step(settings, 4.0, 0.0, 0.0, 0.0, 1.0), 0.0);
+  EXPECT_TRUE(controller.idle());
+  EXPECT_EQ(controller.step(settings, 20.0, 0.0, 0.0, 0.0, 1.0), 0.0);
+  EXPECT_EQ(controller.step(settings, 21.0, 0.0, 0.0, 0.0, 1.0), 21.0);
+  EXPECT_FALSE(controller.idle());
+}
+
+TEST(CountController, FadesItsSumInMotionOrAtStandstill) {
+  CountController controller;
+  CountControllerSettings settings;
+  settings.integral = 1.0;
+  settings.integral_limit = 100.0;
+  settings.integral_time = 10;  // in motion only
+  EXPECT_EQ(controller.step(settings, 1000.0, 0.0, 0.0, 0.0, 1.0), 0.0);
+  EXPECT_DOUBLE_EQ(controller.step(settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 10.0);
+  EXPECT_DOUBLE_EQ(controller.step(settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 20.0);
+  settings.integral_time = -10;
+  EXPECT_DOUBLE_EQ(controller.step(settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 10.0);
+}
+
+}  // namespace
+}  // namespace lockstep
