@@ -8,9 +8,7 @@
 #include <chrono>
 
 #include "cli/command/command.hpp"
-#include "cli/describe/values.hpp"
 #include "hmi_bridge/network/visible_text.hpp"
-#include "tech_objects/alarms/alarms.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -56,9 +54,8 @@ std::string what_of(const TraceEvent& event) {
     case EventKind::acknowledged:
       return ": alarms acknowledged";
     case EventKind::job_failed:
-      return job_text(event) + fmt::format(": failed, ErrorID {}: {}",
-                                           error_literal(static_cast<unsigned>(event.number)),
-                                           visible(event.text));
+      return job_text(event) + fmt::format(": failed, ErrorID 16#{:04X}: {}",
+                                           static_cast<unsigned>(event.number), visible(event.text));
     default:
       return job_text(event) + ": aborted " + visible(event.text);
   }

@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 constexpr std::ptrdiff_t kLongestHeader = 150;
 
 // What knows the axis as a whole: its own sources, and what looks at axes from outside.
-const std::set<std::string> kOfTheAxis = {"axis.hpp",           "axis.cpp",           "axis_families.hpp",
-                                          "axis_families.cpp",  "jobs.cpp",           "cycle.cpp",
-                                          "publish.cpp",        "plain_cycle.cpp",    "coupling_order.hpp",
+const std::set<std::string> kOfTheAxis = {"axis.hpp",           "axis.cpp",          "axis_families.hpp",
+                                          "axis_families.cpp",  "jobs.cpp",          "cycle.cpp",
+                                          "publish.cpp",        "plain_cycle.cpp",   "coupling_order.hpp",
                                           "coupling_order.cpp", "coupling_chain.cpp"};
 constexpr const char* kTheAxis[] = {"tech_objects/axis/axis.hpp", "tech_objects/axis/axis_families.hpp",
                                     "tech_objects/axis/axis_parts.hpp"};

@@ -52,7 +52,7 @@ TEST(CommandLine, ARunShowsAnAxisThatHasComeToRestAtZeroThere) {
   const std::string project = LOCKSTEP_SOURCE_DIR "/projects/09_flying_saw/project.json";
   const Ended ended = lockstep({"run", project, "--simulate", "--duration", "20s", "--no-retain"});
   EXPECT_EQ(ended.status, 0);
-  EXPECT_NE(ended.err.find("  Saw       standing       at 0;"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("  Saw       standing       at 0 mm;"), std::string::npos) << ended.err;
 }
 
 TEST(CommandLine, ARunShowsHowFastASpeedAxisTurnsSinceItHasNoPosition) {

@@ -61,7 +61,7 @@ TEST(CsvTrace, AFileIsAsTheContractHasItToTheByte) {
   EXPECT_EQ(content(path),
             "t,Knife.Position,gear.InSync,count,total,mask,after,share\n"
             "0,0.1,0,-5,-9223372036854775808,18446744073709551615,0,0.10000000149011612\n"
-            "0.002,1e+22,1,7,9223372036854775807,255,1.500000001,-0\n");
+            "0.002,1e+22,1,7,9223372036854775807,255,1.500000001,-0.0\n");
 }
 
 TEST(CsvTrace, ATraceWithoutSignalsOrRowsIsItsFirstLine) {
