@@ -6,11 +6,11 @@
 
 namespace lockstep::python {
 
-/// Lets the GIL go for its lifetime. A thread that comes back when the interpreter has ended stays here for
-/// ever.
+/// Lets the GIL go for its lifetime; not in the thread that ends the interpreter, which has it to the end.
+/// Another thread that comes back then stays here for ever.
 class WithoutGil {
  public:
-  WithoutGil() : state_(PyEval_SaveThread()) {}
+  WithoutGil() : state_(_Py_IsFinalizing() != 0 ? nullptr : PyEval_SaveThread()) {}
   ~WithoutGil();
   WithoutGil(const WithoutGil&) = delete;
   WithoutGil& operator=(const WithoutGil&) = delete;

@@ -118,7 +118,7 @@ builtins.kept.append(builtins.kept)
 def test_an_interpreter_that_ends_meanwhile_ends_well(what, knife):
     script = f"import lockstep, threading\nknife = {str(knife)!r}\n" + FORGOTTEN[what]
     for _ in range(3):
-        ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+        ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
         assert (ended.returncode, ended.stderr) == (0, "")
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import atexit
 import datetime
 import operator
 import os
+import weakref
 from collections.abc import Iterable, Iterator
 from types import TracebackType
 from typing import Any, Union
@@ -15,6 +17,18 @@ from .project import Event, path_of, paths_of, pending, seconds_of
 
 Place = Union[str, bool, None]
 """Where something is: a text; None: as the project says; False: nowhere."""
+
+
+_open: weakref.WeakSet[RealTime] = weakref.WeakSet()
+
+
+@atexit.register
+def _bring_to_rest() -> None:
+    """Ends what runs when the interpreter ends: its axes come to rest, whoever has forgotten it."""
+    for machine in list(_open):
+        if not machine.closed:
+            machine.stop()
+            machine.wait(60.0)
 
 
 class RealTime:
@@ -30,7 +44,7 @@ class RealTime:
     tick, what is written is taken at the start of the next one. So a Python program never disturbs the cycle beyond
     what the processors share; the memory of its process is locked as far as the system permits.
 
-    Threads: any. Stimuli do not apply unless asked for.
+    A run that is still there when the interpreter ends is brought to rest. Threads: any. Stimuli do not apply unless asked for.
 
     :param file: the project file
     :param signals: what can be read and written, by paths to single values; None: all tags that are one value, and
@@ -82,6 +96,7 @@ class RealTime:
         with open(file, "rb"):
             pass  # what cannot be read is told as Python tells it
         self._run = _lockstep.start(os.fspath(file), paths_of(signals), options)
+        _open.add(self)
 
     def wait(self, seconds: float | datetime.timedelta) -> bool:
         """Waits for the end of the run, for so long at most [s].
