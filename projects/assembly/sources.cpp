@@ -123,6 +123,7 @@ void ProjectSources::include(const JsonValue& name, const std::string& folder, c
                                    std::to_string(JsonDocument::kMaximumValues) + " values");
   const Fields fields(part->root(), keys::kPart, found_);
   if (!fields.usable()) return;
+  read_string(fields["$schema"], found_);
   if (const JsonValue* const modbus = fields["modbus"]) const Fields map(*modbus, keys::kPartMap, found_);
   if (const JsonValue* const trace = fields["trace"])
     const Fields signals(*trace, keys::kPartSignals, found_);
@@ -182,6 +183,7 @@ void ProjectSources::merge_inner(std::string_view key, std::string_view inner) {
   const JsonValue* const whole = merged(sections, JsonKind::array);
   if (whole == nullptr) return;
   JsonValue* const made = made_from(*outer);
+  if (outer != parts_.back()->find(key)) made->members.clear();  // what else a part has there is reported
   put(*made, inner, *whole);
   put(*root_, key, *made);
 }

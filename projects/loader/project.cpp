@@ -24,6 +24,7 @@ void warn_of_unused(const JsonValue& root, const Names::Uses& uses, const Loadin
 }
 
 void load_identity(const Fields& fields, const Loading& loading) {
+  read_value(fields, keys::kProject["$schema"], loading);
   read_value(fields, keys::kProject["lockstep"], loading);
   read_value(fields, keys::kProject["$schema"], loading);
   if (const auto name = read_value(fields, keys::kProject["name"], loading))

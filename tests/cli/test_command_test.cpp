@@ -115,7 +115,7 @@ TEST(Junit, LeavesNothingThatWouldBreakTheDocument) {
   EXPECT_NE(xml.find("name=\"?]]&gt;\""), std::string::npos) << xml;
 }
 
-/// An axis whose halt is rejected for its negative deceleration, or which runs into its limit switch.
+/// An axis whose halt is rejected for its deceleration of 0, or which runs into its limit switch.
 std::string machine(const std::string& call, const std::string& limit) {
   return R"({ "lockstep": 1, "name": "m", "clock": { "servo_cycle": "1ms" }, "technology_objects": {
     "Axis": { "type": "TO_PositioningAxis", "config": { "VirtualAxis": { "Mode": 1 },
@@ -127,14 +127,14 @@ std::string machine(const std::string& call, const std::string& limit) {
       )" +
          call + " ] } ] }";
 }
-constexpr char kFails8005[] =
-    R"({ "fb": "MC_Halt", "name": "halt", "in": { "Axis": "Axis", "Execute": "home.Done", "Deceleration": -3.0 } })";
+constexpr char kRejected[] =
+    R"({ "fb": "MC_Halt", "name": "halt", "in": { "Axis": "Axis", "Execute": "home.Done", "Deceleration": 0.0 } })";
 constexpr char kRunsOut[] =
     R"({ "fb": "MC_MoveVelocity", "name": "run", "in": { "Axis": "Axis", "Execute": "home.Done", "Velocity": 10.0 } })";
 
 TEST(RunCommand, FailsOnAlarmsAndFailedJobsIfItIsToDoSo) {
   const Directory folder;
-  const std::string job = folder.write("job.json", machine(kFails8005, "false"));
+  const std::string job = folder.write("job.json", machine(kRejected, "false"));
   const std::string alarm = folder.write("alarm.json", machine(kRunsOut, "true"));
   const auto status = [](const std::string& file, const std::vector<std::string>& more) {
     std::vector<std::string> command{"run", file, "--simulate", "--duration", "1s"};

@@ -139,8 +139,8 @@ TEST(JsonDocument, KnowsWhereItsValuesBegin) {
   const JsonValue& list = *document.root().members[0].value;
   EXPECT_EQ(document.root().members[0].key, "a\"b:");
   EXPECT_EQ(list.key_position(), (SourcePosition{2, 3}));
-  EXPECT_EQ(list.position(), (SourcePosition{2, 19}));
-  const std::vector<SourcePosition> expected{{2, 21}, {2, 24}, {2, 30}, {3, 5}, {3, 41}, {3, 45}};
+  EXPECT_EQ(list.position(), (SourcePosition{2, 20}));
+  const std::vector<SourcePosition> expected{{2, 22}, {2, 25}, {2, 31}, {3, 5}, {3, 41}, {3, 45}};
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(list.elements[i]->position(), expected[i]) << i;
   EXPECT_EQ(list.elements[3]->find("ä")->position(), (SourcePosition{3, 12}));
   EXPECT_EQ(list.elements[3]->find("c")->key_position(), (SourcePosition{3, 27}));
