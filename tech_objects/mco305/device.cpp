@@ -21,6 +21,9 @@ std::int64_t counts_of(double position) noexcept {
 void Device::configure(const DeviceSettings& settings, double servo_period) {
   settings_ = settings;
   virtual_ = !settings.has_drive;
+  const auto wired = [](const auto* tag) { return tag != nullptr; };
+  any_input_ = std::any_of(settings.inputs.begin(), settings.inputs.end(), wired);
+  any_output_ = std::any_of(settings.outputs.begin(), settings.outputs.end(), wired);
   refresh();
   if (settings.has_drive) {
     drive_ = kDriveModels[0].make();
@@ -41,6 +44,7 @@ void Device::refresh() noexcept {
   acceleration_maximum_ = velocity_maximum_ / p.real(kRampMin);
   profile_time_ = p[kProfTime];
   sampling_ = p[kTimer];
+  marker_type_ = p[kMarkerTypeSlave];
   position_error_ = p[kPosErr];
   checks_limits_ = p[kSwNegLimAct] != 0 || p[kSwPosLimAct] != 0;
   control_.proportional = p.real(kKProp);
@@ -108,7 +112,7 @@ void Device::read_drive() noexcept {
 /// A zero pulse is met exactly, wherever in the tick it lies.
 void Device::latch(double from, double to) noexcept {
   const auto& marks = settings_.drive.signals.zero_marks;
-  if (!marks || parameters_[kMarkerTypeSlave] >= 2) return;
+  if (!marks || marker_type_ >= 2) return;
   const auto mark = marks->between(from, to);
   if (!mark) return;
   const double start = virtual_ ? 0.0 : settings_.drive.signals.start_position;
@@ -117,7 +121,7 @@ void Device::latch(double from, double to) noexcept {
 }
 
 void Device::sample_inputs() noexcept {
-  for (std::size_t i = 0; i < settings_.inputs.size(); ++i)
+  for (std::size_t i = 0; any_input_ && i < settings_.inputs.size(); ++i)
     if (settings_.inputs[i] != nullptr) io_.set_input(i + 1, *settings_.inputs[i]);
   const auto& cam = settings_.drive.signals.reference_cam;
   const std::size_t home_switch = io_.input_of(InputFunction::kHomeSwitch);
@@ -127,7 +131,7 @@ void Device::sample_inputs() noexcept {
     io_.set_input(home_switch, cam->contains(machine_, 0.0) != closed);
   }
   // The marker of the following side is input 6.
-  const std::int32_t type = parameters_[kMarkerTypeSlave];
+  const std::int32_t type = marker_type_;
   const bool marker = io_.input(6);
   if (type >= 2 && marker != last_marker_input_ && marker == (type == 2)) {
     latched_ = actual_;
@@ -240,7 +244,7 @@ void Device::look_at_drive() noexcept {
 void Device::write_outputs() noexcept {
   io_.show({moving_, pending_.any(), brake_});
   brake_ = false;
-  for (std::size_t i = 0; i < settings_.outputs.size(); ++i)
+  for (std::size_t i = 0; any_output_ && i < settings_.outputs.size(); ++i)
     if (settings_.outputs[i] != nullptr) *settings_.outputs[i] = io_.output(i + 1);
 }
 

@@ -188,6 +188,8 @@ class Device {
   PendingErrors pending_;
 
   DeviceSettings settings_;
+  bool any_input_ = false, any_output_ = false;  // is wired
+  std::int32_t marker_type_ = 0;                 // SYNCMTYPS
   std::unique_ptr<Drive> drive_;
   DriveActual drive_actual_{};
   DoubleDouble last_drive_position_{};

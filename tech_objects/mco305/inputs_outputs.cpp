@@ -53,10 +53,12 @@ void InputsOutputs::assign(const ParameterValues& parameters) noexcept {
     const auto wanted = static_cast<std::uint8_t>(function >= 1 && function <= 6 ? function : 0);
     if (wanted != functions_[i]) shown_[i] = 0;
     functions_[i] = wanted;
+    any_function_ = any_function_ || wanted != 0;
   }
 }
 
 void InputsOutputs::show(const Shown& now) noexcept {
+  if (!any_function_) return;
   for (std::size_t i = 0; i < kFunctionOutputs; ++i) {
     const std::uint8_t function = functions_[i];
     if (function == 0) continue;

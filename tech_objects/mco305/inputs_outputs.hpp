@@ -71,6 +71,7 @@ class InputsOutputs {
   std::array<std::uint8_t, 16> input_of_{};
   std::array<bool, 16> closed_{};
   std::array<std::uint8_t, kFunctionOutputs> functions_{};
+  bool any_function_ = false;                           // of an output
   std::array<std::uint8_t, kFunctionOutputs> shown_{};  // 0: nothing yet; 1: off; 2: on
 };
 
