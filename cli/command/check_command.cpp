@@ -1,5 +1,5 @@
 // lockstep check: tells every problem of a project file.
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>  // with the virtual tables of App, for programs that have other rooms but not main.cpp
 
 #include "cli/command/command.hpp"
 #include "cli/command/shortage.hpp"
