@@ -4,12 +4,6 @@
 namespace lockstep::cli {
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 /// What is said of each command, by its path: "cam info".
 struct Cases {
   std::string paths, words, values;

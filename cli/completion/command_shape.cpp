@@ -37,4 +37,10 @@ CommandShape shape_of(const CLI::App& app) {
   return shape;
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
 }  // namespace lockstep::cli

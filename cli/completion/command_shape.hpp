@@ -27,6 +27,9 @@ struct CommandShape {
 
 CommandShape shape_of(const CLI::App& app);
 
+/// The words with a space between them.
+std::string joined(const std::vector<std::string>& words);
+
 /// Scripts that complete the command line, for the shell of their name.
 /// @param names what `lockstep describe` can tell about
 std::string bash_completion(const CommandShape& program, const std::vector<std::string>& names);

@@ -14,14 +14,8 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
-void add(std::string& text, const CommandShape& command, const std::string& condition,
-         const std::vector<std::string>& names) {
+void add_for_fish(std::string& text, const CommandShape& command, const std::string& condition,
+                  const std::vector<std::string>& names) {
   const std::string begin = "complete -c lockstep -n " + quoted(condition);
   for (const OptionShape& option : command.options) {
     if (option.names.empty()) {
@@ -45,8 +39,8 @@ void add(std::string& text, const CommandShape& command, const std::string& cond
         first ? "__fish_use_subcommand" : condition + "; and not __fish_seen_subcommand_from" + known;
     text += "complete -c lockstep -n " + quoted(not_yet) + " -f -a " + below.name + " -d " +
             quoted(below.text) + "\n";
-    add(text, below, (first ? "" : condition + "; and ") + "__fish_seen_subcommand_from " + below.name,
-        names);
+    add_for_fish(text, below,
+                 (first ? "" : condition + "; and ") + "__fish_seen_subcommand_from " + below.name, names);
   }
 }
 
@@ -54,7 +48,7 @@ void add(std::string& text, const CommandShape& command, const std::string& cond
 
 std::string fish_completion(const CommandShape& program, const std::vector<std::string>& names) {
   std::string text = "# Completion of lockstep for fish, made by: lockstep completion fish\n";
-  add(text, program, "__fish_use_subcommand", names);
+  add_for_fish(text, program, "__fish_use_subcommand", names);
   return text;
 }
 

@@ -37,14 +37,14 @@ std::string argument_of(const CommandShape& command, const OptionShape& option,
   return text;
 }
 
-void add(std::string& text, const CommandShape& command, const std::string& function,
-         const std::vector<std::string>& names) {
+void add_for_zsh(std::string& text, const CommandShape& command, const std::string& function,
+                 const std::vector<std::string>& names) {
   std::string arguments, list, branches;
   for (const OptionShape& option : command.options) arguments += argument_of(command, option, names);
   for (const CommandShape& below : command.commands) {
     list += "      '" + below.name + ":" + escaped(below.text) + "'\n";
     branches += "      " + below.name + ") " + function + "_" + below.name + " ;;\n";
-    add(text, below, function + "_" + below.name, names);
+    add_for_zsh(text, below, function + "_" + below.name, names);
   }
   text += function + "() {\n";
   if (command.commands.empty()) {
@@ -63,7 +63,7 @@ void add(std::string& text, const CommandShape& command, const std::string& func
 std::string zsh_completion(const CommandShape& program, const std::vector<std::string>& names) {
   std::string text =
       "#compdef lockstep\n# Completion of lockstep for zsh, made by: lockstep completion zsh\n";
-  add(text, program, "_lockstep", names);
+  add_for_zsh(text, program, "_lockstep", names);
   return text + "_lockstep \"$@\"\n";
 }
 

@@ -10,7 +10,6 @@ namespace lockstep::mco305 {
 namespace {
 
 constexpr std::int64_t kMonitoringPeriod = 20;  // [ms] of following error and drive
-constexpr double kMillisecondsPerSecond = 1000.0;
 
 std::int64_t counts_of(double position) noexcept {
   return static_cast<std::int64_t>(std::floor(position));

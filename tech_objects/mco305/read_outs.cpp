@@ -7,8 +7,6 @@
 namespace lockstep::mco305 {
 namespace {
 
-constexpr double kMillisecondsPerSecond = 1000.0;
-
 std::int32_t integer(double value) noexcept {
   const double rounded = std::floor(value + 0.5);
   return static_cast<std::int32_t>(std::clamp(rounded, -2147483648.0, 2147483647.0));

@@ -6,6 +6,8 @@
 
 namespace lockstep::mco305 {
 
+inline constexpr double kMillisecondsPerSecond = 1000.0;
+
 /// 1 user unit = numerator / denominator counts (qc); both > 0.
 struct UserUnit {
   std::int64_t numerator = 1;    ///< POSFACT_Z
