@@ -41,5 +41,5 @@ setup(
     version=version(),
     ext_modules=[Extension("lockstep._lockstep", sources=[])],
     cmdclass={"build_ext": BuildWithCMake},
-    options={"build": {"build_base": str(WORK)}, "egg_info": {"egg_base": str(WORK)}},
+    options={"build": {"build_base": str(WORK)}, "egg_info": {"egg_base": str(WORK)}, "bdist_wheel": {"bdist_dir": str(WORK / "wheel")}},
 )
