@@ -19,7 +19,7 @@ import urllib.parse
 import uuid
 
 FOLDERS = ("tech_objects", "fb", "scheduler", "hmi_bridge", "projects", "cli")
-EXAMPLES = "hmi_bridge/subscriber/"  # programs of their own
+NOT_OF_THE_PROGRAM = ("hmi_bridge/subscriber/", "projects/python/")  # an example, and a module for another program
 INCLUDE = re.compile(r"^\s*#\s*include\s*<([^>]+)>", re.MULTILINE)
 
 
@@ -32,7 +32,7 @@ def product_commands(sources, build):
     commands = []
     for entry in json.loads((build / "compile_commands.json").read_text()):
         file = os.path.relpath(os.path.join(entry["directory"], entry["file"]), sources)
-        if file.split("/")[0] in FOLDERS and not file.startswith(EXAMPLES):
+        if file.split("/")[0] in FOLDERS and not file.startswith(NOT_OF_THE_PROGRAM):
             commands.append(shlex.split(entry["command"]))
     return commands
 
@@ -56,7 +56,7 @@ def headers_of(sources, commands):
     wanted = set()
     for folder in FOLDERS:
         for file in (sources / folder).rglob("*.[ch]pp"):
-            if EXAMPLES not in str(file):
+            if not str(file.relative_to(sources)).startswith(NOT_OF_THE_PROGRAM):
                 wanted.update(INCLUDE.findall(file.read_text()))
     compiler, flags = compiler_and_flags(commands)
     text = "".join(f"#if __has_include(<{header}>)\n#include <{header}>\n#endif\n" for header in sorted(wanted))

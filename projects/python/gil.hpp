@@ -4,7 +4,12 @@
 
 #include <pybind11/pybind11.h>
 
+#include <chrono>
+
 namespace lockstep::python {
+
+/// Between two looks at signals, such as that of Ctrl-C.
+inline constexpr std::chrono::milliseconds kBetweenLooks{50};
 
 /// Lets the GIL go for its lifetime; not in the thread that ends the interpreter, which has it to the end.
 /// Another thread that comes back then stays here for ever.

@@ -31,9 +31,6 @@ namespace py = pybind11;
 namespace lockstep::python {
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr auto kBetweenLooks = 50ms;           // at Ctrl-C
 constexpr std::size_t kMessagesKept = 10'000;  // the oldest go first
 
 /// Keeps what a run tells until somebody asks.

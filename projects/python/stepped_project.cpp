@@ -25,9 +25,6 @@ namespace py = pybind11;
 namespace lockstep::python {
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr auto kBetweenLooks = 50ms;  // at Ctrl-C
 constexpr std::uint64_t kTicksAtOnce = 32;
 constexpr double kLongest = 9e9;  // [s], which nanoseconds in 64 bits hold
 

@@ -41,7 +41,7 @@ py::array times(const py::object& self) {
   return array_on(py::dtype("f8"), view.block().times(), view.rows(), self);
 }
 
-py::list described(const TraceView& view) {
+py::list signals_described(const TraceView& view) {
   py::list signals;
   for (const TraceSignal& signal : view.signals())
     signals.append(py::make_tuple(signal.name, std::string(type_name(signal.type)), signal.unit));
@@ -84,7 +84,7 @@ void add_trace(py::module_& module) {
                              "The memory of a trace; what its arrays have as their base.");
   seal(type);
   type.def_property_readonly("rows", &TraceView::rows)
-      .def_property_readonly("signals", &described, "(name, type, unit) of each column.")
+      .def_property_readonly("signals", &signals_described, "(name, type, unit) of each column.")
       .def_property_readonly(
           "address",
           [](const TraceView& view) { return reinterpret_cast<std::uintptr_t>(view.block().times()); },
