@@ -180,7 +180,7 @@ bool RealTimeProject::wait(double seconds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(std::llround(seconds * 1e9));
   while (runtime.state() != RuntimeState::ended) {
     const auto left = end - std::chrono::steady_clock::now();
-    if (left <= 0ns) return false;
+    if (left.count() <= 0) return false;
     const auto slice = std::min<std::chrono::nanoseconds>(left, kBetweenLooks);
     const auto rounded = std::chrono::ceil<std::chrono::milliseconds>(slice);
     if (runtime.wait_for_rest(rounded)) runtime.wait(rounded);
