@@ -31,7 +31,10 @@ def product_commands(sources, build):
     """The compile commands of the product, each as words."""
     commands = []
     for entry in json.loads((build / "compile_commands.json").read_text()):
-        file = os.path.relpath(os.path.join(entry["directory"], entry["file"]), sources)
+        # A unity build lists the batches, which stand in the build at their folder.
+        path = os.path.join(entry["directory"], entry["file"])
+        batch = os.path.commonpath([path, build]) == str(build)
+        file = os.path.relpath(path, build if batch else sources)
         if file.split("/")[0] in FOLDERS and not file.startswith(NOT_OF_THE_PROGRAM):
             commands.append(shlex.split(entry["command"]))
     return commands

@@ -74,7 +74,7 @@ TEST(Tags, TellsWhatIsOnModbusAsCsv) {
         "speed,LREAL,,holding_register,10,4,LREAL,little,big,,,,write,,,\r\n",
         "speed,LREAL,,holding_register,4,1,INT,big,big,,0.5,-1,write,,5,\r\n",
         "diagnostic.clients,ULINT,,input_register,9,4,ULINT,big,big,,,,read,,5,\r\n",
-        "Drum.ActualPosition,LREAL,u,input_register,0,2,REAL,big,big,,,,read,,,\r\n"})
+        "Drum.ActualPosition,LREAL,mm,input_register,0,2,REAL,big,big,,,,read,,,\r\n"})
     EXPECT_NE(ended.out.find(line), std::string::npos) << line << ended.out;
 }
 
@@ -180,7 +180,7 @@ TEST(Tags, TellsTagsWithTheirAddressesAndWhatElseIsOnModbusAndTheNumbersOfObject
   EXPECT_EQ(shown["other_modbus"][0]["name"], "mask.X3");
   EXPECT_EQ(shown["other_modbus"][0]["type"], "BOOL");
   EXPECT_EQ(shown["other_modbus"][1]["name"], "power.Status");
-  EXPECT_EQ(shown["other_modbus"][2]["unit"], "u");
+  EXPECT_EQ(shown["other_modbus"][2]["unit"], "mm");
   EXPECT_EQ(shown["technology_objects"],
             json::parse(R"([{"number": 1, "name": "Belt", "type": "TO_PositioningAxis"},
                             {"number": 2, "name": "Drum", "type": "TO_SynchronousAxis"}])"));

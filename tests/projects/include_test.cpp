@@ -100,7 +100,7 @@ TEST_F(Includes, AreExpandedIntoOneFileThatIsTheSame) {
 
 TEST_F(Includes, TellWhatIsWrongInThemWithTheirOwnFileAndLine) {
   write("machine/part.json", "{\r\n  \"tags\": {\r\n\t\"n\": { \"type\": \"INTEGER\" } } }");
-  EXPECT_EQ(told(R"("include": [ "part.json" ])").substr(0, 45),
+  EXPECT_EQ(told(R"("include": [ "part.json" ])").substr(0, 46),
             "part.json:/tags/n/type: unknown type 'INTEGER'");
   EXPECT_NE(told(R"("include": [ "part.json" ])").find("(line 3, column 17, tag 'n')"), std::string::npos);
   write("machine/part.json", "{\n  \"tags\": {,\n} }");

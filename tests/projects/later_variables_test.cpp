@@ -94,7 +94,7 @@ TEST(VariablesOfLater, HoldTheirStartValuesAndChangeNoExample) {
     const std::string path = entry.path().string() + "/project.json";
     if (!std::filesystem::exists(path)) continue;
     SCOPED_TRACE(path);
-    Json json = Json::parse(std::ifstream(path));
+    Json json = Json::parse(expanded_project(path));
     Simulation plain(path);
     for (const auto& object : plain.project().controller->objects) {
       Json& configured = json["technology_objects"][object->name];
@@ -112,7 +112,7 @@ TEST(VariablesOfLater, HoldTheirStartValuesAndChangeNoExample) {
     }
     ++examples;
   }
-  EXPECT_EQ(examples, 11);
+  EXPECT_EQ(examples, 12);
   EXPECT_GT(changes, 500);
 }
 

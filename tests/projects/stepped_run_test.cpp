@@ -48,7 +48,7 @@ TEST(SteppedRun, KeepsARowOfEachInterpolatorTick) {
   EXPECT_EQ(trace.block()->column(0)[499].u, 999u);
   EXPECT_EQ(trace.block()->column(0)[500].u, 1u);  // by the stimulus
   EXPECT_EQ(trace.block()->column(1)[0].r, 0.3);
-  EXPECT_EQ(trace.signals()[2].unit, "u");
+  EXPECT_EQ(trace.signals()[2].unit, "mm");
 }
 
 TEST(SteppedRun, HasTheBitsOfASimulationHoweverItIsStepped) {

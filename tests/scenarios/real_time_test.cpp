@@ -62,8 +62,8 @@ std::string slow_to_brake(const Directory& directory) {
 /// mm/s² is 100 mm further.
 void expect_told_at_rest(const std::string& text) {
   std::smatch match;
-  ASSERT_TRUE(
-      std::regex_search(text, match, std::regex("A +moving +at ([0-9.]+); brought to rest at ([0-9.]+)\\n")))
+  ASSERT_TRUE(std::regex_search(text, match,
+                                std::regex("A +moving +at ([0-9.]+) mm; brought to rest at ([0-9.]+) mm\\n")))
       << text;
   EXPECT_NEAR(std::stod(match[2]) - std::stod(match[1]), 100.0, 1.0) << text;
 }
