@@ -287,8 +287,10 @@ consteval KeyTable<S, sizeof...(K)> key_table(K... list) {
   for (std::size_t i = 0; i < table.all.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       if (table.all[i].name == table.all[j].name) throw "a key is declared twice";
+#ifndef __SANITIZE_ADDRESS__  // g++ 12 takes such a comparison for no constant where it sanitizes
       if (table.all[i].store != nullptr && table.all[i].store == table.all[j].store)
         throw "a member is declared twice";
+#endif
     }
   return table;
 }
