@@ -203,6 +203,7 @@ class Controller {
   void step_axes_in_turn(std::span<Axis* const> axes) noexcept;
   void rebuild_order() noexcept;
   void tell_events(std::int64_t now) noexcept;
+  void tell_notes(TechnologyObject& object, std::int64_t now) noexcept;
   void tell(EventKind kind, std::size_t source, int number, int reaction, std::int64_t now) noexcept;
   void show(std::int64_t now, bool interpolator_tick) noexcept;
 
@@ -215,6 +216,7 @@ class Controller {
   Part servo_;                      // the others
   Part before_axes_;
   Part behind_axes_;
+  Part with_programs_;
   std::vector<LeadingObject*> sources_;  // that lead axes and are none
   std::vector<Cam*> cams_;
   bool cams_interpolated_elsewhere_ = false;

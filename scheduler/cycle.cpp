@@ -25,6 +25,7 @@ void Controller::tick() noexcept {
     interpolate();
   }
 
+  for (TechnologyObject* object : with_programs_) object->run_program(t);
   run_due_programs(t);
 
   if (events != nullptr) tell_events(t);
@@ -165,8 +166,19 @@ void Controller::tell_events(std::int64_t t) noexcept {
            t);
     });
   }
+  for (TechnologyObject* object : with_programs_) tell_notes(*object, t);
   for (JobWatch& watch : job_watches_)
     watch.look([&](EventKind kind, int number) { tell(kind, watch.instance(), number, 0, t); });
+}
+
+/// What an object's own program prints, and its errors.
+void Controller::tell_notes(TechnologyObject& object, std::int64_t t) noexcept {
+  const auto source = static_cast<std::uint32_t>(object.number) - 1;
+  ProgramNote note;
+  while (object.take_note(note))
+    events->push({note.printed ? EventKind::printed : EventKind::program_error,
+                  static_cast<std::int16_t>(note.program), source, note.error, t,
+                  static_cast<std::uint64_t>(next_tick_), false, note.line});
 }
 
 void Controller::tell(EventKind kind, std::size_t source, int number, int reaction, std::int64_t t) noexcept {

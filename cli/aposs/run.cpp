@@ -1,16 +1,17 @@
-// lockstep aposs run: a program in virtual time, against a device without a machine.
+// lockstep aposs run: a program in virtual time, in a device whose axis is where it is told to be.
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "cli/aposs/aposs_command.hpp"
 #include "cli/command/standard_streams.hpp"
 #include "hmi_bridge/network/visible_text.hpp"
-#include "projects/aposs/error_texts.hpp"
-#include "projects/aposs/listing.hpp"
+#include "projects/aposs/parameter_names.hpp"
 #include "projects/literals/duration.hpp"
 #include "scheduler/aposs/machine.hpp"
-#include "scheduler/aposs/plain_device.hpp"
+#include "scheduler/aposs/printed_line.hpp"
+#include "scheduler/mco305/mco305.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -56,7 +57,7 @@ InputChange input_of(const std::string& text) {
   if (equals == text.npos) throw CLI::ValidationError("--in", allowed);
   const auto input = integer_of(std::string_view(text).substr(0, equals));
   const std::string level = text.substr((colon == text.npos ? equals : colon) + 1);
-  if (!input || *input < 1 || *input > static_cast<std::int64_t>(aposs::PlainDevice::kInputs) ||
+  if (!input || *input < 1 || *input > static_cast<std::int64_t>(mco305::InputsOutputs::kInputs) ||
       (level != "0" && level != "1"))
     throw CLI::ValidationError("--in", allowed);
   InputChange change{0, static_cast<std::size_t>(*input), level == "1"};
@@ -64,28 +65,40 @@ InputChange input_of(const std::string& text) {
   return change;
 }
 
-/// "1900=20".
+/// "1900=20", "32-81=0.5", "VELMAX=3000", as printed.
 std::pair<std::int32_t, std::int32_t> parameter_of(const std::string& text) {
   const std::size_t equals = text.find('=');
-  const auto number = integer_of(std::string_view(text).substr(0, equals));
-  const auto value =
-      equals == text.npos ? std::nullopt : integer_of(std::string_view(text).substr(equals + 1));
-  const bool fits = value && *value >= INT32_MIN && *value <= INT32_MAX;
-  if (!number || *number < aposs::PlainDevice::kFirstParameter ||
-      *number > aposs::PlainDevice::kLastParameter || !fits)
-    throw CLI::ValidationError("--set",
-                               text + ": has to be PARAMETER=VALUE with a parameter from 1900 to 1999");
-  return {static_cast<std::int32_t>(*number), static_cast<std::int32_t>(*value)};
+  const std::string name = text.substr(0, equals);
+  const auto number = aposs::parameter_of(name);
+  const std::string allowed =
+      text + ": has to be PARAMETER=VALUE, the parameter by mnemonic or number, as 32-80=3000";
+  if (!number || equals == text.npos || mco305::is_read_out(*number))
+    throw CLI::ValidationError("--set", allowed);
+  double value = 0.0;
+  const char* const begin = text.data() + equals + 1;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(begin, end, value);
+  if (begin == end || error != std::errc() || rest != end) throw CLI::ValidationError("--set", allowed);
+  double lowest = INT32_MIN, highest = INT32_MAX;
+  if (!mco305::is_application_parameter(*number)) {
+    const mco305::Parameter& of = mco305::parameters()[mco305::parameter_index(*number)];
+    for (int i = 0; i < of.decimals; ++i) value *= 10.0;
+    lowest = of.lowest;
+    highest = of.highest;
+  }
+  if (value < lowest || value > highest || std::abs(value - std::round(value)) > 1e-6)
+    throw CLI::ValidationError("--set", text + ": the value is outside of the range of the parameter");
+  return {*number, static_cast<std::int32_t>(std::lround(value))};
 }
 
 /// Gives out the lines that have been printed.
 class Printer {
  public:
-  explicit Printer(const aposs::Image& image) : image_(image) {}
+  explicit Printer(std::span<const std::string> texts) : texts_(texts) {}
   void take(aposs::PrintQueue& queue) {
     aposs::Printed item;
     while (queue.take(item))
-      if (append_printed(line_, image_, item)) {
+      if (append_printed(line_, texts_, item)) {
         text_ += visible(line_) + "\n";
         line_.clear();
       }
@@ -98,21 +111,20 @@ class Printer {
 
  private:
   static constexpr std::size_t kEnough = 4096;
-  const aposs::Image& image_;
+  std::span<const std::string> texts_;
   std::string line_, text_;
 };
 
 std::string text_of(int error) {
-  const std::string_view meaning = aposs::error_text(error);
-  return "error " + std::to_string(error) + (meaning.empty() ? "" : ": " + std::string(meaning));
+  const mco305::Error* const known = mco305::find_error(error);
+  return "error " + std::to_string(error) + (known == nullptr ? "" : ": " + std::string(known->text));
 }
 
 /// How the program has come to its end.
-int tell_end(const aposs::CompiledProgram& program, aposs::Machine& machine,
-             const aposs::PlainDevice& device) {
+int tell_end(const std::vector<std::string>& files, aposs::Machine& machine, const mco305::Device& device) {
   std::string outputs;
-  for (std::size_t i = 1; i <= aposs::PlainDevice::kOutputs; ++i)
-    if (device.output(i)) outputs += (outputs.empty() ? "" : ", ") + std::to_string(i);
+  for (std::size_t i = 1; i <= mco305::InputsOutputs::kOutputs; ++i)
+    if (device.io().output(i)) outputs += (outputs.empty() ? "" : ", ") + std::to_string(i);
   if (!outputs.empty()) tell("outputs that are on: " + outputs);
   if (machine.prints().dropped_lines() != 0)
     tell("warning: " + std::to_string(machine.prints().dropped_lines()) +
@@ -121,15 +133,16 @@ int tell_end(const aposs::CompiledProgram& program, aposs::Machine& machine,
   if (machine.counters().divisions_by_zero != 0)
     tell("warning: " + std::to_string(machine.counters().divisions_by_zero) + " divisions by 0 gave 0",
          Severity::warning);
-  const auto at = [&program](const aposs::Place& place, const std::string& text) {
-    tell_line(aposs::to_string(program.files, {place, text}), Severity::error);
+  const auto at = [&files](const aposs::Place& place, const std::string& text) {
+    tell_line(aposs::to_string(files, {place, text}), Severity::error);
     return static_cast<int>(kNotValid);
   };
   if (machine.state() == aposs::ProgramState::kRefused)
-    return at(machine.place(),
-              std::string(row_of(*machine.refused()).name) +
-                  " needs a machine, and that is not built yet; what runs: the language, PRINT, "
-                  "time, inputs, outputs, parameters 1900 to 1999");
+    return at(
+        machine.place(),
+        std::string(row_of(*machine.refused()).name) +
+            " is not built yet: synchronizing, cams, the virtual master, process data, analog values and "
+            "recording are not");
   if (machine.state() == aposs::ProgramState::kError)
     return at(machine.error_place(), text_of(machine.error()) + "; without ON ERROR it ends the program");
   return kOk;
@@ -137,35 +150,38 @@ int tell_end(const aposs::CompiledProgram& program, aposs::Machine& machine,
 
 int run(const RunOptions& options) {
   int status = kOk;
-  const auto program = compile_or_tell(options.file, options.settings, status);
+  auto program = compile_or_tell(options.file, options.settings, status);
   if (!program) return status;
-  aposs::PlainDevice device;
-  aposs::Arrays arrays;
-  aposs::Machine machine(device, arrays);
-  for (const auto& [number, value] : options.parameters) device.set_parameter(number, value);
-  if (const int error = machine.load(*program->image); error != 0) {
+  Mco305 object("device", 1);
+  for (const auto& [number, value] : options.parameters) object.parameters().set(number, value);
+  object.programs.push_back({0, true, std::move(*program->image), program->files, 0});
+  object.steps_per_millisecond = options.steps_per_ms;
+  object.configure(1e-3, 1);
+  if (const int error = object.programs[0].fault; error != 0) {
     tell(options.file + ": " + text_of(error), Severity::error);
     return kNotValid;
   }
-  Printer printer(*program->image);
+  aposs::Machine& machine = object.machine();
+  Printer printer(object.programs[0].image.texts);
   std::size_t next = 0;
   for (std::int64_t t = 0; t < options.duration && !machine.over(); ++t) {
     for (; next < options.inputs.size() && options.inputs[next].at <= t; ++next)
-      device.set_input(options.inputs[next].input, options.inputs[next].level);
-    machine.step(options.steps_per_ms);
+      object.device().io().set_input(options.inputs[next].input, options.inputs[next].level);
+    object.servo(t * kMillisecond);
+    object.run_program(t * kMillisecond);
     printer.take(machine.prints());
-    device.advance(1);
   }
   machine.prints().flush();
   printer.take(machine.prints());
   printer.give_out();
-  return tell_end(*program, machine, device);
+  return tell_end(program->files, machine, object.device());
 }
 
 }  // namespace
 
 void add_aposs_run(CLI::App& aposs, Action& action) {
-  CLI::App* command = aposs.add_subcommand("run", "Run a program in virtual time, without a machine");
+  CLI::App* command =
+      aposs.add_subcommand("run", "Run a program in virtual time, on an axis that is where it is told to be");
   auto options = std::make_shared<RunOptions>();
   auto duration = std::make_shared<std::string>("10s");
   auto inputs = std::make_shared<std::vector<std::string>>();
@@ -173,14 +189,16 @@ void add_aposs_run(CLI::App& aposs, Action& action) {
   command->add_option("FILE", options->file, "a program")->required();
   command->add_option("--duration", *duration, "how long at most (10s)");
   command->add_option("--in", *inputs, "INPUT=TIME:LEVEL, again and again: an input changes");
-  command->add_option("--set", *parameters, "PARAMETER=VALUE, again and again: 1900 to 1999 at the start");
+  command->add_option(
+      "--set", *parameters,
+      "PARAMETER=VALUE, again and again: at the start, as printed: 32-80=3000, RAMPMIN=0.5, 1900=20");
   command->add_option("--steps-per-ms", options->steps_per_ms, "internal commands per millisecond (200)")
       ->check(CLI::Range(1, 100'000));
   add_compiler_options(*command, options->settings);
   command->footer(
-      "What the program prints goes to standard output. Inputs are low and parameters 0 unless told "
-      "otherwise. A\n"
-      "command that needs a machine ends the run with its place and exit status 1.");
+      "What the program prints goes to standard output. Inputs are low and parameters at their start "
+      "values unless told\n"
+      "otherwise. A command that is not built yet ends the run with its place and exit status 1.");
   command->callback([&action, options, duration, inputs, parameters] {
     options->duration = milliseconds_of("--duration", *duration);
     for (const std::string& text : *inputs) options->inputs.push_back(input_of(text));

@@ -22,6 +22,11 @@ void tell_alarm(const TraceEvent& event, int timeout) {
                        event.number, visible(event.text), reaction);
   } else if (event.kind == EventKind::acknowledged) {
     text = fmt::format("lockstep: {:.6f} s: {}: alarms acknowledged\n", seconds, visible(event.source));
+  } else if (event.kind == EventKind::printed) {
+    text = fmt::format("lockstep: {:.6f} s: {}: {}\n", seconds, visible(event.source), visible(event.text));
+  } else if (event.kind == EventKind::program_error) {
+    text = fmt::format("lockstep: {:.6f} s: {}: error {}: {}\n", seconds, visible(event.source), event.number,
+                       visible(event.text));
   } else {
     return;
   }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "projects/aposs/compiler.hpp"
-#include "scheduler/aposs/print_queue.hpp"
 
 namespace lockstep::aposs {
 
@@ -21,8 +20,5 @@ std::string listing(const Image& image, const std::vector<std::string>& sources)
 std::optional<std::size_t> longest_run(const Image& image, std::uint16_t entry);
 /// Subprograms that interrupts call.
 std::vector<Routine> handlers_of(const Image& image);
-
-/// A line of text as it was printed, put together from its items. True where the line has ended.
-bool append_printed(std::string& line, const Image& image, const Printed& item);
 
 }  // namespace lockstep::aposs

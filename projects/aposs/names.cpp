@@ -53,6 +53,10 @@ bool is_reserved(std::string_view folded_name) {
          std::find(std::begin(kWords), std::end(kWords), folded_name) != std::end(kWords);
 }
 
+bool is_no_label(std::string_view folded_name) {
+  return folded_name != "WAIT" && is_reserved(folded_name);
+}
+
 std::string nearest_name(std::string_view name, const std::set<std::string>& others) {
   std::vector<std::string_view> names(std::begin(kWords), std::end(kWords));
   for (const auto& [command, row] : command_names()) names.push_back(command);

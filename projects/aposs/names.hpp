@@ -25,6 +25,8 @@ struct NamedCommand {
 std::optional<NamedCommand> command_at(std::span<const Token> tokens);
 /// Words that belong to commands and expressions, which no variable, array or label may be.
 bool is_reserved(std::string_view folded_name);
+/// The same for a label: WAIT alone is an unusual form of WAITT, and a label may have its name.
+bool is_no_label(std::string_view folded_name);
 /// " (did you mean …?)" among commands and other names.
 std::string nearest_name(std::string_view name, const std::set<std::string>& others);
 

@@ -384,7 +384,7 @@ void Parser::subprogram() {
 void Parser::label() {
   const Token& name = take();
   take();
-  if (is_reserved(name.folded))
+  if (is_no_label(name.folded))
     return messages_.error(name.place, quote(name.text) + " is a word of the language and no label");
   if (assigned_.contains(name.folded) || array_numbers_.contains(name.folded))
     return messages_.error(name.place,

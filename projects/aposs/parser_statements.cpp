@@ -275,7 +275,7 @@ void Parser::wait_for_input(const Token& at) {
 
 void Parser::jump_to(const Place& place, Operation operation, EmittedOperand second) {
   const Token& label = peek();
-  if (label.kind != Token::Kind::kName || is_reserved(label.folded)) fail_here("the name of a label");
+  if (label.kind != Token::Kind::kName || is_no_label(label.folded)) fail_here("the name of a label");
   take();
   jumps_.push_back({emitter_.emit(place, operation, std::uint32_t{0}, second), label.folded, label.text,
                     routine_, label.place});

@@ -22,6 +22,11 @@ int Machine::load(const Image& image) {
   image_ = nullptr;
   if (const int fault = image.fault(); fault != 0) return fault;
   if (const int error = arrays_.fit(image.arrays); error != 0) return error;
+  take(image);
+  return 0;
+}
+
+void Machine::take(const Image& image) noexcept {
   image_ = &image;
   first_temporary_ = image.variables.size();
   temporaries_count_ = image.temporaries;
@@ -30,7 +35,10 @@ int Machine::load(const Image& image) {
             cells_.begin() + static_cast<std::ptrdiff_t>(image.writable_cells()));
   kept_temporaries_.assign(temporaries_count_ * levels_.size(), 0);
   start();
-  return 0;
+}
+
+void Machine::stop() noexcept {
+  if (!over()) finish(ProgramState::kEnded);
 }
 
 void Machine::start() noexcept {

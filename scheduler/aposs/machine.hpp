@@ -46,6 +46,14 @@ class Machine {
   /// it.
   /// @return 0; 110, 196: the image is damaged or of another version; 170, 175: its arrays do not fit
   int load(const Image& image);
+  /// Another one that has been loaded before, from its beginning: nothing is allocated.
+  void take(const Image& image) noexcept;
+  /// Ends the program, as the user does. Nothing runs until it is started.
+  void stop() noexcept;
+  /// How often ON TIME and ON PERIOD are looked at [ms]; at least 1.
+  void set_time_interrupts(std::int32_t milliseconds) noexcept {
+    time_interrupts_ = milliseconds < 1 ? 1 : milliseconds;
+  }
   /// From the beginning, with all variables 0. Arrays stay.
   void start() noexcept;
 

@@ -25,6 +25,7 @@ void PrintQueue::end_line() noexcept {
     return;
   }
   given_.store(written_, std::memory_order_release);
+  ++lines_;
 }
 
 void PrintQueue::flush() noexcept {

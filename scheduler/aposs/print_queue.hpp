@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace lockstep::aposs {
@@ -25,6 +26,8 @@ class PrintQueue {
   void push(Printed item) noexcept;
   /// Ends the line: from now on it may be taken.
   void end_line() noexcept;
+  /// Lines that have been given out since it was asked last.
+  std::uint32_t take_line_count() noexcept { return std::exchange(lines_, 0); }
   /// Gives out what there is of a line that does not end.
   void flush() noexcept;
 
@@ -37,6 +40,7 @@ class PrintQueue {
   std::vector<Printed> ring_;
   std::size_t mask_ = 0;
   std::size_t written_ = 0;  ///< with the line that is being printed
+  std::uint32_t lines_ = 0;
   bool dropping_ = false;
   std::atomic<std::size_t> given_{0}, taken_{0};
   std::atomic<std::uint64_t> dropped_{0};

@@ -24,7 +24,8 @@ void Device::configure(const DeviceSettings& settings, double servo_period) {
   refresh();
   if (settings.has_drive) {
     drive_ = kDriveModels[0].make();
-    drive_->configure(settings.drive, servo_period, 2.0 * 3.14159265358979323846 / (4.0 * parameters_.real(kEncoder)));
+    drive_->configure(settings.drive, servo_period,
+                      2.0 * 3.14159265358979323846 / (4.0 * parameters_.real(kEncoder)));
     machine_ = settings.drive.signals.start_position;
   }
   profile_.stand(0.0);
@@ -100,6 +101,8 @@ void Device::read_drive() noexcept {
   const double start = settings_.drive.signals.start_position;
   actual_ = counts_of(machine_ - start);
   if (moved != 0.0) latch(before, machine_);
+  for (const DigitalInput& input : settings_.drive.signals.digital_inputs)
+    *input.tag = input.range.contains(machine_, 0.0);
 }
 
 /// A zero pulse is met exactly, wherever in the tick it lies.
@@ -198,7 +201,8 @@ void Device::monitor() noexcept {
 }
 
 void Device::look_at_limits() noexcept {
-  const bool negative = io_.active(InputFunction::kNegativeEnd), positive = io_.active(InputFunction::kPositiveEnd);
+  const bool negative = io_.active(InputFunction::kNegativeEnd),
+             positive = io_.active(InputFunction::kPositiveEnd);
   const bool pressed = (negative && !at_negative_end_) || (positive && !at_positive_end_);
   at_negative_end_ = negative;
   at_positive_end_ = positive;
@@ -207,7 +211,8 @@ void Device::look_at_limits() noexcept {
   const std::int64_t at = (virtual_ ? set_counts() : actual_) - limits_origin_;
   const bool below = parameters_[kSwNegLimAct] != 0 && at < parameters_[kNegLimit];
   const bool above = parameters_[kSwPosLimAct] != 0 && at > parameters_[kPosLimit];
-  const bool moves_out = (below && profile_.state().velocity < 0.0) || (above && profile_.state().velocity > 0.0);
+  const bool moves_out =
+      (below && profile_.state().velocity < 0.0) || (above && profile_.state().velocity > 0.0);
   const bool beyond = below || above;
   if (beyond && !beyond_ && moves_out && on_) raise(kSoftwareLimit);
   beyond_ = beyond;

@@ -9,10 +9,10 @@
 
 #include "tech_objects/drive/count_controller.hpp"
 #include "tech_objects/drive/drive.hpp"
-#include "tech_objects/mco305_catalogue/errors.hpp"
 #include "tech_objects/mco305/inputs_outputs.hpp"
-#include "tech_objects/mco305_catalogue/parameters.hpp"
 #include "tech_objects/mco305/units.hpp"
+#include "tech_objects/mco305_catalogue/errors.hpp"
+#include "tech_objects/mco305_catalogue/parameters.hpp"
 #include "tech_objects/profile/four_slope_profile.hpp"
 
 namespace lockstep::mco305 {
@@ -50,13 +50,13 @@ class Device {
 
   // ---- Motion
 
-  void set_velocity(std::int32_t velocity) noexcept { velocity_ = velocity; }              ///< VEL [1/VELRES]
+  void set_velocity(std::int32_t velocity) noexcept { velocity_ = velocity; }  ///< VEL [1/VELRES]
   void set_acceleration(std::int32_t acceleration) noexcept { acceleration_ = acceleration; }  ///< ACC
   void set_deceleration(std::int32_t deceleration) noexcept { deceleration_ = deceleration; }  ///< DEC
-  int position_to(std::int32_t units, bool relative) noexcept;  ///< POSA, POSR
-  void set_speed(std::int32_t velocity) noexcept;               ///< CVEL
-  int start_speed() noexcept;                                   ///< CSTART
-  void stop_speed() noexcept;                                   ///< CSTOP
+  int position_to(std::int32_t units, bool relative) noexcept;                                 ///< POSA, POSR
+  void set_speed(std::int32_t velocity) noexcept;                                              ///< CVEL
+  int start_speed() noexcept;                                                                  ///< CSTART
+  void stop_speed() noexcept;                                                                  ///< CSTOP
   void motor_on() noexcept;
   void motor_off() noexcept;
   void motor_stop() noexcept;
@@ -66,8 +66,8 @@ class Device {
 
   // ---- Zero points, homing, index
 
-  void define_origin() noexcept;                   ///< DEF ORIGIN
-  void set_origin(std::int32_t units) noexcept;    ///< SET ORIGIN
+  void define_origin() noexcept;                    ///< DEF ORIGIN
+  void set_origin(std::int32_t units) noexcept;     ///< SET ORIGIN
   void reset_origin() noexcept { temporary_ = 0; }  ///< RST ORIGIN
   /// HOME, INDEX. They are over when `homing` is false; then `homing_error` says how.
   int begin_home(bool index_only) noexcept;
@@ -80,17 +80,17 @@ class Device {
   // ---- Read-outs
 
   std::int64_t milliseconds() const noexcept { return now_; }
-  std::int32_t actual_units() const noexcept { return shown_units(actual_); }      ///< APOS
-  std::int32_t set_units() const noexcept { return shown_units(set_counts()); }    ///< CPOS
-  std::int32_t latched_units() const noexcept { return shown_units(latched_); }    ///< IPOS
-  std::int32_t following_error() const noexcept;                                   ///< TRACKERR
-  std::int32_t velocity_units() const noexcept;                                    ///< AVEL
-  void set_velocity_window(std::int32_t milliseconds) noexcept;                    ///< _GETVEL
-  std::int32_t axis_end() const noexcept;                                          ///< AXEND
-  std::int32_t status() const noexcept;                                            ///< STAT
+  std::int32_t actual_units() const noexcept { return shown_units(actual_); }    ///< APOS
+  std::int32_t set_units() const noexcept { return shown_units(set_counts()); }  ///< CPOS
+  std::int32_t latched_units() const noexcept { return shown_units(latched_); }  ///< IPOS
+  std::int32_t following_error() const noexcept;                                 ///< TRACKERR
+  std::int32_t velocity_units() const noexcept;                                  ///< AVEL
+  void set_velocity_window(std::int32_t milliseconds) noexcept;                  ///< _GETVEL
+  std::int32_t axis_end() const noexcept;                                        ///< AXEND
+  std::int32_t status() const noexcept;                                          ///< STAT
   /// SYSVAR. @return whether it is one of those that are there
   bool system_variable(std::int32_t index, std::int32_t& value) const noexcept;
-  double set_position() const noexcept { return profile_.state().position; }  ///< [qc] on the counter
+  double set_position() const noexcept { return profile_.state().position; }      ///< [qc] on the counter
   double set_velocity_now() const noexcept { return profile_.state().velocity; }  ///< [qc/ms]
   bool controlled() const noexcept { return on_; }
   bool moving() const noexcept { return moving_; }
@@ -121,7 +121,7 @@ class Device {
     enum class Phase : std::uint8_t { kOver, kToSwitch, kOffSwitch, kToIndex, kToZero };
     Phase phase = Phase::kOver;
     bool index_only = false, by_index = false, turns = false;
-    bool seen = false;  // the switch, in the direction in which it is left
+    bool seen = false;             // the switch, in the direction in which it is left
     double search_velocity = 0.0;  // [qc/ms]
     std::int64_t begin = 0;        // where the search for the index began [qc]
     std::uint32_t latches = 0;
@@ -169,14 +169,14 @@ class Device {
   // What every step needs stands first.
   bool on_ = false, moving_ = false, arrived_ = true, was_reset_ = false, virtual_ = true;
   MotionMode mode_ = MotionMode::kHold;
-  MotionMode interrupted_ = MotionMode::kHold;  // by MOTOR STOP, an error or MOTOR OFF
-  std::int64_t now_ = -1;                       // [ms]
-  std::int64_t actual_ = 0;                     // [qc] counter
-  double machine_ = 0.0;                        // [qc]
-  double reference_ = 0.0;                      // of the controller, ±1,048,575
-  double velocity_maximum_ = 1.0;               // [qc/ms]
-  double last_velocity_ = 0.0;                  // of the set position [qc/ms]
-  std::int64_t target_ = 0;                     // [qc] counter
+  MotionMode interrupted_ = MotionMode::kHold;    // by MOTOR STOP, an error or MOTOR OFF
+  std::int64_t now_ = -1;                         // [ms]
+  std::int64_t actual_ = 0;                       // [qc] counter
+  double machine_ = 0.0;                          // [qc]
+  double reference_ = 0.0;                        // of the controller, ±1,048,575
+  double velocity_maximum_ = 1.0;                 // [qc/ms]
+  double last_velocity_ = 0.0;                    // of the set position [qc/ms]
+  std::int64_t target_ = 0;                       // [qc] counter
   std::int64_t profile_time_ = 1, sampling_ = 1;  // PROFTIME, TIMER [ms]
   std::int64_t position_error_ = 20'000;          // POSERR [qc]
   bool checks_limits_ = false;
@@ -193,7 +193,7 @@ class Device {
   DoubleDouble last_drive_position_{};
   ParameterValues parameters_;
   UserUnit unit_;
-  double acceleration_maximum_ = 1.0;  // [qc/ms²]
+  double acceleration_maximum_ = 1.0;                                   // [qc/ms²]
   std::int32_t velocity_ = -1, acceleration_ = -1, deceleration_ = -1;  // below 0: as by default
   std::int32_t speed_ = 0;
   std::int64_t origin_ = 0, temporary_ = 0, limits_origin_ = 0;  // [qc]
@@ -202,7 +202,7 @@ class Device {
   std::int64_t latched_ = 0;
   std::uint32_t latches_ = 0;
   bool last_marker_input_ = false;
-  std::int64_t over_since_ = -1;     // following error [ms]
+  std::int64_t over_since_ = -1;  // following error [ms]
   std::int64_t window_position_ = 0, window_since_ = -1;
   bool at_negative_end_ = false, at_positive_end_ = false, beyond_ = false, break_input_ = false,
        clear_input_ = false;

@@ -41,7 +41,8 @@ int Device::begin_home(bool index_only) noexcept {
 FourSlopeLimits Device::home_limits() const noexcept {
   const std::int32_t ramp = std::max(std::min(parameters_[kHomeRamp], parameters_[kDfltAcc]), 1);
   FourSlopeLimits all = limits();
-  all.acceleration = all.deceleration = static_cast<double>(ramp) / parameters_.real(kVelRes) * acceleration_maximum_;
+  all.acceleration = all.deceleration =
+      static_cast<double>(ramp) / parameters_.real(kVelRes) * acceleration_maximum_;
   all.reverses = true;
   return all;
 }

@@ -24,7 +24,8 @@ FourSlopeLimits Device::limits() const noexcept {
     return static_cast<double>(set > 0 ? set : std::max(parameters_[start], 1)) / parameters_.real(kVelRes);
   };
   FourSlopeLimits limits;
-  limits.velocity = std::abs(velocity_ < 0 ? relative_velocity(parameters_[kDfltVel]) : relative_velocity(velocity_));
+  limits.velocity =
+      std::abs(velocity_ < 0 ? relative_velocity(parameters_[kDfltVel]) : relative_velocity(velocity_));
   limits.acceleration = of(acceleration_, kDfltAcc) * acceleration_maximum_;
   limits.deceleration = of(deceleration_, kDfltAcc) * acceleration_maximum_;
   limits.reverses = parameters_[kRevers] != 2;

@@ -24,9 +24,9 @@ struct Parameter {
   std::int32_t number;        ///< 32-67 as 3267
   std::string_view mnemonic;  ///< empty: it has none
   std::string_view title;
-  std::string_view unit;       ///< of what is printed
+  std::string_view unit;                ///< of what is printed
   std::int32_t lowest, highest, start;  ///< as a program sees them
-  int decimals;          ///< that what is printed has behind its point: RAMPMIN 0.5 s is 500
+  int decimals;                         ///< that what is printed has behind its point: RAMPMIN 0.5 s is 500
   Bound bound;
   bool later_edition;
   bool effective;  ///< false: declared, without effect

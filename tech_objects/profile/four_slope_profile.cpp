@@ -248,10 +248,9 @@ FourSlopeState FourSlopeProfile::at(const Segment& segment, double t) const noex
   }
   const double duration = segment.duration, change = begin.acceleration * duration;
   const Turn turn = half_turn(t / duration);
-  return {origin_ + begin.position + t * begin.velocity +
-              change * (t / 2.0 - duration / (2.0 * kPi) * turn.sine),
-          begin.velocity + change * (1.0 - turn.cosine) / 2.0,
-          begin.acceleration * kPi / 2.0 * turn.sine};
+  return {
+      origin_ + begin.position + t * begin.velocity + change * (t / 2.0 - duration / (2.0 * kPi) * turn.sine),
+      begin.velocity + change * (1.0 - turn.cosine) / 2.0, begin.acceleration * kPi / 2.0 * turn.sine};
 }
 
 const FourSlopeState& FourSlopeProfile::step(double time) noexcept {

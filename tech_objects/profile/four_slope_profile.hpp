@@ -83,7 +83,7 @@ class FourSlopeProfile {
 
   std::array<Segment, kMaximumSegments> segments_{};
   std::size_t count_ = 0, current_ = 0;
-  double time_ = 0.0;  // in the current segment
+  double time_ = 0.0;    // in the current segment
   double origin_ = 0.0;  // positions of the segments count from there
   FourSlopeState now_{}, end_{};
   bool sinusoidal_ = false;

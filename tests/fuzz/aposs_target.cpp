@@ -4,6 +4,7 @@
 #include "projects/aposs/listing.hpp"
 #include "scheduler/aposs/machine.hpp"
 #include "scheduler/aposs/plain_device.hpp"
+#include "scheduler/aposs/printed_line.hpp"
 #include "tests/fuzz/texts.hpp"
 
 namespace lockstep::fuzz {
@@ -52,7 +53,7 @@ void run(const aposs::Image& image, std::int32_t budget) {
     machine.step(budget);
     require(machine.counters().commands - before <= static_cast<std::uint64_t>(budget), "the budget is kept");
     while (machine.prints().take(item))
-      if (aposs::append_printed(line, image, item)) line.clear();
+      if (aposs::append_printed(line, image.texts, item)) line.clear();
     device.advance(1);
   }
 }

@@ -1,10 +1,10 @@
 // The device of the MCO 305 in steps: units, positioning, controller, homing, limits, errors.
-#include "tech_objects/mco305/device.hpp"
-
 #include <gtest/gtest.h>
 
 #include <utility>
 #include <vector>
+
+#include "tech_objects/mco305/device.hpp"
 
 namespace lockstep::mco305 {
 namespace {

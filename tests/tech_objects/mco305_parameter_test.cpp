@@ -69,8 +69,8 @@ TEST(Mco305Errors, HaveThePublishedBits) {
   for (const auto& published : all) {
     const Error* const ours = find_error(published["number"]);
     ASSERT_NE(ours, nullptr) << published["number"];
-    const std::string word = ours->word == 0 ? "" : "word " + std::to_string(ours->word) + " bit " +
-                                                        std::to_string(ours->bit);
+    const std::string word =
+        ours->word == 0 ? "" : "word " + std::to_string(ours->word) + " bit " + std::to_string(ours->bit);
     EXPECT_EQ(word, published["alarmWord"].is_null() ? "" : published["alarmWord"].get<std::string>());
   }
 }

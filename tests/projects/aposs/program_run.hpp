@@ -13,6 +13,7 @@
 #include "projects/aposs/listing.hpp"
 #include "scheduler/aposs/machine.hpp"
 #include "scheduler/aposs/plain_device.hpp"
+#include "scheduler/aposs/printed_line.hpp"
 
 namespace lockstep::aposs {
 
@@ -82,7 +83,7 @@ class Running {
     EXPECT_LE(machine_.counters().commands - before, static_cast<std::uint64_t>(budget));
     Printed item;
     while (machine_.prints().take(item))
-      if (append_printed(line_, *compiled_.image, item)) lines.push_back(std::exchange(line_, ""));
+      if (append_printed(line_, compiled_.image->texts, item)) lines.push_back(std::exchange(line_, ""));
     device.advance(1);
   }
 

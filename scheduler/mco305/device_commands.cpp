@@ -1,0 +1,222 @@
+#include "scheduler/mco305/device_commands.hpp"
+
+#include <algorithm>
+
+namespace lockstep {
+namespace {
+
+using aposs::Command;
+using aposs::Reply;
+
+/// Of a command that may be refused with an error, and that is over when the axis rests.
+Reply begun(int error) noexcept {
+  return error == 0 ? Reply::busy() : Reply::failed(error);
+}
+Reply done(int error) noexcept {
+  return error == 0 ? Reply::done() : Reply::failed(error);
+}
+
+/// I_FUNCTION_n_m is 1'000'000 + 100 · n + m; an old name such as I_BREAK has m = 0, and the input as its
+/// value.
+constexpr std::int32_t kInputFunction = 1'000'000;
+
+std::int32_t function_parameter(std::int32_t input) noexcept {
+  return input <= 10 ? mco305::kFirstInputFunction + input - 1 : mco305::kFirstInputFunction + input;
+}
+
+}  // namespace
+
+Reply DeviceCommands::begin(Command command, const std::int32_t* arguments, aposs::Arrays&) noexcept {
+  const Reply reply = motion(command, arguments);
+  return reply.kind == Reply::Kind::kRefused ? reading(command, arguments) : reply;
+}
+
+Reply DeviceCommands::motion(Command command, const std::int32_t* arguments) noexcept {
+  switch (command) {
+    case Command::kVel:
+      device_.set_velocity(arguments[0]);
+      return Reply::done();
+    case Command::kAcc:
+      device_.set_acceleration(arguments[0]);
+      return Reply::done();
+    case Command::kDec:
+      device_.set_deceleration(arguments[0]);
+      return Reply::done();
+    case Command::kPosa:
+      return begun(device_.position_to(arguments[0], false));
+    case Command::kPosr:
+      return begun(device_.position_to(arguments[0], true));
+    case Command::kCvel:
+      device_.set_speed(arguments[0]);
+      return Reply::done();
+    case Command::kCstart:
+      return done(device_.start_speed());
+    case Command::kCstop:
+      device_.stop_speed();
+      return Reply::done();
+    case Command::kMotorOn:
+      device_.motor_on();
+      return Reply::done();
+    case Command::kMotorOff:
+      device_.motor_off();
+      return Reply::done();
+    case Command::kMotorStop:
+      device_.motor_stop();
+      return device_.arrived() ? Reply::done() : Reply::busy();
+    case Command::kContinue:
+      return done(device_.go_on());
+    case Command::kDefOrigin:
+      device_.define_origin();
+      return Reply::done();
+    case Command::kSetOrigin:
+      device_.set_origin(arguments[0]);
+      return Reply::done();
+    case Command::kRstOrigin:
+      device_.reset_origin();
+      return Reply::done();
+    case Command::kHome:
+      return begun(device_.begin_home(false));
+    case Command::kIndex:
+      return begun(device_.begin_home(true));
+    case Command::kWaitax:
+      return device_.arrived() ? Reply::done() : Reply::busy();
+    case Command::kWaitndx:
+      latches_ = device_.latches();
+      return Reply::busy();
+    case Command::kWaitp:
+      return device_.actual_units() == arguments[0] ? Reply::done() : Reply::busy();
+    default:
+      return Reply::refused();
+  }
+}
+
+Reply DeviceCommands::reading(Command command, const std::int32_t* arguments) noexcept {
+  std::int32_t value = 0;
+  switch (command) {
+    case Command::kApos:
+      return Reply::done(device_.actual_units());
+    case Command::kCpos:
+      return Reply::done(device_.set_units());
+    case Command::kIpos:
+      return Reply::done(device_.latched_units());
+    case Command::kAvel:
+      return Reply::done(device_.velocity_units());
+    case Command::kTrackerr:
+      return Reply::done(device_.following_error());
+    case Command::kAxend:
+      return Reply::done(device_.axis_end());
+    case Command::kStat:
+      return Reply::done(device_.status());
+    case Command::kSysvar:
+      if (device_.system_variable(arguments[0], value)) return Reply::done(value);
+      return Reply::failed(mco305::kUnknownParameter);
+    case Command::kGet:
+      if (device_.get_parameter(arguments[0], value)) return Reply::done(value);
+      return Reply::failed(mco305::kUnknownParameter);
+    case Command::kSet:
+      return set(arguments[0], arguments[1]);
+    case Command::kLinkgpar:
+      return link(arguments);
+    case Command::kIn:
+      return Reply::done(device_.io().input(arguments[0]) ? 1 : 0);
+    case Command::kInb:
+      return Reply::done(device_.io().input_byte(arguments[0]));
+    case Command::kOut:
+      return device_.io().switch_output(arguments[0], arguments[1] != 0) ? Reply::done()
+                                                                         : Reply::failed(mco305::kArrayBound);
+    case Command::kOutb:
+      return output_byte(arguments);
+    case Command::kInkey:
+      return arguments[0] < 0 ? Reply::done() : Reply::busy();
+    case Command::kGetvel:
+      device_.set_velocity_window(arguments[0]);
+      return Reply::busy();
+    case Command::kSave:
+    case Command::kSaveprom:
+      return Reply::done();
+    default:
+      return Reply::refused();
+  }
+}
+
+/// SET: an input function by its own name is that of an input.
+Reply DeviceCommands::set(std::int32_t number, std::int32_t value) noexcept {
+  if (number < kInputFunction) return done(device_.set_parameter(number, value));
+  const std::int32_t function = (number - kInputFunction) / 100;
+  const std::int32_t input = (number - kInputFunction) % 100;
+  if (input != 0) return done(device_.set_parameter(function_parameter(input), value != 0 ? function : 0));
+  // The old names: the value is the input, negative where it is normally closed, 0 for none.
+  const std::int32_t which = value < 0 ? -value : value;
+  if (which == 0) return Reply::done();
+  if (which > static_cast<std::int32_t>(mco305::InputsOutputs::kFunctionInputs))
+    return Reply::failed(mco305::kUnknownParameter);
+  return done(device_.set_parameter(function_parameter(which), value < 0 ? function + 1 : function));
+}
+
+/// LINKGPAR: the stored value is brought into the limits.
+Reply DeviceCommands::link(const std::int32_t* arguments) noexcept {
+  if (!mco305::is_application_parameter(arguments[0]) || arguments[2] > arguments[3])
+    return Reply::failed(mco305::kLinkFailed);
+  const std::int32_t value = device_.parameters()[arguments[0]];
+  return done(device_.set_parameter(arguments[0], std::clamp(value, arguments[2], arguments[3])));
+}
+
+Reply DeviceCommands::output_byte(const std::int32_t* arguments) noexcept {
+  if (arguments[0] != 0) return Reply::failed(mco305::kArrayBound);
+  for (std::int32_t bit = 0; bit < 8; ++bit)
+    device_.io().switch_output(bit + 1, ((arguments[1] >> bit) & 1) != 0);
+  return Reply::done();
+}
+
+Reply DeviceCommands::proceed(Command command, const std::int32_t* arguments, std::int64_t elapsed) noexcept {
+  switch (command) {
+    case Command::kPosa:
+    case Command::kPosr:
+    case Command::kMotorStop:
+    case Command::kWaitax:
+      return device_.arrived() ? Reply::done() : Reply::busy();
+    case Command::kHome:
+    case Command::kIndex:
+      return device_.homing() ? Reply::busy() : done(device_.homing_error());
+    case Command::kWaitndx:
+      if (device_.latches() != latches_) return Reply::done();
+      return elapsed >= arguments[0] ? Reply::failed(mco305::kWaitIndexTimeout) : Reply::busy();
+    case Command::kWaitp: {
+      const std::int32_t at = device_.actual_units();
+      const bool up = device_.set_velocity_now() >= 0.0;
+      return (up ? at >= arguments[0] : at <= arguments[0]) ? Reply::done() : Reply::busy();
+    }
+    case Command::kInkey:  // there are no keys: it waits for its time, and for ever without one
+      return arguments[0] != 0 && elapsed >= arguments[0] ? Reply::done() : Reply::busy();
+    default:
+      return elapsed >= arguments[0] ? Reply::done() : Reply::busy();
+  }
+}
+
+void DeviceCommands::error_raised(int error) noexcept {
+  if (raised_count_ < raised_.size()) raised_[raised_count_++] = error;
+  device_.react(error);
+}
+
+int DeviceCommands::take_raised() noexcept {
+  if (raised_count_ == 0) return 0;
+  const int error = raised_[0];
+  std::copy(raised_.begin() + 1, raised_.end(), raised_.begin());
+  --raised_count_;
+  return error;
+}
+
+void DeviceCommands::give_up(Command) noexcept {
+  device_.give_up_home();
+}
+
+bool DeviceCommands::level(aposs::EdgeSource source, std::int32_t number) noexcept {
+  return source == aposs::EdgeSource::kInput && device_.io().input(number);
+}
+
+aposs::PositionReading DeviceCommands::position(aposs::PositionSource source) noexcept {
+  if (source != aposs::PositionSource::kApos) return {};
+  return {device_.actual_units(), std::int64_t{1} << 31};
+}
+
+}  // namespace lockstep

@@ -1,0 +1,82 @@
+/// One motion controller VLT MCO 305 as a technology object: its axis, and the APOSS program that runs in it.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "scheduler/aposs/machine.hpp"
+#include "scheduler/mco305/device_commands.hpp"
+#include "tech_objects/data_blocks/mco305.hpp"
+#include "tech_objects/mco305/device.hpp"
+#include "tech_objects/objects/technology_object.hpp"
+
+namespace lockstep {
+
+/// A program of a device.
+struct DeviceProgram {
+  std::int32_t number = 0;
+  bool autostart = false;
+  aposs::Image image;
+  std::vector<std::string> files;  ///< whose places the image has
+  int fault = 0;                   ///< that it raises when it starts: its arrays do not fit the others'
+};
+
+/// Steps every millisecond, whatever the servo cycle. Thread: that of the cycle, but for what says otherwise.
+class Mco305 final : public TechnologyObject {
+ public:
+  Mco305(std::string object_name, DB_ANY object_number);
+
+  // ---- While loading
+  mco305::DeviceSettings settings;
+  std::deque<DeviceProgram> programs;
+  std::int32_t steps_per_millisecond = 200;
+  std::int32_t time_interrupts = 1;  ///< [ms]
+  mco305::ParameterValues& parameters() noexcept { return device_.parameters(); }
+
+  Mco305Data data;
+  void* data_block() noexcept override { return &data; }
+  void* start_values() noexcept override { return &data; }
+  void configure(double servo_period, int ratio) override;
+  bool takes_part(Phase phase) const noexcept override {
+    return phase == Phase::servo || phase == Phase::programs;
+  }
+  void servo(std::int64_t now) noexcept override;
+  void run_program(std::int64_t now) noexcept override;
+  bool take_note(ProgramNote& note) noexcept override;
+  void take_line(std::string& line) override;
+  void shut_down() noexcept override;
+  bool at_rest() const noexcept override;
+
+  mco305::Device& device() noexcept { return device_; }
+  aposs::Machine& machine() noexcept { return machine_; }
+  /// The program that runs, or ran last; nullptr: none.
+  const DeviceProgram* program() const noexcept { return current_; }
+
+ private:
+  static constexpr std::int64_t kStep = 1'000'000;  // [ns]
+
+  void start(const DeviceProgram& program) noexcept;
+  void choose() noexcept;
+  const DeviceProgram* find(std::int32_t number) const noexcept;
+  std::int32_t selected() const noexcept;
+  void take_device_errors() noexcept;
+  void show() noexcept;
+  void share_texts();
+
+  mco305::Device device_;
+  DeviceCommands commands_{device_};
+  aposs::Arrays arrays_;
+  aposs::Machine machine_{commands_, arrays_};
+  const DeviceProgram* current_ = nullptr;
+  std::uint32_t shown_version_ = 0;
+  bool program_due_ = false;
+  bool start_input_ = false, clear_input_ = false;
+  bool choosing_ = true;  // programs may be started by inputs and PRGPAR
+  bool told_refusal_ = false;
+  bool shutting_down_ = false;
+  std::uint32_t lines_ = 0;         // printed, and not told yet
+  std::vector<std::string> texts_;  // of all programs
+};
+
+}  // namespace lockstep
