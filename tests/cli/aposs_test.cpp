@@ -63,14 +63,26 @@ TEST(Aposs, RunPrintsInVirtualTime) {
   EXPECT_NE(ended.err.find("outputs that are on: 3"), std::string::npos) << ended.err;
 }
 
-TEST(Aposs, RunSaysPlainlyWhatNeedsAMachine) {
+TEST(Aposs, RunMovesTheAxisOfADevice) {
   const Directory folder;
-  const std::string file = folder.write("p.m", "PRINT \"before\"\nPOSA 1000\nPRINT \"behind\"\n");
+  // 3000 RPM, 500 PPR: 100 qc/ms; in 500 ms up and 500 ms down, 150,000 counts between.
+  const std::string file =
+      folder.write("p.m",
+                   "VEL 100\nACC 100\nDEC 100\nt0 = TIME\nPOSA 200000\nt1 = (TIME - t0) % 10\n"
+                   "PRINT APOS, t1\n");
+  const Ended ended =
+      lockstep({"aposs", "run", file, "--set", "ENCODER=500", "--set", "32-80=3000", "--set", "RAMPMIN=0.5"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.out, "200000 250\n");
+}
+
+TEST(Aposs, RunSaysPlainlyWhatIsNotBuilt) {
+  const Directory folder;
+  const std::string file = folder.write("p.m", "PRINT \"before\"\nSYNCP\nPRINT \"behind\"\n");
   const Ended ended = lockstep({"aposs", "run", file});
   EXPECT_EQ(ended.status, 1);
   EXPECT_EQ(ended.out, "before\n");
-  EXPECT_NE(ended.err.find(file + ":2:1: POSA needs a machine, and that is not built yet"), std::string::npos)
-      << ended.err;
+  EXPECT_NE(ended.err.find(file + ":2:1: SYNCP is not built yet"), std::string::npos) << ended.err;
 }
 
 TEST(Aposs, RunTellsAnErrorWithoutAHandler) {
@@ -100,6 +112,8 @@ TEST(Aposs, RunRefusesOptionsThatCannotBeRead) {
                                                   {"--in", "1=1s:2"},
                                                   {"--set", "1899=1"},
                                                   {"--set", "1900"},
+                                                  {"--set", "VELRES=0"},
+                                                  {"--set", "34-50=1"},
                                                   {"--duration", "5"},
                                                   {"--steps-per-ms", "0"}}) {
     std::vector<std::string> arguments = {"aposs", "run", file};

@@ -66,7 +66,7 @@ TEST(Mco305Scenario, S16LimitedJerk) {
     EXPECT_LE(std::abs(velocity.back()), 101.0);
   }
   for (std::size_t i = 40; i < velocity.size(); ++i)
-    EXPECT_LE(std::abs(velocity[i] - velocity[i - 40]) / 40.0, 0.22) << i;
+    EXPECT_LE(std::abs(velocity[i] - velocity[i - 40]) / 40.0, 0.22 + 1.0 / 40.0) << i;  // whole counts
   const std::vector<int> sequence = scenario.at("expect").back().at("value");
   EXPECT_NE(std::search(seen.phases.begin(), seen.phases.end(), sequence.begin(), sequence.end()),
             seen.phases.end());
@@ -228,7 +228,7 @@ int errno_of(const Provoked& one) {
   }
   if (program.starts_with("!")) {
     head = "DIM a[5]\n";
-    program = program.find("x = ") != program.npos ? "x = a[0]" : "a[6] = 1";
+    program = program.find("x = ") != program.npos ? "i = 0\nx = a[i]" : "i = 6\na[i] = 1";
   }
   DeviceRun run;
   run.set_all(mco305_scenario("S21").at("parameters"));
@@ -324,6 +324,7 @@ TEST(Mco305Scenario, S23Brake) {
   run.set_all(scenario.at("parameters"));
   run.add_program(joined(scenario.at("program")));
   run.begin();
+  run.object.steps_per_millisecond = 1;  // what follows each other is seen apart
   std::vector<Happened> seen;
   bool on = true, output = true, moving = false;
   for (int i = 0; i < scenario.at("duration_ms").get<int>(); ++i) {
@@ -337,7 +338,9 @@ TEST(Mco305Scenario, S23Brake) {
     note(on, run.object.device().controlled(), "MOTOR ON", "MOTOR OFF");
   }
   const std::vector<std::string> expected = scenario.at("expect").at(0).at("value");
-  ASSERT_EQ(seen.size(), expected.size());
+  std::string all;
+  for (const Happened& one : seen) all += one.what + " " + std::to_string(one.at) + ", ";
+  ASSERT_EQ(seen.size(), expected.size()) << all;
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i].what, expected[i]) << i;
   EXPECT_NEAR(static_cast<double>(seen[3].at - seen[2].at), 150, 2);
   EXPECT_NEAR(static_cast<double>(seen[7].at - seen[6].at), 100, 2);
