@@ -142,7 +142,17 @@ void FourSlopePlan::to_zero(double wanted) noexcept {
   const double limit = limits_.deceleration, rise = limits_.slopes[2], fall = limits_.slopes[3];
   const double fall_behind = fall_behind_zero();
   const double maximum_there = fall_behind > 0.0 ? root(2.0 * wanted / fall_behind) : kInfinity;
-  if (acceleration() > limit) change_to(limit, fall, SlopePhase::acceleration_too_high);
+  if (acceleration() > limit) {
+    // It may pass through 0 before it is within the limit.
+    const double begin = acceleration() * acceleration();
+    const bool passes = velocity() + (begin - limit * limit) * fall / 2.0 > 0.0;
+    const double within = passes ? root(begin + 2.0 * velocity() / fall) : limit;
+    change_to(within, fall, SlopePhase::acceleration_too_high);
+    if (passes) {
+      now_.velocity = 0.0;
+      return;
+    }
+  }
   const double a2 = acceleration() * acceleration(), gap = -velocity();
   const double natural = rise > 0.0 ? std::min(root(a2 + 2.0 * gap / rise), limit) : limit;
   const double there = std::min(natural, maximum_there);
@@ -201,41 +211,60 @@ void FourSlopeProfile::to_velocity(const FourSlopeState& from, double velocity,
   end_.position += origin_;
 }
 
-// The velocity in between is what is looked for: the further it is to one side, the further the motion gets.
+namespace {
+
+/// The velocity that a motion to a target has in between, and what is left to go with it.
+struct Between {
+  double velocity = 0.0, rest = 0.0;
+  bool met = true;
+};
+
+double reached(const FourSlopeState& start, double velocity, const FourSlopeLimits& limits) noexcept {
+  FourSlopePlan plan(start, limits, nullptr);
+  plan.to_velocity(velocity);
+  plan.to_velocity(0.0);
+  return plan.now().position;
+}
+
+// The further the velocity is to one side, the further the motion gets.
+Between find_between(const FourSlopeState& start, double distance, const FourSlopeLimits& limits) noexcept {
+  constexpr double kMet = 1e-3;
+  constexpr int kHalvings = 64;
+  double low = limits.reverses ? -limits.velocity : 0.0, high = limits.velocity;
+  for (const double fastest : {high, low}) {
+    const double rest = distance - reached(start, fastest, limits);
+    if (rest == 0.0 || (fastest > 0.0 && rest > 0.0) || (fastest < 0.0 && rest < 0.0))
+      return {fastest, rest, true};
+  }
+  double between = 0.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    between = (low + high) / 2.0;
+    if (between == low || between == high) break;
+    (reached(start, between, limits) > distance ? high : low) = between;
+  }
+  return {between, 0.0, std::abs(reached(start, between, limits) - distance) < kMet};
+}
+
+}  // namespace
+
+// From a state that is beyond its limits there may be targets that no velocity in between meets: then it
+// stops first.
 void FourSlopeProfile::to_position(const FourSlopeState& from, double target,
                                    const FourSlopeLimits& limits) noexcept {
   begin(from, limits);
-  const FourSlopeState start{0.0, from.velocity, from.acceleration};
   const double distance = target - from.position;
-  const auto reached = [&](double velocity) noexcept {
-    FourSlopePlan plan(start, limits, nullptr);
-    plan.to_velocity(velocity);
+  FourSlopePlan plan({0.0, from.velocity, from.acceleration}, limits, segments_.data());
+  Between between = find_between(plan.now(), distance, limits);
+  if (!between.met) {
     plan.to_velocity(0.0);
-    return plan.now().position;
-  };
-  double low = limits.reverses ? -limits.velocity : 0.0, high = limits.velocity;
-  double between = high, rest = distance - reached(high);
-  if (rest < 0.0) {
-    between = low;
-    rest = distance - reached(low);
+    between = find_between(plan.now(), distance, limits);
   }
-  const bool keeps = (between > 0.0 && rest > 0.0) || (between < 0.0 && rest < 0.0);
-  if (!keeps && rest != 0.0) {
-    constexpr int kHalvings = 64;
-    for (int i = 0; i < kHalvings && low < high; ++i) {
-      between = (low + high) / 2.0;
-      if (between == low || between == high) break;
-      (reached(between) > distance ? high : low) = between;
-    }
-    rest = 0.0;
-  }
-  FourSlopePlan plan(start, limits, segments_.data());
-  plan.to_velocity(between);
-  if (rest != 0.0 && between != 0.0) plan.keep(rest / between, SlopePhase::constant);
+  plan.to_velocity(between.velocity);
+  if (between.rest != 0.0 && between.velocity != 0.0)
+    plan.keep(between.rest / between.velocity, SlopePhase::constant);
   plan.to_velocity(0.0);
   count_ = plan.count();
-  const bool reachable = limits.reverses || plan.now().position <= distance + 1.0;
-  end_ = {reachable ? target : from.position + plan.now().position, 0.0, 0.0};
+  end_ = {between.met ? target : from.position + plan.now().position, 0.0, 0.0};
 }
 
 FourSlopeState FourSlopeProfile::at(const Segment& segment, double t) const noexcept {

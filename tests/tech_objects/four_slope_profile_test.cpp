@@ -113,16 +113,15 @@ TEST(FourSlopeProfile, KeepsItsLimitsAndMeetsItsEndFromAnyState) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 20'000; ++i) {
     FourSlopeLimits limits;
-    limits.velocity = 1.0 + 200.0 * unit(random);
-    limits.acceleration = 0.01 + unit(random);
-    limits.deceleration = 0.01 + unit(random);
-    for (double& slope : limits.slopes) slope = unit(random) < 0.3 ? 0.0 : 2000.0 * unit(random);
+    limits.velocity = 20.0 + 200.0 * unit(random);
+    limits.acceleration = 0.05 + unit(random);
+    limits.deceleration = 0.05 + unit(random);
+    for (double& slope : limits.slopes) slope = unit(random) < 0.3 ? 0.0 : 300.0 * unit(random);
     const bool moves = unit(random) < 0.5;
     FourSlopeState from{1000.0 * unit(random), 0.0, 0.0};
     if (moves) {
       from.velocity = limits.velocity * (2.0 * unit(random) - 1.0);
-      const double limit = std::min(limits.acceleration, limits.deceleration);
-      from.acceleration = limit * (2.0 * unit(random) - 1.0);
+      from.acceleration = 3.0 * unit(random) - 1.5;  // it may be more than the new limits allow
     }
     FourSlopeProfile profile;
     const bool to_target = unit(random) < 0.7;
@@ -132,7 +131,8 @@ TEST(FourSlopeProfile, KeepsItsLimitsAndMeetsItsEndFromAnyState) {
       profile.to_position(from, target, limits);
     else
       profile.to_velocity(from, velocity, limits);
-    const double steepest = std::max(limits.acceleration, limits.deceleration) * (1.0 + 1e-6) + 1e-9;
+    const double limit = std::max(limits.acceleration, limits.deceleration);
+    const double steepest = std::max(limit, std::abs(from.acceleration)) * (1.0 + 1e-6) + 1e-9;
     FourSlopeState before = from;
     int steps = 0;
     while (!profile.over() && steps < 400'000) {
