@@ -152,7 +152,7 @@ int run(const RunOptions& options) {
   int status = kOk;
   auto program = compile_or_tell(options.file, options.settings, status);
   if (!program) return status;
-  Mco305 object("device", 1);
+  Mco305 object("device", DB_ANY{1});
   for (const auto& [number, value] : options.parameters) object.parameters().set(number, value);
   object.programs.push_back({0, true, std::move(*program->image), program->files, 0});
   object.steps_per_millisecond = options.steps_per_ms;
