@@ -16,7 +16,7 @@ GOTO again
 
 SUBMAINPROG
 SUBPROG trouble
-  PRINT "gripper: error " ERRNO
+  PRINT "gripper: error ", ERRNO
   DELAY 500
   ERRCLR
   CONTINUE

@@ -17,12 +17,12 @@ again:
   WAITI 2 ON
   OUT 2 0
   boxes = boxes + 1
-  PRINT "box " boxes " at " APOS
+  PRINT "box ", boxes, " at ", APOS
 GOTO again
 
 SUBMAINPROG
 SUBPROG trouble
-  PRINT "horizontal: error " ERRNO
+  PRINT "horizontal: error ", ERRNO
   OUT 1 0
   OUT 2 0
   DELAY 500

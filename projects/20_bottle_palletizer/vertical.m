@@ -47,7 +47,7 @@ SUBPROG probe
 RETURN
 
 SUBPROG trouble
-  PRINT "vertical: error " ERRNO
+  PRINT "vertical: error ", ERRNO
   DELAY 500
   ERRCLR
   CONTINUE

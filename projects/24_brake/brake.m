@@ -26,7 +26,7 @@ SUBPROG shut
 RETURN
 
 SUBPROG trouble
-  PRINT "error " ERRNO
+  PRINT "error ", ERRNO
   WAITAX
   OUT 3 0
   EXIT
