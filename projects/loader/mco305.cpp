@@ -38,6 +38,7 @@ class DeviceLoader {
  private:
   void load_parameters(const JsonValue& json, bool from_file);
   void load_parameter(const std::string& name, const JsonValue& json);
+  void store(std::int32_t number, std::int32_t value, const JsonValue& json);
   void load_parameter_file(const JsonValue& json);
   void load_drive(const JsonValue& json);
   template <std::size_t n>
@@ -83,11 +84,18 @@ void DeviceLoader::load_parameter(const std::string& name, const JsonValue& json
   if (scale == 1.0) {
     const auto value =
         read_integer(&json, static_cast<std::int64_t>(lowest), static_cast<std::int64_t>(highest), problems_);
-    if (value) device_.parameters().set(*number, static_cast<std::int32_t>(*value));
+    if (value) store(*number, static_cast<std::int32_t>(*value), json);
     return;
   }
   const auto value = read_number(&json, lowest, highest, problems_);
-  if (value) device_.parameters().set(*number, static_cast<std::int32_t>(std::lround(*value * scale)));
+  if (value) store(*number, static_cast<std::int32_t>(std::lround(*value * scale)), json);
+}
+
+/// A value of the range with which nothing can be computed, such as 0 of what others are divided by, is none.
+void DeviceLoader::store(std::int32_t number, std::int32_t value, const JsonValue& json) {
+  if (device_.parameters().set(number, value) == 0) return;
+  problems_.report(json, aposs::parameter_text(number) + " = " + std::to_string(value) +
+                             ": nothing can be computed with it; allowed: another value of its range");
 }
 
 void DeviceLoader::load_parameter_file(const JsonValue& json) {
@@ -120,11 +128,10 @@ void DeviceLoader::load_parameters(const JsonValue& json, bool from_file) {
 }
 
 void DeviceLoader::load_drive(const JsonValue& json) {
-  const auto model = read_variant(json, keys::kDeviceDrives, problems_);
-  if (!model) return;
-  const Fields fields(json, keys::kDeviceDrives, *model, problems_);
-  read_members(fields, keys::kDeviceDrives[*model].keys, &device_.settings.drive, loading_);
-  device_.settings.has_drive = *model == 0;
+  const std::size_t model = read_variant(json, keys::kDeviceDrives, problems_).value_or(0);
+  const Fields fields(json, keys::kDeviceDrives, model, problems_);
+  read_members(fields, keys::kDeviceDrives[model].keys, &device_.settings.drive, loading_);
+  device_.settings.has_drive = model == 0;
   const JsonValue* const plant = fields["plant"];
   device_.settings.drive.plant.has_stop = plant != nullptr && plant->find("fixed_stop") != nullptr;
 }

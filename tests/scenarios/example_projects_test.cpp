@@ -92,7 +92,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Stored{"05_press_feeder", "8s", 40}, Stored{"06_encoder_conveyor", "8s", 25},
                     Stored{"07_emergency_door", "16s", 40}, Stored{"08_filling_line", "11s", 40},
                     Stored{"09_flying_saw", "12s", 40}, Stored{"10_fixed_stop", "16s", 40},
-                    Stored{"11_pick_and_place", "8s", 40}, Stored{"14_twelve_stations", "7s", 50}),
+                    Stored{"11_pick_and_place", "8s", 40}, Stored{"14_twelve_stations", "7s", 50},
+                    Stored{"20_bottle_palletizer", "20s", 40}, Stored{"24_brake", "4s", 10}),
     [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
