@@ -84,6 +84,7 @@ void Controller::assign_parts() {
     }
     if (object->takes_part(Phase::before_axes)) before_axes_.push_back(object);
     if (object->takes_part(Phase::behind_axes)) behind_axes_.push_back(object);
+    if (object->takes_part(Phase::programs)) with_programs_.push_back(object);
   }
 }
 
@@ -149,6 +150,7 @@ void Controller::skip(std::int64_t ticks) noexcept {
 void Controller::shut_down() noexcept {
   take_summary();
   shutting_down_ = true;
+  for (TechnologyObject* object : with_programs_) object->shut_down();
 }
 
 void Controller::take_summary() noexcept {
@@ -174,7 +176,9 @@ bool Controller::interpolate_cams() noexcept {
 }
 
 bool Controller::at_rest() const noexcept {
-  return std::all_of(axes.begin(), axes.end(), [](const Axis* axis) { return axis->off(); });
+  return std::all_of(axes.begin(), axes.end(), [](const Axis* axis) { return axis->off(); }) &&
+         std::all_of(with_programs_.begin(), with_programs_.end(),
+                     [](const TechnologyObject* object) { return object->at_rest(); });
 }
 
 }  // namespace lockstep

@@ -227,6 +227,7 @@ class Controller {
   void tell(Event event, std::int64_t now) noexcept;
   void tell_job(const JobWatch& watch, EventKind kind, int number, std::int64_t now) noexcept;
   void note_newest(const AlarmNote& note, std::size_t object, std::int64_t now) noexcept;
+  void tell_notes(TechnologyObject& object, std::int64_t now) noexcept;
   void show(std::int64_t now, bool interpolator_tick) noexcept;
 
   /// Axes of a level from which on it is shared: below, one processor is done before another has come.
@@ -238,6 +239,7 @@ class Controller {
   Part servo_;                      // the others
   Part before_axes_;
   Part behind_axes_;
+  Part with_programs_;
   std::vector<LeadingObject*> sources_;  // that lead axes and are none
   std::vector<Cam*> cams_;
   bool cams_interpolated_elsewhere_ = false;

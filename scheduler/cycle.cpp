@@ -27,6 +27,7 @@ void Controller::tick() noexcept {
     interpolate();
   }
 
+  for (TechnologyObject* object : with_programs_) object->run_program(t);
   run_due_programs(t);
 
   if (events != nullptr) tell_events(t);
@@ -173,8 +174,21 @@ void Controller::tell_events(std::int64_t t) noexcept {
       if (raised) note_newest(note, source + 1, t);
     });
   }
+  for (TechnologyObject* object : with_programs_) tell_notes(*object, t);
   for (JobWatch& watch : job_watches_)
     watch.look(jobs_told_, [&](EventKind kind, int number) { tell_job(watch, kind, number, t); });
+}
+
+/// What an object's own program prints, and its errors.
+void Controller::tell_notes(TechnologyObject& object, std::int64_t t) noexcept {
+  ProgramNote note;
+  while (object.take_note(note))
+    tell({.kind = note.printed ? EventKind::printed : EventKind::program_error,
+          .reaction = static_cast<std::int16_t>(note.program),
+          .source = static_cast<std::uint32_t>(object.number) - 1,
+          .number = note.error,
+          .line = note.line},
+         t);
 }
 
 void Controller::tell_job(const JobWatch& watch, EventKind kind, int number, std::int64_t t) noexcept {

@@ -24,12 +24,15 @@ enum class EventKind : std::uint8_t {
   job_ended,         ///< let go by its Enable
   overrun,           ///< an interpolator cycle was not over in time
   command_accepted,  ///< of a panel; told by the bridge, as the next
-  command_refused
+  command_refused,
+  printed,       ///< a program of an object has printed a line
+  program_error  ///< of an object with programs of its own
 };
 
 /// Whether the source is an object, and not an instance of a block.
 constexpr bool of_object(EventKind kind) noexcept {
-  return kind == EventKind::alarm || kind == EventKind::acknowledged;
+  return kind == EventKind::alarm || kind == EventKind::acknowledged || kind == EventKind::printed ||
+         kind == EventKind::program_error;
 }
 
 struct Event {
@@ -45,6 +48,7 @@ struct Event {
   std::uint16_t object = 0;
   AlarmDetail detail{};                 ///< of an alarm
   const Job* aborted_by_job = nullptr;  ///< of an aborted job: whose address tells the instance
+  std::int32_t line = 0;                ///< of a program that has an error; its number is `reaction`
 };
 
 /// The crossing of events: a ring with one writer and one reader, neither of which waits for the other inside

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "scheduler/mco305/mco305.hpp"
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/cam_object/cam.hpp"
 #include "tech_objects/sensing/external_encoder.hpp"
@@ -36,6 +37,7 @@ constexpr Entry kClasses[] = {
     {kMeasuringInput, make<MeasuringInput>},
     {kOutputCam, make<OutputCam>},
     {kCamTrack, make<CamTrack>},
+    {static_cast<ObjectKinds>(ObjectKind::MCO_305), make<Mco305>},
 };
 
 }  // namespace

@@ -152,11 +152,11 @@ int run(const RunOptions& options) {
   int status = kOk;
   auto program = compile_or_tell(options.file, options.settings, status);
   if (!program) return status;
-  Mco305 object;
+  Mco305 object("device", DB_ANY{1});
   for (const auto& [number, value] : options.parameters) object.parameters().set(number, value);
   object.programs.push_back({0, true, std::move(*program->image), program->files, 0});
   object.steps_per_millisecond = options.steps_per_ms;
-  object.configure(1e-3);
+  object.configure(1e-3, 1);
   if (const int error = object.programs[0].fault; error != 0) {
     tell(options.file + ": " + text_of(error), Severity::error);
     return kNotValid;
@@ -168,7 +168,7 @@ int run(const RunOptions& options) {
     for (; next < options.inputs.size() && options.inputs[next].at <= t; ++next)
       object.device().io().set_input(options.inputs[next].input, options.inputs[next].level);
     object.servo(t * kMillisecond);
-    object.run_program();
+    object.run_program(t * kMillisecond);
     printer.take(machine.prints());
   }
   machine.prints().flush();

@@ -53,6 +53,10 @@ std::string what_of(const TraceEvent& event) {
       return fmt::format(": alarm {}", event.number);
     case EventKind::acknowledged:
       return ": alarms acknowledged";
+    case EventKind::printed:
+      return ": " + visible(event.text);
+    case EventKind::program_error:
+      return fmt::format(": error {}: {}", event.number, visible(event.text));
     case EventKind::job_failed:
       return job_text(event) + fmt::format(": failed, ErrorID 16#{:04X}: {}",
                                            static_cast<unsigned>(event.number), visible(event.text));
@@ -67,6 +71,8 @@ bool is_told(const TraceEvent& event) {
     case EventKind::alarm:
     case EventKind::acknowledged:
     case EventKind::job_failed:
+    case EventKind::printed:
+    case EventKind::program_error:
       return true;
     case EventKind::job_aborted:
       return event.type.starts_with("MC_Offset") || event.type.starts_with("MC_Phasing");
@@ -110,7 +116,8 @@ bool EventMessages::may_tell(const TraceEvent& event) {
 
 std::string EventMessages::of(const TraceEvent& event) {
   if (!is_told(event)) return "";
-  const bool told = may_tell(event);
+  // What a program prints is its output, of which nothing is left out.
+  const bool told = event.kind == EventKind::printed || may_tell(event);
   std::string text = std::move(folded_);
   folded_.clear();
   if (!told) return text;

@@ -13,9 +13,10 @@ namespace lockstep::cli {
 /// On a terminal, takes the line of live values away that stands where a message goes.
 void clear_line() noexcept;
 
-/// What a run tells of events on standard error: alarms and their acknowledgement, jobs that fail, and shifts
-/// that are aborted. What comes again soon is counted and told as a number, so that a program that asks again
-/// in every cycle fills no terminal. Thread: the recorder's; `rest` when that has ended.
+/// What a run tells of events on standard error: alarms and their acknowledgement, jobs that fail, shifts
+/// that are aborted, lines and errors of an object's own programs. What comes again soon, but for those
+/// lines, is counted and told as a number, so that a program that asks again in every cycle fills no
+/// terminal. Thread: the recorder's; `rest` when that has ended.
 class EventMessages {
  public:
   /// The message of an event, of one or more whole lines; empty: it is not told, or not now.

@@ -9,6 +9,7 @@
 #include "scheduler/units.hpp"
 #include "tech_objects/alarms/alarms.hpp"
 #include "tech_objects/alarms/reactions.hpp"
+#include "tech_objects/mco305_catalogue/errors.hpp"
 
 namespace lockstep {
 namespace {
@@ -16,12 +17,21 @@ namespace {
 constexpr std::string_view kAfterMissedTicks =
     "; ticks were missed within the second before, which it may come from";
 
+std::string program_error_text(const Event& event) {
+  const mco305::Error* const error = mco305::find_error(event.number);
+  std::string text =
+      error != nullptr ? std::string(error->text) : "a command that is not there ends the program";
+  if (event.reaction >= 0)
+    text += "; program " + std::to_string(event.reaction) + ", line " + std::to_string(event.line);
+  return text;
+}
+
 }  // namespace
 
 std::string_view event_kind_text(EventKind kind) noexcept {
   constexpr std::string_view texts[] = {
-      "alarm",      "acknowledged", "job started", "job done",         "job aborted",
-      "job failed", "job ended",    "overrun",     "command accepted", "command refused"};
+      "alarm",     "acknowledged", "job started",      "job done",        "job aborted", "job failed",
+      "job ended", "overrun",      "command accepted", "command refused", "printed",     "program error"};
   return texts[static_cast<std::size_t>(kind)];
 }
 
@@ -47,7 +57,7 @@ EventTexts::EventTexts(const Controller& controller, std::int64_t epoch) : epoch
     return std::string();
   };
   for (const auto& object : controller.objects) {
-    objects_.push_back({object->name, std::string(kind_name(object->kind))});
+    objects_.push_back({object->name, std::string(kind_name(object->kind)), object.get()});
     Inputs& inputs = inputs_.emplace_back();
     for (std::size_t unit = 0; unit < std::size(inputs.units); ++unit)
       inputs.units[unit] = unit_of(static_cast<Unit>(unit), *object);
@@ -58,7 +68,7 @@ EventTexts::EventTexts(const Controller& controller, std::int64_t epoch) : epoch
   }
   for (const Instance& instance : controller.instances) {
     blocks_.emplace_back(instance.block.get(), instances_.size());
-    instances_.push_back({instance.name, std::string(instance.type->name)});
+    instances_.push_back({instance.name, std::string(instance.type->name), nullptr});
   }
   std::sort(blocks_.begin(), blocks_.end());
 }
@@ -154,6 +164,10 @@ TraceEvent EventTexts::of(const Event& event, std::uint64_t lost) const {
     fill(told, event);
     if (event.late) told.text += kAfterMissedTicks;
     told.reaction_text = alarm_reaction_text(event.reaction);
+  }
+  if (of_object(event.kind) && event.source < objects_.size()) {
+    if (event.kind == EventKind::printed) objects_[event.source].object->take_line(told.text);
+    if (event.kind == EventKind::program_error) told.text = program_error_text(event);
   }
   if (event.kind == EventKind::job_failed) told.text = error_text(static_cast<ErrorId>(event.number));
   if (event.kind == EventKind::job_aborted) told.text = aborted_text(event);

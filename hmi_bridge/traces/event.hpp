@@ -49,7 +49,7 @@ std::vector<std::string> detail_lines(const TraceEvent& event);
 /// Short name of a kind of event: "alarm", "acknowledged", "job started", …
 std::string_view event_kind_text(EventKind kind) noexcept;
 
-/// Knows the names of a controller's objects and instances; may be used by any thread once it is made.
+/// Knows the names of a controller's objects and instances, which outlive it. Thread: one, once it is made.
 class EventTexts {
  public:
   EventTexts() = default;
@@ -61,6 +61,7 @@ class EventTexts {
   struct Name {
     std::string name;
     std::string type;
+    TechnologyObject* object;
   };
   /// What may be meant by an alarm of an object.
   struct Inputs {

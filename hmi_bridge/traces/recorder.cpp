@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "hmi_bridge/network/write_signals.hpp"
@@ -165,7 +166,11 @@ void TraceRecorder::give_queued(const Event& event) noexcept {
 }
 
 void TraceRecorder::give_event(const Event& event) noexcept {
-  const auto give = [&](TraceSink& sink) { sink.event(events_.texts.of(event, lost_events())); };
+  std::optional<TraceEvent> told;  // one for all sinks: a printed line can be taken only once
+  const auto give = [&](TraceSink& sink) {
+    if (!told) told = events_.texts.of(event, lost_events());
+    sink.event(*told);
+  };
   for (const auto& sink : sinks_) guarded(*sink, 0, give);
 }
 

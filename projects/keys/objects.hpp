@@ -1,7 +1,7 @@
 /// The keys of technology objects: each type has keys of its own.
 #pragma once
 
-#include "projects/keys/drive.hpp"
+#include "projects/keys/mco305.hpp"
 #include "tech_objects/sensing/probe_signal.hpp"
 #include "tech_objects/switching/switched_output.hpp"
 
@@ -85,7 +85,8 @@ inline constexpr KeyVariant kObjects[] = {{"TO_SpeedAxis", kSpeedAxis},
                                           {"TO_OutputCam", kOutputCamObject},
                                           {"TO_CamTrack", kCamTrackObject},
                                           {"TO_Cam", kCam},
-                                          {"TO_Cam_10k", kCam10k}};
+                                          {"TO_Cam_10k", kCam10k},
+                                          {"MCO_305", kMco305}};
 static_assert(
     [] {
       for (std::size_t i = 0; i < std::size(kObjects); ++i)

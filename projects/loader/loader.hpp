@@ -5,6 +5,7 @@
 
 #include "projects/json/fields.hpp"
 #include "projects/loader/project.hpp"
+#include "scheduler/mco305/mco305.hpp"
 #include "tech_objects/sensing/external_encoder.hpp"
 #include "tech_objects/sensing/measuring_input.hpp"
 #include "tech_objects/switching/cam_track.hpp"
@@ -61,6 +62,8 @@ void load_cam_track(const JsonValue& json, CamTrack& track, const Loading& loadi
 void check_outputs(const JsonValue& objects, const Loading& loading);
 /// Defines a cam and interpolates it.
 void load_cam(const JsonValue& json, Cam& cam, const Loading& loading);
+/// Parameters, wiring and programs of an MCO 305.
+void load_mco305(const JsonValue& json, Mco305& device, const Loading& loading);
 /// Sets the start values of one object.
 void load_configuration(const JsonValue& config, TechnologyObject& object, const Loading& loading);
 

@@ -156,6 +156,8 @@ void load_object(const JsonValue& json, TechnologyObject& object, const Loading&
     case ObjectKind::TO_Cam:
     case ObjectKind::TO_Cam_10k:
       return load_cam(json, static_cast<Cam&>(object), loading);
+    case ObjectKind::MCO_305:
+      return load_mco305(json, static_cast<Mco305&>(object), loading);
   }
 }
 

@@ -18,7 +18,7 @@ void warn_of_unused(const JsonValue& root, const Names::Uses& uses, const Loadin
     const JsonValue* const named = root.find(section);
     if (named == nullptr) continue;
     for (const auto& [name, json] : named->members)
-      if (!uses.names.contains(fold(name)))
+      if (!uses.names.contains(fold(name)) && json->find("programs") == nullptr)  // those act by themselves
         loading.problems.warn(*json, std::string("nothing uses the ") + what + " " + quote(name));
   }
 }

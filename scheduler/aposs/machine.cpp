@@ -58,7 +58,7 @@ void Machine::start() noexcept {
   error_handler_.reset();
   refused_.reset();
   counters_ = {};
-  culprit_ = 0;
+  culprit_ = error_at_ = 0;
   ended_ = ProgramState::kRuns;
 }
 
@@ -73,7 +73,7 @@ Place Machine::place() const noexcept {
 }
 
 Place Machine::error_place() const noexcept {
-  return image_ == nullptr ? Place{} : image_->places[culprit_];
+  return image_ == nullptr ? Place{} : image_->places[error_at_];
 }
 
 void Machine::step(std::int32_t budget) noexcept {
@@ -462,6 +462,7 @@ void Machine::print(const Instruction& at) noexcept {
 
 void Machine::raise(int error) noexcept {
   if (over()) return;
+  error_at_ = culprit_;
   if (error_count_ < errors_.size()) errors_[error_count_++] = error;  // the others wait behind the first
   device_.error_raised(error);
   if (!error_handler_) finish(ProgramState::kError);

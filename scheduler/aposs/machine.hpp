@@ -134,7 +134,8 @@ class Machine {
   PidFilter pid_;
   PrintQueue prints_;
   bool printing_ = true;
-  std::uint16_t culprit_ = 0;  ///< the instruction of the last error
+  std::uint16_t culprit_ = 0;   ///< the instruction that is carried out
+  std::uint16_t error_at_ = 0;  ///< that of the last error
   std::array<int, 8> errors_{};
   std::size_t error_count_ = 0;
   std::optional<std::uint16_t> error_handler_;

@@ -4,12 +4,18 @@
 #include <limits>
 #include <utility>
 
+#include "scheduler/aposs/printed_line.hpp"
+
 namespace lockstep {
 
+Mco305::Mco305(std::string object_name, DB_ANY object_number)
+    : TechnologyObject(ObjectKind::MCO_305, std::move(object_name), object_number) {}
+
 /// May allocate: the first start of each program fits its arrays.
-void Mco305::configure(double servo_period) {
+void Mco305::configure(double servo_period, int) {
   device_.configure(settings, servo_period);
   machine_.set_time_interrupts(time_interrupts);
+  share_texts();
   for (DeviceProgram& program : programs) {
     program.fault = machine_.load(program.image);
     machine_.stop();
@@ -20,6 +26,39 @@ void Mco305::configure(double servo_period) {
   choosing_ = first != programs.end();
   if (choosing_) start(*first);
   show();
+}
+
+/// One list of texts for all programs, so that a printed line is read right whichever runs by then.
+void Mco305::share_texts() {
+  for (DeviceProgram& program : programs) {
+    const auto offset = static_cast<std::uint16_t>(texts_.size());
+    texts_.insert(texts_.end(), program.image.texts.begin(), program.image.texts.end());
+    for (aposs::PrintList& list : program.image.prints)
+      for (aposs::PrintItem& item : list.items) item.text = static_cast<std::uint16_t>(item.text + offset);
+  }
+  for (DeviceProgram& program : programs) program.image.texts = texts_;
+}
+
+bool Mco305::take_note(ProgramNote& note) noexcept {
+  lines_ += machine_.prints().take_line_count();
+  note = {lines_ > 0, 0, current_ == nullptr ? -1 : current_->number, 0};
+  if (lines_ > 0) {
+    --lines_;
+    return true;
+  }
+  note.error = commands_.take_raised();
+  const bool refused = machine_.state() == aposs::ProgramState::kRefused && !told_refusal_;
+  if (note.error == 0 && !refused) return false;
+  if (note.error == 0) told_refusal_ = true;
+  const aposs::Place place = note.error == 0 ? machine_.place() : machine_.error_place();
+  note.line = static_cast<int>(place.line);
+  return true;
+}
+
+void Mco305::take_line(std::string& line) {
+  aposs::Printed item;
+  while (machine_.prints().take(item))
+    if (aposs::append_printed(line, texts_, item)) return;
 }
 
 void Mco305::start(const DeviceProgram& program) noexcept {
@@ -39,7 +78,7 @@ void Mco305::take_device_errors() noexcept {
   while (const int error = device_.take_error()) commands_.error_raised(error);
 }
 
-void Mco305::run_program() noexcept {
+void Mco305::run_program(std::int64_t) noexcept {
   if (!program_due_) return;
   if (machine_.over()) take_device_errors();
   const bool clear = device_.io().active(mco305::InputFunction::kErrorClear);

@@ -1,4 +1,4 @@
-/// One motion controller VLT MCO 305: its axis, and the APOSS program that runs in it.
+/// One motion controller VLT MCO 305 as a technology object: its axis, and the APOSS program that runs in it.
 #pragma once
 
 #include <deque>
@@ -9,6 +9,7 @@
 #include "scheduler/mco305/device_commands.hpp"
 #include "tech_objects/data_blocks/mco305.hpp"
 #include "tech_objects/mco305/device.hpp"
+#include "tech_objects/objects/technology_object.hpp"
 
 namespace lockstep {
 
@@ -21,10 +22,11 @@ struct DeviceProgram {
   int fault = 0;                   ///< that it raises when it starts: its arrays do not fit the others'
 };
 
-/// Steps every millisecond, whatever the servo cycle, which has to divide it. Thread: that of the cycle, but
-/// for what says otherwise.
-class Mco305 {
+/// Steps every millisecond, whatever the servo cycle. Thread: that of the cycle, but for what says otherwise.
+class Mco305 final : public TechnologyObject {
  public:
+  Mco305(std::string object_name, DB_ANY object_number);
+
   // ---- While loading
   mco305::DeviceSettings settings;
   std::deque<DeviceProgram> programs;
@@ -32,19 +34,19 @@ class Mco305 {
   std::int32_t time_interrupts = 1;  ///< [ms]
   mco305::ParameterValues& parameters() noexcept { return device_.parameters(); }
 
-  /// Call once when all of it is there. May allocate. @param servo_period [s]
-  void configure(double servo_period);
-
-  /// What others look at, renewed in each step.
   Mco305Data data;
-
-  /// One servo tick: encoders, generator, controller, drive. @param now time of the tick [ns]
-  void servo(std::int64_t now) noexcept;
-  /// Its program, behind `servo` in the same tick.
-  void run_program() noexcept;
-  /// The run comes to its end: no program runs any more, and the axis comes to rest.
-  void shut_down() noexcept;
-  bool at_rest() const noexcept;
+  void* data_block() noexcept override { return &data; }
+  void* start_values() noexcept override { return &data; }
+  void configure(double servo_period, int ratio) override;
+  bool takes_part(Phase phase) const noexcept override {
+    return phase == Phase::servo || phase == Phase::programs;
+  }
+  void servo(std::int64_t now) noexcept override;
+  void run_program(std::int64_t now) noexcept override;
+  bool take_note(ProgramNote& note) noexcept override;
+  void take_line(std::string& line) override;
+  void shut_down() noexcept override;
+  bool at_rest() const noexcept override;
 
   mco305::Device& device() noexcept { return device_; }
   aposs::Machine& machine() noexcept { return machine_; }
@@ -60,6 +62,7 @@ class Mco305 {
   std::int32_t selected() const noexcept;
   void take_device_errors() noexcept;
   void show() noexcept;
+  void share_texts();
 
   mco305::Device device_;
   DeviceCommands commands_{device_};
@@ -70,7 +73,10 @@ class Mco305 {
   bool program_due_ = false;
   bool start_input_ = false, clear_input_ = false;
   bool choosing_ = true;  // programs may be started by inputs and PRGPAR
+  bool told_refusal_ = false;
   bool shutting_down_ = false;
+  std::uint32_t lines_ = 0;         // printed, and not told yet
+  std::vector<std::string> texts_;  // of all programs
 };
 
 }  // namespace lockstep

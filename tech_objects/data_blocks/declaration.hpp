@@ -63,6 +63,7 @@ const DataBlock& output_cam_data_block() noexcept;
 const DataBlock& cam_track_data_block() noexcept;
 const DataBlock& cam_data_block() noexcept;
 const DataBlock& cam_10k_data_block() noexcept;
+const DataBlock& mco305_data_block();
 std::span<const Variable> axis_status_variables() noexcept;
 
 /// Start value in a data block that has just been made. While loading.

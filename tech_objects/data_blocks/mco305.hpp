@@ -25,7 +25,7 @@ struct Mco305Data {
   Mco305Program Program{};
   std::array<BOOL, 33> In{};
   std::array<BOOL, 32> Out{};
-  std::array<DINT, mco305::kParameterCount> Parameters{};
+  std::array<DINT, mco305::kParameterCount> Parameters = mco305::ParameterValues().all();
 };
 
 }  // namespace lockstep

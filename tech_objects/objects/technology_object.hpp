@@ -14,14 +14,22 @@ namespace lockstep {
 struct Job;
 
 /// A phase of a tick in which an object may take part. Between the two of the interpolator the axes are
-/// stepped, in the order of their couplings.
-enum class Phase : std::uint8_t { servo, before_axes, behind_axes };
+/// stepped, in the order of their couplings; programs of objects run before those of the project.
+enum class Phase : std::uint8_t { servo, before_axes, behind_axes, programs };
 
 /// An output that an object switches.
 struct SwitchedBy {
   const BOOL* state = nullptr;    ///< what it has the output be; nullptr: it switches none
   const BOOL* address = nullptr;  ///< tag of the output
   bool all = false;               ///< with others of the same output: AND, else OR
+};
+
+/// What an object with programs of its own has to tell.
+struct ProgramNote {
+  bool printed = false;  ///< a line, which `take_line` has; else an error
+  int error = 0;         ///< 0: a command that is not there
+  int program = -1;      ///< number of the program; -1: none
+  int line = 0;          ///< of the program
 };
 
 /// Base of the technology objects, each of which derives from it alone: a pin holds the address of either.
@@ -59,6 +67,16 @@ class TechnologyObject {
   /// Its parts of MC_Interpolator.
   virtual void before_axes() noexcept {}
   virtual void behind_axes() noexcept {}
+  /// Its own program, before those of the project. @param now time of the tick [ns]
+  virtual void run_program([[maybe_unused]] std::int64_t now) noexcept {}
+  /// What has come up since it was asked last; false: nothing. Thread: the cycle.
+  virtual bool take_note(ProgramNote&) noexcept { return false; }
+  /// The next printed line, once for each note of one. Thread: whoever tells events.
+  virtual void take_line(std::string&) {}
+  /// The run comes to its end: it comes to rest, and no program of its own runs any more. Of an object that
+  /// is no axis.
+  virtual void shut_down() noexcept {}
+  virtual bool at_rest() const noexcept { return true; }
   /// Servo ticks that the wall clock has passed have been left out.
   virtual void skip([[maybe_unused]] std::int64_t ticks) noexcept {}
   /// Load time, after `configure`.

@@ -18,6 +18,7 @@ enum class ObjectKind : std::uint32_t {
   TO_SpeedAxis = 1u << 10,
   TO_OutputCam = 1u << 11,
   TO_CamTrack = 1u << 12,
+  MCO_305 = 1u << 13,
 };
 
 /// A set of object kinds.
@@ -74,6 +75,8 @@ inline constexpr std::array kObjectKinds = {
                    "Output that up to 32 cams switch along a track that repeats."},
     ObjectKindText{ObjectKind::TO_Cam, "TO_Cam", "Cam of up to 1000 points and 50 segments."},
     ObjectKindText{ObjectKind::TO_Cam_10k, "TO_Cam_10k", "Cam of up to 10000 points and 50 segments."},
+    ObjectKindText{ObjectKind::MCO_305, "MCO_305",
+                   "Motion controller VLT MCO 305 with its axis and its programs in APOSS."},
 };
 
 /// Published name, such as "TO_SynchronousAxis".

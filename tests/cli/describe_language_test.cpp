@@ -57,7 +57,7 @@ TEST(DescribeLanguage, TellsOfEachTypeConversionAndOperator) {
 }
 
 TEST(DescribeLanguage, SuggestsTheNearestName) {
-  const Ended ended = lockstep({"describe", "LIMTI"});
+  const Ended ended = lockstep({"describe", "LIMMIT"});
   EXPECT_EQ(ended.status, 1);
   EXPECT_NE(ended.err.find("did you mean 'LIMIT'?"), std::string::npos) << ended.err;
   EXPECT_EQ(lockstep({"describe", "REAL_TO_WORD"}).status, 1) << "there is no such conversion";

@@ -34,7 +34,12 @@ inline constexpr char kRestOfProject[] = R"json({
       "type": "TO_CamTrack", "config": {}, "assigned_to": "Knife", "switching_times": { "off": "seconds" }
     },
     "Curve": { "type": "TO_Cam", "config": {}, "points": [ [0.0, 0.0], [1.0, 1.0] ] },
-    "Curve10": { "type": "TO_Cam_10k", "config": {}, "points": [ [0.0, 0.0], [1.0, 1.0] ] }
+    "Curve10": { "type": "TO_Cam_10k", "config": {}, "points": [ [0.0, 0.0], [1.0, 1.0] ] },
+    "Device": {
+      "type": "MCO_305", "parameters": { "VELMAX": 3000 }, "drive": { "model": "none" },
+      "inputs": { "1": "switch" }, "outputs": { "1": "fault" },
+      "programs": [ { "number": 0, "lines": [ "DELAY 10" ] } ]
+    }
   },
   "tags": {
     "switch": { "type": "BOOL" }, "fault": { "type": "BOOL" }, "seconds": { "type": "LREAL" },

@@ -92,7 +92,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Stored{"05_press_feeder", "8s", 40}, Stored{"06_encoder_conveyor", "8s", 25},
                     Stored{"07_emergency_door", "16s", 40}, Stored{"08_filling_line", "11s", 40},
                     Stored{"09_flying_saw", "12s", 40}, Stored{"10_fixed_stop", "16s", 40},
-                    Stored{"11_pick_and_place", "8s", 40}, Stored{"14_twelve_stations", "7s", 50}),
+                    Stored{"11_pick_and_place", "8s", 40}, Stored{"14_twelve_stations", "7s", 50},
+                    Stored{"20_bottle_palletizer", "20s", 40}, Stored{"24_brake", "4s", 10}),
     [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
@@ -637,6 +638,52 @@ TEST(LineShaft, AllRollsComeIntoGearOneAfterAnotherAndNoneRaisesAnAlarm) {
     row = next;
   }
   EXPECT_EQ(table["all_geared"].back(), 1.0) << "again, after the clutch of the chill roll was open";
+}
+
+TEST(BottlePalletizer, CarriesBoxAfterBoxToThePallet) {
+  const CsvTable table = simulate(example("20_bottle_palletizer"), "30s");
+  std::size_t boxes = 0;
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    if (table["gripped"][i] < table["gripped"][i - 1]) {
+      EXPECT_NEAR(table["Horizontal.APOS"][i], 2500.0, 5.0) << "opened beside the pallet";
+      EXPECT_NEAR(table["Vertical.APOS"][i], 900.0, 5.0);
+      ++boxes;
+    }
+    if (table["gripped"][i] > table["gripped"][i - 1]) {
+      EXPECT_NEAR(table["Vertical.APOS"][i], 850.0, 5.0) << "50 behind the edge of the touch probe at 800";
+    }
+  }
+  EXPECT_EQ(boxes, 6u);
+}
+
+TEST(BottlePalletizer, SaysEachBoxOnTheConsole) {
+  const Ended ended = lockstep({"run", example("20_bottle_palletizer"), "--simulate", "--duration", "10s"});
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_NE(ended.err.find("Horizontal: box 1 at 2500\n"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("Horizontal: box 2 at 2500\n"), std::string::npos) << ended.err;
+  EXPECT_EQ(ended.err.find("error"), std::string::npos) << ended.err;
+}
+
+TEST(Brake, IsOpenWhileTheLiftMovesAndShutBehindAnError) {
+  const CsvTable table = simulate(example("24_brake"), "4s");
+  const std::size_t hit = table.first("end_switch", 1.0);
+  const std::size_t shut = table.first("emergency", 1.0);
+  ASSERT_LT(hit, shut);
+  ASSERT_LT(shut, table.rows);
+  EXPECT_NEAR(table["t"][hit], 1.6, 1e-9);
+  for (std::size_t i = 1; i < table.rows; ++i) {
+    // With the motor off the set position follows the actual one, by a count or two.
+    if (std::abs(table["Lift.CPOS"][i] - table["Lift.CPOS"][i - 1]) > 2.0 && i < hit) {
+      EXPECT_EQ(table["released"][i], 1.0) << "moves with the brake shut at " << table["t"][i];
+    }
+    if (i > shut + 20) {
+      EXPECT_EQ(table["released"][i], 0.0);
+      EXPECT_NEAR(table["Lift.APOS"][i], table["Lift.APOS"][shut], 10.0);
+    }
+  }
+  EXPECT_EQ(table["Lift.ERRNO"].back(), 125.0);
+  EXPECT_GT(table["Lift.AVEL"][hit], 10'000.0) << "was at rest already";
+  EXPECT_LT(std::abs(table["Lift.AVEL"][shut]), 5'000.0) << "braked while it moved";
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ inline std::string joined(const Json& lines) {
 
 class DeviceRun {
  public:
-  Mco305 object;
+  Mco305 object{"Device", DB_ANY{1}};
 
   /// As a project says it: numbers or mnemonics, values as printed.
   void set(const std::string& name, double value) {
@@ -55,10 +55,10 @@ class DeviceRun {
     ASSERT_TRUE(compiled.image) << text << (compiled.errors.empty() ? "" : compiled.errors[0].text);
     object.programs.push_back({number, autostart, std::move(*compiled.image), compiled.files, 0});
   }
-  void begin() { object.configure(1e-3); }
+  void begin() { object.configure(1e-3, 1); }
   void step() {
     object.servo(now_ * 1'000'000);
-    object.run_program();
+    object.run_program(now_ * 1'000'000);
     ++now_;
   }
   void run(int milliseconds) {

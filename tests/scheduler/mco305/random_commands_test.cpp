@@ -104,13 +104,13 @@ TEST(Mco305RandomCommands, GiveTheSameWhateverTheServoCycle) {
   std::vector<double> first;
   for (const int ticks : {1, 2, 4}) {
     std::mt19937 random(7);
-    Mco305 object;
-    object.configure(1e-3 / ticks);
+    Mco305 object("Device", DB_ANY{1});
+    object.configure(1e-3 / ticks, 1);
     std::vector<double> seen;
     for (int i = 0; i < 5'000; ++i) {
       if (random() % 50 == 0) any_command(object.device(), random);
       for (int tick = 0; tick < ticks; ++tick) object.servo((i * ticks + tick) * (1'000'000 / ticks));
-      object.run_program();
+      object.run_program(0);
       seen.push_back(object.device().set_position());
     }
     if (first.empty()) first = seen;

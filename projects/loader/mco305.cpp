@@ -1,0 +1,246 @@
+// MCO 305: parameters by name or number, wiring, and its programs, which are compiled here.
+#include "scheduler/mco305/mco305.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "projects/aposs/compiler.hpp"
+#include "projects/aposs/parameter_names.hpp"
+#include "projects/json/text_file.hpp"
+#include "projects/keys/objects.hpp"
+#include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kLargestParameterFile = 1 << 20;
+constexpr int kInputs[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 18, 19, 27, 29, 32, 33};
+constexpr int kOutputs[] = {1, 2, 3, 4, 5, 6, 7, 8, 21, 22, 27, 29};
+
+std::optional<std::int32_t> whole_number(std::string_view text) {
+  std::int32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+class DeviceLoader {
+ public:
+  DeviceLoader(Mco305& device, const Loading& loading)
+      : device_(device), loading_(loading), problems_(loading.problems) {}
+
+  void load(const JsonValue& json);
+
+ private:
+  void load_parameters(const JsonValue& json, bool from_file);
+  void load_parameter(const std::string& name, const JsonValue& json);
+  void store(std::int32_t number, std::int32_t value, const JsonValue& json);
+  void load_parameter_file(const JsonValue& json);
+  void load_drive(const JsonValue& json);
+  template <std::size_t n>
+  std::optional<std::size_t> line(const std::string& name, const JsonValue& json, const int (&allowed)[n]);
+  void load_programs(const JsonValue& json);
+  void load_program(const JsonValue& json);
+  void compile(const JsonValue& at, const Fields& fields, DeviceProgram& program);
+  void take(const JsonValue& at, aposs::CompiledProgram compiled, DeviceProgram& program);
+
+  Mco305& device_;
+  const Loading& loading_;
+  Problems& problems_;
+  std::map<std::int32_t, std::string> given_;  // parameters of the project itself
+};
+
+void DeviceLoader::load_parameter(const std::string& name, const JsonValue& json) {
+  const auto number = aposs::parameter_of(name);
+  if (!number) {
+    std::string upper = name;
+    for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    const std::string nearest = aposs::nearest_parameter(upper);
+    return problems_.report(json,
+                            quote(name) + " is no parameter; allowed: a mnemonic or a number of the option" +
+                                (nearest.empty() ? "" : " (nearest: " + nearest + ")") + ", or 1900 to 1999");
+  }
+  const auto [other, first] = given_.emplace(*number, name);
+  if (!first)
+    return problems_.report(
+        json, quote(name) + " and " + quote(other->second) + " are one parameter; allowed is one of them");
+  if (mco305::is_read_out(*number))
+    return problems_.report(json, aposs::parameter_text(*number) + " is read only; no project sets it");
+  double lowest = -2147483648.0, highest = 2147483647.0, scale = 1.0;
+  if (!mco305::is_application_parameter(*number)) {
+    const mco305::Parameter& of = mco305::parameters()[mco305::parameter_index(*number)];
+    for (int i = 0; i < of.decimals; ++i) scale *= 10.0;
+    lowest = of.lowest / scale;
+    highest = of.highest / scale;
+    if (of.later_edition && !device_.settings.later_edition)
+      return problems_.report(json, aposs::parameter_text(*number) +
+                                        R"( is of the later edition; allowed with "firmware": "5.00")");
+    if (*number == 3200) highest = 9;
+  }
+  if (scale == 1.0) {
+    const auto value =
+        read_integer(&json, static_cast<std::int64_t>(lowest), static_cast<std::int64_t>(highest), problems_);
+    if (value) store(*number, static_cast<std::int32_t>(*value), json);
+    return;
+  }
+  const auto value = read_number(&json, lowest, highest, problems_);
+  if (value) store(*number, static_cast<std::int32_t>(std::lround(*value * scale)), json);
+}
+
+/// A value of the range with which nothing can be computed, such as 0 of what others are divided by, is none.
+void DeviceLoader::store(std::int32_t number, std::int32_t value, const JsonValue& json) {
+  if (device_.parameters().set(number, value) == 0) return;
+  problems_.report(json, aposs::parameter_text(number) + " = " + std::to_string(value) +
+                             ": nothing can be computed with it; allowed: another value of its range");
+}
+
+void DeviceLoader::load_parameter_file(const JsonValue& json) {
+  const auto name = read_string(&json, problems_);
+  if (!name) return;
+  const std::string path = std::filesystem::path(loading_.folder) / std::string(*name);
+  try {
+    const JsonDocument document(read_text_file(path, kLargestParameterFile));
+    for (const Problem& problem : document.problems()) problems_.report(json, path + ": " + problem.text);
+    if (!document.usable()) return;
+    Problems inner;
+    const Loading of_file{loading_.project, inner,          loading_.instances,
+                          loading_.folder,  loading_.named, loading_.use};
+    DeviceLoader file(device_, of_file);
+    file.load_parameters(document.root(), true);
+    for (const Problem& problem : inner.take_errors())
+      problems_.report(json, path + problem.place + ": " + problem.text);
+  } catch (const UnreadableFile& error) {
+    problems_.report(json, error.what());
+  }
+}
+
+/// What a file says first, then what stands in the project.
+void DeviceLoader::load_parameters(const JsonValue& json, bool from_file) {
+  if (read_object(&json, problems_) == nullptr) return;
+  if (const JsonValue* const file = json.find("file"); file != nullptr && !from_file)
+    load_parameter_file(*file);
+  for (const auto& [name, value] : json.members)
+    if (name != "file" || from_file) load_parameter(name, *value);
+}
+
+void DeviceLoader::load_drive(const JsonValue& json) {
+  const std::size_t model = read_variant(json, keys::kDeviceDrives, problems_).value_or(0);
+  const Fields fields(json, keys::kDeviceDrives, model, problems_);
+  read_members(fields, keys::kDeviceDrives[model].keys, &device_.settings.drive, loading_);
+  device_.settings.has_drive = model == 0;
+  const JsonValue* const plant = fields["plant"];
+  device_.settings.drive.plant.has_stop = plant != nullptr && plant->find("fixed_stop") != nullptr;
+}
+
+template <std::size_t n>
+std::optional<std::size_t> DeviceLoader::line(const std::string& name, const JsonValue& json,
+                                              const int (&allowed)[n]) {
+  const auto number = whole_number(name);
+  if (number && std::find(std::begin(allowed), std::end(allowed), *number) != std::end(allowed))
+    return static_cast<std::size_t>(*number - 1);
+  std::string all;
+  for (const int one : allowed) all += (all.empty() ? "" : ", ") + std::to_string(one);
+  problems_.report(json, quote(name) + " is no number of one; allowed: " + all);
+  return std::nullopt;
+}
+
+void DeviceLoader::take(const JsonValue& at, aposs::CompiledProgram compiled, DeviceProgram& program) {
+  for (const aposs::Message& error : compiled.errors)
+    problems_.report(at, aposs::to_string(compiled.files, error));
+  if (compiled.errors_found > compiled.errors.size())
+    problems_.report(at, std::to_string(compiled.errors_found - compiled.errors.size()) + " further errors");
+  for (const aposs::Message& warning : compiled.warnings)
+    problems_.warn(at, aposs::to_string(compiled.files, warning));
+  if (!compiled.image) return;
+  program.image = std::move(*compiled.image);
+  program.files = std::move(compiled.files);
+}
+
+void DeviceLoader::compile(const JsonValue& at, const Fields& fields, DeviceProgram& program) {
+  const JsonValue* const file = fields["file"];
+  const JsonValue* const lines = fields["lines"];
+  if ((file == nullptr) == (lines == nullptr))
+    return problems_.report(at, "a program is a 'file' or 'lines'; allowed is one of the two");
+  if (file != nullptr) {
+    const auto name = read_string(file, problems_);
+    if (!name) return;
+    try {
+      take(*file, aposs::compile_file(std::filesystem::path(loading_.folder) / std::string(*name)), program);
+    } catch (const UnreadableFile& error) {
+      problems_.report(*file, error.what());
+    }
+    return;
+  }
+  if (read_array(lines, problems_) == nullptr) return;
+  std::string text;
+  for (const JsonValue* const line : lines->elements)
+    if (const auto one = read_string(line, problems_)) text += std::string(*one) + "\n";
+  take(*lines, aposs::compile_program("program " + std::to_string(program.number), text), program);
+}
+
+void DeviceLoader::load_program(const JsonValue& json) {
+  const Fields fields(json, keys::kDeviceProgram, problems_);
+  const auto number = read_value(fields, keys::kDeviceProgram["number"], loading_);
+  const auto autostart = read_value(fields, keys::kDeviceProgram["autostart"], loading_);
+  if (!number) return;
+  DeviceProgram program;
+  program.number = static_cast<std::int32_t>(number->integer);
+  program.autostart = autostart && autostart->integer != 0;
+  for (const DeviceProgram& other : device_.programs) {
+    if (other.number == program.number)
+      problems_.report(*fields["number"],
+                       "there is a program " + std::to_string(program.number) + " already");
+    if (other.autostart && program.autostart)
+      problems_.report(*fields["autostart"], "program " + std::to_string(other.number) +
+                                                 " starts by itself already; allowed is one of all");
+  }
+  compile(json, fields, program);
+  device_.programs.push_back(std::move(program));
+}
+
+void DeviceLoader::load_programs(const JsonValue& json) {
+  if (read_array(&json, problems_) == nullptr) return;
+  for (const JsonValue* const program : json.elements) load_program(*program);
+}
+
+void DeviceLoader::load(const JsonValue& json) {
+  const Fields fields(json, keys::kObjects, variant_of(device_), problems_);
+  if (const auto edition = read_value(fields, keys::kMco305["firmware"], loading_))
+    device_.settings.later_edition = edition->integer != 0;
+  if (const JsonValue* const parameters = fields["parameters"]) load_parameters(*parameters, false);
+  if (const JsonValue* const drive = fields["drive"]) load_drive(*drive);
+  if (const JsonValue* const inputs = fields["inputs"]; read_object(inputs, problems_) != nullptr)
+    for (const auto& [name, tag] : inputs->members)
+      if (const auto at = line(name, *tag, kInputs))
+        if (const auto found = read_value(tag, keys::kMco305["inputs"], loading_))
+          device_.settings.inputs[*at] = static_cast<const bool*>(found->address);
+  if (const JsonValue* const outputs = fields["outputs"]; read_object(outputs, problems_) != nullptr)
+    for (const auto& [name, tag] : outputs->members)
+      if (const auto at = line(name, *tag, kOutputs))
+        if (const auto found = read_value(tag, keys::kMco305["outputs"], loading_))
+          device_.settings.outputs[*at] = static_cast<bool*>(found->address);
+  if (const auto scale = read_value(fields, keys::kMco305["controller_scale"], loading_))
+    device_.settings.controller_scale = scale->number;
+  if (const auto steps = read_value(fields, keys::kMco305["steps_per_ms"], loading_))
+    device_.steps_per_millisecond = static_cast<std::int32_t>(steps->integer);
+  if (const auto times = read_value(fields, keys::kMco305["time_interrupts"], loading_))
+    device_.time_interrupts = static_cast<std::int32_t>(times->integer);
+  if (const JsonValue* const programs = fields["programs"]) load_programs(*programs);
+  constexpr std::int64_t kStep = 1'000'000;  // [ns]
+  if (kStep % loading_.controller().clock.servo_cycle != 0)
+    problems_.report(json, "an MCO 305 steps every 1ms, and servo_cycle is " +
+                               duration_text(loading_.controller().clock.servo_cycle) +
+                               "; allowed: one that divides 1ms, such as 250us, 500us, 1ms");
+}
+
+}  // namespace
+
+void load_mco305(const JsonValue& json, Mco305& device, const Loading& loading) {
+  DeviceLoader(device, loading).load(json);
+}
+
+}  // namespace lockstep
