@@ -38,6 +38,7 @@ bool EventQueue::wait_for_space() const noexcept {
 std::uint16_t JobWatch::object() const noexcept {
   if (object_ == nullptr) return 0;
   const TechnologyObject* object = nullptr;
+  // NOLINTNEXTLINE(bugprone-sizeof-expression): the pointer is what is copied
   std::memcpy(&object, object_, sizeof object);
   return object == nullptr ? std::uint16_t{0} : static_cast<std::uint16_t>(object->number);
 }

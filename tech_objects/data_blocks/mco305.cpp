@@ -16,11 +16,11 @@ using Data = Mco305Data;
 constexpr Range kWhole{-2147483648.0, 2147483647.0};
 
 /// COMPUTED, of a member that has another path.
-#define SHOWN(path_, member_, text_)                                                               \
-  Variable {                                                                                       \
-    .path = path_, .type = type_of<decltype(Data{}.member_)>(), .offset = offsetof(Data, member_), \
-    .effect = Effect::RON, .computed = true, .unit = Unit::kNone, .range = kWhole, .text = text_,  \
-    .start = &start_value_in<Data>                                                                 \
+#define SHOWN(path_, member_, text_)                                                                 \
+  Variable {                                                                                         \
+    .path = (path_), .type = type_of<decltype(Data{}.member_)>(), .offset = offsetof(Data, member_), \
+    .effect = Effect::RON, .computed = true, .unit = Unit::kNone, .range = kWhole, .text = (text_),  \
+    .start = &start_value_in<Data>                                                                   \
   }
 
 const Variable kReadOuts[] = {
