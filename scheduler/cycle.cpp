@@ -179,14 +179,15 @@ void Controller::tell_events(std::int64_t t) noexcept {
     watch.look(jobs_told_, [&](EventKind kind, int number) { tell_job(watch, kind, number, t); });
 }
 
-/// What an object's own program prints, and its errors.
+/// What an object's own program prints, and its errors. Where there is no room they stay with the object,
+/// which counts what it cannot keep: a line whose event were lost would be told with the next one.
 void Controller::tell_notes(TechnologyObject& object, std::int64_t t) noexcept {
   ProgramNote note;
-  while (object.take_note(note))
+  while (events->has_space() && object.take_note(note))
     tell({.kind = note.printed ? EventKind::printed : EventKind::program_error,
           .reaction = static_cast<std::int16_t>(note.program),
           .source = static_cast<std::uint32_t>(object.number) - 1,
-          .number = note.error,
+          .number = note.printed ? note.lost : note.error,
           .line = note.line},
          t);
 }

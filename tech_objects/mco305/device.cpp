@@ -10,6 +10,7 @@ namespace lockstep::mco305 {
 namespace {
 
 constexpr std::int64_t kMonitoringPeriod = 20;  // [ms] of following error and drive
+constexpr double kFullReference = 0x4000;       // of OUTAN
 
 std::int64_t counts_of(double position) noexcept {
   return static_cast<std::int64_t>(std::floor(position));
@@ -23,6 +24,7 @@ void Device::configure(const DeviceSettings& settings, double servo_period) {
   const auto wired = [](const auto* tag) { return tag != nullptr; };
   any_input_ = std::any_of(settings.inputs.begin(), settings.inputs.end(), wired);
   any_output_ = std::any_of(settings.outputs.begin(), settings.outputs.end(), wired);
+  if (!parameters_.power_up()) raise(kParametersCorrupted);
   refresh();
   if (settings.has_drive) {
     drive_ = kDriveModels[0].make();
@@ -70,6 +72,11 @@ int Device::change_parameter(std::int32_t number, std::int32_t value) noexcept {
   const int error = parameters_.change(number, value);
   if (error == 0 && !is_application_parameter(number)) refresh();
   return error;
+}
+
+void Device::forget_settings() noexcept {
+  parameters_.forget();
+  refresh();
 }
 
 void Device::servo(bool step) noexcept {
@@ -152,7 +159,7 @@ void Device::generate() noexcept {
 void Device::control() noexcept {
   const FourSlopeState& set = profile_.state();
   if (!on_ || virtual_) {
-    reference_ = 0.0;
+    reference_ = virtual_ ? 0.0 : static_cast<double>(open_loop_) / kFullReference * CountController::kFullScale;
     if (!on_) controller_.reset();
     last_velocity_ = set.velocity;
     return;
@@ -266,6 +273,7 @@ int Device::take_error() noexcept {
 
 void Device::react(int error) noexcept {
   pending_.add(error);
+  if (open_loop_ != 0) motor_off();
   if (!on_) return;
   std::int32_t reaction = parameters_[kErrCond];
   if (error == kHardwareLimit && parameters_[kEndSwMod] == 1 && reaction < 2) reaction = 2;
@@ -294,10 +302,12 @@ void Device::clear_all_errors() noexcept {
 }
 
 void Device::escape() noexcept {
+  if (homing()) give_up_home();
+  if (open_loop_ != 0) motor_off();
   stop(acceleration_maximum_, MotionMode::kStop);
   const std::int32_t condition = parameters_[kEscCond];
-  if (condition == 1 || condition == 2)
-    for (std::int32_t output = 1; output <= 8; ++output) io_.switch_output(output, condition == 2);
+  if (condition == 1 || condition == 2) io_.switch_all(condition == 2);
+  brake_ = true;
 }
 
 }  // namespace lockstep::mco305

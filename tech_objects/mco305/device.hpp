@@ -47,6 +47,8 @@ class Device {
   int change_parameter(std::int32_t number, std::int32_t value) noexcept;
   /// GET, with the read-outs. @return whether there is such a parameter
   bool get_parameter(std::int32_t number, std::int32_t& value) const noexcept;
+  /// The end of a program: what it has set and not saved is as it was before.
+  void forget_settings() noexcept;
 
   // ---- Motion
 
@@ -60,6 +62,7 @@ class Device {
   void motor_on() noexcept;
   void motor_off() noexcept;
   void motor_stop() noexcept;
+  void set_reference(std::int32_t reference) noexcept;  ///< OUTAN [1/0x4000 of full scale], after MOTOR OFF
   int go_on() noexcept;  ///< CONTINUE
   /// Whether the axis rests where it was told to: the end of POSA, POSR, MOTOR STOP, WAITAX.
   bool arrived() const noexcept { return arrived_; }
@@ -93,6 +96,8 @@ class Device {
   double set_position() const noexcept { return profile_.state().position; }      ///< [qc] on the counter
   double set_velocity_now() const noexcept { return profile_.state().velocity; }  ///< [qc/ms]
   bool controlled() const noexcept { return on_; }
+  /// Whether OUTAN turns the drive.
+  bool open_loop() const noexcept { return open_loop_ != 0; }
   bool moving() const noexcept { return moving_; }
   MotionMode mode() const noexcept { return mode_; }
   /// [qc] True place of the machine, on its own scale.
@@ -110,7 +115,7 @@ class Device {
   void clear_error() noexcept;
   void clear_all_errors() noexcept;
   const PendingErrors& pending() const noexcept { return pending_; }
-  /// The end of a program by the user: ESCCOND.
+  /// The end of a program by the user, with [Esc]: ESCCOND.
   void escape() noexcept;
   /// The device raises an error.
   void raise(int error) noexcept;
@@ -181,6 +186,7 @@ class Device {
   std::int64_t position_error_ = 20'000;          // POSERR [qc]
   bool checks_limits_ = false;
   bool brake_ = false, brake_after_stop_ = false;
+  std::int32_t open_loop_ = 0;  // OUTAN
   FourSlopeProfile profile_;
   CountController controller_;
   CountControllerSettings control_;

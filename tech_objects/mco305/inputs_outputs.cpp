@@ -31,6 +31,11 @@ bool InputsOutputs::switch_output(std::int32_t number, bool on) noexcept {
   return true;
 }
 
+void InputsOutputs::switch_all(bool on) noexcept {
+  for (const std::int32_t output : {1, 2, 3, 4, 5, 6, 7, 8, 21, 22, 27, 29, 30, 31, 32})
+    switch_output(output, on);
+}
+
 std::int32_t InputsOutputs::output_byte() const noexcept {
   std::int32_t byte = 0;
   for (std::size_t bit = 0; bit < kFunctionOutputs; ++bit)

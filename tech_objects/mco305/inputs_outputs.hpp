@@ -49,6 +49,8 @@ class InputsOutputs {
   }
   /// OUT. False if there is no such output.
   bool switch_output(std::int32_t number, bool on) noexcept;
+  /// Those of the option and of the drive.
+  void switch_all(bool on) noexcept;
   std::int32_t output_byte() const noexcept;
 
   /// Looks which input and output is for what; when parameters have changed.

@@ -102,6 +102,9 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
     case 4114:
       value = parameters_[kProfTime];
       return true;
+    case 4122:
+      value = open_loop_;
+      return true;
     case 4123:
       value = parameters_[kEncoderType];
       return true;
