@@ -15,7 +15,7 @@ EventQueue::EventQueue(std::size_t size)
 
 void EventQueue::push(const Event& event) noexcept {
   const std::uint64_t written = written_.load(std::memory_order_relaxed);
-  if (!has_space()) {
+  if (written - read_.load(std::memory_order_acquire) > mask_) {
     lost_.store(lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);  // one writer
     return;
   }

@@ -39,8 +39,7 @@ struct Event {
   EventKind kind{};
   std::int16_t reaction = 0;  ///< of an alarm: value of ErrorDetail.Reaction; 0: none
   std::uint32_t source = 0;   ///< index of the object, or of the instance
-  /// Of an alarm or an error; ErrorID of a job that has failed; of a printed line 0, or how many are lost.
-  std::int32_t number = 0;
+  std::int32_t number = 0;    ///< of an alarm; ErrorID of a job that has failed
   std::int64_t t = 0;         ///< of the tick [ns] since the start of the run
   std::uint64_t tick = 0;     ///< number of the servo tick
   bool late = false;          ///< ticks were missed within a second before it
@@ -62,11 +61,6 @@ class EventQueue {
 
   /// Cycle. What finds the ring full is counted.
   void push(const Event& event) noexcept;
-
-  /// Cycle. Whether one more finds room.
-  bool has_space() const noexcept {
-    return written_.load(std::memory_order_relaxed) - read_.load(std::memory_order_acquire) <= mask_;
-  }
 
   /// Runner, between two ticks: returns when half of the ring is free, so that virtual time loses nothing.
   /// @return false if nobody will read any more

@@ -19,8 +19,6 @@ struct KeptValue {
   std::optional<Signal> present{};
   /// What the value only holds with, such as the settings of an encoder; empty: nothing.
   std::string basis{};
-  /// What to tell of a value that was kept with another basis.
-  std::string_view other_basis = "other settings of its axis and is not taken: adjust the encoder again";
   /// Of an array: its elements, of structures all members of each, in their order; of a text its
   /// `text_signals`; empty: a single value.
   std::vector<Signal> elements{};

@@ -67,8 +67,11 @@ std::vector<std::string> restore(RetainFile& file, const std::vector<KeptValue>&
       continue;
     }
     if (row->basis != value.basis) {
-      remark(value, "was kept (" + beginning_of(row->value) + ") with " + std::string(value.other_basis) +
-                        ". It was: " + row->basis + "; it is: " + value.basis + put_aside(*row, aside));
+      const bool array = row->type.starts_with("ARRAY");
+      remark(value, "was kept (" + beginning_of(row->value) + ") with other settings of " +
+                        (array ? "its object" : "its axis") + " and is not taken" +
+                        (array ? "" : ": adjust the encoder again") + ". It was: " + row->basis +
+                        "; it is: " + value.basis + put_aside(*row, aside));
       continue;
     }
     const std::span<const Signal> signals = value.signals();

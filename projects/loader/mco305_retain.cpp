@@ -51,7 +51,6 @@ void keep_set(Mco305& device, const char* name, ParameterSet set, std::vector<Ke
   mco305::ParameterValues& parameters = device.parameters();
   const std::vector<std::int32_t> numbers = numbers_of(set);
   KeptValue kept{.name = device.name + "." + name, .signal = {}, .basis = given(parameters, numbers)};
-  kept.other_basis = "other parameters of the project, which count now";
   for (const std::int32_t number : numbers)
     kept.elements.push_back({parameters.kept(number), Type::DINT, -1});
   kept.array_type = array_type(numbers.size());
@@ -94,7 +93,6 @@ void keep_mco305(Mco305& device, std::vector<KeptValue>& values) {
                  .signal = {},
                  .present = Signal{&device.eeprom.arrays_saved, Type::BOOL, -1},
                  .basis = sizes_of(device)};
-  kept.other_basis = "other arrays, which begin with 0";
   for (DINT& cell : device.eeprom.arrays) kept.elements.push_back({&cell, Type::DINT, -1});
   kept.array_type = array_type(kept.elements.size());
   kept.signal = kept.elements.front();

@@ -132,7 +132,7 @@ struct FlightRecorderConfig {
 
 /// What is kept across runs.
 struct RetainConfig {
-  std::vector<KeptValue> values;  ///< tags and arrays with "retain", adjustments of encoders, EEPROMs
+  std::vector<KeptValue> values;  ///< tags and arrays with "retain", and adjustments of absolute encoders
   std::vector<const ArrayTag*> arrays;                          ///< those among the values
   std::string file;                                             ///< empty: the project does not say
   std::chrono::nanoseconds interval = std::chrono::seconds(1);  ///< between two writes

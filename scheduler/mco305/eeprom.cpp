@@ -27,12 +27,13 @@ void Eeprom::save_arrays(aposs::Arrays& source) noexcept {
 Reply Eeprom::write() noexcept {
   ++writes;
   if (disk == nullptr || !disk->kept) return Reply::done();
-  request_ = disk->ask();
+  request_ = ++disk->asked;
   return Reply::busy();
 }
 
 Reply Eeprom::proceed() const noexcept {
-  if (!disk->is_over(request_)) return Reply::busy();
+  const auto since = static_cast<DINT>(disk->answered - request_);
+  if (since < 0) return Reply::busy();
   return disk->error == WORD{} ? Reply::done() : Reply::failed(mco305::kSavingFailed);
 }
 

@@ -59,7 +59,7 @@ bool Mco305::take_note(ProgramNote& note) noexcept {
   unheard_ += commands_.take_unheard();
   if (const std::uint64_t lost = machine_.prints().dropped_lines() + unheard_; lost != lost_) {
     note.printed = true;
-    note.lost = static_cast<int>(lost - lost_);
+    note.error = static_cast<int>(lost - lost_);
     lost_ = lost;
     return true;
   }
@@ -108,6 +108,10 @@ void Mco305::run_program(std::int64_t) noexcept {
 }
 
 void Mco305::look_at_inputs() noexcept {
+  if (!device_.io().any_input_function()) {
+    clear_input_ = start_input_ = continue_input_ = start_rises_ = continue_rises_ = false;
+    return;
+  }
   const auto rises = [this](mco305::InputFunction function, bool& last) {
     const bool level = device_.io().active(function);
     return level && !std::exchange(last, level);
@@ -203,10 +207,10 @@ void Mco305::show() noexcept {
   read.AXEND = device_.axis_end();
   read.STAT = device_.status();
   read.ERRNO = device_.pending().first();
-  device_.system_variable(4096, read.ActualPosition);
-  device_.system_variable(4097, read.SetPosition);
-  device_.system_variable(4111, read.Reference);
-  device_.system_variable(4275, read.JerkState);
+  read.ActualPosition = device_.actual_counts_shown();
+  read.SetPosition = device_.set_counts_shown();
+  read.Reference = device_.reference();
+  read.JerkState = static_cast<DINT>(device_.phase());
   if (const auto& parameters = device_.parameters(); parameters.version() != shown_version_) {
     shown_version_ = parameters.version();
     data.Parameters = parameters.all();
@@ -216,9 +220,8 @@ void Mco305::show() noexcept {
   data.Program.Line = current_ == nullptr ? 0 : static_cast<DINT>(machine_.place().line);
   data.Program.Steps = machine_.counters().commands;
   data.Program.Starved = machine_.counters().starved;
-  for (std::size_t i = 0; i < data.In.size(); ++i)
-    data.In[i] = device_.io().input(static_cast<std::int32_t>(i + 1));
-  for (std::size_t i = 0; i < data.Out.size(); ++i) data.Out[i] = device_.io().output(i + 1);
+  data.In = device_.io().inputs();
+  data.Out = device_.io().outputs();
 }
 
 }  // namespace lockstep

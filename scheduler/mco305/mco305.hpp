@@ -47,6 +47,7 @@ class Mco305 final : public TechnologyObject {
   }
   void servo(std::int64_t now) noexcept override;
   void run_program(std::int64_t now) noexcept override;
+  /// A printed line with an error is so many lines and errors that are lost.
   bool take_note(ProgramNote& note) noexcept override;
   void take_line(std::string& line) override;
   void shut_down() noexcept override;

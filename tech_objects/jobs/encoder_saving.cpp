@@ -7,11 +7,11 @@ void EncoderSaving::submit(Job& job) noexcept {
   if (job_ != nullptr) return job.fail(ErrorId::encoder_data_being_saved);
   job_ = &job;
   job.phase = JobPhase::active;
-  number_ = ask();
+  ++asked;
 }
 
 void EncoderSaving::step() noexcept {
-  if (job_ == nullptr || !is_over(number_)) return;
+  if (job_ == nullptr || answered != asked) return;
   job_->phase = JobPhase::done;
   if (error != WORD{}) job_->fail(static_cast<ErrorId>(error));
   job_ = nullptr;

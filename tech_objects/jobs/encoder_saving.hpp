@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// One job at a time; the devices of a controller ask beside it. The thread of the cycle calls and changes all of this; another one that writes sees
+/// One job at a time. The thread of the cycle calls and changes all of this; another one that writes sees
 /// `asked` and answers by `answered` and `error` through an image of signals.
 class EncoderSaving {
  public:
@@ -23,20 +23,15 @@ class EncoderSaving {
 
   /// @errors 16#80EE another one runs; 16#80EF nobody writes
   void submit(Job& job) noexcept;
-  /// Asks for what is kept as it stands at the end of this tick, without a job.
-  /// @return its number, for `is_over`; only where it is kept
-  UDINT ask() noexcept { return ++asked; }
-  bool is_over(UDINT number) const noexcept { return static_cast<DINT>(answered - number) >= 0; }
   /// Each tick, once the answers have come in.
   void step() noexcept;
 
-  UDINT asked{};     ///< number of the newest job or request
-  UDINT answered{};  ///< number of the newest one that is over
+  UDINT asked{};     ///< number of the newest job
+  UDINT answered{};  ///< number of the newest job that is over
   WORD error{};      ///< why that one failed, an ErrorId; 0: the adjustments of a tick that knew it are kept
 
  private:
   Job* job_ = nullptr;
-  UDINT number_{};  // of the job
   int instances_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "tech_objects/drive/count_controller.hpp"
 #include "tech_objects/drive/drive.hpp"
@@ -93,6 +94,10 @@ class Device {
   std::int32_t status() const noexcept;                                          ///< STAT
   /// SYSVAR. @return whether it is one of those that are there
   bool system_variable(std::int32_t index, std::int32_t& value) const noexcept;
+  std::int32_t set_counts_shown() const noexcept { return shown_position(set_counts() - origin_); }
+  std::int32_t actual_counts_shown() const noexcept { return shown_position(actual_ - origin_); }
+  std::int32_t reference() const noexcept;  ///< of the position controller, ±1,048,575
+  SlopePhase phase() const noexcept { return profile_.phase(); }
   double set_position() const noexcept { return profile_.state().position; }      ///< [qc] on the counter
   double set_velocity_now() const noexcept { return profile_.state().velocity; }  ///< [qc/ms]
   bool controlled() const noexcept { return on_; }
@@ -185,6 +190,7 @@ class Device {
   std::int64_t profile_time_ = 1, sampling_ = 1;  // PROFTIME, TIMER [ms]
   std::int64_t position_error_ = 20'000;          // POSERR [qc]
   bool checks_limits_ = false;
+  double drive_sign_ = 1.0;  // of the reference: POSDRCT
   bool brake_ = false, brake_after_stop_ = false;
   std::int32_t open_loop_ = 0;  // OUTAN
   FourSlopeProfile profile_;
@@ -194,7 +200,16 @@ class Device {
   PendingErrors pending_;
 
   DeviceSettings settings_;
-  bool any_input_ = false, any_output_ = false;  // is wired
+  struct WiredInput {
+    std::size_t number = 0;  // from 1
+    const bool* tag = nullptr;
+  };
+  struct WiredOutput {
+    std::size_t number = 0;
+    bool* tag = nullptr;
+  };
+  std::vector<WiredInput> wired_inputs_;
+  std::vector<WiredOutput> wired_outputs_;
   std::int32_t marker_type_ = 0;                 // SYNCMTYPS
   std::unique_ptr<Drive> drive_;
   DriveActual drive_actual_{};

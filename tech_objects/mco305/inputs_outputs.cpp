@@ -46,9 +46,11 @@ std::int32_t InputsOutputs::output_byte() const noexcept {
 void InputsOutputs::assign(const ParameterValues& parameters) noexcept {
   input_of_.fill(0);
   closed_.fill(false);
+  any_input_function_ = false;
   for (std::size_t input = kFunctionInputs; input >= 1; --input) {
     const std::int32_t function = parameters[function_parameter(input)];
     if (function < 1 || function > 15) continue;
+    any_input_function_ = true;
     const auto open = static_cast<std::size_t>(function - (function % 2 == 0 ? 1 : 0));
     input_of_[open] = static_cast<std::uint8_t>(input);
     closed_[open] = function % 2 == 0;

@@ -26,8 +26,7 @@ struct SwitchedBy {
 
 /// What an object with programs of its own has to tell.
 struct ProgramNote {
-  bool printed = false;  ///< a line, which `take_line` has, or lost ones; else an error
-  int lost = 0;          ///< lines and errors that nobody can be told of any more; 0: it is a line
+  bool printed = false;  ///< a line, which `take_line` has; else an error
   int error = 0;         ///< 0: a command that is not there
   int program = -1;      ///< number of the program; -1: none
   int line = 0;          ///< of the program
