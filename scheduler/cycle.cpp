@@ -8,8 +8,8 @@
 namespace lockstep {
 namespace {
 
-/// Events that nobody has read yet, behind which those of programs wait: half of a queue of the usual size, so
-/// that alarms find room.
+/// Events that nobody has read yet, behind which those of programs wait: half of a queue of the usual size,
+/// so that alarms find room.
 constexpr std::size_t kNotesWait = 2048;
 
 constexpr std::int64_t kLateFor = 1'000'000'000;  // [ns] after missed ticks, for what may have come of them
