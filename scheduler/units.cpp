@@ -70,6 +70,7 @@ std::string leading_unit(const TechnologyObject& object) {
 const TechnologyObject* wired(const Instance& instance, bool leading) noexcept {
   for (const Pin& pin : instance.type->pins)
     if (pin.type == Type::AXIS && (pin.name == "Master") == leading)
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): what a pin of this type holds is an address
       return reinterpret_cast<const TechnologyObject*>(pin.signal(*instance.block).load().u);
   return nullptr;
 }

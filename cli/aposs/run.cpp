@@ -155,6 +155,7 @@ int run(const RunOptions& options) {
   Mco305 object("device", DB_ANY{1});
   for (const auto& [number, value] : options.parameters) object.parameters().set(number, value);
   object.programs.push_back({0, true, std::move(*program->image), program->files, 0});
+  object.repeats = false;
   object.steps_per_millisecond = options.steps_per_ms;
   object.configure(1e-3, 1);
   if (const int error = object.programs[0].fault; error != 0) {

@@ -456,11 +456,12 @@ constexpr StandardFunction kFunctions[] = {
      {{{"MOVE(5)", INT, "5"}, {"MOVE(300)", USINT, kRefused}}}}};
 
 constexpr std::string_view kConversionRules[] = {
-    "a real becomes the nearest integer, of a half the even one; out of range the nearest end of the range; "
-    "NaN becomes 0",
+    ("a real becomes the nearest integer, of a half the even one; out of range the nearest end of the range; "
+     "NaN becomes 0"),
     "an integer becomes a narrower one, or one without sign, by its low bits",
-    "an integer and a bit string of the same width exchange their bits; a wider bit string is filled with 0, "
-    "not with the sign",
+    ("an integer and a bit string of the same width exchange their bits; a wider bit string is filled with "
+     "0, "
+     "not with the sign"),
     "REAL and DWORD, LREAL and LWORD exchange their bits; other reals and bit strings do not convert",
     "BOOL is 0 or 1; everything but 0 becomes TRUE, NaN too; BOOL and TIME do not convert",
     "TIME and numbers convert in milliseconds; TIME becomes an integer without its fraction of a millisecond",

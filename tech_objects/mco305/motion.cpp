@@ -137,6 +137,7 @@ void Device::motor_stop() noexcept {
 void Device::motor_on() noexcept {
   if (on_) return;
   on_ = true;
+  open_loop_ = 0;
   was_reset_ = true;
   mode_ = MotionMode::kHold;
   arrived_ = true;
@@ -153,11 +154,20 @@ void Device::motor_off() noexcept {
   if (mode_ == MotionMode::kPosition || mode_ == MotionMode::kSpeed) interrupted_ = mode_;
   if (homing()) give_up_home();
   on_ = false;
+  open_loop_ = 0;
   mode_ = MotionMode::kHold;
   arrived_ = true;
   reference_ = 0.0;
   profile_.stand(virtual_ ? profile_.state().position : static_cast<double>(actual_));
   if (drive_ != nullptr) drive_->enable(false);
+}
+
+/// While the axis is controlled the controller says what the drive does.
+void Device::set_reference(std::int32_t reference) noexcept {
+  if (on_) return;
+  constexpr std::int32_t kFull = 0x4000;
+  open_loop_ = std::clamp(reference, -kFull, kFull);
+  if (drive_ != nullptr) drive_->enable(open_loop_ != 0);
 }
 
 int Device::go_on() noexcept {

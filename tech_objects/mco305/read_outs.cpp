@@ -14,6 +14,10 @@ std::int32_t integer(double value) noexcept {
 
 }  // namespace
 
+std::int32_t Device::reference() const noexcept {
+  return integer(reference_);
+}
+
 // A position shown is 31 bits wide, and so is what the conversion gets.
 std::int32_t Device::shown_units(std::int64_t counter) const noexcept {
   return shown_position(unit_.units(shown_position(counter - zero())));
@@ -32,6 +36,7 @@ std::int32_t Device::velocity_units() const noexcept {
   const std::int64_t window = std::min(velocity_window_, now_);
   if (window <= 0) return 0;
   const std::int64_t moved = actual_ - positions_[static_cast<std::size_t>(now_ - window) % kVelocityRing];
+  if (moved == 0) return 0;
   return static_cast<std::int32_t>(unit_.units(moved * 1000 / window));
 }
 
@@ -94,13 +99,16 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
       value = integer(set.velocity);
       return true;
     case 4111:
-      value = integer(reference_);
+      value = reference();
       return true;
     case 4113:
       value = parameters_[kTimer];
       return true;
     case 4114:
       value = parameters_[kProfTime];
+      return true;
+    case 4122:
+      value = open_loop_;
       return true;
     case 4123:
       value = parameters_[kEncoderType];

@@ -16,10 +16,12 @@ struct UserUnit {
 
   /// Cut towards 0. Exact for 32 bits on all sides.
   constexpr std::int64_t counts(std::int64_t units) const noexcept {
+    if (denominator == 1) return sign * units * numerator;
     return sign * (units * numerator / denominator);
   }
   /// Rounded, half away from 0. @param counts within ±2^32
   constexpr std::int64_t units(std::int64_t counts) const noexcept {
+    if (numerator == 1 && denominator == 1) return sign * counts;  // what costs no division
     const std::int64_t scaled = sign * counts * denominator;
     const std::int64_t half = numerator / 2;
     return scaled < 0 ? -((-scaled + half) / numerator) : (scaled + half) / numerator;

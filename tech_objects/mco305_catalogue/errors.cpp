@@ -82,6 +82,17 @@ bool PendingErrors::has(int number) const noexcept {
   return std::find(numbers_.begin(), end, number) != end;
 }
 
+bool PendingErrors::tolerated() const noexcept {
+  return std::all_of(numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(count_), [](int number) {
+    return number == kPositionError || number == kSoftwareLimit || number == kHardwareLimit;
+  });
+}
+
+bool PendingErrors::only(int number) const noexcept {
+  return std::all_of(numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(count_),
+                     [number](int one) { return one == number; });
+}
+
 std::int32_t PendingErrors::alarm_word(int word) const noexcept {
   std::uint32_t bits = 0;
   bool other = false;
