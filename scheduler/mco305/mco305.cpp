@@ -114,7 +114,8 @@ void Mco305::look_at_inputs() noexcept {
   }
   const auto rises = [this](mco305::InputFunction function, bool& last) {
     const bool level = device_.io().active(function);
-    return level && !std::exchange(last, level);
+    const bool before = std::exchange(last, level);
+    return level && !before;
   };
   using enum mco305::InputFunction;
   if (rises(kErrorClear, clear_input_) && machine_.over()) device_.clear_all_errors();

@@ -15,7 +15,7 @@ constexpr SystemVariable kSystemVariables[] = {
     {30, "motor voltage", "1/10 V", false},
     {31, "drive status (16-03)", "", false},
     {32, "main actual value (16-05)", "", false},
-    {33, "line of the program that runs, with #DEBUG NOSTOP", "", true},
+    {33, "line of the program that runs, with #DEBUG NOSTOP", "", false},
     {34, "motor frequency (16-13)", "", false},
     {35, "motor torque (16-16)", "", false},
     {4096, "actual position of the slave", "qc", true},
