@@ -56,6 +56,11 @@ done
 [[ -z $(find "$work/root" -mindepth 1 -maxdepth 1 ! -name usr) ]] || fail "it has more than usr/"
 ! grep -rIl "$sources" "$work/root/usr/lib" "$work/root/usr/share" "$work/root/usr/include" || fail "paths of the build"
 
+for file in "$work"/root/usr/share/lockstep/projects/*/*.json; do
+  schema=$(sed -n 's/^ *"$schema": "\([^"]*\)".*/\1/p' "$file")
+  [[ -z $schema || -s $(dirname "$file")/$schema ]] || fail "$file: its schema $schema is not in the package"
+done
+
 echo "its program runs"
 lockstep=$work/root/usr/bin/lockstep
 "$lockstep" check "$work/root/usr/share/lockstep/projects/02_rotary_knife/project.json"
