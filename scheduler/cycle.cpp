@@ -8,8 +8,8 @@
 namespace lockstep {
 namespace {
 
-/// Events that nobody has read yet, behind which those of programs wait: half of a queue of the usual size, so
-/// that alarms find room.
+/// Events that nobody has read yet, behind which those of programs wait: half of a queue of the usual size,
+/// so that alarms find room.
 constexpr std::size_t kNotesWait = 2048;
 
 constexpr std::int64_t kLateFor = 1'000'000'000;  // [ns] after missed ticks, for what may have come of them
@@ -233,11 +233,16 @@ void Controller::count_overrun() noexcept {
   if (events != nullptr) tell({.kind = EventKind::overrun}, last_time_);
 }
 
-/// The image for Modbus, and on interpolator ticks the trace row.
+/// The image for Modbus, and on interpolator ticks the rows of the trace and of the tap.
 void Controller::show(std::int64_t t, bool interpolator_tick) noexcept {
   for (Watchdog& watchdog : watchdogs) watchdog.remember();
   for (ProcessImage* image : images) image->publish(next_tick_);
-  if (trace != nullptr && interpolator_tick) trace->push(t, static_cast<std::uint64_t>(next_tick_));
+  if (!interpolator_tick) return;
+  if (trace != nullptr) trace->push(t, static_cast<std::uint64_t>(next_tick_));
+  if (tap != nullptr) {
+    tap->exchange();
+    tap->push(t, static_cast<std::uint64_t>(next_tick_));
+  }
 }
 
 }  // namespace lockstep

@@ -128,6 +128,11 @@ void add_language(std::vector<Finding>& all) {
     all.push_back({"type", std::string(type.name), std::string(type.meaning)});
 }
 
+void add_mco305(std::vector<Finding>& all) {
+  for (Mco305Finding& one : mco305_findings())
+    all.push_back({one.kind, std::move(one.name), std::move(one.text)});
+}
+
 /// Best first; of the same rank as they stand in their tables.
 std::vector<Finding> find_all(const std::vector<std::string>& words) {
   std::vector<Finding> all;
@@ -136,6 +141,7 @@ std::vector<Finding> find_all(const std::vector<std::string>& words) {
   add_alarms(all);
   add_keys(all);
   add_language(all);
+  add_mco305(all);
   for (Finding& finding : all) finding.rank = rank_of(words, finding);
   std::erase_if(all, [](const Finding& finding) { return finding.rank == 0; });
   std::stable_sort(all.begin(), all.end(),

@@ -87,7 +87,8 @@ void keep_mco305(Mco305& device, std::vector<KeptValue>& values) {
   if (!saves) return;
   keep_set(device, "AXPARS", ParameterSet::kAxis, values);
   keep_set(device, "GLBPARS", ParameterSet::kGlobal, values);
-  values.push_back({.name = device.name + ".EepromWrites", .signal = {&device.eeprom.writes, Type::UDINT, -1}});
+  values.push_back(
+      {.name = device.name + ".EepromWrites", .signal = {&device.eeprom.writes, Type::UDINT, -1}});
   if (device.eeprom.arrays.empty()) return;
   KeptValue kept{.name = device.name + ".ARRAYS",
                  .signal = {},

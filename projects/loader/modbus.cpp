@@ -272,7 +272,7 @@ Range reachable_range(const ModbusEntry& entry, Type signal) {
     return {std::max(low, static_cast<double>(lowest(signal))),
             std::min(high, static_cast<double>(highest(signal)))};
   const auto [minimum, maximum] =
-      std::minmax(low * entry.scale + entry.offset, high * entry.scale + entry.offset);
+      std::minmax({low * entry.scale + entry.offset, high * entry.scale + entry.offset});
   return {minimum, maximum};
 }
 

@@ -73,8 +73,7 @@ TechnologyObject& Loading::add_object(ObjectKind kind, const std::string& name) 
 }
 
 const std::vector<LeadingValue>& Loading::leading_values_of(const TechnologyObject& axis) const {
-  if (use == LoadedFor::looking) return static_cast<const LookedAtAxis&>(axis).leading_values;
-  return static_cast<const Axis&>(axis).leading_values;
+  return static_cast<const ConfiguredAxis&>(axis).leading_values;
 }
 
 bool Loading::add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const {

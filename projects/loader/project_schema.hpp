@@ -1,4 +1,5 @@
-/// The JSON Schemas of the project file and of the files that it includes, for editors: structure, types, ranges, units and defaults.
+/// The JSON Schemas of the project file and of the files that it includes, for editors: structure, types,
+/// ranges, units and defaults.
 /// @source JSON Schema draft-07
 #pragma once
 

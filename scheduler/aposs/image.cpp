@@ -152,8 +152,7 @@ bool sound_arguments(const Image& image, const Instruction& instruction) noexcep
 
 bool goes_on(Operation operation) noexcept {
   return operation != Operation::kEnd && operation != Operation::kJump && operation != Operation::kRest &&
-         operation != Operation::kReturn && operation != Operation::kLeave &&
-         operation != Operation::kExit;
+         operation != Operation::kReturn && operation != Operation::kLeave && operation != Operation::kExit;
 }
 
 }  // namespace

@@ -28,8 +28,7 @@ std::int32_t function_parameter(std::int32_t input) noexcept {
 
 }  // namespace
 
-Reply DeviceCommands::begin(Command command, const std::int32_t* arguments,
-                            aposs::Arrays& arrays) noexcept {
+Reply DeviceCommands::begin(Command command, const std::int32_t* arguments, aposs::Arrays& arrays) noexcept {
   Reply reply = motion(command, arguments);
   if (reply.kind == Reply::Kind::kRefused) reply = reading(command, arguments);
   return reply.kind == Reply::Kind::kRefused ? keeping(command, arguments, arrays) : reply;

@@ -15,9 +15,9 @@ namespace lockstep {
 class Eeprom {
  public:
   // For the load.
-  std::vector<DINT> arrays;            ///< all of them, one behind the other
-  BOOL arrays_saved = false;           ///< whether that is what counts
-  EncoderSaving* disk = nullptr;       ///< who is asked to write at once; nullptr: nobody
+  std::vector<DINT> arrays;       ///< all of them, one behind the other
+  BOOL arrays_saved = false;      ///< whether that is what counts
+  EncoderSaving* disk = nullptr;  ///< who is asked to write at once; nullptr: nobody
   /// The arrays of a device get what has been saved of them; to be called when they are there.
   void restore(aposs::Arrays& target) const noexcept;
 

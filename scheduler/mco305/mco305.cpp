@@ -114,7 +114,8 @@ void Mco305::look_at_inputs() noexcept {
   }
   const auto rises = [this](mco305::InputFunction function, bool& last) {
     const bool level = device_.io().active(function);
-    return level && !std::exchange(last, level);
+    const bool before = std::exchange(last, level);
+    return level && !before;
   };
   using enum mco305::InputFunction;
   if (rises(kErrorClear, clear_input_) && machine_.over()) device_.clear_all_errors();
@@ -170,8 +171,7 @@ bool Mco305::may_start() const noexcept {
 
 /// What PRGPAR says, or by the start input the inputs; else the one that starts by itself, again and again.
 DeviceProgram* Mco305::next_program() noexcept {
-  const std::int32_t wanted =
-      wanted_ == kAsThereIs ? device_.parameters()[mco305::kPrgPar] : wanted_;
+  const std::int32_t wanted = wanted_ == kAsThereIs ? device_.parameters()[mco305::kPrgPar] : wanted_;
   const bool by_input = device_.io().input_of(mco305::InputFunction::kStart) != 0;
   if (wanted >= 0 && (settings.later_edition || !by_input)) return find(wanted);
   if (by_input) return start_rises_ ? find(selected()) : nullptr;

@@ -81,8 +81,8 @@ class Mco305 final : public TechnologyObject {
   bool program_due_ = false;
   bool start_input_ = false, clear_input_ = false, continue_input_ = false;
   bool start_rises_ = false, continue_rises_ = false;
-  bool running_ = false;            // the program's end has not been seen
-  std::int32_t wanted_ = -1;        // PRGPAR as the program has left it
+  bool running_ = false;      // the program's end has not been seen
+  std::int32_t wanted_ = -1;  // PRGPAR as the program has left it
   int ticks_per_step_ = 1, tick_ = 0;
   DeviceProgram* autostart_ = nullptr;
   bool choosing_ = true;  // programs may be started by inputs and PRGPAR

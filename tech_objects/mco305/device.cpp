@@ -12,10 +12,6 @@ namespace {
 constexpr std::int64_t kMonitoringPeriod = 20;  // [ms] of following error and drive
 constexpr double kFullReference = 0x4000;       // of OUTAN
 
-std::int64_t counts_of(double position) noexcept {
-  return static_cast<std::int64_t>(std::floor(position));
-}
-
 }  // namespace
 
 void Device::configure(const DeviceSettings& settings, double servo_period) {
@@ -42,7 +38,7 @@ void Device::configure(const DeviceSettings& settings, double servo_period) {
 void Device::refresh() noexcept {
   const ParameterValues& p = parameters_;
   unit_ = {p[kPosFactZ], p[kPosFactN], p[kPosDirection] >= 3 ? -1 : 1};
-  velocity_maximum_ = p.real(kVelMax) * p.real(kEncoder) * 4.0 / 60'000.0;
+  velocity_maximum_ = std::min(p.real(kVelMax) * p.real(kEncoder) * 4.0 / 60'000.0, kFastest);
   acceleration_maximum_ = velocity_maximum_ / p.real(kRampMin);
   profile_time_ = p[kProfTime];
   sampling_ = p[kTimer];
@@ -52,13 +48,13 @@ void Device::refresh() noexcept {
   control_.proportional = p.real(kKProp);
   control_.derivative = p.real(kKDer);
   control_.integral = p.real(kKInt);
-  control_.integral_limit = p.real(kKILim);
-  control_.bandwidth = p.real(kBandwidth);
+  control_.integral_limit = std::max(p.real(kKILim), 0.0);
+  control_.bandwidth = std::max(p.real(kBandwidth), 0.0);
   control_.velocity_precontrol = p.real(kFFVel);
   control_.acceleration_precontrol = p.real(kFFAcc);
   control_.active_above = p[kRegWMax];
   control_.idle_below = p[kRegWMin];
-  control_.integral_time = p[kKILimTime];
+  control_.integral_time = std::max(p[kKILimTime], -kLargestPosition);
   control_.scale = settings_.controller_scale;
   io_.assign(p);
   drive_sign_ = p[kPosDirection] % 2 == 0 ? -1.0 : 1.0;
@@ -164,7 +160,8 @@ void Device::generate() noexcept {
 void Device::control() noexcept {
   const FourSlopeState& set = profile_.state();
   if (!on_ || virtual_) {
-    reference_ = virtual_ ? 0.0 : static_cast<double>(open_loop_) / kFullReference * CountController::kFullScale;
+    reference_ =
+        virtual_ ? 0.0 : static_cast<double>(open_loop_) / kFullReference * CountController::kFullScale;
     if (!on_) controller_.reset();
     last_velocity_ = set.velocity;
     return;
@@ -205,7 +202,8 @@ void Device::look_at_arrival() noexcept {
 }
 
 void Device::monitor() noexcept {
-  const bool looks_at_inputs = io_.any_input_function() || at_negative_end_ || at_positive_end_ || break_input_;
+  const bool looks_at_inputs =
+      io_.any_input_function() || at_negative_end_ || at_positive_end_ || break_input_;
   if (looks_at_inputs || checks_limits_) look_at_limits();
   if (!virtual_ && on_ && now_ % kMonitoringPeriod == 0) {
     look_at_position_error();
@@ -261,7 +259,8 @@ void Device::write_outputs() noexcept {
 }
 
 void Device::write_drive() noexcept {
-  drive_->write(drive_sign_ * reference_ / CountController::kFullScale * velocity_maximum_ * kMillisecondsPerSecond);
+  drive_->write(drive_sign_ * reference_ / CountController::kFullScale * velocity_maximum_ *
+                kMillisecondsPerSecond);
 }
 
 void Device::raise(int error) noexcept {

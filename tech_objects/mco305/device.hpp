@@ -64,7 +64,7 @@ class Device {
   void motor_off() noexcept;
   void motor_stop() noexcept;
   void set_reference(std::int32_t reference) noexcept;  ///< OUTAN [1/0x4000 of full scale], after MOTOR OFF
-  int go_on() noexcept;  ///< CONTINUE
+  int go_on() noexcept;                                 ///< CONTINUE
   /// Whether the axis rests where it was told to: the end of POSA, POSR, MOTOR STOP, WAITAX.
   bool arrived() const noexcept { return arrived_; }
 
@@ -175,6 +175,7 @@ class Device {
   std::int64_t set_counts() const noexcept;
   std::int32_t shown_units(std::int64_t counter) const noexcept;
   std::int32_t flags() const noexcept;
+  std::int64_t moved_in_window() const noexcept;
 
   // What every step needs stands first.
   bool on_ = false, moving_ = false, arrived_ = true, was_reset_ = false, virtual_ = true;
@@ -210,7 +211,7 @@ class Device {
   };
   std::vector<WiredInput> wired_inputs_;
   std::vector<WiredOutput> wired_outputs_;
-  std::int32_t marker_type_ = 0;                 // SYNCMTYPS
+  std::int32_t marker_type_ = 0;  // SYNCMTYPS
   std::unique_ptr<Drive> drive_;
   DriveActual drive_actual_{};
   DoubleDouble last_drive_position_{};

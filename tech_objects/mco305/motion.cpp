@@ -11,12 +11,13 @@ FourSlopeState Device::state() const noexcept {
 }
 
 std::int64_t Device::set_counts() const noexcept {
-  return static_cast<std::int64_t>(std::floor(profile_.state().position + 0.5));
+  return counts_of(profile_.state().position + 0.5);
 }
 
 // [qc/ms]
 double Device::relative_velocity(std::int32_t velocity) const noexcept {
-  return static_cast<double>(velocity) / parameters_.real(kVelRes) * velocity_maximum_;
+  const double wanted = static_cast<double>(velocity) / parameters_.real(kVelRes) * velocity_maximum_;
+  return std::clamp(wanted, -kFastest, kFastest);
 }
 
 FourSlopeLimits Device::limits() const noexcept {
@@ -83,7 +84,7 @@ void Device::move_with(double velocity) noexcept {
 int Device::position_to(std::int32_t units, bool relative) noexcept {
   int error = 0;
   if (!may_move(error)) return error;
-  const std::int64_t target = unit_.counts(units) + (relative ? actual_ : zero());
+  const std::int64_t target = within_reach(within_reach(unit_.counts(units)) + (relative ? actual_ : zero()));
   if (!within_limits(target, error)) return error;
   if (!on_) return kErrorNotReset;
   mode_ = MotionMode::kPosition;
@@ -191,7 +192,7 @@ void Device::define_origin() noexcept {
 }
 
 void Device::set_origin(std::int32_t units) noexcept {
-  temporary_ = unit_.counts(units);
+  temporary_ = within_reach(unit_.counts(units));
 }
 
 }  // namespace lockstep::mco305

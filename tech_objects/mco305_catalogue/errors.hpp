@@ -15,6 +15,7 @@ struct Error {
   std::string_view text;
   int word;  ///< 1: 34-70, 2: 34-71; 0: it has no bit
   int bit;
+  std::string_view never = "";  ///< why it is not raised here; empty: it is
 };
 
 std::span<const Error> errors() noexcept;

@@ -16,8 +16,8 @@ void add(Setpoint& leading, const AdditiveLeadingValue& additive, const Modulo& 
 
 /// leading value → + additive → effective leading value
 void LeadingCoupling::add_additive() noexcept {
-  add(now_, additive_->now, modulo_);
-  add(last_, additive_->last, modulo_);
+  add(step_.now, additive_->now, step_.modulo);
+  add(step_.last, additive_->last, step_.modulo);
 }
 
 /// Without position control the leading setpoint is zero, and afterwards it comes back from there to whom it
@@ -26,18 +26,18 @@ void LeadingCoupling::add_additive() noexcept {
 std::int64_t LeadingCoupling::look_at_led() noexcept {
   const UncontrolledLead& lead = source_->uncontrolled_lead();
   const bool controlled = source_->position_controlled();
-  now_ = source_->led_setpoint();
-  last_ = source_->last_led_setpoint();
+  step_.now = source_->led_setpoint();
+  step_.last = source_->last_led_setpoint();
   if (velocity_only_) {
-    if (!controlled) now_.position = last_.position = lead.zero;
+    if (!controlled) step_.now.position = step_.last.position = lead.zero;
     return 0;
   }
   if (controlled && !sees_return()) return 0;
   const std::int64_t turned = uncontrolled_seen_ == lead.times ? lead.zero.turns - zero_turns_ : 0;
   uncontrolled_seen_ = lead.times;
   zero_turns_ = lead.zero.turns;
-  now_ = controlled ? lead.now : Setpoint{lead.zero, 0.0, 0.0};
-  last_ = controlled ? lead.last : now_;
+  step_.now = controlled ? lead.now : Setpoint{lead.zero, 0.0, 0.0};
+  step_.last = controlled ? lead.last : step_.now;
   return turned;
 }
 
