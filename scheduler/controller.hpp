@@ -15,6 +15,7 @@
 #include "scheduler/levels.hpp"
 #include "scheduler/process_image.hpp"
 #include "scheduler/program.hpp"
+#include "scheduler/signal_tap.hpp"
 #include "scheduler/text.hpp"
 #include "scheduler/trace_ring.hpp"
 #include "scheduler/watchdog.hpp"
@@ -132,6 +133,7 @@ class Controller {
   std::vector<Watchdog> watchdogs;    ///< of those who have to give signs of life, such as panels
   std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
   TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
+  SignalTap* tap = nullptr;           ///< crossing of signals chosen while it runs; nullptr: none
 
   std::int64_t epoch = 0;        ///< wall clock at the start of the run [µs] since 1970; 0: virtual time
   EventQueue* events = nullptr;  ///< crossing of alarms, jobs and overruns; nullptr: none

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "tech_objects/alarms/detail.hpp"
 #include "tech_objects/arithmetic/setpoint.hpp"
 #include "tech_objects/data_blocks/data_block.hpp"
 #include "tech_objects/jobs/job.hpp"
@@ -22,6 +23,12 @@ struct ExceededLimits {
   bool jerk = false;
 
   bool any() const noexcept { return velocity || acceleration || jerk; }
+};
+
+/// The alarm for a limit of zero, with the limits and what the motion would have of them.
+struct ZeroLimit {
+  int alarm = 0;  ///< number; 0: no limit is zero
+  AlarmDetail detail{};
 };
 
 /// Reads DynamicLimits, DynamicDefaults and Override of the data block, as they are at the time of the call;
@@ -74,9 +81,9 @@ class MotionLimits {
   const TO_Struct_DynamicLimits& configured() const noexcept { return data_.DynamicLimits; }
   /// Where the job asks for more.
   ExceededLimits exceeded(const Job& job) const noexcept;
-  /// An alarm for a limit of zero, which no motion can keep; 0: none. That of the jerk counts for a motion
-  /// that limits its jerk.
-  int zero_limit(const Dynamics& dynamics) const noexcept;
+  /// Whether a limit is zero, which no motion can keep. That of the jerk counts for a motion that limits its
+  /// jerk.
+  ZeroLimit zero_limit(const Dynamics& dynamics) const noexcept;
 
   // ---- Up to the velocity limit
 

@@ -24,8 +24,8 @@ void ShiftOrders::begin(Job& job) noexcept {
   Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
   const bool in_time = phasing && asked.profile == ShiftProfileReference::dynamics;
   const Dynamics dynamics = in_time ? dynamics_.effective(job) : limits_.maximum();
-  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
-    reactions_.raise(alarm_number);
+  if (const ZeroLimit zero = limits_.zero_limit(dynamics); zero.alarm != 0) {
+    reactions_.raise(zero.alarm, zero.detail);
     return job.fail(ErrorId::technology_alarm);
   }
   // The dynamics are those of the following axis; a phase shift moves it by the ratio.

@@ -45,7 +45,8 @@ constexpr const char* kForTheDesk[] = {"tech_objects/cam_design/", "fb/checks/"}
 constexpr const char* kInTheCycle[] = {"tech_objects", "fb", "scheduler"};
 
 // Of tech_objects: what moves, on any controller; and what the kernel knows nothing of.
-const std::set<std::string> kKernel = {"arithmetic", "profile", "cam", "synchronous", "filters"};
+const std::set<std::string> kKernel = {"arithmetic",  "profile", "cam",
+                                       "synchronous", "filters", "leading_values"};
 const std::set<std::string> kOfTheController = {"jobs", "alarms", "data_blocks", "objects"};
 
 std::string text_of(const fs::path& path) {
