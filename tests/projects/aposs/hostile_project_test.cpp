@@ -62,8 +62,9 @@ TEST(HostileProject, SaysOfEachParameterWhetherItsValueIsOne) {
     EXPECT_FALSE(accepted(printed(of.lowest - 1.0)) && of.lowest > INT32_MIN) << name;
     for (const char* const value : {"NaN", "\"12\"", "true", "null", "[]", "{}", "1e400", "-1e400", "1e300",
                                     "99999999999999999999999999", "[1,2,3]", "{\"a\":1}", "0.3333333333"})
-      if (std::string(value) != "0.3333333333" || scale == 1.0)
-        EXPECT_FALSE(load_project(text_with(name, value)).project.has_value()) << name << " = " << value;
+      EXPECT_TRUE((scale != 1.0 && std::string(value) == "0.3333333333") ||
+                  !load_project(text_with(name, value)).project.has_value())
+          << name << " = " << value;
   }
 }
 
