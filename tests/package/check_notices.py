@@ -35,7 +35,7 @@ def compiled_in(document):
 def faults_of(package, copyright):
     with open(f"/usr/share/doc/{package}/copyright", encoding="utf-8") as file:
         debian = file.read()
-    stanza = re.search(r"^Files: \*\n((?:.+\n)+)", debian, re.MULTILINE).group(1)
+    stanza = re.search(r"^Files:\s*\*\n((?:.+\n)+)", debian, re.MULTILINE).group(1)
     holders = re.search(r"^Copyright:((?:.*\n)(?:[ \t].*\n)*)", stanza, re.MULTILINE).group(1)
     name = re.search(r"^License: (.+)$", stanza, re.MULTILINE).group(1)
     own = " ".join(words(copyright))
