@@ -33,6 +33,7 @@ class LeadingCoupling {
     velocity_only_ = velocity_only;
     uncontrolled_seen_ = 0;
     modulo_ = source.modulo();
+    names_ = source.renamed();
   }
   void end() noexcept { source_ = nullptr; }
   bool coupled() const noexcept { return source_ != nullptr; }
@@ -90,6 +91,7 @@ class LeadingCoupling {
 
  private:
   std::int64_t look_at_led() noexcept;
+  void look_by_old_names() noexcept;
   void add_additive() noexcept;
 
   // What every cycle touches first.
@@ -103,6 +105,7 @@ class LeadingCoupling {
   Setpoint last_;
   Modulo modulo_;
   std::int64_t zero_turns_ = 0;  // turn of its zero then
+  DoubleDouble names_;           // by what the source had been renamed when the coupling began [u]
 };
 
 }  // namespace lockstep
