@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
+#include "tech_objects/axis/excess.hpp"
 #include "tech_objects/axis/status_words.hpp"
 #include "tech_objects/cam_object/cam.hpp"
 
