@@ -37,8 +37,9 @@ Json project_with(const Texts& program) {
   return json;
 }
 
-const Texts kMoves = {"VEL 100",    "ACC 100",         "DEC 100", "PRINT \"waits\"",
-                      "WAITI 1 ON", "POSA (GET 1900)", "OUT 1 1", "PRINT \"at\", APOS"};
+const Texts kMoves = {"VEL 100",    "ACC 100",         "DEC 100",  "PRINT \"waits\"",
+                      "WAITI 1 ON", "POSA (GET 1900)", "OUT 1 1",  "PRINT \"at\", APOS",
+                      "rest:",      "DELAY 1000",      "GOTO rest"};
 
 TEST(DeviceInAProject, IsStartedByATagAndSwitchesOneWhenItHasArrived) {
   Simulation machine = Simulation::from_text(project_with(kMoves).dump());
@@ -58,7 +59,7 @@ TEST(DeviceInAProject, IsStartedByATagAndSwitchesOneWhenItHasArrived) {
   EXPECT_LE(fastest, 101.0);  // VELMAX of 3000 1/min and 2000 counts a turn are 100 in a millisecond
   EXPECT_GE(fastest, 10.0);
   machine.run_for(std::chrono::milliseconds(10));
-  EXPECT_EQ(machine.read("Lift.CPOS"), 4000.0) << "the program that starts by itself begins again";
+  EXPECT_EQ(machine.read("Lift.CPOS"), 4000.0);
 }
 
 TEST(DeviceInAProject, TellsWhatItsProgramPrints) {
