@@ -36,7 +36,7 @@ struct MC_Home final : ExecuteBlock {
       {12, "the setpoint is shifted by Position, the following error stays"},
       {13, "incremental encoder adjustment: the position of the encoder becomes Position"}};
   static constexpr auto kPins =
-      pins(object<&MC_Home::Axis>("Axis", kLeading, "axis or encoder that is homed"), pin::kExecute,
+      pins(object<&MC_Home::Axis>("Axis", kPositioned, "axis or encoder that is homed"), pin::kExecute,
            in<&MC_Home::Position>("Position", Unit::kPosition, kFinite, "home position or shift, by Mode",
                                   {.error = ErrorId::position}),
            in<&MC_Home::Mode>("Mode", Unit::kNone, kAny, "kind of homing",

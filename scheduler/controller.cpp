@@ -90,7 +90,14 @@ void Controller::assign_parts() {
 
 void Controller::finish() {
   const double servo_period = static_cast<double>(clock.servo_cycle) * 1e-9;
+  for (const Axis* axis : axes)
+    for (const LeadingValue& leading : axis->leading_values)
+      if (leading.coupling == Coupling::delayed && leading.source->kind != ObjectKind::TO_LeadingAxisProxy)
+        leading.source->provide_leading_value();
   for (auto& object : objects) object->configure(servo_period, clock.interpolator_ratio);
+  for (const auto& object : objects)
+    if (among(object->kind, kPositioned) && static_cast<LeadingObject*>(object.get())->provides())
+      providing_.push_back(static_cast<LeadingObject*>(object.get()));
   assign_parts();
   std::size_t maximum_points = 0;
   for (const Cam* cam : cams_) maximum_points = std::max(maximum_points, cam->point_count());

@@ -16,12 +16,14 @@
 #include "scheduler/process_image.hpp"
 #include "scheduler/program.hpp"
 #include "scheduler/signal_tap.hpp"
+#include "scheduler/telegram_ring.hpp"
 #include "scheduler/text.hpp"
 #include "scheduler/trace_ring.hpp"
 #include "scheduler/watchdog.hpp"
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/axis/coupling_order.hpp"
 #include "tech_objects/cam_object/cam.hpp"
+#include "tech_objects/cross_controller/leading_axis_proxy.hpp"
 #include "tech_objects/data_blocks/array.hpp"
 #include "tech_objects/jobs/encoder_saving.hpp"
 #include "tech_objects/switching/switched_output.hpp"
@@ -106,6 +108,18 @@ struct NewestAlarm {
   double limit = 0.0;         ///< what it was held against; 0: not known
 };
 
+/// A leading object whose telegrams go to other controllers by one of its transfer areas.
+struct TelegramOutput {
+  const LeadingObject* source = nullptr;
+  TelegramRing* ring = nullptr;
+};
+
+/// A proxy and the telegrams that come for it.
+struct TelegramInput {
+  LeadingAxisProxy* proxy = nullptr;
+  TelegramRing* ring = nullptr;
+};
+
 /// How an axis stood when its run ended, for the summary.
 struct AxisSummary {
   DWORD status_word{};
@@ -130,10 +144,14 @@ class Controller {
   EncoderSaving encoder_saving;  ///< what programs ask to be kept at once
   std::vector<Stimulus> stimuli;
   bool apply_stimuli = false;
-  std::vector<Watchdog> watchdogs;    ///< of those who have to give signs of life, such as panels
-  std::vector<ProcessImage*> images;  ///< crossings to Modbus and to the display of a run
-  TraceRing* trace = nullptr;         ///< crossing to the recorder; nullptr: none
-  SignalTap* tap = nullptr;           ///< crossing of signals chosen while it runs; nullptr: none
+  std::vector<Watchdog> watchdogs;               ///< of those who have to give signs of life, such as panels
+  std::vector<ProcessImage*> images;             ///< crossings to Modbus and to the display of a run
+  TraceRing* trace = nullptr;                    ///< crossing to the recorder; nullptr: none
+  SignalTap* tap = nullptr;                      ///< crossing of signals chosen while it runs; nullptr: none
+  std::vector<TelegramOutput> telegram_outputs;  ///< crossings to other controllers
+  std::vector<TelegramInput> telegram_inputs;    ///< … and from them
+  /// [ns] What the clock that all controllers share shows when the time of this one is 0.
+  std::int64_t shared_time_at_start = 0;
 
   std::int64_t epoch = 0;        ///< wall clock at the start of the run [µs] since 1970; 0: virtual time
   EventQueue* events = nullptr;  ///< crossing of alarms, jobs and overruns; nullptr: none
@@ -224,6 +242,7 @@ class Controller {
   void step_axes() noexcept;
   void step_level(std::span<Axis* const> axes) noexcept;
   void step_axes_in_turn(std::span<Axis* const> axes) noexcept;
+  void send_telegrams() noexcept;
   void rebuild_order() noexcept;
   void tell_events(std::int64_t now) noexcept;
   void tell(Event event, std::int64_t now) noexcept;
@@ -242,7 +261,8 @@ class Controller {
   Part before_axes_;
   Part behind_axes_;
   Part with_programs_;
-  std::vector<LeadingObject*> sources_;  // that lead axes and are none
+  std::vector<LeadingObject*> providing_;  // for other controllers, or behind a delay
+  std::vector<LeadingObject*> sources_;    // that lead axes and are none
   std::vector<Cam*> cams_;
   bool cams_interpolated_elsewhere_ = false;
   std::vector<SwitchedOutput> outputs_;  // that cams switch

@@ -51,6 +51,11 @@ bool Controller::due(std::int64_t cycle, std::int64_t t) const noexcept {
 /// outside is silent goes on top.
 void Controller::take_inputs(std::int64_t t) noexcept {
   for (ProcessImage* image : images) image->take_writes();
+  for (const TelegramInput& input : telegram_inputs)
+    input.ring->take([&](LeadingValueTelegram telegram) {
+      telegram.time -= shared_time_at_start;
+      input.proxy->take(telegram, t);
+    });
   encoder_saving.step();
   if (apply_stimuli)
     for (; next_stimulus_ < stimuli.size() && stimuli[next_stimulus_].at <= t; ++next_stimulus_)
@@ -88,6 +93,7 @@ void Controller::servo(std::int64_t t) noexcept {
 
 /// What depends on no axis; then start_jobs → step (leading before following), guarded → publish.
 void Controller::interpolate() noexcept {
+  for (LeadingObject* object : providing_) object->tick_time = now();
   for (TechnologyObject* object : before_axes_) object->before_axes();
   bool changed = false;
   for (LeadingObject* source : sources_) changed |= std::exchange(source->lost, false);
@@ -99,8 +105,18 @@ void Controller::interpolate() noexcept {
   }
   if (changed) rebuild_order();
   step_axes();
+  send_telegrams();
   for (TechnologyObject* object : behind_axes_) object->behind_axes();
   ++counters_.interpolator_ticks;
+}
+
+/// The leading values of this tick, to other controllers.
+void Controller::send_telegrams() noexcept {
+  for (const TelegramOutput& output : telegram_outputs) {
+    LeadingValueTelegram telegram = output.source->telegram();
+    telegram.time += shared_time_at_start;
+    output.ring->put(telegram);
+  }
 }
 
 /// Couplings have changed, or what they lead back to.

@@ -6,6 +6,7 @@
 #include "scheduler/mco305/mco305.hpp"
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/cam_object/cam.hpp"
+#include "tech_objects/cross_controller/leading_axis_proxy.hpp"
 #include "tech_objects/sensing/external_encoder.hpp"
 #include "tech_objects/sensing/measuring_input.hpp"
 #include "tech_objects/switching/cam_track.hpp"
@@ -34,6 +35,7 @@ constexpr Entry kClasses[] = {
     {kAnyCam, make<Cam>},
     {kAnyDrivenAxis, make<Axis>},
     {static_cast<ObjectKinds>(ObjectKind::TO_ExternalEncoder), make<ExternalEncoder>},
+    {static_cast<ObjectKinds>(ObjectKind::TO_LeadingAxisProxy), make<LeadingAxisProxy>},
     {kMeasuringInput, make<MeasuringInput>},
     {kOutputCam, make<OutputCam>},
     {kCamTrack, make<CamTrack>},

@@ -14,7 +14,8 @@ constexpr auto configuration_of(std::string_view definition) {
 }
 
 inline constexpr Word kCouplings[] = {{"setpoint", static_cast<int>(Coupling::setpoint)},
-                                      {"actual", static_cast<int>(Coupling::actual)}};
+                                      {"actual", static_cast<int>(Coupling::actual)},
+                                      {"delayed", static_cast<int>(Coupling::delayed)}};
 inline constexpr auto kLeadingValue =
     key_table<LeadingValue>(key::object("to", kLeading, "name of the leading axis").needed(),
                             key::word("coupling", kCouplings, "how its value is taken")
@@ -34,6 +35,8 @@ inline constexpr auto kEncoderObject =
     key_table<void>(kType, configuration_of("TO_ExternalEncoder"),
                     key::variants("encoder", kEncoders, "what it measures").needed());
 
+inline constexpr auto kProxyObject = key_table<void>(kType, configuration_of("TO_LeadingAxisProxy"));
+
 inline constexpr auto kMarks = key_table<PrintMarks>(
     key::number<&PrintMarks::period>("period", {0.001, kFurthest}, "u", "distance from mark to mark")
         .needed(),
@@ -43,7 +46,7 @@ inline constexpr auto kMarks = key_table<PrintMarks>(
         .otherwise_is("half the period"));
 inline constexpr auto kMeasuringInputObject = key_table<void>(
     kType, configuration_of("TO_MeasuringInput"),
-    key::object("assigned_to", kLeading, "axis or external encoder whose position is measured").needed(),
+    key::object("assigned_to", kPositioned, "axis or external encoder whose position is measured").needed(),
     key::structure("marks", kMarks, "print marks that the input sees; or the tag of Interface.Address"));
 
 inline constexpr auto kSwitchingTimes = key_table<SwitchingTimes>(
@@ -52,7 +55,7 @@ inline constexpr auto kSwitchingTimes = key_table<SwitchingTimes>(
         Type::LREAL),
     key::tag<&SwitchingTimes::off>("off", "LREAL tag: when it has gone off last [s]", Type::LREAL));
 inline constexpr auto kAssignedTo =
-    key::object("assigned_to", kLeading, "axis or external encoder whose position switches").needed();
+    key::object("assigned_to", kPositioned, "axis or external encoder whose position switches").needed();
 inline constexpr auto kSwitchingTimesKey =
     key::structure("switching_times", kSwitchingTimes, "where the times of the edges stand");
 inline constexpr auto kOutputCamObject =
@@ -81,6 +84,7 @@ inline constexpr KeyVariant kObjects[] = {{"TO_SpeedAxis", kSpeedAxis},
                                           {"TO_PositioningAxis", kPositioningAxis},
                                           {"TO_SynchronousAxis", kSynchronousAxisObject},
                                           {"TO_ExternalEncoder", kEncoderObject},
+                                          {"TO_LeadingAxisProxy", kProxyObject},
                                           {"TO_MeasuringInput", kMeasuringInputObject},
                                           {"TO_OutputCam", kOutputCamObject},
                                           {"TO_CamTrack", kCamTrackObject},

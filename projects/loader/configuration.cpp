@@ -5,6 +5,8 @@
 #include "projects/expressions/constant.hpp"
 #include "projects/loader/configuration_tree.hpp"
 #include "projects/loader/loader.hpp"
+#include "tech_objects/leading_values/recorded_values.hpp"
+#include "tech_objects/leading_values/seconds.hpp"
 
 namespace lockstep {
 namespace {
@@ -112,6 +114,17 @@ void ConfigurationLoader::load_tag_reference(const JsonValue& json, const Signal
 }
 
 }  // namespace
+
+void check_delay(const JsonValue& config, double delay, const Loading& loading) {
+  const std::int64_t cycle = loading.controller().clock.interpolator_cycle();
+  const double longest = seconds(kLongestLeadingDelay * cycle);
+  if (delay <= longest) return;
+  const JsonValue* const json =
+      config.find("CrossPlcSynchronousOperation")->find("LocalLeadingValueDelayTime");
+  loading.problems.report(
+      *json, "LocalLeadingValueDelayTime is longer than " + std::to_string(kLongestLeadingDelay) +
+                 " application cycles; allowed: 0 to " + value_text(Value{.r = longest}, Type::LREAL) + " s");
+}
 
 void load_configuration(const JsonValue& config, TechnologyObject& object, const Loading& loading) {
   ConfigurationLoader(object, loading).load_structure(config, configuration_tree(object.kind), 0);

@@ -46,7 +46,10 @@ void check_source(const Fields& fields, Problems& problems) {
 void load_encoder(const JsonValue& json, ExternalEncoder& encoder, const Loading& loading) {
   Problems& problems = loading.problems;
   const Fields object(json, keys::kObjects, variant_of(encoder), problems);
-  if (const JsonValue* const config = object["config"]) load_configuration(*config, encoder, loading);
+  if (const JsonValue* const config = object["config"]) {
+    load_configuration(*config, encoder, loading);
+    check_delay(*config, encoder.data.CrossPlcSynchronousOperation.LocalLeadingValueDelayTime, loading);
+  }
   const JsonValue* const source = object["encoder"];
   if (source == nullptr) return;
   const std::size_t model = read_variant(*source, keys::kEncoders, problems).value_or(0);

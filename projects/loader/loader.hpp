@@ -6,6 +6,7 @@
 #include "projects/json/fields.hpp"
 #include "projects/loader/project.hpp"
 #include "scheduler/mco305/mco305.hpp"
+#include "tech_objects/cross_controller/leading_axis_proxy.hpp"
 #include "tech_objects/sensing/external_encoder.hpp"
 #include "tech_objects/sensing/measuring_input.hpp"
 #include "tech_objects/switching/cam_track.hpp"
@@ -64,6 +65,8 @@ void check_outputs(const JsonValue& objects, const Loading& loading);
 void load_cam(const JsonValue& json, Cam& cam, const Loading& loading);
 /// Parameters, wiring and programs of an MCO 305.
 void load_mco305(const JsonValue& json, Mco305& device, const Loading& loading);
+/// Whether a leading value can be delayed for so long [s].
+void check_delay(const JsonValue& config, double delay, const Loading& loading);
 /// Sets the start values of one object.
 void load_configuration(const JsonValue& config, TechnologyObject& object, const Loading& loading);
 
@@ -71,6 +74,9 @@ void load_configuration(const JsonValue& config, TechnologyObject& object, const
 void declare_instances(const JsonValue& programs, const Loading& loading);
 void load_programs(const JsonValue& programs, const Loading& loading);
 void load_stimuli(const JsonValue& stimuli, const Loading& loading);
+
+/// When the objects are loaded. Either may be nullptr.
+void load_transfer_areas(const JsonValue* areas, const JsonValue* objects, const Loading& loading);
 
 void load_modbus(const JsonValue* modbus, const Loading& loading);
 void load_trace(const JsonValue& trace, const Loading& loading);

@@ -14,7 +14,7 @@ namespace lockstep {
 namespace {
 
 /// Published types that are not there yet.
-constexpr std::string_view kLaterTypes[] = {"TO_Kinematics", "TO_LeadingAxisProxy"};
+constexpr std::string_view kLaterTypes[] = {"TO_Kinematics"};
 
 bool known(std::span<const std::string_view> words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -66,16 +66,15 @@ std::optional<Coupling> read_coupling(const JsonValue* json, const LeadingObject
   Problems& problems = loading.problems;
   const bool encoder = source != nullptr && source->kind == ObjectKind::TO_ExternalEncoder;
   if (json == nullptr) return encoder ? Coupling::actual : Coupling::setpoint;
-  if (json->kind == JsonKind::string && json->text == "delayed") {
-    problems.report(
-        *json, "the coupling 'delayed' (cross-controller) is not yet supported; allowed: setpoint, actual");
-    return std::nullopt;
-  }
   const auto word = read_value(json, keys::kLeadingValue["coupling"], loading);
   if (!word) return std::nullopt;
   const auto coupling = static_cast<Coupling>(word->integer);
   if (encoder && coupling == Coupling::setpoint) {
-    problems.report(*json, "an external encoder has no setpoint; allowed: 'actual'");
+    problems.report(*json, "an external encoder has no setpoint; allowed: 'actual', 'delayed'");
+    return std::nullopt;
+  }
+  if (coupling == Coupling::actual && source != nullptr && source->kind == ObjectKind::TO_LeadingAxisProxy) {
+    problems.report(*json, "a leading axis proxy has no actual value; allowed: 'setpoint', 'delayed'");
     return std::nullopt;
   }
   return coupling;
@@ -114,6 +113,7 @@ void load_axis(const JsonValue& json, Axis& axis, const Loading& loading) {
   if (const JsonValue* const config = fields["config"]) {
     load_configuration(*config, axis, loading);
     load_position_limits(*config, axis, loading);
+    check_delay(*config, axis.data.CrossPlcSynchronousOperation.LocalLeadingValueDelayTime, loading);
   }
   const bool sure = problems.count() == before;
   const JsonValue* const drive = fields["drive"];
@@ -128,6 +128,11 @@ void load_axis(const JsonValue& json, Axis& axis, const Loading& loading) {
   const JsonValue* const values = fields["leading_values"];
   if (values != nullptr && axis.kind == ObjectKind::TO_SynchronousAxis)
     load_leading_values(*values, axis, loading);
+}
+
+void load_proxy(const JsonValue& json, LeadingAxisProxy& proxy, const Loading& loading) {
+  const Fields fields(json, keys::kObjects, variant_of(proxy), loading.problems);
+  if (const JsonValue* const config = fields["config"]) load_configuration(*config, proxy, loading);
 }
 
 /// One axis after the other is loaded whole, and what is asked for later stays.
@@ -147,6 +152,8 @@ void load_object(const JsonValue& json, TechnologyObject& object, const Loading&
       return load_axis(json, static_cast<Axis&>(object), loading);
     case ObjectKind::TO_ExternalEncoder:
       return load_encoder(json, static_cast<ExternalEncoder&>(object), loading);
+    case ObjectKind::TO_LeadingAxisProxy:
+      return load_proxy(json, static_cast<LeadingAxisProxy&>(object), loading);
     case ObjectKind::TO_MeasuringInput:
       return load_measuring_input(json, static_cast<MeasuringInput&>(object), loading);
     case ObjectKind::TO_OutputCam:

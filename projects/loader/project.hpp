@@ -29,6 +29,7 @@
 #include "projects/json/text_file.hpp"
 #include "projects/loader/expectations.hpp"
 #include "scheduler/controller.hpp"
+#include "scheduler/transfer_area.hpp"
 
 namespace lockstep {
 
@@ -149,6 +150,7 @@ struct Project {
   TraceConfig trace;
   CommandsConfig commands;
   RetainConfig retain;
+  std::vector<TransferArea> transfer_areas;             ///< of the leading values that objects provide
   std::optional<FlightRecorderConfig> flight_recorder;  ///< none: the project has none
   std::optional<AuditOptions> audit;                    ///< none: the project has no audit log
   Expectations expectations;                            ///< of a simulated run

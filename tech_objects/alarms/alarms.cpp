@@ -356,14 +356,27 @@ constexpr Alarm kAlarms[] = {
      "use MC_MeasuringInput, or an input of the controller, then MC_Reset"},
     {758, "An edge was not evaluated (module not ready)", 0, 2, -1, AlarmClass::acknowledgeable, "", "",
      "the simulated input is always ready"},
-    {900, "Leading values invalid", 13, 2, -1, AlarmClass::acknowledgeable, "", "",
-     "leading axis proxies are not built; check refuses them"},
+    {900,
+     "Leading values invalid",
+     13,
+     2,
+     -1,
+     AlarmClass::acknowledgeable,
+     "no valid leading value has come from the other controller for longer than "
+     "Parameter.ToleranceTimeExternalLeadingValueInvalid: its telegrams fail to come, its leading object has "
+     "no "
+     "valid value, or it has been restarted",
+     "have the other controller run and its leading object be free of errors, see to the connection, then "
+     "MC_Reset",
+     "",
+     {"invalid for", "tolerance time", Unit::kSeconds}},
     {901, "Data transmission error", 13, 2, -1, AlarmClass::acknowledgeable, "", "",
-     "leading axis proxies are not built; check refuses them"},
+     "telegrams that fail to come, or are none, are alarm 900"},
     {902, "Accuracy of the leading value limited", 0, -1, 2, AlarmClass::warning, "", "",
-     "leading axis proxies are not built; check refuses them"},
-    {903, "Modulo settings of the leading axis changed while running", 13, 2, -1, AlarmClass::fatal, "", "",
-     "leading axis proxies are not built; check refuses them"},
+     "values travel as they are, with all their digits"},
+    {903, "Modulo settings of the leading axis changed while running", 13, 2, -1, AlarmClass::fatal,
+     "the leading object of the other controller counts on another ring than before",
+     "see to its Modulo, then MC_Reset with Restart"},
 };
 
 constexpr CauseText kCauses[] = {

@@ -210,6 +210,8 @@ inline constexpr int kMeasuringRangePassed = 752;
 inline constexpr int kProbeInUse = 753;
 inline constexpr int kProbeConfiguration = 754;
 inline constexpr int kMeasuringNotPossible = 755;
+inline constexpr int kLeadingValuesInvalid = 900;
+inline constexpr int kLeadingModuloChanged = 903;
 inline constexpr int kCamNotInterpolated = 612;
 inline constexpr int kInternal = 203;
 }  // namespace alarm

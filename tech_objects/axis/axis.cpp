@@ -18,6 +18,7 @@ void Axis::configure(double servo_period, int ratio) {
   period_ = servo_period * ratio;
   start_values_ = data;
   position_controlled_ = has_position_;
+  provide_if_asked(data.CrossPlcSynchronousOperation);
   take_start_values();
   setpoint_ = Setpoint{};
   setpoint_.position = normalised({0, 0.0}, modulo_);
@@ -49,6 +50,7 @@ void Axis::take_start_values() noexcept {
   synchronous_.configure(modulo_, period_, tolerance, additive_);
   awaited_.configure(modulo_, period_, tolerance, additive_);
   configure_leading(period_, data.Extrapolation);
+  configure_provided(period_, data.CrossPlcSynchronousOperation);
 }
 
 void Axis::configure_servo() {

@@ -55,6 +55,7 @@ void Axis::step() noexcept {
     actual_velocity_ = setpoint_.velocity;
   }
   if (leads_by_actual_value()) extrapolate(actual_, actual_velocity_, data.Extrapolation);
+  if (provides_) provide(led_setpoint(), enabled() && position_controlled_, data.StatusProvidedLeadingValue);
 }
 
 /// MC_LeadingValueAdditive: what counts from this tick on.

@@ -101,7 +101,7 @@ MissingPrecondition JobChecks::missing_precondition(const Job& job) const noexce
   if (job.kind == JobKind::MC_CamIn && !job.as<CamJob>().cam->interpolated())
     return {alarm::kCamNotInterpolated, {.object = static_cast<std::uint16_t>(job.as<CamJob>().cam->number)}};
   const bool controlled = job.kind == JobKind::MC_GearInVelocity || master->position_controlled() ||
-                          leading->coupling == Coupling::actual;
+                          leading->coupling != Coupling::setpoint;
   if (!controlled) return {alarm::kLeadingAxisNotPositionControlled, {.object = leader}};
   if (couples_at_position(job.kind) && !homed_) return {alarm::kNotHomed};
   return {};

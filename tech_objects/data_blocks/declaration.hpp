@@ -58,6 +58,7 @@ const DataBlock& axis_data_block() noexcept;
 const DataBlock& positioning_axis_data_block();
 const DataBlock& encoder_data_block() noexcept;
 const DataBlock& measuring_input_data_block() noexcept;
+const DataBlock& leading_axis_proxy_data_block() noexcept;
 const DataBlock& speed_axis_data_block();
 const DataBlock& output_cam_data_block() noexcept;
 const DataBlock& cam_track_data_block() noexcept;

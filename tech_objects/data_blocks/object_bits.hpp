@@ -36,6 +36,26 @@ inline constexpr BitNames kEncoderStatusBitNames = only(kStatusBitNames, {0, 1, 
 inline constexpr BitNames kEncoderErrorBitNames = only(kErrorBitNames, {0, 1, 2, 3, 5, 7, 10, 13, 15});
 inline constexpr BitNames kEncoderWarningBitNames = only(kWarningBitNames, {0, 1, 2, 3, 5, 7, 10, 13, 15});
 
+/// Bits of the StatusWord of a leading axis proxy.
+enum class ProxyBit : std::uint8_t {
+  Control = 0,                   ///< the proxy is in operation
+  Error = 1,                     ///< an error is pending
+  RestartActive = 2,             ///< a restart is active
+  OnlineStartValuesChanged = 3,  ///< restart variables were changed
+  LeadingValueValid = 4,         ///< the external leading value is there and valid
+  LeadingValueModulo = 5,        ///< the leading value has a modulo function
+  LeadingAxisControl = 6,        ///< the leading axis is in setpoint operation, not in follow-up
+};
+inline constexpr BitNames kProxyStatusBitNames = {"Control",
+                                                  "Error",
+                                                  "RestartActive",
+                                                  "OnlineStartValuesChanged",
+                                                  "LeadingValueValid",
+                                                  "LeadingValueModulo",
+                                                  "LeadingAxisControl"};
+inline constexpr BitNames kProxyErrorBitNames = only(kErrorBitNames, {0, 1, 2, 3, 7});
+inline constexpr BitNames kProxyWarningBitNames = only(kWarningBitNames, {0, 1, 2, 3, 7});
+
 inline constexpr BitNames kCamStatusBitNames = {
     "Control", "Error", "RestartActive", "OnlineStartValuesChanged", "OutputInverted", "CommunicationOK"};
 inline constexpr BitNames kMeasuringInputStatusBitNames = only(kCamStatusBitNames, {0, 1, 2, 3, 5});

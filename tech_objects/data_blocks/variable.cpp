@@ -74,6 +74,8 @@ const DataBlock& data_block_of(ObjectKind kind) noexcept {
       return encoder_data_block();
     case ObjectKind::TO_MeasuringInput:
       return measuring_input_data_block();
+    case ObjectKind::TO_LeadingAxisProxy:
+      return leading_axis_proxy_data_block();
     case ObjectKind::TO_SpeedAxis:
       return speed_axis_data_block();
     case ObjectKind::TO_OutputCam:

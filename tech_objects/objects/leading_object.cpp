@@ -1,6 +1,9 @@
 #include "tech_objects/objects/leading_object.hpp"
 
+#include <algorithm>
+
 #include "tech_objects/jobs/override.hpp"
+#include "tech_objects/leading_values/seconds.hpp"
 
 namespace lockstep {
 namespace {
@@ -32,6 +35,7 @@ void LeadingObject::reset_leading(AxisPosition actual) noexcept {
   uncontrolled_.returning = false;
   extrapolation_.reset(actual);
   leading_actual_ = last_leading_actual_ = {actual, 0.0, 0.0};
+  delayed_ = last_delayed_ = leading_actual_;
 }
 
 /// The actual value of this tick as following axes see it. Its acceleration is not extrapolated: a difference
@@ -52,6 +56,43 @@ void LeadingObject::shift_leading(double by) noexcept {
   uncontrolled_.last.position = advanced(uncontrolled_.last.position, by, modulo_);
   leading_actual_.position = advanced(leading_actual_.position, by, modulo_);
   last_leading_actual_.position = advanced(last_leading_actual_.position, by, modulo_);
+  if (!provides_) return;
+  provided_->rename(by);
+  delayed_.position = advanced(delayed_.position, by, modulo_);
+  last_delayed_.position = advanced(last_delayed_.position, by, modulo_);
+}
+
+void LeadingObject::provide_leading_value() {
+  provides_ = true;
+  if (provided_ == nullptr) provided_ = std::make_unique<ProvidedValue>();
+}
+
+void LeadingObject::provide_if_asked(const TO_Struct_CrossPlcSynchronousOperation& settings) {
+  const auto enabled = [](const auto& one) { return one.EnableLeadingValueOutput; };
+  const auto& all = settings.Interface;
+  if (std::any_of(std::begin(all), std::end(all), enabled)) provide_leading_value();
+}
+
+void LeadingObject::configure_provided(double period,
+                                       const TO_Struct_CrossPlcSynchronousOperation& settings) noexcept {
+  if (!provides_) return;
+  provided_->clear();
+  provided_->configure(modulo_, nanoseconds(period), settings.LocalLeadingValueDelayTime);
+}
+
+void LeadingObject::provide(const Setpoint& value, bool position_led,
+                            TO_Struct_StatusProvidedLeadingValue& status) noexcept {
+  provided_->step(tick_time, value, actual_values_valid(), position_led);
+  last_delayed_ = delayed_;
+  delayed_ = provided_->delayed();
+  status.DelayedLeadingValue = {delayed_.position.value, delayed_.velocity, delayed_.acceleration};
+}
+
+LeadingValueTelegram LeadingObject::telegram() const noexcept {
+  LeadingValueTelegram telegram = provided_->telegram();
+  telegram.renamed = renamed_;
+  telegram.restarts = restarts_;
+  return telegram;
 }
 
 void LeadingObject::count_homing(const Job& job) noexcept {

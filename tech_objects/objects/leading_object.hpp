@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "tech_objects/arithmetic/axis_position.hpp"
@@ -10,6 +11,7 @@
 #include "tech_objects/data_blocks/data_block.hpp"
 #include "tech_objects/filters/extrapolation.hpp"
 #include "tech_objects/jobs/modes.hpp"
+#include "tech_objects/objects/provided_value.hpp"
 #include "tech_objects/objects/technology_object.hpp"
 #include "tech_objects/synchronous/leading_source.hpp"
 
@@ -31,6 +33,7 @@ class LeadingObject : public TechnologyObject, public LeadingSource {
   // lines of the cache.
   bool enable_removed_ = false;
   bool leads_by_actual_value_ = false;
+  bool provides_ = false;
   const bool has_position_ = kind != ObjectKind::TO_SpeedAxis;
 
  public:
@@ -60,8 +63,6 @@ class LeadingObject : public TechnologyObject, public LeadingSource {
   virtual bool actual_values_valid() const noexcept { return true; }
   /// Whether a homing waits for its mark, so that the zero mark or probe of the encoder's telegram is taken.
   virtual bool homing() const noexcept { return false; }
-  /// By how much homing has changed the names of positions since the start [u].
-  DoubleDouble renamed() const noexcept { return renamed_; }
   /// Jobs of MC_Home so far that end what measures here: those that look for a mark, and mode 9.
   /// @source S7-1500T synchronous operation V7, 12.3.3
   std::uint32_t homings() const noexcept { return homings_; }
@@ -76,6 +77,13 @@ class LeadingObject : public TechnologyObject, public LeadingSource {
 
   /// Load time: somebody follows the actual value, which has to be extrapolated from then on.
   void lead_by_actual_value() noexcept { leads_by_actual_value_ = true; }
+  /// Load time: other controllers, or axes behind a delay, follow what it provides from then on.
+  void provide_leading_value();
+  bool provides() const noexcept { return provides_; }
+  /// Time of the interpolator tick [ns]; told, before it is stepped, to an object that provides.
+  std::int64_t tick_time = 0;
+  /// What other controllers are told in this tick; of an object that provides, after its step.
+  LeadingValueTelegram telegram() const noexcept;
 
  protected:
   /// Takes the start values over; positions have to be configured.
@@ -88,13 +96,22 @@ class LeadingObject : public TechnologyObject, public LeadingSource {
   void publish_extrapolation(TO_Struct_Extrapolation& settings,
                              TO_Struct_StatusExtrapolation& status) const noexcept;
   bool leads_by_actual_value() const noexcept { return leads_by_actual_value_; }
+  /// Load time: it provides if one of its interfaces is enabled.
+  void provide_if_asked(const TO_Struct_CrossPlcSynchronousOperation& settings);
+  /// Of an object that provides: takes its delay over; positions have to be configured.
+  void configure_provided(double period, const TO_Struct_CrossPlcSynchronousOperation& settings) noexcept;
+  /// Provides the leading value of this tick, and shows what is seen of it behind the delay.
+  void provide(const Setpoint& value, bool position_led,
+               TO_Struct_StatusProvidedLeadingValue& status) noexcept;
+  /// The delay that counts [s].
+  double provided_delay() const noexcept { return provided_ == nullptr ? 0.0 : provided_->delay(); }
 
   std::uint32_t restarts_ = 0;
   std::uint32_t homings_ = 0;
 
  private:
   Extrapolation extrapolation_;
-  DoubleDouble renamed_;
+  std::unique_ptr<ProvidedValue> provided_;  // nullptr: it does not provide
 };
 
 /// One configured leading value interconnection of a following axis.

@@ -13,7 +13,8 @@ enum class ProcessingEnd : std::uint8_t {
   output_cam = 6,
   cam_track = 7,
   measuring_input = 8,
-  external_encoder = 10
+  external_encoder = 10,
+  leading_axis_proxy = 13
 };
 
 /// Shows an alarm in the words of a data block. The first alarm with a reaction stays in ErrorDetail until it

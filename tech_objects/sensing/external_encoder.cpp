@@ -19,6 +19,7 @@ void ExternalEncoder::configure(double servo_period, int ratio) {
   unseen_ = 0.0;
   start_values_ = data;
   position_controlled_ = false;  // it has no setpoint that could lead
+  provide_if_asked(data.CrossPlcSynchronousOperation);
   take_start_values();
   source_.configure(source_settings, servo_period, ratio, static_cast<std::uint32_t>(number));
   actual_ = last_actual_ = normalised({0, 0.0}, modulo_);
@@ -29,6 +30,7 @@ void ExternalEncoder::configure(double servo_period, int ratio) {
 void ExternalEncoder::take_start_values() noexcept {
   modulo_ = {data.Modulo.Enable, data.Modulo.Length, data.Modulo.StartValue};
   configure_leading(period_, data.Extrapolation);
+  configure_provided(period_, data.CrossPlcSynchronousOperation);
 }
 
 // ---- MC_Servo
@@ -110,12 +112,21 @@ void ExternalEncoder::before_axes() noexcept {
   data.ActualAcceleration = (velocity - actual_velocity_) / time;
   actual_velocity_ = velocity;
   last_actual_ = actual_;
-  if (leads_by_actual_value()) extrapolate(actual_, actual_velocity_, data.Extrapolation);
+  if (leads_by_actual_value() || provides()) extrapolate(actual_, actual_velocity_, data.Extrapolation);
   power_state_ = power.enable && actual_values_valid() ? PowerState::on : PowerState::off;
   if (!enabled()) end_passive_homing(JobPhase::aborted, ErrorId::none);
   enable_removed_ = faulty();
   standstill_.watch(actual_velocity_, data.StandstillSignal, period_);
+  if (provides()) provide(ahead_of_delay(), enabled(), data.StatusProvidedLeadingValue);
   publish();
+}
+
+/// What is measured is followed where it will be when it is followed: the time of the delay counts as part of
+/// the extrapolation time of what is provided.
+Setpoint ExternalEncoder::ahead_of_delay() const noexcept {
+  Setpoint value = leading_actual_;
+  value.position = advanced(value.position, value.velocity * provided_delay(), modulo_);
+  return value;
 }
 
 void ExternalEncoder::publish() noexcept {

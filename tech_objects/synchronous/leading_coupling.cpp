@@ -24,6 +24,10 @@ void LeadingCoupling::add_additive() noexcept {
 /// was zero; to others, which couple anew, it is where it is. Who follows the velocity alone has that all the
 /// time.
 std::int64_t LeadingCoupling::look_at_led() noexcept {
+  if (source_->keeps_names(coupling_)) {
+    look_by_old_names();
+    return 0;
+  }
   const UncontrolledLead& lead = source_->uncontrolled_lead();
   const bool controlled = source_->position_controlled();
   step_.now = source_->led_setpoint();
@@ -41,8 +45,18 @@ std::int64_t LeadingCoupling::look_at_led() noexcept {
   return turned;
 }
 
+/// Positions are called as they were when the coupling began.
+void LeadingCoupling::look_by_old_names() noexcept {
+  step_.now = source_->leading_state(coupling_);
+  step_.last = source_->last_leading_state(coupling_);
+  const DoubleDouble by = names_ - source_->renamed();
+  if (by.hi == 0.0 && by.lo == 0.0) return;
+  step_.now.position = advanced(step_.now.position, by, step_.modulo);
+  step_.last.position = advanced(step_.last.position, by, step_.modulo);
+}
+
 bool LeadingCoupling::sees_return() const noexcept {
-  if (coupling_ == Coupling::actual) return false;
+  if (coupling_ != Coupling::setpoint) return false;
   const UncontrolledLead& lead = source_->uncontrolled_lead();
   return lead.returning && uncontrolled_seen_ == lead.times;
 }

@@ -33,6 +33,7 @@ class LeadingCoupling {
     velocity_only_ = velocity_only;
     uncontrolled_seen_ = 0;
     step_.modulo = source.modulo();
+    names_ = source.renamed();
   }
   void end() noexcept { source_ = nullptr; }
   bool coupled() const noexcept { return source_ != nullptr; }
@@ -90,6 +91,7 @@ class LeadingCoupling {
 
  private:
   std::int64_t look_at_led() noexcept;
+  void look_by_old_names() noexcept;
   void add_additive() noexcept;
 
   // What every cycle touches first.
@@ -101,6 +103,7 @@ class LeadingCoupling {
       0;  // which time without position control, seen by this coupling; 0: none
   LeadingStep step_;
   std::int64_t zero_turns_ = 0;  // turn of its zero then
+  DoubleDouble names_;           // by what the source had been renamed when the coupling began [u]
 };
 
 }  // namespace lockstep

@@ -12,7 +12,8 @@ namespace lockstep {
 /// How a leading value is taken from its source.
 enum class Coupling : std::uint8_t {
   setpoint,  ///< the setpoint of the same tick
-  actual     ///< the extrapolated actual value
+  actual,    ///< the extrapolated actual value
+  delayed    ///< the leading value as it is provided to other controllers, delayed until they have it
 };
 
 /// What axes see that have followed the position of an axis when that left position control: zero, and once
@@ -35,22 +36,33 @@ class LeadingSource {
   Modulo modulo() const noexcept { return modulo_; }
 
   /// Whether an axis coupled like this sees what `leading_state` tells: the actual value, or the setpoint as
-  /// it is. Else it has to look at `led_setpoint` and `uncontrolled_lead`.
+  /// it is. Else it has to look at `led_setpoint` and `uncontrolled_lead`, or at the names of positions.
   bool leads_as_it_is(Coupling coupling) const noexcept {
-    return coupling == Coupling::actual || (position_controlled_ && !handing_over_);
+    if (coupling != Coupling::setpoint) return coupling == Coupling::actual;
+    return position_controlled_ && !handing_over_;
   }
   /// What a following axis sees, now and one interpolator tick ago.
   const Setpoint& leading_state(Coupling coupling) const noexcept {
-    return coupling == Coupling::actual ? leading_actual_ : setpoint_;
+    if (coupling == Coupling::setpoint) return setpoint_;
+    return coupling == Coupling::actual ? leading_actual_ : delayed_;
   }
   const Setpoint& last_leading_state(Coupling coupling) const noexcept {
-    return coupling == Coupling::actual ? last_leading_actual_ : last_setpoint_;
+    if (coupling == Coupling::setpoint) return last_setpoint_;
+    return coupling == Coupling::actual ? last_leading_actual_ : last_delayed_;
   }
 
   /// The setpoint without the steps that it makes where it goes over to another course, now and one tick ago.
   const Setpoint& led_setpoint() const noexcept { return handing_over_ ? led_ : setpoint_; }
   const Setpoint& last_led_setpoint() const noexcept { return handing_over_ ? last_led_ : last_setpoint_; }
   const UncontrolledLead& uncontrolled_lead() const noexcept { return uncontrolled_; }
+
+  /// By how much homing has changed the names of positions since the start [u].
+  DoubleDouble renamed() const noexcept { return renamed_; }
+  /// Whether an axis coupled like this goes on with the names of positions that it began with, so that it
+  /// does not move where they change: where the value comes from another controller, or goes there as well.
+  bool keeps_names(Coupling coupling) const noexcept {
+    return coupling == Coupling::delayed || led_from_elsewhere_;
+  }
 
   /// The setpoint of the last interpolator tick, and the one before it.
   const Setpoint& setpoint() const noexcept { return setpoint_; }
@@ -66,13 +78,18 @@ class LeadingSource {
   Setpoint led_;
   Setpoint last_led_;
   UncontrolledLead uncontrolled_;
+  Setpoint delayed_;
+  Setpoint last_delayed_;
+  DoubleDouble renamed_;
+  bool led_from_elsewhere_ = false;
 
   // From here on, and on in whoever derives from it, what every interpolator cycle touches.
   alignas(kCacheLine) Setpoint setpoint_;
   Setpoint last_setpoint_;
   Modulo modulo_;
   bool position_controlled_ = true;
-  bool handing_over_ = false;  // axes that follow the setpoint see another one, which is on its way to it
+  bool handing_over_ = false;  // axes that follow the setpoint have to look closely: they see another one, or
+                               // other names
   PowerState power_state_ = PowerState::off;
 };
 

@@ -19,6 +19,7 @@ enum class ObjectKind : std::uint32_t {
   TO_OutputCam = 1u << 11,
   TO_CamTrack = 1u << 12,
   MCO_305 = 1u << 13,
+  TO_LeadingAxisProxy = 1u << 14,
 };
 
 /// A set of object kinds.
@@ -39,17 +40,19 @@ inline constexpr ObjectKinds kAnyAxis = ObjectKind::TO_PositioningAxis | ObjectK
 inline constexpr ObjectKinds kAnyDrivenAxis = kAnyAxis | ObjectKind::TO_SpeedAxis;
 inline constexpr ObjectKinds kSynchronousAxis = static_cast<ObjectKinds>(ObjectKind::TO_SynchronousAxis);
 inline constexpr ObjectKinds kAnyCam = ObjectKind::TO_Cam | ObjectKind::TO_Cam_10k;
+/// What has a position of its own: it is homed, measured and switches.
+inline constexpr ObjectKinds kPositioned = kAnyAxis | ObjectKind::TO_ExternalEncoder;
 /// What may lead a following axis.
-inline constexpr ObjectKinds kLeading = kAnyAxis | ObjectKind::TO_ExternalEncoder;
+inline constexpr ObjectKinds kLeading = kPositioned | ObjectKind::TO_LeadingAxisProxy;
 inline constexpr ObjectKinds kMeasuringInput = static_cast<ObjectKinds>(ObjectKind::TO_MeasuringInput);
 inline constexpr ObjectKinds kOutputCam = static_cast<ObjectKinds>(ObjectKind::TO_OutputCam);
 inline constexpr ObjectKinds kCamTrack = static_cast<ObjectKinds>(ObjectKind::TO_CamTrack);
 /// What MC_Power enables.
-inline constexpr ObjectKinds kPowered = kLeading | ObjectKind::TO_SpeedAxis;
+inline constexpr ObjectKinds kPowered = kPositioned | ObjectKind::TO_SpeedAxis;
 /// What MC_Reset acknowledges.
-inline constexpr ObjectKinds kResettable = kPowered | ObjectKind::TO_MeasuringInput |
-                                           ObjectKind::TO_OutputCam | ObjectKind::TO_CamTrack |
-                                           ObjectKind::TO_Cam | ObjectKind::TO_Cam_10k;
+inline constexpr ObjectKinds kResettable =
+    kPowered | ObjectKind::TO_LeadingAxisProxy | ObjectKind::TO_MeasuringInput | ObjectKind::TO_OutputCam |
+    ObjectKind::TO_CamTrack | ObjectKind::TO_Cam | ObjectKind::TO_Cam_10k;
 
 /// A published type and what it is, for messages and `describe`.
 struct ObjectKindText {
@@ -67,6 +70,8 @@ inline constexpr std::array kObjectKinds = {
                    "Axis that is positioned or follows a leading value."},
     ObjectKindText{ObjectKind::TO_ExternalEncoder, "TO_ExternalEncoder",
                    "Encoder that moves nothing; it leads axes by its extrapolated actual value."},
+    ObjectKindText{ObjectKind::TO_LeadingAxisProxy, "TO_LeadingAxisProxy",
+                   "Leading axis of another controller, as the axes of this one follow it."},
     ObjectKindText{ObjectKind::TO_MeasuringInput, "TO_MeasuringInput",
                    "Input at whose edges the position of an axis or encoder is measured."},
     ObjectKindText{ObjectKind::TO_OutputCam, "TO_OutputCam",

@@ -40,13 +40,15 @@ constexpr Exception kExceptions[] = {
     {"TorqueLimiting", "PositionBasedMonitors", "a speed axis has no monitoring of its position"}};
 
 std::string owner_of(const std::string& stem, const std::string& otherwise) {
-  constexpr std::pair<std::string_view, std::string_view> kOwners[] = {{"axis", "axis"},
-                                                                       {"external_encoder", "encoder"},
-                                                                       {"encoder", "encoder"},
-                                                                       {"measuring_input", "measuring_input"},
-                                                                       {"output_cam", "output_cam"},
-                                                                       {"cam_track", "output_cam"},
-                                                                       {"switching", "output_cam"}};
+  constexpr std::pair<std::string_view, std::string_view> kOwners[] = {
+      {"axis", "axis"},
+      {"external_encoder", "encoder"},
+      {"encoder", "encoder"},
+      {"measuring_input", "measuring_input"},
+      {"output_cam", "output_cam"},
+      {"cam_track", "output_cam"},
+      {"leading_axis_proxy", "leading_axis_proxy"},
+      {"switching", "output_cam"}};
   for (const auto& [beginning, owner] : kOwners)
     if (stem.starts_with(beginning)) return std::string(owner);
   return otherwise;

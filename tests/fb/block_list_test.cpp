@@ -39,7 +39,7 @@ constexpr ObjectKind kKinds[] = {ObjectKind::TO_PositioningAxis, ObjectKind::TO_
                                  ObjectKind::TO_ExternalEncoder, ObjectKind::TO_MeasuringInput,
                                  ObjectKind::TO_SpeedAxis,       ObjectKind::TO_OutputCam,
                                  ObjectKind::TO_CamTrack,        ObjectKind::TO_Cam,
-                                 ObjectKind::TO_Cam_10k};
+                                 ObjectKind::TO_Cam_10k,         ObjectKind::TO_LeadingAxisProxy};
 
 std::map<std::string, Json> read_catalogues() {
   std::map<std::string, Json> blocks;

@@ -26,6 +26,12 @@ inline constexpr char kRestOfProject[] = R"json({
       "config": {},
       "encoder": { "model": "simulated", "signal": "speed", "zero_marks": { "position": 1.0 } }
     },
+    "Line": { "type": "TO_LeadingAxisProxy", "config": {} },
+    "Provider": {
+      "type": "TO_PositioningAxis",
+      "config": { "VirtualAxis": { "Mode": 1 },
+                  "CrossPlcSynchronousOperation": { "Interface[2]": { "EnableLeadingValueOutput": true } } }
+    },
     "Probe": { "type": "TO_MeasuringInput", "config": {}, "assigned_to": "Knife", "marks": { "period": 10.0 } },
     "Glue": {
       "type": "TO_OutputCam", "config": {}, "assigned_to": "Knife", "switching_times": { "on": "seconds" }
@@ -41,6 +47,7 @@ inline constexpr char kRestOfProject[] = R"json({
       "programs": [ { "number": 0, "lines": [ "DELAY 10" ] } ]
     }
   },
+  "transfer_areas": { "line": { "from": "Provider", "interface": 2, "to": "Line" } },
   "tags": {
     "switch": { "type": "BOOL" }, "fault": { "type": "BOOL" }, "seconds": { "type": "LREAL" },
     "silent": { "type": "BOOL" }, "heard": { "type": "BOOL" }, "since": { "type": "TIME" },

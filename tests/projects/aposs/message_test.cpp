@@ -139,9 +139,8 @@ TEST(AposMessages, WarnWhereAnExpressionIsReadOtherwiseThanItLooks) {
                                                    "before it, (a * b).n; parentheses say what is meant"});
   EXPECT_EQ(said_of("x = 5 % 0\n"), Lines{"warning: x.m:1:7: a division by 0 gives 0"});
   EXPECT_EQ(said_of("main:\nGOSUB a\nSUBMAINPROG\nSUBPROG a\nGOTO main\nRETURN\nENDPROG\n"),
-            Lines{"warning: x.m:5:6: the jump to 'main' leads out of a subprogram or into one; its RETURN "
-                  "will be error 152 or "
-                  "151"});
+            Lines{"warning: x.m:5:6: the jump to 'main' leads out of a subprogram or into one; a RETURN "
+                  "behind it has no GOSUB: error 152"});
 }
 
 TEST(AposMessages, AreKeptUpToTwentyAndCounted) {

@@ -1,0 +1,131 @@
+// Leading axis proxies and transfer areas of a project: what is wrong with them, and a project that has both
+// ends in one controller.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "projects/loader/simulation.hpp"
+
+namespace lockstep::transfer_areas_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A virtual axis that provides its value, a local one behind the delay, and one that follows the proxy.
+std::string project(const std::string& area, const std::string& delay = "0.004",
+                    const std::string& coupling = "setpoint") {
+  return R"({ "lockstep": 1, "name": "two ends", "clock": { "servo_cycle": "1ms" },
+    "technology_objects": {
+      "Main": { "type": "TO_PositioningAxis",
+        "config": { "VirtualAxis": { "Mode": 1 }, "Modulo": { "Enable": true, "Length": 360.0 },
+          "CrossPlcSynchronousOperation": { "Interface[1]": { "EnableLeadingValueOutput": true },
+                                            "LocalLeadingValueDelayTime": )" +
+         delay + R"( } } },
+      "Line": { "type": "TO_LeadingAxisProxy",
+        "config": { "Parameter": { "ToleranceTimeExternalLeadingValueInvalid": 0.1 } } },
+      "Other": { "type": "TO_LeadingAxisProxy" },
+      "Near": { "type": "TO_SynchronousAxis", "config": { "VirtualAxis": { "Mode": 1 },
+          "Modulo": { "Enable": true, "Length": 360.0 } },
+        "leading_values": [ { "to": "Main", "coupling": "delayed" } ] },
+      "Far": { "type": "TO_SynchronousAxis", "config": { "VirtualAxis": { "Mode": 1 },
+          "Modulo": { "Enable": true, "Length": 360.0 } },
+        "leading_values": [ { "to": "Line", "coupling": ")" +
+         coupling + R"(" } ] }
+    },
+    "transfer_areas": { )" +
+         area + R"( },
+    "tags": { "on": { "type": "BOOL" }, "go": { "type": "BOOL" } },
+    "programs": [ { "ob": "Main", "cycle": "1ms", "calls": [
+      { "fb": "MC_Power", "name": "p1", "in": { "Axis": "Main", "Enable": "TRUE" } },
+      { "fb": "MC_Power", "name": "p2", "in": { "Axis": "Near", "Enable": "TRUE" } },
+      { "fb": "MC_Power", "name": "p3", "in": { "Axis": "Far", "Enable": "TRUE" } },
+      { "fb": "MC_GearIn", "name": "g1", "in": { "Master": "Main", "Slave": "Near", "Execute": "on" } },
+      { "fb": "MC_GearIn", "name": "g2", "in": { "Master": "Line", "Slave": "Far", "Execute": "on" } },
+      { "fb": "MC_MoveVelocity", "name": "v",
+        "in": { "Axis": "Main", "Velocity": "500.0", "Jerk": "3000.0", "Execute": "go" } } ] } ] })";
+}
+
+constexpr char kArea[] = R"("line": { "from": "Main", "to": "Line" })";
+
+struct Told {
+  std::vector<Problem> problems, warnings;
+};
+
+Told told(const std::string& text) {
+  LoadedProject loaded = load_project(text);
+  return {std::move(loaded.problems), std::move(loaded.warnings)};
+}
+
+TEST(TransferAreas, LeadTheAxesOnBothSidesToTheSamePlaces) {
+  Simulation machine = Simulation::from_text(project(kArea));
+  machine.run_for(100ms);
+  machine.write("on", 1.0);
+  machine.run_for(500ms);
+  ASSERT_EQ(machine.read("g1.InGear"), 1.0);
+  ASSERT_EQ(machine.read("g2.InGear"), 1.0);
+  machine.write("go", 1.0);
+  for (int i = 0; i < 5000; ++i) {
+    machine.step();
+    ASSERT_EQ(machine.read("Far.Position"), machine.read("Near.Position")) << i;
+  }
+  EXPECT_NEAR(machine.read("Far.Velocity"), 500.0, 1e-6);
+  EXPECT_NEAR(std::remainder(machine.read("Main.Position") - machine.read("Far.Position"), 360.0), 2.0, 1e-9)
+      << "500 u/s times 4 ms";
+  EXPECT_EQ(machine.read("Main.StatusProvidedLeadingValue.DelayedLeadingValue.Position"),
+            machine.read("Line.Position"));
+  EXPECT_NEAR(machine.read("Line.StatusExternalLeadingValue.AdjustmentTime"), -0.003, 1e-12);
+  EXPECT_EQ(machine.read("Line.StatusWord.X4"), 1.0);
+}
+
+TEST(TransferAreas, OfAProxyThatHasNoneAreMissed) {
+  const Told one = told(project(kArea));
+  EXPECT_TRUE(one.problems.empty());
+  ASSERT_EQ(one.warnings.size(), 1u);
+  EXPECT_EQ(one.warnings[0].place, "/technology_objects/Other");
+  EXPECT_NE(one.warnings[0].text.find("no transfer area"), std::string::npos);
+}
+
+struct Wrong {
+  const char* area;
+  const char* place;
+  const char* text;
+};
+
+class WrongTransferAreas : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongTransferAreas, AreToldWithTheirPlace) {
+  const Told all = told(project(GetParam().area));
+  ASSERT_EQ(all.problems.size(), 1u) << (all.problems.empty() ? "" : all.problems[1].text);
+  EXPECT_EQ(all.problems[0].place, GetParam().place);
+  EXPECT_NE(all.problems[0].text.find(GetParam().text), std::string::npos) << all.problems[0].text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, WrongTransferAreas,
+    testing::Values(Wrong{R"("a": { "from": "Main", "interface": 2, "to": "Line" })",
+                          "/transfer_areas/a/from", "Interface[2].EnableLeadingValueOutput TRUE"},
+                    Wrong{R"("a": { "from": "Main", "interface": 9, "to": "Line" })",
+                          "/transfer_areas/a/interface", "1 to 8"},
+                    Wrong{R"("a": { "from": "Line", "to": "Line" })", "/transfer_areas/a/from", "Line"},
+                    Wrong{R"("a": { "from": "Main", "to": "Near" })", "/transfer_areas/a/to",
+                          "TO_LeadingAxisProxy"},
+                    Wrong{R"("a": { "from": "Main" })", "/transfer_areas/a", "'to' is missing"},
+                    Wrong{R"("a": { "from": "Main", "to": "Line" }, "b": { "from": "Main", "to": "Other" })",
+                          "/transfer_areas/b/from", "one area for each interface"}));
+
+TEST(TransferAreas, RefuseWhatNoCouplingAndNoDelayCanBe) {
+  const Told actual = told(project(kArea, "0.004", "actual"));
+  ASSERT_EQ(actual.problems.size(), 1u);
+  EXPECT_EQ(actual.problems[0].place, "/technology_objects/Far/leading_values/0/coupling");
+  EXPECT_NE(actual.problems[0].text.find("no actual value"), std::string::npos);
+  const Told longer = told(project(kArea, "4.5"));
+  ASSERT_EQ(longer.problems.size(), 1u);
+  EXPECT_EQ(longer.problems[0].place,
+            "/technology_objects/Main/config/CrossPlcSynchronousOperation/LocalLeadingValueDelayTime");
+  EXPECT_NE(longer.problems[0].text.find("allowed: 0 to 4"), std::string::npos) << longer.problems[0].text;
+}
+
+}  // namespace
+}  // namespace lockstep::transfer_areas_test
