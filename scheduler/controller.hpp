@@ -15,6 +15,7 @@
 #include "scheduler/levels.hpp"
 #include "scheduler/process_image.hpp"
 #include "scheduler/program.hpp"
+#include "scheduler/signal_tap.hpp"
 #include "scheduler/telegram_ring.hpp"
 #include "scheduler/text.hpp"
 #include "scheduler/trace_ring.hpp"
@@ -146,6 +147,7 @@ class Controller {
   std::vector<Watchdog> watchdogs;               ///< of those who have to give signs of life, such as panels
   std::vector<ProcessImage*> images;             ///< crossings to Modbus and to the display of a run
   TraceRing* trace = nullptr;                    ///< crossing to the recorder; nullptr: none
+  SignalTap* tap = nullptr;                      ///< crossing of signals chosen while it runs; nullptr: none
   std::vector<TelegramOutput> telegram_outputs;  ///< crossings to other controllers
   std::vector<TelegramInput> telegram_inputs;    ///< … and from them
   /// [ns] What the clock that all controllers share shows when the time of this one is 0.

@@ -8,6 +8,10 @@
 namespace lockstep {
 namespace {
 
+/// Events that nobody has read yet, behind which those of programs wait: half of a queue of the usual size,
+/// so that alarms find room.
+constexpr std::size_t kNotesWait = 2048;
+
 constexpr std::int64_t kLateFor = 1'000'000'000;  // [ns] after missed ticks, for what may have come of them
 
 }  // namespace
@@ -195,10 +199,11 @@ void Controller::tell_events(std::int64_t t) noexcept {
     watch.look(jobs_told_, [&](EventKind kind, int number) { tell_job(watch, kind, number, t); });
 }
 
-/// What an object's own program prints, and its errors.
+/// What an object's own program prints, and its errors. Behind too many events they stay with the object,
+/// which counts what it cannot keep: a line whose event were lost would be told with the next one.
 void Controller::tell_notes(TechnologyObject& object, std::int64_t t) noexcept {
   ProgramNote note;
-  while (object.take_note(note))
+  while (events->readable() < kNotesWait && object.take_note(note))
     tell({.kind = note.printed ? EventKind::printed : EventKind::program_error,
           .reaction = static_cast<std::int16_t>(note.program),
           .source = static_cast<std::uint32_t>(object.number) - 1,
@@ -244,11 +249,16 @@ void Controller::count_overrun() noexcept {
   if (events != nullptr) tell({.kind = EventKind::overrun}, last_time_);
 }
 
-/// The image for Modbus, and on interpolator ticks the trace row.
+/// The image for Modbus, and on interpolator ticks the rows of the trace and of the tap.
 void Controller::show(std::int64_t t, bool interpolator_tick) noexcept {
   for (Watchdog& watchdog : watchdogs) watchdog.remember();
   for (ProcessImage* image : images) image->publish(next_tick_);
-  if (trace != nullptr && interpolator_tick) trace->push(t, static_cast<std::uint64_t>(next_tick_));
+  if (!interpolator_tick) return;
+  if (trace != nullptr) trace->push(t, static_cast<std::uint64_t>(next_tick_));
+  if (tap != nullptr) {
+    tap->exchange();
+    tap->push(t, static_cast<std::uint64_t>(next_tick_));
+  }
 }
 
 }  // namespace lockstep

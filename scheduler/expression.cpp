@@ -31,7 +31,8 @@ Instruction load_instruction(const Signal& signal, Mode mode) {
   return result;
 }
 
-std::uint64_t run(const Instruction* code, EvaluationCounters& counters) noexcept {
+[[gnu::always_inline]] inline std::uint64_t run(const Instruction* code,
+                                                EvaluationCounters& counters) noexcept {
   std::uint64_t slots[ExpressionBuilder::kMaximumValues];  // each is written before it is read
   return code->step(code, 0, slots, counters);
 }

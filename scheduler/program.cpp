@@ -45,10 +45,12 @@ void Program::add_assignment(const TextSource& from, Text to) {
 }
 
 void Program::add_call(Block& block) {
-  const bool joined = !instructions_.empty() && instructions_.back().op == Op::copy_flag &&
-                      last_target_ != instructions_.size();
-  if (joined)
+  const bool jumped_to = instructions_.empty() || last_target_ == instructions_.size();
+  const Op before = jumped_to ? Op::call : instructions_.back().op;
+  if (before == Op::copy_flag)
     instructions_.back().op = Op::copy_flag_and_call;
+  else if (before == Op::assign_flag)
+    instructions_.back().op = Op::assign_flag_and_call;
   else
     instructions_.emplace_back(Op::call);
   instructions_.back().block = &block;
@@ -73,9 +75,9 @@ void Program::end_branch(std::size_t mark) {
 void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept {
   const Instruction* const first = instructions_.data();
   const Instruction* const end = first + instructions_.size();
-  for (const Instruction* at = first; at != end;) {
-    const Instruction& instruction = *at++;
-    // The two commonest come before the others, which are told apart by a table.
+  for (const Instruction* at = first; at != end; ++at) {
+    const Instruction& instruction = *at;
+    // The three commonest come before the others, which are told apart by a table.
     if (instruction.op == Op::call) {
       instruction.block->call(now);
       continue;
@@ -85,9 +87,15 @@ void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept
       instruction.block->call(now);
       continue;
     }
+    if (instruction.op == Op::assign_flag_and_call) {
+      *instruction.flag = instruction.expression->evaluate(counters).u != 0;
+      instruction.block->call(now);
+      continue;
+    }
     switch (instruction.op) {
       case Op::call:
       case Op::copy_flag_and_call:
+      case Op::assign_flag_and_call:
         break;
       case Op::copy_flag:
         *instruction.flag = *instruction.source;
@@ -108,10 +116,10 @@ void Program::run(std::int64_t now, EvaluationCounters& counters) const noexcept
         instruction.text->to.assign(instruction.text->from.view(counters));
         break;
       case Op::jump:
-        at = first + instruction.target;
+        at = first + instruction.target - 1;
         break;
       case Op::jump_unless:
-        if (instruction.expression->evaluate(counters).u == 0) at = first + instruction.target;
+        if (instruction.expression->evaluate(counters).u == 0) at = first + instruction.target - 1;
         break;
     }
   }

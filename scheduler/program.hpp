@@ -62,7 +62,8 @@ class Program {
   enum class Op : std::uint8_t {
     call,
     copy_flag,
-    copy_flag_and_call,  // the commonest pair: a pin that is wired to a BOOL, and the call of its block
+    copy_flag_and_call,    // the commonest pair: a pin that is wired to a BOOL, and the call of its block
+    assign_flag_and_call,  // … and one with an expression
     assign_flag,
     assign,
     assign_variable,

@@ -40,7 +40,7 @@ const TechnologyObject& counted_in(const TechnologyObject& object) noexcept {
 std::string_view position_unit(const TechnologyObject& object) noexcept {
   const TechnologyObject& counted = counted_in(object);
   if (among(counted.kind, kAnyAxis)) {
-    const AxisData& data = static_cast<const Axis&>(counted).data;
+    const AxisData& data = static_cast<const ConfiguredAxis&>(counted).data;
     return length_unit(data.Units.LengthUnit, data.Properties.MotionType == MotionType::rotary);
   }
   if (counted.kind != ObjectKind::TO_ExternalEncoder) return "u";
@@ -49,7 +49,7 @@ std::string_view position_unit(const TechnologyObject& object) noexcept {
 }
 
 /// Of a speed axis, which turns and has no position.
-std::string speed_unit(const Axis& axis) {
+std::string speed_unit(const ConfiguredAxis& axis) {
   const VariableAddress place = find_variable(axis.kind, "Units.VelocityUnit");
   const auto unit = static_cast<std::int64_t>(axis.data.Units.VelocityUnit);
   return place.variable == nullptr ? "u/s" : std::string(short_text(place.variable->choices, unit));
@@ -59,7 +59,7 @@ std::string speed_unit(const Axis& axis) {
 std::string leading_unit(const TechnologyObject& object) {
   std::string found;
   if (object.kind == ObjectKind::TO_SynchronousAxis)
-    for (const LeadingValue& leading : static_cast<const Axis&>(object).leading_values) {
+    for (const LeadingValue& leading : static_cast<const ConfiguredAxis&>(object).leading_values) {
       const std::string unit(position_unit(*leading.source));
       if (!found.empty() && found != unit) return std::string(unit_text(Unit::kLeading));
       found = unit;
@@ -70,6 +70,7 @@ std::string leading_unit(const TechnologyObject& object) {
 const TechnologyObject* wired(const Instance& instance, bool leading) noexcept {
   for (const Pin& pin : instance.type->pins)
     if (pin.type == Type::AXIS && (pin.name == "Master") == leading)
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): what a pin of this type holds is an address
       return reinterpret_cast<const TechnologyObject*>(pin.signal(*instance.block).load().u);
   return nullptr;
 }
@@ -81,7 +82,7 @@ std::string unit_of(Unit unit, const TechnologyObject& object) {
   if (unit == Unit::kLeading) return leading_unit(object);
   if (unit < Unit::kPosition || unit > Unit::kJerk) return std::string(generic);
   if (object.kind == ObjectKind::TO_SpeedAxis) {
-    const std::string speed = speed_unit(static_cast<const Axis&>(object));
+    const std::string speed = speed_unit(static_cast<const ConfiguredAxis&>(object));
     if (unit == Unit::kPosition) return std::string(generic);
     if (unit == Unit::kVelocity) return speed;
     return speed + (unit == Unit::kAcceleration ? "/s" : "/s²");

@@ -1,8 +1,11 @@
 // lockstep aposs run: a program in virtual time, in a device whose axis is where it is told to be.
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 
 #include "cli/aposs/aposs_command.hpp"
 #include "cli/command/standard_streams.hpp"
@@ -32,6 +35,8 @@ struct RunOptions {
   std::vector<InputChange> inputs;
   std::vector<std::pair<std::int32_t, std::int32_t>> parameters;
   aposs::CompilerSettings settings;
+  std::string trace;  ///< CSV; empty: none
+  bool plant = false, later_edition = true;
 };
 
 std::optional<std::int64_t> integer_of(std::string_view text) {
@@ -86,9 +91,13 @@ std::pair<std::int32_t, std::int32_t> parameter_of(const std::string& text) {
     lowest = of.lowest;
     highest = of.highest;
   }
-  if (value < lowest || value > highest || std::abs(value - std::round(value)) > 1e-6)
+  const bool within = value >= lowest && value <= highest;  // false for a NaN
+  if (!within || std::abs(value - std::round(value)) > 1e-6)
     throw CLI::ValidationError("--set", text + ": the value is outside of the range of the parameter");
-  return {*number, static_cast<std::int32_t>(std::lround(value))};
+  const auto whole = static_cast<std::int32_t>(std::lround(value));
+  if (mco305::ParameterValues().set(*number, whole) != 0)
+    throw CLI::ValidationError("--set", text + ": nothing can be computed with that value");
+  return {*number, whole};
 }
 
 /// Gives out the lines that have been printed.
@@ -113,6 +122,34 @@ class Printer {
   static constexpr std::size_t kEnough = 4096;
   std::span<const std::string> texts_;
   std::string line_, text_;
+};
+
+/// What the axis does, a row each millisecond.
+class AxisTrace {
+ public:
+  /// @throws nothing: `failed` says it
+  explicit AxisTrace(const std::string& path) : path_(path) {
+    if (path.empty()) return;
+    file_.open(path, std::ios::binary);
+    file_ << "t,CPOS,APOS,AVEL,TRACKERR,Reference,AXEND,ERRNO,Line\n";
+  }
+  void row(std::int64_t t, const Mco305Data& data) {
+    if (path_.empty()) return;
+    const Mco305ReadOuts& read = data.Read;
+    file_ << fmt::format("{:.3f},{},{},{},{},{},{},{},{}\n", static_cast<double>(t) * 1e-3, read.CPOS,
+                         read.APOS, read.AVEL, read.TRACKERR, read.Reference, read.AXEND, read.ERRNO,
+                         data.Program.Line);
+  }
+  /// Whether all of it is in the file.
+  bool end() {
+    if (path_.empty()) return true;
+    file_.close();
+    return !file_.fail();
+  }
+
+ private:
+  std::string path_;
+  std::ofstream file_;
 };
 
 std::string text_of(int error) {
@@ -155,6 +192,9 @@ int run(const RunOptions& options) {
   Mco305 object("device", DB_ANY{1});
   for (const auto& [number, value] : options.parameters) object.parameters().set(number, value);
   object.programs.push_back({0, true, std::move(*program->image), program->files, 0});
+  object.repeats = false;
+  object.settings.has_drive = options.plant;
+  object.settings.later_edition = options.later_edition;
   object.steps_per_millisecond = options.steps_per_ms;
   object.configure(1e-3, 1);
   if (const int error = object.programs[0].fault; error != 0) {
@@ -163,6 +203,7 @@ int run(const RunOptions& options) {
   }
   aposs::Machine& machine = object.machine();
   Printer printer(object.programs[0].image.texts);
+  AxisTrace trace(options.trace);
   std::size_t next = 0;
   for (std::int64_t t = 0; t < options.duration && !machine.over(); ++t) {
     for (; next < options.inputs.size() && options.inputs[next].at <= t; ++next)
@@ -170,10 +211,15 @@ int run(const RunOptions& options) {
     object.servo(t * kMillisecond);
     object.run_program(t * kMillisecond);
     printer.take(machine.prints());
+    trace.row(t, object.data);
   }
   machine.prints().flush();
   printer.take(machine.prints());
   printer.give_out();
+  if (!trace.end()) {
+    tell(options.trace + ": the trace cannot be written", Severity::error);
+    return kCouldNotStart;
+  }
   return tell_end(program->files, machine, object.device());
 }
 
@@ -186,12 +232,20 @@ void add_aposs_run(CLI::App& aposs, Action& action) {
   auto duration = std::make_shared<std::string>("10s");
   auto inputs = std::make_shared<std::vector<std::string>>();
   auto parameters = std::make_shared<std::vector<std::string>>();
+  auto firmware = std::make_shared<std::string>("5.00");
   command->add_option("FILE", options->file, "a program")->required();
   command->add_option("--duration", *duration, "how long at most (10s)");
   command->add_option("--in", *inputs, "INPUT=TIME:LEVEL, again and again: an input changes");
   command->add_option(
       "--set", *parameters,
       "PARAMETER=VALUE, again and again: at the start, as printed: 32-80=3000, RAMPMIN=0.5, 1900=20");
+  command->add_option("--trace", options->trace,
+                      "write position, velocity, reference, errors and line of each millisecond as CSV");
+  command->add_flag(
+      "--plant", options->plant,
+      "with a simulated drive and its machine, in place of an axis that is where it is told to be");
+  command->add_option("--firmware", *firmware, "edition whose behaviour it has: 5.00 or <5.00 (5.00)")
+      ->check(CLI::IsMember({"5.00", "<5.00"}));
   command->add_option("--steps-per-ms", options->steps_per_ms, "internal commands per millisecond (200)")
       ->check(CLI::Range(1, 100'000));
   add_compiler_options(*command, options->settings);
@@ -199,7 +253,8 @@ void add_aposs_run(CLI::App& aposs, Action& action) {
       "What the program prints goes to standard output. Inputs are low and parameters at their start "
       "values unless told\n"
       "otherwise. A command that is not built yet ends the run with its place and exit status 1.");
-  command->callback([&action, options, duration, inputs, parameters] {
+  command->callback([&action, options, duration, inputs, parameters, firmware] {
+    options->later_edition = *firmware == "5.00";
     options->duration = milliseconds_of("--duration", *duration);
     for (const std::string& text : *inputs) options->inputs.push_back(input_of(text));
     std::stable_sort(options->inputs.begin(), options->inputs.end(),

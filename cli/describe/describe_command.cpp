@@ -37,6 +37,7 @@ std::string overview_text(std::size_t width) {
     objects.row({std::string(object.name), std::string(object.text)});
   Table topics({"Also", ""});
   for (const Topic& topic : kTopics) topics.row({std::string(topic.name), std::string(topic.text)});
+  topics.row({"KPROP", "of an MCO 305: a parameter, also 32-60; POSA a command, error 108, sysvar 4097"});
   topics.row({"MC_Home.Mode", "a pin of a block"});
   topics.row({"DynamicLimits",
               "a structure of technology objects, or a variable: DynamicLimits.MaxVelocity, "
@@ -183,6 +184,7 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
     if (!same_name(word, "override")) {
       const bool topic = std::any_of(std::begin(kTopics), std::end(kTopics),
                                      [&](const Topic& known) { return same_name(known.name, word); });
+      if (Subject subject = topic ? Subject{} : mco305_subject(words)) return subject;
       if (Subject subject = topic ? Subject{} : search_subject(words)) return subject;
       problem = topic ? quote(word) + " takes no second name"
                       : "there is nothing that has to do with all of " + quoted(words);
@@ -197,10 +199,14 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
   for (const Topic& topic : kTopics)
     if (same_name(topic.name, word)) return topic.subject();
   bool hexadecimal = false;
-  if (const auto number = number_of(word, hexadecimal))
-    return find_number(word, hexadecimal, *number, problem);
+  if (const auto number = number_of(word, hexadecimal)) {
+    if (Subject subject = find_number(word, hexadecimal, *number, problem)) return subject;
+    return mco305_subject(words);
+  }
   if (Subject subject = language_subject(word)) return subject;
   if (Subject subject = find_block(word, problem)) return subject;
+  if (problem.empty())
+    if (Subject subject = mco305_subject(words)) return subject;
   if (problem.empty())
     if (Subject subject = find_object(word, problem)) return subject;
   if (!problem.empty()) return {};
@@ -230,6 +236,8 @@ void add_describe_command(CLI::App& app, Action& action) {
       "  keys, keys technology_objects.drive      keys of the project file\n"
       "  functions, operators, types              those of expressions\n"
       "  SEL, TO_INT, MOD, LREAL                  one of them\n"
+      "  KPROP, 32-60, POSA, DEF ORIGIN            a parameter, a command of an MCO 305\n"
+      "  error 108, sysvar 4097                   an error, a system variable of it\n"
       "  gear, following error                    what has to do with these words, nearest first\n"
       "Exit status: 0, or 1 if there is nothing of that name");
   command->callback([&action, words, json] { action = [words, json] { return describe(*words, *json); }; });

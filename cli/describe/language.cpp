@@ -176,6 +176,22 @@ Subject type_subject(std::string_view word) {
   return {};
 }
 
+/// A type that is made from others, by its name as it is written or by the word with which that begins.
+Subject made_type_subject(std::string_view word) {
+  for (const OtherType& type : other_types()) {
+    const auto bracket = type.name.find('[');
+    const std::string_view own = type.name.substr(0, bracket);
+    if (bracket == type.name.npos || !same_name(own, word.substr(0, word.find('[')))) continue;
+    return {[&type](std::size_t width) {
+              return std::string(type.name) + "\n" + paragraph(type.meaning, 2, width);
+            },
+            [&type] {
+              return Json{{"kind", "type"}, {"name", type.name}, {"text", type.meaning}};
+            }};
+  }
+  return {};
+}
+
 /// A conversion: those of the examples that show it, and the rules of all.
 Subject conversion_subject(std::string_view word) {
   const std::string name = upper_case(word);
@@ -234,6 +250,7 @@ Subject language_subject(std::string_view word) {
     return {[found](std::size_t width) { return told_text(signature(*found), *found, width); },
             [found] { return function_json(*found); }};
   if (Subject subject = type_subject(word)) return subject;
+  if (Subject subject = made_type_subject(word)) return subject;
   if (Subject subject = operator_subject(word)) return subject;
   return conversion_subject(word);
 }
@@ -243,6 +260,9 @@ std::vector<std::string_view> language_names() {
   for (const StandardFunction& function : standard_functions()) names.push_back(function.name);
   for (const ExpressionOperator& one : expression_operators()) names.push_back(one.text);
   for (const TypeText& type : elementary_types()) names.push_back(type_name(type.type));
+  for (const OtherType& type : other_types())
+    if (const auto bracket = type.name.find('['); bracket != type.name.npos)
+      names.push_back(type.name.substr(0, bracket));
   return names;
 }
 

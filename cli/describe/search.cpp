@@ -7,8 +7,12 @@
 
 #include "cli/describe/table.hpp"
 #include "cli/describe/values.hpp"
+#include "projects/expressions/functions.hpp"
+#include "projects/expressions/operators.hpp"
+#include "projects/expressions/type_table.hpp"
 #include "projects/json/problem.hpp"
 #include "projects/keys/texts.hpp"
+#include "projects/literals/types.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -109,6 +113,26 @@ void add_keys(std::vector<Finding>& all) {
     }
 }
 
+/// What expressions are made of.
+void add_language(std::vector<Finding>& all) {
+  for (const StandardFunction& function : standard_functions())
+    all.push_back({"function", std::string(function.name), std::string(function.meaning)});
+  for (const ExpressionOperator& one : expression_operators())
+    all.push_back({"operator", std::string(one.text), std::string(one.meaning)});
+  for (const TypeText& type : elementary_types()) {
+    const std::string name(type_name(type.type));
+    all.push_back({"type", name, std::string(type.meaning)});
+    all.push_back({"function", "TO_" + name, "converts its input, a conversion to " + name});
+  }
+  for (const OtherType& type : other_types())
+    all.push_back({"type", std::string(type.name), std::string(type.meaning)});
+}
+
+void add_mco305(std::vector<Finding>& all) {
+  for (Mco305Finding& one : mco305_findings())
+    all.push_back({one.kind, std::move(one.name), std::move(one.text)});
+}
+
 /// Best first; of the same rank as they stand in their tables.
 std::vector<Finding> find_all(const std::vector<std::string>& words) {
   std::vector<Finding> all;
@@ -116,6 +140,8 @@ std::vector<Finding> find_all(const std::vector<std::string>& words) {
   add_variables(all);
   add_alarms(all);
   add_keys(all);
+  add_language(all);
+  add_mco305(all);
   for (Finding& finding : all) finding.rank = rank_of(words, finding);
   std::erase_if(all, [](const Finding& finding) { return finding.rank == 0; });
   std::stable_sort(all.begin(), all.end(),

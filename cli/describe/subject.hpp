@@ -66,6 +66,22 @@ Subject language_subject(std::string_view word);
 /// Their names, for suggestions.
 std::vector<std::string_view> language_names();
 
+/// A parameter of an MCO 305 by mnemonic or number (`KPROP`, `32-60`, `1900`), a command of APOSS, an error by
+/// its number, a system variable by its index; each an empty subject if there is none.
+Subject mco305_parameter_subject(std::string_view name);
+Subject mco305_command_subject(std::string_view name);
+Subject mco305_error_subject(std::string_view number);
+Subject mco305_system_variable_subject(std::string_view index);
+/// What one or two words name of them: `POSA`, `DEF ORIGIN`, `108`, `error 108`, `sysvar 4097`.
+Subject mco305_subject(const std::vector<std::string>& words);
+/// All of them, for the search.
+struct Mco305Finding {
+  std::string_view kind;
+  std::string name;  ///< by which `describe` tells more
+  std::string text;
+};
+std::vector<Mco305Finding> mco305_findings();
+
 /// The subject that the words of the command line name; an empty one if they name none.
 /// @param problem then gets what is wrong, with a suggestion
 Subject find_subject(const std::vector<std::string>& words, std::string& problem);

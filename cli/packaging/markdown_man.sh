@@ -81,6 +81,9 @@ HEAD
 .I /usr/share/lockstep/project.schema.json
 the schema of the project file, for editors and programs
 .TP
+.I /usr/share/lockstep/part.schema.json
+that of the files that a project includes
+.TP
 .I /usr/share/lockstep/projects
 examples
 .SH SEE ALSO

@@ -46,6 +46,17 @@ void add_run_command(CLI::App& app, Action& action) {
           ->excludes(simulate);
   command->add_flag("--no-retain", options->no_retain, "begin with init values and keep nothing")
       ->excludes(retain);
+  auto* studio = command->add_option(
+      "--studio", options->studio,
+      "tell on HOST:PORT over HTTP and WebSocket how the machine stands: signals, jobs, alarms");
+  command
+      ->add_option("--studio-token-file", options->studio_token,
+                   "file of the token that it asks for, which is needed beyond this machine")
+      ->needs(studio);
+  command
+      ->add_option("--studio-host", options->studio_names,
+                   "a further name by which it may be called, such as that of a proxy")
+      ->needs(studio);
   command
       ->add_option("--audit", options->audit,
                    "append who writes or commands what to this file instead of the project's")

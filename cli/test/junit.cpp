@@ -38,7 +38,7 @@ std::string attribute(std::string_view text) {
 }
 
 std::string counts(std::size_t tests, std::size_t failures, std::size_t errors) {
-  return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"", tests, failures, errors);
+  return fmt::format(R"(tests="{}" failures="{}" errors="{}")", tests, failures, errors);
 }
 
 std::string xml_of(const TestCase& one, const TestSuite& suite) {

@@ -70,6 +70,13 @@ TestSuite test(const std::string& file, int& status) {
   return suite;
 }
 
+/// Of a forgotten name the next word of the command line, a project, would be taken and written over.
+bool is_xml(const std::string& path) {
+  if (path.empty() || path.ends_with(".xml")) return true;
+  tell("--junit: '" + path + "' has to end in .xml", Severity::error);
+  return false;
+}
+
 bool write_junit(const std::string& path, const std::vector<TestSuite>& suites) {
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   out << junit_xml(suites);
@@ -80,6 +87,7 @@ bool write_junit(const std::string& path, const std::vector<TestSuite>& suites) 
 }
 
 int run_tests(const TestOptions& options) {
+  if (!is_xml(options.junit)) return kCouldNotStart;
   int status = kOk;
   std::vector<TestSuite> suites;
   std::size_t cases = 0, passed = 0;
@@ -100,7 +108,7 @@ void add_test_command(CLI::App& app, Action& action) {
       app.add_subcommand("test", "Simulate projects and tell whether their expectations hold");
   auto options = std::make_shared<TestOptions>();
   command->add_option("FILE", options->files, "project files")->required();
-  command->add_option("--junit", options->junit, "write the results to this file, as JUnit XML");
+  command->add_option("--junit", options->junit, "write the results to this file (*.xml), as JUnit XML");
   command->footer(
       "Each project is simulated in virtual time, with its stimuli, to its last expectation or for its "
       "\"duration\";\n"

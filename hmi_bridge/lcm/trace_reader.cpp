@@ -76,7 +76,7 @@ class TracesInLog {
 
  private:
   struct Before {
-    using is_transparent = void;
+    using is_transparent = void;  // NOLINT(readability-identifier-naming): named by the standard
     std::uint64_t* comparisons;
     bool operator()(std::string_view a, std::string_view b) const noexcept {
       ++*comparisons;

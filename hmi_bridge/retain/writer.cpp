@@ -38,15 +38,17 @@ std::string beginning_of(const std::string& text) {
   return text.size() <= kMaximum ? text : text.substr(0, kMaximum) + "…";
 }
 
+/// The row of an array stays under another name. @return what there is to say of that
+std::string put_aside(const KeptRow& row, std::vector<KeptRow>& aside) {
+  if (!row.type.starts_with("ARRAY")) return "";
+  aside.push_back({row.name + "@" + row.type, row.type, row.value, row.basis});
+  return "; what was kept stays in the file as '" + aside.back().name + "'";
+}
+
 /// What there is to say of a row of another type; that of an array is put aside.
 std::string other_type(const KeptRow& row, const std::string& type, std::vector<KeptRow>& aside) {
-  std::string text = "was kept as " + row.type + " (" + beginning_of(row.value) + ") and is " + type +
-                     " now: it begins with its init value";
-  if (row.type.starts_with("ARRAY")) {
-    aside.push_back({row.name + "@" + row.type, row.type, row.value, row.basis});
-    text += "; what was kept stays in the file as '" + aside.back().name + "'";
-  }
-  return text;
+  return "was kept as " + row.type + " (" + beginning_of(row.value) + ") and is " + type +
+         " now: it begins with its init value" + put_aside(row, aside);
 }
 
 }  // namespace
@@ -65,10 +67,11 @@ std::vector<std::string> restore(RetainFile& file, const std::vector<KeptValue>&
       continue;
     }
     if (row->basis != value.basis) {
-      remark(value,
-             "was kept (" + row->value +
-                 ") with other settings of its axis and is not taken: adjust the encoder again. It was: " +
-                 row->basis + "; it is: " + value.basis);
+      const bool array = row->type.starts_with("ARRAY");
+      remark(value, "was kept (" + beginning_of(row->value) + ") with other settings of " +
+                        (array ? "its object" : "its axis") + " and is not taken" +
+                        (array ? "" : ": adjust the encoder again") + ". It was: " + row->basis +
+                        "; it is: " + value.basis + put_aside(*row, aside));
       continue;
     }
     const std::span<const Signal> signals = value.signals();

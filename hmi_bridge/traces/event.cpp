@@ -166,7 +166,11 @@ TraceEvent EventTexts::of(const Event& event, std::uint64_t lost) const {
     told.reaction_text = alarm_reaction_text(event.reaction);
   }
   if (of_object(event.kind) && event.source < objects_.size()) {
-    if (event.kind == EventKind::printed) objects_[event.source].object->take_line(told.text);
+    if (event.kind == EventKind::printed && event.number == 0)
+      objects_[event.source].object->take_line(told.text);
+    else if (event.kind == EventKind::printed)
+      told.text = fmt::format("{} printed lines or errors are lost: they came faster than they were told",
+                              event.number);
     if (event.kind == EventKind::program_error) told.text = program_error_text(event);
   }
   if (event.kind == EventKind::job_failed) told.text = error_text(static_cast<ErrorId>(event.number));

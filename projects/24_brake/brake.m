@@ -29,6 +29,8 @@ SUBPROG trouble
   PRINT "error ", ERRNO
   WAITAX
   OUT 3 0
-  EXIT
+forever:            // EXIT would start the program anew, and with it the motor
+  DELAY 1000
+  GOTO forever
 RETURN
 ENDPROG

@@ -26,6 +26,12 @@ void Emitter::aim(std::uint32_t jump, std::uint32_t target) {
   emitted.operands[target_of(emitted.operation)] = target;
 }
 
+void Emitter::leave(std::uint32_t jump, bool to_main) {
+  if (code_[jump].operation != Operation::kJump) return;
+  code_[jump].operation = Operation::kLeave;
+  code_[jump].operands[1] = std::uint32_t{to_main ? 1U : 0U};
+}
+
 Cell Emitter::constant(std::int32_t value) {
   return constants({value});
 }

@@ -40,6 +40,8 @@ class Emitter {
   /// Lets a jump go to where the next instruction will stand.
   void land(std::uint32_t jump) { aim(jump, next()); }
   void aim(std::uint32_t jump, std::uint32_t target);
+  /// Makes a GOTO one out of a subprogram: into another one, or into the main program.
+  void leave(std::uint32_t jump, bool to_main);
 
   Cell constant(std::int32_t value);
   /// Constants one behind the other.

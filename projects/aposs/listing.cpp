@@ -94,6 +94,7 @@ std::vector<std::size_t> followers(const Instruction& at, std::size_t self) {
       return {};
     case Operation::kJump:
     case Operation::kRest:
+    case Operation::kLeave:
       return {at.a};
     case Operation::kJumpIfZero:
     case Operation::kRestIfZero:

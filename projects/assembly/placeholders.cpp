@@ -41,6 +41,7 @@ class ParameterScope final : public Scope {
   }
 
   std::string unknown(std::string_view name) const {
+    if (parameters_.empty()) return "there is no parameter " + quote(name) + " here, and no other one";
     std::string allowed;
     for (const auto& [parameter, value] : parameters_) allowed += (allowed.empty() ? "" : ", ") + parameter;
     return "there is no parameter " + quote(name) + "; there are: " + allowed;

@@ -28,7 +28,7 @@ constexpr StandardFunction kFunctions[] = {
      false,
      "a number",
      "type of the input",
-     "amount of a number",
+     "absolute value of a number",
      "the lowest integer of its type stays what it is, as its amount does not fit",
      {{{"ABS(-3.5)", LREAL, "3.5"}, {"ABS(INT#-32768)", INT, "-32768"}, {"ABS(0.0 / 0.0)", LREAL, "NaN"}}}},
     {"SQRT",
@@ -208,7 +208,7 @@ constexpr StandardFunction kFunctions[] = {
      false,
      "G: BOOL; IN0, IN1: of a common type, or texts",
      "their common type",
-     "IN0 if G is FALSE, IN1 if it is TRUE",
+     "selects IN0 if G is FALSE, IN1 if it is TRUE",
      "both are evaluated: a division by zero counts even in the one not chosen",
      {{{"SEL(FALSE, 10, 20)", INT, "10"},
        {"SEL(TRUE, 10, 20)", INT, "20"},
@@ -222,7 +222,7 @@ constexpr StandardFunction kFunctions[] = {
      true,
      "K: an integer but ULINT; the others of a common type, or texts",
      "their common type",
-     "the input with the number K, from 0",
+     "selects the input with the number K, from 0",
      "with K below 0 the first, with K above the last number the last one; all are evaluated",
      {{{"MUX(1, 10, 20, 30)", INT, "20"},
        {"MUX(-1, 10, 20, 30)", INT, "10"},
@@ -456,11 +456,12 @@ constexpr StandardFunction kFunctions[] = {
      {{{"MOVE(5)", INT, "5"}, {"MOVE(300)", USINT, kRefused}}}}};
 
 constexpr std::string_view kConversionRules[] = {
-    "a real becomes the nearest integer, of a half the even one; out of range the nearest end of the range; "
-    "NaN becomes 0",
+    ("a real becomes the nearest integer, of a half the even one; out of range the nearest end of the range; "
+     "NaN becomes 0"),
     "an integer becomes a narrower one, or one without sign, by its low bits",
-    "an integer and a bit string of the same width exchange their bits; a wider bit string is filled with 0, "
-    "not with the sign",
+    ("an integer and a bit string of the same width exchange their bits; a wider bit string is filled with "
+     "0, "
+     "not with the sign"),
     "REAL and DWORD, LREAL and LWORD exchange their bits; other reals and bit strings do not convert",
     "BOOL is 0 or 1; everything but 0 becomes TRUE, NaN too; BOOL and TIME do not convert",
     "TIME and numbers convert in milliseconds; TIME becomes an integer without its fraction of a millisecond",

@@ -32,6 +32,25 @@ std::string reason(std::string_view message) {
   return text;
 }
 
+/// Where a comment begins that does not end; npos if there is none.
+std::size_t open_comment(std::string_view text) {
+  for (std::size_t at = text.find_first_of("\"/"); at < text.size(); at = text.find_first_of("\"/", at + 1)) {
+    const std::size_t begin = at;
+    if (text[at] == '"') {
+      for (++at; at < text.size() && text[at] != '"'; ++at)
+        if (text[at] == '\\') ++at;
+    } else if (text.substr(at, 2) == "//") {
+      at = text.find('\n', at);
+    } else if (text.substr(at, 2) == "/*") {
+      at = text.find("*/", at + 2);
+      if (at == text.npos) return begin;
+      ++at;
+    }
+    if (at >= text.size()) break;
+  }
+  return text.npos;
+}
+
 void append_segment(std::string& pointer, std::string_view key) {
   pointer += '/';
   for (const char c : key) {
@@ -280,6 +299,13 @@ bool JsonBuilder::parse_error(std::size_t position, const std::string& token,
     fail(next_place(), "the number " + shown(token) + " is out of range; allowed are numbers from " +
                            "-1.7976931348623157e308 to 1.7976931348623157e308");
     overflow = {position - token.size(), position, document_.values_.size()};
+    return false;
+  }
+  const std::size_t comment = open_comment(document_.source_->text());
+  if (position >= document_.source_->text().size() && comment != std::string_view::npos) {
+    document_.problems_.push_back({.place = text_of(document_.source_->position(comment)),
+                                   .text = "this comment has no end: missing closing '*/'",
+                                   .file = document_.source_->file()});
     return false;
   }
   const SourcePosition place = document_.source_->position(position == 0 ? 0 : position - 1);

@@ -70,7 +70,6 @@ std::string single_text(const Key& key) {
     case KeyKind::constant:
       return "value";
     case KeyKind::structure:
-      return "object";
     case KeyKind::variants:
       return "object";
     case KeyKind::selector:

@@ -79,9 +79,9 @@ void load_expectations(const JsonValue* json, const JsonValue* duration, const L
     for (const JsonValue* const one : list->elements) load_expectation(*one, loading);
   for (const Expectation& one : expectations.list)
     expectations.duration = std::max(expectations.duration, one.at.value_or(0));
-  const bool timed =
-      std::ranges::any_of(expectations.list, [](const Expectation& one) { return one.at.has_value(); });
-  if (list != nullptr && !expectations.list.empty() && duration == nullptr && !timed)
+  const auto is_timed = [](const JsonValue* one) { return one->find("at") != nullptr; };
+  if (list != nullptr && !expectations.list.empty() && duration == nullptr &&
+      std::ranges::none_of(list->elements, is_timed))
     loading.problems.report(*json,
                             "nothing tells how long to simulate; allowed: 'duration' of the project, or an "
                             "expectation with 'at'");

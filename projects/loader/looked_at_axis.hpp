@@ -2,7 +2,6 @@
 #pragma once
 
 #include <utility>
-#include <vector>
 
 #include "tech_objects/axis/axis.hpp"
 
@@ -10,18 +9,15 @@ namespace lockstep {
 
 /// What a project says of an axis, without what would move it: a tenth of its memory. It stands for the axis
 /// where names lead to it and others refer to it, and never ticks.
-class LookedAtAxis final : public LeadingObject {
+class LookedAtAxis final : public ConfiguredAxis {
  public:
-  using LeadingObject::LeadingObject;
+  using ConfiguredAxis::ConfiguredAxis;
 
   /// Takes over what has been loaded into an axis of the same name.
   void take(Axis& axis) {
     data = axis.data;
     leading_values = std::move(axis.leading_values);
   }
-
-  AxisData data;
-  std::vector<LeadingValue> leading_values;
 
   void* data_block() noexcept override { return &data; }
   void* start_values() noexcept override { return &data; }

@@ -12,6 +12,7 @@
 #include "projects/json/text_file.hpp"
 #include "projects/keys/objects.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/mco305_retain.hpp"
 #include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
@@ -230,6 +231,11 @@ void DeviceLoader::load(const JsonValue& json) {
   if (const auto times = read_value(fields, keys::kMco305["time_interrupts"], loading_))
     device_.time_interrupts = static_cast<std::int32_t>(times->integer);
   if (const JsonValue* const programs = fields["programs"]) load_programs(*programs);
+  device_.eeprom.disk = &loading_.controller().encoder_saving;
+  if (const std::size_t kept = make_kept_arrays(device_); kept > kMaximumKeptCells)
+    problems_.report(json, "its programs save arrays of " + std::to_string(kept) +
+                               " elements; allowed where SAVE or SAVEPROM is used are " +
+                               std::to_string(kMaximumKeptCells));
   constexpr std::int64_t kStep = 1'000'000;  // [ns]
   if (kStep % loading_.controller().clock.servo_cycle != 0)
     problems_.report(json, "an MCO 305 steps every 1ms, and servo_cycle is " +

@@ -264,14 +264,15 @@ void load_servers(const JsonValue& json, const Loading& loading, MapLoader& maps
 Range reachable_range(const ModbusEntry& entry, Type signal) {
   if (is_real(signal) && !entry.is_scaled) return kAny;
   const Type wire = entry.type == Type::TIME ? Type::DINT : entry.type;
-  const double low = static_cast<double>(lowest(wire)), high = static_cast<double>(highest(wire));
+  const auto low = static_cast<double>(lowest(wire));
+  const auto high = static_cast<double>(highest(wire));
   if (entry.type == Type::TIME) return {low * 1e-3, high * 1e-3};
   if (signal == Type::TIME) return {low * 1e-9, high * 1e-9};
   if (!entry.is_scaled)
     return {std::max(low, static_cast<double>(lowest(signal))),
             std::min(high, static_cast<double>(highest(signal)))};
   const auto [minimum, maximum] =
-      std::minmax(low * entry.scale + entry.offset, high * entry.scale + entry.offset);
+      std::minmax({low * entry.scale + entry.offset, high * entry.scale + entry.offset});
   return {minimum, maximum};
 }
 
@@ -289,7 +290,7 @@ void read_limits(const Fields& fields, ModbusEntry& entry, Type signal, const Lo
     const std::string name(key.name);
     if (!entry.writable)
       problems.report(*json, "no client may write this entry, so that it has no '" + name +
-                                 "'; allowed with: \"access\": \"write\", tags in holding registers");
+                                 R"('; allowed with: "access": "write", tags in holding registers)");
     else if (signal == Type::BOOL || is_bit_string(signal))
       problems.report(*json, "a value of type " + std::string(type_name(signal)) + " has no '" + name +
                                  "'; allowed: integers, REAL, LREAL, TIME");

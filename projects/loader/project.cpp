@@ -1,6 +1,7 @@
 #include "projects/loader/project.hpp"
 
 #include <filesystem>
+#include <unordered_set>
 
 #include "projects/assembly/sources.hpp"
 #include "projects/keys/project.hpp"
@@ -26,7 +27,6 @@ void warn_of_unused(const JsonValue& root, const Names::Uses& uses, const Loadin
 void load_identity(const Fields& fields, const Loading& loading) {
   read_value(fields, keys::kProject["$schema"], loading);
   read_value(fields, keys::kProject["lockstep"], loading);
-  read_value(fields, keys::kProject["$schema"], loading);
   if (const auto name = read_value(fields, keys::kProject["name"], loading))
     loading.project.name = name->text;
   if (const auto text = read_value(fields, keys::kProject["description"], loading))
@@ -74,8 +74,7 @@ TechnologyObject& Loading::add_object(ObjectKind kind, const std::string& name) 
 }
 
 const std::vector<LeadingValue>& Loading::leading_values_of(const TechnologyObject& axis) const {
-  if (use == LoadedFor::looking) return static_cast<const LookedAtAxis&>(axis).leading_values;
-  return static_cast<const Axis&>(axis).leading_values;
+  return static_cast<const ConfiguredAxis&>(axis).leading_values;
 }
 
 bool Loading::add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const {
@@ -115,9 +114,19 @@ void load_clock(const JsonValue& clock, const Loading& loading) {
 
 namespace {
 
+/// What every instance of a range has in common is found again with each of them.
+void drop_repeated(std::vector<Problem>& problems) {
+  std::unordered_set<std::string> told;
+  std::erase_if(problems, [&](const Problem& problem) {
+    return !told.insert(problem.file + '\n' + problem.place + '\n' + problem.text + '\n' + problem.owner)
+                .second;
+  });
+}
+
 LoadedProject load(ProjectSources sources, const std::string& folder, const Prepare& prepare, LoadedFor use) {
   LoadedProject result;
   result.problems = sources.take_problems();
+  drop_repeated(result.problems);
   if (!sources.usable()) return result;
   Project project;
   project.controller = std::make_unique<Controller>();

@@ -151,15 +151,35 @@ void add_definitions(KeySchema& keys) {
        {{"type", "array"}, {"items", {{"type", "integer"}}}, {"minItems", 2}, {"maxItems", 2}}}};
 }
 
+std::string schema_text(std::string_view title, KeySchema& keys, const Json& root) {
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
+  schema.update(root);
+  add_definitions(keys);
+  schema["definitions"] = keys.definitions;
+  return schema.dump(2) + "\n";
+}
+
 }  // namespace
 
 std::string project_schema() {
   KeySchema keys;
-  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Lockstep project"}};
-  schema.update(keys.object(keys::kProject));
-  add_definitions(keys);
-  schema["definitions"] = keys.definitions;
-  return schema.dump(2) + "\n";
+  return schema_text("Lockstep project", keys, keys.object(keys::kProject));
+}
+
+std::string part_schema() {
+  KeySchema keys;
+  const Json whole = keys.object(keys::kProject)["properties"];
+  Json part = keys.object(keys::kPart);
+  // What the keys of a part leave open, since a template may have parameters there, the project knows.
+  for (auto& [name, section] : part["properties"].items()) {
+    const Json& known = whole[name];
+    if (!section.contains("properties")) {
+      section = known;
+      continue;
+    }
+    for (auto& [inner, value] : section["properties"].items()) value = known["properties"][inner];
+  }
+  return schema_text("Part of a Lockstep project", keys, part);
 }
 
 }  // namespace lockstep

@@ -1,4 +1,5 @@
-/// The JSON Schema of the project file, for editors: structure, types, ranges, units and defaults.
+/// The JSON Schemas of the project file and of the files that it includes, for editors: structure, types,
+/// ranges, units and defaults.
 /// @source JSON Schema draft-07
 #pragma once
 
@@ -10,5 +11,8 @@ namespace lockstep {
 /// knows no names and no expressions: what it accepts, the loader may still refuse, never the other way
 /// round. `project.schema.json` is this text; a test compares them.
 std::string project_schema();
+
+/// The same of a file that a project includes. `part.schema.json` is this text.
+std::string part_schema();
 
 }  // namespace lockstep

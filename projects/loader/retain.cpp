@@ -4,6 +4,7 @@
 
 #include "projects/keys/project.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/mco305_retain.hpp"
 #include "projects/loader/read_keys.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 #include "tech_objects/types/published.hpp"
@@ -86,6 +87,8 @@ void load_retain(const JsonValue* retain, const Loading& loading) {
   for (const ArrayTag* const tag : config.arrays) config.values.push_back(array_of(*tag));
   for (const StringTag& tag : loading.controller().strings)
     if (tag.retain) config.values.push_back(text_of(tag));
+  for (const auto& object : loading.controller().objects)
+    if (object->kind == ObjectKind::MCO_305) keep_mco305(static_cast<Mco305&>(*object), config.values);
   for (Axis* axis : loading.controller().axes)
     for (std::size_t sensor = 0; sensor < Axis::kSensors; ++sensor)
       if (keeps_adjustment(*axis, sensor)) config.values.push_back(adjustment_of(*axis, sensor));

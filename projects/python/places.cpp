@@ -18,6 +18,8 @@ template <class... Cases>
 struct Each : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Each(Cases...) -> Each<Cases...>;
 
 const Range& range_of(const Operand& place) {
   return place.variable != nullptr ? place.variable->range : kAny;

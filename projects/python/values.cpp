@@ -90,7 +90,7 @@ Value time_from(py::handle object, std::string_view path) {
 Value integer_from(py::handle object, Type type, std::string_view path, const Range& range) {
   if (PyBool_Check(object.ptr()) != 0 || PyIndex_Check(object.ptr()) == 0)
     wrong_type(object, path, type_name(type), "a whole number (int)");
-  const py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
+  const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
   if (!whole) throw py::error_already_set();
   const py::int_ lowest_value(lowest(type));
   const py::int_ highest_value(highest(type));

@@ -24,6 +24,10 @@ struct RunOptions {
   std::string retain{};                ///< file; empty: as the project says
   bool no_retain = false;              ///< begins with the init values and keeps nothing
   std::string audit{};                 ///< file; empty: as the project says
+  std::string
+      studio{};  ///< HOST:PORT where the run can be looked into; port 0: one that is free; empty: none
+  std::string studio_token{};               ///< file of the token that it asks for; empty: none
+  std::vector<std::string> studio_names{};  ///< by which it may be called besides its address
   std::string mark{};  ///< stands before the name of an option in messages; "--" on a command line
 };
 

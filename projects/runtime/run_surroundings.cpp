@@ -15,12 +15,14 @@ RunSurroundings::RunSurroundings(Project& project, const RunOptions& options,
     : project_(project), options_(options), messages_(messages), keeper_(std::move(keeper)) {
   choose_signals();
   start_audit();
+  make_studio();
   start_trace();
   start_modbus();
   start_clients();
   start_commands();
   if (keeper_) project_.controller->images.push_back(&keeper_->image());
   if (keeper_) keeper_->start();
+  start_studio();
 }
 
 void RunSurroundings::wait_no_more() {
@@ -51,6 +53,8 @@ void RunSurroundings::end() {
   if (server_) server_->stop();
   part_ = Part::clients;
   for (const auto& client : clients_) client->stop();
+  part_ = Part::studio;
+  if (studio_server_) studio_server_->stop();
   part_ = Part::trace;
   hear_no_more();
   recorder_->stop();
@@ -67,6 +71,9 @@ void RunSurroundings::tell_losses() {
   if (server_) tell_refused_clients();
   for (const auto& client : clients_) tell_failures(*client);
   if (commands_) commands_->tell_counters();
+  if (studio_server_ && studio_server_->counters().faults != 0)
+    messages_.warn(
+        fmt::format("studio: {} internal faults survived", studio_server_->counters().faults.load()));
   if (flight_ != nullptr) tell_recordings();
   for (const std::string& loss : recorder_->losses()) messages_.warn(loss);
 }
@@ -80,6 +87,7 @@ std::vector<std::string> RunSurroundings::unfinished() const {
                     ": writing does not end; the last values are not kept");
   if (part == Part::server) texts.push_back("the Modbus server does not end");
   if (part == Part::clients) texts.push_back("a Modbus client does not end");
+  if (part == Part::studio) texts.push_back("the studio does not end");
   if (part == Part::audit)
     texts.push_back("audit log " + audit_->path() + ": writing does not end; the last entries are lost");
   return texts;

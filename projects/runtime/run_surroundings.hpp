@@ -19,6 +19,7 @@
 #include "projects/runtime/messages.hpp"
 #include "projects/runtime/panel_commands.hpp"
 #include "projects/runtime/run_options.hpp"
+#include "projects/studio/session.hpp"
 
 namespace lockstep {
 
@@ -40,9 +41,14 @@ class RunSurroundings {
   const std::vector<NamedSignal>& signals() const { return signals_; }
   /// Where the Modbus server listens, with the ports that the system gave; empty: there is none over TCP.
   std::vector<Endpoint> modbus_endpoints() const;
+  /// Where the studio listens, with the port that the system gave; none: there is no studio.
+  std::optional<Endpoint> studio_endpoint() const;
 
   /// Between two ticks of virtual time: waits until the recorder has room; false if it takes nothing more.
-  bool wait_for_recorder() const { return ring_->wait_for_space() && events_.wait_for_space(); }
+  bool wait_for_recorder() const {
+    return ring_->wait_for_space() && events_.wait_for_space() &&
+           (!studio_ || studio_->tap().wait_for_space());
+  }
   /// Ends a `wait_for_recorder`. Any thread.
   void wait_no_more();
 
@@ -62,7 +68,7 @@ class RunSurroundings {
   std::vector<std::string> unfinished() const;
 
  private:
-  enum class Part { none, values, server, clients, trace, audit };
+  enum class Part { none, values, server, clients, studio, trace, audit };
 
   std::string named(const std::string& option) const { return options_.mark + option + ": "; }
 
@@ -85,6 +91,10 @@ class RunSurroundings {
   void start_clients();
   void tell_failures(const ModbusClient& client) const;
   void tell_refused_clients() const;
+
+  // The studio.
+  void make_studio();
+  void start_studio();
 
   void start_audit();
   void start_commands();
@@ -112,6 +122,8 @@ class RunSurroundings {
   std::vector<std::unique_ptr<ProcessImage>> client_images_;
   std::vector<std::unique_ptr<ModbusClient>> clients_;
   std::unique_ptr<PanelCommands> commands_;
+  std::unique_ptr<StudioSession> studio_;
+  std::unique_ptr<StudioServer> studio_server_;
 };
 
 }  // namespace lockstep

@@ -131,10 +131,15 @@ void RunSurroundings::start_trace() {
   add_trace_file();
   add_lcm();
   add_flight_recorder();
+  if (studio_ && !jobs_told_) {
+    project_.controller->tell_jobs();
+    jobs_told_ = true;
+  }
   if (!jobs_told_) project_.controller->tell_jobs(JobsTold::failures);
   project_.controller->epoch = options_.simulate ? 0 : epoch_;
   const bool rows = !sinks_.empty();
   sinks_.insert(sinks_.begin(), std::make_unique<ToldEvents>(messages_));
+  if (studio_) sinks_.push_back(studio_->sink());
   std::vector<Signal> places = columns_.places();
   const std::size_t fitting = kTraceValues / (places.size() + 1);
   ring_ = std::make_unique<TraceRing>(std::move(places),

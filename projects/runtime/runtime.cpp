@@ -47,6 +47,7 @@ class Runtime::Run {
 
   Project& project() noexcept { return *project_; }
   const std::vector<Endpoint>& modbus_endpoints() const noexcept { return modbus_endpoints_; }
+  std::optional<Endpoint> studio_endpoint() const { return studio_endpoint_; }
   const std::vector<NamedSignal>& trace_signals() const noexcept { return trace_signals_; }
   std::vector<std::string> unfinished() const {
     return state() == RuntimeState::ending ? surroundings_->unfinished() : std::vector<std::string>{};
@@ -85,6 +86,7 @@ class Runtime::Run {
   std::unique_ptr<RunSurroundings> surroundings_;
   std::unique_ptr<RealTimeRun> cycle_;
   std::vector<Endpoint> modbus_endpoints_;
+  std::optional<Endpoint> studio_endpoint_;
   std::vector<NamedSignal> trace_signals_;
   bool left_ = false;  // the processor of the cycle
   bool prepared_ = false;
@@ -119,6 +121,7 @@ void Runtime::Run::prepare() {
   project_->controller->apply_stimuli = options_.stimuli;
   surroundings_ = std::make_unique<RunSurroundings>(*project_, options_, std::move(keeper_), *messages_);
   modbus_endpoints_ = surroundings_->modbus_endpoints();
+  studio_endpoint_ = surroundings_->studio_endpoint();
   trace_signals_ = surroundings_->signals();
 }
 
@@ -271,6 +274,10 @@ std::vector<std::string> Runtime::unfinished() const {
 
 std::vector<Endpoint> Runtime::modbus_endpoints() const {
   return run_->modbus_endpoints();
+}
+
+std::optional<Endpoint> Runtime::studio_endpoint() const {
+  return run_->studio_endpoint();
 }
 
 const std::vector<NamedSignal>& Runtime::trace_signals() const {

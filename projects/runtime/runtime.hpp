@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -93,6 +94,9 @@ class Runtime {
   /// Where the Modbus server listens, with the ports that the system gave; empty: there is none over TCP.
   /// From `prepare` on.
   std::vector<Endpoint> modbus_endpoints() const;
+  /// Where the studio listens, with the port that the system gave; none: there is no studio. From `prepare`
+  /// on.
+  std::optional<Endpoint> studio_endpoint() const;
   /// Of the trace, as options and project say. From `prepare` on.
   const std::vector<NamedSignal>& trace_signals() const;
 

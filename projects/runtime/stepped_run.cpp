@@ -19,7 +19,7 @@ TraceColumns columns_of(const std::vector<NamedSignal>& signals) {
 SteppedRun::SteppedRun(Project project, const Options& options)
     : SteppedRun(std::move(project), columns_of(options.signals), options.jobs) {}
 
-SteppedRun::SteppedRun(Project project, TraceColumns columns, bool jobs)
+SteppedRun::SteppedRun(Project project, const TraceColumns& columns, bool jobs)
     : project_(std::move(project)),
       ring_(columns.places(), kRowsAtOnce),
       texts_(*project_.controller),

@@ -44,7 +44,7 @@ class SteppedRun {
   void take_rows();
   void take_events();
 
-  SteppedRun(Project project, TraceColumns columns, bool jobs);
+  SteppedRun(Project project, const TraceColumns& columns, bool jobs);
 
   Project project_;
   TraceRing ring_;

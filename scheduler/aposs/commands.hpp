@@ -236,6 +236,9 @@ const CommandRow& row_of(Command command) noexcept;
 inline constexpr std::string_view kSavedParts[] = {"ARRAYS", "AXPARS", "GLBPARS", "USRPARS"};
 inline constexpr std::string_view kPidCoefficients[] = {"KPROP", "KDER", "KINT", "KILIM", "TIMER"};
 
+/// What a command does, in a sentence or two.
+std::string_view meaning_of(const CommandRow& row) noexcept;
+
 /// Another spelling of the published documents: taken, with a warning where it is not the usual form.
 struct CommandAlias {
   std::string_view name;

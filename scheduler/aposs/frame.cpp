@@ -21,6 +21,13 @@ int Arrays::fit(std::span<const ArrayDeclaration> wanted) {
   return 0;
 }
 
+void Arrays::reserve(std::span<const ArrayDeclaration> wanted) {
+  std::size_t cells = 0;
+  for (const ArrayDeclaration& one : wanted) cells += one.size;
+  extents_.reserve(wanted.size());
+  if (cells <= kMaximumCells) cells_.reserve(cells);
+}
+
 bool Stack::call(std::uint16_t from) noexcept {
   if (calls_count_ == calls_.size()) return false;
   calls_[calls_count_++] = {from, static_cast<std::uint8_t>(loops_count_)};
@@ -31,6 +38,13 @@ bool Stack::leave(std::uint16_t& to) noexcept {
   if (calls_count_ == 0) return false;
   loops_count_ = loops_of_caller();
   to = calls_[--calls_count_].instruction;
+  return true;
+}
+
+bool Stack::forget(bool all) noexcept {
+  if (calls_count_ == 0) return false;
+  calls_count_ = all ? 0 : calls_count_ - 1;
+  loops_count_ = calls_[calls_count_].loops;
   return true;
 }
 

@@ -19,10 +19,12 @@ class Arrays {
     std::uint32_t size = 0;
   };
 
-  /// Creates the arrays that are not there yet. At load.
+  /// Creates the arrays that are not there yet.
   /// @return 0; 170 if one is there with another size, 175 without memory for it
   int fit(std::span<const ArrayDeclaration> wanted);
 
+  /// Memory for these, so that `fit` allocates nothing, whatever has been deleted. At load.
+  void reserve(std::span<const ArrayDeclaration> wanted);
   std::size_t count() const noexcept { return count_; }
   /// DELETE ARRAYS: none is there any more.
   void forget() noexcept { count_ = 0; }
@@ -37,6 +39,11 @@ class Arrays {
   std::span<std::int32_t> of(std::uint32_t array) noexcept {
     if (array >= count_) return {};
     return {&cells_[extents_[array].first], extents_[array].size};
+  }
+
+  /// All of them, one behind the other.
+  std::span<std::int32_t> all() noexcept {
+    return count_ == 0 ? std::span<std::int32_t>() : std::span(cells_);
   }
 
   static constexpr std::size_t kMaximumCells = std::size_t{1} << 22;
@@ -70,6 +77,8 @@ class Stack {
   bool call(std::uint16_t from) noexcept;
   /// Whether there was a call to go back from; `to` is the instruction that called.
   bool leave(std::uint16_t& to) noexcept;
+  /// GOTO out of a subprogram: its call is forgotten, or all are. @return whether there was one
+  bool forget(bool all) noexcept;
 
   enum class Turn : std::uint8_t { kAgain, kOver, kTooDeep };
   /// A LOOP at its end: the first time its count is taken over.

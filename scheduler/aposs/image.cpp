@@ -61,6 +61,7 @@ constexpr OperationRow kOperations[] = {
     action(Operation::kLoop, "LOOP", O::kTarget, O::kRead),
     action(Operation::kGosub, "GOSUB", O::kTarget),
     action(Operation::kReturn, "RETURN"),
+    action(Operation::kLeave, "LEAVE", O::kTarget),
     action(Operation::kExit, "EXIT"),
     {Operation::kTime, "TIME", O::kWrite, O::kNone, O::kNone, true},
     {Operation::kErrorNumber, "ERRNO", O::kWrite, O::kNone, O::kNone, true},
@@ -151,7 +152,7 @@ bool sound_arguments(const Image& image, const Instruction& instruction) noexcep
 
 bool goes_on(Operation operation) noexcept {
   return operation != Operation::kEnd && operation != Operation::kJump && operation != Operation::kRest &&
-         operation != Operation::kReturn && operation != Operation::kExit;
+         operation != Operation::kReturn && operation != Operation::kLeave && operation != Operation::kExit;
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ enum class Operation : std::uint16_t {
   kLoop,
   kGosub,
   kReturn,
+  kLeave,  ///< a GOTO out of a subprogram, whose call is forgotten; `b` not 0: all calls are
   kExit,
   kTime,
   kErrorNumber,

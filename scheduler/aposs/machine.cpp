@@ -41,6 +41,13 @@ void Machine::stop() noexcept {
   if (!over()) finish(ProgramState::kEnded);
 }
 
+bool Machine::go_on() noexcept {
+  if (image_ == nullptr || ended_ != ProgramState::kError) return false;
+  error_count_ = 0;
+  ended_ = ProgramState::kRuns;
+  return true;
+}
+
 void Machine::start() noexcept {
   if (image_ == nullptr) return;
   std::fill_n(cells_.begin(), image_->writable_cells(), 0);
@@ -48,7 +55,7 @@ void Machine::start() noexcept {
   Level& main = level();
   main.kind = Level::Kind::kMain;
   main.instruction = 0;
-  main.no_wait = main.all_disabled = false;
+  main.no_wait = main.all_disabled = main.left = false;
   main.wait = {};
   main.stack.clear();
   interrupts_.clear();
@@ -279,6 +286,10 @@ Machine::Flow Machine::special(const Instruction& at) noexcept {
       return Flow::kOn;
     case Operation::kReturn:
       return go_back();
+    case Operation::kLeave:
+      here.left = !here.stack.forget(at.b != 0) || here.left;
+      here.instruction = at.a;
+      return Flow::kOn;
     case Operation::kTime:
       cells[at.a] = wrapped_position(now_);
       return Flow::kOn;
@@ -500,6 +511,7 @@ void Machine::enter(Level::Kind kind, std::uint16_t entry) noexcept {
   handler.kind = kind;
   handler.instruction = entry;
   handler.no_wait = true;
+  handler.left = false;
   handler.all_disabled = interrupts_.disabled(InterruptClass::kAll);
   handler.wait = {};
   handler.stack.clear();
@@ -522,7 +534,7 @@ Machine::Flow Machine::go_back() noexcept {
     level().instruction = static_cast<std::uint16_t>(caller + 1);
     return Flow::kOn;
   }
-  if (depth_ == 0) return failed(kTooManyReturns);
+  if (depth_ == 0 || level().left) return failed(kTooManyReturns);
   leave_level();
   dispatch();
   if (level().wait.kind == Wait::Kind::kNone) return Flow::kOn;

@@ -54,6 +54,9 @@ class Machine {
   void set_time_interrupts(std::int32_t milliseconds) noexcept {
     time_interrupts_ = milliseconds < 1 ? 1 : milliseconds;
   }
+  /// A program that an error has ended goes on behind it; its errors are forgotten.
+  /// @return false if no error has ended one
+  bool go_on() noexcept;
   /// From the beginning, with all variables 0. Arrays stay.
   void start() noexcept;
 
@@ -95,6 +98,7 @@ class Machine {
     std::uint16_t instruction = 0;  ///< where it goes on
     bool no_wait = false;
     bool all_disabled = false;  ///< before it began
+    bool left = false;          ///< its own subprogram, by GOTO
     Wait wait;
     Stack stack;
   };

@@ -34,6 +34,7 @@ class PrintQueue {
   // For the other side.
 
   bool take(Printed& item) noexcept;
+  /// Any thread.
   std::uint64_t dropped_lines() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:

@@ -20,15 +20,18 @@ Reply done(int error) noexcept {
 /// value.
 constexpr std::int32_t kInputFunction = 1'000'000;
 
+constexpr std::int32_t kNoKey = -1;  // of INKEY
+
 std::int32_t function_parameter(std::int32_t input) noexcept {
   return input <= 10 ? mco305::kFirstInputFunction + input - 1 : mco305::kFirstInputFunction + input;
 }
 
 }  // namespace
 
-Reply DeviceCommands::begin(Command command, const std::int32_t* arguments, aposs::Arrays&) noexcept {
-  const Reply reply = motion(command, arguments);
-  return reply.kind == Reply::Kind::kRefused ? reading(command, arguments) : reply;
+Reply DeviceCommands::begin(Command command, const std::int32_t* arguments, aposs::Arrays& arrays) noexcept {
+  Reply reply = motion(command, arguments);
+  if (reply.kind == Reply::Kind::kRefused) reply = reading(command, arguments);
+  return reply.kind == Reply::Kind::kRefused ? keeping(command, arguments, arrays) : reply;
 }
 
 Reply DeviceCommands::motion(Command command, const std::int32_t* arguments) noexcept {
@@ -127,13 +130,33 @@ Reply DeviceCommands::reading(Command command, const std::int32_t* arguments) no
     case Command::kOutb:
       return output_byte(arguments);
     case Command::kInkey:
-      return arguments[0] < 0 ? Reply::done() : Reply::busy();
+      return arguments[0] < 0 ? Reply::done(kNoKey) : Reply::busy();
     case Command::kGetvel:
       device_.set_velocity_window(arguments[0]);
       return Reply::busy();
-    case Command::kSave:
-    case Command::kSaveprom:
+    case Command::kOutan:
+      device_.set_reference(arguments[0]);
       return Reply::done();
+    default:
+      return Reply::refused();
+  }
+}
+
+/// What has to do with arrays and with what is kept. Curves are not built, so that none is one; what has
+/// their mark is refused.
+Reply DeviceCommands::keeping(Command command, const std::int32_t* arguments,
+                              aposs::Arrays& arrays) noexcept {
+  constexpr std::int32_t kCurve = 999'000'001;
+  switch (command) {
+    case Command::kSave:
+      return eeprom_.save(arguments[0], device_.parameters(), arrays);
+    case Command::kSaveprom:
+      return eeprom_.save_all(arrays);
+    case Command::kSetcurve: {
+      const auto array = arrays.of(static_cast<std::uint32_t>(arguments[0]));
+      const bool curve = !array.empty() && array.front() == kCurve;
+      return curve ? Reply::refused() : Reply::failed(mco305::kCurveArrayWrong);
+    }
     default:
       return Reply::refused();
   }
@@ -187,14 +210,20 @@ Reply DeviceCommands::proceed(Command command, const std::int32_t* arguments, st
       return (up ? at >= arguments[0] : at <= arguments[0]) ? Reply::done() : Reply::busy();
     }
     case Command::kInkey:  // there are no keys: it waits for its time, and for ever without one
-      return arguments[0] != 0 && elapsed >= arguments[0] ? Reply::done() : Reply::busy();
+      return arguments[0] != 0 && elapsed >= arguments[0] ? Reply::done(kNoKey) : Reply::busy();
+    case Command::kSave:
+    case Command::kSaveprom:
+      return eeprom_.proceed();
     default:
       return elapsed >= arguments[0] ? Reply::done() : Reply::busy();
   }
 }
 
 void DeviceCommands::error_raised(int error) noexcept {
-  if (raised_count_ < raised_.size()) raised_[raised_count_++] = error;
+  if (raised_count_ < raised_.size())
+    raised_[raised_count_++] = error;
+  else
+    ++unheard_;
   device_.react(error);
 }
 

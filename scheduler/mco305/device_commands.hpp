@@ -4,15 +4,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "scheduler/aposs/device.hpp"
+#include "scheduler/mco305/eeprom.hpp"
 #include "tech_objects/mco305/device.hpp"
 
 namespace lockstep {
 
 class DeviceCommands final : public aposs::Device {
  public:
-  explicit DeviceCommands(mco305::Device& device) : device_(device) {}
+  DeviceCommands(mco305::Device& device, Eeprom& eeprom) : device_(device), eeprom_(eeprom) {}
 
   std::int64_t milliseconds() noexcept override { return device_.milliseconds(); }
   aposs::Reply begin(aposs::Command command, const std::int32_t* arguments,
@@ -31,6 +33,8 @@ class DeviceCommands final : public aposs::Device {
 
   /// An error that has been raised, for whoever tells of it; 0: none.
   int take_raised() noexcept;
+  /// How many were raised and found no room, since it was asked last.
+  std::uint32_t take_unheard() noexcept { return std::exchange(unheard_, 0); }
 
  private:
   aposs::Reply motion(aposs::Command command, const std::int32_t* arguments) noexcept;
@@ -38,10 +42,13 @@ class DeviceCommands final : public aposs::Device {
   aposs::Reply set(std::int32_t number, std::int32_t value) noexcept;
   aposs::Reply link(const std::int32_t* arguments) noexcept;
   aposs::Reply output_byte(const std::int32_t* arguments) noexcept;
+  aposs::Reply keeping(aposs::Command command, const std::int32_t* arguments, aposs::Arrays& arrays) noexcept;
 
   mco305::Device& device_;
+  Eeprom& eeprom_;
   std::array<int, 8> raised_{};
   std::size_t raised_count_ = 0;
+  std::uint32_t unheard_ = 0;
   std::uint32_t latches_ = 0;  // when WAITNDX began
 };
 

@@ -1,30 +1,40 @@
 #include "scheduler/mco305/mco305.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <utility>
 
 #include "scheduler/aposs/printed_line.hpp"
 
 namespace lockstep {
+namespace {
+
+constexpr int kOtherArrays = 170;
+constexpr std::int32_t kAsThereIs = -2;  // of PRGPAR: the program has not set it
+
+}  // namespace
 
 Mco305::Mco305(std::string object_name, DB_ANY object_number)
     : TechnologyObject(ObjectKind::MCO_305, std::move(object_name), object_number) {}
 
-/// May allocate: the first start of each program fits its arrays.
+/// May allocate: afterwards no start of a program does.
 void Mco305::configure(double servo_period, int) {
+  constexpr double kStep = 1e-3;  // [s]
+  ticks_per_step_ = std::max(1, static_cast<int>(std::lround(kStep / servo_period)));
+  tick_ = ticks_per_step_ - 1;
   device_.configure(settings, servo_period);
   machine_.set_time_interrupts(time_interrupts);
   share_texts();
   for (DeviceProgram& program : programs) {
     program.fault = machine_.load(program.image);
     machine_.stop();
+    arrays_.reserve(program.image.arrays);
+    if (program.autostart && autostart_ == nullptr) autostart_ = &program;
   }
-  const auto first =
-      std::find_if(programs.begin(), programs.end(), [](const DeviceProgram& p) { return p.autostart; });
+  eeprom.restore(arrays_);
   data.Parameters = device_.parameters().all();
-  choosing_ = first != programs.end();
-  if (choosing_) start(*first);
+  choosing_ = autostart_ != nullptr;
+  if (choosing_) start(*autostart_);
   show();
 }
 
@@ -41,9 +51,16 @@ void Mco305::share_texts() {
 
 bool Mco305::take_note(ProgramNote& note) noexcept {
   lines_ += machine_.prints().take_line_count();
-  note = {lines_ > 0, 0, current_ == nullptr ? -1 : current_->number, 0};
+  note = {.printed = lines_ > 0, .program = current_ == nullptr ? -1 : current_->number};
   if (lines_ > 0) {
     --lines_;
+    return true;
+  }
+  unheard_ += commands_.take_unheard();
+  if (const std::uint64_t lost = machine_.prints().dropped_lines() + unheard_; lost != lost_) {
+    note.printed = true;
+    note.error = static_cast<int>(lost - lost_);
+    lost_ = lost;
     return true;
   }
   note.error = commands_.take_raised();
@@ -61,14 +78,18 @@ void Mco305::take_line(std::string& line) {
     if (aposs::append_printed(line, texts_, item)) return;
 }
 
-void Mco305::start(const DeviceProgram& program) noexcept {
+/// Its arrays are those that are there, or new behind them: what another program has deleted is made anew.
+void Mco305::start(DeviceProgram& program) noexcept {
   machine_.take(program.image);
   current_ = &program;
+  running_ = true;
+  if (program.fault == 0 || program.fault == kOtherArrays) program.fault = arrays_.fit(program.image.arrays);
   if (program.fault != 0) machine_.raise(program.fault);
 }
 
-void Mco305::servo(std::int64_t now) noexcept {
-  program_due_ = now % kStep == 0;
+void Mco305::servo(std::int64_t) noexcept {
+  program_due_ = ++tick_ == ticks_per_step_;
+  if (program_due_) tick_ = 0;
   device_.servo(program_due_);
   if (program_due_) show();
 }
@@ -80,16 +101,30 @@ void Mco305::take_device_errors() noexcept {
 
 void Mco305::run_program(std::int64_t) noexcept {
   if (!program_due_) return;
+  look_at_inputs();
   if (machine_.over()) take_device_errors();
-  const bool clear = device_.io().active(mco305::InputFunction::kErrorClear);
-  if (clear && !clear_input_ && machine_.over()) device_.clear_all_errors();
-  clear_input_ = clear;
   machine_.step(steps_per_millisecond);
   if (machine_.over()) choose();
 }
 
-const DeviceProgram* Mco305::find(std::int32_t number) const noexcept {
-  for (const DeviceProgram& program : programs)
+void Mco305::look_at_inputs() noexcept {
+  if (!device_.io().any_input_function()) {
+    clear_input_ = start_input_ = continue_input_ = start_rises_ = continue_rises_ = false;
+    return;
+  }
+  const auto rises = [this](mco305::InputFunction function, bool& last) {
+    const bool level = device_.io().active(function);
+    const bool before = std::exchange(last, level);
+    return level && !before;
+  };
+  using enum mco305::InputFunction;
+  if (rises(kErrorClear, clear_input_) && machine_.over()) device_.clear_all_errors();
+  start_rises_ = rises(kStart, start_input_);
+  continue_rises_ = rises(kContinue, continue_input_);
+}
+
+DeviceProgram* Mco305::find(std::int32_t number) noexcept {
+  for (DeviceProgram& program : programs)
     if (program.number == number) return &program;
   return nullptr;
 }
@@ -106,23 +141,49 @@ std::int32_t Mco305::selected() const noexcept {
   return number;
 }
 
-/// What runs when a program is over: PRGPAR, else by the start input, else the one that starts by itself.
-/// After an error of the program nothing does.
-void Mco305::choose() noexcept {
-  const bool level = device_.io().active(mco305::InputFunction::kStart);
-  const bool rises = level && !start_input_;
-  start_input_ = level;
+/// What a program has set and not saved is as it was; which program it wants next is not.
+void Mco305::end_program() noexcept {
+  if (!std::exchange(running_, false)) return;
+  wanted_ = device_.parameters()[mco305::kPrgPar];
+  device_.forget_settings();
+  if (wanted_ == device_.parameters()[mco305::kPrgPar]) wanted_ = kAsThereIs;
+}
+
+/// A program that an error or the break input has ended goes on, and its motion: when the error has been
+/// cleared.
+void Mco305::go_on() noexcept {
+  if (machine_.state() != aposs::ProgramState::kError || !device_.pending().only(mco305::kUserAbort)) return;
+  device_.clear_all_errors();
+  device_.motor_on();
+  running_ = true;
+  machine_.go_on();
+  if (const int error = device_.go_on(); error != 0) machine_.raise(error);
+}
+
+/// Whom the user has stopped waits for the continue input. An error that has not been cleared lets nothing
+/// begin.
+bool Mco305::may_start() const noexcept {
   const aposs::ProgramState state = machine_.state();
-  if (!choosing_ || current_ == nullptr || state != aposs::ProgramState::kEnded || shutting_down_) return;
-  const std::int32_t wanted = device_.parameters()[mco305::kPrgPar];
-  const DeviceProgram* next = nullptr;
-  if (wanted >= 0)
-    next = find(wanted);
-  else if (device_.io().input_of(mco305::InputFunction::kStart) == 0)
-    return;  // the one that starts by itself has ended
-  else if (rises)
-    next = find(selected());
-  if (next != nullptr && (next != current_ || rises)) start(*next);
+  if (!choosing_ || state == aposs::ProgramState::kRefused) return false;
+  if (state == aposs::ProgramState::kError && machine_.error() == mco305::kUserAbort) return false;
+  return device_.pending().tolerated();
+}
+
+/// What PRGPAR says, or by the start input the inputs; else the one that starts by itself, again and again.
+DeviceProgram* Mco305::next_program() noexcept {
+  const std::int32_t wanted = wanted_ == kAsThereIs ? device_.parameters()[mco305::kPrgPar] : wanted_;
+  const bool by_input = device_.io().input_of(mco305::InputFunction::kStart) != 0;
+  if (wanted >= 0 && (settings.later_edition || !by_input)) return find(wanted);
+  if (by_input) return start_rises_ ? find(selected()) : nullptr;
+  return repeats ? autostart_ : nullptr;
+}
+
+void Mco305::choose() noexcept {
+  end_program();
+  if (shutting_down_ || current_ == nullptr) return;
+  if (continue_rises_) return go_on();
+  if (!may_start()) return;
+  if (DeviceProgram* const next = next_program(); next != nullptr) start(*next);
 }
 
 void Mco305::shut_down() noexcept {
@@ -132,7 +193,8 @@ void Mco305::shut_down() noexcept {
 }
 
 bool Mco305::at_rest() const noexcept {
-  return !device_.controlled() || (!device_.moving() && device_.set_velocity_now() == 0.0);
+  if (!device_.controlled()) return !device_.open_loop();
+  return !device_.moving() && device_.set_velocity_now() == 0.0;
 }
 
 void Mco305::show() noexcept {
@@ -145,10 +207,10 @@ void Mco305::show() noexcept {
   read.AXEND = device_.axis_end();
   read.STAT = device_.status();
   read.ERRNO = device_.pending().first();
-  device_.system_variable(4096, read.ActualPosition);
-  device_.system_variable(4097, read.SetPosition);
-  device_.system_variable(4111, read.Reference);
-  device_.system_variable(4275, read.JerkState);
+  read.ActualPosition = device_.actual_counts_shown();
+  read.SetPosition = device_.set_counts_shown();
+  read.Reference = device_.reference();
+  read.JerkState = static_cast<DINT>(device_.phase());
   if (const auto& parameters = device_.parameters(); parameters.version() != shown_version_) {
     shown_version_ = parameters.version();
     data.Parameters = parameters.all();
@@ -158,9 +220,8 @@ void Mco305::show() noexcept {
   data.Program.Line = current_ == nullptr ? 0 : static_cast<DINT>(machine_.place().line);
   data.Program.Steps = machine_.counters().commands;
   data.Program.Starved = machine_.counters().starved;
-  for (std::size_t i = 0; i < data.In.size(); ++i)
-    data.In[i] = device_.io().input(static_cast<std::int32_t>(i + 1));
-  for (std::size_t i = 0; i < data.Out.size(); ++i) data.Out[i] = device_.io().output(i + 1);
+  data.In = device_.io().inputs();
+  data.Out = device_.io().outputs();
 }
 
 }  // namespace lockstep

@@ -53,9 +53,9 @@ inline AxisPosition zero_on_turn(std::int64_t turns, const Modulo& modulo) noexc
 /// The position after a distance of `increment` [u] of either sign: exact, then rounded once.
 /// Whoever adds up many increments keeps the sum as a DoubleDouble and adds it to where he began. Any thread.
 inline AxisPosition advanced(AxisPosition position, DoubleDouble increment, const Modulo& modulo) noexcept {
-  const DoubleDouble value = increment + position.value;
-  if (modulo.contains(value.hi)) return {position.turns, value.rounded()};
-  return normalised(position.turns, value, modulo);
+  const double value = rounded_sum(increment, position.value);
+  if (modulo.contains(value)) return {position.turns, value};
+  return normalised(position.turns, increment + position.value, modulo);
 }
 
 inline AxisPosition advanced(AxisPosition position, double increment, const Modulo& modulo) noexcept {
@@ -76,8 +76,14 @@ class DistanceOrigin {
 
   /// The position after a distance [u] from the origin: exact, then rounded once.
   AxisPosition after(double distance, const Modulo& modulo) noexcept {
-    const DoubleDouble value = value_ + distance;
-    if (modulo.contains(value.hi)) return {turns_, value.rounded()};
+    const double value = rounded_sum(value_, distance);
+    if (modulo.contains(value)) return {turns_, value};
+    return beyond_turn(value_ + distance, modulo);
+  }
+
+ private:
+  /// Goes on to the turn on which a distance ends.
+  [[gnu::noinline]] AxisPosition beyond_turn(DoubleDouble value, const Modulo& modulo) noexcept {
     const AxisPosition position = normalised(turns_, value, modulo);
     const auto passed = static_cast<std::int64_t>(static_cast<std::uint64_t>(position.turns) -
                                                   static_cast<std::uint64_t>(turns_));
@@ -86,10 +92,16 @@ class DistanceOrigin {
     return position;
   }
 
- private:
   std::int64_t turns_ = 0;
   DoubleDouble value_;  // the origin, seen from the ring of these turns [u]
 };
+
+/// So many whole turns as a distance [u], within 2^-103 of it.
+inline DoubleDouble turns_distance(std::int64_t turns, double length) noexcept {
+  constexpr std::int64_t kWholeDoubles = 1LL << 53;
+  const bool is_double = -kWholeDoubles <= turns && turns <= kWholeDoubles;
+  return is_double ? two_product(static_cast<double>(turns), length) : to_double_double(turns) * length;
+}
 
 /// Distance from `from` to `to` [u] with the turns (the shorter way round where these wrap), within 2^-103 of
 /// it. Any thread.
@@ -98,7 +110,7 @@ inline DoubleDouble difference(AxisPosition to, AxisPosition from, const Modulo&
   if (!modulo.enabled || to.turns == from.turns) return values;
   const auto turns = static_cast<std::int64_t>(static_cast<std::uint64_t>(to.turns) -
                                                static_cast<std::uint64_t>(from.turns));
-  return to_double_double(turns) * modulo.length + values;
+  return turns_distance(turns, modulo.length) + values;
 }
 
 /// The same rounded to a double.

@@ -4,6 +4,7 @@
 /// product's low part falls below 2^-1022 it is lost.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace lockstep {
@@ -77,6 +78,12 @@ constexpr DoubleDouble operator+(DoubleDouble a, double b) noexcept {
   return quick_two_sum(high.hi, high.lo + a.lo);
 }
 
+/// a + b rounded to a double: the same bits as (a + b).rounded(), without what is left behind them.
+constexpr double rounded_sum(DoubleDouble a, double b) noexcept {
+  const DoubleDouble high = two_sum(a.hi, b);
+  return high.hi + (high.lo + a.lo);
+}
+
 constexpr DoubleDouble operator-(DoubleDouble a, DoubleDouble b) noexcept {
   return a + -b;
 }
@@ -116,6 +123,12 @@ constexpr bool operator<(DoubleDouble a, DoubleDouble b) noexcept {
 
 constexpr bool operator==(DoubleDouble a, DoubleDouble b) noexcept {
   return a.hi == b.hi && a.lo == b.lo;
+}
+
+/// Whether both are the same to the bit: quicker than their comparison, and stricter.
+constexpr bool same_bits(const DoubleDouble& a, const DoubleDouble& b) noexcept {
+  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  return ((bits(a.hi) ^ bits(b.hi)) | (bits(a.lo) ^ bits(b.lo))) == 0;
 }
 
 /// A 64-bit integer exactly.

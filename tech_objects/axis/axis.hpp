@@ -131,17 +131,19 @@ class Axis final : public AxisFamilies {
   void guard() noexcept;
   // plain_cycle.cpp: a cycle in which nothing but the base motion happens
   bool left_alone() const noexcept;
-  bool plain() const noexcept;
-  bool advance_plainly() noexcept;
-  bool follow_plainly() noexcept;
-  bool follow_shifted() noexcept;
+  bool undisturbed() const noexcept;
+  void whole_cycle() noexcept;
+  void standing_cycle() noexcept;
+  void single_axis_cycle() noexcept;
+  void synchronous_cycle() noexcept;
+  void begin_cycle() noexcept;
   void finish_cycle() noexcept;
   void show_where_it_is() noexcept;
   bool far_inside() const noexcept;
   bool within_range() const noexcept;
-  void publish_plainly() noexcept;
+  void publish_plainly(std::uint32_t word, std::uint32_t word2) noexcept;
+  void publish_no_coupling() noexcept;
   void publish_coupling_plainly() noexcept;
-  void publish_shifts() noexcept;
   void show_operation() noexcept;
 };
 

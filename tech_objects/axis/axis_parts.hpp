@@ -12,6 +12,7 @@
 #include "tech_objects/axis/backlash.hpp"
 #include "tech_objects/axis/blending.hpp"
 #include "tech_objects/axis/clamping.hpp"
+#include "tech_objects/axis/configured_axis.hpp"
 #include "tech_objects/axis/encoders.hpp"
 #include "tech_objects/axis/forces.hpp"
 #include "tech_objects/axis/homing_course.hpp"
@@ -25,7 +26,6 @@
 #include "tech_objects/data_blocks/status_bits.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 #include "tech_objects/drive/drive.hpp"
-#include "tech_objects/objects/leading_object.hpp"
 #include "tech_objects/profile/single_axis_motion.hpp"
 #include "tech_objects/synchronous/synchronous_motion.hpp"
 
@@ -33,16 +33,9 @@ namespace lockstep {
 
 /// The parts of an axis, each with its own state; what is done with them is the matter of its families. What
 /// every interpolator cycle touches lies together, and so does what every servo cycle touches.
-class AxisParts : public LeadingObject {
+class AxisParts : public ConfiguredAxis {
  public:
-  using LeadingObject::LeadingObject;
-
-  /// The technology data block. The project sets start values before `configure`; afterwards DIR and CAL
-  /// variables may be written in the cycle, the rest is computed.
-  alignas(kCacheLine) AxisData data;
-
-  /// The leading values with which this axis is interconnected; only these may be named by jobs.
-  std::vector<LeadingValue> leading_values;
+  using ConfiguredAxis::ConfiguredAxis;
 
   /// The drive and the machine behind it; they count unless the axis is virtual.
   DriveSettings drive_settings;

@@ -29,8 +29,8 @@ LeavingOrders::Next LeavingOrders::watch(const Setpoint& candidate) noexcept {
   Setpoint from = last_setpoint_;
   Setpoint to = candidate;
   if (asked.profile != SyncOutProfileReference::over_distance) {  // begins as the axis' own motions do
-    if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
-      reactions_.raise(alarm_number);  // the stop begins at the last setpoint that followed
+    if (const ZeroLimit zero = limits_.zero_limit(dynamics); zero.alarm != 0) {
+      reactions_.raise(zero.alarm, zero.detail);  // the stop begins at the last setpoint that followed
       return Next::own_motion;
     }
     from.acceleration = limits_.tolerable_acceleration(from.acceleration, limits_.margin(from));

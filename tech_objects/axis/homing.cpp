@@ -85,8 +85,8 @@ void HomingOrders::head_for(Job& job, HomingCourse::Phase phase, int direction) 
   arrival_.begin();
   limits_.remember();
   Dynamics dynamics = dynamics_.own(job);
-  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0)
-    return reactions_.raise(alarm_number);
+  if (const ZeroLimit zero = limits_.zero_limit(dynamics); zero.alarm != 0)
+    return reactions_.raise(zero.alarm, zero.detail);
   if (superimposed_.advancing_base()) dynamics_.leave_to_superimposed(&job, dynamics);
   if (motion_orders_.plan(job, dynamics) == PlanResult::ok) return;
   ends_.end(kBase, JobPhase::failed, ErrorId::unspecified);

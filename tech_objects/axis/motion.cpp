@@ -32,8 +32,8 @@ void MotionOrders::begin(Job& job) noexcept {
   Dynamics dynamics = dynamics_.own(job);
   if (job.kind == JobKind::MC_Stop && job.as<StopJob>().mode == StopMode::emergency_ramp)
     dynamics.jerk = 0.0;  // the emergency ramp has none
-  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
-    reactions_.raise(alarm_number);
+  if (const ZeroLimit zero = limits_.zero_limit(dynamics); zero.alarm != 0) {
+    reactions_.raise(zero.alarm, zero.detail);
     return job.fail(ErrorId::technology_alarm);
   }
   jobs_.put(kBase, job, JobPhase::active);
@@ -160,8 +160,8 @@ void MotionOrders::follow_changes(Job& job) noexcept {
   if (job.kind == JobKind::MC_Stop || job.kind == JobKind::MC_Halt || leaves(job.kind)) return;
   limits_.remember();
   const Dynamics wanted = dynamics_.effective(job);
-  if (const int alarm_number = limits_.zero_limit(wanted); alarm_number != 0)
-    return reactions_.raise(alarm_number);
+  if (const ZeroLimit zero = limits_.zero_limit(wanted); zero.alarm != 0)
+    return reactions_.raise(zero.alarm, zero.detail);
   const double jerk_before = single_.dynamics().jerk;
   const bool jerk_now_limited = jerk_before <= 0.0 && wanted.jerk > 0.0;
   if (inputs_changed || jerk_now_limited) stops_.cut_acceleration();

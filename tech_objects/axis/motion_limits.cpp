@@ -91,11 +91,21 @@ ExceededLimits MotionLimits::exceeded(const Job& job) const noexcept {
           .jerk = jerk > positive_or(limits.MaxJerk, jerk)};
 }
 
-int MotionLimits::zero_limit(const Dynamics& dynamics) const noexcept {
-  if (velocity() <= 0.0) return alarm::kVelocityLimitZero;
-  if (dynamics.acceleration <= 0.0 || dynamics.deceleration <= 0.0) return alarm::kAccelerationLimitZero;
-  if (dynamics.jerk > 0.0 && data_.DynamicLimits.MaxJerk <= 0.0) return alarm::kJerkLimitZero;
-  return 0;
+ZeroLimit MotionLimits::zero_limit(const Dynamics& dynamics) const noexcept {
+  const auto& limits = data_.DynamicLimits;
+  if (velocity() <= 0.0)
+    return {alarm::kVelocityLimitZero, {.value = limits.MaxVelocity, .limit = limits.Velocity}};
+  if (dynamics.acceleration <= 0.0)
+    return {
+        alarm::kAccelerationLimitZero,
+        {.cause = AlarmCause::acceleration, .value = dynamics.acceleration, .limit = limits.MaxAcceleration}};
+  if (dynamics.deceleration <= 0.0)
+    return {
+        alarm::kAccelerationLimitZero,
+        {.cause = AlarmCause::deceleration, .value = dynamics.deceleration, .limit = limits.MaxDeceleration}};
+  if (dynamics.jerk > 0.0 && limits.MaxJerk <= 0.0)
+    return {alarm::kJerkLimitZero, {.value = dynamics.jerk, .limit = limits.MaxJerk}};
+  return {};
 }
 
 void MotionLimits::keep_below(Dynamics& dynamics, double acceleration, double margin) const noexcept {

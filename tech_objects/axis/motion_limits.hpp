@@ -4,9 +4,12 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
+#include "tech_objects/alarms/detail.hpp"
 #include "tech_objects/arithmetic/setpoint.hpp"
 #include "tech_objects/data_blocks/data_block.hpp"
 #include "tech_objects/jobs/job.hpp"
@@ -20,6 +23,12 @@ struct ExceededLimits {
   bool jerk = false;
 
   bool any() const noexcept { return velocity || acceleration || jerk; }
+};
+
+/// The alarm for a limit of zero, with the limits and what the motion would have of them.
+struct ZeroLimit {
+  int alarm = 0;  ///< number; 0: no limit is zero
+  AlarmDetail detail{};
 };
 
 /// Reads DynamicLimits, DynamicDefaults and Override of the data block, as they are at the time of the call;
@@ -41,10 +50,7 @@ class MotionLimits {
   bool forgotten() const noexcept { return std::isnan(planned_.override_velocity); }
   /// Whether they are others than those that the motion at hand has been planned with.
   bool changed() const noexcept {
-    const TO_Struct_DynamicLimits& now = data_.DynamicLimits;
-    return data_.Override.Velocity != planned_.override_velocity || now.Velocity != planned_.velocity ||
-           now.MaxAcceleration != planned_.acceleration || now.MaxDeceleration != planned_.deceleration ||
-           now.MaxJerk != planned_.jerk;
+    return data_.Override.Velocity != planned_.override_velocity || (!same_limits_in_bits() && differ());
   }
 
   // ---- Dynamic values
@@ -75,9 +81,9 @@ class MotionLimits {
   const TO_Struct_DynamicLimits& configured() const noexcept { return data_.DynamicLimits; }
   /// Where the job asks for more.
   ExceededLimits exceeded(const Job& job) const noexcept;
-  /// An alarm for a limit of zero, which no motion can keep; 0: none. That of the jerk counts for a motion
-  /// that limits its jerk.
-  int zero_limit(const Dynamics& dynamics) const noexcept;
+  /// Whether a limit is zero, which no motion can keep. That of the jerk counts for a motion that limits its
+  /// jerk.
+  ZeroLimit zero_limit(const Dynamics& dynamics) const noexcept;
 
   // ---- Up to the velocity limit
 
@@ -102,6 +108,22 @@ class MotionLimits {
 
  private:
   double wanted_velocity(const Job& job) const noexcept;
+  [[gnu::noinline]] bool differ() const noexcept {
+    const TO_Struct_DynamicLimits& now = data_.DynamicLimits;
+    return now.Velocity != planned_.velocity || now.MaxAcceleration != planned_.acceleration ||
+           now.MaxDeceleration != planned_.deceleration || now.MaxJerk != planned_.jerk;
+  }
+  /// As they are in most cycles: told by one branch, where comparing numbers takes eight.
+  bool same_limits_in_bits() const noexcept {
+    const TO_Struct_DynamicLimits& now = data_.DynamicLimits;
+    const auto differing = [](double a, double b) {
+      return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
+    };
+    return (differing(now.Velocity, planned_.velocity) |
+            differing(now.MaxAcceleration, planned_.acceleration) |
+            differing(now.MaxDeceleration, planned_.deceleration) | differing(now.MaxJerk, planned_.jerk)) ==
+           0;
+  }
 
   /// MaxVelocity changes with a restart only.
   struct Planned {

@@ -9,27 +9,6 @@
 #include "tech_objects/data_blocks/status_bits.hpp"
 
 namespace lockstep {
-namespace {
-
-/// Where an axis comes to rest at the latest that nears the end of its range [u]: before the end by more than
-/// the stop may be rounded.
-constexpr double kEndOfRange = kPositionRange * (1.0 - kRelativeRounding);
-
-}  // namespace
-
-/// From few operations and without a division: `maximum_stopping_distance` ≤ margin, times 4 · deceleration ·
-/// jerk².
-bool far_from_end_of_range(const Setpoint& setpoint, const Modulo& modulo,
-                           const TO_Struct_DynamicLimits& limits) noexcept {
-  const double margin = kEndOfRange - std::abs(setpoint.position.value);
-  if (modulo.enabled) return margin > 0.0;
-  const double d = limits.MaxDeceleration;
-  const double j = limits.MaxJerk;
-  const double v = std::abs(setpoint.velocity);
-  const double a = std::abs(setpoint.acceleration);
-  const double reached = 2.0 * j * v + a * a;  // velocity once the acceleration is run down, times 2 · jerk
-  return reached * (d * (2.0 * a + d) + 0.5 * reached) < 4.0 * margin * d * j * j;
-}
 
 void RangeOrders::watch() noexcept {
   // A setpoint that has just been taken up does not come out of the last one.

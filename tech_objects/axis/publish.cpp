@@ -150,8 +150,9 @@ void Publisher::show_status() const noexcept {
 
   std::uint32_t word2 = 0;
   if (const Job* const base = jobs[kBase]) {
-    word |= command_bits(base->kind);
-    word2 = when(leaves(base->kind), Status2Bit::DesynchronizingCommand);
+    const CommandBits& bits = command_bits_of(*base);
+    word |= bits.word;
+    word2 = bits.word2;
   }
   if (jobs.locked()) word2 |= word_of(Status2Bit::StopCommand);
   word2 |= shift_bits(jobs, word);

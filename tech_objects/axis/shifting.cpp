@@ -24,8 +24,8 @@ void ShiftOrders::begin(Job& job) noexcept {
   Shift& shift = phasing ? synchronous_.phase_shift() : synchronous_.following_offset();
   const bool in_time = phasing && asked.profile == ShiftProfileReference::dynamics;
   const Dynamics dynamics = in_time ? dynamics_.effective(job) : limits_.maximum();
-  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
-    reactions_.raise(alarm_number);
+  if (const ZeroLimit zero = limits_.zero_limit(dynamics); zero.alarm != 0) {
+    reactions_.raise(zero.alarm, zero.detail);
     return job.fail(ErrorId::technology_alarm);
   }
   // The dynamics are those of the following axis; a phase shift moves it by the ratio.
@@ -52,25 +52,32 @@ void ShiftOrders::cancel_waiting(Job& job) noexcept {
   job.phase = JobPhase::done;
 }
 
-void ShiftOrders::advance() noexcept {
-  const Shift& phase = synchronous_.phase_shift();
-  const Shift& offset = synchronous_.following_offset();
-  if (jobs_[kPhasing] != nullptr)
-    show(kPhasing, phase, synchronous_.advance_phase_shift());
-  else if (phase.settling())
-    synchronous_.advance_phase_shift();
-  if (jobs_[kOffset] != nullptr)
-    show(kOffset, offset, synchronous_.advance_following_offset());
-  else if (offset.settling())
-    synchronous_.advance_following_offset();
+void ShiftOrders::take_ratio(const Job& job) noexcept {
+  const auto& gear = job.as<GearJob>();
+  if (gear.update) synchronous_.change_ratio({gear.numerator, gear.denominator});
 }
 
-void ShiftOrders::show(Slot slot, const Shift& shift, Shift::Event event) noexcept {
-  Job& job = *jobs_[slot];
+void ShiftOrders::advance() noexcept {
+  SynchronousMotion& motion = synchronous_;
+  const SynchronousMotion& shown = motion;
+  if (Job* const job = jobs_[kPhasing])
+    show(kPhasing, *job, shown.phase_shift(), motion.advance_phase_shift());
+  else if (shown.phase_shift().settling())
+    motion.advance_phase_shift();
+  if (Job* const job = jobs_[kOffset])
+    show(kOffset, *job, shown.following_offset(), motion.advance_following_offset());
+  else if (shown.following_offset().settling())
+    motion.advance_following_offset();
+}
+
+inline void ShiftOrders::show(Slot slot, Job& job, const Shift& shift, Shift::Event event) noexcept {
   job.phase = shift.phase() == Shift::Phase::waiting ? JobPhase::waiting : JobPhase::active;
   auto& asked = job.as<ShiftJob>();
   asked.covered = rounded_difference(shift.value(), asked.base);
-  if (event == Shift::Event::none) return;
+  if (event != Shift::Event::none) end(slot, event);
+}
+
+[[gnu::noinline]] void ShiftOrders::end(Slot slot, Shift::Event event) noexcept {
   if (event == Shift::Event::done) return ends_.end(slot, JobPhase::done, ErrorId::none);
   ends_.end(slot, JobPhase::failed, ErrorId::leading_value_reversed);
 }

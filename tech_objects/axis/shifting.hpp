@@ -27,17 +27,18 @@ class ShiftOrders : private ShiftingParts {
   void cancel_waiting(Job& job) noexcept;
   /// What the coupling depends on in this tick: ratio, leading value, shifts. @param job that couples
   void look_at_coupling(const Job& job) noexcept {
-    if (job.kind == JobKind::MC_GearInVelocity) {
-      const auto& gear = job.as<GearJob>();
-      if (gear.update) synchronous_.change_ratio({gear.numerator, gear.denominator});
-    }
+    if (job.kind == JobKind::MC_GearInVelocity) take_ratio(job);
     synchronous_.look_at_leading();
     if (synchronous_.shifted()) advance();
   }
+  /// The ratio that an MC_GearInVelocity asks for, if it is to be renewed.
+  void take_ratio(const Job& job) noexcept;
+  /// Phase shift and offset of this tick; behind the look at the leading value.
+  void advance() noexcept;
 
  private:
-  void advance() noexcept;
-  void show(Slot slot, const Shift& shift, Shift::Event event) noexcept;
+  void show(Slot slot, Job& job, const Shift& shift, Shift::Event event) noexcept;
+  void end(Slot slot, Shift::Event event) noexcept;
 };
 
 }  // namespace lockstep

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -42,6 +43,27 @@ constexpr std::uint32_t command_bits(JobKind kind) noexcept {
     default:
       return 0;
   }
+}
+
+/// What a job of the axis' own motion shows in both words.
+struct CommandBits {
+  std::uint32_t word = 0;
+  std::uint32_t word2 = 0;
+};
+
+/// By the kind of the job, looked up rather than told apart in every cycle.
+inline constexpr auto kCommandBits = [] {
+  constexpr auto kKinds = static_cast<std::size_t>(JobKind::MC_WriteParameter) + 1;
+  std::array<CommandBits, kKinds> bits{};
+  for (std::size_t i = 0; i < kKinds; ++i) {
+    const auto kind = static_cast<JobKind>(i);
+    bits[i] = {command_bits(kind), when(leaves(kind), Status2Bit::DesynchronizingCommand)};
+  }
+  return bits;
+}();
+
+constexpr const CommandBits& command_bits_of(const Job& job) noexcept {
+  return kCommandBits[static_cast<std::size_t>(job.kind)];
 }
 
 /// Bits that `show_status` shows; others are of the functions that they belong to.
@@ -100,11 +122,13 @@ struct Excess {
   }
 };
 
-/// Whether the acceleration of a setpoint, which is not 0, makes it quicker or slower.
+/// Whether the acceleration of a setpoint, which is finite and not 0, makes it quicker or slower. By their
+/// signs: a product of both may be none.
 inline std::uint32_t pace_bits(const Setpoint& setpoint) noexcept {
-  // By their signs: a product of both may be none.
-  const bool quicker = (setpoint.velocity < 0.0) == (setpoint.acceleration < 0.0);
-  return word_of(quicker || setpoint.velocity == 0.0 ? StatusBit::Accelerating : StatusBit::Decelerating);
+  static_assert(word_of(StatusBit::Decelerating) == word_of(StatusBit::Accelerating) << 1);
+  const bool against = std::signbit(setpoint.velocity) != std::signbit(setpoint.acceleration);
+  const bool slower = against & (std::abs(setpoint.velocity) > 0.0);
+  return word_of(StatusBit::Accelerating) << static_cast<unsigned>(slower);
 }
 
 /// What the shifts show.

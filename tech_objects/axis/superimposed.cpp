@@ -16,8 +16,8 @@ void SuperimposedOrders::begin(Job& job) noexcept {
   if (job.kind != JobKind::MC_MotionInSuperimposed) {
     const Dynamics wanted = dynamics_.effective(job);
     superimposed_.want(wanted);
-    if (const int alarm_number = limits_.zero_limit(wanted); alarm_number != 0) {
-      reactions_.raise(alarm_number);
+    if (const ZeroLimit zero = limits_.zero_limit(wanted); zero.alarm != 0) {
+      reactions_.raise(zero.alarm, zero.detail);
       return job.fail(ErrorId::technology_alarm);
     }
   }
@@ -95,8 +95,8 @@ void SuperimposedOrders::follow_job() noexcept {
 /// Override, limits and the base motion count at once.
 void SuperimposedOrders::follow_share() noexcept {
   const Dynamics wanted = superimposed_.wanted_within(data.DynamicLimits);
-  if (const int alarm_number = limits_.zero_limit(wanted); alarm_number != 0)
-    return reactions_.raise(alarm_number);
+  if (const ZeroLimit zero = limits_.zero_limit(wanted); zero.alarm != 0)
+    return reactions_.raise(zero.alarm, zero.detail);
   if (superimposed_.follow_share(dynamics_.base_motion(), limits_) == PlanResult::ok) return;
   ends_.end(kSuperimposed, JobPhase::failed, ErrorId::unspecified);
   superimposed_.stop(limits_.maximum(), true);

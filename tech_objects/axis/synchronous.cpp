@@ -19,8 +19,8 @@ void FollowingOrders::begin_gear_in(Job& job) noexcept {
   stops_.absorb_superimposed();
   stops_.cut_acceleration();
   const Dynamics dynamics = dynamics_.own(job);
-  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0) {
-    reactions_.raise(alarm_number);
+  if (const ZeroLimit zero = limits_.zero_limit(dynamics); zero.alarm != 0) {
+    reactions_.raise(zero.alarm, zero.detail);
     return job.fail(ErrorId::technology_alarm);
   }
   jobs_.put(kBase, job, JobPhase::active);
@@ -33,9 +33,9 @@ void FollowingOrders::begin_gear_in(Job& job) noexcept {
 void FollowingOrders::begin_waiting(Job& job) noexcept {
   const Dynamics dynamics = dynamics_.effective(job);
   const bool in_time = profile_of(job) == SyncProfileReference::dynamics;
-  const int alarm_number = in_time ? limits_.zero_limit(dynamics) : 0;  // only that is planned with them
-  if (alarm_number != 0) {
-    reactions_.raise(alarm_number);
+  // Only that is planned with them.
+  if (const ZeroLimit zero = limits_.zero_limit(dynamics); in_time && zero.alarm != 0) {
+    reactions_.raise(zero.alarm, zero.detail);
     return job.fail(ErrorId::technology_alarm);
   }
   SynchronousMotion planned = awaited_;
@@ -124,8 +124,8 @@ bool FollowingOrders::meet_cam_end() noexcept {
   setpoint_ = last_setpoint_;
   stops_.cut_acceleration();
   const Dynamics dynamics = dynamics_.own(Job{});
-  if (const int alarm_number = limits_.zero_limit(dynamics); alarm_number != 0)
-    reactions_.raise(alarm_number);
+  if (const ZeroLimit zero = limits_.zero_limit(dynamics); zero.alarm != 0)
+    reactions_.raise(zero.alarm, zero.detail);
   else
     stops_.begin(dynamics, false);
   return true;

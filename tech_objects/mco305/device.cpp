@@ -10,19 +10,18 @@ namespace lockstep::mco305 {
 namespace {
 
 constexpr std::int64_t kMonitoringPeriod = 20;  // [ms] of following error and drive
-
-std::int64_t counts_of(double position) noexcept {
-  return static_cast<std::int64_t>(std::floor(position));
-}
+constexpr double kFullReference = 0x4000;       // of OUTAN
 
 }  // namespace
 
 void Device::configure(const DeviceSettings& settings, double servo_period) {
   settings_ = settings;
   virtual_ = !settings.has_drive;
-  const auto wired = [](const auto* tag) { return tag != nullptr; };
-  any_input_ = std::any_of(settings.inputs.begin(), settings.inputs.end(), wired);
-  any_output_ = std::any_of(settings.outputs.begin(), settings.outputs.end(), wired);
+  for (std::size_t i = 0; i < settings.inputs.size(); ++i)
+    if (settings.inputs[i] != nullptr) wired_inputs_.push_back({i + 1, settings.inputs[i]});
+  for (std::size_t i = 0; i < settings.outputs.size(); ++i)
+    if (settings.outputs[i] != nullptr) wired_outputs_.push_back({i + 1, settings.outputs[i]});
+  if (!parameters_.power_up()) raise(kParametersCorrupted);
   refresh();
   if (settings.has_drive) {
     drive_ = kDriveModels[0].make();
@@ -39,7 +38,7 @@ void Device::configure(const DeviceSettings& settings, double servo_period) {
 void Device::refresh() noexcept {
   const ParameterValues& p = parameters_;
   unit_ = {p[kPosFactZ], p[kPosFactN], p[kPosDirection] >= 3 ? -1 : 1};
-  velocity_maximum_ = p.real(kVelMax) * p.real(kEncoder) * 4.0 / 60'000.0;
+  velocity_maximum_ = std::min(p.real(kVelMax) * p.real(kEncoder) * 4.0 / 60'000.0, kFastest);
   acceleration_maximum_ = velocity_maximum_ / p.real(kRampMin);
   profile_time_ = p[kProfTime];
   sampling_ = p[kTimer];
@@ -49,15 +48,16 @@ void Device::refresh() noexcept {
   control_.proportional = p.real(kKProp);
   control_.derivative = p.real(kKDer);
   control_.integral = p.real(kKInt);
-  control_.integral_limit = p.real(kKILim);
-  control_.bandwidth = p.real(kBandwidth);
+  control_.integral_limit = std::max(p.real(kKILim), 0.0);
+  control_.bandwidth = std::max(p.real(kBandwidth), 0.0);
   control_.velocity_precontrol = p.real(kFFVel);
   control_.acceleration_precontrol = p.real(kFFAcc);
   control_.active_above = p[kRegWMax];
   control_.idle_below = p[kRegWMin];
-  control_.integral_time = p[kKILimTime];
+  control_.integral_time = std::max(p[kKILimTime], -kLargestPosition);
   control_.scale = settings_.controller_scale;
   io_.assign(p);
+  drive_sign_ = p[kPosDirection] % 2 == 0 ? -1.0 : 1.0;
 }
 
 int Device::set_parameter(std::int32_t number, std::int32_t value) noexcept {
@@ -70,6 +70,11 @@ int Device::change_parameter(std::int32_t number, std::int32_t value) noexcept {
   const int error = parameters_.change(number, value);
   if (error == 0 && !is_application_parameter(number)) refresh();
   return error;
+}
+
+void Device::forget_settings() noexcept {
+  parameters_.forget();
+  refresh();
 }
 
 void Device::servo(bool step) noexcept {
@@ -120,8 +125,11 @@ void Device::latch(double from, double to) noexcept {
 }
 
 void Device::sample_inputs() noexcept {
-  for (std::size_t i = 0; any_input_ && i < settings_.inputs.size(); ++i)
-    if (settings_.inputs[i] != nullptr) io_.set_input(i + 1, *settings_.inputs[i]);
+  for (const WiredInput& input : wired_inputs_) io_.set_input(input.number, *input.tag);
+  if (!io_.any_input_function() && marker_type_ < 2) {
+    last_marker_input_ = io_.input(6);
+    return;
+  }
   const auto& cam = settings_.drive.signals.reference_cam;
   const std::size_t home_switch = io_.input_of(InputFunction::kHomeSwitch);
   if (cam && home_switch != 0 && settings_.inputs[home_switch - 1] == nullptr) {
@@ -146,18 +154,19 @@ void Device::generate() noexcept {
     last_velocity_ = 0.0;
     return;
   }
-  if (now_ % profile_time_ == 0) profile_.step(static_cast<double>(profile_time_));
+  if (profile_time_ == 1 || now_ % profile_time_ == 0) profile_.step(static_cast<double>(profile_time_));
 }
 
 void Device::control() noexcept {
   const FourSlopeState& set = profile_.state();
   if (!on_ || virtual_) {
-    reference_ = 0.0;
+    reference_ =
+        virtual_ ? 0.0 : static_cast<double>(open_loop_) / kFullReference * CountController::kFullScale;
     if (!on_) controller_.reset();
     last_velocity_ = set.velocity;
     return;
   }
-  if (now_ % sampling_ != 0) return;
+  if (sampling_ != 1 && now_ % sampling_ != 0) return;
   const auto period = static_cast<double>(sampling_);
   reference_ = controller_.step(control_, static_cast<double>(set_counts()), static_cast<double>(actual_),
                                 set.velocity, (set.velocity - last_velocity_) / period, period);
@@ -193,11 +202,14 @@ void Device::look_at_arrival() noexcept {
 }
 
 void Device::monitor() noexcept {
-  look_at_limits();
+  const bool looks_at_inputs =
+      io_.any_input_function() || at_negative_end_ || at_positive_end_ || break_input_;
+  if (looks_at_inputs || checks_limits_) look_at_limits();
   if (!virtual_ && on_ && now_ % kMonitoringPeriod == 0) {
     look_at_position_error();
     look_at_drive();
   }
+  if (!looks_at_inputs) return;
   const bool user_break = io_.active(InputFunction::kBreak);
   if (user_break && !break_input_) raise(kUserAbort);
   break_input_ = user_break;
@@ -243,13 +255,12 @@ void Device::look_at_drive() noexcept {
 void Device::write_outputs() noexcept {
   io_.show({moving_, pending_.any(), brake_});
   brake_ = false;
-  for (std::size_t i = 0; any_output_ && i < settings_.outputs.size(); ++i)
-    if (settings_.outputs[i] != nullptr) *settings_.outputs[i] = io_.output(i + 1);
+  for (const WiredOutput& output : wired_outputs_) *output.tag = io_.output(output.number);
 }
 
 void Device::write_drive() noexcept {
-  const double sign = parameters_[kPosDirection] % 2 == 0 ? -1.0 : 1.0;
-  drive_->write(sign * reference_ / CountController::kFullScale * velocity_maximum_ * kMillisecondsPerSecond);
+  drive_->write(drive_sign_ * reference_ / CountController::kFullScale * velocity_maximum_ *
+                kMillisecondsPerSecond);
 }
 
 void Device::raise(int error) noexcept {
@@ -266,6 +277,7 @@ int Device::take_error() noexcept {
 
 void Device::react(int error) noexcept {
   pending_.add(error);
+  if (open_loop_ != 0) motor_off();
   if (!on_) return;
   std::int32_t reaction = parameters_[kErrCond];
   if (error == kHardwareLimit && parameters_[kEndSwMod] == 1 && reaction < 2) reaction = 2;
@@ -294,10 +306,12 @@ void Device::clear_all_errors() noexcept {
 }
 
 void Device::escape() noexcept {
+  if (homing()) give_up_home();
+  if (open_loop_ != 0) motor_off();
   stop(acceleration_maximum_, MotionMode::kStop);
   const std::int32_t condition = parameters_[kEscCond];
-  if (condition == 1 || condition == 2)
-    for (std::int32_t output = 1; output <= 8; ++output) io_.switch_output(output, condition == 2);
+  if (condition == 1 || condition == 2) io_.switch_all(condition == 2);
+  brake_ = true;
 }
 
 }  // namespace lockstep::mco305

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "tech_objects/drive/count_controller.hpp"
 #include "tech_objects/drive/drive.hpp"
@@ -47,6 +48,8 @@ class Device {
   int change_parameter(std::int32_t number, std::int32_t value) noexcept;
   /// GET, with the read-outs. @return whether there is such a parameter
   bool get_parameter(std::int32_t number, std::int32_t& value) const noexcept;
+  /// The end of a program: what it has set and not saved is as it was before.
+  void forget_settings() noexcept;
 
   // ---- Motion
 
@@ -60,7 +63,8 @@ class Device {
   void motor_on() noexcept;
   void motor_off() noexcept;
   void motor_stop() noexcept;
-  int go_on() noexcept;  ///< CONTINUE
+  void set_reference(std::int32_t reference) noexcept;  ///< OUTAN [1/0x4000 of full scale], after MOTOR OFF
+  int go_on() noexcept;                                 ///< CONTINUE
   /// Whether the axis rests where it was told to: the end of POSA, POSR, MOTOR STOP, WAITAX.
   bool arrived() const noexcept { return arrived_; }
 
@@ -90,9 +94,15 @@ class Device {
   std::int32_t status() const noexcept;                                          ///< STAT
   /// SYSVAR. @return whether it is one of those that are there
   bool system_variable(std::int32_t index, std::int32_t& value) const noexcept;
+  std::int32_t set_counts_shown() const noexcept { return shown_position(set_counts() - origin_); }
+  std::int32_t actual_counts_shown() const noexcept { return shown_position(actual_ - origin_); }
+  std::int32_t reference() const noexcept;  ///< of the position controller, ±1,048,575
+  SlopePhase phase() const noexcept { return profile_.phase(); }
   double set_position() const noexcept { return profile_.state().position; }      ///< [qc] on the counter
   double set_velocity_now() const noexcept { return profile_.state().velocity; }  ///< [qc/ms]
   bool controlled() const noexcept { return on_; }
+  /// Whether OUTAN turns the drive.
+  bool open_loop() const noexcept { return open_loop_ != 0; }
   bool moving() const noexcept { return moving_; }
   MotionMode mode() const noexcept { return mode_; }
   /// [qc] True place of the machine, on its own scale.
@@ -110,7 +120,7 @@ class Device {
   void clear_error() noexcept;
   void clear_all_errors() noexcept;
   const PendingErrors& pending() const noexcept { return pending_; }
-  /// The end of a program by the user: ESCCOND.
+  /// The end of a program by the user, with [Esc]: ESCCOND.
   void escape() noexcept;
   /// The device raises an error.
   void raise(int error) noexcept;
@@ -165,6 +175,7 @@ class Device {
   std::int64_t set_counts() const noexcept;
   std::int32_t shown_units(std::int64_t counter) const noexcept;
   std::int32_t flags() const noexcept;
+  std::int64_t moved_in_window() const noexcept;
 
   // What every step needs stands first.
   bool on_ = false, moving_ = false, arrived_ = true, was_reset_ = false, virtual_ = true;
@@ -180,7 +191,9 @@ class Device {
   std::int64_t profile_time_ = 1, sampling_ = 1;  // PROFTIME, TIMER [ms]
   std::int64_t position_error_ = 20'000;          // POSERR [qc]
   bool checks_limits_ = false;
+  double drive_sign_ = 1.0;  // of the reference: POSDRCT
   bool brake_ = false, brake_after_stop_ = false;
+  std::int32_t open_loop_ = 0;  // OUTAN
   FourSlopeProfile profile_;
   CountController controller_;
   CountControllerSettings control_;
@@ -188,8 +201,17 @@ class Device {
   PendingErrors pending_;
 
   DeviceSettings settings_;
-  bool any_input_ = false, any_output_ = false;  // is wired
-  std::int32_t marker_type_ = 0;                 // SYNCMTYPS
+  struct WiredInput {
+    std::size_t number = 0;  // from 1
+    const bool* tag = nullptr;
+  };
+  struct WiredOutput {
+    std::size_t number = 0;
+    bool* tag = nullptr;
+  };
+  std::vector<WiredInput> wired_inputs_;
+  std::vector<WiredOutput> wired_outputs_;
+  std::int32_t marker_type_ = 0;  // SYNCMTYPS
   std::unique_ptr<Drive> drive_;
   DriveActual drive_actual_{};
   DoubleDouble last_drive_position_{};

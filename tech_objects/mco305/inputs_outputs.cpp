@@ -31,6 +31,11 @@ bool InputsOutputs::switch_output(std::int32_t number, bool on) noexcept {
   return true;
 }
 
+void InputsOutputs::switch_all(bool on) noexcept {
+  for (const std::int32_t output : {1, 2, 3, 4, 5, 6, 7, 8, 21, 22, 27, 29, 30, 31, 32})
+    switch_output(output, on);
+}
+
 std::int32_t InputsOutputs::output_byte() const noexcept {
   std::int32_t byte = 0;
   for (std::size_t bit = 0; bit < kFunctionOutputs; ++bit)
@@ -41,9 +46,11 @@ std::int32_t InputsOutputs::output_byte() const noexcept {
 void InputsOutputs::assign(const ParameterValues& parameters) noexcept {
   input_of_.fill(0);
   closed_.fill(false);
+  any_input_function_ = false;
   for (std::size_t input = kFunctionInputs; input >= 1; --input) {
     const std::int32_t function = parameters[function_parameter(input)];
     if (function < 1 || function > 15) continue;
+    any_input_function_ = true;
     const auto open = static_cast<std::size_t>(function - (function % 2 == 0 ? 1 : 0));
     input_of_[open] = static_cast<std::uint8_t>(input);
     closed_[open] = function % 2 == 0;

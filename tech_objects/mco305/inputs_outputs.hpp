@@ -37,6 +37,8 @@ class InputsOutputs {
   void set_input(std::size_t number, bool level) noexcept {
     if (number >= 1 && number <= kInputs) inputs_[number - 1] = level;
   }
+  const std::array<bool, kInputs>& inputs() const noexcept { return inputs_; }
+  const std::array<bool, kOutputs>& outputs() const noexcept { return outputs_; }
   /// False for a number that is not there.
   bool input(std::int32_t number) const noexcept {
     return number >= 1 && number <= static_cast<std::int32_t>(kInputs) &&
@@ -49,10 +51,14 @@ class InputsOutputs {
   }
   /// OUT. False if there is no such output.
   bool switch_output(std::int32_t number, bool on) noexcept;
+  /// Those of the option and of the drive.
+  void switch_all(bool on) noexcept;
   std::int32_t output_byte() const noexcept;
 
   /// Looks which input and output is for what; when parameters have changed.
   void assign(const ParameterValues& parameters) noexcept;
+  /// Whether any input has a function.
+  bool any_input_function() const noexcept { return any_input_function_; }
   /// The input that has a function, the lowest if there are several; 0: none.
   std::size_t input_of(InputFunction function) const noexcept {
     return input_of_[static_cast<std::size_t>(function)];
@@ -71,6 +77,7 @@ class InputsOutputs {
   std::array<std::uint8_t, 16> input_of_{};
   std::array<bool, 16> closed_{};
   std::array<std::uint8_t, kFunctionOutputs> functions_{};
+  bool any_input_function_ = false;
   bool any_function_ = false;                           // of an output
   std::array<std::uint8_t, kFunctionOutputs> shown_{};  // 0: nothing yet; 1: off; 2: on
 };

@@ -11,12 +11,13 @@ FourSlopeState Device::state() const noexcept {
 }
 
 std::int64_t Device::set_counts() const noexcept {
-  return static_cast<std::int64_t>(std::floor(profile_.state().position + 0.5));
+  return counts_of(profile_.state().position + 0.5);
 }
 
 // [qc/ms]
 double Device::relative_velocity(std::int32_t velocity) const noexcept {
-  return static_cast<double>(velocity) / parameters_.real(kVelRes) * velocity_maximum_;
+  const double wanted = static_cast<double>(velocity) / parameters_.real(kVelRes) * velocity_maximum_;
+  return std::clamp(wanted, -kFastest, kFastest);
 }
 
 FourSlopeLimits Device::limits() const noexcept {
@@ -83,7 +84,7 @@ void Device::move_with(double velocity) noexcept {
 int Device::position_to(std::int32_t units, bool relative) noexcept {
   int error = 0;
   if (!may_move(error)) return error;
-  const std::int64_t target = unit_.counts(units) + (relative ? actual_ : zero());
+  const std::int64_t target = within_reach(within_reach(unit_.counts(units)) + (relative ? actual_ : zero()));
   if (!within_limits(target, error)) return error;
   if (!on_) return kErrorNotReset;
   mode_ = MotionMode::kPosition;
@@ -137,6 +138,7 @@ void Device::motor_stop() noexcept {
 void Device::motor_on() noexcept {
   if (on_) return;
   on_ = true;
+  open_loop_ = 0;
   was_reset_ = true;
   mode_ = MotionMode::kHold;
   arrived_ = true;
@@ -153,11 +155,20 @@ void Device::motor_off() noexcept {
   if (mode_ == MotionMode::kPosition || mode_ == MotionMode::kSpeed) interrupted_ = mode_;
   if (homing()) give_up_home();
   on_ = false;
+  open_loop_ = 0;
   mode_ = MotionMode::kHold;
   arrived_ = true;
   reference_ = 0.0;
   profile_.stand(virtual_ ? profile_.state().position : static_cast<double>(actual_));
   if (drive_ != nullptr) drive_->enable(false);
+}
+
+/// While the axis is controlled the controller says what the drive does.
+void Device::set_reference(std::int32_t reference) noexcept {
+  if (on_) return;
+  constexpr std::int32_t kFull = 0x4000;
+  open_loop_ = std::clamp(reference, -kFull, kFull);
+  if (drive_ != nullptr) drive_->enable(open_loop_ != 0);
 }
 
 int Device::go_on() noexcept {
@@ -181,7 +192,7 @@ void Device::define_origin() noexcept {
 }
 
 void Device::set_origin(std::int32_t units) noexcept {
-  temporary_ = unit_.counts(units);
+  temporary_ = within_reach(unit_.counts(units));
 }
 
 }  // namespace lockstep::mco305

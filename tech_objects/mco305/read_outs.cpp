@@ -14,6 +14,10 @@ std::int32_t integer(double value) noexcept {
 
 }  // namespace
 
+std::int32_t Device::reference() const noexcept {
+  return integer(reference_);
+}
+
 // A position shown is 31 bits wide, and so is what the conversion gets.
 std::int32_t Device::shown_units(std::int64_t counter) const noexcept {
   return shown_position(unit_.units(shown_position(counter - zero())));
@@ -27,12 +31,21 @@ void Device::set_velocity_window(std::int32_t milliseconds) noexcept {
   velocity_window_ = std::clamp<std::int64_t>(milliseconds, 1, kVelocityRing - 1);
 }
 
+// [qc]
+std::int64_t Device::moved_in_window() const noexcept {
+  const std::int64_t window = std::min(velocity_window_, now_);
+  return window <= 0 ? 0 : actual_ - positions_[static_cast<std::size_t>(now_ - window) % kVelocityRing];
+}
+
 // [UU/s]
 std::int32_t Device::velocity_units() const noexcept {
   const std::int64_t window = std::min(velocity_window_, now_);
-  if (window <= 0) return 0;
-  const std::int64_t moved = actual_ - positions_[static_cast<std::size_t>(now_ - window) % kVelocityRing];
-  return static_cast<std::int32_t>(unit_.units(moved * 1000 / window));
+  const std::int64_t moved = moved_in_window();
+  if (moved == 0) return 0;
+  // Within what the conversion takes; nothing real is faster.
+  constexpr std::int64_t kFar = std::int64_t{1} << 50, kFast = std::int64_t{1} << 32;
+  const std::int64_t counts = std::clamp(moved, -kFar, kFar) * 1000 / window;
+  return static_cast<std::int32_t>(unit_.units(std::clamp(counts, -kFast, kFast)));
 }
 
 std::int32_t Device::axis_end() const noexcept {
@@ -87,14 +100,18 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
     case 4098:
       value = shown_position(latched_ - origin_);
       return true;
+    case 4099:
+      value = static_cast<std::int32_t>(moved_in_window());
+      return true;
     case 4101:
       value = shown_position(set_counts() - actual_);
       return true;
     case 4107:
-      value = integer(set.velocity);
+      value = static_cast<std::int32_t>(
+          now_ < 1 ? 0 : actual_ - positions_[static_cast<std::size_t>(now_ - 1) % kVelocityRing]);
       return true;
     case 4111:
-      value = integer(reference_);
+      value = reference();
       return true;
     case 4113:
       value = parameters_[kTimer];
@@ -102,11 +119,26 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
     case 4114:
       value = parameters_[kProfTime];
       return true;
+    case 4122:
+      value = open_loop_;
+      return true;
     case 4123:
       value = parameters_[kEncoderType];
       return true;
+    case 4120:
+      value = shown_position(std::int64_t{4} * parameters_[kEncoder]);
+      return true;
+    case 4121:
+      value = parameters_[kMarkerTypeMaster];
+      return true;
     case 4124:
+      value = parameters_[kMasterEncoderType];
+      return true;
+    case 4125:
       value = parameters_[kEncoder];
+      return true;
+    case 4126:
+      value = parameters_[kMasterEncoder];
       return true;
     case 4218:
       value = flags();

@@ -2,11 +2,25 @@
 /// @source MCO 305 Design Guide, user units
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 namespace lockstep::mco305 {
 
 inline constexpr double kMillisecondsPerSecond = 1000.0;
+
+/// Bounds of what is computed, far beyond any machine: with parameters of any value nothing overflows.
+inline constexpr double kFastest = 1'073'741'824.0;               ///< [qc/ms]
+inline constexpr std::int64_t kFarthest = std::int64_t{1} << 60;  ///< [qc]
+
+constexpr std::int64_t within_reach(std::int64_t counts) noexcept {
+  return counts > kFarthest ? kFarthest : counts < -kFarthest ? -kFarthest : counts;
+}
+/// The count at or below a position.
+inline std::int64_t counts_of(double position) noexcept {
+  constexpr auto kFar = static_cast<double>(kFarthest);
+  return static_cast<std::int64_t>(std::floor(position > kFar ? kFar : position < -kFar ? -kFar : position));
+}
 
 /// 1 user unit = numerator / denominator counts (qc); both > 0.
 struct UserUnit {
@@ -16,10 +30,12 @@ struct UserUnit {
 
   /// Cut towards 0. Exact for 32 bits on all sides.
   constexpr std::int64_t counts(std::int64_t units) const noexcept {
+    if (denominator == 1) return sign * units * numerator;
     return sign * (units * numerator / denominator);
   }
   /// Rounded, half away from 0. @param counts within ±2^32
   constexpr std::int64_t units(std::int64_t counts) const noexcept {
+    if (numerator == 1 && denominator == 1) return sign * counts;  // what costs no division
     const std::int64_t scaled = sign * counts * denominator;
     const std::int64_t half = numerator / 2;
     return scaled < 0 ? -((-scaled + half) / numerator) : (scaled + half) / numerator;

@@ -15,6 +15,7 @@ struct Error {
   std::string_view text;
   int word;  ///< 1: 34-70, 2: 34-71; 0: it has no bit
   int bit;
+  std::string_view never = "";  ///< why it is not raised here; empty: it is
 };
 
 std::span<const Error> errors() noexcept;
@@ -31,11 +32,14 @@ enum ErrorNumber : int {
   kSoftwareLimit = 111,
   kUnknownParameter = 112,
   kDriveNotReady = 113,
+  kSavingFailed = 115,
+  kParametersCorrupted = 116,
   kUserAbort = 119,
   kHardwareLimit = 125,
   kLinkFailed = 155,
   kArrayBound = 171,
   kWaitIndexTimeout = 179,
+  kCurveArrayWrong = 191,
   kEncoderError = 192,
   kFurtherOut = 198,
 };
@@ -49,6 +53,10 @@ class PendingErrors {
   void clear() noexcept { count_ = 0; }
   bool any() const noexcept { return count_ != 0; }
   bool has(int number) const noexcept;
+  /// Whether a program may be started although they have not been cleared: there are none but 108, 111, 125.
+  bool tolerated() const noexcept;
+  /// Whether there is no other one.
+  bool only(int number) const noexcept;
   int first() const noexcept { return count_ == 0 ? 0 : numbers_[0]; }
   /// 34-70, 34-71; bit 31 of the first says that the second has bits.
   std::int32_t alarm_word(int word) const noexcept;

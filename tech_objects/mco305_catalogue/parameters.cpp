@@ -9,9 +9,16 @@ constexpr std::int32_t kDivisors[] = {kEncoder,  kPosFactN, kPosFactZ, kTimer,
 
 }  // namespace
 
+ParameterSet set_of(std::int32_t number) noexcept {
+  if (is_application_parameter(number)) return ParameterSet::kApplication;
+  if (is_read_out(number)) return ParameterSet::kNone;
+  const bool global = (number >= 3350 && number < 3360) || (number >= 3380 && number < 3390);
+  return global ? ParameterSet::kGlobal : ParameterSet::kAxis;
+}
+
 ParameterValues::ParameterValues() noexcept {
   const auto all = parameters();
-  for (std::size_t i = 0; i < all.size(); ++i) values_[i] = all[i].start;
+  for (std::size_t i = 0; i < all.size(); ++i) values_[i] = stored_[i] = all[i].start;
 }
 
 int ParameterValues::set(std::int32_t number, std::int32_t value) noexcept {
@@ -28,8 +35,43 @@ int ParameterValues::set(std::int32_t number, std::int32_t value) noexcept {
 
 int ParameterValues::change(std::int32_t number, std::int32_t value) noexcept {
   const int error = set(number, value);
-  if (error == 0) ++changes_[parameter_index(number)];
-  return error;
+  if (error != 0) return error;
+  const std::size_t index = parameter_index(number);
+  ++changes_[index];
+  if (index < kNumberedParameters) {
+    stored_[index] = values_[index];
+    *saved(set_of(number)) = true;
+  }
+  return 0;
+}
+
+bool ParameterValues::power_up() noexcept {
+  bool sound = true;
+  const auto all = parameters();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ParameterSet of = set_of(all[i].number);
+    if (of != ParameterSet::kNone && *saved(of)) sound = set(all[i].number, stored_[i]) == 0 && sound;
+    stored_[i] = values_[i];
+  }
+  return sound;
+}
+
+void ParameterValues::save(ParameterSet of) noexcept {
+  const auto all = parameters();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (set_of(all[i].number) == of) stored_[i] = values_[i];
+  *saved(of) = true;
+}
+
+void ParameterValues::forget() noexcept {
+  for (std::size_t i = 0; i < stored_.size(); ++i) values_[i] = stored_[i];
+  ++version_;
+}
+
+std::int32_t* ParameterValues::kept(std::int32_t number) noexcept {
+  const std::size_t index = parameter_index(number);
+  if (index == kNoParameter) return nullptr;
+  return index < kNumberedParameters ? &stored_[index] : &values_[index];
 }
 
 std::uint32_t ParameterValues::changes(std::int32_t number) const noexcept {

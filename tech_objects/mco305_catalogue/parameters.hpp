@@ -60,6 +60,8 @@ enum ParameterNumber : std::int32_t {
   kPosDirection = 3210,
   kPosFactN = 3211,
   kPosFactZ = 3212,
+  kMasterEncoderType = 3230,
+  kMasterEncoder = 3231,
   kKProp = 3260,
   kKDer = 3261,
   kKInt = 3262,
@@ -87,6 +89,7 @@ enum ParameterNumber : std::int32_t {
   kHomeRamp = 3302,
   kHomeVel = 3303,
   kHomeType = 3304,
+  kMarkerTypeMaster = 3319,
   kMarkerTypeSlave = 3320,
   kEndSwMod = 3340,
   kNegLimit = 3341,
@@ -105,7 +108,16 @@ enum ParameterNumber : std::int32_t {
   kEscCond = 3384,
 };
 
-/// The values of one device.
+/// What SAVE keeps together.
+enum class ParameterSet : std::uint8_t {
+  kAxis,         ///< AXPARS: 32-xx and 33-xx, but for the next
+  kGlobal,       ///< GLBPARS: 33-5x, 33-8x
+  kApplication,  ///< USRPARS: 1900 to 1999
+  kNone          ///< read-outs
+};
+ParameterSet set_of(std::int32_t number) noexcept;
+
+/// The values of one device: those that count, and those that its EEPROM holds.
 class ParameterValues {
  public:
   ParameterValues() noexcept;
@@ -115,10 +127,24 @@ class ParameterValues {
   /// From a program: no range is looked at, but a value with which nothing can be computed is refused.
   /// @return 0, or 112 for a number that is not there or such a value
   int set(std::int32_t number, std::int32_t value) noexcept;
-  /// As from a panel: ON PARAM sees it. @return as `set`
+  /// As from a panel: ON PARAM sees it, and it is kept. @return as `set`
   int change(std::int32_t number, std::int32_t value) noexcept;
   /// All of them, in the order of `parameter_index`.
   const std::array<std::int32_t, kParameterCount>& all() const noexcept { return values_; }
+
+  /// Once, when the project has been read and what is kept has been given back: a set that has been saved
+  /// counts, of the others what the project says is kept from now on.
+  /// @return false if there was a value with which nothing can be computed; the project's stays
+  bool power_up() noexcept;
+  /// The values of a set are kept: SAVE.
+  void save(ParameterSet set) noexcept;
+  /// The end of a program: what it has set and not saved is as it was before.
+  void forget() noexcept;
+  /// What stands in the EEPROM, for who writes it down; of application parameters those that count.
+  std::int32_t* kept(std::int32_t number) noexcept;
+  /// Whether a set has been saved. Not of kNone.
+  bool* saved(ParameterSet set) noexcept { return &saved_[static_cast<std::size_t>(set)]; }
+
   /// Counts every change.
   std::uint32_t version() const noexcept { return version_; }
   /// How often it has been changed from outside.
@@ -128,6 +154,8 @@ class ParameterValues {
   std::array<std::int32_t, kParameterCount> values_{};
   std::array<std::uint16_t, kParameterCount> changes_{};
   std::uint32_t version_ = 0;
+  std::array<std::int32_t, kNumberedParameters> stored_{};
+  std::array<bool, 3> saved_{};
 };
 
 }  // namespace lockstep::mco305

@@ -14,10 +14,6 @@ constexpr std::int64_t kRebaseTicks = 4096;
 /// By what distances are apart by rounding, relative to them.
 constexpr double kSameDirection = 1e-12;
 
-/// A tick that misses the end of a profile by rounding is at it: what is left there is no motion, but would
-/// show as one.
-constexpr double kSameTime = 1.0 + 16.0 * std::numeric_limits<double>::epsilon();
-
 /// Stands in for a velocity limit of zero (an override of 0 %), since the planner wants a positive one [u/s].
 constexpr double kNoVelocity = 1e-12;
 
@@ -140,7 +136,8 @@ PlanResult SingleAxisMotion::replan(const Setpoint& from, const Dynamics& dynami
   return PlanResult::ok;
 }
 
-void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
+/// Where it stands, in the first tick of a phase, and behind the end.
+void SingleAxisMotion::advance_otherwise(Setpoint& setpoint) noexcept {
   if (stands()) {
     setpoint.velocity = 0.0;
     setpoint.acceleration = 0.0;
@@ -149,15 +146,12 @@ void SingleAxisMotion::advance(Setpoint& setpoint) noexcept {
   const double t = static_cast<double>(++ticks_) * period_;
   const bool over = !walk_.within(t * kSameTime) && t * kSameTime >= profile_.duration();
   const MotionState state = over ? profile_.at(std::max(t, profile_.duration())) : walk_.at(profile_, t);
-  setpoint.velocity = state.velocity;
-  setpoint.acceleration = state.acceleration;
+  if (!over) return go_on(state, setpoint);
   const bool passes = aim_ == Aim::position && target_velocity_ != 0.0;
-  if (over && exact_target_ && !passes) {
-    setpoint.position = target_;
-  } else {
-    setpoint.position = origin_.after(state.position, modulo_);
-  }
-  if (!over) return;
+  if (exact_target_ && !passes)
+    setpoint = {target_, state.velocity, state.acceleration};
+  else
+    go_on(state, setpoint);
   finished_ =
       aim_ != Aim::position || exact_target_;  // braked short of its target, a positioning goes on later
   if (aim_ == Aim::velocity && target_velocity_ != 0.0 && ticks_ >= kRebaseTicks) {

@@ -1,6 +1,8 @@
 /// Motion of one axis along a profile: positioning, endless motion and stopping, retargeted on the fly.
 #pragma once
 
+#include <limits>
+
 #include "tech_objects/arithmetic/setpoint.hpp"
 #include "tech_objects/profile/walk.hpp"
 
@@ -35,7 +37,12 @@ class SingleAxisMotion {
   PlanResult replan(const Setpoint& from, const Dynamics& dynamics) noexcept;
 
   /// The setpoint one interpolator cycle later.
-  void advance(Setpoint& setpoint) noexcept;
+  void advance(Setpoint& setpoint) noexcept {
+    const double t = static_cast<double>(ticks_ + 1) * period_;
+    if (stands() || !walk_.before_end(t * kSameTime)) return advance_otherwise(setpoint);
+    ++ticks_;
+    go_on(walk_.here(t), setpoint);
+  }
 
   /// Shifts the whole motion, for homing [u].
   void shift(double distance) noexcept;
@@ -59,7 +66,18 @@ class SingleAxisMotion {
   double fastest(const Setpoint& now, int direction) const noexcept;
 
  private:
+  /// A tick that misses the end of a profile by rounding is at it: what is left there is no motion, but would
+  /// show as one.
+  static constexpr double kSameTime = 1.0 + 16.0 * std::numeric_limits<double>::epsilon();
+
   void begin(const Setpoint& from, Aim aim, const Dynamics& dynamics) noexcept;
+  void advance_otherwise(Setpoint& setpoint) noexcept;
+  /// To a state of the profile.
+  void go_on(const MotionState& state, Setpoint& setpoint) noexcept {
+    setpoint.velocity = state.velocity;
+    setpoint.acceleration = state.acceleration;
+    setpoint.position = origin_.after(state.position, modulo_);
+  }
 
   // What every cycle touches comes first.
   Modulo modulo_;

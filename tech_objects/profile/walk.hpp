@@ -22,8 +22,12 @@ class ProfileWalk {
     return profile.at(t);
   }
 
+  /// At a time `within` the phase at hand [s].
+  MotionState here(double t) const noexcept { return phase_.at(t); }
   /// Whether the phase at hand, and so the profile, is not over yet.
-  bool within(double t) const noexcept { return t > 0.0 && t < end_; }
+  bool within(double t) const noexcept { return t > 0.0 && before_end(t); }
+  /// The same of a time that is > 0.
+  bool before_end(double t) const noexcept { return t < end_; }
 
  private:
   void enter_phase(const Profile& profile, double t) noexcept {

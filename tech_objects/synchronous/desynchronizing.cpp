@@ -63,7 +63,7 @@ bool Desynchronizing::meets(const Chain& chain, const LeavingRequest& request, c
       (request.direction == SyncDirection::kNegative && heading > 0))
     return false;
   chain.leading.look_at_last();
-  const LeadingStep leading_step = chain.leading.step();
+  const LeadingStep& leading_step = chain.leading.step();
   const bool over_distance = request.over_distance;
   const double distance = request.distance;
   const double led = leading_step.distance();

@@ -41,7 +41,7 @@ class GearFunction {
   double acceleration(double leading_acceleration) const noexcept { return geared(leading_acceleration); }
 
   /// numerator / denominator, within 2^-103 of it.
-  DoubleDouble ratio() const noexcept { return ratio_; }
+  const DoubleDouble& ratio() const noexcept { return ratio_; }
   const Modulo& following() const noexcept { return following_; }
   const Modulo& leading() const noexcept { return leading_; }
 

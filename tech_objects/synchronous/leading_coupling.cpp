@@ -16,8 +16,8 @@ void add(Setpoint& leading, const AdditiveLeadingValue& additive, const Modulo& 
 
 /// leading value → + additive → effective leading value
 void LeadingCoupling::add_additive() noexcept {
-  add(now_, additive_->now, modulo_);
-  add(last_, additive_->last, modulo_);
+  add(step_.now, additive_->now, step_.modulo);
+  add(step_.last, additive_->last, step_.modulo);
 }
 
 /// Without position control the leading setpoint is zero, and afterwards it comes back from there to whom it
@@ -30,29 +30,29 @@ std::int64_t LeadingCoupling::look_at_led() noexcept {
   }
   const UncontrolledLead& lead = source_->uncontrolled_lead();
   const bool controlled = source_->position_controlled();
-  now_ = source_->led_setpoint();
-  last_ = source_->last_led_setpoint();
+  step_.now = source_->led_setpoint();
+  step_.last = source_->last_led_setpoint();
   if (velocity_only_) {
-    if (!controlled) now_.position = last_.position = lead.zero;
+    if (!controlled) step_.now.position = step_.last.position = lead.zero;
     return 0;
   }
   if (controlled && !sees_return()) return 0;
   const std::int64_t turned = uncontrolled_seen_ == lead.times ? lead.zero.turns - zero_turns_ : 0;
   uncontrolled_seen_ = lead.times;
   zero_turns_ = lead.zero.turns;
-  now_ = controlled ? lead.now : Setpoint{lead.zero, 0.0, 0.0};
-  last_ = controlled ? lead.last : now_;
+  step_.now = controlled ? lead.now : Setpoint{lead.zero, 0.0, 0.0};
+  step_.last = controlled ? lead.last : step_.now;
   return turned;
 }
 
 /// Positions are called as they were when the coupling began.
 void LeadingCoupling::look_by_old_names() noexcept {
-  now_ = source_->leading_state(coupling_);
-  last_ = source_->last_leading_state(coupling_);
+  step_.now = source_->leading_state(coupling_);
+  step_.last = source_->last_leading_state(coupling_);
   const DoubleDouble by = names_ - source_->renamed();
   if (by.hi == 0.0 && by.lo == 0.0) return;
-  now_.position = advanced(now_.position, by, modulo_);
-  last_.position = advanced(last_.position, by, modulo_);
+  step_.now.position = advanced(step_.now.position, by, step_.modulo);
+  step_.last.position = advanced(step_.last.position, by, step_.modulo);
 }
 
 bool LeadingCoupling::sees_return() const noexcept {

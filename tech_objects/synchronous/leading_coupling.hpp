@@ -32,7 +32,7 @@ class LeadingCoupling {
     coupling_ = coupling;
     velocity_only_ = velocity_only;
     uncontrolled_seen_ = 0;
-    modulo_ = source.modulo();
+    step_.modulo = source.modulo();
     names_ = source.renamed();
   }
   void end() noexcept { source_ = nullptr; }
@@ -42,8 +42,8 @@ class LeadingCoupling {
   /// @param last_counts as in `look`  @return false: `look` has to
   bool look_at_plain(bool last_counts) noexcept {
     if (!source_->leads_as_it_is(coupling_) || additive_->in_use) return false;
-    now_ = source_->leading_state(coupling_);
-    if (last_counts) last_ = source_->last_leading_state(coupling_);
+    step_.now = source_->leading_state(coupling_);
+    if (last_counts) step_.last = source_->last_leading_state(coupling_);
     return true;
   }
   /// Takes up the leading value of this tick.
@@ -54,9 +54,9 @@ class LeadingCoupling {
     if (!source_->leads_as_it_is(coupling_)) {
       turned = look_at_led();
     } else {
-      now_ = source_->leading_state(coupling_);
+      step_.now = source_->leading_state(coupling_);
       if (!last_counts && !additive_->in_use) return 0;
-      last_ = source_->last_leading_state(coupling_);
+      step_.last = source_->last_leading_state(coupling_);
     }
     if (additive_->in_use) add_additive();
     return turned;
@@ -64,15 +64,15 @@ class LeadingCoupling {
   /// The value of the tick before, where `look` has left it out.
   void look_at_last() noexcept {
     if (!additive_->in_use && source_->leads_as_it_is(coupling_))
-      last_ = source_->last_leading_state(coupling_);
+      step_.last = source_->last_leading_state(coupling_);
   }
   /// As if the value had been the same in the tick before.
-  void forget_last() noexcept { last_ = now_; }
+  void forget_last() noexcept { step_.last = step_.now; }
 
-  const Setpoint& now() const noexcept { return now_; }    ///< effective leading value
-  const Setpoint& last() const noexcept { return last_; }  ///< … one tick ago
-  const Modulo& modulo() const noexcept { return modulo_; }
-  LeadingStep step() const noexcept { return {last_, now_, modulo_}; }
+  const Setpoint& now() const noexcept { return step_.now; }    ///< effective leading value
+  const Setpoint& last() const noexcept { return step_.last; }  ///< … one tick ago
+  const Modulo& modulo() const noexcept { return step_.modulo; }
+  const LeadingStep& step() const noexcept { return step_; }
   bool velocity_only() const noexcept { return velocity_only_; }
   bool of_same_source(const LeadingCoupling& other) const noexcept { return source_ == other.source_; }
 
@@ -101,9 +101,7 @@ class LeadingCoupling {
   bool velocity_only_ = false;
   std::uint32_t uncontrolled_seen_ =
       0;  // which time without position control, seen by this coupling; 0: none
-  Setpoint now_;
-  Setpoint last_;
-  Modulo modulo_;
+  LeadingStep step_;
   std::int64_t zero_turns_ = 0;  // turn of its zero then
   DoubleDouble names_;           // by what the source had been renamed when the coupling began [u]
 };

@@ -115,31 +115,22 @@ bool Shift::may_start(const LeadingStep& step) noexcept {
   return to_start_ >= 0.0 && to_start_ <= std::abs(distance);
 }
 
-/// From the shift of the last tick, with its velocity and acceleration, to the target.
-void Shift::start_over_distance(const LeadingStep& step) noexcept {
+/// From the shift of the last tick, with its velocity and acceleration, to the target; once the leading value
+/// moves. @return whether it does
+[[gnu::noinline]] bool Shift::start_over_distance(const LeadingStep& step) noexcept {
+  const double distance = step.distance();
+  if (!(distance != 0.0)) return false;
+  heading_ = std::copysign(1.0, distance);
   remainder_.set(remainder_at_start(step), to_start_ + request_.distance);
   covered_ = 0.0;
   planned_ = true;
+  return true;
 }
 
-Shift::Event Shift::follow_leading(const LeadingStep& step) noexcept {
-  const double distance = step.distance();
-  if (heading_ == 0.0) {
-    if (!(distance != 0.0)) return Event::none;
-    heading_ = std::copysign(1.0, distance);
-  }
-  if (!planned_) start_over_distance(step);
-  if (heading_ * distance < 0.0) {
-    halt();
-    return Event::reversed;
-  }
-  covered_ += heading_ * distance;
-  if (remainder_.complete(covered_)) return arrive();
-  const SyncOffset left = remainder_.value(covered_);
-  value_ = request_.target + left.position;
-  velocity_ = left.velocity(heading_ * step.now.velocity);
-  acceleration_ = left.acceleration(heading_ * step.now.velocity, heading_ * step.now.acceleration);
-  return Event::none;
+/// The leading value has turned back.
+[[gnu::noinline]] Shift::Event Shift::reverse() noexcept {
+  halt();
+  return Event::reversed;
 }
 
 Shift::Event Shift::follow_time() noexcept {
@@ -156,7 +147,7 @@ bool Shift::follow_profile() noexcept {
   return t < profile_.duration();
 }
 
-Shift::Event Shift::arrive() noexcept {
+[[gnu::noinline]] Shift::Event Shift::arrive() noexcept {
   halt();
   value_ = request_.target;
   return Event::done;

@@ -10,12 +10,11 @@
 
 namespace lockstep {
 
-/// The distance of the effective leading value from one tick to the next, seen where it is kept: copying it
-/// while it is being made would cost more than looking.
+/// The effective leading value of this tick and one tick ago, on the ring of the leading axis.
 struct LeadingStep {
-  const Setpoint& last;
-  const Setpoint& now;
-  const Modulo& modulo;
+  Setpoint now;
+  Setpoint last;
+  Modulo modulo;
 
   double distance() const noexcept { return rounded_difference(now.position, last.position, modulo); }
 };
@@ -90,7 +89,7 @@ class Shift {
   /// Whether there is any shift, or one is coming.
   bool in_use() const noexcept { return in_use_; }
 
-  DoubleDouble value() const noexcept { return value_; }  ///< [u]
+  const DoubleDouble& value() const noexcept { return value_; }  ///< [u]
   bool moves() const noexcept { return velocity_ != 0.0 || acceleration_ != 0.0; }
   double velocity() const noexcept { return velocity_; }          ///< [u/s]
   double acceleration() const noexcept { return acceleration_; }  ///< [u/s²]
@@ -99,11 +98,12 @@ class Shift {
   bool may_start(const LeadingStep& step) noexcept;
   bool can_lead_on(const LeadingStep& step) const noexcept;
   SyncOffset remainder_at_start(const LeadingStep& step) const noexcept;
-  void start_over_distance(const LeadingStep& step) noexcept;
+  bool start_over_distance(const LeadingStep& step) noexcept;
   Event wait_or_follow_time(const LeadingStep& step) noexcept;
   Event follow_leading(const LeadingStep& step) noexcept;
   Event follow_time() noexcept;
   bool follow_profile() noexcept;
+  Event reverse() noexcept;
   Event arrive() noexcept;
 
   Phase phase_ = Phase::resting;
@@ -124,5 +124,19 @@ class Shift {
   double period_ = 0.001;
   std::int64_t ticks_ = 0;
 };
+
+inline Shift::Event Shift::follow_leading(const LeadingStep& step) noexcept {
+  const double distance = step.distance();
+  if (!planned_ && !start_over_distance(step)) return Event::none;
+  const double progress = heading_ * distance;
+  if (progress < 0.0) return reverse();
+  covered_ += progress;
+  if (remainder_.complete(covered_)) return arrive();
+  const SyncOffset left = remainder_.value(covered_);
+  value_ = request_.target + left.position;
+  velocity_ = left.velocity(heading_ * step.now.velocity);
+  acceleration_ = left.acceleration(heading_ * step.now.velocity, heading_ * step.now.acceleration);
+  return Event::none;
+}
 
 }  // namespace lockstep

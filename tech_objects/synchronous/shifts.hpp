@@ -23,11 +23,13 @@ class Shifts {
   Shift& offset() noexcept { return offset_; }  ///< following value offset [u]
   const Shift& offset() const noexcept { return offset_; }
 
-  /// function → + offset
-  void add_offset(Setpoint& setpoint, const Modulo& following) noexcept {
-    setpoint.position = followed_ = advanced(setpoint.position, offset_.value(), following);
-    setpoint.velocity += offset_.velocity();
-    setpoint.acceleration += offset_.acceleration();
+  /// function → + offset → setpoint; part by part, as they are computed.
+  void add_offset(const Setpoint& function, const Modulo& following, Setpoint& setpoint) noexcept {
+    const AxisPosition position = advanced(function.position, offset_.value(), following);
+    setpoint.position.turns = followed_.turns = position.turns;
+    setpoint.position.value = followed_.value = position.value;
+    setpoint.velocity = function.velocity + offset_.velocity();
+    setpoint.acceleration = function.acceleration + offset_.acceleration();
   }
   /// Position behind the offset, of the last `add_offset`.
   AxisPosition followed() const noexcept { return followed_; }

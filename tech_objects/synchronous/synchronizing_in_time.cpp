@@ -16,7 +16,7 @@ constexpr double kAgainst = 1e-3;
 /// Profile 0: starts at the last tick from which the distance that is left still suffices for the planned
 /// time.
 Synchronizing::Start Synchronizing::watch_time(const Chain& chain, const Setpoint& own) noexcept {
-  const LeadingStep led = chain.leading.step();
+  const LeadingStep& led = chain.leading.step();
   const int direction = progress_.direction();
   const double leading_velocity = led.now.velocity;
   const double distance = distance_to(chain, leading_sync_position_);

@@ -64,18 +64,21 @@ class SynchronousFunction {
     show(gear_.value(leading.position), gear_.velocity(leading.velocity),
          gear_.acceleration(leading.acceleration), result);
   }
+  /// The value of this tick alone.
+  void evaluate(const Setpoint& leading) noexcept { evaluate(leading, value_); }
   /// With a phase shift. Its share is added behind a gear, where nothing is rounded in between.
-  void evaluate(const Setpoint& leading, const Shift& phase, Setpoint& result) noexcept {
-    if (is_cam()) return evaluate_cam(shifted(leading, phase), result);
+  void evaluate(const Setpoint& leading, const Shift& phase) noexcept {
+    if (is_cam()) return evaluate_cam(shifted(leading, phase), value_);
+    const AxisPosition unshifted = gear_.value(leading.position);
     const AxisPosition position =
-        advanced(gear_.value(leading.position), geared_phase_.of(phase.value(), gear_.ratio()), following_);
+        advanced(unshifted, geared_phase_.of(phase.value(), gear_.ratio()), following_);
     double velocity = gear_.velocity(leading.velocity);
     double acceleration = gear_.acceleration(leading.acceleration);
     if (phase.moves()) {
       velocity += gear_.velocity(phase.velocity());
       acceleration += gear_.acceleration(phase.acceleration());
     }
-    show(position, velocity, acceleration, result);
+    show(position, velocity, acceleration, value_);
   }
 
   const Setpoint& value() const noexcept { return value_; }
@@ -90,16 +93,20 @@ class SynchronousFunction {
   /// A phase shift behind the gear; most of the time it is that of the tick before.
   class GearedPhase {
    public:
-    DoubleDouble of(DoubleDouble phase, DoubleDouble ratio) noexcept {
-      if (known_ && phase == phase_) return product_;
-      known_ = true;
-      phase_ = phase;
-      return product_ = ratio * phase;
+    const DoubleDouble& of(const DoubleDouble& phase, const DoubleDouble& ratio) noexcept {
+      if (!known_ || !same_bits(phase, phase_)) renew(phase, ratio);
+      return product_;
     }
     /// The gear has changed.
     void forget() noexcept { known_ = false; }
 
    private:
+    [[gnu::noinline]] void renew(const DoubleDouble& phase, const DoubleDouble& ratio) noexcept {
+      known_ = true;
+      phase_ = phase;
+      product_ = ratio * phase;
+    }
+
     bool known_ = false;
     DoubleDouble phase_;
     DoubleDouble product_;

@@ -27,24 +27,31 @@ void SynchronousMotion::look_closely() noexcept {
   desynchronizing_.turn_leading(turned);
 }
 
-/// With a shift, by the velocity alone, on the way in or out.
+/// With a phase shift, an offset, or both.
+void SynchronousMotion::advance_shifted(Setpoint& setpoint) noexcept {
+  if (shifts_.phase().in_use())
+    function_.evaluate(leading_.now(), shifts_.phase());
+  else
+    function_.evaluate(leading_.now());
+  if (shifts_.offset().in_use())
+    shifts_.add_offset(function_.value(), function_.following(), setpoint);
+  else
+    setpoint = function_.value();
+}
+
+/// By the velocity alone, on the way in or out.
 void SynchronousMotion::advance_otherwise(Setpoint& setpoint) noexcept {
-  if (synchronous_ && !leading_.velocity_only()) {
-    evaluate(setpoint);
-    if (shifted_ && shifts_.offset().in_use()) shifts_.add_offset(setpoint, function_.following());
-    return;
-  }
   if (synchronous_) return advance_in_velocity(setpoint);
   if (leaving_) return advance_out(setpoint);
   advance_in(setpoint);
 }
 
 /// effective leading value → + phase shift → function
-inline void SynchronousMotion::evaluate(Setpoint& result) noexcept {
+inline void SynchronousMotion::evaluate() noexcept {
   if (const Shift* const phase = phase_in_use(); phase != nullptr)
-    function_.evaluate(leading_.now(), *phase, result);
+    function_.evaluate(leading_.now(), *phase);
   else
-    function_.evaluate(leading_.now(), result);
+    function_.evaluate(leading_.now());
 }
 
 /// The velocity follows, whatever the position.
@@ -66,12 +73,12 @@ void SynchronousMotion::advance_in(Setpoint& setpoint) noexcept {
     return;
   }
   if (function_.is_cam()) function_.cam().clear_end();
-  Setpoint function;
-  evaluate(function);
+  evaluate();
+  const Setpoint function = function_.value();
   if (synchronizing_.follow_profile(chain(), setpoint)) return;
   synchronous_ = true;
   setpoint = function;
-  if (shifts_.offset().in_use()) shifts_.add_offset(setpoint, function_.following());
+  if (shifts_.offset().in_use()) shifts_.add_offset(function, function_.following(), setpoint);
   if (function_.is_cam() && !passed_once()) clear_cam_end();  // it begins, whatever pass that is
 }
 

@@ -48,10 +48,12 @@ class SynchronousMotion {
   }
   /// The setpoint of this tick from the leading value of this tick.
   void advance(Setpoint& setpoint) noexcept {
-    if (synchronous_ && !shifted_ && !leading_.velocity_only())
-      function_.evaluate(leading_.now(), setpoint);
-    else
+    if (!synchronous_ || leading_.velocity_only())
       advance_otherwise(setpoint);
+    else if (shifted_)
+      advance_shifted(setpoint);
+    else
+      function_.evaluate(leading_.now(), setpoint);
   }
   /// Another ratio, which counts once an axis that follows the velocity alone is synchronous.
   void change_ratio(const GearRatio& ratio) noexcept;
@@ -138,8 +140,9 @@ class SynchronousMotion {
     return shifted_ && shifts_.phase().in_use() ? &shifts_.phase() : nullptr;
   }
   void look_closely() noexcept;
+  void advance_shifted(Setpoint& setpoint) noexcept;
   void advance_otherwise(Setpoint& setpoint) noexcept;
-  void evaluate(Setpoint& result) noexcept;
+  void evaluate() noexcept;
   void advance_in_velocity(Setpoint& setpoint) noexcept;
   void advance_in(Setpoint& setpoint) noexcept;
   void advance_out(Setpoint& setpoint) noexcept;

@@ -30,14 +30,23 @@ struct Library {
   std::string_view first_folder;
 };
 constexpr Library kLibraries[] = {
-    {"Eigen/", "tech_objects"}, {"unsupported/Eigen/", "tech_objects"},
-    {"modbus", "hmi_bridge"},   {"lcm/", "hmi_bridge"},
-    {"sqlite3", "hmi_bridge"},  {"lockstep/", "hmi_bridge"},  // generated from the .lcm files of hmi_bridge
-    {"fmt/", "hmi_bridge"},     {"iostream", "hmi_bridge"},
-    {"sstream", "hmi_bridge"},  {"fstream", "hmi_bridge"},
-    {"nlohmann/", "projects"},  {"valijson/", "projects"},
-    {"pybind11/", "projects"},  {"CLI/", "cli"},
-    {"ncurses", "cli"},         {"curses", "cli"},
+    {"Eigen/", "tech_objects"},
+    {"unsupported/Eigen/", "tech_objects"},
+    {"modbus", "hmi_bridge"},
+    {"lcm/", "hmi_bridge"},
+    {"sqlite3", "hmi_bridge"},
+    {"lockstep/", "hmi_bridge"},  // generated from the .lcm files of hmi_bridge
+    {"boost/", "hmi_bridge"},
+    {"fmt/", "hmi_bridge"},
+    {"iostream", "hmi_bridge"},
+    {"sstream", "hmi_bridge"},
+    {"fstream", "hmi_bridge"},
+    {"nlohmann/", "projects"},
+    {"valijson/", "projects"},
+    {"pybind11/", "projects"},
+    {"CLI/", "cli"},
+    {"ncurses", "cli"},
+    {"curses", "cli"},
 };
 
 constexpr std::string_view kEmptyNames[] = {"util",     "utils",  "common",  "core", "manager",

@@ -1,6 +1,8 @@
 // lockstep aposs: through the built program.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/cli/command_run.hpp"
 
 namespace lockstep::cli::aposs_test {
@@ -74,6 +76,35 @@ TEST(Aposs, RunMovesTheAxisOfADevice) {
       lockstep({"aposs", "run", file, "--set", "ENCODER=500", "--set", "32-80=3000", "--set", "RAMPMIN=0.5"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(ended.out, "200000 250\n");
+}
+
+TEST(Aposs, RunTracesTheAxisAndItsDrive) {
+  const Directory folder;
+  const std::string file = folder.write("p.m", "VEL 50\nACC 100\nDEC 100\nPOSA 20000\nDELAY 100\n");
+  const std::string trace = folder.file("t.csv");
+  const Ended ended =
+      lockstep({"aposs", "run", file, "--plant", "--trace", trace, "--set", "ENCODER=500", "--set",
+                "32-80=3000", "--set", "RAMPMIN=0.5", "--set", "FFVEL=10486", "--set", "POSERR=100000"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  std::ifstream rows(trace);
+  std::string first, row, last;
+  std::getline(rows, first);
+  EXPECT_EQ(first, "t,CPOS,APOS,AVEL,TRACKERR,Reference,AXEND,ERRNO,Line");
+  int behind = 0;
+  while (std::getline(rows, row)) {
+    const std::size_t comma = row.find(',');
+    behind += row.substr(comma + 1, row.find(',', comma + 1) - comma - 1) !=
+                      row.substr(row.find(',', comma + 1) + 1,
+                                 row.find(',', row.find(',', comma + 1) + 1) - row.find(',', comma + 1) - 1)
+                  ? 1
+                  : 0;
+    last = row;
+  }
+  EXPECT_GT(behind, 300) << "a drive is behind";
+  EXPECT_NE(last.find(",20000,"), std::string::npos) << last;
+  EXPECT_EQ(lockstep({"aposs", "run", file, "--trace", folder.file("none/t.csv")}).status, 2);
+  EXPECT_EQ(lockstep({"aposs", "run", file, "--set", "VELRES=nan"}).status, 2);
+  EXPECT_EQ(lockstep({"aposs", "run", file, "--set", "SYNCFACTM=0"}).status, 2);
 }
 
 TEST(Aposs, RunSaysPlainlyWhatIsNotBuilt) {

@@ -1,6 +1,7 @@
 // lockstep describe of functions, operators and types against the tables of the compiler.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "projects/expressions/functions.hpp"
@@ -54,6 +55,43 @@ TEST(DescribeLanguage, TellsOfEachTypeConversionAndOperator) {
   EXPECT_EQ(described("mod")["operators"][0]["name"], "MOD");
   EXPECT_EQ(described("to_int")["name"], "TO_INT");
   EXPECT_EQ(described("REAL_TO_INT")["text"], "a value of REAL as one of INT");
+}
+
+TEST(DescribeLanguage, TellsOfTheTypesThatAreNotElementary) {
+  for (const OtherType& type : other_types()) {
+    if (type.name.find('[') == type.name.npos) continue;
+    EXPECT_EQ(described(std::string(type.name))["text"], type.meaning) << type.name;
+  }
+  EXPECT_EQ(described("string")["name"], "STRING[n]");
+  EXPECT_EQ(described("STRING[80]")["name"], "STRING[n]");
+  EXPECT_EQ(described("array")["name"], "ARRAY[lower..upper] OF type");
+  EXPECT_EQ(described("axis")["kind"], "search")
+      << "what has to do with axes says more than the type of a pin";
+}
+
+TEST(DescribeLanguage, IsFoundByWhatItHasToDoWith) {
+  struct Wanted {
+    const char *word, *kind, *name;
+  };
+  const Wanted all[] = {{"square", "function", "SQRT"},         {"remainder", "operator", "MOD"},
+                        {"nanoseconds", "type", "TIME"},        {"printable", "type", "STRING[n]"},
+                        {"conversion", "function", "TO_LREAL"}, {"select", "function", "SEL"},
+                        {"absolute", "function", "ABS"}};
+  for (const Wanted& wanted : all) {
+    const json found = described(wanted.word)["found"];
+    const bool there = std::ranges::any_of(
+        found, [&](const json& one) { return one["name"] == wanted.name && one["kind"] == wanted.kind; });
+    EXPECT_TRUE(there) << wanted.word << ": " << found.dump(1);
+  }
+  // Whatever is found is told in full by its name.
+  const json all_found = described("the")["found"];
+  int told = 0;
+  for (const json& one : all_found) {
+    if (one["kind"] != "function" && one["kind"] != "operator" && one["kind"] != "type") continue;
+    EXPECT_EQ(lockstep({"describe", one["name"]}).status, 0) << one["name"];
+    ++told;
+  }
+  EXPECT_GT(told, 5);
 }
 
 TEST(DescribeLanguage, SuggestsTheNearestName) {

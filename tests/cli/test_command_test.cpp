@@ -84,6 +84,17 @@ TEST(TestCommand, FailsForProjectsThatAreNotValidOrNotThere) {
   EXPECT_EQ(lockstep({"test"}).status, 2);
 }
 
+TEST(TestCommand, DoesNotWriteResultsOverAProject) {
+  const Directory folder;
+  const std::string good = folder.write("good.json", project(kHolds));
+  const std::string other = folder.write("other.json", project(kHolds));
+  const Ended ended = lockstep({"test", "--junit", other, good});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_EQ(ended.err, "lockstep: --junit: '" + other + "' has to end in .xml\n");
+  EXPECT_EQ(ended.out, "") << "before anything runs";
+  EXPECT_EQ(content(other), project(kHolds));
+}
+
 TEST(TestCommand, SaysThatAProjectHasNoExpectations) {
   const Directory folder;
   const std::string file = folder.write("a.json", project(""));

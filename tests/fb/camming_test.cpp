@@ -23,7 +23,6 @@ namespace {
 
 using test::CoupledRig;
 using test::line;
-using test::Rig;
 
 void ring(AxisData& data) {
   data.Modulo.Enable = true;

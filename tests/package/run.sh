@@ -46,8 +46,8 @@ for path in bin/lockstep share/man/man1/lockstep.1.gz share/man/man5/lockstep-pr
   share/man/man7/lockstep-blocks.7.gz share/bash-completion/completions/lockstep share/zsh/vendor-completions/_lockstep \
   share/fish/vendor_completions.d/lockstep.fish share/lockstep/LANGUAGE.md share/lockstep/FUNCTIONS.md share/lockstep/KEYS.md \
   lib/systemd/system/lockstep@.service include/lockstep/projects/loader/simulation.hpp \
-  share/lockstep/project.schema.json share/lockstep/projects/02_rotary_knife/project.json \
-  share/doc/lockstep/lockstep.spdx.json share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md share/doc/lockstep/AUDIT.md \
+  share/lockstep/project.schema.json share/lockstep/part.schema.json share/lockstep/projects/02_rotary_knife/project.json \
+  share/doc/lockstep/lockstep.spdx.json share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md share/doc/lockstep/AUDIT.md share/doc/lockstep/STUDIO.md \
   share/doc/lockstep/tls/certificates.sh; do
   [[ -s $work/root/usr/$path ]] || fail "usr/$path is not in the package"
 done
@@ -55,6 +55,11 @@ done
 [[ -z $(find "$work/root" -perm /022 ! -type l) ]] || fail "others may write: $(find "$work/root" -perm /022 ! -type l)"
 [[ -z $(find "$work/root" -mindepth 1 -maxdepth 1 ! -name usr) ]] || fail "it has more than usr/"
 ! grep -rIl "$sources" "$work/root/usr/lib" "$work/root/usr/share" "$work/root/usr/include" || fail "paths of the build"
+
+for file in "$work"/root/usr/share/lockstep/projects/*/*.json; do
+  schema=$(sed -n 's/^ *"$schema": "\([^"]*\)".*/\1/p' "$file")
+  [[ -z $schema || -s $(dirname "$file")/$schema ]] || fail "$file: its schema $schema is not in the package"
+done
 
 echo "its program runs"
 lockstep=$work/root/usr/bin/lockstep

@@ -74,6 +74,9 @@ TEST(Expectations, AreCheckedWhenTheProjectIsLoaded) {
   EXPECT_NE(told(R"([ { "at": "1s", "expect": "m = 1" } ])").find("unknown name 'm'"), std::string::npos);
   EXPECT_NE(told(R"([ { "at": "1s", "expect": "n = (1" } ])").find("(column "), std::string::npos);
   EXPECT_EQ(told(R"([ { "at": "1s" } ])"), "/expectations/0: the key 'expect' is missing");
+  EXPECT_EQ(told(R"([ { "at": "soon", "expect": "TRUE" } ])").substr(0, 47),
+            "/expectations/0/at: 'soon' is not a duration; a")
+      << "and not that a time is missing, too";
   EXPECT_EQ(told(R"([ { "expect": "TRUE" } ])"),
             "/expectations: nothing tells how long to simulate; allowed: 'duration' of the project, or an "
             "expectation "

@@ -153,6 +153,8 @@ TEST_F(Includes, AreRefusedWhereTheyCannotBeHad) {
   EXPECT_NE(include("link.json").find("leads out of the folder"), std::string::npos);
   EXPECT_NE(include("").find("allowed: a text of 1 to 128"), std::string::npos);
   EXPECT_NE(include("a\\u0000b").find("without control characters"), std::string::npos);
+  EXPECT_NE(told(R"("$schema": 3)").find("/$schema: 3 is not allowed here; allowed: a string"),
+            std::string::npos);
   EXPECT_NE(told(R"("include": "part.json")").find("allowed: an array"), std::string::npos);
   EXPECT_NE(told(R"("include": [ 3 ])").find("allowed: a string"), std::string::npos);
 }

@@ -7,6 +7,7 @@
 #include "example_project.hpp"
 #include "projects/loader/project.hpp"
 #include "schema_check.hpp"
+#include "tests/support/directory.hpp"
 
 namespace lockstep::project_schema_test {
 namespace {
@@ -106,6 +107,83 @@ TEST_F(Schema, DescribesEveryVariableThatAProjectMaySet) {
   EXPECT_TRUE(config.contains("Sensor[4]"));
   EXPECT_FALSE(config.contains("Position") || config.contains("StatusDrive") ||
                config.contains("OperativeSensor"));
+}
+
+// ---- Included files
+
+class PartSchema : public SchemaCheck {
+ protected:
+  PartSchema() : SchemaCheck(part_schema()) {}
+
+  /// Whether a project that is nothing but this part is valid.
+  bool loads(const json& part) const {
+    directory_.write("part.json", part.dump());
+    directory_.write("project.json", R"({ "lockstep": 1, "name": "whole", "clock": { "servo_cycle": "1ms" },
+      "include": [ "part.json" ], "modbus": { "server": { "listen": "127.0.0.1:1502" } } })");
+    return load_project_file(directory_.file("project.json"), {}, LoadedFor::looking).project.has_value();
+  }
+
+  /// What of the example may stand in an included file.
+  static json example() {
+    json part = json::parse(kExampleProject);
+    for (const char* const key : {"lockstep", "name", "description", "clock", "audit"}) part.erase(key);
+    part["modbus"] = {{"map", part["modbus"]["map"]}};
+    part["trace"] = {{"signals", part["trace"]["signals"]}};
+    part["$schema"] = "part.schema.json";
+    part["comment"] = "all but the controller";
+    return part;
+  }
+
+  const test::Directory directory_;
+};
+
+TEST_F(PartSchema, ShipsAsItIsMade) {
+  expect_shipped("part.schema.json", part_schema());
+}
+
+TEST_F(PartSchema, AcceptsIncludedFilesAndNoProject) {
+  EXPECT_TRUE(accepts(example()));
+  EXPECT_TRUE(loads(example()));
+  const json station = json::parse(read(kProjects + "/14_twelve_stations/station.json"), nullptr, true, true);
+  EXPECT_TRUE(accepts(station));
+  EXPECT_TRUE(station.contains("$schema")) << "an editor finds the schema there";
+  EXPECT_FALSE(accepts(json::parse(kExampleProject)));
+}
+
+TEST_F(PartSchema, KnowsTheKeysThatTheLoaderKnows) {
+  const json whole = json::parse(project_schema());
+  int allowed = 0;
+  for (const auto& [key, ignored] : whole["properties"].items()) {
+    json part = json::object();
+    part[key] = 3;  // no section of a project is that
+    directory_.write("part.json", part.dump());
+    directory_.write("project.json", R"({ "lockstep": 1, "name": "whole", "clock": { "servo_cycle": "1ms" },
+      "include": [ "part.json" ] })");
+    bool known = true;
+    for (const Problem& problem : load_project_file(directory_.file("project.json")).problems)
+      if (problem.text.starts_with("unknown key '" + key + "'")) known = false;
+    EXPECT_EQ(json::parse(part_schema())["properties"].contains(key), known) << key;
+    allowed += known ? 1 : 0;
+  }
+  EXPECT_EQ(allowed, 12) << "a part has grown: does the schema tell what may stand there?";
+}
+
+// As of the project: what the schema refuses the loader refuses too.
+TEST_F(PartSchema, RefusesNothingThatTheLoaderAccepts) {
+  const json values = {nullptr, true, -1, 2.5, "start", "10ms", json::array(), json::object()};
+  const json whole = example();
+  const json flat = whole.flatten();
+  int refused = 0;
+  for (const auto& [pointer, old] : flat.items()) {
+    for (const json& value : values) {
+      json part = whole;
+      part[json::json_pointer(pointer)] = value;
+      if (accepts(part)) continue;
+      ++refused;
+      EXPECT_FALSE(loads(part)) << pointer << " = " << value;
+    }
+  }
+  EXPECT_GT(refused, 200) << "an editor is served";
 }
 
 }  // namespace

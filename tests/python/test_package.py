@@ -7,6 +7,7 @@ import pydoc
 import re
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -153,3 +154,13 @@ def test_the_first_steps_of_the_readme_run(tmp_path, monkeypatch):
     script = tmp_path / "steps.py"
     script.write_text("\n".join(blocks).replace('"sweep.jsonl"', repr(str(tmp_path / "sweep.jsonl"))))
     subprocess.run([sys.executable, script], check=True, cwd=ROOT)
+
+
+def test_what_the_readme_of_all_shows_runs_and_moves_the_machine(tmp_path):
+    readme = (ROOT / "README.md").read_text()
+    shown = re.search(r"## From Python\n.*?\n((?:    [^\n]*\n)+)", readme, re.DOTALL).group(1)
+    script = tmp_path / "shown.py"
+    script.write_text(textwrap.dedent(shown))
+    ended = subprocess.run([sys.executable, script], check=True, cwd=ROOT, capture_output=True, text=True)
+    position, velocity = (float(number) for number in ended.stdout.split())
+    assert 0.0 <= position < 360.0 and velocity > 100.0

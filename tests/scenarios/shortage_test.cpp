@@ -1,4 +1,6 @@
 // Commands that are short of file descriptors, memory or threads: they say of what, and end with 2.
+// A sanitizer takes more addresses than any limit leaves, and descriptors of its own.
+#ifndef __SANITIZE_ADDRESS__
 #include <gtest/gtest.h>
 
 #include "tests/scenarios/small_project.hpp"
@@ -71,8 +73,6 @@ TEST(Shortage, OfFileDescriptorsIsToldByEveryCommand) {
     }
 }
 
-// A sanitizer takes more addresses than any limit leaves.
-#ifndef __SANITIZE_ADDRESS__
 TEST(Shortage, OfMemoryIsTold) {
   const Directory directory;
   const std::string project = everything(directory);
@@ -110,7 +110,7 @@ TEST(Shortage, OfThreadsIsTold) {
   EXPECT_GE(refused, 5) << "watch, keeper, server, recorder, cycle";
   EXPECT_EQ(last.status, 0) << last.err;
 }
-#endif
 
 }  // namespace
 }  // namespace lockstep::test::shortage_test
+#endif

@@ -290,6 +290,84 @@ TEST(Program, CopiesAFlagIntoAFlag) {
   EXPECT_FALSE(to);
 }
 
+/// Counts its calls, and those that found its input TRUE.
+struct Counting final : Block {
+  bool input = false;
+  int calls = 0;
+  int found_true = 0;
+
+  void call(std::int64_t /*now*/) noexcept override {
+    ++calls;
+    found_true += input ? 1 : 0;
+  }
+};
+
+Expression inverse_of(bool& flag) {
+  ExpressionBuilder code;
+  code.signal(signal_of(flag));
+  EXPECT_TRUE(code.apply(Operation::kNot, Type::BOOL));
+  return std::move(code).finish(Type::BOOL);
+}
+
+TEST(Program, ACallFollowsTheExpressionAtItsInput) {
+  bool off = true;
+  Counting block;
+  Program program("Main", Ob::Main, 0, 0);
+  program.add_assignment(inverse_of(off), signal_of(block.input));
+  program.add_call(block);
+  EvaluationCounters counters;
+  program.run(0, counters);
+  EXPECT_EQ(block.found_true, 0);
+  off = false;
+  program.run(1, counters);
+  EXPECT_EQ(block.found_true, 1);
+  EXPECT_EQ(block.calls, 2);
+}
+
+TEST(Program, ACallBehindABranchIsMadeWhetherOrNotTheBranchIsTaken) {
+  bool off = false;
+  bool taken = true;
+  Counting block;
+  Program program("Main", Ob::Main, 0, 0);
+  const std::size_t mark = program.begin_branch(Expression(signal_of(taken)));
+  program.add_assignment(inverse_of(off), signal_of(block.input));
+  program.end_branch(mark);
+  program.add_call(block);
+  EvaluationCounters counters;
+  program.run(0, counters);
+  EXPECT_EQ(block.calls, 1);
+  EXPECT_EQ(block.found_true, 1);
+  taken = false;
+  block.input = false;
+  program.run(1, counters);
+  EXPECT_EQ(block.calls, 2);
+  EXPECT_EQ(block.found_true, 1);
+}
+
+TEST(Program, AnAlternativeJumpsToWhatFollows) {
+  bool off = false;
+  bool chosen = true;
+  Counting one;
+  Counting other;
+  Counting last;
+  Program program("Main", Ob::Main, 0, 0);
+  std::size_t mark = program.begin_branch(Expression(signal_of(chosen)));
+  program.add_assignment(inverse_of(off), signal_of(one.input));
+  program.add_call(one);
+  mark = program.begin_alternative(mark);
+  program.add_call(other);
+  program.end_branch(mark);
+  program.add_call(last);
+  EvaluationCounters counters;
+  for (const bool choice : {true, false, false}) {
+    chosen = choice;
+    program.run(0, counters);
+  }
+  EXPECT_EQ(one.calls, 1);
+  EXPECT_EQ(other.calls, 2);
+  EXPECT_EQ(last.calls, 3);
+}
+
 TEST(Expression, ValuesMayRestUpToTheLimit) {
   DINT one = 1;
   EvaluationCounters counters;

@@ -56,12 +56,29 @@ TEST(LimitOfZero, RaisesItsAlarmWithTheFirstJob) {
   struct Case {
     Change change;
     int number;
+    AlarmCause cause;
+    double value, limit;
+  };
+  const auto limits = [](const TO_Struct_DynamicLimits& all) {
+    return [all](AxisData& data) { data.DynamicLimits = all; };
   };
   const Case cases[] = {
-      {[](AxisData& data) { data.DynamicLimits.Velocity = 0.0; }, alarm::kVelocityLimitZero},
-      {[](AxisData& data) { data.DynamicLimits.MaxVelocity = 0.0; }, alarm::kVelocityLimitZero},
-      {[](AxisData& data) { data.DynamicLimits.MaxAcceleration = 0.0; }, alarm::kAccelerationLimitZero},
-      {[](AxisData& data) { data.DynamicLimits.MaxDeceleration = 0.0; }, alarm::kAccelerationLimitZero}};
+      {limits({300.0, 0.0, 1e3, 2e3, 3e3}), alarm::kVelocityLimitZero, AlarmCause::none, 300.0, 0.0},
+      {limits({0.0, 200.0, 1e3, 2e3, 3e3}), alarm::kVelocityLimitZero, AlarmCause::none, 0.0, 200.0},
+      {limits({300.0, 200.0, 0.0, 2e3, 3e3}), alarm::kAccelerationLimitZero, AlarmCause::acceleration, 0.0,
+       0.0},
+      {limits({300.0, 200.0, 1e3, 0.0, 3e3}), alarm::kAccelerationLimitZero, AlarmCause::deceleration, 0.0,
+       0.0},
+      {[&](AxisData& data) {
+         limits({300.0, 200.0, 1e3, 2e3, 3e3})(data);
+         data.DynamicDefaults.Acceleration = 0.0;
+       },
+       alarm::kAccelerationLimitZero, AlarmCause::acceleration, 0.0, 1e3},
+      {[&](AxisData& data) {
+         limits({300.0, 200.0, 1e3, 2e3, 0.0})(data);
+         data.DynamicDefaults.Jerk = 400.0;
+       },
+       alarm::kJerkLimitZero, AlarmCause::none, 400.0, 0.0}};
   for (const Case& zero : cases) {
     Machine m(zero.change);
     EXPECT_EQ(m.a.pending_alarm(), 0);
@@ -72,6 +89,13 @@ TEST(LimitOfZero, RaisesItsAlarmWithTheFirstJob) {
     EXPECT_EQ(m.a.data.ErrorDetail.Reaction, 3);
     EXPECT_EQ(m.run_v.ErrorID, static_cast<WORD>(ErrorId::technology_alarm));
     EXPECT_TRUE(m.a.setpoint().standing());
+    AlarmDetail told;
+    m.a.alarm_notes.take([&](const AlarmNote& note) {
+      if (note.number == zero.number) told = note.detail;
+    });
+    EXPECT_EQ(told.cause, zero.cause) << zero.number;
+    EXPECT_EQ(told.value, zero.value) << zero.number;
+    EXPECT_EQ(told.limit, zero.limit) << zero.number;
   }
 }
 

@@ -10,6 +10,7 @@
 #include "fb/cam_in.hpp"
 #include "fb/gear_in.hpp"
 #include "fb/gear_in_velocity.hpp"
+#include "fb/jog.hpp"
 #include "fb/leading_value.hpp"
 #include "fb/move.hpp"
 #include "fb/offset.hpp"
@@ -36,6 +37,7 @@ struct Blocks {
   MC_Reset* reset;
   MC_Home* home;
   MC_MoveVelocity* run;
+  MC_MoveJog* jog;
   MC_MoveRelative* move;
   MC_MoveSuperimposed* superimposed;
   MC_Halt* halt;
@@ -99,6 +101,7 @@ struct Machine : Rig {
              .reset = of<MC_Reset>(own),
              .home = of<MC_Home>(own),
              .run = of<MC_MoveVelocity>(own),
+             .jog = of<MC_MoveJog>(own),
              .move = of<MC_MoveRelative>(own),
              .superimposed = of<MC_MoveSuperimposed>(own),
              .halt = of<MC_Halt>(own),
@@ -136,7 +139,7 @@ struct Machine : Rig {
     Blocks& b = blocks[i];
     AxisData& data = axes[i]->data;
     const double number = static_cast<double>(random() % 400) - 200.0;
-    switch (random() % 21) {
+    switch (random() % 22) {
       case 0:
         b.power->Enable = !b.power->Enable || random() % 4 != 0;
         break;
@@ -202,6 +205,10 @@ struct Machine : Rig {
         b.cam->Execute = !b.cam->Execute;
         break;
       case 19:
+        b.jog->Velocity = number;
+        b.jog->JogForward = !b.jog->JogForward && random() % 2 == 0;
+        break;
+      case 20:
         data.PositionLimits_SW.Active = random() % 4 == 0;
         break;
       default:
@@ -239,6 +246,7 @@ TEST(PlainCycle, ShowsWhatTheWholeCycleShows) {
   int shifted = 0;
   int standing = 0;
   int moving = 0;
+  int jogging = 0;
   int alarms = 0;
   test::for_each_seed(kFirstSeed, test::cases(6, 600), [&](const test::Case& one) {
     Machine whole(true, one.seed);
@@ -260,6 +268,7 @@ TEST(PlainCycle, ShowsWhatTheWholeCycleShows) {
         shifted += has_bit(data.StatusWord2, Status2Bit::OffsetCommand) ? 1 : 0;
         standing += has_bit(data.StatusWord, StatusBit::Done) ? 1 : 0;
         moving += has_bit(data.StatusWord, StatusBit::PositioningCommand) ? 1 : 0;
+        jogging += has_bit(data.StatusWord, StatusBit::JogCommand) ? 1 : 0;
         alarms += data.ErrorDetail.Number != 0 ? 1 : 0;
       }
     }
@@ -269,6 +278,7 @@ TEST(PlainCycle, ShowsWhatTheWholeCycleShows) {
   EXPECT_GT(shifted, 100);
   EXPECT_GT(standing, 1000);
   EXPECT_GT(moving, 1000);
+  EXPECT_GT(jogging, 1000);
   EXPECT_GT(alarms, 100);
 }
 

@@ -47,6 +47,18 @@ TEST(AxisPosition, AdvancingAndComingBackKeepsTurnsAndValueTogether) {
   }
 }
 
+TEST(AxisPosition, TurnsAreADistanceTheSameWhateverTheirNumber) {
+  for (const double length : {360.0, 0.001, 1e12, 100.0 / 3.0})
+    for (const std::int64_t turns :
+         {std::int64_t{0}, std::int64_t{1}, std::int64_t{-7}, std::int64_t{1} << 53,
+          (std::int64_t{1} << 53) + 1, -(std::int64_t{1} << 53) - 1, INT64_MAX, INT64_MIN}) {
+      const DoubleDouble expected = to_double_double(turns) * length;
+      const DoubleDouble distance = turns_distance(turns, length);
+      EXPECT_EQ(distance.hi, expected.hi) << turns << " turns of " << length;
+      EXPECT_EQ(distance.lo, expected.lo) << turns << " turns of " << length;
+    }
+}
+
 TEST(AxisPosition, TurnsWrapWithoutAStep) {
   const AxisPosition last{INT64_MAX, 359.0};
   EXPECT_EQ(advanced(last, 2.0, kRing), (AxisPosition{INT64_MIN, 1.0}));

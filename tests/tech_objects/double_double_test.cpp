@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include "tests/support/property.hpp"
@@ -22,6 +24,29 @@ TEST(DoubleDouble, SumsAndProductsOfDoublesLoseNothing) {
     const DoubleDouble product = two_product(static_cast<double>(a), static_cast<double>(b));
     ASSERT_TRUE(static_cast<Wide>(product.hi) + static_cast<Wide>(product.lo) == static_cast<Wide>(a) * b);
   }
+}
+
+TEST(DoubleDouble, ARoundedSumHasTheBitsOfTheSum) {
+  std::mt19937_64 random(test::seed_of_test(12));
+  std::uniform_real_distribution<double> values(-1.0, 1.0);
+  std::uniform_int_distribution<int> sizes(-60, 60);
+  const auto any = [&] { return std::ldexp(values(random), sizes(random)); };
+  for (int i = 0; i < test::cases(100'000, 10'000'000); ++i) {
+    const double big = any();
+    const DoubleDouble a = two_sum(big, 0x1p-53 * values(random) * big);
+    const double b = i % 2 == 0 ? any() : -a.hi * (1.0 + 0x1p-52 * static_cast<double>(i % 5));
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(rounded_sum(a, b)),
+              std::bit_cast<std::uint64_t>((a + b).rounded()))
+        << a.hi << " + " << a.lo << " + " << b;
+  }
+}
+
+TEST(DoubleDouble, OnlyTheSameBitsAreTheSame) {
+  const DoubleDouble third = to_double_double(1.0) / 3.0;
+  EXPECT_TRUE(same_bits(third, third));
+  EXPECT_FALSE(same_bits(third, {third.hi, 0.0}));
+  EXPECT_FALSE(same_bits(third, {std::nextafter(third.hi, 1.0), third.lo}));
+  EXPECT_FALSE(same_bits({0.0, 0.0}, {-0.0, 0.0})) << "equal, but not the same";
 }
 
 TEST(DoubleDouble, AQuotientTimesItsDivisorIsTheDividend) {

@@ -22,7 +22,7 @@ struct Leading {
            last.velocity + a * kPeriod,
            a};
   }
-  LeadingStep step() const { return {last, now, kLine}; }
+  LeadingStep step() const { return {.now = now, .last = last, .modulo = kLine}; }
 
   static constexpr Modulo kLine{};
   double acceleration = 0.0;

@@ -20,7 +20,7 @@ CHAPTERS = [
     ("First steps", ["README", "CHANGELOG"]),
     ("The language", ["projects/LANGUAGE", "projects/FUNCTIONS", "projects/KEYS", "fb/BLOCKS", "projects/CAMS"]),
     ("Running it", ["cli/COMMANDS", "tech_objects/ALARMS", "hmi_bridge/MODBUS", "hmi_bridge/LCM", "hmi_bridge/RETAIN",
-                    "hmi_bridge/AUDIT", "hmi_bridge/tls/README", "SECURITY"]),
+                    "hmi_bridge/AUDIT", "hmi_bridge/STUDIO", "hmi_bridge/tls/README", "SECURITY"]),
     ("Examples", None),
     ("Inside", None),
 ]

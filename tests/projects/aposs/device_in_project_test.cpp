@@ -2,12 +2,14 @@
 // refuses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "hmi_bridge/traces/event.hpp"
 #include "projects/loader/simulation.hpp"
 #include "projects/runtime/stepped_run.hpp"
 #include "tests/support/allocations.hpp"
@@ -56,7 +58,7 @@ TEST(DeviceInAProject, IsStartedByATagAndSwitchesOneWhenItHasArrived) {
   EXPECT_LE(fastest, 101.0);  // VELMAX of 3000 1/min and 2000 counts a turn are 100 in a millisecond
   EXPECT_GE(fastest, 10.0);
   machine.run_for(std::chrono::milliseconds(10));
-  EXPECT_EQ(machine.read("Lift.Program.State"), 4.0);
+  EXPECT_EQ(machine.read("Lift.CPOS"), 4000.0) << "the program that starts by itself begins again";
 }
 
 TEST(DeviceInAProject, TellsWhatItsProgramPrints) {
@@ -101,6 +103,66 @@ TEST(DeviceInAProject, AllocatesNothingInTheCycle) {
   }
   EXPECT_EQ(test::allocations_counted(), before);
   EXPECT_GT(events.lost() + events.readable(), 3u);
+}
+
+/// What happens to a device in its executed ticks, of which the wall clock leaves some out.
+std::vector<double> seen_with(int every) {
+  Json json = project_with({"VEL 50", "ACC 50", "DEC 50", "again:", "POSA 20000", "OUT 1 1", "DELAY 7",
+                            "POSA 0", "OUT 1 0", "GOTO again"});
+  json["technology_objects"]["Lift"]["drive"] = {{"model", "simulated"}, {"time_constant", "3ms"}};
+  json["technology_objects"]["Lift"]["parameters"]["FFVEL"] = 1000;
+  Simulation machine = Simulation::from_text(json.dump());
+  std::vector<double> seen;
+  for (int i = 0; i < 20'000; ++i) {
+    if (every != 0 && i % every == every - 1) machine.project().controller->skip(1 + i % 7);
+    machine.step();
+    for (const char* const path : {"Lift.CPOS", "Lift.APOS", "Lift.TRACKERR", "Lift.ERRNO", "done"})
+      seen.push_back(machine.read(path));
+  }
+  return seen;
+}
+
+// In virtual time no tick is missed; in real time the device is later, like its machine, and does not jump.
+TEST(DeviceInAProject, IsLaterAfterMissedTicksAndNothingElse) {
+  const std::vector<double> whole = seen_with(0);
+  EXPECT_EQ(seen_with(3), whole);
+  EXPECT_EQ(seen_with(50), whole);
+  EXPECT_NE(*std::max_element(whole.begin(), whole.end()), 0.0);
+}
+
+// Nobody reads for a while: each line that is told has its own text, and those that are lost are counted.
+TEST(DeviceInAProject, TellsHowManyLinesAreLost) {
+  Simulation machine =
+      Simulation::from_text(project_with({"n = 0", "again:", "n = n + 1", "PRINT n", "GOTO again"}).dump());
+  Controller& controller = *machine.project().controller;
+  EventQueue events;
+  controller.events = &events;
+  const EventTexts texts(controller, 0);
+  std::int64_t next = 1, lost = 0;
+  const auto read = [&] {
+    for (; events.readable() != 0; events.pop(1)) {
+      const TraceEvent told = texts.of(events.event(0), 0);
+      if (told.number == 0) {
+        EXPECT_EQ(told.text, std::to_string(next));
+        ++next;
+        continue;
+      }
+      EXPECT_NE(told.text.find(" are lost"), std::string::npos) << told.text;
+      lost += told.number;
+      next += told.number;
+    }
+  };
+  machine.run_for(std::chrono::milliseconds(1000));
+  read();
+  machine.step();
+  read();
+  EXPECT_GT(lost, 1000);
+  machine.run_for(std::chrono::milliseconds(5));
+  const std::int64_t before = lost;
+  read();
+  EXPECT_EQ(lost, before);
+  EXPECT_EQ(events.lost(), 0u);
+  EXPECT_GT(next, 60'000) << "66 lines in a millisecond";
 }
 
 struct Refused {

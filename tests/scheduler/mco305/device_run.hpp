@@ -55,7 +55,10 @@ class DeviceRun {
     ASSERT_TRUE(compiled.image) << text << (compiled.errors.empty() ? "" : compiled.errors[0].text);
     object.programs.push_back({number, autostart, std::move(*compiled.image), compiled.files, 0});
   }
-  void begin() { object.configure(1e-3, 1); }
+  void begin(bool repeats = false) {
+    object.repeats = repeats;
+    object.configure(1e-3, 1);
+  }
   void step() {
     object.servo(now_ * 1'000'000);
     object.run_program(now_ * 1'000'000);

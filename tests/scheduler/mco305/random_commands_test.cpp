@@ -109,7 +109,8 @@ TEST(Mco305RandomCommands, GiveTheSameWhateverTheServoCycle) {
     std::vector<double> seen;
     for (int i = 0; i < 5'000; ++i) {
       if (random() % 50 == 0) any_command(object.device(), random);
-      for (int tick = 0; tick < ticks; ++tick) object.servo((i * ticks + tick) * (1'000'000 / ticks));
+      for (int tick = 0; tick < ticks; ++tick)
+        object.servo(std::int64_t{i * ticks + tick} * (1'000'000 / ticks));
       object.run_program(0);
       seen.push_back(object.device().set_position());
     }

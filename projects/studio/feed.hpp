@@ -1,0 +1,56 @@
+/// What the pages of a run want to see, on its path from the cycle into a store.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hmi_bridge/traces/columns.hpp"
+#include "hmi_bridge/traces/store.hpp"
+#include "projects/studio/units.hpp"
+#include "scheduler/signal_tap.hpp"
+
+namespace lockstep {
+
+/// Keeps the ring of a tap to what is wanted, and the store to what has come. Thread: the server's, but for
+/// the tap's other side.
+class StudioFeed {
+ public:
+  static constexpr std::size_t kSignals = 1024;  ///< at once
+  static constexpr TraceStoreLimits kLimits{60'000'000'000, std::size_t{256} << 20};
+
+  /// @param cycle of the interpolator [ns]  @param units outlive this
+  StudioFeed(std::int64_t cycle, const StudioUnits& units) : cycle_(cycle), units_(units), store_(kLimits) {}
+
+  /// What is wanted from now on, at most `kSignals`; each name once.
+  void want(std::vector<NamedSignal> signals);
+  /// Hands over what is wanted as soon as the cycle takes it, and fetches rows.
+  void look();
+
+  SignalTap& tap() noexcept { return tap_; }
+  const TraceStore& store() const noexcept { return store_; }
+  /// Index of a signal in the store, which is made for it if nobody has wanted it yet.
+  std::size_t index(const NamedSignal& signal);
+  /// Whether the newest row has a signal.
+  bool is_in_newest(std::size_t index) const noexcept;
+  std::uint64_t dropped() const noexcept { return dropped_; }  ///< rows that found the tap's ring full
+
+ private:
+  void take(const SignalTap::Row& row);
+  TraceSignal described(const NamedSignal& signal) const;
+
+  const std::int64_t cycle_;
+  const StudioUnits& units_;
+  SignalTap tap_;
+  TraceStore store_;
+  std::vector<NamedSignal> wanted_;
+  bool handed_over_ = true;                                  // what is wanted
+  std::map<std::uint64_t, std::vector<TraceSignal>> rings_;  // not read to their end, by number
+  std::vector<std::size_t> newest_;                          // signals of the newest row
+  std::uint64_t ring_ = 0;                                   // whose signals the store has been told
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace lockstep

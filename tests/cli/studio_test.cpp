@@ -1,0 +1,53 @@
+// lockstep run --studio, as a user calls it.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/cli/command_run.hpp"
+
+namespace lockstep::studio_test {
+namespace {
+
+using cli::Directory;
+using cli::Ended;
+using cli::lockstep;
+using test::content;
+
+const std::string kKnife = LOCKSTEP_SOURCE_DIR "/projects/02_rotary_knife/project.json";
+
+TEST(Studio, DoesNotChangeABitOfASimulation) {
+  const Directory folder;
+  const auto simulate = [&](const std::string& trace, std::vector<std::string> more) {
+    std::vector<std::string> command = {"run", kKnife, "--simulate", "--duration", "2s", "--trace", trace};
+    command.insert(command.end(), more.begin(), more.end());
+    return lockstep(command);
+  };
+  ASSERT_EQ(simulate(folder.file("without.csv"), {}).status, 0);
+  const Ended with = simulate(folder.file("with.csv"), {"--studio", "127.0.0.1:0"});
+  ASSERT_EQ(with.status, 0) << with.err;
+  EXPECT_NE((with.out + with.err).find("studio on http://127.0.0.1:"), std::string::npos) << with.err;
+  const std::string trace = content(folder.file("without.csv"));
+  EXPECT_GT(trace.size(), 10'000u);
+  EXPECT_EQ(content(folder.file("with.csv")), trace);
+}
+
+TEST(Studio, IsRefusedWhereStrangersCouldLook) {
+  const Ended open = lockstep({"run", kKnife, "--simulate", "--duration", "10ms", "--studio", "0.0.0.0:0"});
+  EXPECT_EQ(open.status, 2);
+  EXPECT_NE(open.err.find("--studio-token-file"), std::string::npos) << open.err;
+  const Directory folder;
+  const std::string token = folder.write("token", "0123456789abcdef0123456789abcdef\n");
+  const Ended readable = lockstep({"run", kKnife, "--simulate", "--duration", "10ms", "--studio",
+                                   "127.0.0.1:0", "--studio-token-file", token});
+  EXPECT_EQ(readable.status, 2);
+  EXPECT_NE(readable.err.find("chmod 600"), std::string::npos) << readable.err;
+}
+
+TEST(Studio, NeedsAnEndpointThatIsOne) {
+  EXPECT_EQ(lockstep({"run", kKnife, "--simulate", "--duration", "10ms", "--studio", "127.0.0.1"}).status, 2);
+  EXPECT_EQ(lockstep({"run", kKnife, "--simulate", "--duration", "10ms", "--studio", "nowhere:0"}).status, 2);
+}
+
+}  // namespace
+}  // namespace lockstep::studio_test

@@ -1,0 +1,185 @@
+// What an MCO 305 keeps across runs: arrays and parameters by SAVE, those of the application by themselves.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hmi_bridge/retain/writer.hpp"
+#include "projects/loader/project.hpp"
+#include "scheduler/mco305/mco305.hpp"
+#include "tests/support/directory.hpp"
+
+namespace lockstep::device_retain_test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Texts = std::vector<std::string>;
+
+struct Machine {
+  std::string file;
+  Texts program;
+  Json parameters = {{"KPROP", 30}, {"1900", 4}};
+  std::vector<std::string> remarks{};
+
+  std::string text() const {
+    Json json = Json::parse(R"({ "lockstep": 1, "name": "kept", "clock": { "servo_cycle": "1ms" },
+      "technology_objects": { "Lift": { "type": "MCO_305", "programs": [ { "number": 0, "autostart": true } ] } } })");
+    json["technology_objects"]["Lift"]["parameters"] = parameters;
+    json["technology_objects"]["Lift"]["programs"][0]["lines"] = program;
+    return json.dump();
+  }
+
+  /// One run, which ends at once like a loss of power when its program is at its end.
+  std::unique_ptr<Project> run() {
+    std::unique_ptr<RetainWriter> writer;
+    remarks.clear();
+    LoadedProject loaded = load_project(text(), "", [&](Project& project) {
+      RetainFile kept(file, project.name);
+      remarks = restore(kept, project.retain.values);
+      writer = std::make_unique<RetainWriter>(std::move(kept), project.retain.values, std::chrono::seconds(1),
+                                              &project.controller->encoder_saving);
+    });
+    if (!loaded.project) return nullptr;
+    auto project = std::make_unique<Project>(std::move(*loaded.project));
+    Controller& controller = *project->controller;
+    controller.images.push_back(&writer->image());
+    writer->start();
+    constexpr int kTries = 20'000;
+    Mco305& device = device_of(*project);
+    for (int i = 0; i < kTries && !waits(device); ++i) {
+      controller.tick();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // the disk has its own time
+    }
+    EXPECT_TRUE(waits(device)) << "error " << device.machine().error();
+    writer->stop();
+    return project;
+  }
+  static Mco305& device_of(Project& project) {
+    return static_cast<Mco305&>(*project.controller->objects.front());
+  }
+  /// In its last line but one: everything has been saved.
+  bool waits(Mco305& device) const {
+    return device.machine().place().line >= program.size() - 1 || device.machine().over();
+  }
+};
+
+std::int32_t element(Project& project, const std::string& name) {
+  const Mco305& device = Machine::device_of(project);
+  for (std::size_t i = 0; i < device.program()->image.variables.size(); ++i)
+    if (device.program()->image.variables[i] == name)
+      return Machine::device_of(project).machine().variable(i);
+  return -1;
+}
+
+const Texts kCounts = {"DIM a[3], b[2]",   "SET 1900 (GET 1900 + 1)",
+                       "a[2] = a[2] + 10", "b[2] = b[2] + 1",
+                       "k = GET KPROP",    "SET KPROP (k + 5)",
+                       "SET 33-83 2",      "SAVE ARRAYS",
+                       "SAVE AXPARS",      "x = a[2]",
+                       "y = b[2]",         "z = GET 1900",
+                       "e = GET 33-83",    "wait:",
+                       "DELAY 100",        "GOTO wait"};
+
+TEST(DeviceRetain, GivesBackWhatHasBeenSaved) {
+  const test::Directory directory;
+  Machine machine{directory.file("kept"), kCounts};
+  for (int run = 1; run <= 3; ++run) {
+    const auto project = machine.run();
+    ASSERT_NE(project, nullptr);
+    EXPECT_EQ(element(*project, "x"), 10 * run);
+    EXPECT_EQ(element(*project, "y"), run);
+    EXPECT_EQ(element(*project, "z"), 4 + run) << "1900: by itself";
+    EXPECT_EQ(element(*project, "k"), 30 + 5 * (run - 1)) << "AXPARS";
+    EXPECT_EQ(Machine::device_of(*project).eeprom.writes, static_cast<UDINT>(2 * run));
+    EXPECT_EQ(machine.remarks, Texts{});
+  }
+}
+
+// 33-83 is one of GLBPARS: SAVE AXPARS leaves it out.
+TEST(DeviceRetain, KeepsOnlyThePartThatIsSaved) {
+  const test::Directory directory;
+  for (const bool saved : {false, true}) {
+    Machine machine{directory.file(saved ? "a" : "b"),
+                    {"e = GET 33-83", "SET 33-83 2", saved ? "SAVE GLBPARS" : "SAVE USRPARS",
+                     "wait:", "DELAY 100", "GOTO wait"}};
+    const auto first = machine.run();
+    const auto second = machine.run();
+    ASSERT_NE(second, nullptr);
+    EXPECT_EQ(element(*first, "e"), 0);
+    EXPECT_EQ(element(*second, "e"), saved ? 2 : 0);
+  }
+}
+
+TEST(DeviceRetain, PutsAsideWhatDoesNotFitTheProjectAnyMore) {
+  const test::Directory directory;
+  Machine machine{directory.file("kept"), kCounts};
+  ASSERT_NE(machine.run(), nullptr);
+  machine.parameters["KPROP"] = 70;
+  machine.program[0] = "DIM a[3], b[2], c[1]";
+  const auto project = machine.run();
+  ASSERT_NE(project, nullptr);
+  EXPECT_EQ(element(*project, "k"), 70) << "what the project says now";
+  EXPECT_EQ(element(*project, "x"), 10);
+  EXPECT_EQ(element(*project, "z"), 6) << "those of the application still fit";
+  std::string all;
+  for (const std::string& remark : machine.remarks) all += remark + "\n";
+  EXPECT_EQ(machine.remarks.size(), 2u) << all;
+  EXPECT_NE(all.find("Lift.AXPARS was kept"), std::string::npos) << all;
+  EXPECT_NE(all.find("It was: 3260=30"), std::string::npos) << all;
+  EXPECT_NE(all.find("Lift.ARRAYS was kept"), std::string::npos) << all;
+  EXPECT_NE(all.find("stays in the file as 'Lift.AXPARS@ARRAY[1.."), std::string::npos) << all;
+}
+
+TEST(DeviceRetain, RefusesADamagedFile) {
+  const test::Directory directory;
+  Machine machine{directory.file("kept"), kCounts};
+  ASSERT_NE(machine.run(), nullptr);
+  {
+    std::fstream file(machine.file, std::ios::in | std::ios::out | std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t at = text.find("Lift.AXPARS");
+    ASSERT_NE(at, std::string::npos);
+    file.clear();
+    file.seekp(static_cast<std::streamoff>(at + 40));
+    file << "9";
+  }
+  try {
+    machine.run();
+    FAIL() << "it was taken";
+  } catch (const RetainFileError& error) {
+    EXPECT_NE(std::string(error.what()).find("damaged"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(machine.file), std::string::npos) << error.what();
+  }
+}
+
+// A value in the file with which nothing can be computed, such as VELRES 0: error 116, and the project's
+// stays.
+TEST(DeviceRetain, TakesNoValueWithWhichNothingCanBeComputed) {
+  const test::Directory directory;
+  Machine machine{directory.file("kept"), kCounts};
+  LoadedProject loaded = load_project(machine.text(), "", [&](Project& project) {
+    auto& parameters = Machine::device_of(project).parameters();
+    *parameters.kept(mco305::kVelRes) = 0;
+    *parameters.saved(mco305::ParameterSet::kAxis) = true;
+  });
+  ASSERT_TRUE(loaded.project.has_value());
+  Mco305& device = Machine::device_of(*loaded.project);
+  EXPECT_EQ(device.parameters()[mco305::kVelRes], 100);
+  loaded.project->controller->tick();
+  EXPECT_EQ(device.machine().error(), 116);
+}
+
+TEST(DeviceRetain, CopiesNothingInTheTickWhereNoProgramChangesAnything) {
+  const Machine machine{"", {"POSA 100", "wait:", "DELAY 100", "GOTO wait"}};
+  const LoadedProject loaded = load_project(machine.text());
+  ASSERT_TRUE(loaded.project.has_value());
+  EXPECT_TRUE(loaded.project->retain.values.empty());
+}
+
+}  // namespace
+}  // namespace lockstep::device_retain_test
