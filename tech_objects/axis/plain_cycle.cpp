@@ -82,7 +82,7 @@ inline bool Axis::undisturbed() const noexcept {
   const bool positions = single_.aim() == SingleAxisMotion::Aim::position;
   data.StatusPositioning.Distance =
       positions ? rounded_difference(single_.target(), setpoint_.position, modulo_) : 0.0;
-  const CommandBits& bits = command_bits_of(*job);
+  const CommandBits& bits = kCommandBits[static_cast<std::size_t>(job->kind)];
   publish_plainly(bits.word, bits.word2);
   publish_no_coupling();
 }

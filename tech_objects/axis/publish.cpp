@@ -151,7 +151,7 @@ void Publisher::show_status() const noexcept {
 
   std::uint32_t word2 = 0;
   if (const Job* const base = jobs[kBase]) {
-    const CommandBits& bits = command_bits_of(*base);
+    const CommandBits& bits = kCommandBits[static_cast<std::size_t>(base->kind)];
     word |= bits.word;
     word2 = bits.word2;
   }

@@ -61,10 +61,6 @@ inline constexpr auto kCommandBits = [] {
   return bits;
 }();
 
-constexpr const CommandBits& command_bits_of(const Job& job) noexcept {
-  return kCommandBits[static_cast<std::size_t>(job.kind)];
-}
-
 /// Bits that `show_status` shows; others are of the functions that they belong to.
 inline constexpr std::uint32_t kStatusBits =
     word_of(StatusBit::Enable, StatusBit::Error, StatusBit::HomingDone, StatusBit::OnlineStartValuesChanged,
