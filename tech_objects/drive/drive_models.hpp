@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "tech_objects/drive/drive.hpp"
+#include "tech_objects/drive/linear_motor_drive.hpp"
 #include "tech_objects/drive/simulated_drive.hpp"
 
 namespace lockstep {
@@ -20,6 +21,7 @@ std::unique_ptr<Drive> make_drive() {
 /// A new drive is a class and a line here. The first one is that of an axis that names none.
 inline constexpr DriveModel kDriveModels[] = {
     {"simulated", make_drive<SimulatedDrive>},
+    {"linear_motor", make_drive<LinearMotorDrive>},
 };
 
 /// Their names, in the same order.

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "tech_objects/drive/linear_motor_settings.hpp"
 #include "tech_objects/drive/machine_plant.hpp"
 #include "tech_objects/drive/machine_signals.hpp"
 
@@ -37,6 +38,7 @@ struct DriveSettings {
   double quick_stop = 0.0;       ///< [u/s²] ≥ 0, deceleration of OFF3; 0: as hard as the drive can
   SimulatedFaults faults{};
   double position_cycle = 0.000125;          ///< [s] > 0, of the drive's own position loop (DSC)
+  LinearMotorSettings linear_motor{};        ///< of "linear_motor"
   std::array<SimulatedSensor, 3> sensors{};  ///< Sensor[2] to Sensor[4]
 };
 

@@ -238,7 +238,10 @@ TEST(StructsOfTheProjectFile, HaveNoMemberThatIsNotDeclared) {
   expect_declared(keys::kPlant, {"has_stop"});
   expect_declared(keys::kFaults);
   expect_declared(keys::kSensor, {"exists"});
-  expect_declared(keys::kSimulatedDrive, {"sensors"});
+  expect_declared(keys::kSimulatedDrive, {"sensors", "linear_motor"});
+  expect_declared(keys::kDampedStop);
+  expect_declared(keys::kCentringSpring);
+  expect_declared(keys::kLinearMotor, {"time_constant", "dead_time", "plant", "position_cycle", "sensors"});
   expect_declared(keys::kSimulatedEncoder, {"signal"});
   expect_declared(keys::kMarks);
   expect_declared(keys::kSwitchingTimes);

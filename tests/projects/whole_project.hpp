@@ -21,6 +21,16 @@ inline constexpr char kRestOfProject[] = R"json({
         "sensors": [ { "sensor": 2 } ]
       }
     },
+    "Slide": {
+      "type": "TO_PositioningAxis",
+      "config": { "Actor": { "MotorType": 1 } },
+      "drive": {
+        "model": "linear_motor", "force_constant": 40.0, "slider_mass": 0.829, "load_mass": 1.2, "P": 1.0, "D": 4.0,
+        "maximal_current": 5.0, "external_force": "seconds",
+        "spring": { "position": 0.0, "stiffness": 10.0 },
+        "fixed_stops": [ { "position": 35.0, "stiffness": 1000.0, "damping": 10.0 } ]
+      }
+    },
     "Encoder": {
       "type": "TO_ExternalEncoder",
       "config": {},

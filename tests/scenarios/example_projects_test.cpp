@@ -93,7 +93,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Stored{"07_emergency_door", "16s", 40}, Stored{"08_filling_line", "11s", 40},
                     Stored{"09_flying_saw", "12s", 40}, Stored{"10_fixed_stop", "16s", 40},
                     Stored{"11_pick_and_place", "8s", 40}, Stored{"14_twelve_stations", "7s", 50},
-                    Stored{"20_bottle_palletizer", "20s", 40}, Stored{"24_brake", "4s", 10}),
+                    Stored{"20_bottle_palletizer", "20s", 40}, Stored{"24_brake", "4s", 10},
+                    Stored{"26_linear_motor", "7s", 25}),
     [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
@@ -684,6 +685,28 @@ TEST(Brake, IsOpenWhileTheLiftMovesAndShutBehindAnError) {
   EXPECT_EQ(table["Lift.ERRNO"].back(), 125.0);
   EXPECT_GT(table["Lift.AVEL"][hit], 10'000.0) << "was at rest already";
   EXPECT_LT(std::abs(table["Lift.AVEL"][shut]), 5'000.0) << "braked while it moved";
+}
+
+TEST(LinearMotor, RunsAlongWithTheBeltByItsForceAndGivesWayToAnotherOne) {
+  const CsvTable table = simulate(example("26_linear_motor"), "7s");
+  expect_never(table, "alarm");
+  EXPECT_GE(table["rounds"].back(), 3.0);
+  expect_smooth("26_linear_motor", table, "Slide", 1500.0, 30'000.0);
+  double along = 0.0, pushed = 0.0, force = 0.0;
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    const double t = table["t"][i];
+    const double error = std::abs(table["Slide.StatusPositioning.FollowingError"][i]);
+    force = std::max(force, std::abs(table["Slide.StatusTorqueData.ActualTorque"][i]));
+    if (t >= 4.0 && t < 4.3)
+      pushed = std::max(pushed, error);
+    else if (table["along.InSync"][i] > 0.0)
+      along = std::max(along, error);
+  }
+  EXPECT_LT(along, 0.15);
+  EXPECT_GT(pushed, 0.5);
+  EXPECT_LT(pushed, 1.4);
+  EXPECT_GT(force, 2.029 * 15.0);  // of the acceleration on the way back
+  EXPECT_LT(force, 5.0 * 40.0);    // of the maximal current
 }
 
 }  // namespace
