@@ -178,6 +178,8 @@ TEST(LinearMotorAxisFault, TakesItsCurrentUntilMC_ResetAcknowledges) {
   rig.switch_on();
   rig.move.Position = 200.0;
   rig.move.Velocity = 500.0;
+  rig.move.Acceleration = rig.move.Deceleration = 10'000.0;
+  rig.move.Jerk = 0.0;
   rig.move.Execute = true;
   rig.run(100);
   ASSERT_GT(rig.drive().plant().velocity(), 100.0);
@@ -188,6 +190,8 @@ TEST(LinearMotorAxisFault, TakesItsCurrentUntilMC_ResetAcknowledges) {
   rig.run(500);  // friction alone brings it to rest
   EXPECT_EQ(rig.drive().plant().velocity(), 0.0);
   rig.fault = false;
+  rig.move.Execute = false;
+  rig.run(1);
   reset.Execute = true;
   ASSERT_TRUE(rig.run_until([&] { return reset.Done; }));
   ASSERT_TRUE(rig.run_until([&] { return rig.a.enabled(); }));
@@ -210,8 +214,8 @@ TEST(LinearMotorAxisWeight, IsCarriedByTheOffsetOfTheCurrent) {
   rig.a.drive_settings.linear_motor.loop.offset = kMass * 9.81 / 40.0;
   rig.switch_on();
   rig.go(50.0);
-  rig.run(500);
   EXPECT_TRUE(rig.move.Done);
+  rig.run(500);
   EXPECT_NEAR(rig.drive().plant().position(), 50.0, 1e-3);
   rig.power.Enable = false;
   ASSERT_TRUE(rig.run_until([&] { return rig.a.off(); }));
@@ -225,6 +229,8 @@ TEST(LinearMotorAxisStop, EndsAMotionByTheDriveItselfWhenItIsSwitchedOff) {
   rig.switch_on();
   rig.move.Position = 400.0;
   rig.move.Velocity = 500.0;
+  rig.move.Acceleration = rig.move.Deceleration = 10'000.0;
+  rig.move.Jerk = 0.0;
   rig.move.Execute = true;
   rig.run(150);
   ASSERT_GT(rig.drive().plant().velocity(), 400.0);
