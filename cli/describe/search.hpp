@@ -9,7 +9,8 @@
 namespace lockstep::cli {
 
 /// Everything in whose name or meaning all words occur, best first: blocks, pins, variables, alarms, errors,
-/// keys, functions, operators and types of expressions. @return an empty subject if there is nothing, or the words are too short to search for
+/// keys, functions, operators and types of expressions. @return an empty subject if there is nothing, or the
+/// words are too short to search for
 Subject search_subject(const std::vector<std::string>& words);
 
 }  // namespace lockstep::cli

@@ -66,8 +66,8 @@ Subject language_subject(std::string_view word);
 /// Their names, for suggestions.
 std::vector<std::string_view> language_names();
 
-/// A parameter of an MCO 305 by mnemonic or number (`KPROP`, `32-60`, `1900`), a command of APOSS, an error by
-/// its number, a system variable by its index; each an empty subject if there is none.
+/// A parameter of an MCO 305 by mnemonic or number (`KPROP`, `32-60`, `1900`), a command of APOSS, an error
+/// by its number, a system variable by its index; each an empty subject if there is none.
 Subject mco305_parameter_subject(std::string_view name);
 Subject mco305_command_subject(std::string_view name);
 Subject mco305_error_subject(std::string_view number);

@@ -410,9 +410,10 @@ void Parser::resolve() {
       continue;
     }
     if (label->second.routine != jump.routine)
-      messages_.warn(jump.place,
-                     "the jump to " + quote(jump.written) +
-                         " leads out of a subprogram or into one; a RETURN behind it has no GOSUB: error 152");
+      messages_.warn(
+          jump.place,
+          "the jump to " + quote(jump.written) +
+              " leads out of a subprogram or into one; a RETURN behind it has no GOSUB: error 152");
     if (jump.routine != 0 && label->second.routine != jump.routine)
       emitter_.leave(jump.instruction, label->second.routine == 0);
     emitter_.aim(jump.instruction, label->second.instruction);

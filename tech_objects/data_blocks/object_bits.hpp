@@ -46,12 +46,9 @@ enum class ProxyBit : std::uint8_t {
   LeadingValueModulo = 5,        ///< the leading value has a modulo function
   LeadingAxisControl = 6,        ///< the leading axis is in setpoint operation, not in follow-up
 };
-inline constexpr BitNames kProxyStatusBitNames = {"Control",
-                                                  "Error",
-                                                  "RestartActive",
-                                                  "OnlineStartValuesChanged",
-                                                  "LeadingValueValid",
-                                                  "LeadingValueModulo",
+inline constexpr BitNames kProxyStatusBitNames = {"Control",           "Error",
+                                                  "RestartActive",     "OnlineStartValuesChanged",
+                                                  "LeadingValueValid", "LeadingValueModulo",
                                                   "LeadingAxisControl"};
 inline constexpr BitNames kProxyErrorBitNames = only(kErrorBitNames, {0, 1, 2, 3, 7});
 inline constexpr BitNames kProxyWarningBitNames = only(kWarningBitNames, {0, 1, 2, 3, 7});
