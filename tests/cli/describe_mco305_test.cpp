@@ -63,8 +63,9 @@ TEST(DescribeMco305, HasWordsForEverything) {
   for (const mco305::Parameter& of : mco305::parameters())
     EXPECT_FALSE(mco305::meaning_of(of.number).empty()) << of.number;
   for (const aposs::CommandRow& row : aposs::commands())
-    if (row.kind == aposs::CommandKind::kStatement || row.kind == aposs::CommandKind::kFunction)
+    if (row.kind == aposs::CommandKind::kStatement || row.kind == aposs::CommandKind::kFunction) {
       EXPECT_FALSE(aposs::meaning_of(row).empty()) << row.name;
+    }
   mco305::Device device;
   device.configure({}, 1e-3);
   for (const mco305::SystemVariable& variable : mco305::system_variables()) {
