@@ -16,6 +16,8 @@ namespace {
 
 using namespace lockstep::cli;
 
+// [byte] for tables that are made when first asked for, by what cannot refuse
+constexpr std::size_t kTables = std::size_t{4} << 20;
 constexpr std::size_t kDescriptors = 4;  // that the shortest command opens at once
 
 /// What CLI11 says, with the command line in it, which may have names of strangers' files.
@@ -85,6 +87,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further is a write that fails, and is told
   try {
     require_descriptors(kDescriptors);
+    require_memory(kTables);
     const int status = carry_out(argc, argv);
     finish_output();
     return status;

@@ -101,9 +101,11 @@ for key in servo_cycle technology_objects programs retain listen; do expect "$te
 # Each key of the program's own tables is a paragraph of the page, with what is said of it.
 keys=$("$lockstep" describe keys --json | python3 -c 'import json, sys
 for key in {key["name"] for structure in json.load(sys.stdin)["structures"] for key in structure["keys"]}: print(key)')
-for key in fb in set set_start if then else to config $keys; do
-  awk -v key="$key" '$1 == key { found = 1 } END { exit !found }' <<<"$text" || fail "lockstep-project(5) says nothing of $key"
-done
+for key in fb in set set_start if then else to config; do keys+=$'\n'$key; done
+while read -r key; do  # a name of more than one word, too
+  awk -v key="$key" '{ sub(/^ +/, "") } index($0 " ", key " ") == 1 { found = 1 } END { exit !found }' <<<"$text" ||
+    fail "lockstep-project(5) says nothing of $key"
+done <<<"$keys"
 grep -A1 -E '^ +config( |$)' <<<"$text" | grep -q variables || fail "nothing is said of config"
 text=$(groff -k -man -Tascii -P-c -P-b -P-u "$work/root/usr/share/man/man7/lockstep-language.7" 2>/dev/null)
 for function in $("$lockstep" describe functions --json | python3 -c 'import json, sys
