@@ -85,9 +85,9 @@ std::vector<std::string> RunSurroundings::unfinished() const {
   if (part == Part::values)
     texts.push_back("retain file " + keeper_->path() +
                     ": writing does not end; the last values are not kept");
-  if (part == Part::server) texts.push_back("the Modbus server does not end");
-  if (part == Part::clients) texts.push_back("a Modbus client does not end");
-  if (part == Part::studio) texts.push_back("the studio does not end");
+  if (part == Part::server) texts.emplace_back("the Modbus server does not end");
+  if (part == Part::clients) texts.emplace_back("a Modbus client does not end");
+  if (part == Part::studio) texts.emplace_back("the studio does not end");
   if (part == Part::audit)
     texts.push_back("audit log " + audit_->path() + ": writing does not end; the last entries are lost");
   return texts;
