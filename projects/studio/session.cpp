@@ -35,8 +35,8 @@ struct Wrong {
 
 /// Thrown where nothing else is to be looked at.
 struct BadRequest : std::runtime_error {
-  BadRequest(unsigned status_, std::string code_, const std::string& text)
-      : std::runtime_error(text), status(status_), code(std::move(code_)) {}
+  BadRequest(unsigned status_code, std::string word, const std::string& text)
+      : std::runtime_error(text), status(status_code), code(std::move(word)) {}
   unsigned status;
   std::string code;
 };
