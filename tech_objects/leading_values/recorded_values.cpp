@@ -17,7 +17,7 @@ constexpr int kBeside = 96;
 }  // namespace
 
 void RecordedValues::reserve() {
-  entries_.resize(static_cast<std::size_t>(kLongestLeadingDelay + kBeside));
+  entries_.resize(std::size_t{kLongestLeadingDelay} + std::size_t{kBeside});
 }
 
 void RecordedValues::set_source(const Modulo& modulo, std::int64_t cycle) noexcept {
