@@ -11,7 +11,7 @@
 
 namespace lockstep::test {
 
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr long kMayGrow = 300'000;  // [KiB] the sanitizer keeps what has been released, up to 256 MiB
 #else
 inline constexpr long kMayGrow = 256;  // [KiB]
