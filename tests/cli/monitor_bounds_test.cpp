@@ -76,6 +76,8 @@ TEST(MonitorMemory, KeepsNoEventNorPanelOfAnExcessiveLength) {
   EXPECT_EQ(model.panel->axes().size(), 1u);
 }
 
+// LCM hands messages over behind locks of GLib, which the thread sanitizer does not see.
+#ifndef __SANITIZE_THREAD__
 TEST(MonitorMemory, HoldsNoMoreThanItMayOfWhatNobodyLooksAt) {
   constexpr std::size_t kMessage = 1u << 20, kSent = 50;
   LcmPublisher publisher("memq://", {"monitor", "MONITOR", 0, 0});
@@ -99,6 +101,7 @@ TEST(MonitorMemory, HoldsNoMoreThanItMayOfWhatNobodyLooksAt) {
     return messages == kHeld + 1;
   }));
 }
+#endif
 
 }  // namespace
 }  // namespace lockstep::cli::monitor_bounds_test
