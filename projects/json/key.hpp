@@ -278,12 +278,9 @@ struct KeyTable {
   }
 };
 
-/// Declares the keys of a struct. No name and no member may be there twice.
-template <class S, class... K>
-consteval KeyTable<S, sizeof...(K)> key_table(K... list) {
-  static_assert(((std::is_same_v<typename K::Owner, S> || std::is_void_v<typename K::Owner>)&&...),
-                "a key of another struct");
-  const KeyTable<S, sizeof...(K)> table{{static_cast<const Key&>(list)...}};
+/// The table itself. No name and no member may be there twice.
+template <class S, std::size_t n>
+consteval KeyTable<S, n> checked(const KeyTable<S, n>& table) {
   for (std::size_t i = 0; i < table.all.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       if (table.all[i].name == table.all[j].name) throw "a key is declared twice";
@@ -293,6 +290,23 @@ consteval KeyTable<S, sizeof...(K)> key_table(K... list) {
 #endif
     }
   return table;
+}
+
+/// Declares the keys of a struct. No name and no member may be there twice.
+template <class S, class... K>
+consteval KeyTable<S, sizeof...(K)> key_table(K... list) {
+  static_assert(((std::is_same_v<typename K::Owner, S> || std::is_void_v<typename K::Owner>)&&...),
+                "a key of another struct");
+  return checked(KeyTable<S, sizeof...(K)>{{static_cast<const Key&>(list)...}});
+}
+
+/// The keys of two tables of a struct, one after the other. No name and no member may be there twice.
+template <class S, std::size_t n, std::size_t m>
+consteval KeyTable<S, n + m> joined(const KeyTable<S, n>& first, const KeyTable<S, m>& second) {
+  KeyTable<S, n + m> table;
+  for (std::size_t i = 0; i < n; ++i) table.all[i] = first.all[i];
+  for (std::size_t i = 0; i < m; ++i) table.all[n + i] = second.all[i];
+  return checked(table);
 }
 
 /// Each of these declares a key that is read into a member of a struct, or of one within it; without a member

@@ -72,47 +72,56 @@ inline constexpr auto kSensor = key_table<SimulatedSensor>(
                                                   "what it tells at the beginning, of an absolute one"),
     key::tag<&SimulatedSensor::fault>("fault", "BOOL tag: while TRUE it tells nothing"));
 
+/// What every drive has that simulates its machine: encoder, marks and switches, faults.
+/// @param unit of positions
+consteval auto machine_keys(std::string_view unit) {
+  return key_table<DriveSettings>(
+      key::number<&DriveSettings::resolution>("encoder_resolution", kLength, unit,
+                                              "increment of the encoder as the axis reads it; 0: none"),
+      key::boolean<&DriveSettings::inverted>(
+          "inverted",
+          "motor and encoder count the other way round than the machine; Actor.InverseDirection and "
+          "Sensor[1].InverseDirection make up for it"),
+      key::number<&DriveSettings::signals, &MachineSignals::start_position>(
+          "start_position", kPlace, unit,
+          "where the machine stands at the start, on its own scale; what an absolute encoder "
+          "(Sensor[1].Type 1, 2) reports"),
+      key::structure<&DriveSettings::signals, &MachineSignals::zero_marks>("zero_marks", kZeroMarks,
+                                                                           "zero marks of the encoder"),
+      key::positions<&DriveSettings::signals, &MachineSignals::reference_cam>(
+          "reference_cam", kPlace,
+          "positions in which the reference cam is active; it counts where homing has no "
+          "DigitalInputAddress"),
+      key::structure<&DriveSettings::signals>(
+          "limit_switches", kLimitSwitches,
+          "pressed from there outwards; they count where PositionLimits_HW has no address"),
+      key::structure<&DriveSettings::signals, &MachineSignals::digital_inputs>(
+          "digital_inputs", kDigitalInput, "switches that are tags; an address in config may name them")
+          .list(),
+      key::number<&DriveSettings::quick_stop>(
+          "quick_stop_deceleration", kNotNegative, unit == "mm" ? "mm/s²" : "u/s²",
+          "of a quick stop (OFF3: MC_Power StopMode 1, alarms that remove the enable); 0: as hard as the "
+          "drive can"),
+      key::structure<&DriveSettings::faults>("faults", kFaults, "what goes wrong, and when"),
+      key::structure("sensors", kSensor,
+                     "encoders beside that of the drive, at the machine; each needs its Sensor[n].Existent "
+                     "in config")
+          .list());
+}
+
 inline constexpr double kMaximumDeadCycles = 254;   // of MC_Servo, as dead time of a drive
 inline constexpr double kLongestServoCycle = 60e9;  // [ns]
-inline constexpr auto kSimulatedDrive = key_table<DriveSettings>(
-    key::selector("model", "kind of the drive"),
-    key::duration<&DriveSettings::time_constant>("time_constant", {0, 10e9}, "lag of the velocity loop"),
-    key::duration<&DriveSettings::dead_time>("dead_time", {0, kMaximumDeadCycles* kLongestServoCycle},
-                                             "dead time of the velocity loop, up to 254 servo cycles"),
-    key::number<&DriveSettings::resolution>("encoder_resolution", kLength, "u",
-                                            "increment of the encoder; 0: none"),
-    key::boolean<&DriveSettings::inverted>(
-        "inverted",
-        "motor and encoder turn the other way round than the machine; Actor.InverseDirection and "
-        "Sensor[1].InverseDirection make up for it"),
-    key::number<&DriveSettings::signals, &MachineSignals::start_position>(
-        "start_position", kPlace, "u",
-        "where the machine stands at the start, on its own scale; what an absolute encoder (Sensor[1].Type "
-        "1, 2) "
-        "reports"),
-    key::structure<&DriveSettings::signals, &MachineSignals::zero_marks>("zero_marks", kZeroMarks,
-                                                                         "zero marks of the encoder"),
-    key::positions<&DriveSettings::signals, &MachineSignals::reference_cam>(
-        "reference_cam", kPlace,
-        "positions in which the reference cam is active; it counts where homing has no DigitalInputAddress"),
-    key::structure<&DriveSettings::signals>(
-        "limit_switches", kLimitSwitches,
-        "pressed from there outwards; they count where PositionLimits_HW has no address"),
-    key::structure<&DriveSettings::signals, &MachineSignals::digital_inputs>(
-        "digital_inputs", kDigitalInput, "switches that are tags; an address in config may name them")
-        .list(),
-    key::number<&DriveSettings::quick_stop>("quick_stop_deceleration", kNotNegative, "u/s²",
-                                            "of a quick stop (OFF3: MC_Power StopMode 1, alarms that remove "
-                                            "the enable); 0: as hard as the drive can"),
-    key::structure<&DriveSettings::plant>("plant", kPlant, "what the drive moves; none: no torque"),
-    key::structure<&DriveSettings::faults>("faults", kFaults, "what goes wrong, and when"),
-    key::duration<&DriveSettings::position_cycle>(
-        "position_cycle", {10e3, 1e9},
-        "cycle of the position loop in the drive, with PositionControl.EnableDSC"),
-    key::structure(
-        "sensors", kSensor,
-        "encoders beside that of the drive, at the machine; each needs its Sensor[n].Existent in config")
-        .list());
+inline constexpr auto kSimulatedDrive = joined(
+    key_table<DriveSettings>(
+        key::selector("model", "kind of the drive"),
+        key::duration<&DriveSettings::time_constant>("time_constant", {0, 10e9}, "lag of the velocity loop"),
+        key::duration<&DriveSettings::dead_time>("dead_time", {0, kMaximumDeadCycles* kLongestServoCycle},
+                                                 "dead time of the velocity loop, up to 254 servo cycles"),
+        key::structure<&DriveSettings::plant>("plant", kPlant, "what the drive moves; none: no torque"),
+        key::duration<&DriveSettings::position_cycle>(
+            "position_cycle", {10e3, 1e9},
+            "cycle of the position loop in the drive, with PositionControl.EnableDSC")),
+    machine_keys("u"));
 
 inline constexpr auto kDampedStop = key_table<DampedStop>(
     key::number<&DampedStop::position>("position", kPlace, "mm",
@@ -143,82 +152,55 @@ constexpr auto of_motor_plant(std::string_view name, Range range, std::string_vi
 }
 
 /// The names of the position loop are those that the servo controllers of such motors print.
-inline constexpr auto kLinearMotor = key_table<DriveSettings>(
-    key::selector("model", "kind of the drive"),
-    key::number<&DriveSettings::linear_motor, &LinearMotorSettings::force_constant>(
-        "force_constant", kAboveZero, "N/A", "of the motor")
-        .needed(),
-    of_motor_plant<&LinearMotorPlantSettings::slider_mass>("slider_mass", kAboveZero, "kg",
-                                                           "of the motor itself")
-        .needed(),
-    of_motor_plant<&LinearMotorPlantSettings::load_mass>("load_mass", kNotNegative, "kg",
-                                                         "of what it carries"),
-    of_motor_plant<&LinearMotorPlantSettings::friction>("friction", kNotNegative, "N",
-                                                        "dry, against every motion"),
-    of_motor_plant<&LinearMotorPlantSettings::inclination>(
-        "inclination", {-90.0, 90.0}, "°",
-        "90: the positive direction is straight upwards, against the weight"),
-    key::tag<&DriveSettings::linear_motor, &LinearMotorSettings::plant,
-             &LinearMotorPlantSettings::external_force>(
-        "external_force", "LREAL tag: pushes besides [N], within ±1e9; positive: in the positive direction",
-        Type::LREAL),
-    key::structure<&DriveSettings::linear_motor, &LinearMotorSettings::plant,
-                   &LinearMotorPlantSettings::spring>("spring", kCentringSpring, "always in force"),
-    key::structure<&DriveSettings::linear_motor, &LinearMotorSettings::plant,
-                   &LinearMotorPlantSettings::stops>("fixed_stops", kDampedStop,
-                                                     "something immovable in the way")
-        .list(),
-    of_loop<&CurrentLoopSettings::proportional>("P", kAboveZero, "A/mm", "gain of the following error")
-        .needed(),
-    of_loop<&CurrentLoopSettings::derivative>("D", kNotNegative, "A/(m/s)",
-                                              "gain of the difference of velocity")
-        .needed(),
-    of_loop<&CurrentLoopSettings::integral>("I", kNotNegative, "A/(mm s)",
-                                            "gain of the summed following error"),
-    of_loop<&CurrentLoopSettings::friction>("FF Friction", kNotNegative, "A",
-                                            "feed-forward in the direction of the setpoint's motion"),
-    of_loop<&CurrentLoopSettings::acceleration>("FF Acceleration", kNotNegative, "mA/(m/s²)",
-                                                "feed-forward while the setpoint becomes faster"),
-    of_loop<&CurrentLoopSettings::deceleration>("FF Deceleration", kNotNegative, "mA/(m/s²)",
-                                                "feed-forward while the setpoint becomes slower"),
-    of_loop<&CurrentLoopSettings::offset>("Current Offset", kSigned, "A",
-                                          "always added, such as for a weight"),
-    of_loop<&CurrentLoopSettings::maximum_current>("maximal_current", kAboveZero, "A", "in either direction")
-        .needed(),
-    key::duration<&DriveSettings::linear_motor, &LinearMotorSettings::control_cycle>(
-        "control_cycle", {1e3, 1e9}, "cycle of the position loop; 1 to 256 of them are a servo cycle"),
-    key::boolean<&DriveSettings::linear_motor, &LinearMotorSettings::brake>(
-        "brake", "without current a brake holds the motor once it rests"),
-    key::number<&DriveSettings::resolution>("encoder_resolution", kLength, "mm",
-                                            "increment of the encoder as the axis reads it; 0: none"),
-    key::boolean<&DriveSettings::inverted>(
-        "inverted",
-        "motor and encoder count the other way round than the machine; Actor.InverseDirection and "
-        "Sensor[1].InverseDirection make up for it"),
-    key::number<&DriveSettings::signals, &MachineSignals::start_position>(
-        "start_position", kPlace, "mm",
-        "where the machine stands at the start, on its own scale; what an absolute encoder (Sensor[1].Type "
-        "1, 2) "
-        "reports"),
-    key::structure<&DriveSettings::signals, &MachineSignals::zero_marks>("zero_marks", kZeroMarks,
-                                                                         "zero marks of the encoder"),
-    key::positions<&DriveSettings::signals, &MachineSignals::reference_cam>(
-        "reference_cam", kPlace,
-        "positions in which the reference cam is active; it counts where homing has no DigitalInputAddress"),
-    key::structure<&DriveSettings::signals>(
-        "limit_switches", kLimitSwitches,
-        "pressed from there outwards; they count where PositionLimits_HW has no address"),
-    key::structure<&DriveSettings::signals, &MachineSignals::digital_inputs>(
-        "digital_inputs", kDigitalInput, "switches that are tags; an address in config may name them")
-        .list(),
-    key::number<&DriveSettings::quick_stop>("quick_stop_deceleration", kNotNegative, "mm/s²",
-                                            "of a quick stop (OFF3: MC_Power StopMode 1, alarms that remove "
-                                            "the enable); 0: as hard as the motor can"),
-    key::structure<&DriveSettings::faults>("faults", kFaults, "what goes wrong, and when"),
-    key::structure(
-        "sensors", kSensor,
-        "encoders beside that of the drive, at the machine; each needs its Sensor[n].Existent in config")
-        .list());
+inline constexpr auto kLinearMotor = joined(
+    key_table<DriveSettings>(
+        key::selector("model", "kind of the drive"),
+        key::number<&DriveSettings::linear_motor, &LinearMotorSettings::force_constant>(
+            "force_constant", kAboveZero, "N/A", "of the motor")
+            .needed(),
+        of_motor_plant<&LinearMotorPlantSettings::slider_mass>("slider_mass", kAboveZero, "kg",
+                                                               "of the motor itself")
+            .needed(),
+        of_motor_plant<&LinearMotorPlantSettings::load_mass>("load_mass", kNotNegative, "kg",
+                                                             "of what it carries"),
+        of_motor_plant<&LinearMotorPlantSettings::friction>("friction", kNotNegative, "N",
+                                                            "dry, against every motion"),
+        of_motor_plant<&LinearMotorPlantSettings::inclination>(
+            "inclination", {-90.0, 90.0}, "°",
+            "90: the positive direction is straight upwards, against the weight"),
+        key::tag<&DriveSettings::linear_motor, &LinearMotorSettings::plant,
+                 &LinearMotorPlantSettings::external_force>(
+            "external_force",
+            "LREAL tag: pushes besides [N], within ±1e9; positive: in the positive direction", Type::LREAL),
+        key::structure<&DriveSettings::linear_motor, &LinearMotorSettings::plant,
+                       &LinearMotorPlantSettings::spring>("spring", kCentringSpring, "always in force"),
+        key::structure<&DriveSettings::linear_motor, &LinearMotorSettings::plant,
+                       &LinearMotorPlantSettings::stops>("fixed_stops", kDampedStop,
+                                                         "something immovable in the way")
+            .list(),
+        of_loop<&CurrentLoopSettings::proportional>("P", kAboveZero, "A/mm", "gain of the following error")
+            .needed(),
+        of_loop<&CurrentLoopSettings::derivative>("D", kNotNegative, "A/(m/s)",
+                                                  "gain of the difference of velocity")
+            .needed(),
+        of_loop<&CurrentLoopSettings::integral>("I", kNotNegative, "A/(mm s)",
+                                                "gain of the summed following error"),
+        of_loop<&CurrentLoopSettings::friction>("FF Friction", kNotNegative, "A",
+                                                "feed-forward in the direction of the setpoint's motion"),
+        of_loop<&CurrentLoopSettings::acceleration>("FF Acceleration", kNotNegative, "mA/(m/s²)",
+                                                    "feed-forward while the setpoint becomes faster"),
+        of_loop<&CurrentLoopSettings::deceleration>("FF Deceleration", kNotNegative, "mA/(m/s²)",
+                                                    "feed-forward while the setpoint becomes slower"),
+        of_loop<&CurrentLoopSettings::offset>("Current Offset", kSigned, "A",
+                                              "always added, such as for a weight"),
+        of_loop<&CurrentLoopSettings::maximum_current>("maximal_current", kAboveZero, "A",
+                                                       "in either direction")
+            .needed(),
+        key::duration<&DriveSettings::linear_motor, &LinearMotorSettings::control_cycle>(
+            "control_cycle", {1e3, 1e9}, "cycle of the position loop; 1 to 256 of them are a servo cycle"),
+        key::boolean<&DriveSettings::linear_motor, &LinearMotorSettings::brake>(
+            "brake", "without current a brake holds the motor once it rests")),
+    machine_keys("mm"));
 
 /// Each kind of drive has keys of its own.
 inline constexpr KeyVariant kDrives[] = {{"simulated", kSimulatedDrive}, {"linear_motor", kLinearMotor}};

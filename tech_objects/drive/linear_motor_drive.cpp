@@ -4,35 +4,21 @@
 #include <cmath>
 
 #include "tech_objects/drive/encoder_source.hpp"
-#include "tech_objects/types/bool_tag.hpp"
 
 namespace lockstep {
 namespace {
 
-/// A stop of the drive's own: at rest once this part of the velocity, or this velocity [mm/s], is left; given
-/// up after [s].
-constexpr double kMotorRest = 1e-3;
+/// [mm/s] A machine that is no faster rests.
 constexpr double kMotorRestVelocity = 0.01;
-constexpr double kLongestMotorStop = 10.0;
 
 }  // namespace
 
 DriveProperties LinearMotorDrive::configure(const DriveSettings& settings, double servo_cycle,
                                             double /*motor_angle*/) noexcept {
   const LinearMotorSettings& motor = settings.linear_motor;
-  signals_ = settings.signals;
-  sensors_ = settings.sensors;
-  faults_ = settings.faults;
-  has_faults_ = faults_.drive != nullptr || faults_.encoder != nullptr || faults_.communication != nullptr ||
-                faults_.blocked != nullptr;
-  states_ = {};
-  told_ = {};
+  unit_.configure(settings, servo_cycle);
   force_ = {};
-  stw1_ = kControlOff;
-  stw2_ = 0;
-  blocked_ = false;
   brake_ = motor.brake;
-  stopping_cycles_ = 0;
   servo_cycle_ = servo_cycle;
   control_cycles_ = std::clamp(static_cast<int>(std::floor(servo_cycle / motor.control_cycle + 0.5)), 1,
                                kMaximumControlCycles);
@@ -45,7 +31,6 @@ DriveProperties LinearMotorDrive::configure(const DriveSettings& settings, doubl
   force_constant_ = motor.force_constant;
   quick_stop_ = std::max(0.0, settings.quick_stop);
   hardest_stop_ = force_constant_ * motor.loop.maximum_current / plant_.mass();
-  maximum_stop_cycles_ = kLongestMotorStop / servo_cycle;
   current_ = mean_force_ = velocity_ = reported_ = 0.0;
   aim_where_it_is();
   // The ramp between two setpoints is behind the later one by a servo cycle.
@@ -60,22 +45,22 @@ void LinearMotorDrive::aim_where_it_is() noexcept {
 
 void LinearMotorDrive::begin_cycle() noexcept {
   mean_force_ = 0.0;
-  if (has_faults_) watch_causes();
+  if (unit_.has_faults()) unit_.watch_causes();
 }
 
 void LinearMotorDrive::write(double velocity) noexcept {
   begin_cycle();
-  if (!states_.pulses()) return coast();
-  if (!states_.operation()) velocity = stop_setpoint();
+  if (!unit_.states().pulses()) return coast();
+  if (!unit_.states().operation()) velocity = stop_setpoint();
   target_.acceleration = (velocity - target_.velocity) / servo_cycle_;
   run(target_.acceleration, true);
   target_.velocity = velocity;
-  if (states_.stopping()) watch_stop();
+  if (unit_.states().stopping()) unit_.watch_stop(plant_.velocity(), target_.velocity);
 }
 
 void LinearMotorDrive::write_position(const PositionCommand& command) noexcept {
   begin_cycle();
-  if (!states_.operation()) return write(0.0);
+  if (!unit_.states().operation()) return write(0.0);
   const double pace = std::clamp(command.pace, -command.maximum, command.maximum);
   target_ = {start_ + reported_ + command.xerr, pace, (pace - target_.velocity) / servo_cycle_};
   run(0.0, false);
@@ -119,7 +104,7 @@ void LinearMotorDrive::coast() noexcept {
 
 void LinearMotorDrive::move(double force) noexcept {
   mean_force_ += force / control_cycles_;
-  if (blocked_)
+  if (unit_.blocked())
     plant_.stop();
   else
     plant_.step(force, control_cycle_);
@@ -128,83 +113,29 @@ void LinearMotorDrive::move(double force) noexcept {
 /// [mm/s] Down the ramp of a stop, and nowhere ahead of the machine: where something holds it back the drive
 /// would speed it up in place of stopping it.
 double LinearMotorDrive::stop_setpoint() noexcept {
-  const bool quick = quick_stop_ > 0.0 && states_.state() == DriveStates::State::quick_stop;
+  const bool quick = quick_stop_ > 0.0 && unit_.states().state() == DriveStates::State::quick_stop;
   const double step = (quick ? quick_stop_ : hardest_stop_) * servo_cycle_;
   const double velocity = plant_.velocity();
   const double ramp = std::clamp(target_.velocity, std::min(velocity, 0.0), std::max(velocity, 0.0));
   return ramp - std::clamp(ramp, -step, step);
 }
 
-/// A stop of the drive's own ends at rest; or, if something keeps the machine going, after a while.
-void LinearMotorDrive::watch_stop() noexcept {
-  if (stopping_cycles_++ == 0) stop_velocity_ = std::abs(plant_.velocity());
-  const bool rests =
-      std::abs(plant_.velocity()) <= std::max(kMotorRest * stop_velocity_, kMotorRestVelocity) &&
-      target_.velocity == 0.0;
-  if (!rests && stopping_cycles_ < maximum_stop_cycles_) return;
-  stopping_cycles_ = 0;
-  states_.stopped();
-}
-
-// ---- States and faults
-
 void LinearMotorDrive::control(std::uint16_t stw1, std::uint16_t stw2) noexcept {
-  if (is_on(faults_.communication)) return;
-  stw1_ = stw1;
-  stw2_ = stw2;
-  const DriveStates::State before = states_.state();
-  states_.control(stw1);
-  if (states_.stopping() && states_.state() != before) stopping_cycles_ = 0;
-}
-
-void LinearMotorDrive::watch_causes() noexcept {
-  const bool drive = is_on(faults_.drive) || is_on(faults_.encoder);
-  const bool silent = is_on(faults_.communication);
-  blocked_ = is_on(faults_.blocked);
-  states_.hold_fault(drive || silent);
-  if (drive) {
-    states_.fail(false);
-  } else if (silent && !states_.fault()) {
-    states_.fail(true);
-    stopping_cycles_ = 0;
-  }
-}
-
-bool LinearMotorDrive::in_trouble() const noexcept {
-  return states_.fault() || is_on(faults_.drive) || is_on(faults_.encoder) || is_on(faults_.communication);
+  if (unit_.hears()) unit_.control(stw1, stw2);
 }
 
 DriveActual LinearMotorDrive::read() noexcept {
-  if (has_faults_ && is_on(faults_.communication)) {
-    told_.silent = told_.trouble = true;
-    return told_;
-  }
-  DriveActual now{.enabled = states_.operation(),
-                  .torque = mean_force_,
-                  .fault = states_.fault(),
-                  .inhibited = states_.state() == DriveStates::State::inhibited};
-  if (has_faults_ && is_on(faults_.encoder)) {
-    now.position = told_.position;
-    now.encoder_failed = true;
-  } else {
-    now.position = DoubleDouble{plant_.position() - start_, 0.0};
-    now.velocity = plant_.velocity();
-    if (resolution_ > 0.0) {
-      now.position = quantised(now.position, resolution_);
-      now.velocity = (now.position.rounded() - reported_) / servo_cycle_;
-    }
-    reported_ = now.position.rounded();
-  }
-  now.trouble = now.fault || now.encoder_failed;
-  if (has_faults_) told_ = now;
-  return now;
+  return unit_.tell(mean_force_, [this](DriveActual& now) { read_encoder(now); });
 }
 
-SensorActual LinearMotorDrive::read_sensor(std::size_t sensor) noexcept {
-  const SimulatedSensor& model = sensors_[sensor - 1];
-  if (is_on(model.fault)) return {};
-  const DoubleDouble position = DoubleDouble{plant_.position() - start_, 0.0} * model.ratio;
-  return {model.resolution > 0.0 ? quantised(position, model.resolution) : position, false};
+void LinearMotorDrive::read_encoder(DriveActual& now) noexcept {
+  now.position = moved();
+  now.velocity = plant_.velocity();
+  if (resolution_ > 0.0) {
+    now.position = quantised(now.position, resolution_);
+    now.velocity = (now.position.rounded() - reported_) / servo_cycle_;
+  }
+  reported_ = now.position.rounded();
 }
 
 }  // namespace lockstep

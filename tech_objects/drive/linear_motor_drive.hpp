@@ -1,14 +1,13 @@
 /// A drive with a linear motor: position loop, current, and what the force of the motor moves.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "tech_objects/drive/current_loop.hpp"
 #include "tech_objects/drive/drive.hpp"
 #include "tech_objects/drive/linear_motor_plant.hpp"
-#include "tech_objects/drive/profidrive.hpp"
+#include "tech_objects/drive/simulated_control_unit.hpp"
 
 namespace lockstep {
 
@@ -28,11 +27,13 @@ class LinearMotorDrive final : public Drive {
   void write_position(const PositionCommand& command) noexcept override;
   void control(std::uint16_t stw1, std::uint16_t stw2) noexcept override;
   void command_torque(const TorqueCommand& command) noexcept override { force_ = command; }
-  SensorActual read_sensor(std::size_t sensor) noexcept override;
+  SensorActual read_sensor(std::size_t sensor) noexcept override {
+    return unit_.read_sensor(sensor, moved());
+  }
 
-  DriveWords words() const noexcept override { return {stw1_, stw2_, states_.zsw1()}; }
-  bool in_trouble() const noexcept override;
-  const MachineSignals& signals() const noexcept override { return signals_; }
+  DriveWords words() const noexcept override { return unit_.words(); }
+  bool in_trouble() const noexcept override { return unit_.in_trouble(); }
+  const MachineSignals& signals() const noexcept override { return unit_.signals(); }
 
   /// [A] In the last control cycle.
   double current() const noexcept { return current_; }
@@ -46,12 +47,11 @@ class LinearMotorDrive final : public Drive {
   void move(double force) noexcept;
   void aim_where_it_is() noexcept;
   double stop_setpoint() noexcept;
-  void watch_causes() noexcept;
-  void watch_stop() noexcept;
+  void read_encoder(DriveActual& now) noexcept;
+  DoubleDouble moved() const noexcept { return {plant_.position() - start_, 0.0}; }
 
   CurrentLoop loop_;
   LinearMotorPlant plant_;
-  DriveStates states_;
   LoopSetpoint target_;
   double current_ = 0.0;         // [A]
   double mean_force_ = 0.0;      // of the motor, over the last servo cycle [N]
@@ -64,23 +64,13 @@ class LinearMotorDrive final : public Drive {
   double resolution_ = 0.0;  // [mm]
   double reported_ = 0.0;    // position [mm]
   double velocity_ = 0.0;    // reported [mm/s]
-  bool has_faults_ = false;
-  bool blocked_ = false;
   bool brake_ = false;
   TorqueCommand force_;
+  SimulatedControlUnit unit_;
 
   // Seldom of account.
-  std::uint16_t stw1_ = kControlOff;
-  std::uint16_t stw2_ = 0;
-  int stopping_cycles_ = 0;     // of a stop of its own
-  double stop_velocity_ = 0.0;  // at its begin [mm/s]
-  double quick_stop_ = 0.0;     // [mm/s²]
-  double hardest_stop_ = 0.0;   // [mm/s²] that the motor can make
-  double maximum_stop_cycles_ = 0.0;
-  SimulatedFaults faults_;
-  DriveActual told_;  // last, for a drive that falls silent
-  MachineSignals signals_;
-  std::array<SimulatedSensor, 3> sensors_{};
+  double quick_stop_ = 0.0;    // [mm/s²]
+  double hardest_stop_ = 0.0;  // [mm/s²] that the motor can make
 };
 
 }  // namespace lockstep

@@ -7,16 +7,9 @@
 #include "tech_objects/arithmetic/decay.hpp"
 #include "tech_objects/drive/encoder_source.hpp"
 #include "tech_objects/drive/whole_cycles.hpp"
-#include "tech_objects/types/bool_tag.hpp"
 
 namespace lockstep {
 namespace {
-
-/// A stop of the drive's own: at rest once this part of the velocity, or this velocity [u/s], is left; given
-/// up after [s].
-constexpr double kRest = 1e-3;
-constexpr double kRestVelocity = 0.01;
-constexpr double kLongestStop = 10.0;
 
 /// Steps of the drive's own position loop in a servo cycle, at most.
 constexpr int kMaximumSteps = 256;
@@ -25,8 +18,7 @@ constexpr int kMaximumSteps = 256;
 
 DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double servo_cycle,
                                           double motor_angle) noexcept {
-  signals_ = settings.signals;
-  sensors_ = settings.sensors;
+  unit_.configure(settings, servo_cycle);
   written_.fill(0.0);
   cycle_ = 0;
   targets_.fill({});
@@ -34,19 +26,9 @@ DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double 
   loop_cycles_ = 0;
   position_ = reported_ = {};
   velocity_ = 0.0;
-  states_ = {};
-  told_ = {};
   torque_ = {};
-  stw1_ = kControlOff;
-  stw2_ = 0;
-  blocked_ = false;
-  stopping_cycles_ = 0;
-  ramp_ = last_setpoint_ = stop_velocity_ = 0.0;
+  ramp_ = last_setpoint_ = 0.0;
   quick_stop_ = std::max(0.0, settings.quick_stop);
-  maximum_stop_cycles_ = kLongestStop / servo_cycle;
-  faults_ = settings.faults;
-  has_faults_ = faults_.drive != nullptr || faults_.encoder != nullptr || faults_.communication != nullptr ||
-                faults_.blocked != nullptr;
   plant_.configure(settings.plant, motor_angle, settings.signals.start_position, settings.time_constant,
                    servo_cycle);
   const Cycles dead = cycles_of(settings.dead_time, servo_cycle, kDelay - 2);
@@ -83,9 +65,9 @@ void SimulatedDrive::run(const Piece& piece, double velocity) noexcept {
 }
 
 void SimulatedDrive::write(double velocity) noexcept {
-  if (has_faults_) watch_causes();
-  if (states_.operation()) last_setpoint_ = velocity;
-  written_[kept(cycle_)] = states_.operation() ? velocity : quick_stop_setpoint();
+  if (unit_.has_faults() && unit_.watch_causes()) ramp_ = quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
+  if (states().operation()) last_setpoint_ = velocity;
+  written_[kept(cycle_)] = states().operation() ? velocity : quick_stop_setpoint();
   const DoubleDouble position_before = position_;
   const double velocity_before = velocity_;
   if (loop_cycles_ > 0) {
@@ -96,8 +78,8 @@ void SimulatedDrive::write(double velocity) noexcept {
     run(after_, written_[kept(cycle_ - whole_cycles_)]);
   }
   ++cycle_;
-  if (plant_.exists() || blocked_) move_plant(position_before, velocity_before);
-  if (states_.stopping()) watch_stop();
+  if (plant_.exists() || unit_.blocked()) move_plant(position_before, velocity_before);
+  if (states().stopping()) unit_.watch_stop(velocity_, ramp_);
 }
 
 void SimulatedDrive::write_position(const PositionCommand& command) noexcept {
@@ -110,7 +92,7 @@ void SimulatedDrive::write_position(const PositionCommand& command) noexcept {
 /// commands the target goes on with its own velocity, however much of that is precontrolled: one that stood
 /// would make the velocity rise and fall with each of them.
 void SimulatedDrive::run_position_loop() noexcept {
-  targets_[kept(cycle_)] = states_.operation() ? next_target_ : Target{};
+  targets_[kept(cycle_)] = states().operation() ? next_target_ : Target{};
   next_target_ = {};
   --loop_cycles_;
   for (int i = 0; i < steps_; ++i) {
@@ -131,7 +113,7 @@ void SimulatedDrive::run_position_loop() noexcept {
 /// Off, or on the way there: 0, or down the ramp of OFF3. That is nowhere ahead of the machine: where
 /// something has held it back, or does, the drive would speed it up in place of stopping it.
 double SimulatedDrive::quick_stop_setpoint() noexcept {
-  if (quick_stop_ <= 0.0 || states_.state() != DriveStates::State::quick_stop) return 0.0;
+  if (quick_stop_ <= 0.0 || states().state() != DriveStates::State::quick_stop) return 0.0;
   const double step = quick_stop_ * servo_cycle_;
   ramp_ = std::clamp(ramp_, std::min(velocity_, 0.0), std::max(velocity_, 0.0));
   ramp_ -= std::clamp(ramp_, -step, step);
@@ -139,7 +121,7 @@ double SimulatedDrive::quick_stop_setpoint() noexcept {
 }
 
 void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velocity_before) noexcept {
-  if (blocked_) {
+  if (unit_.blocked()) {
     plant_.hold(velocity_, torque_.band);
     position_ = position_before;
     velocity_ = 0.0;
@@ -147,86 +129,25 @@ void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velo
   }
   const MachinePlant::Motion wanted{(position_ - position_before).rounded(), velocity_};
   const MachinePlant::Motion made = plant_.step({position_before.rounded(), velocity_before}, wanted,
-                                                states_.pulses(), torque_.band, torque_.additive);
+                                                states().pulses(), torque_.band, torque_.additive);
   if (made.distance != wanted.distance) position_ = position_before + made.distance;
   velocity_ = made.velocity;
 }
 
-/// A stop of the drive's own ends at rest; or, if something keeps the machine going, after a while.
-void SimulatedDrive::watch_stop() noexcept {
-  if (stopping_cycles_++ == 0) stop_velocity_ = std::abs(velocity_);
-  const bool rests = std::abs(velocity_) <= std::max(kRest * stop_velocity_, kRestVelocity) && ramp_ == 0.0;
-  if (!rests && stopping_cycles_ < maximum_stop_cycles_) return;
-  stopping_cycles_ = 0;
-  states_.stopped();
-}
-
-// ---- States and faults
-// --------------------------------------------------------------------------------------------
-
 void SimulatedDrive::control(std::uint16_t stw1, std::uint16_t stw2) noexcept {
-  if (is_on(faults_.communication)) return;
-  stw1_ = stw1;
-  stw2_ = stw2;
-  const DriveStates::State before = states_.state();
-  states_.control(stw1);
-  if (states_.stopping() && states_.state() != before) {
-    stopping_cycles_ = 0;
-    ramp_ = states_.state() == DriveStates::State::quick_stop && quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
-  }
-  if (!states_.operation() && !states_.stopping()) last_setpoint_ = 0.0;
-}
-
-/// Each servo cycle of a drive to which something can happen.
-void SimulatedDrive::watch_causes() noexcept {
-  const bool drive = is_on(faults_.drive) || is_on(faults_.encoder);
-  const bool silent = is_on(faults_.communication);
-  blocked_ = is_on(faults_.blocked);
-  states_.hold_fault(drive || silent);
-  if (drive) {
-    states_.fail(false);
-  } else if (silent && !states_.fault()) {
-    states_.fail(true);
-    stopping_cycles_ = 0;
-    ramp_ = quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
-  }
-}
-
-bool SimulatedDrive::in_trouble() const noexcept {
-  return states_.fault() || is_on(faults_.drive) || is_on(faults_.encoder) || is_on(faults_.communication);
+  if (!unit_.hears()) return;
+  if (unit_.control(stw1, stw2))
+    ramp_ = states().state() == DriveStates::State::quick_stop && quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
+  if (!states().operation() && !states().stopping()) last_setpoint_ = 0.0;
 }
 
 DriveActual SimulatedDrive::read() noexcept {
-  if (has_faults_ && is_on(faults_.communication)) {
-    told_.silent = told_.trouble = true;
-    return told_;
-  }
-  DriveActual now{.velocity = velocity_,
-                  .enabled = states_.operation(),
-                  .torque = plant_.torque(),
-                  .fault = states_.fault(),
-                  .inhibited = states_.state() == DriveStates::State::inhibited};
-  if (has_faults_ && is_on(faults_.encoder)) {
-    now.position = told_.position;
-    now.velocity = 0.0;
-    now.encoder_failed = true;
-  } else {
-    read_encoder(now);
-  }
-  now.trouble = now.fault || now.encoder_failed;
-  if (has_faults_) told_ = now;
-  return now;
-}
-
-SensorActual SimulatedDrive::read_sensor(std::size_t sensor) noexcept {
-  const SimulatedSensor& model = sensors_[sensor - 1];
-  if (is_on(model.fault)) return {};
-  const DoubleDouble position = position_ * model.ratio;
-  return {model.resolution > 0.0 ? quantised(position, model.resolution) : position, false};
+  return unit_.tell(plant_.torque(), [this](DriveActual& now) { read_encoder(now); });
 }
 
 void SimulatedDrive::read_encoder(DriveActual& now) noexcept {
   now.position = position_;
+  now.velocity = velocity_;
   if (resolution_ > 0.0) {
     now.position = quantised(position_, resolution_);
     now.velocity = (now.position - reported_).rounded() / servo_cycle_;

@@ -9,7 +9,7 @@
 #include "tech_objects/arithmetic/double_double.hpp"
 #include "tech_objects/drive/drive.hpp"
 #include "tech_objects/drive/machine_plant.hpp"
-#include "tech_objects/drive/profidrive.hpp"
+#include "tech_objects/drive/simulated_control_unit.hpp"
 
 namespace lockstep {
 
@@ -31,12 +31,14 @@ class SimulatedDrive final : public Drive {
   void control(std::uint16_t stw1, std::uint16_t stw2) noexcept override;
   void command_torque(const TorqueCommand& command) noexcept override { torque_ = command; }
 
-  SensorActual read_sensor(std::size_t sensor) noexcept override;
+  SensorActual read_sensor(std::size_t sensor) noexcept override {
+    return unit_.read_sensor(sensor, position_);
+  }
 
-  DriveWords words() const noexcept override { return {stw1_, stw2_, states_.zsw1()}; }
-  bool in_trouble() const noexcept override;
-  const MachineSignals& signals() const noexcept override { return signals_; }
-  const DriveStates& states() const noexcept { return states_; }
+  DriveWords words() const noexcept override { return unit_.words(); }
+  bool in_trouble() const noexcept override { return unit_.in_trouble(); }
+  const MachineSignals& signals() const noexcept override { return unit_.signals(); }
+  const DriveStates& states() const noexcept { return unit_.states(); }
   /// [u] Where the machine truly is, on the line of the drive's encoder.
   const DoubleDouble& machine_position() const noexcept { return position_; }
 
@@ -64,9 +66,7 @@ class SimulatedDrive final : public Drive {
   void run_position_loop() noexcept;
   void read_encoder(DriveActual& now) noexcept;
   double quick_stop_setpoint() noexcept;
-  void watch_causes() noexcept;
   void move_plant(const DoubleDouble& position_before, double velocity_before) noexcept;
-  void watch_stop() noexcept;
 
   // What every cycle touches, in lines of the cache.
   std::size_t ring_ = 1;  // of written_, as many as are kept; a power of two
@@ -74,9 +74,6 @@ class SimulatedDrive final : public Drive {
   std::size_t whole_cycles_ = 0;  // of dead time
   DoubleDouble position_;
   double velocity_ = 0.0;
-  DriveStates states_;
-  bool has_faults_ = false;
-  bool blocked_ = false;
 
   Piece before_;  // of a cycle: with the setpoint one older
   Piece after_;
@@ -87,27 +84,19 @@ class SimulatedDrive final : public Drive {
   double resolution_ = 0.0;
   DoubleDouble reported_;
   MachinePlant plant_;
+  SimulatedControlUnit unit_;
 
   std::array<double, kDelay> written_{};  // velocity setpoints, by cycle
 
   // Seldom of account.
-  std::uint16_t stw1_ = kControlOff;
-  std::uint16_t stw2_ = 0;
-  int stopping_cycles_ = 0;     // of a stop of its own
-  double stop_velocity_ = 0.0;  // at its begin [u/s]
-  double quick_stop_ = 0.0;     // [u/s²]
-  double ramp_ = 0.0;           // setpoint of a quick stop [u/s]
-  double maximum_stop_cycles_ = 0.0;
+  double quick_stop_ = 0.0;               // [u/s²]
+  double ramp_ = 0.0;                     // setpoint of a quick stop [u/s]
   std::array<Target, kDelay> targets_{};  // by cycle, as the velocity setpoints
   Target next_target_;
   int steps_ = 1;  // of the position loop in a servo cycle
   Piece step_;
   double arrival_ = 0.0;  // [s] of a setpoint, from the beginning of its servo cycle
   TorqueCommand torque_;
-  SimulatedFaults faults_;
-  DriveActual told_;  // last, for a drive that falls silent
-  MachineSignals signals_;
-  std::array<SimulatedSensor, 3> sensors_{};
 };
 
 }  // namespace lockstep
