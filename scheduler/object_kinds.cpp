@@ -7,6 +7,7 @@
 #include "tech_objects/axis/axis.hpp"
 #include "tech_objects/cam_object/cam.hpp"
 #include "tech_objects/cross_controller/leading_axis_proxy.hpp"
+#include "tech_objects/linmot/controller.hpp"
 #include "tech_objects/sensing/external_encoder.hpp"
 #include "tech_objects/sensing/measuring_input.hpp"
 #include "tech_objects/switching/cam_track.hpp"
@@ -40,6 +41,7 @@ constexpr Entry kClasses[] = {
     {kOutputCam, make<OutputCam>},
     {kCamTrack, make<CamTrack>},
     {static_cast<ObjectKinds>(ObjectKind::MCO_305), make<Mco305>},
+    {static_cast<ObjectKinds>(ObjectKind::LinMot_Controller), make<LinMotController>},
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 /// The keys of technology objects: each type has keys of its own.
 #pragma once
 
+#include "projects/keys/linmot.hpp"
 #include "projects/keys/mco305.hpp"
 #include "tech_objects/sensing/probe_signal.hpp"
 #include "tech_objects/switching/switched_output.hpp"
@@ -90,7 +91,8 @@ inline constexpr KeyVariant kObjects[] = {{"TO_SpeedAxis", kSpeedAxis},
                                           {"TO_CamTrack", kCamTrackObject},
                                           {"TO_Cam", kCam},
                                           {"TO_Cam_10k", kCam10k},
-                                          {"MCO_305", kMco305}};
+                                          {"MCO_305", kMco305},
+                                          {"LinMot_Controller", kLinMot}};
 static_assert(
     [] {
       for (std::size_t i = 0; i < std::size(kObjects); ++i)

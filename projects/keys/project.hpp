@@ -67,7 +67,8 @@ inline constexpr auto kIf =
 
 inline constexpr auto kStimulus =
     key_table<void>(key::duration("at", {0, kAny.highest}, "time since the start").needed(),
-                    key::constant("set", "tag: value").named().needed());
+                    key::constant("set", "tag: value").named(),
+                    key::structure("ascii", kScriptedCommand, "a command on a line to LinMot controllers"));
 
 constexpr auto signals_key(std::string_view text) {
   return key::signal("signals", text).list();
@@ -160,7 +161,8 @@ inline constexpr auto kProject = key_table<void>(
     key::structure("transfer_areas", kTransferArea, "name: way of a leading value to a proxy").named(),
     key::structure("tags", kTag, "name: tag").named(),
     key::structure("programs", kProgram, "programs").list(),
-    key::structure("stimuli", kStimulus, "changes of tags in a simulation").list(),
+    key::structure("ascii", kAsciiLine, "lines to LinMot controllers").list(),
+    key::structure("stimuli", kStimulus, "what comes from outside in a simulation").list(),
     key::structure("modbus", kModbus, "servers and foreign devices"),
     key::structure("trace", kTrace, "what is recorded and sent"),
     key::structure("retain", kRetain, "what is kept across runs"),

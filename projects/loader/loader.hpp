@@ -7,6 +7,7 @@
 #include "projects/loader/project.hpp"
 #include "scheduler/mco305/mco305.hpp"
 #include "tech_objects/cross_controller/leading_axis_proxy.hpp"
+#include "tech_objects/linmot/controller.hpp"
 #include "tech_objects/sensing/external_encoder.hpp"
 #include "tech_objects/sensing/measuring_input.hpp"
 #include "tech_objects/switching/cam_track.hpp"
@@ -65,6 +66,12 @@ void check_outputs(const JsonValue& objects, const Loading& loading);
 void load_cam(const JsonValue& json, Cam& cam, const Loading& loading);
 /// Parameters, wiring and programs of an MCO 305.
 void load_mco305(const JsonValue& json, Mco305& device, const Loading& loading);
+/// Parameters, motors, curves, tables and wiring of a LinMot controller.
+void load_linmot(const JsonValue& json, LinMotController& controller, const Loading& loading);
+/// When the objects are loaded.
+void load_ascii_lines(const JsonValue& json, const Loading& loading);
+/// A stimulus that is a command on a line. @param at [ns]
+void load_scripted_command(const JsonValue& json, std::int64_t at, const Loading& loading);
 /// Whether a leading value can be delayed for so long [s].
 void check_delay(const JsonValue& config, double delay, const Loading& loading);
 /// Sets the start values of one object.

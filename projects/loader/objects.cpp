@@ -165,6 +165,8 @@ void load_object(const JsonValue& json, TechnologyObject& object, const Loading&
       return load_cam(json, static_cast<Cam&>(object), loading);
     case ObjectKind::MCO_305:
       return load_mco305(json, static_cast<Mco305&>(object), loading);
+    case ObjectKind::LinMot_Controller:
+      return load_linmot(json, static_cast<LinMotController&>(object), loading);
   }
 }
 

@@ -30,6 +30,7 @@
 #include "projects/loader/expectations.hpp"
 #include "scheduler/controller.hpp"
 #include "scheduler/transfer_area.hpp"
+#include "tech_objects/linmot/ascii_line.hpp"
 
 namespace lockstep {
 
@@ -150,6 +151,7 @@ struct Project {
   TraceConfig trace;
   CommandsConfig commands;
   RetainConfig retain;
+  std::deque<linmot::AsciiLine> ascii_lines;            ///< to LinMot controllers
   std::vector<TransferArea> transfer_areas;             ///< of the leading values that objects provide
   std::optional<FlightRecorderConfig> flight_recorder;  ///< none: the project has none
   std::optional<AuditOptions> audit;                    ///< none: the project has no audit log

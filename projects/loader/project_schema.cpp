@@ -9,6 +9,7 @@
 #include "projects/keys/project.hpp"
 #include "projects/keys/schema.hpp"
 #include "projects/loader/configuration_tree.hpp"
+#include "projects/loader/linmot_schema.hpp"
 
 namespace lockstep {
 namespace {
@@ -126,6 +127,7 @@ void add_definitions(KeySchema& keys) {
   for (const char* part : {"elements", "optimization", "points", "segments"})
     definitions[std::string("cam_") + part] = cam[part];
   definitions.update(cam_schema_definitions());
+  add_linmot_definitions(definitions);
   definitions["function_block"] = words("function block", block_names());
   definitions["tag_type_of_values"] =
       words("type on the wire; it may narrow that of the signal", tag_type_names());

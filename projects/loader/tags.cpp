@@ -126,6 +126,12 @@ void read_text_assignment(const StringTag& tag, const JsonValue& json, const Loa
 void load_stimulus(const JsonValue& json, const Loading& loading) {
   const Fields fields(json, keys::kStimulus, loading.problems);
   const auto at = read_value(fields, keys::kStimulus["at"], loading);
+  if (const JsonValue* const command = fields["ascii"]) {
+    if (at) load_scripted_command(*command, at->integer, loading);
+    if (fields["set"] == nullptr) return;
+  }
+  if (fields.usable() && fields["set"] == nullptr)
+    return loading.problems.report(json, "'set' is missing; allowed in its place: 'ascii', a command");
   for (const Assignment& one : read_assignments(fields["set"], "a stimulus", loading))
     if (at) loading.controller().stimuli.push_back({at->integer, one.place, one.value});
 }

@@ -65,6 +65,7 @@ const DataBlock& cam_track_data_block() noexcept;
 const DataBlock& cam_data_block() noexcept;
 const DataBlock& cam_10k_data_block() noexcept;
 const DataBlock& mco305_data_block();
+const DataBlock& linmot_data_block();
 std::span<const Variable> axis_status_variables() noexcept;
 
 /// Start value in a data block that has just been made. While loading.

@@ -88,6 +88,8 @@ const DataBlock& data_block_of(ObjectKind kind) noexcept {
       return cam_10k_data_block();
     case ObjectKind::MCO_305:
       return mco305_data_block();
+    case ObjectKind::LinMot_Controller:
+      return linmot_data_block();
   }
   return axis_data_block();
 }

@@ -20,6 +20,7 @@ enum class ObjectKind : std::uint32_t {
   TO_CamTrack = 1u << 12,
   MCO_305 = 1u << 13,
   TO_LeadingAxisProxy = 1u << 14,
+  LinMot_Controller = 1u << 15,
 };
 
 /// A set of object kinds.
@@ -82,6 +83,8 @@ inline constexpr std::array kObjectKinds = {
     ObjectKindText{ObjectKind::TO_Cam_10k, "TO_Cam_10k", "Cam of up to 10000 points and 50 segments."},
     ObjectKindText{ObjectKind::MCO_305, "MCO_305",
                    "Motion controller VLT MCO 305 with its axis and its programs in APOSS."},
+    ObjectKindText{ObjectKind::LinMot_Controller, "LinMot_Controller",
+                   "Servo controller LinMot with up to four linear motors, state table and protocols."},
 };
 
 /// Published name, such as "TO_SynchronousAxis".

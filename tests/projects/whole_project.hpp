@@ -55,8 +55,24 @@ inline constexpr char kRestOfProject[] = R"json({
       "type": "MCO_305", "parameters": { "VELMAX": 3000 }, "drive": { "model": "none" },
       "inputs": { "1": "switch" }, "outputs": { "1": "fault" },
       "programs": [ { "number": 0, "lines": [ "DELAY 10" ] } ]
+    },
+    "Servo": {
+      "type": "LinMot_Controller", "control_cycle": "100us",
+      "config": { "Drives": { "Drive A": { "Type": "LinMot P0x-37" } } },
+      "motors": {
+        "A": { "force_constant": 40.0, "slider_mass": 0.829, "spring": { "position": 0.0, "stiffness": 10.0 },
+               "fixed_stops": [ { "position": 35.0, "stiffness": 1000.0, "damping": 10.0 } ] }
+      },
+      "curves": { "1": { "end": 10.0, "time": "200ms" }, "2": { "parts": [ { "end": 10.0, "time": "200ms" } ] } },
+      "state_table": { "0": { "A": { "Curve": [1] } } },
+      "input_table": { "0001": ["Goto state", 0] },
+      "io": { "RUN": "switch" },
+      "faults": { "heat_sink_hot": "fault", "A": { "slider_missing": "fault" } },
+      "profibus": { "modules": [ "Control/Status", "Max. Speed" ], "preset": { "Max. Speed": 4096 } }
     }
   },
+  "ascii": [ { "controllers": { "1": "Servo" } } ],
+  "stimuli": [ { "at": "1s", "set": { "switch": true }, "ascii": { "line": 0, "send": "!GS1" } } ],
   "transfer_areas": { "line": { "from": "Provider", "interface": 2, "to": "Line" } },
   "tags": {
     "switch": { "type": "BOOL" }, "fault": { "type": "BOOL" }, "seconds": { "type": "LREAL" },

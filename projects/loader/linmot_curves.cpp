@@ -1,0 +1,169 @@
+#include "projects/loader/linmot_curves.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "projects/json/text_file.hpp"
+#include "projects/keys/linmot.hpp"
+#include "projects/loader/read_keys.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kMillisecond = 1e-3;
+constexpr std::size_t kLargestCurveFile = 8 << 20;
+constexpr std::size_t kMaximumPoints = 100'000;
+
+void load_points(const JsonValue& json, linmot::CurvePart& part, const Loading& loading) {
+  if (read_array(&json, loading.problems) == nullptr) return;
+  if (json.elements.size() > kMaximumPoints)
+    return loading.problems.report(json, "there are more than " + std::to_string(kMaximumPoints) + " points");
+  for (const JsonValue* const point : json.elements) {
+    if (point->kind != JsonKind::array || point->elements.size() != 2)
+      return report_kind(*point, "[time in ms, position in mm]", loading.problems);
+    const auto time = read_number(point->elements[0], 0.0, 1e9, loading.problems);
+    const auto position = read_number(point->elements[1], -2520.0, 2520.0, loading.problems);
+    if (!time || !position) return;
+    if (!part.points.empty() && !(*time * kMillisecond > part.points.back().x))
+      return loading.problems.report(*point, "its time is not behind that of the point before");
+    part.points.push_back({*time * kMillisecond, *position});
+  }
+}
+
+bool take_figure(std::string_view& line, double& value) {
+  while (!line.empty() &&
+         (line.front() == ' ' || line.front() == ';' || line.front() == ',' || line.front() == '\t'))
+    line.remove_prefix(1);
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
+  if (error != std::errc{}) return false;
+  line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+  return true;
+}
+
+/// ms;mm in each line; one without figures at the top is a heading.
+void load_curve_file(const JsonValue& json, linmot::CurvePart& part, const Loading& loading) {
+  const auto name = read_string(&json, loading.problems);
+  if (!name) return;
+  const std::string path = std::filesystem::path(loading.folder) / std::string(*name);
+  try {
+    const std::string text = read_text_file(path, kLargestCurveFile);
+    std::size_t number = 0;
+    for (std::string_view rest = text; !rest.empty();) {
+      std::string_view line = rest.substr(0, rest.find('\n'));
+      rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+      ++number;
+      double time = 0.0, position = 0.0;
+      if (take_figure(line, time) && take_figure(line, position)) {
+        part.points.push_back({time * kMillisecond, position});
+        continue;
+      }
+      if (number > 1 && line.find_first_not_of(" \r\t") != line.npos)
+        return loading.problems.report(
+            json, path + ":" + std::to_string(number) + ": allowed: a time in ms and a position in mm");
+    }
+  } catch (const UnreadableFile& error) {
+    loading.problems.report(json, error.what());
+  }
+}
+
+linmot::CurvePart load_part(const JsonValue& json, const Fields& fields, const Loading& loading) {
+  linmot::CurvePart part;
+  read_members(fields, keys::kCurvePart, &part, loading);
+  const JsonValue* const points = fields["points"];
+  if (points != nullptr) load_points(*points, part, loading);
+  if (const JsonValue* const file = json.find("file")) load_curve_file(*file, part, loading);
+  if (!part.points.empty()) part.type = linmot::CurveType::manual;
+  return part;
+}
+
+/// "Ramp" has steps of the velocity at both ends.
+bool is_ramp(const JsonValue& json) {
+  const JsonValue* const type = json.kind == JsonKind::object ? json.find("type") : nullptr;
+  return type != nullptr && type->kind == JsonKind::string && same_name(type->text, "Ramp");
+}
+
+void load_curve(const std::string& name, const JsonValue& json, LinMotController& controller,
+                const Loading& loading) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc{} || end != name.data() + name.size() || number < 1 || number >= linmot::kCurves)
+    return loading.problems.report_key(json, quote(name) + " is no number of a curve; allowed: 1 to 63");
+  if (is_ramp(json))
+    return loading.problems.report(*json.find("type"),
+                                   "a ramp has steps of the velocity at its ends; allowed: Manual "
+                                   "with two points, or another type");
+  const std::size_t before = loading.problems.count();
+  const Fields fields(json, keys::kCurve, loading.problems);
+  if (!fields.usable()) return;
+  std::vector<linmot::CurvePart> parts;
+  if (const JsonValue* const list = fields["parts"]) {
+    if (read_array(list, loading.problems) == nullptr) return;
+    for (const JsonValue* const part : list->elements)
+      parts.push_back(load_part(*part, Fields(*part, keys::kCurvePart, loading.problems), loading));
+  } else {
+    parts.push_back(load_part(json, fields, loading));
+  }
+  if (loading.problems.count() != before) return;
+  linmot::Curve& curve = controller.curves[static_cast<std::size_t>(number)];
+  if (!curve.make(parts))
+    return loading.problems.report(
+        json,
+        "that makes no curve; allowed: a time, or a speed and an acceleration, above "
+        "0, or at least two points whose times ascend; at most 50 parts");
+  for (const std::string& finding : curve_findings(curve, parts, false)) loading.problems.warn(json, finding);
+}
+
+std::string places(double value) {
+  std::string text = std::to_string(value);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> curve_findings(const linmot::Curve& curve,
+                                        const std::vector<linmot::CurvePart>& parts, bool cyclic) {
+  std::vector<std::string> findings;
+  const CamFunction& function = curve.function();
+  constexpr double kStep = 1e-6, kVelocityStep = 1e-3;  // [mm], [mm/s]
+  const auto compare = [&](const CamDerivatives& before, const CamDerivatives& behind, double at) {
+    const std::string where = " at " + places(at * 1e3) + " ms";
+    if (std::abs(before.position - behind.position) > kStep)
+      findings.push_back("a step of the position by " + places(behind.position - before.position) + " mm" +
+                         where);
+    else if (std::abs(before.first - behind.first) > kVelocityStep)
+      findings.push_back("a step of the velocity by " + places((behind.first - before.first) / 1e3) + " m/s" +
+                         where);
+  };
+  const CamDerivatives rest{.position = curve.start()};
+  compare(rest, function.piece_value(0, 0.0), 0.0);
+  for (std::size_t i = 1; i < function.piece_count(); ++i) {
+    const double at = function.piece_start(i);
+    compare(function.piece_value(i - 1, at), function.piece_value(i, at), at);
+  }
+  const std::size_t last = function.piece_count() - 1;
+  const CamDerivatives end = function.piece_value(last, curve.duration());
+  compare(end, {.position = curve.end()}, curve.duration());
+  if (cyclic) compare({.position = curve.end()}, rest, curve.duration());
+  for (const linmot::CurvePart& part : parts) {
+    if (part.points.empty()) continue;
+    if (part.points.size() > 2 && part.points.size() < 16)
+      findings.push_back("fewer than 16 points, " + std::to_string(part.points.size()));
+    for (std::size_t i = 1; i < part.points.size(); ++i)
+      if (part.points[i].x - part.points[i - 1].x < kMillisecond - 1e-9) {
+        findings.push_back("points nearer than 1 ms, from " + places(part.points[i - 1].x * 1e3) + " ms on");
+        break;
+      }
+  }
+  return findings;
+}
+
+void load_linmot_curves(const JsonValue& json, LinMotController& controller, const Loading& loading) {
+  if (read_object(&json, loading.problems) == nullptr) return;
+  for (const auto& [name, curve] : json.members) load_curve(name, *curve, controller, loading);
+}
+
+}  // namespace lockstep

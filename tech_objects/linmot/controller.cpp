@@ -1,0 +1,484 @@
+#include "tech_objects/linmot/controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+#include "tech_objects/linmot/ascii_line.hpp"
+#include "tech_objects/linmot_catalogue/errors.hpp"
+#include "tech_objects/linmot_catalogue/increments.hpp"
+#include "tech_objects/types/bool_tag.hpp"
+
+namespace lockstep {
+
+using namespace linmot;
+
+static_assert(std::is_trivially_copyable_v<MotorParameters>);
+
+LinMotController::LinMotController(std::string object_name, DB_ANY object_number)
+    : TechnologyObject(ObjectKind::LinMot_Controller, std::move(object_name), object_number) {}
+
+void LinMotController::configure(double servo_period, int) {
+  tick_ = servo_period;
+  control_cycles_ =
+      std::clamp(static_cast<int>(std::lround(servo_period / control_cycle)), 1, kMaximumControlCycles);
+  const double cycle = servo_period / control_cycles_;
+  for (std::size_t i = 0; i < kMotors; ++i) {
+    motors_[i].use_curves(curves.data());
+    if (hardware->range_switch) motors_[i].limit_current(data.Motors[i].Parameters.range_3a ? 3.0 : 2.0);
+    motors_[i].configure(motor_settings[i], data.Motors[i].Parameters, cycle, servo_period);
+    std::memcpy(&taken_[i], &data.Motors[i].Parameters, sizeof taken_[i]);
+  }
+  flags_.run = flags_.init = takes_ascii();
+  automatic_ = data.Parameters.auto_start;
+  read_inputs();
+  state_ = first_state(facts());
+  if (state_ == State::init) begin_init();
+  code_.begin(raw_code());
+  watch();
+  show();
+}
+
+bool LinMotController::takes_ascii() const noexcept {
+  return command_interface() == CommandInterface::ascii_rs232 ||
+         command_interface() == CommandInterface::ascii_rs485;
+}
+
+void LinMotController::servo(std::int64_t now) noexcept {
+  for (AsciiLine* const line : lines) line->step(now);
+  read_inputs();
+  take_changed_parameters();
+  change_state();
+  freeze_motors();
+  if (state_ == State::run && command_interface() == CommandInterface::mt) read_code();
+  for (std::size_t i = 0; i < hardware->motors; ++i)
+    if (motors_[i].is_there()) motors_[i].tick(state_ == State::run);
+  if (state_ == State::init) home_next();
+  for (int cycle = 0; cycle < control_cycles_; ++cycle)
+    for (std::size_t i = 0; i < hardware->motors; ++i)
+      if (motors_[i].is_there()) motors_[i].cycle();
+  follow_curves();
+  watch();
+  // An error switches the motors off before their next control cycle.
+  if (state_ != State::error && facts().error) enter(std::exchange(state_, State::error));
+  write_outputs();
+  show();
+}
+
+// ---- Parameters
+
+bool LinMotController::take_parameters(std::size_t index) noexcept {
+  MotorParameters& wanted = data.Motors[index].Parameters;
+  bool allowed = true;
+  for (const Parameter& parameter : motor_parameters()) {
+    if (parameter.scope > Scope::linear_motor || !parameter.effective()) continue;
+    const double value = parameter_value(parameter, &wanted);
+    const bool same = value == parameter_value(parameter, &taken_[index]);
+    if (same || (parameter.live() && parameter.range.allows(value) && std::isfinite(value))) continue;
+    set_parameter(parameter, &wanted, parameter_value(parameter, &taken_[index]));
+    allowed = false;
+  }
+  std::memcpy(&taken_[index], &wanted, sizeof wanted);
+  motors_[index].take(wanted);
+  return allowed;
+}
+
+void LinMotController::take_changed_parameters() noexcept {
+  for (std::size_t i = 0; i < hardware->motors; ++i) {
+    MotorParameters& now = data.Motors[i].Parameters;
+    if (motors_[i].is_there() && std::memcmp(&now, &taken_[i], sizeof now) != 0) take_parameters(i);
+  }
+}
+
+// ---- Requests and states
+
+void LinMotController::read_inputs() noexcept {
+  if (command_interface() == CommandInterface::profibus) read_words();
+  const SystemParameters& system = data.Parameters;
+  requests_ = flags_;
+  if (system.run_input) requests_.run = is_on(wiring.run);
+  if (system.init_input) requests_.init = is_on(wiring.init);
+  if (system.emerg_stop_input) requests_.stop = is_on(wiring.stop);
+  if (system.freeze_input) requests_.freeze = is_on(wiring.freeze);
+  if (shutting_down_) requests_ = {};
+}
+
+bool LinMotController::request(Request which, bool on) noexcept {
+  const SystemParameters& system = data.Parameters;
+  const bool owned = which == Request::run    ? system.run_input
+                     : which == Request::init ? system.init_input
+                                              : system.emerg_stop_input;
+  if (owned || !takes_ascii()) return false;
+  (which == Request::run ? flags_.run : which == Request::init ? flags_.init : flags_.stop) = on;
+  return true;
+}
+
+bool LinMotController::request_freeze(int motor, bool on) noexcept {
+  if (data.Parameters.freeze_input || !takes_ascii()) return false;
+  (motor < 0 ? flags_.freeze : flags_.freeze_motor[static_cast<std::size_t>(motor)]) = on;
+  return true;
+}
+
+bool LinMotController::all_homed() const noexcept {
+  for (std::size_t i = 0; i < hardware->motors; ++i)
+    if (motors_[i].is_there() && !motors_[i].homed()) return false;
+  return true;
+}
+
+bool LinMotController::homing_over() const noexcept {
+  for (std::size_t i = 0; i < hardware->motors; ++i)
+    if (waits_for_init_[i]) return false;
+  return true;
+}
+
+StateFacts LinMotController::facts() const noexcept {
+  StateFacts facts{.run = requests_.run,
+                   .init = requests_.init,
+                   .stop = requests_.stop,
+                   .error = system_errors_ != 0,
+                   .cause = system_causes_ != 0,
+                   .homed = all_homed(),
+                   .homing_over = homing_over(),
+                   .automatic = automatic_,
+                   .warning = system_warnings_ != 0};
+  for (std::size_t i = 0; i < kMotors; ++i) {
+    facts.error = facts.error || errors_[i] != 0;
+    facts.cause = facts.cause || causes_[i] != 0;
+    facts.warning = facts.warning || warnings_[i] != 0;
+  }
+  return facts;
+}
+
+void LinMotController::change_state() noexcept {
+  if (requests_.run || requests_.init || requests_.stop || shutting_down_) automatic_ = false;
+  const State before = state_;
+  state_ = next_state(before, facts());
+  if (state_ != before) enter(before);
+}
+
+void LinMotController::enter(State from) noexcept {
+  if (state_ != State::run) frozen_by_row_ = {};
+  switch (state_) {
+    case State::init:
+      return begin_init();
+    case State::run:
+      data.LoggedWarnings = {};
+      row_ = -1;
+      code_.begin(raw_code());
+      for (std::size_t i = 0; i < hardware->motors; ++i)
+        if (motors_[i].is_there()) motors_[i].enter_run();
+      return;
+    case State::stop:
+      automatic_ = false;
+      for (Motor& motor : motors_)
+        if (motor.energised()) motor.emergency_stop();
+      return;
+    case State::error:
+      automatic_ = false;
+      find_first_error();
+      break;
+    case State::disable:
+      if (from == State::error) {
+        errors_ = {};
+        system_errors_ = 0;
+        error_number_ = 0;
+        error_motor_ = -1;
+        curve_missing_ = {};
+      }
+      break;
+    case State::wait_for_disable:
+      break;
+  }
+  for (Motor& motor : motors_) {
+    if (from == State::init && state_ == State::disable)
+      motor.end_homing();
+    else
+      motor.switch_off();
+    motor.disarm();
+  }
+  waits_for_init_ = {};
+}
+
+void LinMotController::begin_init() noexcept {
+  for (std::size_t i = 0; i < kMotors; ++i) {
+    waits_for_init_[i] = has_motor(i) && !(data.Motors[i].Parameters.init_once && motors_[i].homed());
+    if (waits_for_init_[i]) motors_[i].lose_position();
+  }
+  home_next();
+}
+
+/// All at once, or the next one when the one before is done.
+void LinMotController::home_next() noexcept {
+  for (std::size_t i = 0; i < hardware->motors; ++i) {
+    if (!waits_for_init_[i]) continue;
+    Motor& motor = motors_[i];
+    if (motor.homed()) {
+      waits_for_init_[i] = false;
+      continue;
+    }
+    const bool begun =
+        motor.energised() && motor.homing() != Motor::Homing::none && motor.homing() != Motor::Homing::done;
+    if (!begun && motor.homing() != Motor::Homing::failed) motor.begin_homing();
+    if (motor.homed()) waits_for_init_[i] = false;
+    if (waits_for_init_[i] && !data.Parameters.init_together) return;
+  }
+}
+
+void LinMotController::freeze_motors() noexcept {
+  if (state_ != State::run) return;
+  for (std::size_t i = 0; i < hardware->motors; ++i)
+    if (motors_[i].is_there())
+      motors_[i].freeze(requests_.freeze || requests_.freeze_motor[i] || frozen_by_row_[i]);
+}
+
+bool LinMotController::move_names(std::size_t index, double distance, bool needs_all) noexcept {
+  for (std::size_t i = 0; i < hardware->motors; ++i) {
+    if (!has_motor(i) || (i != index && !needs_all)) continue;
+    if (!motors_[i].standing() || motors_[i].frozen()) return false;
+  }
+  motors_[index].move_names(distance);
+  return true;
+}
+
+void LinMotController::shut_down() noexcept {
+  shutting_down_ = true;
+}
+
+bool LinMotController::at_rest() const noexcept {
+  for (std::size_t i = 0; i < hardware->motors; ++i)
+    if (motors_[i].is_there() && motors_[i].energised()) return false;
+  return true;
+}
+
+// ---- What is watched
+
+void LinMotController::watch_supplies() noexcept {
+  const SystemParameters& system = data.Parameters;
+  std::uint16_t causes = 0, warnings = 0;
+  const auto look = [&](const LREAL* voltage, const SupplyThresholds& at, std::uint16_t low,
+                        std::uint16_t high) {
+    if (voltage == nullptr) return;
+    // What is no number is no voltage.
+    if (!(*voltage >= at.low_warning)) warnings |= low;
+    if (!(*voltage >= at.low_error)) causes |= low;
+    if (*voltage > at.high_warning) warnings |= high;
+    if (*voltage > at.high_error) causes |= high;
+  };
+  look(wiring.power_voltage, hardware->power, system_bit::kPowerLow, system_bit::kPowerHigh);
+  look(wiring.signal_voltage, hardware->signal, system_bit::kSignalLow, system_bit::kSignalHigh);
+  constexpr double kHotTime = 5.0;  // [s] after which the warning is an error
+  const bool hot = is_on(wiring.heat_sink_hot);
+  hot_ticks_ = hot ? hot_ticks_ + 1 : 0;
+  if (hot) warnings |= system_bit::kElectronics;
+  if (hot && (hot_ticks_ - 1) * tick_ >= kHotTime - 1e-9) causes |= system_bit::kElectronics;
+  std::uint16_t masks = system_bit::kEmergencyStop;
+  if (system.warn_mask_dclv_power_low) masks |= system_bit::kPowerLow;
+  if (system.warn_mask_dclv_power_high) masks |= system_bit::kPowerHigh;
+  if (system.warn_mask_dclv_signal_low) masks |= system_bit::kSignalLow;
+  if (system.warn_mask_dclv_signal_high) masks |= system_bit::kSignalHigh;
+  if (system.warn_mask_electronic_fault) masks |= system_bit::kElectronics;
+  if (state_ == State::stop) warnings |= system_bit::kEmergencyStop;
+  if (out_of_range_) causes |= system_bit::kApplication;
+  system_causes_ = causes;
+  system_warnings_ = warnings & masks;
+}
+
+void LinMotController::watch_motor(std::size_t index) noexcept {
+  Motor& motor = motors_[index];
+  const MotorParameters& parameters = taken_[index];
+  const MotorSettings& settings = motor_settings[index];
+  std::uint16_t causes = 0, warnings = 0;
+  if (is_on(settings.slider_missing)) causes |= motor_bit::kSliderMissing;
+  if (is_on(settings.too_hot)) causes |= motor_bit::kHotSensor;
+  if (settings.type >= 0 && settings.type != parameters.type) causes |= motor_bit::kTypeMismatch;
+  if (state_ != State::error && (curve_missing_[index] || motor.curve_missing())) causes |= motor_bit::kCurve;
+  const double error = motor.following_error();
+  const bool follows = !motor.energised() || (error <= parameters.following_error_plus &&
+                                              error >= -parameters.following_error_minus);
+  if (state_ == State::init && (motor.homing() == Motor::Homing::failed || !follows))
+    causes |= motor_bit::kInitFailed;
+  else if (!follows)
+    causes |= motor_bit::kFollowingError;
+  if ((causes & motor_bit::kSliderMissing) != 0 && parameters.warn_mask_slider_missing)
+    warnings |= motor_bit::kSliderMissing;
+  if ((causes & motor_bit::kHotSensor) != 0 && parameters.warn_mask_drive_hot_sensor)
+    warnings |= motor_bit::kHotSensor;
+  if (!follows && parameters.warn_mask_drive_following_error) warnings |= motor_bit::kFollowingError;
+  if ((causes & (motor_bit::kSliderMissing | motor_bit::kTypeMismatch | motor_bit::kInitFailed)) != 0)
+    motor.lose_position();
+  if (!motor.homed()) warnings |= motor_bit::kInitNotDone;
+  const bool outside = motor.homed() && (motor.actual() < parameters.pos_range_min ||
+                                         motor.actual() > parameters.pos_range_max);
+  data.Motors[index].PosRange = outside;
+  if (outside && parameters.warn_mask_pos_range_indicator) warnings |= motor_bit::kPositionRange;
+  if (!parameters.error_mask_drive_following_error)
+    causes = static_cast<std::uint16_t>(causes & ~motor_bit::kFollowingError);
+  causes_[index] = causes;
+  warnings_[index] = warnings;
+}
+
+void LinMotController::watch() noexcept {
+  watch_supplies();
+  for (std::size_t i = 0; i < hardware->motors; ++i)
+    if (motors_[i].is_there()) watch_motor(i);
+  latch_errors();
+}
+
+/// An error stays until ERROR is left; what ends with the motors' current is a cause no more.
+void LinMotController::latch_errors() noexcept {
+  system_errors_ |= system_causes_;
+  std::uint16_t warnings = 0;
+  for (std::size_t i = 0; i < kMotors; ++i) {
+    errors_[i] |= causes_[i];
+    warnings |= warnings_[i];
+  }
+  const auto logged = static_cast<std::uint16_t>(warnings | ((system_warnings_ & 0x3E) << 8) |
+                                                 (system_warnings_ & system_bit::kEmergencyStop));
+  if (state_ == State::run)
+    data.LoggedWarnings =
+        WORD{static_cast<std::uint16_t>(static_cast<std::uint16_t>(data.LoggedWarnings) | logged)};
+}
+
+void LinMotController::find_first_error() noexcept {
+  error_number_ = 0;
+  error_motor_ = -1;
+  for (const ErrorRow& row : errors()) {
+    if (row.bit < 0 || row.ascii == 0) continue;
+    const auto bit = static_cast<std::uint16_t>(1u << row.bit);
+    if (!row.of_motor && (system_errors_ & bit) != 0) {
+      error_number_ = row.ascii;
+      data.Display = WORD{row.code};
+      return;
+    }
+    for (std::size_t i = 0; row.of_motor && i < kMotors; ++i) {
+      if ((errors_[i] & bit) == 0) continue;
+      error_number_ = row.ascii;
+      error_motor_ = static_cast<int>(i);
+      data.Display = WORD{static_cast<std::uint16_t>(row.code + (i + 1) * 0x100)};
+      return;
+    }
+  }
+  if ((system_errors_ & system_bit::kApplication) != 0) data.Display = WORD{kDataOutOfRange};
+}
+
+// ---- What others see
+
+std::uint16_t LinMotController::flags() const noexcept {
+  std::uint16_t bits = 0;
+  for (std::size_t i = 0; i < kMotors; ++i)
+    if (requests_.freeze_motor[i] || flags_.freeze_motor[i]) bits |= static_cast<std::uint16_t>(1u << i);
+  const auto add = [&bits](bool on, int bit) {
+    if (on) bits |= static_cast<std::uint16_t>(1u << bit);
+  };
+  const SystemParameters& system = data.Parameters;
+  add(system.emerg_stop_input ? requests_.stop : flags_.stop, 4);
+  add(system.freeze_input ? requests_.freeze : flags_.freeze, 5);
+  add(system.init_input ? requests_.init : flags_.init, 6);
+  add(system.run_input ? requests_.run : flags_.run, 7);
+  return bits;
+}
+
+std::uint16_t LinMotController::state_bits() const noexcept {
+  std::uint16_t bits = 0;
+  const auto add = [&bits](bool on, int bit) {
+    if (on) bits |= static_cast<std::uint16_t>(1u << bit);
+  };
+  bool error = system_errors_ != 0, warning = system_warnings_ != 0;
+  for (std::size_t i = 0; i < kMotors; ++i) {
+    add(data.Motors[i].InPosition, static_cast<int>(i));
+    error = error || errors_[i] != 0;
+    warning = warning || warnings_[i] != 0;
+  }
+  add(error, 4);
+  add(warning, 5);
+  add(!all_homed(), 6);
+  add(state_ == State::run, 7);
+  add(state_ == State::error, 8);
+  add(state_ == State::disable, 9);
+  add(state_ == State::init, 10);
+  add(state_ == State::stop, 11);
+  return bits;
+}
+
+bool LinMotController::output_function(DINT function) const noexcept {
+  const auto at = [this](std::size_t i) { return !has_motor(i) || data.Motors[i].InPosition; };
+  if (function >= 1 && function <= 4) return data.Motors[static_cast<std::size_t>(function - 1)].InPosition;
+  if (function == 5) return at(0) && at(1);
+  if (function == 6) return at(2) && at(3);
+  if (function == 7) return at(0) && at(1) && at(2) && at(3);
+  if (function != 8) return false;
+  return std::any_of(data.Motors.begin(), data.Motors.end(),
+                     [](const auto& motor) { return motor.PosRange; });
+}
+
+bool LinMotController::message() const noexcept {
+  const SystemParameters& system = data.Parameters;
+  std::uint16_t of_motors = 0;
+  bool in_position = false;
+  for (std::size_t i = 0; i < kMotors; ++i) {
+    of_motors |= errors_[i];
+    in_position = in_position || (taken_[i].warn_mask_in_position && data.Motors[i].InPosition);
+  }
+  const auto has = [](std::uint16_t bits, std::uint16_t bit) { return (bits & bit) != 0; };
+  return (system.msg_mask_dclv_power_too_low && has(system_errors_, system_bit::kPowerLow)) ||
+         (system.msg_mask_dclv_power_too_high && has(system_errors_, system_bit::kPowerHigh)) ||
+         (system.msg_mask_dclv_signal_too_low && has(system_errors_, system_bit::kSignalLow)) ||
+         (system.msg_mask_dclv_signal_too_high && has(system_errors_, system_bit::kSignalHigh)) ||
+         (system.msg_mask_electronic_fault && has(system_errors_, system_bit::kElectronics)) ||
+         (system.msg_mask_drive_type_mismatch && has(of_motors, motor_bit::kTypeMismatch)) ||
+         (system.msg_mask_curve_error && has(of_motors, motor_bit::kCurve)) ||
+         (system.msg_mask_slider_missing && has(of_motors, motor_bit::kSliderMissing)) ||
+         (system.msg_mask_init_failed && has(of_motors, motor_bit::kInitFailed)) ||
+         (system.msg_mask_drive_following_error && has(of_motors, motor_bit::kFollowingError)) ||
+         (system.msg_mask_drive_too_hot_sensor && has(of_motors, motor_bit::kHotSensor)) ||
+         (system.msg_mask_in_position && in_position);
+}
+
+void LinMotController::write_outputs() noexcept {
+  const SystemParameters& system = data.Parameters;
+  const auto write = [this](std::size_t index, bool on) {
+    if (wiring.outputs[index] != nullptr) *wiring.outputs[index] = on;
+  };
+  const std::uint16_t bits = state_bits();
+  constexpr int kErrorFlag = 1 << 4, kWarnFlag = 1 << 5;
+  write(0, system.warn_output && (bits & kWarnFlag) != 0);
+  write(1, system.error_output && (bits & kErrorFlag) != 0);
+  const bool by_table = command_interface() == CommandInterface::mt;
+  write(2, by_table ? output_function(system.mt_output_3) : system.pos_error_output && output_function(8));
+  write(3, by_table ? output_function(system.mt_output_4) : system.msg_output && message());
+}
+
+void LinMotController::show() noexcept {
+  constexpr double kMetres = 1e-3;  // a millimetre
+  data.State = static_cast<DINT>(state_);
+  data.StateNumber = row_;
+  data.Code = code_.code();
+  data.Errors = WORD{system_errors_};
+  data.Warnings = WORD{system_warnings_};
+  if (state_ != State::error) data.Display = {};
+  for (std::size_t i = 0; i < hardware->motors; ++i) {
+    const Motor& motor = motors_[i];
+    if (!motor.is_there()) continue;
+    LinMotMotorData& shown = data.Motors[i];
+    shown.DemandPosition = motor.demand();
+    shown.SetPoint = motor.setpoint().position;
+    shown.SetPointVelocity = motor.setpoint().velocity * kMetres;
+    shown.ActualPosition = motor.actual();
+    shown.ActualVelocity = motor.actual_velocity() * kMetres;
+    shown.FollowingError = motor.following_error();
+    shown.DemandCurrent = motor.current();
+    shown.InPosition = state_ == State::run && motor.in_position();
+    shown.CurveActive = motor.curve_active();
+    shown.InitDone = motor.homed();
+    shown.Frozen = motor.frozen();
+    shown.Errors = WORD{errors_[i]};
+    shown.Warnings = WORD{warnings_[i]};
+    if (motor.curve_offset() != taken_[i].curve_pos_offset)
+      shown.Parameters.curve_pos_offset = taken_[i].curve_pos_offset = motor.curve_offset();
+  }
+  if (command_interface() == CommandInterface::profibus) write_words();
+}
+
+}  // namespace lockstep

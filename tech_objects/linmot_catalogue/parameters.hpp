@@ -1,0 +1,192 @@
+/// The parameters of a LinMot controller: all that are published, declared once.
+/// @source LinMot release 1.3 addendum, 6.1 to 6.9, 7.9
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tech_objects/types/declaration.hpp"
+#include "tech_objects/types/types.hpp"
+
+namespace lockstep::linmot {
+
+inline constexpr std::size_t kMotors = 4;  ///< A to D
+
+/// Parameters of a controller that have an effect, with their start values.
+struct SystemParameters {
+  BOOL error_mask_dclv_power_too_low = true;
+  BOOL error_mask_dclv_power_too_high = true;
+  BOOL error_mask_dclv_signal_too_low = true;
+  BOOL error_mask_dclv_signal_too_high = true;
+  BOOL error_mask_electronic_fault = true;
+  BOOL warn_mask_dclv_power_low = true;
+  BOOL warn_mask_dclv_power_high = true;
+  BOOL warn_mask_dclv_signal_low = true;
+  BOOL warn_mask_dclv_signal_high = true;
+  BOOL warn_mask_electronic_fault = true;
+  BOOL msg_mask_dclv_power_too_low = false;
+  BOOL msg_mask_dclv_power_too_high = false;
+  BOOL msg_mask_dclv_signal_too_low = false;
+  BOOL msg_mask_dclv_signal_too_high = false;
+  BOOL msg_mask_electronic_fault = false;
+  BOOL msg_mask_drive_type_mismatch = false;
+  BOOL msg_mask_curve_error = false;
+  BOOL msg_mask_slider_missing = false;
+  BOOL msg_mask_init_failed = false;
+  BOOL msg_mask_drive_following_error = false;
+  BOOL msg_mask_drive_too_hot_calculated = false;
+  BOOL msg_mask_drive_too_hot_sensor = false;
+  BOOL msg_mask_in_position = false;
+  BOOL auto_start = false;
+  BOOL init_together = true;
+  BOOL run_input = false;
+  BOOL init_input = false;
+  BOOL freeze_input = false;
+  BOOL emerg_stop_input = false;
+  BOOL analog_trig_drive_a = false;
+  BOOL analog_trig_drive_b = false;
+  BOOL analog_trig_drive_c = false;
+  BOOL analog_trig_drive_d = false;
+  BOOL error_output = true;
+  BOOL warn_output = true;
+  BOOL pos_error_output = true;
+  BOOL msg_output = true;
+  DINT command_interface = 0;
+  LREAL jitter_time = 5.0;
+  LREAL acknowledge_time = 20.0;
+  DINT mt_output_3 = 0;
+  DINT mt_output_4 = 0;
+  BOOL bytes_reversed = false;
+};
+
+/// The same of one motor; those of a linear motor.
+struct MotorParameters {
+  DINT type = 0;
+  DINT init_mode = 0;
+  BOOL init_once = false;
+  LREAL init_speed = 0.05;
+  LREAL maximal_init_current = 10.0;
+  LREAL home_position = 0.0;
+  LREAL check_init_position = 0.0;
+  LREAL initial_position = 0.0;
+  DINT run_mode = 0;
+  LREAL minimal_position = -630.0;
+  LREAL maximal_position = 630.0;
+  LREAL position_0v = 0.0;
+  LREAL position_10v = 100.0;
+  LREAL position_0 = 0.0;
+  LREAL position_1 = 100.0;
+  DINT curve_number = 0;
+  DINT rise_curve_number = 0;
+  DINT fall_curve_number = 0;
+  LREAL curve_pos_offset = 0.0;
+  LREAL curve_amplitude = 100.0;
+  LREAL curve_speed = 100.0;
+  LREAL max_speed = 0.78125;
+  LREAL max_acceleration = 30.517578125;
+  LREAL pos_range_min = -630.0;
+  LREAL pos_range_max = 630.0;
+  LREAL in_position_minus = 1.0;
+  LREAL in_position_plus = 1.0;
+  LREAL following_error_minus = 50.0;
+  LREAL following_error_plus = 50.0;
+  LREAL maximal_current = 3.0;
+  LREAL current_offset = 0.0;
+  LREAL proportional = 1.0;
+  LREAL derivative = 4.0;
+  LREAL integral = 0.0;
+  LREAL ff_friction = 0.0;
+  LREAL ff_acceleration = 0.0;
+  LREAL ff_deceleration = 0.0;
+  BOOL range_3a = false;
+  BOOL error_mask_drive_type_mismatch = true;
+  BOOL error_mask_curve_error = true;
+  BOOL error_mask_slider_missing = true;
+  BOOL error_mask_init_failed = true;
+  BOOL error_mask_drive_following_error = true;
+  BOOL error_mask_drive_too_hot_calculated = true;
+  BOOL error_mask_drive_too_hot_sensor = true;
+  BOOL warn_mask_slider_missing = true;
+  BOOL warn_mask_drive_init_not_done = true;
+  BOOL warn_mask_pos_range_indicator = true;
+  BOOL warn_mask_drive_following_error = true;
+  BOOL warn_mask_drive_too_hot_calculated = true;
+  BOOL warn_mask_drive_hot_sensor = true;
+  BOOL warn_mask_in_position = false;
+  DINT emergency_stop_mode = 0;
+  LREAL stop_position = 0.0;
+  LREAL emergency_max_speed = 0.78125;
+  LREAL emergency_max_acceleration = 30.517578125;
+};
+
+/// Of what a parameter is one.
+enum class Scope : std::uint8_t { system, motor, linear_motor, stepper, magnet, position_sensor };
+/// What stands there.
+enum class Kind : std::uint8_t {
+  value,
+  whole,  ///< a whole number
+  on_off,
+  choice,  ///< one of its options
+  shown    ///< the controller tells it
+};
+
+inline constexpr std::uint8_t kLive = 1;      ///< may be changed at run time
+inline constexpr std::uint8_t kReadOnly = 2;  ///< nobody sets it
+inline constexpr std::uint8_t kPrinted = 4;  ///< its start value is printed; else it is this program's choice
+inline constexpr std::size_t kNowhere = ~std::size_t{0};
+
+struct Parameter {
+  std::string_view path;  ///< as printed; that of a motor begins behind its drive
+  Scope scope;
+  Kind kind;
+  std::string_view unit;
+  Range range;  ///< of a value or whole number
+  std::span<const std::string_view> options;
+  std::uint8_t flags;
+  std::size_t offset;  ///< in `SystemParameters` or `MotorParameters` [byte]; kNowhere: it has no effect
+  std::string_view text;
+
+  bool live() const noexcept { return (flags & kLive) != 0; }
+  bool read_only() const noexcept { return (flags & kReadOnly) != 0; }
+  bool printed() const noexcept { return (flags & kPrinted) != 0; }
+  bool effective() const noexcept { return offset != kNowhere; }
+};
+
+/// In published order.
+std::span<const Parameter> system_parameters() noexcept;
+/// Of every kind of motor; a path may be there once for each kind.
+std::span<const Parameter> motor_parameters() noexcept;
+
+/// Without regard to case; of a linear motor, or of all motors. nullptr: there is none.
+const Parameter* find_system_parameter(std::string_view path) noexcept;
+const Parameter* find_motor_parameter(std::string_view path) noexcept;
+
+/// The name that a part of a path has as a signal: letters and digits, each word with a capital; "+" Plus,
+/// "-" Minus, a leading digit behind the rest. Not in the cycle.
+std::string signal_name(std::string_view part);
+/// The same of a whole path, with points. Not in the cycle.
+std::string signal_path(std::string_view path);
+
+/// As a number: an option by its index, on by 1. @param parameters the struct in which it has its place
+double parameter_value(const Parameter& parameter, const void* parameters) noexcept;
+void set_parameter(const Parameter& parameter, void* parameters, double value) noexcept;
+/// The increment in which a protocol counts it; 1 where it has none.
+double increment_of(const Parameter& parameter) noexcept;
+
+enum class CommandInterface : std::uint8_t { at, mt, ascii_rs232, ascii_rs485, application, profibus };
+enum class InitMode : std::uint8_t {
+  actual_position,
+  auto_move_out,
+  auto_move_in,
+  trig_move_out,
+  trig_move_in
+};
+enum class RunMode : std::uint8_t { serial, analog, continuous_curve, trigger_curve, two_point };
+enum class EmergencyStopMode : std::uint8_t { off, freeze, goto_position };
+inline constexpr DINT kNoDrive = 0;
+inline constexpr DINT kFirstOtherType = 11;  ///< types from here on are no linear motors
+
+}  // namespace lockstep::linmot

@@ -1,0 +1,251 @@
+// The tables of a LinMot controller against the catalogues; increments; the tuning tool.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "tech_objects/linmot/curve.hpp"
+#include "tech_objects/linmot/limiter.hpp"
+#include "tech_objects/linmot/states.hpp"
+#include "tech_objects/linmot/tuning.hpp"
+#include "tech_objects/linmot_catalogue/ascii_commands.hpp"
+#include "tech_objects/linmot_catalogue/errors.hpp"
+#include "tech_objects/linmot_catalogue/increments.hpp"
+#include "tech_objects/linmot_catalogue/modules.hpp"
+#include "tech_objects/linmot_catalogue/mt_commands.hpp"
+#include "tech_objects/linmot_catalogue/parameters.hpp"
+
+namespace lockstep::linmot_catalogue_test {
+namespace {
+
+using Json = nlohmann::json;
+
+Json catalogue(const std::string& name) {
+  return Json::parse(std::ifstream(std::string(LOCKSTEP_TEST_DATA) + "/linmot/" + name + ".json"));
+}
+
+/// The path of a parameter with its name once, and without its drive.
+std::string path_of(const Json& one) {
+  std::string path = one.at("path").get<std::string>();
+  if (path[0] == '\\') path.erase(0, 1);
+  const std::string name = one.at("name");
+  if (path != name && !path.ends_with("\\" + name)) path += "\\" + name;
+  const std::string drive = "Drives\\Drive X\\";
+  return path.starts_with(drive) ? path.substr(drive.size()) : path;
+}
+
+TEST(LinMotParameters, AreThePublishedOnes) {
+  const Json document = catalogue("parameters");
+  const auto system = linmot::system_parameters(), motor = linmot::motor_parameters();
+  ASSERT_EQ(system.size() + motor.size(), document.at("parameters").size());
+  std::size_t of_system = 0, of_motor = 0;
+  for (const Json& one : document.at("parameters")) {
+    const bool drive = one.at("path").get<std::string>().starts_with("\\Drives");
+    const linmot::Parameter& parameter = drive ? motor[of_motor++] : system[of_system++];
+    EXPECT_EQ(parameter.path, path_of(one));
+    EXPECT_EQ(parameter.read_only(), one.at("attributes").at("readOnly").get<bool>()) << parameter.path;
+    if (one.at("attributes").at("live").is_boolean()) {
+      EXPECT_EQ(parameter.live(), one.at("attributes").at("live").get<bool>()) << parameter.path;
+    }
+    if (!one.at("options").is_array()) continue;
+    ASSERT_GE(parameter.options.size(), one.at("options").size()) << parameter.path;
+    for (std::size_t i = 0; i < one.at("options").size(); ++i)
+      EXPECT_EQ(parameter.options[i], one.at("options")[i].at("value").get<std::string>());
+  }
+}
+
+TEST(LinMotParameters, AreFoundByTheirPathAndNamedAsSignals) {
+  EXPECT_NE(linmot::find_motor_parameter("control parameters\\p"), nullptr);
+  EXPECT_EQ(linmot::find_motor_parameter("Sensor Configuration\\Sensor Period"), nullptr);
+  EXPECT_EQ(linmot::signal_path("Control Parameters\\P"), "ControlParameters.P");
+  EXPECT_EQ(linmot::signal_name("'0' Position"), "Position0");
+  EXPECT_EQ(linmot::signal_name("0V Position"), "Position0V");
+  EXPECT_EQ(linmot::signal_name("10V Position"), "Position10V");
+  EXPECT_EQ(linmot::signal_name("In Position+"), "InPositionPlus");
+  EXPECT_EQ(linmot::signal_name("Following Error-"), "FollowingErrorMinus");
+  std::set<std::string> names;
+  for (const linmot::Parameter& parameter : linmot::motor_parameters()) {
+    if (parameter.scope > linmot::Scope::linear_motor) continue;
+    EXPECT_TRUE(names.insert(linmot::signal_path(parameter.path)).second) << parameter.path;
+  }
+}
+
+TEST(LinMotIncrements, AreExact) {
+  const Json exact = catalogue("scenarios").at("meta").at("increments_exact");
+  EXPECT_EQ(linmot::kPositionIncrement, 5.0 / 256.0);
+  EXPECT_DOUBLE_EQ(linmot::kVelocityIncrement * 1e3, std::stod(exact.at("velocity_mm_s").get<std::string>()));
+  EXPECT_DOUBLE_EQ(linmot::kAccelerationIncrement * 1e3,
+                   std::stod(exact.at("acceleration_mm_s2").get<std::string>()));
+  EXPECT_EQ(linmot::kCurrentIncrement * 1e3, std::stod(exact.at("current_mA").get<std::string>()));
+  EXPECT_EQ(4096 * linmot::kVelocityIncrement, 0.78125);
+  EXPECT_EQ(128 * linmot::kAccelerationIncrement, 30.517578125);
+  EXPECT_EQ(linmot::increments(50.068, linmot::kAccelerationIncrement), 210);
+  EXPECT_EQ(linmot::increments(630.0, linmot::kPositionIncrement), 32256);
+  EXPECT_EQ(linmot::increments(-2.5, 1.0), -3);
+  EXPECT_EQ(linmot::increments(2.5, 1.0), 3);
+}
+
+TEST(LinMotCommands, AreThePublishedOnes) {
+  const Json ascii = catalogue("ascii_protocol");
+  ASSERT_EQ(linmot::ascii_commands().size(), ascii.at("commands").size());
+  for (const Json& one : ascii.at("commands")) {
+    const auto* const command = linmot::find_ascii_command(one.at("command").get<std::string>().substr(1));
+    ASSERT_NE(command, nullptr) << one.at("command");
+    EXPECT_EQ(command->is(linmot::AsciiCommand::kReads), one.at("kind") == "read") << command->name;
+    EXPECT_EQ(command->is(linmot::AsciiCommand::kArms), one.at("armsTrigger").get<bool>()) << command->name;
+    if (one.at("allowedStates").get<std::string>().starts_with("RUN only")) {
+      EXPECT_TRUE(command->is(linmot::AsciiCommand::kInRun)) << command->name;
+    }
+    if (one.at("range").is_array() && command->form == linmot::AsciiForm::number_drive) {
+      EXPECT_EQ(command->lowest, one.at("range")[0].get<int>()) << command->name;
+      EXPECT_EQ(command->highest, one.at("range")[1].get<int>()) << command->name;
+    }
+  }
+  const Json mt = catalogue("mt_commands");
+  ASSERT_EQ(linmot::mt_commands().size(), mt.at("stateCommands").size());
+  for (std::size_t i = 0; i < linmot::mt_commands().size(); ++i) {
+    EXPECT_EQ(linmot::mt_commands()[i].name, mt.at("stateCommands")[i].at("name").get<std::string>());
+    EXPECT_EQ(linmot::mt_commands()[i].arity(), mt.at("stateCommands")[i].at("arguments").size());
+    EXPECT_EQ(static_cast<std::size_t>(linmot::mt_commands()[i].command), i);
+  }
+}
+
+TEST(LinMotModules, AreThePublishedOnes) {
+  const Json bus = catalogue("profibus");
+  ASSERT_EQ(linmot::modules().size(), bus.at("modules").size());
+  for (std::size_t i = 0; i < linmot::modules().size(); ++i) {
+    const linmot::ModuleRow& row = linmot::modules()[i];
+    const Json& one = bus.at("modules")[i];
+    EXPECT_EQ(row.name, one.at("name").get<std::string>());
+    EXPECT_EQ(static_cast<std::size_t>(row.module), i);
+    EXPECT_EQ(row.out_words, one.at("outWords").get<int>()) << row.name;
+    EXPECT_EQ(row.in_words, one.at("inWords").get<int>()) << row.name;
+    if (one.at("range").is_array()) {
+      EXPECT_EQ(row.lowest, one.at("range")[0].get<int>()) << row.name;
+      EXPECT_EQ(row.highest, one.at("range")[1].get<int>()) << row.name;
+    }
+  }
+}
+
+TEST(LinMotErrors, AreThePublishedOnes) {
+  const Json document = catalogue("errors");
+  ASSERT_EQ(linmot::errors().size(), document.at("catalog").size());
+  for (std::size_t i = 0; i < linmot::errors().size(); ++i) {
+    const Json& one = document.at("catalog")[i];
+    EXPECT_EQ(linmot::errors()[i].name, one.at("name").get<std::string>());
+    const std::string code = one.at("asciiCode").is_null() ? "0" : one.at("asciiCode").get<std::string>();
+    EXPECT_EQ(std::to_string(linmot::errors()[i].ascii), code);
+  }
+  EXPECT_EQ(linmot::warnings().size(), document.at("warnings").size());
+}
+
+// ---- L16
+
+TEST(LinMotScenario, L16CalculatesWhatALoadTakes) {
+  for (const Json& scenario : catalogue("scenarios").at("scenarios")) {
+    if (scenario.at("id") != "L16") continue;
+    const Json& expect = scenario.at("expect");
+    linmot::TuningInput input{.force_constant = 40.0,
+                              .slider_mass = 0.829,
+                              .load_mass = 1.2,
+                              .friction = 10.0,
+                              .inclination = 90.0};
+    const linmot::TuningResult first = linmot::tune(input);
+    const double tolerance = expect[0].at("tolerance");
+    EXPECT_NEAR(first.ff_friction, expect[0].at("value")[0].get<double>(), tolerance);
+    EXPECT_NEAR(first.ff_acceleration, expect[0].at("value")[1].get<double>(), tolerance);
+    EXPECT_NEAR(first.current_offset, expect[0].at("value")[3].get<double>(), tolerance);
+    input.force_constant = 40.8;
+    input.friction = 0.0;
+    const linmot::TuningResult second = linmot::tune(input);
+    EXPECT_NEAR(second.ff_acceleration, expect[1].at("value")[0].get<double>(), 0.001);
+    EXPECT_NEAR(second.current_offset, expect[1].at("value")[1].get<double>(), 0.001);
+    input.motors = 2;
+    EXPECT_NEAR(linmot::tune(input).mass, expect[2].at("value").get<double>(), 1e-12);
+  }
+}
+
+// ---- States
+
+TEST(LinMotStates, FollowTheTable) {
+  using linmot::State;
+  int changes = 0;
+  for (int bits = 0; bits < 512; ++bits) {
+    const linmot::StateFacts facts{.run = (bits & 1) != 0,
+                                   .init = (bits & 2) != 0,
+                                   .stop = (bits & 4) != 0,
+                                   .error = (bits & 8) != 0,
+                                   .cause = (bits & 16) != 0,
+                                   .homed = (bits & 32) != 0,
+                                   .homing_over = (bits & 64) != 0,
+                                   .automatic = (bits & 128) != 0,
+                                   .warning = (bits & 256) != 0};
+    for (int state = 0; state < 6; ++state) {
+      const auto before = static_cast<State>(state);
+      const State after = linmot::next_state(before, facts);
+      changes += after != before ? 1 : 0;
+      if (facts.error && before != State::error) {
+        EXPECT_EQ(after, State::error);
+      }
+      if (before == State::error) {
+        EXPECT_EQ(after, facts.none_requested() && !facts.cause ? State::disable : State::error);
+      }
+      if (after == State::run && before != State::run) {
+        EXPECT_TRUE(facts.homed && !facts.stop);
+      }
+      if (before == State::stop && !facts.error) {
+        EXPECT_EQ(after, facts.none_requested() ? State::disable : State::stop);
+      }
+      if (before == State::wait_for_disable && !facts.error) {
+        EXPECT_EQ(after == State::disable, facts.none_requested());
+      }
+    }
+  }
+  EXPECT_GT(changes, 1000);
+}
+
+// ---- The V/A limiter, by chance
+
+TEST(LinMotLimiterProperty, KeepsItsLimitsAndArrives) {
+  std::uint64_t seed = 20261124;
+  const auto random = [&seed](double lowest, double highest) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return lowest + (highest - lowest) * static_cast<double>(seed >> 11) * 0x1p-53;
+  };
+  constexpr double kCycle = 1e-4;
+  linmot::Limiter limiter;
+  limiter.configure(kCycle);
+  limiter.begin(0.0);
+  LoopSetpoint last{};
+  double acceleration = 0.0;  // of the motion before
+  for (int i = 0; i < 100'000; ++i) {
+    const linmot::Limits limits{random(10.0, 1000.0), random(500.0, 50'000.0)};
+    const double target = random(-300.0, 300.0);
+    limiter.go_to(target, limits);
+    // A velocity beyond the limit comes down to it.
+    const double fastest = std::max(limits.velocity, std::abs(last.velocity) + acceleration * kCycle);
+    acceleration = limits.acceleration;
+    for (int k = 0; k < 20; ++k) {
+      const LoopSetpoint now = limiter.step();
+      ASSERT_TRUE(std::isfinite(now.position)) << i;
+      ASSERT_LE(std::abs(now.velocity), fastest * (1.0 + 1e-9)) << i;
+      if (k > 0) {
+        ASSERT_LE(std::abs(now.velocity - last.velocity), limits.acceleration * kCycle * (1.0 + 1e-6) + 1e-9)
+            << i;
+      }
+      ASSERT_LE(std::abs(now.position - last.position), fastest * kCycle * (1.0 + 1e-6) + 1e-9) << i;
+      last = now;
+    }
+    if (i % 1000 != 0) continue;
+    for (int k = 0; k < 1'000'000 && !limiter.at_end(); ++k) last = limiter.step();
+    EXPECT_EQ(limiter.step().position, target) << i;
+    last = limiter.step();
+  }
+}
+
+}  // namespace
+}  // namespace lockstep::linmot_catalogue_test
