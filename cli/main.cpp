@@ -9,6 +9,7 @@
 #include "cli/command/command.hpp"
 #include "cli/command/shortage.hpp"
 #include "cli/command/standard_streams.hpp"
+#include "cli/linmot/linmot_command.hpp"
 #include "hmi_bridge/network/visible_text.hpp"
 #include "projects/json/problem.hpp"
 
@@ -63,6 +64,7 @@ int carry_out(int argc, char** argv) {
   add_cam_command(app, action);
   add_doctor_command(app, action);
   add_aposs_command(app, action);
+  add_linmot_command(app, action);
   add_completion_command(app, action);
   try {
     app.parse(argc, argv);

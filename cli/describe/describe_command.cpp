@@ -38,6 +38,7 @@ std::string overview_text(std::size_t width) {
   Table topics({"Also", ""});
   for (const Topic& topic : kTopics) topics.row({std::string(topic.name), std::string(topic.text)});
   topics.row({"KPROP", "of an MCO 305: a parameter, also 32-60; POSA a command, error 108, sysvar 4097"});
+  topics.row({"ASCII", "of a LinMot controller: commands; MT: of its state table; PROFIBUS: modules"});
   topics.row({"MC_Home.Mode", "a pin of a block"});
   topics.row({"DynamicLimits",
               "a structure of technology objects, or a variable: DynamicLimits.MaxVelocity, "
@@ -179,6 +180,7 @@ std::vector<std::string> describable_names() {
 Subject find_subject(const std::vector<std::string>& words, std::string& problem) {
   if (words.empty()) return overview();
   const std::string& word = words.front();
+  if (Subject subject = linmot_subject(words)) return subject;
   if (words.size() > 1) {
     if (same_name(word, "keys")) return find_keys(words[1], problem);
     if (!same_name(word, "override")) {
@@ -238,6 +240,8 @@ void add_describe_command(CLI::App& app, Action& action) {
       "  SEL, TO_INT, MOD, LREAL                  one of them\n"
       "  KPROP, 32-60, POSA, DEF ORIGIN            a parameter, a command of an MCO 305\n"
       "  error 108, sysvar 4097                   an error, a system variable of it\n"
+      "  LinMot_Controller \"Max Speed\"            a parameter of a LinMot controller, by name or path\n"
+      "  ASCII SP, MT Freeze, PROFIBUS            a command, a module of it; all of them\n"
       "  gear, following error                    what has to do with these words, nearest first\n"
       "Exit status: 0, or 1 if there is nothing of that name");
   command->callback([&action, words, json] { action = [words, json] { return describe(*words, *json); }; });

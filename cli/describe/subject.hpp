@@ -82,6 +82,10 @@ struct Mco305Finding {
 };
 std::vector<Mco305Finding> mco305_findings();
 
+/// Of a LinMot controller: `ASCII`, `ASCII SP`, `MT Freeze`, `PROFIBUS "Run Curve"`, `LinMot_Controller "Max
+/// Speed"`; an empty subject if the words name none of these.
+Subject linmot_subject(const std::vector<std::string>& words);
+
 /// The subject that the words of the command line name; an empty one if they name none.
 /// @param problem then gets what is wrong, with a suggestion
 Subject find_subject(const std::vector<std::string>& words, std::string& problem);
