@@ -87,23 +87,20 @@ class Pursuit {
     synchronous_ = locked_;
     return locked_;
   }
-  /// How fast it may come nearer so that whole steps of braking still stop in front of the target.
+  /// How fast it may come nearer, so that whole steps of braking behind this one end on the target.
+  static double speed(double distance, double braking) noexcept {
+    const double steps = std::max(std::ceil(std::sqrt(0.25 + 2.0 * distance / braking) - 0.5), 1.0);
+    return distance / steps + braking * (steps - 1.0) / 2.0;
+  }
   static double approach(double rest, double target_velocity, const PursuitLimits& limits) noexcept {
     const double distance = std::abs(rest);
     if (distance == 0.0) return 0.0;
     const bool catches_up = (rest > 0.0) == (target_velocity >= 0.0);
-    double braking = catches_up ? limits.deceleration : limits.acceleration;
-    if (distance <= braking) return rest;
-    const auto speed = [distance](double d) noexcept {
-      return d * (std::sqrt(0.25 + 2.0 * distance / d) - 0.5);
-    };
-    double towards = speed(braking);
+    double towards = speed(distance, catches_up ? limits.deceleration : limits.acceleration);
     // On its way back through standstill both count.
-    if (!catches_up && towards > std::abs(target_velocity)) {
-      braking = std::min(limits.acceleration, limits.deceleration);
-      towards = speed(braking);
-    }
-    towards = std::min(towards, distance);
+    if (!catches_up && towards > std::abs(target_velocity))
+      towards = std::max(std::min(towards, std::abs(target_velocity)),
+                         speed(distance, std::min(limits.acceleration, limits.deceleration)));
     return rest < 0.0 ? -towards : towards;
   }
   static double bounded(double wanted, double rest, double target_velocity,
