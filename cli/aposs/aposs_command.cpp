@@ -15,7 +15,7 @@ void add_compiler_options(CLI::App& command, aposs::CompilerSettings& settings) 
   command
       .add_option_function<std::string>(
           "--firmware", [&settings](const std::string& word) { settings.later_edition = word == "5.00"; },
-          "edition whose parameters there are: 5.00 (as without it) or <5.00")
+          "edition whose parameters and behaviour there are: 5.00 or <5.00 (5.00)")
       ->check(CLI::IsMember({"5.00", "<5.00"}));
 }
 

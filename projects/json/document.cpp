@@ -65,10 +65,17 @@ void append_segment(std::string& pointer, std::string_view key) {
 
 /// What the elements of an array, or the members of an object, are called; empty: nothing of its own.
 std::string_view called(std::string_view key) {
-  constexpr std::pair<std::string_view, std::string_view> kCalled[] = {
-      {"calls", "call"},       {"then", "call"},          {"else", "call"},
-      {"programs", "program"}, {"devices", "device"},     {"technology_objects", "object"},
-      {"tags", "tag"},         {"instances", "instance"}, {"templates", "template"}};
+  constexpr std::pair<std::string_view, std::string_view> kCalled[] = {{"calls", "call"},
+                                                                       {"then", "call"},
+                                                                       {"else", "call"},
+                                                                       {"programs", "program"},
+                                                                       {"devices", "device"},
+                                                                       {"technology_objects", "object"},
+                                                                       {"tags", "tag"},
+                                                                       {"transfer_areas", "transfer area"},
+                                                                       {"controllers", "controller"},
+                                                                       {"instances", "instance"},
+                                                                       {"templates", "template"}};
   const auto* const found = std::ranges::find(kCalled, key, [](const auto& one) { return one.first; });
   return found == std::end(kCalled) ? std::string_view() : found->second;
 }

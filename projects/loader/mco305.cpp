@@ -113,8 +113,8 @@ void DeviceLoader::load_parameter_file(const JsonValue& json) {
     for (const Problem& problem : document.problems()) problems_.report(json, path + ": " + problem.text);
     if (!document.usable()) return;
     Problems inner;
-    const Loading of_file{loading_.project, inner,          loading_.instances,
-                          loading_.folder,  loading_.named, loading_.use};
+    const Loading of_file{loading_.project, inner,        loading_.instances,   loading_.folder,
+                          loading_.named,   loading_.use, loading_.used_outside};
     DeviceLoader file(device_, of_file);
     file.load_parameters(document.root(), true);
     for (const Problem& problem : inner.take_errors())

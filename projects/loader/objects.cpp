@@ -139,6 +139,8 @@ void load_axis(const JsonValue& json, Axis& axis, const Loading& loading) {
 void load_proxy(const JsonValue& json, LeadingAxisProxy& proxy, const Loading& loading) {
   const Fields fields(json, keys::kObjects, variant_of(proxy), loading.problems);
   if (const JsonValue* const config = fields["config"]) load_configuration(*config, proxy, loading);
+  if (const JsonValue* const telegrams = fields["telegrams"])
+    read_struct(*telegrams, keys::kTelegramCounts, proxy.count_tags, loading);
 }
 
 /// One axis after the other is loaded whole, and what is asked for later stays.

@@ -23,8 +23,6 @@ Mco305::Mco305(std::string object_name, DB_ANY object_number)
 
 /// May allocate: afterwards no start of a program does.
 void Mco305::configure(double servo_period, int ratio) {
-  servo_period_ = servo_period;
-  interpolator_period_ = servo_period * ratio;
   ticks_per_step_ = std::max(1, static_cast<int>(std::lround(kStep / servo_period)));
   tick_ = ticks_per_step_ - 1;
   if (master.follows != nullptr) load_.watch(*master.follows, servo_period, ratio);
@@ -32,10 +30,10 @@ void Mco305::configure(double servo_period, int ratio) {
       master.follows != nullptr || master.signal != nullptr || master.encoder_output_of != nullptr;
   device_.configure(settings, servo_period);
   modulo_ = {};
-  configure_leading(interpolator_period_, extrapolation_);
+  configure_leading(servo_period * ratio, extrapolation_);
   reset_leading(actual_position());
   setpoint_ = last_setpoint_ = step_ = last_step_ = {actual_position(), 0.0, 0.0};
-  last_actual_ = actual_position().value;
+  actual_ = last_actual_ = actual_position().value;
   machine_.set_time_interrupts(time_interrupts);
   share_texts();
   for (DeviceProgram& program : programs) {
@@ -150,9 +148,8 @@ void Mco305::before_axes() noexcept {
     setpoint_.velocity = fine.velocity;
   }
   if (!leads_by_actual_value()) return;
-  const AxisPosition actual = actual_position();
-  extrapolate(actual, (actual.value - last_actual_) / interpolator_period_, extrapolation_);
-  last_actual_ = actual.value;
+  const double moved = actual_ - last_actual_;
+  extrapolate({0, last_actual_ + moved * part}, moved / kStep, extrapolation_);
 }
 
 void Mco305::servo(std::int64_t now) noexcept {
@@ -164,6 +161,8 @@ void Mco305::servo(std::int64_t now) noexcept {
   device_.servo(program_due_);
   if (!program_due_) return;
   if (leads) {
+    last_actual_ = actual_;
+    actual_ = actual_position().value;
     last_step_ = step_;
     step_.position.value = units_of(device_.led_position());
     step_.velocity = units_of(device_.set_velocity_now()) / kStep;

@@ -104,9 +104,8 @@ class Mco305 final : public LeadingObject {
   std::int64_t signal_ = 0;   // on a line [qc]
   DINT last_signal_ = 0;
   TO_Struct_Extrapolation extrapolation_{};
-  double servo_period_ = 0.001, interpolator_period_ = 0.001;  // [s]
-  Setpoint step_, last_step_;                                  // as leading value, at the last two steps
-  double last_actual_ = 0.0;                                   // [u]
+  Setpoint step_, last_step_;                // as leading value, at the last two steps
+  double actual_ = 0.0, last_actual_ = 0.0;  // [u]
   bool start_input_ = false, clear_input_ = false, continue_input_ = false;
   bool start_rises_ = false, continue_rises_ = false;
   bool running_ = false;      // the program's end has not been seen

@@ -46,7 +46,7 @@ MarkerFilterSettings Synchronization::filter_settings() const noexcept {
   return {.time = marker_filter_time_,
           .offset_time = offset_time_,
           .distance = std::max(master_tolerance_.distance, 1.0),
-          .mean_of_at_least = later_edition_ ? kMeanOf : 1.0,
+          .minimum_markers = later_edition_ ? kMeanOf : 1.0,
           .fixed = (filter_bits_ & kFixedConstant) != 0,
           .trims_gear = (filter_bits_ & kNoTrim) == 0,
           .by_time = (filter_bits_ & kByFilterTime) != 0 || (filter_bits_ & kOnlySmoothing) != 0,

@@ -13,7 +13,7 @@ struct MarkerFilterSettings {
   double time = 0.0;              ///< SYNCMFTIME [ms] > 0
   double offset_time = 0.0;       ///< SYNCOFFTIME [ms] ≥ 0
   double distance = 0.0;          ///< of the leading markers [counts] > 0
-  double mean_of_at_least = 1.0;  ///< markers, for the mean distance
+  double minimum_markers = 1.0;   ///< markers, for the mean distance
   bool fixed = false;             ///< bit 1: the constant is SYNCMFTIME / 300
   bool trims_gear = true;         ///< not bit 2
   bool by_time = false;           ///< bit 4: corrections are smoothed by SYNCMFTIME, not SYNCOFFTIME
@@ -35,7 +35,7 @@ class MarkerFilter {
     constexpr double kFixedTime = 300.0, kTimes = 3.0;
     markers_ = settings.fixed ? settings.time / kFixedTime
                               : velocity_ * settings.time / (kTimes * settings.distance);
-    const double mean = std::max(markers_, settings.mean_of_at_least);
+    const double mean = std::max(markers_, settings.minimum_markers);
     distance_ += (spacing - distance_) / std::max(mean, 1.0);
     trim_ =
         settings.trims_gear && settings.looks_at_distance ? (settings.distance - distance_) / distance_ : 0.0;

@@ -29,7 +29,7 @@ class Pursuit {
   /// Goes on from here. @param velocity [u/step]
   void begin(double position, double velocity) noexcept {
     position_ = position;
-    velocity_ = steady_ = velocity;
+    velocity_ = steady_ = last_target_velocity_ = velocity;
     synchronous_ = locked_ = false;
   }
   /// One step. @param target where to be at its end [u]  @param target_velocity how far the target moves in a
@@ -37,7 +37,9 @@ class Pursuit {
   void step(double target, double target_velocity, const PursuitLimits& limits) noexcept {
     const double whole = target - position_;
     const double rest = whole - target_velocity;  // beyond going along
-    if (limits.uncertainty > 0.0 && stays_on(whole, rest, target_velocity, limits)) {
+    const bool stays = limits.uncertainty > 0.0 && stays_on(whole, rest, target_velocity, limits);
+    last_target_velocity_ = target_velocity;
+    if (stays) {
       velocity_ = whole;
       position_ = target;
       return;
@@ -73,37 +75,35 @@ class Pursuit {
   /// Whether it is on a counted target, and may go on with all its steps.
   bool stays_on(double whole, double rest, double target_velocity, const PursuitLimits& limits) noexcept {
     const double change = std::max(limits.acceleration, limits.deceleration);
+    double uncertainty = limits.uncertainty;
     if (locked_) {
       const bool faster = (target_velocity > steady_) == (steady_ >= 0.0);
       const double step = faster ? limits.acceleration : limits.deceleration;
       steady_ += std::clamp(target_velocity - steady_, -step, step);
     } else {
+      if (!(std::abs(rest) < 1.0)) return false;
       steady_ = velocity_;
-      if (!(std::abs(rest) < 1.0) || std::abs(velocity_ - target_velocity) > change + limits.uncertainty)
-        return false;
+      uncertainty = std::min(uncertainty, std::abs(target_velocity - last_target_velocity_));
     }
-    locked_ = std::abs(whole - steady_) <= change + limits.uncertainty &&
+    locked_ = std::abs(whole - steady_) <= change + uncertainty &&
               bounded(whole, 0.0, target_velocity, limits) == whole;
     synchronous_ = locked_;
     return locked_;
   }
-  /// How fast it may come nearer so that whole steps of braking still stop in front of the target.
+  /// How fast it may come nearer, so that whole steps of braking behind this one end on the target.
+  static double speed(double distance, double braking) noexcept {
+    const double steps = std::max(std::ceil(std::sqrt(0.25 + 2.0 * distance / braking) - 0.5), 1.0);
+    return distance / steps + braking * (steps - 1.0) / 2.0;
+  }
   static double approach(double rest, double target_velocity, const PursuitLimits& limits) noexcept {
     const double distance = std::abs(rest);
     if (distance == 0.0) return 0.0;
     const bool catches_up = (rest > 0.0) == (target_velocity >= 0.0);
-    double braking = catches_up ? limits.deceleration : limits.acceleration;
-    if (distance <= braking) return rest;
-    const auto speed = [distance](double d) noexcept {
-      return d * (std::sqrt(0.25 + 2.0 * distance / d) - 0.5);
-    };
-    double towards = speed(braking);
+    double towards = speed(distance, catches_up ? limits.deceleration : limits.acceleration);
     // On its way back through standstill both count.
-    if (!catches_up && towards > std::abs(target_velocity)) {
-      braking = std::min(limits.acceleration, limits.deceleration);
-      towards = speed(braking);
-    }
-    towards = std::min(towards, distance);
+    if (!catches_up && towards > std::abs(target_velocity))
+      towards = std::max(std::min(towards, std::abs(target_velocity)),
+                         speed(distance, std::min(limits.acceleration, limits.deceleration)));
     return rest < 0.0 ? -towards : towards;
   }
   static double bounded(double wanted, double rest, double target_velocity,
@@ -141,6 +141,7 @@ class Pursuit {
 
   double position_ = 0.0, velocity_ = 0.0;
   double steady_ = 0.0;  // velocity that keeps the limits, beside which that of a counted target jumps
+  double last_target_velocity_ = 0.0;
   bool synchronous_ = false, locked_ = false;
 };
 

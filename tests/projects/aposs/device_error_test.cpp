@@ -35,10 +35,24 @@ Texts many(int count, const std::string& before, const std::string& behind, int 
   return lines;
 }
 
+Texts thirteen() {
+  Texts lines;
+  for (int i = 1; i <= 13; ++i) lines.push_back("ON PERIOD 1000 GOSUB s" + std::to_string(i));
+  return lines;
+}
+Texts thirteen_subprograms() {
+  Texts lines;
+  for (int i = 1; i <= 13; ++i) {
+    lines.push_back("SUBPROG s" + std::to_string(i));
+    lines.emplace_back("RETURN");
+  }
+  return lines;
+}
+
 Texts nested_loops(int count) {
   Texts lines;
   for (int i = 1; i <= count; ++i) lines.push_back("l" + std::to_string(i) + ":");
-  for (int i = count; i >= 1; --i) lines.push_back("LOOP 3 l" + std::to_string(i));
+  for (int i = count; i >= 1; --i) lines.push_back("LOOP 1 l" + std::to_string(i));
   return lines;
 }
 
@@ -66,12 +80,12 @@ const std::vector<Provoked>& provoked() {
       {.number = 155, .program = {"LINKGPAR 1900 \"x\" 5 1 0"}},
       {.number = 171, .program = {"i = 6", "a[i] = 1"}, .head = {"DIM a[5]"}},
       {.number = 179, .program = {"WAITNDX 100"}},
-      {.number = 184, .program = many(13, "ON PERIOD ", " GOSUB s", 1000), .subprograms = empty},
+      {.number = 184, .program = thirteen(), .subprograms = thirteen_subprograms()},
       {.number = 191, .program = {"SETCURVE a"}, .head = {"DIM a[5]"}},
       {.number = 192, .program = runs, .parameters = {{"32-09", 1}}, .drive = true, .fault = "encoder"},
       {.number = 192, .program = {}, .parameters = {{"32-39", 1}}, .fault = "master_encoder"},
       {.number = 198,
-       .program = {"CVEL 20", "CSTART", "WAITP 1200", "again:", "DELAY 50", "POSA 9000", "GOTO again"},
+       .program = {"CVEL 20", "CSTART", "again:", "DELAY 1000", "POSA 900000", "GOTO again"},
        .parameters = {{"SWPOSLIMACT", 1}, {"POSLIMIT", 1000}}},
   };
   return kRows;
