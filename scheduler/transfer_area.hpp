@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "scheduler/telegram_ring.hpp"
 #include "tech_objects/cross_controller/leading_axis_proxy.hpp"
@@ -13,13 +14,23 @@ namespace lockstep {
 /// What takes telegrams.
 inline constexpr ObjectKinds kLeadingAxisProxy = static_cast<ObjectKinds>(ObjectKind::TO_LeadingAxisProxy);
 
-/// By which interface of a leading object telegrams go to a proxy. Made at load time.
+/// By which interface of a leading object telegrams go to proxies. Made at load time.
 struct TransferArea {
+  struct Receiver {
+    LeadingAxisProxy* proxy = nullptr;
+    std::unique_ptr<TelegramRing> ring{};  ///< telegrams under way
+  };
+
   std::string name;
   LeadingObject* from = nullptr;
   int interface = 1;  ///< index of CrossPlcSynchronousOperation.Interface, from 1
-  LeadingAxisProxy* to = nullptr;
-  std::unique_ptr<TelegramRing> ring{};  ///< telegrams under way
+  std::vector<Receiver> to{};
+
+  bool leads(const TechnologyObject* proxy) const noexcept {
+    for (const Receiver& receiver : to)
+      if (receiver.proxy == proxy) return true;
+    return false;
+  }
 };
 
 }  // namespace lockstep

@@ -7,16 +7,51 @@
 
 namespace lockstep::cli {
 
+namespace {
+
+void tell_problems(const std::string& path, const std::vector<Problem>& problems) {
+  for (const Problem& problem : problems) tell_line(to_string(path, problem), Severity::error);
+}
+
+void tell_warnings(const std::string& path, std::vector<Problem> warnings) {
+  for (Problem& warning : warnings) {
+    warning.text = "warning: " + warning.text;
+    tell_line(to_string(path, warning), Severity::warning);
+  }
+}
+
+int check_system(const std::string& file, bool expanded) {
+  if (expanded) {
+    tell("--expanded is for a project; a system file has no parts", Severity::error);
+    return kCouldNotStart;
+  }
+  int status = kOk;
+  return load_system_or_tell(file, status, LoadedFor::looking) ? static_cast<int>(kOk) : status;
+}
+
+}  // namespace
+
+std::optional<System> load_system_or_tell(const std::string& path, int& status, LoadedFor use,
+                                          SeveralSources sources) {
+  try {
+    LoadedSystem loaded = load_system_file(path, use, sources);
+    tell_problems(path, loaded.problems);
+    tell_warnings(path, std::move(loaded.warnings));
+    status = kNotValid;
+    return std::move(loaded.system);
+  } catch (const UnreadableFile& error) {
+    tell(with_help(error.what()), Severity::error);
+    status = kCouldNotStart;
+    return std::nullopt;
+  }
+}
+
 std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare,
                                     Warnings warnings, LoadedFor use) {
   try {
     LoadedProject loaded = load_project_file(path, prepare, use);
-    for (const Problem& problem : loaded.problems) tell_line(to_string(path, problem), Severity::error);
-    if (warnings == Warnings::kept) loaded.warnings.clear();
-    for (Problem warning : loaded.warnings) {
-      warning.text = "warning: " + warning.text;
-      tell_line(to_string(path, warning), Severity::warning);
-    }
+    tell_problems(path, loaded.problems);
+    if (warnings == Warnings::told) tell_warnings(path, std::move(loaded.warnings));
     status = kNotValid;
     return std::move(loaded.project);
   } catch (const UnreadableFile& error) {
@@ -27,10 +62,12 @@ std::optional<Project> load_or_tell(const std::string& path, int& status, const 
 }
 
 void add_check_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("check", "Validate a project file and tell every problem in it");
+  CLI::App* command =
+      app.add_subcommand("check", "Validate a project or system file and tell every problem in it");
   auto file = std::make_shared<std::string>();
   auto expanded = std::make_shared<bool>(false);
-  command->add_option("FILE", *file, "the project file")->required();
+  command->add_option("FILE", *file, "the project file, or that of a system of several controllers")
+      ->required();
   command->add_flag(
       "--expanded", *expanded,
       "write a valid project to standard output as one file: what it includes, and instances of "
@@ -42,6 +79,7 @@ void add_check_command(CLI::App& app, Action& action) {
       "Exit status: 0 valid, 1 not valid, 2 cannot be read");
   command->callback([&action, file, expanded] {
     action = [file, expanded] {
+      if (is_system_file(*file)) return check_system(*file, *expanded);
       int status = kOk;
       const bool valid = load_or_tell(*file, status, {}, Warnings::told, LoadedFor::looking).has_value();
       if (valid && *expanded) write_data(expanded_project(*file));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "projects/loader/project.hpp"
+#include "projects/system/system.hpp"
 
 namespace CLI {
 class App;
@@ -30,6 +31,7 @@ using Action = std::function<int()>;
 void add_check_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
 void add_test_command(CLI::App& app, Action& action);
+void add_connections_command(CLI::App& app, Action& action);
 void add_describe_command(CLI::App& app, Action& action);
 void add_tags_command(CLI::App& app, Action& action);
 void add_read_command(CLI::App& app, Action& action);
@@ -49,6 +51,11 @@ enum class Warnings : std::uint8_t { told, kept };
 /// @param prepare, use see `load_project`
 std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare = {},
                                     Warnings warnings = Warnings::told, LoadedFor use = LoadedFor::running);
+
+/// The same for a system file.
+std::optional<System> load_system_or_tell(const std::string& path, int& status,
+                                          LoadedFor use = LoadedFor::running,
+                                          SeveralSources sources = SeveralSources::refused);
 
 /// Writes a text to standard error, as far as that takes it. A closed terminal, a pipe without reader or a
 /// full disk is no reason to end a run, and one that takes nothing, such as a stopped terminal, holds nothing

@@ -60,7 +60,7 @@ Json sections_json(const std::vector<KeySection>& sections) {
 }
 
 std::string key_overview_text(std::size_t width) {
-  const std::vector<KeySection> sections = key_sections();
+  const std::vector<KeySection> sections = all_key_sections();
   Table table({"Structure", ""});
   for (const KeySection& section : sections) {
     if (section.path.empty()) continue;
@@ -87,20 +87,20 @@ std::string single_text(const std::string& path, const Key& key, std::size_t wid
 
 std::vector<std::string> key_paths() {
   std::vector<std::string> paths;
-  for (const KeySection& section : key_sections())
+  for (const KeySection& section : all_key_sections())
     for (const Key& key : section.keys) paths.push_back(path_of(section, key));
   return paths;
 }
 
 Subject keys_subject(std::string_view path) {
-  if (path.empty()) return {&key_overview_text, [] { return sections_json(key_sections()); }};
+  if (path.empty()) return {&key_overview_text, [] { return sections_json(all_key_sections()); }};
   std::vector<KeySection> found;
-  for (const KeySection& section : key_sections())
+  for (const KeySection& section : all_key_sections())
     if (same_name(section.path, path)) found.push_back(section);
   if (!found.empty())
     return {[found](std::size_t width) { return sections_text(found, width); },
             [found] { return sections_json(found); }};
-  for (const KeySection& section : key_sections())
+  for (const KeySection& section : all_key_sections())
     for (const Key& key : section.keys)
       if (const std::string whole = path_of(section, key); same_name(whole, path))
         return {[whole, key](std::size_t width) { return single_text(whole, key, width); },

@@ -103,7 +103,7 @@ void add_alarms(std::vector<Finding>& all) {
 
 void add_keys(std::vector<Finding>& all) {
   std::unordered_set<std::string> seen;
-  for (const KeySection& section : key_sections())
+  for (const KeySection& section : all_key_sections())
     for (const Key& key : section.keys) {
       std::string path = (section.path.empty() ? "" : section.path + ".") + std::string(key.name);
       if (seen.insert(path).second) {

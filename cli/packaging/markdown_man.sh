@@ -84,6 +84,9 @@ the schema of the project file, for editors and programs
 .I /usr/share/lockstep/part.schema.json
 that of the files that a project includes
 .TP
+.I /usr/share/lockstep/system.schema.json
+that of a system of several controllers
+.TP
 .I /usr/share/lockstep/projects
 examples
 .SH SEE ALSO

@@ -12,9 +12,9 @@
 #include "cli/command/command.hpp"
 #include "cli/command/shortage.hpp"
 #include "cli/run/ending.hpp"
-#include "cli/run/events.hpp"
 #include "cli/run/run_command.hpp"
 #include "cli/run/service_manager.hpp"
+#include "cli/run/told.hpp"
 #include "hmi_bridge/network/thread_stacks.hpp"
 #include "projects/runtime/kept_values.hpp"
 #include "projects/runtime/run_surroundings.hpp"
@@ -29,39 +29,6 @@ constexpr auto kRefresh = 100ms;                        // of the display
 constexpr std::size_t kDescriptors = 40;                // beside those of Modbus clients
 constexpr std::size_t kMemory = std::size_t{32} << 20;  // [byte] stacks, and what grows with the run
 constexpr std::uint64_t kTicksBetweenLooks = 4096;      // of a simulation, at the clock and for signals
-
-/// Tells on standard error what the run has to say.
-class ToldOnStandardError final : public Messages {
- public:
-  /// @param timeout how long an alarm waits for a reader [ms]
-  explicit ToldOnStandardError(int timeout) : timeout_(timeout) {}
-
-  void inform(const std::string& text) noexcept override { tell(text); }
-  void warn(const std::string& text) noexcept override {
-    clear_line();
-    tell("warning: " + text, Severity::warning);
-  }
-  void event(const TraceEvent& event) override {
-    if (event.kind == EventKind::alarm) ++alarms_;
-    if (event.kind == EventKind::job_failed) ++failed_jobs_;
-    const std::string text = events_.of(event);
-    // On a terminal the line of live values stands where the message goes.
-    if (!text.empty()) write_message((isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + text, timeout_);
-  }
-  /// What has been counted only. After the run.
-  void tell_rest() {
-    if (const std::string text = events_.rest(); !text.empty()) write_message(text);
-  }
-
-  std::uint64_t alarms() const noexcept { return alarms_; }
-  std::uint64_t failed_jobs() const noexcept { return failed_jobs_; }
-
- private:
-  std::atomic<std::uint64_t> alarms_{0};       // counted by the recorder
-  std::atomic<std::uint64_t> failed_jobs_{0};  // the same
-  int timeout_;
-  EventMessages events_;
-};
 
 /// What a signal is to do is forgotten with what it is done to.
 struct Forgetting {
@@ -161,24 +128,6 @@ int tell_end(const RealTimeStatus& status, const Controller& controller) {
   return kStoppedByFault;
 }
 
-void tell_counters(const Controller& controller) {
-  if (const auto zero = controller.counters().evaluation.integer_divisions_by_zero; zero != 0)
-    tell(fmt::format("warning: {} integer divisions by zero gave 0", zero));
-  if (const auto outside = controller.counters().evaluation.indices_out_of_range; outside != 0)
-    tell(
-        fmt::format("warning: {} indices of arrays were out of range; what was read there counted as 0, what "
-                    "was to be written is lost",
-                    outside));
-  std::uint64_t silences = 0;
-  for (const Watchdog& watchdog : controller.watchdogs) silences += watchdog.silences();
-  if (silences != 0)
-    tell(fmt::format("warning: Modbus: a watchdog has found its client silent {} times", silences));
-  std::uint64_t refused = 0;
-  for (const Program& program : controller.programs) refused += program.refused_assignments();
-  if (refused != 0)
-    tell(fmt::format("warning: {} assignments of values that are not permitted were refused", refused));
-}
-
 /// Connections that the Modbus of a project may have at once.
 std::size_t clients_of(const Project& project) {
   std::size_t clients = project.modbus.clients.size();
@@ -191,23 +140,6 @@ std::size_t clients_of(const Project& project) {
 void require_means(const Project& project, bool modbus) {
   require_descriptors(kDescriptors + (modbus ? clients_of(project) : 0));
   require_memory(kMemory);
-}
-
-/// The exit status of a run that would have had another one. Whether there was what it is to fail on is in
-/// doubt where events were lost.
-int status_of(int status, const FailOn& fail_on, const ToldOnStandardError& told,
-              const Controller& controller) {
-  if (status != kOk || (!fail_on.alarm && !fail_on.job)) return status;
-  std::string reason;
-  if (fail_on.alarm && told.alarms() > 0) reason = fmt::format("{} alarms", told.alarms());
-  if (fail_on.job && told.failed_jobs() > 0)
-    reason += fmt::format("{}{} failed jobs", reason.empty() ? "" : ", ", told.failed_jobs());
-  if (const std::uint64_t lost = controller.events == nullptr ? 0 : controller.events->lost();
-      reason.empty() && lost > 0)
-    reason = fmt::format("{} events were lost, which may have been such ones", lost);
-  if (reason.empty()) return status;
-  tell("failed: " + reason + " (--fail-on)", Severity::error);
-  return kFailedOn;
 }
 
 int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,

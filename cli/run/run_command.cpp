@@ -8,6 +8,7 @@
 
 #include "cli/command/command.hpp"
 #include "projects/literals/duration.hpp"
+#include "projects/system/system.hpp"
 
 namespace lockstep::cli {
 
@@ -16,14 +17,18 @@ void add_run_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<RunOptions>();
   options->mark = "--";
   auto duration = std::make_shared<std::string>();
-  command->add_option("FILE", options->file, "the project file")->required();
+  command
+      ->add_option("FILE", options->file, "the project file, or the file of a system of several controllers")
+      ->required();
   auto* simulate = command->add_flag(
       "--simulate", options->simulate,
       "virtual time, as fast as the machine can; the same file gives the same trace, bit for bit");
   command->add_option("--duration", *duration,
                       "end after that much virtual or real time, such as 5s or 1.5min");
-  command->add_option("--trace", options->trace,
-                      "record the trace signals: FILE.csv, or FILE.lcm for a log that lcm-logplayer replays");
+  command->add_option(
+      "--trace", options->trace,
+      "record the trace signals: FILE.csv, or FILE.lcm for a log that lcm-logplayer replays; of a "
+      "system a file for each controller, its name before the end");
   command
       ->add_option("--signals", options->signals,
                    "record these signals instead of the project's, comma separated")
@@ -48,7 +53,7 @@ void add_run_command(CLI::App& app, Action& action) {
       ->excludes(retain);
   auto* studio = command->add_option(
       "--studio", options->studio,
-      "tell on HOST:PORT over HTTP and WebSocket how the machine stands: signals, jobs, alarms");
+      "show on HOST:PORT, to a browser, how the machine stands: signals, jobs, alarms, live");
   command
       ->add_option("--studio-token-file", options->studio_token,
                    "file of the token that it asks for, which is needed beyond this machine")
@@ -76,6 +81,8 @@ void add_run_command(CLI::App& app, Action& action) {
       "rest. What follows has five seconds; a second signal makes it a moment. A closed terminal does not "
       "end "
       "it.\n"
+      "A system file runs with --simulate only, with --duration, --trace, --signals (CONTROLLER.PATH) and "
+      "--fail-on.\n"
       "With --simulate, Modbus, LCM and the audit log are off unless asked for.\n"
       "Values that are kept stand, unless named, beside the project file or in the state directory of "
       "systemd.\n"
@@ -95,7 +102,9 @@ void add_run_command(CLI::App& app, Action& action) {
     }
     const auto named = [&](const char* what) { return std::ranges::find(*fail_on, what) != fail_on->end(); };
     const FailOn fails{.alarm = named("alarm"), .job = named("job")};
-    action = [options, fails] { return run_project(*options, fails); };
+    action = [options, fails] {
+      return is_system_file(options->file) ? run_system(*options, fails) : run_project(*options, fails);
+    };
   });
 }
 

@@ -20,6 +20,9 @@ struct FailOn {
 /// Loads the project and carries the run out; gives the exit status.
 int run_project(const RunOptions& options, FailOn fail_on);
 
+/// The same for a system file, of which all controllers run in virtual time.
+int run_system(const RunOptions& options, FailOn fail_on);
+
 /// Live values on a terminal; nothing in a pipe. Used by one thread, never the cycle's.
 class Display {
  public:

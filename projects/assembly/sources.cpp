@@ -33,7 +33,7 @@ void put(JsonValue& object, std::string_view key, const JsonValue& value) {
     object.members.push_back({std::string(key), &value});
 }
 
-constexpr std::string_view kNamed[] = {"technology_objects", "tags", "templates"};
+constexpr std::string_view kNamed[] = {"technology_objects", "transfer_areas", "tags", "templates"};
 constexpr std::string_view kListed[] = {"programs", "stimuli", "expectations", "instances"};
 constexpr std::pair<std::string_view, std::string_view> kInner[] = {{"modbus", "map"}, {"trace", "signals"}};
 

@@ -306,7 +306,7 @@ void TemplateExpansion::put_section(std::string_view key, const JsonValue& secti
     owner = &outer;
     added = list;
   }
-  const bool listed = key != "technology_objects" && key != "tags";
+  const bool listed = key != "technology_objects" && key != "transfer_areas" && key != "tags";
   if ((listed ? read_array(added, problems_) : read_object(added, problems_)) == nullptr) return;
   JsonValue& target = section_of(*owner, inner, *added);
   if (target.kind != added->kind) return;  // as the loader will report

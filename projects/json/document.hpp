@@ -61,6 +61,8 @@ class JsonValue {
   /// Where it begins; of a member of an object where its key begins.
   SourcePosition position() const noexcept;
   SourcePosition key_position() const noexcept;
+  /// Its first byte in the text.
+  std::size_t begin() const noexcept { return offset_.value; }
   /// The text in which it stands; nullptr if it is of no document.
   const SourceText* source() const noexcept { return source_; }
 

@@ -3,6 +3,7 @@
 
 #include "projects/keys/linmot.hpp"
 #include "projects/keys/mco305.hpp"
+#include "tech_objects/cross_controller/leading_axis_proxy.hpp"
 #include "tech_objects/sensing/probe_signal.hpp"
 #include "tech_objects/switching/switched_output.hpp"
 
@@ -36,7 +37,20 @@ inline constexpr auto kEncoderObject =
     key_table<void>(kType, configuration_of("TO_ExternalEncoder"),
                     key::variants("encoder", kEncoders, "what it measures").needed());
 
-inline constexpr auto kProxyObject = key_table<void>(kType, configuration_of("TO_LeadingAxisProxy"));
+inline constexpr auto kTelegramCounts = key_table<TelegramCountTags>(
+    key::tag<&TelegramCountTags::received>("received", "ULINT tag: telegrams that have been taken over",
+                                           Type::ULINT),
+    key::tag<&TelegramCountTags::missing>("missing", "ULINT tag: those that have not come", Type::ULINT),
+    key::tag<&TelegramCountTags::late>("late", "ULINT tag: those that have come behind later ones",
+                                       Type::ULINT),
+    key::tag<&TelegramCountTags::doubled>("doubled", "ULINT tag: those that were there already", Type::ULINT),
+    key::tag<&TelegramCountTags::refused>(
+        "refused",
+        "ULINT tag: those from the future, of a source that has been restarted, or that no source sends",
+        Type::ULINT));
+inline constexpr auto kProxyObject =
+    key_table<void>(kType, configuration_of("TO_LeadingAxisProxy"),
+                    key::structure("telegrams", kTelegramCounts, "where the counts of telegrams stand"));
 
 inline constexpr auto kMarks = key_table<PrintMarks>(
     key::number<&PrintMarks::period>("period", {0.001, kFurthest}, "u", "distance from mark to mark")

@@ -17,6 +17,8 @@ inline constexpr auto kPartSignals = key_table<void>(
     key::defined("signals", "list_of_parts", "list", "columns behind those of the project's trace").needed());
 inline constexpr auto kPartObjects =
     key::defined("technology_objects", "named_parts", "{ name: object }", "name: technology object");
+inline constexpr auto kPartAreas = key::defined("transfer_areas", "named_parts", "{ name: transfer area }",
+                                                "name: path of a leading value to proxies");
 inline constexpr auto kPartTags = key::defined("tags", "named_parts", "{ name: tag }", "name: tag");
 inline constexpr auto kPartPrograms = key::defined("programs", "list_of_parts", "[ program, … ]", "programs");
 inline constexpr auto kPartStimuli =
@@ -31,7 +33,7 @@ inline constexpr auto kParameter = key_table<void>(key::defined(
     "default", "parameter_value", "number, text, true or false", "what it is if the instance does not say"));
 inline constexpr auto kTemplate = key_table<void>(
     key::structure("parameters", kParameter, "name of a parameter: its default").named(), kPartObjects,
-    kPartTags, kPartPrograms, kPartStimuli, kPartExpectations, kPartModbus, kPartTrace);
+    kPartAreas, kPartTags, kPartPrograms, kPartStimuli, kPartExpectations, kPartModbus, kPartTrace);
 inline constexpr auto kTemplates =
     key::structure("templates", kTemplate, "name: parts that several instances have").named();
 
@@ -45,7 +47,7 @@ inline constexpr auto kInstances = key::structure("instances", kInstance, "of th
 
 /// A file that is included.
 inline constexpr auto kPart =
-    key_table<void>(kSchema, kInclude, kPartObjects, kPartTags, kPartPrograms, kPartStimuli,
+    key_table<void>(kSchema, kInclude, kPartObjects, kPartAreas, kPartTags, kPartPrograms, kPartStimuli,
                     kPartExpectations, kPartModbus, kPartTrace, kTemplates, kInstances);
 
 }  // namespace lockstep::keys

@@ -151,14 +151,16 @@ inline constexpr auto kTransferArea = key_table<TransferArea>(
     key::object("from", kPositioned, "axis or external encoder that provides its leading value").needed(),
     key::integer<&TransferArea::interface>("interface", {1.0, 8.0},
                                            "which CrossPlcSynchronousOperation.Interface provides it"),
-    key::object("to", kLeadingAxisProxy, "leading axis proxy that takes it").needed());
+    key::object("to", kLeadingAxisProxy, "leading axis proxy that takes it, or several of them")
+        .one_or_list()
+        .needed());
 
 inline constexpr auto kProject = key_table<void>(
     kSchema, kInclude, key::one_of("lockstep", kVersions, "version of the format").needed(),
     key::title("name", "name of the project").needed(), key::text("description", "what the project does"),
     key::structure("clock", kClock, "when things run").needed(),
     key::variants("technology_objects", kObjects, "name: technology object").named(),
-    key::structure("transfer_areas", kTransferArea, "name: way of a leading value to a proxy").named(),
+    key::structure("transfer_areas", kTransferArea, "name: path of a leading value to proxies").named(),
     key::structure("tags", kTag, "name: tag").named(),
     key::structure("programs", kProgram, "programs").list(),
     key::structure("ascii", kAsciiLine, "lines to LinMot controllers").list(),

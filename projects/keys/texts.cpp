@@ -5,6 +5,7 @@
 
 #include "projects/json/fields.hpp"
 #include "projects/keys/project.hpp"
+#include "projects/keys/system.hpp"
 
 namespace lockstep {
 namespace {
@@ -170,6 +171,18 @@ std::vector<KeySection> key_sections() {
   return std::move(sections.made);
 }
 
+std::vector<KeySection> system_key_sections() {
+  Sections sections;
+  sections.add("system", "", keys::kSystem, "a system file: several controllers and what is between them");
+  return std::move(sections.made);
+}
+
+std::vector<KeySection> all_key_sections() {
+  std::vector<KeySection> sections = key_sections();
+  for (KeySection& section : system_key_sections()) sections.push_back(std::move(section));
+  return sections;
+}
+
 std::string keys_document() {
   std::string text =
       "# The keys of a project file\n\n"
@@ -179,11 +192,11 @@ std::string keys_document() {
       "is "
       "defined.\n"
       "A path leaves out names and indices: `technology_objects.drive` is the key `drive` of an object among "
-      "`technology_objects`.\n"
+      "`technology_objects`; what begins with `system` is of a system file.\n"
       "Every object listed here may have a `comment` too, a text for the reader; `lockstep tags` shows those "
       "of "
       "tags. `//` and `/* */` are comments as well.\n";
-  for (const KeySection& section : key_sections()) {
+  for (const KeySection& section : all_key_sections()) {
     text += "\n## " + heading_of(section) + "\n\n" + std::string(section.text) + "\n\n";
     if (!section.same_as.empty()) {
       text += "The keys are those of `" + section.same_as + "`.\n";

@@ -33,6 +33,11 @@ struct KeySection {
 /// All places of a project file, from its root on, in the order of the declarations.
 std::vector<KeySection> key_sections();
 
+/// The same of a system file; its paths begin with "system".
+std::vector<KeySection> system_key_sections();
+/// Those of both.
+std::vector<KeySection> all_key_sections();
+
 /// The keys as a document: projects/KEYS.md.
 std::string keys_document();
 

@@ -27,6 +27,7 @@ struct Loading {
   std::unordered_map<std::string, const JsonValue*>& named;
   /// Of a project that is looked at the axes are no `Axis` but a `LookedAtAxis` each.
   LoadedFor use;
+  const UsedOutside& used_outside;
 
   Controller& controller() const { return *project.controller; }
   Names& names() const { return project.names; }
@@ -36,6 +37,8 @@ struct Loading {
   const std::vector<LeadingValue>& leading_values_of(const TechnologyObject& axis) const;
   /// Adds a name, or reports what is wrong with it.
   bool add_name(const JsonValue& at, std::string_view name, Names::Entity entity) const;
+  /// Whether telegrams for a proxy come from outside of the project.
+  bool is_led_from_outside(std::string_view proxy) const { return used_outside.contains(fold(proxy)); }
   /// The place to which a path leads, or none: then that is reported, unless the problem is known already.
   std::optional<Operand> find(const JsonValue& at, std::string_view path) const;
   /// The same for a path whose index may be missing, as in "points[].x".

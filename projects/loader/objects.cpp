@@ -9,6 +9,7 @@
 #include "projects/loader/loader.hpp"
 #include "projects/loader/looked_at_axis.hpp"
 #include "projects/loader/read_keys.hpp"
+#include "scheduler/mco305/mco305.hpp"
 
 namespace lockstep {
 namespace {
@@ -73,6 +74,10 @@ std::optional<Coupling> read_coupling(const JsonValue* json, const LeadingObject
     problems.report(*json, "an external encoder has no setpoint; allowed: 'actual', 'delayed'");
     return std::nullopt;
   }
+  if (coupling == Coupling::delayed && source != nullptr && source->kind == ObjectKind::MCO_305) {
+    problems.report(*json, "an MCO_305 provides no value behind a delay; allowed: 'setpoint', 'actual'");
+    return std::nullopt;
+  }
   if (coupling == Coupling::actual && source != nullptr && source->kind == ObjectKind::TO_LeadingAxisProxy) {
     problems.report(*json, "a leading axis proxy has no actual value; allowed: 'setpoint', 'delayed'");
     return std::nullopt;
@@ -86,6 +91,7 @@ void load_leading_value(const JsonValue& json, Axis& axis, const Loading& loadin
   auto* const source = static_cast<LeadingObject*>(loading.find_object(to, kLeading));
   const auto coupling = read_coupling(fields["coupling"], source, loading);
   if (source == nullptr || !coupling) return;
+  if (source->kind == ObjectKind::MCO_305) static_cast<Mco305*>(source)->leads = true;
   if (source->number == axis.number) return loading.problems.report(*to, "an axis cannot follow itself");
   const auto same = [&](const LeadingValue& other) { return other.source == source; };
   if (std::any_of(axis.leading_values.begin(), axis.leading_values.end(), same))
@@ -133,6 +139,8 @@ void load_axis(const JsonValue& json, Axis& axis, const Loading& loading) {
 void load_proxy(const JsonValue& json, LeadingAxisProxy& proxy, const Loading& loading) {
   const Fields fields(json, keys::kObjects, variant_of(proxy), loading.problems);
   if (const JsonValue* const config = fields["config"]) load_configuration(*config, proxy, loading);
+  if (const JsonValue* const telegrams = fields["telegrams"])
+    read_struct(*telegrams, keys::kTelegramCounts, proxy.count_tags, loading);
 }
 
 /// One axis after the other is loaded whole, and what is asked for later stays.

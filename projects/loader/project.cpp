@@ -12,7 +12,8 @@
 namespace lockstep {
 namespace {
 
-/// Warns of what nothing refers to: it may be a name that was mistyped elsewhere.
+/// Warns of what nothing refers to: it may be a name that was mistyped elsewhere. Not where there are errors:
+/// who refers to it may be what is wrong.
 void warn_of_unused(const JsonValue& root, const Names::Uses& uses, const Loading& loading) {
   for (const auto& [section, what] :
        {std::pair{"tags", "tag"}, std::pair{"technology_objects", "technology object"}}) {
@@ -58,11 +59,11 @@ void load_sections(const JsonValue& root, const Loading& loading) {
 }
 
 void load_root(const JsonValue& root, const Loading& loading) {
-  Names::Uses uses;
+  Names::Uses uses{.names = loading.used_outside};
   loading.names().record(&uses);
   load_sections(root, loading);
   loading.names().record(nullptr);
-  warn_of_unused(root, uses, loading);
+  if (loading.problems.none()) warn_of_unused(root, uses, loading);
 }
 
 }  // namespace
@@ -124,7 +125,8 @@ void drop_repeated(std::vector<Problem>& problems) {
   });
 }
 
-LoadedProject load(ProjectSources sources, const std::string& folder, const Prepare& prepare, LoadedFor use) {
+LoadedProject load(ProjectSources sources, const std::string& folder, const Prepare& prepare, LoadedFor use,
+                   const UsedOutside& used_outside) {
   LoadedProject result;
   result.problems = sources.take_problems();
   drop_repeated(result.problems);
@@ -134,7 +136,7 @@ LoadedProject load(ProjectSources sources, const std::string& folder, const Prep
   Problems problems;
   std::unordered_map<const JsonValue*, Instance*> instances;
   std::unordered_map<std::string, const JsonValue*> named;
-  load_root(sources.root(), {project, problems, instances, folder, named, use});
+  load_root(sources.root(), {project, problems, instances, folder, named, use, used_outside});
   const std::vector<Problem> found = problems.take_errors();
   result.problems.insert(result.problems.end(), found.begin(), found.end());
   result.warnings = problems.take_warnings();
@@ -153,13 +155,14 @@ std::string folder_of(const std::string& path) {
 
 LoadedProject load_project(std::string_view text, const std::string& folder, const Prepare& prepare,
                            LoadedFor use) {
-  return load(ProjectSources(text, folder), folder, prepare, use);
+  return load(ProjectSources(text, folder), folder, prepare, use, {});
 }
 
-LoadedProject load_project_file(const std::string& path, const Prepare& prepare, LoadedFor use) {
+LoadedProject load_project_file(const std::string& path, const Prepare& prepare, LoadedFor use,
+                                const UsedOutside& used_outside) {
   const std::string folder = folder_of(path);
   return load(ProjectSources(read_text_file(path, JsonDocument::kLongest), folder, path), folder, prepare,
-              use);
+              use, used_outside);
 }
 
 std::string expanded_project(const std::string& path) {

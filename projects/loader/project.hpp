@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "hmi_bridge/audit/file.hpp"
@@ -176,6 +177,10 @@ enum class LoadedFor : std::uint8_t {
   looking   ///< it is valid or not; nothing is to be done with its controller, which has no axes
 };
 
+/// The names, in lower case, of what something outside of a project uses in it: a system of several
+/// controllers its proxies and leading objects.
+using UsedOutside = std::unordered_set<std::string>;
+
 /// Loads a project from its text. Never fails but through problems, and as `prepare` does. Allocates; not for
 /// the thread of the cycle.
 /// @param folder to which names of files in it are relative; empty: the current one
@@ -185,7 +190,7 @@ LoadedProject load_project(std::string_view text, const std::string& folder = ""
 /// Loads a project from a file, of which it reads no more than `JsonDocument::kLongest` and a byte.
 /// @throws UnreadableFile
 LoadedProject load_project_file(const std::string& path, const Prepare& prepare = {},
-                                LoadedFor use = LoadedFor::running);
+                                LoadedFor use = LoadedFor::running, const UsedOutside& used_outside = {});
 
 /// A valid project as the text of one file: what it includes and the instances of its templates are in their
 /// places.

@@ -8,6 +8,7 @@
 #include "projects/cam_files/schema.hpp"
 #include "projects/keys/project.hpp"
 #include "projects/keys/schema.hpp"
+#include "projects/keys/system.hpp"
 #include "projects/loader/configuration_tree.hpp"
 #include "projects/loader/linmot_schema.hpp"
 
@@ -166,6 +167,13 @@ std::string schema_text(std::string_view title, KeySchema& keys, const Json& roo
 std::string project_schema() {
   KeySchema keys;
   return schema_text("Lockstep project", keys, keys.object(keys::kProject));
+}
+
+std::string system_schema() {
+  KeySchema keys;
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Lockstep system"}};
+  schema.update(keys.object(keys::kSystem));
+  return schema.dump(2) + "\n";
 }
 
 std::string part_schema() {

@@ -15,4 +15,7 @@ std::string project_schema();
 /// The same of a file that a project includes. `part.schema.json` is this text.
 std::string part_schema();
 
+/// The same of a system file. `system.schema.json` is this text.
+std::string system_schema();
+
 }  // namespace lockstep

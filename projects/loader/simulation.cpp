@@ -31,6 +31,12 @@ Value converted(double value, Type type) {
                           std::string(type_name(type)));
 }
 
+Operand operand_at(const Project& project, std::string_view path) {
+  const FoundOperand found = project.names.find(path);
+  if (!found.place) throw std::out_of_range(found.problem);
+  return *found.place;
+}
+
 }  // namespace
 
 Simulation::Simulation(LoadedProject loaded) : project_(valid(std::move(loaded))) {
@@ -48,19 +54,13 @@ void Simulation::run_for(std::chrono::nanoseconds duration) noexcept {
   while (project_.controller->now() < end) step();
 }
 
-Operand Simulation::find(std::string_view path) const {
-  const FoundOperand found = project_.names.find(path);
-  if (!found.place) throw std::out_of_range(found.problem);
-  return *found.place;
-}
-
-double Simulation::read(std::string_view path) const {
-  const Signal signal = find(path).signal;
+double read_value_of(const Project& project, std::string_view path) {
+  const Signal signal = operand_at(project, path).signal;
   return as_double(signal.load(), signal.value_type());
 }
 
-void Simulation::write(std::string_view path, double value) {
-  const Operand place = find(path);
+void write_value_of(Project& project, std::string_view path, double value) {
+  const Operand place = operand_at(project, path);
   if (const std::string reason = why_not_writable(place); !reason.empty()) throw std::out_of_range(reason);
   if (place.variable != nullptr && !place.variable->range.allows(value))
     throw std::domain_error(std::string(path) + " may not be " + std::to_string(value));

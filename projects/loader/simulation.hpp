@@ -22,6 +22,15 @@ struct InvalidProject : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The value at a path of a project: `tag`, `instance.Pin`, `Object.Variable.Path[1]`, `….Xn`; BOOL as 0 or
+/// 1, TIME in seconds.
+/// @throws std::out_of_range with what is wrong with the path
+double read_value_of(const Project& project, std::string_view path);
+/// Writes a tag, or a variable that a program may set, between two ticks.
+/// @throws std::out_of_range for a path that cannot be written, std::domain_error for a value that does not
+/// fit
+void write_value_of(Project& project, std::string_view path, double value);
+
 /// A project that is stepped by its owner. Deterministic: the same file and calls give the same values, bit
 /// for bit. One thread at a time.
 class Simulation {
@@ -41,21 +50,16 @@ class Simulation {
     return std::chrono::nanoseconds(project_.controller->now());
   }
 
-  /// The value at a path: `tag`, `instance.Pin`, `Object.Variable.Path[1]`, `….Xn`; BOOL as 0 or 1, TIME in
-  /// seconds.
-  /// @throws std::out_of_range with what is wrong with the path
-  double read(std::string_view path) const;
-  /// Writes a tag, or a variable that a program may set, before the next tick.
-  /// @throws std::out_of_range for a path that cannot be written, std::domain_error for a value that does not
-  /// fit
-  void write(std::string_view path, double value);
+  /// See `read_value_of`.
+  double read(std::string_view path) const { return read_value_of(project_, path); }
+  /// See `write_value_of`; before the next tick.
+  void write(std::string_view path, double value) { write_value_of(project_, path, value); }
 
   /// Everything else: the controller with its axes, the names, the trace signals.
   Project& project() noexcept { return project_; }
 
  private:
   explicit Simulation(LoadedProject loaded);
-  Operand find(std::string_view path) const;
 
   Project project_;
 };

@@ -17,20 +17,35 @@ namespace {
 constexpr int kSourceCycles = 4;
 constexpr int kOwnCycles = 2;
 
-bool finite(const Setpoint& value) noexcept {
-  return std::isfinite(value.position.value) && std::abs(value.position.value) <= kPositionRange &&
-         std::isfinite(value.velocity) && std::isfinite(value.acceleration);
+// What no source goes beyond, so that nothing that is computed from it does.
+constexpr double kFastestLeading = 1e12;                   // [u/s]
+constexpr double kSharpestLeading = 1e15;                  // [u/s²]
+constexpr double kFurthestRenamed = 1e15;                  // [u]
+constexpr std::int64_t kMaximumTurns = 1LL << 53;          // whole turns of a ring
+constexpr std::int64_t kLongestCycle = 1'000'000'000'000;  // [ns]
+
+/// Whether an amount is a number of at most so much.
+bool within(double value, double limit) noexcept {
+  return std::abs(value) <= limit;  // false for what is no number
+}
+
+bool within_limits(const Setpoint& value) noexcept {
+  return within(value.position.value, kPositionRange) && within(value.velocity, kFastestLeading) &&
+         within(value.acceleration, kSharpestLeading) && value.position.turns <= kMaximumTurns &&
+         value.position.turns >= -kMaximumTurns;
 }
 
 /// What a source cannot have sent.
 bool senseless(const LeadingValueTelegram& telegram) noexcept {
   const Modulo& modulo = telegram.modulo;
-  const bool ring = !modulo.enabled || (std::isfinite(modulo.length) && modulo.length >= 0.001 &&
-                                        modulo.length <= kPositionRange && std::isfinite(modulo.start) &&
-                                        std::abs(modulo.start) <= kPositionRange);
-  return telegram.cycle <= 0 || telegram.delay < 0 || !ring || !std::isfinite(telegram.renamed.hi) ||
-         !std::isfinite(telegram.renamed.lo) ||
-         (telegram.valid && (!finite(telegram.value) || !modulo.contains(telegram.value.position.value)));
+  const bool ring = !modulo.enabled || (modulo.length >= 0.001 && modulo.length <= kPositionRange &&
+                                        within(modulo.start, kPositionRange));
+  const bool times = telegram.cycle > 0 && telegram.cycle <= kLongestCycle && telegram.delay >= 0 &&
+                     telegram.delay <= kLongestLeadingDelay * telegram.cycle;
+  const bool renamed = within(telegram.renamed.hi, kFurthestRenamed) && within(telegram.renamed.lo, 1.0);
+  return !ring || !times || !renamed ||
+         (telegram.valid &&
+          (!within_limits(telegram.value) || !modulo.contains(telegram.value.position.value)));
 }
 
 bool same_ring(const Modulo& a, const Modulo& b) noexcept {
@@ -51,6 +66,17 @@ void LeadingAxisProxy::configure(double servo_period, int ratio) {
   power_state_ = PowerState::on;
   modulo_.enabled = false;
   publish();
+}
+
+void TelegramCountTags::show(const TelegramCounters& counters) const noexcept {
+  const auto put = [](std::uint64_t* tag, std::uint64_t count) {
+    if (tag != nullptr) *tag = count;
+  };
+  put(received, counters.received);
+  put(missing, counters.missing);
+  put(late, counters.late);
+  put(doubled, counters.doubled);
+  put(refused, counters.refused);
 }
 
 // ---- Telegrams
@@ -134,6 +160,7 @@ void LeadingAxisProxy::forget_source() noexcept {
 
 void LeadingAxisProxy::before_axes() noexcept {
   local_delay_ = nanoseconds(data.Parameter.LocalLeadingValueDelayTime);
+  restarting_ = false;
   new_jobs_.take([this](Job& job) { start(job); });
   if (!faulty()) watch();
   if (!faulty() && (adapted_.begun() || valid()))
@@ -186,10 +213,12 @@ void LeadingAxisProxy::publish() noexcept {
   external.AdjustmentTime = recorded_.empty() ? 0.0 : seconds(time_asked() - recorded_.newest_time());
   set_bit(data.StatusWord, ProxyBit::Control, true);
   set_bit(data.StatusWord, ProxyBit::Error, faulty());
+  set_bit(data.StatusWord, ProxyBit::RestartActive, restarting_);
   set_bit(data.StatusWord, ProxyBit::OnlineStartValuesChanged, start_values_changed);
   set_bit(data.StatusWord, ProxyBit::LeadingValueValid, !faulty() && valid());
   set_bit(data.StatusWord, ProxyBit::LeadingValueModulo, known_ && modulo_.enabled);
   set_bit(data.StatusWord, ProxyBit::LeadingAxisControl, known_ && source_led_);
+  count_tags.show(counters_);
 }
 
 // ---- Alarms and jobs
@@ -217,7 +246,7 @@ ErrorId LeadingAxisProxy::reset(bool restart) noexcept {
   data = start_values_;
   start_values_changed = false;
   ++restarts_;
-  restarted = lost = true;
+  restarted = lost = restarting_ = true;
   return ErrorId::none;
 }
 

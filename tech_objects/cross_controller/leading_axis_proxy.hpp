@@ -25,6 +25,17 @@ struct TelegramCounters {
   std::uint64_t refused = 0;   ///< from the future, of a source that has been restarted, or no number
 };
 
+/// Where the counts are shown; nullptr: nobody asks. Thread: the cycle.
+struct TelegramCountTags {
+  std::uint64_t* received = nullptr;
+  std::uint64_t* missing = nullptr;
+  std::uint64_t* late = nullptr;
+  std::uint64_t* doubled = nullptr;
+  std::uint64_t* refused = nullptr;
+
+  void show(const TelegramCounters& counters) const noexcept;
+};
+
 class LeadingAxisProxy final : public LeadingObject {
  public:
   LeadingAxisProxy(std::string name, DB_ANY number);
@@ -32,6 +43,7 @@ class LeadingAxisProxy final : public LeadingObject {
   // ---- Load time
 
   LeadingAxisProxyData data;
+  TelegramCountTags count_tags;
 
   void configure(double servo_period, int ratio) override;
   void* data_block() noexcept override { return &data; }
@@ -81,7 +93,8 @@ class LeadingAxisProxy final : public LeadingObject {
 
   // The source, once a telegram of it has come.
   bool known_ = false;
-  bool replaced_ = false;  // it has been restarted: its values count from MC_Reset on
+  bool restarting_ = false;  // in this tick
+  bool replaced_ = false;    // it has been restarted: its values count from MC_Reset on
   bool other_ring_ = false;
   bool source_valid_ = false;
   bool source_led_ = false;

@@ -22,7 +22,7 @@ TEST(Examples, HaveAReadmeThatShowsAPictureOfTheirs) {
   int examples = 0;
   for (const fs::directory_entry& entry :
        fs::directory_iterator(fs::path(LOCKSTEP_SOURCE_DIR) / "projects")) {
-    if (!fs::exists(entry.path() / "project.json")) continue;
+    if (!fs::exists(entry.path() / "project.json") && !fs::exists(entry.path() / "system.json")) continue;
     ++examples;
     const std::string readme = content_of(entry.path() / "README.md");
     std::smatch found;

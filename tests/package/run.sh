@@ -46,7 +46,7 @@ for path in bin/lockstep share/man/man1/lockstep.1.gz share/man/man5/lockstep-pr
   share/man/man7/lockstep-blocks.7.gz share/bash-completion/completions/lockstep share/zsh/vendor-completions/_lockstep \
   share/fish/vendor_completions.d/lockstep.fish share/lockstep/LANGUAGE.md share/lockstep/FUNCTIONS.md share/lockstep/KEYS.md \
   lib/systemd/system/lockstep@.service include/lockstep/projects/loader/simulation.hpp \
-  share/lockstep/project.schema.json share/lockstep/part.schema.json share/lockstep/projects/02_rotary_knife/project.json \
+  share/lockstep/project.schema.json share/lockstep/part.schema.json share/lockstep/system.schema.json share/lockstep/projects/02_rotary_knife/project.json \
   share/doc/lockstep/lockstep.spdx.json share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md share/doc/lockstep/AUDIT.md share/doc/lockstep/STUDIO.md \
   share/doc/lockstep/tls/certificates.sh; do
   [[ -s $work/root/usr/$path ]] || fail "usr/$path is not in the package"

@@ -4,14 +4,17 @@
 
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "projects/loader/simulation.hpp"
+#include "tests/support/directory.hpp"
 
 namespace lockstep::transfer_areas_test {
 namespace {
 
 using namespace std::chrono_literals;
+using Json = nlohmann::ordered_json;
 
 /// A virtual axis that provides its value, a local one behind the delay, and one that follows the proxy.
 std::string project(const std::string& area, const std::string& delay = "0.004",
@@ -104,16 +107,114 @@ TEST_P(WrongTransferAreas, AreToldWithTheirPlace) {
 
 INSTANTIATE_TEST_SUITE_P(
     Each, WrongTransferAreas,
-    testing::Values(Wrong{R"("a": { "from": "Main", "interface": 2, "to": "Line" })",
-                          "/transfer_areas/a/from", "Interface[2].EnableLeadingValueOutput TRUE"},
-                    Wrong{R"("a": { "from": "Main", "interface": 9, "to": "Line" })",
-                          "/transfer_areas/a/interface", "1 to 8"},
-                    Wrong{R"("a": { "from": "Line", "to": "Line" })", "/transfer_areas/a/from", "Line"},
-                    Wrong{R"("a": { "from": "Main", "to": "Near" })", "/transfer_areas/a/to",
-                          "TO_LeadingAxisProxy"},
-                    Wrong{R"("a": { "from": "Main" })", "/transfer_areas/a", "'to' is missing"},
-                    Wrong{R"("a": { "from": "Main", "to": "Line" }, "b": { "from": "Main", "to": "Other" })",
-                          "/transfer_areas/b/from", "one area for each interface"}));
+    testing::Values(
+        Wrong{R"("a": { "from": "Main", "interface": 2, "to": "Line" })", "/transfer_areas/a/from",
+              "Interface[2].EnableLeadingValueOutput TRUE"},
+        Wrong{R"("a": { "from": "Main", "interface": 9, "to": "Line" })", "/transfer_areas/a/interface",
+              "1 to 8"},
+        Wrong{R"("a": { "from": "Line", "to": "Line" })", "/transfer_areas/a/from", "Line"},
+        Wrong{R"("a": { "from": "Main", "to": "Near" })", "/transfer_areas/a/to", "TO_LeadingAxisProxy"},
+        Wrong{R"("a": { "from": "Main" })", "/transfer_areas/a", "'to' is missing"},
+        Wrong{R"("a": { "from": "Main", "to": "Line" }, "b": { "from": "Main", "to": "Other" })",
+              "/transfer_areas/b/from", "one area for each interface"},
+        Wrong{R"("a": { "from": "Main", "to": [ "Line", "Line" ] })", "/transfer_areas/a/to/1",
+              "one source for each proxy"},
+        Wrong{R"("a": { "from": "Main", "to": [ "Line", "Far" ] })", "/transfer_areas/a/to/1",
+              "TO_LeadingAxisProxy"},
+        Wrong{R"("a": { "from": "Main", "to": [] })", "/transfer_areas/a/to", "one proxy or more"}));
+
+TEST(TransferAreas, LeadSeveralProxiesAlike) {
+  Simulation machine =
+      Simulation::from_text(project(R"("line": { "from": "Main", "to": [ "Line", "Other" ] })"));
+  machine.run_for(100ms);
+  machine.write("go", 1.0);
+  for (int i = 0; i < 1000; ++i) {
+    machine.step();
+    ASSERT_EQ(machine.read("Line.Position"), machine.read("Other.Position")) << i;
+  }
+  EXPECT_GT(machine.read("Line.Velocity"), 100.0);
+  EXPECT_EQ(machine.read("Other.StatusWord.X4"), 1.0);
+}
+
+// ---- Counts
+
+std::string with_counts(const std::string& counts) {
+  Json json = Json::parse(project(kArea));
+  json["technology_objects"]["Line"]["telegrams"] = Json::parse(counts);
+  json["tags"].update(Json::parse(R"({ "taken": { "type": "ULINT" }, "refused": { "type": "ULINT" },
+                                            "off": { "type": "BOOL" } })"));
+  json["programs"][0]["calls"].push_back(Json::parse(
+      R"({ "fb": "MC_Reset", "name": "r", "in": { "Axis": "Main", "Restart": "TRUE", "Execute": "on" } })"));
+  json["programs"][0]["calls"][0]["in"]["Enable"] = "NOT off";
+  return json.dump();
+}
+
+TEST(TransferAreas, HaveTheirCountsInTags) {
+  Simulation machine = Simulation::from_text(with_counts(R"({ "received": "taken", "refused": "refused" })"));
+  machine.run_for(100ms);
+  EXPECT_EQ(machine.read("taken"), 99.0) << "that of the last tick is under way";
+  EXPECT_EQ(machine.read("refused"), 0.0);
+  machine.write("off", 1.0);
+  machine.run_for(20ms);
+  machine.write("on", 1.0);  // the source is restarted: its values do not count any more
+  machine.run_for(50ms);
+  ASSERT_EQ(machine.read("r.Done"), 1.0);
+  EXPECT_GT(machine.read("refused"), 40.0);
+  EXPECT_EQ(machine.read("taken") + machine.read("refused"), 169.0);
+}
+
+TEST(TransferAreas, HaveTheirCountsInTagsOfTheRightTypeOnly) {
+  const Told all = told(with_counts(R"({ "missing": "on" })"));
+  ASSERT_EQ(all.problems.size(), 1u);
+  EXPECT_EQ(all.problems[0].place, "/technology_objects/Line/telegrams/missing");
+  EXPECT_NE(all.problems[0].text.find("ULINT tag"), std::string::npos) << all.problems[0].text;
+}
+
+// ---- Files and templates
+
+/// What a project comes to of which the areas, and proxies with them, stand elsewhere.
+std::string areas_of(const LoadedProject& loaded) {
+  if (!loaded.project) return loaded.problems.empty() ? "none" : loaded.problems[0].text;
+  std::string text;
+  for (const TransferArea& area : loaded.project->transfer_areas) {
+    text += area.name + ":";
+    for (const auto& receiver : area.to) text += " " + receiver.proxy->name;
+    text += ";";
+  }
+  return text;
+}
+
+TEST(TransferAreas, MayStandInAnIncludedFile) {
+  const test::Directory directory;
+  Json json = Json::parse(project(kArea));
+  directory.write("areas.json",
+                  R"({ "transfer_areas": { "other": { "from": "Main", "interface": 2, "to": "Other" } } })");
+  json["include"] = {"areas.json"};
+  json["technology_objects"]["Main"]["config"]["CrossPlcSynchronousOperation"]["Interface[2]"] = {
+      {"EnableLeadingValueOutput", true}};
+  directory.write("project.json", json.dump());
+  EXPECT_EQ(areas_of(load_project_file(directory.file("project.json"))), "other: Other;line: Line;");
+  directory.write("areas.json", R"({ "transfer_areas": { "other": { "from": "Main", "to": "Nobody" } } })");
+  const LoadedProject wrong = load_project_file(directory.file("project.json"));
+  ASSERT_FALSE(wrong.problems.empty());
+  EXPECT_EQ(wrong.problems[0].file, directory.file("areas.json"));
+  EXPECT_EQ(wrong.problems[0].owner, "transfer area 'other'");
+}
+
+TEST(TransferAreas, AreMadeByTemplates) {
+  Json json = Json::parse(project(kArea));
+  json["templates"]["station"] = Json::parse(R"({ "parameters": { "n": {} },
+    "technology_objects": { "Q${n}": { "type": "TO_LeadingAxisProxy" } },
+    "transfer_areas": { "station${n}": { "from": "Main", "interface": "${n}", "to": "Q${n}" } } })");
+  json["instances"] =
+      Json::parse(R"([ { "template": "station", "name": "S${n}", "for": { "n": [2, 4] } } ])");
+  for (const char* interface : {"Interface[2]", "Interface[3]", "Interface[4]"})
+    json["technology_objects"]["Main"]["config"]["CrossPlcSynchronousOperation"][interface] = {
+        {"EnableLeadingValueOutput", true}};
+  EXPECT_EQ(areas_of(load_project(json.dump())), "line: Line;station2: Q2;station3: Q3;station4: Q4;");
+  json.erase("transfer_areas");
+  EXPECT_EQ(areas_of(load_project(json.dump())), "station2: Q2;station3: Q3;station4: Q4;");
+}
 
 TEST(TransferAreas, RefuseWhatNoCouplingAndNoDelayCanBe) {
   const Told actual = told(project(kArea, "0.004", "actual"));

@@ -36,7 +36,7 @@ inline constexpr char kRestOfProject[] = R"json({
       "config": {},
       "encoder": { "model": "simulated", "signal": "speed", "zero_marks": { "position": 1.0 } }
     },
-    "Line": { "type": "TO_LeadingAxisProxy", "config": {} },
+    "Line": { "type": "TO_LeadingAxisProxy", "config": {}, "telegrams": { "refused": "refused" } },
     "Provider": {
       "type": "TO_PositioningAxis",
       "config": { "VirtualAxis": { "Mode": 1 },
@@ -77,7 +77,7 @@ inline constexpr char kRestOfProject[] = R"json({
   "tags": {
     "switch": { "type": "BOOL" }, "fault": { "type": "BOOL" }, "seconds": { "type": "LREAL" },
     "silent": { "type": "BOOL" }, "heard": { "type": "BOOL" }, "since": { "type": "TIME" },
-    "remote": { "type": "INT" }
+    "remote": { "type": "INT" }, "refused": { "type": "ULINT" }
   },
   "modbus": {
     "server": [

@@ -382,6 +382,28 @@ TEST(Proxy, RaisesAlarm903WhenTheRingOfItsSourceIsAnother) {
   EXPECT_EQ(pair.receiver.proxy.data.StatusExternalLeadingValue.ModuloLength, 200.0);
 }
 
+/// A restart takes one tick of the interpolator, which shows it.
+TEST(Proxy, ShowsItsRestartAndChangedStartValues) {
+  Pair pair(0.002);
+  pair.run(50);
+  EXPECT_FALSE(pair.receiver.bit(ProxyBit::OnlineStartValuesChanged));
+  pair.receiver.proxy.start_values_changed = true;  // as set_start does
+  pair.receiver.reset.Restart = true;
+  pair.run(5);
+  EXPECT_TRUE(pair.receiver.bit(ProxyBit::OnlineStartValuesChanged));
+  EXPECT_FALSE(pair.receiver.bit(ProxyBit::RestartActive));
+  pair.receiver.reset.Execute = true;
+  int active = 0;
+  for (int i = 0; i < 20; ++i) {
+    pair.run(1);
+    active += pair.receiver.bit(ProxyBit::RestartActive) ? 1 : 0;
+  }
+  EXPECT_EQ(active, 1);
+  EXPECT_TRUE(pair.receiver.reset.Done);
+  EXPECT_FALSE(pair.receiver.bit(ProxyBit::OnlineStartValuesChanged));
+  EXPECT_TRUE(pair.receiver.bit(ProxyBit::LeadingValueValid));
+}
+
 /// Homing the source renames positions there and at the proxy; nothing that follows moves for it.
 TEST(Proxy, HonoursHomingOfItsSourceWithoutMotion) {
   Pair pair(0.002);
@@ -425,6 +447,11 @@ TEST(Proxy, CountsAndDropsWhatNoSourceCanHaveSent) {
   EXPECT_EQ(refused([](auto& t) { t.value.position.value = std::nan(""); }), 1u);
   EXPECT_EQ(refused([](auto& t) { t.value.position.value = 100.0; }), 1u) << "beyond its ring";
   EXPECT_EQ(refused([](auto& t) { t.value.velocity = INFINITY; }), 1u);
+  EXPECT_EQ(refused([](auto& t) { t.value.velocity = 1e13; }), 1u);
+  EXPECT_EQ(refused([](auto& t) { t.value.acceleration = -1e16; }), 1u);
+  EXPECT_EQ(refused([](auto& t) { t.value.position.turns = INT64_MIN; }), 1u);
+  EXPECT_EQ(refused([](auto& t) { t.renamed.hi = 1e16; }), 1u);
+  EXPECT_EQ(refused([](auto& t) { t.delay = INT64_MAX; }), 1u);
   EXPECT_EQ(refused([](auto& t) { t.cycle = 0; }), 1u);
   EXPECT_EQ(refused([](auto& t) { t.modulo.length = -1.0; }), 1u);
   EXPECT_EQ(refused([](auto& t) { t.renamed.hi = std::nan(""); }), 1u);

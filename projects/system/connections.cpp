@@ -1,0 +1,257 @@
+#include "projects/system/connections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+#include "projects/loader/provided_value.hpp"
+#include "tech_objects/axis/configured_axis.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kTransferCycles = 2.0;  // of the controller of the proxy, as published
+constexpr double kNano = 1e-9;
+
+const std::vector<LeadingValue>& leading_values_of(const LeadingObject& object) {
+  static const std::vector<LeadingValue> kNone;
+  return object.kind == ObjectKind::TO_SynchronousAxis
+             ? static_cast<const ConfiguredAxis&>(object).leading_values
+             : kNone;
+}
+
+double delay_configured_of(const LeadingObject& object) {
+  return object.kind == ObjectKind::TO_LeadingAxisProxy
+             ? static_cast<const LeadingAxisProxy&>(object).data.Parameter.LocalLeadingValueDelayTime
+             : provided_by(object).LocalLeadingValueDelayTime;
+}
+
+}  // namespace
+
+/// A transfer area of a system, or of one of its projects, to one proxy.
+struct Connections::Link {
+  std::string area;
+  SystemObject from;
+  int interface = 1;
+  std::size_t controller = 0;  // of the proxy
+  const LeadingAxisProxy* proxy = nullptr;
+};
+
+Connections::Connections(const System& system) : system_(system) {
+  std::vector<Link> links;
+  add_links(links);
+  for (const Link& link : links) {
+    const auto same = [&](const Link& other) { return other.proxy == link.proxy; };
+    const std::size_t first = rows_.size();
+    add_rows(link);
+    const bool ambiguous = std::ranges::count_if(links, same) > 1;
+    for (std::size_t i = first; i < rows_.size(); ++i) rows_[i].ambiguous = ambiguous;
+  }
+  add_local_rows();
+  add_delays();
+  mark_recursive();
+  compute_delays();
+  mark_extrapolated();
+}
+
+// ---- What there is
+
+void Connections::add_links(std::vector<Link>& links) const {
+  for (const SystemArea& area : system_.areas)
+    for (const SystemArea::Receiver& to : area.to)
+      links.push_back({area.name, {area.controller, area.from}, area.interface, to.controller, to.proxy});
+  for (std::size_t i = 0; i < system_.controllers.size(); ++i)
+    for (const TransferArea& area : system_.controllers[i].project.transfer_areas)
+      for (const TransferArea::Receiver& to : area.to)
+        links.push_back({area.name, {i, area.from}, area.interface, i, to.proxy});
+}
+
+/// A row for each axis that may follow the proxy; one without an axis if there is none.
+void Connections::add_rows(const Link& link) {
+  Interconnection row{
+      .source = link.from, .interface = link.interface, .area = link.area, .proxy = link.proxy};
+  const std::size_t before = rows_.size();
+  for (const auto& object : system_.controllers[link.controller].project.controller->objects) {
+    if (!among(object->kind, kLeading)) continue;
+    const auto& axis = static_cast<const LeadingObject&>(*object);
+    for (const LeadingValue& leading : leading_values_of(axis)) {
+      if (leading.source != link.proxy) continue;
+      row.following = {link.controller, &axis};
+      row.coupling = leading.coupling;
+      row.left_out = is_left_out(&axis);
+      rows_.push_back(row);
+    }
+  }
+  if (rows_.size() != before) return;
+  row.following = {link.controller, nullptr};
+  rows_.push_back(row);
+}
+
+void Connections::add_local_rows() {
+  for (std::size_t i = 0; i < system_.controllers.size(); ++i)
+    for (const auto& object : system_.controllers[i].project.controller->objects) {
+      if (!among(object->kind, kLeading)) continue;
+      const auto& axis = static_cast<const LeadingObject&>(*object);
+      for (const LeadingValue& leading : leading_values_of(axis))
+        if (leading.source->kind != ObjectKind::TO_LeadingAxisProxy)
+          rows_.push_back({.source = {i, leading.source},
+                           .area = "",
+                           .following = {i, &axis},
+                           .coupling = leading.coupling});
+    }
+}
+
+/// Of what provides by a transfer area, and of the proxies.
+void Connections::add_delays() {
+  for (std::size_t i = 0; i < system_.controllers.size(); ++i)
+    for (const auto& object : system_.controllers[i].project.controller->objects) {
+      if (!among(object->kind, kLeading)) continue;
+      const auto* const leading = static_cast<const LeadingObject*>(object.get());
+      const bool proxy = leading->kind == ObjectKind::TO_LeadingAxisProxy;
+      const bool provides = std::ranges::any_of(rows_, [&](const Interconnection& row) {
+        return row.proxy != nullptr && (proxy ? row.proxy == leading : row.source.object == leading);
+      });
+      if (!provides) continue;
+      const bool fixed = std::ranges::any_of(
+          system_.delays.fixed, [&](const KeptDelays::Axis& one) { return one.object == leading; });
+      delays_.push_back({{i, leading}, proxy, delay_configured_of(*leading), fixed, std::nullopt});
+    }
+}
+
+bool Connections::is_left_out(const LeadingObject* axis) const {
+  return std::ranges::any_of(system_.delays.left_out,
+                             [&](const KeptDelays::Axis& one) { return one.object == axis; });
+}
+
+// ---- Recursions
+
+/// Whether the value of an object comes, by whatever axes and proxies, to another one.
+bool Connections::leads_to(const LeadingObject* from, const LeadingObject* to) const {
+  std::vector<const LeadingObject*> open = {from};
+  std::unordered_set<const LeadingObject*> seen;
+  while (!open.empty()) {
+    const LeadingObject* const object = open.back();
+    open.pop_back();
+    for (const Interconnection& row : rows_) {
+      if (row.source.object != object || row.following.object == nullptr) continue;
+      if (row.following.object == to) return true;
+      if (seen.insert(row.following.object).second) open.push_back(row.following.object);
+    }
+  }
+  return false;
+}
+
+void Connections::mark_recursive() {
+  for (Interconnection& row : rows_)
+    row.recursive = row.following.object != nullptr && (row.following.object == row.source.object ||
+                                                        leads_to(row.following.object, row.source.object));
+}
+
+bool Connections::recursive() const noexcept {
+  return std::ranges::any_of(rows_, &Interconnection::recursive);
+}
+
+// ---- Delays
+
+double Connections::transfer_time(std::size_t controller) const {
+  const Clock& clock = system_.controllers[controller].project.controller->clock;
+  return kTransferCycles * static_cast<double>(clock.interpolator_cycle()) * kNano;
+}
+
+DelayTime* Connections::find_delay(const LeadingObject* object) noexcept {
+  const auto found =
+      std::ranges::find_if(delays_, [&](const DelayTime& one) { return one.object.object == object; });
+  return found == delays_.end() ? nullptr : &*found;
+}
+
+const DelayTime* Connections::delay_of(const LeadingObject* object) const noexcept {
+  const auto found =
+      std::ranges::find_if(delays_, [&](const DelayTime& one) { return one.object.object == object; });
+  return found == delays_.end() ? nullptr : &*found;
+}
+
+/// What a delay has to be at least, with the others as they are computed so far: of a leading object the
+/// transfer to each proxy and what that brings forward, and as much as the proxy that it follows itself
+/// brings forward; of a proxy the delay of those among its axes that provide their value again.
+double Connections::needed(const DelayTime& delay) const {
+  double lowest = 0.0;
+  const auto add = [&](double value) { lowest = std::max(lowest, value); };
+  for (const Interconnection& row : rows_) {
+    if (row.proxy == nullptr || row.left_out || row.following.object == nullptr) continue;
+    const DelayTime* const of_proxy = delay_of(row.proxy);
+    const DelayTime* const of_following = delay_of(row.following.object);
+    if (delay.proxy && row.proxy == delay.object.object && of_following != nullptr)
+      add(of_following->computed.value_or(0.0));
+    if (delay.proxy || of_proxy == nullptr) continue;
+    if (row.source.object == delay.object.object)
+      add(transfer_time(row.following.controller) + of_proxy->computed.value_or(0.0));
+    if (row.following.object == delay.object.object) add(of_proxy->computed.value_or(0.0));
+  }
+  return lowest;
+}
+
+/// @return whether something has changed
+bool Connections::computed_once() {
+  bool changed = false;
+  for (DelayTime& delay : delays_) {
+    if (!delay.computed || delay.fixed) continue;
+    const double value = std::round(needed(delay) * 1e9) / 1e9;  // the number that a project would have
+    changed |= value != *delay.computed;
+    delay.computed = value;
+  }
+  return changed;
+}
+
+/// From 0 they grow until nothing asks for more: as many rounds as there are cascades.
+void Connections::compute_delays() {
+  for (DelayTime& delay : delays_) {
+    const auto ends_in_recursion = [&](const Interconnection& row) {
+      if (!row.recursive || row.left_out) return false;
+      const LeadingObject* const object = delay.object.object;
+      return row.source.object == object || row.proxy == object || row.following.object == object ||
+             leads_to(object, row.source.object);
+    };
+    if (delay.fixed)
+      delay.computed = delay.configured;
+    else if (std::ranges::none_of(rows_, ends_in_recursion))
+      delay.computed = 0.0;
+  }
+  for (std::size_t round = 0; round <= delays_.size() && computed_once(); ++round) continue;
+}
+
+/// By the delays as they are configured.
+void Connections::mark_extrapolated() {
+  for (Interconnection& row : rows_) {
+    if (row.local()) continue;
+    const double at_hand = delay_configured_of(*row.source.object) - delay_configured_of(*row.proxy);
+    row.extrapolated = transfer_time(row.following.controller) > at_hand + 0.5 * kNano;
+  }
+}
+
+// ---- Routes
+
+void Connections::follow_back(const LeadingObject* following, Route& route,
+                              std::vector<Route>& routes) const {
+  bool has_source = false;
+  for (const Interconnection& row : rows_) {
+    if (row.following.object != following || row.recursive) continue;
+    has_source = true;
+    route.hops.push_back(&row);
+    follow_back(row.source.object, route, routes);
+    route.hops.pop_back();
+    if (routes.size() >= kMaximumRoutes) return;
+  }
+  if (has_source || route.hops.empty()) return;
+  routes.push_back(route);
+  routes.back().extrapolated =
+      std::ranges::any_of(route.hops, [](const Interconnection* hop) { return hop->extrapolated; });
+}
+
+std::vector<Route> Connections::routes_of(const LeadingObject* following) const {
+  std::vector<Route> routes;
+  Route route;
+  follow_back(following, route, routes);
+  return routes;
+}
+
+}  // namespace lockstep
