@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <type_traits>
 #include <utility>
 
 #include "tech_objects/linmot/ascii_line.hpp"
@@ -14,8 +12,6 @@
 namespace lockstep {
 
 using namespace linmot;
-
-static_assert(std::is_trivially_copyable_v<MotorParameters>);
 
 LinMotController::LinMotController(std::string object_name, DB_ANY object_number)
     : TechnologyObject(ObjectKind::LinMot_Controller, std::move(object_name), object_number) {}
@@ -29,7 +25,7 @@ void LinMotController::configure(double servo_period, int) {
     motors_[i].use_curves(curves.data());
     if (hardware->range_switch) motors_[i].limit_current(data.Motors[i].Parameters.range_3a ? 3.0 : 2.0);
     motors_[i].configure(motor_settings[i], data.Motors[i].Parameters, cycle, servo_period);
-    std::memcpy(&taken_[i], &data.Motors[i].Parameters, sizeof taken_[i]);
+    taken_[i] = data.Motors[i].Parameters;
   }
   flags_.run = flags_.init = takes_ascii();
   automatic_ = data.Parameters.auto_start;
@@ -80,15 +76,14 @@ bool LinMotController::take_parameters(std::size_t index) noexcept {
     set_parameter(parameter, &wanted, parameter_value(parameter, &taken_[index]));
     allowed = false;
   }
-  std::memcpy(&taken_[index], &wanted, sizeof wanted);
+  taken_[index] = wanted;
   motors_[index].take(wanted);
   return allowed;
 }
 
 void LinMotController::take_changed_parameters() noexcept {
   for (std::size_t i = 0; i < hardware->motors; ++i) {
-    MotorParameters& now = data.Motors[i].Parameters;
-    if (motors_[i].is_there() && std::memcmp(&now, &taken_[i], sizeof now) != 0) take_parameters(i);
+    if (motors_[i].is_there() && data.Motors[i].Parameters != taken_[i]) take_parameters(i);
   }
 }
 

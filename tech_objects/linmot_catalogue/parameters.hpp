@@ -120,6 +120,8 @@ struct MotorParameters {
   LREAL stop_position = 0.0;
   LREAL emergency_max_speed = 0.78125;
   LREAL emergency_max_acceleration = 30.517578125;
+
+  bool operator==(const MotorParameters&) const = default;
 };
 
 /// Of what a parameter is one.
