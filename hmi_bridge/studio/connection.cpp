@@ -33,9 +33,9 @@ void set_policy(Response& response) {
 
 }  // namespace
 
-Connection::Connection(Core& core, Tcp::socket socket)
-    : core_(core), seat_(core), stream_(std::move(socket)) {
-  core_.enter(*this);
+Connection::Connection(Listener& listener, Tcp::socket socket)
+    : listener_(listener), seat_(listener), stream_(std::move(socket)) {
+  listener_.enter(*this);
   beast::error_code ignored;
   stream_.socket().set_option(Tcp::no_delay(true), ignored);
   const auto local = stream_.socket().local_endpoint(ignored);
@@ -46,14 +46,14 @@ Connection::Connection(Core& core, Tcp::socket socket)
 }
 
 Connection::~Connection() {
-  core_.leave(*this);
+  listener_.leave(*this);
 }
 
 void Connection::read() {
   parser_.emplace();
   parser_->header_limit(StudioServer::kHeaderBytes);
   parser_->body_limit(StudioServer::kBodyBytes);
-  stream_.expires_after(core_.options().request_time);
+  stream_.expires_after(listener_.options().request_time);
   http::async_read(stream_, buffer_, *parser_,
                    [self = shared_from_this()](beast::error_code error, std::size_t) {
                      if (error) return self->fail(error);
@@ -61,7 +61,7 @@ void Connection::read() {
                      try {
                        self->answer();
                      } catch (...) {
-                       ++self->core_.counters().faults;
+                       ++self->listener_.counters().faults;
                        self->refuse(500, "bad_request", "an internal fault, which was survived");
                      }
                    });
@@ -109,16 +109,16 @@ void Connection::answer() {
   // The count of a header says more than its value, of which only the first is looked at.
   if (request.count(http::field::host) != 1 || request.count(http::field::origin) > 1)
     return refuse(400, "bad_request", "the header Host has to be there once, Origin at most once");
-  if (const StudioRefusal refusal = core_.guard().judge(known); refusal.status != 0)
+  if (const StudioRefusal refusal = listener_.guard().judge(known); refusal.status != 0)
     return refuse(refusal.status, refusal.code, refusal.text);
   if (known.is_socket) return become_page();
-  if (known.changes && !core_.take_change())
+  if (known.changes && !listener_.take_change())
     return refuse(429, "too_many", "50 changing requests a second are heard");
   if (known.is_public) return write(studio_asset(url.path));
-  ++core_.counters().requests;
+  ++listener_.counters().requests;
   const StudioRequest asked{view(request.method_string()), std::move(url.path), std::move(url.query),
                             request.body(), peer_};
-  core_.handler().answer(
+  listener_.handler().answer(
       asked, [self = shared_from_this()](StudioAnswer answer) { self->write(std::move(answer)); });
 }
 
@@ -127,12 +127,12 @@ void Connection::become_page() {
   if (!websocket::is_upgrade(request) ||
       header(http::field::sec_websocket_protocol).find(kProtocol) == std::string_view::npos)
     return refuse(400, "bad_request", "/ws is a WebSocket of the subprotocol lockstep.1");
-  if (!core_.has_space_for_page()) return refuse(503, "too_many", "eight pages are open already");
-  std::make_shared<Page>(core_, std::move(stream_))->accept(request);
+  if (!listener_.has_space_for_page()) return refuse(503, "too_many", "eight pages are open already");
+  std::make_shared<Page>(listener_, std::move(stream_))->accept(request);
 }
 
 void Connection::refuse(unsigned status, std::string_view code, std::string_view text) {
-  ++core_.counters().refused;
+  ++listener_.counters().refused;
   StudioAnswer answer;
   answer.status = status;
   answer.body = refusal_body(code, text);
@@ -166,7 +166,7 @@ void Connection::write(StudioAnswer answer) {
 }
 
 void Connection::send() {
-  stream_.expires_after(core_.options().request_time);
+  stream_.expires_after(listener_.options().request_time);
   http::async_write(stream_, *response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
     if (error) return;
     if (self->response_->keep_alive()) return self->read();

@@ -8,14 +8,14 @@
 #include <string>
 #include <string_view>
 
-#include "hmi_bridge/studio/core.hpp"
+#include "hmi_bridge/studio/listener.hpp"
 
 namespace lockstep::studio_net {
 
 /// One request after the other; it lives as long as something of it is under way.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(Core& core, Tcp::socket socket);
+  Connection(Listener& listener, Tcp::socket socket);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
@@ -37,8 +37,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void linger();
   void drop();
 
-  Core& core_;
-  const Core::Seat seat_;
+  Listener& listener_;
+  const Listener::Seat seat_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;

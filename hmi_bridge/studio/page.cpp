@@ -15,9 +15,12 @@ void name_ourselves(websocket::response_type& response) {
 
 }  // namespace
 
-Page::Page(Core& core, beast::tcp_stream stream)
-    : core_(core), seat_(core), stream_(std::move(stream)), authorised_(!core.guard().needs_token()) {
-  core_.enter(*this);
+Page::Page(Listener& listener, beast::tcp_stream stream)
+    : listener_(listener),
+      seat_(listener),
+      stream_(std::move(stream)),
+      authorised_(!listener.guard().needs_token()) {
+  listener_.enter(*this);
 }
 
 Page::~Page() {
@@ -27,7 +30,7 @@ Page::~Page() {
 void Page::accept(const Request& request) {
   beast::get_lowest_layer(stream_).expires_never();
   websocket::stream_base::timeout timeout{};
-  timeout.handshake_timeout = core_.options().request_time;
+  timeout.handshake_timeout = listener_.options().request_time;
   timeout.idle_timeout = std::chrono::seconds(60);  // asked half-way whether it is there
   timeout.keep_alive_pings = true;
   stream_.set_option(timeout);
@@ -37,13 +40,13 @@ void Page::accept(const Request& request) {
   stream_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) return;
     self->open_ = true;
-    self->attempt([&] { self->core_.handler().opened(*self); });
+    self->attempt([&] { self->listener_.handler().opened(*self); });
     self->read();
   });
 }
 
 bool Page::authorise(std::string_view token) noexcept {
-  authorised_ = authorised_ || core_.guard().is_token(token);
+  authorised_ = authorised_ || listener_.guard().is_token(token);
   return authorised_;
 }
 
@@ -57,13 +60,13 @@ void Page::attempt(Call call) noexcept {
   try {
     call();
   } catch (...) {
-    ++core_.counters().faults;
+    ++listener_.counters().faults;
     close();
   }
 }
 
 void Page::leave() noexcept {
-  if (core_.leave(*this) && open_) core_.handler().closed(*this);
+  if (listener_.leave(*this) && open_) listener_.handler().closed(*this);
 }
 
 void Page::read() {
@@ -78,7 +81,7 @@ void Page::take() {
   if (!stream_.got_text()) throw std::runtime_error("a page sends text");
   const std::string message = beast::buffers_to_string(buffer_.data());
   buffer_.consume(buffer_.size());
-  core_.handler().text(*this, message);
+  listener_.handler().text(*this, message);
 }
 
 void Page::send(Message message) {

@@ -9,14 +9,14 @@
 #include <string_view>
 #include <vector>
 
-#include "hmi_bridge/studio/core.hpp"
+#include "hmi_bridge/studio/listener.hpp"
 
 namespace lockstep::studio_net {
 
 /// It lives as long as something of it is under way.
 class Page final : public StudioClient, public std::enable_shared_from_this<Page> {
  public:
-  Page(Core& core, beast::tcp_stream stream);
+  Page(Listener& listener, beast::tcp_stream stream);
   ~Page() override;
   Page(const Page&) = delete;
   Page& operator=(const Page&) = delete;
@@ -47,8 +47,8 @@ class Page final : public StudioClient, public std::enable_shared_from_this<Page
   void send(Message message);
   void write();
 
-  Core& core_;
-  const Core::Seat seat_;
+  Listener& listener_;
+  const Listener::Seat seat_;
   websocket::stream<beast::tcp_stream> stream_;
   beast::flat_buffer buffer_;
   std::deque<Message> queue_;

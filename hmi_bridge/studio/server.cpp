@@ -2,31 +2,31 @@
 
 #include <utility>
 
-#include "hmi_bridge/studio/core.hpp"
+#include "hmi_bridge/studio/listener.hpp"
 
 namespace lockstep {
 
 StudioServer::StudioServer(StudioServerOptions options, StudioHandler& handler)
-    : core_(std::make_unique<studio_net::Core>(std::move(options), handler)) {}
+    : listener_(std::make_unique<studio_net::Listener>(std::move(options), handler)) {}
 
 StudioServer::~StudioServer() {
   stop();
 }
 
 std::string StudioServer::start() {
-  return core_->start();
+  return listener_->start();
 }
 
 void StudioServer::stop() {
-  core_->stop();
+  listener_->stop();
 }
 
 Endpoint StudioServer::endpoint() const {
-  return core_->endpoint();
+  return listener_->endpoint();
 }
 
 const StudioCounters& StudioServer::counters() const noexcept {
-  return core_->counters();
+  return listener_->counters();
 }
 
 }  // namespace lockstep

@@ -16,7 +16,7 @@
 namespace lockstep {
 
 namespace studio_net {
-class Core;
+class Listener;
 }
 
 struct StudioServerOptions {
@@ -60,7 +60,7 @@ class StudioServer {
   const StudioCounters& counters() const noexcept;
 
  private:
-  std::unique_ptr<studio_net::Core> core_;
+  std::unique_ptr<studio_net::Listener> listener_;
 };
 
 }  // namespace lockstep

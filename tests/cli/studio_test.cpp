@@ -51,6 +51,22 @@ TEST(Studio, NeedsAnEndpointThatIsOne) {
   EXPECT_EQ(lockstep({"run", kKnife, "--simulate", "--duration", "10ms", "--studio", "nowhere:0"}).status, 2);
 }
 
+TEST(Studio, EndsWhereItsPortIsTaken) {
+  const int taken = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  ASSERT_EQ(::bind(taken, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(::listen(taken, 1), 0);
+  ASSERT_EQ(::getsockname(taken, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  const std::string place = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  const Ended ended = lockstep({"run", kKnife, "--simulate", "--duration", "10ms", "--studio", place});
+  ::close(taken);
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_NE(ended.err.find(place), std::string::npos) << ended.err;
+}
+
 TEST(Studio, ExportsWhatATraceWritesToTheBit) {
   const Directory folder;
   const std::string file = folder.file("trace.csv");

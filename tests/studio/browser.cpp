@@ -55,6 +55,8 @@ Browser::Browser() {
   if (target.empty()) target = call("Target.createTarget", {{"url", "about:blank"}})["targetId"];
   session_ = call("Target.attachToTarget", {{"targetId", target}, {"flatten", true}})["sessionId"];
   for (const char* domain : {"Page", "Runtime", "Log", "Network"}) call(std::string(domain) + ".enable");
+  call("Emulation.setDeviceMetricsOverride",
+       {{"width", 1280}, {"height", 720}, {"deviceScaleFactor", 1}, {"mobile", false}});
 }
 
 Browser::~Browser() {

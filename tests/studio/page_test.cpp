@@ -91,6 +91,51 @@ TEST(StudioPage, ShowsKnifeAndConveyorLiveWithTheirJobsAsBars) {
   page.expect_quiet();
 }
 
+TEST(StudioPage, HasBarsAndAxisOfTimeInSightHoweverManyDiagramsThereAre) {
+  Page page;
+  ASSERT_TRUE(page.is_live());
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('.job')"));
+  for (const char* path : {"start", "speed", "wanted", "ran", "synced", "alarm", "cuts", "reset"}) {
+    page.browser.press("/");
+    page.browser.evaluate("document.activeElement.value = ''");
+    page.browser.type(path);
+    ASSERT_TRUE(page.browser.wait_for("document.querySelector('.found button').dataset.path === '" +
+                                      std::string(path) + "'"));
+    page.browser.press("Enter", true);
+    page.browser.press("Escape");
+  }
+  ASSERT_TRUE(page.browser.wait_for("document.querySelectorAll('canvas').length > 12"));
+  EXPECT_EQ(
+      page.browser.evaluate("document.querySelector('.time').getBoundingClientRect().bottom <= innerHeight"),
+      true);
+  EXPECT_EQ(page.browser.evaluate(
+                "document.querySelector('.job rect').getBoundingClientRect().bottom <= innerHeight"),
+            true);
+  page.expect_quiet();
+}
+
+// A jump of Conveyor.Position from 240 mm to 0 would be a line from the top to the bottom.
+TEST(StudioPage, DrawsNothingAcrossTheJumpOfAModulo) {
+  Page page;
+  const std::string one = kDrawn +
+                          ".findIndex((one) => one.signals.length === 1 && one.signals[0].path === "
+                          "'Conveyor.Position' && one.high > 200)";
+  ASSERT_TRUE(page.browser.wait_for(one + " >= 0"));
+  // Two turns of the web.
+  ASSERT_TRUE(page.browser.wait_for("parseFloat(document.querySelector('.clock').textContent) > 3.5"));
+  const Json longest = page.browser.evaluate(
+      "(() => { const canvas = document.querySelectorAll('canvas')[" + one +
+      "]; "
+      "const { data, width, height } = canvas.getContext('2d').getImageData(0, 0, canvas.width, "
+      "canvas.height); "
+      "let longest = 0; for (let x = 0; x < width; ++x) { let run = 0; for (let y = 0; y < height; ++y) { "
+      "run = data[4 * (y * width + x) + 3] ? run + 1 : 0; longest = Math.max(longest, run); } } return "
+      "longest / height; })()");
+  EXPECT_GT(longest.get<double>(), 0.0);
+  EXPECT_LT(longest.get<double>(), 0.5);
+  page.expect_quiet();
+}
+
 TEST(StudioPage, StopsThePictureAndMeasuresWithTwoCursors) {
   Page page;
   ASSERT_TRUE(page.is_live());

@@ -74,7 +74,7 @@ class Studio implements Listener {
     document.body.append(this.header(), html("main", {}, html("div", { class: "side" }, this.picker.element, this.trigger.element),
       this.scope, this.diagnosis.element, this.alarms.element),
       this.dialog, this.token);
-    this.scope.append(this.stack, this.axis.element, this.bars.element, this.measure.element);
+    this.scope.append(this.stack, html("div", { class: "under" }, this.axis.element, this.bars.element), this.measure.element);
     this.setScreen("scope");
     this.view.onChange(() => { this.isDirty = true; this.showLive(); });
     document.addEventListener("keydown", (event) => this.key(event));

@@ -1,4 +1,4 @@
-#include "hmi_bridge/studio/core.hpp"
+#include "hmi_bridge/studio/listener.hpp"
 
 #include <boost/asio/post.hpp>
 #include <memory>
@@ -10,21 +10,21 @@
 
 namespace lockstep::studio_net {
 
-Core::Core(StudioServerOptions options, StudioHandler& handler)
+Listener::Listener(StudioServerOptions options, StudioHandler& handler)
     : options_(std::move(options)), guard_(options_.names, options_.token), handler_(handler) {}
 
-void Core::enter(Page& page) {
+void Listener::enter(Page& page) {
   pages_.insert(&page);
   counters_.pages = pages_.size();
 }
 
-bool Core::leave(Page& page) noexcept {
+bool Listener::leave(Page& page) noexcept {
   if (pages_.erase(&page) == 0) return false;
   counters_.pages = pages_.size();
   return true;
 }
 
-std::string Core::start() {
+std::string Listener::start() {
   beast::error_code error;
   const std::string host = options_.listen.host == "localhost" ? "127.0.0.1" : options_.listen.host;
   const asio::ip::address address = asio::ip::make_address(host, error);
@@ -45,7 +45,7 @@ std::string Core::start() {
   return "";
 }
 
-void Core::stop() {
+void Listener::stop() {
   if (!thread_.joinable()) return;
   asio::post(context_, [this] {
     stopping_ = true;
@@ -57,7 +57,7 @@ void Core::stop() {
   thread_.join();
 }
 
-void Core::accept() {
+void Listener::accept() {
   acceptor_.async_accept([this](beast::error_code error, Tcp::socket socket) {
     if (stopping_ || error == asio::error::operation_aborted) return;
     if (!error) {
@@ -73,7 +73,7 @@ void Core::accept() {
   });
 }
 
-void Core::look() {
+void Listener::look() {
   timer_.expires_after(StudioServer::kLook);
   timer_.async_wait([this](beast::error_code error) {
     if (error || stopping_) return;
@@ -82,7 +82,7 @@ void Core::look() {
   });
 }
 
-bool Core::take_change() {
+bool Listener::take_change() {
   const auto now = std::chrono::steady_clock::now();
   if (now - second_ >= std::chrono::seconds(1)) {
     second_ = now;
@@ -91,7 +91,7 @@ bool Core::take_change() {
   return ++changes_ <= StudioServer::kChangesPerSecond;
 }
 
-void Core::run() noexcept {
+void Listener::run() noexcept {
   block_write_signals();
   while (!stopping_) {
     try {

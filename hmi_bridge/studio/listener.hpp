@@ -4,8 +4,8 @@
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <set>
@@ -39,21 +39,21 @@ class Page;
 
 /// Listens, and knows who is connected. Thread: the server's, but for `start`, `stop`, `endpoint` and
 /// reading the counters.
-class Core {
+class Listener {
  public:
   /// One of the connections that are counted, held as long as it has a socket.
   class Seat {
    public:
-    explicit Seat(Core& core) noexcept : core_(core) { ++core_.seats_; }
-    ~Seat() { --core_.seats_; }
+    explicit Seat(Listener& listener) noexcept : listener_(listener) { ++listener_.seats_; }
+    ~Seat() { --listener_.seats_; }
     Seat(const Seat&) = delete;
     Seat& operator=(const Seat&) = delete;
 
    private:
-    Core& core_;
+    Listener& listener_;
   };
 
-  Core(StudioServerOptions options, StudioHandler& handler);
+  Listener(StudioServerOptions options, StudioHandler& handler);
 
   std::string start();
   void stop();
