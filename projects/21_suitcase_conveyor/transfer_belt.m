@@ -36,14 +36,16 @@ SUBPROG by_hand
   CVEL velocity
   CSTART
   WHILE (IN 2 == 1) DO
-    IF (IN 3 == 1) AND (pressed == 0) THEN
+    faster = IN 3                    // read once: an input may change between two lines
+    slower = IN 4
+    IF (faster == 1) AND (pressed == 0) THEN
       velocity = velocity + GET 1901
       CVEL velocity
-    ELSEIF (IN 4 == 1) AND (pressed == 0) THEN
+    ELSEIF (slower == 1) AND (pressed == 0) THEN
       velocity = velocity - GET 1901
       CVEL velocity
     ENDIF
-    pressed = IN 3 | IN 4
+    pressed = faster | slower
   ENDWHILE
   CSTOP
   WAITAX

@@ -107,10 +107,11 @@ StudioAnswer StudioSession::signals(const StudioRequest& request) {
   if (limit < 1 || limit > 10'000)
     throw BadRequest(422, "out_of_range", "limit: " + std::to_string(limit) + "; allowed: 1 to 10000");
   if (all_.empty()) all_ = studio_signals(project_, units_);
-  const auto found = find_studio_signals(all_, request.value("q"), static_cast<std::size_t>(limit));
-  return answer_of(Json{{"count", all_.size()}, {"signals", array_of(found, [](const StudioSignal* signal) {
-                                                   return signal_json(*signal);
-                                                 })}});
+  auto found = find_studio_signals(all_, request.value("q"), all_.size());
+  const std::size_t matches = found.size();
+  found.resize(std::min(matches, static_cast<std::size_t>(limit)));
+  const auto described = [](const StudioSignal* signal) { return signal_json(*signal); };
+  return answer_of(Json{{"count", all_.size()}, {"found", matches}, {"signals", array_of(found, described)}});
 }
 
 StudioAnswer StudioSession::events() const {

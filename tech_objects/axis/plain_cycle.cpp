@@ -34,8 +34,7 @@ void Axis::cycle() noexcept {
 /// they are hardly ever set, and a look at each would cost a branch.
 inline bool Axis::left_alone() const noexcept {
   const bool asked = additive_request.counts | additive_.in_use | control_panel | start_values_changed |
-                     data.PositionLimits_SW.Active | has_drive_ | leads_by_actual_value_ | provides_ |
-                     never_plain;
+                     data.PositionLimits_SW.Active | leads_specially_ | always_in_full_;
   return !asked && power.enable && has_position_ && simulation_request.owner == nullptr && !jobs_.lockable();
 }
 

@@ -81,9 +81,10 @@ class Pursuit {
       const double step = faster ? limits.acceleration : limits.deceleration;
       steady_ += std::clamp(target_velocity - steady_, -step, step);
     } else {
-      if (!(std::abs(rest) < 1.0)) return false;
-      steady_ = velocity_;
+      // What is gained in this step has to go again in the next one.
       uncertainty = std::min(uncertainty, std::abs(target_velocity - last_target_velocity_));
+      if (std::abs(rest) > change + uncertainty) return false;
+      steady_ = velocity_;
     }
     locked_ = std::abs(whole - steady_) <= change + uncertainty &&
               bounded(whole, 0.0, target_velocity, limits) == whole;
@@ -92,8 +93,8 @@ class Pursuit {
   }
   /// How fast it may come nearer, so that whole steps of braking behind this one end on the target.
   static double speed(double distance, double braking) noexcept {
-    const double steps = std::max(std::ceil(std::sqrt(0.25 + 2.0 * distance / braking) - 0.5), 1.0);
-    return distance / steps + braking * (steps - 1.0) / 2.0;
+    const double steps = std::floor(std::sqrt(0.25 + 2.0 * distance / braking) - 0.5);
+    return steps < 1.0 ? distance : steps * braking;
   }
   static double approach(double rest, double target_velocity, const PursuitLimits& limits) noexcept {
     const double distance = std::abs(rest);
