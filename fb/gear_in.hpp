@@ -97,7 +97,8 @@ struct MC_GearInPos final : ExecuteBlock {
           {.error = ErrorId::sync_profile_reference, .choices = kProfiles}),
       in<&MC_GearInPos::MasterStartDistance>(
           "MasterStartDistance", Unit::kLeading, kPositive,
-          "profiles 1, 3: leading distance over which the axis is synchronized, > 0",
+          "profiles 1, 3: leading distance over which the axis is synchronized, > 0; with 1 the leading axis "
+          "has to be farther than that from MasterSyncPosition when the job begins",
           {.error = ErrorId::leading_distance, .relevant = &over_distance}),
       pin::velocity<MC_GearInPos>(
           "profile 0: velocity of the following axis while synchronizing; < 0: default",

@@ -12,6 +12,11 @@ void add_compiler_options(CLI::App& command, aposs::CompilerSettings& settings) 
       .add_option("--max-variables", settings.maximum_variables,
                   "variables and arrays that a program may have (92)")
       ->check(CLI::Range(1, 20000));
+  command
+      .add_option_function<std::string>(
+          "--firmware", [&settings](const std::string& word) { settings.later_edition = word == "5.00"; },
+          "edition whose parameters and behaviour there are: 5.00 or <5.00 (5.00)")
+      ->check(CLI::IsMember({"5.00", "<5.00"}));
 }
 
 std::optional<aposs::CompiledProgram> compile_or_tell(const std::string& path,

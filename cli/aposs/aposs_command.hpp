@@ -9,7 +9,7 @@
 
 namespace lockstep::cli {
 
-/// Adds what all parts have: --max-variables.
+/// Adds what all parts have: --max-variables, --firmware. @param settings live as long as the command
 void add_compiler_options(CLI::App& command, aposs::CompilerSettings& settings);
 
 /// Compiles a file and tells what is wrong with it on standard error; none if it cannot be compiled.

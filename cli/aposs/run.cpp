@@ -232,7 +232,6 @@ void add_aposs_run(CLI::App& aposs, Action& action) {
   auto duration = std::make_shared<std::string>("10s");
   auto inputs = std::make_shared<std::vector<std::string>>();
   auto parameters = std::make_shared<std::vector<std::string>>();
-  auto firmware = std::make_shared<std::string>("5.00");
   command->add_option("FILE", options->file, "a program")->required();
   command->add_option("--duration", *duration, "how long at most (10s)");
   command->add_option("--in", *inputs, "INPUT=TIME:LEVEL, again and again: an input changes");
@@ -244,8 +243,6 @@ void add_aposs_run(CLI::App& aposs, Action& action) {
   command->add_flag(
       "--plant", options->plant,
       "with a simulated drive and its machine, in place of an axis that is where it is told to be");
-  command->add_option("--firmware", *firmware, "edition whose behaviour it has: 5.00 or <5.00 (5.00)")
-      ->check(CLI::IsMember({"5.00", "<5.00"}));
   command->add_option("--steps-per-ms", options->steps_per_ms, "internal commands per millisecond (200)")
       ->check(CLI::Range(1, 100'000));
   add_compiler_options(*command, options->settings);
@@ -253,8 +250,8 @@ void add_aposs_run(CLI::App& aposs, Action& action) {
       "What the program prints goes to standard output. Inputs are low and parameters at their start "
       "values unless told\n"
       "otherwise. A command that is not built yet ends the run with its place and exit status 1.");
-  command->callback([&action, options, duration, inputs, parameters, firmware] {
-    options->later_edition = *firmware == "5.00";
+  command->callback([&action, options, duration, inputs, parameters] {
+    options->later_edition = options->settings.later_edition;
     options->duration = milliseconds_of("--duration", *duration);
     for (const std::string& text : *inputs) options->inputs.push_back(input_of(text));
     std::stable_sort(options->inputs.begin(), options->inputs.end(),

@@ -77,6 +77,16 @@ Subject find_error(std::uint32_t number) {
   return number <= 0xFFFF && !error_text(id).empty() ? error_subject(id) : Subject{};
 }
 
+/// Of "error N", which is none of an MCO 305: an identifier of an error, else none.
+Subject find_error_of_any(std::string_view word, std::uint32_t number, std::string& problem) {
+  if (Subject subject = find_error(number)) return subject;
+  std::string all;
+  for (const std::string& one : mco305_error_numbers()) all += (all.empty() ? "" : ", ") + one;
+  problem = "there is no error " + quote(word) + "; allowed: of an MCO_305 " + all +
+            ", or an ErrorID such as 16#8026; lockstep describe errors lists these";
+  return {};
+}
+
 /// An alarm, or an error whose identifier is shown as a decimal number.
 Subject find_number(std::string_view word, bool hexadecimal, std::uint32_t number, std::string& problem) {
   if (!hexadecimal)
@@ -185,6 +195,9 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
       const bool topic = std::any_of(std::begin(kTopics), std::end(kTopics),
                                      [&](const Topic& known) { return same_name(known.name, word); });
       if (Subject subject = topic ? Subject{} : mco305_subject(words)) return subject;
+      if (same_name(word, "error"))
+        if (bool hexadecimal = false; const auto number = number_of(words[1], hexadecimal))
+          return find_error_of_any(words[1], *number, problem);
       if (Subject subject = topic ? Subject{} : search_subject(words)) return subject;
       problem = topic ? quote(word) + " takes no second name"
                       : "there is nothing that has to do with all of " + quoted(words);

@@ -232,6 +232,12 @@ Subject mco305_error_subject(std::string_view number) {
           [error] { return device_error_json(*error); }};
 }
 
+std::vector<std::string> mco305_error_numbers() {
+  std::vector<std::string> all;
+  for (const mco305::Error& error : mco305::errors()) all.push_back(std::to_string(error.number));
+  return all;
+}
+
 Subject mco305_system_variable_subject(std::string_view index) {
   const auto wanted = whole(index);
   const mco305::SystemVariable* const variable = wanted ? mco305::find_system_variable(*wanted) : nullptr;

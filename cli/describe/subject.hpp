@@ -71,6 +71,7 @@ std::vector<std::string_view> language_names();
 Subject mco305_parameter_subject(std::string_view name);
 Subject mco305_command_subject(std::string_view name);
 Subject mco305_error_subject(std::string_view number);
+std::vector<std::string> mco305_error_numbers();
 Subject mco305_system_variable_subject(std::string_view index);
 /// What one or two words name of them: `POSA`, `DEF ORIGIN`, `108`, `error 108`, `sysvar 4097`.
 Subject mco305_subject(const std::vector<std::string>& words);

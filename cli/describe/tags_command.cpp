@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/command/command.hpp"
@@ -226,6 +227,15 @@ std::string project_text(const Project& project, std::size_t width) {
   return objects.empty() ? text : text + "\n" + objects.text(0, width);
 }
 
+/// Limits as the project says them: of a scaled entry the range is wider by what rounding may do.
+Range told_range(const ModbusEntry& place) {
+  const double rounding = place.is_scaled ? 1e-6 * std::abs(place.scale) : 0.0;
+  const auto told = [](double value) {
+    return std::isfinite(value) ? std::stod(fmt::format("{:.12g}", value)) : value;
+  };
+  return {told(place.range.lowest + rounding), told(place.range.highest - rounding)};
+}
+
 nlohmann::ordered_json place_json(const Entry& entry) {
   const ModbusEntry& place = *entry.place;
   nlohmann::ordered_json json{{"table", modbus_table_name(place.table)},
@@ -239,6 +249,9 @@ nlohmann::ordered_json place_json(const Entry& entry) {
   if (place.bit >= 0) json["bit"] = place.bit;
   if (place.is_scaled) json["scale"] = place.scale;
   if (place.is_scaled) json["offset"] = place.offset;
+  const Range range = told_range(place);
+  if (std::isfinite(range.lowest)) json["min"] = range.lowest;
+  if (std::isfinite(range.highest)) json["max"] = range.highest;
   if (entry.map->server) json["server"] = *entry.map->server;
   if (entry.map->unit) json["unit"] = *entry.map->unit;
   return json;
@@ -335,20 +348,23 @@ std::string csv_cell(std::string_view text) {
 std::string project_csv(const Project& project) {
   std::string text =
       "name,type,unit,table,address,length,wire_type,word_order,byte_order,bit,scale,offset,access,server,"
-      "unit_id,comment\r\n";
+      "unit_id,comment,min,max\r\n";
   const Entries entries = sort_entries(project);
   const auto line = [&](const Entry& entry, const std::string& comment) {
     const ModbusEntry& place = *entry.place;
+    const Range range = told_range(place);
+    const auto limit = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; };
     const auto order = [](bool is_big) { return is_big ? "big" : "little"; };
     text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(entry.name),
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(entry.name),
                     csv_cell(entry.type), entry.unit, modbus_table_name(place.table), place.address,
                     entry.span, wire_type(entry), order(place.word_order == WordOrder::big),
                     order(is_big_byte_order(entry)), place.bit >= 0 ? std::to_string(place.bit) : "",
                     place.is_scaled ? fmt::format("{}", place.scale) : "",
                     place.is_scaled ? fmt::format("{}", place.offset) : "", place.writable ? "write" : "read",
                     entry.map->server ? std::to_string(*entry.map->server) : "",
-                    entry.map->unit ? std::to_string(*entry.map->unit) : "", csv_cell(comment));
+                    entry.map->unit ? std::to_string(*entry.map->unit) : "", csv_cell(comment),
+                    limit(range.lowest), limit(range.highest));
   };
   for (std::size_t i = 0; i < entries.of_tags.size(); ++i)
     for (const Entry& entry : entries.of_tags[i]) line(entry, project.controller->tags[i].comment);

@@ -53,7 +53,7 @@ void add_run_command(CLI::App& app, Action& action) {
       ->excludes(retain);
   auto* studio = command->add_option(
       "--studio", options->studio,
-      "tell on HOST:PORT over HTTP and WebSocket how the machine stands: signals, jobs, alarms");
+      "show on HOST:PORT, to a browser, how the machine stands: signals, jobs, alarms, live");
   command
       ->add_option("--studio-token-file", options->studio_token,
                    "file of the token that it asks for, which is needed beyond this machine")

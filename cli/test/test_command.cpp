@@ -8,12 +8,15 @@
 
 #include "cli/command/command.hpp"
 #include "cli/command/standard_streams.hpp"
+#include "cli/run/told.hpp"
 #include "cli/test/junit.hpp"
 #include "hmi_bridge/network/visible_text.hpp"
 #include "projects/runtime/judge.hpp"
 
 namespace lockstep::cli {
 namespace {
+
+constexpr int kPatience = 500;  // [ms] how long a message waits for its reader
 
 struct TestOptions {
   std::vector<std::string> files;
@@ -47,7 +50,7 @@ std::string line_of(const std::string& file, const Judgement& judgement, const T
                      one.name, actual);
 }
 
-/// Its lines go to standard output as they come.
+/// Its lines go to standard output, what happened in the run to standard error before.
 TestSuite test(const std::string& file, int& status) {
   TestSuite suite{.name = file, .file = file, .cases = {}};
   int loading = kOk;
@@ -62,7 +65,11 @@ TestSuite test(const std::string& file, int& status) {
   }
   suite.name = project->name;
   if (project->expectations.list.empty()) write_data(visible(file) + ": no expectations\n");
-  for (const Judgement& judgement : judge(*project)) {
+  ToldOnStandardError told(kPatience);
+  const auto judgements = judge(*project, [&told](const TraceEvent& event) { told.event(event); });
+  told.tell_rest();
+  tell_counters(*project->controller);
+  for (const Judgement& judgement : judgements) {
     suite.cases.push_back(case_of(judgement));
     write_data(line_of(visible(file), judgement, suite.cases.back()));
     if (!judgement.holds) status = std::max<int>(status, kNotValid);
@@ -90,13 +97,18 @@ int run_tests(const TestOptions& options) {
   if (!is_xml(options.junit)) return kCouldNotStart;
   int status = kOk;
   std::vector<TestSuite> suites;
-  std::size_t cases = 0, passed = 0;
+  std::size_t cases = 0, passed = 0, not_tested = 0;
   for (const std::string& file : options.files) {
     const TestSuite& suite = suites.emplace_back(test(file, status));
-    cases += suite.cases.size();
+    const std::size_t untested = suite.count(TestCase::Result::error);
+    cases += suite.cases.size() - untested;
     passed += suite.count(TestCase::Result::passed);
+    not_tested += untested;
   }
-  write_data(fmt::format("{} of {} expectations hold\n", passed, cases));
+  write_data(fmt::format("{} of {} expectations hold{}\n", passed, cases,
+                         not_tested == 0 ? ""
+                                         : fmt::format("; {} of {} projects could not be tested", not_tested,
+                                                       options.files.size())));
   if (!options.junit.empty() && !write_junit(options.junit, suites)) return kCouldNotStart;
   return status;
 }
@@ -114,7 +126,7 @@ void add_test_command(CLI::App& app, Action& action) {
       "\"duration\";\n"
       "Modbus, LCM and kept values are off. Results go to standard output, one a line with the values that "
       "there\n"
-      "were, problems of a project to standard error.\n"
+      "were, problems of a project, alarms and failed jobs to standard error.\n"
       "Exit status: 0 all expectations hold, 1 one does not or a project is not valid, 2 a file cannot be "
       "read or\n"
       "written");

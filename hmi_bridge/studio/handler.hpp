@@ -32,6 +32,8 @@ struct StudioAnswer {
   std::string body;
   std::string etag;  ///< empty: none
   std::string cache = "no-store";
+  std::string
+      file_name;  ///< under which a browser saves it, of letters, digits, `-`, `_` and `.`; empty: none
 };
 
 /// A page that is connected by its WebSocket. Thread: the server's.

@@ -15,6 +15,10 @@
 
 namespace lockstep {
 
+namespace studio_net {
+class Listener;
+}
+
 struct StudioServerOptions {
   Endpoint listen{"127.0.0.1", 8780};              ///< an address; port 0: any that is free
   std::vector<std::string> names;                  ///< see StudioGuard
@@ -56,8 +60,7 @@ class StudioServer {
   const StudioCounters& counters() const noexcept;
 
  private:
-  class Core;
-  std::unique_ptr<Core> core_;
+  std::unique_ptr<studio_net::Listener> listener_;
 };
 
 }  // namespace lockstep

@@ -48,4 +48,12 @@ char* print_value(char* out, Value value, Type type) noexcept {
   return is_signed_integer(type) ? print(out, value.i) : print(out, value.u);
 }
 
+char* print_column_value(char* out, Value value, Type type) noexcept {
+  char* const begin = out;
+  out = print_value(out, value, type);
+  if (is_real(type) && std::string_view(begin, out).find_first_of(".ein") == std::string_view::npos)
+    out = std::copy_n(".0", 2, out);
+  return out;
+}
+
 }  // namespace lockstep

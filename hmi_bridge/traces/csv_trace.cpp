@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <string_view>
 #include <system_error>
 
 #include "hmi_bridge/traces/csv_number.hpp"
@@ -41,11 +40,7 @@ void CsvTrace::row(const TraceRow& row) {
   char* out = print_seconds(line_.data(), row.t);
   for (std::size_t i = 0; i < types_.size(); ++i) {
     *out++ = ',';
-    char* const begin = out;
-    out = print_value(out, row.values[i], types_[i]);
-    // What is real is written as such, so that a reader of the file knows it of whole values too.
-    if (is_real(types_[i]) && std::string_view(begin, out).find_first_of(".ein") == std::string_view::npos)
-      out = std::copy_n(".0", 2, out);
+    out = print_column_value(out, row.values[i], types_[i]);
   }
   *out++ = '\n';
   write(static_cast<std::size_t>(out - line_.data()), 1);

@@ -37,8 +37,13 @@ std::string_view event_kind_text(EventKind kind) noexcept {
 
 std::vector<std::string> detail_lines(const TraceEvent& event) {
   std::vector<std::string> lines;
+  // As many digits as tell the value from its limit.
+  int digits = 6;
+  const auto rounded = [&](double value) { return fmt::format("{:.{}g}", value, digits); };
+  const bool both = event.has_value() && event.has_limit() && event.value != event.limit;
+  while (both && digits < 15 && rounded(event.value) == rounded(event.limit)) ++digits;
   const auto value_text = [&](const std::string& name, double value) {
-    return fmt::format("{} {:.6g}{}{}", name, value, event.unit.empty() ? "" : " ", event.unit);
+    return fmt::format("{} {}{}{}", name, rounded(value), event.unit.empty() ? "" : " ", event.unit);
   };
   std::string values;
   if (event.has_value()) values = value_text(event.value_name, event.value);

@@ -15,6 +15,7 @@ namespace lockstep::aposs {
 
 struct CompilerSettings {
   std::size_t maximum_variables = 92;  ///< with the arrays, as published
+  bool later_edition = true;           ///< "5.00"; else parameters of that edition are none
 };
 
 struct CompiledProgram {

@@ -64,6 +64,11 @@ bool is_parameter(std::int32_t number) noexcept {
   return mco305::parameter_index(number) != mco305::kNoParameter;
 }
 
+bool is_later_parameter(std::int32_t number) noexcept {
+  const std::size_t index = mco305::parameter_index(number);
+  return index < mco305::parameters().size() && mco305::parameters()[index].later_edition;
+}
+
 std::string parameter_text(std::int32_t number) {
   if (number < 2000) return std::to_string(number);
   const std::string rest = std::to_string(number % 100);

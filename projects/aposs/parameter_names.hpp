@@ -20,6 +20,8 @@ std::optional<std::int32_t> parameter_number(std::string_view name);
 std::optional<std::int32_t> parameter_of(std::string_view name);
 /// Whether there is a parameter of this number.
 bool is_parameter(std::int32_t number) noexcept;
+/// Whether firmware 5.00 alone has it.
+bool is_later_parameter(std::int32_t number) noexcept;
 /// As it is published: 32-67, 1900.
 std::string parameter_text(std::int32_t number);
 /// The nearest mnemonic with its number, for a message: "SYNCMPULSM 33-17"; empty if none is near.

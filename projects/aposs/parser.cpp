@@ -12,8 +12,11 @@ constexpr std::size_t kDeepestBlock = 64;
 
 }  // namespace
 
-Parser::Parser(std::span<const Token> tokens, Messages& messages)
-    : tokens_(tokens), messages_(messages), assigned_(assigned_names(tokens)) {}
+Parser::Parser(std::span<const Token> tokens, Messages& messages, bool later_edition)
+    : tokens_(tokens),
+      messages_(messages),
+      later_edition_(later_edition),
+      assigned_(assigned_names(tokens)) {}
 
 const Token& Parser::peek(std::size_t ahead) const {
   return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];

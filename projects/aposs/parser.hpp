@@ -25,7 +25,8 @@ struct Uses {
 
 class Parser {
  public:
-  Parser(std::span<const Token> tokens, Messages& messages);
+  /// @param later_edition whether parameters of firmware 5.00 are there
+  Parser(std::span<const Token> tokens, Messages& messages, bool later_edition);
 
   void program();
   Image finish(std::size_t maximum_variables);
@@ -127,6 +128,7 @@ class Parser {
   bool argument_follows() const;
   ExpressionPointer state(std::string_view of, bool optional);
   ExpressionPointer parameter(std::string_view of);
+  void use_parameter(const Place& place, std::int32_t number);
   ExpressionPointer drive_parameter(std::string_view of);
   ExpressionPointer output();
   ExpressionPointer array_argument(std::string_view of);
@@ -161,6 +163,7 @@ class Parser {
   std::span<const Token> tokens_;
   std::size_t at_ = 0;
   Messages& messages_;
+  bool later_edition_ = true;
   Emitter emitter_;
   Uses uses_;
   std::set<std::string> assigned_;

@@ -307,12 +307,18 @@ ExpressionPointer Parser::state(std::string_view of, bool optional) {
   return argument(of);
 }
 
+void Parser::use_parameter(const Place& place, std::int32_t number) {
+  uses_.parameters.insert(number);
+  if (!later_edition_ && is_later_parameter(number))
+    messages_.error(place, parameter_text(number) + " is of the later edition; allowed with firmware 5.00");
+}
+
 ExpressionPointer Parser::parameter(std::string_view of) {
   const Token& token = peek();
   if (token.kind == Token::Kind::kName && !assigned_.contains(token.folded)) {
     if (const auto number = parameter_number(token.folded)) {
       take();
-      if (*number < kInputFunction) uses_.parameters.insert(*number);
+      if (*number < kInputFunction) use_parameter(token.place, *number);
       return constant(token.place, *number);
     }
     const std::string nearest = nearest_parameter(token.folded);
@@ -321,7 +327,7 @@ ExpressionPointer Parser::parameter(std::string_view of) {
   }
   ExpressionPointer number = drive_parameter(of);
   if (number->kind != Expression::Kind::kConstant) return number;
-  uses_.parameters.insert(number->value);
+  use_parameter(token.place, number->value);
   if (!is_parameter(number->value))
     messages_.warn(token.place,
                    parameter_text(number->value) +

@@ -20,7 +20,7 @@ class NoNames final : public Scope {
 
 std::string allowed_values(Type type) {
   if (type == Type::BOOL) return "true, false";
-  if (type == Type::TIME) return "a duration such as \"10ms\"";
+  if (type == Type::TIME) return "a duration such as \"T#10ms\"";
   const std::string name(type_name(type));
   if (type == Type::LREAL) return "a number (" + name + ")";
   if (type == Type::REAL) return "a number from -3.4028235e+38 to 3.4028235e+38 (" + name + ")";

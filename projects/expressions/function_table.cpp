@@ -13,7 +13,7 @@ constexpr std::string_view kReals = "REAL, LREAL, and what widens to them";
 constexpr std::string_view kSameReal = "REAL if all inputs widen to REAL, else LREAL";
 constexpr std::string_view kNumbers = "numbers of a common type";
 constexpr std::string_view kComparable = "two of a common type";
-constexpr std::string_view kBits = "IN: BYTE, WORD, DWORD, LWORD; N: an integer";
+constexpr std::string_view kBits = "IN: BYTE, WORD, DWORD, LWORD; N: an integer but ULINT";
 constexpr std::string_view kRounded =
     "an integer of the type that its place asks for, else DINT; in a real "
     "place a real without fraction";
@@ -142,7 +142,7 @@ constexpr StandardFunction kFunctions[] = {
      kReals,
      kSameReal,
      "angle of the point with the coordinates X and Y, from -pi to pi",
-     "of 0 and 0 it is 0",
+     "of 0 and 0 it is 0 (of 0 and -0: pi)",
      {{{"ATAN2(0.0, 1.0)", LREAL, "0.0"},
        {"ATAN2(0.0, 0.0)", LREAL, "0.0"},
        {"ATAN2(Y := 0.0, X := -1.0) > 3.14", BOOL, "TRUE"}}}},

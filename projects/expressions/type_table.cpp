@@ -31,7 +31,7 @@ constexpr TypeText kTypes[] = {
      "floating point of 64 bits (IEC 60559); of a real literal whose place asks for none",
      {"LREAL#1.5E3", LREAL, "1500.0"}},
     {TIME,
-     R"(duration, a whole number of nanoseconds; of JSON "10ms" or "T#10ms")",
+     R"(duration, a whole number of nanoseconds; T#10ms in an expression, and so at a pin; of "init", stimuli and "cycle" also "10ms")",
      {"T#1s500ms", TIME, "TIME#1.5s"}}};
 
 constexpr OtherType kOthers[] = {

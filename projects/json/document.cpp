@@ -14,6 +14,20 @@ std::string text_of(SourcePosition position) {
   return std::to_string(position.line) + ":" + std::to_string(position.column);
 }
 
+/// What people write who think of another notation.
+std::string_view hint(std::string_view message) {
+  const auto has = [message](std::string_view part) { return message.find(part) != message.npos; };
+  const bool begins_another = has("unexpected string literal") || has("unexpected '{'") ||
+                              has("unexpected '['") || has("unexpected number") || has("unexpected true") ||
+                              has("unexpected false");
+  if (begins_another && (has("expected '}'") || has("expected ']'")))
+    return " (a comma is missing before it)";
+  if (has("unexpected '}'") || has("unexpected ']'")) return " (no comma stands before it)";
+  if (has("invalid literal"))
+    return R"( (allowed: true, false, numbers such as 1.5 and 1e3, texts in "", // comments))";
+  return "";
+}
+
 /// What nlohmann's message says, without its number and place.
 std::string reason(std::string_view message) {
   const auto column = message.find(", column ");
@@ -29,7 +43,7 @@ std::string reason(std::string_view message) {
   text = std::string(message.substr(0, last_read)) + "; last read: " + quote(token.substr(0, end));
   const auto expected = token.rfind("; expected ");
   if (expected != token.npos && end < expected) text += token.substr(expected);
-  return text;
+  return text + hint(message);
 }
 
 /// Where a comment begins that does not end; npos if there is none.
@@ -315,7 +329,14 @@ bool JsonBuilder::parse_error(std::size_t position, const std::string& token,
                                    .file = document_.source_->file()});
     return false;
   }
-  const SourcePosition place = document_.source_->position(position == 0 ? 0 : position - 1);
+  // A text or number that stands where it may not is told where it begins; what cannot be read, where it
+  // ends.
+  const bool whole = token.size() > 1 && token.size() <= position &&
+                     document_.source_->text().compare(position - token.size(), token.size(), token) == 0 &&
+                     std::string_view(exception.what()).find("invalid") == std::string_view::npos;
+  const SourcePosition place = document_.source_->position(whole           ? position - token.size()
+                                                           : position == 0 ? 0
+                                                                           : position - 1);
   document_.problems_.push_back(
       {.place = text_of(place), .text = reason(exception.what()), .file = document_.source_->file()});
   return false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "projects/keys/drive.hpp"
+#include "tech_objects/mco305/device.hpp"
 
 namespace lockstep::keys {
 
@@ -17,6 +18,41 @@ inline constexpr auto kNoDrive = key_table<DriveSettings>(
         "reference_cam", kPlace,
         "positions [qc] in which the home switch is active, where no tag is wired to its input"));
 inline constexpr KeyVariant kDeviceDrives[] = {{"simulated", kSimulatedDrive}, {"none", kNoDrive}};
+
+using Markers = mco305::MarkerTrackSettings;
+inline constexpr auto kMarkers = key_table<Markers>(
+    key::number<&Markers::period>("period", {0.001, kFurthest}, "qc", "from each to the next").needed(),
+    key::number<&Markers::position>("position", kPlace, "qc", "of one of them"),
+    key::number<&Markers::noise>("noise", kLength, "qc", "by how much one may lie off, to either side"),
+    key::integer<&Markers::seed>("seed", {0, 2147483647.0}, "of that"),
+    key::number<&Markers::slip>("slip", {-1.0, 0.9}, "",
+                                "part of the motion that does not get through to what bears the markers"),
+    key::tag<&Markers::slips>("slips", "BOOL tag: while TRUE it slips; none: always"),
+    key::tag<&Markers::missing>("missing", "BOOL tag: while TRUE none is seen"),
+    key::tag<&Markers::spurious>("spurious", "BOOL tag: while TRUE there is another one between any two"),
+    key::tag<&Markers::twice>("twice",
+                              "BOOL tag: while TRUE each is seen once more a tenth of the period behind it"));
+
+inline constexpr auto kDeviceMaster = key_table<void>(
+    key::object("follows", kLeading,
+                "axis, encoder or device whose position the master encoder counts: a setpoint of a virtual "
+                "axis, else an actual value"),
+    key::number("counts_per_unit", kRatio, "",
+                "[qc, units] of what it follows: so many counts for so many user units")
+        .list()
+        .otherwise_is("[1, 1]"),
+    key::tag("signal", "DINT tag that counts, and wraps, in place of what it follows [qc]", Type::DINT),
+    key::object("encoder_output_of", static_cast<ObjectKinds>(ObjectKind::MCO_305),
+                "device whose virtual master (PULSVEL) it counts, in place of these"),
+    key::structure("markers", kMarkers, "that the sensor at input 5 sees [qc of the master encoder]"));
+
+using DeviceFaultTags = mco305::DeviceFaults;
+inline constexpr auto kDeviceFaults = key_table<DeviceFaultTags>(
+    key::tag<&DeviceFaultTags::supply>("supply",
+                                       "BOOL tag: while TRUE the external 24 V are missing (EXTERNAL24V)"),
+    key::tag<&DeviceFaultTags::output>("output", "BOOL tag: while TRUE a digital output is overloaded"),
+    key::tag<&DeviceFaultTags::master_encoder>(
+        "master_encoder", "BOOL tag: while TRUE the master encoder tells nothing (MENCODERMONITORING)"));
 
 inline constexpr auto kDeviceProgram = key_table<void>(
     key::integer("number", {0, kHighestProgram}, "of the program, each once").needed(),
@@ -36,6 +72,9 @@ inline constexpr auto kMco305 = key_table<void>(
         .named(),
     key::variants("drive", kDeviceDrives, "drive and machine; places are in qc of the encoder")
         .otherwise_is("none"),
+    key::structure("master", kDeviceMaster, "what turns its master encoder; none: its own virtual master"),
+    key::structure("markers", kMarkers, "that the sensor at input 6 sees [qc of the encoder]"),
+    key::structure("faults", kDeviceFaults, "what goes wrong at it, and when"),
     key::tag("inputs", "BOOL tag that is an input: 1 to 12, 18, 19, 27, 29, 32, 33").named(),
     key::tag("outputs", "BOOL tag that is an output: 1 to 8, 21, 22, 27, 29").named(),
     key::number("controller_scale", {1e-6, 1e6}, "", "of the parts of the position controller")

@@ -18,6 +18,7 @@
 namespace lockstep {
 namespace {
 
+constexpr std::size_t kMaximumDevices = 4096;  // in a chain of followers
 constexpr std::size_t kLargestParameterFile = 1 << 20;
 constexpr int kInputs[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 18, 19, 27, 29, 32, 33};
 constexpr int kOutputs[] = {1, 2, 3, 4, 5, 6, 7, 8, 21, 22, 27, 29};
@@ -42,11 +43,15 @@ class DeviceLoader {
   void store(std::int32_t number, std::int32_t value, const JsonValue& json);
   void load_parameter_file(const JsonValue& json);
   void load_drive(const JsonValue& json);
+  void load_master(const JsonValue& json);
+  void load_counts(const JsonValue& json);
+  void refuse_circle(const JsonValue& json);
   template <std::size_t n>
   std::optional<std::size_t> line(const std::string& name, const JsonValue& json, const int (&allowed)[n]);
   void load_programs(const JsonValue& json);
   void load_program(const JsonValue& json);
   void compile(const JsonValue& at, const Fields& fields, DeviceProgram& program);
+  aposs::CompilerSettings edition() const { return {.later_edition = device_.settings.later_edition}; }
   void take(const JsonValue& at, aposs::CompiledProgram compiled, DeviceProgram& program);
 
   Mco305& device_;
@@ -137,6 +142,53 @@ void DeviceLoader::load_drive(const JsonValue& json) {
   device_.settings.drive.plant.has_stop = plant != nullptr && plant->find("fixed_stop") != nullptr;
 }
 
+/// [counts, units]
+void DeviceLoader::load_counts(const JsonValue& json) {
+  if (read_array(&json, problems_) == nullptr) return;
+  if (json.elements.size() != 2)
+    return problems_.report(json, "there are " + std::to_string(json.elements.size()) +
+                                      " numbers; allowed are two, [counts, units]");
+  const auto counts = read_value(json.elements[0], keys::kDeviceMaster["counts_per_unit"], loading_);
+  const auto units = read_value(json.elements[1], keys::kDeviceMaster["counts_per_unit"], loading_);
+  if (counts) device_.master.counts = counts->number;
+  if (units) device_.master.units = units->number;
+}
+
+void DeviceLoader::load_master(const JsonValue& json) {
+  const Fields fields(json, keys::kDeviceMaster, problems_);
+  DeviceMaster& master = device_.master;
+  if (const auto found = read_value(fields, keys::kDeviceMaster["follows"], loading_))
+    master.follows = static_cast<LeadingObject*>(static_cast<TechnologyObject*>(found->address));
+  if (const auto found = read_value(fields, keys::kDeviceMaster["encoder_output_of"], loading_))
+    master.encoder_output_of = static_cast<LeadingObject*>(static_cast<TechnologyObject*>(found->address));
+  if (const auto found = read_value(fields, keys::kDeviceMaster["signal"], loading_))
+    master.signal = static_cast<const DINT*>(found->address);
+  if (const JsonValue* const counts = fields["counts_per_unit"]) load_counts(*counts);
+  if (const JsonValue* const markers = fields["markers"])
+    read_struct(*markers, keys::kMarkers, device_.settings.master_marks, loading_);
+  const int given = (master.follows != nullptr ? 1 : 0) + (master.encoder_output_of != nullptr ? 1 : 0) +
+                    (master.signal != nullptr ? 1 : 0);
+  if (given > 1)
+    problems_.report(json,
+                     "a master encoder is turned by several; allowed is one of 'follows', 'signal', "
+                     "'encoder_output_of'");
+  refuse_circle(json);
+}
+
+/// The device of a circle that is read last finds it.
+void DeviceLoader::refuse_circle(const JsonValue& json) {
+  std::string path = "'" + device_.name + "'";
+  const Mco305* at = &device_;
+  for (std::size_t i = 0; i <= kMaximumDevices && at != nullptr; ++i) {
+    const LeadingObject* const next =
+        at->master.follows != nullptr ? at->master.follows : at->master.encoder_output_of;
+    at = next != nullptr && next->kind == ObjectKind::MCO_305 ? static_cast<const Mco305*>(next) : nullptr;
+    if (at == nullptr) return;
+    path += " follows '" + at->name + "'";
+    if (at == &device_) return problems_.report(json, "devices follow each other in a circle: " + path);
+  }
+}
+
 template <std::size_t n>
 std::optional<std::size_t> DeviceLoader::line(const std::string& name, const JsonValue& json,
                                               const int (&allowed)[n]) {
@@ -170,7 +222,8 @@ void DeviceLoader::compile(const JsonValue& at, const Fields& fields, DeviceProg
     const auto name = read_string(file, problems_);
     if (!name) return;
     try {
-      take(*file, aposs::compile_file(std::filesystem::path(loading_.folder) / std::string(*name)), program);
+      take(*file, aposs::compile_file(std::filesystem::path(loading_.folder) / std::string(*name), edition()),
+           program);
     } catch (const UnreadableFile& error) {
       problems_.report(*file, error.what());
     }
@@ -180,7 +233,8 @@ void DeviceLoader::compile(const JsonValue& at, const Fields& fields, DeviceProg
   std::string text;
   for (const JsonValue* const line : lines->elements)
     if (const auto one = read_string(line, problems_)) text += std::string(*one) + "\n";
-  take(*lines, aposs::compile_program("program " + std::to_string(program.number), text), program);
+  take(*lines, aposs::compile_program("program " + std::to_string(program.number), text, {}, edition()),
+       program);
 }
 
 void DeviceLoader::load_program(const JsonValue& json) {
@@ -214,6 +268,11 @@ void DeviceLoader::load(const JsonValue& json) {
     device_.settings.later_edition = edition->integer != 0;
   if (const JsonValue* const parameters = fields["parameters"]) load_parameters(*parameters, false);
   if (const JsonValue* const drive = fields["drive"]) load_drive(*drive);
+  if (const JsonValue* const master = fields["master"]) load_master(*master);
+  if (const JsonValue* const markers = fields["markers"])
+    read_struct(*markers, keys::kMarkers, device_.settings.markers, loading_);
+  if (const JsonValue* const faults = fields["faults"])
+    read_struct(*faults, keys::kDeviceFaults, device_.settings.faults, loading_);
   if (const JsonValue* const inputs = fields["inputs"]; read_object(inputs, problems_) != nullptr)
     for (const auto& [name, tag] : inputs->members)
       if (const auto at = line(name, *tag, kInputs))

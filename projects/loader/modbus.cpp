@@ -262,7 +262,9 @@ void load_servers(const JsonValue& json, const Loading& loading, MapLoader& maps
 
 /// What the registers of an entry can bring to its signal.
 Range reachable_range(const ModbusEntry& entry, Type signal) {
-  if (is_real(signal) && !entry.is_scaled) return kAny;
+  constexpr double kReal = std::numeric_limits<float>::max();
+  if (is_real(signal) && !entry.is_scaled)
+    return signal == Type::REAL || entry.type == Type::REAL ? Range{-kReal, kReal} : kAny;
   const Type wire = entry.type == Type::TIME ? Type::DINT : entry.type;
   const auto low = static_cast<double>(lowest(wire));
   const auto high = static_cast<double>(highest(wire));

@@ -9,6 +9,7 @@
 #include "projects/loader/loader.hpp"
 #include "projects/loader/looked_at_axis.hpp"
 #include "projects/loader/read_keys.hpp"
+#include "scheduler/mco305/mco305.hpp"
 
 namespace lockstep {
 namespace {
@@ -73,6 +74,10 @@ std::optional<Coupling> read_coupling(const JsonValue* json, const LeadingObject
     problems.report(*json, "an external encoder has no setpoint; allowed: 'actual', 'delayed'");
     return std::nullopt;
   }
+  if (coupling == Coupling::delayed && source != nullptr && source->kind == ObjectKind::MCO_305) {
+    problems.report(*json, "an MCO_305 provides no value behind a delay; allowed: 'setpoint', 'actual'");
+    return std::nullopt;
+  }
   if (coupling == Coupling::actual && source != nullptr && source->kind == ObjectKind::TO_LeadingAxisProxy) {
     problems.report(*json, "a leading axis proxy has no actual value; allowed: 'setpoint', 'delayed'");
     return std::nullopt;
@@ -86,6 +91,7 @@ void load_leading_value(const JsonValue& json, Axis& axis, const Loading& loadin
   auto* const source = static_cast<LeadingObject*>(loading.find_object(to, kLeading));
   const auto coupling = read_coupling(fields["coupling"], source, loading);
   if (source == nullptr || !coupling) return;
+  if (source->kind == ObjectKind::MCO_305) static_cast<Mco305*>(source)->leads = true;
   if (source->number == axis.number) return loading.problems.report(*to, "an axis cannot follow itself");
   const auto same = [&](const LeadingValue& other) { return other.source == source; };
   if (std::any_of(axis.leading_values.begin(), axis.leading_values.end(), same))

@@ -12,7 +12,8 @@
 namespace lockstep {
 namespace {
 
-/// Warns of what nothing refers to: it may be a name that was mistyped elsewhere.
+/// Warns of what nothing refers to: it may be a name that was mistyped elsewhere. Not where there are errors:
+/// who refers to it may be what is wrong.
 void warn_of_unused(const JsonValue& root, const Names::Uses& uses, const Loading& loading) {
   for (const auto& [section, what] :
        {std::pair{"tags", "tag"}, std::pair{"technology_objects", "technology object"}}) {
@@ -61,7 +62,7 @@ void load_root(const JsonValue& root, const Loading& loading) {
   loading.names().record(&uses);
   load_sections(root, loading);
   loading.names().record(nullptr);
-  warn_of_unused(root, uses, loading);
+  if (loading.problems.none()) warn_of_unused(root, uses, loading);
 }
 
 }  // namespace

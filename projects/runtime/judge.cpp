@@ -6,6 +6,7 @@
 #include "hmi_bridge/traces/text_literal.hpp"
 #include "projects/expressions/constant.hpp"
 #include "projects/json/fields.hpp"
+#include "scheduler/events.hpp"
 
 namespace lockstep {
 namespace {
@@ -34,10 +35,37 @@ Judgement judged(const Expectation& expectation, std::int64_t at) {
   return result;
 }
 
+/// What happens in the controller, for as long as this lives.
+class ToldEvents {
+ public:
+  ToldEvents(Controller& controller, const std::function<void(const TraceEvent&)>& tell)
+      : controller_(controller), tell_(tell), texts_(controller) {
+    if (!tell) return;
+    controller.events = &queue_;
+    controller.tell_jobs();
+  }
+  ~ToldEvents() {
+    if (tell_) controller_.events = nullptr;
+  }
+  ToldEvents(const ToldEvents&) = delete;
+  ToldEvents& operator=(const ToldEvents&) = delete;
+
+  void take() {
+    for (; queue_.readable() != 0; queue_.pop(1)) tell_(texts_.of(queue_.event(0), queue_.lost()));
+  }
+
+ private:
+  Controller& controller_;
+  const std::function<void(const TraceEvent&)>& tell_;
+  EventQueue queue_;
+  EventTexts texts_;
+};
+
 }  // namespace
 
-std::vector<Judgement> judge(Project& project) {
+std::vector<Judgement> judge(Project& project, const std::function<void(const TraceEvent&)>& tell) {
   Controller& controller = *project.controller;
+  ToldEvents events(controller, tell);
   const Expectations& expectations = project.expectations;
   std::vector<Judgement> judgements;
   for (const Expectation& expectation : expectations.list) judgements.push_back({&expectation});
@@ -51,6 +79,7 @@ std::vector<Judgement> judge(Project& project) {
   while (controller.now() < expectations.duration || next != open.end()) {
     time = controller.now();
     controller.tick();
+    events.take();
     for (; next != open.end() && *(*next)->expectation->at <= time; ++next)
       **next = judged(*(*next)->expectation, time);
   }

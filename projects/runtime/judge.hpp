@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "hmi_bridge/traces/event.hpp"
 #include "projects/loader/project.hpp"
 
 namespace lockstep {
@@ -18,7 +20,8 @@ struct Judgement {
 
 /// Simulates a project that has just been loaded for its duration, and looks at its expectations. The
 /// judgements are in their order and point into the project. Allocates; not for the thread of a cycle.
-std::vector<Judgement> judge(Project& project);
+/// @param tell is given each alarm and each event of a job, as they come; empty: nobody asks
+std::vector<Judgement> judge(Project& project, const std::function<void(const TraceEvent&)>& tell = {});
 
 /// What an expectation is called: its text, or what is written.
 std::string title_of(const Expectation& expectation);

@@ -37,7 +37,7 @@ void RunSurroundings::start_studio() {
   studio_server_ = std::make_unique<StudioServer>(std::move(wanted), *studio_);
   if (const std::string error = studio_server_->start(); !error.empty())
     throw CouldNotStart(named("studio") + error);
-  messages_.inform("studio on http://" + to_string(studio_server_->endpoint()) + "/api");
+  messages_.inform("studio on http://" + to_string(studio_server_->endpoint()) + "/");
 }
 
 }  // namespace lockstep

@@ -30,6 +30,7 @@ std::int32_t function_parameter(std::int32_t input) noexcept {
 
 Reply DeviceCommands::begin(Command command, const std::int32_t* arguments, aposs::Arrays& arrays) noexcept {
   Reply reply = motion(command, arguments);
+  if (reply.kind == Reply::Kind::kRefused) reply = following(command, arguments);
   if (reply.kind == Reply::Kind::kRefused) reply = reading(command, arguments);
   return reply.kind == Reply::Kind::kRefused ? keeping(command, arguments, arrays) : reply;
 }
@@ -93,6 +94,63 @@ Reply DeviceCommands::motion(Command command, const std::int32_t* arguments) noe
   }
 }
 
+/// What has to do with the master.
+Reply DeviceCommands::following(Command command, const std::int32_t* arguments) noexcept {
+  switch (command) {
+    case Command::kSyncv:
+      return done(device_.follow(mco305::SyncMode::kVelocity));
+    case Command::kSyncp:
+      return done(device_.follow(mco305::SyncMode::kPosition));
+    case Command::kSyncm:
+      return synchronize_by_markers();
+    case Command::kDefSyncorigin:
+      device_.define_sync_origin(arguments[0], arguments[1]);
+      return Reply::done();
+    case Command::kMovesyncorigin:
+      device_.move_sync_origin(arguments[0]);
+      return Reply::done();
+    case Command::kSyncstatclr:
+      device_.clear_sync_status(arguments[0]);
+      return Reply::done();
+    case Command::kDefmorigin:
+      device_.master().set_origin(0);
+      return Reply::done();
+    case Command::kSetmorigin:
+      device_.master().set_origin(arguments[0]);
+      return Reply::done();
+    case Command::kPulsacc:
+      device_.master().set_acceleration(arguments[0]);
+      return Reply::done();
+    case Command::kPulsvel:
+      device_.turn_own_master(arguments[0]);
+      return Reply::done();
+    case Command::kSetSysvar:
+      return device_.set_system_variable(arguments[0], arguments[1])
+                 ? Reply::done()
+                 : Reply::failed(mco305::kUnknownParameter);
+    case Command::kMapos:
+      return Reply::done(device_.master().shown());
+    case Command::kMipos:
+      return Reply::done(device_.master().shown_latch());
+    case Command::kMavel:
+      return Reply::done(device_.master_velocity());
+    case Command::kSyncerr:
+      return Reply::done(device_.sync_error());
+    case Command::kSyncstat:
+      return Reply::done(device_.sync_status());
+    default:
+      return Reply::refused();
+  }
+}
+
+/// Of the ways to start only that along a curve of its own is not built.
+Reply DeviceCommands::synchronize_by_markers() noexcept {
+  const std::int32_t start = device_.parameters()[mco305::kSyncMStart];
+  constexpr std::int32_t kLast = 6, kLater = 1000;
+  const bool known = (start >= 0 && start <= kLast) || (start >= kLater && start <= kLater + kLast);
+  return known ? done(device_.follow(mco305::SyncMode::kMarkers)) : Reply::refused();
+}
+
 Reply DeviceCommands::reading(Command command, const std::int32_t* arguments) noexcept {
   std::int32_t value = 0;
   switch (command) {
@@ -111,6 +169,7 @@ Reply DeviceCommands::reading(Command command, const std::int32_t* arguments) no
     case Command::kStat:
       return Reply::done(device_.status());
     case Command::kSysvar:
+      if (machine_ != nullptr) device_.set_program_line(static_cast<std::int32_t>(machine_->place().line));
       if (device_.system_variable(arguments[0], value)) return Reply::done(value);
       return Reply::failed(mco305::kUnknownParameter);
     case Command::kGet:
@@ -240,12 +299,22 @@ void DeviceCommands::give_up(Command) noexcept {
 }
 
 bool DeviceCommands::level(aposs::EdgeSource source, std::int32_t number) noexcept {
-  return source == aposs::EdgeSource::kInput && device_.io().input(number);
+  switch (source) {
+    case aposs::EdgeSource::kInput:
+      return device_.io().input(number);
+    case aposs::EdgeSource::kStatbit:
+      return (static_cast<std::uint32_t>(device_.flags()) >> (number - 1) & 1U) != 0;
+    case aposs::EdgeSource::kCombit:
+      break;
+  }
+  return false;
 }
 
 aposs::PositionReading DeviceCommands::position(aposs::PositionSource source) noexcept {
+  constexpr std::int64_t kTurn = std::int64_t{1} << 31;
+  if (source == aposs::PositionSource::kMapos) return {device_.master().shown(), kTurn};
   if (source != aposs::PositionSource::kApos) return {};
-  return {device_.actual_units(), std::int64_t{1} << 31};
+  return {device_.actual_units(), kTurn};
 }
 
 }  // namespace lockstep

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scheduler/aposs/device.hpp"
+#include "scheduler/aposs/machine.hpp"
 #include "scheduler/mco305/eeprom.hpp"
 #include "tech_objects/mco305/device.hpp"
 
@@ -15,6 +16,9 @@ namespace lockstep {
 class DeviceCommands final : public aposs::Device {
  public:
   DeviceCommands(mco305::Device& device, Eeprom& eeprom) : device_(device), eeprom_(eeprom) {}
+
+  /// Whose lines SYSVAR[33] tells.
+  void watch(const aposs::Machine& machine) noexcept { machine_ = &machine; }
 
   std::int64_t milliseconds() noexcept override { return device_.milliseconds(); }
   aposs::Reply begin(aposs::Command command, const std::int32_t* arguments,
@@ -38,6 +42,8 @@ class DeviceCommands final : public aposs::Device {
 
  private:
   aposs::Reply motion(aposs::Command command, const std::int32_t* arguments) noexcept;
+  aposs::Reply following(aposs::Command command, const std::int32_t* arguments) noexcept;
+  aposs::Reply synchronize_by_markers() noexcept;
   aposs::Reply reading(aposs::Command command, const std::int32_t* arguments) noexcept;
   aposs::Reply set(std::int32_t number, std::int32_t value) noexcept;
   aposs::Reply link(const std::int32_t* arguments) noexcept;
@@ -46,6 +52,7 @@ class DeviceCommands final : public aposs::Device {
 
   mco305::Device& device_;
   Eeprom& eeprom_;
+  const aposs::Machine* machine_ = nullptr;
   std::array<int, 8> raised_{};
   std::size_t raised_count_ = 0;
   std::uint32_t unheard_ = 0;

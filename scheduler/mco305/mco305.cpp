@@ -5,24 +5,35 @@
 #include <utility>
 
 #include "scheduler/aposs/printed_line.hpp"
+#include "tech_objects/profile/fine_interpolation.hpp"
 
 namespace lockstep {
 namespace {
 
+constexpr double kStep = 1e-3;  // [s]
 constexpr int kOtherArrays = 170;
 constexpr std::int32_t kAsThereIs = -2;  // of PRGPAR: the program has not set it
 
 }  // namespace
 
 Mco305::Mco305(std::string object_name, DB_ANY object_number)
-    : TechnologyObject(ObjectKind::MCO_305, std::move(object_name), object_number) {}
+    : LeadingObject(ObjectKind::MCO_305, std::move(object_name), object_number) {
+  commands_.watch(machine_);
+}
 
 /// May allocate: afterwards no start of a program does.
-void Mco305::configure(double servo_period, int) {
-  constexpr double kStep = 1e-3;  // [s]
+void Mco305::configure(double servo_period, int ratio) {
   ticks_per_step_ = std::max(1, static_cast<int>(std::lround(kStep / servo_period)));
   tick_ = ticks_per_step_ - 1;
+  if (master.follows != nullptr) load_.watch(*master.follows, servo_period, ratio);
+  settings.has_master =
+      master.follows != nullptr || master.signal != nullptr || master.encoder_output_of != nullptr;
   device_.configure(settings, servo_period);
+  modulo_ = {};
+  configure_leading(servo_period * ratio, extrapolation_);
+  reset_leading(actual_position());
+  setpoint_ = last_setpoint_ = step_ = last_step_ = {actual_position(), 0.0, 0.0};
+  actual_ = last_actual_ = actual_position().value;
   machine_.set_time_interrupts(time_interrupts);
   share_texts();
   for (DeviceProgram& program : programs) {
@@ -87,11 +98,77 @@ void Mco305::start(DeviceProgram& program) noexcept {
   if (program.fault != 0) machine_.raise(program.fault);
 }
 
-void Mco305::servo(std::int64_t) noexcept {
+/// In its user units, on the line of its counter [u].
+double Mco305::units_of(double counts) const noexcept {
+  const mco305::UserUnit& unit = device_.unit();
+  return static_cast<double>(unit.sign) * counts * static_cast<double>(unit.denominator) /
+         static_cast<double>(unit.numerator);
+}
+
+DoubleDouble Mco305::measured_line() const noexcept {
+  const mco305::UserUnit& unit = device_.unit();
+  return to_double_double(device_.actual_position()) * static_cast<double>(unit.sign * unit.denominator) /
+         static_cast<double>(unit.numerator);
+}
+
+/// Another device is served first, so that its values are those of this tick.
+void Mco305::turn_master(std::int64_t now) noexcept {
+  const auto serve = [now](LeadingObject& object) noexcept {
+    if (object.kind == ObjectKind::MCO_305) object.servo(now);
+  };
+  if (master.signal != nullptr) {
+    signal_ += static_cast<DINT>(static_cast<UDINT>(*master.signal) - static_cast<UDINT>(last_signal_));
+    last_signal_ = *master.signal;
+    return device_.master().turn(static_cast<double>(signal_));
+  }
+  if (master.encoder_output_of != nullptr) {
+    serve(*master.encoder_output_of);
+    const auto& other = static_cast<const Mco305&>(*master.encoder_output_of);
+    return device_.master().turn(static_cast<double>(other.device_.master().own().position()));
+  }
+  if (master.follows == nullptr) return;
+  serve(*master.follows);
+  load_.servo();
+  device_.master().turn((load_.line() * master.counts / master.units).rounded());
+}
+
+void Mco305::before_axes() noexcept {
+  if (master.follows != nullptr) load_.interpolated();
+  if (!leads) return;
+  position_controlled_ = true;
+  power_state_ = device_.controlled() ? PowerState::on : PowerState::off;
+  // Between two steps it goes from the last one to this.
+  const double part = static_cast<double>(tick_ + 1) / ticks_per_step_;
+  last_setpoint_ = setpoint_;
+  setpoint_ = step_;
+  if (tick_ + 1 != ticks_per_step_) {
+    const FineSetpoint fine = fine_setpoint(step_.position.value - last_step_.position.value,
+                                            last_step_.velocity, step_.velocity, kStep, part);
+    setpoint_.position.value = last_step_.position.value + fine.distance;
+    setpoint_.velocity = fine.velocity;
+  }
+  if (!leads_by_actual_value()) return;
+  const double moved = actual_ - last_actual_;
+  extrapolate({0, last_actual_ + moved * part}, moved / kStep, extrapolation_);
+}
+
+void Mco305::servo(std::int64_t now) noexcept {
+  if (now == served_) return;
+  served_ = now;
+  turn_master(now);
   program_due_ = ++tick_ == ticks_per_step_;
   if (program_due_) tick_ = 0;
   device_.servo(program_due_);
-  if (program_due_) show();
+  if (!program_due_) return;
+  if (leads) {
+    last_actual_ = actual_;
+    actual_ = actual_position().value;
+    last_step_ = step_;
+    step_.position.value = units_of(device_.led_position());
+    step_.velocity = units_of(device_.set_velocity_now()) / kStep;
+    step_.acceleration = (step_.velocity - last_step_.velocity) / kStep;
+  }
+  show();
 }
 
 /// Without a program the device's errors are its own.
@@ -202,6 +279,11 @@ void Mco305::show() noexcept {
   read.APOS = device_.actual_units();
   read.CPOS = device_.set_units();
   read.IPOS = device_.latched_units();
+  read.MAPOS = device_.master().shown();
+  read.MIPOS = device_.master().shown_latch();
+  read.MAVEL = device_.master_velocity();
+  read.SYNCERR = device_.sync_error();
+  read.SYNCSTAT = device_.sync_status();
   read.TRACKERR = device_.following_error();
   read.AVEL = device_.velocity_units();
   read.AXEND = device_.axis_end();

@@ -10,7 +10,8 @@
 #include "scheduler/mco305/eeprom.hpp"
 #include "tech_objects/data_blocks/mco305.hpp"
 #include "tech_objects/mco305/device.hpp"
-#include "tech_objects/objects/technology_object.hpp"
+#include "tech_objects/objects/leading_object.hpp"
+#include "tech_objects/objects/load_position.hpp"
 
 namespace lockstep {
 
@@ -23,9 +24,17 @@ struct DeviceProgram {
   int fault = 0;                   ///< that it raises when it starts: its arrays do not fit the others'
 };
 
+/// What turns the master encoder of a device: one of the three, or nothing.
+struct DeviceMaster {
+  LeadingObject* follows = nullptr;            ///< an axis, an encoder, a proxy or a device
+  const DINT* signal = nullptr;                ///< a tag that counts [qc], and wraps
+  LeadingObject* encoder_output_of = nullptr;  ///< a device: its virtual master
+  double counts = 1.0, units = 1.0;  ///< of what it follows: so many qc for so many user units, both not 0
+};
+
 /// Steps every millisecond, whatever the servo cycle: in each tick of so many, so that of ticks that are left
 /// out neither its setpoint nor its time passes. Thread: that of the cycle, but for what says otherwise.
-class Mco305 final : public TechnologyObject {
+class Mco305 final : public LeadingObject {
  public:
   Mco305(std::string object_name, DB_ANY object_number);
 
@@ -36,6 +45,8 @@ class Mco305 final : public TechnologyObject {
   std::int32_t time_interrupts = 1;  ///< [ms]
   bool repeats = true;               ///< the program that starts by itself begins anew when it has ended
   Eeprom eeprom;
+  DeviceMaster master;
+  bool leads = false;  ///< an axis or a device follows it
   mco305::ParameterValues& parameters() noexcept { return device_.parameters(); }
 
   Mco305Data data;
@@ -43,10 +54,17 @@ class Mco305 final : public TechnologyObject {
   void* start_values() noexcept override { return &data; }
   void configure(double servo_period, int ratio) override;
   bool takes_part(Phase phase) const noexcept override {
-    return phase == Phase::servo || phase == Phase::programs;
+    return phase == Phase::servo || phase == Phase::programs ||
+           (phase == Phase::before_axes && (leads || master.follows != nullptr));
   }
   void servo(std::int64_t now) noexcept override;
+  /// Shows axes that follow it where it is: by the position on its counter, which no zero point steps.
+  void before_axes() noexcept override;
   void run_program(std::int64_t now) noexcept override;
+  AxisPosition actual_position() const noexcept override { return {0, measured_line().rounded()}; }
+  bool measured_in_servo() const noexcept override { return true; }
+  DoubleDouble measured_line() const noexcept override;
+  bool leading_value_stands() const noexcept override { return setpoint_.velocity == 0.0; }
   /// A printed line with an error is so many lines and errors that are lost.
   bool take_note(ProgramNote& note) noexcept override;
   void take_line(std::string& line) override;
@@ -71,6 +89,8 @@ class Mco305 final : public TechnologyObject {
   void take_device_errors() noexcept;
   void show() noexcept;
   void share_texts();
+  void turn_master(std::int64_t now) noexcept;
+  double units_of(double counts) const noexcept;
 
   mco305::Device device_;
   DeviceCommands commands_{device_, eeprom};
@@ -79,6 +99,13 @@ class Mco305 final : public TechnologyObject {
   const DeviceProgram* current_ = nullptr;
   std::uint32_t shown_version_ = 0;
   bool program_due_ = false;
+  std::int64_t served_ = -1;  // [ns] the last servo tick
+  LoadPosition load_;         // of what it follows
+  std::int64_t signal_ = 0;   // on a line [qc]
+  DINT last_signal_ = 0;
+  TO_Struct_Extrapolation extrapolation_{};
+  Setpoint step_, last_step_;                // as leading value, at the last two steps
+  double actual_ = 0.0, last_actual_ = 0.0;  // [u]
   bool start_input_ = false, clear_input_ = false, continue_input_ = false;
   bool start_rises_ = false, continue_rises_ = false;
   bool running_ = false;      // the program's end has not been seen

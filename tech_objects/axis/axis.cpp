@@ -36,6 +36,7 @@ void Axis::configure(double servo_period, int ratio) {
 void Axis::take_start_values() noexcept {
   const bool simulated = data.Simulation.Mode == 1 && !is_virtual();
   has_drive_ = !is_virtual() && !simulated;
+  always_in_full_ = has_drive_ || never_plain;
   set_bit(data.StatusWord, StatusBit::AxisSimulation, simulated);
   modulo_ = {data.Modulo.Enable, data.Modulo.Length, data.Modulo.StartValue};
   // Without a position it may turn for ever.

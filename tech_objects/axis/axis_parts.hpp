@@ -68,7 +68,7 @@ class AxisParts : public ConfiguredAxis {
   /// Whether a control panel has the axis in its hands: it has enabled it, or a job of it runs. Written by
   /// the program of the panel.
   BOOL control_panel{};
-  /// Has every cycle carried out in full, whatever happens in it: for comparisons.
+  /// Load time. Has every cycle carried out in full, whatever happens in it: for comparisons.
   bool never_plain = false;
   /// Raised when a coupling has changed, so that the order of the axes is built anew.
   bool coupling_changed = false;
@@ -79,6 +79,7 @@ class AxisParts : public ConfiguredAxis {
   AxisMotion motion_ = AxisMotion::none;
   bool homed_ = false;
   bool has_drive_ = false;
+  bool always_in_full_ = false;  // its cycles, since it has a drive, or for a comparison
   SoftwareLimits software_limits_;
   EmergencyRamp emergency_ramp_ = EmergencyRamp::none;
   bool control_switched_ = false;  // position control, in this tick

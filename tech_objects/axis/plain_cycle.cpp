@@ -1,6 +1,6 @@
 // The cycle of an axis at which nothing but its base motion happens: by far the most cycles of most axes. It
 // is `step` and `publish` without what they would find to be absent, so it has the same results, to the bit
-// (tests/scheduler/plain_cycle_test.cpp). There is one for each kind of base motion, complete in itself: what
+// (tests/tech_objects/axis/plain_cycle_test.cpp). There is one for each kind of base motion, complete in itself: what
 // it finds out at its begin it need not ask again when it publishes.
 #include <cmath>
 
@@ -34,8 +34,7 @@ void Axis::cycle() noexcept {
 /// they are hardly ever set, and a look at each would cost a branch.
 inline bool Axis::left_alone() const noexcept {
   const bool asked = additive_request.counts | additive_.in_use | control_panel | start_values_changed |
-                     data.PositionLimits_SW.Active | has_drive_ | leads_by_actual_value_ | provides_ |
-                     never_plain;
+                     data.PositionLimits_SW.Active | leads_specially_ | always_in_full_;
   return !asked && power.enable && has_position_ && simulation_request.owner == nullptr && !jobs_.lockable();
 }
 

@@ -10,6 +10,7 @@ namespace lockstep {
 
 struct Mco305ReadOuts {
   DINT APOS{}, CPOS{}, IPOS{}, TRACKERR{}, AVEL{}, AXEND{}, STAT{}, ERRNO{};
+  DINT MAPOS{}, MIPOS{}, MAVEL{}, SYNCERR{}, SYNCSTAT{};
   DINT SetPosition{}, ActualPosition{};  ///< SYSVAR 4097, 4096 [qc]
   DINT Reference{}, JerkState{};         ///< SYSVAR 4111, 4275
 };

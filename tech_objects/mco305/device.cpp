@@ -21,6 +21,10 @@ void Device::configure(const DeviceSettings& settings, double servo_period) {
     if (settings.inputs[i] != nullptr) wired_inputs_.push_back({i + 1, settings.inputs[i]});
   for (std::size_t i = 0; i < settings.outputs.size(); ++i)
     if (settings.outputs[i] != nullptr) wired_outputs_.push_back({i + 1, settings.outputs[i]});
+  master_.configure(settings.has_master, settings.master_marks);
+  track_.configure(settings.markers);
+  const DeviceFaults& faults = settings.faults;
+  looks_at_faults_ = faults.supply != nullptr || faults.output != nullptr || faults.master_encoder != nullptr;
   if (!parameters_.power_up()) raise(kParametersCorrupted);
   refresh();
   if (settings.has_drive) {
@@ -57,6 +61,9 @@ void Device::refresh() noexcept {
   control_.integral_time = std::max(p[kKILimTime], -kLargestPosition);
   control_.scale = settings_.controller_scale;
   io_.assign(p);
+  master_.refresh(p);
+  has_master_ = has_master_ || master_.present();
+  sync_.refresh(p, settings_.later_edition, velocity_maximum_);
   drive_sign_ = p[kPosDirection] % 2 == 0 ? -1.0 : 1.0;
 }
 
@@ -82,6 +89,7 @@ void Device::servo(bool step) noexcept {
   if (step) {
     ++now_;
     sample_inputs();
+    if (has_master_) step_master();
     if (mode_ == MotionMode::kHome) step_home();
     generate();
     if (virtual_) {
@@ -93,6 +101,7 @@ void Device::servo(bool step) noexcept {
     control();
     look_at_arrival();
     monitor();
+    if (has_master_) sync_.judge(actual_);
     positions_[static_cast<std::size_t>(now_) % kVelocityRing] = actual_;
     write_outputs();
   }
@@ -115,13 +124,30 @@ void Device::read_drive() noexcept {
 
 /// A zero pulse is met exactly, wherever in the tick it lies.
 void Device::latch(double from, double to) noexcept {
-  const auto& marks = settings_.drive.signals.zero_marks;
-  if (!marks || marker_type_ >= 2) return;
-  const auto mark = marks->between(from, to);
-  if (!mark) return;
   const double start = virtual_ ? 0.0 : settings_.drive.signals.start_position;
-  latched_ = counts_of(*mark - start + 0.5);
+  if (marker_type_ >= 2)
+    return track_.pass(from, to, [this, start](double place) { take_latch(counts_of(place - start)); });
+  const auto& marks = settings_.drive.signals.zero_marks;
+  if (!marks) return;
+  if (const auto mark = marks->between(from, to)) take_latch(counts_of(*mark - start + 0.5));
+}
+
+void Device::take_latch(std::int64_t place) noexcept {
+  latched_ = place;
   ++latches_;
+  if (mode_ == MotionMode::kFollow) sync_.take_slave_mark(static_cast<double>(place));
+}
+
+void Device::mark(double place) noexcept {
+  if (marker_type_ >= 2) take_latch(counts_of(place));
+}
+
+/// Of the markers of this millisecond those of the slave have been taken while its drive was read.
+void Device::step_master() noexcept {
+  master_.look_at_marker(io_.input(5));
+  master_.step();
+  if (mode_ != MotionMode::kFollow) sync_.end();
+  if (sync_.runs()) sync_.step(master_, actual_);
 }
 
 void Device::sample_inputs() noexcept {
@@ -141,8 +167,7 @@ void Device::sample_inputs() noexcept {
   const std::int32_t type = marker_type_;
   const bool marker = io_.input(6);
   if (type >= 2 && marker != last_marker_input_ && marker == (type == 2)) {
-    latched_ = actual_;
-    ++latches_;
+    take_latch(actual_);
   }
   last_marker_input_ = marker;
 }
@@ -152,6 +177,13 @@ void Device::generate() noexcept {
     // MOTOR OFF: the set position is where the axis is.
     if (!virtual_) profile_.stand(static_cast<double>(actual_));
     last_velocity_ = 0.0;
+    return;
+  }
+  if (mode_ == MotionMode::kFollow) {
+    const double before = profile_.state().position;
+    profile_.lead(sync_.set_point(actual_, !virtual_));
+    const FourSlopeState& now = profile_.state();
+    if (sync_.mode() == SyncMode::kVelocity) unled_ += now.position - before - now.velocity;
     return;
   }
   if (profile_time_ == 1 || now_ % profile_time_ == 0) profile_.step(static_cast<double>(profile_time_));
@@ -168,8 +200,10 @@ void Device::control() noexcept {
   }
   if (sampling_ != 1 && now_ % sampling_ != 0) return;
   const auto period = static_cast<double>(sampling_);
-  reference_ = controller_.step(control_, static_cast<double>(set_counts()), static_cast<double>(actual_),
-                                set.velocity, (set.velocity - last_velocity_) / period, period);
+  const bool by_velocity = mode_ == MotionMode::kFollow && sync_.mode() == SyncMode::kVelocity;
+  const double setpoint = by_velocity ? set.position : static_cast<double>(set_counts());
+  reference_ = controller_.step(control_, setpoint, static_cast<double>(actual_), set.velocity,
+                                (set.velocity - last_velocity_) / period, period);
   last_velocity_ = set.velocity;
 }
 
@@ -177,6 +211,10 @@ void Device::control() noexcept {
 void Device::look_at_arrival() noexcept {
   const bool ended = profile_.over() && profile_.state().velocity == 0.0;
   moving_ = on_ && !(ended && mode_ != MotionMode::kHome);
+  if (mode_ == MotionMode::kFollow) {
+    moving_ = on_ && profile_.state().velocity != 0.0;
+    return;
+  }
   if (mode_ == MotionMode::kStop && ended && brake_after_stop_) {
     brake_ = true;
     brake_after_stop_ = false;
@@ -209,6 +247,7 @@ void Device::monitor() noexcept {
     look_at_position_error();
     look_at_drive();
   }
+  if (looks_at_faults_) look_at_faults();
   if (!looks_at_inputs) return;
   const bool user_break = io_.active(InputFunction::kBreak);
   if (user_break && !break_input_) raise(kUserAbort);
@@ -250,6 +289,17 @@ void Device::look_at_drive() noexcept {
   if (parameters_[kStatusMonitoring] != 0 && (drive_actual_.fault || drive_actual_.silent) &&
       !pending_.has(kDriveNotReady))
     raise(kDriveNotReady);
+}
+
+void Device::look_at_faults() noexcept {
+  const auto present = [](const bool* tag) noexcept { return tag != nullptr && *tag; };
+  const auto report = [this](bool fault, int error) noexcept {
+    if (fault && !pending_.has(error)) raise(error);
+  };
+  const DeviceFaults& faults = settings_.faults;
+  report(parameters_[kExternalSupply] == 1 && present(faults.supply), kNoSupply);
+  report(present(faults.output), kOutputOverloaded);
+  report(parameters_[kMasterEncoderMonitoring] != 0 && present(faults.master_encoder), kEncoderError);
 }
 
 void Device::write_outputs() noexcept {
@@ -309,6 +359,7 @@ void Device::escape() noexcept {
   if (homing()) give_up_home();
   if (open_loop_ != 0) motor_off();
   stop(acceleration_maximum_, MotionMode::kStop);
+  master_.stop();
   const std::int32_t condition = parameters_[kEscCond];
   if (condition == 1 || condition == 2) io_.switch_all(condition == 2);
   brake_ = true;

@@ -11,12 +11,22 @@
 #include "tech_objects/drive/count_controller.hpp"
 #include "tech_objects/drive/drive.hpp"
 #include "tech_objects/mco305/inputs_outputs.hpp"
+#include "tech_objects/mco305/marker_track.hpp"
+#include "tech_objects/mco305/master_input.hpp"
+#include "tech_objects/mco305/synchronization.hpp"
 #include "tech_objects/mco305/units.hpp"
 #include "tech_objects/mco305_catalogue/errors.hpp"
 #include "tech_objects/mco305_catalogue/parameters.hpp"
 #include "tech_objects/profile/four_slope_profile.hpp"
 
 namespace lockstep::mco305 {
+
+/// What goes wrong at a device while the BOOL is TRUE; nullptr: nothing ever does.
+struct DeviceFaults {
+  const bool* supply = nullptr;          ///< the external 24 V are missing
+  const bool* output = nullptr;          ///< a digital output is overloaded
+  const bool* master_encoder = nullptr;  ///< the master encoder tells nothing
+};
 
 /// What a project says of a device.
 struct DeviceSettings {
@@ -26,10 +36,14 @@ struct DeviceSettings {
   double controller_scale = 1.0;  ///< of the parts of the position controller
   std::array<const bool*, InputsOutputs::kInputs> inputs{};  ///< tags; nullptr: not wired
   std::array<bool*, InputsOutputs::kOutputs> outputs{};
+  bool has_master = false;             ///< something turns its master encoder
+  MarkerTrackSettings markers{};       ///< that the sensor at input 6 sees [qc of the slave]
+  MarkerTrackSettings master_marks{};  ///< … at input 5 [qc of the master]
+  DeviceFaults faults{};
 };
 
 /// AXEND and what else a program sees of the motion.
-enum class MotionMode : std::uint8_t { kHold, kPosition, kSpeed, kStop, kHome };
+enum class MotionMode : std::uint8_t { kHold, kPosition, kSpeed, kStop, kHome, kFollow };
 
 /// One device. Thread: that of the cycle, but for `configure`. Errors are published numbers; 0: none.
 class Device {
@@ -65,6 +79,16 @@ class Device {
   void motor_stop() noexcept;
   void set_reference(std::int32_t reference) noexcept;  ///< OUTAN [1/0x4000 of full scale], after MOTOR OFF
   int go_on() noexcept;                                 ///< CONTINUE
+  /// SYNCV, SYNCP, SYNCM.
+  int follow(SyncMode mode) noexcept;
+  /// DEF SYNCORIGIN: a position of the master [qc] and of the slave [UU].
+  void define_sync_origin(std::int32_t master, std::int32_t slave) noexcept;
+  void move_sync_origin(std::int32_t by) noexcept { sync_.move_origin(by); }        ///< MOVESYNCORIGIN
+  void clear_sync_status(std::int32_t bits) noexcept { sync_.clear_status(bits); }  ///< SYNCSTATCLR
+  /// PULSVEL, with the acceleration of PULSACC.
+  void turn_own_master(std::int32_t hertz) noexcept;
+  MasterInput& master() noexcept { return master_; }
+  const MasterInput& master() const noexcept { return master_; }
   /// Whether the axis rests where it was told to: the end of POSA, POSR, MOTOR STOP, WAITAX.
   bool arrived() const noexcept { return arrived_; }
 
@@ -76,6 +100,7 @@ class Device {
   /// HOME, INDEX. They are over when `homing` is false; then `homing_error` says how.
   int begin_home(bool index_only) noexcept;
   bool homing() const noexcept { return mode_ == MotionMode::kHome; }
+  bool following() const noexcept { return mode_ == MotionMode::kFollow; }
   int homing_error() const noexcept { return home_.error; }
   void give_up_home() noexcept;
   /// How many zero pulses or markers have been latched: WAITNDX.
@@ -90,8 +115,17 @@ class Device {
   std::int32_t following_error() const noexcept;                                 ///< TRACKERR
   std::int32_t velocity_units() const noexcept;                                  ///< AVEL
   void set_velocity_window(std::int32_t milliseconds) noexcept;                  ///< _GETVEL
-  std::int32_t axis_end() const noexcept;                                        ///< AXEND
-  std::int32_t status() const noexcept;                                          ///< STAT
+  std::int32_t sync_error() const noexcept;                                      ///< SYNCERR
+  std::int32_t sync_status() const noexcept { return sync_.status(); }           ///< SYNCSTAT
+  std::int32_t master_velocity() const noexcept;                                 ///< MAVEL
+  /// The 32 flags of SYSVAR 4218, which STATBIT sees.
+  std::int32_t flags() const noexcept;
+  std::int32_t axis_end() const noexcept;  ///< AXEND
+  std::int32_t status() const noexcept;    ///< STAT
+  /// The line of its program, for SYSVAR[33].
+  void set_program_line(std::int32_t line) noexcept { program_line_ = line; }
+  /// SYSVAR[index] = value. @return false: it is none that can be written, or not now
+  bool set_system_variable(std::int32_t index, std::int32_t value) noexcept;
   /// SYSVAR. @return whether it is one of those that are there
   bool system_variable(std::int32_t index, std::int32_t& value) const noexcept;
   std::int32_t set_counts_shown() const noexcept { return shown_position(set_counts() - origin_); }
@@ -105,6 +139,12 @@ class Device {
   bool open_loop() const noexcept { return open_loop_ != 0; }
   bool moving() const noexcept { return moving_; }
   MotionMode mode() const noexcept { return mode_; }
+  /// The set position without the steps that it makes where the controller is switched off [qc].
+  double led_position() const noexcept { return set_position() - unled_; }
+  /// An external marker of the slave at a place of its counter [qc], as by input 6.
+  void mark(double place) noexcept;
+  std::int64_t actual_position() const noexcept { return actual_; }  ///< [qc] counter
+  const UserUnit& unit() const noexcept { return unit_; }
   /// [qc] True place of the machine, on its own scale.
   double machine_position() const noexcept { return machine_; }
 
@@ -143,6 +183,8 @@ class Device {
   void refresh() noexcept;
   void read_drive() noexcept;
   void latch(double from, double to) noexcept;
+  void take_latch(std::int64_t place) noexcept;
+  void step_master() noexcept;
   void sample_inputs() noexcept;
   void generate() noexcept;
   void control() noexcept;
@@ -151,6 +193,8 @@ class Device {
   void look_at_limits() noexcept;
   void look_at_position_error() noexcept;
   void look_at_drive() noexcept;
+  void look_at_faults() noexcept;
+  bool sync_variable(std::int32_t index, std::int32_t& value) const noexcept;
   void write_outputs() noexcept;
   void write_drive() noexcept;
 
@@ -174,7 +218,6 @@ class Device {
   std::int64_t zero() const noexcept { return origin_ + temporary_; }
   std::int64_t set_counts() const noexcept;
   std::int32_t shown_units(std::int64_t counter) const noexcept;
-  std::int32_t flags() const noexcept;
   std::int64_t moved_in_window() const noexcept;
 
   // What every step needs stands first.
@@ -191,6 +234,8 @@ class Device {
   std::int64_t profile_time_ = 1, sampling_ = 1;  // PROFTIME, TIMER [ms]
   std::int64_t position_error_ = 20'000;          // POSERR [qc]
   bool checks_limits_ = false;
+  bool has_master_ = false;  // something turns here
+  bool looks_at_faults_ = false;
   double drive_sign_ = 1.0;  // of the reference: POSDRCT
   bool brake_ = false, brake_after_stop_ = false;
   std::int32_t open_loop_ = 0;  // OUTAN
@@ -199,6 +244,9 @@ class Device {
   CountControllerSettings control_;
   InputsOutputs io_;
   PendingErrors pending_;
+  MasterInput master_;
+  Synchronization sync_;
+  double unled_ = 0.0;  // what set positions have stepped [qc]
 
   DeviceSettings settings_;
   struct WiredInput {
@@ -212,6 +260,7 @@ class Device {
   std::vector<WiredInput> wired_inputs_;
   std::vector<WiredOutput> wired_outputs_;
   std::int32_t marker_type_ = 0;  // SYNCMTYPS
+  MarkerTrack track_;
   std::unique_ptr<Drive> drive_;
   DriveActual drive_actual_{};
   DoubleDouble last_drive_position_{};
@@ -220,6 +269,7 @@ class Device {
   double acceleration_maximum_ = 1.0;                                   // [qc/ms²]
   std::int32_t velocity_ = -1, acceleration_ = -1, deceleration_ = -1;  // below 0: as by default
   std::int32_t speed_ = 0;
+  std::int32_t program_line_ = 0;
   std::int64_t origin_ = 0, temporary_ = 0, limits_origin_ = 0;  // [qc]
   bool homed_ = false;
   Home home_;

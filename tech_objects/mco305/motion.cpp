@@ -145,6 +145,7 @@ void Device::motor_on() noexcept {
   controller_.reset();
   if (drive_ != nullptr) {
     drive_->enable(true);
+    unled_ += static_cast<double>(actual_) - profile_.state().position;
     profile_.stand(static_cast<double>(actual_));
   } else {
     profile_.stand(profile_.state().position);
@@ -159,6 +160,7 @@ void Device::motor_off() noexcept {
   mode_ = MotionMode::kHold;
   arrived_ = true;
   reference_ = 0.0;
+  if (!virtual_) unled_ += static_cast<double>(actual_) - profile_.state().position;
   profile_.stand(virtual_ ? profile_.state().position : static_cast<double>(actual_));
   if (drive_ != nullptr) drive_->enable(false);
 }
@@ -183,6 +185,29 @@ int Device::go_on() noexcept {
   arrived_ = false;
   move_to(static_cast<double>(target_));
   return 0;
+}
+
+int Device::follow(SyncMode mode) noexcept {
+  int error = 0;
+  if (!may_move(error)) return error;
+  if (!on_) return kErrorNotReset;
+  has_master_ = true;
+  sync_.begin(mode, state(), limits(), master_);
+  mode_ = MotionMode::kFollow;
+  interrupted_ = MotionMode::kHold;
+  arrived_ = false;
+  was_reset_ = false;
+  return 0;
+}
+
+void Device::turn_own_master(std::int32_t hertz) noexcept {
+  master_.set_velocity(hertz);
+  has_master_ = true;
+}
+
+void Device::define_sync_origin(std::int32_t master, std::int32_t slave) noexcept {
+  sync_.define_origin(master_.origin() + master,
+                      static_cast<double>(within_reach(unit_.counts(slave)) + zero()));
 }
 
 /// The limits stay where they are on the machine.

@@ -7,6 +7,8 @@
 namespace lockstep::mco305 {
 namespace {
 
+constexpr int kFirstSyncFlag = 24;
+
 std::int32_t integer(double value) noexcept {
   const double rounded = std::floor(value + 0.5);
   return static_cast<std::int32_t>(std::clamp(rounded, -2147483648.0, 2147483647.0));
@@ -68,10 +70,11 @@ std::int32_t Device::status() const noexcept {
   return static_cast<std::int32_t>(top << 24 | second << 16 | lowest);
 }
 
-// SYSVAR 4218.
+// SYSVAR 4218: those of SYNCSTAT are its top ones.
 std::int32_t Device::flags() const noexcept {
   return (moving_ ? 1 | 1 << 8 : 0) | (arrived_ ? 4 : 0) | (latches_ != 0 ? 8 : 0) |
-         (pending_.has(kPositionError) ? 32 : 0) | (on_ ? 0 : 128) | (controller_.idle() ? 8 << 8 : 0);
+         (pending_.has(kPositionError) ? 32 : 0) | (on_ ? 0 : 128) | (controller_.idle() ? 8 << 8 : 0) |
+         sync_.status() << kFirstSyncFlag;
 }
 
 bool Device::system_variable(std::int32_t index, std::int32_t& value) const noexcept {
@@ -90,6 +93,9 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
       return true;
     case 22:
       value = static_cast<std::int32_t>(now_ & 0x7FFFFFFF);
+      return true;
+    case 33:
+      value = program_line_;
       return true;
     case 4096:
       value = shown_position(actual_ - origin_);
@@ -163,8 +169,92 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
       return true;
     }
     default:
+      return sync_variable(index, value);
+  }
+}
+
+/// Those of the master and of synchronizing.
+bool Device::sync_variable(std::int32_t index, std::int32_t& value) const noexcept {
+  const auto held = [&value](std::int64_t whole) noexcept {
+    value = static_cast<std::int32_t>(std::clamp<std::int64_t>(whole, -2147483648LL, 2147483647LL));
+    return true;
+  };
+  const auto rounded = [&value](double real) noexcept {
+    value = integer(real);
+    return true;
+  };
+  const auto share = [&rounded](double spacing, std::int32_t nominal) noexcept {
+    return rounded(nominal > 0 ? 100.0 * spacing / static_cast<double>(nominal) : 0.0);
+  };
+  const MarkerFilter& filter = sync_.filter();
+  switch (index) {
+    case 4100:
+      return held(master_.moved_in(velocity_window_));
+    case 4105:
+      return held(master_.shown());
+    case 4106:
+      return held(master_.shown_latch());
+    case 4108:
+      return held(master_.moved());
+    case 4109:
+      return held(master_.own().frequency());
+    case 4110:
+      return held(master_.own().active() ? 1 : 0);
+    case 4117:
+      return held(master_.own().acceleration() * 1000);
+    case 4118:
+      return held(master_.own().target());
+    case 4128:
+      return held(master_.real_velocity());
+    case 4238:
+      return rounded(filter.distance());
+    case 4241:
+      return rounded(filter.start_rest());
+    case 4242:
+      return rounded(filter.correction());
+    case 4243:
+      return rounded(std::abs(sync_.master_spacing()));
+    case 4245:
+      return rounded(filter.unfiltered());
+    case 4246:
+      return share(std::abs(sync_.master_spacing()), parameters_[kSyncMPulsM]);
+    case 4247:
+      return share(std::abs(sync_.slave_spacing()), parameters_[kSyncMPulsS]);
+    case 4248:
+      return rounded(filter.start_share());
+    case 4249:
+      return rounded(sync_.slave_spacing());
+    case 4250:
+      return rounded(filter.markers());
+    case 4251:
+      return rounded(filter.constant());
+    case 4252:
+      return rounded(filter.errors());
+    case 4253:
+      return rounded(filter.filtered_errors());
+    default:
       return false;
   }
+}
+
+bool Device::set_system_variable(std::int32_t index, std::int32_t value) noexcept {
+  constexpr std::int32_t kMasterPosition = 4105;
+  if (index != kMasterPosition || !master_.move_to(value)) return false;
+  has_master_ = true;
+  return true;
+}
+
+// [UU]
+std::int32_t Device::sync_error() const noexcept {
+  return shown_position(unit_.units(shown_position(sync_.error())));
+}
+
+// [qc/s]
+std::int32_t Device::master_velocity() const noexcept {
+  const std::int64_t window = std::max<std::int64_t>(std::min(velocity_window_, now_), 1);
+  constexpr std::int64_t kFar = std::int64_t{1} << 40;
+  return static_cast<std::int32_t>(std::clamp<std::int64_t>(
+      std::clamp(master_.moved_in(window), -kFar, kFar) * 1000 / window, -2147483648LL, 2147483647LL));
 }
 
 bool Device::get_parameter(std::int32_t number, std::int32_t& value) const noexcept {
@@ -194,6 +284,21 @@ bool Device::get_parameter(std::int32_t number, std::int32_t& value) const noexc
       return true;
     case 3461:
       value = status();
+      return true;
+    case 3452:
+      value = master_.shown();
+      return true;
+    case 3454:
+      value = master_.shown_latch();
+      return true;
+    case 3457:
+      value = sync_error();
+      return true;
+    case 3459:
+      value = master_velocity();
+      return true;
+    case 3460:
+      value = sync_status();
       return true;
     case 3470:
       value = pending_.alarm_word(1);

@@ -36,6 +36,8 @@ enum ErrorNumber : int {
   kParametersCorrupted = 116,
   kUserAbort = 119,
   kHardwareLimit = 125,
+  kNoSupply = 150,
+  kOutputOverloaded = 154,
   kLinkFailed = 155,
   kArrayBound = 171,
   kWaitIndexTimeout = 179,

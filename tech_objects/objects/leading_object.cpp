@@ -63,7 +63,7 @@ void LeadingObject::shift_leading(double by) noexcept {
 }
 
 void LeadingObject::provide_leading_value() {
-  provides_ = true;
+  provides_ = leads_specially_ = true;
   if (provided_ == nullptr) provided_ = std::make_unique<ProvidedValue>();
 }
 

@@ -34,6 +34,7 @@ class LeadingObject : public TechnologyObject, public LeadingSource {
   bool enable_removed_ = false;
   bool leads_by_actual_value_ = false;
   bool provides_ = false;
+  bool leads_specially_ = false;  // one of these two
   const bool has_position_ = kind != ObjectKind::TO_SpeedAxis;
 
  public:
@@ -76,7 +77,7 @@ class LeadingObject : public TechnologyObject, public LeadingSource {
   void shift_leading(double by) noexcept;
 
   /// Load time: somebody follows the actual value, which has to be extrapolated from then on.
-  void lead_by_actual_value() noexcept { leads_by_actual_value_ = true; }
+  void lead_by_actual_value() noexcept { leads_by_actual_value_ = leads_specially_ = true; }
   /// Load time: other controllers, or axes behind a delay, follow what it provides from then on.
   void provide_leading_value();
   bool provides() const noexcept { return provides_; }

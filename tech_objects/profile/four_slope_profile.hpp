@@ -52,6 +52,12 @@ class FourSlopeProfile {
  public:
   /// Stands at a position.
   void stand(double position) noexcept;
+  /// Is where somebody else leads it, until it is told to move by itself.
+  void lead(const FourSlopeState& to) noexcept {
+    count_ = current_ = 0;
+    now_ = end_ = to;
+    phase_ = SlopePhase::constant;
+  }
   /// From a state to a velocity, cut to the limits, which is then kept.
   void to_velocity(const FourSlopeState& from, double velocity, const FourSlopeLimits& limits) noexcept;
   /// From a state to rest at a target, which is met exactly.

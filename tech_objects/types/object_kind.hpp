@@ -43,7 +43,7 @@ inline constexpr ObjectKinds kAnyCam = ObjectKind::TO_Cam | ObjectKind::TO_Cam_1
 /// What has a position of its own: it is homed, measured and switches.
 inline constexpr ObjectKinds kPositioned = kAnyAxis | ObjectKind::TO_ExternalEncoder;
 /// What may lead a following axis.
-inline constexpr ObjectKinds kLeading = kPositioned | ObjectKind::TO_LeadingAxisProxy;
+inline constexpr ObjectKinds kLeading = kPositioned | ObjectKind::TO_LeadingAxisProxy | ObjectKind::MCO_305;
 inline constexpr ObjectKinds kMeasuringInput = static_cast<ObjectKinds>(ObjectKind::TO_MeasuringInput);
 inline constexpr ObjectKinds kOutputCam = static_cast<ObjectKinds>(ObjectKind::TO_OutputCam);
 inline constexpr ObjectKinds kCamTrack = static_cast<ObjectKinds>(ObjectKind::TO_CamTrack);

@@ -156,10 +156,10 @@ class Report {
   }
 
   void count(Machine& machine) const {
-    constexpr int kCycles = 1000;  // more than a positioning takes
+    const int cycles = options_.quick ? 20 : 1000;  // the latter is more than a positioning takes
     const MachinePlan& plan = machine.plan();
-    const auto instructions = static_cast<double>(count_instructions([&] { machine.run(kCycles); }));
-    const double per_axis = instructions / kCycles / plan.axes;
+    const auto instructions = static_cast<double>(count_instructions([&] { machine.run(cycles); }));
+    const double per_axis = instructions / cycles / plan.axes;
     if (options_.lines) return line(plan.name(), per_axis);
     head(plan);
     std::printf(" %8.1f\n", per_axis);

@@ -55,6 +55,21 @@ TEST(Aposs, CheckTellsEveryProblemOfEveryFile) {
   EXPECT_EQ(lockstep({"aposs", "check", folder.file("none.m")}).status, 2);
 }
 
+TEST(Aposs, CheckKnowsTheParametersOfAnEdition) {
+  const Directory folder;
+  const std::string later = folder.write("q.m", "SET SYNCFFVEL 5\na = GET 33-32\nSET KPROP 1\n");
+  EXPECT_EQ(lockstep({"aposs", "check", later}).status, 0);
+  EXPECT_EQ(lockstep({"aposs", "check", later, "--firmware", "5.00"}).status, 0);
+  const Ended before = lockstep({"aposs", "check", later, "--firmware", "<5.00"});
+  EXPECT_EQ(before.status, 1);
+  EXPECT_NE(before.err.find(":1:5: 33-32 is of the later edition; allowed with firmware 5.00"),
+            std::string::npos)
+      << before.err;
+  EXPECT_NE(before.err.find(":2:9: 33-32 is of the later edition"), std::string::npos) << before.err;
+  EXPECT_EQ(before.err.find(":3:"), std::string::npos) << before.err;
+  EXPECT_EQ(lockstep({"aposs", "check", later, "--firmware", "4"}).status, 2);
+}
+
 TEST(Aposs, RunPrintsInVirtualTime) {
   const Directory folder;
   const std::string file = folder.write("p.m", kProgram);

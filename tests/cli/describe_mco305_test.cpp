@@ -56,7 +56,13 @@ TEST(DescribeMco305, TellsOfCommandsErrorsAndSystemVariables) {
   EXPECT_NE(described({"error", "118"})["not_raised"].get<std::string>(), "");
   EXPECT_EQ(described({"sysvar", "4097"})["unit"], "qc");
   EXPECT_EQ(lockstep({"describe", "sysvar", "5000"}).status, 1);
+  const Ended unknown = lockstep({"describe", "error", "104"});
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_NE(unknown.err.find("there is no error '104'; allowed: of an MCO_305 102, 103, 105"),
+            std::string::npos)
+      << unknown.err;
   EXPECT_EQ(lockstep({"describe", "error", "109999"}).status, 1);
+  EXPECT_EQ(lockstep({"describe", "error", "16#8026"}).out, lockstep({"describe", "16#8026"}).out);
 }
 
 TEST(DescribeMco305, HasWordsForEverything) {

@@ -1,10 +1,12 @@
 // lockstep run --studio, as a user calls it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "tests/cli/command_run.hpp"
+#include "tests/projects/studio_machine.hpp"
 
 namespace lockstep::studio_test {
 namespace {
@@ -47,6 +49,47 @@ TEST(Studio, IsRefusedWhereStrangersCouldLook) {
 TEST(Studio, NeedsAnEndpointThatIsOne) {
   EXPECT_EQ(lockstep({"run", kKnife, "--simulate", "--duration", "10ms", "--studio", "127.0.0.1"}).status, 2);
   EXPECT_EQ(lockstep({"run", kKnife, "--simulate", "--duration", "10ms", "--studio", "nowhere:0"}).status, 2);
+}
+
+TEST(Studio, EndsWhereItsPortIsTaken) {
+  const int taken = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  ASSERT_EQ(::bind(taken, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(::listen(taken, 1), 0);
+  ASSERT_EQ(::getsockname(taken, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  const std::string place = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  const Ended ended = lockstep({"run", kKnife, "--simulate", "--duration", "10ms", "--studio", place});
+  ::close(taken);
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_NE(ended.err.find(place), std::string::npos) << ended.err;
+}
+
+TEST(Studio, ExportsWhatATraceWritesToTheBit) {
+  const Directory folder;
+  const std::string file = folder.file("trace.csv");
+  const std::string signals = "Knife.Position,Conveyor.Velocity,gear.InSync,Knife.StatusWord,cuts";
+  ASSERT_EQ(lockstep({"run", kKnife, "--simulate", "--duration", "2s", "--signals", signals, "--trace", file})
+                .status,
+            0);
+  const std::string written = content(file);
+
+  test::StudioMachine machine(kKnife);
+  test::StudioPage page;
+  machine.session.opened(page);
+  machine.session.text(page, R"({"type":"hello"})");
+  machine.session.text(page, R"({"type":"subscribe","id":1,"paths":["Knife.Position","Conveyor.Velocity",
+    "gear.InSync","Knife.StatusWord","cuts"]})");
+  machine.run(1900);
+  const StudioAnswer answer = machine.ask("GET", "/api/traces/live/export", {{"signals", signals}});
+  ASSERT_EQ(answer.status, 200u) << answer.body;
+  EXPECT_EQ(answer.type, "text/csv; charset=utf-8");
+  const std::size_t head = answer.body.find('\n') + 1;
+  EXPECT_EQ(answer.body.substr(0, head), written.substr(0, written.find('\n') + 1));
+  EXPECT_GT(std::count(answer.body.begin(), answer.body.end(), '\n'), 900);
+  EXPECT_NE(written.find("\n" + answer.body.substr(head)), std::string::npos) << "row by row the same text";
 }
 
 }  // namespace

@@ -62,19 +62,19 @@ TEST(Tags, TellsWhatIsOnModbusAsCsv) {
   project["modbus"]["units"] = json::parse(
       R"([{"unit": 5, "map": [{"tag": "go", "table": "holding_register", "address": 3, "bit": 2},
                               {"tag": "speed", "table": "holding_register", "address": 4, "type": "INT",
-                               "scale": 0.5, "offset": -1},
+                               "scale": 0.5, "offset": -1, "min": -0.5, "max": 300.5},
                               {"diagnostic": "clients", "table": "input_register", "address": 9}]}])");
   const Ended ended = lockstep({"tags", folder.write("project.json", project.dump()), "--csv"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_TRUE(ended.out.starts_with("name,type,unit,table,address,length,wire_type,word_order,"))
       << ended.out;
   for (const char* line :
-       {"go,BOOL,,coil,7,1,BOOL,big,big,,,,write,,,\"from the \"\"HMI\"\", left\"\r\n",
-        "go,BOOL,,holding_register,3,1,BOOL,big,big,2,,,write,,5,\"from the \"\"HMI\"\", left\"\r\n",
-        "speed,LREAL,,holding_register,10,4,LREAL,little,big,,,,write,,,\r\n",
-        "speed,LREAL,,holding_register,4,1,INT,big,big,,0.5,-1,write,,5,\r\n",
-        "diagnostic.clients,ULINT,,input_register,9,4,ULINT,big,big,,,,read,,5,\r\n",
-        "Drum.ActualPosition,LREAL,mm,input_register,0,2,REAL,big,big,,,,read,,,\r\n"})
+       {"go,BOOL,,coil,7,1,BOOL,big,big,,,,write,,,\"from the \"\"HMI\"\", left\",,\r\n",
+        "go,BOOL,,holding_register,3,1,BOOL,big,big,2,,,write,,5,\"from the \"\"HMI\"\", left\",,\r\n",
+        "speed,LREAL,,holding_register,10,4,LREAL,little,big,,,,write,,,,,\r\n",
+        "speed,LREAL,,holding_register,4,1,INT,big,big,,0.5,-1,write,,5,,-0.5,300.5\r\n",
+        "diagnostic.clients,ULINT,,input_register,9,4,ULINT,big,big,,,,read,,5,,,\r\n",
+        "Drum.ActualPosition,LREAL,mm,input_register,0,2,REAL,big,big,,,,read,,,,,\r\n"})
     EXPECT_NE(ended.out.find(line), std::string::npos) << line << ended.out;
 }
 
@@ -90,9 +90,9 @@ TEST(Tags, TellsArraysOnModbusAsOneLineEach) {
   const std::string file = folder.write("project.json", project.dump());
   const std::string csv = lockstep({"tags", file, "--csv"}).out;
   for (const char* line :
-       {"heights,ARRAY[0..3] OF LREAL,,holding_register,40,8,REAL,big,big,,,,write,,,of parts\r\n",
-        "heights[1..2],ARRAY[1..2] OF LREAL,,input_register,80,8,LREAL,big,big,,,,read,,,\r\n",
-        "lamps,ARRAY[1..20] OF BOOL,,holding_register,60,3,BOOL,big,big,14,,,write,,,\r\n"})
+       {"heights,ARRAY[0..3] OF LREAL,,holding_register,40,8,REAL,big,big,,,,write,,,of parts,,\r\n",
+        "heights[1..2],ARRAY[1..2] OF LREAL,,input_register,80,8,LREAL,big,big,,,,read,,,,,\r\n",
+        "lamps,ARRAY[1..20] OF BOOL,,holding_register,60,3,BOOL,big,big,14,,,write,,,,,\r\n"})
     EXPECT_NE(csv.find(line), std::string::npos) << line << csv;
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
   const json shown = json::parse(lockstep({"tags", file, "--json"}).out);
@@ -119,9 +119,9 @@ TEST(Tags, TellsTexts) {
     { "tag": "kind", "table": "input_register", "address": 50, "byte_order": "little" } ])");
   const std::string file = folder.write("project.json", project.dump());
   const std::string csv = lockstep({"tags", file, "--csv"}).out;
-  for (const char* line : {"kind,STRING[5],,holding_register,40,3,STRING,big,big,,,,write,,,of bottle\r\n",
-                           "kind,STRING[5],,input_register,50,3,STRING,big,little,,,,read,,,of bottle\r\n",
-                           "go,BOOL,,coil,1,1,BOOL,big,big,,,,write,,,from the HMI\r\n"})
+  for (const char* line : {"kind,STRING[5],,holding_register,40,3,STRING,big,big,,,,write,,,of bottle,,\r\n",
+                           "kind,STRING[5],,input_register,50,3,STRING,big,little,,,,read,,,of bottle,,\r\n",
+                           "go,BOOL,,coil,1,1,BOOL,big,big,,,,write,,,from the HMI,,\r\n"})
     EXPECT_NE(csv.find(line), std::string::npos) << line << csv;
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
   const json shown = json::parse(lockstep({"tags", file, "--json"}).out);

@@ -167,6 +167,30 @@ TEST(RunCommand, FailsOnAlarmsAndFailedJobsIfItIsToDoSo) {
       << "in real time too";
 }
 
+TEST(TestCommand, TellsWhatHappenedInTheRun) {
+  const Directory folder;
+  const auto expecting = [](std::string text) {
+    return text.insert(text.rfind('}'), R"(, "expectations": [ { "at": "1s", "expect": "on.Status" } ])");
+  };
+  const Ended alarm = lockstep({"test", folder.write("alarm.json", expecting(machine(kRunsOut, "true")))});
+  EXPECT_NE(alarm.err.find("Axis: alarm 5"), std::string::npos) << alarm.err;
+  EXPECT_NE(alarm.err.find("remedy: "), std::string::npos) << alarm.err;
+  const Ended job = lockstep({"test", folder.write("job.json", expecting(machine(kRejected, "false")))});
+  EXPECT_NE(job.err.find("failed, ErrorID 16#"), std::string::npos) << job.err;
+  const Ended counted = lockstep(
+      {"test", folder.write("zero.json", expecting(machine(R"({ "set": "n", "to": "1 / n" })", R"(false)"))
+                                             .insert(1, R"( "tags": { "n": { "type": "INT" } },)"))});
+  EXPECT_NE(counted.err.find("integer divisions by zero gave 0"), std::string::npos) << counted.err;
+}
+
+TEST(TestCommand, CountsNoExpectationOfWhatItCannotTest) {
+  const Directory folder;
+  const Ended ended = lockstep({"test", folder.write("a.json", project(kHolds)), folder.file("none.json")});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(ended.out.ends_with("\n1 of 1 expectations hold; 1 of 2 projects could not be tested\n"))
+      << ended.out;
+}
+
 TEST(CheckCommand, WritesAProjectAsOneFile) {
   const std::string file = LOCKSTEP_SOURCE_DIR "/projects/14_twelve_stations/project.json";
   const Ended expanded = lockstep({"check", file, "--expanded"});

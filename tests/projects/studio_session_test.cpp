@@ -8,10 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "projects/loader/simulation.hpp"
 #include "projects/runtime/runtime.hpp"
-#include "projects/studio/session.hpp"
 #include "tests/hmi_bridge/studio_client.hpp"
+#include "tests/projects/studio_machine.hpp"
 
 namespace lockstep::studio_session_test {
 namespace {
@@ -21,73 +20,11 @@ using test::DecodedFrame;
 
 const std::string kKnife = LOCKSTEP_SOURCE_DIR "/projects/02_rotary_knife/project.json";
 
-class Client final : public StudioClient {
+using Client = test::StudioPage;
+
+class Machine : public test::StudioMachine {
  public:
-  void send_text(std::string text) override { texts.push_back(Json::parse(text)); }
-  void send_bytes(std::vector<std::uint8_t> bytes) override {
-    frames.emplace_back(std::string(bytes.begin(), bytes.end()));
-  }
-  bool is_idle() const noexcept override { return true; }
-  bool authorise(std::string_view token) noexcept override {
-    known = token != "wrong";
-    return known;
-  }
-  bool is_authorised() const noexcept override { return known; }
-
-  /// The last text of a type; null: there was none.
-  Json last(const std::string& type) const {
-    for (auto text = texts.rbegin(); text != texts.rend(); ++text)
-      if ((*text)["type"] == type) return *text;
-    return {};
-  }
-
-  std::vector<Json> texts;
-  std::vector<DecodedFrame> frames;
-  bool known = false;
-};
-
-/// A project in virtual time with its studio.
-class Machine {
- public:
-  Machine() : simulation(kKnife), session(simulation.project(), 0), sink(session.sink()) {
-    Controller& controller = *simulation.project().controller;
-    controller.tap = &session.tap();
-    controller.events = &events;
-    controller.tell_jobs();
-    texts = EventTexts(controller);
-  }
-
-  void run(int ticks) {
-    for (int tick = 0; tick < ticks; ++tick) {
-      simulation.step();
-      for (std::size_t i = 0; i < events.readable(); ++i) sink->event(texts.of(events.event(i), 0));
-      events.pop(events.readable());
-      session.look();
-    }
-  }
-
-  StudioAnswer ask(const std::string& method, const std::string& path,
-                   std::vector<std::pair<std::string, std::string>> query = {},
-                   const std::string& body = "") {
-    StudioRequest request;
-    request.method = method;
-    request.path = path;
-    request.query = std::move(query);
-    request.body = body;
-    StudioAnswer answer;
-    answer.status = 0;
-    session.answer(request, [&answer](StudioAnswer given) { answer = std::move(given); });
-    return answer;
-  }
-  Json get(const std::string& path, std::vector<std::pair<std::string, std::string>> query = {}) {
-    return Json::parse(ask("GET", path, std::move(query)).body);
-  }
-
-  Simulation simulation;
-  StudioSession session;
-  std::unique_ptr<TraceSink> sink;
-  EventQueue events;
-  EventTexts texts;
+  Machine() : StudioMachine(kKnife) {}
 };
 
 TEST(StudioSession, TellsWhatItIsAndWhatTheProjectHas) {

@@ -2,6 +2,7 @@
 
 import copy
 import datetime
+import json
 import math
 import pickle
 import signal
@@ -262,6 +263,18 @@ def test_changes_are_keys_by_pointers_and_values_by_paths(small):
         lockstep.check(small, changes={"speed": 1.0})
     with pytest.raises(TypeError):
         lockstep.Project(small, changes={"/name": object()})
+
+
+def test_a_project_with_comments_can_be_changed(tmp_path, small):
+    file = tmp_path / "commented.json"
+    text = json.dumps(small, indent=1).replace('"clock"', '// a "clock" \n /* and\n more */ "clock"').replace('"An axis', '"http://axis')
+    file.write_text(text)
+    assert "//" in text and "/*" in text
+    project = lockstep.Project(file, changes={"/tags/speed/init": 3.5})
+    assert project["speed"] == 3.5
+    file.write_text(text.replace('"tags": {', '"tags": ,{'))
+    with pytest.raises(lockstep.InvalidProject, match=r"\b\d\d:\d+.*no JSON"):
+        lockstep.Project(file, changes={"/tags/speed/init": 3.5})
 
 
 def test_a_changed_project_is_otherwise_the_same(tmp_path, knife):

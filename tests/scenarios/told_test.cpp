@@ -299,6 +299,8 @@ TEST(Told, LimitsOfAnEntryAreCheckedAgainstItsTypeAndScale) {
       "can never be written here; allowed: -3276.8 to 3276.7");
   expect(R"({"tag": "count", "table": "holding_register", "address": 0, "type": "UINT", "min": -5})",
          "allowed: 0 to 32767");
+  expect(R"({"tag": "speed", "table": "holding_register", "address": 0, "type": "REAL", "max": 1e39})",
+         "can never be written here; allowed: -3.402823466e+38 to 3.402823466e+38");
   expect(R"({"tag": "speed", "table": "holding_register", "address": 0, "min": 5, "max": 4})",
          "min is above max");
   expect(R"({"tag": "speed", "table": "input_register", "address": 0, "min": 5})",

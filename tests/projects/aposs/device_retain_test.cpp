@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,8 @@ struct Machine {
   Texts program;
   Json parameters = {{"KPROP", 30}, {"1900", 4}};
   std::vector<std::string> remarks{};
+  bool loses_its_disk = false;  ///< when the run has begun
+  std::size_t rests_in = 0;     ///< line of the loop in which it has done all; 0: the last one but one
 
   std::string text() const {
     Json json = Json::parse(R"({ "lockstep": 1, "name": "kept", "clock": { "servo_cycle": "1ms" },
@@ -49,6 +52,7 @@ struct Machine {
     Controller& controller = *project->controller;
     controller.images.push_back(&writer->image());
     writer->start();
+    if (loses_its_disk) std::filesystem::remove_all(std::filesystem::path(file).parent_path());
     constexpr int kTries = 20'000;
     Mco305& device = device_of(*project);
     for (int i = 0; i < kTries && !waits(device); ++i) {
@@ -64,7 +68,9 @@ struct Machine {
   }
   /// In its last line but one: everything has been saved.
   bool waits(Mco305& device) const {
-    return device.machine().place().line >= program.size() - 1 || device.machine().over();
+    const std::size_t line = device.machine().place().line;
+    return rests_in != 0 ? line >= rests_in && line <= rests_in + 2
+                         : line >= program.size() - 1 || device.machine().over();
   }
 };
 
@@ -98,6 +104,22 @@ TEST(DeviceRetain, GivesBackWhatHasBeenSaved) {
     EXPECT_EQ(Machine::device_of(*project).eeprom.writes, static_cast<UDINT>(2 * run));
     EXPECT_EQ(machine.remarks, Texts{});
   }
+}
+
+TEST(DeviceRetain, TellsThatTheDiskIsNotThereAnyMore) {
+  const test::Directory directory;
+  const std::string folder = directory.file("disk");
+  std::filesystem::create_directory(folder);
+  Machine machine{
+      .file = folder + "/kept",
+      .program = {"found = 0", "ON ERROR GOSUB trouble", "SET KPROP 31", "SAVE AXPARS",
+                  "wait:", "IF (found == 0) THEN", "GOTO wait", "ENDIF", "rest:", "DELAY 100", "GOTO rest",
+                  "SUBMAINPROG", "SUBPROG trouble", "found = ERRNO", "ERRCLR", "RETURN", "ENDPROG"},
+      .loses_its_disk = true};
+  machine.rests_in = 9;
+  const auto project = machine.run();
+  ASSERT_NE(project, nullptr);
+  EXPECT_EQ(element(*project, "found"), 115);
 }
 
 // 33-83 is one of GLBPARS: SAVE AXPARS leaves it out.

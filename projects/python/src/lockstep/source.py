@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, Union
@@ -17,6 +18,10 @@ ProjectSource = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
 _LONGEST = (16 << 20) + 1
 """What is read of a file at most: a byte more than the loader takes, so that it tells."""
+
+
+_TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
+"""A text, in which nothing is a comment, or a comment, which a project file may have and JSON has not."""
 
 
 class Text(NamedTuple):
@@ -72,12 +77,24 @@ def changed(source: Text, changes: Mapping[str, Any]) -> Text:
     if not changes:
         return source
     try:
-        document = json.loads(source.text, object_pairs_hook=_each_once, parse_float=_number)
+        text = _without_comments(source.text.decode())
+        document = json.loads(text, object_pairs_hook=_each_once, parse_float=_number)
+    except json.JSONDecodeError as error:
+        raise InvalidProject([(f"{error.lineno}:{error.colno}", f"the text is no JSON: {error.msg}")]) from None
     except (ValueError, RecursionError) as error:
         raise InvalidProject([("1:1", f"the text cannot be changed: {error}")]) from None
     for pointer, value in changes.items():
         _set(document, pointer, plain(value))
     return source._replace(text=json.dumps(document).encode())
+
+
+def _without_comments(text: str) -> str:
+    """The text with spaces for its comments, so that every place stays what it is."""
+
+    def blank(found: re.Match[str]) -> str:
+        return found[0] if found[0].startswith('"') else re.sub(r"[^\n]", " ", found[0])
+
+    return _TEXT_OR_COMMENT.sub(blank, text)
 
 
 def _number(text: str) -> int | float:

@@ -1,0 +1,109 @@
+#include "hmi_bridge/studio/listener.hpp"
+
+#include <boost/asio/post.hpp>
+#include <memory>
+#include <utility>
+
+#include "hmi_bridge/network/write_signals.hpp"
+#include "hmi_bridge/studio/connection.hpp"
+#include "hmi_bridge/studio/page.hpp"
+
+namespace lockstep::studio_net {
+
+Listener::Listener(StudioServerOptions options, StudioHandler& handler)
+    : options_(std::move(options)), guard_(options_.names, options_.token), handler_(handler) {}
+
+void Listener::enter(Page& page) {
+  pages_.insert(&page);
+  counters_.pages = pages_.size();
+}
+
+bool Listener::leave(Page& page) noexcept {
+  if (pages_.erase(&page) == 0) return false;
+  counters_.pages = pages_.size();
+  return true;
+}
+
+std::string Listener::start() {
+  beast::error_code error;
+  const std::string host = options_.listen.host == "localhost" ? "127.0.0.1" : options_.listen.host;
+  const asio::ip::address address = asio::ip::make_address(host, error);
+  if (error) return options_.listen.host + ": has to be an address, or localhost";
+  const Tcp::endpoint endpoint(address, options_.listen.port);
+  const auto failed = [&] { return to_string(options_.listen) + ": " + error.message(); };
+  acceptor_.open(endpoint.protocol(), error);
+  if (error) return failed();
+  acceptor_.set_option(asio::socket_base::reuse_address(true), error);
+  acceptor_.bind(endpoint, error);
+  if (error) return failed();
+  acceptor_.listen(asio::socket_base::max_listen_connections, error);
+  if (error) return failed();
+  port_ = acceptor_.local_endpoint(error).port();
+  accept();
+  look();
+  thread_ = std::thread([this] { run(); });
+  return "";
+}
+
+void Listener::stop() {
+  if (!thread_.joinable()) return;
+  asio::post(context_, [this] {
+    stopping_ = true;
+    beast::error_code ignored;
+    acceptor_.close(ignored);
+    timer_.cancel();
+    context_.stop();
+  });
+  thread_.join();
+}
+
+void Listener::accept() {
+  acceptor_.async_accept([this](beast::error_code error, Tcp::socket socket) {
+    if (stopping_ || error == asio::error::operation_aborted) return;
+    if (!error) {
+      guarded([&] {
+        const auto connection = std::make_shared<Connection>(*this, std::move(socket));
+        if (has_seat())
+          connection->read();
+        else
+          connection->turn_away();
+      });
+    }
+    accept();
+  });
+}
+
+void Listener::look() {
+  timer_.expires_after(StudioServer::kLook);
+  timer_.async_wait([this](beast::error_code error) {
+    if (error || stopping_) return;
+    guarded([this] { handler_.look(); });
+    look();
+  });
+}
+
+bool Listener::take_change() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - second_ >= std::chrono::seconds(1)) {
+    second_ = now;
+    changes_ = 0;
+  }
+  return ++changes_ <= StudioServer::kChangesPerSecond;
+}
+
+void Listener::run() noexcept {
+  block_write_signals();
+  while (!stopping_) {
+    try {
+      context_.run();
+      break;
+    } catch (...) {
+      ++counters_.faults;
+    }
+  }
+  handler_.ended();
+  for (Page* page : pages_) page->close();
+  for (Connection* connection : connections_) connection->close();
+}
+
+}  // namespace lockstep::studio_net

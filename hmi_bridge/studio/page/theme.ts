@@ -1,0 +1,36 @@
+// Light or dark, as the system has it or as one has chosen; and the colours of signals, which go with it.
+
+const kTheme = "lockstep-theme";
+const kColours = 8;  // in the style sheet
+
+export class Theme {
+  private colours: string[] = [];
+
+  constructor(private readonly changed: () => void) {
+    this.set(localStorage.getItem(kTheme) ?? "");
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.read());
+  }
+
+  toggle(): void { this.set(this.isDark() ? "light" : "dark"); this.changed(); }
+
+  colour(index: number): string { return this.colours[index % kColours]; }
+
+  private isDark(): boolean {
+    const chosen = document.documentElement.dataset.theme;
+    return chosen ? chosen === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+  }
+
+  private set(theme: string): void {
+    if (theme) {
+      document.documentElement.dataset.theme = theme;
+      localStorage.setItem(kTheme, theme);
+    }
+    this.read();
+  }
+
+  private read(): void {
+    const style = getComputedStyle(document.documentElement);
+    this.colours = Array.from({ length: kColours }, (_, i) => style.getPropertyValue(`--signal-${i}`).trim());
+    this.changed();
+  }
+}

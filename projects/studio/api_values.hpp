@@ -1,0 +1,24 @@
+/// Values, signals, events and jobs as JSON.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "hmi_bridge/traces/columns.hpp"
+#include "projects/loader/project.hpp"
+#include "projects/studio/api.hpp"
+#include "projects/studio/history.hpp"
+
+namespace lockstep::studio_api {
+
+/// A number, or a text for what JSON has no number for: "nan", "inf", "-inf".
+Json number_json(double number);
+/// What may exceed 2^53 is a text of decimal digits.
+Json value_json(Value value, Type type);
+Json event_json(const TraceEvent& event);
+Json job_json(const StudioJob& job);
+
+/// The signal at a path, or why there is none.
+std::optional<NamedSignal> signal_at(const Project& project, const std::string& path, std::string& problem);
+
+}  // namespace lockstep::studio_api

@@ -1,0 +1,79 @@
+#include "projects/studio/readings.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "projects/studio/api_values.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace studio_api;
+
+constexpr std::chrono::seconds kReadTime{
+    2};  // for a row that has what is read, and how long it goes on coming
+
+}  // namespace
+
+void StudioReadings::read(const StudioRequest& request, Done done) {
+  Reading reading;
+  Wrong wrong{422};
+  for (const std::string& path : paths_in(parsed(request.body), kRead)) {
+    std::string problem;
+    if (std::optional<NamedSignal> signal = signal_at(project_, path, problem))
+      reading.signals.push_back(std::move(*signal));
+    else
+      wrong.add("not_found", problem, {{"path", path}});
+  }
+  if (!wrong.errors.empty()) return done(studio_api::answer_of(wrong));
+  reading.until = Clock::now() + kReadTime;
+  for (const NamedSignal& signal : reading.signals) {
+    reading.indices.push_back(feed_.index(signal));
+    kept_.insert_or_assign(signal.name, Kept{signal, reading.until});
+  }
+  // The row that is being made now may be older than the question.
+  reading.from = feed_.store().end();
+  reading.done = std::move(done);
+  waiting_.push_back(std::move(reading));
+}
+
+bool StudioReadings::forget(Clock::time_point now) {
+  return std::erase_if(kept_, [&](const auto& one) { return one.second.until < now; }) != 0;
+}
+
+bool StudioReadings::is_there(const Reading& reading) const noexcept {
+  const TraceStore& store = feed_.store();
+  return store.end() > reading.from && store.end() > store.begin() &&
+         std::all_of(reading.indices.begin(), reading.indices.end(),
+                     [this](std::size_t index) { return feed_.is_in_newest(index); });
+}
+
+StudioAnswer StudioReadings::answer_of(const Reading& reading) const {
+  const TraceStore& store = feed_.store();
+  const TraceWindow row = store.rows(reading.indices, store.end() - 1, store.end());
+  Json values = Json::array();
+  for (std::size_t i = 0; i < reading.signals.size(); ++i) {
+    const NamedSignal& signal = reading.signals[i];
+    const Type type = signal.signal.value_type();
+    values.push_back({{"path", signal.name},
+                      {"type", type_name(type)},
+                      {"unit", units_.of(signal)},
+                      {"value", value_json(row.columns[i].first[0], type)}});
+  }
+  return studio_api::answer_of(
+      Json{{"t", std::to_string(row.t[0])}, {"tick", std::to_string(row.tick[0])}, {"values", values}});
+}
+
+void StudioReadings::answer(Clock::time_point now) {
+  std::erase_if(waiting_, [&](Reading& reading) {
+    if (is_there(reading)) {
+      reading.done(answer_of(reading));
+      return true;
+    }
+    if (now < reading.until) return false;
+    reading.done(error_answer(503, "busy", "no tick has ended within two seconds, or too much is asked for"));
+    return true;
+  });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,22 @@
+/// What may be asked of a trace, whichever it is.
+#pragma once
+
+#include <string_view>
+
+#include "hmi_bridge/traces/store.hpp"
+#include "projects/studio/api.hpp"
+
+namespace lockstep::studio_api {
+
+inline constexpr std::size_t kWindowSignals = 512;  ///< of a window, statistics or an export
+inline constexpr std::size_t kWindowPoints = 20'000;
+inline constexpr std::uint64_t kExportValues = 5'000'000;  ///< of an export, times among them
+
+/// Signals, times, rows and gaps.
+Json trace_json(std::string_view id, const TraceStore& store);
+
+/// `window`, `statistics` or `export` of the signals and the time that the request names.
+/// @throws BadRequest
+StudioAnswer trace_answer(const StudioRequest& request, std::string_view what, const TraceStore& store);
+
+}  // namespace lockstep::studio_api

@@ -1,0 +1,102 @@
+#include "tech_objects/mco305/master_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep::mco305 {
+
+void MasterInput::refresh(const ParameterValues& parameters) noexcept {
+  type_ = parameters[kMasterEncoderType];
+  marker_type_ = parameters[kMarkerTypeMaster];
+  turn_ = 4.0 * parameters.real(kMasterEncoder);
+}
+
+void MasterInput::move(std::int64_t counts) noexcept {
+  begun_ = begun_ || counts != 0;
+  position_ = within_reach(position_ + counts);
+}
+
+/// The zero pulse of the encoder, or the markers that the sensor at input 5 sees.
+void MasterInput::pass(double from, double to) noexcept {
+  if (from == to) return;
+  if (marker_type_ >= 2) return track_.pass(from, to, [this](double place) { latch(place); });
+  const bool forward = from < to;
+  for (std::size_t i = 0; i < kMarks; ++i) {
+    const double turns = from / turn_;
+    const double place = (forward ? std::floor(turns) + 1.0 : std::ceil(turns) - 1.0) * turn_;
+    if (forward ? place > to : place < to) return;
+    latch(place);
+    from = place;
+  }
+}
+
+void MasterInput::latch(double place) noexcept {
+  latched_ = counts_of(place);
+  ++latches_;
+  if (next_mark_count_ < kMarks) next_marks_[next_mark_count_++] = static_cast<double>(latched_);
+}
+
+void MasterInput::mark(double place) noexcept {
+  if (marker_type_ >= 2) latch(place);
+}
+
+void MasterInput::turn(double encoder) noexcept {
+  const std::int64_t whole = counts_of(encoder);
+  const std::int64_t counts = heard_ ? whole - shown_encoder_ : 0;
+  const double last = encoder_;
+  encoder_ = encoder;
+  shown_encoder_ = whole;
+  if (!heard_) {
+    heard_ = true;
+    return;
+  }
+  turned_ += counts;
+  if (own_.active() || type_ == 0 || type_ == kSimulated || encoder == last) return;
+  // Between two counts it is where the encoder is.
+  const double begin = static_cast<double>(position_) + (last - std::floor(last));
+  move(counts);
+  pass(begin, begin + (encoder - last));
+}
+
+void MasterInput::look_at_marker(bool level) noexcept {
+  if (marker_type_ >= 2 && level != last_level_ && level == (marker_type_ == 2))
+    latch(static_cast<double>(position_));
+  last_level_ = level;
+}
+
+void MasterInput::set_velocity(std::int32_t value) noexcept {
+  own_.set_velocity(value);
+  begun_ = true;
+}
+
+bool MasterInput::move_to(std::int32_t value) noexcept {
+  if (type_ != kSimulated) return false;
+  move(value - shown());
+  return true;
+}
+
+void MasterInput::step() noexcept {
+  if (own_.active()) {
+    const auto begin = static_cast<double>(position_);
+    move(own_.step());
+    pass(begin, static_cast<double>(position_));
+  }
+  constexpr std::int64_t kFar = std::int64_t{1} << 30;  // what a gear takes in a step; nothing real is faster
+  moved_ = std::clamp(position_ - last_, -kFar, kFar);
+  last_ = position_;
+  real_velocity_ = static_cast<std::int32_t>(
+      std::clamp<std::int64_t>(std::clamp(turned_, -kFar, kFar) * 1000, -2147483648LL, 2147483647LL));
+  turned_ = 0;
+  mark_count_ = next_mark_count_;
+  next_mark_count_ = 0;
+  if (mark_count_ != 0) marks_ = next_marks_;
+  ++now_;
+  positions_[static_cast<std::size_t>(now_) % kRing] = position_;
+}
+
+std::int64_t MasterInput::moved_in(std::int64_t milliseconds) const noexcept {
+  const std::int64_t window = std::min({milliseconds, now_, std::int64_t{kRing - 1}});
+  return window <= 0 ? 0 : position_ - positions_[static_cast<std::size_t>(now_ - window) % kRing];
+}
+
+}  // namespace lockstep::mco305

@@ -1,0 +1,91 @@
+/// The master input of a device: what its master encoder counts, or its own virtual master.
+/// @source MCO 305 Design Guide, MAPOS, MAVEL, MIPOS, DEFMORIGIN, SETMORIGIN; 32-30, 32-31, 33-19
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "tech_objects/mco305/marker_track.hpp"
+#include "tech_objects/mco305/units.hpp"
+#include "tech_objects/mco305/virtual_master.hpp"
+#include "tech_objects/mco305_catalogue/parameters.hpp"
+
+namespace lockstep::mco305 {
+
+/// Thread: that of the cycle, but for `configure`.
+class MasterInput {
+ public:
+  /// @param wired whether there is an encoder, signal or device to count
+  void configure(bool wired, const MarkerTrackSettings& markers) noexcept {
+    wired_ = wired;
+    track_.configure(markers);
+  }
+  void refresh(const ParameterValues& parameters) noexcept;
+
+  // ---- Steps
+
+  /// What the encoder shows in a servo tick [qc], |encoder| < 2⁵³; before `step` of the same tick.
+  void turn(double encoder) noexcept;
+  /// The level of input 5 in a servo tick.
+  void look_at_marker(bool level) noexcept;
+  /// An external marker at a place of the counter [qc].
+  void mark(double place) noexcept;
+  /// One millisecond.
+  void step() noexcept;
+  /// Whether anything turns here, or has.
+  bool present() const noexcept { return wired_ || begun_; }
+
+  // ---- What a program asks
+
+  void set_acceleration(std::int32_t value) noexcept { own_.set_acceleration(value); }  ///< PULSACC
+  void set_velocity(std::int32_t value) noexcept;                                       ///< PULSVEL
+  void stop() noexcept { own_.stop(); }                                                 ///< [Esc]
+  /// DEFMORIGIN, SETMORIGIN: the position is this from now on [qc].
+  void set_origin(std::int32_t value) noexcept { origin_ = position_ - value; }
+  /// SYSVAR[4105] while MENCODERTYPE is 5. @return false: it is not
+  bool move_to(std::int32_t value) noexcept;
+
+  // ---- Read-outs
+
+  std::int64_t position() const noexcept { return position_; }                         ///< [qc] counter
+  std::int64_t moved() const noexcept { return moved_; }                               ///< [qc] in this step
+  std::int32_t shown() const noexcept { return shown_position(position_ - origin_); }  ///< MAPOS
+  std::int32_t shown_latch() const noexcept { return shown_position(latched_ - origin_); }  ///< MIPOS
+  std::int64_t origin() const noexcept { return origin_; }
+  std::int64_t moved_in(std::int64_t milliseconds) const noexcept;        ///< [qc], up to 255 ms
+  std::int32_t real_velocity() const noexcept { return real_velocity_; }  ///< SYSVAR 4128 [qc/s]
+  const VirtualMaster& own() const noexcept { return own_; }
+  /// Markers of this step, in their order [qc].
+  std::size_t mark_count() const noexcept { return mark_count_; }
+  double mark(std::size_t index) const noexcept { return marks_[index]; }
+  std::uint32_t latches() const noexcept { return latches_; }
+
+ private:
+  static constexpr std::size_t kRing = 256;
+  static constexpr std::size_t kMarks = 8;  // of one step
+  static constexpr std::int32_t kSimulated = 5;
+
+  void move(std::int64_t counts) noexcept;
+  void pass(double from, double to) noexcept;
+  void latch(double place) noexcept;
+
+  bool wired_ = false, begun_ = false, heard_ = false;
+  std::int32_t type_ = 1, marker_type_ = 0;  // MENCODERTYPE, SYNCMTYPM
+  std::int64_t position_ = 0, last_ = 0, moved_ = 0, origin_ = 0;
+  double encoder_ = 0.0;
+  std::int64_t shown_encoder_ = 0, turned_ = 0;  // whole counts of the encoder, and those of this step
+  double turn_ = 4096.0;                         // [qc] of a turn of the encoder
+  std::int32_t real_velocity_ = 0;
+  VirtualMaster own_;
+  MarkerTrack track_;
+  bool last_level_ = false;
+  std::int64_t latched_ = 0;
+  std::uint32_t latches_ = 0;
+  std::array<double, kMarks> marks_{}, next_marks_{};
+  std::size_t mark_count_ = 0, next_mark_count_ = 0;
+  std::int64_t now_ = 0;
+  std::array<std::int64_t, kRing> positions_{};
+};
+
+}  // namespace lockstep::mco305

@@ -1,0 +1,196 @@
+// A millisecond of following.
+#include "tech_objects/mco305/synchronization.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep::mco305 {
+namespace {
+
+constexpr std::int32_t kOwnFilterFrom = 1000;  // |SYNCVFTIME| [µs]; below that the table counts
+constexpr std::int32_t kOffsetLater = 1000;    // SYNCMSTART: the offset waits for the first correction
+constexpr double kThousand = 1000.0;
+
+std::int64_t nearest_count(double position) noexcept {
+  return counts_of(position + 0.5);
+}
+
+}  // namespace
+
+void Synchronization::refresh(const ParameterValues& p, bool later_edition,
+                              double velocity_maximum) noexcept {
+  later_edition_ = later_edition;
+  factor_master_ = p[kSyncFactM];
+  factor_slave_ = p[kSyncFactS];
+  gear_.set(factor_master_, factor_slave_);
+  limits_.uncertainty = std::min(std::abs(gear_.ratio()), 1.0);
+  position_offset_ = p.real(kSyncPosOffs);
+  offset_time_ = std::max(p.real(kSyncOffTime), 0.0);
+  accuracy_ = std::abs(std::int64_t{p[kSyncAccuracy]});
+  signed_error_ = p[kSyncAccuracy] < 0;
+  looks_ahead_ = p[kSyncType] == 1;
+  filter_parameter_ = p[kSyncVfTime];
+  published_time_ = CountFilter::published_time(p.real(kMasterEncoder));
+  constexpr double kTimes = 5.0;  // of the velocity, as resolution for the table
+  slave_filter_time_ = CountFilter::published_time(kTimes * velocity_maximum);
+  master_tolerance_ = {p.real(kSyncMPulsM), std::max(p.real(kSyncMWinM), 0.0)};
+  slave_tolerance_ = {p.real(kSyncMPulsS), std::max(p.real(kSyncMWinS), 0.0)};
+  marks_per_pair_master_ = std::max(p[kSyncMarkM], 1);
+  marks_per_pair_slave_ = std::max(p[kSyncMarkS], 1);
+  ready_count_ = p[kSyncReadyCount];
+  fault_count_ = p[kSyncFaultCount];
+  start_ = p[kSyncMStart];
+  filter_bits_ = p[kSyncMfPar];
+  marker_filter_time_ = std::max(p.real(kSyncMfTime), 0.0);
+  maximum_correction_ = p.real(kSyncMMaxCorr);
+  velocity_precontrol_ = later_edition ? p.real(kSyncFfVel) / kThousand : 0.0;
+  constexpr double kPercent = 0.01;
+  limits_.band = p[kSyncVelRel] > 0 ? kPercent * p.real(kSyncVelRel) : -1.0;
+  limits_.reversal = static_cast<PursuitLimits::Reversal>(std::clamp(p[kRevers], 0, 2));
+  offset_.set(master_tolerance_.distance, offset_time_, later_edition);
+  offset_.want(wanted_offset());
+}
+
+/// [ms]
+double Synchronization::filter_time() const noexcept {
+  const std::int64_t time = std::abs(std::int64_t{filter_parameter_});
+  return time < kOwnFilterFrom ? published_time_ : static_cast<double>(time) / kThousand;
+}
+
+/// [qc of the master]
+double Synchronization::wanted_offset() const noexcept {
+  const bool waits = mode_ == SyncMode::kMarkers && start_ >= kOffsetLater && !pairing_.paired();
+  return waits ? 0.0 : position_offset_ + moved_origin_;
+}
+
+/// All that counts from now on, beside the gear [qc].
+double Synchronization::total_offset() const noexcept {
+  return offset_.wanted() * gear_.ratio() + correction_.wanted() + trimmed_;
+}
+
+void Synchronization::take_limits(const FourSlopeLimits& limits) noexcept {
+  limits_.velocity = limits.velocity;
+  limits_.acceleration = limits.acceleration;
+  limits_.deceleration = limits.deceleration;
+}
+
+void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const FourSlopeLimits& limits,
+                            const MasterInput& master) noexcept {
+  mode_ = mode;
+  following_ = true;
+  reached_ = false;
+  take_limits(limits);
+  pursuit_.begin(from.position, from.velocity);
+  last_velocity_ = from.velocity;
+  velocity_filter_.begin(static_cast<double>(master.moved()));
+  slave_filter_.begin(from.velocity);
+  velocity_ = velocity_filter_.velocity();
+  master_position_ = master.position();
+  gear_.set(factor_master_, factor_slave_);
+  gear_.begin(from.position);
+  trimmed_ = 0.0;
+  if (origin_defined_ && mode != SyncMode::kVelocity) {
+    gear_.begin(origin_slave_);
+    const std::int64_t distance = master_position_ - origin_master_;
+    constexpr std::int64_t kFar = std::int64_t{1} << 31;
+    gear_.move(std::clamp(distance, -kFar, kFar));
+    origin_defined_ = false;
+  }
+  moved_origin_ = 0.0;
+  quality_.clear();
+  error_ = 0;
+  wanted_ = nearest_count(gear_.position());
+  filter_.begin(master_tolerance_.distance);
+  if (mode == SyncMode::kMarkers) begin_markers();
+  correction_.begin(0.0);
+  correction_.set(0.0, 0.0, false);
+  offset_.begin(0.0);
+  offset_.want(wanted_offset());
+  target_ = before_ = gear_.position();
+  target_velocity_ = velocity_before_ = velocity_ * gear_.ratio();
+}
+
+void Synchronization::define_origin(std::int64_t master, double slave) noexcept {
+  origin_defined_ = true;
+  origin_master_ = master;
+  origin_slave_ = slave;
+}
+
+void Synchronization::move_origin(std::int32_t by) noexcept {
+  moved_origin_ += by;
+  offset_.want(wanted_offset());
+}
+
+void Synchronization::step(const MasterInput& master, std::int64_t actual) noexcept {
+  const auto moved = static_cast<double>(master.moved());
+  master_position_ = master.position();
+  if (mode_ == SyncMode::kVelocity) {
+    velocity_ = velocity_filter_.step(moved, filter_time());
+    return;
+  }
+  gear_.move(master.moved());
+  double velocity = moved, lag = 0.0;
+  if (filter_parameter_ < 0) {
+    velocity = velocity_filter_.step_and_return(moved, filter_time());
+    lag = velocity_filter_.lag();
+    velocity_ = velocity_filter_.velocity();
+  } else {
+    velocity_ = moved;
+  }
+  const double ratio = gear_.ratio();
+  if (mode_ == SyncMode::kMarkers) {
+    if (following_) {
+      for (std::size_t i = 0; i < master.mark_count(); ++i) take_master_mark(master.mark(i));
+      look_for_missed(static_cast<double>(master_position_), static_cast<double>(actual));
+    }
+    trimmed_ += velocity * filter_.trim() * ratio;
+  }
+  before_ = target_;
+  velocity_before_ = target_velocity_;
+  const double offset = offset_.step(), correction = correction_.step();
+  target_velocity_ =
+      velocity * ratio * (1.0 + filter_.trim()) + offset_.velocity() * ratio + correction_.velocity();
+  target_ = gear_.position() + (offset - lag) * ratio + correction + trimmed_ +
+            velocity_precontrol_ * target_velocity_;
+  wanted_ = nearest_count(gear_.position() + total_offset());
+}
+
+/// Until the velocity of the master has been reached once a small error is the beginning of a large one.
+/// Behind the end of the mode its flags stay as they were.
+void Synchronization::judge(std::int64_t actual) noexcept {
+  if (mode_ < SyncMode::kPosition) return;
+  error_ = wanted_ - actual;
+  if (following_ && reached_) quality_.look(error_, accuracy_);
+}
+
+FourSlopeState Synchronization::set_point(std::int64_t actual, bool controls_velocity) noexcept {
+  last_velocity_ = pursuit_.velocity();
+  if (mode_ == SyncMode::kVelocity) {
+    pursuit_.follow(velocity_ * gear_.ratio(), limits_);
+    const auto moved = static_cast<double>(actual - last_actual_);
+    last_actual_ = actual;
+    if (controls_velocity) {
+      // The controller gets the error of the velocity, as a distance from where the axis is.
+      const double own = slave_filter_.step(moved, slave_filter_time_);
+      pursuit_.shift(static_cast<double>(actual) + pursuit_.velocity() - own - pursuit_.position());
+    }
+  } else if (looks_ahead_) {
+    pursuit_.step(target_, target_velocity_, limits_);
+  } else {
+    pursuit_.step(before_, velocity_before_, limits_);
+  }
+  const double goes = looks_ahead_ ? target_velocity_ : velocity_before_;
+  reached_ =
+      reached_ || pursuit_.synchronous() || std::abs(pursuit_.velocity() - goes) <= limits_.acceleration;
+  // What single counts do to the velocity is no acceleration that a motion could begin with.
+  const double change = std::max(limits_.acceleration, limits_.deceleration);
+  return {pursuit_.position(), pursuit_.velocity(),
+          std::clamp(pursuit_.velocity() - last_velocity_, -change, change)};
+}
+
+std::int32_t Synchronization::status() const noexcept {
+  return hits_ | (quality_.ready() ? kReadyFlag : 0) | (quality_.fault() ? kFaultFlag : 0) |
+         (quality_.accurate() ? kAccuracyFlag : 0);
+}
+
+}  // namespace lockstep::mco305

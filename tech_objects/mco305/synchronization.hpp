@@ -1,0 +1,130 @@
+/// How a device follows its master: by velocity, by position, by markers.
+/// @source MCO 305 Design Guide, SYNCV, SYNCP, SYNCM; 33-1*, 33-2*, 33-3*
+#pragma once
+
+#include <cstdint>
+
+#include "tech_objects/mco305/master_input.hpp"
+#include "tech_objects/mco305_catalogue/parameters.hpp"
+#include "tech_objects/profile/four_slope_profile.hpp"
+#include "tech_objects/synchronous/count_filter.hpp"
+#include "tech_objects/synchronous/count_gear.hpp"
+#include "tech_objects/synchronous/marker_filter.hpp"
+#include "tech_objects/synchronous/marker_pairing.hpp"
+#include "tech_objects/synchronous/marker_window.hpp"
+#include "tech_objects/synchronous/offset_spread.hpp"
+#include "tech_objects/synchronous/pursuit.hpp"
+#include "tech_objects/synchronous/sync_quality.hpp"
+
+namespace lockstep::mco305 {
+
+enum class SyncMode : std::uint8_t { kNone, kVelocity, kPosition, kMarkers };
+
+/// Bits of SYNCSTAT.
+enum SyncFlag : std::int32_t {
+  kReadyFlag = 1,
+  kFaultFlag = 2,
+  kAccuracyFlag = 4,
+  kMasterHit = 8,
+  kSlaveHit = 16,
+  kMasterMissed = 32,
+  kSlaveMissed = 64
+};
+
+/// Thread: that of the cycle. Positions are qc of the counters.
+class Synchronization {
+ public:
+  /// Looks at the parameters; when they have changed, also while it follows. @param velocity_maximum [qc/ms]
+  void refresh(const ParameterValues& parameters, bool later_edition, double velocity_maximum) noexcept;
+
+  /// SYNCV, SYNCP, SYNCM: from a motion, which it takes over. @param limits VEL, ACC, DEC
+  void begin(SyncMode mode, const FourSlopeState& from, const FourSlopeLimits& limits,
+             const MasterInput& master) noexcept;
+  /// It does not set the position any more; from 5.00 on SYNCERR goes on.
+  void end() noexcept { following_ = false; }
+  /// DEF SYNCORIGIN, for the next SYNCP or SYNCM: a master position and that of the slave [qc].
+  void define_origin(std::int64_t master, double slave) noexcept;
+  /// MOVESYNCORIGIN [qc of the master].
+  void move_origin(std::int32_t by) noexcept;
+
+  /// A marker of the slave has been latched [qc].
+  void take_slave_mark(double place) noexcept;
+  /// One millisecond, behind that of the master. @param actual position of the slave [qc]
+  void step(const MasterInput& master, std::int64_t actual) noexcept;
+  /// At the end of a step: how accurate it is. @param actual [qc]
+  void judge(std::int64_t actual) noexcept;
+  /// The set position of this step. @param actual [qc]  @param controls_velocity a drive follows, which
+  /// gets no position but in SYNCV the error of its velocity
+  FourSlopeState set_point(std::int64_t actual, bool controls_velocity) noexcept;
+
+  SyncMode mode() const noexcept { return mode_; }
+  /// Whether `step` has anything to do.
+  bool runs() const noexcept { return following_ || (later_edition_ && mode_ >= SyncMode::kPosition); }
+  /// SYNCERR [qc]: where it should be with all that is pending, less where it is; its sign only where
+  /// SYNCACCURACY is negative.
+  std::int64_t error() const noexcept { return signed_error_ || error_ >= 0 ? error_ : -error_; }
+
+  std::int32_t status() const noexcept;                                             ///< SYNCSTAT
+  void clear_status(std::int32_t bits) noexcept { hits_ &= ~(bits & kClearable); }  ///< SYNCSTATCLR
+  const MarkerFilter& filter() const noexcept { return filter_; }
+  double slave_spacing() const noexcept { return slave_window_.spacing(); }    ///< [qc]
+  double master_spacing() const noexcept { return master_window_.spacing(); }  ///< [qc]
+  double master_velocity() const noexcept { return velocity_; }                ///< smoothed [qc/ms]
+
+ private:
+  static constexpr std::int32_t kClearable = kMasterHit | kSlaveHit | kMasterMissed | kSlaveMissed;
+
+  double filter_time() const noexcept;
+  double wanted_offset() const noexcept;
+  double total_offset() const noexcept;
+  double pair_distance() const noexcept;
+  void take_limits(const FourSlopeLimits& limits) noexcept;
+  void begin_markers() noexcept;
+  void take_master_mark(double place) noexcept;
+  void look_for_missed(double master, double slave) noexcept;
+  void pair(double apart) noexcept;
+  MarkerFilterSettings filter_settings() const noexcept;
+
+  SyncMode mode_ = SyncMode::kNone;
+  bool following_ = false, later_edition_ = true, signed_error_ = false, looks_ahead_ = false;
+  bool reached_ = false;  // the velocity of the master, since the start
+  CountGear gear_;
+  CountFilter velocity_filter_;
+  Pursuit pursuit_;
+  PursuitLimits limits_;
+  double last_velocity_ = 0.0;                   // [qc/ms] of the set position
+  double velocity_ = 0.0;                        // of the master, smoothed [qc/ms]
+  double target_ = 0.0, target_velocity_ = 0.0;  // of this step
+  double before_ = 0.0, velocity_before_ = 0.0;  // … and of the one before
+  double slave_filter_time_ = 1.0;               // [ms]
+  CountFilter slave_filter_;
+  std::int64_t last_actual_ = 0, error_ = 0, wanted_ = 0;
+  OffsetSpread offset_;      // [qc of the master]
+  OffsetSpread correction_;  // by markers [qc]
+  double trimmed_ = 0.0;     // by the trim of the gear [qc]
+  double moved_origin_ = 0.0;
+  bool origin_defined_ = false;
+  std::int64_t origin_master_ = 0;
+  double origin_slave_ = 0.0;
+  std::int64_t master_position_ = 0;
+  SyncQuality quality_;
+  std::int32_t hits_ = 0;
+  MarkerWindow master_window_, slave_window_;
+  MarkerPairing pairing_;
+  MarkerFilter filter_;
+  bool corrected_ = false;  // there has been a pair
+  bool late_ = false;       // the marker at hand came behind a missed one
+  std::int64_t master_marks_ = 0, slave_marks_ = 0;
+
+  // Parameters.
+  std::int64_t factor_master_ = 1, factor_slave_ = 1, accuracy_ = 1000;
+  double position_offset_ = 0.0, offset_time_ = 0.0;
+  MarkerTolerance master_tolerance_, slave_tolerance_;
+  std::int64_t marks_per_pair_master_ = 1, marks_per_pair_slave_ = 1;
+  std::int64_t ready_count_ = 1, fault_count_ = 10;
+  std::int32_t start_ = 0, filter_parameter_ = 0, filter_bits_ = 0;
+  double marker_filter_time_ = 0.0, maximum_correction_ = 0.0, published_time_ = 1.0;
+  double velocity_precontrol_ = 0.0;
+};
+
+}  // namespace lockstep::mco305

@@ -1,0 +1,125 @@
+// Following by markers.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tech_objects/mco305/synchronization.hpp"
+
+namespace lockstep::mco305 {
+namespace {
+
+constexpr std::int32_t kStarts = 1000;  // SYNCMSTART: 1000 to 1006 begin like 0 to 6
+
+enum FilterBit : std::int32_t { kFixedConstant = 1, kNoTrim = 2, kByFilterTime = 4, kOnlySmoothing = 16 };
+
+FirstPair first_pair(std::int32_t start) noexcept {
+  constexpr FirstPair kRules[] = {FirstPair::leading_first, FirstPair::following_first, FirstPair::first_two,
+                                  FirstPair::forward,       FirstPair::backward,        FirstPair::nearest,
+                                  FirstPair::first_two};
+  return kRules[std::clamp(start % kStarts, 0, 6)];
+}
+
+/// Starts 2 to 5 wait until the velocity of the master has been reached.
+bool waits_for_velocity(std::int32_t start) noexcept {
+  const std::int32_t one = start % kStarts;
+  return one >= 2 && one <= 5;
+}
+
+}  // namespace
+
+void Synchronization::begin_markers() noexcept {
+  hits_ = 0;
+  late_ = corrected_ = false;
+  master_marks_ = slave_marks_ = 0;
+  master_window_.begin();
+  slave_window_.begin();
+  pairing_.begin(first_pair(start_));
+}
+
+/// From pair to pair, on the side of the slave [qc].
+double Synchronization::pair_distance() const noexcept {
+  return std::abs(gear_.ratio()) * master_tolerance_.distance * static_cast<double>(marks_per_pair_master_);
+}
+
+MarkerFilterSettings Synchronization::filter_settings() const noexcept {
+  constexpr double kMeanOf = 100.0;
+  return {.time = marker_filter_time_,
+          .offset_time = offset_time_,
+          .distance = std::max(master_tolerance_.distance, 1.0),
+          .minimum_markers = later_edition_ ? kMeanOf : 1.0,
+          .fixed = (filter_bits_ & kFixedConstant) != 0,
+          .trims_gear = (filter_bits_ & kNoTrim) == 0,
+          .by_time = (filter_bits_ & kByFilterTime) != 0 || (filter_bits_ & kOnlySmoothing) != 0,
+          .looks_at_distance = (filter_bits_ & kOnlySmoothing) == 0};
+}
+
+void Synchronization::take_master_mark(double place) noexcept {
+  const MarkerWindow::Verdict verdict = master_window_.take(place, master_tolerance_);
+  if (verdict == MarkerWindow::Verdict::ignored) return;
+  if (verdict == MarkerWindow::Verdict::late) {
+    hits_ |= kMasterMissed;
+    late_ = true;
+  }
+  if (marker_filter_time_ > 0.0)
+    filter_.take_spacing(std::abs(master_window_.spacing()), velocity_, filter_settings());
+  if (++master_marks_ % marks_per_pair_master_ != 0) return;
+  hits_ |= kMasterHit;
+  if (waits_for_velocity(start_) && !reached_) return;
+  const double since = static_cast<double>(master_position_) - place;
+  const auto apart =
+      pairing_.leading(gear_.position() - since * gear_.ratio(), total_offset(), pair_distance());
+  if (apart) pair(*apart);
+}
+
+void Synchronization::take_slave_mark(double place) noexcept {
+  if (!following_) return;
+  if (mode_ == SyncMode::kPosition) return quality_.evaluate(ready_count_, fault_count_);
+  if (mode_ != SyncMode::kMarkers) return;
+  const MarkerWindow::Verdict verdict = slave_window_.take(place, slave_tolerance_);
+  if (verdict == MarkerWindow::Verdict::ignored) return;
+  if (verdict == MarkerWindow::Verdict::late) {
+    hits_ |= kSlaveMissed;
+    late_ = true;
+  }
+  if (++slave_marks_ % marks_per_pair_slave_ != 0) return;
+  hits_ |= kSlaveHit;
+  if (waits_for_velocity(start_) && !reached_) return;
+  if (const auto apart = pairing_.following(place, total_offset(), pair_distance())) pair(*apart);
+}
+
+/// Where one has been missed, its partner is not used.
+void Synchronization::look_for_missed(double master, double slave) noexcept {
+  if (master_window_.missed(master, master_tolerance_)) {
+    hits_ |= kMasterMissed;
+    if (++master_marks_ % marks_per_pair_master_ == 0) pairing_.drop();
+  }
+  if (slave_window_.missed(slave, slave_tolerance_)) {
+    hits_ |= kSlaveMissed;
+    if (++slave_marks_ % marks_per_pair_slave_ == 0) pairing_.drop();
+  }
+}
+
+/// By how much the slave is behind is a new offset.
+void Synchronization::pair(double apart) noexcept {
+  const bool first = !std::exchange(corrected_, true);
+  quality_.evaluate(ready_count_, fault_count_);
+  if (!std::exchange(late_, false)) hits_ &= ~(kMasterMissed | kSlaveMissed);
+  const bool filters = marker_filter_time_ > 0.0;
+  double correction = filters ? filter_.take_pair(apart, first, gear_.ratio(), filter_settings()) : apart;
+  if (maximum_correction_ < 0.0) correction = 0.0;
+  if (maximum_correction_ > 0.0)
+    correction = std::clamp(correction, -maximum_correction_, maximum_correction_);
+  const double wanted = correction_.wanted() + correction;
+  constexpr double kBalanced = 100.0;  // SYNCVFTIME [µs] of a ms
+  if (filters) {
+    correction_.want_within(wanted, master_tolerance_.distance / std::max(std::abs(velocity_), 1e-3));
+  } else if (filter_parameter_ < 0) {
+    correction_.want_within(wanted, -static_cast<double>(filter_parameter_) / kBalanced);
+  } else {
+    correction_.set(pair_distance(), later_edition_ ? offset_time_ : 0.0, true);
+    correction_.want(wanted);
+  }
+  offset_.want(wanted_offset());
+}
+
+}  // namespace lockstep::mco305

@@ -1,0 +1,58 @@
+/// Velocity of a counter, smoothed; what the smoothing holds back is given back in the course of time, so
+/// that no count is lost. Nothing here allocates or throws.
+/// @source MCO 305 Design Guide, 33-26 velocity filter
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace lockstep {
+
+class CountFilter {
+ public:
+  /// Time constant by the printed table, linear in between, its ends beyond [ms].
+  /// @param resolution of the encoder [lines per turn]
+  static double published_time(double resolution) noexcept {
+    struct Row {
+      double lines, time;
+    };
+    constexpr Row kRows[] = {{250, 39.5}, {256, 38.6}, {500, 19.5}, {512, 19.0}, {1000, 9.5}, {1024, 9.3},
+                             {2000, 4.5}, {2048, 4.4}, {2500, 3.5}, {4096, 1.9}, {5000, 1.4}};
+    const Row* last = kRows;
+    if (resolution <= last->lines) return last->time;
+    for (const Row& row : kRows) {
+      if (resolution <= row.lines) {
+        const double part = (resolution - last->lines) / (row.lines - last->lines);
+        return last->time + part * (row.time - last->time);
+      }
+      last = &row;
+    }
+    return last->time;
+  }
+
+  /// @param velocity at the start [counts/ms]
+  void begin(double velocity) noexcept {
+    velocity_ = velocity;
+    lag_ = 0.0;
+  }
+  /// The smoothed velocity alone. @param time [ms]; up to 1: as it is
+  double step(double counts, double time) noexcept {
+    velocity_ += time > 1.0 ? (counts - velocity_) / time : counts - velocity_;
+    return velocity_;
+  }
+  /// The smoothed motion of this millisecond: what has been held back comes back in ten time constants.
+  double step_and_return(double counts, double time) noexcept {
+    constexpr double kTimes = 10.0;
+    step(counts, time);
+    const double returned = time > 1.0 ? lag_ / (kTimes * time) : lag_;
+    lag_ += counts - velocity_ - returned;
+    return velocity_ + returned;
+  }
+  double velocity() const noexcept { return velocity_; }  ///< [counts/ms]
+  double lag() const noexcept { return lag_; }            ///< by how much what is given is behind [counts]
+
+ private:
+  double velocity_ = 0.0, lag_ = 0.0;
+};
+
+}  // namespace lockstep

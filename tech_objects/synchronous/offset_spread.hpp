@@ -1,0 +1,58 @@
+/// An offset that is taken up over a time: at once, in equal steps, or as a trapezoid.
+/// Nothing here allocates or throws.
+/// @source MCO 305 Design Guide, 33-27; MG.33.L5.03: trapezoid
+#pragma once
+
+#include "tech_objects/synchronous/pursuit.hpp"
+
+namespace lockstep {
+
+class OffsetSpread {
+ public:
+  /// How offsets are taken up from now on: one of `distance` in `time`.
+  /// @param distance [u] ≥ 0  @param time [ms]; 0 or no distance: at once  @param trapezoid of 20 % speeding
+  /// up and 20 % braking; else equal steps
+  void set(double distance, double time, bool trapezoid) noexcept {
+    constexpr double kRamp = 0.2;
+    at_once_ = !(distance > 0.0) || !(time > 0.0);
+    if (at_once_) return;
+    limits_.velocity = trapezoid ? distance / ((1.0 - kRamp) * time) : distance / time;
+    limits_.acceleration = limits_.deceleration = trapezoid ? limits_.velocity / (kRamp * time) : kAny;
+  }
+  /// What is wanted from now on, in equal steps of this time alone [ms].
+  void want_within(double offset, double time) noexcept {
+    wanted_ = offset;
+    at_once_ = !(time > 1.0);
+    if (at_once_) return;
+    limits_.velocity = std::abs(offset - moved_.position()) / time;
+    limits_.acceleration = limits_.deceleration = kAny;
+  }
+  void begin(double offset) noexcept {
+    wanted_ = offset;
+    moved_.begin(offset, 0.0);
+  }
+  void want(double offset) noexcept { wanted_ = offset; }
+  /// One millisecond.
+  double step() noexcept {
+    if (moved_.position() == wanted_ && moved_.velocity() == 0.0) return wanted_;
+    if (at_once_)
+      moved_.begin(wanted_, 0.0);
+    else
+      moved_.step(wanted_, 0.0, limits_);
+    return moved_.position();
+  }
+
+  double wanted() const noexcept { return wanted_; }              ///< [u]
+  double reached() const noexcept { return moved_.position(); }   ///< [u]
+  double velocity() const noexcept { return moved_.velocity(); }  ///< [u/ms]
+
+ private:
+  static constexpr double kAny = 1e30;  // [u/ms²]
+
+  bool at_once_ = true;
+  double wanted_ = 0.0;
+  Pursuit moved_;
+  PursuitLimits limits_;
+};
+
+}  // namespace lockstep

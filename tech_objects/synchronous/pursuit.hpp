@@ -1,0 +1,149 @@
+/// Onto a moving target and then along with it, within a velocity, an acceleration and a deceleration, in
+/// whole steps: a target of constant velocity is met exactly and without overshoot. Velocities are distances
+/// per step. Nothing here allocates or throws.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace lockstep {
+
+struct PursuitLimits {
+  double velocity = 0.0;      ///< [u/step] ≥ 0
+  double acceleration = 1.0;  ///< [u/step²] > 0, of what becomes faster in either direction
+  double deceleration = 1.0;  ///< [u/step²] > 0, of what becomes slower
+  /// Part of the target's velocity by which the own one may differ while the target is being met, 0 … 1;
+  /// below 0: as it likes.
+  double band = -1.0;
+  /// Whether the velocity may be negative: always, while the target's is, never.
+  enum class Reversal : std::uint8_t { free, with_target, never } reversal = Reversal::free;
+  /// By how much the velocity of a target that is counted is uncertain: one count in a step [u/step] ≥ 0.
+  /// Once it is on such a target it takes each count as it comes, as long as the velocity stays within so
+  /// much of one that keeps the limits.
+  double uncertainty = 0.0;
+};
+
+class Pursuit {
+ public:
+  /// Goes on from here. @param velocity [u/step]
+  void begin(double position, double velocity) noexcept {
+    position_ = position;
+    velocity_ = steady_ = last_target_velocity_ = velocity;
+    synchronous_ = locked_ = false;
+  }
+  /// One step. @param target where to be at its end [u]  @param target_velocity how far the target moves in a
+  /// step, without steps of its own [u/step]; all finite
+  void step(double target, double target_velocity, const PursuitLimits& limits) noexcept {
+    const double whole = target - position_;
+    const double rest = whole - target_velocity;  // beyond going along
+    const bool stays = limits.uncertainty > 0.0 && stays_on(whole, rest, target_velocity, limits);
+    last_target_velocity_ = target_velocity;
+    if (stays) {
+      velocity_ = whole;
+      position_ = target;
+      return;
+    }
+    const double wanted =
+        bounded(target_velocity + approach(rest, target_velocity, limits), rest, target_velocity, limits);
+    const double velocity = reachable(wanted, limits);
+    const double jump = std::abs(velocity - target_velocity);
+    velocity_ = velocity;
+    if (velocity == whole) {
+      position_ = target;
+    } else {
+      position_ += velocity;
+    }
+    synchronous_ =
+        std::abs(target - position_) < 1.0 && jump <= std::max(limits.acceleration, limits.deceleration);
+  }
+  /// One step towards a velocity alone.
+  void follow(double target_velocity, const PursuitLimits& limits) noexcept {
+    velocity_ = reachable(bounded(target_velocity, 0.0, target_velocity, limits), limits);
+    position_ += velocity_;
+    synchronous_ = velocity_ == target_velocity;
+  }
+  /// Called by another name: what it is at moves, it does not.
+  void shift(double by) noexcept { position_ += by; }
+
+  double position() const noexcept { return position_; }
+  double velocity() const noexcept { return velocity_; }  ///< [u/step] of the last step
+  /// Whether it is within one unit of the target and goes along with it.
+  bool synchronous() const noexcept { return synchronous_; }
+
+ private:
+  /// Whether it is on a counted target, and may go on with all its steps.
+  bool stays_on(double whole, double rest, double target_velocity, const PursuitLimits& limits) noexcept {
+    const double change = std::max(limits.acceleration, limits.deceleration);
+    double uncertainty = limits.uncertainty;
+    if (locked_) {
+      const bool faster = (target_velocity > steady_) == (steady_ >= 0.0);
+      const double step = faster ? limits.acceleration : limits.deceleration;
+      steady_ += std::clamp(target_velocity - steady_, -step, step);
+    } else {
+      // What is gained in this step has to go again in the next one.
+      uncertainty = std::min(uncertainty, std::abs(target_velocity - last_target_velocity_));
+      if (std::abs(rest) > change + uncertainty) return false;
+      steady_ = velocity_;
+    }
+    locked_ = std::abs(whole - steady_) <= change + uncertainty &&
+              bounded(whole, 0.0, target_velocity, limits) == whole;
+    synchronous_ = locked_;
+    return locked_;
+  }
+  /// How fast it may come nearer, so that whole steps of braking behind this one end on the target.
+  static double speed(double distance, double braking) noexcept {
+    const double steps = std::floor(std::sqrt(0.25 + 2.0 * distance / braking) - 0.5);
+    return steps < 1.0 ? distance : steps * braking;
+  }
+  static double approach(double rest, double target_velocity, const PursuitLimits& limits) noexcept {
+    const double distance = std::abs(rest);
+    if (distance == 0.0) return 0.0;
+    const bool catches_up = (rest > 0.0) == (target_velocity >= 0.0);
+    double towards = speed(distance, catches_up ? limits.deceleration : limits.acceleration);
+    // On its way back through standstill both count.
+    if (!catches_up && towards > std::abs(target_velocity))
+      towards = std::max(std::min(towards, std::abs(target_velocity)),
+                         speed(distance, std::min(limits.acceleration, limits.deceleration)));
+    return rest < 0.0 ? -towards : towards;
+  }
+  static double bounded(double wanted, double rest, double target_velocity,
+                        const PursuitLimits& limits) noexcept {
+    double low = -limits.velocity, high = limits.velocity;
+    if (limits.band >= 0.0 && rest != 0.0) {
+      const double band = std::abs(target_velocity) * limits.band;
+      low = std::clamp(target_velocity - band, low, high);
+      high = std::clamp(target_velocity + band, low, high);
+    }
+    using Reversal = PursuitLimits::Reversal;
+    const bool forward = limits.reversal == Reversal::never ||
+                         (limits.reversal == Reversal::with_target && target_velocity >= 0.0);
+    if (forward) {
+      low = std::max(low, 0.0);
+      high = std::max(high, 0.0);
+    }
+    return std::clamp(wanted, low, high);
+  }
+  /// What can be reached in a step from the velocity of the last one.
+  double reachable(double wanted, const PursuitLimits& limits) const noexcept {
+    const double own = velocity_;
+    if (own == 0.0) return std::clamp(wanted, -limits.acceleration, limits.acceleration);
+    const bool mirrored = own < 0.0;
+    const double speed = mirrored ? -own : own, to = mirrored ? -wanted : wanted;
+    double reached = std::min(to, speed + limits.acceleration);
+    if (to < speed) {
+      double lowest = speed - limits.deceleration;
+      // What is left of the step when it stands goes into the other direction.
+      if (lowest < 0.0) lowest = -(1.0 - speed / limits.deceleration) * limits.acceleration;
+      reached = std::max(to, lowest);
+    }
+    return mirrored ? -reached : reached;
+  }
+
+  double position_ = 0.0, velocity_ = 0.0;
+  double steady_ = 0.0;  // velocity that keeps the limits, beside which that of a counted target jumps
+  double last_target_velocity_ = 0.0;
+  bool synchronous_ = false, locked_ = false;
+};
+
+}  // namespace lockstep
