@@ -43,7 +43,7 @@ std::string reason(std::string_view message) {
   text = std::string(message.substr(0, last_read)) + "; last read: " + quote(token.substr(0, end));
   const auto expected = token.rfind("; expected ");
   if (expected != token.npos && end < expected) text += token.substr(expected);
-  return text + hint(message);
+  return text.append(hint(message));
 }
 
 /// Where a comment begins that does not end; npos if there is none.

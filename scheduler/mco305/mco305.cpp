@@ -279,11 +279,13 @@ void Mco305::show() noexcept {
   read.APOS = device_.actual_units();
   read.CPOS = device_.set_units();
   read.IPOS = device_.latched_units();
-  read.MAPOS = device_.master().shown();
-  read.MIPOS = device_.master().shown_latch();
-  read.MAVEL = device_.master_velocity();
-  read.SYNCERR = device_.sync_error();
-  read.SYNCSTAT = device_.sync_status();
+  if (device_.led()) {
+    read.MAPOS = device_.master().shown();
+    read.MIPOS = device_.master().shown_latch();
+    read.MAVEL = device_.master_velocity();
+    read.SYNCERR = device_.sync_error();
+    read.SYNCSTAT = device_.sync_status();
+  }
   read.TRACKERR = device_.following_error();
   read.AVEL = device_.velocity_units();
   read.AXEND = device_.axis_end();

@@ -87,6 +87,8 @@ class Device {
   void clear_sync_status(std::int32_t bits) noexcept { sync_.clear_status(bits); }  ///< SYNCSTATCLR
   /// PULSVEL, with the acceleration of PULSACC.
   void turn_own_master(std::int32_t hertz) noexcept;
+  /// Whether it has had a master; without one nothing is computed for one.
+  bool led() const noexcept { return has_master_; }
   MasterInput& master() noexcept { return master_; }
   const MasterInput& master() const noexcept { return master_; }
   /// Whether the axis rests where it was told to: the end of POSA, POSR, MOTOR STOP, WAITAX.

@@ -93,8 +93,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Stored{"07_emergency_door", "16s", 40}, Stored{"08_filling_line", "11s", 40},
                     Stored{"09_flying_saw", "12s", 40}, Stored{"10_fixed_stop", "16s", 40},
                     Stored{"11_pick_and_place", "8s", 40}, Stored{"14_twelve_stations", "7s", 50},
-                    Stored{"20_bottle_palletizer", "20s", 40}, Stored{"24_brake", "4s", 10},
-                    Stored{"26_linear_motor", "7s", 25}),
+                    Stored{"20_bottle_palletizer", "20s", 40}, Stored{"21_suitcase_conveyor", "16s", 20},
+                    Stored{"24_brake", "4s", 10}, Stored{"26_linear_motor", "7s", 25}),
     [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning
@@ -663,6 +663,43 @@ TEST(BottlePalletizer, SaysEachBoxOnTheConsole) {
   EXPECT_NE(ended.err.find("Horizontal: box 1 at 2500\n"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("Horizontal: box 2 at 2500\n"), std::string::npos) << ended.err;
   EXPECT_EQ(ended.err.find("error"), std::string::npos) << ended.err;
+}
+
+TEST(SuitcaseConveyor, RunsAtTheSpeedOfTheBeltInFrontAndByHandInSteps) {
+  const CsvTable table = simulate(example("21_suitcase_conveyor"), "16s");
+  expect_never(table, "failed");
+  const auto speed_at = [&](double t) {
+    return table["TransferBelt.AVEL"][static_cast<std::size_t>(std::lround(t * 1000.0))];
+  };
+  for (const double t : {3.0, 5.5, 8.5}) {
+    const std::size_t row = static_cast<std::size_t>(std::lround(t * 1000.0));
+    EXPECT_EQ(table["follows"][row], 1.0);
+    EXPECT_NEAR(speed_at(t), 1.25 * table["MainBelt.AVEL"][row], 120.0) << "4 counts for 5 at " << t;
+  }
+  EXPECT_NEAR(speed_at(9.8), 0.0, 100.0);
+  for (const auto& [t, speed] :
+       {std::pair{10.8, 20'000.0}, {11.8, 25'000.0}, {12.8, 30'000.0}, {13.8, 25'000.0}})
+    EXPECT_NEAR(speed_at(t), speed, 100.0) << "by hand at " << t;
+  EXPECT_NEAR(speed_at(15.0), 0.0, 100.0);
+  EXPECT_EQ(table["hand"].back(), 0.0);
+}
+
+TEST(MixedLine, KeepsLabellerAndStackerInStepWithTheBelt) {
+  const CsvTable table = simulate(example("25_mixed_line"), "9s");
+  expect_never(table, "alarm");
+  std::size_t together = 0;
+  for (std::size_t i = 1000; i < table.rows; ++i) {
+    const double t = table["t"][i];
+    if ((t < 3.0 || t > 5.0) && (t < 7.0 || t > 9.0)) continue;
+    EXPECT_EQ(table["stacks"][i], 1.0) << t;
+    EXPECT_LE(std::abs(table["Labeller.SYNCERR"][i]), 1.0) << t;
+    // 100 counts a millimetre, two for one, 40 counts a unit, half of them.
+    EXPECT_NEAR(table["Stacker.Velocity"][i], 2.5 * table["Belt.Velocity"][i], 60.0) << t;
+    ++together;
+  }
+  EXPECT_GT(together, 3000u);
+  const std::size_t stopped = static_cast<std::size_t>(std::lround(5.9 * 1000.0));
+  EXPECT_NEAR(table["Stacker.Velocity"][stopped], 0.0, 1.0) << "stops with the labeller";
 }
 
 TEST(Brake, IsOpenWhileTheLiftMovesAndShutBehindAnError) {

@@ -21,7 +21,7 @@ export class Alarms {
     this.pending.replaceChildren(...(pending.length ? pending.map((alarm) => this.card(alarm)) : [html("p", {}, "No alarm is pending.")]));
     this.past.replaceChildren(...events.slice(-100).reverse().map((event) => html("li", { "data-kind": event.kind },
       button(seconds(event.t, 1e6) + " s", "Show this moment", () => this.show(event.t)),
-      html("span", {}, `${event.source}: ${event.kind}${event.number ? " " + event.number : ""}${event.text ? ", " + event.text : ""}`))));
+      html("span", {}, `${event.source || "the run"}: ${event.kind}${event.number ? " " + event.number : ""}${event.text ? ", " + event.text : ""}`))));
   }
 
   private card(alarm: Event): HTMLElement {

@@ -65,7 +65,7 @@ export class Bars {
     for (const event of this.events) {
       const at = x(event.t);
       if (at < kLeft || at > kLeft + width) continue;
-      shapes.push(svg("g", { class: "event" }, svg("title", {}, `${event.source}: ${event.kind} ${event.number} ${event.text}`),
+      shapes.push(svg("g", { class: "event" }, svg("title", {}, `${event.source || "the run"}: ${event.kind} ${event.number} ${event.text}`),
         svg("path", { d: `M${at} ${kBar - 4}l-5 -9h10z` }), svg("line", { x1: at, x2: at, y1: kBar - 4, y2: this.height })));
     }
     for (const lane of this.lanes)
