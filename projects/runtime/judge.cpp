@@ -36,19 +36,19 @@ Judgement judged(const Expectation& expectation, std::int64_t at) {
 }
 
 /// What happens in the controller, for as long as this lives.
-class ToldEvents {
+class EventsOfARun {
  public:
-  ToldEvents(Controller& controller, const std::function<void(const TraceEvent&)>& tell)
+  EventsOfARun(Controller& controller, const std::function<void(const TraceEvent&)>& tell)
       : controller_(controller), tell_(tell), texts_(controller) {
     if (!tell) return;
     controller.events = &queue_;
     controller.tell_jobs();
   }
-  ~ToldEvents() {
+  ~EventsOfARun() {
     if (tell_) controller_.events = nullptr;
   }
-  ToldEvents(const ToldEvents&) = delete;
-  ToldEvents& operator=(const ToldEvents&) = delete;
+  EventsOfARun(const EventsOfARun&) = delete;
+  EventsOfARun& operator=(const EventsOfARun&) = delete;
 
   void take() {
     for (; queue_.readable() != 0; queue_.pop(1)) tell_(texts_.of(queue_.event(0), queue_.lost()));
@@ -65,7 +65,7 @@ class ToldEvents {
 
 std::vector<Judgement> judge(Project& project, const std::function<void(const TraceEvent&)>& tell) {
   Controller& controller = *project.controller;
-  ToldEvents events(controller, tell);
+  EventsOfARun events(controller, tell);
   const Expectations& expectations = project.expectations;
   std::vector<Judgement> judgements;
   for (const Expectation& expectation : expectations.list) judgements.push_back({&expectation});
