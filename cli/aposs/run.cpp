@@ -178,8 +178,8 @@ int tell_end(const std::vector<std::string>& files, aposs::Machine& machine, con
     return at(
         machine.place(),
         std::string(row_of(*machine.refused()).name) +
-            " is not built yet: synchronizing, cams, the virtual master, process data, analog values and "
-            "recording are not");
+            " is not built yet: cams, process data, parameters of the drive, analog values and recording are "
+            "not");
   if (machine.state() == aposs::ProgramState::kError)
     return at(machine.error_place(), text_of(machine.error()) + "; without ON ERROR it ends the program");
   return kOk;

@@ -124,7 +124,7 @@ struct CatalogueEntry {
   std::vector<std::pair<std::string, std::string>> facts;
 };
 
-Subject list_subject(const std::string& title, std::vector<CatalogueEntry> entries) {
+Subject list_subject(const std::string& title, const std::vector<CatalogueEntry>& entries) {
   const auto text = [title, entries](std::size_t width) {
     Table table({title, ""});
     for (const CatalogueEntry& entry : entries) table.row({entry.name, entry.text});

@@ -36,7 +36,7 @@ std::string reason(std::string_view message) {
   std::string text;
   constexpr std::string_view kLastRead = "; last read: '";
   const auto last_read = message.find(kLastRead);
-  if (last_read == message.npos) return std::string(message);
+  if (last_read == message.npos) return std::string(message).append(hint(message));
   // What was read last may be very long; what is expected follows it.
   const std::string_view token = message.substr(last_read + kLastRead.size());
   const auto end = token.rfind('\'');
@@ -329,14 +329,14 @@ bool JsonBuilder::parse_error(std::size_t position, const std::string& token,
                                    .file = document_.source_->file()});
     return false;
   }
-  // A text or number that stands where it may not is told where it begins; what cannot be read, where it
-  // ends.
-  const bool whole = token.size() > 1 && token.size() <= position &&
-                     document_.source_->text().compare(position - token.size(), token.size(), token) == 0 &&
-                     std::string_view(exception.what()).find("invalid") == std::string_view::npos;
-  const SourcePosition place = document_.source_->position(whole           ? position - token.size()
-                                                           : position == 0 ? 0
-                                                                           : position - 1);
+  // A text that stands where it may not is told where it begins; what cannot be read, where it ends.
+  const std::size_t length = token.size();
+  const bool is_text =
+      length <= position &&
+      std::string_view(exception.what()).find("unexpected string literal") != std::string_view::npos &&
+      document_.source_->text().compare(position - length, length, token) == 0;
+  const std::size_t last = position == 0 ? 0 : position - 1;
+  const SourcePosition place = document_.source_->position(is_text ? position - length : last);
   document_.problems_.push_back(
       {.place = text_of(place), .text = reason(exception.what()), .file = document_.source_->file()});
   return false;

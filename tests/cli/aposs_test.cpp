@@ -124,11 +124,11 @@ TEST(Aposs, RunTracesTheAxisAndItsDrive) {
 
 TEST(Aposs, RunSaysPlainlyWhatIsNotBuilt) {
   const Directory folder;
-  const std::string file = folder.write("p.m", "PRINT \"before\"\nSYNCP\nPRINT \"behind\"\n");
+  const std::string file = folder.write("p.m", "PRINT \"before\"\nSYNCC 1\nPRINT \"behind\"\n");
   const Ended ended = lockstep({"aposs", "run", file});
   EXPECT_EQ(ended.status, 1);
   EXPECT_EQ(ended.out, "before\n");
-  EXPECT_NE(ended.err.find(file + ":2:1: SYNCP is not built yet"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find(file + ":2:1: SYNCC is not built yet"), std::string::npos) << ended.err;
 }
 
 TEST(Aposs, RunTellsAnErrorWithoutAHandler) {

@@ -53,6 +53,8 @@ inline constexpr char kRestOfProject[] = R"json({
     "Curve10": { "type": "TO_Cam_10k", "config": {}, "points": [ [0.0, 0.0], [1.0, 1.0] ] },
     "Device": {
       "type": "MCO_305", "parameters": { "VELMAX": 3000 }, "drive": { "model": "none" },
+      "master": { "follows": "Knife", "counts_per_unit": [1, 1], "markers": { "period": 1000.0 } }, "markers": { "period": 500.0 },
+      "faults": { "supply": "fault" },
       "inputs": { "1": "switch" }, "outputs": { "1": "fault" },
       "programs": [ { "number": 0, "lines": [ "DELAY 10" ] } ]
     },
