@@ -124,8 +124,8 @@ std::optional<LeadingValueTelegram> LeadingValueReader::read(std::span<const std
   return telegram_of(*message);
 }
 
-/// A run that another one has replaced and that goes on in time: there are two senders. Which of them leads is
-/// not to be told, so that for a while none does.
+/// A run that another one has replaced and that goes on in time: there are two senders. Which of them leads
+/// is not to be told, so that for a while none does.
 bool LeadingValueReader::is_ambiguous(const leading_value_t& message, std::int64_t now) noexcept {
   if (known_ && run_before_ != 0 && message.run == run_before_ && message.time > newest_time_)
     ambiguous_to_ = now + kAmbiguousFor;

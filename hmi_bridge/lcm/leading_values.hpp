@@ -49,7 +49,7 @@ struct LeadingValueCounters {
   std::uint64_t foreign = 0;     ///< of another area, sender or layout
   std::uint64_t not_signed = 0;  ///< without the right code
   std::uint64_t repeated = 0;    ///< that have been accepted already, or are as old as such ones
-  std::uint64_t ambiguous = 0;  ///< while there are two senders
+  std::uint64_t ambiguous = 0;   ///< while there are two senders
   std::uint64_t stale = 0;       ///< older or newer than the clock allows
 };
 
@@ -78,12 +78,12 @@ class LeadingValueReader {
   const std::int64_t layout_;
   LeadingValueCounters counters_;
   bool known_ = false;
-  std::int64_t run_ = 0;          // of the sender
-  std::int64_t run_before_ = 0;   // which `run_` has replaced; 0: none
+  std::int64_t run_ = 0;                   // of the sender
+  std::int64_t run_before_ = 0;            // which `run_` has replaced; 0: none
   std::int64_t ambiguous_to_ = INT64_MIN;  // [ns]
-  std::int64_t newest_time_ = 0;  // [ns] accepted
-  std::uint64_t newest_ = 0;      // sequence accepted
-  std::uint64_t window_ = 0;      // bit n: `newest_` − n has been accepted
+  std::int64_t newest_time_ = 0;           // [ns] accepted
+  std::uint64_t newest_ = 0;               // sequence accepted
+  std::uint64_t window_ = 0;               // bit n: `newest_` − n has been accepted
 };
 
 /// The message, if the bytes are one of this type, whole and without anything behind it. Any thread.

@@ -1,7 +1,7 @@
 // The cycle of an axis at which nothing but its base motion happens: by far the most cycles of most axes. It
 // is `step` and `publish` without what they would find to be absent, so it has the same results, to the bit
-// (tests/tech_objects/axis/plain_cycle_test.cpp). There is one for each kind of base motion, complete in itself: what
-// it finds out at its begin it need not ask again when it publishes.
+// (tests/tech_objects/axis/plain_cycle_test.cpp). There is one for each kind of base motion, complete in
+// itself: what it finds out at its begin it need not ask again when it publishes.
 #include <cmath>
 
 #include "tech_objects/axis/axis.hpp"
