@@ -36,6 +36,15 @@ def test_it_has_the_bits_of_the_command(example, program, tmp_path):
         assert trace[name].astype(float).tobytes() == there[name].tobytes(), name
 
 
+def test_names_of_signals_are_blind_to_case(knife):
+    with lockstep.Project(knife) as project:
+        project.step(10)
+        trace = project.trace
+    name = trace.names[0]
+    assert trace[name.upper()] is trace[name.lower()] is trace[name]
+    assert name.upper() in trace and 3 not in trace and "none" not in trace
+
+
 def test_it_is_the_stored_trace_of_the_example(knife):
     stored = ROOT / "tests" / "data" / "scenario_02_rotary_knife.csv"
     with stored.open() as file:

@@ -90,10 +90,13 @@ class Trace(Mapping[str, "NDArray[Any]"]):
         return len(self._time)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        try:
+        """The column of a signal; as in every path, capital letters are as good as small ones."""
+        if name in self._columns:
             return self._columns[name]
-        except KeyError:
-            raise KeyError(f"the trace has no signal {name!r}; it has: {', '.join(self._columns) or 'none'}") from None
+        for one, column in self._columns.items():
+            if isinstance(name, str) and one.lower() == name.lower():
+                return column
+        raise KeyError(f"the trace has no signal {name!r}; it has: {', '.join(self._columns) or 'none'}")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
