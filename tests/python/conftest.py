@@ -1,6 +1,7 @@
 """What the tests of the Python package share."""
 
 import os
+import signal
 from pathlib import Path
 from typing import Any
 
@@ -63,3 +64,11 @@ def knife() -> Path:
 def program() -> str:
     """The lockstep command of the same build."""
     return os.environ["LOCKSTEP_PROGRAM"]
+
+
+@pytest.fixture
+def ctrl_c():
+    """As in a terminal: what a shell has put into the background ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)

@@ -399,7 +399,7 @@ def test_another_thread_is_refused_while_it_runs_and_the_gil_is_free(small):
     assert refused >= 10
 
 
-def test_ctrl_c_ends_a_long_run(small):
+def test_ctrl_c_ends_a_long_run(small, ctrl_c):
     project = lockstep.Project(small, signals=[])
     pressed = []
 

@@ -83,7 +83,7 @@ def test_it_is_stopped_from_another_thread(file):
         assert ended == [True]
 
 
-def test_ctrl_c_ends_a_wait_and_not_the_run(file):
+def test_ctrl_c_ends_a_wait_and_not_the_run(file, ctrl_c):
     with lockstep.RealTime(file, **QUIET) as machine:
         timer = threading.Timer(0.1, lambda: signal.pthread_kill(threading.main_thread().ident, signal.SIGINT))
         timer.start()
