@@ -146,7 +146,8 @@ TEST(LinMotErrors, AreThePublishedOnes) {
 // ---- L16
 
 TEST(LinMotScenario, L16CalculatesWhatALoadTakes) {
-  for (const Json& scenario : catalogue("scenarios").at("scenarios")) {
+  const Json document = catalogue("scenarios");
+  for (const Json& scenario : document.at("scenarios")) {
     if (scenario.at("id") != "L16") continue;
     const Json& expect = scenario.at("expect");
     linmot::TuningInput input{.force_constant = 40.0,
