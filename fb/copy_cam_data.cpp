@@ -1,5 +1,7 @@
 #include "fb/copy_cam_data.hpp"
 
+#include "tech_objects/jobs/modes.hpp"
+
 namespace lockstep {
 
 void MC_CopyCamData::request(Job& job) const noexcept {
@@ -16,7 +18,7 @@ void MC_CopyCamData::hand_over(Job& job) noexcept {
                      .start_segment_array = StartSegmentArray,
                      .number_of_points = NumberOfPoints,
                      .number_of_segments = NumberOfSegments,
-                     .keep = Mode == 1};
+                     .keep = chooses(Mode, CamCopyMode::keep)};
   job.as<CamCopyJob>().copy = &copy;
   Cam->submit(job);
   job.as<CamCopyJob>().copy = nullptr;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fb/execute_block.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 
@@ -72,7 +73,8 @@ struct MC_GearInPos final : ExecuteBlock {
   static constexpr Choice kDirections[] = {
       {1, "positive direction"}, {2, "negative direction"}, {3, "shortest way"}};
   static bool over_time(const Block& block) noexcept {
-    return static_cast<const MC_GearInPos&>(block).SyncProfileReference == 0;
+    return chooses(static_cast<const MC_GearInPos&>(block).SyncProfileReference,
+                   lockstep::SyncProfileReference::dynamics);
   }
   static bool over_distance(const Block& block) noexcept { return !over_time(block); }
   static bool following_modulo(const Block& block) noexcept;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fb/execute_block.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 
@@ -55,7 +56,7 @@ struct MC_SetSensor final : ExecuteBlock {
                                       {2, "no switch-over: actual position of the axis copied to Sensor"},
                                       {3, "no switch-over: position of ReferenceSensor copied to Sensor"}};
   static constexpr bool copies_from_reference(const Block& block) noexcept {
-    return static_cast<const MC_SetSensor&>(block).Mode == 3;
+    return chooses(static_cast<const MC_SetSensor&>(block).Mode, SetSensorMode::copy_from_reference);
   }
   static constexpr auto kPins = pins(
       object<&MC_SetSensor::Axis>("Axis", kAnyAxis, "axis that has the encoders"), pin::kExecute,

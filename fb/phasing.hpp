@@ -3,6 +3,7 @@
 
 #include "fb/execute_block.hpp"
 #include "fb/shift_pins.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 
@@ -22,7 +23,7 @@ struct PhasingBlock : ExecuteBlock {
   BOOL StartPhasing{};
 
   static bool over_time(const Block& block) noexcept {
-    return static_cast<const PhasingBlock&>(block).ProfileReference == 0;
+    return chooses(static_cast<const PhasingBlock&>(block).ProfileReference, ShiftProfileReference::dynamics);
   }
   static constexpr auto phasing_pins(std::string_view meaning, Pin covered) {
     return pins(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fb/block.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep::shift_pins {
 
@@ -22,11 +23,12 @@ inline constexpr Choice kDirections[] = {{1, "while the leading value moves in p
 template <class T>
 bool over_distance(const Block& block) noexcept {
   const DINT profile = static_cast<const T&>(block).ProfileReference;
-  return profile == 1 || profile == 2;
+  return chooses(profile, ShiftProfileReference::from_here) ||
+         chooses(profile, ShiftProfileReference::from_position);
 }
 template <class T>
 bool from_position(const Block& block) noexcept {
-  return static_cast<const T&>(block).ProfileReference == 2;
+  return chooses(static_cast<const T&>(block).ProfileReference, ShiftProfileReference::from_position);
 }
 
 template <class T>

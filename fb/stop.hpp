@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fb/execute_block.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 
@@ -48,7 +49,7 @@ struct MC_Stop final : ExecuteBlock {
       {2, "maximum dynamics: DynamicLimits.MaxDeceleration and MaxJerk"},
       {3, "Deceleration and Jerk of the block"}};
   static bool given_dynamics(const Block& block) noexcept {
-    return static_cast<const MC_Stop&>(block).Mode == 3;
+    return chooses(static_cast<const MC_Stop&>(block).Mode, StopMode::given_dynamics);
   }
   static constexpr auto kPins = pins(
       pin::any_axis<MC_Stop>(), pin::kExecute,

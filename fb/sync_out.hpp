@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fb/execute_block.hpp"
+#include "tech_objects/jobs/modes.hpp"
 
 namespace lockstep {
 
@@ -23,10 +24,12 @@ struct SyncOutBlock : ExecuteBlock {
                                            {2, "while the following axis moves in negative direction"},
                                            {3, "in the current direction of the following axis"}};
   static bool over_time(const Block& block) noexcept {
-    return static_cast<const SyncOutBlock&>(block).SyncProfileReference == 0;
+    return chooses(static_cast<const SyncOutBlock&>(block).SyncProfileReference,
+                   SyncOutProfileReference::dynamics);
   }
   static bool over_distance(const Block& block) noexcept {
-    return static_cast<const SyncOutBlock&>(block).SyncProfileReference == 1;
+    return chooses(static_cast<const SyncOutBlock&>(block).SyncProfileReference,
+                   SyncOutProfileReference::over_distance);
   }
   static bool leaves(const Block& block) noexcept { return over_time(block) || over_distance(block); }
 

@@ -1,5 +1,7 @@
 #include "fb/torque.hpp"
 
+#include "tech_objects/jobs/modes.hpp"
+
 namespace lockstep {
 
 void TorqueBlock::call(std::int64_t /*now*/) noexcept {
@@ -41,7 +43,9 @@ ErrorId TorqueBlock::check_inputs() const noexcept {
 }
 
 ErrorId MC_TorqueLimiting::check_together() const noexcept {
-  return Mode == 1 && Axis != nullptr && !Axis->has_position() ? ErrorId::mode : ErrorId::none;
+  return chooses(Mode, TorqueLimitingMode::fixed_stop_detection) && Axis != nullptr && !Axis->has_position()
+             ? ErrorId::mode
+             : ErrorId::none;
 }
 
 ErrorId MC_TorqueLimiting::hold() const noexcept {

@@ -3,6 +3,7 @@
 #include "projects/keys/objects.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/read_keys.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -37,7 +38,7 @@ void check_correction(const JsonValue& config, const MeasuringInput& input, cons
 
 /// One that watches another is of a later version of the technology.
 void check_type(const JsonValue& config, const MeasuringInput& input, const Loading& loading) {
-  if (input.data.Parameter.MeasuringInputType != 2) return;
+  if (input.data.Parameter.MeasuringInputType != MeasuringInputType::other_input) return;
   const JsonValue* const type = config.find("Parameter")->find("MeasuringInputType");
   loading.problems.report(
       *type,

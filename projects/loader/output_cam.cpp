@@ -5,6 +5,7 @@
 #include "projects/keys/objects.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/read_keys.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -26,9 +27,9 @@ void load_switching(const JsonValue& json, Cam& cam, const Loading& loading) {
     key_detail::assign(cam.assigned, *assigned);
   const bool encoder = cam.assigned != nullptr && cam.assigned->kind == ObjectKind::TO_ExternalEncoder;
   if (const JsonValue* const type = member(member(config, "Parameter"), "PositionType");
-      sure && encoder && type != nullptr && cam.data.Parameter.PositionType == 0)
+      sure && encoder && type != nullptr && cam.data.Parameter.PositionType == PositionType::setpoint)
     problems.report(*type, "an external encoder has no setpoint; allowed: 1 (actual position)");
-  if (encoder) cam.data.Parameter.PositionType = 1;
+  if (encoder) cam.data.Parameter.PositionType = PositionType::actual_position;
   if (const JsonValue* const times = fields["switching_times"])
     read_struct(*times, keys::kSwitchingTimes, cam.switching_times, loading);
 }
@@ -38,7 +39,7 @@ void load_switching(const JsonValue& json, Cam& cam, const Loading& loading) {
 void load_output_cam(const JsonValue& json, OutputCam& cam, const Loading& loading) {
   load_switching(json, cam, loading);
   const JsonValue* const type = member(member(json.find("config"), "Parameter"), "OutputCamType");
-  if (type != nullptr && cam.data.Parameter.OutputCamType == 2)
+  if (type != nullptr && cam.data.Parameter.OutputCamType == OutputCamType::switching)
     loading.problems.report(*type,
                             "a switching cam is not supported; allowed: 0 (distance cam), 1 (time cam)");
 }

@@ -31,7 +31,7 @@ void HomingOrders::begin_active(Job& job) noexcept {
   homing_now_ = true;
   const bool has_switch = settings.Mode != static_cast<DINT>(HomingMark::zero_mark);
   using Phase = HomingCourse::Phase;
-  homing_.begin({.direction = settings.Direction == 0 ? 1 : -1,
+  homing_.begin({.direction = settings.Direction == HomingDirection::positive ? 1 : -1,
                  .mark = mark,
                  .approach_velocity = data.Homing.ApproachVelocity,
                  .referencing_velocity = data.Homing.ReferencingVelocity,

@@ -7,6 +7,7 @@
 #include "tech_objects/axis/stopping_distance.hpp"
 #include "tech_objects/axis/turning_back.hpp"
 #include "tech_objects/data_blocks/status_bits.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 // ---- Software limit switches
@@ -44,7 +45,9 @@ bool LimitOrders::keep_within(int side, double limit) noexcept {
 
 /// What the axis brakes with in front of a limit: the values of its job only if it moves on its own.
 Dynamics LimitOrders::limit_dynamics() const noexcept {
-  const bool current = data.PositionLimits_SW.LimitReachedBehavior == 1 && motion_ == AxisMotion::single_axis;
+  const bool current =
+      data.PositionLimits_SW.LimitReachedBehavior == LimitReachedBehavior::current_dynamics &&
+      motion_ == AxisMotion::single_axis;
   return current ? single_.dynamics() : limits_.maximum();
 }
 
@@ -81,17 +84,19 @@ void LimitOrders::stop_at_limit(int side, AxisPosition limit, Dynamics dynamics)
   }
   if (side * rounded_difference(setpoint_.position, limit, modulo_) > 0.0)
     reactions_.raise(alarm::kSoftwareLimitPassed,
-                     data.PositionLimits_SW.LimitExceededBehavior == 1 ? AlarmReaction::stop_emergency
-                                                                       : AlarmReaction::remove_enable,
+                     data.PositionLimits_SW.LimitExceededBehavior == LimitExceededBehavior::emergency_stop
+                         ? AlarmReaction::stop_emergency
+                         : AlarmReaction::remove_enable,
                      {.cause = side_of(side), .value = setpoint_.position.value, .limit = limit.value});
 }
 
 AlarmReaction LimitOrders::reaction_at_limit() const noexcept {
-  const bool current = data.PositionLimits_SW.LimitReachedBehavior == 1 && !led(motion_);
+  const bool current =
+      data.PositionLimits_SW.LimitReachedBehavior == LimitReachedBehavior::current_dynamics && !led(motion_);
   return current ? AlarmReaction::stop_current : AlarmReaction::stop_maximum;
 }
 
-/// With no higher velocity than it reaches anyway, though there may be room for that.
+/// With no higher velocity than it reaches anyway, though its limits may permit one.
 void LimitOrders::approach_limit(double distance, AxisPosition limit, const Dynamics& dynamics) noexcept {
   coupling_.leave();
   motion_ = AxisMotion::single_axis;

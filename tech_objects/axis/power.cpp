@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tech_objects/jobs/modes.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -57,7 +58,7 @@ void PowerOrders::take_up_motion() noexcept {
   power_state_ = PowerState::on;
   motion_ = AxisMotion::single_axis;
   const bool at_once = power.start_mode == StartMode::without_position_control ||
-                       data.PositionControl.VelocityModePowerOn == 1;
+                       data.PositionControl.VelocityModePowerOn == VelocityModePowerOn::at_once;
   const bool ramps = moving(actual_velocity_, data) && !at_once;
   if (has_drive_) setpoint_ = {actual_, ramps ? actual_velocity_ : 0.0, 0.0};
   const AxisPosition here = setpoint_.position;

@@ -7,6 +7,12 @@
 
 namespace lockstep {
 
+/// Whether the number on a pin is that of a mode, profile or direction.
+template <class Mode>
+constexpr bool chooses(DINT pin, Mode mode) noexcept {
+  return pin == static_cast<DINT>(mode);
+}
+
 /// MC_Power, StartMode.
 enum class StartMode : DINT { without_position_control = 0, position_control = 1 };
 
@@ -95,6 +101,12 @@ enum class SyncOutProfileReference : DINT {
 /// Pins SyncDirection, SyncOutDirection and Direction of a shift: of the axis, or of the leading value; and
 /// Direction of MC_OutputCam.
 enum class PublishedDirection : DINT { positive = 1, negative = 2, either = 3 };
+
+/// MC_CopyCamData, Mode.
+enum class CamCopyMode : DINT {
+  invalidate = 0,  ///< what was in the cam is valid no more
+  keep = 1         ///< … stays valid
+};
 
 /// Pin ApplicationMode of MC_CamIn.
 enum class CamApplicationMode : DINT {

@@ -4,6 +4,7 @@
 
 #include "tech_objects/jobs/override.hpp"
 #include "tech_objects/leading_values/seconds.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 namespace {
@@ -15,7 +16,8 @@ constexpr double kAcquisitionTime = 0.0;
 /// The variables Extrapolation of the data block, as the kernel takes them.
 ExtrapolationSettings settings_of(const TO_Struct_Extrapolation& from) noexcept {
   return {.makes_up_for_leading_axis = from.Settings.SystemDefinedExtrapolation != 0,
-          .velocity_of_positions = from.Settings.ExtrapolatedVelocityMode == 1,
+          .velocity_of_positions =
+              from.Settings.ExtrapolatedVelocityMode == ExtrapolatedVelocityMode::by_differentiation,
           .further_time = from.FollowingAxisDependentTime,
           .position_lags = {from.PositionFilter.T1, from.PositionFilter.T2},
           .velocity_lags = {from.VelocityFilter.T1, from.VelocityFilter.T2},

@@ -12,6 +12,7 @@
 #include "tech_objects/jobs/new_jobs.hpp"
 #include "tech_objects/objects/load_position.hpp"
 #include "tech_objects/sensing/probe_signal.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 
@@ -58,7 +59,9 @@ class MeasuringInput final : public TechnologyObject {
   void start(Job& job) noexcept;
   ErrorId begin(Job& job) noexcept;
   ErrorId take_range(const Job& job) noexcept;
-  bool by_telegram() const noexcept { return data.Parameter.MeasuringInputType == 1; }
+  bool by_telegram() const noexcept {
+    return data.Parameter.MeasuringInputType == MeasuringInputType::telegram;
+  }
   ErrorId take_telegram(const Job& job) noexcept;
   ErrorId refuse(int alarm_number) noexcept;
   bool may_tell() const noexcept;

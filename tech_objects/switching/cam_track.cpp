@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tech_objects/types/published.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -32,7 +34,7 @@ bool CamTrack::data_fit(const TO_Struct_CamTrack_Parameter& parameter) const noe
   for (std::size_t i = 0; i < kCams; ++i) {
     if (!counts(parameter, i)) continue;
     const auto& cam = parameter.Cam[i];
-    const bool fits = parameter.CamTrackType == 1
+    const bool fits = parameter.CamTrackType == CamTrackType::time
                           ? cam.Duration + parameter.OnCompensation > parameter.OffCompensation
                           : cam.OnPosition < cam.OffPosition;
     if (!fits) return false;
@@ -43,7 +45,7 @@ bool CamTrack::data_fit(const TO_Struct_CamTrack_Parameter& parameter) const noe
 /// A distance cam ends with its track.
 SwitchingShape CamTrack::shape(std::size_t cam) const noexcept {
   const auto& parameter = active_data_;
-  return {.timed = parameter.CamTrackType == 1,
+  return {.timed = parameter.CamTrackType == CamTrackType::time,
           .on = parameter.Cam[cam].OnPosition,
           .off = std::min(parameter.Cam[cam].OffPosition, parameter.CamTrackLength),
           .period = parameter.CamTrackLength,
@@ -176,7 +178,7 @@ void CamTrack::step_to_border(Edges& edges, const Stretch& distance) noexcept {
   const bool moved = reference != active_data_.ReferencePosition ||
                      waiting_data_.CamTrackLength != active_data_.CamTrackLength;
   for (std::size_t i = 0; i < kCams; ++i) {  // running distance cams end with the track
-    if (active_data_.CamTrackType == 1) continue;
+    if (active_data_.CamTrackType == CamTrackType::time) continue;
     SwitchingEdges of_cam;
     cams_[i].end(distance.part(part, 1.0).from_time, of_cam);
     edges.add(i, of_cam);
@@ -206,7 +208,7 @@ void CamTrack::step(Edges& edges, const Stretch& distance) noexcept {
     SwitchingEdges of_cam;
     if (counts(active_data_, i))
       cams_[i].step(shape(i), distance, path_.direction(), of_cam);
-    else if (active_data_.CamTrackType == 1)
+    else if (active_data_.CamTrackType == CamTrackType::time)
       cams_[i].hold(distance.to_time, of_cam);  // of the data before, it runs out
     else
       cams_[i].end(distance.from_time, of_cam);

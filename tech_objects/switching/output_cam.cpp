@@ -3,21 +3,17 @@
 #include <cmath>
 #include <utility>
 
+#include "tech_objects/types/published.hpp"
+
 namespace lockstep {
-namespace {
-
-/// Values of Parameter.OutputCamType.
-constexpr DINT kTimeCam = 1;
-constexpr DINT kSwitchingCam = 2;
-
-}  // namespace
 
 OutputCam::OutputCam(std::string object_name, DB_ANY object_number)
     : SwitchingObject(ObjectKind::TO_OutputCam, std::move(object_name), object_number) {}
 
 ErrorId OutputCam::refused(const OutputCamRequest& wanted) const noexcept {
-  if (data.Parameter.OutputCamType == kSwitchingCam) return ErrorId::unspecified;
-  if (data.Parameter.OutputCamType == kTimeCam && !(wanted.duration > 0.0)) return ErrorId::cam_duration;
+  if (data.Parameter.OutputCamType == OutputCamType::switching) return ErrorId::unspecified;
+  if (data.Parameter.OutputCamType == OutputCamType::time && !(wanted.duration > 0.0))
+    return ErrorId::cam_duration;
   return ErrorId::none;
 }
 
@@ -25,7 +21,7 @@ ErrorId OutputCam::refused(const OutputCamRequest& wanted) const noexcept {
 SwitchingShape OutputCam::shape() const noexcept {
   const Modulo ring = assigned->modulo();
   const auto& parameter = data.Parameter;
-  SwitchingShape shape{.timed = parameter.OutputCamType == kTimeCam,
+  SwitchingShape shape{.timed = parameter.OutputCamType == OutputCamType::time,
                        .on = request.on_position,
                        .off = request.off_position,
                        .duration = request.duration * kMillisecond,

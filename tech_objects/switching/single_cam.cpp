@@ -53,24 +53,24 @@ bool inside(const SwitchingShape& shape, const Between& at) noexcept {
   return shape.outside() ? at.lower >= 0.0 || at.upper <= 0.0 : at.lower >= at.upper;
 }
 
-/// The switch-on edge lies where a range is entered, which is its upper end if the way is downwards.
+/// The switch-on edge lies where a range is entered, which is its upper end if the motion is downwards.
 Between between(const SwitchingShape& shape, const Led& at, int direction) noexcept {
   const bool down = direction < 0;
   return {last_below(shape.on, shape.period, down ? at.off : at.on),
           first_above(shape.off, shape.period, down ? at.on : at.off)};
 }
 
-/// The first crossing of one of the places on a way.
+/// The first crossing of one of the places on a path.
 struct Crossing {
   bool there = false;
   bool up = false;
-  double part = 2.0;   // of the way
+  double part = 2.0;   // of the path
   double n = 0.0;      // of the place
   double place = 0.0;  // [u]
 };
 
 /// A lower end is crossed upwards on arrival and downwards when it is left, an upper end the other way round,
-/// so that no crossing lies between two ways or in both.
+/// so that no crossing lies between two paths or in both.
 enum class End : std::uint8_t { lower, upper };
 
 Crossing crossing(End end, double place, double period, double from, double to) noexcept {

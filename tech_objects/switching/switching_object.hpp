@@ -16,6 +16,7 @@
 #include "tech_objects/objects/object_alarms.hpp"
 #include "tech_objects/switching/single_cam.hpp"
 #include "tech_objects/switching/switched_output.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 
@@ -72,7 +73,8 @@ class SwitchingObject : public TechnologyObject {
 
   /// An external encoder has no setpoint.
   bool by_setpoint() const noexcept {
-    return data.Parameter.PositionType == 0 && assigned->kind != ObjectKind::TO_ExternalEncoder;
+    return data.Parameter.PositionType == PositionType::setpoint &&
+           assigned->kind != ObjectKind::TO_ExternalEncoder;
   }
   /// Whether there is a setpoint that would switch, if it is the setpoint that has to.
   bool has_position() const noexcept { return !by_setpoint() || assigned->position_controlled(); }

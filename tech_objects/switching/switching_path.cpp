@@ -78,7 +78,7 @@ double SwitchingPath::velocity(std::int64_t now) noexcept {
   return mean;
 }
 
-/// Where the way began, in the names of its end. It is the very end of the one before, unless homing has
+/// Where the path began, in the names of its end. It is the very end of the one before, unless homing has
 /// renamed that, so that no place lies between two stretches or in both.
 void SwitchingPath::connect(double before, double distance) noexcept {
   const Modulo ring = modulo();

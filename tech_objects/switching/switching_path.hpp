@@ -1,4 +1,4 @@
-/// The way of an axis or encoder through a servo cycle, as output cams see it.
+/// The path of an axis or encoder through a servo cycle, as output cams see it.
 /// @source S7-1500/S7-1500T measuring input and output cam functions, output cam
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// A straight piece of way.
+/// A straight piece of path.
 struct Stretch {
   double from_time = 0.0;      ///< [s] since the start of the run
   double to_time = 0.0;        ///< [s]
@@ -23,8 +23,8 @@ struct Stretch {
   Stretch shifted(double by) const noexcept;
 };
 
-/// Position, velocity and direction in servo cycles: where the way of each began and ended, and from where on
-/// it counts after a reversal. Thread: the cycle.
+/// Position, velocity and direction in servo cycles: where the path of each began and ended, and from where
+/// on it counts after a reversal. Thread: the cycle.
 class SwitchingPath {
  public:
   /// @param actual whether the actual position counts, else the setpoint
@@ -34,12 +34,12 @@ class SwitchingPath {
   /// @param now of the tick [ns]  @param hysteresis [u] ≥ 0
   void servo(std::int64_t now, double hysteresis) noexcept;
   void interpolated() noexcept { load_.interpolated(); }
-  /// The next servo tick has no way behind it: where it is found is where it begins.
+  /// The next servo tick has no path behind it: where it is found is where it begins.
   void begin_anew() noexcept { begun_ = false; }
 
-  /// Whether there is a way behind this tick.
+  /// Whether there is a path behind this tick.
   bool moved() const noexcept { return stretched_; }
-  /// The way of this servo cycle; its end is the position as it is called now.
+  /// The path of this servo cycle; its end is the position as it is called now.
   const Stretch& stretch() const noexcept { return stretch_; }
   /// By how much positions are called otherwise than at the end of the cycle before [u]: homing, and the wrap
   /// of a ring.
@@ -74,7 +74,7 @@ class SwitchingPath {
   double renamed_ = 0.0;
   double jumped_ = 0.0;
   int direction_ = 0;
-  double back_ = 0.0;  // from the furthest place in the direction [u]; without direction: the way made
+  double back_ = 0.0;  // from the furthest place in the direction [u]; without direction: the distance made
   double free_from_ = 0.0;
   std::array<Sample, kSamples> samples_{};
   std::size_t count_ = 0;

@@ -17,6 +17,11 @@ struct MotionType {
   enum : DINT { linear = 0, rotary = 1 };
 };
 
+/// VirtualAxis.Mode, Simulation.Mode.
+struct Activation {
+  enum : UDINT { not_active = 0, active = 1 };
+};
+
 /// Sensor[].Type.
 struct SensorType {
   enum : DINT { INCREMENTAL = 0, ABSOLUTE = 1, CYCLIC_ABSOLUTE = 2 };
@@ -42,6 +47,31 @@ struct PositionBasedMonitors {
   enum : DINT { deactivated = 0, activated = 1 };
 };
 
+/// Sensor[].ActiveHoming.Direction.
+struct HomingDirection {
+  enum : DINT { positive = 0, negative = 1 };
+};
+
+/// Extrapolation.Settings.ExtrapolatedVelocityMode.
+struct ExtrapolatedVelocityMode {
+  enum : DINT { filtered = 0, by_differentiation = 1 };
+};
+
+/// PositionControl.VelocityModePowerOn.
+struct VelocityModePowerOn {
+  enum : DINT { ramp = 0, at_once = 1 };
+};
+
+/// PositionLimits_SW.LimitReachedBehavior.
+struct LimitReachedBehavior {
+  enum : DINT { maximum_dynamics = 0, current_dynamics = 1 };
+};
+
+/// PositionLimits_SW.LimitExceededBehavior.
+struct LimitExceededBehavior {
+  enum : DINT { lock_axis = 0, emergency_stop = 1 };
+};
+
 /// PositionLimits_HW.Mode.
 struct LimitSwitchMode {
   enum : DINT { cannot_be_overrun = 0, can_be_overrun = 1 };
@@ -55,6 +85,26 @@ struct ApproachBehavior {
 /// SetpointFilter.DynamicFilter.Mode.
 struct DynamicFilterMode {
   enum : DINT { not_effective = 0, filter_and_dead_time = 1 };
+};
+
+/// Parameter.PositionType of output cams and cam tracks.
+struct PositionType {
+  enum : DINT { setpoint = 0, actual_position = 1 };
+};
+
+/// Parameter.OutputCamType.
+struct OutputCamType {
+  enum : DINT { distance = 0, time = 1, switching = 2 };
+};
+
+/// Parameter.CamTrackType.
+struct CamTrackType {
+  enum : DINT { distance = 0, time = 1 };
+};
+
+/// Parameter.MeasuringInputType.
+struct MeasuringInputType {
+  enum : DINT { time_stamp = 0, telegram = 1, other_input = 2 };
 };
 
 }  // namespace lockstep
