@@ -1,5 +1,6 @@
 #include "tech_objects/cam/spline.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 
 namespace lockstep {
@@ -28,33 +29,53 @@ CamPoint blossom(std::span<const CamPoint> controls, std::size_t span,
   return d[3];
 }
 
+// Coordinates of points that lie one behind the other, and numbers of them.
+using Coordinates = Eigen::Map<const Eigen::ArrayXd, Eigen::Unaligned, Eigen::InnerStride<2>>;
+using Numbers = Eigen::Map<Eigen::ArrayXd>;
+// The right-hand sides of a row.
+using Sides = Eigen::Map<Eigen::Vector2d>;
+
+Coordinates coordinates(const double& first, std::size_t count) noexcept {
+  static_assert(sizeof(CamPoint) == 2 * sizeof(double));
+  return {&first, static_cast<Eigen::Index>(count)};
+}
+
 }  // namespace
 
 CamSpline::CamSpline(std::size_t points)
-    : width_(points), slope_(points), pivot_(points), moment_(points), unit_(points) {}
+    : width_(points), slope_(points), pivot_(points), sides_(points), moment_(points) {}
 
 void CamSpline::measure(std::span<const CamPoint> points, std::size_t first) noexcept {
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    width_[first + i] = points[i + 1].x - points[i].x;
-    slope_[first + i] = (points[i + 1].y - points[i].y) / width_[first + i];
+  const std::size_t count = points.size() - 1;
+  const auto differences = [&](const double& begin, const double& next) {
+    return coordinates(next, count) - coordinates(begin, count);
+  };
+  Numbers width(&width_[first], static_cast<Eigen::Index>(count));
+  Numbers slope(&slope_[first], static_cast<Eigen::Index>(count));
+  width = differences(points[0].x, points[1].x);
+  slope = differences(points[0].y, points[1].y) / width;
+}
+
+/// The rows of the points between the ends, of which `last` is the second one.
+void CamSpline::join(std::size_t last) noexcept {
+  for (std::size_t i = 1; i < last; ++i) {
+    pivot_[i] = 2.0 * (width_[i - 1] + width_[i]);
+    sides_[i] = {6.0 * (slope_[i] - slope_[i - 1]), 0.0};
   }
 }
 
-/// Gaussian elimination of rows first … last; row i is w[i-1]·m[i-1] + pivot·m[i] + w[i]·m[i+1] = moment[i].
-/// The rows are diagonally dominant, so no pivoting. The unknowns beside them count as 0.
+/// Elimination of the tridiagonal rows first … last, of both right-hand sides at once; row i is
+/// w[i-1]·m[i-1] + pivot·m[i] + w[i]·m[i+1] = side[i]. The rows are diagonally dominant, so no pivoting. The
+/// unknowns beside them count as 0.
 void CamSpline::solve(std::size_t first, std::size_t last) noexcept {
+  const auto sides = [&](std::size_t i) { return Sides(sides_[i].data()); };
   for (std::size_t i = first + 1; i <= last; ++i) {
     const double factor = width_[i - 1] / pivot_[i - 1];
     pivot_[i] -= factor * width_[i - 1];
-    moment_[i] -= factor * moment_[i - 1];
-    unit_[i] -= factor * unit_[i - 1];
+    sides(i) -= factor * sides(i - 1);
   }
-  moment_[last] /= pivot_[last];
-  unit_[last] /= pivot_[last];
-  for (std::size_t i = last; i-- > first;) {
-    moment_[i] = (moment_[i] - width_[i] * moment_[i + 1]) / pivot_[i];
-    unit_[i] = (unit_[i] - width_[i] * unit_[i + 1]) / pivot_[i];
-  }
+  sides(last) /= pivot_[last];
+  for (std::size_t i = last; i-- > first;) sides(i) = (sides(i) - width_[i] * sides(i + 1)) / pivot_[i];
 }
 
 std::span<const double> CamSpline::through(std::span<const CamPoint> points, std::optional<double> left_slope,
@@ -73,23 +94,20 @@ std::span<const double> CamSpline::through(std::span<const CamPoint> points, std
 std::span<const double> CamSpline::clamped(std::size_t count, std::optional<double> left_slope,
                                            std::optional<double> right_slope) noexcept {
   const std::size_t last = count - 1;
-  std::fill_n(unit_.begin(), count, 0.0);
-  for (std::size_t i = 1; i < last; ++i) {
-    pivot_[i] = 2.0 * (width_[i - 1] + width_[i]);
-    moment_[i] = 6.0 * (slope_[i] - slope_[i - 1]);
-  }
-  moment_[0] = moment_[last] = 0.0;
+  join(last);
+  sides_[0] = sides_[last] = {};
   if (left_slope) {
     pivot_[0] = 2.0 * width_[0];
-    moment_[0] = 6.0 * (slope_[0] - *left_slope);
+    sides_[0][0] = 6.0 * (slope_[0] - *left_slope);
   }
   if (right_slope) {
     pivot_[last] = 2.0 * width_[last - 1];
-    moment_[last] = 6.0 * (*right_slope - slope_[last - 1]);
+    sides_[last][0] = 6.0 * (*right_slope - slope_[last - 1]);
   }
   const std::size_t first_row = left_slope ? 0 : 1;
   const std::size_t last_row = right_slope ? last : last - 1;
   if (first_row <= last_row) solve(first_row, last_row);
+  for (std::size_t i = 0; i <= last; ++i) moment_[i] = sides_[i][0];
   return {moment_.data(), count};
 }
 
@@ -100,20 +118,18 @@ std::span<const double> CamSpline::closed_through(std::span<const CamPoint> poin
   if (last == 1) return {moment_.data(), points.size()};  // a line is its own continuation
   // The inner rows are solved for an end moment of 0 and for what an end moment of 1 adds; the row of the
   // joined ends then gives that moment.
-  for (std::size_t i = 1; i < last; ++i) {
-    pivot_[i] = 2.0 * (width_[i - 1] + width_[i]);
-    moment_[i] = 6.0 * (slope_[i] - slope_[i - 1]);
-    unit_[i] = 0.0;
-  }
-  unit_[1] -= width_[0];
-  unit_[last - 1] -= width_[last - 1];
+  join(last);
+  sides_[1][1] -= width_[0];
+  sides_[last - 1][1] -= width_[last - 1];
   solve(1, last - 1);
+  const auto& [first_moment, first_unit] = sides_[1];
+  const auto& [last_moment, last_unit] = sides_[last - 1];
   const double right_hand = 6.0 * (slope_[0] - slope_[last - 1]);
-  const double rest = right_hand - width_[0] * moment_[1] - width_[last - 1] * moment_[last - 1];
+  const double rest = right_hand - width_[0] * first_moment - width_[last - 1] * last_moment;
   const double pivot =
-      2.0 * (width_[0] + width_[last - 1]) + width_[0] * unit_[1] + width_[last - 1] * unit_[last - 1];
+      2.0 * (width_[0] + width_[last - 1]) + width_[0] * first_unit + width_[last - 1] * last_unit;
   const double end = rest / pivot;
-  for (std::size_t i = 1; i < last; ++i) moment_[i] += end * unit_[i];
+  for (std::size_t i = 1; i < last; ++i) moment_[i] = sides_[i][0] + end * sides_[i][1];
   moment_[0] = moment_[last] = end;
   return {moment_.data(), points.size()};
 }

@@ -1,6 +1,7 @@
 /// The second derivatives of cubic splines, and the control points of cubic B-splines span by span.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -35,13 +36,15 @@ class CamSpline {
   void measure(std::span<const CamPoint> points, std::size_t first = 0) noexcept;
   std::span<const double> clamped(std::size_t count, std::optional<double> left_slope,
                                   std::optional<double> right_slope) noexcept;
+  void join(std::size_t last) noexcept;
   void solve(std::size_t first, std::size_t last) noexcept;
 
-  std::vector<double> width_;   // of an interval
-  std::vector<double> slope_;   // of its chord
-  std::vector<double> pivot_;   // of the eliminated row
-  std::vector<double> moment_;  // right-hand side, then the second derivative
-  std::vector<double> unit_;    // what a second derivative of 1 at both ends adds
+  std::vector<double> width_;  // of an interval
+  std::vector<double> slope_;  // of its chord
+  std::vector<double> pivot_;  // of the eliminated row
+  // Of a row: its right-hand side, and what a second derivative of 1 at both ends adds; then the solutions.
+  std::vector<std::array<double, 2>> sides_;
+  std::vector<double> moment_;  // the second derivative
 };
 
 /// Adds the spline with these second derivatives to a cam, without its last point.
