@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "projects/json/document.hpp"
-
 namespace lockstep {
 namespace {
 
@@ -39,34 +37,6 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t maximum
 
 }  // namespace
 
-Problem problem_at(const JsonValue& value, std::string text) {
-  const SourcePosition position = value.position();
-  return {.place = value.pointer(),
-          .text = std::move(text),
-          .file = value.source() == nullptr ? "" : value.source()->file(),
-          .line = position.line,
-          .column = position.column,
-          .owner = value.owner()};
-}
-
-Problem problem_at_key(const JsonValue& member, std::string text) {
-  Problem problem = problem_at(member, std::move(text));
-  const SourcePosition position = member.key_position();
-  problem.line = position.line;
-  problem.column = position.column;
-  return problem;
-}
-
-std::string other_place(const JsonValue& other, const JsonValue& value) {
-  if (other.source() == nullptr) return "";
-  std::string text = " in ";
-  if (other.source() != value.source())
-    text += (other.source()->file().empty() ? "the project file" : other.source()->file()) + ", ";
-  text += "line " + std::to_string(other.key_position().line);
-  const std::string owner = other.owner();
-  return owner.empty() ? text : text + " (" + owner + ")";
-}
-
 std::string to_string(std::string_view file, const Problem& problem) {
   std::string text = problem.file.empty() ? std::string(file) : problem.file;
   text += ":" + problem.place + ": " + problem.text;
@@ -74,18 +44,6 @@ std::string to_string(std::string_view file, const Problem& problem) {
   text += " (line " + std::to_string(problem.line) + ", column " + std::to_string(problem.column);
   if (!problem.owner.empty()) text += ", " + problem.owner;
   return text + ")";
-}
-
-void Problems::report(const JsonValue& at, std::string text) {
-  errors_.push_back(problem_at(at, std::move(text)));
-}
-
-void Problems::report_key(const JsonValue& member, std::string text) {
-  errors_.push_back(problem_at_key(member, std::move(text)));
-}
-
-void Problems::warn(const JsonValue& at, std::string text) {
-  warnings_.push_back(problem_at(at, std::move(text)));
 }
 
 std::string quote(std::string_view text) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "tech_objects/drive/drive_models.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 
@@ -34,7 +35,7 @@ void Axis::configure(double servo_period, int ratio) {
 }
 
 void Axis::take_start_values() noexcept {
-  const bool simulated = data.Simulation.Mode == 1 && !is_virtual();
+  const bool simulated = data.Simulation.Mode == Activation::active && !is_virtual();
   has_drive_ = !is_virtual() && !simulated;
   always_in_full_ = has_drive_ || never_plain;
   set_bit(data.StatusWord, StatusBit::AxisSimulation, simulated);
@@ -133,7 +134,7 @@ Axis* as_axis(LeadingObject* leading) noexcept {
 }  // namespace
 
 Axis* Axis::coupled_leading_axis() const noexcept {
-  return led() || simulating() ? as_axis(coupled_.leading) : nullptr;
+  return as_axis(coupled_to());
 }
 
 Axis* Axis::awaited_leading_axis() const noexcept {

@@ -28,6 +28,7 @@
 #include "tech_objects/drive/drive.hpp"
 #include "tech_objects/profile/single_axis_motion.hpp"
 #include "tech_objects/synchronous/synchronous_motion.hpp"
+#include "tech_objects/types/published.hpp"
 
 namespace lockstep {
 
@@ -47,7 +48,7 @@ class AxisParts : public ConfiguredAxis {
   static constexpr std::size_t kSensors = Encoders::kCount;
   std::array<EncoderAdjustment, kSensors> encoder_adjustments;
 
-  bool is_virtual() const noexcept { return data.VirtualAxis.Mode == 1; }
+  bool is_virtual() const noexcept { return data.VirtualAxis.Mode == Activation::active; }
   /// A TO_SpeedAxis has none: it is moved without position control, and its user unit is the turn of the load
   /// per unit of time (Units.VelocityUnit) and second.
   bool has_position() const noexcept { return has_position_; }
@@ -56,6 +57,8 @@ class AxisParts : public ConfiguredAxis {
   int pending_alarm() const noexcept { return static_cast<int>(data.ErrorDetail.Number); }
 
   bool simulating() const noexcept { return simulated_ != nullptr; }
+  /// What leads the axis, or would without the simulation; nullptr: nothing.
+  LeadingObject* coupled_to() const noexcept { return led() || simulating() ? coupled_.leading : nullptr; }
 
  protected:
   /// Whether another object leads the axis.

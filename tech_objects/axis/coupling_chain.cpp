@@ -1,6 +1,6 @@
 #include "tech_objects/axis/coupling_chain.hpp"
 
-#include "tech_objects/axis/axis.hpp"
+#include "tech_objects/axis/axis_parts.hpp"
 
 namespace lockstep {
 namespace {
@@ -14,7 +14,7 @@ bool led_by(const LeadingObject& first, const LeadingObject* leading) noexcept {
   for (int i = 0; leading != nullptr && i < kLongestChain; ++i) {
     if (leading == &first) return true;
     if (!among(leading->kind, kAnyAxis)) return false;
-    leading = static_cast<const Axis*>(leading)->coupled_leading_axis();
+    leading = static_cast<const AxisParts*>(leading)->coupled_to();
   }
   return false;
 }

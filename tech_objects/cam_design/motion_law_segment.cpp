@@ -40,4 +40,25 @@ TO_Cam_Struct_SegmentData segment_between(const MotionValue& left, int left_orde
   return segment_of(piece);
 }
 
+std::size_t MotionLaw::segments(std::span<TO_Cam_Struct_SegmentData> segments) const noexcept {
+  if (becomes_points()) return 0;
+  std::size_t written = 0;
+  for (const MotionPiece& p : pieces()) {
+    const bool degree_7 = p.coefficient[7] != 0.0;
+    if (written + (degree_7 ? 2 : 1) > segments.size()) return 0;
+    if (!degree_7) {
+      segments[written++] = segment_of(p);
+      continue;
+    }
+    const double half = 0.5 * p.length;
+    const MotionValue middle = p.value(half);
+    segments[written++] = segment_between(p.value(0.0), 3, middle, 2, p.start, half);
+    segments[written++] = segment_between(middle, 2, p.value(p.length), 3, p.start + half, half);
+  }
+  // Pieces meet, and the last one ends, where the transition says, to the last bit.
+  for (std::size_t i = 0; i + 1 < written; ++i) segments[i].xmax = segments[i + 1].xmin;
+  if (written > 0) segments[written - 1].xmax = end_;
+  return written;
+}
+
 }  // namespace lockstep

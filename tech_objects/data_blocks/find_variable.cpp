@@ -1,3 +1,4 @@
+// The variables of data blocks, by their paths: declared in variable.hpp.
 #include <algorithm>
 #include <cctype>
 #include <charconv>

@@ -9,17 +9,14 @@
 /// @source S7-1500T synchronous operation V7, 4.5, 6.1, 6.2
 #pragma once
 
-#include "tech_objects/arithmetic/cache_line.hpp"
 #include "tech_objects/arithmetic/setpoint.hpp"
-#include "tech_objects/synchronous/chain.hpp"
-#include "tech_objects/synchronous/desynchronizing.hpp"
 #include "tech_objects/synchronous/request.hpp"
-#include "tech_objects/synchronous/synchronizing.hpp"
+#include "tech_objects/synchronous/synchronous_parts.hpp"
 
 namespace lockstep {
 
 /// One coupling: what it follows, how it synchronizes and the function that then holds. Thread: the cycle.
-class SynchronousMotion {
+class SynchronousMotion : private SynchronousParts {
  public:
   using Start = Synchronizing::Start;
 
@@ -135,10 +132,6 @@ class SynchronousMotion {
 
  private:
   void couple(const CouplingRequest& request) noexcept;
-  Chain chain() noexcept { return {leading_, function_, shifts_, period_}; }
-  const Shift* phase_in_use() const noexcept {
-    return shifted_ && shifts_.phase().in_use() ? &shifts_.phase() : nullptr;
-  }
   void look_closely() noexcept;
   void advance_shifted(Setpoint& setpoint) noexcept;
   void advance_otherwise(Setpoint& setpoint) noexcept;
@@ -146,18 +139,6 @@ class SynchronousMotion {
   void advance_in_velocity(Setpoint& setpoint) noexcept;
   void advance_in(Setpoint& setpoint) noexcept;
   void advance_out(Setpoint& setpoint) noexcept;
-
-  // What every cycle touches, in lines of the cache.
-  alignas(kCacheLine) bool synchronous_ = false;
-  bool shifted_ = false;  // shifts_ are of account
-  bool leaving_ = false;
-  LeadingCoupling leading_;
-  SynchronousFunction function_;
-  Shifts shifts_;
-  double period_ = 0.001;   // [s]
-  double tolerance_ = 0.0;  // [u] of the leading axis
-  Synchronizing synchronizing_;
-  Desynchronizing desynchronizing_;
 };
 
 }  // namespace lockstep
