@@ -4,6 +4,7 @@
 #include "cli/describe/subject.hpp"
 #include "cli/describe/table.hpp"
 #include "cli/describe/values.hpp"
+#include "tech_objects/alarms/error_remedies.hpp"
 #include "tech_objects/alarms/reactions.hpp"
 #include "tech_objects/data_blocks/status_bits.hpp"
 
@@ -86,12 +87,15 @@ nlohmann::ordered_json error_json(ErrorId id) {
   return {{"kind", "error"},
           {"id", error_literal(static_cast<unsigned>(id))},
           {"text", error_text(id)},
+          {"remedy", error_remedy(id)},
           {"pins", pins_with(id)}};
 }
 
 std::string error_page(ErrorId id, std::size_t width) {
   std::string text = "ErrorID " + error_literal(static_cast<unsigned>(id)) + "\n";
   text += paragraph(error_text(id), 2, width);
+  if (const std::string_view remedy = error_remedy(id); !remedy.empty())
+    text += "\n" + paragraph("Remedy: " + std::string(remedy), 2, width);
   std::string pins;
   for (const std::string& name : pins_with(id)) pins += (pins.empty() ? "" : ", ") + name;
   if (!pins.empty()) text += "\n" + paragraph("Reported for a value that is not permitted at:", 2, width);
@@ -117,8 +121,11 @@ std::string alarms_text(std::size_t width) {
 
 std::string errors_text(std::size_t width) {
   Table table({"ErrorID", "Meaning"});
-  for (const ErrorText& error : error_texts())
+  for (const ErrorText& error : error_texts()) {
     table.row({error_literal(static_cast<unsigned>(error.id)), std::string(error.text)});
+    if (const std::string_view remedy = error_remedy(error.id); !remedy.empty())
+      table.note("remedy: " + std::string(remedy));
+  }
   return "Error identifiers\n" +
          paragraph("Output ErrorID of a block; lockstep describe 16#8026 tells which inputs report one.", 2,
                    width) +

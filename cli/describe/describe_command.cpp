@@ -187,30 +187,40 @@ std::vector<std::string> describable_names() {
   return names;
 }
 
+bool is_topic(const std::string& word) {
+  return std::any_of(std::begin(kTopics), std::end(kTopics),
+                     [&](const Topic& known) { return same_name(known.name, word); });
+}
+
+/// What several words mean, of which the first is a topic or none.
+Subject find_by_words(const std::vector<std::string>& words, std::string& problem) {
+  const std::string& word = words.front();
+  const bool topic = is_topic(word);
+  if (words.size() == 2) {
+    if (same_name(word, "keys")) return find_keys(words[1], problem);
+    if (same_name(word, "override")) {
+      if (Subject subject = override_subject(words[1])) return subject;
+      problem = "there is no instruction " + quote(words[1]) + " in the override tables" +
+                did_you_mean(words[1], override_names()) + "; lockstep describe override lists them";
+      return {};
+    }
+    if (Subject subject = topic ? Subject{} : mco305_subject(words)) return subject;
+    if (same_name(word, "error"))
+      if (bool hexadecimal = false; const auto number = number_of(words[1], hexadecimal))
+        return find_error_of_any(words[1], *number, problem);
+  }
+  if (Subject subject = topic ? Subject{} : search_subject(words)) return subject;
+  problem = topic ? quote(word) + (words.size() == 2 ? " takes no second name" : " takes no third name")
+                  : "there is nothing that has to do with all of " + quoted(words);
+  problem += "; only override and keys take one, as in override MC_GearInPos, keys clock";
+  return {};
+}
+
 Subject find_subject(const std::vector<std::string>& words, std::string& problem) {
   if (words.empty()) return overview();
   const std::string& word = words.front();
   if (Subject subject = linmot_subject(words)) return subject;
-  if (words.size() > 1) {
-    if (same_name(word, "keys")) return find_keys(words[1], problem);
-    if (!same_name(word, "override")) {
-      const bool topic = std::any_of(std::begin(kTopics), std::end(kTopics),
-                                     [&](const Topic& known) { return same_name(known.name, word); });
-      if (Subject subject = topic ? Subject{} : mco305_subject(words)) return subject;
-      if (same_name(word, "error"))
-        if (bool hexadecimal = false; const auto number = number_of(words[1], hexadecimal))
-          return find_error_of_any(words[1], *number, problem);
-      if (Subject subject = topic ? Subject{} : search_subject(words)) return subject;
-      problem = topic ? quote(word) + " takes no second name"
-                      : "there is nothing that has to do with all of " + quoted(words);
-      problem += "; only override and keys take one, as in override MC_GearInPos, keys clock";
-      return {};
-    }
-    if (Subject subject = override_subject(words[1])) return subject;
-    problem = "there is no instruction " + quote(words[1]) + " in the override tables" +
-              did_you_mean(words[1], override_names()) + "; lockstep describe override lists them";
-    return {};
-  }
+  if (words.size() > 1) return find_by_words(words, problem);
   for (const Topic& topic : kTopics)
     if (same_name(topic.name, word)) return topic.subject();
   bool hexadecimal = false;
@@ -237,7 +247,7 @@ void add_describe_command(CLI::App& app, Action& action) {
   auto words = std::make_shared<std::vector<std::string>>();
   auto json = std::make_shared<bool>(false);
   command->add_option("NAME", *words, "what to tell about; without it: a list of what there is")
-      ->expected(0, 2);
+      ->expected(0, -1);
   command->add_flag("--json", *json, "as JSON, for programs");
   command->footer(
       "NAME, without regard to case:\n"
@@ -251,7 +261,7 @@ void add_describe_command(CLI::App& app, Action& action) {
       "  keys, keys technology_objects.drive      keys of the project file\n"
       "  functions, operators, types              those of expressions\n"
       "  SEL, TO_INT, MOD, LREAL                  one of them\n"
-      "  KPROP, 32-60, POSA, DEF ORIGIN            a parameter, a command of an MCO 305\n"
+      "  KPROP, 32-60, POSA, DEF ORIGIN           a parameter, a command of an MCO 305\n"
       "  error 108, sysvar 4097                   an error, a system variable of it\n"
       "  LinMot_Controller \"Max Speed\"            a parameter of a LinMot controller, by name or path\n"
       "  ASCII SP, MT Freeze, PROFIBUS            a command, a module of it; all of them\n"

@@ -67,6 +67,7 @@ void add_read_command(CLI::App& app, Action& action) {
       "Each name is one request, an array as many as its registers need, 125 in each; the values of a "
       "request\n"
       "are of one instant. The first place of a name in the map counts.\n"
+      "Such as: lockstep read 127.0.0.1:1502 speed Knife.ActualPosition --project project.json\n"
       "Exit status: 0, 1 project not valid or no such name, 2 nobody answers, or refuses");
   command->callback([&action, options] { action = [options] { return read_values(*options); }; });
 }

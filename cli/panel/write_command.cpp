@@ -47,7 +47,7 @@ std::optional<Value> value_for(const PanelEntry& place, std::string text) {
   return value;
 }
 
-/// A text as it is, or as a literal in quotes; nothing, which is told, if the name has no room for it.
+/// A text as it is, or as a literal in quotes; nothing, which is told, if the name has no space for it.
 std::optional<std::vector<Value>> values_of_text(const PanelName& name, const std::string& given) {
   std::string problem;
   const auto text = given.starts_with('\'') ? read_text_literal(given, problem) : text_from_utf8(given);
@@ -121,6 +121,7 @@ void add_write_command(CLI::App& app, Action& action) {
   command->footer(
       "Nothing is written unless every name and value is good; then they go out in their order, each in a\n"
       "request of its own, an array in as many as its registers need, 123 in each.\n"
+      "Such as: lockstep write 127.0.0.1:1502 speed=120 start=TRUE --project project.json\n"
       "Exit status: 0, 1 project not valid, no such name or value, 2 nobody answers, or refuses");
   command->callback([&action, options] { action = [options] { return write_values(*options); }; });
 }

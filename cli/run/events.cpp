@@ -9,6 +9,7 @@
 
 #include "cli/command/command.hpp"
 #include "hmi_bridge/network/visible_text.hpp"
+#include "tech_objects/alarms/alarms.hpp"
 
 namespace lockstep::cli {
 namespace {
@@ -121,7 +122,13 @@ std::string EventMessages::of(const TraceEvent& event) {
   std::string text = std::move(folded_);
   folded_.clear();
   if (!told) return text;
-  return text + (event.kind == EventKind::alarm ? alarm_message(event) : head(event) + what_of(event) + "\n");
+  if (event.kind == EventKind::alarm) return text + alarm_message(event);
+  text += head(event) + what_of(event) + "\n";
+  // What helps against an alarm stands with the alarm.
+  const bool by_alarm = event.number == static_cast<int>(ErrorId::technology_alarm);
+  if (event.kind == EventKind::job_failed && !by_alarm)
+    for (const std::string& line : detail_lines(event)) text += "  " + visible(line) + "\n";
+  return text;
 }
 
 std::string EventMessages::rest() {

@@ -8,6 +8,7 @@
 
 #include "scheduler/units.hpp"
 #include "tech_objects/alarms/alarms.hpp"
+#include "tech_objects/alarms/error_remedies.hpp"
 #include "tech_objects/alarms/reactions.hpp"
 #include "tech_objects/mco305_catalogue/errors.hpp"
 
@@ -24,6 +25,12 @@ std::string program_error_text(const Event& event) {
   if (event.reaction >= 0)
     text += "; program " + std::to_string(event.reaction) + ", line " + std::to_string(event.line);
   return text;
+}
+
+// Whether an alarm is told by its cause: that a mark for homing is missing, and which, says more than its
+// published text, that the device does not support it.
+bool says_its_cause(const Event& event) {
+  return event.number == alarm::kHomingNotSupported && event.detail.cause != AlarmCause::none;
 }
 
 }  // namespace
@@ -120,7 +127,8 @@ std::string EventTexts::address_of(const Event& event) const {
     const std::string& tag = inputs_[event.source].limits[positive ? 1 : 0];
     parts.push_back(std::string(positive ? "positive" : "negative") + " limit switch" +
                     (tag.empty() ? "" : ", input " + tag));
-  } else if (const std::string_view text = cause_text(detail.cause).text; !text.empty()) {
+  } else if (const std::string_view text = cause_text(detail.cause).text;
+             !text.empty() && !says_its_cause(event)) {
     parts.emplace_back(text);
   }
   if (detail.sensor != 0) parts.push_back("sensor " + std::to_string(detail.sensor));
@@ -133,8 +141,8 @@ std::string EventTexts::address_of(const Event& event) const {
 void EventTexts::fill(TraceEvent& told, const Event& event) const {
   const Alarm* const alarm = find_alarm(event.number);
   if (alarm == nullptr) return;
-  told.text = alarm->text;
   const AlarmDetail& detail = event.detail;
+  told.text = says_its_cause(event) ? cause_text(detail.cause).text : alarm->text;
   const std::string_view remedy = cause_text(detail.cause).remedy;
   told.cause = alarm->cause;
   told.remedy = remedy.empty() ? alarm->remedy : remedy;
@@ -178,7 +186,10 @@ TraceEvent EventTexts::of(const Event& event, std::uint64_t lost) const {
                               event.number);
     if (event.kind == EventKind::program_error) told.text = program_error_text(event);
   }
-  if (event.kind == EventKind::job_failed) told.text = error_text(static_cast<ErrorId>(event.number));
+  if (event.kind == EventKind::job_failed) {
+    told.text = error_text(static_cast<ErrorId>(event.number));
+    told.remedy = error_remedy(static_cast<ErrorId>(event.number));
+  }
   if (event.kind == EventKind::job_aborted) told.text = aborted_text(event);
   return told;
 }

@@ -10,6 +10,7 @@
 
 #include "fb/block.hpp"
 #include "tech_objects/alarms/alarms.hpp"
+#include "tech_objects/alarms/error_remedies.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 #include "tech_objects/jobs/override.hpp"
 #include "tests/cli/command_run.hpp"
@@ -175,6 +176,10 @@ TEST(Describe, TellsEveryAlarmAndError) {
   EXPECT_EQ(described({"701"})["not_raised"], find_alarm(701)->not_raised);
   EXPECT_EQ(described({"16#8026"})["text"], error_text(ErrorId::leading_distance));
   EXPECT_EQ(described({"0x8026"}), described({"32806"}));
+  for (const json& error : described({"errors"})["errors"])
+    EXPECT_EQ(error["remedy"].get<std::string>().empty(), error["id"] == "16#0000") << error;
+  EXPECT_EQ(described({"16#800F"})["remedy"], error_remedy(ErrorId::locked));
+  EXPECT_NE(lockstep({"describe", "16#8019"}).out.find("Remedy: end the coupling"), std::string::npos);
   const json pins = described({"16#8026"})["pins"];
   EXPECT_NE(std::find(pins.begin(), pins.end(), "MC_GearInPos.MasterStartDistance"), pins.end());
 }
@@ -256,6 +261,17 @@ TEST(Describe, AWordThatIsNoNameFindsWhatHasToDoWithItNearestFirst) {
   const json found = described({"servo_cycle"});
   EXPECT_EQ(found["found"][0]["name"], "keys clock.servo_cycle");
   for (const json& one : found["found"]) EXPECT_TRUE(one["kind"].is_string() && one["text"].is_string());
+}
+
+TEST(Describe, TakesAsManyWordsAsAreGiven) {
+  EXPECT_NE(lockstep({"describe", "following", "error", "large"}).out.find("Following error too large"),
+            std::string::npos);
+  for (const char* const topic : {"keys", "override", "functions"}) {
+    const Ended ended = lockstep({"describe", topic, "clock", "servo_cycle"});
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_NE(ended.err.find(std::string("'") + topic + "' takes no third name"), std::string::npos)
+        << ended.err;
+  }
 }
 
 TEST(Describe, TellsCauseAndRemedyOfAnAlarm) {

@@ -9,6 +9,7 @@
 
 #include "hmi_bridge/lcm/commands.hpp"
 #include "tech_objects/alarms/alarms.hpp"
+#include "tech_objects/alarms/error_remedies.hpp"
 #include "tests/scenarios/lockstep_process.hpp"
 #include "tests/scenarios/modbus_client.hpp"
 #include "tests/scenarios/small_project.hpp"
@@ -140,11 +141,12 @@ TEST(Told, AHomingWithoutAMarkSaysWhichOneIsMissing) {
   project["programs"][0]["calls"][1] = call(
       "MC_Home", "home", {{"Axis", "Slide"}, {"Execute", "power.Status"}, {"Mode", 3}, {"Position", 0.0}});
   const Ended ended = simulated(project, "1s");
-  EXPECT_NE(ended.err.find(": Slide: alarm 343: "), std::string::npos) << ended.err;
-  EXPECT_TRUE(ended.err.find("no zero mark: ") != std::string::npos ||
-              ended.err.find("no reference cam or switch: ") != std::string::npos)
+  EXPECT_NE(
+      ended.err.find(": Slide: alarm 343: no zero mark: the encoder of the machine has none (remove the "
+                     "enable)\n"),
+      std::string::npos)
       << ended.err;
-  EXPECT_NE(ended.err.find("; sensor 1\n"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("  sensor 1\n"), std::string::npos) << ended.err;
   EXPECT_NE(line_behind(ended.err, "  remedy: "), find_alarm(343)->remedy) << "its own";
   EXPECT_NE(ended.err.find(" (MC_Home of Slide): failed, ErrorID 16#8001: technology alarm"),
             std::string::npos)
@@ -161,6 +163,7 @@ TEST(Told, AJobThatFailsIsToldOnceWithItsAxisAndCountedWhenItFailsAgain) {
   const Ended ended = simulated(project, "1s");
   const std::string what = ": run (MC_MoveVelocity of Slide): failed, ErrorID 16#800F: ";
   ASSERT_EQ(count(ended.err, " s" + what), 1u) << ended.err;
+  EXPECT_EQ(line_behind(ended.err, "  remedy: "), error_remedy(ErrorId::locked));
   EXPECT_NE(ended.err.find(": 499 more times\n"), std::string::npos) << "500 in a second: " << ended.err;
   EXPECT_LT(count(ended.err, "\n"), 12u) << ended.err;
 }
