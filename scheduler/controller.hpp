@@ -161,7 +161,7 @@ class Controller {
   Tag& add_tag(Tag tag);
   /// An array tag whose elements are 0. `array.memory` is set here.
   ArrayTag& add_array(std::string name, Array array);
-  /// A tag of type STRING[room] with its initial text; its memory is made here.
+  /// A tag of type STRING[capacity] with its initial text; its memory is made here.
   StringTag& add_string(StringTag tag, std::size_t capacity);
   /// Adds an object of any kind; its number is its index among all.
   TechnologyObject& add_object(ObjectKind kind, std::string name);

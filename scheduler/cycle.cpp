@@ -9,7 +9,7 @@ namespace lockstep {
 namespace {
 
 /// Events that nobody has read yet, behind which those of programs wait: half of a queue of the usual size,
-/// so that alarms find room.
+/// so that alarms find space.
 constexpr std::size_t kNotesWait = 2048;
 
 constexpr std::int64_t kLateFor = 1'000'000'000;  // [ns] after missed ticks, for what may have come of them

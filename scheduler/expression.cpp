@@ -109,7 +109,7 @@ void ExpressionBuilder::signal(const Signal& signal) {
 }
 
 /// Two instructions: the index becomes the distance from the first element, and that the value. The range has
-/// room in what the first does not need.
+/// space in what the first does not need.
 void ExpressionBuilder::element(const Signal& first, const ElementRange& range) {
   const auto packed = std::uint64_t{static_cast<std::uint32_t>(range.lower)} << 32 | range.count;
   code_.push_back(instruction(expression_steps::index(), packed, range.stride));

@@ -19,7 +19,7 @@ struct Mapping {
   std::uintptr_t end = 0;
 };
 
-/// The mapping of this process that holds a place; an empty one if it cannot be told.
+/// The mapping of this process that holds an address; an empty one if it cannot be told.
 Mapping mapping_of(std::uintptr_t address) noexcept {
   const auto close = [](std::FILE* file) { std::fclose(file); };
   const std::unique_ptr<std::FILE, decltype(close)> maps(std::fopen("/proc/self/maps", "re"), close);

@@ -27,7 +27,7 @@ struct SignalWrite {
 /// What crosses between the cycle and one thread of the bridge. Neither side ever waits for the other, and
 /// neither allocates after construction. Writes enter the signals at the start of a tick, those of one batch
 /// at the same tick; the values that leave are those of the end of one tick. Since of several writes before
-/// one tick the last wins, they are merged on their way: there is always room for more, and a tick never has
+/// one tick the last wins, they are merged on their way: there is always space for more, and a tick never has
 /// more to apply than there are variables. The bridge sees its own writes at once, whether the cycle has
 /// applied them already or not (or has not even started: then they wait).
 class ProcessImage {

@@ -17,13 +17,14 @@ namespace lockstep {
 /// The maximum n of a STRING[n].
 inline constexpr std::size_t kLongestText = 254;
 
-/// Where a text lives: characters of one byte (ISO 8859-1), up to the first zero or to the end of its room.
+/// Where a text lives: characters of one byte (ISO 8859-1), up to the first zero or to the end of its
+/// capacity.
 struct Text {
   char* characters = nullptr;
   std::size_t capacity = 0;  ///< n of STRING[n], 1 to kLongestText
 
   std::string_view view() const noexcept;
-  /// Replaces the text. What has no room is cut off, the rest of the room becomes zero. `text` may be this
+  /// Replaces the text. What has no space is cut off, the rest of the space becomes zero. `text` may be this
   /// one itself.
   void assign(std::string_view text) const noexcept;
 };
@@ -58,7 +59,7 @@ struct TextComparison {
 std::string text_type_name(std::size_t capacity);
 
 /// The text as signals, for what carries values: two characters in a WORD, the first in its low byte; the
-/// last one of an odd room is a BYTE.
+/// last one of an odd capacity is a BYTE.
 std::vector<Signal> text_signals(const Text& text);
 /// The values of these signals that make them hold a text, and the text that they hold.
 std::vector<Value> text_values(std::string_view text, std::size_t capacity);

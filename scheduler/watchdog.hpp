@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// A value for a place.
+/// A value for an address.
 struct Assignment {
   Signal place;
   Value value{};
@@ -20,7 +20,7 @@ struct Assignment {
 /// programs do to the heartbeat is no sign of life. Nothing allocates after construction. Thread: the cycle.
 class Watchdog {
  public:
-  /// @param timeout of the grid of ticks, ≥ 1  @param values in the ranges of their places
+  /// @param timeout of the grid of ticks, ≥ 1  @param values in the ranges of their addresses
   /// @param status a BOOL: TRUE while there is silence
   Watchdog(Signal heartbeat, std::int64_t timeout, std::vector<Assignment> values,
            std::optional<Signal> status);

@@ -20,7 +20,7 @@ void open_missing_streams() noexcept;
 /// Writes data to standard output, at once. @throws OutputFailed
 void write_data(const std::string& text);
 
-/// At the end: whether all that was written in any way has been taken. @throws OutputFailed
+/// At the end: whether all that was written has been taken. @throws OutputFailed
 void finish_output();
 
 }  // namespace lockstep::cli

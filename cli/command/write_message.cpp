@@ -30,7 +30,7 @@ bool is_journal() noexcept {
   return answer;
 }
 
-/// Standard error in a way that never waits, whoever shares its terminal or pipe: those are opened anew,
+/// Standard error so that it never waits, whoever shares its terminal or pipe: those are opened anew,
 /// since a descriptor that is set not to wait is so for all who have it.
 int error_output() noexcept {
   static const int output = [] {

@@ -26,7 +26,7 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 /// A paragraph with its end of line, each line indented.
 std::string paragraph(std::string_view text, std::size_t indent, std::size_t width);
 
-/// Rows of aligned cells. The last column is wrapped; where little room is left for it, it goes below.
+/// Rows of aligned cells. The last column is wrapped; where little space is left for it, it goes below.
 class Table {
  public:
   /// @param headings of the columns; empty texts: no line of headings

@@ -14,7 +14,8 @@ std::string_view mark(std::size_t level, Characters characters) {
   return characters == Characters::blocks ? kBlocks[level] : kAscii[level];
 }
 
-/// Which of so many equal steps from minimum to maximum; the middle one where there is no way between them.
+/// Which of so many equal steps from minimum to maximum; the middle one where there is no distance between
+/// them.
 std::size_t step_of(double value, const History::Span& whole, std::size_t steps) {
   const double span = whole.maximum - whole.minimum;
   if (!(span > 0.0)) return steps / 2;

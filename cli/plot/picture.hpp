@@ -65,7 +65,7 @@ Picture arrange(const TraceTable& trace, const PlotRange& range, const std::vect
 /// Sets the axis of a diagram so that all its points are within.
 void set_range(Diagram& diagram);
 
-/// Fewer points that look the same: of the points of a `bin`-th part of the time, first, last, least and
+/// Fewer points that look the same: of the points of a `bin`-th part of the time, first, last, minimum and
 /// maximum.
 std::vector<Point> thinned(const std::vector<Point>& points, double begin, double end, int bins);
 

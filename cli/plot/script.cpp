@@ -165,7 +165,7 @@ class Script {
         "$states with boxxyerror fc rgb '#E4EBF2' fs solid 1.0 border lc rgb '#8899AA' notitle");
   }
 
-  /// The values of a state, where there is room for them.
+  /// The values of a state, where there is space for them.
   void write_values(const Lane& lane, double middle) {
     const double pixel = (picture_.end - picture_.begin) / (kWidth - kLeft - right_);
     for (const Interval& interval : lane.intervals) {

@@ -28,7 +28,7 @@ class ModbusConnection {
   /// What to wait for: poll's events.
   short events() const noexcept;
 
-  /// Takes in what has come, as far as there is room. False: the connection is broken.
+  /// Takes in what has come, as far as there is space. False: the connection is broken.
   bool receive(Clock::time_point now) noexcept;
   /// The next whole request, once the answer to the one before is on its way; else empty.
   std::span<const std::uint8_t> request() const noexcept;

@@ -28,7 +28,7 @@ struct ModbusIdentification {
 /// Answers a PDU that begins with function 43 in the basic and regular categories, as a stream and object by
 /// object. Exceptions: 1 for a type of encapsulated interface other than 14, 2 for an object that is not
 /// there, 3 for another kind of access or a wrong length.
-/// @param answer room for 253 bytes
+/// @param answer space for 253 bytes
 ModbusIdentification identify(const ModbusIdentity& identity, std::span<const std::uint8_t> pdu,
                               std::span<std::uint8_t> answer);
 

@@ -1,4 +1,4 @@
-/// Places on an IP network: where a server listens, and from where clients may come.
+/// Endpoints on an IP network: where a server listens, and from where clients may come.
 #pragma once
 
 #include <sys/socket.h>

@@ -46,7 +46,8 @@ class RetainFile {
  public:
   /// Opens the file, or makes one without values, and reads the values of a project. A disk that is full is
   /// no error: the file is made by the first `write` that finds space.
-  /// @param vfs name of SQLite's way to files, which is trusted: what happens to files outside of it is not
+  /// @param vfs name of SQLite's access to files, which is trusted: what happens to files outside of it is
+  /// not
   ///   looked for, and an empty file counts as new; nullptr: the usual one
   /// @throws RetainFileError if the file cannot be read or written, is in use by another run, is damaged,
   ///   which one of no bytes is too, or is something else than a retain file of this version

@@ -25,7 +25,7 @@ fs::path target_of(fs::path path) {
   return path;
 }
 
-/// Like rename, but never over something. Some file systems know only one of the two ways.
+/// Like rename, but never over something. Some file systems know only one of the two calls.
 int rename_to_new(const std::string& from, const std::string& to) noexcept {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;

@@ -33,7 +33,7 @@ struct TraceSelection {
 
 /// Hands some columns and rows of a trace on to another sink. With a trigger, rows before the occasion wait
 /// in memory that is bounded by `before`. They are handed on a few at a time while rows come in: subscribers
-/// of a network have room for some tens of messages, and lose the rest of a burst.
+/// of a network have space for some tens of messages, and lose the rest of a burst.
 class TraceChannel final : public TraceSink {
  public:
   /// Rows handed on at most when one comes in.

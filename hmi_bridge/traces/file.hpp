@@ -20,7 +20,7 @@ class TraceFile {
   TraceFile(TraceSink& sink, std::FILE* file);
 
   /// Announces a row (or, with rows = 0, a header) of that many bytes; flushes first if the buffer has no
-  /// room for it, so that a block on the disk ends with a whole row.
+  /// space for it, so that a block on the disk ends with a whole row.
   /// @return false if writing has ended: the rows are counted as lost and must not be written.
   bool open_row(std::size_t bytes, std::uint64_t rows);
   /// The announced bytes are written into `stream()`, or failed to be.

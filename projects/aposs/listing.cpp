@@ -105,7 +105,7 @@ std::vector<std::size_t> followers(const Instruction& at, std::size_t self) {
   }
 }
 
-/// The longest way through the instructions, calls included.
+/// The longest path through the instructions, calls included.
 class LongestRun {
  public:
   explicit LongestRun(const Image& image)

@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-/// Thrown where more values would have to rest than there is room for.
+/// Thrown where more values would have to rest than there is space for.
 struct TooManyValues {};
 
 void emit(const Term& term, ExpressionBuilder& code);

@@ -172,7 +172,7 @@ void ProgramLoader::load_branch(const JsonValue& json) {
 /// Where something is to be set.
 struct ProgramLoader::Target {
   Operand place;
-  std::optional<Expression> index;  ///< chooses the element; none: the place is fixed
+  std::optional<Expression> index;  ///< chooses the element; none: the address is fixed
 };
 
 /// An index is a constant, or an expression of any integer type.
@@ -224,7 +224,7 @@ void ProgramLoader::assign_text(const JsonValue* to, const StringTag& tag) {
   program_.add_assignment(*compiled.text, tag.text);
 }
 
-/// @param index chooses the element; none: the place is fixed
+/// @param index chooses the element; none: the address is fixed
 void ProgramLoader::assign(const JsonValue& to, const Operand& place, std::optional<Expression> index) {
   auto expression = compile(&to, place.signal.value_type());
   if (!expression) return;

@@ -44,7 +44,7 @@ class RunSurroundings {
   /// Where the studio listens, with the port that the system gave; none: there is no studio.
   std::optional<Endpoint> studio_endpoint() const;
 
-  /// Between two ticks of virtual time: waits until the recorder has room; false if it takes nothing more.
+  /// Between two ticks of virtual time: waits until the recorder has space; false if it takes nothing more.
   bool wait_for_recorder() const {
     return ring_->wait_for_space() && events_.wait_for_space() &&
            (!studio_ || studio_->tap().wait_for_space());

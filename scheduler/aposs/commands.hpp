@@ -188,7 +188,7 @@ enum class CommandKind : std::uint8_t {
   kStatement,  ///< the device carries it out
   kFunction,   ///< the device gives a value
   kLanguage,   ///< the compiler and the machine know it
-  kForm,       ///< another way to use a command, which the device tells apart
+  kForm,       ///< another form of a command, which the device tells apart
   kLater,      ///< known, and refused until it comes
   kNever       ///< known, and refused: `Refusal` says why
 };

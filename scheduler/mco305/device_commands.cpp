@@ -143,7 +143,7 @@ Reply DeviceCommands::following(Command command, const std::int32_t* arguments) 
   }
 }
 
-/// Of the ways to start only that along a curve of its own is not built.
+/// Of the kinds of start only that along a curve of its own is not built.
 Reply DeviceCommands::synchronize_by_markers() noexcept {
   const std::int32_t start = device_.parameters()[mco305::kSyncMStart];
   constexpr std::int32_t kLast = 6, kLater = 1000;

@@ -37,7 +37,7 @@ class DeviceCommands final : public aposs::Device {
 
   /// An error that has been raised, for whoever tells of it; 0: none.
   int take_raised() noexcept;
-  /// How many were raised and found no room, since it was asked last.
+  /// How many were raised and found no space, since it was asked last.
   std::uint32_t take_unheard() noexcept { return std::exchange(unheard_, 0); }
 
  private:

@@ -1,5 +1,6 @@
 /// How memory is laid out for the processor. What every cycle touches lies together, at the begin of a line:
-/// with a thousand axes the memory that has to come near, not the arithmetic, decides how long a cycle takes.
+/// with a thousand axes the memory that has to be fetched, not the arithmetic, decides how long a cycle
+/// takes.
 #pragma once
 
 #include <cstddef>

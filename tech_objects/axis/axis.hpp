@@ -71,7 +71,7 @@ class Axis final : public AxisFamilies {
     __builtin_prefetch(&data.StatusWord, 1);
   }
 
-  /// One interpolator cycle: `step` and `publish`, by the shortest way. Leading axes have to be through
+  /// One interpolator cycle: `step` and `publish`, in its shortest form. Leading axes have to be through
   /// theirs before.
   void cycle() noexcept;
 

@@ -110,7 +110,7 @@ class Encoders {
     double sign = 1.0;      // -1: it lies the other way round
     double velocity = 0.0;  // as it lies [u/s]
     double lent = 0.0;      // by what MC_SetSensor has shifted an absolute one, until it is left [u]
-    double ratio = 1.0;     // [u] that it tells on the way of one unit of the machine
+    double ratio = 1.0;     // [u] that it tells over one unit of the machine
     double start = 0.0;     // what it tells where the machine is at the beginning, as it lies [u]
     bool exists = false;
     bool absolute = false;

@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// A state of motion as seen in one direction: what goes that way counts positive.
+/// A state of motion as seen in one direction: what goes in it counts positive.
 struct Heading {
   double velocity;      // [u/s]
   double acceleration;  // [u/s²]

@@ -34,8 +34,8 @@ class SuperimposedOrders : private SuperimposedParts {
   // ---- One cycle: before the base motion, and behind it
 
   void advance() noexcept;
-  /// A halt, or a stop for which no job asks any more, makes room as other base motions do, but does not turn
-  /// back: where it runs its deceleration down already, it keeps the jerk that it needs for that.
+  /// A halt, or a stop for which no job asks any more, leaves a margin as other base motions do, but does not
+  /// turn back: where it runs its deceleration down already, it keeps the jerk that it needs for that.
   void replan_stop() noexcept;
   /// The setpoint is that of both. One that is over is a part of the base motion once that rests.
   void finish() noexcept;

@@ -209,7 +209,7 @@ void SuperimposedMotion::curb(Dynamics& dynamics, const Setpoint& now, const Bas
   const auto cut = [](double& value, double left) {
     if (left > 0.0) value = std::min(value, left);
   };
-  // The one may brake the way in which the other speeds up.
+  // The one may brake in the direction in which the other speeds up.
   cut(dynamics.acceleration, maximum.acceleration - uses_.acceleration);
   cut(dynamics.deceleration, maximum.deceleration - uses_.acceleration);
   if (dynamics.jerk > 0.0 && uses_.jerk > 0.0) cut(dynamics.jerk, maximum.jerk - uses_.jerk);

@@ -18,7 +18,7 @@ constexpr double kMean[] = {1.0, 2.0 / pi, 2.0 / pi, 2.0 / pi, 0.0};  // of the 
 /// What a wave of unit length and height adds to the position.
 constexpr double kDistance[] = {0.5, 2.0 / pi - 4.0 / (pi * pi), 4.0 / (pi * pi), 1.0 / pi, 0.0};
 
-/// Acceleration from one end of a law to its inflection point, as stretches of parts of that way.
+/// Acceleration from one end of a law to its inflection point, as stretches of parts of that distance.
 struct Half {
   struct Stretch {
     Wave wave;

@@ -10,7 +10,7 @@ struct EndConditions {
   std::optional<double> derivative[4];
 };
 
-/// Coefficients of the polynomial over 0 … 1 of the least degree that can meet the conditions, at most 7.
+/// Coefficients of the polynomial over 0 … 1 of the lowest degree that can meet the conditions, at most 7.
 /// FALSE if there is none or no single one. Any thread.
 bool polynomial_between(const EndConditions& start, const EndConditions& end, double (&c)[8]) noexcept;
 

@@ -72,7 +72,7 @@ class CamInterpolator {
   /// Interpolates `elements` into `function`, whose capacity is for as many points. 16#80AA without a valid
   /// element; 16#80AC: a value that is not finite or beyond 1.0E12, xmin not below xmax, all in one leading
   /// value, unknown settings, more than 1024 periods of sines, slopes at both ends that disagree, more points
-  /// than there is room for, or a curve whose coefficients a double cannot hold. After an error the function
+  /// than there is space for, or a curve whose coefficients a double cannot hold. After an error the function
   /// is empty. Any one thread; does not allocate.
   ErrorId interpolate(const CamElements& elements, CamFunction& function) noexcept;
 

@@ -62,10 +62,10 @@ struct Array {
 /// Elements at equal distances of which an index chooses one at run time.
 struct ElementRange {
   DINT lower = 0;            ///< index of the first one
-  std::uint32_t count = 0;   ///< 0: no choice, the place is fixed
+  std::uint32_t count = 0;   ///< 0: no choice, the address is fixed
   std::uint32_t stride = 0;  ///< [byte]
 
-  /// Way from the first element to that with an index [byte]; kOutside if there is none.
+  /// Distance from the first element to that with an index [byte]; kOutside if there is none.
   static constexpr std::uint64_t kOutside = ~std::uint64_t{0};
   std::uint64_t offset_of(std::int64_t index) const noexcept {
     const std::uint64_t place =

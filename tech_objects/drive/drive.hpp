@@ -114,7 +114,7 @@ class Drive {
   virtual DriveWords words() const noexcept = 0;
   /// Whether something is wrong that MC_Reset has to acknowledge, or a cause of that is there yet.
   virtual bool in_trouble() const noexcept = 0;
-  /// What stands along the way of a simulated machine, on its own scale; it does not change. A drive of a
+  /// What stands along the path of a simulated machine, on its own scale; it does not change. A drive of a
   /// real machine has none: its switches are tags, which the data block names.
   virtual const MachineSignals& signals() const noexcept;
 };

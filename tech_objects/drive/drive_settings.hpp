@@ -33,7 +33,7 @@ struct DriveSettings {
   double dead_time = 0.0;        ///< [s] 0 … 254 servo cycles, whole or not; more counts as that
   double resolution = 0.0;       ///< [u] ≥ 0, increment of the encoder; 0: reports the position itself
   bool inverted = false;         ///< motor and its encoder turn the other way round than the machine
-  MachineSignals signals{};      ///< what stands along its way
+  MachineSignals signals{};      ///< what stands along its path
   MachinePlantSettings plant{};  ///< what it moves; of no effect without inertia
   double quick_stop = 0.0;       ///< [u/s²] ≥ 0, deceleration of OFF3; 0: as hard as the drive can
   SimulatedFaults faults{};

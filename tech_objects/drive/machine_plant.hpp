@@ -20,7 +20,7 @@ struct TorqueBand {
 struct FixedStop {
   double position = 0.0;   ///< [u] on the scale of the machine, where it is touched
   int side = 1;            ///< 1: it is met in the positive direction, -1: in the negative one
-  double stiffness = 0.0;  ///< > 0, torque at the motor per way into it [Nm/u]
+  double stiffness = 0.0;  ///< > 0, torque at the motor per distance into it [Nm/u]
 };
 
 /// All torques are those at the motor, in the unit of torque of the axis; of a linear motor they are forces.

@@ -34,7 +34,7 @@ struct DigitalInput {
   PositionRange range;
 };
 
-/// What stands along the way of a simulated machine, on a scale of its own: where it is at the beginning is
+/// What stands along the path of a simulated machine, on a scale of its own: where it is at the beginning is
 /// `start_position`, and homing moves no mark. Written while loading.
 struct MachineSignals {
   double start_position = 0.0;  ///< [u]

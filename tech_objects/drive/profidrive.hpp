@@ -119,7 +119,7 @@ using Telegram3Actual = std::array<std::uint16_t, 9>;
 using Telegram105Setpoint = std::array<std::uint16_t, 10>;
 using Telegram105Actual = std::array<std::uint16_t, 10>;
 
-/// Words in the order of the telegram, the high word of a double word first. What a telegram has no room for
+/// Words in the order of the telegram, the high word of a double word first. What a telegram has no space for
 /// is lost, and 0 when it is unpacked.
 Telegram3Setpoint pack_telegram_3(const TelegramSetpoint& setpoint) noexcept;
 Telegram3Actual pack_telegram_3(const TelegramActual& actual) noexcept;

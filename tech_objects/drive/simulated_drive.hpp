@@ -60,7 +60,7 @@ class SimulatedDrive final : public Drive {
   };
   static Piece piece(double duration, double time_constant) noexcept;
   void run(const Piece& piece, double velocity) noexcept;
-  /// Place in `written_` and `targets_` of what is written in a cycle. Only as much memory is touched as the
+  /// Index in `written_` and `targets_` of what is written in a cycle. Only as much memory is touched as the
   /// dead time needs.
   std::size_t kept(std::size_t cycle) const noexcept { return cycle & (ring_ - 1); }
   void run_position_loop() noexcept;

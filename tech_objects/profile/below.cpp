@@ -21,7 +21,7 @@ constexpr double kResolution = std::numeric_limits<double>::epsilon();
 PositionPlanner::Entry PositionPlanner::entry(const View& down) const noexcept {
   const double edge = -(down.sign > 0.0 ? limit_down_ : limit_up_);
   if (down.v0 >= edge && down.stop >= edge) return {{}, down.v0, std::max(down.a0, 0.0), 0.0, down.stop};
-  // The quickest change passes the edge with the least of the squares that its constraints allow there.
+  // The quickest change passes the edge with the smallest of the squares that its constraints allow there.
   const double v = down.a0 >= 0.0 ? down.v0 : down.stop;
   const double a = std::max(down.a0, 0.0);
   const double limit = rise_limits_.below;
@@ -53,7 +53,7 @@ Rise PositionPlanner::eased(const View& down, const Entry& from, double reductio
   return rise;
 }
 
-/// Reductions at which the distance may be least. Easing from a velocity against the change to one with it
+/// Reductions at which the distance may be smallest. Easing from a velocity against the change to one with it
 /// first takes distance and then adds it. With a the acceleration it is eased to, p the one it rises to
 /// afterwards and s the velocity where it would be 0, the distance grows with the reduction where 2 s + a (p
 /// - 2 a)/jerk > 0; p is a limit, or p² = a² + jerk · excess up to the end, or up to standstill where the

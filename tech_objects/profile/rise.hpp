@@ -1,5 +1,5 @@
-/// A rise of velocity: the quickest way from a velocity, with an acceleration ≥ 0, to a higher one.
-/// Every profile is made of rises: a fall is a rise with the velocity's sign changed, and the way down from a
+/// A rise of velocity: the quickest change from a velocity, with an acceleration ≥ 0, to a higher one.
+/// Every profile is made of rises: a fall is a rise with the velocity's sign changed, and the fall from a
 /// cruising velocity is a rise run backwards in time.
 #pragma once
 
@@ -55,7 +55,7 @@ inline RisePart rise_part(double v0, double a0, double v1, double a1, double exc
       const double sum = part.peak + a0;
       part.t1 = sum > 0.0 ? excess / sum : 0.0;
     }
-  } else {  // too great an acceleration falls to the limit first, if there is room
+  } else {  // too great an acceleration falls to the limit first, if there is a margin
     part.peak = std::max(limit, a1);
     part.t1 = (a0 - part.peak) * jerk.inverse;
     part.t2 = excess / part.peak;

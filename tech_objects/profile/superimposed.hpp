@@ -25,7 +25,7 @@ class Superimposed {
   /// Not in use any more: the part has become one of the base motion.
   void reset() noexcept;
 
-  /// By a distance from here [u]. At rest, dynamic values of 0 leave no room: the motion waits until
+  /// By a distance from here [u]. At rest, dynamic values of 0 leave no margin: the motion waits until
   /// `make_room` tells of others. In motion only the velocity may be 0: it comes to rest and waits.
   PlanResult move_by(double distance, const Dynamics& margin) noexcept;
   /// Other dynamic values for the distance under way; a motion goes on braking with those that it has.
@@ -71,7 +71,7 @@ class Superimposed {
   double distance_ = 0.0;  // that waits [u]
   Dynamics margin_;
   SingleAxisMotion motion_;
-  bool waits_ = false;   // for room, at rest
+  bool waits_ = false;   // for a margin, at rest
   bool given_ = false;   // the values are given in every cycle
   bool in_use_ = false;  // last, beside what an axis touches in every cycle
 };

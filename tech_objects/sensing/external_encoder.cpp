@@ -65,7 +65,7 @@ void ExternalEncoder::begin(DoubleDouble line) noexcept {
   reset_leading(actual_);
 }
 
-/// What it has gone unseen, or in a fault, is no way: it is where it was seen last.
+/// What it has gone unseen, or in a fault, is no distance: it is where it was seen last.
 void ExternalEncoder::go_on_from_here(DoubleDouble line) noexcept {
   line_ = line;
   origin_ = advanced(actual_, -line_, modulo_);

@@ -73,7 +73,7 @@ class ExternalEncoder final : public LeadingObject {
   void end_passive_homing(JobPhase phase, ErrorId error) noexcept;
   bool fits(double by) const noexcept;
   HomeSwitch home_switch() const noexcept;
-  /// After which way the encoder is where it was [u]; 0: never.
+  /// After which distance the encoder is where it was [u]; 0: never.
   double turn() const noexcept { return modulo_.enabled ? modulo_.length : 0.0; }
   void shift(double by) noexcept;
   Setpoint ahead_of_delay() const noexcept;

@@ -9,17 +9,17 @@ namespace lockstep {
 namespace {
 
 /// Most that the velocity of an axis may make, over the leading distance, of its distance to the stop
-/// position, as a multiple of that way: a leading value that creeps would throw the axis far beyond.
+/// position, as a multiple of that distance: a leading value that creeps would throw the axis far beyond.
 constexpr double kSteepestDesynchronizing = 20.0;
 
-/// The velocity of the least curved way to rest is (1 - u)² (s + (2 s + c) u), with the slope and the
+/// The velocity of the smoothest path to rest is (1 - u)² (s + (2 s + c) u), with the slope and the
 /// curvature at its beginning over the distance: it does not change its sign where c ≥ -3 s. What a function
 /// is bent beyond that the acceleration steps.
 double without_turning_back(double curvature, double slope, double distance) noexcept {
   return std::max(curvature, -3.0 * std::max(slope, 0.0) / distance);
 }
 
-/// Over another way w it is less by 30 u² (1 - u)² (s / 2 + c / 12 - w): positive to the end where
+/// Over another distance w it is less by 30 u² (1 - u)² (s / 2 + c / 12 - w): positive to the end where
 /// c ≤ 20 w - 8 s. An axis that makes more than its gear would pass the stop position and come back: its
 /// acceleration steps as well, so that it is braked early enough.
 double without_passing(double curvature, double slope, double stop_distance, double distance) noexcept {
@@ -27,7 +27,7 @@ double without_passing(double curvature, double slope, double stop_distance, dou
   return without_turning_back(std::min(curvature, maximum), slope, distance);
 }
 
-/// The least curved way to rest over a leading distance: its velocity is a cubic of that distance.
+/// The smoothest path to rest over a leading distance: its velocity is a cubic of that distance.
 double distance_over(const Chain& chain, double distance, AxisPosition leading, int heading) noexcept {
   if (!chain.function.is_cam()) return 0.5 * std::abs(chain.function.ratio()) * distance;
   const int led = sign(chain.leading.step().distance());

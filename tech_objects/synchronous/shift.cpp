@@ -6,7 +6,7 @@ namespace lockstep {
 namespace {
 
 /// Most that a shift's own velocity, and its acceleration, may make of its distance over the leading
-/// distance, as a multiple of that way.
+/// distance, as a multiple of that distance.
 constexpr double kSteepestShift = 20.0;
 
 }  // namespace
@@ -95,7 +95,7 @@ SyncOffset Shift::remainder_at_start(const LeadingStep& step) const noexcept {
   return start;
 }
 
-/// From here: starts where it is, if the leading value stands or moves the right way; else at the last
+/// From here: starts where it is, if the leading value stands or moves in its direction; else at the last
 /// tick before the start position is crossed.
 bool Shift::may_start(const LeadingStep& step) noexcept {
   const double distance = step.distance();

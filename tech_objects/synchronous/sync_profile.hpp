@@ -15,7 +15,7 @@ namespace lockstep {
 enum class SyncDirection : std::int8_t {
   kPositive = 1,     ///< the following axis moves in positive direction only
   kNegative = 2,     ///< the following axis moves in negative direction only
-  kShortestPath = 3  ///< shortest way from where it is to where it gets synchronous; it may reverse
+  kShortestPath = 3  ///< shortest distance from where it is to where it gets synchronous; it may reverse
 };
 
 /// How close to its synchronous value an axis with modulo is there: part of its ring. One that is there turns
@@ -70,12 +70,12 @@ class SyncProfile {
  public:
   /// Plans the profile. `distance` [leading u] > 0; `backward`: the leading axis moves in negative direction.
   /// The whole turns that the distance of a modulo following axis needs are chosen by `direction`: for
-  /// one-way synchronizing the fewest with which the axis never reverses, but for `kOnSynchronousValue`; none
-  /// if the axis moves on the function already. They are not in the function passed: see `turns`. A linear
-  /// following axis goes to the function as it is, whatever `direction`. Velocity and acceleration of the
-  /// following axis count with a moving leading axis only; with one that stands or moves against `backward`
-  /// the profile starts with slope 0 (published step if the axis moves). A rejected plan leaves the profile
-  /// as it was. Bounded time; the cycle's thread.
+  /// synchronizing in one direction the smallest number with which the axis never reverses, but for
+  /// `kOnSynchronousValue`; none if the axis moves on the function already. They are not in the function
+  /// passed: see `turns`. A linear following axis goes to the function as it is, whatever `direction`.
+  /// Velocity and acceleration of the following axis count with a moving leading axis only; with one that
+  /// stands or moves against `backward` the profile starts with slope 0 (published step if the axis moves). A
+  /// rejected plan leaves the profile as it was. Bounded time; the cycle's thread.
   SyncPlan plan(const SyncStart& start, const SyncTarget& target, double distance, bool backward,
                 SyncDirection direction, const Modulo& leading, const Modulo& following) noexcept;
 
@@ -103,7 +103,7 @@ class SyncProfile {
   bool backward_ = false;
 };
 
-/// The least distance [u] over the distance D with which the quintic x from slope `start_slope`, curvature
+/// The smallest distance [u] over the distance D with which the quintic x from slope `start_slope`, curvature
 /// `start_curvature` to slope `end_slope` > 0, curvature 0 never runs backward. All slopes are times D and
 /// the curvature times D², so in [u]. Infinite if there is none. Any thread.
 double minimum_monotone_distance(double start_slope, double start_curvature, double end_slope) noexcept;

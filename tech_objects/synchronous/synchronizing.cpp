@@ -18,7 +18,7 @@ constexpr double kSamePosition = 1e-14;
 constexpr double kNoDistance = 1e-6;
 
 /// Most that velocity and acceleration of the axis may make of its distance over the leading distance, as a
-/// multiple of that way: the quintic then stays within some ten times the distance.
+/// multiple of that distance: the quintic then stays within some ten times the distance.
 constexpr double kSteepestSynchronizing = 100.0;
 
 /// Over how many ticks the change of the leading velocity is watched.

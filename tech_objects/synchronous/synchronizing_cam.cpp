@@ -122,7 +122,7 @@ SyncPlan Synchronizing::plan_along_tangent(const Chain& chain, const SyncStart& 
 }
 
 /// In time: the parabola that touches the cam in the synchronous position. Its bend counts as far as the
-/// limits leave room for it; else the acceleration steps to that of the cam.
+/// limits leave a margin for it; else the acceleration steps to that of the cam.
 void Synchronizing::aim_at_cam(const Chain& chain, double distance) noexcept {
   CamCoupling& cam = chain.function.cam();
   const double velocity = chain.leading.now().velocity;

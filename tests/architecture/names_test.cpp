@@ -1,4 +1,4 @@
-// Words that CONTRIBUTING.md has a term of the field for: no identifier is made of them.
+// Words that CONTRIBUTING.md has a term of the field for: no identifier is made of them, and no comment.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,13 +55,60 @@ std::set<std::string> identifiers_of(const std::string& code) {
   return identifiers;
 }
 
-std::string faults_of(const fs::path& source) {
+// Of these comments may speak otherwise: what is on its way, and rooms of the house.
+constexpr std::string_view kIdioms[] = {
+    "under way",  "on its way",  "in its way",    "on their way", "on the way",    "in the way",
+    "the way in", "the way out", "the way back",  "way round",    "the other way", "either way",
+    "both ways",  "which way",   "whichever way", "gives way",    "give way",      "given way",
+    "half-way",   "at least",    "two at least",  "one at least", "or its least",  "other rooms"};
+const std::set<std::string> kNotInComments = {"way", "ways", "room", "rooms", "least", "greatest", "fewest"};
+
+// The comments of a source as running text.
+std::string comments_of(const std::string& text) {
+  const std::string code = code_of(text, true);
+  std::string comments;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_blank = code[i] == text[i] || text[i] == '/' || text[i] == ' ';
+    if (!is_blank) comments += text[i];
+    if (is_blank && !comments.empty() && comments.back() != ' ') comments += ' ';
+  }
+  return comments;
+}
+
+std::string in_lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// Where comments say such a word otherwise, one a line.
+std::string faults_of_comments(const std::string& text) {
+  std::string comments = in_lower_case(comments_of(text));
+  for (const std::string_view idiom : kIdioms)
+    for (std::size_t at = comments.find(idiom); at != std::string::npos; at = comments.find(idiom, at))
+      comments.replace(at, idiom.size(), "…");
+  std::string faults;
+  std::istringstream words(comments);
+  std::string before;
+  for (std::string word; words >> word; before = word) {
+    std::string bare = word;
+    bare.erase(bare.find_last_not_of(".,;:?!)\"'") + 1);
+    if (kNotInComments.contains(bare)) faults += "… " + before + " " + word + "\n";
+  }
+  return faults;
+}
+
+std::string text_of(const fs::path& source) {
   std::ifstream file(source, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string faults_of(const fs::path& source) {
+  const std::string text = text_of(source);
   std::string faults;
   for (const std::string& identifier : identifiers_of(code_of(text, false)))
     if (!is_of_the_field(identifier)) faults += source.string() + ": " + identifier + "\n";
-  return faults;
+  const std::string said = faults_of_comments(text);
+  return said.empty() ? faults : faults + source.string() + ":\n" + said;
 }
 
 TEST(Names, AreMadeOfTheTermsOfTheField) {
@@ -79,6 +127,13 @@ TEST(Names, AreTakenApartIntoWords) {
   EXPECT_TRUE(is_of_the_field("at_most"));
   EXPECT_TRUE(is_of_the_field("always"));
   EXPECT_EQ(identifiers_of("int way2 = 0x1f; f(a_b);"), (std::set<std::string>{"int", "way2", "f", "a_b"}));
+}
+
+TEST(Names, AreLookedForInCommentsToo) {
+  EXPECT_EQ(faults_of_comments("int way; // The shortest way\n// there.\n"), "… shortest way\n");
+  EXPECT_EQ(faults_of_comments("/* of the least\n degree */ f(\"room\");"), "… the least\n");
+  EXPECT_EQ(faults_of_comments("/// It is on its way, at least\n/// half-way.\n"), "");
+  EXPECT_EQ(faults_of_comments("// the other\n// way round\n"), "");
 }
 
 }  // namespace
