@@ -254,9 +254,19 @@ TEST(StudioScope, LaysShotsOverEachOtherSoThatTheirOccasionsMeet) {
   Page page;
   ASSERT_TRUE(page.is_live());
   page.open_tab("Trigger");
-  for (int i = 0; i < 2; ++i) page.browser.click("button[title='Catch what is now']");
+  // Waits for what does not happen, and is told to catch what is now.
+  page.browser.choose(".trigger input[list]", "Knife.Position");
+  page.browser.choose(".trigger [aria-label=Level]", "1000");
+  page.browser.choose(".trigger [aria-label='Mode of the trigger']", "normal");
+  page.browser.click("button[title='Wait for this']");
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('.trigger-state').textContent === 'armed'"))
+      << page.browser.text(".trigger-state");
+  for (const char* shot : {"shot-1", "shot-2"}) {
+    page.browser.click("button[title='Catch what is now']");
+    ASSERT_TRUE(page.browser.wait_for("document.querySelector('[data-shot=" + std::string(shot) + "]')"))
+        << page.browser.text(".trigger-state");
+  }
   page.open_tab("Traces");
-  ASSERT_TRUE(page.browser.wait_for("document.querySelector('[data-shot=shot-2]')"));
   page.browser.click("[data-shot=shot-1]");
   ASSERT_TRUE(page.browser.wait_for("document.querySelector('.shown [data-shot=shot-1]')"));
   EXPECT_EQ(page.browser.evaluate(drawn_at(0) + ".signals[0].overlays"), 0);
