@@ -303,6 +303,7 @@ TEST(StudioScope, KeepsLayoutsByNameAndUsesThemAgain) {
   EXPECT_TRUE(page.browser.wait_for(
       "JSON.stringify(" + kDrawn +
       ".map((one) => one.signals.map((s) => s.path))) === " + Json(before.dump()).dump()));
+  page.expect_quiet();
 }
 
 /// Rows of a signal at 1 ms, of which some are missing, as the page saves them.
@@ -355,6 +356,9 @@ TEST(StudioScope, HatchesRowsThatAreMissingAndCountsThem) {
             0);
   page.browser.click(".live");
   EXPECT_TRUE(page.browser.wait_for("document.querySelector('.live').textContent.includes('Stop')"));
+  EXPECT_TRUE(
+      page.browser.wait_for(kDrawn + ".some((one) => one.signals.some((s) => s.path === 'Knife.Velocity'))"))
+      << "the run is shown as it was before";
   page.expect_quiet();
 }
 

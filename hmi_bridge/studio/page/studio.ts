@@ -30,7 +30,7 @@ class Studio implements Listener {
   private readonly alarms = new Alarms({ show: (t) => this.showMoment(t), acknowledge: null });
   private readonly diagnosis = new Diagnosis({
     search: (text, limit) => this.link.json(`api/signals?limit=${limit}&q=${encodeURIComponent(text)}`),
-    read: (paths) => this.link.post("api/read", { paths }), describe: (words) => this.link.json(`api/describe/${words}`),
+    read: (paths) => this.link.post("api/read", { paths }), describe: async (words) => (await this.link.optional(`api/describe/${words}`)).json(),
     show: (path) => this.showSignal(path), configure: (name) => { this.setScreen("project"); this.projectScreen.showObject(name); },
   });
   private readonly panel = new Panel({ ask: (message) => this.link.ask(message), held: () => this.showControl() });
@@ -110,6 +110,7 @@ class Studio implements Listener {
     const isNewRun = hello.run !== this.run;
     this.run = hello.run;
     const [api, project] = await Promise.all([this.link.json("api"), this.link.json("api/project")]);
+    this.link.hasMore = api.rights?.simulation !== undefined;
     this.setRights(hello.rights ?? api.rights, hello.why_not ?? api.why_not);
     this.title.textContent = document.title = project.name;
     this.diagnosis.setObjects(project.objects.map(({ name }: { name: string }) => name));

@@ -36,6 +36,7 @@ function takeToken(): string {
 }
 
 export class Link {
+  hasMore = false;  // more than what may be looked at: writes, commands, the project's text
   private socket: WebSocket | null = null;
   private token = takeToken();
   private seq = 0;
@@ -94,6 +95,12 @@ export class Link {
     if (response.ok) return response;
     const body = await response.json().catch(() => null);
     throw new RequestError(response.status, body?.error?.message ?? response.statusText, body?.errors ?? []);
+  }
+
+  /// What an older server does not have is not asked of it, and told as it would tell it.
+  async optional(path: string): Promise<Response> {
+    if (!this.hasMore) throw new RequestError(404, "this studio does not tell that");
+    return this.get(path);
   }
 
   async json(path: string): Promise<any> { return (await this.get(path)).json(); }

@@ -84,6 +84,8 @@ export class Project {
     this.cells.start();
   }
 
+  private async json(path: string): Promise<any> { return (await this.notes.link.optional(path)).json(); }
+
   private async showOverview(): Promise<void> {
     const project = await this.notes.link.json("api/project");
     const couplings: Coupling[] = project.couplings ?? [];
@@ -98,7 +100,7 @@ export class Project {
 
   private async showPrograms(): Promise<void> {
     try {
-      this.programs.set((await this.notes.link.json("api/programs")).programs);
+      this.programs.set((await this.json("api/programs")).programs);
     } catch (error) {
       if (!isMissing(error)) throw error;
       this.programs.element.replaceChildren(html("p", { class: "faint" }, "This studio does not tell programs."));
@@ -109,7 +111,7 @@ export class Project {
 
   private async loadTags(): Promise<void> {
     try {
-      this.tagRows = (await this.notes.link.json("api/tags")).tags;
+      this.tagRows = (await this.json("api/tags")).tags;
     } catch (error) {
       if (!isMissing(error)) throw error;
     }
@@ -181,7 +183,7 @@ export class Project {
   private async variablesOf(name: string): Promise<VariableRow[]> {
     const isObject = this.objects.some((one) => one.name === name);
     try {
-      const answer = await this.notes.link.json(`api/${isObject ? "objects" : "instances"}/${encodeURIComponent(name)}`);
+      const answer = await this.json(`api/${isObject ? "objects" : "instances"}/${encodeURIComponent(name)}`);
       return answer.variables?.flatMap(configured) ?? answer.pins.map((pin: any): VariableRow => ({ ...pin, effect: pin.class, start: pin.pointer ? pin.text : "", text: pin.pointer ? "" : pin.text }));
     } catch (error) {
       if (!isMissing(error)) throw error;
@@ -211,7 +213,7 @@ export class Project {
 
   private async showChecks(): Promise<void> {
     try {
-      const { problems, warnings } = await this.notes.link.json("api/check");
+      const { problems, warnings } = await this.json("api/check");
       const list = (title: string, all: any[]): HTMLElement => html("section", {}, html("h2", {}, `${title}: ${all.length}`), html("ul", { class: "checks" }, ...all.map((one) => html("li", {}, html("code", {}, one.pointer ?? one.place ?? ""), " ", one.text))));
       this.checks.replaceChildren(list("Problems", problems ?? []), list("Warnings", warnings ?? []));
     } catch (error) {
@@ -222,7 +224,7 @@ export class Project {
 
   private async showHealth(): Promise<void> {
     try {
-      const health = await this.notes.link.json("api/health");
+      const health = await this.json("api/health");
       this.health.replaceChildren(...Object.entries<any>(health).map(([part, values]) => html("section", { class: "health" }, html("h2", {}, part.replaceAll("_", " ")),
         values === null ? html("p", { class: "faint" }, "is not part of this run") : typeof values === "object" ? html("dl", { class: "facts" }, ...facts(values)) : html("p", {}, String(values)))));
       this.timer = window.setTimeout(() => { if (this.tabs.chosen === "Health" && !this.element.hidden) void this.showHealth(); }, 1000);

@@ -21,7 +21,7 @@ export class Layouts {
 
   async refresh(): Promise<void> {
     try {
-      const response = await this.notes.link.get("api/layouts");
+      const response = await this.notes.link.optional("api/layouts");
       this.etag = response.headers.get("ETag") ?? "";
       this.shared = (await response.json()).layouts ?? {};
     } catch {

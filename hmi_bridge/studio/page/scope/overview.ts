@@ -63,7 +63,7 @@ export class Overview {
     this.element.setAttribute("aria-valuetext", `${(span.from / 1e9).toFixed(2)} to ${(span.to / 1e9).toFixed(2)} seconds`);
   }
 
-  draw(source: Source | undefined, lines: Line[], colour: (line: Line) => string, span: Span): void {
+  draw(source: Source | undefined, lines: Line[], colour: (line: Line) => string, span: Span, wrap: (path: string) => number): void {
     const now = performance.now();
     if (!source || !(source.end > source.begin)) return;
     this.whole = { from: source.begin, to: source.end };
@@ -89,7 +89,7 @@ export class Overview {
       }
       if (!(low <= high)) [low, high] = this.extremes(column.value, record.size);
       if (high === low) { low -= 1; high += 1; }
-      raster.line(record, column, 0, record.size, map, { low, high }, { colour: pixel(colour(line)), thickness: 1, dash: 0 }, Infinity, source.shift);
+      raster.line(record, column, 0, record.size, map, { low, high }, { colour: pixel(colour(line)), thickness: 1, dash: 0 }, wrap(line.path), source.shift);
     }
     const context = this.canvas.getContext("2d");
     if (context) raster.show(context);

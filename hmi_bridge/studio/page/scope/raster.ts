@@ -94,7 +94,7 @@ export class Raster {
   }
 
   /// A signal as a line, of the rows from one to before another. It is broken where rows are missing, where there is no
-  /// number, and where it jumps by more than `wrap`, as positions with a modulo do.
+  /// number, and where it jumps by more than `wrap`, as positions with a modulo do; within a point, too.
   /// @param shift by which the trace lies later than it was [ns]
   line(record: Recording, column: Column, from: number, to: number, map: TimeMap, range: Range, stroke: Stroke, wrap: number, shift = 0): void {
     const perValue = (this.height - stroke.thickness) / (range.high - range.low);
@@ -109,7 +109,7 @@ export class Raster {
       const x = map.x(record.t[row] + shift);
       const y = (high - value) * perValue;
       if (value === value) {
-        if (lows && highs) this.fill(x, (high - highs[row]) * perValue, (high - lows[row]) * perValue, stroke);
+        if (lows && highs && highs[row] - lows[row] <= wrap) this.fill(x, (high - highs[row]) * perValue, (high - lows[row]) * perValue, stroke);
         const isJoined = !record.breaks[row] && x >= lastX && Math.abs(value - lastValue) <= wrap;
         if (!isJoined) this.fill(x, y, y, stroke);
         else if (x === lastX) this.fill(x, lastY, y, stroke);

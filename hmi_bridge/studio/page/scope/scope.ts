@@ -64,6 +64,7 @@ export class Scope {
   private isDirty = true;
   private drawnAt = -1;
   private numbersAt = 0;
+  private before: Layout | null = null;                                // as it was before a file was opened
   private jumped: { t: number; cursor: number | null } | null = null;  // the event that one has gone to
 
   constructor(private readonly link: Link, private readonly theme: Theme) {
@@ -179,6 +180,11 @@ export class Scope {
     this.main = source;
     this.overlays = this.overlays.filter((one) => one.id !== id);
     if (!source.isLive) await this.fitSignals(source);
+    if (source.isLive && this.before) {
+      // What a file has brought with it goes with it.
+      this.use(this.before);
+      this.before = null;
+    }
     if (source.isLive) this.view.setLive(true, this.latest);
     else {
       const { t } = source.info;
@@ -224,6 +230,7 @@ export class Scope {
     if (!kept) return false;
     const id = `page-${this.pages.size + 1}`;
     const { record } = kept;
+    if (this.main.info.kind !== "page" && this.diagrams.length) this.before = structuredClone(this.layout);
     const source = new Source({ id, name: `${kept.about.project} (saved)`, kind: "page", signals: kept.signals, from: record.begin, to: record.end }, false, null);
     source.record = record;
     this.pages.set(id, source);
@@ -420,7 +427,7 @@ export class Scope {
     for (const diagram of this.diagrams) diagram.draw(scene);
     this.axis.draw(scene.span, this.view.isSweeping && this.isLive);
     this.bars.draw(scene.span, this.live.end, this.isLive);
-    this.overview.draw(this.main, this.overviewLines(), this.colour, scene.span);
+    this.overview.draw(this.main, this.overviewLines(), this.colour, scene.span, this.wrap);
     const now = performance.now();
     if (!this.isLive || now - this.numbersAt > kNumbers) {
       this.numbersAt = now;
