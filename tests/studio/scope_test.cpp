@@ -181,7 +181,7 @@ TEST(StudioScope, ZoomsEachAxisOfValuesAndTakesThemBack) {
 TEST(StudioScope, DrawsOneSignalOverAnother) {
   Page page;
   ASSERT_TRUE(page.is_live());
-  ASSERT_TRUE(page.browser.wait_for("parseFloat(document.querySelector('.clock').textContent) > 4"));
+  ASSERT_TRUE(page.browser.wait_for(drawn_at(0) + ".signals[0].rows > 600"));
   ASSERT_TRUE(page.stop());
   page.open_tab("XY");
   page.browser.choose("[aria-label='Signal to the right']", "Conveyor.Velocity");

@@ -31,7 +31,7 @@ export class XyPlot {
   private readonly x = html("select", { "aria-label": "Signal to the right", change: () => { this.key = ""; } });
   private readonly y = html("select", { "aria-label": "Signal upwards", change: () => { this.key = ""; } });
   private readonly other = html("select", { "aria-label": "Trace of the signal upwards", change: () => { this.key = ""; } });
-  private readonly picture = svg("svg", { class: "chart", role: "img" });
+  private readonly picture = svg("svg", { class: "chart", role: "img", "aria-label": "XY" });
   readonly element = html("section", { class: "analysis", "aria-label": "XY", hidden: true },
     html("p", { class: "row" }, html("label", {}, "right ", this.x), html("label", {}, "up ", this.y), html("label", {}, "of ", this.other)), this.picture);
   private key = "";
