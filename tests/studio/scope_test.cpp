@@ -216,11 +216,11 @@ TEST(StudioScope, GoesFromEventToEventAndTellsWhatItWas) {
   ASSERT_TRUE(page.is_live());
   ASSERT_TRUE(page.browser.wait_for("document.querySelector('.job[data-instance=gear]')"));
   ASSERT_TRUE(page.stop());
-  page.browser.press("p");
+  page.browser.press("n");
   ASSERT_TRUE(page.browser.wait_for("!document.querySelector('.note').hidden"));
-  const std::string last = page.browser.text(".note");
-  page.browser.press("p");
-  EXPECT_TRUE(page.browser.wait_for("document.querySelector('.note').textContent !== " + Json(last).dump()));
+  const std::string first = page.browser.text(".note");
+  page.browser.press("n");
+  EXPECT_TRUE(page.browser.wait_for("document.querySelector('.note').textContent !== " + Json(first).dump()));
   const Json bar = page.browser.middle_of(".job[data-instance=gear] rect");
   EXPECT_GT(bar["x"].get<double>(), 0.0);
   page.browser.evaluate(

@@ -112,8 +112,8 @@ TEST(StudioUsable, IsWorkedByTabsAndKeysAlone) {
   ASSERT_TRUE(page.stop());
   page.browser.press("a");
   page.browser.press("b");
-  page.browser.press("ArrowLeft", true);
-  EXPECT_TRUE(page.browser.wait_for("document.querySelector('.times').textContent.includes('B − A -20 ms')"))
+  page.browser.press("ArrowRight", true);
+  EXPECT_TRUE(page.browser.wait_for("document.querySelector('.times').textContent.includes('B − A 20 ms')"))
       << page.browser.text(".times");
   page.browser.press("m");
   EXPECT_TRUE(page.browser.wait_for("document.querySelector('.measure').hidden"));
