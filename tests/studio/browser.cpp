@@ -182,23 +182,53 @@ std::string Browser::text(const std::string& selector) {
   return text.is_string() ? text.get<std::string>() : "";
 }
 
+Browser::Json Browser::middle_of(const std::string& selector) {
+  return evaluate("(() => { const e = document.querySelector(" + quoted(selector) +
+                  "); e.scrollIntoView({block: 'nearest'}); const r = e.getBoundingClientRect(); "
+                  "return {x: r.x + r.width / 2, y: r.y + r.height / 2}; })()");
+}
+
 void Browser::click(const std::string& selector) {
-  const Json place = evaluate("(() => { const e = document.querySelector(" + quoted(selector) +
-                              "); e.scrollIntoView({block: 'nearest'}); const r = e.getBoundingClientRect(); "
-                              "return {x: r.x + r.width / 2, y: r.y + r.height / 2}; })()");
-  drag(place["x"], place["y"], place["x"], place["y"]);
+  const Json middle = middle_of(selector);
+  drag(middle["x"], middle["y"], middle["x"], middle["y"]);
+}
+
+void Browser::choose(const std::string& selector, const std::string& value) {
+  evaluate("(() => { const e = document.querySelector(" + quoted(selector) + "); e.value = " + quoted(value) +
+           "; e.dispatchEvent(new Event('change', {bubbles: true})); })()");
+}
+
+void Browser::choose_file(const std::string& selector, const std::string& file) {
+  const Json root = call("DOM.getDocument")["root"]["nodeId"];
+  const Json node = call("DOM.querySelector", {{"nodeId", root}, {"selector", selector}})["nodeId"];
+  call("DOM.setFileInputFiles", {{"files", {file}}, {"nodeId", node}});
+}
+
+void Browser::move_pointer(double x, double y, bool is_down) {
+  call("Input.dispatchMouseEvent", {{"type", "mouseMoved"},
+                                    {"x", x},
+                                    {"y", y},
+                                    {"button", is_down ? "left" : "none"},
+                                    {"buttons", is_down ? 1 : 0}});
+}
+
+void Browser::press_pointer(double x, double y) {
+  move_pointer(x, y, false);
+  call("Input.dispatchMouseEvent",
+       {{"type", "mousePressed"}, {"x", x}, {"y", y}, {"button", "left"}, {"buttons", 1}, {"clickCount", 1}});
+}
+
+void Browser::release_pointer(double x, double y) {
+  call(
+      "Input.dispatchMouseEvent",
+      {{"type", "mouseReleased"}, {"x", x}, {"y", y}, {"button", "left"}, {"buttons", 0}, {"clickCount", 1}});
 }
 
 void Browser::drag(double from_x, double from_y, double to_x, double to_y) {
-  const auto mouse = [this](const char* type, double x, double y, int buttons) {
-    call("Input.dispatchMouseEvent",
-         {{"type", type}, {"x", x}, {"y", y}, {"button", "left"}, {"buttons", buttons}, {"clickCount", 1}});
-  };
-  mouse("mouseMoved", from_x, from_y, 0);
-  mouse("mousePressed", from_x, from_y, 1);
+  press_pointer(from_x, from_y);
   for (int step = 1; step <= 4 && (from_x != to_x || from_y != to_y); ++step)
-    mouse("mouseMoved", from_x + (to_x - from_x) * step / 4, from_y + (to_y - from_y) * step / 4, 1);
-  mouse("mouseReleased", to_x, to_y, 0);
+    move_pointer(from_x + (to_x - from_x) * step / 4, from_y + (to_y - from_y) * step / 4, true);
+  release_pointer(to_x, to_y);
 }
 
 void Browser::turn_wheel(double x, double y, double by) {

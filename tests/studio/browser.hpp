@@ -35,6 +35,16 @@ class Browser {
   /// A key as `KeyboardEvent.key` has it.
   void press(const std::string& key, bool shift = false);
   void type(const std::string& text);
+  /// Chooses files in a field for files.
+  void choose_file(const std::string& selector, const std::string& file);
+  /// What a select has; as if it had been chosen by hand.
+  void choose(const std::string& selector, const std::string& value);
+  /// Presses at a point and keeps it down, or lets go.
+  void press_pointer(double x, double y);
+  void move_pointer(double x, double y, bool is_down);
+  void release_pointer(double x, double y);
+  /// Where the middle of the first element is that a selector finds, which is brought into view.
+  Json middle_of(const std::string& selector);
   /// As a system that prefers it has it.
   void prefer_dark(bool dark);
   /// A picture of the window, PNG.

@@ -1,4 +1,6 @@
 // What a user sees of a run in the studio's page, and does with it.
+#include "tests/studio/page.hpp"
+
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -9,64 +11,16 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "projects/runtime/runtime.hpp"
-#include "tests/hmi_bridge/studio_client.hpp"
-#include "tests/studio/browser.hpp"
 #include "tests/support/directory.hpp"
 
 namespace lockstep::page_test {
 namespace {
 
 using Json = nlohmann::json;
-using test::Browser;
-
-const std::string kKnife = LOCKSTEP_SOURCE_DIR "/projects/02_rotary_knife/project.json";
-
-// Of the page, in its own language: what its pictures say that they show.
-const std::string kDrawn = "[...document.querySelectorAll('canvas')].map((canvas) => canvas.drawn)";
-const std::string kHasRows = kDrawn + ".length > 1 && " + kDrawn +
-                             ".every((one) => one.signals.length && one.signals.every((s) => s.rows > 20))";
-
-RunOptions options_of(const std::string& file) {
-  return {.file = file,
-          .stimuli = true,
-          .no_modbus = true,
-          .no_lcm = true,
-          .no_retain = true,
-          .studio = "127.0.0.1:0"};
-}
-
-/// A run in real time, and a browser that looks into it.
-class Page {
- public:
-  explicit Page(RunOptions options) : machine(std::move(options)) {
-    machine.start();
-    browser.open(url());
-  }
-  explicit Page(const std::string& file = kKnife) : Page(options_of(file)) {}
-  ~Page() {
-    machine.stop();
-    machine.wait();
-  }
-  std::string host() const { return "127.0.0.1:" + std::to_string(machine.studio_endpoint()->port); }
-  std::string url() const { return "http://" + host() + "/"; }
-  test::HttpAnswer get(const std::string& path) const {
-    return test::StudioConnection(machine.studio_endpoint()->port).get(path);
-  }
-  bool is_live() { return browser.wait_for(kHasRows); }
-  Json drawn() { return browser.evaluate(kDrawn); }
-  /// Nothing went wrong in the page, and it asked nobody else.
-  void expect_quiet() {
-    EXPECT_EQ(browser.complaints(), std::vector<std::string>{});
-    for (const std::string& request : browser.requests())
-      EXPECT_TRUE(request.starts_with(url()) || request.starts_with("ws://" + host() + "/") ||
-                  request.starts_with("blob:" + url()) || request == "about:blank")
-          << request;
-  }
-
-  Runtime machine;
-  Browser browser;
-};
+using test::kDrawn;
+using test::kKnife;
+using test::options_of;
+using Page = test::StudioPage;
 
 TEST(StudioPage, ShowsKnifeAndConveyorLiveWithTheirJobsAsBars) {
   Page page;
@@ -81,13 +35,9 @@ TEST(StudioPage, ShowsKnifeAndConveyorLiveWithTheirJobsAsBars) {
       "[...document.querySelectorAll('.lane')].map((lane) => lane.textContent).includes('Conveyor')"));
   EXPECT_EQ(page.browser.text(".job[data-instance=home_k] title"), "home_k (MC_Home): done");
   // Something of the colour of the first signal is in the picture.
-  EXPECT_TRUE(page.browser.wait_for(
-      "(() => { const canvas = document.querySelector('canvas'); const d = canvas.drawn.signals[0].colour; "
-      "const want = [1, 3, 5].map((i) => parseInt(d.slice(i, i + 2), 16)); "
-      "const p = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data; "
-      "for (let i = 0; i < p.length; i += 4) if (p[i] === want[0] && p[i + 1] === want[1] && p[i + 2] === "
-      "want[2]) return true; "
-      "return false; })()"));
+  EXPECT_TRUE(page.browser.wait_for(test::looking_at("0") +
+                                    "for (let x = 0; x < width; ++x) for (let y = 0; y < height; ++y) if "
+                                    "(has(x, y)) return true; return false; })()"));
   page.expect_quiet();
 }
 
@@ -104,7 +54,7 @@ TEST(StudioPage, HasBarsAndAxisOfTimeInSightHoweverManyDiagramsThereAre) {
     page.browser.press("Enter", true);
     page.browser.press("Escape");
   }
-  ASSERT_TRUE(page.browser.wait_for("document.querySelectorAll('canvas').length > 12"));
+  ASSERT_TRUE(page.browser.wait_for("document.querySelectorAll('.plot canvas').length > 12"));
   EXPECT_EQ(
       page.browser.evaluate("document.querySelector('.time').getBoundingClientRect().bottom <= innerHeight"),
       true);
@@ -124,13 +74,9 @@ TEST(StudioPage, DrawsNothingAcrossTheJumpOfAModulo) {
   // Two turns of the web.
   ASSERT_TRUE(page.browser.wait_for("parseFloat(document.querySelector('.clock').textContent) > 3.5"));
   const Json longest = page.browser.evaluate(
-      "(() => { const canvas = document.querySelectorAll('canvas')[" + one +
-      "]; "
-      "const { data, width, height } = canvas.getContext('2d').getImageData(0, 0, canvas.width, "
-      "canvas.height); "
+      test::looking_at(one) +
       "let longest = 0; for (let x = 0; x < width; ++x) { let run = 0; for (let y = 0; y < height; ++y) { "
-      "run = data[4 * (y * width + x) + 3] ? run + 1 : 0; longest = Math.max(longest, run); } } return "
-      "longest / height; })()");
+      "run = has(x, y) ? run + 1 : 0; longest = Math.max(longest, run); } } return longest / height; })()");
   EXPECT_GT(longest.get<double>(), 0.0);
   EXPECT_LT(longest.get<double>(), 0.5);
   page.expect_quiet();
@@ -140,7 +86,8 @@ TEST(StudioPage, StopsThePictureAndMeasuresWithTwoCursors) {
   Page page;
   ASSERT_TRUE(page.is_live());
   page.browser.press(" ");
-  ASSERT_TRUE(page.browser.wait_for("document.querySelector('[aria-pressed=true]').textContent === 'Live'"));
+  ASSERT_TRUE(
+      page.browser.wait_for("document.querySelector('.live[aria-pressed=true]').textContent === '▶ Live'"));
   const Json still = page.drawn();
   const std::string clock = page.browser.text(".clock");
   page.browser.press("a");
@@ -195,15 +142,10 @@ TEST(StudioPage, FindsASignalByTypingAndShowsItInADiagram) {
 TEST(StudioPage, ZoomsByFrameWheelAndKeysAndGoesBack) {
   Page page;
   ASSERT_TRUE(page.is_live());
-  const Json plot = page.browser.evaluate(
-      "(() => { const r = document.querySelector('.plot').getBoundingClientRect(); return {x: r.x, y: r.y, "
-      "w: r.width, h: r.height}; })()");
-  const double y = plot["y"].get<double>() + plot["h"].get<double>() / 2;
-  const auto x = [&](double share) {
-    return plot["x"].get<double>() + 84 + share * (plot["w"].get<double>() - 96);
-  };
+  const double y = page.y(0.5);
+  const auto x = [&](double share) { return page.x(share); };
   page.browser.press(" ");
-  ASSERT_TRUE(page.browser.wait_for("document.querySelector('[aria-pressed=true]')"));
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('.live[aria-pressed=true]')"));
   const Json whole = page.drawn()[0];
   const double length = whole["to"].get<double>() - whole["from"].get<double>();
   page.browser.drag(x(0.5), y, x(0.75), y);
@@ -241,7 +183,7 @@ TEST(StudioPage, ShowsAnAlarmWithCauseAndRemedyAndItsMoment) {
   EXPECT_NE(card.find("Measuredfollowing error"), std::string::npos) << card;
   page.browser.click(".alarm button");
   ASSERT_TRUE(page.browser.wait_for(
-      "document.querySelector('[aria-pressed=true]') && document.querySelector('.event')"));
+      "document.querySelector('.live[aria-pressed=true]') && document.querySelector('.event')"));
   const Json alarm = Json::parse(page.get("/api/events").body)["pending"][0];
   const double t = std::stod(alarm["t"].get<std::string>());
   EXPECT_TRUE(page.browser.wait_for(kDrawn + "[0].from < " + std::to_string(t) + " && " + kDrawn +
@@ -252,23 +194,26 @@ TEST(StudioPage, ShowsAnAlarmWithCauseAndRemedyAndItsMoment) {
 TEST(StudioPage, ArmsATriggerAndShowsWhatItHasCaught) {
   Page page;
   ASSERT_TRUE(page.is_live());
+  page.open_tab("Trigger");
   page.browser.click(".trigger input[list]");
   page.browser.type("gear.InSync");
   page.browser.click(".trigger input[aria-label=Level]");
   page.browser.press("End");
   page.browser.type(".5");
   page.browser.click("button[title='Wait for this']");
-  ASSERT_TRUE(page.browser.wait_for(
-      "['armed', 'caught'].includes(document.querySelector('.trigger-state').textContent)"))
+  ASSERT_TRUE(
+      page.browser.wait_for("/^(armed|caught)/.test(document.querySelector('.trigger-state').textContent)"))
       << page.browser.text(".trigger-state");
   // The knife is in step with the web some two seconds after the start.
+  page.open_tab("Traces");
   ASSERT_TRUE(page.browser.wait_for("document.querySelector('[data-shot=shot-1]')"));
   page.browser.click("[data-shot=shot-1]");
   // 200 ms before and after, unless it was armed later than that.
-  ASSERT_TRUE(page.browser.wait_for("document.querySelector('[aria-pressed=true]') && " + kDrawn +
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('.live[aria-pressed=true]') && " + kDrawn +
                                     "[0].to - " + kDrawn + "[0].from <= 400e6"));
   EXPECT_TRUE(page.browser.wait_for(kDrawn + "[0].signals[0].rows > 50"));
   EXPECT_NE(page.browser.text(".times").find("A "), std::string::npos) << "a cursor is on the occasion";
+  page.open_tab("Trigger");
   page.browser.click("button[title='Wait for this']");
   page.browser.click(".trigger input[list]");
   page.browser.type(".NoSuch");
@@ -310,6 +255,7 @@ TEST(StudioPage, SavesWhatItShowsAsCsvSvgAndPng) {
   page.browser.call("Page.setDownloadBehavior",
                     {{"behavior", "allow"}, {"downloadPath", directory.file("")}});
   const auto saved = [&](const std::string& title, const std::string& name) {
+    page.browser.click(".menu summary");
     page.browser.click("button[title='" + title + "']");
     std::string text;
     for (int i = 0; i < 6000 && text.empty(); ++i) {
@@ -323,10 +269,10 @@ TEST(StudioPage, SavesWhatItShowsAsCsvSvgAndPng) {
   EXPECT_EQ(csv.substr(0, csv.find(',')), "t");
   EXPECT_NE(csv.find("Knife.Position"), std::string::npos);
   EXPECT_GT(std::count(csv.begin(), csv.end(), '\n'), 20);
-  const std::string svg = saved("Save the picture as SVG", "lockstep.svg");
+  const std::string svg = saved("Save the picture as SVG", "rotary_knife.svg");
   EXPECT_NE(svg.find("Knife.Velocity [°/s]"), std::string::npos) << svg.substr(0, 400);
   EXPECT_NE(svg.find(" d=\"M"), std::string::npos);
-  EXPECT_EQ(saved("Save the picture as PNG", "lockstep.png").substr(1, 3), "PNG");
+  EXPECT_EQ(saved("Save the picture as PNG", "rotary_knife.png").substr(1, 3), "PNG");
   page.expect_quiet();
 }
 
@@ -343,8 +289,9 @@ TEST(StudioPage, IsLightOrDarkAsTheSystemIsWithContrastForAll) {
       "const contrast = (a, b) => { const [x, y] = [light(a), light(b)].sort((p, q) => q - p); return (x + "
       "0.05) / (y + 0.05); }; "
       "return { texts: ['--ink', '--faint', '--alarm'].flatMap((name) => [contrast(name, '--ground'), "
-      "contrast(name, '--raised')]), "
-      "bars: ['--runs', '--done', '--aborted', '--alarm'].map((name) => contrast(name, '--on-bar')), "
+      "contrast(name, '--raised'), contrast(name, '--bar')]), "
+      "bars: ['--runs', '--done', '--aborted', '--alarm', '--signal-frame'].map((name) => contrast(name, "
+      "'--on-bar')).concat(contrast('--frame', '--on-frame')), "
       "lines: [0, 1, 2, 3, 4, 5, 6, 7].map((i) => contrast('--signal-' + i, '--ground')), "
       "ground: getComputedStyle(document.body).backgroundColor }; })()";
   const auto expect_contrast = [&](const char* theme, const std::string& ground) {
@@ -357,7 +304,7 @@ TEST(StudioPage, IsLightOrDarkAsTheSystemIsWithContrastForAll) {
   page.browser.prefer_dark(false);
   expect_contrast("light", "rgb(255, 255, 255)");
   page.browser.prefer_dark(true);
-  expect_contrast("dark", "rgb(20, 23, 27)");
+  expect_contrast("dark", "rgb(15, 19, 23)");
   page.browser.press("t");
   expect_contrast("chosen", "rgb(255, 255, 255)");
   page.expect_quiet();
@@ -367,8 +314,7 @@ TEST(StudioPage, IsWorkedByKeysAndTellsThem) {
   Page page;
   ASSERT_TRUE(page.is_live());
   page.browser.press("?", true);
-  ASSERT_TRUE(
-      page.browser.wait_for("document.querySelector('dialog[open] dl').textContent.includes('Space')"));
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('dialog[open]').textContent.includes('Space')"));
   page.browser.press("Escape");
   ASSERT_TRUE(page.browser.wait_for("!document.querySelector('dialog[open]')"));
   // Whatever can be pressed has a name, and is reached by Tab.
@@ -390,7 +336,7 @@ TEST(StudioPage, AsksForTheTokenAndTakesItOffTheAddress) {
   options.studio_token = file;
   Page page(std::move(options));
   ASSERT_TRUE(page.browser.wait_for("document.querySelector('dialog[open] input[type=password]')"));
-  EXPECT_EQ(page.browser.evaluate("document.querySelectorAll('canvas').length"), 0);
+  EXPECT_EQ(page.browser.evaluate("document.querySelectorAll('.plot canvas').length"), 0);
   page.browser.open("about:blank");
   page.browser.open(page.url() + "#token=" + token);
   ASSERT_TRUE(page.is_live());

@@ -83,7 +83,7 @@ TEST(StudioPictures, AreOfThePageAsItIs) {
   browser.press(" ");
   browser.prefer_dark(true);
   ASSERT_TRUE(browser.wait_for(
-      "[...document.querySelectorAll('canvas')].every((canvas) => canvas.drawn.signals.length)"));
+      "[...document.querySelectorAll('.plot canvas')].every((canvas) => canvas.drawn.signals.length)"));
   hold(browser, "dark.png");
   machine.stop();
   EXPECT_TRUE(machine.wait());

@@ -19,7 +19,8 @@ export class Refusal extends Error {
 }
 
 export class RequestError extends Error {
-  constructor(readonly status: number, message: string) { super(message); }
+  /// @param errors all that is wrong, as the server tells it
+  constructor(readonly status: number, message: string, readonly errors: any[] = []) { super(message); }
 }
 
 const kToken = "lockstep-token";  // of this tab only
@@ -35,6 +36,7 @@ function takeToken(): string {
 }
 
 export class Link {
+  hasMore = false;  // more than what may be looked at: writes, commands, the project's text
   private socket: WebSocket | null = null;
   private token = takeToken();
   private seq = 0;
@@ -88,11 +90,17 @@ export class Link {
 
   private async request(path: string, options: RequestInit): Promise<Response> {
     const headers: Record<string, string> = this.token ? { Authorization: "Bearer " + this.token } : {};
-    if (options.body) headers["Content-Type"] = "application/json";
-    const response = await fetch(path, { ...options, headers });
+    if (typeof options.body === "string") headers["Content-Type"] = "application/json";
+    const response = await fetch(path, { ...options, headers: { ...headers, ...(options.headers as Record<string, string>) } });
     if (response.ok) return response;
     const body = await response.json().catch(() => null);
-    throw new RequestError(response.status, body?.error?.message ?? response.statusText);
+    throw new RequestError(response.status, body?.error?.message ?? response.statusText, body?.errors ?? []);
+  }
+
+  /// What an older server does not have is not asked of it, and told as it would tell it.
+  async optional(path: string): Promise<Response> {
+    if (!this.hasMore) throw new RequestError(404, "this studio does not tell that");
+    return this.get(path);
   }
 
   async json(path: string): Promise<any> { return (await this.get(path)).json(); }
@@ -100,6 +108,24 @@ export class Link {
   async post(path: string, body: unknown): Promise<any> {
     return (await this.request(path, { method: "POST", body: JSON.stringify(body) })).json();
   }
+
+  /// A file as it is.
+  async send(path: string, body: Blob, type: string): Promise<any> {
+    return (await this.request(path, { method: "POST", body, headers: { "Content-Type": type } })).json();
+  }
+
+  /// Puts what has been read with this ETag. @return the new one
+  async put(path: string, body: unknown, etag: string): Promise<string> {
+    const response = await this.request(path, { method: "PUT", body: JSON.stringify(body), headers: { "If-Match": etag } });
+    return response.headers.get("ETag") ?? "";
+  }
+
+  async remove(path: string): Promise<void> { await this.request(path, { method: "DELETE" }); }
+
+  /// Closes the connection, which opens another that says hello anew.
+  again(): void { this.socket?.close(); }
+
+  get isOpen(): boolean { return this.socket?.readyState === WebSocket.OPEN; }
 
   private take(data: string | ArrayBuffer): void {
     if (typeof data !== "string") {

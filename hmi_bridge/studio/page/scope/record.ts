@@ -1,8 +1,8 @@
 // What the page keeps of a trace: rows by columns, the newest of them.
 
-import { Frame } from "./frames";
+import { Frame } from "../base/frames";
 
-export interface Signal { path: string; type: string; unit: string }
+export interface Signal { path: string; type: string; unit: string; names?: Record<string, string> }
 
 /// Values of a signal. Where a row stands for several, `low` and `high` are their extremes.
 export interface Column extends Signal {
@@ -11,25 +11,32 @@ export interface Column extends Signal {
   high: Float64Array | null;
 }
 
+/// Rows that are missing, between the last one before and the first one after.
+export interface Gap { from: number; to: number; rows: number }
+
 const kFirst = 4096;          // rows that there is space for at the beginning
 export const kRows = 1 << 17; // … at the end
 
 export class Recording {
-  t = new Float64Array(kFirst);     // [ns]
-  breaks = new Uint8Array(kFirst);  // 1: rows are missing before this one
+  t: Float64Array = new Float64Array(kFirst);     // [ns]
+  breaks: Uint8Array = new Uint8Array(kFirst);  // 1: rows are missing before this one
   size = 0;
+  removed = 0;                      // rows that were kept once
+  gaps: Gap[] = [];
   missing = 0;                      // rows, in all gaps
   readonly columns: Column[];
   private dropped = 0;
+  private byPath = new Map<string, Column>();
 
   constructor(signals: Signal[]) {
     this.columns = signals.map((signal) => ({ ...signal, value: new Float64Array(kFirst), low: null, high: null }));
+    for (const column of this.columns) this.byPath.set(column.path, column);
   }
 
   get begin(): number { return this.size ? this.t[0] : 0; }
   get end(): number { return this.size ? this.t[this.size - 1] : 0; }
 
-  column(path: string): Column | undefined { return this.columns.find((column) => column.path === path); }
+  column(path: string): Column | undefined { return this.byPath.get(path); }
 
   /// The first row that is not before a time; size: there is none.
   rowAt(t: number): number {
@@ -59,12 +66,18 @@ export class Recording {
     this.t.set(frame.t.subarray(from), this.size);
     this.breaks.fill(0, this.size, this.size + rows);
     if (frame.dropped > this.dropped) {
-      this.breaks[this.size] = 1;
-      this.missing += frame.dropped - this.dropped;
+      this.breakBefore(this.size, frame.dropped - this.dropped);
       this.dropped = frame.dropped;
     }
     this.columns.forEach((column, i) => this.take(column, frame.columns[i].arrays, from, rows));
     this.size += rows;
+  }
+
+  /// Rows are missing before this one.
+  breakBefore(row: number, rows: number): void {
+    this.breaks[row] = 1;
+    this.missing += rows;
+    if (row > 0) this.gaps.push({ from: this.t[row - 1], to: this.t[row], rows });
   }
 
   private take(column: Column, arrays: ArrayLike<number>[], from: number, rows: number): void {
@@ -102,6 +115,8 @@ export class Recording {
       column.low = column.low && moved(column.low);
       column.high = column.high && moved(column.high);
     }
+    this.removed += this.size - kept;
     this.size = kept;
+    this.gaps = this.gaps.filter(({ to }) => to >= this.begin);
   }
 }

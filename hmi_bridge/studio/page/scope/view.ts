@@ -3,14 +3,16 @@
 export interface Span { from: number; to: number }
 export type Cursor = "A" | "B";
 
-const kShortest = 1e4;    // [ns]
+const kShortest = 1e4;        // [ns]
+const kShortestLive = 1e7;
 const kLongest = 3.6e12;
 
 export class View {
-  span = 1e10;               // length of a live picture
+  span = 1e10;                // length of a live picture
   isLive = true;
+  isSweeping = false;         // live, the pen goes over a picture that stands
   readonly cursors: Record<Cursor, number | null> = { A: null, B: null };
-  active: Cursor = "A";      // that keys move
+  active: Cursor = "A";       // that keys move
   private still: Span = { from: 0, to: 1e10 };
   private earlier: Span[] = [];
   private later: Span[] = [];
@@ -31,6 +33,15 @@ export class View {
     this.changed();
   }
 
+  setSweeping(isSweeping: boolean): void { this.isSweeping = isSweeping; this.changed(); }
+
+  /// Length of the picture: of a live one as it goes on, else around its middle.
+  setLength(length: number, latest: number): void {
+    if (this.isLive) { this.span = Math.min(Math.max(length, kShortestLive), kLongest); return this.changed(); }
+    const { from, to } = this.still;
+    this.show((from + to - length) / 2, (from + to + length) / 2, latest);
+  }
+
   /// Shows a stretch, which stops the picture; `back` returns to the one before.
   show(from: number, to: number, latest: number): void {
     const length = Math.min(Math.max(to - from, kShortest), kLongest);
@@ -44,10 +55,7 @@ export class View {
 
   /// Makes the stretch shorter or longer around a time; a live picture goes on.
   zoom(factor: number, around: number, latest: number): void {
-    if (this.isLive) {
-      this.span = Math.min(Math.max(this.span * factor, kShortest), kLongest);
-      return this.changed();
-    }
+    if (this.isLive) return this.setLength(this.span * factor, latest);
     const { from, to } = this.still;
     this.show(around - (around - from) * factor, around + (to - around) * factor, latest);
   }

@@ -59,3 +59,22 @@ export function decode(buffer: ArrayBuffer): Frame {
     columns,
   };
 }
+
+/// A frame of rows as the server writes one; all columns are of numbers.
+export function encode(t: Float64Array, columns: Float64Array[]): ArrayBuffer {
+  const rows = t.length;
+  const buffer = new ArrayBuffer(24 + 16 * rows + columns.length * (8 + 8 * rows));
+  const head = new DataView(buffer);
+  head.setUint8(0, Kind.window);
+  head.setUint8(1, 1);
+  head.setUint16(2, columns.length, true);
+  head.setUint32(8, rows, true);
+  new BigInt64Array(buffer, 24, rows).set(BigInt64Array.from(t, (one) => BigInt(Math.round(one))));
+  let at = 24 + 16 * rows;
+  for (const column of columns) {
+    head.setUint8(at + 1, 1);
+    new Float64Array(buffer, at + 8, rows).set(column);
+    at += 8 + 8 * rows;
+  }
+  return buffer;
+}

@@ -1,7 +1,8 @@
 // An object at a glance: every bit of its words with its meaning and since when, and how it moves.
 
-import { html } from "./dom";
-import { seconds, short } from "./scale";
+import { button, html } from "../base/dom";
+import { seconds, short } from "../base/scale";
+import { Job } from "../scope/bars";
 
 interface Found { path: string; type: string; unit: string; text: string }
 interface Reading { t: string; values: { path: string; type: string; unit: string; value: unknown }[] }
@@ -9,8 +10,12 @@ interface Reading { t: string; values: { path: string; type: string; unit: strin
 export interface DiagnosisServer {
   search(text: string, limit: number): Promise<{ signals: Found[] }>;
   read(paths: string[]): Promise<Reading>;
+  /// as `lockstep describe WORDS --json`
+  describe(words: string): Promise<any>;
   /// brings a signal into the scope
   show(path: string): void;
+  /// opens the data block of an object
+  configure(name: string): void;
 }
 
 /// Words of the data block, and what is said of the motion; of what an object has.
@@ -30,8 +35,11 @@ const kPause = 250;  // between two readings [ms]
 export class Diagnosis {
   private readonly choice = html("select", { "aria-label": "Object", change: () => void this.choose() });
   private readonly groups = html("div", { class: "groups" });
+  private readonly jobs = html("section", { class: "jobs", "aria-label": "Jobs of the object" });
+  private readonly rules = html("section", { class: "rules", "aria-label": "Override rules", "aria-live": "polite" });
   readonly element = html("section", { class: "diagnosis", "aria-label": "Axis diagnosis", hidden: true },
-    html("p", {}, html("label", {}, "Object ", this.choice)), this.groups);
+    html("p", { class: "row" }, html("label", {}, "Object ", this.choice), button("Data block", "Its whole data block, with project and default values", () => this.server.configure(this.choice.value))), this.jobs, this.rules, this.groups);
+  private all: Job[] = [];
   private paths: string[] = [];
   private cells = new Map<string, { item: HTMLElement; value: HTMLElement; since: HTMLElement | null; last: unknown }>();
   private timer = 0;
@@ -42,6 +50,43 @@ export class Diagnosis {
   setObjects(objects: string[]): void {
     this.choice.replaceChildren(...objects.map((name) => html("option", { value: name }, name)));
     if (!this.element.hidden) void this.choose();
+  }
+
+  /// Which jobs move the object, wait, or have been overridden, the newest first.
+  setJobs(jobs: Job[]): void {
+    this.all = jobs;
+    if (!this.element.hidden) this.showJobs();
+  }
+
+  private showJobs(): void {
+    const own = this.all.filter(({ object }) => object === this.choice.value);
+    const running = own.filter(({ end }) => end === Infinity);
+    const past = own.filter(({ end }) => end !== Infinity).slice(-8).reverse();
+    const row = (job: Job): HTMLElement => html("tr", { "data-instance": job.instance }, html("th", { scope: "row" }, job.instance), html("td", {}, button(job.type, `What ${job.type} overrides, and what overrides it`, () => void this.showRules(job.type, running))),
+      html("td", {}, seconds(job.begin, 1e6) + " s"), html("td", {}, job.end === Infinity ? "▶ goes on" : `${{ done: "✓ ", failed: "! ", aborted: "✕ " }[job.ended.replace("job ", "")] ?? ""}${job.ended.replace("job ", "").replace("started", "begun anew")} at ${seconds(job.end, 1e6)} s`), html("td", {}, job.text || this.overriddenBy(job, own)));
+    this.jobs.replaceChildren(html("h2", {}, "Jobs"), html("table", {}, html("caption", { class: "unseen" }, "Jobs of the object"), html("thead", {}, html("tr", {}, ...["instance", "block", "since", "state", ""].map((head) => html("th", { scope: "col" }, head)))),
+      html("tbody", {}, ...running.map(row), ...past.map(row))));
+    if (!own.length) this.jobs.replaceChildren(html("h2", {}, "Jobs"), html("p", { class: "faint" }, "No job has moved it yet."));
+  }
+
+  /// A job that was aborted when another of the same object began.
+  private overriddenBy(job: Job, own: Job[]): string {
+    if (!/aborted/.test(job.ended)) return "";
+    const next = own.filter((other) => other !== job && Math.abs(other.begin - job.end) <= 1e7).sort((a, b) => Math.abs(a.begin - job.end) - Math.abs(b.begin - job.end))[0];
+    return next ? `overridden by ${next.instance} (${next.type}) ` : "";
+  }
+
+  private async showRules(type: string, running: Job[]): Promise<void> {
+    try {
+      const told = await this.server.describe(`override/${type}`);
+      const rows: any[] = (told.new_jobs ?? []).flatMap((one: any) => one.running_jobs.map((row: any) => ({ ...row, as: one.which })));
+      const isRunning = (row: any): boolean => row.running.some((name: string) => running.some((job) => job.type === name));
+      const cells = (row: any): string[] => [row.as, row.running.join(", "), row.which, row.effect, row.effect_without_position_control];
+      this.rules.replaceChildren(html("h2", {}, `What ${type} does to a job that runs`), html("table", {}, html("thead", {}, html("tr", {}, ...["of", "running job", "of it", "effect", "without position control"].map((head) => html("th", { scope: "col" }, head)))),
+        html("tbody", {}, ...rows.map((row) => html("tr", { class: isRunning(row) ? "present" : "" }, ...cells(row).map((cell, i) => html("td", {}, i === 1 && isRunning(row) ? "▶ runs: " : "", cell)))))), button("Close", "Close", () => this.rules.replaceChildren()));
+    } catch (error) {
+      this.rules.replaceChildren(html("p", { class: "faint" }, `Override rules: ${(error as Error).message}`));
+    }
   }
 
   setVisible(isVisible: boolean): void {
@@ -55,6 +100,8 @@ export class Diagnosis {
     const turn = ++this.chosen;
     clearTimeout(this.timer);
     if (!name) return;
+    this.rules.replaceChildren();
+    this.showJobs();
     const { signals } = await this.server.search(name + ".", 10_000);
     if (turn !== this.chosen) return;
     const own = new Map(signals.filter(({ path }) => path.startsWith(name + ".")).map((signal) => [signal.path, signal]));

@@ -2,9 +2,11 @@
 
 const kTheme = "lockstep-theme";
 const kColours = 8;  // in the style sheet
+const kPrinted = ["#0067b1", "#b84300", "#00734f", "#96308c", "#7a5c00", "#3d3d3d", "#b3003c", "#007a8a"];
 
 export class Theme {
   private colours: string[] = [];
+  line = "#888888";  // of grids
 
   constructor(private readonly changed: () => void) {
     this.set(localStorage.getItem(kTheme) ?? "");
@@ -14,6 +16,8 @@ export class Theme {
   toggle(): void { this.set(this.isDark() ? "light" : "dark"); this.changed(); }
 
   colour(index: number): string { return this.colours[index % kColours]; }
+  /// On white paper, whatever the screen looks like.
+  printed(index: number): string { return kPrinted[index % kColours]; }
 
   private isDark(): boolean {
     const chosen = document.documentElement.dataset.theme;
@@ -31,6 +35,7 @@ export class Theme {
   private read(): void {
     const style = getComputedStyle(document.documentElement);
     this.colours = Array.from({ length: kColours }, (_, i) => style.getPropertyValue(`--signal-${i}`).trim());
+    this.line = style.getPropertyValue("--grid").trim() || this.line;
     this.changed();
   }
 }

@@ -1,0 +1,96 @@
+// Which object follows which: as a graph in layers and as a table.
+
+import { html, svg } from "../base/dom";
+import { LiveCells } from "./tables";
+
+export interface Coupling { following: string; leading: string; kind?: string; RatioNumerator?: string; RatioDenominator?: string; Cam?: string; instance?: string; block?: string; cam?: string; possible?: boolean }
+
+const kBox = { width: 150, height: 44, gapX: 40, gapY: 60 };
+
+/// What a coupling does, as the block and its pins say.
+function kindOf(one: Coupling): string {
+  if (one.kind) return one.kind;
+  if (/Cam/.test(one.block ?? "")) return "cam";
+  if (/Velocity/.test(one.block ?? "")) return "velocity gear";
+  return /Gear/.test(one.block ?? "") ? "gear" : one.block ?? "";
+}
+function functionOf(one: Coupling): string {
+  const cam = one.Cam ?? one.cam;
+  if (cam) return cam;
+  return one.RatioNumerator || one.RatioDenominator ? `${one.RatioNumerator ?? 1} : ${one.RatioDenominator ?? 1}` : "";
+}
+
+/// The layer of each object: one below the lowest of those that it follows. Couplings that go round end there.
+export function layersOf(objects: string[], couplings: Coupling[]): Map<string, number> {
+  const layers = new Map<string, number>();
+  const layer = (name: string, above: string[]): number => {
+    const known = layers.get(name);
+    if (known !== undefined) return known;
+    if (above.includes(name)) return 0;
+    const own = couplings.filter(({ following, leading }) => following === name && leading !== name).map(({ leading }) => layer(leading, [...above, name]) + 1);
+    const found = Math.max(0, ...own);
+    if (!above.length || own.length) layers.set(name, found);
+    return found;
+  };
+  for (const name of objects) layers.set(name, layer(name, []));
+  return layers;
+}
+
+export class Couplings {
+  private readonly picture = svg("svg", { class: "graph", role: "img", "aria-label": "Which object follows which" });
+  private readonly body = html("tbody");
+  readonly element = html("section", { "aria-label": "Interconnection overview" }, this.picture,
+    html("table", {}, html("caption", {}, "Couplings"), html("thead", {}, html("tr", {}, ...["following", "leading", "kind", "function or cam", "by", "state"].map((head) => html("th", { scope: "col" }, head)))), this.body));
+  private edges = new Map<string, SVGElement>();
+
+  /// @param cells shows what couplings do now
+  set(objects: { name: string; type?: string }[], couplings: Coupling[], cells: LiveCells, isTold = true): void {
+    const layers = layersOf(objects.map(({ name }) => name), couplings);
+    const places = new Map<string, { x: number; y: number }>();
+    const count = new Map<number, number>();
+    for (const { name } of objects) {
+      const layer = layers.get(name) ?? 0;
+      const at = count.get(layer) ?? 0;
+      count.set(layer, at + 1);
+      places.set(name, { x: 10 + at * (kBox.width + kBox.gapX), y: 10 + layer * (kBox.height + kBox.gapY) });
+    }
+    const width = Math.max(...[...places.values()].map(({ x }) => x + kBox.width + 10), 100);
+    const height = Math.max(...[...places.values()].map(({ y }) => y + kBox.height + 10), 60);
+    this.picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.picture.setAttribute("width", String(width));
+    this.picture.setAttribute("height", String(height));
+    this.edges.clear();
+    const names = new Set(objects.map(({ name }) => name));
+    const edges = couplings.filter(({ following, leading }) => names.has(following) && names.has(leading)).map((one) => this.edge(one, places));
+    this.picture.replaceChildren(svg("defs", {}, svg("marker", { id: "arrow", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 8, markerHeight: 8, orient: "auto" }, svg("path", { d: "M0 0l8 4l-8 4z", class: "arrow" }))), ...edges,
+      ...objects.map(({ name, type }) => {
+        const { x, y } = places.get(name)!;
+        return svg("g", { class: "node", "data-object": name }, svg("rect", { x, y, width: kBox.width, height: kBox.height, rx: 6 }), svg("text", { x: x + kBox.width / 2, y: y + 19, "text-anchor": "middle", class: "node-name" }, name),
+          svg("text", { x: x + kBox.width / 2, y: y + 35, "text-anchor": "middle", class: "tick" }, type ?? ""));
+      }));
+    this.body.replaceChildren(...couplings.map((one) => html("tr", { "data-coupling": `${one.leading} ${one.following}` }, html("th", { scope: "row" }, one.following), html("td", {}, one.leading), html("td", {}, kindOf(one)),
+      html("td", {}, functionOf(one)), html("td", {}, one.instance ? `${one.instance} (${one.block ?? ""})` : "the project"),
+      html("td", {}, ...(one.instance ? [cells.cell(`${one.instance}.Busy`), " ", cells.cell(`${one.instance}.InSync`)] : [one.possible ? "possible" : ""])))));
+    if (!couplings.length) this.body.replaceChildren(html("tr", {}, html("td", { colspan: 6 }, isTold ? "No object follows another." : "This studio does not tell what follows what.")));
+  }
+
+  private edge(one: Coupling, places: Map<string, { x: number; y: number }>): SVGElement {
+    const from = places.get(one.leading)!;
+    const to = places.get(one.following)!;
+    const a = { x: from.x + kBox.width / 2, y: from.y + kBox.height };
+    const b = { x: to.x + kBox.width / 2, y: to.y };
+    const path = b.y > a.y ? `M${a.x} ${a.y}C${a.x} ${a.y + 30} ${b.x} ${b.y - 30} ${b.x} ${b.y}` : `M${a.x} ${a.y}C${a.x + 120} ${a.y + 40} ${b.x + 120} ${b.y - 40} ${b.x} ${b.y}`;
+    const edge = svg("g", { class: "edge" + (one.instance ? "" : " possible") }, svg("title", {}, `${one.following} follows ${one.leading}: ${kindOf(one)} ${functionOf(one)}`), svg("path", { d: path, "marker-end": "url(#arrow)" }),
+      svg("text", { class: "tick", x: (a.x + b.x) / 2 + 6, y: (a.y + b.y) / 2 + 4 }, `${one.instance ?? ""} ${kindOf(one)} ${functionOf(one)}`.trim()));
+    if (one.instance) this.edges.set(one.instance, edge);
+    return edge;
+  }
+
+  /// What a coupling does now: waits, runs or is synchronous.
+  told(path: string, value: unknown): void {
+    const dot = path.lastIndexOf(".");
+    const edge = this.edges.get(path.slice(0, dot));
+    const pin = path.slice(dot + 1);
+    if (edge && (pin === "Busy" || pin === "InSync")) edge.classList.toggle(pin === "Busy" ? "busy" : "synchronous", value === true);
+  }
+}
