@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>  // with the virtual tables of App, for programs that have other rooms but not main.cpp
 
 #include "cli/command/command.hpp"
+#include "cli/command/linmot_text.hpp"
 #include "cli/command/shortage.hpp"
 #include "cli/command/standard_streams.hpp"
 
@@ -72,18 +73,24 @@ void add_check_command(CLI::App& app, Action& action) {
       "--expanded", *expanded,
       "write a valid project to standard output as one file: what it includes, and instances of "
       "templates, in their places");
+  auto verbose = std::make_shared<bool>(false);
+  command->add_flag(
+      "-v,--verbose", *verbose,
+      "of a valid project, also what of LinMot controllers counts: limits and rows in whole increments");
   command->footer(
       "Problems go to standard error, one a line: FILE:/json/pointer: what is wrong, what is allowed (line, "
       "column,\n"
       "call or object, instance of a template); FILE is the file that is included where it is wrong there\n"
       "Exit status: 0 valid, 1 not valid, 2 cannot be read");
-  command->callback([&action, file, expanded] {
-    action = [file, expanded] {
+  command->callback([&action, file, expanded, verbose] {
+    action = [file, expanded, verbose] {
       if (is_system_file(*file)) return check_system(*file, *expanded);
       int status = kOk;
-      const bool valid = load_or_tell(*file, status, {}, Warnings::told, LoadedFor::looking).has_value();
-      if (valid && *expanded) write_data(expanded_project(*file));
-      return valid ? static_cast<int>(kOk) : status;
+      const auto project = load_or_tell(*file, status, {}, Warnings::told, LoadedFor::looking);
+      if (!project) return status;
+      if (*expanded) write_data(expanded_project(*file));
+      if (*verbose) write_data(linmot_counting(*project));
+      return static_cast<int>(kOk);
     };
   });
 }

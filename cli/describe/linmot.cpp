@@ -64,6 +64,15 @@ std::string signal_of(const linmot::Parameter& parameter) {
   return (parameter.scope == linmot::Scope::system ? "" : "A.") + linmot::signal_path(parameter.path);
 }
 
+/// Of the memory that ASCII commands read and write; nothing where it has no effect.
+std::string address_text(const linmot::Parameter& parameter) {
+  if (!parameter.effective() || parameter.scope > linmot::Scope::linear_motor) return "";
+  const bool of_system = parameter.scope == linmot::Scope::system;
+  const auto list = of_system ? linmot::system_parameters() : linmot::motor_parameters();
+  const auto index = static_cast<std::size_t>(&parameter - list.data());
+  return std::to_string(2 * (index + (of_system ? 0 : linmot::system_parameters().size())));
+}
+
 std::string changes_text(const linmot::Parameter& parameter) {
   if (parameter.read_only() || parameter.kind == linmot::Kind::shown) return "never: read only";
   return parameter.live() ? "at run time too (L)" : "in the project alone";
@@ -80,6 +89,7 @@ std::string linmot_parameter_page(const linmot::Parameter& parameter, std::size_
   row("Allowed", range_text_of(parameter));
   row("Start value", start_text(parameter));
   row("Changes", changes_text(parameter));
+  row("Address", address_text(parameter));
   if (!parameter.effective()) row("Effect", "declared, without effect");
   return "Parameter " + full_path(parameter) + " of a LinMot_Controller\n" +
          paragraph(parameter.text, 2, width) + "\n" + table.text(2, width);
@@ -95,6 +105,7 @@ LinMotJson linmot_parameter_json(const linmot::Parameter& parameter) {
           {"start", start_text(parameter)},
           {"live", parameter.live()},
           {"read_only", parameter.read_only()},
+          {"address", address_text(parameter)},
           {"effective", parameter.effective()},
           {"text", parameter.text}};
 }
@@ -105,6 +116,24 @@ bool is_named(const linmot::Parameter& parameter, std::string_view name) {
   return same_name(parameter.path, name) || same_name(full_path(parameter), name) ||
          same_name(linmot::signal_path(parameter.path), name) ||
          (last != parameter.path.npos && same_name(parameter.path.substr(last + 1), name));
+}
+
+/// All of them in published order.
+Subject linmot_parameters_subject() {
+  const auto text = [](std::size_t width) {
+    Table table({"Parameter", ""});
+    for (const auto list : {linmot::system_parameters(), linmot::motor_parameters()})
+      for (const linmot::Parameter& parameter : list)
+        table.row({full_path(parameter), std::string(parameter.text)});
+    return table.text(0, width);
+  };
+  const auto json = [] {
+    LinMotJson parameters = LinMotJson::array();
+    for (const auto list : {linmot::system_parameters(), linmot::motor_parameters()})
+      for (const linmot::Parameter& parameter : list) parameters.push_back(linmot_parameter_json(parameter));
+    return LinMotJson{{"kind", "linmot_parameters"}, {"parameters", std::move(parameters)}};
+  };
+  return {text, json};
 }
 
 Subject linmot_parameter_subject(std::string_view name) {
@@ -221,9 +250,8 @@ Subject linmot_subject(const std::vector<std::string>& words) {
     if (same_name(words[0], group.name))
       return words.size() == 1 ? list_subject(group.title, group.entries())
                                : entry_subject(group.title, group.entries(), words[1]);
-  if (words.size() == 2 && same_name(words[0], "LinMot_Controller"))
-    return linmot_parameter_subject(words[1]);
-  return {};
+  if (words.size() != 2 || !same_name(words[0], "LinMot_Controller")) return {};
+  return same_name(words[1], "Parameters") ? linmot_parameters_subject() : linmot_parameter_subject(words[1]);
 }
 
 }  // namespace lockstep::cli

@@ -15,6 +15,7 @@
 #include "cli/run/run_command.hpp"
 #include "cli/run/service_manager.hpp"
 #include "cli/run/told.hpp"
+#include "cli/run/transcript.hpp"
 #include "hmi_bridge/network/thread_stacks.hpp"
 #include "projects/runtime/kept_values.hpp"
 #include "projects/runtime/run_surroundings.hpp"
@@ -146,6 +147,7 @@ int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const R
                   const FailOn& fail_on, ToldOnStandardError& messages) {
   project.controller->apply_stimuli = true;
   require_means(project, !options.modbus.empty());
+  Transcript transcript(options.transcript, project);
   Ending ending;
   RunSurroundings surroundings(project, options, std::move(keeper), messages);
   Display display(project, surroundings.signals(), options.duration);
@@ -154,7 +156,8 @@ int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const R
   surroundings.tell_losses();
   tell_axes(*project.controller);
   tell_counters(*project.controller);
-  return status_of(kOk, fail_on, messages, *project.controller);
+  const int status = transcript.write(project) ? kOk : kCouldNotStart;
+  return status_of(status, fail_on, messages, *project.controller);
 }
 
 /// The threads of the run do the work; this one only looks and tells.
@@ -164,6 +167,7 @@ int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, cons
   Runtime machine(std::move(project), std::move(keeper), options, messages);
   machine.leave_processor();
   require_means(machine.project(), true);
+  Transcript transcript(options.transcript, machine.project());
   Ending ending;
   machine.prepare();
   display = std::make_unique<Display>(machine.project(), machine.trace_signals(), options.duration);
@@ -173,7 +177,8 @@ int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, cons
   machine.start();
   wait_for_end(machine, *display, manager, ending);
   messages->tell_rest();
-  const int status = tell_end(machine.status(), controller);
+  int status = tell_end(machine.status(), controller);
+  if (!transcript.write(machine.project()) && status == kOk) status = kCouldNotStart;
   tell_axes(controller);
   tell_counters(controller);
   return status_of(status, fail_on, *messages, controller);

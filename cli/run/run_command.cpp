@@ -29,6 +29,9 @@ void add_run_command(CLI::App& app, Action& action) {
       "--trace", options->trace,
       "record the trace signals: FILE.csv, or FILE.lcm for a log that lcm-logplayer replays; of a "
       "system a file for each controller, its name before the end");
+  command->add_option(
+      "--transcript", options->transcript,
+      "write what was sent on lines to LinMot controllers, and answered, with its time: FILE.csv");
   command
       ->add_option("--signals", options->signals,
                    "record these signals instead of the project's, comma separated")

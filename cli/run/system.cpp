@@ -47,7 +47,8 @@ void refuse_what_no_system_has(const RunOptions& options) {
   const std::pair<bool, const char*> refused[] = {{!options.modbus.empty(), "--modbus"},
                                                   {!options.lcm.empty(), "--lcm"},
                                                   {!options.audit.empty(), "--audit"},
-                                                  {!options.studio.empty(), "--studio"}};
+                                                  {!options.studio.empty(), "--studio"},
+                                                  {!options.transcript.empty(), "--transcript"}};
   for (const auto& [given, name] : refused)
     if (given)
       throw CouldNotStart(std::string(name) +

@@ -40,6 +40,15 @@ inline constexpr auto kCurve = joined(
         key::structure("parts", kCurvePart, "several in a row, in place of what else makes a curve").list(),
         key::text("file", "CSV file beside the project with ms;mm in its lines, in place of points")));
 
+inline constexpr auto kLinMotThermal = key_table<linmot::ThermalSettings>(
+    key::number<&linmot::ThermalSettings::nominal_current>("nominal_current", kAboveZero, "A",
+                                                           "that the motor bears for ever: 100 %")
+        .needed(),
+    key::duration<&linmot::ThermalSettings::time_constant>(
+        "time_constant", {1e9, 1e14}, "of its temperature behind the square of the current"),
+    key::number<&linmot::ThermalSettings::warn>("warn", {0.0, 1e4}, "%", "above which there is a warning"),
+    key::number<&linmot::ThermalSettings::error>("error", {0.0, 1e4}, "%", "above which there is an error"));
+
 inline constexpr auto kLinMotMotor = key_table<linmot::MotorSettings>(
     key::number<&linmot::MotorSettings::force_constant>("force_constant", kAboveZero, "N/A", "of the motor")
         .needed(),
@@ -59,6 +68,8 @@ inline constexpr auto kLinMotMotor = key_table<linmot::MotorSettings>(
     key::structure<&linmot::MotorSettings::plant, &LinearMotorPlantSettings::stops>(
         "fixed_stops", kDampedStop, "something immovable in the way")
         .list(),
+    key::structure<&linmot::MotorSettings::thermal>(
+        "thermal", kLinMotThermal, "calculates Drive Too Hot Calculated; without it that never is"),
     key::number<&linmot::MotorSettings::start_position>("start_position", kTravel, "mm",
                                                         "where the slider stands at the start"),
     key::text("type", "that it really is; another than the configured one is an error at the start")
@@ -94,6 +105,8 @@ inline constexpr auto kLinMotProfibus = key_table<void>(
     key::text("modules", "names of the data modules in their order; Control/Status is the first")
         .list()
         .needed(),
+    key::text("address", "two hexadecimal figures, 00 to 7D; EE: the motors repeat their curves")
+        .otherwise_is("none"),
     key::constant("preset", "module: what its word is at the start; that of every motor that has it")
         .named());
 
@@ -108,7 +121,9 @@ inline constexpr auto kLinMot = key_table<void>(
         .named(),
     key::structure("curves", kCurve, "1 to 63: motion curves").named(),
     key::defined("state_table", "linmot_state_table", "rows",
-                 "0 to 63: what each motor does, such as { \"A\": { \"Curve\": [1] } }"),
+                 "0 to 63: what each motor does, such as { \"A\": { \"Curve\": [1] } }; or file: a CSV file "
+                 "beside the "
+                 "project"),
     key::defined("input_table", "linmot_input_table", "codes",
                  "active_inputs, active_triggers, and what a code such as 0010 does"),
     key::structure("io", kLinMotWiring, "tags that are inputs and outputs"),

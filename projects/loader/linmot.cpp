@@ -33,6 +33,8 @@ class LinMotLoader {
                   bool of_motor);
   void load_directory(const JsonValue& json, const std::string& prefix, void* target, bool of_motor);
   void load_parameter(const JsonValue& json, const linmot::Parameter& parameter, void* target);
+  bool refuses_unbuilt(const JsonValue& json, const linmot::Parameter& parameter, double value,
+                       const void* target) const;
   void load_drives(const JsonValue& json);
   void load_motor(const std::string& name, const JsonValue& json);
   void load_wiring(const JsonValue& json);
@@ -98,6 +100,13 @@ void LinMotLoader::load_cycle(const JsonValue& json, const Fields& fields) {
 
 // ---- Parameters
 
+/// Speeds and accelerations count in whole increments, of which there is at least one.
+double counting_value(const linmot::Parameter& parameter, double value) {
+  if (parameter.unit != "m/s" && parameter.unit != "m/s²") return value;
+  const double increment = linmot::increment_of(parameter);
+  return std::max(1, linmot::increments(value, increment)) * increment;
+}
+
 void LinMotLoader::load_parameter(const JsonValue& json, const linmot::Parameter& parameter, void* target) {
   using linmot::Kind;
   if (parameter.read_only() || parameter.kind == Kind::shown)
@@ -114,13 +123,37 @@ void LinMotLoader::load_parameter(const JsonValue& json, const linmot::Parameter
   } else {
     value = read_number(&json, parameter.range.lowest, parameter.range.highest, problems_);
   }
-  if (!value) return;
+  if (!value || refuses_unbuilt(json, parameter, *value, target)) return;
   if (!parameter.effective() && *value != 0.0)
     problems_.warn(json, quote(parameter.path) + " has no effect yet");
   constexpr double kReach = linmot::kPositionReach * linmot::kPositionIncrement;
   if (parameter.unit == "mm" && std::abs(*value) > kReach)
     problems_.warn(json, json.shown() + " mm lies outside of the positions that protocols have, ±630 mm");
-  linmot::set_parameter(parameter, target, *value);
+  if (parameter.path.starts_with("Error Handling\\Error Mask\\") && *value == 0.0)
+    problems_.warn(json, "that mask hides an error: the motor goes on with it");
+  linmot::set_parameter(parameter, target, counting_value(parameter, *value));
+}
+
+/// Groups of motors and sensors outside of them have their parameters, and are not built.
+bool LinMotLoader::refuses_unbuilt(const JsonValue& json, const linmot::Parameter& parameter, double value,
+                                   const void* target) const {
+  if (value == 0.0) return false;
+  if (parameter.path == "Advanced\\Master / Booster") {
+    const bool first = target == &controller_.data.Motors[0].Parameters;
+    problems_.report(
+        json, json.shown() +
+                  (first ? " needs a master before it (E0008), and is not built yet" : " is not built yet") +
+                  "; allowed: Master");
+    return true;
+  }
+  if (parameter.path == "Advanced\\Position Sensor") {
+    const bool last = target == &controller_.data.Motors[kMotors - 1].Parameters;
+    problems_.report(
+        json, json.shown() + (last ? " is no sensor for D (E000A), and not built yet" : " is not built yet") +
+                  "; allowed: Internal Sensor");
+    return true;
+  }
+  return false;
 }
 
 /// @param prefix with its last backslash
@@ -255,6 +288,7 @@ void LinMotLoader::load(const JsonValue& json) {
   if (const JsonValue* const rows = fields["state_table"]) load_state_table(*rows, controller_, loading_);
   if (const JsonValue* const codes = fields["input_table"]) load_input_table(*codes, controller_, loading_);
   if (const JsonValue* const bus = fields["profibus"]) load_linmot_profibus(*bus, controller_, loading_);
+  if (const JsonValue* const curves = fields["curves"]) warn_of_linmot_curves(*curves, controller_, loading_);
 }
 
 /// The controller that takes part first among those of a line serves it.

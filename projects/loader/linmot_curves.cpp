@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "projects/json/text_file.hpp"
 #include "projects/keys/linmot.hpp"
@@ -112,7 +113,7 @@ void load_curve(const std::string& name, const JsonValue& json, LinMotController
         json,
         "that makes no curve; allowed: a time, or a speed and an acceleration, above "
         "0, or at least two points whose times ascend; at most 50 parts");
-  for (const std::string& finding : curve_findings(curve, parts, false)) loading.problems.warn(json, finding);
+  for (const std::string& finding : curve_findings(curve, parts)) loading.problems.warn(json, finding);
 }
 
 std::string places(double value) {
@@ -124,32 +125,60 @@ std::string places(double value) {
 
 }  // namespace
 
+namespace {
+
+constexpr double kPositionStep = 1e-6, kVelocityStep = 1e-3;  // [mm], [mm/s] that are told
+
+/// The step between two moments; empty: there is none.
+std::string step_between(const CamDerivatives& before, const CamDerivatives& behind, double at) {
+  const std::string where = " at " + places(at * 1e3) + " ms";
+  if (std::abs(before.position - behind.position) > kPositionStep)
+    return "a step of the position by " + places(behind.position - before.position) + " mm" + where;
+  if (std::abs(before.first - behind.first) > kVelocityStep)
+    return "a step of the velocity by " + places((behind.first - before.first) / 1e3) + " m/s" + where;
+  return "";
+}
+
+bool runs_cyclically(const linmot::MotorParameters& parameters, std::size_t number) {
+  return static_cast<linmot::RunMode>(parameters.run_mode) == linmot::RunMode::continuous_curve &&
+         parameters.curve_number == static_cast<DINT>(number);
+}
+
+/// In the state table or by its run mode.
+bool runs_curve(const LinMotController& controller, std::size_t motor, std::size_t number) {
+  const linmot::MotorParameters& parameters = controller.data.Motors[motor].Parameters;
+  const auto mode = static_cast<linmot::RunMode>(parameters.run_mode);
+  const auto wanted = static_cast<DINT>(number);
+  if (runs_cyclically(parameters, number)) return true;
+  if (mode == linmot::RunMode::trigger_curve &&
+      (parameters.rise_curve_number == wanted || parameters.fall_curve_number == wanted))
+    return true;
+  return std::ranges::any_of(controller.table.rows, [&](const linmot::StateRow& row) {
+    const linmot::Cell& cell = row.cells[motor];
+    const bool curve =
+        cell.command == linmot::MtCommand::curve || cell.command == linmot::MtCommand::curve_from_demand;
+    return row.exists && curve && cell.arguments[0] == static_cast<double>(number);
+  });
+}
+
+}  // namespace
+
 std::vector<std::string> curve_findings(const linmot::Curve& curve,
-                                        const std::vector<linmot::CurvePart>& parts, bool cyclic) {
+                                        const std::vector<linmot::CurvePart>& parts) {
   std::vector<std::string> findings;
   const CamFunction& function = curve.function();
-  constexpr double kStep = 1e-6, kVelocityStep = 1e-3;  // [mm], [mm/s]
   const auto compare = [&](const CamDerivatives& before, const CamDerivatives& behind, double at) {
-    const std::string where = " at " + places(at * 1e3) + " ms";
-    if (std::abs(before.position - behind.position) > kStep)
-      findings.push_back("a step of the position by " + places(behind.position - before.position) + " mm" +
-                         where);
-    else if (std::abs(before.first - behind.first) > kVelocityStep)
-      findings.push_back("a step of the velocity by " + places((behind.first - before.first) / 1e3) + " m/s" +
-                         where);
+    if (std::string step = step_between(before, behind, at); !step.empty())
+      findings.push_back(std::move(step));
   };
-  const CamDerivatives rest{.position = curve.start()};
-  compare(rest, function.piece_value(0, 0.0), 0.0);
+  compare({.position = curve.start()}, function.piece_value(0, 0.0), 0.0);
   for (std::size_t i = 1; i < function.piece_count(); ++i) {
     const double at = function.piece_start(i);
     compare(function.piece_value(i - 1, at), function.piece_value(i, at), at);
   }
-  const std::size_t last = function.piece_count() - 1;
-  const CamDerivatives end = function.piece_value(last, curve.duration());
+  const CamDerivatives end = function.piece_value(function.piece_count() - 1, curve.duration());
   compare(end, {.position = curve.end()}, curve.duration());
-  if (cyclic) compare({.position = curve.end()}, rest, curve.duration());
   for (const linmot::CurvePart& part : parts) {
-    if (part.points.empty()) continue;
     if (part.points.size() > 2 && part.points.size() < 16)
       findings.push_back("fewer than 16 points, " + std::to_string(part.points.size()));
     for (std::size_t i = 1; i < part.points.size(); ++i)
@@ -159,6 +188,45 @@ std::vector<std::string> curve_findings(const linmot::Curve& curve,
       }
   }
   return findings;
+}
+
+std::string cyclic_finding(const linmot::Curve& curve) {
+  const CamFunction& function = curve.function();
+  const CamDerivatives end = function.piece_value(function.piece_count() - 1, curve.duration());
+  return step_between(end, function.piece_value(0, 0.0), curve.duration());
+}
+
+/// Acceleration goes with the amplitude and the square of the speed.
+std::string force_finding(const LinMotController& controller, std::size_t motor, const linmot::Curve& curve) {
+  const linmot::MotorSettings& settings = controller.motor_settings[motor];
+  const linmot::MotorParameters& parameters = controller.data.Motors[motor].Parameters;
+  if (!settings.exists || parameters.type == linmot::kNoDrive) return "";
+  const double rate = parameters.curve_speed / 100.0, amplitude = parameters.curve_amplitude / 100.0;
+  const double mass = settings.plant.slider_mass + settings.plant.load_mass;
+  const double needed = mass * curve.peaks().acceleration * rate * rate * amplitude + settings.plant.friction;
+  const double possible = settings.force_constant * parameters.maximal_current;
+  if (needed <= possible) return "";
+  return "motor " + std::string(1, static_cast<char>('A' + motor)) + " would need " + places(needed) +
+         " N and makes " + places(possible) + " N with " + places(parameters.maximal_current) + " A";
+}
+
+void warn_of_linmot_curves(const JsonValue& json, const LinMotController& controller,
+                           const Loading& loading) {
+  if (json.kind != JsonKind::object) return;
+  for (const auto& [name, at] : json.members) {
+    std::size_t number = 0;
+    std::from_chars(name.data(), name.data() + name.size(), number);
+    if (number == 0 || number >= linmot::kCurves || !controller.curves[number].exists()) continue;
+    const linmot::Curve& curve = controller.curves[number];
+    for (std::size_t motor = 0; motor < linmot::kMotors; ++motor) {
+      if (!runs_curve(controller, motor, number)) continue;
+      if (const std::string finding = force_finding(controller, motor, curve); !finding.empty())
+        loading.problems.warn(*at, finding);
+      const bool cyclic = runs_cyclically(controller.data.Motors[motor].Parameters, number);
+      if (const std::string finding = cyclic ? cyclic_finding(curve) : ""; !finding.empty())
+        loading.problems.warn(*at, finding + ", where it begins anew");
+    }
+  }
 }
 
 void load_linmot_curves(const JsonValue& json, LinMotController& controller, const Loading& loading) {

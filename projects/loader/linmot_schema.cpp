@@ -78,7 +78,10 @@ void add_linmot_definitions(Json& definitions) {
   for (const char* const motor : {"A", "B", "C", "D"})
     row["properties"][motor] = {{"$ref", "#/definitions/linmot_cell"}};
   definitions["linmot_state_table"] = {
-      {"description", "rows 0 to 63"}, {"type", "object"}, {"additionalProperties", std::move(row)}};
+      {"description", "rows 0 to 63"},
+      {"type", "object"},
+      {"properties", {{"file", {{"type", "string"}, {"description", "CSV file with rows"}}}}},
+      {"additionalProperties", std::move(row)}};
   definitions["linmot_input_table"] = {{"description", "what the codes of the inputs do"},
                                        {"type", "object"},
                                        {"additionalProperties", {{"type", {"string", "array"}}}}};

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <utility>
 
+#include "projects/json/text_file.hpp"
 #include "projects/keys/linmot.hpp"
 #include "projects/loader/linmot_curves.hpp"
 #include "projects/loader/read_keys.hpp"
+#include "tech_objects/linmot_catalogue/spelling.hpp"
 
 namespace lockstep {
 namespace {
@@ -32,6 +36,43 @@ Range range_of_argument(const linmot::MtArgument& argument) {
   return argument.unit.empty() ? Range{0.0, 63.0} : Range{0.0, 3264.0};
 }
 
+/// A row by its number, which then exists; nullptr: it is none.
+linmot::StateRow* row_of(std::string_view number, linmot::StateTable& table) {
+  int row = -1;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), row);
+  if (error != std::errc{} || end != number.data() + number.size() || row < 0 || row >= linmot::kStates)
+    return nullptr;
+  table.rows[static_cast<std::size_t>(row)].exists = true;
+  return &table.rows[static_cast<std::size_t>(row)];
+}
+
+/// Why a command may not stand in a cell; empty: it may.
+std::string refusal_of(const linmot::MtRow& command) {
+  if (command.scope == linmot::MtScope::linear_motor) return "";
+  const bool magnets = command.scope == linmot::MtScope::magnet_only;
+  const std::vector<std::string_view> names = command_names();
+  return std::string(command.name) + (magnets ? " is one of magnets" : " is not built yet") +
+         "; allowed: " + list_of(names);
+}
+
+std::string arguments_of(const linmot::MtRow& command) {
+  std::string text;
+  for (std::size_t i = 0; i < command.arity(); ++i) {
+    const linmot::MtArgument& argument = command.arguments[i];
+    text += (i == 0 ? "" : ", ") + std::string(argument.name);
+    if (!argument.unit.empty()) text += " [" + std::string(argument.unit) + "]";
+  }
+  return std::string(command.name) + " takes [" + text + "]";
+}
+
+/// The curve that a cell calls and that is not there; 0: none.
+std::size_t missing_curve(const linmot::MtRow& command, const linmot::Cell& cell,
+                          const LinMotController& controller) {
+  if (command.arguments[0].name != "Curve number") return 0;
+  const auto number = static_cast<std::size_t>(cell.arguments[0]);
+  return number != 0 && !controller.curves[number].exists() ? number : 0;
+}
+
 class TableLoader {
  public:
   TableLoader(LinMotController& controller, const Loading& loading)
@@ -49,22 +90,18 @@ class TableLoader {
 
 void TableLoader::load_arguments(const JsonValue& json, const linmot::MtRow& command, linmot::Cell& cell) {
   if (read_array(&json, problems_) == nullptr) return;
-  std::string wanted;
-  for (std::size_t i = 0; i < command.arity(); ++i) {
-    const linmot::MtArgument& argument = command.arguments[i];
-    wanted += (i == 0 ? "" : ", ") + std::string(argument.name);
-    if (!argument.unit.empty()) wanted += " [" + std::string(argument.unit) + "]";
-  }
-  if (json.elements.size() != command.arity())
-    return problems_.report(json, std::string(command.name) + " takes [" + wanted + "]");
+  if (json.elements.size() != command.arity()) return problems_.report(json, arguments_of(command));
   for (std::size_t i = 0; i < command.arity(); ++i) {
     const Range range = range_of_argument(command.arguments[i]);
-    if (const auto value = read_number(json.elements[i], range.lowest, range.highest, problems_))
+    if (command.arguments[i].unit.empty()) {
+      if (const auto number = read_integer(json.elements[i], static_cast<std::int64_t>(range.lowest),
+                                           static_cast<std::int64_t>(range.highest), problems_))
+        cell.arguments[i] = static_cast<double>(*number);
+    } else if (const auto value = read_number(json.elements[i], range.lowest, range.highest, problems_)) {
       cell.arguments[i] = *value;
+    }
   }
-  const bool curve = command.arguments[0].name == "Curve number";
-  const auto number = static_cast<std::size_t>(cell.arguments[0]);
-  if (curve && number != 0 && !controller_.curves[number].exists())
+  if (const std::size_t number = missing_curve(command, cell, controller_); number != 0)
     problems_.report(json, "there is no curve " + std::to_string(number));
 }
 
@@ -83,25 +120,163 @@ void TableLoader::load_cell(const std::string& motor, const JsonValue& json, lin
   if (command == nullptr)
     return problems_.report_key(*arguments, "there is no command " + quote(name) + did_you_mean(name, names) +
                                                 "; allowed: " + list_of(names));
-  if (command->scope != linmot::MtScope::linear_motor)
-    return problems_.report_key(
-        *arguments,
-        std::string(command->name) +
-            (command->scope == linmot::MtScope::magnet_only ? " is one of magnets" : " is not built yet") +
-            "; allowed: " + list_of(names));
+  if (const std::string refusal = refusal_of(*command); !refusal.empty())
+    return problems_.report_key(*arguments, refusal);
   row.cells[index].command = command->command;
   load_arguments(*arguments, *command, row.cells[index]);
 }
 
 void TableLoader::load_row(const std::string& name, const JsonValue& json) {
-  int number = -1;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (error != std::errc{} || end != name.data() + name.size() || number < 0 || number >= linmot::kStates)
-    return problems_.report_key(json, quote(name) + " is no row; allowed: 0 to 63");
-  linmot::StateRow& row = controller_.table.rows[static_cast<std::size_t>(number)];
-  row.exists = true;
+  linmot::StateRow* const row = row_of(name, controller_.table);
+  if (row == nullptr)
+    return problems_.report_key(json, quote(name) + " is no row; allowed: 0 to 63, or file");
   if (read_object(&json, problems_) == nullptr) return;
-  for (const auto& [motor, cell] : json.members) load_cell(motor, *cell, row);
+  for (const auto& [motor, cell] : json.members) load_cell(motor, *cell, *row);
+}
+
+// ---- The same as a table in a file
+
+/// A cell as it is written: a command and its arguments, with their units or without.
+struct CellText {
+  const linmot::MtRow* command = nullptr;
+  std::vector<double> arguments;
+};
+
+std::string_view trimmed(std::string_view text) {
+  const auto begin = text.find_first_not_of(" \t\r");
+  if (begin == text.npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+/// The command whose name the text begins with, the longest of them, which is taken off.
+const linmot::MtRow* take_command(std::string_view& text) {
+  const linmot::MtRow* found = nullptr;
+  for (const linmot::MtRow& row : linmot::mt_commands()) {
+    const std::size_t length = row.name.size();
+    if (text.size() < length || !linmot::same_spelling(text.substr(0, length), row.name)) continue;
+    const bool ends = text.size() == length || text[length] == ' ';
+    if (ends && (found == nullptr || length > found->name.size())) found = &row;
+  }
+  if (found != nullptr) text = trimmed(text.substr(found->name.size()));
+  return found;
+}
+
+/// The command is nullptr where the text is no cell.
+CellText cell_of(std::string_view text) {
+  CellText cell{take_command(text), {}};
+  for (std::size_t i = 0; cell.command != nullptr && !text.empty(); ++i) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || i >= cell.command->arity()) return {};
+    text = trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
+    if (const std::string_view unit = cell.command->arguments[i].unit;
+        !unit.empty() && text.starts_with(unit))
+      text = trimmed(text.substr(unit.size()));
+    if (!text.empty() && text[0] != ',') return {};
+    text = text.empty() ? text : trimmed(text.substr(1));
+    cell.arguments.push_back(value);
+  }
+  return cell;
+}
+
+/// state;A;B in its first line, then a row in each. Every fault names its line.
+class TableFile {
+ public:
+  TableFile(std::string path, const JsonValue& json, LinMotController& controller, Problems& problems)
+      : path_(std::move(path)), json_(json), controller_(controller), problems_(problems) {}
+
+  void load() {
+    const std::string text = read_text_file(path_, kLargestTable);
+    if (text.size() > kLargestTable) return report("has more than 1 MiB");
+    for (std::string_view rest = text; !rest.empty();) {
+      const std::string_view line = rest.substr(0, rest.find('\n'));
+      rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+      ++line_;
+      if (trimmed(line).empty()) continue;
+      if (motors_.empty() ? !take_heading(line) : !take_row(line)) return;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kLargestTable = 1 << 20;
+
+  void report(const std::string& text) {
+    problems_.report(json_, path_ + ":" + std::to_string(line_) + ": " + text);
+  }
+  static std::vector<std::string_view> columns_of(std::string_view line) {
+    std::vector<std::string_view> columns;
+    for (;;) {
+      const auto end = line.find(';');
+      columns.push_back(trimmed(line.substr(0, end)));
+      if (end == line.npos) return columns;
+      line.remove_prefix(end + 1);
+    }
+  }
+  bool take_heading(std::string_view line) {
+    const std::vector<std::string_view> names = columns_of(line);
+    for (std::size_t i = 1; i < names.size(); ++i) motors_.push_back(linmot_motor(names[i]));
+    const bool good = names[0] == "state" && !motors_.empty() &&
+                      std::ranges::none_of(motors_, [](std::size_t motor) { return motor >= kMotors; });
+    if (!good) report("allowed as the first line: state;A;B;C;D, or some of these motors");
+    return good;
+  }
+  bool take_row(std::string_view line) {
+    const std::vector<std::string_view> cells = columns_of(line);
+    linmot::StateRow* const row = row_of(cells[0], controller_.table);
+    if (row == nullptr) report(quote(cells[0]) + " is no row; allowed: 0 to 63");
+    if (cells.size() > motors_.size() + 1) report("has more cells than the first line");
+    if (row == nullptr || cells.size() > motors_.size() + 1) return false;
+    for (std::size_t i = 1; i < cells.size(); ++i)
+      if (!cells[i].empty()) take_cell(cells[i], motors_[i - 1], *row);
+    return true;
+  }
+  void take_cell(std::string_view text, std::size_t motor, linmot::StateRow& row) {
+    const CellText found = cell_of(text);
+    const std::vector<std::string_view> names = command_names();
+    if (found.command == nullptr)
+      return report(quote(text) +
+                    " is no command with its arguments, such as Abs. Position 5, 0.5, 10; "
+                    "allowed: " +
+                    list_of(names));
+    if (const std::string refusal = refusal_of(*found.command); !refusal.empty()) return report(refusal);
+    if (found.arguments.size() != found.command->arity()) return report(arguments_of(*found.command));
+    if (controller_.data.Motors[motor].Parameters.type == linmot::kNoDrive &&
+        found.command->command != linmot::MtCommand::no_operation)
+      return report("Drive " + std::string(1, static_cast<char>('A' + motor)) +
+                    " is 'No Drive' and does nothing");
+    linmot::Cell& cell = row.cells[motor];
+    cell.command = found.command->command;
+    for (std::size_t i = 0; i < found.arguments.size(); ++i) {
+      const Range range = range_of_argument(found.command->arguments[i]);
+      const bool whole =
+          !found.command->arguments[i].unit.empty() || found.arguments[i] == std::floor(found.arguments[i]);
+      if (!range.allows(found.arguments[i]) || !whole)
+        return report(quote(text) + ": " + std::string(found.command->arguments[i].name) +
+                      " is allowed from " + decimal_text(range.lowest) + " to " +
+                      decimal_text(range.highest));
+      cell.arguments[i] = found.arguments[i];
+    }
+    if (const std::size_t number = missing_curve(*found.command, cell, controller_); number != 0)
+      report("there is no curve " + std::to_string(number));
+  }
+
+  std::string path_;
+  const JsonValue& json_;
+  LinMotController& controller_;
+  Problems& problems_;
+  std::vector<std::size_t> motors_;  // of the columns
+  int line_ = 0;
+};
+
+void load_table_file(const JsonValue& json, LinMotController& controller, const Loading& loading) {
+  const auto name = read_string(&json, loading.problems);
+  if (!name) return;
+  try {
+    const std::string path = (std::filesystem::path(loading.folder) / std::string(*name)).string();
+    TableFile(path, json, controller, loading.problems).load();
+  } catch (const UnreadableFile& error) {
+    loading.problems.report(json, error.what());
+  }
 }
 
 std::uint8_t read_inputs(const JsonValue* json, Problems& problems) {
@@ -216,7 +391,12 @@ class ModuleLoader {
 void load_state_table(const JsonValue& json, LinMotController& controller, const Loading& loading) {
   if (read_object(&json, loading.problems) == nullptr) return;
   TableLoader loader(controller, loading);
-  for (const auto& [name, row] : json.members) loader.load_row(name, *row);
+  for (const auto& [name, row] : json.members) {
+    if (name == "file")
+      load_table_file(*row, controller, loading);
+    else
+      loader.load_row(name, *row);
+  }
 }
 
 void load_input_table(const JsonValue& json, LinMotController& controller, const Loading& loading) {
@@ -232,8 +412,30 @@ void load_input_table(const JsonValue& json, LinMotController& controller, const
       load_code(name, *code, controller, loading.problems);
 }
 
+namespace {
+
+/// Two hexadecimal figures, as the switches have them. EE is for a start without a bus: the motors repeat
+/// their curves.
+void load_bus_address(const JsonValue& json, LinMotController& controller, Problems& problems) {
+  constexpr int kHighest = 125, kCommissioning = 0xEE;
+  const auto text = read_string(&json, problems);
+  if (!text) return;
+  int address = -1;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), address, 16);
+  const bool whole = error == std::errc{} && end == text->data() + text->size() && text->size() == 2;
+  if (!whole || (address > kHighest && address != kCommissioning) || address < 0)
+    return problems.report(json, json.shown() + " is no address; allowed: 00 to 7D, and EE to repeat curves");
+  if (address != kCommissioning) return;
+  for (LinMotMotorData& motor : controller.data.Motors)
+    motor.Parameters.run_mode = static_cast<DINT>(linmot::RunMode::continuous_curve);
+}
+
+}  // namespace
+
 void load_linmot_profibus(const JsonValue& json, LinMotController& controller, const Loading& loading) {
   const Fields fields(json, keys::kLinMotProfibus, loading.problems);
+  if (const JsonValue* const address = fields["address"])
+    load_bus_address(*address, controller, loading.problems);
   const JsonValue* const modules = fields["modules"];
   if (read_array(modules, loading.problems) == nullptr) return;
   ModuleLoader loader(controller, loading);

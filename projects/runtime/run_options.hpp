@@ -14,6 +14,7 @@ struct RunOptions {
   bool simulate = false;       ///< virtual time: no Modbus, LCM, retain and audit log unless asked for
   std::int64_t duration = -1;  ///< [ns]; negative: until asked to end
   std::string trace{};         ///< file, .csv or .lcm; empty: none
+  std::string transcript{};    ///< file of what is said on lines to LinMot controllers; empty: none
   std::vector<std::string> signals{};  ///< of the trace; empty: the project's
   bool stimuli = false;                ///< those of the project apply in real time too
   int cpu = -1;                        ///< processor of the cycle, from 0; negative: any

@@ -21,13 +21,17 @@ const Variable kController[] = {
     COMPUTED(State, RON, kNone, (Range{0, 5}), "operating state", .choices = kStates),
     COMPUTED(StateNumber, RON, kNone, (Range{-1, 63}), "row of the state table; -1: none has been called"),
     COMPUTED(Code, RON, kNone, (Range{0, 15}), "code of the inputs, once it has been stable"),
-    COMPUTED(Display, RON, kNone, kAny, "shown code of an error; 16#0000: none"),
+    COMPUTED(Display, RON, kNone, kAny,
+             "shown code of an error, version 3; of version 2 how often the lights A and B flash, such as "
+             "16#0023, 16#00FF: both; 16#0000: none"),
     COMPUTED(Errors, RON, kNone, kAny,
              "errors of the controller: bits 1 to 5 supplies and electronics, 15 interface"),
     COMPUTED(Warnings, RON, kNone, kAny,
              "warnings of the controller: bits 1 to 5 as the errors, 14 emergency stop"),
-    COMPUTED(LoggedWarnings, RON, kNone, kAny,
-             "warnings since the last transition to RUN: bits 0 to 8 of motors, 9 to 14 of the controller"),
+    COMPUTED(
+        LoggedWarnings, RON, kNone, kAny,
+        "warnings since the last transition to RUN: bits 0 to 8 of motors, 9 to 14 of the controller, 15 "
+        "something could not be carried out"),
     ARRAY(ProfibusOut, DIR, kNone, kAny, "words that come from the bus, in the order of the modules"),
 };
 

@@ -49,6 +49,7 @@ class Execution {
   AsciiAnswer run_curve() noexcept;
   AsciiAnswer rename() noexcept;
   AsciiAnswer set() noexcept;
+  AsciiAnswer write() noexcept;
   AsciiAnswer hand_over(const Order& order) noexcept;
   AsciiAnswer taken() noexcept {
     return controller_.take_parameters(index_) ? AsciiAnswer{} : refusal(kRange);
@@ -265,8 +266,25 @@ AsciiAnswer Execution::set() noexcept {
     parameters_.*setting.parameter = static_cast<double>(request_.number) * setting.increment;
     return taken();
   }
-  // The memory of addresses is not described in the source.
-  return refusal(kRange);
+  return write();
+}
+
+/// Into the memory of addresses, and where in it.
+AsciiAnswer Execution::write() noexcept {
+  const auto number = static_cast<std::uint32_t>(request_.number);
+  switch (id_of(command_)) {
+    case id('A', 'S'):
+      controller_.set_segment(index_, number);
+      return {};
+    case id('A', 'O'):
+      if (number % 2 != 0) return refusal(kRange);
+      controller_.set_offset(index_, number);
+      return {};
+    default:
+      if (!controller_.write_memory(index_, static_cast<std::uint16_t>(number))) return refusal(kRange);
+      if (command_.name == "WS") controller_.next_word(index_);
+      return {};
+  }
 }
 
 AsciiAnswer Execution::read() const noexcept {
@@ -293,8 +311,13 @@ AsciiAnswer Execution::read() const noexcept {
     case id('G', 'D'):
       if (motor_.curve_active()) return refusal(kNotInRun);
       return told(increments(motor_.demand(), kPositionIncrement));
+    case id('R', 'E'): {
+      const std::uint16_t word = controller_.read_memory(index_);
+      controller_.next_word(index_);
+      return told(word);
+    }
     default:
-      return told(0);
+      return told(controller_.read_memory(index_));
   }
 }
 

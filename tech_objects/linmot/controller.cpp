@@ -247,117 +247,6 @@ bool LinMotController::at_rest() const noexcept {
   return true;
 }
 
-// ---- What is watched
-
-void LinMotController::watch_supplies() noexcept {
-  const SystemParameters& system = data.Parameters;
-  std::uint16_t causes = 0, warnings = 0;
-  const auto look = [&](const LREAL* voltage, const SupplyThresholds& at, std::uint16_t low,
-                        std::uint16_t high) {
-    if (voltage == nullptr) return;
-    // What is no number is no voltage.
-    if (!(*voltage >= at.low_warning)) warnings |= low;
-    if (!(*voltage >= at.low_error)) causes |= low;
-    if (*voltage > at.high_warning) warnings |= high;
-    if (*voltage > at.high_error) causes |= high;
-  };
-  look(wiring.power_voltage, hardware->power, system_bit::kPowerLow, system_bit::kPowerHigh);
-  look(wiring.signal_voltage, hardware->signal, system_bit::kSignalLow, system_bit::kSignalHigh);
-  constexpr double kHotTime = 5.0;  // [s] after which the warning is an error
-  const bool hot = is_on(wiring.heat_sink_hot);
-  hot_ticks_ = hot ? hot_ticks_ + 1 : 0;
-  if (hot) warnings |= system_bit::kElectronics;
-  if (hot && (hot_ticks_ - 1) * tick_ >= kHotTime - 1e-9) causes |= system_bit::kElectronics;
-  std::uint16_t masks = system_bit::kEmergencyStop;
-  if (system.warn_mask_dclv_power_low) masks |= system_bit::kPowerLow;
-  if (system.warn_mask_dclv_power_high) masks |= system_bit::kPowerHigh;
-  if (system.warn_mask_dclv_signal_low) masks |= system_bit::kSignalLow;
-  if (system.warn_mask_dclv_signal_high) masks |= system_bit::kSignalHigh;
-  if (system.warn_mask_electronic_fault) masks |= system_bit::kElectronics;
-  if (state_ == State::stop) warnings |= system_bit::kEmergencyStop;
-  if (out_of_range_) causes |= system_bit::kApplication;
-  system_causes_ = causes;
-  system_warnings_ = warnings & masks;
-}
-
-void LinMotController::watch_motor(std::size_t index) noexcept {
-  Motor& motor = motors_[index];
-  const MotorParameters& parameters = taken_[index];
-  const MotorSettings& settings = motor_settings[index];
-  std::uint16_t causes = 0, warnings = 0;
-  if (is_on(settings.slider_missing)) causes |= motor_bit::kSliderMissing;
-  if (is_on(settings.too_hot)) causes |= motor_bit::kHotSensor;
-  if (settings.type >= 0 && settings.type != parameters.type) causes |= motor_bit::kTypeMismatch;
-  if (state_ != State::error && (curve_missing_[index] || motor.curve_missing())) causes |= motor_bit::kCurve;
-  const double error = motor.following_error();
-  const bool follows = !motor.energised() || (error <= parameters.following_error_plus &&
-                                              error >= -parameters.following_error_minus);
-  if (state_ == State::init && (motor.homing() == Motor::Homing::failed || !follows))
-    causes |= motor_bit::kInitFailed;
-  else if (!follows)
-    causes |= motor_bit::kFollowingError;
-  if ((causes & motor_bit::kSliderMissing) != 0 && parameters.warn_mask_slider_missing)
-    warnings |= motor_bit::kSliderMissing;
-  if ((causes & motor_bit::kHotSensor) != 0 && parameters.warn_mask_drive_hot_sensor)
-    warnings |= motor_bit::kHotSensor;
-  if (!follows && parameters.warn_mask_drive_following_error) warnings |= motor_bit::kFollowingError;
-  if ((causes & (motor_bit::kSliderMissing | motor_bit::kTypeMismatch | motor_bit::kInitFailed)) != 0)
-    motor.lose_position();
-  if (!motor.homed()) warnings |= motor_bit::kInitNotDone;
-  const bool outside = motor.homed() && (motor.actual() < parameters.pos_range_min ||
-                                         motor.actual() > parameters.pos_range_max);
-  data.Motors[index].PosRange = outside;
-  if (outside && parameters.warn_mask_pos_range_indicator) warnings |= motor_bit::kPositionRange;
-  if (!parameters.error_mask_drive_following_error)
-    causes = static_cast<std::uint16_t>(causes & ~motor_bit::kFollowingError);
-  causes_[index] = causes;
-  warnings_[index] = warnings;
-}
-
-void LinMotController::watch() noexcept {
-  watch_supplies();
-  for (std::size_t i = 0; i < hardware->motors; ++i)
-    if (motors_[i].is_there()) watch_motor(i);
-  latch_errors();
-}
-
-/// An error stays until ERROR is left; what ends with the motors' current is a cause no more.
-void LinMotController::latch_errors() noexcept {
-  system_errors_ |= system_causes_;
-  std::uint16_t warnings = 0;
-  for (std::size_t i = 0; i < kMotors; ++i) {
-    errors_[i] |= causes_[i];
-    warnings |= warnings_[i];
-  }
-  const auto logged = static_cast<std::uint16_t>(warnings | ((system_warnings_ & 0x3E) << 8) |
-                                                 (system_warnings_ & system_bit::kEmergencyStop));
-  if (state_ == State::run)
-    data.LoggedWarnings =
-        WORD{static_cast<std::uint16_t>(static_cast<std::uint16_t>(data.LoggedWarnings) | logged)};
-}
-
-void LinMotController::find_first_error() noexcept {
-  error_number_ = 0;
-  error_motor_ = -1;
-  for (const ErrorRow& row : errors()) {
-    if (row.bit < 0 || row.ascii == 0) continue;
-    const auto bit = static_cast<std::uint16_t>(1u << row.bit);
-    if (!row.of_motor && (system_errors_ & bit) != 0) {
-      error_number_ = row.ascii;
-      data.Display = WORD{row.code};
-      return;
-    }
-    for (std::size_t i = 0; row.of_motor && i < kMotors; ++i) {
-      if ((errors_[i] & bit) == 0) continue;
-      error_number_ = row.ascii;
-      error_motor_ = static_cast<int>(i);
-      data.Display = WORD{static_cast<std::uint16_t>(row.code + (i + 1) * 0x100)};
-      return;
-    }
-  }
-  if ((system_errors_ & system_bit::kApplication) != 0) data.Display = WORD{kDataOutOfRange};
-}
-
 // ---- What others see
 
 std::uint16_t LinMotController::flags() const noexcept {
@@ -427,6 +316,7 @@ bool LinMotController::message() const noexcept {
          (system.msg_mask_slider_missing && has(of_motors, motor_bit::kSliderMissing)) ||
          (system.msg_mask_init_failed && has(of_motors, motor_bit::kInitFailed)) ||
          (system.msg_mask_drive_following_error && has(of_motors, motor_bit::kFollowingError)) ||
+         (system.msg_mask_drive_too_hot_calculated && has(of_motors, motor_bit::kHotCalculated)) ||
          (system.msg_mask_drive_too_hot_sensor && has(of_motors, motor_bit::kHotSensor)) ||
          (system.msg_mask_in_position && in_position);
 }

@@ -13,6 +13,7 @@
 #include "tech_objects/linmot/multi_trigger.hpp"
 #include "tech_objects/linmot/process_image.hpp"
 #include "tech_objects/linmot/states.hpp"
+#include "tech_objects/linmot_catalogue/errors.hpp"
 #include "tech_objects/objects/technology_object.hpp"
 
 namespace lockstep {
@@ -90,6 +91,21 @@ class LinMotController final : public TechnologyObject {
   /// again what they were.
   bool take_parameters(std::size_t index) noexcept;
   void tell_curve_missing(std::size_t index) noexcept { curve_missing_[index] = true; }
+  /// The memory of addresses: segment 0 has the parameters in their published order, a word each at even
+  /// offsets, in increments of the protocols; nothing else is there. Both parts are of commands of that
+  /// motor.
+  /// @param segment 0 to 255  @param offset even, 0 to 65534
+  void set_segment(std::size_t index, std::uint32_t segment) noexcept {
+    address_[index] = (address_[index] & 0xFFFFu) | segment << 16;
+  }
+  void set_offset(std::size_t index, std::uint32_t offset) noexcept {
+    address_[index] = (address_[index] & ~0xFFFFu) | offset;
+  }
+  void next_word(std::size_t index) noexcept { address_[index] = (address_[index] + 2) & 0xFFFFFFu; }
+  /// 0 where nothing is.
+  std::uint16_t read_memory(std::size_t index) const noexcept;
+  /// @return whether there is a parameter that may be changed at run time, and the value is one of its
+  bool write_memory(std::size_t index, std::uint16_t word) noexcept;
   /// Another name for a position; nothing moves. @return whether the motor was at rest and unfrozen
   bool move_names(std::size_t index, double distance, bool needs_all) noexcept;
 
@@ -130,6 +146,8 @@ class LinMotController final : public TechnologyObject {
   void watch() noexcept;
   void watch_supplies() noexcept;
   void watch_motor(std::size_t index) noexcept;
+  std::uint16_t causes_of(std::size_t index, bool follows) const noexcept;
+  WORD shown_code(const linmot::ErrorRow& row, std::size_t motor) const noexcept;
   void latch_errors() noexcept;
   void find_first_error() noexcept;
   void write_outputs() noexcept;
@@ -156,7 +174,9 @@ class LinMotController final : public TechnologyObject {
   bool out_of_range_ = false;
   linmot::CodeFilter code_;
   int row_ = -1;
-  bool warns_of_table_ = false;
+  bool refused_ = false;                                  // something that was asked for, and is to be logged
+  std::array<std::uint32_t, linmot::kMotors> address_{};  // of the memory, as each motor's commands set it
+  std::uint16_t unknown_command_ = 0;                     // of PROFIBUS; told once
   std::array<linmot::MotorWords, linmot::kMotors> words_{};
   bool command_toggle_ = false, executed_toggle_ = false;
 };

@@ -55,7 +55,10 @@ void LinMotController::read_code() noexcept {
 
 /// All cells of a row begin in the same control cycle. A row that is not there leaves the state as it is.
 void LinMotController::call_row(int row) noexcept {
-  if (row < 0 || row >= kStates || !table.rows[static_cast<std::size_t>(row)].exists) return;
+  if (row < 0 || row >= kStates || !table.rows[static_cast<std::size_t>(row)].exists) {
+    refused_ = true;
+    return;
+  }
   row_ = row;
   const int acknowledge = static_cast<int>(std::ceil(data.Parameters.acknowledge_time * 1e-3 / tick_ - 1e-9));
   for (std::size_t i = 0; i < hardware->motors; ++i) {
@@ -91,10 +94,10 @@ void LinMotController::carry_out(std::size_t index, const Cell& cell) noexcept {
     case MtCommand::curve_from_demand:
       return start_curve(index, values[0], true);
     case MtCommand::move_home_position:
-      move_names(index, -in_position_increments(values[0]), true);
+      refused_ |= !move_names(index, -in_position_increments(values[0]), true);
       return;
     case MtCommand::redefine_position:
-      move_names(index, in_position_increments(values[0]) - motor.actual(), false);
+      refused_ |= !move_names(index, in_position_increments(values[0]) - motor.actual(), false);
       return;
     case MtCommand::demand_to_actual:
       return motor.demand_to_actual();

@@ -106,6 +106,7 @@ void LinMotController::read_run_curve(const ModulePlace& place, std::uint16_t wo
   words.locked = true;
   if (number != 0 && curve == nullptr) return tell_curve_missing(place.motor);
   words.running = true;
+  words.done_toggle = !words.run_curve_toggle;
   Order order{.kind = Order::Kind::curve, .curve = curve, .cyclic = bit(word, kCyclic)};
   order.from_demand = bit(word, kIncremental) || place.module == Module::run_incremental_curve;
   if (bit(word, kDelayed) && motor.curve_active())
@@ -121,7 +122,11 @@ void LinMotController::read_command(std::uint16_t word, std::uint16_t value) noe
   const auto id = static_cast<std::uint8_t>(word & 0xFF);
   const auto known = std::find_if(module_commands().begin(), module_commands().end(),
                                   [id](const ModuleCommand& command) { return command.id == id; });
-  if (known == module_commands().end()) return;
+  if (known == module_commands().end()) {
+    refused_ |= word != unknown_command_;
+    unknown_command_ = word;
+    return;
+  }
   const std::int32_t number = number_in(value, known->lowest);
   const bool ranged = known->lowest != known->highest;
   if (ranged && (number < known->lowest || number > known->highest)) {
@@ -140,11 +145,11 @@ void LinMotController::command_motor(std::size_t index, std::uint8_t id, std::in
   switch (id) {
     case 0x01:
       words_[index].locked = true;
-      move_names(index, value * kPositionIncrement - motor.actual(), false);
+      refused_ |= !move_names(index, value * kPositionIncrement - motor.actual(), false);
       return;
     case 0x02:
       words_[index].locked = true;
-      move_names(index, -value * kPositionIncrement, false);
+      refused_ |= !move_names(index, -value * kPositionIncrement, false);
       return;
     case 0x03:
       words_[index].locked = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tech_objects/cam/spline.hpp"
 #include "tech_objects/profile/profile.hpp"
@@ -113,35 +114,53 @@ double end_position(const CurvePart& part) {
 }  // namespace
 
 bool Curve::make(std::span<const CurvePart> parts) {
+  function_.reset();
+  if (parts.empty() || parts.size() > kCurveSegments) return false;
   std::size_t pieces = 2;
   for (const CurvePart& part : parts) pieces += part.points.size() + Profile::kMaxPhases;
-  function_ = CamFunction(pieces);
-  if (parts.empty() || parts.size() > kCurveSegments) return false;
-  CamBuilder cam(function_);
+  CamFunction function(pieces);
+  CamBuilder cam(function);
   double begin = 0.0;
   for (const CurvePart& part : parts) {
     const double end = PartMaker(cam, begin).make(part);
-    if (!(end > begin)) {
-      function_ = CamFunction(0);
-      return false;
-    }
+    if (!(end > begin)) return false;
     begin = end;
   }
-  return cam.finish(begin, end_position(parts.back()));
+  if (!cam.finish(begin, end_position(parts.back()))) return false;
+  function_.emplace(std::move(function));
+  return true;
 }
 
-/// Cubics have them at their ends; sines and quintics are looked at closely.
+namespace {
+
+void look_at(const CamDerivatives& at, CurvePeaks& found) {
+  found.velocity = std::max(found.velocity, std::abs(at.first) / kMetre);
+  found.acceleration = std::max(found.acceleration, std::abs(at.second) / kMetre);
+  found.jerk = std::max(found.jerk, std::abs(at.third) / kMetre);
+}
+
+}  // namespace
+
+/// A cubic has them at its ends, and its velocity where it has no acceleration; sines and quintics are looked
+/// at closely.
 CurvePeaks Curve::peaks() const {
   constexpr int kSamples = 1000;
+  constexpr double kRounding = 1e-6;  // of a jerk that is the same
   CurvePeaks found;
-  for (std::size_t i = 0; i < function_.piece_count(); ++i) {
-    const double from = function_.piece_start(i), to = function_.piece_start(i + 1);
-    for (int k = 0; k <= kSamples; ++k) {
-      const CamDerivatives at = function_.piece_value(i, from + (to - from) * k / kSamples);
-      found.velocity = std::max(found.velocity, std::abs(at.first) / kMetre);
-      found.acceleration = std::max(found.acceleration, std::abs(at.second) / kMetre);
-      found.jerk = std::max(found.jerk, std::abs(at.third) / kMetre);
+  for (std::size_t i = 0; i < function_->piece_count(); ++i) {
+    const double from = function_->piece_start(i), to = function_->piece_start(i + 1);
+    const CamDerivatives begin = function_->piece_value(i, from), end = function_->piece_value(i, to);
+    const double middle = function_->piece_value(i, 0.5 * (from + to)).third;
+    look_at(begin, found);
+    look_at(end, found);
+    if (std::abs(middle - begin.third) <= kRounding * std::abs(begin.third) &&
+        std::abs(middle - end.third) <= kRounding * std::abs(end.third)) {
+      const double flat = begin.third != 0.0 ? from - begin.second / begin.third : from;
+      if (flat > from && flat < to) look_at(function_->piece_value(i, flat), found);
+      continue;
     }
+    for (int k = 1; k < kSamples; ++k)
+      look_at(function_->piece_value(i, from + (to - from) * k / kSamples), found);
   }
   return found;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,20 +38,20 @@ struct CurvePeaks {
 /// Position [mm] over time [s]. Immutable once made.
 class Curve {
  public:
-  Curve() : function_(0) {}
   /// While loading. @return whether it is a curve: times above 0, points that ascend, all finite
   bool make(std::span<const CurvePart> parts);
 
-  bool exists() const noexcept { return function_.interpolated(); }
-  double duration() const noexcept { return function_.end_leading_value(); }   ///< [s]
-  double start() const noexcept { return function_.start_following_value(); }  ///< [mm]
-  double end() const noexcept { return function_.end_following_value(); }      ///< [mm]
-  const CamFunction& function() const noexcept { return function_; }
+  bool exists() const noexcept { return function_.has_value(); }
+  // Of a curve that exists:
+  double duration() const noexcept { return function_->end_leading_value(); }   ///< [s]
+  double start() const noexcept { return function_->start_following_value(); }  ///< [mm]
+  double end() const noexcept { return function_->end_following_value(); }      ///< [mm]
+  const CamFunction& function() const noexcept { return *function_; }
   /// Not in the cycle.
   CurvePeaks peaks() const;
 
  private:
-  CamFunction function_;
+  std::optional<CamFunction> function_;  // most numbers have none, and it is large
 };
 
 }  // namespace lockstep::linmot

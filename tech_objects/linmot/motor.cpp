@@ -24,6 +24,7 @@ void Motor::configure(const MotorSettings& settings, const MotorParameters& para
   cycle_ = cycle;
   tick_ = tick;
   limiter_.configure(cycle);
+  thermal_.configure(settings.thermal, tick, std::max(1, static_cast<int>(tick / cycle + 0.5)));
   player_.configure(cycle);
   has_plant_ = settings.exists;
   force_constant_ = settings.force_constant;
@@ -377,6 +378,7 @@ void Motor::run_curve(DINT number, bool cyclic) noexcept {
 void Motor::tick(bool running) noexcept {
   velocity_ = (position_ - last_position_) / tick_;
   last_position_ = position_;
+  thermal_.tick();
   const bool level = trigger_level();
   const bool rising = level && !last_trigger_;
   const bool falling = !level && last_trigger_;
@@ -428,6 +430,7 @@ void Motor::cycle() noexcept {
   }
   const LoopSetpoint on_machine{setpoint_.position + shift_, setpoint_.velocity, setpoint_.acceleration};
   current_ = loop_.step(on_machine, position_);
+  thermal_.add(current_);
   plant_.step(force_constant_ * current_, cycle_);
 }
 

@@ -9,6 +9,7 @@
 #include "tech_objects/drive/linear_motor_plant.hpp"
 #include "tech_objects/linmot/curve_player.hpp"
 #include "tech_objects/linmot/limiter.hpp"
+#include "tech_objects/linmot/thermal.hpp"
 #include "tech_objects/linmot_catalogue/parameters.hpp"
 
 namespace lockstep::linmot {
@@ -22,8 +23,9 @@ struct MotorSettings {
   int type = -1;                         ///< index of its type; -1: the one that is configured
   const bool* slider_missing = nullptr;  ///< while TRUE
   const bool* too_hot = nullptr;         ///< while TRUE its temperature sensor tells so
-  const bool* trigger = nullptr;         ///< input TRIG
-  const LREAL* analog = nullptr;         ///< input ANALOG [V]
+  ThermalSettings thermal;
+  const bool* trigger = nullptr;  ///< input TRIG
+  const LREAL* analog = nullptr;  ///< input ANALOG [V]
 };
 
 /// A motion that somebody asks for.
@@ -113,6 +115,7 @@ class Motor {
   double actual_velocity() const noexcept { return velocity_; }  ///< [mm/s]
   double current() const noexcept { return current_; }           ///< [A]
   double following_error() const noexcept { return setpoint_.position - actual(); }
+  double heat() const noexcept { return thermal_.heat(); }  ///< [%] as it is calculated
   bool curve_active() const noexcept { return curve_mode_ && player_.running(); }
   bool cyclic_curve() const noexcept { return curve_active() && player_.cyclic(); }
   /// No curve runs, and none waits for its end.
@@ -163,6 +166,7 @@ class Motor {
   CurvePlayer player_;
   CurrentLoop loop_;
   LinearMotorPlant plant_;
+  Thermal thermal_;
 
   // Once in a tick.
   Order order_;  // of the motion that is under way, or that waits while frozen

@@ -20,6 +20,7 @@ inline constexpr std::uint16_t kPowerLow = 1u << 1, kPowerHigh = 1u << 2, kSigna
                                kSignalHigh = 1u << 4, kElectronics = 1u << 5;
 inline constexpr std::uint16_t kEmergencyStop = 1u << 14;  // a warning
 inline constexpr std::uint16_t kApplication = 1u << 15;    // an error
+inline constexpr std::uint16_t kRefused = 1u << 15;  // of what is logged: something could not be carried out
 }  // namespace system_bit
 
 struct ErrorRow {

@@ -84,5 +84,21 @@ TEST(Pictures, ShowATickAsTheCycleRunsIt) {
             "");
 }
 
+TEST(Pictures, ShowATickOfALinMotControllerAsItIs) {
+  const std::vector<std::string> steps = {"read_inputs",   "take_changed_parameters",
+                                          "change_state",  "freeze_motors",
+                                          "read_code",     "tick",
+                                          "home_next",     "cycle",
+                                          "follow_curves", "watch",
+                                          "write_outputs", "show"};
+  const std::string readme = content_of("tech_objects/linmot/README.md");
+  const std::size_t begin = readme.find("\n```\n");
+  const std::string picture = readme.substr(begin, readme.find("\n```\n", begin + 1) - begin);
+  EXPECT_EQ(out_of_order(picture, steps), "");
+  const std::string source = content_of("tech_objects/linmot/controller.cpp");
+  const std::string servo = source.substr(source.find("void LinMotController::servo("));
+  EXPECT_EQ(out_of_order(servo.substr(0, servo.find("\n}\n")), steps), "");
+}
+
 }  // namespace
 }  // namespace lockstep::pictures_test

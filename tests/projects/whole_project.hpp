@@ -63,6 +63,7 @@ inline constexpr char kRestOfProject[] = R"json({
       "config": { "Drives": { "Drive A": { "Type": "LinMot P0x-37" } } },
       "motors": {
         "A": { "force_constant": 40.0, "slider_mass": 0.829, "spring": { "position": 0.0, "stiffness": 10.0 },
+               "thermal": { "nominal_current": 2.0 },
                "fixed_stops": [ { "position": 35.0, "stiffness": 1000.0, "damping": 10.0 } ] }
       },
       "curves": { "1": { "end": 10.0, "time": "200ms" }, "2": { "parts": [ { "end": 10.0, "time": "200ms" } ] } },

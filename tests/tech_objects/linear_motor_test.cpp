@@ -145,6 +145,25 @@ TEST_P(ControlCycle, FollowsItWithAFiftiethOfThatErrorByFeedForward) {
   EXPECT_GT(followed.greatest_error, 0.0);
 }
 
+// What the figures have of the control cycle is less than a hundredth of them.
+TEST(LinearMotor, HasTheSameFiguresWithHalfTheControlCycle) {
+  const auto overshoot = [](double cycle) {
+    Reference motor(reference_plant(0.0), reference_loop(), cycle);
+    double highest = 0.0;
+    for (int i = 0; i < std::lround(0.1 / cycle); ++i) {
+      motor.step({1.0, 0.0, 0.0});
+      highest = std::max(highest, motor.plant.position());
+    }
+    return highest - 1.0;
+  };
+  EXPECT_NEAR(overshoot(50e-6) / overshoot(100e-6), 1.0, 0.01);
+  const Followed whole = follow_stroke(reference_loop(), 100e-6),
+                 half = follow_stroke(reference_loop(), 50e-6);
+  EXPECT_NEAR(half.greatest_error / whole.greatest_error, 1.0, 0.01);
+  EXPECT_NEAR(half.at / whole.at, 1.0, 0.01);
+  EXPECT_NEAR(half.greatest_current / whole.greatest_current, 1.0, 0.01);
+}
+
 TEST_P(ControlCycle, CarriesAWeightByItsErrorAnOffsetOrAnIntegralPart) {
   LinearMotorPlantSettings upright = reference_plant(0.0);
   upright.inclination = 90.0;

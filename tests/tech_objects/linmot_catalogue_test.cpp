@@ -1,17 +1,11 @@
-// The tables of a LinMot controller against the catalogues; increments; the tuning tool.
+// The tables of a LinMot controller against the catalogues; increments.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
-#include "tech_objects/linmot/curve.hpp"
-#include "tech_objects/linmot/limiter.hpp"
-#include "tech_objects/linmot/states.hpp"
-#include "tech_objects/linmot/tuning.hpp"
 #include "tech_objects/linmot_catalogue/ascii_commands.hpp"
 #include "tech_objects/linmot_catalogue/errors.hpp"
 #include "tech_objects/linmot_catalogue/increments.hpp"
@@ -141,111 +135,6 @@ TEST(LinMotErrors, AreThePublishedOnes) {
     EXPECT_EQ(std::to_string(linmot::errors()[i].ascii), code);
   }
   EXPECT_EQ(linmot::warnings().size(), document.at("warnings").size());
-}
-
-// ---- L16
-
-TEST(LinMotScenario, L16CalculatesWhatALoadTakes) {
-  const Json document = catalogue("scenarios");
-  for (const Json& scenario : document.at("scenarios")) {
-    if (scenario.at("id") != "L16") continue;
-    const Json& expect = scenario.at("expect");
-    linmot::TuningInput input{.force_constant = 40.0,
-                              .slider_mass = 0.829,
-                              .load_mass = 1.2,
-                              .friction = 10.0,
-                              .inclination = 90.0};
-    const linmot::TuningResult first = linmot::tune(input);
-    const double tolerance = expect[0].at("tolerance");
-    EXPECT_NEAR(first.ff_friction, expect[0].at("value")[0].get<double>(), tolerance);
-    EXPECT_NEAR(first.ff_acceleration, expect[0].at("value")[1].get<double>(), tolerance);
-    EXPECT_NEAR(first.current_offset, expect[0].at("value")[3].get<double>(), tolerance);
-    input.force_constant = 40.8;
-    input.friction = 0.0;
-    const linmot::TuningResult second = linmot::tune(input);
-    EXPECT_NEAR(second.ff_acceleration, expect[1].at("value")[0].get<double>(), 0.001);
-    EXPECT_NEAR(second.current_offset, expect[1].at("value")[1].get<double>(), 0.001);
-    input.motors = 2;
-    EXPECT_NEAR(linmot::tune(input).mass, expect[2].at("value").get<double>(), 1e-12);
-  }
-}
-
-// ---- States
-
-TEST(LinMotStates, FollowTheTable) {
-  using linmot::State;
-  int changes = 0;
-  for (int bits = 0; bits < 512; ++bits) {
-    const linmot::StateFacts facts{.run = (bits & 1) != 0,
-                                   .init = (bits & 2) != 0,
-                                   .stop = (bits & 4) != 0,
-                                   .error = (bits & 8) != 0,
-                                   .cause = (bits & 16) != 0,
-                                   .homed = (bits & 32) != 0,
-                                   .homing_over = (bits & 64) != 0,
-                                   .automatic = (bits & 128) != 0,
-                                   .warning = (bits & 256) != 0};
-    for (int state = 0; state < 6; ++state) {
-      const auto before = static_cast<State>(state);
-      const State after = linmot::next_state(before, facts);
-      changes += after != before ? 1 : 0;
-      if (facts.error && before != State::error) {
-        EXPECT_EQ(after, State::error);
-      }
-      if (before == State::error) {
-        EXPECT_EQ(after, facts.none_requested() && !facts.cause ? State::disable : State::error);
-      }
-      if (after == State::run && before != State::run) {
-        EXPECT_TRUE(facts.homed && !facts.stop);
-      }
-      if (before == State::stop && !facts.error) {
-        EXPECT_EQ(after, facts.none_requested() ? State::disable : State::stop);
-      }
-      if (before == State::wait_for_disable && !facts.error) {
-        EXPECT_EQ(after == State::disable, facts.none_requested());
-      }
-    }
-  }
-  EXPECT_GT(changes, 1000);
-}
-
-// ---- The V/A limiter, by chance
-
-TEST(LinMotLimiterProperty, KeepsItsLimitsAndArrives) {
-  std::uint64_t seed = 20261124;
-  const auto random = [&seed](double lowest, double highest) {
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return lowest + (highest - lowest) * static_cast<double>(seed >> 11) * 0x1p-53;
-  };
-  constexpr double kCycle = 1e-4;
-  linmot::Limiter limiter;
-  limiter.configure(kCycle);
-  limiter.begin(0.0);
-  LoopSetpoint last{};
-  double acceleration = 0.0;  // of the motion before
-  for (int i = 0; i < 100'000; ++i) {
-    const linmot::Limits limits{random(10.0, 1000.0), random(500.0, 50'000.0)};
-    const double target = random(-300.0, 300.0);
-    limiter.go_to(target, limits);
-    // A velocity beyond the limit comes down to it.
-    const double fastest = std::max(limits.velocity, std::abs(last.velocity) + acceleration * kCycle);
-    acceleration = limits.acceleration;
-    for (int k = 0; k < 20; ++k) {
-      const LoopSetpoint now = limiter.step();
-      ASSERT_TRUE(std::isfinite(now.position)) << i;
-      ASSERT_LE(std::abs(now.velocity), fastest * (1.0 + 1e-9)) << i;
-      if (k > 0) {
-        ASSERT_LE(std::abs(now.velocity - last.velocity), limits.acceleration * kCycle * (1.0 + 1e-6) + 1e-9)
-            << i;
-      }
-      ASSERT_LE(std::abs(now.position - last.position), fastest * kCycle * (1.0 + 1e-6) + 1e-9) << i;
-      last = now;
-    }
-    if (i % 1000 != 0) continue;
-    for (int k = 0; k < 1'000'000 && !limiter.at_end(); ++k) last = limiter.step();
-    EXPECT_EQ(limiter.step().position, target) << i;
-    last = limiter.step();
-  }
 }
 
 }  // namespace

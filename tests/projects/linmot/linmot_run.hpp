@@ -7,7 +7,9 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "projects/loader/simulation.hpp"
@@ -29,6 +31,32 @@ inline const Json& linmot_scenario(const std::string& id) {
   for (const Json& scenario : linmot_document("scenarios").at("scenarios"))
     if (scenario.at("id") == id) return scenario;
   throw std::runtime_error("no scenario " + id);
+}
+
+/// What has been looked at in this process: scenario and expectation, or step.
+inline std::set<std::pair<std::string, std::string>>& looked_at() {
+  static std::set<std::pair<std::string, std::string>> all;
+  return all;
+}
+
+/// What a scenario expects, or its steps; what is taken from it counts as looked at.
+class ScenarioList {
+ public:
+  ScenarioList(std::string id, std::string list)
+      : id_(std::move(id)), list_(std::move(list)), all_(linmot_scenario(id_).at(list_)) {}
+  const Json& operator[](std::size_t index) const {
+    looked_at().insert({id_, list_ + " " + std::to_string(index)});
+    return all_.at(index);
+  }
+  std::size_t size() const { return all_.size(); }
+
+ private:
+  std::string id_, list_;
+  const Json& all_;
+};
+
+inline ScenarioList expectations(const std::string& id) {
+  return {id, "expect"};
 }
 
 /// The controller of the scenarios: one motor A, the reference plant, ASCII on a line.
