@@ -8,6 +8,7 @@
 #include "projects/aposs/parameter_names.hpp"
 #include "projects/json/problem.hpp"
 #include "scheduler/aposs/commands.hpp"
+#include "tech_objects/mco305_catalogue/drive_parameters.hpp"
 #include "tech_objects/mco305_catalogue/errors.hpp"
 #include "tech_objects/mco305_catalogue/meanings.hpp"
 #include "tech_objects/mco305_catalogue/parameters.hpp"
@@ -136,6 +137,26 @@ std::string_view waits_text(const aposs::CommandRow& row) {
   return texts[static_cast<std::size_t>(row.waits)];
 }
 
+/// Whether it reads or changes parameters of the drive.
+bool is_of_drive(const aposs::CommandRow& row) {
+  return row.command == aposs::Command::kGetvlt || row.command == aposs::Command::kSetvlt;
+}
+
+std::string drive_number(const mco305::DriveParameter& one) {
+  std::string text = std::to_string(one.number);
+  return text.insert(text.size() - 2, "-");
+}
+
+/// What the simulated drive has.
+std::string drive_table(const aposs::CommandRow& row, std::size_t width) {
+  Table table({"parameter", "is", "unit", "decimals", ""});
+  for (const mco305::DriveParameter& one : mco305::drive_parameters())
+    if (one.writable || row.command == aposs::Command::kGetvlt)
+      table.row({drive_number(one), std::string(one.title), std::string(one.unit),
+                 std::to_string(one.decimals), std::string(one.meaning)});
+  return "\nOf the drive's parameters there are these; any other is error 112:\n" + table.text(2, width);
+}
+
 std::string command_page(const aposs::CommandRow& row, std::size_t width) {
   Table table({"", ""});
   table.row({"Form", usage_of(row)});
@@ -144,17 +165,28 @@ std::string command_page(const aposs::CommandRow& row, std::size_t width) {
   if (row.given_up) table.row({"Interrupt", "ends it"});
   if (row.refusal != aposs::Refusal::kNone) table.row({"Refused", std::string(refusal_text(row.refusal))});
   return "Command " + std::string(row.name) + " of APOSS\n" + paragraph(aposs::meaning_of(row), 2, width) +
-         "\n" + table.text(2, width);
+         "\n" + table.text(2, width) + (is_of_drive(row) ? drive_table(row, width) : "");
 }
 
 Json command_json(const aposs::CommandRow& row) {
-  return {{"kind", "command"},
-          {"name", row.name},
-          {"text", aposs::meaning_of(row)},
-          {"form", usage_of(row)},
-          {"is", kind_text(row)},
-          {"program", waits_text(row)},
-          {"refused", refusal_text(row.refusal)}};
+  Json json{{"kind", "command"},
+            {"name", row.name},
+            {"text", aposs::meaning_of(row)},
+            {"form", usage_of(row)},
+            {"is", kind_text(row)},
+            {"program", waits_text(row)},
+            {"refused", refusal_text(row.refusal)}};
+  if (!is_of_drive(row)) return json;
+  for (const mco305::DriveParameter& one : mco305::drive_parameters())
+    json["parameters"].push_back({{"number", drive_number(one)},
+                                  {"title", one.title},
+                                  {"unit", one.unit},
+                                  {"decimals", one.decimals},
+                                  {"lowest", one.lowest},
+                                  {"highest", one.highest},
+                                  {"writable", one.writable},
+                                  {"text", one.meaning}});
+  return json;
 }
 
 std::string bit_text(const mco305::Error& error) {

@@ -92,6 +92,8 @@ bool press_on_panel(Model& model, const Key& key, Wish& wish, Model::Clock::time
       return act(command_t::STOP);
     case 'x':
       return act(command_t::RESET);
+    case 'n':
+      return act(command_t::START_PROGRAM, -1.0);
     case '[':
       return act(command_t::OVERRIDE, std::max(speed - kOverrideStep, 0.0));
     case ']':

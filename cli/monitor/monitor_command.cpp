@@ -261,7 +261,8 @@ void add_monitor_command(CLI::App& app, Action& action) {
       "change the window, j shows jobs, a alarms, p pauses, r records, ? helps; q or Ctrl-C ends.\n"
       "With --panel: Tab chooses an axis, e and d enable and disable it, left and right jog it while the key "
       "is\n"
-      "held, Space stops, h sets its position, x resets alarms, [ and ] change the override, < and > the\n"
+      "held, Space stops, h sets its position, x resets alarms, n starts the program of an MCO_305, [ and ] "
+      "change the override, < and > the\n"
       "velocity of jogging. A jog ends 300 ms after its last key.\n"
       "In a pipe: one table a second.\n"
       "Exit status: 0, 1 if --once has heard nothing, 2 without a network or a terminal that is known");

@@ -21,22 +21,23 @@ constexpr std::size_t kPlotHeight = 6;    // of a curve
 constexpr std::size_t kListHeight = 4;    // of a list below the table
 constexpr std::size_t kMinimumTable = 4;  // lines that the table keeps when panes are open
 
-constexpr const char* kHelp[] = {"arrows PgUp PgDn Home End  choose a signal",
-                                 "/   search part of a name; Enter ends, Esc shows all again",
-                                 "s   order: as the trace has it, by name, moving ones first",
-                                 "g   larger plot of the chosen signal",
-                                 "+ - window of all curves: 5 s to 60 s",
-                                 "j a running and ended jobs; alarms",
-                                 "p   pause: the picture stands, recording goes on",
-                                 "r   record everything heard to a file of LCM; r again ends it",
-                                 "?   this page        q or Ctrl-C  end",
-                                 "",
-                                 "With --panel, where the project allows commands:",
-                                 "Tab next axis        e d  enable, disable",
-                                 "left right           jog while the key is held (< > velocity)",
-                                 "Space                stop jogging",
-                                 "h x                  set the position (home); reset alarms",
-                                 "[ ]                  override -10 %, +10 %"};
+constexpr const char* kHelp[] = {
+    "arrows PgUp PgDn Home End  choose a signal",
+    "/   search part of a name; Enter ends, Esc shows all again",
+    "s   order: as the trace has it, by name, moving ones first",
+    "g   larger plot of the chosen signal",
+    "+ - window of all curves: 5 s to 60 s",
+    "j a running and ended jobs; alarms",
+    "p   pause: the picture stands, recording goes on",
+    "r   record everything heard to a file of LCM; r again ends it",
+    "?   this page        q or Ctrl-C  end",
+    "",
+    "With --panel, where the project allows commands:",
+    "Tab next axis        e d  enable, disable",
+    "left right           jog while the key is held (< > velocity)",
+    "Space                stop jogging",
+    "h x n                set the position (home); reset alarms; start a program",
+    "[ ]                  override -10 %, +10 %"};
 
 std::string number(double value) {
   return fmt::format("{:.5g}", value);

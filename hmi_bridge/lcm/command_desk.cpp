@@ -14,6 +14,7 @@ using namespace std::chrono_literals;
 
 constexpr double kFarthest = 1e12;     // position of homing, as the pin has it [u]
 constexpr double kHighestSpeed = 200;  // override [%]
+constexpr double kHighestProgram = 127;
 constexpr std::size_t kLongestName = 128;
 
 std::string number_text(double number) {
@@ -92,10 +93,11 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge(const command_t& command,
   if (auto refusal = judge_sender(command, now)) return refusal;
   if (action_text(command.action).empty())
     return Refusal{&CommandCounters::not_valid,
-                   "action " + std::to_string(command.action) + " is unknown; allowed: 0 to 7"};
+                   "action " + std::to_string(command.action) + " is unknown; allowed: 0 to 8"};
   const std::optional<std::size_t> axis = find(command.axis);
   if (!axis)
     return Refusal{&CommandCounters::not_valid, "no axis of this name takes commands in this project"};
+  if (auto refusal = judge_program(command, *axis)) return refusal;
   if (auto refusal = judge_value(command, *axis)) return refusal;
   const bool powers = command.action == command_t::ENABLE || command.action == command_t::DISABLE;
   if (powers && !axes_[*axis].enabled_by.empty())
@@ -131,6 +133,26 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge_sender(const command_t& c
   if (!commands_.take(now, kMaximumPerSecond) && !calms(command.action))
     return Refusal{&CommandCounters::too_many,
                    "too many commands; allowed: " + std::to_string(kMaximumPerSecond) + " in a second"};
+  return std::nullopt;
+}
+
+/// What an axis takes and what a device with programs does.
+std::optional<CommandDesk::Refusal> CommandDesk::judge_program(const command_t& command,
+                                                               std::size_t axis) const {
+  const bool starts = command.action == command_t::START_PROGRAM;
+  if (!axes_[axis].has_programs) {
+    if (!starts) return std::nullopt;
+    return Refusal{&CommandCounters::not_valid, "a " + axes_[axis].type + " has no programs"};
+  }
+  if (!starts && command.action != command_t::STOP && command.action != command_t::RESET)
+    return Refusal{&CommandCounters::not_valid,
+                   "its program moves a " + axes_[axis].type + "; allowed: stop, reset, start program"};
+  if (starts && !(command.value >= -1.0 && command.value <= kHighestProgram &&
+                  command.value == std::floor(command.value)))
+    return Refusal{&CommandCounters::not_valid,
+                   "program " + number_text(command.value) +
+                       " is not permitted; allowed: whole numbers from 0 to 127, "
+                       "-1 for the one that starts by itself"};
   return std::nullopt;
 }
 
@@ -170,6 +192,8 @@ void CommandDesk::tell_watch(const command_t& command, std::size_t axis) const {
     change(PanelSignal::kPosition, Value{.r = command.value}, Type::LREAL);
   if (command.action == command_t::OVERRIDE)
     change(PanelSignal::kSpeed, Value{.r = command.value}, Type::LREAL);
+  if (command.action == command_t::START_PROGRAM)
+    change(PanelSignal::kProgram, Value{.r = command.value}, Type::LREAL);
   watch_(judged);
 }
 
@@ -204,6 +228,11 @@ void CommandDesk::carry_out(const command_t& command, std::size_t axis) {
   if (command.action == command_t::OVERRIDE) {
     number(PanelSignal::kOverride, command.value);
     ask(PanelSignal::kOverrides);
+  }
+  if (axes_[axis].has_programs && command.action == command_t::STOP) ask(PanelSignal::kStops);
+  if (command.action == command_t::START_PROGRAM) {
+    number(PanelSignal::kProgram, command.value);
+    ask(PanelSignal::kStarts);
   }
   image_.post(batch);
 }

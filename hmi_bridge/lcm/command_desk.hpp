@@ -16,7 +16,7 @@
 
 namespace lockstep {
 
-/// The signals of an axis in the image of a desk, in this order. Those up to `kOverrides` the desk writes; a
+/// The signals of an axis in the image of a desk, in this order. Those up to `kStarts` the desk writes; a
 /// count asks for something by changing.
 enum class PanelSignal : std::uint8_t {
   kEnable,        ///< BOOL
@@ -29,6 +29,9 @@ enum class PanelSignal : std::uint8_t {
   kResets,        ///< UDINT: count
   kOverride,      ///< LREAL [%]
   kOverrides,     ///< UDINT: count
+  kStops,         ///< UDINT: count, of a device: its program
+  kProgram,       ///< LREAL: number of a program
+  kStarts,        ///< UDINT: count
   kStatusWord,    ///< DWORD, from here on of the axis
   kAlarm,         ///< UDINT
   kPosition,      ///< LREAL [u]; of a speed axis, which has none, 0
@@ -47,6 +50,7 @@ struct CommandAxis {
   std::string type = "TO_PositioningAxis";  ///< published type
   std::string velocity_unit = "u/s";        ///< of its velocities
   bool has_position = true;                 ///< a speed axis has none, so it cannot be homed
+  bool has_programs = false;                ///< a device: stop, reset and start of a program are all it takes
 };
 
 /// What has come, by what has become of it.
@@ -131,6 +135,7 @@ class CommandDesk {
 
   std::optional<Refusal> judge(const command_t& command, Clock::time_point now);
   std::optional<Refusal> judge_sender(const command_t& command, Clock::time_point now);
+  std::optional<Refusal> judge_program(const command_t& command, std::size_t axis) const;
   std::optional<Refusal> judge_value(const command_t& command, std::size_t axis) const;
   void carry_out(const command_t& command, std::size_t axis);
   void tell_watch(const command_t& command, std::size_t axis) const;

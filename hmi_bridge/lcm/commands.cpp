@@ -29,8 +29,8 @@ std::vector<std::uint8_t> bytes_of(const Message& message) {
 }  // namespace
 
 std::string_view action_text(std::int32_t action) noexcept {
-  constexpr std::string_view texts[] = {"disable",      "enable", "stop",  "jog forward",
-                                        "jog backward", "home",   "reset", "override"};
+  constexpr std::string_view texts[] = {"disable", "enable", "stop",     "jog forward",  "jog backward",
+                                        "home",    "reset",  "override", "start program"};
   return action >= 0 && action < static_cast<std::int32_t>(std::size(texts)) ? texts[action]
                                                                              : std::string_view{};
 }

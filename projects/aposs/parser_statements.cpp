@@ -163,7 +163,7 @@ void Parser::command_statement(const NamedCommand& named, const Token& at) {
   if (named.command == Command::kSysvar && at_symbol("[", 1))
     return assign_pseudo_array(Command::kSysvar, Command::kSetSysvar);
   if (named.command == Command::kPcd && at_symbol("[", 1))
-    return assign_pseudo_array(Command::kPcd, Command::kSetPcd);
+    return assign_pseudo_array(Command::kSentPcd, Command::kSetPcd);
   if (at_symbol("=", named.words)) fail(at.place, quote(at.text) + " is a command and cannot be assigned to");
   if (row.kind == CommandKind::kLanguage) return language_statement(named.command, at);
   const bool alone = named.command == Command::kInkey || named.command == Command::kGetvel;

@@ -77,8 +77,12 @@ inline constexpr auto kMco305 = key_table<void>(
     key::structure("faults", kDeviceFaults, "what goes wrong at it, and when"),
     key::tag("inputs", "BOOL tag that is an input: 1 to 12, 18, 19, 27, 29, 32, 33").named(),
     key::tag("outputs", "BOOL tag that is an output: 1 to 8, 21, 22, 27, 29").named(),
+    key::tag("analog_inputs", "LREAL tag that is an analog input: 53, 54 [V], -10 to 10", Type::LREAL)
+        .named(),
+    key::tag("analog_outputs", "LREAL tag that is the analog output 42 [mA]", Type::LREAL).named(),
     key::number("controller_scale", {1e-6, 1e6}, "", "of the parts of the position controller")
         .otherwise_is("1"),
+    key::boolean("write_protected", "SAVE and SAVEPROM are error 190").otherwise_is("false"),
     key::structure("programs", kDeviceProgram, "its programs").list(),
     key::integer("steps_per_ms", {1, kMaximumSteps},
                  "internal commands that a program may carry out in a step")

@@ -28,7 +28,8 @@ inline constexpr Word kParities[] = {word_for("none", Parity::none), word_for("e
                                      word_for("odd", Parity::odd)};
 inline constexpr Word kAccesses[] = {{"read", 0}, {"write", 1}};
 
-inline constexpr auto kTable = key::word<&ModbusEntry::table>("table", kTables, "table of Modbus").needed();
+inline constexpr auto kMapTable = key::word<&ModbusEntry::table>("table", kTables, "table of Modbus");
+inline constexpr auto kTable = kMapTable.needed();
 inline constexpr auto kAddress =
     key::integer<&ModbusEntry::address>("address", {0, 65535},
                                         "zero-based address of the first register or of the bit")
@@ -50,6 +51,9 @@ inline constexpr auto kOffset = key::number<&ModbusEntry::offset>("offset", kFin
 inline constexpr auto kEntryShape =
     key_table<ModbusEntry>(kTable, kAddress, kWireType, kWordOrder, kByteOrder, kBit, kScale, kOffset);
 
+/// What a line of a map may show of a device as a whole.
+enum class DeviceContent : std::uint8_t { process_data, parameters };
+
 inline constexpr Word kGaps[] = {{"refused", 0}, {"zero", 1}};
 inline constexpr auto kGapsKey =
     key::word(
@@ -58,6 +62,8 @@ inline constexpr auto kGapsKey =
         "zero")
         .otherwise_is("refused");
 
+inline constexpr Word kContents[] = {word_for("pcd", DeviceContent::process_data),
+                                     word_for("parameters", DeviceContent::parameters)};
 inline constexpr auto kMapEntry = key_table<ModbusEntry>(
     key::signal(
         "tag",
@@ -65,7 +71,15 @@ inline constexpr auto kMapEntry = key_table<ModbusEntry>(
         "an array side by side: array, array[*], array[2..5]"),
     key::text("diagnostic",
               "in place of a tag: a number of the run, such as ticks, overruns, alarms, refused"),
-    kTable, kAddress, kWireType, kWordOrder, kByteOrder, kBit, kScale, kOffset,
+    key::object("object", static_cast<ObjectKinds>(ObjectKind::MCO_305),
+                "in place of a tag: device whose 'content' stands from 'address' on"),
+    key::word(
+        "content", kContents,
+        "of that device. pcd: ten words that come as holding registers, ten that go as input registers; "
+        "parameters: parameter gg-nn as 32 bits in holding registers at address + 10 * ggnn, so 33-17 at "
+        "33170; what a program may not set cannot be written"),
+    kMapTable.otherwise_is("what 'content' has; else it is needed"), kAddress, kWireType, kWordOrder,
+    kByteOrder, kBit, kScale, kOffset,
     key::word("access", kAccesses, "whether a client may write")
         .otherwise_is("write for a tag in coils and holding registers, else read"),
     key::number(

@@ -77,8 +77,12 @@ inline constexpr auto kCommandAxis =
     key_table<void>(key::number("jog_velocity", kAboveZero, "",
                                 "highest velocity of jogging, in the unit of the axis' velocities")
                         .otherwise_is("DynamicDefaults.Velocity"));
-inline constexpr auto kCommands = key_table<void>(
-    key::structure("axes", kCommandAxis, "name of an axis, a speed axis too: its limits").named().needed());
+inline constexpr auto kCommands =
+    key_table<void>(key::structure("axes", kCommandAxis,
+                                   "name of an axis, a speed axis too: its limits; of an MCO_305, "
+                                   "whose program is started and stopped: {}")
+                        .named()
+                        .needed());
 inline constexpr auto kLcm = key_table<void>(
     key::text("url", "network, such as udpm://239.255.76.67:7667?ttl=0").needed(),
     key::title("channel", "channel of the rows").needed(),

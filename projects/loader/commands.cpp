@@ -10,6 +10,7 @@
 #include "projects/loader/loader.hpp"
 #include "projects/loader/looked_at_axis.hpp"
 #include "projects/loader/read_keys.hpp"
+#include "scheduler/mco305/mco305.hpp"
 #include "scheduler/units.hpp"
 
 namespace lockstep {
@@ -167,13 +168,41 @@ std::vector<Signal> signals_of(const Axis& axis, PanelInputs& inputs, const Name
       {&inputs.Backward, Type::BOOL, -1},      {&inputs.Beat, Type::UDINT, -1},
       {&inputs.JogVelocity, Type::LREAL, -1},  {&inputs.Homings, Type::UDINT, -1},
       {&inputs.HomePosition, Type::LREAL, -1}, {&inputs.Resets, Type::UDINT, -1},
-      {&inputs.Override, Type::LREAL, -1},     {&inputs.Overrides, Type::UDINT, -1}};
+      {&inputs.Override, Type::LREAL, -1},     {&inputs.Overrides, Type::UDINT, -1},
+      {&inputs.Stops, Type::UDINT, -1},        {&inputs.Program, Type::LREAL, -1},
+      {&inputs.Starts, Type::UDINT, -1}};
   signals.push_back(variable("StatusWord"));
   signals.push_back(variable("ErrorDetail.Number"));
   signals.push_back(positions ? variable("ActualPosition") : Signal{&inputs.NoPosition, Type::LREAL, -1});
   signals.push_back(variable(positions ? "ActualVelocity" : "ActualSpeed"));
   signals.push_back(variable("Override.Velocity"));
   return signals;
+}
+
+/// The signals of a device in the order of `PanelSignal`: it looks at its part of them itself.
+std::vector<Signal> signals_of(Mco305& device, PanelInputs& inputs) {
+  Mco305Outside& outside = device.data.Outside;
+  return {{&inputs.Enable, Type::BOOL, -1},          {&inputs.Forward, Type::BOOL, -1},
+          {&inputs.Backward, Type::BOOL, -1},        {&inputs.Beat, Type::UDINT, -1},
+          {&inputs.JogVelocity, Type::LREAL, -1},    {&inputs.Homings, Type::UDINT, -1},
+          {&inputs.HomePosition, Type::LREAL, -1},   {&outside.Resets, Type::UDINT, -1},
+          {&inputs.Override, Type::LREAL, -1},       {&inputs.Overrides, Type::UDINT, -1},
+          {&outside.Stops, Type::UDINT, -1},         {&outside.Program, Type::LREAL, -1},
+          {&outside.Starts, Type::UDINT, -1},        {&device.data.Read.STAT, Type::DINT, -1},
+          {&device.data.Read.ERRNO, Type::DINT, -1}, {&inputs.NoPosition, Type::LREAL, -1},
+          {&inputs.NoPosition, Type::LREAL, -1},     {&inputs.NoPosition, Type::LREAL, -1}};
+}
+
+/// A device needs no blocks: its program is stopped and started, and its errors are cleared.
+void load_device(Mco305& device, const Fields& fields, const Loading& loading) {
+  if (fields["jog_velocity"] != nullptr)
+    loading.problems.report(*fields["jog_velocity"],
+                            "an MCO_305 is moved by its program and not jogged; allowed: {}");
+  CommandsConfig& commands = loading.project.commands;
+  PanelInputs& inputs = commands.inputs.emplace_back();
+  constexpr bool kHasPosition = false, kHasPrograms = true;
+  commands.axes.push_back({device.name, 0.0, "", signals_of(device, inputs),
+                           std::string(kind_name(device.kind)), "", kHasPosition, kHasPrograms});
 }
 
 /// An axis for the program of one that is looked at; none if it is an axis. The program never runs.
@@ -189,15 +218,17 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
   CommandsConfig& commands = loading.project.commands;
   const Fields fields(json, keys::kCommandAxis, problems);
   const auto limit = read_value(fields, keys::kCommandAxis["jog_velocity"], loading);
-  const Names::FoundObject found = loading.names().find_object(name, kAnyDrivenAxis);
+  const Names::FoundObject found = loading.names().find_object(name, kAnyDrivenAxis | ObjectKind::MCO_305);
   if (!found.problem.empty()) problems.report(json, found.problem);
   if (found.object == nullptr) return;
+  for (const CommandAxis& other : commands.axes)
+    if (other.name == found.object->name)
+      return problems.report(json, quote(name) + " is there twice; each axis is allowed once");
+  if (found.object->kind == ObjectKind::MCO_305)
+    return load_device(static_cast<Mco305&>(*found.object), fields, loading);
   const std::unique_ptr<Axis> stand_in = stand_in_for(*found.object, loading);
   auto& axis = stand_in ? *stand_in : static_cast<Axis&>(*found.object);
   const Names& names = loading.names();
-  for (const CommandAxis& other : commands.axes)
-    if (other.name == axis.name)
-      return problems.report(json, quote(name) + " is there twice; each axis is allowed once");
   const double usual = names.find(axis.name + ".DynamicDefaults.Velocity").place.value().signal.load().r;
   const std::string enabled_by = power_of(loading.controller(), *found.object);
   const Operand speed = names.find(axis.name + ".Override.Velocity").place.value();

@@ -22,6 +22,7 @@ constexpr std::size_t kMaximumDevices = 4096;  // in a chain of followers
 constexpr std::size_t kLargestParameterFile = 1 << 20;
 constexpr int kInputs[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 18, 19, 27, 29, 32, 33};
 constexpr int kOutputs[] = {1, 2, 3, 4, 5, 6, 7, 8, 21, 22, 27, 29};
+constexpr int kAnalogInputs[] = {53, 54}, kAnalogOutputs[] = {42};
 
 std::optional<std::int32_t> whole_number(std::string_view text) {
   std::int32_t number = 0;
@@ -48,6 +49,7 @@ class DeviceLoader {
   void refuse_circle(const JsonValue& json);
   template <std::size_t n>
   std::optional<std::size_t> line(const std::string& name, const JsonValue& json, const int (&allowed)[n]);
+  void load_wiring(const Fields& fields);
   void load_programs(const JsonValue& json);
   void load_program(const JsonValue& json);
   void compile(const JsonValue& at, const Fields& fields, DeviceProgram& program);
@@ -262,6 +264,27 @@ void DeviceLoader::load_programs(const JsonValue& json) {
   for (const JsonValue* const program : json.elements) load_program(*program);
 }
 
+/// The tags at its terminals.
+void DeviceLoader::load_wiring(const Fields& fields) {
+  mco305::DeviceSettings& settings = device_.settings;
+  const auto each = [&](const Key& key, const auto& allowed, auto&& wire) {
+    const JsonValue* const terminals = fields[key.name];
+    if (read_object(terminals, problems_) == nullptr) return;
+    for (const auto& [name, tag] : terminals->members)
+      if (const auto at = line(name, *tag, allowed))
+        if (const auto found = read_value(tag, key, loading_)) wire(*at, found->address);
+  };
+  each(keys::kMco305["inputs"], kInputs,
+       [&](std::size_t at, const void* tag) { settings.inputs[at] = static_cast<const bool*>(tag); });
+  each(keys::kMco305["outputs"], kOutputs,
+       [&](std::size_t at, void* tag) { settings.outputs[at] = static_cast<bool*>(tag); });
+  each(keys::kMco305["analog_inputs"], kAnalogInputs, [&](std::size_t at, const void* tag) {
+    settings.analog_inputs[at + 1 - kAnalogInputs[0]] = static_cast<const double*>(tag);
+  });
+  each(keys::kMco305["analog_outputs"], kAnalogOutputs,
+       [&](std::size_t, void* tag) { settings.analog_output = static_cast<double*>(tag); });
+}
+
 void DeviceLoader::load(const JsonValue& json) {
   const Fields fields(json, keys::kObjects, variant_of(device_), problems_);
   if (const auto edition = read_value(fields, keys::kMco305["firmware"], loading_))
@@ -273,16 +296,7 @@ void DeviceLoader::load(const JsonValue& json) {
     read_struct(*markers, keys::kMarkers, device_.settings.markers, loading_);
   if (const JsonValue* const faults = fields["faults"])
     read_struct(*faults, keys::kDeviceFaults, device_.settings.faults, loading_);
-  if (const JsonValue* const inputs = fields["inputs"]; read_object(inputs, problems_) != nullptr)
-    for (const auto& [name, tag] : inputs->members)
-      if (const auto at = line(name, *tag, kInputs))
-        if (const auto found = read_value(tag, keys::kMco305["inputs"], loading_))
-          device_.settings.inputs[*at] = static_cast<const bool*>(found->address);
-  if (const JsonValue* const outputs = fields["outputs"]; read_object(outputs, problems_) != nullptr)
-    for (const auto& [name, tag] : outputs->members)
-      if (const auto at = line(name, *tag, kOutputs))
-        if (const auto found = read_value(tag, keys::kMco305["outputs"], loading_))
-          device_.settings.outputs[*at] = static_cast<bool*>(found->address);
+  load_wiring(fields);
   if (const auto scale = read_value(fields, keys::kMco305["controller_scale"], loading_))
     device_.settings.controller_scale = scale->number;
   if (const auto steps = read_value(fields, keys::kMco305["steps_per_ms"], loading_))
@@ -290,6 +304,8 @@ void DeviceLoader::load(const JsonValue& json) {
   if (const auto times = read_value(fields, keys::kMco305["time_interrupts"], loading_))
     device_.time_interrupts = static_cast<std::int32_t>(times->integer);
   if (const JsonValue* const programs = fields["programs"]) load_programs(*programs);
+  if (const auto locked = read_value(fields, keys::kMco305["write_protected"], loading_))
+    device_.eeprom.write_protected = locked->integer != 0;
   device_.eeprom.disk = &loading_.controller().encoder_saving;
   if (const std::size_t kept = make_kept_arrays(device_); kept > kMaximumKeptCells)
     problems_.report(json, "its programs save arrays of " + std::to_string(kept) +

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "projects/keys/modbus.hpp"
+#include "projects/loader/mco305_panel.hpp"
 #include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
@@ -141,6 +142,7 @@ bool MapLoader::read_access(const JsonValue* json, const Operand& place, ModbusT
   if (access->integer == 0) return false;
   const std::string reason = why_not_writable(place);
   if (!reason.empty()) problems_.report(*json, reason);
+  if (reason.empty()) expect_writes(place);
   return reason.empty();
 }
 
@@ -212,10 +214,14 @@ void MapLoader::load_text(const Fields& fields, const StringTag& tag, std::uint3
 void MapLoader::load_entry(const Fields& fields, std::uint32_t line, Draft& draft) {
   const JsonValue* const tag = fields["tag"];
   const JsonValue* const diagnostic = fields["diagnostic"];
+  if (fields["object"] != nullptr || fields["content"] != nullptr)
+    return add_device_content(fields, line, loading_, draft.entries, modbus_.signals);
+  if (fields["table"] == nullptr) problems_.report(fields.value(), "the key 'table' is missing");
   if (tag != nullptr && diagnostic != nullptr)
     problems_.report(*diagnostic, "an entry shows a tag or a diagnostic; allowed: one of the two keys");
   if (tag == nullptr && diagnostic == nullptr)
-    problems_.report(fields.value(), "the key 'tag' is missing, or 'diagnostic' in its place");
+    problems_.report(fields.value(),
+                     "the key 'tag' is missing, or 'diagnostic' or 'object' with 'content' in its place");
   if (tag != nullptr && diagnostic == nullptr) return load_tag(fields, line, draft);
   if (tag != nullptr || diagnostic == nullptr) return;
   const std::size_t before = problems_.count();

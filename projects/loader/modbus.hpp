@@ -44,6 +44,11 @@ std::size_t add_modbus_text(const ModbusEntry& shape, const StringTag& tag, cons
                             Problems& problems, std::vector<ModbusEntry>& entries,
                             std::vector<NamedSignal>& signals);
 
+/// Adds the entries of what a line shows of a device as a whole: its process data, or its parameters by their
+/// numbers.
+void add_device_content(const Fields& fields, std::uint32_t line, const Loading& loading,
+                        std::vector<ModbusEntry>& entries, std::vector<NamedSignal>& signals);
+
 /// Reports what a map says of its entries, once for each key of the project file.
 /// @param places of the entries in the file
 void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* const> places,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "projects/keys/modbus.hpp"
+#include "projects/loader/mco305_panel.hpp"
 #include "projects/loader/modbus.hpp"
 #include "projects/loader/read_keys.hpp"
 
@@ -136,6 +137,8 @@ void ClientLoader::load_entry(const JsonValue& json, ModbusLineState& state,
   if (source && !is_write) {
     if (const std::string reason = why_not_writable(source->place); !reason.empty())
       problems_.report(*fields["tag"], reason);
+    else
+      expect_writes(source->place);
     entry->range = written_range(source->place);
   }
   if (is_write && !is_writable_table(entry->table))

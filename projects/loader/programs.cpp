@@ -6,6 +6,7 @@
 #include "projects/keys/project.hpp"
 #include "projects/loader/call_checks.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/mco305_panel.hpp"
 #include "projects/loader/read_keys.hpp"
 
 namespace lockstep {
@@ -206,6 +207,7 @@ void ProgramLoader::load_set(const JsonValue& json) {
   if (!target) return;
   if (const std::string reason = why_not_writable(target->place); !reason.empty())
     return problems_.report(*fields["set"], reason);
+  expect_writes(target->place);
   if (fields["to"] != nullptr) assign(*fields["to"], target->place, std::move(target->index));
 }
 

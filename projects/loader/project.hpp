@@ -118,6 +118,8 @@ struct PanelInputs {
   UDINT Beat{}, Homings{}, Resets{}, Overrides{};  ///< counts, which ask by changing
   LREAL JogVelocity{}, HomePosition{}, Override{};
   UDINT SeenBeat{}, SeenHomings{}, SeenResets{}, SeenOverrides{};
+  UDINT Stops{}, Starts{};  ///< counts, of a device alone
+  LREAL Program{};
   LREAL NoPosition{};  ///< stands for the position of a speed axis
 };
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "projects/loader/mco305_panel.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -64,6 +66,7 @@ void write_value_of(Project& project, std::string_view path, double value) {
   if (const std::string reason = why_not_writable(place); !reason.empty()) throw std::out_of_range(reason);
   if (place.variable != nullptr && !place.variable->range.allows(value))
     throw std::domain_error(std::string(path) + " may not be " + std::to_string(value));
+  expect_writes(place);
   place.signal.store(converted(value, place.signal.value_type()));
 }
 

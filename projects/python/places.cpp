@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "projects/loader/mco305_panel.hpp"
 #include "projects/python/raise.hpp"
 #include "projects/python/values.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
@@ -86,6 +87,7 @@ void write_place(const Place& place, py::handle object, std::string_view path) {
   if (const std::string reason = why_read_only(place); !reason.empty())
     raise("ReadOnly", fmt::format("'{}' cannot be written: {}", path, reason));
   std::visit(Each{[&](const Operand& value) {
+                    expect_writes(value);
                     value.signal.store(from_python(object, value.signal.value_type(), range_of(value), path));
                   },
                   [&](const StringTag* text) {

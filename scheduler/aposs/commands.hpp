@@ -181,7 +181,8 @@ enum class Command : std::uint8_t {
   kPreprocessor,
   kSetSysvar,
   kSetPcd,
-  kSetPid
+  kSetPid,
+  kSentPcd
 };
 
 enum class CommandKind : std::uint8_t {

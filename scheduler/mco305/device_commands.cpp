@@ -22,6 +22,20 @@ constexpr std::int32_t kInputFunction = 1'000'000;
 
 constexpr std::int32_t kNoKey = -1;  // of INKEY
 
+constexpr std::int32_t kWordBits = 16, kWordMask = 0xFFFF;
+constexpr std::int64_t kLinkPeriod = 40;  // [ms]
+constexpr std::int32_t kFirstWordIn = 3401, kFirstWordOut = 3421;
+
+std::int32_t word_of(WORD word) noexcept {
+  return static_cast<std::int32_t>(word);
+}
+/// Of the words from a number on the one that a number stands for; nullptr: none.
+template <class Words>
+auto* word_at(Words& words, std::int32_t number, std::int32_t first) noexcept {
+  const auto index = static_cast<std::size_t>(static_cast<std::int64_t>(number) - first);
+  return index < words.size() ? &words[index] : nullptr;
+}
+
 std::int32_t function_parameter(std::int32_t input) noexcept {
   return input <= 10 ? mco305::kFirstInputFunction + input - 1 : mco305::kFirstInputFunction + input;
 }
@@ -32,6 +46,8 @@ Reply DeviceCommands::begin(Command command, const std::int32_t* arguments, apos
   Reply reply = motion(command, arguments);
   if (reply.kind == Reply::Kind::kRefused) reply = following(command, arguments);
   if (reply.kind == Reply::Kind::kRefused) reply = reading(command, arguments);
+  if (reply.kind == Reply::Kind::kRefused) reply = communication(command, arguments, arrays);
+  if (reply.kind == Reply::Kind::kRefused) reply = drive(command, arguments);
   return reply.kind == Reply::Kind::kRefused ? keeping(command, arguments, arrays) : reply;
 }
 
@@ -143,11 +159,12 @@ Reply DeviceCommands::following(Command command, const std::int32_t* arguments) 
   }
 }
 
-/// Of the kinds of start only that along a curve of its own is not built.
+/// 2000 is for curves alone, and 7 is of the later edition.
 Reply DeviceCommands::synchronize_by_markers() noexcept {
   const std::int32_t start = device_.parameters()[mco305::kSyncMStart];
-  constexpr std::int32_t kLast = 6, kLater = 1000;
-  const bool known = (start >= 0 && start <= kLast) || (start >= kLater && start <= kLater + kLast);
+  const std::int32_t last = device_.later_edition() ? 7 : 6;
+  constexpr std::int32_t kLater = 1000;
+  const bool known = (start >= 0 && start <= last) || (start >= kLater && start <= kLater + last);
   return known ? done(device_.follow(mco305::SyncMode::kMarkers)) : Reply::refused();
 }
 
@@ -173,8 +190,7 @@ Reply DeviceCommands::reading(Command command, const std::int32_t* arguments) no
       if (device_.system_variable(arguments[0], value)) return Reply::done(value);
       return Reply::failed(mco305::kUnknownParameter);
     case Command::kGet:
-      if (device_.get_parameter(arguments[0], value)) return Reply::done(value);
-      return Reply::failed(mco305::kUnknownParameter);
+      return get(arguments[0]);
     case Command::kSet:
       return set(arguments[0], arguments[1]);
     case Command::kLinkgpar:
@@ -189,7 +205,7 @@ Reply DeviceCommands::reading(Command command, const std::int32_t* arguments) no
     case Command::kOutb:
       return output_byte(arguments);
     case Command::kInkey:
-      return arguments[0] < 0 ? Reply::done(kNoKey) : Reply::busy();
+      return arguments[0] < 0 || keys() != kNoKey ? Reply::done(keys()) : Reply::busy();
     case Command::kGetvel:
       device_.set_velocity_window(arguments[0]);
       return Reply::busy();
@@ -199,6 +215,108 @@ Reply DeviceCommands::reading(Command command, const std::int32_t* arguments) no
     default:
       return Reply::refused();
   }
+}
+
+/// GET: process data stand here, all else in the device.
+Reply DeviceCommands::get(std::int32_t number) const noexcept {
+  if (const WORD* const word = word_at(outside_.PcdIn, number, kFirstWordIn))
+    return Reply::done(word_of(*word));
+  if (const WORD* const word = word_at(outside_.PcdOut, number, kFirstWordOut))
+    return Reply::done(word_of(*word));
+  std::int32_t value = 0;
+  if (device_.get_parameter(number, value)) return Reply::done(value);
+  return Reply::failed(mco305::kUnknownParameter);
+}
+
+/// One state of the keys for each call.
+std::int32_t DeviceCommands::keys() const noexcept {
+  return outside_.Keys == 0 ? kNoKey : outside_.Keys;
+}
+
+/// Words of a field bus: what comes and what goes are apart.
+Reply DeviceCommands::communication(Command command, const std::int32_t* arguments,
+                                    aposs::Arrays& arrays) noexcept {
+  switch (command) {
+    case Command::kPcd:
+    case Command::kSentPcd: {
+      const auto& words = command == Command::kPcd ? outside_.PcdIn : outside_.PcdOut;
+      const WORD* const word = word_at(words, arguments[0], 1);
+      return word == nullptr ? Reply::failed(mco305::kArrayBound) : Reply::done(word_of(*word));
+    }
+    case Command::kSetPcd: {
+      WORD* const word = word_at(outside_.PcdOut, arguments[0], 1);
+      if (word == nullptr) return Reply::failed(mco305::kArrayBound);
+      *word = static_cast<WORD>(arguments[1] & kWordMask);
+      return Reply::done();
+    }
+    case Command::kComoptget:
+    case Command::kComoptsend:
+      return copy_words(command, arguments, arrays);
+    case Command::kLinksysvar:
+      return link_system_variable(arguments);
+    default:
+      return Reply::refused();
+  }
+}
+
+Reply DeviceCommands::copy_words(Command command, const std::int32_t* arguments,
+                                 aposs::Arrays& arrays) noexcept {
+  const auto array = arrays.of(static_cast<std::uint32_t>(arguments[1]));
+  const auto count = static_cast<std::size_t>(std::max(arguments[0], 0));
+  if (arguments[0] < 0 || count > array.size() || count > Mco305Outside::kWords)
+    return Reply::failed(mco305::kArrayBound);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (command == Command::kComoptget)
+      array[i] = word_of(outside_.PcdIn[i]);
+    else
+      outside_.PcdOut[i] = static_cast<WORD>(array[i] & kWordMask);
+  }
+  return Reply::done();
+}
+
+/// What the drive has in which the option sits.
+Reply DeviceCommands::drive(Command command, const std::int32_t* arguments) noexcept {
+  std::int32_t value = 0;
+  switch (command) {
+    case Command::kGetvlt:
+      return device_.drive_parameter(arguments[0], value) ? Reply::done(value)
+                                                          : Reply::failed(mco305::kUnknownParameter);
+    case Command::kSetvlt:
+      return done(device_.set_drive_parameter(arguments[0], arguments[1]));
+    case Command::kGetvltsub:  // none of those that are there has indices
+    case Command::kSetvltsub:
+      return Reply::failed(mco305::kUnknownParameter);
+    case Command::kInad:
+      return device_.analog_input(arguments[0], value) ? Reply::done(value)
+                                                       : Reply::failed(mco305::kArrayBound);
+    case Command::kOutda:
+      return device_.set_analog_output(arguments[0], arguments[1]) ? Reply::done()
+                                                                   : Reply::failed(mco305::kArrayBound);
+    case Command::kSwapmenc:
+      return device_.swap_encoders(arguments[0] != 0) ? Reply::done() : Reply::refused();
+    default:
+      return Reply::refused();
+  }
+}
+
+/// A parameter shows one variable: the link that was made last counts.
+Reply DeviceCommands::link_system_variable(const std::int32_t* arguments) noexcept {
+  std::int32_t value = 0;
+  if (!mco305::is_application_parameter(arguments[1]) || !device_.system_variable(arguments[0], value))
+    return Reply::failed(mco305::kLinkFailed);
+  std::size_t at = 0;
+  while (at < link_count_ && links_[at].parameter != arguments[1]) ++at;
+  links_[at] = {arguments[0], arguments[1]};
+  link_count_ = std::max(link_count_, at + 1);
+  return done(device_.set_parameter(arguments[1], value));
+}
+
+void DeviceCommands::refresh_links() noexcept {
+  if (link_count_ == 0 || device_.milliseconds() % kLinkPeriod != 0) return;
+  next_link_ = next_link_ + 1 < link_count_ ? next_link_ + 1 : 0;
+  std::int32_t value = 0;
+  if (device_.system_variable(links_[next_link_].variable, value))
+    device_.set_parameter(links_[next_link_].parameter, value);
 }
 
 /// What has to do with arrays and with what is kept. Curves are not built, so that none is one; what has
@@ -268,7 +386,8 @@ Reply DeviceCommands::proceed(Command command, const std::int32_t* arguments, st
       const bool up = device_.set_velocity_now() >= 0.0;
       return (up ? at >= arguments[0] : at <= arguments[0]) ? Reply::done() : Reply::busy();
     }
-    case Command::kInkey:  // there are no keys: it waits for its time, and for ever without one
+    case Command::kInkey:  // it waits for its time, and for ever without one
+      if (keys() != kNoKey) return Reply::done(keys());
       return arguments[0] != 0 && elapsed >= arguments[0] ? Reply::done(kNoKey) : Reply::busy();
     case Command::kSave:
     case Command::kSaveprom:
@@ -304,8 +423,11 @@ bool DeviceCommands::level(aposs::EdgeSource source, std::int32_t number) noexce
       return device_.io().input(number);
     case aposs::EdgeSource::kStatbit:
       return (static_cast<std::uint32_t>(device_.flags()) >> (number - 1) & 1U) != 0;
-    case aposs::EdgeSource::kCombit:
-      break;
+    case aposs::EdgeSource::kCombit: {
+      if (number < 1 || number > 2 * kWordBits) return false;
+      const std::int32_t bit = number - 1;
+      return (word_of(outside_.PcdIn[static_cast<std::size_t>(bit / kWordBits)]) >> bit % kWordBits & 1) != 0;
+    }
   }
   return false;
 }

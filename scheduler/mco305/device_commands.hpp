@@ -9,13 +9,15 @@
 #include "scheduler/aposs/device.hpp"
 #include "scheduler/aposs/machine.hpp"
 #include "scheduler/mco305/eeprom.hpp"
+#include "tech_objects/data_blocks/mco305.hpp"
 #include "tech_objects/mco305/device.hpp"
 
 namespace lockstep {
 
 class DeviceCommands final : public aposs::Device {
  public:
-  DeviceCommands(mco305::Device& device, Eeprom& eeprom) : device_(device), eeprom_(eeprom) {}
+  DeviceCommands(mco305::Device& device, Eeprom& eeprom, Mco305Outside& outside)
+      : device_(device), eeprom_(eeprom), outside_(outside) {}
 
   /// Whose lines SYSVAR[33] tells.
   void watch(const aposs::Machine& machine) noexcept { machine_ = &machine; }
@@ -35,6 +37,11 @@ class DeviceCommands final : public aposs::Device {
   void error_raised(int error) noexcept override;
   void error_cleared() noexcept override { device_.clear_error(); }
 
+  /// LINKSYSVAR, in each step: every 40 ms one of the links is renewed.
+  void refresh_links() noexcept;
+  /// A program begins, which has none yet.
+  void forget_links() noexcept { link_count_ = 0; }
+
   /// An error that has been raised, for whoever tells of it; 0: none.
   int take_raised() noexcept;
   /// How many were raised and found no space, since it was asked last.
@@ -45,6 +52,14 @@ class DeviceCommands final : public aposs::Device {
   aposs::Reply following(aposs::Command command, const std::int32_t* arguments) noexcept;
   aposs::Reply synchronize_by_markers() noexcept;
   aposs::Reply reading(aposs::Command command, const std::int32_t* arguments) noexcept;
+  aposs::Reply communication(aposs::Command command, const std::int32_t* arguments,
+                             aposs::Arrays& arrays) noexcept;
+  aposs::Reply copy_words(aposs::Command command, const std::int32_t* arguments,
+                          aposs::Arrays& arrays) noexcept;
+  aposs::Reply drive(aposs::Command command, const std::int32_t* arguments) noexcept;
+  aposs::Reply get(std::int32_t number) const noexcept;
+  aposs::Reply link_system_variable(const std::int32_t* arguments) noexcept;
+  std::int32_t keys() const noexcept;
   aposs::Reply set(std::int32_t number, std::int32_t value) noexcept;
   aposs::Reply link(const std::int32_t* arguments) noexcept;
   aposs::Reply output_byte(const std::int32_t* arguments) noexcept;
@@ -57,6 +72,13 @@ class DeviceCommands final : public aposs::Device {
   std::size_t raised_count_ = 0;
   std::uint32_t unheard_ = 0;
   std::uint32_t latches_ = 0;  // when WAITNDX began
+  Mco305Outside& outside_;
+  /// A system variable that an application parameter shows.
+  struct Link {
+    std::int32_t variable = 0, parameter = 0;
+  };
+  std::array<Link, mco305::kApplicationParameters> links_{};
+  std::size_t link_count_ = 0, next_link_ = 0;
 };
 
 }  // namespace lockstep

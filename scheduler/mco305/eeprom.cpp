@@ -38,6 +38,7 @@ Reply Eeprom::proceed() const noexcept {
 }
 
 Reply Eeprom::save(std::int32_t part, mco305::ParameterValues& parameters, aposs::Arrays& source) noexcept {
+  if (write_protected) return Reply::failed(mco305::kWriteProtected);
   enum Part : std::int32_t { kArrays, kAxis, kGlobal, kApplication };
   if (part == kArrays) save_arrays(source);
   if (part == kAxis) parameters.save(ParameterSet::kAxis);
@@ -47,6 +48,7 @@ Reply Eeprom::save(std::int32_t part, mco305::ParameterValues& parameters, aposs
 
 /// Application parameters are kept as they count; those of the axis are not part of it.
 Reply Eeprom::save_all(aposs::Arrays& source) noexcept {
+  if (write_protected) return Reply::failed(mco305::kWriteProtected);
   save_arrays(source);
   return write();
 }

@@ -16,6 +16,7 @@ class Eeprom {
  public:
   // For the load.
   std::vector<DINT> arrays;       ///< all of them, one behind the other
+  bool write_protected = false;   ///< whatever is saved is error 190
   BOOL arrays_saved = false;      ///< whether that is what counts
   EncoderSaving* disk = nullptr;  ///< who is asked to write at once; nullptr: nobody
   /// The arrays of a device get what has been saved of them; to be called when they are there.
@@ -23,7 +24,7 @@ class Eeprom {
 
   UDINT writes{};  ///< how often it has been written to
 
-  /// SAVE of a part, by its number in `kSavedParts`, and SAVEPROM.
+  /// SAVE of a part, by its number in `kSavedParts`, and SAVEPROM. @errors 190 it is write-protected
   aposs::Reply save(std::int32_t part, mco305::ParameterValues& parameters, aposs::Arrays& source) noexcept;
   aposs::Reply save_all(aposs::Arrays& source) noexcept;
   /// Busy until the disk has it. @errors 115 it cannot be written

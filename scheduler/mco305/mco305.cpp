@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "scheduler/aposs/printed_line.hpp"
@@ -10,9 +11,9 @@
 namespace lockstep {
 namespace {
 
-constexpr double kStep = 1e-3;  // [s]
-constexpr int kOtherArrays = 170;
-constexpr std::int32_t kAsThereIs = -2;  // of PRGPAR: the program has not set it
+constexpr double kStep = 1e-3;                              // [s]
+constexpr int kOtherArrays = 170, kOtherArraysLater = 176;  // the later edition has another number
+constexpr std::int32_t kAsThereIs = -2;                     // of PRGPAR: the program has not set it
 
 }  // namespace
 
@@ -43,7 +44,8 @@ void Mco305::configure(double servo_period, int ratio) {
     if (program.autostart && autostart_ == nullptr) autostart_ = &program;
   }
   eeprom.restore(arrays_);
-  data.Parameters = device_.parameters().all();
+  data.Parameters = shown_parameters_ = device_.parameters().all();
+  shown_version_ = device_.parameters().version();
   choosing_ = autostart_ != nullptr;
   if (choosing_) start(*autostart_);
   show();
@@ -91,11 +93,14 @@ void Mco305::take_line(std::string& line) {
 
 /// Its arrays are those that are there, or new behind them: what another program has deleted is made anew.
 void Mco305::start(DeviceProgram& program) noexcept {
+  commands_.forget_links();
   machine_.take(program.image);
   current_ = &program;
   running_ = true;
   if (program.fault == 0 || program.fault == kOtherArrays) program.fault = arrays_.fit(program.image.arrays);
-  if (program.fault != 0) machine_.raise(program.fault);
+  if (program.fault == 0) return;
+  const bool later = program.fault == kOtherArrays && settings.later_edition;
+  machine_.raise(later ? kOtherArraysLater : program.fault);
 }
 
 /// In its user units, on the line of its counter [u].
@@ -158,6 +163,7 @@ void Mco305::servo(std::int64_t now) noexcept {
   turn_master(now);
   program_due_ = ++tick_ == ticks_per_step_;
   if (program_due_) tick_ = 0;
+  if (program_due_ && expects_writes_) take_parameters();
   device_.servo(program_due_);
   if (!program_due_) return;
   if (leads) {
@@ -171,6 +177,22 @@ void Mco305::servo(std::int64_t now) noexcept {
   show();
 }
 
+/// What has been written from outside since it was shown: as by a panel. What nothing can be computed with is
+/// as it was.
+void Mco305::take_parameters() noexcept {
+  if (std::memcmp(data.Parameters.data(), shown_parameters_.data(), sizeof data.Parameters) == 0) return;
+  const auto numbered = mco305::parameters();
+  for (std::size_t i = 0; i < data.Parameters.size(); ++i) {
+    if (data.Parameters[i] == shown_parameters_[i]) continue;
+    const std::int32_t number = i < numbered.size() ? numbered[i].number
+                                                    : mco305::kFirstApplicationParameter +
+                                                          static_cast<std::int32_t>(i - numbered.size());
+    device_.change_parameter(number, data.Parameters[i]);
+  }
+  data.Parameters = shown_parameters_ = device_.parameters().all();
+  shown_version_ = device_.parameters().version();
+}
+
 /// Without a program the device's errors are its own.
 void Mco305::take_device_errors() noexcept {
   while (const int error = device_.take_error()) commands_.error_raised(error);
@@ -178,10 +200,34 @@ void Mco305::take_device_errors() noexcept {
 
 void Mco305::run_program(std::int64_t) noexcept {
   if (!program_due_) return;
+  look_at_panel();
   look_at_inputs();
   if (machine_.over()) take_device_errors();
+  commands_.refresh_links();
   machine_.step(steps_per_millisecond);
   if (machine_.over()) choose();
+}
+
+/// Stop is [Esc]: nothing is started any more until the panel starts a program, which takes the place of what
+/// runs. With an error that has not been cleared nothing is started.
+void Mco305::look_at_panel() noexcept {
+  const Mco305Outside& panel = data.Outside;
+  if (shutting_down_) return;
+  if (std::exchange(seen_stops_, panel.Stops) != panel.Stops) {
+    machine_.stop();
+    device_.escape();
+    choosing_ = false;
+  }
+  if (std::exchange(seen_resets_, panel.Resets) != panel.Resets) device_.clear_all_errors();
+  if (std::exchange(seen_starts_, panel.Starts) == panel.Starts || !device_.pending().tolerated()) return;
+  DeviceProgram* const next =
+      panel.Program < 0.0 ? autostart_ : find(static_cast<std::int32_t>(panel.Program));
+  if (next == nullptr) return;
+  machine_.stop();
+  end_program();
+  wanted_ = kAsThereIs;
+  choosing_ = autostart_ != nullptr;
+  start(*next);
 }
 
 void Mco305::look_at_inputs() noexcept {
@@ -295,9 +341,13 @@ void Mco305::show() noexcept {
   read.SetPosition = device_.set_counts_shown();
   read.Reference = device_.reference();
   read.JerkState = static_cast<DINT>(device_.phase());
+  read.Inputs = device_.io().input_word();
+  read.Outputs = device_.io().output_byte();
+  read.AlarmWord1 = device_.pending().alarm_word(1);
+  read.AlarmWord2 = device_.pending().alarm_word(2);
   if (const auto& parameters = device_.parameters(); parameters.version() != shown_version_) {
     shown_version_ = parameters.version();
-    data.Parameters = parameters.all();
+    data.Parameters = shown_parameters_ = parameters.all();
   }
   data.Program.Number = current_ == nullptr ? -1 : current_->number;
   data.Program.State = static_cast<DINT>(machine_.state());

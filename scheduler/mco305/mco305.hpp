@@ -1,6 +1,8 @@
 /// One motion controller VLT MCO 305 as a technology object: its axis, and the APOSS program that runs in it.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <deque>
 #include <string>
 #include <vector>
@@ -48,6 +50,9 @@ class Mco305 final : public LeadingObject {
   DeviceMaster master;
   bool leads = false;  ///< an axis or a device follows it
   mco305::ParameterValues& parameters() noexcept { return device_.parameters(); }
+  /// From now on parameters may be written from outside, as by a panel: in `data`, between two steps. Without
+  /// that nobody looks at them. While loading, or between two ticks.
+  void expect_writes() noexcept { expects_writes_ = true; }
 
   Mco305Data data;
   void* data_block() noexcept override { return &data; }
@@ -90,14 +95,19 @@ class Mco305 final : public LeadingObject {
   void show() noexcept;
   void share_texts();
   void turn_master(std::int64_t now) noexcept;
+  void take_parameters() noexcept;
+  void look_at_panel() noexcept;
   double units_of(double counts) const noexcept;
 
   mco305::Device device_;
-  DeviceCommands commands_{device_, eeprom};
+  DeviceCommands commands_{device_, eeprom, data.Outside};
   aposs::Arrays arrays_;
   aposs::Machine machine_{commands_, arrays_};
   const DeviceProgram* current_ = nullptr;
   std::uint32_t shown_version_ = 0;
+  bool expects_writes_ = false;
+  UDINT seen_starts_ = 0, seen_stops_ = 0, seen_resets_ = 0;
+  std::array<DINT, mco305::kParameterCount> shown_parameters_{};
   bool program_due_ = false;
   std::int64_t served_ = -1;  // [ns] the last servo tick
   LoadPosition load_;         // of what it follows

@@ -37,6 +37,7 @@ const Variable kReadOuts[] = {
     SHOWN("AXEND", Read.AXEND, "state of the motion"),
     SHOWN("STAT", Read.STAT, "state of axis and controller"),
     SHOWN("ERRNO", Read.ERRNO, "first error that has not been cleared; 0: none"),
+    SHOWN("CURVEPOS", Read.CURVEPOS, "position of the slave on the curve; curves are not built: 0 [UU]"),
     SHOWN("SysVar.4096", Read.ActualPosition, "actual position [qc]"),
     SHOWN("SysVar.4097", Read.SetPosition, "set position [qc]"),
     SHOWN("SysVar.4111", Read.Reference, "reference of the position controller, ±1048575"),
@@ -48,6 +49,39 @@ const Variable kReadOuts[] = {
     SHOWN("Program.Steps", Program.Steps, "internal commands since its start"),
     SHOWN("Program.Starved", Program.Starved, "steps whose budget of internal commands was used up"),
 };
+
+/// Where the read-out of a number stands, 34-50 as 3450.
+struct ReadOut {
+  std::int32_t number;
+  std::size_t offset;
+};
+constexpr ReadOut kNumbered[] = {
+    {3440, offsetof(Data, Read.Inputs)},     {3441, offsetof(Data, Read.Outputs)},
+    {3450, offsetof(Data, Read.APOS)},       {3451, offsetof(Data, Read.CPOS)},
+    {3452, offsetof(Data, Read.MAPOS)},      {3453, offsetof(Data, Read.IPOS)},
+    {3454, offsetof(Data, Read.MIPOS)},      {3455, offsetof(Data, Read.CURVEPOS)},
+    {3456, offsetof(Data, Read.TRACKERR)},   {3457, offsetof(Data, Read.SYNCERR)},
+    {3458, offsetof(Data, Read.AVEL)},       {3459, offsetof(Data, Read.MAVEL)},
+    {3460, offsetof(Data, Read.SYNCSTAT)},   {3461, offsetof(Data, Read.AXEND)},
+    {3462, offsetof(Data, Read.STAT)},       {3470, offsetof(Data, Read.AlarmWord1)},
+    {3471, offsetof(Data, Read.AlarmWord2)},
+};
+constexpr std::int32_t kFirstWordIn = 3401, kFirstWordOut = 3421;
+
+/// Of a read-out: its place among the read-outs or the process data.
+void place_read_out(std::int32_t number, Variable& variable) {
+  const auto word = [&](std::int32_t first, std::size_t offset) {
+    const std::int32_t index = number - first;
+    if (index < 0 || index >= static_cast<std::int32_t>(Mco305Outside::kWords)) return;
+    variable.type = Type::WORD;
+    variable.range = kAny;
+    variable.offset = offset + static_cast<std::size_t>(index) * sizeof(WORD);
+  };
+  word(kFirstWordIn, offsetof(Data, Outside.PcdIn));
+  word(kFirstWordOut, offsetof(Data, Outside.PcdOut));
+  for (const ReadOut& one : kNumbered)
+    if (one.number == number) variable.offset = one.offset;
+}
 
 std::vector<Variable> declare_status(std::deque<std::string>& names) {
   std::vector<Variable> all(std::begin(kReadOuts), std::end(kReadOuts));
@@ -63,6 +97,31 @@ std::vector<Variable> declare_status(std::deque<std::string>& names) {
                      .text = text,
                      .start = &start_value_in<Data>});
   };
+  const auto add_words = [&](const char* path, std::size_t offset, Effect effect, const char* text) {
+    all.push_back({.path = path,
+                   .type = Type::WORD,
+                   .offset = offset,
+                   .count = Mco305Outside::kWords,
+                   .stride = sizeof(WORD),
+                   .effect = effect,
+                   .computed = effect == Effect::RON,
+                   .unit = Unit::kNone,
+                   .range = kAny,
+                   .text = text,
+                   .start = &start_value_in<Data>});
+  };
+  add_words("PcdIn[]", offsetof(Data, Outside.PcdIn), Effect::DIR,
+            "process data that come from a field bus: PCD, COMOPTGET, ON COMBIT");
+  add_words("PcdOut[]", offsetof(Data, Outside.PcdOut), Effect::RON,
+            "process data that go to a field bus: PCD[n] = …, COMOPTSEND");
+  all.push_back({.path = "Keys",
+                 .type = Type::DINT,
+                 .offset = offsetof(Data, Outside.Keys),
+                 .effect = Effect::DIR,
+                 .unit = Unit::kNone,
+                 .range = {0.0, 65'535.0},
+                 .text = "keys of the panel that are pressed, each a bit, as INKEY tells them",
+                 .start = &start_value_in<Data>});
   add_bits("In.", Data{}.In.size(), offsetof(Data, In), "digital input");
   add_bits("Out.", Data{}.Out.size(), offsetof(Data, Out),
            "digital output; 30, 31, 32: X34/1, X34/5, X34/10");
@@ -71,12 +130,13 @@ std::vector<Variable> declare_status(std::deque<std::string>& names) {
 
 std::vector<Variable> declare_parameters(std::deque<std::string>& names) {
   std::vector<Variable> all;
-  const auto add = [&](std::string name, std::size_t index, Range range, std::string text, bool later) {
+  const auto add = [&](std::string name, std::size_t index, Range range, std::string text, bool later,
+                       bool read_out) {
     all.push_back({.path = names.emplace_back(std::move(name)),
                    .type = Type::DINT,
                    .offset = offsetof(Data, Parameters) + index * sizeof(DINT),
-                   .effect = Effect::RON,
-                   .computed = true,
+                   .effect = read_out ? Effect::RON : Effect::DIR,
+                   .computed = read_out,
                    .unit = Unit::kNone,
                    .range = range,
                    .text = names.emplace_back(std::move(text)),
@@ -86,17 +146,15 @@ std::vector<Variable> declare_parameters(std::deque<std::string>& names) {
   const auto parameters = mco305::parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const mco305::Parameter& of = parameters[i];
-    std::string number = std::to_string(of.number);
-    number.insert(2, "_");
-    std::string text = number.replace(2, 1, "-") + ": " + std::string(of.title);
-    number.replace(2, 1, "_");
+    std::string text = std::to_string(of.number).insert(2, "-") + ": " + std::string(of.title);
     if (!of.unit.empty()) text += " [" + std::string(of.unit) + (of.decimals != 0 ? "/1000]" : "]");
-    add(of.mnemonic.empty() ? "P" + number : std::string(of.mnemonic), i,
-        {static_cast<double>(of.lowest), static_cast<double>(of.highest)}, text, !of.effective);
+    add(mco305_parameter_path(of), i, {static_cast<double>(of.lowest), static_cast<double>(of.highest)}, text,
+        !of.effective, mco305::is_read_out(of.number));
+    if (mco305::is_read_out(of.number)) place_read_out(of.number, all.back());
   }
   for (std::size_t i = 0; i < mco305::kApplicationParameters; ++i)
     add("P" + std::to_string(mco305::kFirstApplicationParameter + static_cast<int>(i)),
-        mco305::kNumberedParameters + i, kWhole, "application parameter", false);
+        mco305::kNumberedParameters + i, kWhole, "application parameter", false, false);
   return all;
 }
 
@@ -112,6 +170,11 @@ struct Declared {
 };
 
 }  // namespace
+
+std::string mco305_parameter_path(const mco305::Parameter& parameter) {
+  if (!parameter.mnemonic.empty()) return std::string(parameter.mnemonic);
+  return "P" + std::to_string(parameter.number).insert(2, "_");
+}
 
 const DataBlock& mco305_data_block() {
   static const Declared declared;

@@ -65,6 +65,7 @@ void Device::refresh() noexcept {
   has_master_ = has_master_ || master_.present();
   sync_.refresh(p, settings_.later_edition, velocity_maximum_);
   drive_sign_ = p[kPosDirection] % 2 == 0 ? -1.0 : 1.0;
+  scale_drive();
 }
 
 int Device::set_parameter(std::int32_t number, std::int32_t value) noexcept {
@@ -116,25 +117,31 @@ void Device::read_drive() noexcept {
   const double before = machine_;
   machine_ += moved;
   const double start = settings_.drive.signals.start_position;
-  actual_ = counts_of(machine_ - start);
+  actual_ = counts_of(machine_ - start) + swap_offset_;
   if (moved != 0.0) latch(before, machine_);
   for (const DigitalInput& input : settings_.drive.signals.digital_inputs)
     *input.tag = input.range.contains(machine_, 0.0);
+}
+
+// On the counter.
+std::int64_t Device::encoder_count(double place) const noexcept {
+  return counts_of(place) + (virtual_ ? 0 : swap_offset_);
 }
 
 /// A zero pulse is met exactly, wherever in the tick it lies.
 void Device::latch(double from, double to) noexcept {
   const double start = virtual_ ? 0.0 : settings_.drive.signals.start_position;
   if (marker_type_ >= 2)
-    return track_.pass(from, to, [this, start](double place) { take_latch(counts_of(place - start)); });
+    return track_.pass(from, to, [this, start](double place) { take_latch(encoder_count(place - start)); });
   const auto& marks = settings_.drive.signals.zero_marks;
   if (!marks) return;
-  if (const auto mark = marks->between(from, to)) take_latch(counts_of(*mark - start + 0.5));
+  if (const auto mark = marks->between(from, to)) take_latch(encoder_count(*mark - start + 0.5));
 }
 
 void Device::take_latch(std::int64_t place) noexcept {
   latched_ = place;
   ++latches_;
+  sync_.note_slave_mark(static_cast<double>(place));
   if (mode_ == MotionMode::kFollow) sync_.take_slave_mark(static_cast<double>(place));
 }
 
@@ -309,8 +316,8 @@ void Device::write_outputs() noexcept {
 }
 
 void Device::write_drive() noexcept {
-  drive_->write(drive_sign_ * reference_ / CountController::kFullScale * velocity_maximum_ *
-                kMillisecondsPerSecond);
+  const double velocity = drive_sign_ * reference_ / CountController::kFullScale * full_reference_;
+  drive_->write(std::clamp(velocity, -speed_limit_, speed_limit_) * kMillisecondsPerSecond);
 }
 
 void Device::raise(int error) noexcept {

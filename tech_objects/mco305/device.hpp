@@ -40,6 +40,8 @@ struct DeviceSettings {
   MarkerTrackSettings markers{};       ///< that the sensor at input 6 sees [qc of the slave]
   MarkerTrackSettings master_marks{};  ///< … at input 5 [qc of the master]
   DeviceFaults faults{};
+  std::array<const double*, 2> analog_inputs{};  ///< tags of 53 and 54 [V]; nullptr: 0 V
+  double* analog_output = nullptr;               ///< tag of 42 [mA]
 };
 
 /// AXEND and what else a program sees of the motion.
@@ -89,10 +91,23 @@ class Device {
   void turn_own_master(std::int32_t hertz) noexcept;
   /// Whether it has had a master; without one nothing is computed for one.
   bool led() const noexcept { return has_master_; }
+  bool later_edition() const noexcept { return settings_.later_edition; }
   MasterInput& master() noexcept { return master_; }
   const MasterInput& master() const noexcept { return master_; }
   /// Whether the axis rests where it was told to: the end of POSA, POSR, MOTOR STOP, WAITAX.
   bool arrived() const noexcept { return arrived_; }
+
+  /// SWAPMENC. @return false: something else turns its master encoder
+  bool swap_encoders(bool swapped) noexcept;
+
+  // ---- The drive in which it sits
+
+  /// GETVLT, SETVLT: 3-03 as 303. @return whether the drive has it; an error
+  bool drive_parameter(std::int32_t number, std::int32_t& value) const noexcept;
+  int set_drive_parameter(std::int32_t number, std::int32_t value) noexcept;
+  /// INAD [10 mV], OUTDA [0.2 µA]. @return whether there is such a terminal
+  bool analog_input(std::int32_t terminal, std::int32_t& value) const noexcept;
+  bool set_analog_output(std::int32_t terminal, std::int32_t value) noexcept;
 
   // ---- Zero points, homing, index
 
@@ -185,6 +200,7 @@ class Device {
   void refresh() noexcept;
   void read_drive() noexcept;
   void latch(double from, double to) noexcept;
+  std::int64_t encoder_count(double place) const noexcept;
   void take_latch(std::int64_t place) noexcept;
   void step_master() noexcept;
   void sample_inputs() noexcept;
@@ -199,6 +215,10 @@ class Device {
   bool sync_variable(std::int32_t index, std::int32_t& value) const noexcept;
   void write_outputs() noexcept;
   void write_drive() noexcept;
+
+  double counts_per_millisecond(double rpm) const noexcept;
+  void scale_drive() noexcept;
+  double analog_volts(std::size_t input) const noexcept;
 
   bool may_move(int& error) const noexcept;
   bool within_limits(std::int64_t target, int& error) const noexcept;
@@ -238,7 +258,8 @@ class Device {
   bool checks_limits_ = false;
   bool has_master_ = false;  // something turns here
   bool looks_at_faults_ = false;
-  double drive_sign_ = 1.0;  // of the reference: POSDRCT
+  double drive_sign_ = 1.0;                          // of the reference: POSDRCT
+  double full_reference_ = 1.0, speed_limit_ = 0.0;  // of the drive [qc/ms]
   bool brake_ = false, brake_after_stop_ = false;
   std::int32_t open_loop_ = 0;  // OUTAN
   FourSlopeProfile profile_;
@@ -272,6 +293,10 @@ class Device {
   std::int32_t velocity_ = -1, acceleration_ = -1, deceleration_ = -1;  // below 0: as by default
   std::int32_t speed_ = 0;
   std::int32_t program_line_ = 0;
+  std::int32_t maximum_reference_ = 0, speed_high_limit_ = -1;  // 3-03, 4-13; 0, -1: not set
+  double analog_output_ = 0.0;                                  // [mA]
+  bool swapped_ = false;                                        // SWAPMENC
+  std::int64_t swap_offset_ = 0;  // from what the drive's encoder has counted to the counter [qc]
   std::int64_t origin_ = 0, temporary_ = 0, limits_origin_ = 0;  // [qc]
   bool homed_ = false;
   Home home_;

@@ -27,20 +27,20 @@ bool InputsOutputs::switch_output(std::int32_t number, bool on) noexcept {
   for (std::int32_t i = 0; i < 3; ++i)
     if (number == kRelays[i]) number = 30 + i;
   if (number < 1 || number > static_cast<std::int32_t>(kOutputs)) return false;
-  outputs_[static_cast<std::size_t>(number - 1)] = on;
+  switch_one(static_cast<std::size_t>(number - 1), on);
   return true;
+}
+
+void InputsOutputs::switch_one(std::size_t index, bool on) noexcept {
+  outputs_[index] = on;
+  if (index >= kFunctionOutputs) return;
+  const std::int32_t bit = 1 << index;
+  output_byte_ = on ? output_byte_ | bit : output_byte_ & ~bit;
 }
 
 void InputsOutputs::switch_all(bool on) noexcept {
   for (const std::int32_t output : {1, 2, 3, 4, 5, 6, 7, 8, 21, 22, 27, 29, 30, 31, 32})
     switch_output(output, on);
-}
-
-std::int32_t InputsOutputs::output_byte() const noexcept {
-  std::int32_t byte = 0;
-  for (std::size_t bit = 0; bit < kFunctionOutputs; ++bit)
-    if (outputs_[bit]) byte |= 1 << bit;
-  return byte;
 }
 
 void InputsOutputs::assign(const ParameterValues& parameters) noexcept {
@@ -76,7 +76,7 @@ void InputsOutputs::show(const Shown& now) noexcept {
     shown_[i] = shown;
     // A brake is released by OUT alone.
     if (function >= 5 && !is && !first) continue;
-    outputs_[i] = is == (function % 2 == 1);
+    switch_one(i, is == (function % 2 == 1));
   }
 }
 

@@ -35,7 +35,9 @@ class InputsOutputs {
   static constexpr std::size_t kFunctionInputs = 12, kFunctionOutputs = 8;
 
   void set_input(std::size_t number, bool level) noexcept {
-    if (number >= 1 && number <= kInputs) inputs_[number - 1] = level;
+    if (number < 1 || number > kInputs || inputs_[number - 1] == level) return;
+    inputs_[number - 1] = level;
+    input_word_ = input_byte(0) | input_byte(1) << 8 | input_byte(2) << 16;
   }
   const std::array<bool, kInputs>& inputs() const noexcept { return inputs_; }
   const std::array<bool, kOutputs>& outputs() const noexcept { return outputs_; }
@@ -46,6 +48,8 @@ class InputsOutputs {
   }
   /// INB. Byte 0: inputs 1 to 8, the lowest first; 1: 33 (lowest), 32, 29, 27, 19, 18; 2: 9 to 12.
   std::int32_t input_byte(std::int32_t number) const noexcept;
+  /// 34-40: the three bytes.
+  std::int32_t input_word() const noexcept { return input_word_; }
   bool output(std::size_t number) const noexcept {
     return number >= 1 && number <= kOutputs && outputs_[number - 1];
   }
@@ -53,7 +57,7 @@ class InputsOutputs {
   bool switch_output(std::int32_t number, bool on) noexcept;
   /// Those of the option and of the drive.
   void switch_all(bool on) noexcept;
-  std::int32_t output_byte() const noexcept;
+  std::int32_t output_byte() const noexcept { return output_byte_; }
 
   /// Looks which input and output is for what; when parameters have changed.
   void assign(const ParameterValues& parameters) noexcept;
@@ -72,6 +76,9 @@ class InputsOutputs {
   void show(const Shown& now) noexcept;
 
  private:
+  void switch_one(std::size_t index, bool on) noexcept;
+
+  std::int32_t input_word_ = 0, output_byte_ = 0;
   std::array<bool, kInputs> inputs_{};
   std::array<bool, kOutputs> outputs_{};
   std::array<std::uint8_t, 16> input_of_{};

@@ -2,9 +2,12 @@
 /// these machines suffer from.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+
+#include "tech_objects/mco305/units.hpp"
 
 namespace lockstep::mco305 {
 
@@ -50,6 +53,7 @@ class MarkerTrack {
 
  private:
   static constexpr double kBetween = 0.45, kBehind = 0.1;  // of a period
+  static constexpr double kNear = 1e-3;                    // [qc]
 
   static bool on(const bool* tag) noexcept { return tag != nullptr && *tag; }
   bool slips() const noexcept {
@@ -58,8 +62,12 @@ class MarkerTrack {
   /// The first one met on the way; one where it begins is none.
   std::optional<double> between(double from, double to) const noexcept {
     const double period = settings_.period;
-    const double first = std::floor((from - settings_.position) / period);
-    const double last = std::floor((to - settings_.position) / period);
+    const double turns = (from - settings_.position) / period, end = (to - settings_.position) / period;
+    const double first = whole_below(turns), last = whole_below(end);
+    constexpr double kPrecision = 1e-14;
+    const double rounding = kNear + kPrecision * (std::abs(from) + std::abs(settings_.position));
+    if (first == last && far_from_any(turns - first, rounding) && far_from_any(end - first, rounding))
+      return std::nullopt;
     const double step = from < to ? 1.0 : -1.0;
     constexpr int kMany = 64;  // periods of a tick
     std::optional<double> met;
@@ -77,6 +85,12 @@ class MarkerTrack {
       if (number == last + step) break;
     }
     return met;
+  }
+  /// Most steps are between two markers, and have nothing to look for. @param part of a period, 0 … 1
+  bool far_from_any(double part, double rounding) const noexcept {
+    if (on(settings_.spurious) || on(settings_.twice)) return false;
+    const double distance = std::min(part, 1.0 - part) * settings_.period;
+    return distance > settings_.noise + rounding;
   }
   /// -1 … 1, of a marker of this number.
   double noise(double number) const noexcept {

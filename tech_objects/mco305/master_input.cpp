@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lockstep::mco305 {
 
@@ -21,6 +22,9 @@ void MasterInput::pass(double from, double to) noexcept {
   if (from == to) return;
   if (marker_type_ >= 2) return track_.pass(from, to, [this](double place) { latch(place); });
   const bool forward = from < to;
+  // Most steps are between two pulses.
+  const double begin = whole_below(from / turn_), end = whole_below(to / turn_);
+  if (begin == end && (forward || begin * turn_ < to)) return;
   for (std::size_t i = 0; i < kMarks; ++i) {
     const double turns = from / turn_;
     const double place = (forward ? std::floor(turns) + 1.0 : std::ceil(turns) - 1.0) * turn_;
@@ -53,9 +57,18 @@ void MasterInput::turn(double encoder) noexcept {
   turned_ += counts;
   if (own_.active() || type_ == 0 || type_ == kSimulated || encoder == last) return;
   // Between two counts it is where the encoder is.
-  const double begin = static_cast<double>(position_) + (last - std::floor(last));
+  const double begin = static_cast<double>(position_) + (last - whole_below(last));
   move(counts);
   pass(begin, begin + (encoder - last));
+}
+
+void MasterInput::exchange(std::int64_t& position, std::int64_t& origin) noexcept {
+  const std::int64_t moved = position - position_;
+  std::swap(position_, position);
+  std::swap(origin_, origin);
+  last_ += moved;
+  for (std::int64_t& one : positions_) one += moved;
+  begun_ = true;
 }
 
 void MasterInput::look_at_marker(bool level) noexcept {

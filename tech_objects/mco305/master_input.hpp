@@ -31,6 +31,8 @@ class MasterInput {
   void look_at_marker(bool level) noexcept;
   /// An external marker at a place of the counter [qc].
   void mark(double place) noexcept;
+  /// SWAPMENC: the counter and its zero change places with those.
+  void exchange(std::int64_t& position, std::int64_t& origin) noexcept;
   /// One millisecond.
   void step() noexcept;
   /// Whether anything turns here, or has.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tech_objects/mco305/device.hpp"
+#include "tech_objects/mco305_catalogue/drive_parameters.hpp"
 
 namespace lockstep::mco305 {
 namespace {
@@ -94,9 +95,15 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
     case 22:
       value = static_cast<std::int32_t>(now_ & 0x7FFFFFFF);
       return true;
+    case 31:
+      return drive_parameter(kDriveStatus, value);
+    case 32:
+      return drive_parameter(kMainActualValue, value);
     case 33:
       value = program_line_;
       return true;
+    case 35:
+      return drive_parameter(kMotorTorque, value);
     case 4096:
       value = shown_position(actual_ - origin_);
       return true;
@@ -262,7 +269,7 @@ bool Device::get_parameter(std::int32_t number, std::int32_t& value) const noexc
   if (index == kNoParameter) return false;
   switch (number) {
     case 3440:
-      value = io_.input_byte(0) | io_.input_byte(1) << 8 | io_.input_byte(2) << 16;
+      value = io_.input_word();
       return true;
     case 3441:
       value = io_.output_byte();
@@ -283,6 +290,9 @@ bool Device::get_parameter(std::int32_t number, std::int32_t& value) const noexc
       value = velocity_units();
       return true;
     case 3461:
+      value = axis_end();
+      return true;
+    case 3462:
       value = status();
       return true;
     case 3452:

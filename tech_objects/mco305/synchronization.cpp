@@ -101,6 +101,8 @@ void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const Fou
   error_ = 0;
   wanted_ = nearest_count(gear_.position());
   filter_.begin(master_tolerance_.distance);
+  path_.clear();
+  awaits_path_ = false;
   if (mode == SyncMode::kMarkers) begin_markers();
   correction_.begin(0.0);
   correction_.set(0.0, 0.0, false);
@@ -152,6 +154,7 @@ void Synchronization::step(const MasterInput& master, std::int64_t actual) noexc
       velocity * ratio * (1.0 + filter_.trim()) + offset_.velocity() * ratio + correction_.velocity();
   target_ = gear_.position() + (offset - lag) * ratio + correction + trimmed_ +
             velocity_precontrol_ * target_velocity_;
+  if (path_.active()) follow_path();
   wanted_ = nearest_count(gear_.position() + total_offset());
 }
 
@@ -174,14 +177,18 @@ FourSlopeState Synchronization::set_point(std::int64_t actual, bool controls_vel
       const double own = slave_filter_.step(moved, slave_filter_time_);
       pursuit_.shift(static_cast<double>(actual) + pursuit_.velocity() - own - pursuit_.position());
     }
+  } else if (awaits_path_) {
+    pursuit_.follow(0.0, limits_);
   } else if (looks_ahead_) {
     pursuit_.step(target_, target_velocity_, limits_);
   } else {
     pursuit_.step(before_, velocity_before_, limits_);
   }
   const double goes = looks_ahead_ ? target_velocity_ : velocity_before_;
-  reached_ =
-      reached_ || pursuit_.synchronous() || std::abs(pursuit_.velocity() - goes) <= limits_.acceleration;
+  const bool begins = awaits_path_ || path_.active();
+  if (!begins)
+    reached_ =
+        reached_ || pursuit_.synchronous() || std::abs(pursuit_.velocity() - goes) <= limits_.acceleration;
   // What single counts do to the velocity is no acceleration that a motion could begin with.
   const double change = std::max(limits_.acceleration, limits_.deceleration);
   return {pursuit_.position(), pursuit_.velocity(),

@@ -12,6 +12,7 @@
 #include "tech_objects/synchronous/marker_filter.hpp"
 #include "tech_objects/synchronous/marker_pairing.hpp"
 #include "tech_objects/synchronous/marker_window.hpp"
+#include "tech_objects/synchronous/meeting_path.hpp"
 #include "tech_objects/synchronous/offset_spread.hpp"
 #include "tech_objects/synchronous/pursuit.hpp"
 #include "tech_objects/synchronous/sync_quality.hpp"
@@ -47,6 +48,11 @@ class Synchronization {
   /// MOVESYNCORIGIN [qc of the master].
   void move_origin(std::int32_t by) noexcept;
 
+  /// Where the slave is marked, while it does not follow [qc].
+  void note_slave_mark(double place) noexcept {
+    slave_mark_known_ = true;
+    slave_mark_ = place;
+  }
   /// A marker of the slave has been latched [qc].
   void take_slave_mark(double place) noexcept;
   /// One millisecond, behind that of the master. @param actual position of the slave [qc]
@@ -83,6 +89,8 @@ class Synchronization {
   void take_master_mark(double place) noexcept;
   void look_for_missed(double master, double slave) noexcept;
   void pair(double apart) noexcept;
+  void meet_at_a_marker(double place) noexcept;
+  void follow_path() noexcept;
   MarkerFilterSettings filter_settings() const noexcept;
 
   SyncMode mode_ = SyncMode::kNone;
@@ -114,6 +122,10 @@ class Synchronization {
   MarkerFilter filter_;
   bool corrected_ = false;  // there has been a pair
   bool late_ = false;       // the marker at hand came behind a missed one
+  MeetingPath path_;        // start 7
+  bool awaits_path_ = false;
+  bool slave_mark_known_ = false;
+  double slave_mark_ = 0.0;  // the last one there was, also before the start [qc]
   std::int64_t master_marks_ = 0, slave_marks_ = 0;
 
   // Parameters.

@@ -8,21 +8,22 @@
 namespace lockstep::mco305 {
 namespace {
 
-constexpr std::int32_t kStarts = 1000;  // SYNCMSTART: 1000 to 1006 begin like 0 to 6
+constexpr std::int32_t kStarts = 1000;  // SYNCMSTART: 1000 to 1007 begin like 0 to 7
+constexpr std::int32_t kByPath = 7;
 
 enum FilterBit : std::int32_t { kFixedConstant = 1, kNoTrim = 2, kByFilterTime = 4, kOnlySmoothing = 16 };
 
 FirstPair first_pair(std::int32_t start) noexcept {
   constexpr FirstPair kRules[] = {FirstPair::leading_first, FirstPair::following_first, FirstPair::first_two,
                                   FirstPair::forward,       FirstPair::backward,        FirstPair::nearest,
-                                  FirstPair::first_two};
-  return kRules[std::clamp(start % kStarts, 0, 6)];
+                                  FirstPair::first_two,     FirstPair::nearest};
+  return kRules[std::clamp(start % kStarts, 0, kByPath)];
 }
 
-/// Starts 2 to 5 wait until the velocity of the master has been reached.
+/// Starts 2 to 5 and 7 wait until the velocity of the master has been reached.
 bool waits_for_velocity(std::int32_t start) noexcept {
   const std::int32_t one = start % kStarts;
-  return one >= 2 && one <= 5;
+  return (one >= 2 && one <= 5) || one == kByPath;
 }
 
 }  // namespace
@@ -34,6 +35,7 @@ void Synchronization::begin_markers() noexcept {
   master_window_.begin();
   slave_window_.begin();
   pairing_.begin(first_pair(start_));
+  awaits_path_ = start_ % kStarts == kByPath;
 }
 
 /// From pair to pair, on the side of the slave [qc].
@@ -64,11 +66,52 @@ void Synchronization::take_master_mark(double place) noexcept {
     filter_.take_spacing(std::abs(master_window_.spacing()), velocity_, filter_settings());
   if (++master_marks_ % marks_per_pair_master_ != 0) return;
   hits_ |= kMasterHit;
+  if (awaits_path_) meet_at_a_marker(place);
   if (waits_for_velocity(start_) && !reached_) return;
   const double since = static_cast<double>(master_position_) - place;
   const auto apart =
       pairing_.leading(gear_.position() - since * gear_.ratio(), total_offset(), pair_distance());
   if (apart) pair(*apart);
+}
+
+/// Start 7: from one marker of the master to a later one, as soon as its limits allow. Where the slave is
+/// marked is known from its last marker; without one the way is half of that of the gear, and the first pair
+/// tells the rest.
+void Synchronization::meet_at_a_marker(double place) noexcept {
+  if (velocity_ == 0.0) return;
+  constexpr int kMaximumMarkers = 1000;  // distances of markers; beyond that it is pursued like any target
+  const double distance =
+      std::copysign(master_tolerance_.distance * static_cast<double>(marks_per_pair_master_), velocity_);
+  const double ratio = gear_.ratio();
+  const double from = pursuit_.position(), moves = pursuit_.velocity() / velocity_;
+  const double offset = total_offset();
+  const double since = static_cast<double>(master_position_) - place;
+  const double slave_distance = std::abs(ratio * distance);
+  const MeetingPath::Limits limits{limits_.velocity, std::min(limits_.acceleration, limits_.deceleration),
+                                   velocity_, ratio};
+  awaits_path_ = false;
+  for (int i = 1; i <= kMaximumMarkers && distance != 0.0; ++i) {
+    const double length = distance * i - since;
+    double end = from + length * (ratio + moves) / 2.0;
+    if (slave_mark_known_ && slave_distance > 0.0) {
+      const double mark = slave_mark_ + offset;
+      end = mark + std::floor((end - mark) / slave_distance + 0.5) * slave_distance;
+    }
+    path_.begin(static_cast<double>(master_position_), length, from - (end - length * ratio), moves - ratio);
+    if (path_.within(limits)) {
+      gear_.begin(end - length * ratio - offset);
+      offset_.begin(wanted_offset());
+      return;
+    }
+  }
+  path_.clear();
+}
+
+void Synchronization::follow_path() noexcept {
+  const auto at = static_cast<double>(master_position_);
+  target_ += path_.offset(at);
+  target_velocity_ += path_.slope(at) * velocity_;
+  if (path_.over(at)) path_.clear();
 }
 
 void Synchronization::take_slave_mark(double place) noexcept {

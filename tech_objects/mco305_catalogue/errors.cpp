@@ -39,14 +39,14 @@ constexpr Error kErrors[] = {
     {170, "DIM does not match existing arrays", 2, 9},
     {171, "Array bound exceeded", 2, 10},
     {175, "No memory for a new DIM array", 0, 0},
-    {176, "DIM size differs from existing array", 0, 0, "error 170 says it"},
+    {176, "DIM size differs from existing array", 0, 0},
     {179, "Time-out while waiting for index", 1, 14},
     {183, "Invalid argument ", 0, 0, "what it stands for is not built"},
     {184, "Too many time interrupts", 2, 11},
     {187, "No more room for variables", 2, 12, "variables are counted when a program is compiled"},
     {188, "CAN guarding interrupted", 0, 0, "CAN is not built"},
     {189, "CAN transfer failed", 0, 0, "CAN is not built"},
-    {190, "Program memory write-protected", 2, 13, "programs are not written by the device"},
+    {190, "Program memory write-protected", 2, 13},
     {191, "Curve array wrong", 2, 14},
     {192, "Encoder monitoring", 1, 9},
     {193, "Stack too small", 0, 0, "the stack of a program is bounded by GOSUB and LOOP"},
@@ -97,6 +97,7 @@ bool PendingErrors::only(int number) const noexcept {
 }
 
 std::int32_t PendingErrors::alarm_word(int word) const noexcept {
+  if (count_ == 0) return 0;
   std::uint32_t bits = 0;
   bool other = false;
   for (std::size_t i = 0; i < count_; ++i) {

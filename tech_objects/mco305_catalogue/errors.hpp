@@ -41,6 +41,7 @@ enum ErrorNumber : int {
   kLinkFailed = 155,
   kArrayBound = 171,
   kWaitIndexTimeout = 179,
+  kWriteProtected = 190,
   kCurveArrayWrong = 191,
   kEncoderError = 192,
   kFurtherOut = 198,

@@ -3,6 +3,8 @@
 /// @source MCO 305 Design Guide, 33-27; MG.33.L5.03: trapezoid
 #pragma once
 
+#include <algorithm>
+
 #include "tech_objects/synchronous/pursuit.hpp"
 
 namespace lockstep {
@@ -37,6 +39,8 @@ class OffsetSpread {
     if (moved_.position() == wanted_ && moved_.velocity() == 0.0) return wanted_;
     if (at_once_)
       moved_.begin(wanted_, 0.0);
+    else if (limits_.acceleration == kAny)
+      step_equally();
     else
       moved_.step(wanted_, 0.0, limits_);
     return moved_.position();
@@ -48,6 +52,13 @@ class OffsetSpread {
 
  private:
   static constexpr double kAny = 1e30;  // [u/ms²]
+
+  /// Without ramps there is nothing to pursue.
+  void step_equally() noexcept {
+    const double rest = wanted_ - moved_.position();
+    const double by = std::clamp(rest, -limits_.velocity, limits_.velocity);
+    moved_.begin(by == rest ? wanted_ : moved_.position() + by, by);
+  }
 
   bool at_once_ = true;
   double wanted_ = 0.0;

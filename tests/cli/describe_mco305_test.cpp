@@ -65,6 +65,17 @@ TEST(DescribeMco305, TellsOfCommandsErrorsAndSystemVariables) {
   EXPECT_EQ(lockstep({"describe", "error", "16#8026"}).out, lockstep({"describe", "16#8026"}).out);
 }
 
+TEST(DescribeMco305, ListsTheParametersOfTheDrive) {
+  const Json get = described({"GETVLT"}), set = described({"SETVLT"});
+  ASSERT_GE(get["parameters"].size(), 11u);
+  EXPECT_EQ(get["parameters"][0]["number"], "3-03");
+  EXPECT_EQ(get["parameters"][0]["decimals"], 3);
+  EXPECT_EQ(set["parameters"].size(), get["parameters"].size());
+  const std::string page = lockstep({"describe", "SETVLT"}).out;
+  EXPECT_NE(page.find("4-13"), std::string::npos);
+  EXPECT_EQ(page.find("16-17"), std::string::npos) << "it cannot be set";
+}
+
 TEST(DescribeMco305, HasWordsForEverything) {
   for (const mco305::Parameter& of : mco305::parameters())
     EXPECT_FALSE(mco305::meaning_of(of.number).empty()) << of.number;

@@ -20,15 +20,16 @@ constexpr double kFastest = 50.0;
 /// What the cycle sees of one axis.
 struct Cycle {
   BOOL enable{}, forward{}, backward{};
-  UDINT beat{}, homings{}, resets{}, overrides{}, alarm{};
-  LREAL velocity{}, position{}, override_value{}, actual{}, speed{}, override_now = 100.0;
+  UDINT beat{}, homings{}, resets{}, overrides{}, alarm{}, stops{}, starts{};
+  LREAL program{}, velocity{}, position{}, override_value{}, actual{}, speed{}, override_now = 100.0;
   DWORD status{};
 
   std::vector<Signal> signals() {
     return {{&enable, Type::BOOL, -1},     {&forward, Type::BOOL, -1},   {&backward, Type::BOOL, -1},
             {&beat, Type::UDINT, -1},      {&velocity, Type::LREAL, -1}, {&homings, Type::UDINT, -1},
             {&position, Type::LREAL, -1},  {&resets, Type::UDINT, -1},   {&override_value, Type::LREAL, -1},
-            {&overrides, Type::UDINT, -1}, {&status, Type::DWORD, -1},   {&alarm, Type::UDINT, -1},
+            {&overrides, Type::UDINT, -1}, {&stops, Type::UDINT, -1},    {&program, Type::LREAL, -1},
+            {&starts, Type::UDINT, -1},    {&status, Type::DWORD, -1},   {&alarm, Type::UDINT, -1},
             {&actual, Type::LREAL, -1},    {&speed, Type::LREAL, -1},    {&override_now, Type::LREAL, -1}};
   }
 };
@@ -190,8 +191,8 @@ TEST_F(Commands, UnknownAxesActionsAndValuesAreRefused) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_NE(refusal(command(command_t::ENABLE, 0.0, "Conveyor")).find("no axis"), std::string::npos);
-  for (const std::int32_t action : {-1, 8, 2147483647})
-    EXPECT_NE(refusal(command(action)).find("allowed: 0 to 7"), std::string::npos) << action;
+  for (const std::int32_t action : {-1, 9, 2147483647})
+    EXPECT_NE(refusal(command(action)).find("allowed: 0 to 8"), std::string::npos) << action;
   for (const double value : {0.0, -1.0, kFastest * 1.001, kNan, kInfinity})
     for (const int action : {+command_t::JOG_FORWARD, +command_t::JOG_BACKWARD})
       EXPECT_FALSE(accepted(command(action, value))) << value;
@@ -302,6 +303,52 @@ TEST_F(Commands, ThePanelShowsHowAnAxisStands) {
   EXPECT_EQ(panel->velocity, -2.0);
   EXPECT_EQ(panel->speed, 80.0);
   EXPECT_EQ(panel->jog_velocity, kFastest);
+}
+
+/// A device whose program is started and stopped.
+class ProgramCommands : public Commands {
+ protected:
+  std::string device_refusal(std::int32_t action, double value = 0.0) {
+    command_t asked = command(action, value, "Teddy");
+    asked.beat = device_desk_.panel(0).beat;
+    const auto answer = device_desk_.accept(encoded(asked), now_);
+    device_image_.take_writes();
+    return answer && !answer->accepted ? answer->reason : "";
+  }
+
+  Cycle teddy_;
+  ProcessImage device_image_{teddy_.signals()};
+  static CommandAxis device(Cycle& teddy) {
+    return {"Teddy", 0.0, "", teddy.signals(), "MCO_305", "", false, true};
+  }
+  CommandDesk device_desk_{{device(teddy_)}, device_image_, kRun};
+};
+
+TEST_F(ProgramCommands, StartAndStopItsProgramAndClearItsErrors) {
+  device_desk_.beat();
+  EXPECT_EQ(device_refusal(command_t::START_PROGRAM, 7.0), "");
+  EXPECT_EQ(teddy_.program, 7.0);
+  EXPECT_EQ(teddy_.starts, 1u);
+  EXPECT_EQ(teddy_.stops, 0u);
+  EXPECT_EQ(device_refusal(command_t::STOP), "");
+  EXPECT_EQ(teddy_.stops, 1u);
+  EXPECT_EQ(device_refusal(command_t::RESET), "");
+  EXPECT_EQ(teddy_.resets, 1u);
+  EXPECT_EQ(device_refusal(command_t::START_PROGRAM, -1.0), "");
+  EXPECT_EQ(teddy_.starts, 2u);
+}
+
+TEST_F(ProgramCommands, RefuseWhatADeviceDoesNotTake) {
+  device_desk_.beat();
+  constexpr std::int32_t kOfAxes[] = {command_t::DISABLE,      command_t::ENABLE, command_t::JOG_FORWARD,
+                                      command_t::JOG_BACKWARD, command_t::HOME,   command_t::OVERRIDE};
+  for (const std::int32_t action : kOfAxes)
+    EXPECT_NE(device_refusal(action, 1.0).find("allowed: stop, reset, start program"), std::string::npos);
+  for (const double number : {-2.0, 128.0, 1.5, std::nan(""), 1e300})
+    EXPECT_NE(device_refusal(command_t::START_PROGRAM, number).find("from 0 to 127"), std::string::npos);
+  EXPECT_EQ(teddy_.starts, 0u);
+  EXPECT_NE(refusal(command(command_t::START_PROGRAM)).find("has no programs"), std::string::npos)
+      << "an axis";
 }
 
 }  // namespace

@@ -40,6 +40,17 @@ constexpr char kFan[] = R"({
   "trace": { "lcm": { "url": "memq://", "channel": "PANEL", "commands": { "axes": { "Fan": {} } } } }
 })";
 
+constexpr char kDevice[] = R"({
+  "lockstep": 1, "name": "panel", "clock": { "servo_cycle": "1ms" },
+  "technology_objects": { "Teddy": { "type": "MCO_305", "programs": [
+    { "number": 0, "autostart": true, "lines": [ "CVEL 20", "CSTART", "rest:", "GOTO rest" ] },
+    { "number": 5, "lines": [ "SET 1901 1", "rest:", "GOTO rest" ] },
+    { "number": 6, "lines": [ "SET 32-99 1" ] } ] } },
+  "tags": {},
+  "programs": [],
+  "trace": { "lcm": { "url": "memq://", "channel": "PANEL", "commands": { "axes": { "Teddy": {} } } } }
+})";
+
 /// A machine with an operator, who writes what commands write.
 class Panel : public testing::Test {
  protected:
@@ -66,6 +77,48 @@ class Panel : public testing::Test {
 
   Simulation machine_;
 };
+
+class DevicePanel : public Panel {
+ protected:
+  DevicePanel() : Panel(kDevice) {}
+  double operator[](const std::string& name) const { return machine_.read("Teddy." + name); }
+  void start(double number) {
+    set(PanelSignal::kProgram, Value{.r = number});
+    ask(PanelSignal::kStarts);
+    machine_.run_for(20ms);
+  }
+};
+
+TEST_F(DevicePanel, StopsAndStartsItsPrograms) {
+  machine_.run_for(100ms);
+  EXPECT_EQ(machine_.project().commands.axes.at(0).type, "MCO_305");
+  EXPECT_EQ((*this)["Program.Number"], 0.0);
+  EXPECT_GT((*this)["AVEL"], 0.0);
+  ask(PanelSignal::kStops);
+  machine_.run_for(3s);
+  EXPECT_EQ((*this)["AVEL"], 0.0) << "as with [Esc] it stops";
+  EXPECT_EQ((*this)["Program.State"], 4.0) << "and is not started again by itself";
+  start(5.0);
+  EXPECT_EQ((*this)["Program.Number"], 5.0);
+  EXPECT_EQ((*this)["P1901"], 1.0);
+  start(-1.0);
+  EXPECT_EQ((*this)["Program.Number"], 0.0) << "the one that starts by itself";
+  start(77.0);
+  EXPECT_EQ((*this)["Program.Number"], 0.0) << "there is none";
+}
+
+TEST_F(DevicePanel, ClearsAnErrorBeforeWhichNothingStarts) {
+  start(6.0);
+  machine_.run_for(20ms);
+  EXPECT_EQ((*this)["ERRNO"], 112.0);
+  start(5.0);
+  EXPECT_EQ((*this)["Program.Number"], 6.0);
+  ask(PanelSignal::kResets);
+  machine_.run_for(20ms);
+  EXPECT_EQ((*this)["ERRNO"], 0.0);
+  start(5.0);
+  EXPECT_EQ((*this)["Program.Number"], 5.0);
+}
 
 class SpeedPanel : public Panel {
  protected:

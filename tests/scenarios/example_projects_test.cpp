@@ -94,6 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Stored{"09_flying_saw", "12s", 40}, Stored{"10_fixed_stop", "16s", 40},
                     Stored{"11_pick_and_place", "8s", 40}, Stored{"14_twelve_stations", "7s", 50},
                     Stored{"20_bottle_palletizer", "20s", 40}, Stored{"21_suitcase_conveyor", "16s", 20},
+                    Stored{"22_teddy_packaging", "22s", 50}, Stored{"29_bottle_filler", "22s", 100},
                     Stored{"24_brake", "4s", 10}, Stored{"26_linear_motor", "7s", 25}),
     [](const auto& stored) { return std::string(stored.param.project); });
 
@@ -682,6 +683,64 @@ TEST(SuitcaseConveyor, RunsAtTheSpeedOfTheBeltInFrontAndByHandInSteps) {
     EXPECT_NEAR(speed_at(t), speed, 100.0) << "by hand at " << t;
   EXPECT_NEAR(speed_at(15.0), 0.0, 100.0);
   EXPECT_EQ(table["hand"].back(), 0.0);
+}
+
+/// The row of a time.
+std::size_t row_at(double t) {
+  return static_cast<std::size_t>(std::lround(t * 1000.0));
+}
+
+TEST(TeddyPackaging, GoesBesideTheBoxesToTheCountAndWithSlipByWhatSensorsSee) {
+  const CsvTable table = simulate(example("22_teddy_packaging"), "22s");
+  expect_never(table, "failed");
+  const auto apart = [&](double t) {
+    return table["Teddies.CPOS"][row_at(t)] - table["Teddies.MAPOS"][row_at(t)];
+  };
+  for (const double t : {2.5, 2.9}) EXPECT_EQ(apart(t), apart(2.0)) << "belt beside belt";
+  EXPECT_NEAR(apart(4.5) - apart(2.9), 500.0, 1.0) << "two steps of 250";
+  EXPECT_EQ(table["accurate"][row_at(4.5)], 1.0);
+  EXPECT_NEAR(table["Teddies.SYNCMPULSM"][row_at(11.0)], 4000.0, 6.0) << "of boxes, measured";
+  EXPECT_NEAR(table["Teddies.SYNCMPULSS"][row_at(11.0)], 4040.4, 6.0) << "of teddies, whose belt slips";
+  // At each teddy the last box is as far behind as the belts have moved since: by a whole number of boxes.
+  int pairs = 0;
+  double largest = 0.0;
+  for (std::size_t i = row_at(13.5); i < row_at(21.0); ++i) {
+    const double t = table["t"][i];
+    if (t > 15.9 && t < 17.0) continue;
+    if (table["Teddies.IPOS"][i] == table["Teddies.IPOS"][i - 1]) continue;
+    const double box = table["Teddies.MAPOS"][i] - table["Teddies.MIPOS"][i];
+    const double teddy = table["Teddies.APOS"][i] - table["Teddies.IPOS"][i];
+    largest = std::max(largest, std::abs(std::remainder(box - teddy, 4000.0)));
+    ++pairs;
+  }
+  EXPECT_GT(pairs, 25);
+  EXPECT_LE(largest, 90.0) << "a percent of 4000, and the noise";
+  EXPECT_EQ(table["ready"][row_at(15.5)], 1.0);
+  const std::size_t missed = table.first("missing", 1.0);
+  ASSERT_LT(missed, table.rows);
+  EXPECT_NEAR(table["t"][missed], 16.2, 0.3);
+  EXPECT_EQ(table["missing"][row_at(18.0)], 0.0) << "the next pair puts it right";
+  EXPECT_EQ(table["ready"][row_at(20.5)], 1.0);
+}
+
+TEST(BottleFiller, FillsEachBottleThatIsThereAndNothingElse) {
+  const CsvTable table = simulate(example("29_bottle_filler"), "22s");
+  const auto at = [&](const char* name, double t) {
+    return table[name][static_cast<std::size_t>(std::lround(t * 2000.0))];
+  };
+  EXPECT_NEAR(at("Line.PcdOut[2]", 3.0), 240.0, 1.0);
+  EXPECT_NEAR(at("Line.PcdOut[2]", 16.0), 360.0, 1.0);
+  EXPECT_EQ(at("valves", 6.0), 1.0);
+  EXPECT_EQ(at("Heads.PcdOut[3]", 7.5), 0.0);
+  EXPECT_EQ(at("Heads.PcdOut[3]", 9.5), 1.0) << "one is missing";
+  EXPECT_EQ(at("Heads.PcdOut[3]", 12.5), 1.0) << "glints are no bottles";
+  // Ready all the time, so that each bottle of the sensor is filled: four a second.
+  EXPECT_NEAR(at("Heads.PcdOut[2]", 16.0) - at("Heads.PcdOut[2]", 14.0), 12.0, 1.0);
+  EXPECT_EQ(at("Heads.ERRNO", 17.5), 108.0);
+  EXPECT_EQ(at("Heads.PcdOut[4]", 17.9), 108.0);
+  EXPECT_EQ(at("valves", 17.9), 0.0);
+  EXPECT_EQ(at("Heads.ERRNO", 18.4), 0.0) << "cleared by the field bus";
+  EXPECT_EQ(at("valves", 21.5), 1.0);
 }
 
 TEST(MixedLine, KeepsLabellerAndStackerInStepWithTheBelt) {

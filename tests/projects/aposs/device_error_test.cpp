@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -26,7 +27,8 @@ struct Provoked {
       nullptr;    ///< key of "faults" of the drive, or of the device: the tag is TRUE from 100 ms
   int input = 0;  ///< that the tag switches, in place of a fault
   Texts subprograms{};
-  Texts head{};  ///< in front of all: DIM
+  Texts head{};         ///< in front of all: DIM
+  bool locked = false;  ///< "write_protected"
 };
 
 Texts many(int count, const std::string& before, const std::string& behind, int step = 1) {
@@ -81,6 +83,7 @@ const std::vector<Provoked>& provoked() {
       {.number = 171, .program = {"i = 6", "a[i] = 1"}, .head = {"DIM a[5]"}},
       {.number = 179, .program = {"WAITNDX 100"}},
       {.number = 184, .program = thirteen(), .subprograms = thirteen_subprograms()},
+      {.number = 190, .program = {"SAVE AXPARS"}, .locked = true},
       {.number = 191, .program = {"SETCURVE a"}, .head = {"DIM a[5]"}},
       {.number = 192, .program = runs, .parameters = {{"32-09", 1}}, .drive = true, .fault = "encoder"},
       {.number = 192, .program = {}, .parameters = {{"32-39", 1}}, .fault = "master_encoder"},
@@ -113,6 +116,7 @@ Json project_of(const Provoked& one) {
     device["drive"] = {{"model", "simulated"}, {"time_constant", "3ms"}};
     device["parameters"]["FFVEL"] = 10'486;
   }
+  if (one.locked) device["write_protected"] = true;
   if (one.input != 0) device["inputs"] = {{std::to_string(one.input), "fault"}};
   if (one.fault != nullptr) (one.drive ? device["drive"] : device)["faults"] = {{one.fault, "fault"}};
   return json;
@@ -138,12 +142,27 @@ TEST(DeviceErrors, AreEachProvokedByAProject) {
 }
 
 // What has no program of its own here: 105 waits behind another one, 110 and 196 need a damaged image, 115 a
-// disk that is gone, 116 a damaged retain file, 170 two programs; each has its test elsewhere.
+// disk that is gone, 116 a damaged retain file, 170 and 176 two programs; each has its test elsewhere.
 TEST(DeviceErrors, HaveATestEachOrSayWhyNot) {
-  std::set<int> tested = {105, 110, 115, 116, 170, 175, 196};
+  std::set<int> tested = {105, 110, 115, 116, 170, 175, 176, 196};
   for (const Provoked& one : provoked()) tested.insert(one.number);
   for (const mco305::Error& error : mco305::errors())
     EXPECT_EQ(tested.contains(error.number), error.never.empty()) << error.number;
+  // What can be provoked is, or says why not: it is found when a program is compiled, or what it is about is
+  // not built.
+  const Json document =
+      Json::parse(std::ifstream(std::string(LOCKSTEP_TEST_DATA) + "/mco305/errors_provoke.json"));
+  std::set<int> published;
+  for (const Json& one : document.at("errors")) {
+    const int number = one.at("number");
+    published.insert(number);
+    if (one.at("provoke").is_null()) {
+      EXPECT_FALSE(tested.contains(number)) << number;
+    }
+  }
+  for (const mco305::Error& error : mco305::errors())
+    EXPECT_TRUE(published.contains(error.number)) << error.number;
+  EXPECT_EQ(published.size(), mco305::errors().size());
 }
 
 }  // namespace

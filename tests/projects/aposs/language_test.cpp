@@ -188,10 +188,11 @@ TEST(AposArguments, OfPidFollowItsFilter) {
   EXPECT_EQ(program["v"], 60);
 }
 
-// PCD[1].3 = 1 reads the word, changes its bit and writes it back.
+// PCD[1].3 = 1 changes a bit of the word that is sent; what comes is another word.
 TEST(AposArguments, WriteBitsOfProcessData) {
   Running program("PCD[1].3 = 1\nx = PCD[1].1\n");
-  program.device.values[Command::kPcd] = 1;
+  program.device.values[Command::kSentPcd] = 1;
+  program.device.values[Command::kPcd] = 3;
   program.run(2);
   EXPECT_EQ(program.device.commands, Lines{"0 PCD = 1 5"});
   EXPECT_EQ(program["x"], 1);

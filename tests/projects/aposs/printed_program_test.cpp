@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "tests/projects/aposs/program_run.hpp"
+#include "tests/scheduler/mco305/device_run.hpp"
 
 namespace lockstep::aposs::printed_program_test {
 namespace {
@@ -84,6 +86,164 @@ TEST(AposPrintedPrograms, HaveTheMessagesOfThePrintAndCompileWithItsCorrections)
         << to_string(corrected.files, corrected.errors.empty() ? Message{} : corrected.errors[0]);
   }
   EXPECT_EQ(seen.size(), expected().size());
+}
+
+/// The text of a program as the print has to be corrected, where the document is there.
+std::optional<std::string> corrected(const std::string& id, const std::vector<Correction>& more) {
+  if (!fs::exists(kDocument)) {
+    std::printf("%s is not there; nothing was run\n", kDocument.c_str());
+    return std::nullopt;
+  }
+  Lines document;
+  std::ifstream file(kDocument);
+  for (std::string line; std::getline(file, line);) document.push_back(line);
+  const nlohmann::json catalogue =
+      nlohmann::json::parse(std::ifstream(std::string(LOCKSTEP_TEST_DATA) + "/mco305/printed_programs.json"));
+  for (const auto& program : catalogue.at("programs")) {
+    if (program.at("id") != id) continue;
+    std::string text = joined(printed_lines(program, document));
+    std::vector<Correction> all = expected().at(id).corrections;
+    all.insert(all.end(), more.begin(), more.end());
+    for (const Correction& correction : all) {
+      const std::size_t at = text.find(correction.piece);
+      if (at == text.npos) {
+        ADD_FAILURE() << id << ": " << correction.piece;
+        continue;
+      }
+      text.replace(at, correction.piece.size(), correction.by);
+    }
+    return text + expected().at(id).ending;
+  }
+  return std::nullopt;
+}
+
+/// A printed program in a device of 100 qc/ms whose master turns.
+class PrintedRun : public DeviceRun {
+ public:
+  explicit PrintedRun(const std::string& text) {
+    for (const auto& [name, value] : {std::pair{"ENCODER", 500.0},
+                                      {"MENCODER", 500.0},
+                                      {"VELMAX", 3000.0},
+                                      {"RAMPMIN", 0.5},
+                                      {"SYNCTYPE", 1.0}})
+      set(name, value);
+    object.master.signal = &turned_;
+    object.steps_per_millisecond = 3;  // so that what a pass begins is seen before the next one
+    object.settings.drive.signals.reference_cam = PositionRange{5000.0, 6000.0};
+    object.settings.markers = {.period = 4040.0};
+    object.settings.master_marks = {.period = 4000.0};
+    add_program(text);
+  }
+  void turn(int steps, int by) {
+    for (int i = 0; i < steps; ++i) {
+      turned_ += by;
+      step();
+      changes_ += object.device().following() != followed_ ? 1 : 0;
+      followed_ = object.device().following();
+    }
+  }
+  void input(std::size_t number, bool on) { object.device().io().set_input(number, on); }
+  bool output(std::size_t number) { return object.device().io().output(number); }
+  int changes() const { return changes_; }
+
+ private:
+  DINT turned_ = 0;
+  bool followed_ = false;
+  int changes_ = 0;
+};
+
+// A4: as printed, SYNCV is stopped and started again while the input stays on.
+TEST(AposPrintedPrograms, A4FollowsByVelocityAndStopsEverySecondPass) {
+  const auto text = corrected("A4", {});
+  if (!text) return;
+  PrintedRun run(*text);
+  run.begin();
+  run.turn(100, 20);
+  EXPECT_EQ(run.changes(), 0);
+  run.input(1, true);
+  run.turn(3000, 20);
+  EXPECT_GE(run.changes(), 2);
+  EXPECT_EQ(run.object.machine().error(), 0);
+  run.input(1, false);
+  run.turn(1000, 20);
+  EXPECT_EQ(run.object.device().set_velocity_now(), 0.0);
+  EXPECT_FALSE(run.object.device().following());
+}
+
+// A5: steps of the offset come at most every 500 ms, none before the timer has run once; GET 132 is error
+// 112.
+TEST(AposPrintedPrograms, A5MovesItsOffsetAtMostEvery500Milliseconds) {
+  const auto text = corrected("A5", {});
+  if (!text) return;
+  PrintedRun run(*text);
+  run.set("33-03", 10);
+  run.set("33-04", 1);
+  run.set("1900", 100);
+  run.set("1901", 1);
+  run.begin();
+  run.input(2, true);
+  run.turn(50, 0);
+  run.input(2, false);
+  run.turn(8000, 0);
+  ASSERT_TRUE(run.output(2)) << "homed";
+  run.input(1, true);
+  run.turn(2000, 20);
+  ASSERT_TRUE(run.object.device().following());
+  EXPECT_TRUE(run.output(1)) << "accurate";
+  const auto apart = [&] {
+    return run.object.device().actual_units() - run.object.device().master().shown();
+  };
+  const std::int32_t before = apart();
+  const auto press = [&](int pause) {
+    run.input(4, true);
+    run.turn(100, 20);
+    run.input(4, false);
+    run.turn(pause, 20);
+  };
+  press(700);
+  EXPECT_NEAR(apart(), before, 1) << "no step is enabled yet";
+  for (int i = 0; i < 4; ++i) press(700);
+  EXPECT_NEAR(apart(), before + 400, 1);
+  press(200);
+  press(700);
+  EXPECT_NEAR(apart(), before + 500, 1) << "the second one comes within 500 ms";
+  run.input(4, false);
+  run.input(1, false);
+  run.turn(1000, 20);
+  EXPECT_EQ(run.object.device().pending().first(), 112);
+  EXPECT_TRUE(run.output(8));
+  run.input(8, true);
+  run.turn(100, 0);
+  EXPECT_EQ(run.object.device().pending().first(), 0);
+}
+
+// A6: the mean distances of markers become SYNCMPULSS and SYNCMPULSM, and it follows by them.
+TEST(AposPrintedPrograms, A6MeasuresTheDistancesOfMarkers) {
+  const auto text = corrected("A6", {{"old_mipos = new_mipos", "old_ipos = new_ipos"},
+                                     {"old_mipos = MIPOS", "OUT 2 1\nold_mipos = MIPOS"}});
+  if (!text) return;
+  std::string program = *text;
+  const std::size_t second = program.rfind("WHILE (IN 2 == 1)");
+  ASSERT_NE(second, program.npos);
+  program.replace(second, 17, "WHILE (IN 3 == 1)");
+  PrintedRun run(program);
+  run.set("1900", 20);
+  run.begin();
+  run.input(2, true);
+  run.turn(3000, 0);
+  EXPECT_TRUE(run.output(2));
+  run.input(2, false);
+  run.turn(1000, 0);
+  EXPECT_EQ(run.object.parameters()[mco305::kSyncMPulsS], 4040);
+  run.input(3, true);
+  run.turn(3000, 20);
+  run.input(3, false);
+  run.turn(10, 20);
+  EXPECT_EQ(run.object.parameters()[mco305::kSyncMPulsM], 4000);
+  run.input(1, true);
+  run.turn(500, 20);
+  EXPECT_GE(run.changes(), 1);
+  EXPECT_EQ(run.object.machine().error(), 0);
 }
 
 const std::map<std::string, Expected>& expected() {

@@ -283,13 +283,16 @@ TEST(Mco305Scenario, S21ASecondErrorAndArraysThatDoNotFit) {
   waiting.begin();
   waiting.run(20);
   EXPECT_EQ(waiting.variable("second"), 105);
-  DeviceRun arrays;
-  arrays.set("33-80", 1);
-  arrays.add_program("DIM a[12]\nx = 1\n", 0, true);
-  arrays.add_program("DIM a[10]\nx = 1\n", 1, false);
-  arrays.begin();
-  arrays.run(10);
-  EXPECT_EQ(arrays.object.machine().error(), 170);
+  for (const bool later : {false, true}) {
+    DeviceRun arrays;
+    arrays.object.settings.later_edition = later;
+    arrays.set("33-80", 1);
+    arrays.add_program("DIM a[12]\nx = 1\n", 0, true);
+    arrays.add_program("DIM a[10]\nx = 1\n", 1, false);
+    arrays.begin();
+    arrays.run(10);
+    EXPECT_EQ(arrays.object.machine().error(), later ? 176 : 170);
+  }
 }
 
 TEST(Mco305Scenario, S22Homing) {
