@@ -32,6 +32,7 @@ void set_value(leading_value_t& message, const LeadingValueTelegram& telegram) n
 LeadingValueTelegram telegram_of(const leading_value_t& message) noexcept {
   LeadingValueTelegram telegram;
   telegram.sequence = static_cast<std::uint64_t>(message.sequence);
+  telegram.run = static_cast<std::uint64_t>(message.run);
   telegram.time = message.time;
   telegram.cycle = message.cycle;
   telegram.delay = message.delay;

@@ -82,29 +82,47 @@ void TelegramCountTags::show(const TelegramCounters& counters) const noexcept {
 // ---- Telegrams
 // --------------------------------------------------------------------------------------------------------
 
-/// Whether a telegram is of the source that is followed; the first one says which that is.
+/// From now on it is the source of this telegram that counts.
+void LeadingAxisProxy::know(const LeadingValueTelegram& telegram) noexcept {
+  known_ = true;
+  first_ = telegram.sequence;
+  newest_ = telegram.sequence - 1;
+  newest_time_ = telegram.time - 1;
+  source_run_ = telegram.run;
+  source_restarts_ = telegram.restarts;
+  source_renamed_ = telegram.renamed;
+  source_cycle_ = telegram.cycle;
+  modulo_ = telegram.modulo;
+  recorded_.set_source(modulo_, source_cycle_);
+}
+
+/// Whether a telegram is of the source that is followed; the first one says which that is. Another one in its
+/// place counts at once as long as it has led nothing.
 bool LeadingAxisProxy::adopt(const LeadingValueTelegram& telegram) noexcept {
+  if (replaced_ || other_ring_) return false;
   if (!known_) {
-    known_ = true;
-    newest_ = telegram.sequence - 1;
-    source_restarts_ = telegram.restarts;
-    source_renamed_ = telegram.renamed;
-    source_cycle_ = telegram.cycle;
-    modulo_ = telegram.modulo;
-    recorded_.set_source(modulo_, source_cycle_);
+    know(telegram);
     return true;
   }
-  if (replaced_ || other_ring_) return false;
-  const bool newer = recorded_.empty() || telegram.time > recorded_.newest_time();
-  const bool same = telegram.restarts == source_restarts_ && telegram.cycle == source_cycle_ &&
-                    (!newer || telegram.sequence > newest_);
-  if (same && same_ring(telegram.modulo, modulo_)) return true;
-  if (newer) (same_ring(telegram.modulo, modulo_) ? replaced_ : other_ring_) = true;
-  return false;
+  const bool newer = telegram.time > newest_time_;
+  const bool ring = same_ring(telegram.modulo, modulo_);
+  const bool same = telegram.run == source_run_ && telegram.restarts == source_restarts_ &&
+                    telegram.cycle == source_cycle_ && (!newer || telegram.sequence > newest_);
+  if (same && ring) return true;
+  if (!newer) return false;
+  if (led()) {
+    (ring ? replaced_ : other_ring_) = true;
+    return false;
+  }
+  forget_source();
+  know(telegram);
+  return true;
 }
 
 void LeadingAxisProxy::take(const LeadingValueTelegram& telegram, std::int64_t now) noexcept {
-  if (senseless(telegram) || telegram.time > now + telegram.cycle || !adopt(telegram)) {
+  // A tick that is late, but not missed, finds telegrams of what is ahead of its time.
+  const bool ahead = telegram.time > now + std::max(telegram.cycle, cycle_);
+  if (senseless(telegram) || ahead || !adopt(telegram)) {
     ++counters_.refused;
     return;
   }
@@ -112,26 +130,30 @@ void LeadingAxisProxy::take(const LeadingValueTelegram& telegram, std::int64_t n
   if (newest) {
     counters_.missing += telegram.sequence - newest_ - 1;
     newest_ = telegram.sequence;
+    newest_time_ = telegram.time;
     source_valid_ = telegram.valid;
     source_led_ = telegram.position_led;
     delay_ = telegram.delay;
     rename_to(telegram.renamed);
   }
-  if (!telegram.valid) {
-    ++counters_.received;
-    return;
-  }
+  record(telegram, newest);
+}
+
+/// Takes its value over, and counts it.
+void LeadingAxisProxy::record(const LeadingValueTelegram& telegram, bool newest) noexcept {
   Setpoint value = telegram.value;
   const DoubleDouble behind = source_renamed_ - telegram.renamed;
   if (behind.hi != 0.0) value.position = advanced(value.position, behind, modulo_);
-  if (!recorded_.add(telegram.time, value)) {
+  const bool repeated =
+      telegram.valid ? !recorded_.add(telegram.time, value) : !newest && telegram.sequence == newest_;
+  if (repeated) {
     ++counters_.doubled;
     return;
   }
   ++counters_.received;
   if (newest) return;
   ++counters_.late;
-  if (counters_.missing > 0) --counters_.missing;
+  if (telegram.sequence > first_ && counters_.missing > 0) --counters_.missing;
 }
 
 /// Homing at the source: what has come so far is called by the new names as well, and nothing moves.
@@ -159,28 +181,33 @@ void LeadingAxisProxy::forget_source() noexcept {
 // --------------------------------------------------------------------------------------------------
 
 void LeadingAxisProxy::before_axes() noexcept {
-  local_delay_ = nanoseconds(data.Parameter.LocalLeadingValueDelayTime);
+  local_delay_ =
+      std::min(nanoseconds(data.Parameter.LocalLeadingValueDelayTime), kLongestLeadingDelay * cycle_);
   restarting_ = false;
   new_jobs_.take([this](Job& job) { start(job); });
   if (!faulty()) watch();
-  if (!faulty() && (adapted_.begun() || valid()))
+  if (!faulty() && (led() || valid()))
     lead();
   else
     setpoint_.velocity = setpoint_.acceleration = delayed_.velocity = delayed_.acceleration = 0.0;
   publish();
 }
 
+/// How old the newest value may be: as long as published, and longer where it is interpolated even so.
+std::int64_t LeadingAxisProxy::longest_age() const noexcept {
+  return std::max(kSourceCycles * source_cycle_ + kOwnCycles * cycle_, delay_ - local_delay_);
+}
+
 bool LeadingAxisProxy::valid() const noexcept {
   if (!known_ || replaced_ || other_ring_ || !source_valid_ || recorded_.empty()) return false;
-  const std::int64_t age = now_ - recorded_.newest_time();
-  return age <= kSourceCycles * source_cycle_ + kOwnCycles * cycle_ &&
+  return now_ - recorded_.newest_time() <= longest_age() &&
          recorded_.reaches_back_to(std::min(time_asked(), now_ - delay_));
 }
 
 /// What has begun to lead has to stay valid, but for the tolerance time.
 void LeadingAxisProxy::watch() noexcept {
   if (other_ring_) return fault(alarm::kLeadingModuloChanged);
-  if (valid() || !adapted_.begun()) {
+  if (valid() || !led()) {
     valid_at_ = now_;
     return;
   }
@@ -191,16 +218,28 @@ void LeadingAxisProxy::watch() noexcept {
 }
 
 void LeadingAxisProxy::lead() noexcept {
-  const bool begins = !adapted_.begun();
+  const bool begins = !led();
   last_setpoint_ = setpoint_;
   last_delayed_ = delayed_;
+  // What has not been brought forward so far is, behind the delay, as it has been given.
+  if (local_delay_ != 0 && !undelayed_.begun()) undelayed_ = adapted_;
   setpoint_ = adapted_.step(recorded_, now_, time_asked(), longer_cycle());
-  delayed_ = local_delay_ == 0 && !undelayed_.begun()
+  delayed_ = !undelayed_.begun() && local_delay_ == 0
                  ? setpoint_
                  : undelayed_.step(recorded_, now_, now_ - delay_, longer_cycle());
+  if (!within_limits(setpoint_) || !within_limits(delayed_)) return lose_range();
   if (!begins) return;
   last_setpoint_ = setpoint_;
   last_delayed_ = delayed_;
+}
+
+/// Extrapolated without end, a value leaves every range: it stays where it was.
+void LeadingAxisProxy::lose_range() noexcept {
+  setpoint_.position = last_setpoint_.position;
+  delayed_.position = last_delayed_.position;
+  setpoint_.velocity = setpoint_.acceleration = delayed_.velocity = delayed_.acceleration = 0.0;
+  fault(alarm::kLeadingValuesInvalid, {.value = seconds(now_ - valid_at_),
+                                       .limit = data.Parameter.ToleranceTimeExternalLeadingValueInvalid});
 }
 
 void LeadingAxisProxy::publish() noexcept {

@@ -22,7 +22,7 @@ struct TelegramCounters {
   std::uint64_t missing = 0;   ///< numbers that have been left out, less those that came late
   std::uint64_t late = 0;      ///< behind one with a higher number
   std::uint64_t doubled = 0;   ///< of a time that there was already
-  std::uint64_t refused = 0;   ///< from the future, of a source that has been restarted, or no number
+  std::uint64_t refused = 0;   ///< from the future, of a source that has been restarted, or senseless
 };
 
 /// Where the counts are shown; nullptr: nobody asks. Thread: the cycle.
@@ -72,12 +72,17 @@ class LeadingAxisProxy final : public LeadingObject {
 
  private:
   bool adopt(const LeadingValueTelegram& telegram) noexcept;
+  void know(const LeadingValueTelegram& telegram) noexcept;
+  void record(const LeadingValueTelegram& telegram, bool newest) noexcept;
   void rename_to(DoubleDouble renamed) noexcept;
   bool valid() const noexcept;
+  bool led() const noexcept { return adapted_.begun(); }
+  std::int64_t longest_age() const noexcept;
   std::int64_t time_asked() const noexcept { return now_ - delay_ + local_delay_; }
   std::int64_t longer_cycle() const noexcept { return cycle_ > source_cycle_ ? cycle_ : source_cycle_; }
   void watch() noexcept;
   void lead() noexcept;
+  void lose_range() noexcept;
   void forget_source() noexcept;
   bool faulty() const noexcept { return data.ErrorDetail.Number != 0; }
   void fault(int alarm_number, const AlarmDetail& detail = {}) noexcept;
@@ -100,7 +105,10 @@ class LeadingAxisProxy final : public LeadingObject {
   bool source_led_ = false;
   std::int64_t source_cycle_ = 1;  // [ns]
   std::int64_t delay_ = 0;         // of the source [ns]
+  std::uint64_t first_ = 0;        // number of the telegram that made it known
   std::uint64_t newest_ = 0;       // highest number
+  std::int64_t newest_time_ = 0;   // of the telegram that has it [ns]
+  std::uint64_t source_run_ = 0;
   std::uint32_t source_restarts_ = 0;
   DoubleDouble source_renamed_;  // [u]
   TelegramCounters counters_;

@@ -17,7 +17,8 @@ inline constexpr int kLongestLeadingDelay = 4000;
 ///
 /// Between two of them: the polynomial of fifth degree that has position, velocity and acceleration of both.
 /// At a recorded time it is the recorded value, to the bit. With a jerk of at most J it is within
-/// J · h³ / 160 of the true path between values h apart, its velocity within J · h² / 45.
+/// J · h³ / 160 of the true path between values h apart, its velocity within J · h² / 45, its acceleration
+/// within J · h / 4.8.
 ///
 /// Behind the newest: its acceleration goes on for four of its cycles, then its velocity. That is within
 /// J · t³ / 6 of the true path for t up to those four cycles.

@@ -12,6 +12,7 @@ namespace lockstep {
 /// A leading value with the time to which it belongs and all that a receiver needs to know of its source.
 struct LeadingValueTelegram {
   std::uint64_t sequence = 0;  ///< one more with each telegram of the source, from 1
+  std::uint64_t run = 0;       ///< of the controller that sends, another one each time it is started
   std::int64_t time = 0;       ///< of the application cycle [ns], on the clock that all controllers share
   std::int64_t cycle = 0;      ///< application cycle of the sender [ns] > 0
   std::int64_t delay = 0;      ///< LocalLeadingValueDelayTime of the source [ns] ≥ 0

@@ -57,6 +57,7 @@ TEST(LeadingValues, ComeInAsTheyWentOut) {
     const auto came = reader.read(written(writer, sent), kNow);
     ASSERT_TRUE(came);
     EXPECT_EQ(came->sequence, sent.sequence);
+    EXPECT_EQ(came->run, 99u);
     EXPECT_EQ(came->time, sent.time);
     EXPECT_EQ(came->cycle, sent.cycle);
     EXPECT_EQ(came->delay, sent.delay);

@@ -61,14 +61,17 @@ TEST(RecordedValues, AreInterpolatedWithinTheWrittenErrorOfTheJerk) {
     values.set_source(kRing, cycle);
     for (std::int64_t t = 0; t <= 1000 * kCycle; t += cycle) values.add(t, path(seconds(t), kRing));
     const double h = seconds(cycle);
-    double largest = 0.0, largest_velocity = 0.0;
+    double largest = 0.0, largest_velocity = 0.0, largest_acceleration = 0.0;
     for (std::int64_t t = 0; t < 950 * kCycle; t += 37'001) {
       const Setpoint expected = path(seconds(t), kRing), given = values.at(t);
       largest = std::max(largest, distance(given, expected));
       largest_velocity = std::max(largest_velocity, std::abs(given.velocity - expected.velocity));
+      largest_acceleration =
+          std::max(largest_acceleration, std::abs(given.acceleration - expected.acceleration));
     }
     EXPECT_LE(largest, kJerk * h * h * h / 160 + 1e-9) << cycle;
     EXPECT_LE(largest_velocity, kJerk * h * h / 45 + 1e-9) << cycle;
+    EXPECT_LE(largest_acceleration, kJerk * h / 4.8 + 1e-6) << cycle;
     EXPECT_GT(largest, kJerk * h * h * h / 1600) << "the formula tells nothing";
   }
 }
@@ -90,6 +93,21 @@ TEST(RecordedValues, GoesOnBehindTheNewestWithItsAccelerationForFourCycles) {
     for (int later = 1; later <= 4; ++later) {
       const double h = 0.001 * later;
       EXPECT_LE(distance(values.at(later * kCycle), path(t + h, kRing)), kJerk * h * h * h / 6 + 1e-12);
+    }
+  }
+}
+
+/// Behind four cycles the acceleration is given up: as much more as the path may have of it.
+TEST(RecordedValues, GoOnForLongWithinTheWrittenErrorOfJerkAndAcceleration) {
+  constexpr double kSharpest = kJerk * 0.0373;  // [u/s²] of the path
+  const double kept = 0.004;
+  for (double t = 0.0; t < 0.5; t += 0.0071) {
+    RecordedValues values = record();
+    values.add(0, path(t, kRing));
+    for (int later = 5; later <= 40; later += 5) {
+      const double rest = 0.001 * later - kept;
+      const double bound = kJerk * kept * kept * (kept / 6.0 + rest / 2.0) + kSharpest * rest * rest / 2.0;
+      EXPECT_LE(distance(values.at(later * kCycle), path(t + 0.001 * later, kRing)), bound + 1e-12) << later;
     }
   }
 }
@@ -194,6 +212,58 @@ TEST(AdaptedValue, NeverStepsWhateverIsLostLateOrDoubled) {
       }
       EXPECT_LE(furthest, delay == 12 * kCycle && loss == 0.01 ? 1e-5 : 0.5);
     }
+  }
+}
+
+/// A path that stands until a jerk of 1 u/s³ lasts from `begin` on for `duration` [s].
+Setpoint jerked(double t, double begin, double duration) {
+  const double jerk = std::clamp(t - begin, 0.0, duration);
+  const double rest = std::max(t - begin - duration, 0.0);
+  const double p = jerk * jerk * jerk / 6.0, v = jerk * jerk / 2.0, a = jerk;
+  return {{0, p + rest * (v + rest * a / 2.0)}, v + rest * a, a};
+}
+
+/// Differences of what is given from the path, summed up over all cycles.
+struct Summed {
+  double position = 0.0, velocity = 0.0, acceleration = 0.0;
+};
+
+/// What a jerk leaves in a value that is always extrapolated by `late` cycles.
+Summed left_by(double begin, double duration, int late) {
+  Receiver receiver;
+  receiver.values.set_source(Modulo{}, kCycle);
+  Summed all;
+  for (int i = 0; i < 400; ++i) {
+    if (i >= late) receiver.values.add((i - late) * kCycle, jerked(0.001 * (i - late), begin, duration));
+    if (receiver.values.empty()) continue;
+    const Setpoint given = receiver.step(i * kCycle), truth = jerked(0.001 * i, begin, duration);
+    all.position += std::abs(given.position.value - truth.position.value);
+    all.velocity += std::abs(given.velocity - truth.velocity);
+    all.acceleration += std::abs(given.acceleration - truth.acceleration);
+  }
+  return all;
+}
+
+/// What is given depends on the jerk of the path linearly. So with any jerk of at most J it is off by no more
+/// than J times the sum of what each moment of a cycle leaves in all later ones: that sum is the largest
+/// difference there can be, and it is within J · (t + T)³ / 30 for a value that is extrapolated by t, with
+/// T = 8 cycles + 4 t, its velocity within J · (t + T)² / 10, its acceleration within J · (t + T) / 2.
+TEST(AdaptedValue, IsWithinTheWrittenBoundOfTheJerkWhateverThePath) {
+  constexpr int kParts = 20;  // of a cycle
+  for (int late = 1; late <= 4; ++late) {
+    SCOPED_TRACE(late);
+    Summed all;
+    for (int part = 0; part < kParts; ++part) {
+      const Summed one = left_by(0.010 + 0.001 * part / kParts, 0.001 / kParts, late);
+      all.position += one.position;
+      all.velocity += one.velocity;
+      all.acceleration += one.acceleration;
+    }
+    const double span = 0.001 * (late + 8 + 4 * late);
+    EXPECT_LE(all.position, span * span * span / 30.0);
+    EXPECT_LE(all.velocity, span * span / 10.0);
+    EXPECT_LE(all.acceleration, span / 2.0);
+    EXPECT_GT(all.position, span * span * span / 100.0) << "the formula tells nothing";
   }
 }
 

@@ -18,7 +18,7 @@ LINK = re.compile(r"(!?)\[([^][]*(?:\[[^][]*\][^][]*)*)\]\(([^)#\s]*)(#[^)\s]*)?
 # The pages in their order; what is not named follows by folders.
 CHAPTERS = [
     ("First steps", ["README", "CHANGELOG"]),
-    ("The language", ["projects/LANGUAGE", "projects/FUNCTIONS", "projects/KEYS", "fb/BLOCKS", "projects/CAMS"]),
+    ("The language", ["projects/LANGUAGE", "projects/FUNCTIONS", "projects/KEYS", "fb/BLOCKS", "projects/CAMS", "projects/PLANT"]),
     ("Running it", ["cli/COMMANDS", "tech_objects/ALARMS", "hmi_bridge/MODBUS", "hmi_bridge/LCM", "hmi_bridge/RETAIN",
                     "hmi_bridge/AUDIT", "hmi_bridge/STUDIO", "hmi_bridge/tls/README", "SECURITY"]),
     ("Examples", None),
