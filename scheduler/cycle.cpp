@@ -52,9 +52,11 @@ bool Controller::due(std::int64_t cycle, std::int64_t t) const noexcept {
 void Controller::take_inputs(std::int64_t t) noexcept {
   for (ProcessImage* image : images) image->take_writes();
   for (const TelegramInput& input : telegram_inputs)
-    input.ring->take([&](LeadingValueTelegram telegram) {
+    input.ring->take_while([&](LeadingValueTelegram telegram) {
       telegram.time -= shared_time_at_start;
+      if (telegram.time > t + telegram.cycle) return false;  // this tick is late: it belongs to a later one
       input.proxy->take(telegram, t);
+      return true;
     });
   encoder_saving.step();
   if (apply_stimuli)

@@ -79,10 +79,22 @@ void RealTimeRun::interpolate_cams() noexcept {
     if (!controller_.interpolate_cams()) std::this_thread::sleep_for(kCamPoll);
 }
 
+/// When the first tick is due.
+std::int64_t RealTimeRun::first_tick() noexcept {
+  std::int64_t start = clock_.now() + controller_.clock.servo_cycle;
+  if (aligned_to_ > 0) {
+    const std::int64_t beyond = (start + shared_offset_) % aligned_to_;
+    if (beyond != 0) start += aligned_to_ - beyond;
+    controller_.shared_time_at_start = start;
+  }
+  status_.start.store(start, std::memory_order_relaxed);
+  return start;
+}
+
 void RealTimeRun::run() noexcept {
   pthread_setname_np(pthread_self(), "cycle");  // for top and strace
   const std::int64_t cycle = controller_.clock.servo_cycle;
-  const std::int64_t start = clock_.now() + cycle;
+  const std::int64_t start = first_tick();
   bool shutting_down = false;
   std::int64_t shutdown_begin = 0;
   for (;;) {

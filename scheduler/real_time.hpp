@@ -26,6 +26,7 @@ struct RealTimeStatus {
   std::atomic<std::int64_t> worst_lateness{0};  ///< latest start of a tick after its time [ns]
   std::atomic<std::int64_t> longest_tick{0};    ///< [ns]
   std::atomic<std::int64_t> time{0};            ///< time of the controller [ns]
+  std::atomic<std::int64_t> start{0};           ///< of its clock when that time is 0 [ns]; 0: not known yet
   std::atomic<bool> stopped_by_overrun{false};
   std::atomic<bool> at_rest{
       false};  ///< the axes are off, or the time for it is over; ticks go on until `wait`
@@ -49,6 +50,14 @@ class RealTimeRun {
   RealTimeRun(const RealTimeRun&) = delete;
   RealTimeRun& operator=(const RealTimeRun&) = delete;
 
+  /// Has the ticks begin at a whole multiple of `cycle` of the clock that several controllers share, so that
+  /// equal cycles are in phase, and notes in the controller what that is when its time is 0. Before `start`.
+  /// @param offset what the shared clock shows more than the one that this waits for [ns]
+  void align(std::int64_t cycle, std::int64_t offset) noexcept {
+    aligned_to_ = cycle;
+    shared_offset_ = offset;
+  }
+
   /// Starts the thread with real-time priority and locked memory as far as the system permits.
   /// @return what was not permitted, as plain warnings
   std::vector<std::string> start();
@@ -66,6 +75,7 @@ class RealTimeRun {
 
  private:
   void run() noexcept;
+  std::int64_t first_tick() noexcept;
   void count_overrun(bool overrun) noexcept;
   void interpolate_cams() noexcept;
 
@@ -74,6 +84,8 @@ class RealTimeRun {
   std::int64_t duration_;
   int processor_;
   WaitingClock& clock_;
+  std::int64_t aligned_to_ = 0;  // [ns]; 0: to nothing
+  std::int64_t shared_offset_ = 0;
   RealTimeRights rights_;
   std::atomic<bool> stop_requested_{false};
   std::atomic<bool> may_end_{false};

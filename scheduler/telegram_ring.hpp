@@ -37,6 +37,16 @@ class TelegramRing {
     begin_.store(end, std::memory_order_release);
   }
 
+  /// The same up to one that `use` does not want yet: that and those behind it stay.
+  /// @param use gives whether it has taken it
+  template <class Use>
+  void take_while(Use use) noexcept {
+    const std::size_t end = end_.load(std::memory_order_acquire);
+    std::size_t i = begin_.load(std::memory_order_relaxed);
+    while (i != end && use(telegrams_[i % kCapacity])) ++i;
+    begin_.store(i, std::memory_order_release);
+  }
+
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:

@@ -2,6 +2,7 @@
 /// @source S7-1500T synchronous operation V7, 10.3
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,13 @@ namespace lockstep {
 /// What takes telegrams.
 inline constexpr ObjectKinds kLeadingAxisProxy = static_cast<ObjectKinds>(ObjectKind::TO_LeadingAxisProxy);
 
+/// Where the ends of a transfer area are.
+enum class TransferDirection : std::uint8_t {
+  within,  ///< both in this controller
+  send,    ///< the source is here
+  receive  ///< the proxies are here
+};
+
 /// By which interface of a leading object telegrams go to proxies. Made at load time.
 struct TransferArea {
   struct Receiver {
@@ -24,6 +32,10 @@ struct TransferArea {
   std::string name;
   LeadingObject* from = nullptr;
   int interface = 1;  ///< index of CrossPlcSynchronousOperation.Interface, from 1
+  TransferDirection direction = TransferDirection::within;
+  std::string channel;     ///< of the network, where one end is elsewhere
+  std::string controller;  ///< that sends, where the source is elsewhere
+  std::string source;      ///< its leading object
   std::vector<Receiver> to{};
 
   bool leads(const TechnologyObject* proxy) const noexcept {

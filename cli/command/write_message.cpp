@@ -12,15 +12,19 @@
 #include <cstdlib>
 
 #include "cli/command/command.hpp"
+#include "cli/command/redirect.hpp"
 #include "projects/json/problem.hpp"
 
 namespace lockstep::cli {
 namespace {
 
+std::atomic<int> redirected{-1};  // descriptor of messages; negative: standard error
+
 constexpr std::size_t kAtOnce = 4096;  // [byte] a pipe that takes something takes that much
 
 /// Whether standard error is the journal's stream that systemd has announced: "device:inode".
 bool is_journal() noexcept {
+  if (redirected >= 0) return false;
   static const bool answer = [] {
     const char* const announced = std::getenv("JOURNAL_STREAM");
     struct stat status {};
@@ -51,10 +55,14 @@ ssize_t write_some(int output, const char* text, std::size_t size) noexcept {
 
 }  // namespace
 
+void write_messages_to(int descriptor) noexcept {
+  redirected = descriptor;
+}
+
 void write_message(const std::string& text, int timeout) noexcept {
   // Where nobody has read for the time of one message, the next ones do not wait as well.
   static std::atomic<bool> is_unread{false};
-  const int place = error_output();
+  const int place = redirected >= 0 ? redirected.load() : error_output();
   const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(is_unread ? 0 : timeout);
   for (std::size_t written = 0; written < text.size();) {
     const auto left =

@@ -132,6 +132,9 @@ void press_letter(Model& model, char letter, Wish& wish, Model::Clock::time_poin
     case 'a':
       model.alarms = !model.alarms;
       break;
+    case 'l':
+      model.leading = !model.leading;
+      break;
     case 'p':
       model.pause(!model.paused(), now);
       break;

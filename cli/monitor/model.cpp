@@ -45,6 +45,7 @@ bool Model::accept(const std::string& channel, std::span<const std::uint8_t> byt
     if (state) panel->accept(*name, *state, now);
     return false;
   }
+  if (heard_.leading.accept(channel, bytes, now)) return true;
   const std::string name = before(channel, kHeaderSuffix).value_or(channel);
   const auto rows_of = [&] { return known(name) ? heard_.traces.all().at(name).rows() : 0; };
   const std::uint64_t rows = rows_of();

@@ -9,6 +9,7 @@
 
 #include "cli/monitor/events.hpp"
 #include "cli/monitor/history.hpp"
+#include "cli/monitor/leading.hpp"
 #include "cli/monitor/panel.hpp"
 #include "cli/monitor/traces.hpp"
 
@@ -20,6 +21,7 @@ struct Heard {
   std::map<std::string, std::vector<History>>
       histories;  ///< by channel; fewer than signals if there are many
   HeardEvents events;
+  HeardLeadingValues leading;
   HeardTrace::Clock::time_point at;  ///< when the last of it came, or when it was shown last
 };
 
@@ -73,7 +75,7 @@ class Model {
   std::string search;      ///< part of names, without regard to case; empty: all
   bool searching = false;  ///< keys go to the search
   Order order = Order::as_told;
-  bool plot = false, jobs = false, alarms = false, help = false;
+  bool plot = false, jobs = false, alarms = false, leading = false, help = false;
   int window_index = 2;
   std::string prompt;          ///< what is asked for, such as "home Knife at"; empty: nothing
   std::string answer;          ///< what has been typed

@@ -157,6 +157,8 @@ void print(const Listener& listener, const char* after) {
   std::string text;
   for (const std::string& line : trace_lines(listener.model.heard().traces, Clock::now(), output_width()))
     text += line + "\n";
+  for (const std::string& line : leading_lines(listener.model.heard().leading, Clock::now(), output_width()))
+    text += line + "\n";
   if (text.empty()) text = "no trace heard\n";
   write_data(text + after);
 }
@@ -164,9 +166,12 @@ void print(const Listener& listener, const char* after) {
 int show_once(Listener& listener) {
   const auto begin = Clock::now();
   listener.listen(begin + kGather);
-  while (!listener.model.heard().traces.any_row() && Clock::now() < begin + kPatience && end_requested == 0)
+  const auto heard = [&listener] {
+    return listener.model.heard().traces.any_row() || !listener.model.heard().leading.empty();
+  };
+  while (!heard() && Clock::now() < begin + kPatience && end_requested == 0)
     listener.listen(std::min(Clock::now() + 50ms, begin + kPatience));
-  if (!listener.model.heard().traces.any_row()) {
+  if (!heard()) {
     write_message("lockstep: no trace was heard; is a project running with lcm in its trace?\n");
     return kNotValid;
   }
@@ -258,7 +263,8 @@ void add_monitor_command(CLI::App& app, Action& action) {
       "could not record (dropped) and that did not come through the network (lost).\n"
       "In a terminal: arrows, PgUp, PgDn, Home and End choose a signal; / searches, s sorts, g plots, + and "
       "-\n"
-      "change the window, j shows jobs, a alarms, p pauses, r records, ? helps; q or Ctrl-C ends.\n"
+      "change the window, j shows jobs, a alarms, l leading values between controllers, p pauses, r records, "
+      "? helps; q or Ctrl-C ends.\n"
       "With --panel: Tab chooses an axis, e and d enable and disable it, left and right jog it while the key "
       "is\n"
       "held, Space stops, h sets its position, x resets alarms, n starts the program of an MCO_305, [ and ] "

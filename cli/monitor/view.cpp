@@ -28,6 +28,7 @@ constexpr const char* kHelp[] = {
     "g   larger plot of the chosen signal",
     "+ - window of all curves: 5 s to 60 s",
     "j a running and ended jobs; alarms",
+    "l   leading values between controllers: sources and proxies",
     "p   pause: the picture stands, recording goes on",
     "r   record everything heard to a file of LCM; r again ends it",
     "?   this page        q or Ctrl-C  end",
@@ -208,6 +209,15 @@ Lines alarms(const Model& model, std::size_t height) {
   return lines;
 }
 
+Lines leading(const Model& model, Time now, std::size_t width, std::size_t height) {
+  Lines lines{{"-- leading values between controllers", Look::heading}};
+  std::vector<std::string> heard = leading_lines(model.shown().leading, model.time(now), width);
+  if (heard.empty()) heard = {"", "  none heard of"};
+  for (std::size_t i = 1; i < heard.size(); ++i) lines.push_back({heard[i]});
+  lines.resize(height);
+  return lines;
+}
+
 std::string axis_text(const PanelAxis& axis, Time now) {
   if (now - axis.heard > Panel::kSilent) return "SILENT";
   const auto has = [&](StatusBit bit) { return has_bit(static_cast<DWORD>(axis.state.status_word), bit); };
@@ -292,7 +302,7 @@ Lines help(std::size_t height) {
 
 /// How many lines panes have below the table, if the table keeps enough.
 struct Panes {
-  std::size_t plot = 0, jobs = 0, alarms = 0;
+  std::size_t plot = 0, jobs = 0, alarms = 0, leading = 0;
   std::size_t table = 0;
 
   Panes(const Model& model, ViewSize size) {
@@ -305,6 +315,7 @@ struct Panes {
     };
     alarms = open(model.alarms, kListHeight + 1);
     jobs = open(model.jobs, kListHeight + 1);
+    leading = open(model.leading, kListHeight + 1);
     plot = open(model.plot, kPlotHeight + 2);
   }
 };
@@ -326,6 +337,7 @@ std::vector<ViewLine> view(const Model& model, Time now, ViewSize size, Characte
   } else {
     add(table(model, now, {size.width, panes.table}, characters));
     if (panes.plot != 0) add(plot(model, size.width, characters));
+    if (panes.leading != 0) add(leading(model, now, size.width, panes.leading));
     if (panes.jobs != 0) add(jobs(model, panes.jobs));
     if (panes.alarms != 0) add(alarms(model, panes.alarms));
   }

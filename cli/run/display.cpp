@@ -66,8 +66,8 @@ std::string place_text(const AxisSummary& end, const Axis& now) {
 
 }  // namespace
 
-Display::Display(Project& project, const std::vector<NamedSignal>& signals, std::int64_t duration)
-    : shown_(signals), duration_(duration), terminal_(isatty(STDERR_FILENO) == 1) {
+Display::Display(Project& project, const std::vector<NamedSignal>& signals, std::int64_t duration, bool alone)
+    : shown_(signals), duration_(duration), terminal_(alone && isatty(STDERR_FILENO) == 1) {
   if (!terminal_) return;
   image_ = std::make_unique<ProcessImage>(places_of(shown_));
   project.controller->images.push_back(image_.get());
@@ -95,6 +95,21 @@ void Display::show(std::int64_t time, const std::string& note) {
 void Display::close() {
   if (open_) write_message("\n");
   open_ = false;
+}
+
+void tell_proxies(const Controller& controller) {
+  for (const auto& object : controller.objects) {
+    if (object->kind != ObjectKind::TO_LeadingAxisProxy) continue;
+    const auto& proxy = static_cast<const LeadingAxisProxy&>(*object);
+    const TelegramCounters& counts = proxy.counters();
+    const int alarm = static_cast<int>(proxy.data.ErrorDetail.Number);
+    write_message(fmt::format(
+        "  {}  {} telegrams, {} missing, {} late, {} doubled, {} refused; {} by {:.3f} ms{}\n", proxy.name,
+        counts.received, counts.missing, counts.late, counts.doubled, counts.refused,
+        proxy.data.StatusExternalLeadingValue.AdjustmentTime > 0.0 ? "extrapolated" : "interpolated",
+        std::abs(proxy.data.StatusExternalLeadingValue.AdjustmentTime) * 1e3,
+        alarm == 0 ? "" : fmt::format("; alarm {}", alarm)));
+  }
 }
 
 void tell_axes(const Controller& controller) {

@@ -1,15 +1,23 @@
 // lockstep run: puts the parts together, runs them and tells how it went.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <chrono>
+#include <cstdlib>
+#include <cstring>
 #include <memory>
+#include <optional>
+#include <string_view>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include "cli/command/command.hpp"
+#include "cli/command/redirect.hpp"
 #include "cli/command/shortage.hpp"
 #include "cli/run/ending.hpp"
 #include "cli/run/run_command.hpp"
@@ -17,6 +25,7 @@
 #include "cli/run/told.hpp"
 #include "cli/run/transcript.hpp"
 #include "hmi_bridge/network/thread_stacks.hpp"
+#include "projects/json/problem.hpp"
 #include "projects/runtime/kept_values.hpp"
 #include "projects/runtime/run_surroundings.hpp"
 #include "projects/runtime/runtime.hpp"
@@ -154,10 +163,23 @@ int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const R
   simulate(project, surroundings, display, ending, options.duration);
   messages.tell_rest();
   surroundings.tell_losses();
+  tell_proxies(*project.controller);
   tell_axes(*project.controller);
   tell_counters(*project.controller);
   const int status = transcript.write(project) ? kOk : kCouldNotStart;
   return status_of(status, fail_on, messages, *project.controller);
+}
+
+/// Where another process wants the summary, by a descriptor; negative: nobody else does.
+int summary_descriptor() {
+  const char* const text = std::getenv(kSummaryVariable);
+  if (text == nullptr) return -1;
+  int descriptor = -1;
+  const char* const end = text + std::strlen(text);
+  const auto [stop, error] = std::from_chars(text, end, descriptor);
+  const bool usable =
+      error == std::errc{} && stop == end && descriptor > STDERR_FILENO && ::fcntl(descriptor, F_GETFD) >= 0;
+  return usable ? descriptor : -1;
 }
 
 /// The threads of the run do the work; this one only looks and tells.
@@ -165,26 +187,86 @@ int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, cons
                      const FailOn& fail_on, const std::shared_ptr<ToldOnStandardError>& messages) {
   std::unique_ptr<Display> display;  // of whose image the cycle knows: it goes after the cycle
   Runtime machine(std::move(project), std::move(keeper), options, messages);
+  const int summary = summary_descriptor();
   machine.leave_processor();
   require_means(machine.project(), true);
   Transcript transcript(options.transcript, machine.project());
   Ending ending;
   machine.prepare();
-  display = std::make_unique<Display>(machine.project(), machine.trace_signals(), options.duration);
+  display =
+      std::make_unique<Display>(machine.project(), machine.trace_signals(), options.duration, summary < 0);
   const Controller& controller = *machine.project().controller;
   ServiceManager manager(controller.clock.servo_cycle);
   const Forgetting at_the_end{ending};
   machine.start();
   wait_for_end(machine, *display, manager, ending);
   messages->tell_rest();
+  if (summary >= 0) write_messages_to(summary);
   int status = tell_end(machine.status(), controller);
   if (!transcript.write(machine.project()) && status == kOk) status = kCouldNotStart;
+  tell_proxies(controller);
   tell_axes(controller);
   tell_counters(controller);
   return status_of(status, fail_on, *messages, controller);
 }
 
+/// @param path of the system file  @param status the exit status if there is no system
+std::optional<System> load_controller_or_tell(const std::string& path, const std::string& controller,
+                                              int& status, const PrepareController& prepare) {
+  LoadedSystem loaded = load_controller_of(path, controller, prepare);
+  for (const Problem& problem : loaded.problems) tell_line(to_string(path, problem), Severity::error);
+  status = kNotValid;
+  if (!loaded.system) return std::nullopt;
+  if (!loaded.system->find(controller)) {
+    std::vector<std::string_view> names;
+    for (const SystemController& one : loaded.system->controllers) names.push_back(one.name);
+    throw CouldNotStart("--controller: there is no controller " + quote(controller) +
+                        did_you_mean(controller, names) + "; allowed: " + list_of(names));
+  }
+  // Told once, where several processes of a system are started at a time.
+  if (std::getenv(kSummaryVariable) == nullptr)
+    for (Problem& warning : loaded.warnings) {
+      warning.text = "warning: " + warning.text;
+      tell_line(to_string(path, warning), Severity::warning);
+    }
+  return std::move(loaded.system);
+}
+
+int start_controller(const RunOptions& options, const std::string& controller, FailOn fail_on) {
+  const auto messages = std::make_shared<ToldOnStandardError>(0, controller);
+  std::unique_ptr<RetainWriter> keeper;
+  int status = kOk;
+  std::optional<System> system = load_controller_or_tell(options.file, controller, status,
+                                                         [&](Project& project, const SystemController& one) {
+                                                           RunOptions its = options;
+                                                           its.file = one.file;
+                                                           keeper = restore_kept(project, its, *messages);
+                                                         });
+  if (!system) return status;
+  const std::size_t index = *system->find(controller);
+  return run_in_real_time(std::move(system->controllers[index].project), std::move(keeper),
+                          options_of(*system, index, options), fail_on, messages);
+}
+
 }  // namespace
+
+int run_controller(const RunOptions& options, const std::string& controller, FailOn fail_on) {
+  keep_stacks_small();
+  try {
+    if (options.simulate)
+      throw CouldNotStart("--controller: in virtual time all controllers of a system run; leave it out");
+    if (!is_system_file(options.file))
+      throw CouldNotStart("--controller: " + options.file + " is no system file");
+    return start_controller(options, controller, fail_on);
+  } catch (const UnreadableFile& error) {
+    tell(with_help(error.what()), Severity::error);
+  } catch (const CouldNotStart& error) {
+    tell(with_help(error.what()), Severity::error);
+  } catch (const RetainFileError& error) {
+    tell(with_help(error.what()), Severity::error);
+  }
+  return kCouldNotStart;
+}
 
 int run_project(const RunOptions& options, FailOn fail_on) {
   keep_stacks_small();

@@ -44,6 +44,11 @@ void add_run_command(CLI::App& app, Action& action) {
           "and traces cost is not felt in a tick")
       ->check(CLI::NonNegativeNumber)
       ->excludes(simulate);
+  auto controller = std::make_shared<std::string>();
+  command
+      ->add_option("--controller", *controller,
+                   "of a system file: run this controller here, in real time; others run elsewhere")
+      ->excludes(simulate);
   auto* modbus = command->add_option("--modbus", options->modbus,
                                      "listen on HOST:PORT instead of where the project says");
   command->add_flag("--no-modbus", options->no_modbus, "no Modbus server")->excludes(modbus);
@@ -84,8 +89,12 @@ void add_run_command(CLI::App& app, Action& action) {
       "rest. What follows has five seconds; a second signal makes it a moment. A closed terminal does not "
       "end "
       "it.\n"
-      "A system file runs with --simulate only, with --duration, --trace, --signals (CONTROLLER.PATH) and "
-      "--fail-on.\n"
+      "Of a system file each controller runs in a process of its own, all on this machine, and all come to "
+      "rest\n"
+      "when one of them fails; with --controller one of them here, the others elsewhere; with --simulate all "
+      "in "
+      "this\n"
+      "process. Signals of --signals begin with their controller (CONTROLLER.PATH).\n"
       "With --simulate, Modbus, LCM and the audit log are off unless asked for.\n"
       "Values that are kept stand, unless named, beside the project file or in the state directory of "
       "systemd.\n"
@@ -94,7 +103,7 @@ void add_run_command(CLI::App& app, Action& action) {
       "the overrun policy, or something did not come to its end, 4 there was what --fail-on names, or events "
       "were lost\n"
       "and nobody knows");
-  command->callback([&action, options, duration, fail_on] {
+  command->callback([&action, options, controller, duration, fail_on] {
     if (!duration->empty()) {
       std::string problem;
       const auto value = parse_duration(*duration, problem);
@@ -105,7 +114,8 @@ void add_run_command(CLI::App& app, Action& action) {
     }
     const auto named = [&](const char* what) { return std::ranges::find(*fail_on, what) != fail_on->end(); };
     const FailOn fails{.alarm = named("alarm"), .job = named("job")};
-    action = [options, fails] {
+    action = [options, controller, fails] {
+      if (!controller->empty()) return run_controller(*options, *controller, fails);
       return is_system_file(options->file) ? run_system(*options, fails) : run_project(*options, fails);
     };
   });

@@ -1,8 +1,7 @@
-// lockstep run of a system file: all controllers in this process, on one virtual time.
+// lockstep run of a system file in virtual time: all controllers in this process.
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -42,40 +41,24 @@ std::string trace_of(const std::string& trace, const std::string& controller) {
 
 /// What the command line asks for that only a project alone can give.
 void refuse_what_no_system_has(const RunOptions& options) {
-  if (!options.simulate)
-    throw CouldNotStart("--simulate is missing: nothing carries leading values between processes yet");
-  const std::pair<bool, const char*> refused[] = {{!options.modbus.empty(), "--modbus"},
-                                                  {!options.lcm.empty(), "--lcm"},
-                                                  {!options.audit.empty(), "--audit"},
-                                                  {!options.studio.empty(), "--studio"},
-                                                  {!options.transcript.empty(), "--transcript"}};
+  const std::pair<bool, const char*> refused[] = {
+      {!options.modbus.empty(), "--modbus"}, {!options.lcm.empty(), "--lcm"},
+      {!options.audit.empty(), "--audit"},   {!options.retain.empty(), "--retain"},
+      {options.cpu >= 0, "--cpu"},           {!options.studio.empty(), "--studio"},
+      {!options.transcript.empty(), "--transcript"}};
   for (const auto& [given, name] : refused)
     if (given)
-      throw CouldNotStart(std::string(name) +
-                          " is for one project; allowed with a system: --simulate, --duration, --trace, "
-                          "--signals, --fail-on");
+      throw CouldNotStart(
+          std::string(name) +
+          " is for one project, or one controller of a system (--controller); allowed with a "
+          "system: --simulate, --duration, --trace, --signals, --stimuli, --fail-on, --no-modbus, "
+          "--no-lcm, --no-retain");
 }
 
-/// The options of each controller: its file, its trace and its signals.
+/// The options of each controller.
 std::vector<ControllerRun> divided(const System& system, const RunOptions& options) {
   std::vector<ControllerRun> runs(system.controllers.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    runs[i].options = options;
-    runs[i].options.signals.clear();
-    runs[i].options.file = system.controllers[i].file;
-    if (!options.trace.empty()) runs[i].options.trace = trace_of(options.trace, system.controllers[i].name);
-  }
-  for (const std::string& signal : options.signals) {
-    const std::size_t dot = signal.find('.');
-    const auto index = system.find(std::string_view(signal).substr(0, dot));
-    if (!index || dot == signal.npos)
-      throw CouldNotStart("--signals: " + quote(signal) +
-                          " begins with no controller of the system; allowed: CONTROLLER.PATH");
-    runs[*index].options.signals.push_back(signal.substr(dot + 1));
-  }
-  // Where signals are named, a controller of which none is has no trace.
-  for (ControllerRun& run : runs)
-    if (!options.signals.empty() && run.options.signals.empty()) run.options.trace.clear();
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].options = options_of(system, i, options);
   return runs;
 }
 
@@ -126,22 +109,6 @@ void simulate(SimulatedSystem& machine, const std::vector<ControllerRun>& runs, 
                   simulated, runs.size(), spent.count(), simulated / spent.count(), ticks));
 }
 
-/// What a proxy has had, in a line of its own.
-void tell_proxies(const Controller& controller) {
-  for (const auto& object : controller.objects) {
-    if (object->kind != ObjectKind::TO_LeadingAxisProxy) continue;
-    const auto& proxy = static_cast<const LeadingAxisProxy&>(*object);
-    const TelegramCounters& counts = proxy.counters();
-    const int alarm = static_cast<int>(proxy.data.ErrorDetail.Number);
-    write_message(fmt::format(
-        "  {}  {} telegrams, {} missing, {} late, {} doubled, {} refused; {} by {:.3f} ms{}\n", proxy.name,
-        counts.received, counts.missing, counts.late, counts.doubled, counts.refused,
-        proxy.data.StatusExternalLeadingValue.AdjustmentTime > 0.0 ? "extrapolated" : "interpolated",
-        std::abs(proxy.data.StatusExternalLeadingValue.AdjustmentTime) * 1e3,
-        alarm == 0 ? "" : fmt::format("; alarm {}", alarm)));
-  }
-}
-
 int tell_ends(const System& system, const std::vector<ControllerRun>& runs, const FailOn& fail_on) {
   int status = kOk;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -178,11 +145,30 @@ int simulate_system(const RunOptions& options, const FailOn& fail_on) {
 
 }  // namespace
 
+RunOptions options_of(const System& system, std::size_t controller, const RunOptions& options) {
+  const SystemController& one = system.controllers[controller];
+  RunOptions its = options;
+  its.file = one.file;
+  its.signals.clear();
+  for (const std::string& signal : options.signals) {
+    const std::size_t dot = signal.find('.');
+    const auto index = system.find(std::string_view(signal).substr(0, dot));
+    if (!index || dot == signal.npos)
+      throw CouldNotStart("--signals: " + quote(signal) +
+                          " begins with no controller of the system; allowed: CONTROLLER.PATH");
+    if (*index == controller) its.signals.push_back(signal.substr(dot + 1));
+  }
+  if (!options.trace.empty()) its.trace = trace_of(options.trace, one.name);
+  // Where signals are named, a controller of which none is has no trace.
+  if (!options.signals.empty() && its.signals.empty()) its.trace.clear();
+  return its;
+}
+
 int run_system(const RunOptions& options, FailOn fail_on) {
   keep_stacks_small();
   try {
     refuse_what_no_system_has(options);
-    return simulate_system(options, fail_on);
+    return options.simulate ? simulate_system(options, fail_on) : run_processes(options, fail_on);
   } catch (const CouldNotStart& error) {
     tell(with_help(error.what()), Severity::error);
   }

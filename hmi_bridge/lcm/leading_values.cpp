@@ -98,6 +98,17 @@ std::optional<leading_value_t> decode_leading_value(std::span<const std::uint8_t
   return message;
 }
 
+std::optional<leading_proxies_t> decode_leading_proxies(std::span<const std::uint8_t> bytes) {
+  LcmWalk walk(bytes);
+  if (walk.number(8) != static_cast<std::uint64_t>(leading_proxies_t::getHash()) || !walk.good())
+    return std::nullopt;
+  walk.skip(10 * 8);
+  for (int i = 0; i < 3; ++i) walk.string();
+  leading_proxies_t message;
+  if (!walk.at_end() || !decode(message, bytes)) return std::nullopt;
+  return message;
+}
+
 LeadingValueReader::LeadingValueReader(LeadingValueLink link)
     : link_(std::move(link)), layout_(link_.layout()) {}
 
@@ -117,7 +128,8 @@ std::optional<LeadingValueTelegram> LeadingValueReader::read(std::span<const std
   std::copy(std::begin(message->code), std::end(message->code), code.begin());
   if (!same_code(code, expected)) return refused(counters_.not_signed);
   // Written so that no difference overflows.
-  if (message->time < now - kLongestAge || message->time > now + kLongestAge || message->sequence < 1)
+  const std::int64_t ahead = std::clamp<std::int64_t>(message->cycle, 0, kLongestAge);
+  if (message->time < now - kLongestAge || message->time > now + ahead || message->sequence < 1)
     return refused(counters_.stale);
   if (is_ambiguous(*message, now)) return refused(counters_.ambiguous);
   if (is_repeated(*message)) return refused(counters_.repeated);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hmi_bridge/lcm/key_file.hpp"
+#include "lockstep/leading_proxies_t.hpp"
 #include "lockstep/leading_value_t.hpp"
 #include "tech_objects/leading_values/telegram.hpp"
 
@@ -57,7 +58,7 @@ struct LeadingValueCounters {
 /// can do more than be counted. One thread at a time.
 class LeadingValueReader {
  public:
-  /// How far the time of a telegram may be from the clock, in either direction [ns].
+  /// How old a telegram may be [ns]. From the future it may be by its own cycle, but no more than this.
   static constexpr std::int64_t kLongestAge = 1'000'000'000;
   /// For so long nothing counts once two senders have been heard [ns].
   static constexpr std::int64_t kAmbiguousFor = 1'000'000'000;
@@ -88,5 +89,9 @@ class LeadingValueReader {
 
 /// The message, if the bytes are one of this type, whole and without anything behind it. Any thread.
 std::optional<leading_value_t> decode_leading_value(std::span<const std::uint8_t> bytes);
+std::optional<leading_proxies_t> decode_leading_proxies(std::span<const std::uint8_t> bytes);
+
+/// What is appended to the channel of an area to name that on which its receivers tell what has come.
+inline constexpr std::string_view kProxiesSuffix = "_PROXIES";
 
 }  // namespace lockstep

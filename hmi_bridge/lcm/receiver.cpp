@@ -91,6 +91,7 @@ bool LcmReceiver::take_datagram() {
   ::inet_ntop(AF_INET, &sender.sin_addr, text, INET_ADDRSTRLEN);
   const std::string from = text + (":" + std::to_string(ntohs(sender.sin_port)));
   message->sender = from;
+  message->address = sender;
   hand_on(*message);
   return true;
 }

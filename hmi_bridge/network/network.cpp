@@ -70,7 +70,13 @@ bool IpNetwork::contains(const sockaddr_storage& peer) const noexcept {
   if (is_v6_ || peer.ss_family != AF_INET) return false;
   sockaddr_in endpoint;
   std::memcpy(&endpoint, &peer, sizeof endpoint);
-  std::memcpy(address.data(), &endpoint.sin_addr, 4);
+  return contains(endpoint);
+}
+
+bool IpNetwork::contains(const sockaddr_in& peer) const noexcept {
+  if (is_v6_) return false;
+  Address address{};
+  std::memcpy(address.data(), &peer.sin_addr, 4);
   return same_prefix(address);
 }
 

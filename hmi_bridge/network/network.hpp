@@ -1,6 +1,7 @@
 /// Endpoints on an IP network: where a server listens, and from where clients may come.
 #pragma once
 
+#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <array>
@@ -35,6 +36,7 @@ class IpNetwork {
   /// Whether the address of a peer lies in it; an IPv4 address lies in no IPv6 network and the other way
   /// round.
   bool contains(const sockaddr_storage& peer) const noexcept;
+  bool contains(const sockaddr_in& peer) const noexcept;
 
   /// As it is written, a single address without a prefix length.
   std::string text() const;

@@ -47,7 +47,20 @@ inline constexpr auto kTelegramCounts = key_table<TelegramCountTags>(
     key::tag<&TelegramCountTags::refused>(
         "refused",
         "ULINT tag: those from the future, of a source that has been restarted, or that no source sends",
-        Type::ULINT));
+        Type::ULINT),
+    key::tag<&TelegramCountTags::malformed>("malformed", "ULINT tag: messages from the network that are none",
+                                            Type::ULINT),
+    key::tag<&TelegramCountTags::foreign>(
+        "foreign", "ULINT tag: those of another area, sender, address or layout", Type::ULINT),
+    key::tag<&TelegramCountTags::not_signed>("not_signed", "ULINT tag: those without the right code",
+                                             Type::ULINT),
+    key::tag<&TelegramCountTags::repeated>("repeated", "ULINT tag: those that had come already", Type::ULINT),
+    key::tag<&TelegramCountTags::ambiguous>(
+        "ambiguous", "ULINT tag: those that came while there were two senders", Type::ULINT),
+    key::tag<&TelegramCountTags::stale>("stale", "ULINT tag: those older or newer than the clock allows",
+                                        Type::ULINT),
+    key::tag<&TelegramCountTags::untrusted>(
+        "untrusted", "ULINT tag: those that came while the common clock was not to be trusted", Type::ULINT));
 inline constexpr auto kProxyObject =
     key_table<void>(kType, configuration_of("TO_LeadingAxisProxy"),
                     key::structure("telegrams", kTelegramCounts, "where the counts of telegrams stand"));

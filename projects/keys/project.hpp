@@ -5,6 +5,7 @@
 #include "hmi_bridge/traces/channel.hpp"
 #include "hmi_bridge/traces/flight_recorder.hpp"
 #include "projects/keys/modbus.hpp"
+#include "projects/keys/network.hpp"
 #include "projects/keys/objects.hpp"
 #include "projects/keys/parts.hpp"
 #include "scheduler/controller.hpp"
@@ -151,13 +152,31 @@ inline constexpr auto kExpectation = key_table<void>(
     key::title("text", "what it means, for whoever reads the result").otherwise_is("the expression"));
 
 inline constexpr int kVersions[] = {1};
+inline constexpr Word kTransferDirections[] = {{"within", static_cast<int>(TransferDirection::within)},
+                                               {"send", static_cast<int>(TransferDirection::send)},
+                                               {"receive", static_cast<int>(TransferDirection::receive)}};
 inline constexpr auto kTransferArea = key_table<TransferArea>(
-    key::object("from", kPositioned, "axis or external encoder that provides its leading value").needed(),
+    key::word<&TransferArea::direction>("direction", kTransferDirections,
+                                        "whether its other end is in another process, and which one"),
+    key::object("from", kPositioned,
+                "axis or external encoder that provides its leading value; not with 'receive'")
+        .otherwise_is("has to be given but with 'receive'"),
     key::integer<&TransferArea::interface>("interface", {1.0, 8.0},
                                            "which CrossPlcSynchronousOperation.Interface provides it"),
-    key::object("to", kLeadingAxisProxy, "leading axis proxy that takes it, or several of them")
+    key::object("to", kLeadingAxisProxy,
+                "leading axis proxy that takes it, or several of them; not with 'send'")
         .one_or_list()
-        .needed());
+        .otherwise_is("has to be given but with 'send'"),
+    key::title<&TransferArea::channel>(
+        "channel", "of the network, but with 'within'; of an area of a system SYSTEM.AREA")
+        .otherwise_is("the name of the area"),
+    key::title<&TransferArea::controller>("controller", "that sends, with 'receive'")
+        .otherwise_is("has to be given with 'receive'"),
+    key::title<&TransferArea::source>("source", "its leading object, with 'receive'")
+        .otherwise_is("has to be given with 'receive'"),
+    key::text("address", "IPv4 address or network of the sender, or several of them, with 'receive'")
+        .one_or_list()
+        .otherwise_is("any"));
 
 inline constexpr auto kProject = key_table<void>(
     kSchema, kInclude, key::one_of("lockstep", kVersions, "version of the format").needed(),
@@ -165,6 +184,8 @@ inline constexpr auto kProject = key_table<void>(
     key::structure("clock", kClock, "when things run").needed(),
     key::variants("technology_objects", kObjects, "name: technology object").named(),
     key::structure("transfer_areas", kTransferArea, "name: path of a leading value to proxies").named(),
+    key::structure("network", kProjectNetwork,
+                   "by which telegrams of transfer areas travel to other processes"),
     key::structure("tags", kTag, "name: tag").named(),
     key::structure("programs", kProgram, "programs").list(),
     key::structure("ascii", kAsciiLine, "lines to LinMot controllers").list(),

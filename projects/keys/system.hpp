@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "projects/keys/network.hpp"
 #include "projects/keys/parts.hpp"
 
 namespace lockstep {
@@ -20,39 +21,27 @@ struct SimulatedNetwork {
   std::uint64_t seed = 1;
 };
 
-/// The clock that all controllers of a system share.
-enum class SharedClock : std::uint8_t {
-  monotonic,  ///< CLOCK_MONOTONIC: processes of one machine
-  tai         ///< CLOCK_TAI, disciplined by PTP: across machines
-};
-
-/// How telegrams travel in real time.
-struct SystemNetwork {
-  std::string lcm;  ///< URL
-  SharedClock clock = SharedClock::monotonic;
-};
-
 namespace keys {
 
 inline constexpr double kLongestTransfer = 10e9;  // [ns]
 inline constexpr int kSystemVersions[] = {1};
-inline constexpr Word kSharedClocks[] = {{"monotonic", static_cast<int>(SharedClock::monotonic)},
-                                         {"tai", static_cast<int>(SharedClock::tai)}};
 
-inline constexpr auto kSystemController =
-    key_table<void>(key::title("project", "its project file, relative to this one").needed(),
-                    key::duration("phase", {0, 1e9},
-                                  "of its ticks behind whole cycles of the common time, in a simulation; "
-                                  "less than its servo cycle")
-                        .otherwise_is("0ns"));
+inline constexpr auto kSystemController = key_table<void>(
+    key::title("project", "its project file, relative to this one").needed(),
+    key::duration("phase", {0, 1e9},
+                  "of its ticks behind whole cycles of the common time, in a simulation; "
+                  "less than its servo cycle")
+        .otherwise_is("0ns"),
+    key::text("address",
+              "in real time: IPv4 address or network from which its telegrams come, or several "
+              "of them")
+        .one_or_list()
+        .otherwise_is("any"));
 inline constexpr auto kSystemArea = key_table<void>(
     key::text("from", "CONTROLLER.OBJECT that provides its leading value").needed(),
     key::integer("interface", {1.0, 8.0}, "which CrossPlcSynchronousOperation.Interface of it provides it")
         .otherwise_is("1"),
     key::text("to", "CONTROLLER.PROXY that takes it, or several of them").one_or_list().needed());
-inline constexpr auto kSystemNetwork = key_table<SystemNetwork>(
-    key::text<&SystemNetwork::lcm>("lcm", "URL of the LCM network").needed(),
-    key::word<&SystemNetwork::clock>("clock", kSharedClocks, "that all controllers share"));
 inline constexpr auto kSimulatedNetwork = key_table<SimulatedNetwork>(
     key::duration<&SimulatedNetwork::latency>("latency", {0, kLongestTransfer}, "of a telegram"),
     key::duration<&SimulatedNetwork::jitter>("jitter", {0, kLongestTransfer},
@@ -73,7 +62,7 @@ inline constexpr auto kSystem = key_table<void>(
         .named()
         .needed(),
     key::structure("transfer_areas", kSystemArea, "name: path of a leading value to proxies").named(),
-    key::structure("network", kSystemNetwork, "by which telegrams travel in real time"),
+    key::structure("network", kNetwork, "by which telegrams travel in real time"),
     key::structure("simulated_network", kSimulatedNetwork,
                    "what lies between the controllers in a simulation"),
     key::structure("delays", kDelays, "what the calculation of delays leaves out"));

@@ -85,8 +85,14 @@ void declare_instances(const JsonValue& programs, const Loading& loading);
 void load_programs(const JsonValue& programs, const Loading& loading);
 void load_stimuli(const JsonValue& stimuli, const Loading& loading);
 
-/// When the objects are loaded. Either may be nullptr.
-void load_transfer_areas(const JsonValue* areas, const JsonValue* objects, const Loading& loading);
+/// What the file has of leading values that cross; each may be nullptr.
+struct TransferSections {
+  const JsonValue* areas = nullptr;
+  const JsonValue* network = nullptr;
+  const JsonValue* objects = nullptr;
+};
+/// When the objects are loaded.
+void load_transfer_areas(const TransferSections& sections, const Loading& loading);
 
 void load_modbus(const JsonValue* modbus, const Loading& loading);
 void load_trace(const JsonValue& trace, const Loading& loading);

@@ -29,6 +29,7 @@
 #include "projects/json/problem.hpp"
 #include "projects/json/text_file.hpp"
 #include "projects/loader/expectations.hpp"
+#include "projects/loader/network.hpp"
 #include "scheduler/controller.hpp"
 #include "scheduler/transfer_area.hpp"
 #include "tech_objects/linmot/ascii_line.hpp"
@@ -155,7 +156,8 @@ struct Project {
   CommandsConfig commands;
   RetainConfig retain;
   std::deque<linmot::AsciiLine> ascii_lines;            ///< to LinMot controllers
-  std::vector<TransferArea> transfer_areas;             ///< of the leading values that objects provide
+  std::vector<TransferArea> transfer_areas;             ///< within the controller
+  std::vector<NetworkCoupling> couplings;               ///< to other processes, in real time
   std::optional<FlightRecorderConfig> flight_recorder;  ///< none: the project has none
   std::optional<AuditOptions> audit;                    ///< none: the project has no audit log
   Expectations expectations;                            ///< of a simulated run

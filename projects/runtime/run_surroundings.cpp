@@ -14,6 +14,7 @@ RunSurroundings::RunSurroundings(Project& project, const RunOptions& options,
                                  std::unique_ptr<RetainWriter> keeper, Messages& messages)
     : project_(project), options_(options), messages_(messages), keeper_(std::move(keeper)) {
   choose_signals();
+  join_others();
   start_audit();
   make_studio();
   start_trace();
@@ -23,6 +24,7 @@ RunSurroundings::RunSurroundings(Project& project, const RunOptions& options,
   if (keeper_) project_.controller->images.push_back(&keeper_->image());
   if (keeper_) keeper_->start();
   start_studio();
+  for (const auto& exchange : exchanges_) exchange->start();
 }
 
 void RunSurroundings::wait_no_more() {
@@ -42,6 +44,7 @@ void RunSurroundings::hear_no_more() {
 void RunSurroundings::look() {
   if (audit_)
     if (const std::string news = audit_->news(); !news.empty()) messages_.warn(news);
+  for (const auto& exchange : exchanges_) exchange->look();
   if (!keeper_) return;
   for (std::string news; !(news = keeper_->news()).empty();) messages_.warn(news);
 }
@@ -49,6 +52,8 @@ void RunSurroundings::look() {
 void RunSurroundings::end() {
   part_ = Part::values;
   if (keeper_) keeper_->stop();  // the values of the last tick
+  part_ = Part::leading;
+  for (const auto& exchange : exchanges_) exchange->end();
   part_ = Part::server;
   if (server_) server_->stop();
   part_ = Part::clients;
@@ -71,6 +76,7 @@ void RunSurroundings::tell_losses() {
   if (server_) tell_refused_clients();
   for (const auto& client : clients_) tell_failures(*client);
   if (commands_) commands_->tell_counters();
+  for (const auto& exchange : exchanges_) exchange->tell_losses();
   if (studio_server_ && studio_server_->counters().faults != 0)
     messages_.warn(
         fmt::format("studio: {} internal faults survived", studio_server_->counters().faults.load()));
@@ -82,6 +88,7 @@ std::vector<std::string> RunSurroundings::unfinished() const {
   std::vector<std::string> texts = recorder_->losses();
   if (std::string held_up = recorder_->held_up(); !held_up.empty()) texts.push_back(std::move(held_up));
   const Part part = part_;
+  if (part == Part::leading) texts.emplace_back("the exchange of leading values does not end");
   if (part == Part::values)
     texts.push_back("retain file " + keeper_->path() +
                     ": writing does not end; the last values are not kept");
@@ -91,6 +98,22 @@ std::vector<std::string> RunSurroundings::unfinished() const {
   if (part == Part::audit)
     texts.push_back("audit log " + audit_->path() + ": writing does not end; the last entries are lost");
   return texts;
+}
+
+std::optional<std::int64_t> RunSurroundings::clock_offset() const {
+  if (exchanges_.empty()) return std::nullopt;
+  return exchanges_.front()->clock_offset();
+}
+
+void RunSurroundings::tell_start(std::int64_t start) {
+  for (const auto& exchange : exchanges_) messages_.inform(exchange->started(start));
+}
+
+/// In virtual time there are no others.
+void RunSurroundings::join_others() {
+  if (options_.simulate) return;
+  for (const NetworkCoupling& coupling : project_.couplings)
+    exchanges_.push_back(std::make_unique<LeadingValueExchange>(project_, coupling, messages_));
 }
 
 /// In virtual time only where somebody asks for it, as the others that look out.

@@ -16,9 +16,11 @@
 #include "hmi_bridge/traces/columns.hpp"
 #include "hmi_bridge/traces/flight_recorder.hpp"
 #include "hmi_bridge/traces/recorder.hpp"
+#include "projects/runtime/leading_values.hpp"
 #include "projects/runtime/messages.hpp"
 #include "projects/runtime/panel_commands.hpp"
 #include "projects/runtime/run_options.hpp"
+#include "projects/runtime/telegram_recorder.hpp"
 #include "projects/studio/session.hpp"
 
 namespace lockstep {
@@ -44,6 +46,12 @@ class RunSurroundings {
   /// Where the studio listens, with the port that the system gave; none: there is no studio.
   std::optional<Endpoint> studio_endpoint() const;
 
+  /// What the clock that several controllers share shows more than that of the cycle [ns]; none: no leading
+  /// value crosses to another process.
+  std::optional<std::int64_t> clock_offset() const;
+  /// Tells where time 0 of the controller is on that clock. @param start on that of the cycle [ns]
+  void tell_start(std::int64_t start);
+
   /// Between two ticks of virtual time: waits until the recorder has space; false if it takes nothing more.
   bool wait_for_recorder() const {
     return ring_->wait_for_space() && events_.wait_for_space() &&
@@ -68,7 +76,7 @@ class RunSurroundings {
   std::vector<std::string> unfinished() const;
 
  private:
-  enum class Part { none, values, server, clients, studio, trace, audit };
+  enum class Part { none, leading, values, server, clients, studio, trace, audit };
 
   std::string named(const std::string& option) const { return options_.mark + option + ": "; }
 
@@ -81,6 +89,7 @@ class RunSurroundings {
   void add_trace_file();
   void add_lcm();
   void add_flight_recorder();
+  void add_telegram_recorder(const FlightRecorderOptions& recording);
   void start_trace();
   void tell_recordings() const;
 
@@ -95,6 +104,8 @@ class RunSurroundings {
   // The studio.
   void make_studio();
   void start_studio();
+
+  void join_others();
 
   void start_audit();
   void start_commands();
@@ -113,6 +124,8 @@ class RunSurroundings {
   TraceColumns columns_;              // of the ring: those, and what else somebody asks for
   std::vector<std::unique_ptr<TraceSink>> sinks_;
   const FlightRecorder* flight_ = nullptr;
+  std::unique_ptr<TelegramMemory> telegrams_;  // of the flight recorder; none without other processes
+  const TelegramRecorder* telegram_flight_ = nullptr;
   bool jobs_told_ = false;
   EventQueue events_;
   std::unique_ptr<TraceRing> ring_;
@@ -122,6 +135,7 @@ class RunSurroundings {
   std::vector<std::unique_ptr<ProcessImage>> client_images_;
   std::vector<std::unique_ptr<ModbusClient>> clients_;
   std::unique_ptr<PanelCommands> commands_;
+  std::vector<std::unique_ptr<LeadingValueExchange>> exchanges_;  // with other processes
   std::unique_ptr<StudioSession> studio_;
   std::unique_ptr<StudioServer> studio_server_;
 };

@@ -15,7 +15,8 @@ namespace lockstep {
 namespace {
 
 constexpr std::size_t kTraceRows = 1 << 14;  // of the ring: seconds of a trace that a slow disk may hold up
-constexpr std::size_t kTraceValues = std::size_t{1} << 23;  // in the ring at most, 64 MiB
+constexpr std::size_t kTelegramsKept = std::size_t{1} << 17;  // of a flight recorder at most, 80 MiB
+constexpr std::size_t kTraceValues = std::size_t{1} << 23;    // in the ring at most, 64 MiB
 
 /// Gives events to whoever hears the messages. Thread: the recorder's.
 class ToldEvents final : public TraceSink {
@@ -120,9 +121,25 @@ void RunSurroundings::add_flight_recorder() {
   recording.file = path_of_run(options_.file, recording.file);
   if (const std::string problem = Recordings(recording.file).problem(); !problem.empty())
     messages_.warn("the flight recorder cannot write: " + problem);
+  add_telegram_recorder(recording);
   auto recorder = std::make_unique<FlightRecorder>(std::move(recording), columns_.of(config.signals),
                                                    project_.controller->clock.interpolator_cycle());
   flight_ = recorder.get();
+  sinks_.push_back(std::move(recorder));
+}
+
+/// As much as there may be in the time that is recorded, within a limit.
+void RunSurroundings::add_telegram_recorder(const FlightRecorderOptions& recording) {
+  if (exchanges_.empty()) return;
+  double rate = 0.0;
+  for (const auto& exchange : exchanges_) rate += exchange->rate();
+  const double time = static_cast<double>(recording.before + recording.after) * 1e-9;
+  const double wanted = 1.5 * rate * time + 100.0;
+  telegrams_ = std::make_unique<TelegramMemory>(
+      static_cast<std::size_t>(std::min(wanted, static_cast<double>(kTelegramsKept))));
+  for (const auto& exchange : exchanges_) exchange->keep_in(*telegrams_);
+  auto recorder = std::make_unique<TelegramRecorder>(recording, *telegrams_);
+  telegram_flight_ = recorder.get();
   sinks_.push_back(std::move(recorder));
 }
 
@@ -153,6 +170,9 @@ void RunSurroundings::start_trace() {
 
 void RunSurroundings::tell_recordings() const {
   for (const std::string& file : flight_->written()) messages_.inform("flight recorder: wrote " + file);
+  if (telegram_flight_ != nullptr)
+    for (const std::string& file : telegram_flight_->written())
+      messages_.inform("flight recorder: wrote " + file);
   for (const std::string& problem : flight_->not_removed()) messages_.warn("flight recorder: " + problem);
 }
 

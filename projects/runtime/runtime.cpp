@@ -131,6 +131,8 @@ void Runtime::Run::start() {
   if (!surroundings_) throw std::logic_error("a runtime that could not be prepared cannot be started");
   const OverrunPolicy policy = project_->stop_on_overrun ? OverrunPolicy::stop : OverrunPolicy::report;
   cycle_ = std::make_unique<RealTimeRun>(*project_->controller, policy, options_.duration, options_.cpu);
+  if (const auto offset = surroundings_->clock_offset())
+    cycle_->align(project_->controller->clock.interpolator_cycle(), *offset);
   try {
     const std::vector<std::string> warnings = cycle_->start();
     messages_->inform(system_text(read_system_facts(), cycle_->rights(), options_.cpu));
@@ -181,6 +183,7 @@ void Runtime::Run::attempt(Call call) noexcept {
 }
 
 void Runtime::Run::look_until_at_rest() {
+  bool told = false;
   while (!cycle_->status().at_rest.load(std::memory_order_acquire)) {
     bool stops = false;
     {
@@ -193,6 +196,8 @@ void Runtime::Run::look_until_at_rest() {
     }
     if (stops) surroundings_->hear_no_more();
     surroundings_->look();
+    if (const std::int64_t start = cycle_->status().start.load(); start != 0 && !std::exchange(told, true))
+      surroundings_->tell_start(start);
   }
 }
 

@@ -3,8 +3,10 @@
 #include <filesystem>
 
 #include "projects/json/fields.hpp"
+#include "projects/loader/network.hpp"
 #include "projects/loader/provided_value.hpp"
 #include "projects/loader/read_keys.hpp"
+#include "projects/system/couple.hpp"
 #include "projects/system/system.hpp"
 
 namespace lockstep {
@@ -33,6 +35,12 @@ class SystemLoader {
   SystemLoader(const JsonValue& root, std::string folder, LoadedFor use, SeveralSources sources)
       : root_(root), folder_(std::move(folder)), use_(use), sources_(sources) {}
 
+  /// The only controller that is to run.
+  void run_alone(std::string_view controller, const PrepareController& prepare) {
+    alone_ = controller;
+    prepare_ = &prepare;
+  }
+
   LoadedSystem load();
 
  private:
@@ -59,6 +67,8 @@ class SystemLoader {
   std::string folder_;
   LoadedFor use_;
   SeveralSources sources_;
+  std::string_view alone_;  // empty: all run
+  const PrepareController* prepare_ = nullptr;
   Problems problems_;
   System system_;
   std::vector<const JsonValue*> places_;  // of the controllers
@@ -139,6 +149,7 @@ void SystemLoader::read_controller(const std::string& name, const JsonValue& jso
     controller.file = (fs::path(folder_) / file->text).lexically_normal().string();
   if (const auto phase = read_value(fields, keys::kSystemController["phase"], loading))
     controller.phase = phase->integer;
+  controller.addresses = read_senders(fields["address"], problems_);
   system_.controllers.push_back(std::move(controller));
   places_.push_back(&json);
 }
@@ -196,14 +207,8 @@ void SystemLoader::read_networks(const Fields& fields) {
   const Loading loading = none.loading(problems_);
   if (const JsonValue* const simulated = fields["simulated_network"])
     read_struct(*simulated, keys::kSimulatedNetwork, system_.simulated_network, loading);
-  const JsonValue* const network = fields["network"];
-  if (network == nullptr) return;
-  read_struct(*network, keys::kSystemNetwork, system_.network.emplace(), loading);
-  const JsonValue* const url = network->find("lcm");
-  if (url == nullptr || url->kind != JsonKind::string) return;
-  if (const std::string problem = lcm_url_problem(system_.network->lcm); !problem.empty())
-    return problems_.report(*url, problem);
-  problems_.warn(*network, "nothing carries telegrams over a network yet: this has no effect");
+  if (const JsonValue* const network = fields["network"])
+    system_.network = read_network(*network, folder_, false, loading);
 }
 
 void SystemLoader::read_delays(const JsonValue* json) {
@@ -237,7 +242,12 @@ void SystemLoader::load_projects() {
     projects_valid_ = projects_valid_ && !controller.file.empty();
     if (controller.file.empty()) continue;
     try {
-      LoadedProject loaded = load_project_file(controller.file, {}, use_, used[i]);
+      const bool here = alone_.empty() || same_name(alone_, controller.name);
+      Prepare prepare;
+      if (here && prepare_ != nullptr && *prepare_)
+        prepare = [&](Project& project) { (*prepare_)(project, controller); };
+      LoadedProject loaded =
+          load_project_file(controller.file, prepare, here ? use_ : LoadedFor::looking, used[i]);
       take_problems(std::move(loaded.problems), of_projects_, controller.file);
       take_problems(std::move(loaded.warnings), warnings_of_projects_, controller.file);
       projects_valid_ = projects_valid_ && loaded.project.has_value();
@@ -282,6 +292,8 @@ void SystemLoader::connect(const NamedArea& named) {
                   .interface = named.interface,
                   .to = {}};
   if (from == nullptr || !source_fits(named, area)) return;
+  if (const std::string problem = channel_problem(system_.channel_of(area)); !problem.empty())
+    return problems_.report_key(*named.json, problem);
   for (const FullName& name : named.to) {
     auto* const proxy = static_cast<LeadingAxisProxy*>(find_object(name, kLeadingAxisProxy));
     const SystemArea::Receiver receiver{name.controller, proxy};
@@ -357,6 +369,10 @@ std::optional<std::size_t> System::find(std::string_view controller) const {
   return std::nullopt;
 }
 
+std::string System::channel_of(const SystemArea& area) const {
+  return name + "." + area.name;
+}
+
 std::string full_name(const SystemController& controller, const TechnologyObject& object) {
   return controller.name + "." + object.name;
 }
@@ -368,6 +384,23 @@ LoadedSystem load_system_file(const std::string& path, LoadedFor use, SeveralSou
     result = SystemLoader(document.root(), fs::path(path).parent_path().string(), use, sources).load();
   result.problems.insert(result.problems.begin(), document.problems().begin(), document.problems().end());
   if (!result.problems.empty()) result.system.reset();
+  return result;
+}
+
+LoadedSystem load_controller_of(const std::string& path, std::string_view controller,
+                                const PrepareController& prepare) {
+  const JsonDocument document(read_text_file(path, JsonDocument::kLongest));
+  LoadedSystem result;
+  if (document.usable()) {
+    SystemLoader loader(document.root(), fs::path(path).parent_path().string(), LoadedFor::running,
+                        SeveralSources::refused);
+    loader.run_alone(controller, prepare);
+    result = loader.load();
+  }
+  result.problems.insert(result.problems.begin(), document.problems().begin(), document.problems().end());
+  if (!result.problems.empty()) result.system.reset();
+  if (!result.system) return result;
+  if (const auto index = result.system->find(controller)) couple(*result.system, *index);
   return result;
 }
 

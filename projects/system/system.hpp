@@ -5,8 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "projects/keys/system.hpp"
@@ -17,8 +19,9 @@ namespace lockstep {
 /// A project in a system.
 struct SystemController {
   std::string name;
-  std::string file;        ///< of the project, as it can be opened
-  std::int64_t phase = 0;  ///< of its ticks behind whole cycles of the common time [ns]
+  std::string file;                    ///< of the project, as it can be opened
+  std::int64_t phase = 0;              ///< of its ticks behind whole cycles of the common time [ns]
+  std::vector<IpNetwork> addresses{};  ///< from which its telegrams come, in real time; empty: any
   Project project;
 };
 
@@ -51,12 +54,14 @@ struct System {
   std::string description;
   std::vector<SystemController> controllers;  ///< in the order of the file
   std::vector<SystemArea> areas;
-  std::optional<SystemNetwork> network;
+  NetworkConfig network;  ///< in real time
   SimulatedNetwork simulated_network;
   KeptDelays delays;
 
   /// The index of a controller, without regard to case; none: there is no such controller.
   std::optional<std::size_t> find(std::string_view controller) const;
+  /// By which telegrams of an area travel in real time: SYSTEM.AREA.
+  std::string channel_of(const SystemArea& area) const;
 };
 
 /// What loading gives: a system if there are no problems. A problem of a project names its file.
@@ -72,6 +77,9 @@ enum class SeveralSources : std::uint8_t {
   kept  ///< as for an overview, which shows them
 };
 
+/// What to do with the project of a controller before its objects take over their start values.
+using PrepareController = std::function<void(Project&, const SystemController&)>;
+
 /// A system has no more controllers.
 inline constexpr std::size_t kMaximumControllers = 1000;
 
@@ -79,6 +87,14 @@ inline constexpr std::size_t kMaximumControllers = 1000;
 /// @throws UnreadableFile for the system file itself; that a project cannot be read is a problem
 LoadedSystem load_system_file(const std::string& path, LoadedFor use = LoadedFor::running,
                               SeveralSources sources = SeveralSources::refused);
+
+/// Loads a system of which one controller is to run here, in real time, coupled to the others by the network:
+/// those are looked at only.
+/// @param controller its name, without regard to case; of one that there is not nothing runs
+/// @param prepare of its project, before its objects take over their start values
+/// @throws as `load_system_file`, and what `prepare` throws
+LoadedSystem load_controller_of(const std::string& path, std::string_view controller,
+                                const PrepareController& prepare = {});
 
 /// Whether a text looks like a system file: an object with the key `lockstep_system`.
 bool is_system(std::string_view text);

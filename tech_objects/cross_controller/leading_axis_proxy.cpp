@@ -77,6 +77,17 @@ void TelegramCountTags::show(const TelegramCounters& counters) const noexcept {
   put(late, counters.late);
   put(doubled, counters.doubled);
   put(refused, counters.refused);
+  if (carrier == nullptr) return;
+  const auto put_count = [&](std::uint64_t* tag, const CarrierCounts::Count& count) {
+    put(tag, count.load(std::memory_order_relaxed));
+  };
+  put_count(malformed, carrier->malformed);
+  put_count(foreign, carrier->foreign);
+  put_count(not_signed, carrier->not_signed);
+  put_count(repeated, carrier->repeated);
+  put_count(ambiguous, carrier->ambiguous);
+  put_count(stale, carrier->stale);
+  put_count(untrusted, carrier->untrusted);
 }
 
 // ---- Telegrams
@@ -204,14 +215,16 @@ bool LeadingAxisProxy::valid() const noexcept {
          recorded_.reaches_back_to(std::min(time_asked(), now_ - delay_));
 }
 
-/// What has begun to lead has to stay valid, but for the tolerance time.
+/// What has begun to lead has to stay valid, but for the tolerance time. Ticks that are left out do not
+/// count: in them nobody has looked.
 void LeadingAxisProxy::watch() noexcept {
   if (other_ring_) return fault(alarm::kLeadingModuloChanged);
   if (valid() || !led()) {
-    valid_at_ = now_;
+    invalid_for_ = 0;
     return;
   }
-  const double invalid_for = seconds(now_ - valid_at_);
+  invalid_for_ += cycle_;
+  const double invalid_for = seconds(invalid_for_);
   const double tolerance = data.Parameter.ToleranceTimeExternalLeadingValueInvalid;
   if (invalid_for > tolerance)
     fault(alarm::kLeadingValuesInvalid, {.value = invalid_for, .limit = tolerance});

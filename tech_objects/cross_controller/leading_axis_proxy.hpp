@@ -10,6 +10,7 @@
 #include "tech_objects/data_blocks/leading_axis_proxy.hpp"
 #include "tech_objects/jobs/new_jobs.hpp"
 #include "tech_objects/leading_values/adapted_value.hpp"
+#include "tech_objects/leading_values/carrier_counts.hpp"
 #include "tech_objects/leading_values/recorded_values.hpp"
 #include "tech_objects/leading_values/telegram.hpp"
 #include "tech_objects/objects/leading_object.hpp"
@@ -32,6 +33,16 @@ struct TelegramCountTags {
   std::uint64_t* late = nullptr;
   std::uint64_t* doubled = nullptr;
   std::uint64_t* refused = nullptr;
+
+  // Of the messages that carry them between processes.
+  const CarrierCounts* carrier = nullptr;  ///< nullptr: they come from this process
+  std::uint64_t* malformed = nullptr;
+  std::uint64_t* foreign = nullptr;
+  std::uint64_t* not_signed = nullptr;
+  std::uint64_t* repeated = nullptr;
+  std::uint64_t* ambiguous = nullptr;
+  std::uint64_t* stale = nullptr;
+  std::uint64_t* untrusted = nullptr;
 
   void show(const TelegramCounters& counters) const noexcept;
 };
@@ -115,8 +126,8 @@ class LeadingAxisProxy final : public LeadingObject {
 
   RecordedValues recorded_;
   AdaptedValue adapted_;
-  AdaptedValue undelayed_;     // for those coupled `delayed`: without local_delay_
-  std::int64_t valid_at_ = 0;  // [ns] tick with a valid leading value last
+  AdaptedValue undelayed_;        // for those coupled `delayed`: without local_delay_
+  std::int64_t invalid_for_ = 0;  // [ns] executed, without a valid leading value
 };
 
 }  // namespace lockstep

@@ -129,6 +129,7 @@ class Report {
 
   void single_parts() {
     std::vector<Part> rows = parts(options_.quick);
+    for (Part& row : telegram_parts()) rows.push_back(std::move(row));
     std::erase_if(rows, [this](const Part& part) { return !wanted(part.name); });
     if (!rows.empty() && !options_.lines) std::printf("\n%-75s %10s %10s\n", "part", "instr.", "[ns]");
     for (Part& part : rows) this->part(part);

@@ -17,5 +17,7 @@ struct Part {
 
 /// @param quick only as much as shows that it works
 std::vector<Part> parts(bool quick);
+/// Of leading values that cross to other controllers.
+std::vector<Part> telegram_parts();
 
 }  // namespace lockstep::bench

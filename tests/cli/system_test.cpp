@@ -88,9 +88,9 @@ TEST(SystemCommand, RecordsTheSignalsThatAreNamedWithTheirController) {
 
 TEST(SystemCommand, RefusesWhatIsForOneProject) {
   const SystemFiles files = two();
-  const Ended real = lockstep({"run", files.path(), "--duration", "100ms"});
-  EXPECT_EQ(real.status, 2);
-  EXPECT_NE(real.err.find("--simulate"), std::string::npos) << real.err;
+  const Ended studio = lockstep({"run", files.path(), "--studio", "127.0.0.1:0"});
+  EXPECT_EQ(studio.status, 2);
+  EXPECT_NE(studio.err.find("--controller"), std::string::npos) << "where it is for: " << studio.err;
   const Ended modbus = lockstep({"run", files.path(), "--simulate", "--modbus", "127.0.0.1:0"});
   EXPECT_EQ(modbus.status, 2);
   EXPECT_NE(modbus.err.find("--modbus is for one project"), std::string::npos) << modbus.err;

@@ -96,7 +96,7 @@ inline void bring_up_network() {
 
 /// Runs the body of a test in a network of its own: the test starts its own program again under `unshare`, as
 /// root or else as the root of a user namespace, with itself as the only test.
-inline void in_own_network(const std::function<void()>& body) {
+inline void in_own_network(const std::function<void()>& body, std::chrono::seconds limit = 4 * kDeadline) {
   if (std::getenv(kInside) != nullptr) return body();
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   const std::string filter = std::string("--gtest_filter=") + test->test_suite_name() + "." + test->name();
@@ -107,7 +107,7 @@ inline void in_own_network(const std::function<void()>& body) {
   ::setenv(kInside, "1", 1);
   ForeignProgram inside({"unshare", options, std::filesystem::read_symlink("/proc/self/exe"), filter});
   ::unsetenv(kInside);
-  ASSERT_TRUE(wait_until([&inside] { return !inside.running(); }, 4 * kDeadline))
+  ASSERT_TRUE(wait_until([&inside] { return !inside.running(); }, limit))
       << "the test inside did not end";
   EXPECT_EQ(inside.status(), 0) << "the test inside failed, its output is above";
 }

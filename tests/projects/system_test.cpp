@@ -72,6 +72,85 @@ TEST(System, IsWhatItsFileSays) {
   EXPECT_EQ(full_name(system.controllers[0], *system.areas[0].from), "PLC_1.Conveyor");
 }
 
+TEST(System, NamesTheChannelOfAnAreaWithItself) {
+  SystemFiles files = two();
+  const std::string longest(58, 'x');
+  files.json["name"] = longest;  // and ".line": 63 bytes, as LCM permits
+  EXPECT_TRUE(load_system_file(files.path()).system);
+  files.json["name"] = longest + "x";
+  const LoadedSystem loaded = load_system_file(files.path());
+  ASSERT_EQ(loaded.problems.size(), 1u);
+  EXPECT_EQ(loaded.problems[0].place, "/transfer_areas/line");
+  EXPECT_NE(loaded.problems[0].text.find("up to 63 bytes"), std::string::npos) << loaded.problems[0].text;
+}
+
+TEST(System, WarnsOfANetworkBeyondTheMachineWithoutAKey) {
+  SystemFiles files = two();
+  files.json["network"]["lcm"] = "udpm://239.255.76.67:7667?ttl=1";
+  const LoadedSystem open = load_system_file(files.path());
+  ASSERT_TRUE(open.system);
+  ASSERT_EQ(open.warnings.size(), 1u);
+  EXPECT_EQ(open.warnings[0].place, "/network/lcm");
+  files.json["network"]["key_file"] = "keys/line";
+  const LoadedSystem closed = load_system_file(files.path());
+  ASSERT_TRUE(closed.system);
+  EXPECT_TRUE(closed.warnings.empty());
+  EXPECT_EQ(closed.system->network.key_file, files.directory().file("keys/line"));
+  files.json["network"] = {{"lcm", "udpm://239.255.76.67:7667?ttl=0"}};
+  EXPECT_TRUE(load_system_file(files.path()).warnings.empty());
+}
+
+TEST(System, CouplesEachControllerToThoseThatItLeadsAndFollows) {
+  SystemFiles files = two();
+  files.json["controllers"]["PLC_1"]["address"] = {"10.7.0.1", "10.8.0.0/16"};
+  files.json["network"] = {{"clock", "tai"}, {"clock_error", "500us"}};
+  int prepared = 0;
+  const auto prepare = [&](Project&, const SystemController& one) {
+    ++prepared;
+    EXPECT_EQ(one.name, "PLC_2");
+  };
+  const LoadedSystem receiving = load_controller_of(files.path(), "plc_2", prepare);
+  ASSERT_TRUE(receiving.system);
+  EXPECT_EQ(prepared, 1);
+  EXPECT_TRUE(receiving.system->controllers[0].project.couplings.empty()) << "it runs elsewhere";
+  ASSERT_EQ(receiving.system->controllers[1].project.couplings.size(), 1u);
+  const NetworkCoupling& in = receiving.system->controllers[1].project.couplings[0];
+  EXPECT_TRUE(in.sent.empty());
+  ASSERT_EQ(in.received.size(), 1u);
+  EXPECT_EQ(in.received[0].link.area, "test.line");
+  EXPECT_EQ(in.received[0].senders.size(), 2u);
+  ASSERT_EQ(in.received[0].to.size(), 1u);
+  EXPECT_EQ(in.received[0].to[0]->name, "Line");
+  EXPECT_EQ(in.network.clock, SharedClockKind::tai);
+  EXPECT_EQ(in.network.clock_error, 500'000);
+
+  const LoadedSystem sending = load_controller_of(files.path(), "PLC_1");
+  ASSERT_TRUE(sending.system);
+  const NetworkCoupling& out = sending.system->controllers[0].project.couplings.at(0);
+  ASSERT_EQ(out.sent.size(), 1u);
+  EXPECT_TRUE(out.received.empty());
+  EXPECT_EQ(out.sent[0].from->name, "Conveyor");
+  EXPECT_EQ(out.sent[0].link.layout(), in.received[0].link.layout()) << "both sides say the same";
+  EXPECT_TRUE(sending.system->controllers[0].project.transfer_areas.empty());
+}
+
+TEST(System, OfWhichAnAreaIsWithinOneControllerStaysWithinIt) {
+  SystemFiles files;
+  ControllerFile both = source();
+  both.proxy("Line");
+  both.axis("Press");
+  both.gear("Press", "Line");
+  files.add("PLC_1", both);
+  files.area("line", "PLC_1.Conveyor", {"PLC_1.Line"});
+  LoadedSystem loaded = load_controller_of(files.path(), "PLC_1");
+  ASSERT_TRUE(loaded.system);
+  Project& project = loaded.system->controllers[0].project;
+  EXPECT_TRUE(project.couplings.empty());
+  ASSERT_EQ(project.controller->telegram_outputs.size(), 1u);
+  ASSERT_EQ(project.controller->telegram_inputs.size(), 1u);
+  EXPECT_EQ(project.controller->telegram_inputs[0].ring, project.controller->telegram_outputs[0].ring);
+}
+
 TEST(System, IsToldFromAProject) {
   const SystemFiles files = two();
   EXPECT_TRUE(is_system_file(files.path()));
@@ -150,6 +229,16 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"/simulated_network/loss", "1.5", "/simulated_network/loss", "1"},
         Wrong{"/simulated_network/latency", "\"-1ms\"", "/simulated_network/latency", "-1ms"},
         Wrong{"/network/lcm", "\"http://x\"", "/network/lcm", "udpm://"},
+        Wrong{"/network/clock", "\"ntp\"", "/network/clock", "tai"},
+        Wrong{"/network/clock_error", "\"1ns\"", "/network/clock_error", "1us"},
+        Wrong{"/controllers/PLC_2/address", "\"plc2.local\"", "/controllers/PLC_2/address", "192.168.1.0/24"},
+        Wrong{"/controllers/PLC_2/address", R"([ "10.0.0.1", "10.0.0.1/8" ])", "/controllers/PLC_2/address/1",
+              "IPv4"},
+        Wrong{"/controllers/PLC_2/address", "[]", "/controllers/PLC_2/address", "lets nobody in"},
+        Wrong{"/transfer_areas/x23456789x123456789x123456789x123456789x123456789x123456789",
+              R"({ "from": "PLC_1.Near", "interface": 1, "to": "PLC_2.Line" })",
+              "/transfer_areas/x23456789x123456789x123456789x123456789x123456789x123456789/from",
+              "Interface[1].EnableLeadingValueOutput TRUE"},
         Wrong{"/delays/fixed", R"(["PLC_2.Nobody"])", "/delays/fixed/0", "Nobody"},
         Wrong{"/unknown", "1", "/unknown", "unknown key"}));
 
@@ -212,7 +301,11 @@ class SystemSchema : public SchemaCheck {
     files.json["comment"] = "all keys";
     files.json["description"] = "two controllers";
     files.json["controllers"]["PLC_2"]["phase"] = "300us";
-    files.json["network"] = {{"lcm", "udpm://239.255.76.67:7667?ttl=0"}, {"clock", "monotonic"}};
+    files.json["controllers"]["PLC_2"]["address"] = "10.0.0.0/8";
+    files.json["network"] = {{"lcm", "udpm://239.255.76.67:7667?ttl=0"},
+                             {"clock", "monotonic"},
+                             {"clock_error", "1ms"},
+                             {"key_file", "key"}};
     files.json["simulated_network"] = {{"latency", "300us"},  {"jitter", "100us"},   {"loss", 0.001},
                                        {"duplicates", 0.001}, {"reordering", 0.001}, {"seed", 7}};
     files.json["delays"] = {{"fixed", {"PLC_1.Conveyor"}}, {"left_out", {"PLC_2.Press"}}};

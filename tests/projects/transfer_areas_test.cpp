@@ -121,7 +121,33 @@ INSTANTIATE_TEST_SUITE_P(
               "one source for each proxy"},
         Wrong{R"("a": { "from": "Main", "to": [ "Line", "Far" ] })", "/transfer_areas/a/to/1",
               "TO_LeadingAxisProxy"},
-        Wrong{R"("a": { "from": "Main", "to": [] })", "/transfer_areas/a/to", "one proxy or more"}));
+        Wrong{R"("a": { "from": "Main", "to": [] })", "/transfer_areas/a/to", "one proxy or more"},
+        Wrong{R"("a": { "to": "Line" })", "/transfer_areas/a", "'from' is missing"},
+        Wrong{R"("a": { "direction": "send", "from": "Main", "to": "Line" })", "/transfer_areas/a/to",
+              "with 'within' and 'receive'"},
+        Wrong{R"("a": { "direction": "send" })", "/transfer_areas/a", "'from' is missing"},
+        Wrong{R"("a": { "direction": "receive", "to": "Line", "source": "X" })", "/transfer_areas/a",
+              "'controller' is missing"},
+        Wrong{R"("a": { "direction": "receive", "to": "Line", "controller": "X" })", "/transfer_areas/a",
+              "'source' is missing"},
+        Wrong{
+            R"("a": { "direction": "receive", "from": "Main", "to": "Line", "controller": "X", "source": "Y" })",
+            "/transfer_areas/a/from", "with 'within' and 'send'"},
+        Wrong{R"("a": { "from": "Main", "to": "Line", "channel": "x" })", "/transfer_areas/a/channel",
+              "with 'send' and 'receive'"},
+        Wrong{R"("a": { "direction": "send", "from": "Main", "address": "10.0.0.1" })",
+              "/transfer_areas/a/address", "with 'receive'"},
+        Wrong{
+            R"("a": { "direction": "receive", "to": "Line", "controller": "X", "source": "Y", "address": "::1" })",
+            "/transfer_areas/a/address", "IPv4"},
+        Wrong{R"("a": { "direction": "send", "from": "Main" },
+                 "b": { "direction": "receive", "channel": "a", "to": "Line", "controller": "X", "source": "Y" })",
+              "/transfer_areas/b/channel", "one area for each channel"},
+        Wrong{R"("a": { "direction": "send", "from": "Main" }, "b": { "from": "Main", "to": "Line" })",
+              "/transfer_areas/b/from", "one area for each interface"},
+        Wrong{R"("a": { "from": "Main", "to": "Line" },
+                 "b": { "direction": "receive", "to": "Line", "controller": "X", "source": "Y" })",
+              "/transfer_areas/b/to", "one source for each proxy"}));
 
 TEST(TransferAreas, LeadSeveralProxiesAlike) {
   Simulation machine =
@@ -226,6 +252,33 @@ TEST(TransferAreas, RefuseWhatNoCouplingAndNoDelayCanBe) {
   EXPECT_EQ(longer.problems[0].place,
             "/technology_objects/Main/config/CrossPlcSynchronousOperation/LocalLeadingValueDelayTime");
   EXPECT_NE(longer.problems[0].text.find("allowed: 0 to 4"), std::string::npos) << longer.problems[0].text;
+}
+
+TEST(TransferAreas, OfOtherProcessesAreWhatTheFileSays) {
+  const LoadedProject loaded = load_project(project(
+      R"("out": { "direction": "send", "from": "Main" },
+         "in": { "direction": "receive", "channel": "line.crank", "controller": "PLC_1", "source": "Crank",
+                 "interface": 3, "to": [ "Line", "Other" ], "address": [ "10.7.0.1", "10.8.0.0/16" ] })"));
+  ASSERT_TRUE(loaded.project) << loaded.problems[0].text;
+  for (const Problem& warning : loaded.warnings)
+    EXPECT_EQ(warning.text.find("it leads nothing"), std::string::npos) << warning.text;
+  EXPECT_TRUE(loaded.project->transfer_areas.empty());
+  EXPECT_TRUE(loaded.project->controller->telegram_outputs.empty()) << "until a run joins the network";
+  ASSERT_EQ(loaded.project->couplings.size(), 1u);
+  const NetworkCoupling& coupling = loaded.project->couplings[0];
+  EXPECT_EQ(coupling.network.lcm, "udpm://239.255.76.67:7667?ttl=0") << "nothing leaves the machine";
+  ASSERT_EQ(coupling.sent.size(), 1u);
+  EXPECT_EQ(coupling.sent[0].link.area, "out");
+  EXPECT_EQ(coupling.sent[0].link.sender, "two ends");
+  EXPECT_EQ(coupling.sent[0].link.source, "Main");
+  ASSERT_EQ(coupling.received.size(), 1u);
+  const ReceivedArea& in = coupling.received[0];
+  EXPECT_EQ(in.link.area, "line.crank");
+  EXPECT_EQ(in.link.sender, "PLC_1");
+  EXPECT_EQ(in.link.source, "Crank");
+  EXPECT_EQ(in.link.interface, 3);
+  EXPECT_EQ(in.senders.size(), 2u);
+  EXPECT_EQ(in.to.size(), 2u);
 }
 
 }  // namespace

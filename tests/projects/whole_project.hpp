@@ -40,7 +40,8 @@ inline constexpr char kRestOfProject[] = R"json({
     "Provider": {
       "type": "TO_PositioningAxis",
       "config": { "VirtualAxis": { "Mode": 1 },
-                  "CrossPlcSynchronousOperation": { "Interface[2]": { "EnableLeadingValueOutput": true } } }
+                  "CrossPlcSynchronousOperation": { "Interface[2]": { "EnableLeadingValueOutput": true },
+                                                    "Interface[3]": { "EnableLeadingValueOutput": true } } }
     },
     "Probe": { "type": "TO_MeasuringInput", "config": {}, "assigned_to": "Knife", "marks": { "period": 10.0 } },
     "Glue": {
@@ -76,7 +77,9 @@ inline constexpr char kRestOfProject[] = R"json({
   },
   "ascii": [ { "controllers": { "1": "Servo" } } ],
   "stimuli": [ { "at": "1s", "set": { "switch": true }, "ascii": { "line": 0, "send": "!GS1" } } ],
-  "transfer_areas": { "line": { "from": "Provider", "interface": 2, "to": "Line" } },
+  "transfer_areas": { "line": { "from": "Provider", "interface": 2, "to": "Line" },
+                      "out": { "direction": "send", "from": "Provider", "interface": 3, "channel": "whole.out" } },
+  "network": { "lcm": "udpm://239.255.76.67:7667?ttl=0", "clock": "tai", "controller": "Whole" },
   "tags": {
     "switch": { "type": "BOOL" }, "fault": { "type": "BOOL" }, "seconds": { "type": "LREAL" },
     "silent": { "type": "BOOL" }, "heard": { "type": "BOOL" }, "since": { "type": "TIME" },

@@ -1,0 +1,72 @@
+#include "projects/loader/network.hpp"
+
+#include <filesystem>
+
+#include "hmi_bridge/lcm/reassembly.hpp"
+#include "hmi_bridge/lcm/url.hpp"
+#include "projects/json/fields.hpp"
+#include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
+
+namespace lockstep {
+
+NetworkConfig read_network(const JsonValue& json, const std::string& folder, bool project,
+                           const Loading& loading) {
+  NetworkConfig network;
+  if (project)
+    read_struct(json, keys::kProjectNetwork, network, loading);
+  else
+    read_struct(json, keys::kNetwork, network, loading);
+  const JsonValue* const url = json.find("lcm");
+  if (url != nullptr && url->kind == JsonKind::string) {
+    if (const std::string problem = lcm_url_problem(network.lcm); !problem.empty())
+      loading.problems.report(*url, problem);
+    else if (lcm_leaves_machine(network.lcm) && network.key_file.empty())
+      loading.problems.warn(
+          *url,
+          "whoever reaches this network can send leading values in another's name; 'key_file' "
+          "has them signed, and with ttl=0 only programs on this machine can");
+  }
+  if (!network.key_file.empty())
+    network.key_file = (std::filesystem::path(folder) / network.key_file).lexically_normal().string();
+  return network;
+}
+
+namespace {
+
+void read_sender(const JsonValue& json, std::vector<IpNetwork>& senders, Problems& problems) {
+  const auto text = read_string(&json, problems);
+  if (!text) return;
+  std::string problem;
+  const auto network = IpNetwork::parse(*text, problem);
+  if (network && text->find(':') == text->npos)
+    senders.push_back(*network);
+  else
+    problems.report(json, json.shown() +
+                              " is no IPv4 network; allowed: an IPv4 address, alone or with the "
+                              "length of its prefix, as in 192.168.1.0/24");
+}
+
+}  // namespace
+
+std::vector<IpNetwork> read_senders(const JsonValue* json, Problems& problems) {
+  std::vector<IpNetwork> senders;
+  if (json == nullptr) return senders;
+  if (json->kind != JsonKind::array) {
+    read_sender(*json, senders, problems);
+    return senders;
+  }
+  if (json->elements.empty())
+    problems.report(*json, "an empty list lets nobody in; allowed: one network or more");
+  for (const JsonValue* const element : json->elements) read_sender(*element, senders, problems);
+  return senders;
+}
+
+std::string channel_problem(const std::string& channel) {
+  constexpr std::size_t kLongest = LcmReassembly::kLongestChannel;
+  if (channel.size() <= kLongest) return "";
+  return "the channel " + quote(channel) + " is too long; allowed: up to " + std::to_string(kLongest) +
+         " bytes";
+}
+
+}  // namespace lockstep
