@@ -20,6 +20,7 @@
 #include "projects/runtime/panel_commands.hpp"
 #include "projects/runtime/run_options.hpp"
 #include "projects/studio/session.hpp"
+#include "scheduler/real_time.hpp"
 
 namespace lockstep {
 
@@ -43,6 +44,9 @@ class RunSurroundings {
   std::vector<Endpoint> modbus_endpoints() const;
   /// Where the studio listens, with the port that the system gave; none: there is no studio.
   std::optional<Endpoint> studio_endpoint() const;
+
+  /// What the clock of a run in real time tells of itself, which outlives the studio. Any thread.
+  void tell_status(const RealTimeStatus& status) noexcept { status_ = &status; }
 
   /// Between two ticks of virtual time: waits until the recorder has room; false if it takes nothing more.
   bool wait_for_recorder() const {
@@ -94,10 +98,15 @@ class RunSurroundings {
 
   // The studio.
   void make_studio();
+  void empower_studio();
+  std::string health() const;
   void start_studio();
 
   void start_audit();
+  void make_commands();
   void start_commands();
+  std::string studio_listen() const;
+  bool studio_writes() const noexcept { return options_.studio_write || project_.studio.write; }
 
   Project& project_;
   const RunOptions& options_;
@@ -124,6 +133,7 @@ class RunSurroundings {
   std::unique_ptr<PanelCommands> commands_;
   std::unique_ptr<StudioSession> studio_;
   std::unique_ptr<StudioServer> studio_server_;
+  std::atomic<const RealTimeStatus*> status_{nullptr};
 };
 
 }  // namespace lockstep
