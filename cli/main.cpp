@@ -55,6 +55,7 @@ int carry_out(int argc, char** argv) {
   add_check_command(app, action);
   add_run_command(app, action);
   add_test_command(app, action);
+  add_studio_command(app, action);
   add_connections_command(app, action);
   add_describe_command(app, action);
   add_tags_command(app, action);

@@ -51,6 +51,7 @@ bool Controller::due(std::int64_t cycle, std::int64_t t) const noexcept {
 /// outside is silent goes on top.
 void Controller::take_inputs(std::int64_t t) noexcept {
   for (ProcessImage* image : images) image->take_writes();
+  if (tap != nullptr) tap->writes.apply(next_tick_);
   for (const TelegramInput& input : telegram_inputs)
     input.ring->take_while([&](LeadingValueTelegram telegram) {
       telegram.time -= shared_time_at_start;

@@ -25,8 +25,10 @@ enum class EventKind : std::uint8_t {
   overrun,           ///< an interpolator cycle was not over in time
   command_accepted,  ///< of a panel; told by the bridge, as the next
   command_refused,
-  printed,       ///< a program of an object has printed a line
-  program_error  ///< of an object with programs of its own
+  printed,        ///< a program of an object has printed a line
+  program_error,  ///< of an object with programs of its own
+  written,        ///< somebody has written a value by hand; told by the bridge, as the next
+  write_refused
 };
 
 /// Whether the source is an object, and not an instance of a block.

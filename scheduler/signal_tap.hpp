@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "scheduler/chosen_writes.hpp"
 #include "scheduler/trace_ring.hpp"
 #include "tech_objects/arithmetic/cache_line.hpp"
 
@@ -66,6 +67,9 @@ class SignalTap {
   std::uint64_t dropped() const noexcept;
   /// Nothing is read any more: ends a `wait_for_space`. Thread: the bridge.
   void close() noexcept;
+
+  /// The other direction: what is written to signals that somebody chooses.
+  ChosenWrites writes;
 
  private:
   template <class Visit>

@@ -31,6 +31,7 @@ using Action = std::function<int()>;
 void add_check_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
 void add_test_command(CLI::App& app, Action& action);
+void add_studio_command(CLI::App& app, Action& action);
 void add_connections_command(CLI::App& app, Action& action);
 void add_describe_command(CLI::App& app, Action& action);
 void add_tags_command(CLI::App& app, Action& action);

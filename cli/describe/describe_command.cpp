@@ -216,6 +216,19 @@ Subject find_by_words(const std::vector<std::string>& words, std::string& proble
   return {};
 }
 
+std::optional<std::string> describe_as_json(std::string_view path) {
+  std::vector<std::string> words;
+  while (!path.empty()) {
+    const std::size_t end = std::min(path.find('/'), path.size());
+    if (end > 0) words.emplace_back(path.substr(0, end));
+    path.remove_prefix(std::min(end + 1, path.size()));
+  }
+  std::string problem;
+  const Subject subject = words.empty() ? overview() : find_subject(words, problem);
+  if (!subject) return std::nullopt;
+  return subject.json().dump(2) + "\n";
+}
+
 Subject find_subject(const std::vector<std::string>& words, std::string& problem) {
   if (words.empty()) return overview();
   const std::string& word = words.front();

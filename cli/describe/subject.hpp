@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -90,5 +91,8 @@ Subject linmot_subject(const std::vector<std::string>& words);
 /// The subject that the words of the command line name; an empty one if they name none.
 /// @param problem then gets what is wrong, with a suggestion
 Subject find_subject(const std::vector<std::string>& words, std::string& problem);
+
+/// What `describe WORD … --json` prints of words between slashes; none: they name nothing.
+std::optional<std::string> describe_as_json(std::string_view words);
 
 }  // namespace lockstep::cli

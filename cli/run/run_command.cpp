@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/command/command.hpp"
+#include "cli/describe/subject.hpp"
 #include "projects/literals/duration.hpp"
 #include "projects/system/system.hpp"
 
@@ -16,6 +17,7 @@ void add_run_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "Run a project, in real time or simulated");
   auto options = std::make_shared<RunOptions>();
   options->mark = "--";
+  options->describe = [](const std::string& path) { return describe_as_json(path); };
   auto duration = std::make_shared<std::string>();
   command
       ->add_option("FILE", options->file, "the project file, or the file of a system of several controllers")
@@ -70,6 +72,10 @@ void add_run_command(CLI::App& app, Action& action) {
       ->add_option("--studio-host", options->studio_names,
                    "a further name by which it may be called, such as that of a proxy")
       ->needs(studio);
+  command->add_flag("--studio-write", options->studio_write,
+                    "pages may write, and command the axes that the project names in studio.commands");
+  command->add_flag("--no-studio", options->no_studio, "no studio, whatever the project says")
+      ->excludes(studio);
   command
       ->add_option("--audit", options->audit,
                    "append who writes or commands what to this file instead of the project's")

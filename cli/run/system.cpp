@@ -41,11 +41,13 @@ std::string trace_of(const std::string& trace, const std::string& controller) {
 
 /// What the command line asks for that only a project alone can give.
 void refuse_what_no_system_has(const RunOptions& options) {
-  const std::pair<bool, const char*> refused[] = {
-      {!options.modbus.empty(), "--modbus"}, {!options.lcm.empty(), "--lcm"},
-      {!options.audit.empty(), "--audit"},   {!options.retain.empty(), "--retain"},
-      {options.cpu >= 0, "--cpu"},           {!options.studio.empty(), "--studio"},
-      {!options.transcript.empty(), "--transcript"}};
+  const std::pair<bool, const char*> refused[] = {{!options.modbus.empty(), "--modbus"},
+                                                  {!options.lcm.empty(), "--lcm"},
+                                                  {!options.audit.empty(), "--audit"},
+                                                  {!options.retain.empty(), "--retain"},
+                                                  {options.cpu >= 0, "--cpu"},
+                                                  {!options.studio.empty(), "--studio"},
+                                                  {!options.transcript.empty(), "--transcript"}};
   for (const auto& [given, name] : refused)
     if (given)
       throw CouldNotStart(

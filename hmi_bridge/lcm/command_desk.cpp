@@ -52,8 +52,10 @@ Value CommandDesk::value(std::size_t axis, PanelSignal signal) const noexcept {
   return image_.value(axis * kPanelSignals + static_cast<std::size_t>(signal));
 }
 
-std::optional<std::size_t> CommandDesk::find(const std::string& axis) const {
-  const auto same = [&](const CommandAxis& other) { return other.name == axis; };
+std::optional<std::size_t> CommandDesk::find(const std::string& axis, CommandWay way) const {
+  const auto same = [&](const CommandAxis& other) {
+    return other.name == axis && is_commanded_by(other, way);
+  };
   const auto found = std::find_if(axes_.begin(), axes_.end(), same);
   if (found == axes_.end()) return std::nullopt;
   return static_cast<std::size_t>(found - axes_.begin());
@@ -62,41 +64,64 @@ std::optional<std::size_t> CommandDesk::find(const std::string& axis) const {
 std::optional<CommandDesk::Answer> CommandDesk::accept(std::span<const std::uint8_t> bytes,
                                                        Clock::time_point now) {
   const std::optional<command_t> command = decode_command(bytes);
-  if (!command) return refuse({&CommandCounters::malformed, "not a command"}, nullptr, now);
-  if (const auto refusal = judge(*command, now)) return refuse(*refusal, &*command, now);
-  ++counters_.accepted;
-  const std::size_t axis = *find(command->axis);
-  if (watch_) tell_watch(*command, axis);
-  Jog& jog = jogs_[axis];
-  const bool goes_on = is_jog(command->action) && jog.action == command->action &&
-                       jog.sender == command->sender && now < jog.until;
-  if (is_jog(command->action))
-    jog = {command->sender, command->action, now + kHold};
-  else if (calms(command->action))
-    jog = {};
-  carry_out(*command, axis);
-  if (goes_on) return std::nullopt;
-  return Answer{true, command->axis, std::string(action_text(command->action)), ""};
+  const Verdict verdict = command ? give(*command, now, CommandWay::lcm)
+                                  : refuse({&CommandCounters::malformed, "not a command"}, nullptr, now);
+  if (!verdict.is_told) return std::nullopt;
+  if (!command) return Answer{false, "", "", verdict.reason};
+  return Answer{verdict.accepted, command->axis.substr(0, kLongestName),
+                std::string(action_text(command->action)), verdict.reason};
 }
 
-std::optional<CommandDesk::Answer> CommandDesk::refuse(const Refusal& refusal, const command_t* command,
-                                                       Clock::time_point now) {
+CommandDesk::Verdict CommandDesk::give(const command_t& command, Clock::time_point now, CommandWay way) {
+  if (const auto refusal = judge(command, now, way)) return refuse(*refusal, &command, now);
+  ++counters_.accepted;
+  const std::size_t axis = *find(command.axis, way);
+  if (watch_) tell_watch(command, axis);
+  Jog& jog = jogs_[axis];
+  const bool goes_on = is_jog(command.action) && jog.action == command.action &&
+                       jog.sender == command.sender && now < jog.until;
+  if (is_jog(command.action))
+    jog = {command.sender, command.action, now + kHold};
+  else if (calms(command.action))
+    jog = {};
+  carry_out(command, axis);
+  return {true, "", !goes_on};
+}
+
+void CommandDesk::leave(std::int64_t sender, Clock::time_point now) {
+  for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+    if (holder(axis, now) != sender) continue;
+    jogs_[axis] = {};
+    command_t stop{};
+    stop.action = command_t::STOP;
+    carry_out(stop, axis);
+  }
+}
+
+std::int64_t CommandDesk::holder(std::size_t axis, Clock::time_point now) const noexcept {
+  const Jog& jog = jogs_[axis];
+  return is_jog(jog.action) && now < jog.until ? jog.sender : 0;
+}
+
+CommandDesk::Verdict CommandDesk::refuse(const Refusal& refusal, const command_t* command,
+                                         Clock::time_point now) {
   ++(counters_.*refusal.count);
   if (watch_) watch_({command, refusal.count, refusal.reason, "", ""});
-  if (!told_.take(now, kMaximumTold)) return std::nullopt;
-  if (command == nullptr) return Answer{false, "", "", refusal.reason};
-  return Answer{false, command->axis.substr(0, kLongestName), std::string(action_text(command->action)),
-                refusal.reason};
+  return {false, refusal.reason, told_.take(now, kMaximumTold)};
 }
 
-std::optional<CommandDesk::Refusal> CommandDesk::judge(const command_t& command, Clock::time_point now) {
+std::optional<CommandDesk::Refusal> CommandDesk::judge(const command_t& command, Clock::time_point now,
+                                                       CommandWay way) {
   if (auto refusal = judge_sender(command, now)) return refusal;
   if (action_text(command.action).empty())
     return Refusal{&CommandCounters::not_valid,
                    "action " + std::to_string(command.action) + " is unknown; allowed: 0 to 8"};
-  const std::optional<std::size_t> axis = find(command.axis);
+  const std::optional<std::size_t> axis = find(command.axis, way);
   if (!axis)
-    return Refusal{&CommandCounters::not_valid, "no axis of this name takes commands in this project"};
+    return Refusal{&CommandCounters::not_valid,
+                   "no axis of this name takes " +
+                       std::string(way == CommandWay::lcm ? "commands" : "commands of the studio") +
+                       " in this project"};
   if (auto refusal = judge_program(command, *axis)) return refusal;
   if (auto refusal = judge_value(command, *axis)) return refusal;
   const bool powers = command.action == command_t::ENABLE || command.action == command_t::DISABLE;

@@ -51,7 +51,17 @@ struct CommandAxis {
   std::string velocity_unit = "u/s";        ///< of its velocities
   bool has_position = true;                 ///< a speed axis has none, so it cannot be homed
   bool has_programs = false;                ///< a device: stop, reset and start of a program are all it takes
+  bool by_lcm = true;                       ///< takes commands over LCM
+  bool by_studio = true;                    ///< takes commands of pages of the studio
 };
+
+/// By which way a command has come.
+enum class CommandWay : std::uint8_t { lcm, studio };
+
+/// Whether an axis takes commands that come by a way.
+inline bool is_commanded_by(const CommandAxis& axis, CommandWay way) noexcept {
+  return way == CommandWay::lcm ? axis.by_lcm : axis.by_studio;
+}
 
 /// What has come, by what has become of it.
 struct CommandCounters {
@@ -85,6 +95,13 @@ class CommandDesk {
     std::string reason;  ///< of a refusal: what is wrong, what is allowed
   };
 
+  /// What has become of a command.
+  struct Verdict {
+    bool accepted = false;
+    std::string reason;    ///< of a refusal: what is wrong, what is allowed
+    bool is_told = false;  ///< to all; not: it is only counted, or a jog that goes on
+  };
+
   /// What has become of a message, for the audit log; what it refers to lasts as long as the call.
   struct Judged {
     const command_t* command;               ///< nullptr: it was none
@@ -103,6 +120,12 @@ class CommandDesk {
 
   /// Takes one message. @return what is to be told; none for what is only counted and for a jog that goes on
   std::optional<Answer> accept(std::span<const std::uint8_t> bytes, Clock::time_point now);
+  /// The same of a command that is one.
+  Verdict give(const command_t& command, Clock::time_point now, CommandWay way);
+  /// A panel is gone: what it jogs stops.
+  void leave(std::int64_t sender, Clock::time_point now);
+  /// Who jogs an axis; 0: nobody.
+  std::int64_t holder(std::size_t axis, Clock::time_point now) const noexcept;
 
   /// Begins the next beat; ten times a second.
   void beat() noexcept { ++beat_; }
@@ -133,14 +156,14 @@ class CommandDesk {
     bool take(Clock::time_point now, int maximum) noexcept;
   };
 
-  std::optional<Refusal> judge(const command_t& command, Clock::time_point now);
+  std::optional<Refusal> judge(const command_t& command, Clock::time_point now, CommandWay way);
   std::optional<Refusal> judge_sender(const command_t& command, Clock::time_point now);
   std::optional<Refusal> judge_program(const command_t& command, std::size_t axis) const;
   std::optional<Refusal> judge_value(const command_t& command, std::size_t axis) const;
   void carry_out(const command_t& command, std::size_t axis);
   void tell_watch(const command_t& command, std::size_t axis) const;
-  std::optional<Answer> refuse(const Refusal& refusal, const command_t* command, Clock::time_point now);
-  std::optional<std::size_t> find(const std::string& axis) const;
+  Verdict refuse(const Refusal& refusal, const command_t* command, Clock::time_point now);
+  std::optional<std::size_t> find(const std::string& axis, CommandWay way) const;
   Value value(std::size_t axis, PanelSignal signal) const noexcept;
 
   const std::vector<CommandAxis> axes_;

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "hmi_bridge/studio/listener.hpp"
+#include "hmi_bridge/studio/url.hpp"
 
 namespace lockstep::studio_net {
 
@@ -26,10 +27,18 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void turn_away() { refuse(503, "too_many", "too many connections at once"); }
 
  private:
-  std::string_view header(http::field name) const { return view(parser_->get()[name]); }
+  std::string_view header(http::field name) const { return view((*head_)[name]); }
   StudioCredentials credentials(std::string_view path, std::string_view query) const;
+  void take_head();
+  void read_body();
+  bool begin_upload(const std::string& path);
+  void read_upload();
   void answer();
+  bool is_heard(StudioUrl& url);
   void become_page();
+  void forget_upload() noexcept;
+  template <class Call>
+  void attempt(Call call);
   void fail(beast::error_code error);
   void refuse(unsigned status, std::string_view code, std::string_view text);
   void write(StudioAnswer answer);
@@ -41,7 +50,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
   const Listener::Seat seat_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
-  std::optional<http::request_parser<http::string_body>> parser_;
+  std::optional<http::request_parser<http::empty_body>> head_parser_;
+  std::optional<http::request_header<>> head_;                     // of the request at hand
+  bool keeps_alive_ = false;                                       // the client wants it
+  std::optional<http::request_parser<http::string_body>> parser_;  // of its body, …
+  std::optional<http::request_parser<http::file_body>> upload_;    // … or of one that goes into a file
+  std::string upload_path_;                                        // empty: there is none
   std::optional<Response> response_;
   std::string local_, peer_;  // addresses of both ends
   std::uint16_t local_port_ = 0;

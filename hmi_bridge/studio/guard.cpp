@@ -57,6 +57,10 @@ bool is_json(std::string_view content_type) noexcept {
   return is_same_name(content_type.substr(0, content_type.find(';')), "application/json");
 }
 
+bool has_known_type(const StudioCredentials& request) noexcept {
+  return is_json(request.content_type) || (request.takes_files && is_studio_upload(request.content_type));
+}
+
 bool has_token(std::string_view query) noexcept {
   return query.starts_with("token=") || query.find("&token=") != query.npos;
 }
@@ -104,7 +108,7 @@ StudioRefusal StudioGuard::judge(const StudioCredentials& request) const noexcep
     return {400, "bad_request", "a token stands in the header Authorization, never in an address"};
   if (request.changes && !is_origin(request.origin, request.host))
     return {403, "not_allowed", "the header Origin has to be there and to be this studio"};
-  if (request.changes && !request.is_socket && !is_json(request.content_type))
+  if (request.changes && !request.is_socket && !has_known_type(request))
     return {403, "not_allowed", "the header Content-Type has to be application/json"};
   if (request.is_public || request.is_socket || token_.empty()) return {};
   constexpr std::string_view kBearer = "Bearer ";
@@ -112,6 +116,11 @@ StudioRefusal StudioGuard::judge(const StudioCredentials& request) const noexcep
   if (!given || !is_token(request.authorization.substr(kBearer.size())))
     return {401, "not_allowed", "the header Authorization has to be 'Bearer ' and the token"};
   return {};
+}
+
+bool is_studio_upload(std::string_view content_type) noexcept {
+  const std::string_view type = content_type.substr(0, content_type.find(';'));
+  return is_same_name(type, "text/csv") || is_same_name(type, "application/octet-stream");
 }
 
 std::string read_studio_token(const std::string& path, std::string& problem) {

@@ -17,10 +17,10 @@ struct StudioCredentials {
   std::string_view query;          ///< of the target, behind the question mark
   std::string_view local_address;  ///< to which the client has connected, an IPv6 address in brackets
   std::uint16_t local_port = 0;
-  bool changes = false;  ///< not GET or HEAD, or a WebSocket
-  bool has_body = false;
-  bool is_public = false;  ///< the page itself, which knows nothing of the machine
-  bool is_socket = false;  ///< a WebSocket, which gives its token in the first message
+  bool changes = false;      ///< not GET or HEAD, or a WebSocket
+  bool takes_files = false;  ///< the body may be a file, too
+  bool is_public = false;    ///< the page itself, which knows nothing of the machine
+  bool is_socket = false;    ///< a WebSocket, which gives its token in the first message
 };
 
 /// Why a request is not heard. Texts are fixed: nothing of the request is in them.
@@ -49,6 +49,9 @@ class StudioGuard {
   std::vector<std::string> names_;
   std::string token_;
 };
+
+/// Whether the body of a request is a file, by its Content-Type: one that no form of a page sends.
+bool is_studio_upload(std::string_view content_type) noexcept;
 
 /// Reads a token from a file that nobody but its owner may read: one line of 32 to 256 characters from `!` to
 /// `~`, which hold 128 bits where they are hexadecimal digits by chance.

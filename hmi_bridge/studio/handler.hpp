@@ -16,7 +16,9 @@ struct StudioRequest {
   std::string path;                                        ///< decoded, without the query
   std::vector<std::pair<std::string, std::string>> query;  ///< decoded
   std::string_view body;
-  std::string_view peer;  ///< address of the client
+  std::string_view peer;      ///< address of the client
+  std::string_view if_match;  ///< of what is changed, as the client knows it; empty: not told
+  std::string body_file;      ///< file of the body, which belongs to the handler then; empty: it is in `body`
 
   /// Value of a key; `otherwise`: it is not there.
   std::string_view value(std::string_view key, std::string_view otherwise = "") const noexcept {
@@ -47,6 +49,8 @@ class StudioClient {
   /// Whether the page may be heard with this token; remembered once it may.
   virtual bool authorise(std::string_view token) noexcept = 0;
   virtual bool is_authorised() const noexcept = 0;
+  /// Address and port of the client.
+  virtual std::string_view peer() const noexcept = 0;
 };
 
 /// All is called on the server's thread; what is thrown is counted, and ends the connection that it concerns.
@@ -60,6 +64,8 @@ class StudioHandler {
   virtual void opened(StudioClient& client) = 0;
   virtual void text(StudioClient& client, std::string_view message) = 0;
   virtual void closed(StudioClient& client) noexcept = 0;
+  /// Whether files are taken that are sent.
+  virtual bool takes_uploads() const noexcept { return false; }
   /// Each 16 ms.
   virtual void look() = 0;
   /// Nothing will be asked any more, and no answer is sent: lets go of each `done`.

@@ -1,6 +1,8 @@
 #include "hmi_bridge/studio/listener.hpp"
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -60,7 +62,9 @@ void Listener::stop() {
 void Listener::accept() {
   acceptor_.async_accept([this](beast::error_code error, Tcp::socket socket) {
     if (stopping_ || error == asio::error::operation_aborted) return;
-    if (!error) {
+    if (!error && !is_allowed(socket)) {
+      ++counters_.refused;  // it learns nothing
+    } else if (!error) {
       guarded([&] {
         const auto connection = std::make_shared<Connection>(*this, std::move(socket));
         if (has_seat())
@@ -71,6 +75,16 @@ void Listener::accept() {
     }
     accept();
   });
+}
+
+bool Listener::is_allowed(const Tcp::socket& socket) const {
+  if (options_.allow.empty()) return true;
+  beast::error_code error;
+  const Tcp::endpoint peer = socket.remote_endpoint(error);
+  if (error) return false;
+  sockaddr_storage address{};
+  std::memcpy(&address, peer.data(), std::min(peer.size(), sizeof address));
+  return std::ranges::any_of(options_.allow, [&](const IpNetwork& one) { return one.contains(address); });
 }
 
 void Listener::look() {

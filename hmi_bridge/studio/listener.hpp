@@ -75,6 +75,7 @@ class Listener {
   bool take_change();
 
  private:
+  bool is_allowed(const Tcp::socket& socket) const;
   void accept();
   void look();
   void run() noexcept;

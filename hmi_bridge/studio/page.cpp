@@ -15,9 +15,10 @@ void name_ourselves(websocket::response_type& response) {
 
 }  // namespace
 
-Page::Page(Listener& listener, beast::tcp_stream stream)
+Page::Page(Listener& listener, beast::tcp_stream stream, std::string peer)
     : listener_(listener),
       seat_(listener),
+      peer_(std::move(peer)),
       stream_(std::move(stream)),
       authorised_(!listener.guard().needs_token()) {
   listener_.enter(*this);

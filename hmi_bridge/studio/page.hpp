@@ -16,7 +16,7 @@ namespace lockstep::studio_net {
 /// It lives as long as something of it is under way.
 class Page final : public StudioClient, public std::enable_shared_from_this<Page> {
  public:
-  Page(Listener& listener, beast::tcp_stream stream);
+  Page(Listener& listener, beast::tcp_stream stream, std::string peer);
   ~Page() override;
   Page(const Page&) = delete;
   Page& operator=(const Page&) = delete;
@@ -32,6 +32,7 @@ class Page final : public StudioClient, public std::enable_shared_from_this<Page
   bool is_idle() const noexcept override { return queue_.size() < 2; }
   bool authorise(std::string_view token) noexcept override;
   bool is_authorised() const noexcept override { return authorised_; }
+  std::string_view peer() const noexcept override { return peer_; }
 
  private:
   struct Message {
@@ -49,6 +50,7 @@ class Page final : public StudioClient, public std::enable_shared_from_this<Page
 
   Listener& listener_;
   const Listener::Seat seat_;
+  const std::string peer_;
   websocket::stream<beast::tcp_stream> stream_;
   beast::flat_buffer buffer_;
   std::deque<Message> queue_;

@@ -23,6 +23,8 @@ struct StudioServerOptions {
   Endpoint listen{"127.0.0.1", 8780};              ///< an address; port 0: any that is free
   std::vector<std::string> names;                  ///< see StudioGuard
   std::string token;                               ///< the same
+  std::vector<IpNetwork> allow;                    ///< from which clients may come; none: from everywhere
+  std::string upload_folder = "/tmp";              ///< for files that are sent, until they are read
   std::chrono::milliseconds request_time{10'000};  ///< for a request to be there whole
 };
 
@@ -41,6 +43,7 @@ class StudioServer {
   static constexpr std::size_t kPages = 8;
   static constexpr std::uint32_t kHeaderBytes = 8 << 10;
   static constexpr std::size_t kBodyBytes = std::size_t{16} << 20;
+  static constexpr std::uint64_t kUploadBytes = std::uint64_t{2} << 30;  ///< of a file that is sent
   static constexpr std::size_t kMessageBytes = std::size_t{1} << 20;
   static constexpr int kChangesPerSecond = 50;  ///< requests that are not GET
   static constexpr std::chrono::milliseconds kLook{16};

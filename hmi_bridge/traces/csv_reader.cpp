@@ -12,13 +12,18 @@ namespace {
 /// One pass over the text that knows where it is.
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+  Parser(std::string_view text, const std::string& name, const std::function<void(double)>& progress)
+      : text_(text), whole_(text.size()), name_(name), progress_(progress) {}
 
   TraceTable parse() {
     std::string_view line;
     if (!next(line)) fail(1, text_.empty() ? "the file is empty" : "the line of the names has no end");
     names(line);
-    while (next(line)) values(line);
+    while (next(line)) {
+      values(line);
+      if (progress_ && line_ % kLinesPerLook == 0)
+        progress_(1.0 - static_cast<double>(text_.size()) / static_cast<double>(whole_));
+    }
     if (!text_.empty())
       table_.remark = place(line_ + 1, 1) + "the last line has no end: it was cut short and is left out";
     return std::move(table_);
@@ -86,8 +91,12 @@ class Parser {
     return "a line has " + std::to_string(table_.columns.size() + 1) + " values";
   }
 
+  static constexpr std::size_t kLinesPerLook = 4096;
+
   std::string_view text_;
+  const std::size_t whole_;
   const std::string& name_;
+  const std::function<void(double)>& progress_;
   std::size_t line_ = 0;
   TraceTable table_;
 };
@@ -111,11 +120,13 @@ std::string read_all(const std::string& path) {
 }  // namespace
 
 TraceTable parse_csv_trace(std::string_view text, const std::string& name) {
-  return Parser(text, name).parse();
+  const std::function<void(double)> nobody;
+  return Parser(text, name, nobody).parse();
 }
 
-TraceTable read_csv_trace(const std::string& path) {
-  return parse_csv_trace(read_all(path), path);
+TraceTable read_csv_trace(const std::string& path, const std::function<void(double)>& progress) {
+  const std::string text = read_all(path);
+  return Parser(text, path, progress).parse();
 }
 
 }  // namespace lockstep

@@ -1,6 +1,7 @@
 /// Reads traces from comma-separated values.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -13,7 +14,9 @@ namespace lockstep {
 /// @throws TraceFormatError "FILE:line:column: …" for what is not a number, a line with more or fewer values
 /// than
 ///     names, a first column that is not `t`; "FILE: …" if it cannot be read
-TraceTable read_csv_trace(const std::string& path);
+/// @param progress is called now and then with what part of it has been read, from 0 to 1; what it throws
+///     ends the reading
+TraceTable read_csv_trace(const std::string& path, const std::function<void(double)>& progress = {});
 
 /// The same from a text in memory; `name` stands for the file in messages.
 TraceTable parse_csv_trace(std::string_view text, const std::string& name);

@@ -37,8 +37,9 @@ bool says_its_cause(const Event& event) {
 
 std::string_view event_kind_text(EventKind kind) noexcept {
   constexpr std::string_view texts[] = {
-      "alarm",     "acknowledged", "job started",      "job done",        "job aborted", "job failed",
-      "job ended", "overrun",      "command accepted", "command refused", "printed",     "program error"};
+      "alarm",      "acknowledged",  "job started", "job done",         "job aborted",
+      "job failed", "job ended",     "overrun",     "command accepted", "command refused",
+      "printed",    "program error", "written",     "write refused"};
   return texts[static_cast<std::size_t>(kind)];
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hmi_bridge/audit/file.hpp"
+#include "hmi_bridge/studio/config.hpp"
 #include "hmi_bridge/traces/channel.hpp"
 #include "hmi_bridge/traces/flight_recorder.hpp"
 #include "projects/keys/modbus.hpp"
@@ -144,6 +145,16 @@ inline constexpr auto kAudit = key_table<AuditOptions>(
     key::integer<&AuditOptions::files>("files", {2, 1000},
                                        "in all: FILE, FILE.1 and so on; the oldest gives way"));
 
+inline constexpr auto kStudio = key_table<StudioConfig>(
+    key::text("listen", "HOST:PORT where a browser sees the run, such as 127.0.0.1:8780")
+        .otherwise_is("nowhere unless --studio says so"),
+    key::boolean<&StudioConfig::write>("write", "it may write, and command the axes of 'commands'"),
+    key::text("allow", "address or network from which clients may come, such as 192.168.1.0/24")
+        .list()
+        .otherwise_is("from everywhere"),
+    key::duration<&StudioConfig::history>("history", {1e9, kHour}, "of the run that is kept for it"),
+    key::structure("commands", kCommands, "axes that take commands of the studio").otherwise_is("none does"));
+
 inline constexpr auto kExpectation = key_table<void>(
     key::duration("at", {0, kDay}, "time since the start").otherwise_is("at the end"),
     key::text("expect", "BOOL expression; with value that of a number").needed(),
@@ -194,8 +205,9 @@ inline constexpr auto kProject = key_table<void>(
     key::structure("trace", kTrace, "what is recorded and sent"),
     key::structure("retain", kRetain, "what is kept across runs"),
     key::structure("flight_recorder", kFlightRecorder, "keeps what happened before an alarm"),
-    key::structure("audit", kAudit, "who has written or commanded what"), kTemplates, kInstances,
-    key::structure("expectations", kExpectation, "what lockstep test looks at").list(),
+    key::structure("audit", kAudit, "who has written or commanded what"),
+    key::structure("studio", kStudio, "where a browser sees the run, and what it may do"), kTemplates,
+    kInstances, key::structure("expectations", kExpectation, "what lockstep test looks at").list(),
     key::duration("duration", {1, kDay}, "how long lockstep test simulates")
         .otherwise_is("to the last expectation with a time"));
 

@@ -5,6 +5,7 @@
 
 #include "hmi_bridge/lcm/commands.hpp"
 #include "hmi_bridge/lcm/messages.hpp"
+#include "hmi_bridge/lcm/url.hpp"
 #include "projects/keys/project.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/read_keys.hpp"
@@ -229,7 +230,10 @@ void load_trace(const JsonValue& trace, const Loading& loading) {
   TraceConfig& config = loading.project.trace;
   if (const JsonValue* const lcm = fields["lcm"]) {
     load_lcm(*lcm, config, loading.problems);
-    if (const JsonValue* const commands = lcm->find("commands")) load_commands(*commands, loading);
+    if (const JsonValue* const commands = lcm->find("commands")) {
+      load_commands(*commands, CommandWay::lcm, loading);
+      if (lcm_leaves_machine(config.url)) loading.problems.warn(*commands, std::string(kLcmCommandsWarning));
+    }
   }
   if (const JsonValue* const signals = fields["signals"]) load_signals(*signals, config.signals, loading);
   const JsonValue* const channels = fields["channels"];

@@ -1,11 +1,11 @@
-// The panel: for each axis that takes commands over LCM, ordinary function blocks that carry them out, and a
-// program that calls them. They have names that no identifier can be, so that no project refers to them.
+// The panel: for each axis that takes commands, over LCM or from a page of the studio, ordinary function
+// blocks that carry them out, and a program that calls them. They have names that no identifier can be, so
+// that no project refers to them.
 #include <array>
 #include <map>
 #include <memory>
 #include <stdexcept>
 
-#include "hmi_bridge/lcm/url.hpp"
 #include "projects/keys/project.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/looked_at_axis.hpp"
@@ -194,7 +194,7 @@ std::vector<Signal> signals_of(Mco305& device, PanelInputs& inputs) {
 }
 
 /// A device needs no blocks: its program is stopped and started, and its errors are cleared.
-void load_device(Mco305& device, const Fields& fields, const Loading& loading) {
+void load_device(Mco305& device, const Fields& fields, CommandWay way, const Loading& loading) {
   if (fields["jog_velocity"] != nullptr)
     loading.problems.report(*fields["jog_velocity"],
                             "an MCO_305 is moved by its program and not jogged; allowed: {}");
@@ -202,7 +202,8 @@ void load_device(Mco305& device, const Fields& fields, const Loading& loading) {
   PanelInputs& inputs = commands.inputs.emplace_back();
   constexpr bool kHasPosition = false, kHasPrograms = true;
   commands.axes.push_back({device.name, 0.0, "", signals_of(device, inputs),
-                           std::string(kind_name(device.kind)), "", kHasPosition, kHasPrograms});
+                           std::string(kind_name(device.kind)), "", kHasPosition, kHasPrograms,
+                           way == CommandWay::lcm, way == CommandWay::studio});
 }
 
 /// An axis for the program of one that is looked at; none if it is an axis. The program never runs.
@@ -213,7 +214,19 @@ std::unique_ptr<Axis> stand_in_for(TechnologyObject& object, const Loading& load
   return axis;
 }
 
-void load_axis(const std::string& name, const JsonValue& json, Program& program, const Loading& loading) {
+/// An axis that takes commands by another way already takes them by this one too.
+void add_way(CommandAxis& axis, const JsonValue& json, const KeyValue* limit, CommandWay way,
+             Problems& problems) {
+  bool& is_taken = way == CommandWay::lcm ? axis.by_lcm : axis.by_studio;
+  if (is_taken) return problems.report(json, quote(axis.name) + " is there twice; each axis is allowed once");
+  is_taken = true;
+  if (limit != nullptr && limit->number != axis.jog_velocity)
+    problems.report(json, "'jog_velocity' of " + quote(axis.name) +
+                              " differs from that of the commands over LCM; allowed: the same, or none");
+}
+
+void load_axis(const std::string& name, const JsonValue& json, CommandWay way, Program& program,
+               const Loading& loading) {
   Problems& problems = loading.problems;
   CommandsConfig& commands = loading.project.commands;
   const Fields fields(json, keys::kCommandAxis, problems);
@@ -221,11 +234,11 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
   const Names::FoundObject found = loading.names().find_object(name, kAnyDrivenAxis | ObjectKind::MCO_305);
   if (!found.problem.empty()) problems.report(json, found.problem);
   if (found.object == nullptr) return;
-  for (const CommandAxis& other : commands.axes)
+  for (CommandAxis& other : commands.axes)
     if (other.name == found.object->name)
-      return problems.report(json, quote(name) + " is there twice; each axis is allowed once");
+      return add_way(other, json, limit ? &*limit : nullptr, way, problems);
   if (found.object->kind == ObjectKind::MCO_305)
-    return load_device(static_cast<Mco305&>(*found.object), fields, loading);
+    return load_device(static_cast<Mco305&>(*found.object), fields, way, loading);
   const std::unique_ptr<Axis> stand_in = stand_in_for(*found.object, loading);
   auto& axis = stand_in ? *stand_in : static_cast<Axis&>(*found.object);
   const Names& names = loading.names();
@@ -233,24 +246,26 @@ void load_axis(const std::string& name, const JsonValue& json, Program& program,
   const std::string enabled_by = power_of(loading.controller(), *found.object);
   const Operand speed = names.find(axis.name + ".Override.Velocity").place.value();
   PanelInputs& inputs = commands.inputs.emplace_back();
+  constexpr bool kHasPrograms = false;
   commands.axes.push_back({axis.name, limit ? limit->number : usual, enabled_by,
                            signals_of(axis, inputs, names), std::string(kind_name(axis.kind)),
-                           unit_of(Unit::kVelocity, axis), axis.has_position()});
+                           unit_of(Unit::kVelocity, axis), axis.has_position(), kHasPrograms,
+                           way == CommandWay::lcm, way == CommandWay::studio});
   PanelProgram(program, loading, axis).build(inputs, enabled_by.empty(), speed);
 }
 
 }  // namespace
 
-void load_commands(const JsonValue& commands, const Loading& loading) {
+void load_commands(const JsonValue& commands, CommandWay way, const Loading& loading) {
   const Fields fields(commands, keys::kCommands, loading.problems);
   const JsonValue* const axes = fields["axes"];
   if (read_object(axes, loading.problems) == nullptr) return;
   if (axes->members.empty())
     return loading.problems.report(*axes, "no axis is named; without 'commands' none takes any");
-  if (lcm_leaves_machine(loading.project.trace.url))
-    loading.problems.warn(commands, std::string(kLcmCommandsWarning));
-  Program& program = loading.controller().programs.emplace_back("panel", Ob::MC_PreInterpolator, 0, 0);
-  for (const auto& [name, json] : axes->members) load_axis(name, *json, program, loading);
+  Program*& program = loading.project.panel;
+  if (program == nullptr)
+    program = &loading.controller().programs.emplace_back("panel", Ob::MC_PreInterpolator, 0, 0);
+  for (const auto& [name, json] : axes->members) load_axis(name, *json, way, *program, loading);
 }
 
 }  // namespace lockstep

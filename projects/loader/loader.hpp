@@ -96,8 +96,12 @@ void load_transfer_areas(const TransferSections& sections, const Loading& loadin
 
 void load_modbus(const JsonValue* modbus, const Loading& loading);
 void load_trace(const JsonValue& trace, const Loading& loading);
-/// The axes that take commands: makes the instances that carry them out. When programs are loaded.
-void load_commands(const JsonValue& commands, const Loading& loading);
+/// The axes that take commands by a way: makes the instances that carry them out. When programs are loaded.
+void load_commands(const JsonValue& commands, CommandWay way, const Loading& loading);
+/// After the trace, whose network may have given commands to the same axes.
+void load_studio(const JsonValue& json, const Loading& loading);
+/// Networks from which clients may come. @param json may be nullptr
+void load_networks(const JsonValue* json, std::vector<IpNetwork>& networks, Problems& problems);
 /// When tags and objects are loaded.
 void load_retain(const JsonValue* retain, const Loading& loading);
 void load_flight_recorder(const JsonValue& json, const Loading& loading);

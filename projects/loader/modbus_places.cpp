@@ -30,21 +30,6 @@ void load_listen(const JsonValue& json, ModbusServerOptions& options, Problems& 
   }
 }
 
-void load_allow(const JsonValue* json, ModbusServerOptions& options, Problems& problems) {
-  if (read_array(json, problems) == nullptr) return;
-  if (json->elements.empty())
-    problems.report(*json, "an empty list lets nobody in; allowed: networks such as 192.168.1.0/24");
-  for (const JsonValue* const element : json->elements) {
-    const auto text = read_string(element, problems);
-    if (!text) continue;
-    std::string problem;
-    if (const auto network = IpNetwork::parse(*text, problem))
-      options.allow.push_back(*network);
-    else
-      problems.report(*element, element->shown() + " is no network; " + problem);
-  }
-}
-
 /// Modbus has no passwords.
 void warn_of_open_server(const Fields& fields, const ModbusServerOptions& options, Problems& problems) {
   if (!options.allow.empty() || fields["allow"] != nullptr) return;
@@ -93,7 +78,7 @@ void load_modbus_place(const JsonValue& json, const Fields& fields, const Loadin
     load_listen(*fields["listen"], options, problems);
     report_taken_places(fields, modbus, problems);
   }
-  load_allow(fields["allow"], options, problems);
+  load_networks(fields["allow"], options.allow, problems);
   warn_of_open_server(fields, options, problems);
 }
 

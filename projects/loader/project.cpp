@@ -52,6 +52,7 @@ void load_sections(const JsonValue& root, const Loading& loading) {
   if (const auto* const stimuli = fields["stimuli"]) load_stimuli(*stimuli, loading);
   load_modbus(fields["modbus"], loading);
   if (const auto* const trace = fields["trace"]) load_trace(*trace, loading);
+  if (const auto* const studio = fields["studio"]) load_studio(*studio, loading);
   load_retain(fields["retain"], loading);
   if (const auto* const recorder = fields["flight_recorder"]) load_flight_recorder(*recorder, loading);
   if (const auto* const audit = fields["audit"]) load_audit(*audit, loading);

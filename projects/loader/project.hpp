@@ -21,6 +21,7 @@
 #include "hmi_bridge/modbus/server.hpp"
 #include "hmi_bridge/network/network.hpp"
 #include "hmi_bridge/retain/kept_value.hpp"
+#include "hmi_bridge/studio/config.hpp"
 #include "hmi_bridge/traces/channel.hpp"
 #include "hmi_bridge/traces/columns.hpp"
 #include "hmi_bridge/traces/flight_recorder.hpp"
@@ -124,7 +125,7 @@ struct PanelInputs {
   LREAL NoPosition{};  ///< stands for the position of a speed axis
 };
 
-/// Axes that take commands over LCM; none unless the project says so.
+/// Axes that take commands; none unless the project says so.
 struct CommandsConfig {
   std::vector<CommandAxis> axes;
   std::deque<PanelInputs> inputs;  ///< of the axes; where they are they stay
@@ -161,6 +162,8 @@ struct Project {
   std::optional<FlightRecorderConfig> flight_recorder;  ///< none: the project has none
   std::optional<AuditOptions> audit;                    ///< none: the project has no audit log
   Expectations expectations;                            ///< of a simulated run
+  StudioConfig studio;
+  Program* panel = nullptr;  ///< that carries commands out; nullptr: no axis takes any
 };
 
 /// What loading gives: a project if there are no problems, else all problems. Warnings there may be either

@@ -1,8 +1,9 @@
 #include "projects/loader/simulation.hpp"
 
-#include <cmath>
+#include <utility>
 
 #include "projects/loader/mco305_panel.hpp"
+#include "projects/loader/written_value.hpp"
 
 namespace lockstep {
 namespace {
@@ -12,25 +13,6 @@ Project valid(LoadedProject loaded) {
   std::string text = "the project is not valid";
   for (const Problem& problem : loaded.problems) text += "\n" + problem.place + ": " + problem.text;
   throw InvalidProject(text);
-}
-
-/// The value as its type holds it; throws if it does not.
-Value converted(double value, Type type) {
-  Value result{};
-  if (is_real(type)) {
-    result.r = value;
-    if (std::isfinite(value)) return result;
-  } else if (type == Type::TIME) {
-    const double nanoseconds = std::round(value * 1e9);
-    result.i = static_cast<std::int64_t>(nanoseconds);
-    if (std::abs(nanoseconds) < 9.2e18) return result;
-  } else if (value == std::floor(value) && value >= static_cast<double>(lowest(type)) &&
-             value <= static_cast<double>(highest(type)) && std::abs(value) <= 9007199254740992.0) {
-    result.i = static_cast<std::int64_t>(value);
-    return result;
-  }
-  throw std::domain_error(std::to_string(value) + " does not fit a value of type " +
-                          std::string(type_name(type)));
 }
 
 Operand operand_at(const Project& project, std::string_view path) {
@@ -63,11 +45,11 @@ double read_value_of(const Project& project, std::string_view path) {
 
 void write_value_of(Project& project, std::string_view path, double value) {
   const Operand place = operand_at(project, path);
-  if (const std::string reason = why_not_writable(place); !reason.empty()) throw std::out_of_range(reason);
-  if (place.variable != nullptr && !place.variable->range.allows(value))
-    throw std::domain_error(std::string(path) + " may not be " + std::to_string(value));
+  const WrittenValue written = written_value(place, value);
+  if (written.problem == WriteProblem::not_writable) throw std::out_of_range(written.text);
+  if (written.problem != WriteProblem::none) throw std::domain_error(std::string(path) + ": " + written.text);
   expect_writes(place);
-  place.signal.store(converted(value, place.signal.value_type()));
+  place.signal.store(written.value);
 }
 
 }  // namespace lockstep

@@ -16,23 +16,25 @@ std::vector<Signal> signals_of(const Project& project) {
 
 }  // namespace
 
-PanelCommands::PanelCommands(Project& project, const std::string& url, const LcmTraceIdentity& identity,
-                             TraceRecorder& recorder, AuditLog* audit, Messages& messages)
+PanelCommands::PanelCommands(Project& project, SharedDesk::Answers answers, AuditLog* audit,
+                             Messages& messages)
     : messages_(messages),
       image_(signals_of(project)),
-      listener_(url, identity, project.commands.axes, image_, project.controller->clock.servo_cycle,
-                [&recorder](TraceEvent answer) { recorder.tell(std::move(answer)); }) {
+      desk_(project.commands.axes, image_, project.controller->clock.servo_cycle, std::move(answers)) {
   project.controller->images.push_back(&image_);
-  std::string axes;
-  for (const CommandAxis& axis : project.commands.axes) axes += (axes.empty() ? "" : ", ") + axis.name;
+  if (audit != nullptr) desk_.audit_to(*audit);
+}
+
+void PanelCommands::hear(const std::string& url, const LcmTraceIdentity& identity) {
+  auto listener = std::make_unique<CommandListener>(url, identity, desk_);
   messages_.inform(fmt::format("commands from panels on {}, channel {}{}: {}", url, identity.channel,
-                               kCommandSuffix, axes));
-  if (audit != nullptr) listener_.audit_to(*audit);
-  listener_.start();
+                               kCommandSuffix, desk_.axes_text(CommandWay::lcm)));
+  listener_ = std::move(listener);
+  listener_->start();
 }
 
 void PanelCommands::tell_counters() {
-  const CommandCounters& counters = listener_.counters();
+  const CommandCounters counters = desk_.counters();
   if (counters.accepted != 0)
     messages_.inform(fmt::format("commands from panels: {} accepted", counters.accepted));
   const auto warn = [this](std::uint64_t count, std::string_view text) {
@@ -43,7 +45,7 @@ void PanelCommands::tell_counters() {
   warn(counters.not_valid, "refused: an axis, action or value that is not permitted");
   warn(counters.impossible, "refused: the axis is in other hands");
   warn(counters.too_many, "refused: too many commands or panels");
-  warn(listener_.faults(), "internal faults survived");
+  if (listener_) warn(listener_->faults(), "internal faults survived");
 }
 
 }  // namespace lockstep

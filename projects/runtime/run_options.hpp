@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,6 +31,10 @@ struct RunOptions {
       studio{};  ///< HOST:PORT where the run can be looked into; port 0: one that is free; empty: none
   std::string studio_token{};               ///< file of the token that it asks for; empty: none
   std::vector<std::string> studio_names{};  ///< by which it may be called besides its address
+  bool studio_write = false;  ///< pages may write, and command the axes that take commands of the studio
+  bool no_studio = false;     ///< none, whatever the project says
+  /// As `lockstep describe --json` tells it, for the studio; empty: it tells nothing.
+  std::function<std::optional<std::string>(const std::string&)> describe{};
   std::string mark{};  ///< stands before the name of an option in messages; "--" on a command line
 };
 

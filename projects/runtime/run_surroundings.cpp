@@ -20,6 +20,7 @@ RunSurroundings::RunSurroundings(Project& project, const RunOptions& options,
   start_trace();
   start_modbus();
   start_clients();
+  make_commands();
   start_commands();
   if (keeper_) project_.controller->images.push_back(&keeper_->image());
   if (keeper_) keeper_->start();
@@ -132,13 +133,21 @@ void RunSurroundings::start_audit() {
   messages_.inform("writes and commands from outside are told in " + audit_->path());
 }
 
-/// Nobody jogs in virtual time.
+/// The desk of all who command: over LCM, where nobody does so in virtual time, and pages of the studio.
+void RunSurroundings::make_commands() {
+  if (project_.commands.axes.empty()) return;
+  const bool over_lcm = !options_.simulate && !options_.no_lcm;
+  if (!over_lcm && !studio_) return;
+  commands_ = std::make_unique<PanelCommands>(
+      project_, [this](TraceEvent answer) { recorder_->tell(std::move(answer)); }, audit_.get(), messages_);
+}
+
 void RunSurroundings::start_commands() {
-  if (options_.simulate || options_.no_lcm || project_.commands.axes.empty()) return;
+  if (!commands_ || options_.simulate || options_.no_lcm || !commands_->desk().has_axes(CommandWay::lcm))
+    return;
   const std::string url = options_.lcm.empty() ? project_.trace.url : options_.lcm;
   try {
-    commands_ =
-        std::make_unique<PanelCommands>(project_, url, identity(), *recorder_, audit_.get(), messages_);
+    commands_->hear(url, identity());
     // Of the project's own network the loader has warned.
     if (!options_.lcm.empty() && lcm_leaves_machine(url))
       messages_.warn(named("lcm") + std::string(kLcmCommandsWarning));

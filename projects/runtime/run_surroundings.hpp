@@ -22,6 +22,7 @@
 #include "projects/runtime/run_options.hpp"
 #include "projects/runtime/telegram_recorder.hpp"
 #include "projects/studio/session.hpp"
+#include "scheduler/real_time.hpp"
 
 namespace lockstep {
 
@@ -51,6 +52,9 @@ class RunSurroundings {
   std::optional<std::int64_t> clock_offset() const;
   /// Tells where time 0 of the controller is on that clock. @param start on that of the cycle [ns]
   void tell_start(std::int64_t start);
+
+  /// What the clock of a run in real time tells of itself, which outlives the studio. Any thread.
+  void tell_status(const RealTimeStatus& status) noexcept { status_ = &status; }
 
   /// Between two ticks of virtual time: waits until the recorder has space; false if it takes nothing more.
   bool wait_for_recorder() const {
@@ -103,12 +107,17 @@ class RunSurroundings {
 
   // The studio.
   void make_studio();
+  void empower_studio();
+  std::string health() const;
   void start_studio();
 
   void join_others();
 
   void start_audit();
+  void make_commands();
   void start_commands();
+  std::string studio_listen() const;
+  bool studio_writes() const noexcept { return options_.studio_write || project_.studio.write; }
 
   Project& project_;
   const RunOptions& options_;
@@ -138,6 +147,7 @@ class RunSurroundings {
   std::vector<std::unique_ptr<LeadingValueExchange>> exchanges_;  // with other processes
   std::unique_ptr<StudioSession> studio_;
   std::unique_ptr<StudioServer> studio_server_;
+  std::atomic<const RealTimeStatus*> status_{nullptr};
 };
 
 }  // namespace lockstep

@@ -142,6 +142,7 @@ void Runtime::Run::start() {
     surroundings_.reset();
     throw;
   }
+  surroundings_->tell_status(cycle_->status());
   const std::lock_guard lock(mutex_);
   state_ = RuntimeState::running;
   if (stops_) cycle_->stop();

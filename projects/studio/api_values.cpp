@@ -62,7 +62,28 @@ Json job_json(const StudioJob& job) {
   return json;
 }
 
+Json shot_json(const StudioShot& shot) {
+  return {{"id", shot.id}, {"reason", shot.reason}, {"t", std::to_string(shot.t)}};
+}
+
+std::unique_ptr<StudioDerived> derived_at(const Project& project, std::string_view text,
+                                          std::string& problem) {
+  return StudioDerived::compile(
+      text,
+      [&project](const std::string& path) -> std::optional<Type> {
+        const FoundOperand found = project.names.find(path);
+        if (!found.place || found.place->signal.value_type() >= Type::AXIS) return {};
+        return found.place->signal.value_type();
+      },
+      problem);
+}
+
 std::optional<NamedSignal> signal_at(const Project& project, const std::string& path, std::string& problem) {
+  if (StudioDerived::is_one(path)) {
+    const std::unique_ptr<StudioDerived> derived = derived_at(project, path, problem);
+    if (!derived) return {};
+    return NamedSignal{path, Signal{nullptr, derived->type(), -1}};
+  }
   const FoundOperand found = project.names.find(path);
   if (!found.place) {
     problem = found.problem;

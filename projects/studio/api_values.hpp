@@ -1,13 +1,17 @@
 /// Values, signals, events and jobs as JSON.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "hmi_bridge/traces/columns.hpp"
 #include "projects/loader/project.hpp"
 #include "projects/studio/api.hpp"
+#include "projects/studio/derived.hpp"
 #include "projects/studio/history.hpp"
+#include "projects/studio/shots.hpp"
 
 namespace lockstep::studio_api {
 
@@ -17,8 +21,13 @@ Json number_json(double number);
 Json value_json(Value value, Type type);
 Json event_json(const TraceEvent& event);
 Json job_json(const StudioJob& job);
+Json shot_json(const StudioShot& shot);
 
-/// The signal at a path, or why there is none.
+/// The derived signal that an expression over paths of a project makes; nullptr: `problem` says why there is
+/// none.
+std::unique_ptr<StudioDerived> derived_at(const Project& project, std::string_view text,
+                                          std::string& problem);
+/// The signal at a path, or why there is none; of a derived one nothing but its type.
 std::optional<NamedSignal> signal_at(const Project& project, const std::string& path, std::string& problem);
 
 }  // namespace lockstep::studio_api

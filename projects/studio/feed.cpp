@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "projects/studio/api_values.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -37,31 +39,73 @@ bool StudioFeed::is_in_newest(std::size_t index) const noexcept {
 }
 
 void StudioFeed::take(const SignalTap::Row& row) {
+  Ring& ring = rings_[row.ring];
+  const bool follows = row.ring == ring_ && row.dropped == dropped_;
   if (row.ring != ring_) {
     ring_ = row.ring;
     rings_.erase(rings_.begin(), rings_.lower_bound(ring_));
-    const std::vector<TraceSignal>& signals = rings_[ring_];
-    store_.set_signals(signals);
+    store_.set_signals(ring.signals);
     newest_.clear();
-    for (const TraceSignal& signal : signals) newest_.push_back(*store_.find(signal.name));
+    for (const TraceSignal& signal : ring.signals) newest_.push_back(*store_.find(signal.name));
   }
-  store_.append(row.row.t, row.row.tick, row.row.values, row.dropped - dropped_);
+  values_.assign(row.row.values.begin(), row.row.values.end());
+  std::vector<Value> operands;
+  for (const Computed& one : ring.computed) {
+    operands.clear();
+    for (const std::size_t column : one.operands) operands.push_back(row.row.values[column]);
+    values_.push_back(one.derived->value(operands, row.row.t, follows));
+  }
+  store_.append(row.row.t, row.row.tick, values_, row.dropped - dropped_);
   dropped_ = row.dropped;
+}
+
+/// Has the ring hold what a signal is computed of.
+void StudioFeed::add_computed(const NamedSignal& signal, std::vector<NamedSignal>& plain, Ring& ring) {
+  std::shared_ptr<StudioDerived>& derived = derived_[signal.name];
+  std::string problem;
+  if (!derived) derived = studio_api::derived_at(project_, signal.name, problem);
+  if (!derived) return;
+  Computed computed{derived, {}};
+  for (const std::string& path : derived->operands()) {
+    std::optional<NamedSignal> operand = studio_api::signal_at(project_, path, problem);
+    if (!operand) return;
+    const auto known = std::ranges::find(plain, operand->name, &NamedSignal::name);
+    computed.operands.push_back(static_cast<std::size_t>(known - plain.begin()));
+    if (known == plain.end()) plain.push_back(std::move(*operand));
+  }
+  ring.computed.push_back(std::move(computed));
 }
 
 void StudioFeed::look() {
   tap_.drain([this](const SignalTap::Row& row) { take(row); });
   if (handed_over_) return;
+  std::vector<NamedSignal> plain;
+  std::vector<const NamedSignal*> computed;
+  for (const NamedSignal& signal : wanted_) {
+    if (StudioDerived::is_one(signal.name))
+      computed.push_back(&signal);
+    else
+      plain.push_back(signal);
+  }
+  Ring made;
+  for (const NamedSignal* signal : computed) add_computed(*signal, plain, made);
   std::unique_ptr<TraceRing> ring;
-  if (!wanted_.empty()) {
-    const auto fitting = static_cast<std::int64_t>(kRingValues / (wanted_.size() + 3));
-    const std::int64_t rows = std::clamp<std::int64_t>(kRingTime / cycle_, 64, fitting);
-    ring = std::make_unique<TraceRing>(places_of(wanted_), static_cast<std::size_t>(rows));
+  if (!plain.empty()) {
+    const auto fitting = static_cast<std::int64_t>(kRingValues / (plain.size() + 3));
+    const std::int64_t cycle = project_.controller->clock.interpolator_cycle();
+    const std::int64_t rows =
+        std::clamp<std::int64_t>(kRingTime / cycle, 64, std::max<std::int64_t>(fitting, 64));
+    ring = std::make_unique<TraceRing>(places_of(plain), static_cast<std::size_t>(rows));
   }
   const std::uint64_t number = tap_.hand_over(std::move(ring));
   if (number == 0) return;
-  std::vector<TraceSignal>& signals = rings_[number];
-  for (const NamedSignal& signal : wanted_) signals.push_back(described(signal));
+  for (const NamedSignal& signal : plain) made.signals.push_back(described(signal));
+  for (const NamedSignal* signal : computed)
+    if (derived_[signal->name]) made.signals.push_back(described(*signal));
+  std::erase_if(derived_, [&](const auto& one) {
+    return std::ranges::none_of(wanted_, [&](const NamedSignal& signal) { return signal.name == one.first; });
+  });
+  rings_[number] = std::move(made);
   handed_over_ = true;
 }
 

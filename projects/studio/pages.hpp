@@ -37,6 +37,12 @@ class StudioPages {
 
   /// A text for all that have said hello.
   void tell(const std::string& text) const;
+  /// The same, a text for each of them by `text_for(StudioClient&)`.
+  template <class TextFor>
+  void tell_each(TextFor text_for) const {
+    for (const auto& [client, page] : pages_)
+      if (page.is_known) client->send_text(text_for(*client));
+  }
   /// New rows, for all that can take them.
   void send_rows();
   std::size_t size() const noexcept { return pages_.size(); }

@@ -16,14 +16,11 @@ using namespace studio_api;
 using namespace std::chrono_literals;
 
 constexpr std::string_view kTraces = "/api/traces/";
+constexpr std::string_view kDerived = "/derived";
 
 std::string chance_number() {
   std::random_device chance;
   return std::to_string((std::uint64_t{chance()} << 31) ^ chance());
-}
-
-Json rights_json() {
-  return {{"write", false}, {"command", false}, {"files", false}};
 }
 
 Json signal_json(const StudioSignal& signal) {
@@ -36,70 +33,77 @@ Json signal_json(const StudioSignal& signal) {
   return json;
 }
 
-Json shot_json(const StudioShot& shot) {
-  return {{"id", shot.id}, {"reason", shot.reason}, {"t", std::to_string(shot.t)}};
-}
-
 }  // namespace
 
-StudioSession::StudioSession(const Project& project, std::int64_t epoch)
+StudioSession::StudioSession(const Project& project, std::int64_t epoch, std::int64_t history)
     : project_(project),
       units_(project),
       epoch_(epoch),
       run_(chance_number()),
-      feed_(project.controller->clock.interpolator_cycle(), units_),
+      feed_(project, units_, history),
       pages_(project, units_, feed_),
       readings_(project, units_, feed_),
-      triggers_(project, feed_, shots_) {}
+      triggers_(project, feed_, shots_),
+      writes_(project, powers_, feed_.tap().writes),
+      panels_(powers_) {}
+
+void StudioSession::empower(StudioPowers powers) {
+  powers_ = std::move(powers);
+  text_ = StudioProjectText(powers_.project_text);
+  powers_.project_text.clear();
+}
 
 void StudioSession::answer(const StudioRequest& request, Done done) {
   try {
     if (request.path == "/api/read" && request.method == "POST") {
+      if (read_at_once(request, done)) return;
       readings_.read(request, done);
       return want();
     }
-    if (request.method != "GET" && request.method != "HEAD")
-      return done(error_answer(405, "not_allowed", "allowed here: GET"));
-    done(answer_get(request));
+    if (request.path == "/api/write" && request.method == "POST") return writes_.write(request, done);
+    if (request.method == "GET" || request.method == "HEAD") return done(answer_get(request));
+    done(answer_post(request));
   } catch (const BadRequest& bad) {
     done(error_answer(bad.status, bad.code, bad.what()));
   }
 }
 
+StudioAnswer StudioSession::answer_post(const StudioRequest& request) {
+  const bool posts = request.method == "POST";
+  if (posts && request.path == "/api/traces") return take_trace(request);
+  if (posts && request.path == "/api/simulation") return change_simulation(request);
+  if (posts && request.path.starts_with(kTraces) && request.path.ends_with(kDerived)) return derive(request);
+  if (request.method == "DELETE" && request.path.starts_with(kTraces)) return remove_trace(request);
+  return error_answer(405, "not_allowed", "allowed here: GET");
+}
+
 StudioAnswer StudioSession::answer_get(const StudioRequest& request) {
   if (request.path == "/api") return about();
-  if (request.path == "/api/project") return project_answer();
   if (request.path == "/api/signals") return signals(request);
   if (request.path == "/api/events") return events();
   if (request.path == "/api/jobs") return jobs();
   if (request.path == "/api/traces") return traces();
+  if (request.path == "/api/compare") return compare(request);
   if (request.path.starts_with(kTraces)) return part_of_trace(request);
-  return error_answer(404, "not_found", "there is no '" + request.path + "'; STUDIO.md tells what there is");
+  return answer_project(request);
 }
 
 StudioAnswer StudioSession::about() const {
   return answer_of(Json{{"product", "lockstep"},
                         {"version", LOCKSTEP_VERSION},
                         {"api", 1},
-                        {"mode", "machine"},
+                        {"mode", mode_name(powers_.mode)},
                         {"project", project_.name},
                         {"run", run_},
                         {"epoch", std::to_string(epoch_)},
-                        {"rights", rights_json()},
+                        {"rights", rights_json(powers_)},
+                        {"why_not", reasons_json(powers_)},
                         {"limits",
                          {{"signals", StudioFeed::kSignals},
                           {"subscribed", StudioPages::kSubscribed},
                           {"read", StudioReadings::kRead},
                           {"points", kWindowPoints},
                           {"pages", StudioServer::kPages}}}});
-}
-
-StudioAnswer StudioSession::project_answer() const {
-  StudioAnswer answer;
-  answer.body = studio_project(project_);
-  answer.etag = "\"" + run_ + "\"";
-  answer.cache = "no-cache";
-  return answer;
 }
 
 StudioAnswer StudioSession::signals(const StudioRequest& request) {
@@ -124,48 +128,34 @@ StudioAnswer StudioSession::jobs() const {
   return answer_of(Json{{"jobs", array_of(history_.jobs(), job_json)}});
 }
 
-StudioAnswer StudioSession::traces() const {
-  Json live = trace_json("live", feed_.store());
-  live["dropped"] = feed_.dropped();
-  Json all = Json::array({live});
-  for (const StudioShot& shot : shots_.all()) {
-    Json json = trace_json(shot.id, shot.store);
-    json.update(shot_json(shot));
-    all.push_back(json);
-  }
-  return answer_of(Json{{"traces", all}});
-}
-
-/// `/api/traces/ID/WHAT`.
-StudioAnswer StudioSession::part_of_trace(const StudioRequest& request) const {
-  const std::string_view rest = std::string_view(request.path).substr(kTraces.size());
-  const std::size_t slash = std::min(rest.find('/'), rest.size());
-  const std::string_view id = rest.substr(0, slash);
-  const std::string_view what = rest.substr(std::min(slash + 1, rest.size()));
-  if (id == "live") return trace_answer(request, what, feed_.store());
-  if (const StudioShot* shot = shots_.find(id)) return trace_answer(request, what, shot->store);
-  return error_answer(404, "not_found", "there is no trace '" + std::string(id) + "'");
-}
-
 void StudioSession::closed(StudioClient& client) noexcept {
   if (pages_.close(client)) wants_changed_ = true;
   triggers_.forget(client);
+  try {
+    panels_.leave(client);
+  } catch (...) {
+    return;  // there is no memory; the cycle ends a jog that is not repeated
+  }
 }
 
 void StudioSession::hello(StudioClient& client, const StudioMessage& message) {
   pages_.admit(client, message);
-  client.send_text(text_of(Json{{"type", "hello"},
-                                {"seq", message.seq},
-                                {"api", 1},
-                                {"version", LOCKSTEP_VERSION},
-                                {"project", project_.name},
-                                {"run", run_},
-                                {"mode", "machine"},
-                                {"epoch", std::to_string(epoch_)},
-                                {"interpolator_cycle", project_.controller->clock.interpolator_cycle()},
-                                {"rights", rights_json()},
-                                {"pending", array_of(history_.pending(), event_json)},
-                                {"jobs", array_of(history_.jobs(), job_json)}}));
+  client.send_text(
+      text_of(Json{{"type", "hello"},
+                   {"seq", message.seq},
+                   {"api", 1},
+                   {"version", LOCKSTEP_VERSION},
+                   {"project", project_.name},
+                   {"run", run_},
+                   {"mode", mode_name(powers_.mode)},
+                   {"epoch", std::to_string(epoch_)},
+                   {"interpolator_cycle", project_.controller->clock.interpolator_cycle()},
+                   {"rights", rights_json(powers_)},
+                   {"why_not", reasons_json(powers_)},
+                   {"panels", panels_.panels_for(client)},
+                   {"simulation", powers_.simulation != nullptr ? powers_.simulation->state() : Json()},
+                   {"pending", array_of(history_.pending(), event_json)},
+                   {"jobs", array_of(history_.jobs(), job_json)}}));
 }
 
 void StudioSession::obey(StudioClient& client, const StudioMessage& message) {
@@ -173,6 +163,7 @@ void StudioSession::obey(StudioClient& client, const StudioMessage& message) {
   if (type == "hello") return hello(client, message);
   if (!pages_.is_known(client)) throw BadRequest(403, "not_allowed", "the first message has to be 'hello'");
   if (type == "ack") return pages_.acknowledge(client, message);
+  if (type == "command") return panels_.obey(client, message);
   if (type == "subscribe") {
     pages_.subscribe(client, message);
   } else if (type == "unsubscribe") {
@@ -181,7 +172,9 @@ void StudioSession::obey(StudioClient& client, const StudioMessage& message) {
     triggers_.obey(client, message);
   } else {
     throw BadRequest(422, "bad_request",
-                     "'" + type + "' is no message; allowed: hello, subscribe, unsubscribe, trigger, ack");
+                     "'" + type +
+                         "' is no message; allowed: hello, subscribe, unsubscribe, trigger, ack, "
+                         "command");
   }
   want();
 }
@@ -231,6 +224,13 @@ void StudioSession::tell_shots() {
   });
 }
 
+void StudioSession::tell_panels(Clock::time_point now) {
+  if (!panels_.is_due(now)) return;
+  pages_.tell_each([this](StudioClient& client) {
+    return text_of(Json{{"type", "panel"}, {"panels", panels_.panels_for(client)}});
+  });
+}
+
 void StudioSession::tell_status(Clock::time_point now) {
   if (now < next_status_) return;
   next_status_ = now + 1s;
@@ -252,6 +252,9 @@ void StudioSession::look() {
   readings_.answer(now);
   tell_events();
   tell_shots();
+  tell_files();
+  writes_.look(now);
+  tell_panels(now);
   pages_.send_rows();
   tell_status(now);
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hmi_bridge/studio/handler.hpp"
@@ -14,20 +15,27 @@
 #include "projects/studio/feed.hpp"
 #include "projects/studio/history.hpp"
 #include "projects/studio/pages.hpp"
+#include "projects/studio/panels.hpp"
+#include "projects/studio/powers.hpp"
+#include "projects/studio/project_text.hpp"
 #include "projects/studio/readings.hpp"
 #include "projects/studio/shots.hpp"
 #include "projects/studio/tree.hpp"
 #include "projects/studio/triggers.hpp"
+#include "projects/studio/writes.hpp"
 
 namespace lockstep {
 
-/// Answers by the declarations of the project and by what has come from the cycle; it reads and never writes.
-/// Thread: the server's, but for what is said to be another's.
+/// Answers by the declarations of the project and by what has come from the cycle; what pages may do besides
+/// is given to it. Thread: the server's, but for what is said to be another's.
 class StudioSession final : public StudioHandler {
  public:
   /// Before the run; `project` outlives this. @param epoch wall clock of t = 0 [µs since 1970]; 0: virtual
-  StudioSession(const Project& project, std::int64_t epoch);
+  /// @param history of the run that is kept [ns]
+  StudioSession(const Project& project, std::int64_t epoch, std::int64_t history = 60'000'000'000);
 
+  /// What pages may do besides looking. Before the first request; without it they only look.
+  void empower(StudioPowers powers);
   /// The crossing for `Controller::tap`.
   SignalTap& tap() noexcept { return feed_.tap(); }
   /// What gives it the events of the run. Before the run.
@@ -38,23 +46,39 @@ class StudioSession final : public StudioHandler {
   void text(StudioClient& client, std::string_view text) override;
   void closed(StudioClient& client) noexcept override;
   void look() override;
-  void ended() noexcept override { readings_.end(); }
+  bool takes_uploads() const noexcept override {
+    return powers_.files != nullptr && powers_.why_no_files.empty();
+  }
+  void ended() noexcept override {
+    readings_.end();
+    writes_.end();
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void obey(StudioClient& client, const StudioMessage& message);
   void hello(StudioClient& client, const StudioMessage& message);
+  StudioAnswer answer_post(const StudioRequest& request);
   StudioAnswer answer_get(const StudioRequest& request);
+  StudioAnswer answer_project(const StudioRequest& request) const;
   StudioAnswer about() const;
-  StudioAnswer project_answer() const;
   StudioAnswer signals(const StudioRequest& request);
   StudioAnswer events() const;
   StudioAnswer jobs() const;
   StudioAnswer traces() const;
   StudioAnswer part_of_trace(const StudioRequest& request) const;
+  StudioAnswer compare(const StudioRequest& request) const;
+  StudioAnswer take_trace(const StudioRequest& request);
+  StudioAnswer remove_trace(const StudioRequest& request);
+  StudioAnswer derive(const StudioRequest& request);
+  StudioAnswer change_simulation(const StudioRequest& request);
+  bool read_at_once(const StudioRequest& request, const Done& done);
+  const TraceStore* find_trace(std::string_view id) const;
+  void tell_files();
   void tell_events();
   void tell_shots();
+  void tell_panels(Clock::time_point now);
   void tell_status(Clock::time_point now);
   void want();
 
@@ -70,6 +94,10 @@ class StudioSession final : public StudioHandler {
   StudioReadings readings_;
   StudioShots shots_;
   StudioTriggers triggers_;
+  StudioPowers powers_;
+  StudioWrites writes_;
+  StudioPanels panels_;
+  StudioProjectText text_;
   bool wants_changed_ = false;
   Clock::time_point next_status_{};
 };

@@ -22,4 +22,13 @@ const StudioShot* StudioShots::find(std::string_view id) const noexcept {
   return found == shots_.end() ? nullptr : &*found;
 }
 
+StudioShot* StudioShots::find(std::string_view id) noexcept {
+  const auto found = std::ranges::find(shots_, id, &StudioShot::id);
+  return found == shots_.end() ? nullptr : &*found;
+}
+
+bool StudioShots::remove(std::string_view id) {
+  return std::erase_if(shots_, [id](const StudioShot& shot) { return shot.id == id; }) != 0;
+}
+
 }  // namespace lockstep

@@ -27,6 +27,9 @@ class StudioShots {
 
   const StudioShot& add(std::string reason, std::int64_t t, TraceStore store);
   const StudioShot* find(std::string_view id) const noexcept;
+  StudioShot* find(std::string_view id) noexcept;
+  /// @return false: there is no such shot
+  bool remove(std::string_view id);
   const std::deque<StudioShot>& all() const noexcept { return shots_; }
 
  private:

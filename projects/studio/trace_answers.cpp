@@ -1,24 +1,26 @@
 #include "projects/studio/trace_answers.hpp"
 
-#include <array>
 #include <limits>
 
 #include "hmi_bridge/studio/frames.hpp"
-#include "hmi_bridge/traces/csv_number.hpp"
 #include "projects/studio/api_values.hpp"
+#include "projects/studio/trace_analysis.hpp"
+#include "projects/studio/trace_exports.hpp"
 
 namespace lockstep::studio_api {
 namespace {
 
-/// What of a trace is asked for.
-struct Part {
-  std::vector<std::size_t> columns;
-  std::uint64_t first, behind;  // rows
-};
+/// The signals that are named: by `signals=A,B`, or one by one by `signal=A`, as paths with a comma need it.
+std::vector<std::string> paths_of(const StudioRequest& request) {
+  std::vector<std::string> paths = split(request.value("signals"));
+  for (const auto& [key, value] : request.query)
+    if (key == "signal") paths.push_back(value);
+  return paths;
+}
 
 std::vector<std::size_t> columns_of(const StudioRequest& request, const TraceStore& store, Wrong& wrong) {
   std::vector<std::size_t> columns;
-  for (const std::string& path : split(request.value("signals")))
+  for (const std::string& path : paths_of(request))
     if (const auto column = store.find(path))
       columns.push_back(*column);
     else
@@ -28,7 +30,7 @@ std::vector<std::size_t> columns_of(const StudioRequest& request, const TraceSto
   return columns;
 }
 
-StudioAnswer window(const StudioRequest& request, const TraceStore& store, const Part& part) {
+StudioAnswer window(const StudioRequest& request, const TraceStore& store, const TracePart& part) {
   const std::int64_t points = whole_number(request, "pixels", 1000);
   if (points < 1 || points > static_cast<std::int64_t>(kWindowPoints))
     throw BadRequest(422, "out_of_range", "pixels: " + std::to_string(points) + "; allowed: 1 to 20000");
@@ -59,42 +61,10 @@ Json statistics_json(const std::string& signal, const TraceStatistics& seen) {
   return json;
 }
 
-StudioAnswer statistics(const TraceStore& store, const Part& part) {
+StudioAnswer statistics(const TraceStore& store, const TracePart& part) {
   return answer_of(array_of(part.columns, [&](std::size_t column) {
     return statistics_json(store.signals()[column].name, store.statistics(column, part.first, part.behind));
   }));
-}
-
-/// A part of a trace as `CsvTrace` writes it, to the bit; where a row has none of a signal, "nan".
-StudioAnswer comma_separated(const TraceStore& store, const Part& part) {
-  const std::uint64_t values = (part.behind - part.first) * (part.columns.size() + 1);
-  if (values > kExportValues)
-    return error_answer(413, "too_large",
-                        std::to_string(values) + " values; allowed: " + std::to_string(kExportValues));
-  const TraceWindow seen = store.rows(part.columns, part.first, part.behind);
-  StudioAnswer answer;
-  answer.type = "text/csv; charset=utf-8";
-  answer.file_name = "lockstep.csv";
-  answer.body = "t";
-  for (const std::size_t column : part.columns) answer.body += ',' + store.signals()[column].name;
-  answer.body += '\n';
-  std::array<char, kNumberLength> number{};
-  for (std::size_t row = 0; row < seen.t.size(); ++row) {
-    answer.body.append(number.data(), print_seconds(number.data(), seen.t[row]));
-    for (const TraceWindow::Column& column : seen.columns) {
-      answer.body += ',';
-      answer.body.append(number.data(), print_column_value(number.data(), column.first[row], column.type));
-    }
-    answer.body += '\n';
-  }
-  return answer;
-}
-
-StudioAnswer exported(const StudioRequest& request, const TraceStore& store, const Part& part) {
-  const std::string_view format = request.value("format", "csv");
-  if (format != "csv")
-    throw BadRequest(422, "bad_request", "format: '" + std::string(format) + "'; allowed: csv");
-  return comma_separated(store, part);
 }
 
 }  // namespace
@@ -119,21 +89,29 @@ Json trace_json(std::string_view id, const TraceStore& store) {
   return json;
 }
 
-StudioAnswer trace_answer(const StudioRequest& request, std::string_view what, const TraceStore& store) {
+TracePart trace_part(const StudioRequest& request, const TraceStore& store) {
   if (store.end() == store.begin())
-    return error_answer(416, "out_of_range", "there are no rows yet: nobody has asked for a signal");
+    throw BadRequest(416, "out_of_range", "there are no rows yet: nobody has asked for a signal");
   const std::int64_t from = whole_number(request, "from", store.t(store.begin()));
   const std::int64_t to = whole_number(request, "to", store.t(store.end() - 1));
   if (from > to) throw BadRequest(416, "out_of_range", "'from' has to be before 'to'");
-  Wrong wrong{422};
-  Part part{columns_of(request, store, wrong), store.row_at(from), store.end()};
-  if (!wrong.errors.empty()) return answer_of(wrong);
+  TracePart part{{}, store.row_at(from), store.end()};
   if (to < std::numeric_limits<std::int64_t>::max()) part.behind = store.row_at(to + 1);
+  return part;
+}
+
+StudioAnswer trace_answer(const StudioRequest& request, std::string_view what, const TraceStore& store) {
+  TracePart part = trace_part(request, store);
+  if (what == "spectrum") return spectrum_answer(request, store, part);
+  Wrong wrong{422};
+  part.columns = columns_of(request, store, wrong);
+  if (!wrong.errors.empty()) return answer_of(wrong);
   if (what == "window") return window(request, store, part);
   if (what == "statistics") return statistics(store, part);
-  if (what == "export") return exported(request, store, part);
+  if (what == "export") return export_answer(request, store, part);
   return error_answer(404, "not_found",
-                      "a trace has no '" + std::string(what) + "'; allowed: window, statistics, export");
+                      "a trace has no '" + std::string(what) +
+                          "'; allowed: window, statistics, spectrum, xy, export, events");
 }
 
 }  // namespace lockstep::studio_api

@@ -10,12 +10,19 @@ namespace lockstep::studio_api {
 
 inline constexpr std::size_t kWindowSignals = 512;  ///< of a window, statistics or an export
 inline constexpr std::size_t kWindowPoints = 20'000;
-inline constexpr std::uint64_t kExportValues = 5'000'000;  ///< of an export, times among them
 
 /// Signals, times, rows and gaps.
 Json trace_json(std::string_view id, const TraceStore& store);
 
-/// `window`, `statistics` or `export` of the signals and the time that the request names.
+/// What of a trace is asked for.
+struct TracePart {
+  std::vector<std::size_t> columns;
+  std::uint64_t first = 0, behind = 0;  ///< rows
+};
+/// The rows that a request names by `from` and `to`, no columns. @throws BadRequest
+TracePart trace_part(const StudioRequest& request, const TraceStore& store);
+
+/// `window`, `statistics`, `spectrum` or `export` of the signals and the time that the request names.
 /// @throws BadRequest
 StudioAnswer trace_answer(const StudioRequest& request, std::string_view what, const TraceStore& store);
 

@@ -251,8 +251,8 @@ void LeadingAxisProxy::lose_range() noexcept {
   setpoint_.position = last_setpoint_.position;
   delayed_.position = last_delayed_.position;
   setpoint_.velocity = setpoint_.acceleration = delayed_.velocity = delayed_.acceleration = 0.0;
-  fault(alarm::kLeadingValuesInvalid, {.value = seconds(now_ - valid_at_),
-                                       .limit = data.Parameter.ToleranceTimeExternalLeadingValueInvalid});
+  fault(alarm::kLeadingValuesInvalid,
+        {.value = seconds(invalid_for_), .limit = data.Parameter.ToleranceTimeExternalLeadingValueInvalid});
 }
 
 void LeadingAxisProxy::publish() noexcept {

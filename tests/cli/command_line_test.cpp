@@ -6,8 +6,8 @@
 namespace lockstep::cli::command_line_test {
 namespace {
 
-constexpr const char* kCommands[] = {"check", "run",   "test", "describe", "tags",
-                                     "read",  "write", "plot", "monitor",  "doctor"};
+constexpr const char* kCommands[] = {"check", "run",  "test",    "describe", "tags",  "read",
+                                     "write", "plot", "monitor", "doctor",   "studio"};
 
 TEST(CommandLine, EveryCommandHasAHelpThatNamesItsExitStatuses) {
   const Ended all = lockstep({"--help"});

@@ -107,8 +107,7 @@ inline void in_own_network(const std::function<void()>& body, std::chrono::secon
   ::setenv(kInside, "1", 1);
   ForeignProgram inside({"unshare", options, std::filesystem::read_symlink("/proc/self/exe"), filter});
   ::unsetenv(kInside);
-  ASSERT_TRUE(wait_until([&inside] { return !inside.running(); }, limit))
-      << "the test inside did not end";
+  ASSERT_TRUE(wait_until([&inside] { return !inside.running(); }, limit)) << "the test inside did not end";
   EXPECT_EQ(inside.status(), 0) << "the test inside failed, its output is above";
 }
 

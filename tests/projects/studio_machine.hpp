@@ -28,6 +28,7 @@ class StudioPage final : public StudioClient {
     return known;
   }
   bool is_authorised() const noexcept override { return known; }
+  std::string_view peer() const noexcept override { return "192.0.2.7:4242"; }
 
   /// The last text of a type; null: there was none.
   Json last(const std::string& type) const {
@@ -45,13 +46,34 @@ class StudioMachine {
  public:
   using Json = nlohmann::json;
 
-  explicit StudioMachine(const std::string& project)
-      : simulation(project), session(simulation.project(), 0), sink(session.sink()) {
+  /// @param project name of a file
+  explicit StudioMachine(const std::string& project) : StudioMachine(Simulation(project)) {}
+  explicit StudioMachine(Simulation made)
+      : simulation(std::move(made)), session(simulation.project(), 0), sink(session.sink()) {
     Controller& controller = *simulation.project().controller;
     controller.tap = &session.tap();
     controller.events = &events;
     controller.tell_jobs();
     texts = EventTexts(controller);
+  }
+
+  /// Pages may write, and command what the project says.
+  void empower() {
+    Project& project = simulation.project();
+    for (const CommandAxis& axis : project.commands.axes)
+      command_signals.insert(command_signals.end(), axis.signals.begin(), axis.signals.end());
+    const auto tell = [this](const TraceEvent& event) { sink->event(event); };
+    if (!command_signals.empty()) {
+      image = std::make_unique<ProcessImage>(command_signals);
+      desk = std::make_unique<SharedDesk>(project.commands.axes, *image,
+                                          project.controller->clock.servo_cycle, tell);
+      project.controller->images.push_back(image.get());
+    }
+    StudioPowers powers;
+    powers.why_no_write = powers.why_no_command = "";
+    powers.desk = desk.get();
+    powers.tell = tell;
+    session.empower(powers);
   }
 
   void run(int ticks) {
@@ -71,6 +93,7 @@ class StudioMachine {
     request.path = path;
     request.query = std::move(query);
     request.body = body;
+    request.peer = "192.0.2.7:4242";
     StudioAnswer answer;
     answer.status = 0;
     session.answer(request, [&answer](StudioAnswer given) { answer = std::move(given); });
@@ -85,6 +108,9 @@ class StudioMachine {
   std::unique_ptr<TraceSink> sink;
   EventQueue events;
   EventTexts texts;
+  std::vector<Signal> command_signals;
+  std::unique_ptr<ProcessImage> image;
+  std::unique_ptr<SharedDesk> desk;
 };
 
 }  // namespace lockstep::test

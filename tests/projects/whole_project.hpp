@@ -112,6 +112,7 @@ inline constexpr char kRestOfProject[] = R"json({
   "expectations": [ { "at": "1s", "expect": "TRUE" } ],
   "duration": "2s",
   "retain": { "file": "kept", "interval": "1s" },
+  "studio": { "listen": "127.0.0.1:8780", "commands": { "axes": { "Fan": {} } } },
   "flight_recorder": { "before": "1s", "file": "flight", "signals": [ "speed" ] }
 })json";
 

@@ -1,0 +1,37 @@
+// Where a run can be looked into, and who may do what there.
+#include "projects/keys/project.hpp"
+#include "projects/loader/loader.hpp"
+#include "projects/loader/read_keys.hpp"
+
+namespace lockstep {
+
+void load_networks(const JsonValue* json, std::vector<IpNetwork>& networks, Problems& problems) {
+  if (read_array(json, problems) == nullptr) return;
+  if (json->elements.empty())
+    problems.report(*json, "an empty list lets nobody in; allowed: networks such as 192.168.1.0/24");
+  for (const JsonValue* const element : json->elements) {
+    const auto text = read_string(element, problems);
+    if (!text) continue;
+    std::string problem;
+    if (const auto network = IpNetwork::parse(*text, problem))
+      networks.push_back(*network);
+    else
+      problems.report(*element, element->shown() + " is no network; " + problem);
+  }
+}
+
+void load_studio(const JsonValue& json, const Loading& loading) {
+  StudioConfig& config = loading.project.studio;
+  const Fields fields = read_struct(json, keys::kStudio, config, loading);
+  if (const JsonValue* const listen = fields["listen"]) {
+    std::string problem;
+    const auto text = read_string(listen, loading.problems);
+    if (text && !parse_endpoint(*text, problem)) loading.problems.report(*listen, problem);
+    if (text) config.listen = *text;
+  }
+  load_networks(fields["allow"], config.allow, loading.problems);
+  if (const JsonValue* const commands = fields["commands"])
+    load_commands(*commands, CommandWay::studio, loading);
+}
+
+}  // namespace lockstep

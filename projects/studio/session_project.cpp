@@ -1,0 +1,102 @@
+// What pages ask of the project and of how the run goes.
+#include <string>
+
+#include "projects/studio/api_values.hpp"
+#include "projects/studio/project_answers.hpp"
+#include "projects/studio/session.hpp"
+
+namespace lockstep {
+namespace {
+
+using namespace studio_api;
+
+/// What stands behind a path with one more part; empty: it is another path.
+std::string behind(const StudioRequest& request, std::string_view path) {
+  return request.path.starts_with(path) ? request.path.substr(path.size()) : "";
+}
+
+}  // namespace
+
+StudioAnswer StudioSession::answer_project(const StudioRequest& request) const {
+  if (request.path == "/api/health") {
+    Json health = Json::parse(powers_.health ? powers_.health() : "{}");
+    health["tap"] = {{"signals", feed_.store().signals().size()},
+                     {"dropped", feed_.dropped()},
+                     {"bytes", feed_.store().bytes()}};
+    health["pages"] = pages_.size();
+    health["events_lost"] = inbox_->lost();
+    return answer_of(health);
+  }
+  if (request.path == "/api/simulation")
+    return powers_.simulation != nullptr ? answer_of(powers_.simulation->state())
+                                         : error_answer(404, "not_found", "this run goes on by itself");
+  if (request.path == "/api/describe" || request.path.starts_with("/api/describe/")) {
+    const std::optional<std::string> told =
+        powers_.describe ? powers_.describe(behind(request, "/api/describe/")) : std::nullopt;
+    if (!told) return error_answer(404, "not_found", "there is nothing of this name to describe");
+    StudioAnswer answer;
+    answer.body = *told;
+    return answer;
+  }
+  if (powers_.mode == StudioMode::files)
+    return error_answer(404, "not_found", "there is no project, only traces");
+  StudioAnswer answer;
+  if (request.path == "/api/project") {
+    Json json = Json::parse(studio_project(project_));
+    json["couplings"] = text_.couplings();
+    json["cams"] = text_.cams();
+    json["warnings"] = powers_.warnings.size();
+    answer = answer_of(json);
+  } else if (request.path == "/api/tags") {
+    answer = answer_of(tags_json(project_));
+  } else if (const std::string object = behind(request, "/api/objects/"); !object.empty()) {
+    answer = answer_of(object_json(project_, units_, text_, object));
+  } else if (const std::string instance = behind(request, "/api/instances/"); !instance.empty()) {
+    answer = answer_of(instance_json(project_, units_, text_, instance));
+  } else if (request.path == "/api/programs") {
+    answer = answer_of(Json{{"programs", text_.programs()}});
+  } else if (request.path == "/api/uses") {
+    answer = answer_of(Json{{"uses", text_.uses(request.value("name"))}});
+  } else if (request.path == "/api/check") {
+    answer = answer_of(Json{{"problems", Json::array()}, {"warnings", problems_json(powers_.warnings)}});
+  } else {
+    return error_answer(404, "not_found",
+                        "there is no '" + request.path + "'; STUDIO.md tells what there is");
+  }
+  // Nothing of it changes while the run goes on.
+  answer.etag = "\"" + run_ + "\"";
+  answer.cache = "no-cache";
+  return answer;
+}
+
+StudioAnswer StudioSession::change_simulation(const StudioRequest& request) {
+  if (powers_.simulation == nullptr)
+    return error_answer(409, "conflict", "this run goes on by itself; lockstep studio drives a simulation");
+  if (!powers_.why_no_write.empty()) return error_answer(403, "not_allowed", powers_.why_no_write);
+  return answer_of(powers_.simulation->obey(parsed(request.body)));
+}
+
+/// Values of a simulation that stands still.
+bool StudioSession::read_at_once(const StudioRequest& request, const Done& done) {
+  if (powers_.simulation == nullptr) return false;
+  std::vector<NamedSignal> signals;
+  for (const std::string& path : paths_in(parsed(request.body), StudioReadings::kRead)) {
+    std::string problem;
+    const std::optional<NamedSignal> signal = signal_at(project_, path, problem);
+    if (!signal || signal->signal.address == nullptr) return false;  // which is told there
+    signals.push_back(*signal);
+  }
+  return powers_.simulation->while_paused([&](std::int64_t tick) {
+    const Json values = array_of(signals, [this](const NamedSignal& signal) {
+      const Type type = signal.signal.value_type();
+      return Json{{"path", signal.name},
+                  {"type", type_name(type)},
+                  {"unit", units_.of(signal)},
+                  {"value", value_json(signal.signal.load(), type)}};
+    });
+    const std::int64_t t = tick * project_.controller->clock.servo_cycle;
+    done(answer_of(Json{{"t", std::to_string(t)}, {"tick", std::to_string(tick)}, {"values", values}}));
+  });
+}
+
+}  // namespace lockstep

@@ -1,0 +1,174 @@
+#include "projects/studio/trace_files.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "hmi_bridge/lcm/trace_reader.hpp"
+#include "hmi_bridge/network/write_signals.hpp"
+#include "hmi_bridge/traces/csv_reader.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr int kLowestPriority = 19;
+constexpr double kLongestTime = 9e9;          // [s] that nanoseconds of 64 bits hold
+constexpr double kToldEach = 0.05;            // of the progress
+constexpr std::uint64_t kRowsPerLook = 4096;  // of a log, between two looks whether it is wanted
+
+/// The reading is given up.
+struct NotWanted {};
+
+void check_times(const TraceTable& table, const std::string& name) {
+  double before = -kLongestTime;
+  for (std::size_t row = 0; row < table.t.size(); ++row) {
+    const double t = table.t[row];
+    if (!(t >= before && t <= kLongestTime))
+      throw TraceFormatError(name + ": row " + std::to_string(row + 1) +
+                             ": the times of rows have to rise, from -9e9 s to 9e9 s");
+    before = t;
+  }
+}
+
+}  // namespace
+
+StudioTraceFiles::~StudioTraceFiles() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    cancel_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  for (const Job& job : jobs_)
+    if (job.is_temporary) ::unlink(job.path.c_str());
+}
+
+const StudioTraceFile* StudioTraceFiles::add(std::string path, std::string name, bool is_temporary) {
+  if (files_.size() >= kFiles) return nullptr;
+  StudioTraceFile& file = files_.emplace_back();
+  file.id = "file-" + std::to_string(++number_);
+  file.name = std::move(name);
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back({file.id, std::move(path), file.name, is_temporary});
+  }
+  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+  wake_.notify_one();
+  return &file;
+}
+
+bool StudioTraceFiles::remove(std::string_view id) {
+  const auto found = std::ranges::find(files_, id, &StudioTraceFile::id);
+  if (found == files_.end()) return false;
+  files_.erase(found);
+  const std::lock_guard lock(mutex_);
+  if (current_ == id) cancel_ = true;
+  std::erase_if(jobs_, [&](const Job& job) {
+    if (job.id == id && job.is_temporary) ::unlink(job.path.c_str());
+    return job.id == id;
+  });
+  return true;
+}
+
+const StudioTraceFile* StudioTraceFiles::find(std::string_view id) const noexcept {
+  const auto found = std::ranges::find(files_, id, &StudioTraceFile::id);
+  return found == files_.end() ? nullptr : &*found;
+}
+
+StudioTraceFile* StudioTraceFiles::find(std::string_view id) noexcept {
+  const auto found = std::ranges::find(files_, id, &StudioTraceFile::id);
+  return found == files_.end() ? nullptr : &*found;
+}
+
+/// @return the file of which there is news; empty: of none
+std::string StudioTraceFiles::take() {
+  const std::lock_guard lock(mutex_);
+  if (!finished_.empty()) {
+    Read read = std::move(finished_.front());
+    finished_.pop_front();
+    told_ = -1.0;
+    StudioTraceFile* const file = find(read.id);
+    if (file == nullptr) return "";
+    file->state = read.error.empty() ? StudioFileState::ready : StudioFileState::failed;
+    file->progress = 1.0;
+    file->error = std::move(read.error);
+    file->remark = std::move(read.remark);
+    file->store = std::move(read.store);
+    return read.id;
+  }
+  StudioTraceFile* const file = find(current_);
+  const double progress = progress_;
+  if (file == nullptr || progress < told_ + kToldEach) return "";
+  file->progress = told_ = progress;
+  return current_;
+}
+
+void StudioTraceFiles::check_wanted(double progress) {
+  progress_ = progress;
+  if (cancel_) throw NotWanted{};
+}
+
+StudioTraceFiles::Read StudioTraceFiles::read(const Job& job) {
+  Read read;
+  read.id = job.id;
+  if (job.name.ends_with(".lcm")) {
+    LcmTraceReader reader(job.path);
+    read.store.set_signals(reader.signals());
+    std::int64_t before = std::numeric_limits<std::int64_t>::min();
+    for (std::uint64_t rows = 0; reader.next(); ++rows) {
+      const TraceRow row = reader.row();
+      if (row.t < before) throw TraceFormatError(job.name + ": the times of rows have to rise");
+      before = row.t;
+      read.store.append(row.t, row.tick, row.values);
+      if (rows % kRowsPerLook == 0) check_wanted(0.0);
+    }
+    read.remark = reader.remark();
+  } else {
+    const TraceTable table = read_csv_trace(job.path, [this](double part) { check_wanted(part * 0.8); });
+    check_times(table, job.name);
+    read.store = TraceStore(table);
+    read.remark = table.remark;
+  }
+  return read;
+}
+
+void StudioTraceFiles::work() noexcept {
+  block_write_signals();
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLowestPriority);
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return stop_ || !jobs_.empty(); });
+    if (stop_) return;
+    const Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    current_ = job.id;
+    cancel_ = false;
+    progress_ = 0.0;
+    lock.unlock();
+    Read result;
+    result.id = job.id;
+    try {
+      result = read(job);
+    } catch (const NotWanted&) {
+      result.error = "given up";
+    } catch (const std::exception& error) {
+      // What stands in the message of a temporary file is where it lay.
+      std::string text = error.what();
+      if (const std::size_t at = text.find(job.path); at != std::string::npos)
+        text.replace(at, job.path.size(), job.name);
+      result.error = text;
+    }
+    if (job.is_temporary) ::unlink(job.path.c_str());
+    lock.lock();
+    current_.clear();
+    finished_.push_back(std::move(result));
+  }
+}
+
+}  // namespace lockstep
