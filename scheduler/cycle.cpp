@@ -12,6 +12,8 @@ namespace {
 /// so that alarms find space.
 constexpr std::size_t kNotesWait = 2048;
 
+constexpr std::int64_t kLatestTick =
+    1'000'000'000;  // [ns] by which one may be late for telegrams to wait for it
 constexpr std::int64_t kLateFor = 1'000'000'000;  // [ns] after missed ticks, for what may have come of them
 
 }  // namespace
@@ -55,7 +57,10 @@ void Controller::take_inputs(std::int64_t t) noexcept {
   for (const TelegramInput& input : telegram_inputs)
     input.ring->take_while([&](LeadingValueTelegram telegram) {
       telegram.time -= shared_time_at_start;
-      if (telegram.time > t + telegram.cycle) return false;  // this tick is late: it belongs to a later one
+      // A tick that is late leaves to later ones what is theirs; what no tick can be late for, the proxy
+      // refuses.
+      const std::int64_t ahead = telegram.time - t;
+      if (ahead > telegram.cycle && ahead <= kLatestTick) return false;
       input.proxy->take(telegram, t);
       return true;
     });

@@ -9,7 +9,7 @@ namespace lockstep {
 namespace {
 
 constexpr std::int64_t kPerSecond = 1'000'000'000;  // [ns]
-constexpr int kReadings = 5;                        // of which the one counts that took the least time
+constexpr int kReadings = 5;                        // of which the one counts that took the shortest time
 
 std::int64_t time_of(clockid_t id) noexcept {
   timespec time{};

@@ -52,9 +52,9 @@ Value CommandDesk::value(std::size_t axis, PanelSignal signal) const noexcept {
   return image_.value(axis * kPanelSignals + static_cast<std::size_t>(signal));
 }
 
-std::optional<std::size_t> CommandDesk::find(const std::string& axis, CommandWay way) const {
+std::optional<std::size_t> CommandDesk::find(const std::string& axis, CommandRoute route) const {
   const auto same = [&](const CommandAxis& other) {
-    return other.name == axis && is_commanded_by(other, way);
+    return other.name == axis && is_commanded_by(other, route);
   };
   const auto found = std::find_if(axes_.begin(), axes_.end(), same);
   if (found == axes_.end()) return std::nullopt;
@@ -64,7 +64,7 @@ std::optional<std::size_t> CommandDesk::find(const std::string& axis, CommandWay
 std::optional<CommandDesk::Answer> CommandDesk::accept(std::span<const std::uint8_t> bytes,
                                                        Clock::time_point now) {
   const std::optional<command_t> command = decode_command(bytes);
-  const Verdict verdict = command ? give(*command, now, CommandWay::lcm)
+  const Verdict verdict = command ? give(*command, now, CommandRoute::lcm)
                                   : refuse({&CommandCounters::malformed, "not a command"}, nullptr, now);
   if (!verdict.is_told) return std::nullopt;
   if (!command) return Answer{false, "", "", verdict.reason};
@@ -72,10 +72,10 @@ std::optional<CommandDesk::Answer> CommandDesk::accept(std::span<const std::uint
                 std::string(action_text(command->action)), verdict.reason};
 }
 
-CommandDesk::Verdict CommandDesk::give(const command_t& command, Clock::time_point now, CommandWay way) {
-  if (const auto refusal = judge(command, now, way)) return refuse(*refusal, &command, now);
+CommandDesk::Verdict CommandDesk::give(const command_t& command, Clock::time_point now, CommandRoute route) {
+  if (const auto refusal = judge(command, now, route)) return refuse(*refusal, &command, now);
   ++counters_.accepted;
-  const std::size_t axis = *find(command.axis, way);
+  const std::size_t axis = *find(command.axis, route);
   if (watch_) tell_watch(command, axis);
   Jog& jog = jogs_[axis];
   const bool goes_on = is_jog(command.action) && jog.action == command.action &&
@@ -111,16 +111,16 @@ CommandDesk::Verdict CommandDesk::refuse(const Refusal& refusal, const command_t
 }
 
 std::optional<CommandDesk::Refusal> CommandDesk::judge(const command_t& command, Clock::time_point now,
-                                                       CommandWay way) {
+                                                       CommandRoute route) {
   if (auto refusal = judge_sender(command, now)) return refusal;
   if (action_text(command.action).empty())
     return Refusal{&CommandCounters::not_valid,
                    "action " + std::to_string(command.action) + " is unknown; allowed: 0 to 8"};
-  const std::optional<std::size_t> axis = find(command.axis, way);
+  const std::optional<std::size_t> axis = find(command.axis, route);
   if (!axis)
     return Refusal{&CommandCounters::not_valid,
                    "no axis of this name takes " +
-                       std::string(way == CommandWay::lcm ? "commands" : "commands of the studio") +
+                       std::string(route == CommandRoute::lcm ? "commands" : "commands of the studio") +
                        " in this project"};
   if (auto refusal = judge_program(command, *axis)) return refusal;
   if (auto refusal = judge_value(command, *axis)) return refusal;
@@ -135,7 +135,7 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge(const command_t& command,
 }
 
 /// Whether it is meant for this run, of this moment and new. So a log that is played or a message that hung
-/// on its way moves nothing. What stops or disables is carried out whatever its sequence: anybody can forge a
+/// under way moves nothing. What stops or disables is carried out whatever its sequence: anybody can forge a
 /// high one in the name of a panel, and that must not take its stop away.
 std::optional<CommandDesk::Refusal> CommandDesk::judge_sender(const command_t& command,
                                                               Clock::time_point now) {

@@ -55,12 +55,12 @@ struct CommandAxis {
   bool by_studio = true;                    ///< takes commands of pages of the studio
 };
 
-/// By which way a command has come.
-enum class CommandWay : std::uint8_t { lcm, studio };
+/// By which route a command has come.
+enum class CommandRoute : std::uint8_t { lcm, studio };
 
-/// Whether an axis takes commands that come by a way.
-inline bool is_commanded_by(const CommandAxis& axis, CommandWay way) noexcept {
-  return way == CommandWay::lcm ? axis.by_lcm : axis.by_studio;
+/// Whether an axis takes commands that come by a route.
+inline bool is_commanded_by(const CommandAxis& axis, CommandRoute route) noexcept {
+  return route == CommandRoute::lcm ? axis.by_lcm : axis.by_studio;
 }
 
 /// What has come, by what has become of it.
@@ -121,7 +121,7 @@ class CommandDesk {
   /// Takes one message. @return what is to be told; none for what is only counted and for a jog that goes on
   std::optional<Answer> accept(std::span<const std::uint8_t> bytes, Clock::time_point now);
   /// The same of a command that is one.
-  Verdict give(const command_t& command, Clock::time_point now, CommandWay way);
+  Verdict give(const command_t& command, Clock::time_point now, CommandRoute route);
   /// A panel is gone: what it jogs stops.
   void leave(std::int64_t sender, Clock::time_point now);
   /// Who jogs an axis; 0: nobody.
@@ -156,14 +156,14 @@ class CommandDesk {
     bool take(Clock::time_point now, int maximum) noexcept;
   };
 
-  std::optional<Refusal> judge(const command_t& command, Clock::time_point now, CommandWay way);
+  std::optional<Refusal> judge(const command_t& command, Clock::time_point now, CommandRoute route);
   std::optional<Refusal> judge_sender(const command_t& command, Clock::time_point now);
   std::optional<Refusal> judge_program(const command_t& command, std::size_t axis) const;
   std::optional<Refusal> judge_value(const command_t& command, std::size_t axis) const;
   void carry_out(const command_t& command, std::size_t axis);
   void tell_watch(const command_t& command, std::size_t axis) const;
   Verdict refuse(const Refusal& refusal, const command_t* command, Clock::time_point now);
-  std::optional<std::size_t> find(const std::string& axis, CommandWay way) const;
+  std::optional<std::size_t> find(const std::string& axis, CommandRoute route) const;
   Value value(std::size_t axis, PanelSignal signal) const noexcept;
 
   const std::vector<CommandAxis> axes_;

@@ -65,7 +65,7 @@ void CommandListener::listen() noexcept {
 void CommandListener::beat() {
   desk_.beat(SharedDesk::Clock::now());
   const std::string channel = identity_.channel + std::string(kPanelSuffix);
-  for (SharedDesk::Panel& panel : desk_.panels(CommandWay::lcm)) {
+  for (SharedDesk::Panel& panel : desk_.panels(CommandRoute::lcm)) {
     panel.stand.utime = identity_.utime(panel.stand.t);
     const auto bytes = encoded(panel.stand);
     lcm_publish(joined_.instance(), channel.c_str(), bytes.data(), static_cast<unsigned>(bytes.size()));

@@ -24,7 +24,7 @@ namespace lockstep {
 
 /// Hears the channels of some areas, judges what comes and puts telegrams that count into rings, from which
 /// the cycle takes them. Whatever others send to the network is counted and of no other effect; a flood costs
-/// a part of one processor at most, and what finds no room then is lost.
+/// a part of one processor at most, and what finds no space then is lost.
 class LeadingValueReceiver {
  public:
   struct Area {

@@ -28,7 +28,7 @@ SharedDesk::SharedDesk(std::vector<CommandAxis> axes, ProcessImage& image, std::
 AuditEntry SharedDesk::entry_of(const CommandDesk::Judged& judged) const {
   AuditEntry entry;
   entry.tick = image_.tick();
-  entry.via = way_name_;
+  entry.via = route_name_;
   entry.from = from_.empty() ? "this process" : std::string(from_);
   entry.source = entry.from.substr(0, entry.from.rfind(':'));
   entry.before = judged.before;
@@ -56,7 +56,7 @@ void SharedDesk::audit_to(AuditLog& log) {
 void SharedDesk::take(std::span<const std::uint8_t> bytes, std::string_view sender) {
   const std::lock_guard lock(mutex_);
   from_ = sender;
-  way_name_ = "lcm";
+  route_name_ = "lcm";
   const auto answer = desk_.accept(bytes, Clock::now());
   if (answer) tell(answer->accepted, answer->axis, answer->action, answer->reason, "");
 }
@@ -64,8 +64,8 @@ void SharedDesk::take(std::span<const std::uint8_t> bytes, std::string_view send
 CommandDesk::Verdict SharedDesk::give(const command_t& command, std::string_view address) {
   const std::lock_guard lock(mutex_);
   from_ = address;
-  way_name_ = "studio";
-  CommandDesk::Verdict verdict = desk_.give(command, Clock::now(), CommandWay::studio);
+  route_name_ = "studio";
+  CommandDesk::Verdict verdict = desk_.give(command, Clock::now(), CommandRoute::studio);
   if (verdict.is_told)
     tell(verdict.accepted, command.axis.substr(0, kLongestAxis), action_text(command.action), verdict.reason,
          address);
@@ -84,13 +84,13 @@ void SharedDesk::beat(Clock::time_point now) {
   desk_.beat();
 }
 
-std::vector<SharedDesk::Panel> SharedDesk::panels(CommandWay way) {
+std::vector<SharedDesk::Panel> SharedDesk::panels(CommandRoute route) {
   const std::lock_guard lock(mutex_);
   image_.refresh();
   const auto now = Clock::now();
   std::vector<Panel> panels;
   for (std::size_t axis = 0; axis < desk_.axes().size(); ++axis) {
-    if (!is_commanded_by(desk_.axes()[axis], way)) continue;
+    if (!is_commanded_by(desk_.axes()[axis], route)) continue;
     Panel& panel =
         panels.emplace_back(desk_.panel(axis), desk_.axes()[axis].enabled_by, desk_.holder(axis, now));
     panel.stand.t = time();
@@ -98,15 +98,15 @@ std::vector<SharedDesk::Panel> SharedDesk::panels(CommandWay way) {
   return panels;
 }
 
-bool SharedDesk::has_axes(CommandWay way) const noexcept {
+bool SharedDesk::has_axes(CommandRoute route) const noexcept {
   return std::ranges::any_of(desk_.axes(),
-                             [way](const CommandAxis& axis) { return is_commanded_by(axis, way); });
+                             [route](const CommandAxis& axis) { return is_commanded_by(axis, route); });
 }
 
-std::string SharedDesk::axes_text(CommandWay way) const {
+std::string SharedDesk::axes_text(CommandRoute route) const {
   std::string text;
   for (const CommandAxis& axis : desk_.axes())
-    if (is_commanded_by(axis, way)) text += (text.empty() ? "" : ", ") + axis.name;
+    if (is_commanded_by(axis, route)) text += (text.empty() ? "" : ", ") + axis.name;
   return text;
 }
 

@@ -49,10 +49,10 @@ class SharedDesk {
 
   /// Begins the next beat if it is time; whoever tells panels how axes stand calls it.
   void beat(Clock::time_point now);
-  /// The axes that take commands by a way.
-  std::vector<Panel> panels(CommandWay way);
-  bool has_axes(CommandWay way) const noexcept;
-  std::string axes_text(CommandWay way) const;
+  /// The axes that take commands by a route.
+  std::vector<Panel> panels(CommandRoute route);
+  bool has_axes(CommandRoute route) const noexcept;
+  std::string axes_text(CommandRoute route) const;
   CommandCounters counters() const;
 
  private:
@@ -67,8 +67,8 @@ class SharedDesk {
   const std::int64_t servo_cycle_;
   const Answers answers_;
   Clock::time_point next_beat_{};
-  std::string_view from_;      // of the command at hand
-  std::string_view way_name_;  // the same
+  std::string_view from_;        // of the command at hand
+  std::string_view route_name_;  // the same
 };
 
 }  // namespace lockstep

@@ -231,7 +231,7 @@ void load_trace(const JsonValue& trace, const Loading& loading) {
   if (const JsonValue* const lcm = fields["lcm"]) {
     load_lcm(*lcm, config, loading.problems);
     if (const JsonValue* const commands = lcm->find("commands")) {
-      load_commands(*commands, CommandWay::lcm, loading);
+      load_commands(*commands, CommandRoute::lcm, loading);
       if (lcm_leaves_machine(config.url)) loading.problems.warn(*commands, std::string(kLcmCommandsWarning));
     }
   }

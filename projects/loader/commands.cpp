@@ -194,7 +194,7 @@ std::vector<Signal> signals_of(Mco305& device, PanelInputs& inputs) {
 }
 
 /// A device needs no blocks: its program is stopped and started, and its errors are cleared.
-void load_device(Mco305& device, const Fields& fields, CommandWay way, const Loading& loading) {
+void load_device(Mco305& device, const Fields& fields, CommandRoute route, const Loading& loading) {
   if (fields["jog_velocity"] != nullptr)
     loading.problems.report(*fields["jog_velocity"],
                             "an MCO_305 is moved by its program and not jogged; allowed: {}");
@@ -203,7 +203,7 @@ void load_device(Mco305& device, const Fields& fields, CommandWay way, const Loa
   constexpr bool kHasPosition = false, kHasPrograms = true;
   commands.axes.push_back({device.name, 0.0, "", signals_of(device, inputs),
                            std::string(kind_name(device.kind)), "", kHasPosition, kHasPrograms,
-                           way == CommandWay::lcm, way == CommandWay::studio});
+                           route == CommandRoute::lcm, route == CommandRoute::studio});
 }
 
 /// An axis for the program of one that is looked at; none if it is an axis. The program never runs.
@@ -214,10 +214,10 @@ std::unique_ptr<Axis> stand_in_for(TechnologyObject& object, const Loading& load
   return axis;
 }
 
-/// An axis that takes commands by another way already takes them by this one too.
-void add_way(CommandAxis& axis, const JsonValue& json, const KeyValue* limit, CommandWay way,
-             Problems& problems) {
-  bool& is_taken = way == CommandWay::lcm ? axis.by_lcm : axis.by_studio;
+/// An axis that takes commands by another route already takes them by this one too.
+void add_route(CommandAxis& axis, const JsonValue& json, const KeyValue* limit, CommandRoute route,
+               Problems& problems) {
+  bool& is_taken = route == CommandRoute::lcm ? axis.by_lcm : axis.by_studio;
   if (is_taken) return problems.report(json, quote(axis.name) + " is there twice; each axis is allowed once");
   is_taken = true;
   if (limit != nullptr && limit->number != axis.jog_velocity)
@@ -225,7 +225,7 @@ void add_way(CommandAxis& axis, const JsonValue& json, const KeyValue* limit, Co
                               " differs from that of the commands over LCM; allowed: the same, or none");
 }
 
-void load_axis(const std::string& name, const JsonValue& json, CommandWay way, Program& program,
+void load_axis(const std::string& name, const JsonValue& json, CommandRoute route, Program& program,
                const Loading& loading) {
   Problems& problems = loading.problems;
   CommandsConfig& commands = loading.project.commands;
@@ -236,9 +236,9 @@ void load_axis(const std::string& name, const JsonValue& json, CommandWay way, P
   if (found.object == nullptr) return;
   for (CommandAxis& other : commands.axes)
     if (other.name == found.object->name)
-      return add_way(other, json, limit ? &*limit : nullptr, way, problems);
+      return add_route(other, json, limit ? &*limit : nullptr, route, problems);
   if (found.object->kind == ObjectKind::MCO_305)
-    return load_device(static_cast<Mco305&>(*found.object), fields, way, loading);
+    return load_device(static_cast<Mco305&>(*found.object), fields, route, loading);
   const std::unique_ptr<Axis> stand_in = stand_in_for(*found.object, loading);
   auto& axis = stand_in ? *stand_in : static_cast<Axis&>(*found.object);
   const Names& names = loading.names();
@@ -250,13 +250,13 @@ void load_axis(const std::string& name, const JsonValue& json, CommandWay way, P
   commands.axes.push_back({axis.name, limit ? limit->number : usual, enabled_by,
                            signals_of(axis, inputs, names), std::string(kind_name(axis.kind)),
                            unit_of(Unit::kVelocity, axis), axis.has_position(), kHasPrograms,
-                           way == CommandWay::lcm, way == CommandWay::studio});
+                           route == CommandRoute::lcm, route == CommandRoute::studio});
   PanelProgram(program, loading, axis).build(inputs, enabled_by.empty(), speed);
 }
 
 }  // namespace
 
-void load_commands(const JsonValue& commands, CommandWay way, const Loading& loading) {
+void load_commands(const JsonValue& commands, CommandRoute route, const Loading& loading) {
   const Fields fields(commands, keys::kCommands, loading.problems);
   const JsonValue* const axes = fields["axes"];
   if (read_object(axes, loading.problems) == nullptr) return;
@@ -265,7 +265,7 @@ void load_commands(const JsonValue& commands, CommandWay way, const Loading& loa
   Program*& program = loading.project.panel;
   if (program == nullptr)
     program = &loading.controller().programs.emplace_back("panel", Ob::MC_PreInterpolator, 0, 0);
-  for (const auto& [name, json] : axes->members) load_axis(name, *json, way, *program, loading);
+  for (const auto& [name, json] : axes->members) load_axis(name, *json, route, *program, loading);
 }
 
 }  // namespace lockstep

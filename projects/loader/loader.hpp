@@ -96,8 +96,8 @@ void load_transfer_areas(const TransferSections& sections, const Loading& loadin
 
 void load_modbus(const JsonValue* modbus, const Loading& loading);
 void load_trace(const JsonValue& trace, const Loading& loading);
-/// The axes that take commands by a way: makes the instances that carry them out. When programs are loaded.
-void load_commands(const JsonValue& commands, CommandWay way, const Loading& loading);
+/// The axes that take commands by a route: makes the instances that carry them out. When programs are loaded.
+void load_commands(const JsonValue& commands, CommandRoute route, const Loading& loading);
 /// After the trace, whose network may have given commands to the same axes.
 void load_studio(const JsonValue& json, const Loading& loading);
 /// Networks from which clients may come. @param json may be nullptr

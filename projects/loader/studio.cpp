@@ -31,7 +31,7 @@ void load_studio(const JsonValue& json, const Loading& loading) {
   }
   load_networks(fields["allow"], config.allow, loading.problems);
   if (const JsonValue* const commands = fields["commands"])
-    load_commands(*commands, CommandWay::studio, loading);
+    load_commands(*commands, CommandRoute::studio, loading);
 }
 
 }  // namespace lockstep

@@ -14,7 +14,7 @@ using namespace studio_api;
 using namespace std::chrono_literals;
 
 constexpr auto kPaceLook = 2ms;                                  // how often the pace is looked at
-constexpr std::int64_t kMostSteps = 1'000'000'000;               // ticks of a step
+constexpr std::int64_t kMaximumSteps = 1'000'000'000;            // ticks of a step
 constexpr std::int64_t kLongestRun = 4'000'000'000'000'000'000;  // [ns]
 
 /// There are only traces; nothing of this is shown.
@@ -153,8 +153,8 @@ Json DeskRun::obey(const Json& request) {
   } else if (action == "pause") {
     runs_ = false;
   } else if (action == "step") {
-    const std::int64_t cycles = whole_in(request, "cycles", kMostSteps);
-    const std::int64_t ticks = whole_in(request, "ticks", kMostSteps);
+    const std::int64_t cycles = whole_in(request, "cycles", kMaximumSteps);
+    const std::int64_t ticks = whole_in(request, "ticks", kMaximumSteps);
     const std::int64_t ratio = project().controller->clock.interpolator_ratio;
     run_to(now() + cycle * (ticks >= 0 ? ticks : ratio * (cycles >= 0 ? cycles : 1)));
   } else if (action == "speed") {

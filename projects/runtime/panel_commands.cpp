@@ -28,7 +28,7 @@ PanelCommands::PanelCommands(Project& project, SharedDesk::Answers answers, Audi
 void PanelCommands::hear(const std::string& url, const LcmTraceIdentity& identity) {
   auto listener = std::make_unique<CommandListener>(url, identity, desk_);
   messages_.inform(fmt::format("commands from panels on {}, channel {}{}: {}", url, identity.channel,
-                               kCommandSuffix, desk_.axes_text(CommandWay::lcm)));
+                               kCommandSuffix, desk_.axes_text(CommandRoute::lcm)));
   listener_ = std::move(listener);
   listener_->start();
 }

@@ -143,7 +143,7 @@ void RunSurroundings::make_commands() {
 }
 
 void RunSurroundings::start_commands() {
-  if (!commands_ || options_.simulate || options_.no_lcm || !commands_->desk().has_axes(CommandWay::lcm))
+  if (!commands_ || options_.simulate || options_.no_lcm || !commands_->desk().has_axes(CommandRoute::lcm))
     return;
   const std::string url = options_.lcm.empty() ? project_.trace.url : options_.lcm;
   try {

@@ -134,17 +134,17 @@ void StudioPanels::leave(StudioClient& client) {
 }
 
 Json StudioPanels::panels_for(StudioClient& client) {
-  if (newest_.empty() && powers_.desk != nullptr) newest_ = powers_.desk->panels(CommandWay::studio);
+  if (newest_.empty() && powers_.desk != nullptr) newest_ = powers_.desk->panels(CommandRoute::studio);
   const auto known = senders_.find(&client);
   const std::int64_t sender = known == senders_.end() ? 0 : known->second;
   return array_of(newest_, [sender](const SharedDesk::Panel& panel) { return panel_json(panel, sender); });
 }
 
 bool StudioPanels::is_due(Clock::time_point now) {
-  if (powers_.desk == nullptr || !powers_.desk->has_axes(CommandWay::studio) || now < next_) return false;
+  if (powers_.desk == nullptr || !powers_.desk->has_axes(CommandRoute::studio) || now < next_) return false;
   next_ = std::max(next_ + SharedDesk::kBeat, now);
   powers_.desk->beat(now);
-  newest_ = powers_.desk->panels(CommandWay::studio);
+  newest_ = powers_.desk->panels(CommandRoute::studio);
   return true;
 }
 

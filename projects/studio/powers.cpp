@@ -4,7 +4,8 @@ namespace lockstep::studio_api {
 namespace {
 
 bool may_command(const StudioPowers& powers) {
-  return powers.why_no_command.empty() && powers.desk != nullptr && powers.desk->has_axes(CommandWay::studio);
+  return powers.why_no_command.empty() && powers.desk != nullptr &&
+         powers.desk->has_axes(CommandRoute::studio);
 }
 
 }  // namespace

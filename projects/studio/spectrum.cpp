@@ -11,9 +11,9 @@ namespace lockstep {
 namespace {
 
 constexpr std::size_t kPeaks = 10;
-constexpr double kNoise = 1e-9;  // of the greatest amplitude, below which nothing is a peak
+constexpr double kNoise = 1e-9;  // of the largest amplitude, below which nothing is a peak
 
-/// The greatest product of 2, 3 and 5 that is no greater.
+/// The largest product of 2, 3 and 5 that is no larger.
 std::size_t quick_size(std::size_t size) noexcept {
   std::size_t best = 1;
   for (std::size_t five = 1; five <= size; five *= 5)

@@ -29,14 +29,15 @@ struct Spectrum {
   std::size_t rows = 0;           ///< that have been used
   double step = 0.0;              ///< between two amplitudes [as `Peak::at`]
   std::vector<double> amplitude;  ///< of sines, from 0 on; the first one is the mean
-  std::vector<Peak> peaks;        ///< the greatest local maxima, greatest first
+  std::vector<Peak> peaks;        ///< the largest local maxima, largest first
 };
 
 /// Values at equal distances. Uses as many of the last of them as transform quickly: products of 2, 3 and 5.
 /// @param distance of two values [s, or unit of the leading axis] > 0  @param values two at least
 Spectrum spectrum_of(const std::vector<double>& values, double distance, SpectrumWindow window);
 
-/// A signal at equal distances of a leading axis, which moves one way: by straight lines between rows.
+/// A signal at equal distances of a leading axis, which moves in one direction: by straight lines between
+/// rows.
 /// @param position of the leading axis, which may wrap @return empty: it stands or turns back
 std::vector<double> by_order(const std::vector<double>& position, const std::vector<double>& values,
                              double& distance);

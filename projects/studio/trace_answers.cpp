@@ -1,11 +1,10 @@
 #include "projects/studio/trace_answers.hpp"
 
-#include <limits>
-
 #include "hmi_bridge/studio/frames.hpp"
 #include "projects/studio/api_values.hpp"
 #include "projects/studio/trace_analysis.hpp"
 #include "projects/studio/trace_exports.hpp"
+#include "projects/studio/trace_part.hpp"
 
 namespace lockstep::studio_api {
 namespace {
@@ -87,17 +86,6 @@ Json trace_json(std::string_view id, const TraceStore& store) {
     json["to"] = std::to_string(store.t(store.end() - 1));
   }
   return json;
-}
-
-TracePart trace_part(const StudioRequest& request, const TraceStore& store) {
-  if (store.end() == store.begin())
-    throw BadRequest(416, "out_of_range", "there are no rows yet: nobody has asked for a signal");
-  const std::int64_t from = whole_number(request, "from", store.t(store.begin()));
-  const std::int64_t to = whole_number(request, "to", store.t(store.end() - 1));
-  if (from > to) throw BadRequest(416, "out_of_range", "'from' has to be before 'to'");
-  TracePart part{{}, store.row_at(from), store.end()};
-  if (to < std::numeric_limits<std::int64_t>::max()) part.behind = store.row_at(to + 1);
-  return part;
 }
 
 StudioAnswer trace_answer(const StudioRequest& request, std::string_view what, const TraceStore& store) {

@@ -6,7 +6,7 @@
 
 #include "hmi_bridge/traces/store.hpp"
 #include "projects/studio/api.hpp"
-#include "projects/studio/trace_answers.hpp"
+#include "projects/studio/trace_part.hpp"
 
 namespace lockstep::studio_api {
 

@@ -75,8 +75,8 @@ void Synchronization::take_master_mark(double place) noexcept {
 }
 
 /// Start 7: from one marker of the master to a later one, as soon as its limits allow. Where the slave is
-/// marked is known from its last marker; without one the way is half of that of the gear, and the first pair
-/// tells the rest.
+/// marked is known from its last marker; without one the distance is half of that of the gear, and the first
+/// pair tells the rest.
 void Synchronization::meet_at_a_marker(double place) noexcept {
   if (velocity_ == 0.0) return;
   constexpr int kMaximumMarkers = 1000;  // distances of markers; beyond that it is pursued like any target

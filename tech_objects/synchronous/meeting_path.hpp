@@ -1,4 +1,4 @@
-/// A way onto a gear that ends where it is said to, with the velocity and without acceleration: a polynomial
+/// A path onto a gear that ends where it is said to, with the velocity and without acceleration: a polynomial
 /// of the fifth degree over what leads. Nothing here allocates or throws.
 /// @source MG.33.L5.03, 33-23 [7]: the shape is named, not described
 #pragma once

@@ -282,10 +282,18 @@ TEST(ProxySources, AheadByNoMoreThanACycleOfTheReceiverCount) {
   pair.run(50);
   EXPECT_EQ(pair.receiver.proxy.counters().refused, 0u);
   EXPECT_TRUE(pair.receiver.bit(ProxyBit::LeadingValueValid));
-  pair.source.wire.latency = -11 * kMillisecond;
-  pair.source.wire.change = [](LeadingValueTelegram& telegram) { telegram.time += 8 * kMillisecond; };
-  pair.run(3);
-  EXPECT_GE(pair.receiver.proxy.counters().refused, 2u);
+  LeadingValueTelegram telegram;
+  pair.source.wire.change = [&](const LeadingValueTelegram& newest) { telegram = newest; };
+  pair.run(4);
+  const std::int64_t now = telegram.time;
+  telegram.time = now + 4 * kMillisecond;
+  ++telegram.sequence;
+  pair.receiver.proxy.take(telegram, now);
+  EXPECT_EQ(pair.receiver.proxy.counters().refused, 0u);
+  telegram.time += 1;
+  ++telegram.sequence;
+  pair.receiver.proxy.take(telegram, now);
+  EXPECT_EQ(pair.receiver.proxy.counters().refused, 1u);
 }
 
 // ---- Delays that change in motion
