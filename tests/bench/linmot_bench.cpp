@@ -30,9 +30,10 @@ struct LinMotMachine {
     LinMotController& c = *controller;
     c.control_cycle = control_cycle;
     c.data.Parameters.auto_start = true;
-    linmot::CurvePart there{.start = 0.0, .end = 30.0, .time = 0.2},
-        back{.start = 30.0, .end = 0.0, .time = 0.2};
-    c.curves[1].make(std::vector<linmot::CurvePart>{there, back});
+    std::vector<linmot::CurvePart> there_and_back(2);
+    there_and_back[0].end = there_and_back[1].start = 30.0;
+    there_and_back[0].time = there_and_back[1].time = 0.2;
+    c.curves[1].make(there_and_back);
     for (std::size_t i = 0; i < static_cast<std::size_t>(motors); ++i) {
       LinMotMotorData& motor = c.data.Motors[i];
       motor.Parameters.type = kLinear;

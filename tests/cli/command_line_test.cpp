@@ -37,8 +37,7 @@ TEST(CommandLine, AWrongOneExitsWith2AndSaysSoOnStandardError) {
                                                        {"read", "127.0.0.1:1"},
                                                        {"write", "127.0.0.1:1", "--project", "p.json"},
                                                        {"tags", "p.json", "--json", "--csv"},
-                                                       {"describe", "--jason"},
-                                                       {"describe", "a", "b", "c"}};
+                                                       {"describe", "--jason"}};
   for (const auto& arguments : wrong) {
     const Ended ended = lockstep(arguments);
     EXPECT_EQ(ended.status, 2) << (arguments.empty() ? "nothing" : arguments.back());
