@@ -287,7 +287,9 @@ TEST(Plant, OfThreeControllersOnABadNetworkStaysTogether) {
               way.of->last(way.proxy + "_late"), adjusted.least * 1e3, adjusted.most * 1e3, deviation);
           const double bound = 1e-9 + extrapolation_bound(std::max(adjusted.most, 0.0)) +
                                (adjusted.most > 0.0 ? 2.0 * kVelocity * stalled : 0.0);
-          if (judged) EXPECT_LE(deviation, bound) << way.text;
+          if (judged) {
+            EXPECT_LE(deviation, bound) << way.text;
+          }
           for (const char* const kind : {"_foreign", "_malformed", "_stale"})
             EXPECT_EQ(way.of->last(way.proxy + kind), 0.0) << way.text << kind;
           if (judged) expect_no_step(*way.of, way.proxy + ".Position", kFrom, bound);

@@ -75,11 +75,11 @@ export class Scope {
     this.trigger = new Trigger({ ask: (message) => link.ask(message), changed: () => this.dirty() });
     this.traces = new Traces({ link, show: (id) => void this.show(id), overlay: (id, isOn) => void this.overlay(id, isOn), shift: (id, by) => this.shift(id, by), paths: () => this.paths(),
       shown: () => ({ id: this.main.id, shift: this.main.shift }), shiftOf: (id) => this.overlays.find((one) => one.id === id)?.shift ?? 0, moment: (t) => this.moment(t), open: (text) => this.open(text) });
-    this.layouts = new Layouts({ link, project: () => this.project.name, layout: () => this.layout, use: (layout) => this.use(layout) });
+    this.layouts = new Layouts({ project: () => this.project.name, layout: () => this.layout, use: (layout) => this.use(layout) });
     this.toolbar = new Toolbar(this);
     this.side = new Tabs("Tools", [["Signals", this.picker.element], ["Trigger", this.trigger.element], ["Traces", this.traces.element], ["Layouts", this.layouts.element]], (name) => {
       if (name === "Traces") void this.traces.refresh().catch(() => undefined);
-      if (name === "Layouts") void this.layouts.refresh();
+      if (name === "Layouts") this.layouts.draw();
     });
     this.dock = new Tabs("Measuring", [["Cursors", this.measure.element], ["XY", this.xy.element], ["Spectrum", this.spectrum.element], ["Values", this.table.element]], () => this.dirty(), true);
     this.element = this.build();
