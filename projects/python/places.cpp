@@ -142,9 +142,11 @@ std::vector<std::string> all_paths(const Project& project) {
   for (const Tag& tag : controller.tags) paths.push_back(tag.name);
   for (const ArrayTag& tag : controller.arrays) paths.push_back(tag.name);
   for (const StringTag& tag : controller.strings) paths.push_back(tag.name);
-  for (const Instance& instance : controller.instances)
+  for (const Instance& instance : controller.instances) {
+    if (instance.name.starts_with("panel.")) continue;  // those behind commands from outside have no paths
     for (const Pin& pin : instance.type->pins)
       if (pin.type < Type::AXIS) paths.push_back(instance.name + "." + std::string(pin.name));
+  }
   for (const auto& object : controller.objects)
     for (const auto list : data_block_of(object->kind).lists())
       for (const Variable& variable : list)

@@ -17,16 +17,17 @@ constexpr double kFastest = 50.0;
 /// The place of an axis in the cycle.
 struct Operand {
   BOOL flags[3]{};
-  UDINT counts[5]{};
-  LREAL reals[6]{};
+  UDINT counts[7]{};
+  LREAL reals[7]{};
   DWORD status{};
 
   std::vector<Signal> signals() {
     return {{&flags[0], Type::BOOL, -1},   {&flags[1], Type::BOOL, -1},   {&flags[2], Type::BOOL, -1},
             {&counts[0], Type::UDINT, -1}, {&reals[0], Type::LREAL, -1},  {&counts[1], Type::UDINT, -1},
             {&reals[1], Type::LREAL, -1},  {&counts[2], Type::UDINT, -1}, {&reals[2], Type::LREAL, -1},
-            {&counts[3], Type::UDINT, -1}, {&status, Type::DWORD, -1},    {&counts[4], Type::UDINT, -1},
-            {&reals[3], Type::LREAL, -1},  {&reals[4], Type::LREAL, -1},  {&reals[5], Type::LREAL, -1}};
+            {&counts[3], Type::UDINT, -1}, {&counts[4], Type::UDINT, -1}, {&reals[3], Type::LREAL, -1},
+            {&counts[5], Type::UDINT, -1}, {&status, Type::DWORD, -1},    {&counts[6], Type::UDINT, -1},
+            {&reals[4], Type::LREAL, -1},  {&reals[5], Type::LREAL, -1},  {&reals[6], Type::LREAL, -1}};
   }
 };
 
@@ -74,7 +75,7 @@ std::vector<Signal> both(Operand& knife, Operand& fan) {
 
 std::vector<std::string> seeds() {
   std::string commands, others;
-  for (std::int32_t action = 0; action < 8; ++action) {
+  for (std::int32_t action = 0; action < 9; ++action) {
     command_t command = good(1, action + 1);
     command.action = action;
     command.value = 1.0;
