@@ -176,7 +176,8 @@ TEST(Describe, TellsEveryAlarmAndError) {
   EXPECT_EQ(described({"701"})["not_raised"], find_alarm(701)->not_raised);
   EXPECT_EQ(described({"16#8026"})["text"], error_text(ErrorId::leading_distance));
   EXPECT_EQ(described({"0x8026"}), described({"32806"}));
-  for (const json& error : described({"errors"})["errors"])
+  const json errors = described({"errors"})["errors"];
+  for (const json& error : errors)
     EXPECT_EQ(error["remedy"].get<std::string>().empty(), error["id"] == "16#0000") << error;
   EXPECT_EQ(described({"16#800F"})["remedy"], error_remedy(ErrorId::locked));
   EXPECT_NE(lockstep({"describe", "16#8019"}).out.find("Remedy: end the coupling"), std::string::npos);

@@ -87,7 +87,8 @@ TEST(DescribeLinMot, MakesTheDocumentOfItsParameters) {
 
 TEST(DescribeLinMot, HasEveryCommandOfTheTableInItsDocument) {
   const std::string document = content(std::string(LOCKSTEP_SOURCE_DIR) + "/tech_objects/linmot/MT.md");
-  for (const Json& entry : described({"MT"})["entries"])
+  const Json entries = described({"MT"})["entries"];
+  for (const Json& entry : entries)
     EXPECT_NE(document.find("| `" + entry["name"].get<std::string>() + "` |"), std::string::npos)
         << entry["name"];
 }
