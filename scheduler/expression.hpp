@@ -29,84 +29,16 @@
 #include <utility>
 #include <vector>
 
+#include "scheduler/instruction.hpp"
 #include "scheduler/text.hpp"
 #include "tech_objects/data_blocks/array.hpp"
 #include "tech_objects/types/types.hpp"
 
 namespace lockstep {
 
-/// What evaluation counts; owned by the cycle, which reports it.
-struct EvaluationCounters {
-  std::uint64_t integer_divisions_by_zero = 0;  ///< `/` and MOD of integers, TIME / integer
-  std::uint64_t indices_out_of_range = 0;       ///< of arrays, read or written
-};
-
-/// What an instruction computes. The first group has two operands, the second one.
-enum class Operation : std::uint8_t {
-  kAdd,           ///< numbers, TIME
-  kSubtract,      ///< numbers, TIME
-  kMultiply,      ///< numbers, TIME
-  kDivide,        ///< numbers, TIME
-  kModulo,        ///< integers
-  kPower,         ///< reals
-  kAtan2,         ///< reals: y, x
-  kLess,          ///< all but BOOL
-  kLessEqual,     ///< all but BOOL
-  kGreater,       ///< all but BOOL
-  kGreaterEqual,  ///< all but BOOL
-  kEqual,         ///< all
-  kUnequal,       ///< all
-  kAnd,           ///< BOOL, bit strings
-  kOr,            ///< BOOL, bit strings
-  kXor,           ///< BOOL, bit strings
-  kMinimum,       ///< all but BOOL
-  kMaximum,       ///< all but BOOL
-  kShiftLeft,     ///< bit string, LINT: a count ≥ the width gives 0, one ≤ 0 changes nothing
-  kShiftRight,    ///< bit string, LINT
-  kRotateLeft,    ///< bit string, LINT: the count is taken modulo the width, one ≤ 0 changes nothing
-  kRotateRight,   ///< bit string, LINT
-  kNegate,        ///< numbers, TIME
-  kNot,           ///< BOOL, bit strings
-  kAbsolute,      ///< numbers; the minimum integer stays what it is
-  kSquareRoot,    ///< reals, from here on
-  kNaturalLog,
-  kDecimalLog,
-  kExponential,
-  kSine,  ///< angles in radian
-  kCosine,
-  kTangent,
-  kArcSine,
-  kArcCosine,
-  kArcTangent,
-  kTruncate,  ///< towards zero
-  kFloor,
-  kCeiling,
-  kRound  ///< to the nearest, a half to the even one
-};
-
-/// Number of operands, 1 or 2.
-constexpr int operands_of(Operation operation) noexcept {
-  return operation < Operation::kNegate ? 2 : 1;
-}
-
 /// Whether values of one type can become the other explicitly (`TO_type`). TIME and numbers convert in
 /// milliseconds; REAL and DWORD, LREAL and LWORD exchange their bits.
 bool convertible(Type from, Type to) noexcept;
-
-/// One step of a compiled expression; only ExpressionBuilder makes them.
-struct Instruction {
-  using Step = std::uint64_t (*)(const Instruction* at, std::uint64_t accumulator, std::uint64_t* slots,
-                                 EvaluationCounters& counters) noexcept;
-  union Operand {
-    const void* address;
-    std::uint64_t constant;
-  };
-  Step step;
-  Operand operand;     ///< where a value is loaded from, or the right operand: where it stands or a constant
-  std::uint16_t slot;  ///< where the left operand rests, or where the accumulator is put first; of an index:
-                       ///< distance of two elements
-  std::uint16_t bit;   ///< bit to load, or number of inputs
-};
 
 /// A compiled expression. Copies are independent. Evaluation neither allocates nor fails.
 class Expression {
@@ -141,14 +73,6 @@ class Expression {
   Texts texts_;  ///< to which instructions point
   Type type_;
   bool constant_;
-};
-
-/// What SEL and MUX do with texts.
-struct TextChoice {
-  Expression chooser;              ///< a BOOL, or a LINT from 0; below the first is taken, above the last one
-  std::vector<TextSource> inputs;  ///< one at least
-
-  const TextSource& chosen(EvaluationCounters& counters) const noexcept;
 };
 
 /// Puts an expression together in postfix order while loading: operands first, then what is done with them.

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "scheduler/expression.hpp"
+#include "scheduler/instruction.hpp"
 
 namespace lockstep::expression_steps {
 

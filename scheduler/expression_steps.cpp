@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "scheduler/expression_operations.hpp"
+#include "scheduler/text.hpp"
 
 namespace lockstep::expression_steps {
 namespace {

@@ -3,7 +3,8 @@
 /// optimising compiler makes that a jump. Null is returned where an operation does not exist for a type.
 #pragma once
 
-#include "scheduler/expression.hpp"
+#include "scheduler/instruction.hpp"
+#include "tech_objects/types/types.hpp"
 
 namespace lockstep::expression_steps {
 

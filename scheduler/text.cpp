@@ -5,8 +5,6 @@
 #include <bit>
 #include <cstring>
 
-#include "scheduler/expression.hpp"
-
 namespace lockstep {
 
 static_assert(std::endian::native == std::endian::little, "the first of two characters is the low byte");
@@ -22,28 +20,6 @@ void Text::assign(std::string_view text) const noexcept {
   const std::size_t size = std::min(text.size(), capacity);
   std::memmove(characters, text.data(), size);
   std::memset(characters + size, 0, capacity - size);
-}
-
-std::string_view TextSource::view(EvaluationCounters& counters) const noexcept {
-  const TextSource* source = this;
-  while (!source->tag && source->choice != nullptr) source = &source->choice->chosen(counters);
-  return source->tag ? source->tag->view() : std::string_view(source->literal);
-}
-
-std::size_t TextSource::capacity() const noexcept {
-  if (tag) return tag->capacity;
-  if (choice == nullptr) return literal.size();
-  std::size_t capacity = 0;
-  for (const TextSource& input : choice->inputs) capacity = std::max(capacity, input.capacity());
-  return capacity;
-}
-
-const TextSource& TextChoice::chosen(EvaluationCounters& counters) const noexcept {
-  const Value value = chooser.evaluate(counters);
-  const auto last = static_cast<std::int64_t>(inputs.size()) - 1;
-  const std::int64_t index =
-      chooser.type() == Type::BOOL ? std::int64_t{value.u != 0} : std::clamp<std::int64_t>(value.i, 0, last);
-  return inputs[static_cast<std::size_t>(index)];
 }
 
 std::string text_type_name(std::size_t capacity) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cli/panel/modbus_panel.hpp"
+#include "projects/loader/addresses.hpp"
 
 namespace lockstep::cli {
 namespace {

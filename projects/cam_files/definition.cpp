@@ -1,11 +1,9 @@
 // Reads cams from JSON.
 #include "projects/cam_files/definition.hpp"
 
-#include <filesystem>
 #include <iterator>
 
 #include "projects/cam_files/fields.hpp"
-#include "projects/cam_files/file.hpp"
 #include "projects/json/fields.hpp"
 
 namespace lockstep {
@@ -303,33 +301,6 @@ void define_by_data(const JsonValue& object, CamWithoutCurve without_curve, CamD
   report_findings(definition, places, problems);
 }
 
-/// A file beside the project. Its problems are told with the place in it.
-void define_by_file(const JsonValue& object, const std::string& folder, CamDefinition& definition,
-                    Problems& problems) {
-  const JsonValue& file = *object.find("file");
-  for (const char* key : {"elements", "optimization", "points", "segments"})
-    if (const JsonValue* const value = object.find(key))
-      problems.report(*value, "is not allowed beside a file, which defines the cam");
-  const auto name = read_title(&file, problems);
-  if (!name) return;
-  const std::filesystem::path path = std::filesystem::path(folder) / *name;
-  try {
-    LoadedCam loaded = load_cam_file(path.string(), "", definition.capacity);
-    for (const Problem& problem : loaded.problems) problems.report(file, to_string(*name, problem));
-    for (const Problem& warning : loaded.warnings) problems.warn(file, to_string(*name, warning));
-    if (!loaded.definition) return;
-    if (loaded.definition->cam.points.size() > definition.capacity)
-      problems.report(file, "the cam in the file takes " +
-                                std::to_string(loaded.definition->cam.points.size()) +
-                                " points; allowed are " + std::to_string(definition.capacity));
-    const std::size_t capacity = definition.capacity;
-    definition = std::move(*loaded.definition);
-    definition.capacity = capacity;
-  } catch (const UnreadableFile& error) {
-    problems.report(file, std::string("cannot be read: ") + error.what());
-  }
-}
-
 void read_interpolation(const JsonValue& json, CamDesign& design, Problems& problems) {
   const Fields fields(json, keys::kCamInterpolation, problems);
   if (!fields.usable()) return;
@@ -384,9 +355,8 @@ const JsonValue& cam_member(const JsonValue& element, std::string_view field) {
   return member != nullptr ? *member : element;
 }
 
-void read_cam_definition(const JsonValue& object, const std::string& folder, CamWithoutCurve without_curve,
-                         CamDefinition& definition, Problems& problems) {
-  if (object.find("file") != nullptr) return define_by_file(object, folder, definition, problems);
+void read_cam_members(const JsonValue& object, CamWithoutCurve without_curve, CamDefinition& definition,
+                      Problems& problems) {
   if (object.find("elements") != nullptr) return define_by_elements(object, definition, problems);
   define_by_data(object, without_curve, definition, problems);
 }
@@ -402,8 +372,7 @@ void read_cam_document(const JsonValue& root, CamDefinition& definition, Problem
   if (fields["interpolation"] != nullptr)
     read_interpolation(*fields["interpolation"], definition.design, problems);
   if (fields["checks"] != nullptr) read_checks(*fields["checks"], definition.checks, problems);
-  if (fields["elements"] != nullptr) return define_by_elements(root, definition, problems);
-  define_by_data(root, CamWithoutCurve::refused, definition, problems);
+  read_cam_members(root, CamWithoutCurve::refused, definition, problems);
 }
 
 }  // namespace lockstep

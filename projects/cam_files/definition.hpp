@@ -31,15 +31,12 @@ enum class CamWithoutCurve {
   allowed   ///< the configuration, or the program, may add to them: their curve is not made here
 };
 
-/// Reads what defines a cam: `elements`, with `optimization` for their transitions by a law; or `points` and
-/// `segments` of the data block; or `file`, a cam file beside the project. The keys are keys::kCamDefinition;
-/// other members of `object` are not looked at. For the loader of projects: every problem is reported where
-/// it stands, and without one `definition.cam` has points and segments for the data block.
-/// @param folder of the document, for `file`
-/// @param definition with capacity and design.interpolation as they are known so far; a file brings its own
-///     interpolation
-void read_cam_definition(const JsonValue& object, const std::string& folder, CamWithoutCurve without_curve,
-                         CamDefinition& definition, Problems& problems);
+/// Reads what defines a cam within an object: `elements`, with `optimization` for their transitions by a law,
+/// or `points` and `segments` of the data block; other members are not looked at. Every problem is reported
+/// where it stands, and without one `definition.cam` has points and segments for the data block.
+/// @param definition with capacity and design.interpolation as they are known so far
+void read_cam_members(const JsonValue& object, CamWithoutCurve without_curve, CamDefinition& definition,
+                      Problems& problems);
 
 /// The member of a point, a segment or an element of a cam that a finding means; the whole if it is no
 /// member.

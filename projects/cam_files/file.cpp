@@ -10,6 +10,33 @@
 namespace lockstep {
 namespace {
 
+/// A file beside the project. Its problems are told with the place in it.
+void define_by_file(const JsonValue& object, const std::string& folder, CamDefinition& definition,
+                    Problems& problems) {
+  const JsonValue& file = *object.find("file");
+  for (const char* key : {"elements", "optimization", "points", "segments"})
+    if (const JsonValue* const value = object.find(key))
+      problems.report(*value, "is not allowed beside a file, which defines the cam");
+  const auto name = read_title(&file, problems);
+  if (!name) return;
+  const std::filesystem::path path = std::filesystem::path(folder) / *name;
+  try {
+    LoadedCam loaded = load_cam_file(path.string(), "", definition.capacity);
+    for (const Problem& problem : loaded.problems) problems.report(file, to_string(*name, problem));
+    for (const Problem& warning : loaded.warnings) problems.warn(file, to_string(*name, warning));
+    if (!loaded.definition) return;
+    if (loaded.definition->cam.points.size() > definition.capacity)
+      problems.report(file, "the cam in the file takes " +
+                                std::to_string(loaded.definition->cam.points.size()) +
+                                " points; allowed are " + std::to_string(definition.capacity));
+    const std::size_t capacity = definition.capacity;
+    definition = std::move(*loaded.definition);
+    definition.capacity = capacity;
+  } catch (const UnreadableFile& error) {
+    problems.report(file, std::string("cannot be read: ") + error.what());
+  }
+}
+
 /// InterpolationSettings of a technology object; what it does not give stays.
 void read_settings(const JsonValue& object, TO_Cam_Struct_InterpolationSettings& settings,
                    Problems& problems) {
@@ -90,6 +117,12 @@ LoadedCam load_json(std::string_view text, const std::string& folder, const std:
 }
 
 }  // namespace
+
+void read_cam_definition(const JsonValue& object, const std::string& folder, CamWithoutCurve without_curve,
+                         CamDefinition& definition, Problems& problems) {
+  if (object.find("file") != nullptr) return define_by_file(object, folder, definition, problems);
+  read_cam_members(object, without_curve, definition, problems);
+}
 
 LoadedCam load_cam(std::string_view text, const std::string& folder, const std::string& name,
                    std::size_t capacity) {

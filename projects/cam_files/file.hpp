@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "projects/cam_files/definition.hpp"
+#include "projects/json/document.hpp"
+#include "projects/json/problem.hpp"
 #include "projects/json/text_file.hpp"
 
 namespace lockstep {
@@ -28,5 +30,15 @@ LoadedCam load_cam(std::string_view text, const std::string& folder, const std::
 
 /// The same from a file. @throws UnreadableFile
 LoadedCam load_cam_file(const std::string& path, const std::string& name, std::size_t capacity);
+
+/// Reads what defines a cam: `elements`, with `optimization` for their transitions by a law; or `points` and
+/// `segments` of the data block; or `file`, a cam file beside the project. The keys are keys::kCamDefinition;
+/// other members of `object` are not looked at. For the loader of projects: every problem is reported where
+/// it stands, and without one `definition.cam` has points and segments for the data block.
+/// @param folder of the document, for `file`
+/// @param definition with capacity and design.interpolation as they are known so far; a file brings its own
+///     interpolation
+void read_cam_definition(const JsonValue& object, const std::string& folder, CamWithoutCurve without_curve,
+                         CamDefinition& definition, Problems& problems);
 
 }  // namespace lockstep

@@ -8,6 +8,7 @@
 #include "projects/expressions/lexer.hpp"
 #include "projects/expressions/parser.hpp"
 #include "projects/expressions/typing.hpp"
+#include "scheduler/text_choice.hpp"
 
 namespace lockstep {
 namespace {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "projects/expressions/compiler.hpp"
 #include "projects/expressions/parser.hpp"
+#include "projects/expressions/scope.hpp"
 #include "projects/expressions/term.hpp"
 
 namespace lockstep {

@@ -1,7 +1,7 @@
 // Cams: points and segments, curve elements or a file, as the project gives them, and the curve through them.
 #include <algorithm>
 
-#include "projects/cam_files/definition.hpp"
+#include "projects/cam_files/file.hpp"
 #include "projects/keys/objects.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/read_keys.hpp"

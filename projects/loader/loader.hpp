@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "projects/json/fields.hpp"
-#include "projects/loader/project.hpp"
+#include "projects/loader/project_contents.hpp"
 #include "scheduler/mco305/mco305.hpp"
 #include "tech_objects/cross_controller/leading_axis_proxy.hpp"
 #include "tech_objects/linmot/controller.hpp"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "projects/keys/modbus.hpp"
+#include "projects/loader/addresses.hpp"
 #include "projects/loader/mco305_panel.hpp"
 #include "projects/loader/modbus.hpp"
 #include "projects/loader/read_keys.hpp"

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "projects/keys/modbus.hpp"
+#include "projects/loader/addresses.hpp"
 #include "projects/loader/modbus.hpp"
 #include "projects/loader/read_keys.hpp"
 

@@ -5,6 +5,7 @@
 #include "hmi_bridge/lcm/reassembly.hpp"
 #include "hmi_bridge/lcm/url.hpp"
 #include "projects/json/fields.hpp"
+#include "projects/loader/addresses.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/read_keys.hpp"
 

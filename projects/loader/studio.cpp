@@ -1,5 +1,6 @@
 // Where a run can be looked into, and who may do what there.
 #include "projects/keys/project.hpp"
+#include "projects/loader/addresses.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/read_keys.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "projects/keys/project.hpp"
 #include "projects/loader/loader.hpp"
+#include "projects/loader/network.hpp"
 #include "projects/loader/provided_value.hpp"
 #include "projects/loader/read_keys.hpp"
 #include "tech_objects/axis/configured_axis.hpp"

@@ -5,6 +5,7 @@
 
 #include "tech_objects/cam/segment.hpp"
 #include "tech_objects/cam_design/design_parts.hpp"
+#include "tech_objects/cam_design/findings.hpp"
 #include "tech_objects/cam_object/interpolation.hpp"
 
 namespace lockstep {

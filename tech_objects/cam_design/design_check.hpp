@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tech_objects/cam_design/design.hpp"
+#include "tech_objects/cam_design/designed_cam.hpp"
 
 namespace lockstep {
 

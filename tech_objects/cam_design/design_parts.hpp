@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "tech_objects/alarms/alarms.hpp"
-#include "tech_objects/cam_design/design.hpp"
-#include "tech_objects/cam_design/findings.hpp"
+#include "tech_objects/cam_design/designed_cam.hpp"
 
 namespace lockstep {
 

@@ -1,18 +1,10 @@
 /// What is to be told of the points and segments of a cam.
 #pragma once
 
-#include <vector>
-
-#include "tech_objects/cam_design/design.hpp"
+#include "tech_objects/cam_design/designed_cam.hpp"
 #include "tech_objects/cam_object/interpolation.hpp"
 
 namespace lockstep {
-
-/// Findings by element: the index of a point in the data block, or, with `transition`, that of a segment.
-struct CamFindings {
-  std::vector<CamFinding> problems;  ///< why there is no curve
-  std::vector<CamFinding> warnings;  ///< what is legal and looks like a mistake
-};
 
 /// The findings of an interpolation, just after it: with a fault, that is told; else points and segments that
 /// do not count, or not everywhere, because of others, and following values that MC_CamIn refuses unscaled.

@@ -1,7 +1,7 @@
 /// The table of the parameters. Included by `parameters.cpp` only.
 #pragma once
 
-#include "tech_objects/linmot_catalogue/parameters.hpp"
+#include "tech_objects/linmot_catalogue/parameter.hpp"
 
 namespace lockstep::linmot {
 

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "changed_project.hpp"
+#include "projects/loader/addresses.hpp"
 #include "projects/loader/project.hpp"
 #include "tests/support/values.hpp"
 
