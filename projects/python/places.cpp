@@ -117,11 +117,10 @@ std::string type_of_place(const Place& place) {
 }
 
 std::string unit_of_place(const Place& place) {
-  return std::visit(
-      Each{[](const Operand& value) { return unit_of(value); },
-           [](const StringTag*) { return std::string(); },
-           [](const ElementPath& elements) { return unit_of(elements.place); }},
-      place);
+  return std::visit(Each{[](const Operand& value) { return unit_of(value); },
+                         [](const StringTag*) { return std::string(); },
+                         [](const ElementPath& elements) { return unit_of(elements.place); }},
+                    place);
 }
 
 std::vector<NamedSignal> signals_of(const Project& project, const std::vector<std::string>& paths) {
@@ -135,7 +134,8 @@ std::vector<NamedSignal> signals_of(const Project& project, const std::vector<st
             fmt::format("'{}' is of type {}, which a trace does not record; allowed: single numbers, "
                         "bits and durations",
                         path, type_of_place(place)));
-    if (seen.insert(path).second) signals.push_back({path, value->signal, value->unit, value->object, value->instance});
+    if (seen.insert(path).second)
+      signals.push_back({path, value->signal, value->unit, value->object, value->instance});
   }
   return signals;
 }
