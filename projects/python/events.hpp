@@ -9,7 +9,7 @@
 
 namespace lockstep::python {
 
-/// (time [s], kind, source, type, number, text, reaction) of an event, as `lockstep.Event` takes them.
+/// An event as `lockstep.Event` takes it: its fields in their order.
 pybind11::tuple described(const TraceEvent& event);
 pybind11::list listed(const std::vector<TraceEvent>& events);
 

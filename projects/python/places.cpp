@@ -22,6 +22,10 @@ struct Each : Cases... {
 template <class... Cases>
 Each(Cases...) -> Each<Cases...>;
 
+std::string unit_of(const Operand& place) {
+  return lockstep::unit_of(NamedSignal{"", place.signal, place.unit, place.object, place.instance});
+}
+
 const Range& range_of(const Operand& place) {
   return place.variable != nullptr ? place.variable->range : kAny;
 }
@@ -113,11 +117,10 @@ std::string type_of_place(const Place& place) {
 }
 
 std::string unit_of_place(const Place& place) {
-  return std::visit(
-      Each{[](const Operand& value) { return std::string(unit_text(value.unit)); },
-           [](const StringTag*) { return std::string(); },
-           [](const ElementPath& elements) { return std::string(unit_text(elements.place.unit)); }},
-      place);
+  return std::visit(Each{[](const Operand& value) { return unit_of(value); },
+                         [](const StringTag*) { return std::string(); },
+                         [](const ElementPath& elements) { return unit_of(elements.place); }},
+                    place);
 }
 
 std::vector<NamedSignal> signals_of(const Project& project, const std::vector<std::string>& paths) {
@@ -131,7 +134,8 @@ std::vector<NamedSignal> signals_of(const Project& project, const std::vector<st
             fmt::format("'{}' is of type {}, which a trace does not record; allowed: single numbers, "
                         "bits and durations",
                         path, type_of_place(place)));
-    if (seen.insert(path).second) signals.push_back({path, value->signal, value->unit});
+    if (seen.insert(path).second)
+      signals.push_back({path, value->signal, value->unit, value->object, value->instance});
   }
   return signals;
 }
@@ -143,7 +147,7 @@ std::vector<std::string> all_paths(const Project& project) {
   for (const ArrayTag& tag : controller.arrays) paths.push_back(tag.name);
   for (const StringTag& tag : controller.strings) paths.push_back(tag.name);
   for (const Instance& instance : controller.instances) {
-    if (instance.name.starts_with("panel.")) continue;  // those behind commands from outside have no paths
+    if (project.names.find_entity(instance.name) == nullptr) continue;  // no path leads to it
     for (const Pin& pin : instance.type->pins)
       if (pin.type < Type::AXIS) paths.push_back(instance.name + "." + std::string(pin.name));
   }

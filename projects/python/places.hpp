@@ -32,7 +32,7 @@ void write_place(const Place& place, pybind11::handle object, std::string_view p
 std::string why_read_only(const Place& place);
 /// Name of the type: "LREAL", "STRING[20]", "ARRAY[1..4] OF LREAL".
 std::string type_of_place(const Place& place);
-/// Text of its unit; empty for none.
+/// Its unit as the project has it, such as "mm/s"; empty for none.
 std::string unit_of_place(const Place& place);
 
 /// What a trace records under these names, each once.

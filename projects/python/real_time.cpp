@@ -151,7 +151,7 @@ RealTimeProject::RealTimeProject(RunOptions options, const std::optional<std::ve
                                [&](Project& project) { keeper = restore_kept(project, options, *kept_); });
     }();
     for (const Problem& warning : loaded.warnings) kept_->warn(to_string(options.file, warning));
-    name_ = valid(loaded).name;
+    name_ = valid(loaded, {options.file, true}).name;
     runtime_ =
         std::make_unique<Runtime>(std::move(*loaded.project), std::move(keeper), std::move(options), kept_);
     runtime_->prepare();

@@ -32,7 +32,7 @@ constexpr double kLongest = 9e9;  // [s], which nanoseconds in 64 bits hold
 /// then is refused, so that two threads never touch one controller.
 class SteppedProject {
  public:
-  SteppedProject(std::string_view text, const std::string& folder,
+  SteppedProject(std::string_view text, const std::string& folder, const TextSource& source,
                  const std::optional<std::vector<std::string>>& signals, bool jobs);
 
   void close() {
@@ -95,17 +95,17 @@ class SteppedProject {
   bool running_ = false;
 };
 
-SteppedProject::SteppedProject(std::string_view text, const std::string& folder,
+SteppedProject::SteppedProject(std::string_view text, const std::string& folder, const TextSource& source,
                                const std::optional<std::vector<std::string>>& signals, bool jobs) {
   LoadedProject loaded = [&] {
     const WithoutGil without_gil;
     return load_project(text, folder);
   }();
-  Project& project = valid(loaded);
+  Project& project = valid(loaded, source);
   SteppedRun::Options options{signals ? signals_of(project, *signals) : project.trace.signals, jobs};
   name_ = project.name;
   description_ = project.description;
-  warnings_ = listed(loaded.warnings);
+  warnings_ = listed(loaded.warnings, source);
   run_ = std::make_unique<SteppedRun>(std::move(project), options);
 }
 
@@ -152,24 +152,27 @@ bool SteppedProject::run(double seconds, const std::optional<std::string>& until
   return run_ticks(ticks, condition ? &*condition : nullptr);
 }
 
-py::tuple check(std::string_view text, const std::string& folder) {
+py::tuple check(std::string_view text, const std::string& folder, std::string file, bool as_written) {
+  const TextSource source{std::move(file), as_written};
   const LoadedProject loaded = [&] {
     const WithoutGil without_gil;
     return load_project(text, folder, {}, LoadedFor::looking);
   }();
-  return py::make_tuple(listed(loaded.problems), listed(loaded.warnings));
+  return py::make_tuple(listed(loaded.problems, source), listed(loaded.warnings, source));
 }
 
-std::unique_ptr<SteppedProject> load(std::string_view text, const std::string& folder,
-                                     const std::optional<std::vector<std::string>>& signals, bool jobs) {
-  return std::make_unique<SteppedProject>(text, folder, signals, jobs);
+std::unique_ptr<SteppedProject> load(std::string_view text, const std::string& folder, std::string file,
+                                     bool as_written, const std::optional<std::vector<std::string>>& signals,
+                                     bool jobs) {
+  return std::make_unique<SteppedProject>(text, folder, TextSource{std::move(file), as_written}, signals,
+                                          jobs);
 }
 
 }  // namespace
 
 void add_stepped_project(py::module_& module) {
-  module.def("check", &check, py::arg("text"), py::arg("folder"),
-             "(problems, warnings), each (place, text).");
+  module.def("check", &check, py::arg("text"), py::arg("folder"), py::arg("file"), py::arg("as_written"),
+             "(problems, warnings), each (place, text, file, line, column, owner).");
   py::class_<SteppedProject> type(module, "SteppedProject",
                                   "A project in virtual time; lockstep.Project is its face.");
   seal(type);
@@ -190,8 +193,8 @@ void add_stepped_project(py::module_& module) {
       .def_property_readonly("now", &SteppedProject::now)
       .def_property_readonly("ticks", &SteppedProject::ticks)
       .def_property_readonly("servo_cycle", &SteppedProject::servo_cycle);
-  module.def("load", &load, py::arg("text"), py::arg("folder"), py::arg("signals"), py::arg("jobs"),
-             "A project in virtual time, at its beginning.");
+  module.def("load", &load, py::arg("text"), py::arg("folder"), py::arg("file"), py::arg("as_written"),
+             py::arg("signals"), py::arg("jobs"), "A project in virtual time, at its beginning.");
 }
 
 }  // namespace lockstep::python

@@ -5,7 +5,9 @@ import datetime
 import json
 import math
 import pickle
+import re
 import signal
+import subprocess
 import threading
 import time
 from pathlib import Path
@@ -40,7 +42,10 @@ def test_what_is_no_json_is_told_at_its_line(tmp_path):
     file = tmp_path / "broken.json"
     file.write_bytes(b'{ "lockstep": 1,\n  "name" \xff }')
     (problem, *_) = lockstep.check(file)
-    assert problem.place.startswith("2:")
+    assert problem.place.startswith("2:") and problem.file == str(file)
+    for changes in (None, {"/name": "other"}):
+        with pytest.raises(lockstep.InvalidProject, match=rf"{re.escape(str(file))}:\S*:"):
+            lockstep.Project(file, changes=changes)
     with pytest.raises(FileNotFoundError):
         lockstep.check(tmp_path / "none.json")
     with pytest.raises(IsADirectoryError):
@@ -48,6 +53,28 @@ def test_what_is_no_json_is_told_at_its_line(tmp_path):
     for other in (None, 3, b"bytes"):
         with pytest.raises(TypeError, match="path of its file"):
             lockstep.check(other)
+
+
+def test_problems_are_told_as_the_command_tells_them(small, program, tmp_path):
+    wrong = copy.deepcopy(small)
+    wrong["programs"][0]["calls"][2]["in"]["Velocity"] = "sped"
+    wrong["include"] = ["more.json"]
+    file = tmp_path / "wrong.json"
+    file.write_text(json.dumps(wrong, indent=2))
+    (tmp_path / "more.json").write_text('{\n  "tags": { "more": { "type": "FLOAT" } }\n}')
+    problems = lockstep.check(file)
+    told = subprocess.run([program, "check", file], capture_output=True, text=True)
+    assert told.stderr.splitlines() == [str(problem) for problem in problems]
+    (here,) = [problem for problem in problems if "'sped'" in problem.text]
+    assert here.file == str(file) and here.owner == "call 'run'" and '"sped"' in file.read_text().splitlines()[here.line - 1]
+    (there,) = [problem for problem in problems if "FLOAT" in problem.text]
+    assert there.file == str(tmp_path / "more.json") and (there.line, there.column) == (2, 31)
+    # Lines of a text that nobody has written say nothing.
+    changed = lockstep.check(file, changes={"/name": "other"})
+    assert [(problem.place, problem.line) for problem in changed if problem.file == str(file)] == [(here.place, 0)]
+    with pytest.raises(lockstep.InvalidProject) as error:
+        lockstep.Project(file)
+    assert error.value.problems == problems and pickle.loads(pickle.dumps(error.value)).problems == problems
 
 
 def test_it_steps_by_ticks_and_by_seconds(small):
@@ -234,7 +261,16 @@ def test_every_path_that_is_listed_can_be_read(knife):
     for path in paths:
         assert isinstance(project[path], (bool, int, float, str, list)), path
     assert list(project) == paths == project._ipython_key_completions_()
-    assert project.info("Knife.Velocity") == ("LREAL", "u/s", project.info("Knife.Velocity").read_only)
+    assert project.info("Knife.Velocity") == ("LREAL", "°/s", project.info("Knife.Velocity").read_only)
+    assert project.info("Conveyor.Velocity").unit == "mm/s" and project.info("run.Velocity").unit == "mm/s"
+
+
+def test_units_are_those_of_the_project(small):
+    metres = copy.deepcopy(small)
+    metres["technology_objects"]["Axis"]["config"]["Units"] = {"LengthUnit": 1010}
+    project = lockstep.Project(metres, signals=["Axis.Velocity", "run.Velocity", "speed"])
+    assert [project.info(path).unit for path in ("Axis.Position", "run.Velocity", "speed")] == ["m", "m/s", ""]
+    assert project.trace.units == {"Axis.Velocity": "m/s", "run.Velocity": "m/s", "speed": ""}
 
 
 def test_expressions_are_evaluated_in_their_type(small):
@@ -295,6 +331,14 @@ def test_jobs_are_events_if_they_are_asked_for(small):
     started = [event for event in project.events if event.kind == "job started" and event.source == "run"]
     assert started and started[0].type == "MC_MoveVelocity" and 0 <= started[0].time < 1.0
     assert project.alarms == []
+    assert started[0].object == "Axis"
+    disabled = copy.deepcopy(small)
+    disabled["programs"][0]["calls"][1]["in"]["Enable"] = False
+    disabled["programs"][0]["calls"][2]["in"]["Execute"] = "go"
+    wrong = lockstep.Project(disabled, jobs=True, changes={"go": True})
+    wrong.run(1.0)
+    (failed,) = [event for event in wrong.events if event.kind == "job failed"]
+    assert failed.source == "run" and failed.number == wrong["run.ErrorID"] != 0 and failed.text and failed.remedy
     quiet = lockstep.Project(small, changes={"go": True})
     quiet.run(1.0)
     assert quiet.events == []
@@ -317,9 +361,19 @@ def test_alarms_are_pending_until_they_are_acknowledged(small):
     assert (alarm.kind, alarm.source, alarm.type) == ("alarm", "Axis", "TO_PositioningAxis")
     assert alarm.number == project["Axis.ErrorDetail.Number"] and alarm.text and alarm.reaction
     assert 0 < alarm.time < 10.0
+    assert alarm.cause and alarm.remedy and alarm.details == (
+        f"{alarm.value_name} {alarm.value:g} mm, {alarm.limit_name} 20 mm; {alarm.address}", f"cause: {alarm.cause}", f"remedy: {alarm.remedy}"
+    )  # fmt: skip
+    assert alarm.limit == 20.0 and alarm.unit == "mm" and alarm.value == pytest.approx(20.0, abs=1.0)
+    assert alarm.tick == round(alarm.time / project.servo_cycle) and alarm.clock is None
+    told = str(alarm).splitlines()
+    assert told[0] == f"{alarm.time:.3f} s Axis: alarm {alarm.number}: {alarm.text} ({alarm.reaction})"
+    assert [line.strip() for line in told[1:]] == list(alarm.details)
     project["go"] = False
     project["reset"] = True
     project.run(0.1)
+    acknowledged = project.events[-1]
+    assert (acknowledged.cause, acknowledged.value, acknowledged.limit, acknowledged.details) == ("", None, None, ())
     assert project.alarms == []
     assert [event.kind for event in project.events] == ["alarm", "acknowledged"]
 
@@ -447,7 +501,7 @@ def test_misuse_of_the_extension_module_does_not_crash():
 
     for wrong in (b"", b"\x00" * 100, b"[" * 1000, b"{}", b"null"):
         with pytest.raises(lockstep.InvalidProject):
-            _lockstep.load(wrong, "", None, False)
+            _lockstep.load(wrong, "", "", False, None, False)
     # An object that has never been constructed.
     for kind in (_lockstep.SteppedProject, _lockstep.RealTimeProject, _lockstep.TraceView):
         for make in (kind, lambda: kind.__new__(kind), lambda: object.__new__(kind)):

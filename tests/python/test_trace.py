@@ -84,7 +84,7 @@ def test_columns_have_types_units_and_times(small):
     assert list(trace["count"]) == [-3] * 3 and list(trace["total"]) == [1, 3, 5]
     assert list(trace["mask.X1"]) == [True] * 3 and list(trace["go"]) == [False] * 3
     assert list(trace["pause"]) == [0.3] * 3 and list(trace["share"]) == [float(np.float32(0.1))] * 3
-    assert trace.units["Axis.Velocity"] == "u/s" and trace.units["go"] == ""
+    assert trace.units["Axis.Velocity"] == "mm/s" and trace.units["go"] == ""
     assert trace.types["pause"] == "TIME"
     assert repr(trace) == "<lockstep.Trace: 3 rows of 8 signals, 0 s to 0.004 s>"
     assert trace._ipython_key_completions_() == list(trace) and len(trace) == 8

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Iterable, NamedTuple
+from typing import Any, Iterable, NamedTuple
 
 
 class Problem(NamedTuple):
@@ -14,15 +14,28 @@ class Problem(NamedTuple):
     """What is wrong, and what is allowed; one line."""
     severity: str = "error"
     """``error``: the project is not valid; ``warning``: it is."""
+    file: str = ""
+    """The file in which it is: the project file, or one that it includes; empty where a project has no file."""
+    line: int = 0
+    """From 1; 0: not known, since the project has no file or its keys have been changed, or ``place`` tells it."""
+    column: int = 0
+    """In characters, from 1; 0 where ``line`` is."""
+    owner: str = ""
+    """What it is part of, such as ``call 'gear'``; empty: nothing that has a name."""
 
     def __str__(self) -> str:
-        return f"{self.place}: {'warning: ' if self.severity == 'warning' else ''}{self.text}"
+        """As ``lockstep check`` tells it: ``FILE:place: text (line 3, column 5, call 'gear')``."""
+        text = f"{self.file}:" if self.file else ""
+        text += f"{self.place}: {'warning: ' if self.severity == 'warning' else ''}{self.text}"
+        where = [f"line {self.line}", f"column {self.column}"] if self.line else []
+        where += [self.owner] if self.owner else []
+        return f"{text} ({', '.join(where)})" if where else text
 
 
-def problems_from(errors: Iterable[tuple[str, str]], warnings: Iterable[tuple[str, str]]) -> list[Problem]:
-    """Problems as the runtime lists them: errors first."""
-    listed = [Problem(place, text) for place, text in errors]
-    return listed + [Problem(place, text, "warning") for place, text in warnings]
+def problems_from(errors: Iterable[tuple[Any, ...]], warnings: Iterable[tuple[Any, ...]]) -> list[Problem]:
+    """Problems as the runtime lists them, (place, text, file, line, column, owner): errors first."""
+    listed = [Problem(place, text, "error", *where) for place, text, *where in errors]
+    return listed + [Problem(place, text, "warning", *where) for place, text, *where in warnings]
 
 
 class LockstepError(Exception):
@@ -32,11 +45,11 @@ class LockstepError(Exception):
 class InvalidProject(LockstepError, ValueError):
     """A project is not valid; ``problems`` has all that is wrong, not the first only."""
 
-    def __init__(self, errors: Iterable[tuple[str, str]], warnings: Iterable[tuple[str, str]] = ()) -> None:
+    def __init__(self, errors: Iterable[tuple[Any, ...]], warnings: Iterable[tuple[Any, ...]] = ()) -> None:
         self.problems: list[Problem] = problems_from(errors, warnings)
         super().__init__(
-            [(problem.place, problem.text) for problem in self.problems if problem.severity == "error"],
-            [(problem.place, problem.text) for problem in self.problems if problem.severity == "warning"],
+            [(one.place, one.text, *one[3:]) for one in self.problems if one.severity == "error"],
+            [(one.place, one.text, *one[3:]) for one in self.problems if one.severity == "warning"],
         )
 
     def __str__(self) -> str:

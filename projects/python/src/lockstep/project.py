@@ -31,6 +31,38 @@ class Event(NamedTuple):
     """Meaning of the number."""
     reaction: str
     """What an alarm does to the axis; empty for other events."""
+    cause: str
+    """What has happened, in general; empty where it is not known, as for events that are no alarms."""
+    remedy: str
+    """What is to be done about an alarm, or a job that has failed; empty where nothing is known to help."""
+    address: str
+    """Which of several causes, limits, sensors, inputs or objects an alarm means: ``sensor 1``."""
+    value_name: str
+    """What was measured, such as ``following error``; empty: nothing."""
+    value: float | None
+    """What was measured, in :attr:`unit`; None: not known."""
+    limit_name: str
+    """What it was held against, such as ``permitted``; empty: nothing."""
+    limit: float | None
+    """What it was held against, in :attr:`unit`; None: not known."""
+    unit: str
+    """Of value and limit, such as ``mm``; empty: none."""
+    object: str
+    """Of a job: the axis, or other object, that carries it out."""
+    tick: int
+    """Number of the servo tick."""
+    clock: float | None
+    """Wall clock [s since 1970-01-01 UTC], as :func:`time.time` has it; None in virtual time."""
+    details: tuple[str, ...]
+    """What is known besides, a line each, as ``lockstep run`` tells it: values and address, cause, remedy."""
+
+    def __str__(self) -> str:
+        """The same in lines: ``8.013 s Shear: alarm 521: Following error …``, below it the details."""
+        text = f"{self.time:.3f} s {self.source or 'the run'}: {self.kind}"
+        text += f" {self.number}" if self.kind == "alarm" else ""
+        text += f": {self.text}" if self.text else ""
+        text += f" ({self.reaction})" if self.reaction else ""
+        return "\n  ".join([text, *self.details])
 
 
 class PathInfo(NamedTuple):
@@ -39,7 +71,7 @@ class PathInfo(NamedTuple):
     type: str
     """``LREAL``, ``STRING[20]``, ``ARRAY[1..4] OF LREAL``."""
     unit: str
-    """``u/s``; empty where there is none. ``u`` is the unit of the axis."""
+    """As the project has it, such as ``mm/s``; empty where there is none."""
     read_only: str
     """Why it cannot be written; empty where it can."""
 
@@ -54,7 +86,7 @@ def check(project: ProjectSource, *, changes: Mapping[str, Any] | None = None) -
     :raises PathError: a pointer of ``changes`` leads nowhere
     """
     source = changed(text_of(project), _pointers(changes or {}))
-    errors, warnings = _lockstep.check(source.text, source.folder)
+    errors, warnings = _lockstep.check(*source)
     return problems_from(errors, warnings)
 
 
@@ -117,7 +149,7 @@ class Project:
         pointers = _pointers(changes or {}, others=True)
         source = changed(source, pointers)
         self._file = source.file
-        self._run = _lockstep.load(source.text, source.folder, paths_of(signals), bool(jobs))
+        self._run = _lockstep.load(*source, paths_of(signals), bool(jobs))
         for path, value in (changes or {}).items():
             if path not in pointers:
                 self[path] = value

@@ -31,6 +31,8 @@ class Text(NamedTuple):
     folder: str
     file: str
     """Its name; empty: none."""
+    as_written: bool = False
+    """Whether its lines are those of the file, which is not so once keys have been changed."""
 
 
 def text_of(project: ProjectSource) -> Text:
@@ -46,7 +48,7 @@ def text_of(project: ProjectSource) -> Text:
         raise TypeError(f"a project is the path of its file, or its content as a mapping; not {kind}")
     path = Path(project)
     with path.open("rb") as file:
-        return Text(file.read(_LONGEST), str(path.parent), str(path))
+        return Text(file.read(_LONGEST), str(path.parent), str(path), as_written=True)
 
 
 def plain(value: Any) -> Any:
@@ -80,12 +82,13 @@ def changed(source: Text, changes: Mapping[str, Any]) -> Text:
         text = _without_comments(source.text.decode())
         document = json.loads(text, object_pairs_hook=_each_once, parse_float=_number)
     except json.JSONDecodeError as error:
-        raise InvalidProject([(f"{error.lineno}:{error.colno}", f"the text is no JSON: {error.msg}")]) from None
+        place = f"{error.lineno}:{error.colno}"
+        raise InvalidProject([(place, f"the text is no JSON: {error.msg}", source.file)]) from None
     except (ValueError, RecursionError) as error:
-        raise InvalidProject([("1:1", f"the text cannot be changed: {error}")]) from None
+        raise InvalidProject([("1:1", f"the text cannot be changed: {error}", source.file)]) from None
     for pointer, value in changes.items():
         _set(document, pointer, plain(value))
-    return source._replace(text=json.dumps(document).encode())
+    return source._replace(text=json.dumps(document).encode(), as_written=False)
 
 
 def _without_comments(text: str) -> str:

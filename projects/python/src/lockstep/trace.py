@@ -24,7 +24,7 @@ class Trace(Mapping[str, "NDArray[Any]"]):
 
     >>> trace = project.trace
     >>> trace["Knife.Velocity"].max(), trace.units["Knife.Velocity"]
-    (1.0, 'u/s')
+    (450.0, '°/s')
 
     ``pandas.DataFrame(dict(trace), index=trace.time)`` is a table of it.
     """
@@ -76,7 +76,7 @@ class Trace(Mapping[str, "NDArray[Any]"]):
 
     @property
     def units(self) -> dict[str, str]:
-        """Unit of each signal, such as ``u/s``; empty where there is none. ``u`` is the unit of the axis."""
+        """Unit of each signal as the project has it, such as ``mm/s``; empty where there is none, as in a CSV file."""
         return dict(self._units)
 
     @property
