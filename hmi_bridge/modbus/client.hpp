@@ -15,42 +15,10 @@
 
 #include "hmi_bridge/modbus/map.hpp"
 #include "hmi_bridge/modbus/master.hpp"
+#include "hmi_bridge/modbus/options.hpp"
 #include "scheduler/process_image.hpp"
 
 namespace lockstep {
-
-/// What is shown of the entries of one line: of a value, of an array, alone.
-struct ModbusLineState {
-  bool is_write = false;                 ///< a line of the write entries, else of the read entries
-  std::uint32_t line = 0;                ///< `ModbusEntry::line` of its entries
-  std::optional<std::uint32_t> quality;  ///< BOOL: all of its entries went well in the last cycle
-  std::optional<std::uint32_t> age;      ///< TIME since the last cycle in which they did, or the start
-};
-
-/// A device and what goes to and fro. The signals of the entries are those of the client's image.
-struct ModbusDevice {
-  std::string name;
-  int unit = 1;
-  std::chrono::nanoseconds cycle{100'000'000};  ///< > 0
-  std::vector<ModbusEntry> reads;               ///< from the device into signals
-  std::vector<ModbusEntry> writes;              ///< from signals to the device's coils and holding registers
-  std::optional<std::uint32_t> quality;         ///< BOOL: all of the last cycle went well
-  std::optional<std::uint32_t> age;             ///< TIME since the last cycle that went well, or the start
-  std::vector<ModbusLineState> lines;           ///< those of which something is shown alone
-};
-
-/// A connection with the devices behind it.
-struct ModbusClientOptions {
-  std::optional<Endpoint> connect;  ///< none: over `serial`
-  SerialOptions serial;
-  std::chrono::milliseconds timeout{500};           ///< for connecting, and for each answer
-  std::chrono::milliseconds first_retry{100};       ///< after a failure; doubled with each further one …
-  std::chrono::milliseconds longest_retry{10'000};  ///< … up to this
-  std::vector<ModbusDevice> devices;
-
-  /// Where it connects to, for messages.
-  std::string endpoint() const;
-};
 
 /// What a client has seen. Any thread may read.
 struct ModbusClientCounters {

@@ -11,24 +11,10 @@
 #include <string>
 
 #include "hmi_bridge/modbus/counters.hpp"
+#include "hmi_bridge/modbus/options.hpp"
 #include "hmi_bridge/modbus/request.hpp"
 
 namespace lockstep {
-
-enum class Parity : std::uint8_t { none, even, odd };
-
-/// A serial line. The defaults are those of the standard.
-struct SerialOptions {
-  std::string device;  ///< such as /dev/ttyS0
-  int baud = 19200;    ///< one of `kBauds`
-  Parity parity = Parity::even;
-  int stop_bits = 1;  ///< 1, 2
-  /// Silence that ends a frame; 0: 3.5 characters, and 1.75 ms at least, as the standard has it. Adapters
-  /// that hand their bytes over in lumps need more.
-  std::chrono::microseconds silence{0};
-};
-
-inline constexpr std::array kBauds = {1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200};
 
 /// How long the line takes for one character, with its start, parity and stop bits.
 std::chrono::nanoseconds character_time(const SerialOptions& options) noexcept;

@@ -20,34 +20,13 @@
 #include "hmi_bridge/modbus/connection.hpp"
 #include "hmi_bridge/modbus/counters.hpp"
 #include "hmi_bridge/modbus/map.hpp"
+#include "hmi_bridge/modbus/options.hpp"
 #include "hmi_bridge/modbus/request.hpp"
 #include "hmi_bridge/modbus/serial.hpp"
 #include "hmi_bridge/network/network.hpp"
 #include "scheduler/process_image.hpp"
 
 namespace lockstep {
-
-/// Where the server listens and how much it lets clients do there.
-struct ModbusServerOptions {
-  /// Addresses and names of interfaces of this machine; a name stands for all its addresses, 0.0.0.0 and ::
-  /// for all of IPv4 and of IPv6.
-  std::vector<Endpoint> listen{{"127.0.0.1", 502}};
-  std::optional<SerialOptions> serial;  ///< RTU over this line in place of TCP; what follows is for TCP alone
-  std::uint8_t serial_unit = 1;         ///< own address on the line, besides those with a map of their own
-  std::vector<IpNetwork> allow;         ///< from where clients may come; empty: from everywhere
-  std::size_t max_clients = 64;         ///< ≥ 1; a further client is refused, see `idle_time`
-  /// Of one address, so that one machine cannot lock the others out; 0: three quarters of `max_clients`,
-  /// rounded up. A further client of it is treated as one beyond `max_clients`.
-  std::size_t max_clients_per_address = 0;
-  std::uint32_t requests_per_second = 0;  ///< of one client; what is more waits; 0: as many as it likes
-  /// A client that does not end a request, or take an answer, for this long is disconnected.
-  std::chrono::milliseconds stall_time{10'000};
-  /// Where all connections are taken, a new client gets that of the one that has been silent longest, if that
-  /// is this long at least.
-  std::chrono::milliseconds idle_time{10'000};
-  /// A client that asks for nothing for this long is disconnected; 0: never.
-  std::chrono::milliseconds idle_limit{0};
-};
 
 /// A group of addresses with what is served there.
 struct ModbusService {

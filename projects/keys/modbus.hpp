@@ -1,10 +1,8 @@
 /// The keys of Modbus: servers, their maps, and foreign devices.
 #pragma once
 
-#include "hmi_bridge/modbus/client.hpp"
 #include "hmi_bridge/modbus/map.hpp"
-#include "hmi_bridge/modbus/serial.hpp"
-#include "hmi_bridge/modbus/server.hpp"
+#include "hmi_bridge/modbus/options.hpp"
 #include "projects/json/key.hpp"
 
 namespace lockstep::keys {

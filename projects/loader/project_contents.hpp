@@ -16,9 +16,8 @@
 
 #include "hmi_bridge/audit/file.hpp"
 #include "hmi_bridge/lcm/command_desk.hpp"
-#include "hmi_bridge/modbus/client.hpp"
 #include "hmi_bridge/modbus/map.hpp"
-#include "hmi_bridge/modbus/server.hpp"
+#include "hmi_bridge/modbus/options.hpp"
 #include "hmi_bridge/network/network.hpp"
 #include "hmi_bridge/retain/kept_value.hpp"
 #include "hmi_bridge/studio/config.hpp"

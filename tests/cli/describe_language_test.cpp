@@ -32,6 +32,15 @@ TEST(DescribeLanguage, ListsEachFunctionOperatorAndType) {
     EXPECT_NE(types.find("\n" + std::string(type_name(type.type)) + " "), std::string::npos);
 }
 
+TEST(DescribeLanguage, FindsEachFunctionByItsNameWithAnExample) {
+  for (const StandardFunction& function : standard_functions()) {
+    const json shown = described(std::string(function.name));
+    EXPECT_EQ(shown["kind"], "function") << function.name;
+    EXPECT_EQ(shown["signature"], signature(function));
+    EXPECT_FALSE(shown["examples"].empty()) << function.name;
+  }
+}
+
 TEST(DescribeLanguage, TellsOfAFunctionItsInputsItsEdgesAndItsExamples) {
   const json shown = described("limit");
   EXPECT_EQ(shown["name"], "LIMIT");

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 
@@ -218,6 +220,37 @@ TEST(Readme, ThoseOfTheFoldersAndThisOneLinkToFilesThatAreThere) {
     }
   }
   EXPECT_GT(links, 10u);
+}
+
+/// The indented block of which a part is known, without its indentation.
+std::string block_with(const std::string& document, const std::string& part) {
+  const std::size_t at = document.find(part);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = document.rfind("\n\n", at) + 2;
+  return replaced("\n" + document.substr(begin, document.find("\n\n", at) - begin), "\n    ", "\n");
+}
+
+/// Settings of an editor for the package, which installs the schemas beside the examples' documents.
+TEST(Readme, ItsSettingsOfAnEditorNameSchemasThatAreThere) {
+  const std::string document = content(kSource + "README.md");
+  const nlohmann::json settings =
+      nlohmann::json::parse("{" + block_with(document, "\"json.schemas\"") + "}", nullptr, false);
+  ASSERT_TRUE(settings.is_object()) << block_with(document, "\"json.schemas\"");
+  const nlohmann::json schemas = settings.at("json.schemas"), comments = settings.at("files.associations");
+  EXPECT_GE(schemas.size(), 3u);
+  for (const nlohmann::json& one : schemas) {
+    const std::string url = one.at("url");
+    EXPECT_TRUE(url.starts_with("file:///usr/share/lockstep/")) << url;
+    EXPECT_TRUE(std::filesystem::exists(kSource + "projects/" + url.substr(url.rfind('/') + 1))) << url;
+    EXPECT_FALSE(one.at("fileMatch").empty());
+  }
+  for (const nlohmann::json& kind : comments) EXPECT_EQ(kind, "jsonc");
+  std::size_t named = 0;
+  const std::regex schema(R"(([a-z]+\.schema\.json))");
+  for (std::sregex_iterator match(document.begin(), document.end(), schema), end; match != end;
+       ++match, ++named)
+    EXPECT_TRUE(std::filesystem::exists(kSource + "projects/" + (*match)[1].str())) << (*match)[1];
+  EXPECT_GE(named, 6u);
 }
 
 TEST(Readme, TheCommandsOfDevThatItNamesAreThere) {
