@@ -60,14 +60,26 @@ Browser::Browser() {
 }
 
 Browser::~Browser() {
-  if (child_ > 0) {
-    kill(-child_, SIGKILL);
-    waitpid(child_, nullptr, 0);
-    // Its other processes end a moment later, and write to its profile until then.
-    while (kill(-child_, 0) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
+  kill();
   if (out_ >= 0) close(out_);
   if (in_ >= 0) close(in_);
+}
+
+void Browser::freeze() const {
+  if (::kill(-child_, SIGSTOP) != 0) throw std::runtime_error("chromium cannot be frozen");
+}
+
+void Browser::thaw() const {
+  if (::kill(-child_, SIGCONT) != 0) throw std::runtime_error("chromium cannot be thawed");
+}
+
+void Browser::kill() {
+  if (child_ <= 0) return;
+  ::kill(-child_, SIGKILL);
+  waitpid(child_, nullptr, 0);
+  // Its other processes end a moment later, and write to its profile until then.
+  while (::kill(-child_, 0) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  child_ = -1;
 }
 
 void Browser::start() {

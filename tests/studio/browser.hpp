@@ -47,6 +47,11 @@ class Browser {
   Json middle_of(const std::string& selector);
   /// As a system that prefers it has it.
   void prefer_dark(bool dark);
+  /// All its processes stand still: connections stay open, nothing is said on them any more.
+  void freeze() const;
+  void thaw() const;
+  /// All its processes are gone, without a word. Nothing else may be asked of it.
+  void kill();
   /// A picture of the window, PNG.
   std::string picture();
 
