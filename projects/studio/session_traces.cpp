@@ -1,4 +1,6 @@
 // What pages do with traces: that of the run, shots, files.
+#include <unistd.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -32,6 +34,21 @@ Json file_json(const StudioTraceFile& file) {
   if (!file.remark.empty()) json["remark"] = file.remark;
   return json;
 }
+
+/// A file that was sent, which is removed unless somebody takes it.
+class SentFile {
+ public:
+  explicit SentFile(std::string path) : path_(std::move(path)) {}
+  ~SentFile() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  SentFile(const SentFile&) = delete;
+  SentFile& operator=(const SentFile&) = delete;
+  void taken() noexcept { path_.clear(); }
+
+ private:
+  std::string path_;
+};
 
 /// Of `/api/traces/ID/WHAT`.
 std::pair<std::string_view, std::string_view> parts_of(const StudioRequest& request) {
@@ -122,6 +139,7 @@ StudioAnswer StudioSession::compare(const StudioRequest& request) const {
 
 StudioAnswer StudioSession::take_trace(const StudioRequest& request) {
   const bool is_sent = !request.body_file.empty();
+  SentFile sent(request.body_file);
   if (!takes_uploads()) return error_answer(403, "not_allowed", powers_.why_no_files);
   std::string path = request.body_file;
   std::string name(request.value("name", "trace.csv"));
@@ -140,6 +158,7 @@ StudioAnswer StudioSession::take_trace(const StudioRequest& request) {
   if (file == nullptr)
     throw BadRequest(422, "too_many",
                      "allowed: " + std::to_string(StudioTraceFiles::kFiles) + " files at once");
+  sent.taken();
   StudioAnswer answer = answer_of(file_json(*file));
   answer.status = 202;
   return answer;

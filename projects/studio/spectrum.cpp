@@ -38,8 +38,9 @@ double weight(SpectrumWindow window, double part) noexcept {
   }
 }
 
-/// Local maxima; where they lie between two values by the parabola through three of them.
-std::vector<Spectrum::Peak> peaks_of(const std::vector<double>& amplitude, double step) {
+/// Local maxima; where they lie between two values by the parabola through three of them. How high they are
+/// too, but for a window with a flat top: there the highest of the three is it already.
+std::vector<Spectrum::Peak> peaks_of(const std::vector<double>& amplitude, double step, bool is_flat) {
   std::vector<Spectrum::Peak> peaks;
   const double floor = amplitude.empty() ? 0.0 : kNoise * *std::ranges::max_element(amplitude);
   for (std::size_t i = 1; i + 1 < amplitude.size(); ++i) {
@@ -47,7 +48,8 @@ std::vector<Spectrum::Peak> peaks_of(const std::vector<double>& amplitude, doubl
     if (!(here > before && here >= behind && here > floor)) continue;
     const double bend = before - 2.0 * here + behind;
     const double shift = bend < 0.0 ? 0.5 * (before - behind) / bend : 0.0;
-    peaks.push_back({(static_cast<double>(i) + shift) * step, here - 0.25 * (before - behind) * shift});
+    peaks.push_back(
+        {(static_cast<double>(i) + shift) * step, is_flat ? here : here - 0.25 * (before - behind) * shift});
   }
   std::ranges::sort(peaks, std::ranges::greater{}, &Spectrum::Peak::amplitude);
   if (peaks.size() > kPeaks) peaks.resize(kPeaks);
@@ -113,7 +115,7 @@ Spectrum spectrum_of(const std::vector<double>& values, double distance, Spectru
   if (!spectrum.amplitude.empty()) spectrum.amplitude[0] = std::abs(mean);
   std::vector<double> without_mean = spectrum.amplitude;
   if (!without_mean.empty()) without_mean[0] = 0.0;
-  spectrum.peaks = peaks_of(without_mean, spectrum.step);
+  spectrum.peaks = peaks_of(without_mean, spectrum.step, window == SpectrumWindow::flattop);
   return spectrum;
 }
 

@@ -57,10 +57,16 @@ void require_even(const TraceStore& store, const TracePart& part, const TraceWin
       throw BadRequest(409, "conflict",
                        std::to_string(gap.missing) + " rows are missing before " + std::to_string(gap.t) +
                            " ns; allowed: a time without gaps");
-  const double distance =
-      static_cast<double>(rows.t.back() - rows.t.front()) / static_cast<double>(rows.t.size() - 1);
+  // That of most rows, so that it is the place of the gap that is told.
+  std::vector<std::int64_t> distances;
+  distances.reserve(rows.t.size() - 1);
+  for (std::size_t i = 1; i < rows.t.size(); ++i) distances.push_back(rows.t[i] - rows.t[i - 1]);
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::ranges::nth_element(distances, middle);
+  const auto distance = static_cast<double>(*middle);
   for (std::size_t i = 1; i < rows.t.size(); ++i)
-    if (std::abs(static_cast<double>(rows.t[i] - rows.t[i - 1]) - distance) > kUneven * distance + 1.0)
+    if (std::abs(static_cast<double>(rows.t[i] - rows.t[i - 1]) - distance) > kUneven * distance + 1.0 ||
+        rows.t[i] == rows.t[i - 1])
       throw BadRequest(409, "conflict",
                        "the rows are not at equal distances at " + std::to_string(rows.t[i]) +
                            " ns; allowed: a time in which they are");
@@ -100,10 +106,11 @@ std::vector<std::size_t> outline(const std::vector<double>& x, const std::vector
     const std::size_t to = std::min(from + size, x.size());
     std::array<std::size_t, 6> rows{from, from, from, from, from, to - 1};
     for (std::size_t i = from; i < to; ++i) {
-      if (x[i] < x[rows[1]]) rows[1] = i;
-      if (x[i] > x[rows[2]]) rows[2] = i;
-      if (y[i] < y[rows[3]]) rows[3] = i;
-      if (y[i] > y[rows[4]]) rows[4] = i;
+      // What is no number gives way to each that is one.
+      if (x[i] < x[rows[1]] || std::isnan(x[rows[1]])) rows[1] = i;
+      if (x[i] > x[rows[2]] || std::isnan(x[rows[2]])) rows[2] = i;
+      if (y[i] < y[rows[3]] || std::isnan(y[rows[3]])) rows[3] = i;
+      if (y[i] > y[rows[4]] || std::isnan(y[rows[4]])) rows[4] = i;
     }
     std::ranges::sort(rows);
     for (const std::size_t row : rows)
@@ -128,7 +135,8 @@ struct Difference {
       first_a = a;
       first_b = b;
     }
-    if (const double apart = std::abs(a - b); !(apart <= maximum) || different == 1) {
+    // A row without a number on one side is no distance: it is told only if there is no other.
+    if (const double apart = std::abs(a - b); apart > maximum || std::isnan(maximum) || different == 1) {
       maximum = apart;
       maximum_t = t;
     }

@@ -1,0 +1,254 @@
+// Files that pages send to the studio: what is taken, under which name, and what becomes of the rest.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "hmi_bridge/studio/server.hpp"
+#include "tests/projects/studio_files.hpp"
+
+namespace lockstep::studio_upload_test {
+namespace {
+
+using Json = nlohmann::json;
+using test::StudioConnection;
+using test::StudioFolder;
+using test::StudioOfFiles;
+
+const std::string kTrace = "t,v\n0,1\n1,2.5\n2,-3\n";
+
+std::size_t files_in(const StudioFolder& folder) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    count += entry.exists() ? 1 : 0;
+  return count;
+}
+
+/// Waits until nothing is left in a folder.
+bool is_emptied(const StudioFolder& folder) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  while (files_in(folder) != 0) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+class Studio : public StudioOfFiles {
+ public:
+  using StudioOfFiles::StudioOfFiles;
+
+  /// As the server does it: the body lies in a file of its own.
+  StudioAnswer send(const std::string& name, const std::string& content = kTrace) {
+    StudioRequest request;
+    request.method = "POST";
+    request.path = "/api/traces";
+    if (!name.empty()) request.query.emplace_back("name", name);
+    request.body_file = folder.write("sent-" + std::to_string(++number_), content);
+    StudioAnswer answer;
+    answer.status = 0;
+    session.answer(request, [&answer](StudioAnswer given) { answer = std::move(given); });
+    return answer;
+  }
+
+  StudioFolder folder;
+
+ private:
+  int number_ = 0;
+};
+
+TEST(StudioUpload, IsReadAndRemoved) {
+  Studio studio;
+  const StudioAnswer answer = studio.send("run 7.csv");
+  EXPECT_EQ(answer.status, 202u);
+  EXPECT_EQ(Json::parse(answer.body).at("id"), "file-1");
+  const Json trace = studio.settled("file-1");
+  EXPECT_EQ(trace.at("state"), "ready");
+  EXPECT_EQ(trace.at("kind"), "file");
+  EXPECT_EQ(trace.at("name"), "run 7.csv");
+  EXPECT_EQ(trace.at("rows"), 3);
+  EXPECT_EQ(trace.at("to"), "2000000000");
+  EXPECT_TRUE(is_emptied(studio.folder));
+  const Json seen = studio.get("/api/traces/file-1/statistics", {{"signals", "v"}});
+  EXPECT_EQ(seen.at(0).at("minimum"), -3.0);
+  EXPECT_EQ(seen.at(0).at("t_minimum"), "2000000000");
+  EXPECT_EQ(studio.ask("DELETE", "/api/traces/file-1").status, 200u);
+  EXPECT_TRUE(studio.told("file-1").is_null());
+  EXPECT_EQ(studio.ask("DELETE", "/api/traces/file-1").status, 404u);
+  EXPECT_EQ(studio.ask("DELETE", "/api/traces/live").status, 404u);
+}
+
+TEST(StudioUpload, IsCalledByItsNameAloneAndTouchesNothingElse) {
+  Studio studio;
+  const StudioFolder other;
+  const std::string kept = other.write("kept.csv", "t,kept\n0,1\n");
+  EXPECT_EQ(studio.send("../../../../etc/passwd.csv").status, 202u);
+  EXPECT_EQ(studio.send(kept).status, 202u);
+  EXPECT_EQ(studio.send("<script>alert(1)</script>.csv").status, 202u);
+  EXPECT_EQ(studio.send("\xff\xfe\n\"\\.csv").status, 202u);
+  EXPECT_EQ(studio.settled("file-1").at("name"), "passwd.csv");
+  EXPECT_EQ(studio.settled("file-2").at("name"), "kept.csv");
+  EXPECT_EQ(studio.settled("file-2").at("signals").at(0).at("path"), "v") << "of what was sent";
+  EXPECT_EQ(studio.settled("file-3").at("name"), "script>.csv");
+  EXPECT_EQ(studio.settled("file-4").at("state"), "ready");
+  EXPECT_TRUE(std::filesystem::exists(kept));
+  EXPECT_TRUE(is_emptied(studio.folder));
+}
+
+TEST(StudioUpload, ThatIsNoTraceIsRefusedAndLeavesNoFile) {
+  Studio studio;
+  for (const std::string name :
+       {"passwd", "a.csv/", "..", ".csv.", "a.CSV.txt", "project.json", "/", "a.csv\n", "a.csv "}) {
+    const StudioAnswer answer = studio.send(name);
+    EXPECT_EQ(answer.status, 422u) << name;
+    EXPECT_NE(answer.body.find(".csv or .lcm"), std::string::npos) << answer.body;
+    EXPECT_EQ(files_in(studio.folder), 0u) << name;
+  }
+  EXPECT_EQ(studio.send(std::string(5000, 'a') + ".csv").status, 422u);
+  EXPECT_EQ(files_in(studio.folder), 0u);
+  EXPECT_EQ(studio.get("/api/traces").at("traces").size(), 1u) << "the live one";
+}
+
+TEST(StudioUpload, ThatCannotBeReadTellsWhyByItsOwnName) {
+  Studio studio;
+  const std::vector<std::pair<std::string, std::string>> bad = {{"empty.csv", ""},
+                                                                {"words.csv", "t,v\n0,one\n"},
+                                                                {"short.csv", "t,v,w\n0,1\n"},
+                                                                {"back.csv", "t,v\n1,1\n0,1\n"},
+                                                                {"far.csv", "t,v\n0,1\n1e300,1\n"},
+                                                                {"never.csv", "t,v\nnan,1\n"},
+                                                                {"noise.lcm", "this is no event log"},
+                                                                {"binary.csv", std::string("\0\1\2\3", 4)}};
+  for (const auto& [name, content] : bad) {
+    const StudioAnswer answer = studio.send(name, content);
+    ASSERT_EQ(answer.status, 202u) << answer.body;
+    const std::string id = Json::parse(answer.body).at("id");
+    const Json trace = studio.settled(id);
+    EXPECT_EQ(trace.at("state"), "failed") << name;
+    ASSERT_TRUE(trace.contains("error")) << name;
+    const std::string message = trace.at("error").at("message");
+    EXPECT_NE(message.find(name), std::string::npos) << message;
+    EXPECT_EQ(message.find(studio.folder.path().string()), std::string::npos) << message;
+    EXPECT_EQ(studio.ask("GET", "/api/traces/" + id + "/window", {{"signals", "v"}}).status, 422u);
+    EXPECT_EQ(studio.ask("GET", "/api/traces/" + id + "/xy", {{"x", "v"}, {"y", "v"}}).status, 422u);
+  }
+  EXPECT_TRUE(is_emptied(studio.folder));
+}
+
+TEST(StudioUpload, IsTakenAsLongAsThereAreNotTooMany) {
+  Studio studio;
+  for (std::size_t i = 0; i < StudioTraceFiles::kFiles; ++i)
+    ASSERT_EQ(studio.send("a.csv").status, 202u) << i;
+  EXPECT_EQ(studio.settled("file-" + std::to_string(StudioTraceFiles::kFiles)).at("state"), "ready");
+  EXPECT_TRUE(is_emptied(studio.folder));
+  const StudioAnswer answer = studio.send("a.csv");
+  EXPECT_EQ(answer.status, 422u);
+  EXPECT_EQ(Json::parse(answer.body).at("error").at("code"), "too_many");
+  EXPECT_EQ(files_in(studio.folder), 0u);
+  EXPECT_EQ(studio.ask("DELETE", "/api/traces/file-3").status, 200u);
+  EXPECT_EQ(studio.send("a.csv").status, 202u);
+  EXPECT_EQ(studio.settled("file-33").at("state"), "ready") << "numbers are not given twice";
+}
+
+TEST(StudioUpload, IsNotTakenBesideAMachine) {
+  test::StudioMachine machine(Simulation::from_text(R"({ "lockstep": 1, "name": "machine",
+      "clock": { "servo_cycle": "2ms" }, "technology_objects": {}, "programs": [] })"));
+  const StudioFolder folder;
+  StudioRequest request;
+  request.method = "POST";
+  request.path = "/api/traces";
+  request.body_file = folder.write("sent", kTrace);
+  StudioAnswer answer;
+  machine.session.answer(request, [&answer](StudioAnswer given) { answer = std::move(given); });
+  EXPECT_EQ(answer.status, 403u);
+  EXPECT_EQ(files_in(folder), 0u);
+  const StudioAnswer named = machine.ask("POST", "/api/traces", {}, R"({"path":"/etc/passwd.csv"})");
+  EXPECT_EQ(named.status, 403u);
+}
+
+TEST(StudioUpload, OfAPathNeedsOne) {
+  Studio studio;
+  for (const std::string body : {"", "{}", "[]", "7", R"({"path":7})", R"({"path":""})",
+                                 R"({"path":"/etc/passwd"})", R"({"path":"../../etc/shadow"})"})
+    EXPECT_EQ(studio.ask("POST", "/api/traces", {}, body).status, 422u) << body;
+  const StudioAnswer nowhere = studio.ask("POST", "/api/traces", {},
+                                          Json{{"path", (studio.folder.path() / "no.csv").string()}}.dump());
+  EXPECT_EQ(nowhere.status, 202u);
+  EXPECT_EQ(studio.settled("file-1").at("state"), "failed");
+  // A file of the desk stays where it is.
+  const std::string mine = studio.folder.write("mine.csv", kTrace);
+  studio.open(mine);
+  EXPECT_TRUE(std::filesystem::exists(mine));
+}
+
+/// The studio behind its server; all is asked of it over the network.
+class Served {
+ public:
+  Served() {
+    StudioServerOptions options;
+    options.listen = {"127.0.0.1", 0};
+    options.upload_folder = folder.path().string();
+    server = std::make_unique<StudioServer>(std::move(options), studio.session);
+    EXPECT_EQ(server->start(), "");
+  }
+  std::string head(const StudioConnection& client, const std::string& target, const std::string& type,
+                   std::uint64_t size) const {
+    return "POST " + target + " HTTP/1.1\r\nHost: " + client.host() + "\r\nOrigin: " + client.origin() +
+           "\r\nContent-Type: " + type + "\r\nContent-Length: " + std::to_string(size) + "\r\n\r\n";
+  }
+
+  StudioFolder folder;
+  StudioOfFiles studio;
+  std::unique_ptr<StudioServer> server;
+};
+
+TEST(StudioUpload, OverTheNetworkArrivesWholeOrNotAtAll) {
+  Served served;
+  const std::uint16_t port = served.server->endpoint().port;
+  {
+    StudioConnection broken(port);
+    broken.send(served.head(broken, "/api/traces?name=broken.csv", "text/csv", 1'000'000) + kTrace);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+    while (files_in(served.folder) == 0 && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(files_in(served.folder), 1u) << "as long as it comes";
+  }
+  EXPECT_TRUE(is_emptied(served.folder)) << "what broke off is gone";
+  StudioConnection client(port);
+  client.send(served.head(client, "/api/traces?name=..%2F..%2Fwhole.csv", "text/csv", kTrace.size()) +
+              kTrace);
+  const test::HttpAnswer taken = client.answer();
+  EXPECT_EQ(taken.status, 202) << taken.body;
+  const Json told = Json::parse(taken.body);
+  EXPECT_EQ(told.at("id"), "file-1") << "the broken one has never been a trace";
+  EXPECT_EQ(told.at("name"), "whole.csv");
+  EXPECT_TRUE(is_emptied(served.folder));
+}
+
+TEST(StudioUpload, OverTheNetworkIsRefusedWithoutAFile) {
+  Served served;
+  const std::uint16_t port = served.server->endpoint().port;
+  const auto status = [&](const std::string& target, const std::string& type, std::uint64_t size) {
+    StudioConnection client(port);
+    client.send(served.head(client, target, type, size) + kTrace);
+    return client.answer().status;
+  };
+  EXPECT_EQ(status("/api/traces?name=big.csv", "text/csv", (std::uint64_t{2} << 30) + 1), 413);
+  EXPECT_EQ(status("/api/traces?name=a.txt", "text/csv", kTrace.size()), 422);
+  EXPECT_EQ(status("/api/traces?name=a.csv", "text/plain", kTrace.size()), 403);
+  EXPECT_EQ(status("/api/traces/live/derived", "text/csv", kTrace.size()), 403);
+  EXPECT_EQ(status("/api/tracesuite", "text/csv", kTrace.size()), 403);
+  EXPECT_EQ(status("/api/../api/traces", "text/csv", kTrace.size()), 403);
+  EXPECT_TRUE(is_emptied(served.folder));
+}
+
+}  // namespace
+}  // namespace lockstep::studio_upload_test
