@@ -17,6 +17,7 @@ export interface PanelNotes {
 }
 
 const kBeat = 100;  // a motion is said again so often; 300 ms of silence end it [ms]
+const kSilence = 300;
 const kBits: [number, string][] = [[0, "enabled"], [1, "error"], [2, "restart"], [4, "panel"], [5, "homed"], [6, "done"], [7, "standstill"]];
 
 let sequence = 0;
@@ -78,7 +79,11 @@ class Card {
     this.refused.textContent = "";
     this.jogs[action].setAttribute("aria-pressed", "true");
     this.notes.held(true);
+    let said = performance.now();
     const say = async (): Promise<void> => {
+      // The cycle has ended the motion of a page that was silent: it begins again only by a new press.
+      if (performance.now() - said > kSilence) { this.release(); return; }
+      said = performance.now();
       const answer = await this.tell(action, velocity);
       if (!answer) this.release();
     };
