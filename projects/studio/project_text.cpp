@@ -148,6 +148,7 @@ Json StudioProjectText::couplings() const {
 
 Json StudioProjectText::uses(std::string_view name) const {
   Json list = Json::array();
+  if (name.empty()) return list;
   each_call_of(document_, [&](const Json& program, const Json& call, const std::string& pointer) {
     const std::string where = "program " + written(at(program, "name"));
     const auto look = [&](const std::string& key, const Json& value, const std::string& what) {

@@ -1,5 +1,4 @@
-// What an outsider does with a machine in the page: looks, measures, triggers, provokes an alarm, finds it,
-// and jogs.
+// What the panel of the page moves, and how every motion ends: by the hand, by the page, or by its silence.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -16,7 +15,6 @@ namespace lockstep::panel_test {
 namespace {
 
 using Json = nlohmann::json;
-using test::kDrawn;
 using Page = test::StudioPage;
 
 /// The rotary knife, whose drive is blocked while a tag says so.
