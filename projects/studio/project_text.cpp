@@ -2,6 +2,8 @@
 
 #include <functional>
 
+#include "projects/json/problem.hpp"
+
 namespace lockstep {
 namespace {
 
