@@ -77,15 +77,26 @@ CommandDesk::Verdict CommandDesk::give(const command_t& command, Clock::time_poi
   ++counters_.accepted;
   const std::size_t axis = *find(command.axis, route);
   if (watch_) tell_watch(command, axis);
-  Jog& jog = jogs_[axis];
+  const Jog& jog = jogs_[axis];
   const bool goes_on = is_jog(command.action) && jog.action == command.action &&
                        jog.sender == command.sender && now < jog.until;
-  if (is_jog(command.action))
-    jog = {command.sender, command.action, now + kHold};
-  else if (calms(command.action))
-    jog = {};
+  replace_jog(command, axis, now);
   carry_out(command, axis);
   return {true, "", !goes_on};
+}
+
+/// A jog that its own panel has not stopped has ended for good, whatever of it is still under way.
+void CommandDesk::replace_jog(const command_t& command, std::size_t axis, Clock::time_point now) {
+  if (!is_jog(command.action) && !calms(command.action)) return;
+  Jog& jog = jogs_[axis];
+  if (is_jog(jog.action) && jog.sender != command.sender)
+    if (const auto known = senders_.find(jog.sender); known != senders_.end())
+      known->second.ended.insert(axis);
+  jog = {};
+  if (is_jog(command.action))
+    jog = {command.sender, command.action, now + kHold};
+  else if (const auto known = senders_.find(command.sender); known != senders_.end())
+    known->second.ended.erase(axis);
 }
 
 void CommandDesk::leave(std::int64_t sender, Clock::time_point now) {
@@ -128,9 +139,27 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge(const command_t& command,
   if (powers && !axes_[*axis].enabled_by.empty())
     return Refusal{&CommandCounters::impossible,
                    "a program enables and disables this axis, by its instance " + axes_[*axis].enabled_by};
-  const Jog& jog = jogs_[*axis];
-  if (is_jog(command.action) && jog.sender != command.sender && now < jog.until)
+  return is_jog(command.action) ? judge_jog(command, *axis, now, route) : std::nullopt;
+}
+
+/// One panel jogs at a time. A page says stop when its button is let go; what comes of a held one behind a
+/// silence, or behind the stop of somebody else, has hung under way or is not known to its operator. A panel
+/// on LCM may have no key that is let go, as a terminal has none: there each command counts by itself.
+std::optional<CommandDesk::Refusal> CommandDesk::judge_jog(const command_t& command, std::size_t axis,
+                                                           Clock::time_point now, CommandRoute route) const {
+  const Jog& jog = jogs_[axis];
+  const bool is_own = jog.sender == command.sender;
+  if (!is_own && now < jog.until)
     return Refusal{&CommandCounters::impossible, "another panel is jogging this axis"};
+  if (route == CommandRoute::lcm) return std::nullopt;
+  if (is_own && is_jog(jog.action) && now >= jog.until)
+    return Refusal{&CommandCounters::impossible,
+                   std::to_string(kHold.count()) +
+                       " ms of silence have ended this motion; let the button go, and press it anew"};
+  const auto known = senders_.find(command.sender);
+  if (known != senders_.end() && known->second.ended.contains(axis))
+    return Refusal{&CommandCounters::impossible,
+                   "somebody else has stopped this motion; let the button go, and press it anew"};
   return std::nullopt;
 }
 
@@ -154,7 +183,11 @@ std::optional<CommandDesk::Refusal> CommandDesk::judge_sender(const command_t& c
   if (!capacity && !calms(command.action))
     return Refusal{&CommandCounters::too_many,
                    "too many panels; allowed: " + std::to_string(kMaximumSenders)};
-  if (capacity && !behind) senders_[command.sender] = {command.sequence, now};
+  if (capacity && !behind) {
+    Sender& sender = senders_[command.sender];
+    sender.sequence = command.sequence;
+    sender.last = now;
+  }
   if (!commands_.take(now, kMaximumPerSecond) && !calms(command.action))
     return Refusal{&CommandCounters::too_many,
                    "too many commands; allowed: " + std::to_string(kMaximumPerSecond) + " in a second"};

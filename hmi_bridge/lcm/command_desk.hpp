@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -143,6 +144,7 @@ class CommandDesk {
   struct Sender {
     std::int64_t sequence;
     Clock::time_point last;
+    std::set<std::size_t> ended;  // axes whose jog it has not stopped itself: it says stop before it jogs
   };
   struct Jog {
     std::int64_t sender = 0;
@@ -160,6 +162,9 @@ class CommandDesk {
   std::optional<Refusal> judge_sender(const command_t& command, Clock::time_point now);
   std::optional<Refusal> judge_program(const command_t& command, std::size_t axis) const;
   std::optional<Refusal> judge_value(const command_t& command, std::size_t axis) const;
+  std::optional<Refusal> judge_jog(const command_t& command, std::size_t axis, Clock::time_point now,
+                                   CommandRoute route) const;
+  void replace_jog(const command_t& command, std::size_t axis, Clock::time_point now);
   void carry_out(const command_t& command, std::size_t axis);
   void tell_watch(const command_t& command, std::size_t axis) const;
   Verdict refuse(const Refusal& refusal, const command_t* command, Clock::time_point now);

@@ -231,6 +231,64 @@ TEST_F(Commands, OnePanelJogsAnAxisAndAnyMayStopIt) {
   EXPECT_TRUE(accepted(other)) << "the first one has let go";
 }
 
+// A page: its button is held down, and let go by a stop.
+class PageCommands : public Commands {
+ protected:
+  /// @return why it is refused; empty: it is not
+  std::string give_page(std::int32_t action, std::int64_t page = 1) {
+    command_t given = command(action, 1.0);
+    given.sender = page;
+    const CommandDesk::Verdict verdict = desk_.give(given, now_, CommandRoute::studio);
+    image_.take_writes();
+    return verdict.reason;
+  }
+  std::string jog(std::int64_t page = 1) { return give_page(command_t::JOG_FORWARD, page); }
+  std::string stop(std::int64_t page = 1) { return give_page(command_t::STOP, page); }
+};
+
+TEST_F(PageCommands, TakeNoJogUpAgainThatSilenceHasEnded) {
+  EXPECT_EQ(jog(), "");
+  now_ += CommandDesk::kHold - 1ms;
+  EXPECT_EQ(jog(), "");
+  now_ += CommandDesk::kHold;
+  const UDINT beat = knife_.beat;
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_NE(jog().find("300 ms of silence have ended this motion"), std::string::npos);
+    EXPECT_NE(give_page(command_t::JOG_BACKWARD).find("300 ms of silence"), std::string::npos);
+    now_ += 100ms;
+  }
+  EXPECT_EQ(knife_.beat, beat) << "nothing of it reaches the cycle, which has ended the motion";
+  EXPECT_EQ(stop(), "");
+  EXPECT_EQ(jog(), "") << "let go, and pressed anew";
+  EXPECT_EQ(knife_.beat, beat + 1);
+}
+
+TEST_F(PageCommands, TakeNoJogUpAgainThatAnotherHasStopped) {
+  EXPECT_EQ(jog(1), "");
+  now_ += 100ms;
+  EXPECT_EQ(stop(2), "");
+  EXPECT_FALSE(knife_.forward);
+  now_ += 100ms;
+  EXPECT_NE(jog(1).find("somebody else has stopped this motion"), std::string::npos);
+  EXPECT_FALSE(knife_.forward);
+  EXPECT_EQ(jog(2), "") << "only whom it was taken from has to let go";
+  EXPECT_EQ(stop(2), "");
+  EXPECT_NE(jog(1).find("somebody else"), std::string::npos);
+  EXPECT_EQ(stop(1), "");
+  EXPECT_EQ(jog(1), "");
+  EXPECT_TRUE(knife_.forward);
+}
+
+TEST_F(PageCommands, TakeNoJogUpAgainBehindAnotherPanelsTurn) {
+  EXPECT_EQ(jog(1), "");
+  now_ += CommandDesk::kHold;
+  EXPECT_EQ(jog(2), "") << "the first one is silent";
+  EXPECT_EQ(stop(2), "");
+  EXPECT_FALSE(knife_.forward);
+  EXPECT_NE(jog(1), "") << "late";
+  EXPECT_FALSE(knife_.forward);
+}
+
 TEST_F(Commands, AJogIsToldOnceNotWithEachRepetition) {
   EXPECT_TRUE(give(command(command_t::JOG_FORWARD, 1.0)));
   for (int i = 0; i < 5; ++i) {

@@ -57,22 +57,34 @@ void press_and_hold(Page& page, const std::string& action) {
   page.browser.press_pointer(middle["x"], middle["y"]);
 }
 
-/// The knife stands, homed and enabled by its program, without a job that moves it.
+/// What the machine itself says, as the page may not be able to any more.
+Json read(const Page& page, const Json& paths) {
+  const test::HttpAnswer answer = test::StudioConnection(page.machine.studio_endpoint()->port)
+                                      .post("/api/read", Json({{"paths", paths}}).dump());
+  Json values;
+  const Json told = Json::parse(answer.body);
+  for (const Json& one : told.at("values")) values.push_back(one.at("value"));
+  return values;
+}
+
+double knife_velocity(const Page& page) {
+  return read(page, {"Knife.Velocity"}).at(0).get<double>();
+}
+
+/// The knife stands, homed and enabled by its program, which has parked it and has nothing left to do.
 void let_the_knife_stand(Page& page) {
   write_tag(page, "start", "FALSE");
+  const Json paths = {"start", "ran", "park.Busy", "Conveyor.StatusWord.X7", "Knife.StatusWord.X7"};
+  const Json rest = {false, false, false, true, true};
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (read(page, paths) != rest && std::chrono::steady_clock::now() < until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ASSERT_EQ(read(page, paths), rest);
   page.browser.press("4");
   ASSERT_TRUE(page.browser.wait_for("document.querySelector('" + kKnifePanel +
                                     ".panel-state').textContent.includes('standstill')"))
       << page.browser.text(kKnifePanel);
   ASSERT_TRUE(page.browser.wait_for(kVelocity + " < 0.01"));
-}
-
-/// What the machine itself says, as the page may not be able to any more.
-double knife_velocity(const Page& page) {
-  const test::HttpAnswer answer = test::StudioConnection(page.machine.studio_endpoint()->port)
-                                      .post("/api/read", R"({"paths":["Knife.Velocity"]})");
-  const Json read = Json::parse(answer.body);
-  return read.at("values").at(0).at("value").get<double>();
 }
 
 bool knife_stands(const Page& page) {
