@@ -21,9 +21,6 @@ constexpr double kNoDistance = 1e-6;
 /// multiple of that distance: the quintic then stays within some ten times the distance.
 constexpr double kSteepestSynchronizing = 100.0;
 
-/// Over how many ticks the change of the leading velocity is watched.
-constexpr double kWatchedTicks = 16.0;
-
 bool same_place(double distance, double position) noexcept {
   return std::abs(distance) <= kSamePosition * std::max(1.0, std::abs(position));
 }

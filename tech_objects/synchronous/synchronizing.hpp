@@ -53,6 +53,9 @@ class Synchronizing {
     time       ///< planned in time, then a function of the leading value
   };
 
+  /// Over how many ticks the change of the leading velocity is watched.
+  static constexpr double kWatchedTicks = 16.0;
+
   // synchronizing.cpp: what gear and cam share, and the gear
   Start reject(SyncRefusal why) noexcept;
   Start begin_profile(Method method, AxisPosition start) noexcept;
@@ -69,6 +72,7 @@ class Synchronizing {
 
   // synchronizing_in_time.cpp
   Start watch_time(const Chain& chain, const Setpoint& own) noexcept;
+  bool carries_too_far(const Chain& chain, double distance) const noexcept;
   int forced_direction(const Modulo& following) const noexcept;
   double following_distance(const Chain& chain, const Setpoint& own,
                             double synchronous_velocity) const noexcept;

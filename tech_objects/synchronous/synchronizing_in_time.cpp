@@ -11,6 +11,14 @@ namespace {
 /// distance: part of the velocity of the job.
 constexpr double kAgainst = 1e-3;
 
+/// How many times the dynamics of the job a leading value that goes on speeding up may make of a profile that
+/// has been planned at its velocity of the start.
+constexpr double kSteeper = 2.0;
+
+/// Part of its velocity that a measured leading value has to gain while it is watched to be one that speeds
+/// up.
+constexpr double kRunsUp = 0.25;
+
 }  // namespace
 
 /// Profile 0: starts at the last tick from which the distance that is left still suffices for the planned
@@ -43,6 +51,7 @@ Synchronizing::Start Synchronizing::watch_time(const Chain& chain, const Setpoin
   if (!in_time) return Start::not_yet;  // too late for this pass
   if (distance > step && reaches(led.now, distance - step, own.velocity * chain.period, next))
     return Start::not_yet;
+  if (carries_too_far(chain, distance)) return Start::not_yet;
 
   const double covered = following_distance(chain, own, slope_ * led.last.velocity);
   const AxisPosition following = advanced(own.position, covered, chain.function.following());
@@ -55,6 +64,30 @@ Synchronizing::Start Synchronizing::watch_time(const Chain& chain, const Setpoin
   time_velocity_ = std::abs(led.last.velocity);
   distance_ = distance;
   return begin_profile(Method::time, led.last.position);
+}
+
+/// Whether the leading value, speeding up as it does, will be so fast at the synchronous position that a
+/// profile begun now would be steeper than `kSteeper` times its dynamics: it runs over the leading distance,
+/// so that its acceleration grows with the square of the leading velocity. An acceleration that decreases
+/// ends as it is about to; any other one is taken to last.
+/// @param distance of the leading axis that is left
+bool Synchronizing::carries_too_far(const Chain& chain, double distance) const noexcept {
+  const LeadingStep& led = chain.leading.step();
+  const int direction = progress_.direction();
+  const bool is_measured = chain.leading.follows_actual_value();
+  const double acceleration = direction * (is_measured ? watched_acceleration_ : led.now.acceleration);
+  if (acceleration <= 0.0) return false;
+  // What an encoder shows from cycle to cycle is noise beside a velocity that has been there for long.
+  if (is_measured && acceleration * kWatchedTicks * chain.period < kRunsUp * std::abs(led.now.velocity))
+    return false;
+  const double planned = led.last.velocity * led.last.velocity;
+  double to_come = led.now.velocity * led.now.velocity + 2.0 * acceleration * distance;
+  const double decrease = (direction * led.last.acceleration - acceleration) / chain.period;
+  if (!is_measured && decrease > 0.0) {
+    const double velocity = std::abs(led.now.velocity) + 0.5 * acceleration * acceleration / decrease;
+    to_come = std::min(to_come, velocity * velocity);
+  }
+  return to_come > kSteeper * planned;
 }
 
 /// Of SyncDirection: 1, -1; 0: the axis may turn either way.

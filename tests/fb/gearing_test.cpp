@@ -680,6 +680,46 @@ TEST(GearInPosOverTime, DoesNotThrowAnAxisInMotionBehindALeadingValueThatIsSlowA
   EXPECT_LE(fastest, 100.0);
 }
 
+/// The profile runs over the leading distance, so that it gets as steep as the leading value gets fast behind
+/// the start. The job is there before the leading axis starts from rest, as behind one button for both.
+class GearInPosOverTimeBehindARunUp : public ::testing::TestWithParam<double> {};
+
+TEST_P(GearInPosOverTimeBehindARunUp, KeepsTwiceItsDynamicsAndWaitsForTheNextTurnOtherwise) {
+  constexpr double kVelocity = 800.0, kAcceleration = 4000.0, kLeading = 150.0;
+  for (const double place : {20.0, 60.0, 200.0}) {
+    Pair rig(ring, line);
+    const double turn = rig.l.data.Modulo.Length;
+    rig.pos.SyncProfileReference = 0;
+    rig.pos.Velocity = kVelocity;
+    rig.pos.Acceleration = rig.pos.Deceleration = kAcceleration;
+    rig.pos.Jerk = 80000.0;
+    rig.pos.MasterSyncPosition = GetParam();
+    rig.pos.SlaveSyncPosition = place;
+    rig.pos.Execute = true;
+    rig.run_l.Acceleration = kAcceleration;
+    rig.run_l.Jerk = 80000.0;
+    rig.start_leading(kLeading);
+    double fastest = 0.0, steepest = 0.0;
+    int ticks = 0;
+    for (; ticks < 10000 && !rig.pos.InSync; ++ticks) {
+      rig.tick();
+      fastest = std::max(fastest, std::abs(rig.f.setpoint().velocity));
+      steepest = std::max(steepest, std::abs(rig.f.setpoint().acceleration));
+    }
+    ASSERT_TRUE(rig.pos.InSync) << place;
+    EXPECT_LE(fastest, std::sqrt(2.0) * kVelocity) << place;
+    EXPECT_LE(steepest, 3.0 * kAcceleration) << place;
+    const double leading = rig.l.setpoint().position.value;
+    EXPECT_NEAR(rig.f.setpoint().position.value - place,
+                leading - GetParam() + (leading < GetParam() - 1.0 ? turn : 0.0), 1.0)
+        << place;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, GearInPosOverTimeBehindARunUp,
+                         ::testing::Values(0.05, 0.5, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0, 30.0, 45.0, 60.0, 80.0,
+                                           100.0, 150.0, 200.0));
+
 TEST(MC_GearInPos, ReversalWhileSynchronizingRaisesAlarm608) {
   Pair rig;
   rig.pos.MasterSyncPosition = 300.0;

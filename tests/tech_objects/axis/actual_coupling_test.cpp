@@ -418,6 +418,21 @@ TEST(CamInOverTimeByActualValue, DoesNotThrowAnAxisInMotionBehindALeadingAxisTha
   EXPECT_LE(rig.fastest_of(3000), 250.0);
 }
 
+/// What speeds up behind the start makes the profile steeper.
+TEST(GearInPosOverTimeByActualValue, DoesNotThrowAnAxisAtRestBehindALeadingAxisThatRunsUp) {
+  for (const double place : {0.3, 1.0, 3.0, 8.0}) {
+    Pair rig;
+    rig.pos.SyncProfileReference = 0;
+    rig.pos.Velocity = 400.0;
+    rig.pos.Acceleration = rig.pos.Deceleration = 2000.0;
+    rig.pos.MasterSyncPosition = rig.l.data.Position + place;
+    rig.pos.SlaveSyncPosition = rig.f.data.Position + 60.0;
+    rig.pos.Execute = true;
+    rig.run_leading(100.0);
+    EXPECT_LE(rig.fastest_of(3000), 600.0) << place;
+  }
+}
+
 /// What a coarse encoder shows from cycle to cycle is no acceleration that would have to be waited out.
 TEST(GearInPosOverTimeByActualValue, TakesAnAxisInMotionOverBehindACoarseEncoder) {
   Pair rig(driven, virtual_line, 1, 0.02);
