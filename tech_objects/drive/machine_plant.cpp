@@ -68,7 +68,7 @@ MachinePlant::Motion MachinePlant::step(const Begin& begin, const Motion& wanted
   const double rubbed = std::clamp(velocity, -maximum, maximum);
   velocity -= rubbed;
   if (!pulses && velocity * begin.velocity <= 0.0) velocity = 0.0;
-  const double friction = rubbed == 0.0 ? rubbed : rubbed / per_torque_;
+  const double friction = rubbed == 0.0 ? rubbed : rubbed / per_torque_;  // a division is long
   const double against = settings_.stop.side * stopped + friction - settings_.load_torque - additive;
   if (pulses) known_ += (against - known_) * learning_;
   // At the stop with the velocity of the end, as its torque has been found; else the means of the cycle.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "tech_objects/linmot/ascii_line.hpp"
@@ -16,8 +18,11 @@ using namespace linmot;
 
 namespace {
 
-bool same_bytes(const void* one, const void* other, std::size_t size) noexcept {
-  return std::memcmp(one, other, size) == 0;
+/// False says nothing: there may be different bytes between members, and 0 has two signs.
+bool same_bytes(const MotorParameters& one, const MotorParameters& other) noexcept {
+  static_assert(std::is_trivially_copyable_v<MotorParameters>);
+  const void *const left = &one, *const right = &other;
+  return std::memcmp(left, right, sizeof one) == 0;
 }
 
 }  // namespace
@@ -30,6 +35,7 @@ void LinMotController::configure(double servo_period, int) {
   control_cycles_ =
       std::clamp(static_cast<int>(std::lround(servo_period / control_cycle)), 1, kMaximumControlCycles);
   const double cycle = servo_period / control_cycles_;
+  there_count_ = 0;
   for (std::size_t i = 0; i < kMotors; ++i) {
     motors_[i].use_curves(curves.data());
     if (hardware->range_switch) motors_[i].limit_current(data.Motors[i].Parameters.range_3a ? 3.0 : 2.0);
@@ -146,7 +152,7 @@ void LinMotController::take_changed_parameters() noexcept {
   for (const std::size_t i : motors_there()) {
     const MotorParameters &wanted = data.Motors[i].Parameters, &taken = taken_[i];
     // Nearly always they are the same byte by byte, which is quicker to see than that each is the same.
-    if (!same_bytes(&wanted, &taken, sizeof taken) && wanted != taken) take_parameters(i);
+    if (!same_bytes(wanted, taken) && wanted != taken) take_parameters(i);
   }
 }
 

@@ -34,8 +34,8 @@ struct Wiring {
 
 }  // namespace linmot
 
-/// In the servo phase of each tick: inputs, states, commands; then for each control cycle the motors; then
-/// what is watched, and outputs. Thread: that of the cycle, but for what says otherwise.
+/// In the servo phase of each tick: inputs, states, commands; then the motors, each with its control cycles;
+/// then what is watched, and outputs. Thread: that of the cycle, but for what says otherwise.
 class LinMotController final : public TechnologyObject {
  public:
   static constexpr int kMaximumControlCycles = 256;  ///< in a servo cycle

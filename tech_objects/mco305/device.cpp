@@ -323,7 +323,9 @@ void Device::write_outputs() noexcept {
 
 void Device::write_drive() noexcept {
   // Of the same reference, to the bit, it is the same, and a division is long.
-  if (std::bit_cast<std::uint64_t>(reference_) != std::bit_cast<std::uint64_t>(scaled_reference_)) {
+  const bool same =
+      std::bit_cast<std::uint64_t>(reference_) == std::bit_cast<std::uint64_t>(scaled_reference_);
+  if (!same || std::isnan(scaled_reference_)) {
     scaled_reference_ = reference_;
     const double velocity = drive_sign_ * reference_ / CountController::kFullScale * full_reference_;
     drive_velocity_ = std::clamp(velocity, -speed_limit_, speed_limit_) * kMillisecondsPerSecond;

@@ -259,9 +259,10 @@ class Device {
   bool checks_limits_ = false;
   bool has_master_ = false;  // something turns here
   bool looks_at_faults_ = false;
-  double drive_sign_ = 1.0;                                             // of the reference: POSDRCT
-  double full_reference_ = 1.0, speed_limit_ = 0.0;                     // of the drive [qc/ms]
-  double scaled_reference_ = std::numeric_limits<double>::quiet_NaN();  // of which that is [u/s]:
+  double drive_sign_ = 1.0;                          // of the reference: POSDRCT
+  double full_reference_ = 1.0, speed_limit_ = 0.0;  // of the drive [qc/ms]
+  // Of which `drive_velocity_` [u/s] is; not a number: of none.
+  double scaled_reference_ = std::numeric_limits<double>::quiet_NaN();
   double drive_velocity_ = 0.0;
   bool brake_ = false, brake_after_stop_ = false;
   std::int32_t open_loop_ = 0;  // OUTAN

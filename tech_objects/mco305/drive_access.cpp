@@ -1,6 +1,7 @@
 // What the option reads of the drive in which it sits, and changes there: GETVLT, SETVLT, INAD, OUTDA.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tech_objects/mco305/device.hpp"
 #include "tech_objects/mco305_catalogue/drive_parameters.hpp"
@@ -29,8 +30,8 @@ double Device::counts_per_millisecond(double rpm) const noexcept {
 void Device::scale_drive() noexcept {
   full_reference_ =
       maximum_reference_ > 0 ? counts_per_millisecond(maximum_reference_ / kMilli) : velocity_maximum_;
-  scaled_reference_ = std::numeric_limits<double>::quiet_NaN();
   speed_limit_ = speed_high_limit_ < 0 ? kFastest : counts_per_millisecond(speed_high_limit_);
+  scaled_reference_ = std::numeric_limits<double>::quiet_NaN();
 }
 
 double Device::analog_volts(std::size_t input) const noexcept {
