@@ -62,8 +62,24 @@ class CurrentLoop {
   /// @param additive current that is added before the limits [A]
   /// @return the current [A], within ±maximum_current and the band; a band that leaves nothing of that gives
   /// the end of it that is nearer to 0
-  double step(const LoopSetpoint& setpoint, double actual, const CurrentBand& band = {},
+  double step(const LoopSetpoint& setpoint, double actual, const CurrentBand& band,
               double additive = 0.0) noexcept {
+    const double lower = std::clamp(band.lower, -maximum_, maximum_);
+    const double upper = std::clamp(band.upper, lower, maximum_);
+    return step_within(setpoint, actual, additive, lower, upper);
+  }
+  /// The same where nothing limits or adds but the settings.
+  double step(const LoopSetpoint& setpoint, double actual) noexcept {
+    return step_within(setpoint, actual, 0.0, -maximum_, maximum_);
+  }
+  /// [A] By what the last step asked for more than it was permitted; its sign says in which direction.
+  double excess() const noexcept { return excess_; }
+
+ private:
+  static double sign(double value) noexcept { return value > 0.0 ? 1.0 : value < 0.0 ? -1.0 : 0.0; }
+
+  double step_within(const LoopSetpoint& setpoint, double actual, double additive, double lower,
+                     double upper) noexcept {
     const double error = setpoint.position - actual;
     const double moved = actual - last_;
     last_ = actual;
@@ -71,19 +87,12 @@ class CurrentLoop {
     const double asked = additive + offset_ + proportional_ * error + derivative_ * setpoint.velocity -
                          derivative_per_cycle_ * moved + sum_ + sign(setpoint.velocity) * friction_ +
                          setpoint.acceleration * (slower ? deceleration_ : acceleration_);
-    const double lower = std::clamp(band.lower, -maximum_, maximum_);
-    const double upper = std::clamp(band.upper, lower, maximum_);
     const double current = std::clamp(asked, lower, upper);
     excess_ = asked - current;
     // At its limit the integral part stands, but for the way back.
     if (!(excess_ * error > 0.0)) sum_ += integral_per_cycle_ * error;
     return current;
   }
-  /// [A] By what the last step asked for more than it was permitted; its sign says in which direction.
-  double excess() const noexcept { return excess_; }
-
- private:
-  static double sign(double value) noexcept { return value > 0.0 ? 1.0 : value < 0.0 ? -1.0 : 0.0; }
 
   double proportional_ = 0.0, derivative_ = 0.0, derivative_per_cycle_ = 0.0, integral_per_cycle_ = 0.0;
   double friction_ = 0.0, acceleration_ = 0.0, deceleration_ = 0.0, offset_ = 0.0, maximum_ = 0.0;

@@ -12,9 +12,6 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 /// A step is split into so many pieces at most; the last one takes what is left as it comes.
 constexpr int kPieces = 12;
 
-/// [N] A tag that says more, or is no number, pushes with nothing.
-constexpr double kMaximumForce = 1e9;
-
 /// When a distance ≥ 0 is covered from `velocity` on with `acceleration`: the first time > 0; `never` if that
 /// is later.
 double time_to_cover(double distance, double velocity, double acceleration, double never) noexcept {
@@ -40,6 +37,7 @@ void LinearMotorPlant::configure(const LinearMotorPlantSettings& settings, doubl
   for (const DampedStop& stop : settings.stops)
     stops_.push_back({stop.position, static_cast<double>(stop.side), stop.stiffness * kPerMetre,
                       stop.damping * kPerMetre});
+  free_ = spring_.stiffness == 0.0 && stops_.empty();
 }
 
 /// A stop is touched, or met just now, and its damper does not outweigh its spring on the way out.
@@ -60,9 +58,7 @@ LinearMotorPlant::Elastic LinearMotorPlant::elastic() const noexcept {
   return sum;
 }
 
-void LinearMotorPlant::step(double force, double duration) noexcept {
-  const double external = external_force_ != nullptr ? *external_force_ : 0.0;
-  const double pushed = force + weight_ + (std::abs(external) <= kMaximumForce ? external : 0.0);
+void LinearMotorPlant::step_in_pieces(double pushed, double duration) noexcept {
   double left = duration;
   for (int i = 1; i <= kPieces && left > 0.0; ++i) left -= piece(pushed, left, i == kPieces);
 }

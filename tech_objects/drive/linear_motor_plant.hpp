@@ -1,6 +1,7 @@
 /// What a linear motor moves: a mass that forces push, with dry friction, weight, a spring and stops.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -45,7 +46,10 @@ class LinearMotorPlant {
   void configure(const LinearMotorPlantSettings& settings, double start) noexcept;
 
   /// @param force of the motor, constant meanwhile [N]  @param duration [s] > 0
-  void step(double force, double duration) noexcept;
+  void step(double force, double duration) noexcept {
+    const double pushed = force + weight_ + external();
+    if (!free_ || !glides(pushed, duration)) step_in_pieces(pushed, duration);
+  }
   /// Whatever holds it has taken its motion.
   void stop() noexcept { velocity_ = 0.0; }
 
@@ -66,6 +70,24 @@ class LinearMotorPlant {
     double pull = 0.0;       // [N]
     double damping = 0.0;    // [N s/mm]
   };
+  /// [N] A tag that says more, or is no number, pushes with nothing.
+  static constexpr double kMaximumForce = 1e9;
+  double external() const noexcept {
+    const double external = external_force_ != nullptr ? *external_force_ : 0.0;
+    return std::abs(external) <= kMaximumForce ? external : 0.0;
+  }
+  /// Without spring and stops most steps are of one piece. @return false: it turns, and has not moved yet
+  bool glides(double pushed, double duration) noexcept {
+    if (velocity_ == 0.0 && std::abs(pushed) <= friction_) return true;  // it sticks
+    const double against = std::copysign(friction_, velocity_ == 0.0 ? pushed : velocity_);
+    const double acceleration = (pushed - against) / mass_;
+    if (velocity_ * acceleration < 0.0 && -velocity_ / acceleration < duration) return false;
+    const double after = velocity_ + acceleration * duration;
+    position_ = position_ + 0.5 * (velocity_ + after) * duration;
+    velocity_ = after;
+    return true;
+  }
+  void step_in_pieces(double pushed, double duration) noexcept;
   bool pushes(const Stop& stop) const noexcept;
   Elastic elastic() const noexcept;
   double piece(double force, double duration, bool whole) noexcept;
@@ -79,6 +101,7 @@ class LinearMotorPlant {
   double mass_ = 1.0;
   double friction_ = 0.0;
   double weight_ = 0.0;  // along the motion [N]
+  bool free_ = true;     // of spring and stops
   const LREAL* external_force_ = nullptr;
   Stop spring_{};
   std::vector<Stop> stops_;

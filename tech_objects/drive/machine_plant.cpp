@@ -17,6 +17,7 @@ void MachinePlant::configure(const MachinePlantSettings& settings, double motor_
                              double time_constant, double cycle) noexcept {
   settings_ = settings;
   inertia_ = settings.inertia * motor_angle;
+  per_torque_ = cycle / inertia_;
   start_ = start;
   cycle_ = cycle;
   // A stop takes the energy of what runs into it: critically damped with the inertia of the machine.
@@ -40,37 +41,35 @@ double MachinePlant::stop_torque(const Begin& begin, double velocity) const noex
   if (depth <= 0.0) return 0.0;
   const double stiffness = settings_.stop.stiffness;
   const double torque =
-      (stiffness * depth + damping_ * towards) / (1.0 + cycle_ / inertia_ * (stiffness * cycle_ + damping_));
+      (stiffness * depth + damping_ * towards) / (1.0 + per_torque_ * (stiffness * cycle_ + damping_));
   return std::max(torque, 0.0);
 }
 
 /// The motor does what it may; the velocity that comes of it.
 double MachinePlant::push(double velocity_before, double wanted_velocity, const TorqueBand& limits,
                           double additive) noexcept {
-  const double per_torque = cycle_ / inertia_;
-  const double asked = (wanted_velocity - velocity_before) / per_torque + known_ + additive;
+  const double asked = (wanted_velocity - velocity_before) / per_torque_ + known_ + additive;
   torque_ = permitted(limits).cut(asked);
   limited_ = torque_ != asked;
-  return wanted_velocity + per_torque * ((torque_ - asked) + (known_ + additive + settings_.load_torque));
+  return wanted_velocity + per_torque_ * ((torque_ - asked) + (known_ + additive + settings_.load_torque));
 }
 
 MachinePlant::Motion MachinePlant::step(const Begin& begin, const Motion& wanted, bool pulses,
                                         const TorqueBand& limits, double additive) noexcept {
-  const double per_torque = cycle_ / inertia_;
   if (!pulses) {
     torque_ = known_ = 0.0;
     if (begin.velocity == 0.0) return {};  // the brake holds
   }
   double velocity = pulses ? push(begin.velocity, wanted.velocity, limits, additive)
-                           : begin.velocity + per_torque * settings_.load_torque;
+                           : begin.velocity + per_torque_ * settings_.load_torque;
   const double stopped = settings_.has_stop ? stop_torque(begin, velocity) : 0.0;
-  velocity -= per_torque * settings_.stop.side * stopped;
-  const double maximum = per_torque * settings_.friction;
+  velocity -= per_torque_ * settings_.stop.side * stopped;
+  const double maximum = per_torque_ * settings_.friction;
   const double rubbed = std::clamp(velocity, -maximum, maximum);
   velocity -= rubbed;
   if (!pulses && velocity * begin.velocity <= 0.0) velocity = 0.0;
-  const double against =
-      settings_.stop.side * stopped + rubbed / per_torque - settings_.load_torque - additive;
+  const double friction = rubbed == 0.0 ? rubbed : rubbed / per_torque_;  // a division is long
+  const double against = settings_.stop.side * stopped + friction - settings_.load_torque - additive;
   if (pulses) known_ += (against - known_) * learning_;
   // At the stop with the velocity of the end, as its torque has been found; else the means of the cycle.
   if (stopped > 0.0) return {velocity * cycle_, velocity};

@@ -72,8 +72,9 @@ class MachinePlant {
               double additive) noexcept;
   double stop_torque(const Begin& begin, double velocity) const noexcept;
 
-  double torque_ = 0.0;   // of the motor
-  double inertia_ = 0.0;  // torque per acceleration of the machine [Nm s²/u]
+  double torque_ = 0.0;      // of the motor
+  double per_torque_ = 0.0;  // velocity that a torque makes in a cycle [u/s per Nm]
+  double inertia_ = 0.0;     // torque per acceleration of the machine [Nm s²/u]
   MachinePlantSettings settings_;
   double start_ = 0.0;
   double cycle_ = 0.001;

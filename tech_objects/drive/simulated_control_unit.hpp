@@ -47,14 +47,17 @@ class SimulatedControlUnit {
   /// What the drive tells. @param read_encoder puts position and velocity into it, of an encoder that tells
   template <class ReadEncoder>
   DriveActual tell(double torque, ReadEncoder read_encoder) noexcept {
+    // One object for all paths: it is made where the caller has it, and not copied.
+    DriveActual now;
     if (has_faults_ && !hears()) {
       told_.silent = told_.trouble = true;
-      return told_;
+      now = told_;
+      return now;
     }
-    DriveActual now{.enabled = states_.operation(),
-                    .torque = torque,
-                    .fault = states_.fault(),
-                    .inhibited = states_.state() == DriveStates::State::inhibited};
+    now.enabled = states_.operation();
+    now.torque = torque;
+    now.fault = states_.fault();
+    now.inhibited = states_.state() == DriveStates::State::inhibited;
     if (has_faults_ && is_on(faults_.encoder)) {
       now.position = told_.position;
       now.encoder_failed = true;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "tech_objects/linmot/ascii_line.hpp"
@@ -13,6 +16,17 @@ namespace lockstep {
 
 using namespace linmot;
 
+namespace {
+
+/// False says nothing: there may be different bytes between members, and 0 has two signs.
+bool same_bytes(const MotorParameters& one, const MotorParameters& other) noexcept {
+  static_assert(std::is_trivially_copyable_v<MotorParameters>);
+  const void *const left = &one, *const right = &other;
+  return std::memcmp(left, right, sizeof one) == 0;
+}
+
+}  // namespace
+
 LinMotController::LinMotController(std::string object_name, DB_ANY object_number)
     : TechnologyObject(ObjectKind::LinMot_Controller, std::move(object_name), object_number) {}
 
@@ -21,14 +35,21 @@ void LinMotController::configure(double servo_period, int) {
   control_cycles_ =
       std::clamp(static_cast<int>(std::lround(servo_period / control_cycle)), 1, kMaximumControlCycles);
   const double cycle = servo_period / control_cycles_;
+  there_count_ = 0;
   for (std::size_t i = 0; i < kMotors; ++i) {
     motors_[i].use_curves(curves.data());
     if (hardware->range_switch) motors_[i].limit_current(data.Motors[i].Parameters.range_3a ? 3.0 : 2.0);
     motors_[i].configure(motor_settings[i], data.Motors[i].Parameters, cycle, servo_period);
-    taken_[i] = data.Motors[i].Parameters;
+    keep_parameters(i);
+    if (has_motor(i)) there_[there_count_++] = static_cast<std::uint8_t>(i);
   }
+  watches_supplies_ =
+      wiring.power_voltage != nullptr || wiring.signal_voltage != nullptr || wiring.heat_sink_hot != nullptr;
+  has_outputs_ = std::any_of(wiring.outputs.begin(), wiring.outputs.end(),
+                             [](const bool* output) { return output != nullptr; });
   flags_.run = flags_.init = takes_ascii();
   automatic_ = data.Parameters.auto_start;
+  together_.homed = all_homed();
   read_inputs();
   state_ = first_state(facts());
   if (state_ == State::init) begin_init();
@@ -45,22 +66,48 @@ bool LinMotController::takes_ascii() const noexcept {
 void LinMotController::servo(std::int64_t now) noexcept {
   for (AsciiLine* const line : lines) line->step(now);
   read_inputs();
-  take_changed_parameters();
+  if (asleep_ && !wakes()) return;
+  if (there_count_ != 0) take_changed_parameters();
   change_state();
   freeze_motors();
   if (state_ == State::run && command_interface() == CommandInterface::mt) read_code();
-  for (std::size_t i = 0; i < hardware->motors; ++i)
-    if (motors_[i].is_there()) motors_[i].tick(state_ == State::run);
-  if (state_ == State::init) home_next();
-  for (int cycle = 0; cycle < control_cycles_; ++cycle)
-    for (std::size_t i = 0; i < hardware->motors; ++i)
-      if (motors_[i].is_there()) motors_[i].cycle();
-  follow_curves();
+  if (there_count_ != 0) move_motors();
+  if (curves_run_) follow_curves();
   watch();
   // An error switches the motors off before their next control cycle.
-  if (state_ != State::error && facts().error) enter(std::exchange(state_, State::error));
-  write_outputs();
+  if (state_ != State::error && has_error()) enter(std::exchange(state_, State::error));
+  if (has_outputs_) write_outputs();
   show();
+  asleep_ = there_count_ == 0 && may_sleep();
+  if (asleep_) slept_ = requests_;
+}
+
+void LinMotController::move_motors() noexcept {
+  if (state_ == State::init) return home_motors();
+  const bool runs = state_ == State::run;
+  for (const std::size_t i : motors_there()) {
+    motors_[i].tick(runs);
+    motors_[i].run(control_cycles_);
+  }
+}
+
+/// One that waits begins in the tick in which the one before is done.
+void LinMotController::home_motors() noexcept {
+  for (const std::size_t i : motors_there()) motors_[i].tick(false);
+  home_next();
+  for (const std::size_t i : motors_there()) motors_[i].run(control_cycles_);
+}
+
+/// Without motors, and without anything to watch or to write, ticks of the same requests are alike.
+bool LinMotController::may_sleep() const noexcept {
+  return !watches_supplies_ && !has_outputs_ && system_causes_ == 0 && !has_warning() &&
+         state_ == settled_state_ && facts() == settled_facts_;
+}
+
+bool LinMotController::wakes() const noexcept {
+  const bool reads =
+      command_interface() == CommandInterface::mt || command_interface() == CommandInterface::profibus;
+  return reads || refused_ || shutting_down_ || requests_ != slept_;
 }
 
 // ---- Parameters
@@ -76,14 +123,36 @@ bool LinMotController::take_parameters(std::size_t index) noexcept {
     set_parameter(parameter, &wanted, parameter_value(parameter, &taken_[index]));
     allowed = false;
   }
-  taken_[index] = wanted;
+  keep_parameters(index);
   motors_[index].take(wanted);
   return allowed;
 }
 
+void LinMotController::keep_parameters(std::size_t index) noexcept {
+  const MotorParameters& p = taken_[index] = data.Motors[index].Parameters;
+  const MotorSettings& settings = motor_settings[index];
+  const auto if_on = [](bool on, std::uint16_t bit) { return on ? bit : std::uint16_t{0}; };
+  Watched& watched = watched_[index];
+  watched.error_mask = if_on(p.error_mask_drive_too_hot_calculated, motor_bit::kHotCalculated) |
+                       if_on(p.error_mask_drive_following_error, motor_bit::kFollowingError);
+  watched.warning_mask = if_on(p.warn_mask_slider_missing, motor_bit::kSliderMissing) |
+                         if_on(p.warn_mask_drive_hot_sensor, motor_bit::kHotSensor) |
+                         if_on(p.warn_mask_drive_too_hot_calculated, motor_bit::kHotCalculated) |
+                         if_on(p.warn_mask_drive_following_error, motor_bit::kFollowingError) |
+                         if_on(p.warn_mask_pos_range_indicator, motor_bit::kPositionRange) |
+                         motor_bit::kInitNotDone;  // no mask hides it
+  watched.always = if_on(settings.type >= 0 && settings.type != p.type, motor_bit::kTypeMismatch);
+  const ThermalSettings& thermal = settings.thermal;
+  const bool heat = thermal.calculates() || thermal.warn < 0.0 || thermal.error < 0.0;
+  watched.only_motion =
+      watched.always == 0 && settings.slider_missing == nullptr && settings.too_hot == nullptr && !heat;
+}
+
 void LinMotController::take_changed_parameters() noexcept {
-  for (std::size_t i = 0; i < hardware->motors; ++i) {
-    if (motors_[i].is_there() && data.Motors[i].Parameters != taken_[i]) take_parameters(i);
+  for (const std::size_t i : motors_there()) {
+    const MotorParameters &wanted = data.Motors[i].Parameters, &taken = taken_[i];
+    // Nearly always they are the same byte by byte, which is quicker to see than that each is the same.
+    if (!same_bytes(wanted, taken) && wanted != taken) take_parameters(i);
   }
 }
 
@@ -112,45 +181,38 @@ bool LinMotController::request(Request which, bool on) noexcept {
 
 bool LinMotController::request_freeze(int motor, bool on) noexcept {
   if (data.Parameters.freeze_input || !takes_ascii()) return false;
-  (motor < 0 ? flags_.freeze : flags_.freeze_motor[static_cast<std::size_t>(motor)]) = on;
+  if (motor < 0)
+    flags_.freeze = on;
+  else
+    flags_.freeze_motor[static_cast<std::size_t>(motor)] = on;
   return true;
 }
 
 bool LinMotController::all_homed() const noexcept {
-  for (std::size_t i = 0; i < hardware->motors; ++i)
-    if (motors_[i].is_there() && !motors_[i].homed()) return false;
-  return true;
-}
-
-bool LinMotController::homing_over() const noexcept {
-  for (std::size_t i = 0; i < hardware->motors; ++i)
-    if (waits_for_init_[i]) return false;
+  for (const std::size_t i : motors_there())
+    if (!motors_[i].homed()) return false;
   return true;
 }
 
 StateFacts LinMotController::facts() const noexcept {
-  StateFacts facts{.run = requests_.run,
-                   .init = requests_.init,
-                   .stop = requests_.stop,
-                   .error = system_errors_ != 0,
-                   .cause = system_causes_ != 0,
-                   .homed = all_homed(),
-                   .homing_over = homing_over(),
-                   .automatic = automatic_,
-                   .warning = system_warnings_ != 0};
-  for (std::size_t i = 0; i < kMotors; ++i) {
-    facts.error = facts.error || errors_[i] != 0;
-    facts.cause = facts.cause || causes_[i] != 0;
-    facts.warning = facts.warning || warnings_[i] != 0;
-  }
-  return facts;
+  // Without branches: all are looked at in each tick.
+  const auto if_so = [](bool so, StateFacts bit) { return static_cast<StateFacts>(so * bit); };
+  return if_so(requests_.run, fact::kRun) | if_so(requests_.init, fact::kInit) |
+         if_so(requests_.stop, fact::kStop) | if_so(has_error(), fact::kError) |
+         if_so((system_causes_ | together_.causes) != 0, fact::kCause) |
+         if_so(together_.homed, fact::kHomed) | if_so(homing_over(), fact::kHomingOver) |
+         if_so(automatic_, fact::kAutomatic) | if_so(has_warning(), fact::kWarning);
 }
 
 void LinMotController::change_state() noexcept {
   if (requests_.run || requests_.init || requests_.stop || shutting_down_) automatic_ = false;
   const State before = state_;
-  state_ = next_state(before, facts());
-  if (state_ != before) enter(before);
+  const StateFacts now = facts();
+  if (now == settled_facts_ && before == settled_state_) return;
+  state_ = next_state(before, now);
+  if (state_ != before) return enter(before);
+  settled_facts_ = now;
+  settled_state_ = before;
 }
 
 void LinMotController::enter(State from) noexcept {
@@ -162,8 +224,7 @@ void LinMotController::enter(State from) noexcept {
       data.LoggedWarnings = {};
       row_ = -1;
       code_.begin(raw_code());
-      for (std::size_t i = 0; i < hardware->motors; ++i)
-        if (motors_[i].is_there()) motors_[i].enter_run();
+      for (const std::size_t i : motors_there()) motors_[i].enter_run();
       return;
     case State::stop:
       automatic_ = false;
@@ -177,6 +238,7 @@ void LinMotController::enter(State from) noexcept {
     case State::disable:
       if (from == State::error) {
         errors_ = {};
+        together_.errors = 0;
         system_errors_ = 0;
         error_number_ = 0;
         error_motor_ = -1;
@@ -223,9 +285,11 @@ void LinMotController::home_next() noexcept {
 
 void LinMotController::freeze_motors() noexcept {
   if (state_ != State::run) return;
-  for (std::size_t i = 0; i < hardware->motors; ++i)
-    if (motors_[i].is_there())
-      motors_[i].freeze(requests_.freeze || requests_.freeze_motor[i] || frozen_by_row_[i]);
+  const bool any = requests_.freeze || (requests_.freeze_motor | frozen_by_row_).any();
+  if (!any && !freezes_) return;
+  freezes_ = any;
+  for (const std::size_t i : motors_there())
+    motors_[i].freeze(requests_.freeze || requests_.freeze_motor[i] || frozen_by_row_[i]);
 }
 
 bool LinMotController::move_names(std::size_t index, double distance, bool needs_all) noexcept {
@@ -242,8 +306,8 @@ void LinMotController::shut_down() noexcept {
 }
 
 bool LinMotController::at_rest() const noexcept {
-  for (std::size_t i = 0; i < hardware->motors; ++i)
-    if (motors_[i].is_there() && motors_[i].energised()) return false;
+  for (const std::size_t i : motors_there())
+    if (motors_[i].energised()) return false;
   return true;
 }
 
@@ -269,14 +333,9 @@ std::uint16_t LinMotController::state_bits() const noexcept {
   const auto add = [&bits](bool on, int bit) {
     if (on) bits |= static_cast<std::uint16_t>(1u << bit);
   };
-  bool error = system_errors_ != 0, warning = system_warnings_ != 0;
-  for (std::size_t i = 0; i < kMotors; ++i) {
-    add(data.Motors[i].InPosition, static_cast<int>(i));
-    error = error || errors_[i] != 0;
-    warning = warning || warnings_[i] != 0;
-  }
-  add(error, 4);
-  add(warning, 5);
+  for (std::size_t i = 0; i < kMotors; ++i) add(data.Motors[i].InPosition, static_cast<int>(i));
+  add(has_error(), 4);
+  add(has_warning(), 5);
   add(!all_homed(), 6);
   add(state_ == State::run, 7);
   add(state_ == State::error, 8);
@@ -299,12 +358,10 @@ bool LinMotController::output_function(DINT function) const noexcept {
 
 bool LinMotController::message() const noexcept {
   const SystemParameters& system = data.Parameters;
-  std::uint16_t of_motors = 0;
+  const std::uint16_t of_motors = together_.errors;
   bool in_position = false;
-  for (std::size_t i = 0; i < kMotors; ++i) {
-    of_motors |= errors_[i];
+  for (std::size_t i = 0; i < kMotors; ++i)
     in_position = in_position || (taken_[i].warn_mask_in_position && data.Motors[i].InPosition);
-  }
   const auto has = [](std::uint16_t bits, std::uint16_t bit) { return (bits & bit) != 0; };
   return (system.msg_mask_dclv_power_too_low && has(system_errors_, system_bit::kPowerLow)) ||
          (system.msg_mask_dclv_power_too_high && has(system_errors_, system_bit::kPowerHigh)) ||
@@ -321,18 +378,25 @@ bool LinMotController::message() const noexcept {
          (system.msg_mask_in_position && in_position);
 }
 
-void LinMotController::write_outputs() noexcept {
+bool LinMotController::output(std::size_t index) const noexcept {
   const SystemParameters& system = data.Parameters;
-  const auto write = [this](std::size_t index, bool on) {
-    if (wiring.outputs[index] != nullptr) *wiring.outputs[index] = on;
-  };
-  const std::uint16_t bits = state_bits();
-  constexpr int kErrorFlag = 1 << 4, kWarnFlag = 1 << 5;
-  write(0, system.warn_output && (bits & kWarnFlag) != 0);
-  write(1, system.error_output && (bits & kErrorFlag) != 0);
   const bool by_table = command_interface() == CommandInterface::mt;
-  write(2, by_table ? output_function(system.mt_output_3) : system.pos_error_output && output_function(8));
-  write(3, by_table ? output_function(system.mt_output_4) : system.msg_output && message());
+  switch (index) {
+    case 0:
+      return system.warn_output && has_warning();
+    case 1:
+      return system.error_output && has_error();
+    case 2:
+      return by_table ? output_function(system.mt_output_3) : system.pos_error_output && output_function(8);
+    default:
+      return by_table ? output_function(system.mt_output_4) : system.msg_output && message();
+  }
+}
+
+/// One that is not wired costs nothing.
+void LinMotController::write_outputs() noexcept {
+  for (std::size_t i = 0; i < wiring.outputs.size(); ++i)
+    if (wiring.outputs[i] != nullptr) *wiring.outputs[i] = output(i);
 }
 
 void LinMotController::show() noexcept {
@@ -343,9 +407,8 @@ void LinMotController::show() noexcept {
   data.Errors = WORD{system_errors_};
   data.Warnings = WORD{system_warnings_};
   if (state_ != State::error) data.Display = {};
-  for (std::size_t i = 0; i < hardware->motors; ++i) {
+  for (const std::size_t i : motors_there()) {
     const Motor& motor = motors_[i];
-    if (!motor.is_there()) continue;
     LinMotMotorData& shown = data.Motors[i];
     shown.DemandPosition = motor.demand();
     shown.SetPoint = motor.setpoint().position;

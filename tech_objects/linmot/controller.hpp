@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,8 +34,8 @@ struct Wiring {
 
 }  // namespace linmot
 
-/// In the servo phase of each tick: inputs, states, commands; then for each control cycle the motors; then
-/// what is watched, and outputs. Thread: that of the cycle, but for what says otherwise.
+/// In the servo phase of each tick: inputs, states, commands; then the motors, each with its control cycles;
+/// then what is watched, and outputs. Thread: that of the cycle, but for what says otherwise.
 class LinMotController final : public TechnologyObject {
  public:
   static constexpr int kMaximumControlCycles = 256;  ///< in a servo cycle
@@ -114,18 +116,39 @@ class LinMotController final : public TechnologyObject {
 
   struct Requests {
     bool run = false, init = false, stop = false, freeze = false;
-    std::array<bool, linmot::kMotors> freeze_motor{};
+    std::bitset<linmot::kMotors> freeze_motor;
+    bool operator==(const Requests&) const = default;
   };
 
+  /// What there is to watch of a motor, as its settings and parameters have it.
+  struct Watched {
+    std::uint16_t error_mask = 0, warning_mask = 0;  ///< bits that its parameters let pass
+    std::uint16_t always = 0;                        ///< causes that its parameters are
+    bool only_motion = false;  ///< neither that, nor sensors, nor heat: what it does alone
+  };
+  /// Of its motors together.
+  struct Together {
+    std::uint16_t errors = 0, warnings = 0, causes = 0;
+    bool homed = true;  ///< all
+  };
+
+  std::span<const std::uint8_t> motors_there() const noexcept { return {there_.data(), there_count_}; }
+  void keep_parameters(std::size_t index) noexcept;
   void take_changed_parameters() noexcept;
   void read_inputs() noexcept;
   linmot::StateFacts facts() const noexcept;
   bool all_homed() const noexcept;
-  bool homing_over() const noexcept;
+  bool homing_over() const noexcept { return waits_for_init_.none(); }
+  bool has_error() const noexcept { return (system_errors_ | together_.errors) != 0; }
+  bool has_warning() const noexcept { return (system_warnings_ | together_.warnings) != 0; }
   void change_state() noexcept;
   void enter(State from) noexcept;
   void begin_init() noexcept;
   void home_next() noexcept;
+  void move_motors() noexcept;
+  void home_motors() noexcept;
+  bool may_sleep() const noexcept;
+  bool wakes() const noexcept;
   void freeze_motors() noexcept;
   void read_code() noexcept;
   std::uint8_t raw_code() const noexcept;
@@ -144,29 +167,45 @@ class LinMotController final : public TechnologyObject {
   void follow_curves() noexcept;
 
   void watch() noexcept;
-  void watch_supplies() noexcept;
-  void watch_motor(std::size_t index) noexcept;
-  std::uint16_t causes_of(std::size_t index, bool follows) const noexcept;
+  void watch_system() noexcept;
+  void watch_supplies(std::uint16_t& causes, std::uint16_t& warnings) noexcept;
+  std::uint16_t system_warning_masks() const noexcept;
+  void watch_motor(std::size_t index, Together& together) noexcept;
+  void watch_closely(std::size_t index, bool follows, bool outside, Together& together) noexcept;
+  std::uint16_t causes_of(std::size_t index, std::uint16_t conditions, bool follows) const noexcept;
+  std::uint16_t sensors_of(std::size_t index) const noexcept;
   WORD shown_code(const linmot::ErrorRow& row, std::size_t motor) const noexcept;
-  void latch_errors() noexcept;
+  void log_warnings() noexcept;
   void find_first_error() noexcept;
   void write_outputs() noexcept;
+  bool output(std::size_t index) const noexcept;
   bool output_function(DINT function) const noexcept;
   bool message() const noexcept;
   void show() noexcept;
 
-  std::array<linmot::Motor, linmot::kMotors> motors_{};
+  // What every tick touches stands first.
   State state_ = State::disable;
+  State settled_state_ = State::disable;  // with `settled_facts_` nothing leads out of it
+  linmot::StateFacts settled_facts_ = 0xFFFF;
+  std::uint8_t there_count_ = 0;
+  std::array<std::uint8_t, linmot::kMotors> there_{};  // indices of the motors that are there
+  bool watches_supplies_ = false, has_outputs_ = false;
+  bool asleep_ = false;      // a tick changes nothing
+  bool freezes_ = false;     // a motor may be frozen
+  bool curves_run_ = false;  // by words: their end is to be told
+  Together together_;
   Requests flags_;     // of a protocol
   Requests requests_;  // that count
+  Requests slept_;     // that counted when it fell asleep
+  std::uint16_t system_errors_ = 0, system_warnings_ = 0, system_causes_ = 0;
   int control_cycles_ = 1;
   double tick_ = 1e-3;
+  std::array<Watched, linmot::kMotors> watched_{};
   std::array<linmot::MotorParameters, linmot::kMotors> taken_{};
-  std::array<bool, linmot::kMotors> frozen_by_row_{};
+  std::bitset<linmot::kMotors> frozen_by_row_;
   std::array<bool, linmot::kMotors> curve_missing_{};
-  std::array<bool, linmot::kMotors> waits_for_init_{};
-  std::array<std::uint16_t, linmot::kMotors> errors_{}, warnings_{}, causes_{};
-  std::uint16_t system_errors_ = 0, system_warnings_ = 0, system_causes_ = 0;
+  std::bitset<linmot::kMotors> waits_for_init_;
+  std::array<std::uint16_t, linmot::kMotors> errors_{}, warnings_{};
   int error_number_ = 0, error_motor_ = -1;
   int hot_ticks_ = 0;
   bool automatic_ = false;
@@ -179,6 +218,7 @@ class LinMotController final : public TechnologyObject {
   std::uint16_t unknown_command_ = 0;                     // of PROFIBUS; told once
   std::array<linmot::MotorWords, linmot::kMotors> words_{};
   bool command_toggle_ = false, executed_toggle_ = false;
+  std::array<linmot::Motor, linmot::kMotors> motors_{};
 };
 
 }  // namespace lockstep

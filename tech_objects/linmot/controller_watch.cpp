@@ -10,9 +10,7 @@ namespace lockstep {
 
 using namespace linmot;
 
-void LinMotController::watch_supplies() noexcept {
-  const SystemParameters& system = data.Parameters;
-  std::uint16_t causes = 0, warnings = 0;
+void LinMotController::watch_supplies(std::uint16_t& causes, std::uint16_t& warnings) noexcept {
   const auto look = [&](const LREAL* voltage, const SupplyThresholds& at, std::uint16_t low,
                         std::uint16_t high) {
     if (voltage == nullptr) return;
@@ -29,86 +27,109 @@ void LinMotController::watch_supplies() noexcept {
   hot_ticks_ = hot ? hot_ticks_ + 1 : 0;
   if (hot) warnings |= system_bit::kElectronics;
   if (hot && (hot_ticks_ - 1) * tick_ >= kHotTime - 1e-9) causes |= system_bit::kElectronics;
+}
+
+std::uint16_t LinMotController::system_warning_masks() const noexcept {
+  const SystemParameters& system = data.Parameters;
   std::uint16_t masks = system_bit::kEmergencyStop;
   if (system.warn_mask_dclv_power_low) masks |= system_bit::kPowerLow;
   if (system.warn_mask_dclv_power_high) masks |= system_bit::kPowerHigh;
   if (system.warn_mask_dclv_signal_low) masks |= system_bit::kSignalLow;
   if (system.warn_mask_dclv_signal_high) masks |= system_bit::kSignalHigh;
   if (system.warn_mask_electronic_fault) masks |= system_bit::kElectronics;
+  return masks;
+}
+
+void LinMotController::watch_system() noexcept {
+  std::uint16_t causes = 0, warnings = 0;
+  if (watches_supplies_) watch_supplies(causes, warnings);
   if (state_ == State::stop) warnings |= system_bit::kEmergencyStop;
   if (out_of_range_) causes |= system_bit::kApplication;
   system_causes_ = causes;
-  system_warnings_ = warnings & masks;
+  system_errors_ |= causes;
+  if (warnings != 0) warnings &= system_warning_masks();
+  system_warnings_ = warnings;
 }
 
-std::uint16_t LinMotController::causes_of(std::size_t index, bool follows) const noexcept {
-  const Motor& motor = motors_[index];
-  const MotorParameters& parameters = taken_[index];
+std::uint16_t LinMotController::sensors_of(std::size_t index) const noexcept {
   const MotorSettings& settings = motor_settings[index];
-  std::uint16_t causes = 0;
-  if (is_on(settings.slider_missing)) causes |= motor_bit::kSliderMissing;
-  if (is_on(settings.too_hot)) causes |= motor_bit::kHotSensor;
-  if (settings.type >= 0 && settings.type != parameters.type) causes |= motor_bit::kTypeMismatch;
+  std::uint16_t conditions = 0;
+  if (is_on(settings.slider_missing)) conditions |= motor_bit::kSliderMissing;
+  if (is_on(settings.too_hot)) conditions |= motor_bit::kHotSensor;
+  return conditions;
+}
+
+/// @param conditions that its sensors tell, as bits  @param follows its following error is within its limits
+std::uint16_t LinMotController::causes_of(std::size_t index, std::uint16_t conditions,
+                                          bool follows) const noexcept {
+  const Motor& motor = motors_[index];
+  const Watched& watched = watched_[index];
+  std::uint16_t causes = conditions | watched.always;
   if (state_ != State::error && (curve_missing_[index] || motor.curve_missing())) causes |= motor_bit::kCurve;
-  if (motor.heat() > settings.thermal.error && parameters.error_mask_drive_too_hot_calculated)
-    causes |= motor_bit::kHotCalculated;
-  if (state_ == State::init && (motor.homing() == Motor::Homing::failed || !follows))
-    causes |= motor_bit::kInitFailed;
-  else if (!follows && parameters.error_mask_drive_following_error)
-    causes |= motor_bit::kFollowingError;
+  if (motor.heat() > motor_settings[index].thermal.error)
+    causes |= motor_bit::kHotCalculated & watched.error_mask;
+  if (state_ != State::init)
+    return follows ? causes : causes | (motor_bit::kFollowingError & watched.error_mask);
+  if (motor.homing() == Motor::Homing::failed || !follows) causes |= motor_bit::kInitFailed;
   return causes;
 }
 
-void LinMotController::watch_motor(std::size_t index) noexcept {
-  Motor& motor = motors_[index];
+/// What a motor mostly is: homed, within its limits, without anything else that could tell.
+void LinMotController::watch_motor(std::size_t index, Together& together) noexcept {
+  const Motor& motor = motors_[index];
   const MotorParameters& parameters = taken_[index];
-  const MotorSettings& settings = motor_settings[index];
-  const double error = motor.following_error();
+  const double error = motor.following_error(), actual = motor.actual();
   const bool follows = !motor.energised() || (error <= parameters.following_error_plus &&
                                               error >= -parameters.following_error_minus);
-  const std::uint16_t causes = causes_of(index, follows);
-  if ((causes & (motor_bit::kSliderMissing | motor_bit::kTypeMismatch | motor_bit::kInitFailed)) != 0)
-    motor.lose_position();
-  const bool outside = motor.homed() && (motor.actual() < parameters.pos_range_min ||
-                                         motor.actual() > parameters.pos_range_max);
-  data.Motors[index].PosRange = outside;
-  std::uint16_t warnings = 0;
-  const auto warn = [&warnings](bool there, bool mask, std::uint16_t bit) {
-    if (there && mask) warnings |= bit;
-  };
-  warn(is_on(settings.slider_missing), parameters.warn_mask_slider_missing, motor_bit::kSliderMissing);
-  warn(is_on(settings.too_hot), parameters.warn_mask_drive_hot_sensor, motor_bit::kHotSensor);
-  warn(motor.heat() > settings.thermal.warn, parameters.warn_mask_drive_too_hot_calculated,
-       motor_bit::kHotCalculated);
-  warn(!follows, parameters.warn_mask_drive_following_error, motor_bit::kFollowingError);
-  warn(!motor.homed(), true, motor_bit::kInitNotDone);  // no mask hides it
-  warn(outside, parameters.warn_mask_pos_range_indicator, motor_bit::kPositionRange);
-  causes_[index] = causes;
-  warnings_[index] = warnings;
+  const bool outside = actual < parameters.pos_range_min || actual > parameters.pos_range_max;
+  if (follows && motor.homed() && !outside && watched_[index].only_motion && state_ != State::init &&
+      !curve_missing_[index] && !motor.curve_missing()) {
+    data.Motors[index].PosRange = false;
+    warnings_[index] = 0;
+    return;
+  }
+  watch_closely(index, follows, outside, together);
 }
 
-void LinMotController::watch() noexcept {
-  watch_supplies();
-  for (std::size_t i = 0; i < hardware->motors; ++i)
-    if (motors_[i].is_there()) watch_motor(i);
-  latch_errors();
+void LinMotController::watch_closely(std::size_t index, bool follows, bool outside,
+                                     Together& together) noexcept {
+  Motor& motor = motors_[index];
+  const Watched& watched = watched_[index];
+  std::uint16_t warnings = sensors_of(index);
+  const std::uint16_t causes = causes_of(index, warnings, follows);
+  if ((causes & (motor_bit::kSliderMissing | motor_bit::kTypeMismatch | motor_bit::kInitFailed)) != 0)
+    motor.lose_position();
+  const bool homed = motor.homed();
+  data.Motors[index].PosRange = homed && outside;
+  if (motor.heat() > motor_settings[index].thermal.warn) warnings |= motor_bit::kHotCalculated;
+  if (!follows) warnings |= motor_bit::kFollowingError;
+  if (!homed) warnings |= motor_bit::kInitNotDone;
+  if (homed && outside) warnings |= motor_bit::kPositionRange;
+  warnings &= watched.warning_mask;
+  warnings_[index] = warnings;
+  errors_[index] |= causes;
+  together.homed = together.homed && homed;
+  together.causes |= causes;
+  together.errors |= causes;
+  together.warnings |= warnings;
 }
 
 /// An error stays until ERROR is left; what ends with the motors' current is a cause no more.
-void LinMotController::latch_errors() noexcept {
-  system_errors_ |= system_causes_;
-  std::uint16_t warnings = 0;
-  for (std::size_t i = 0; i < kMotors; ++i) {
-    errors_[i] |= causes_[i];
-    warnings |= warnings_[i];
-  }
-  const auto logged = static_cast<std::uint16_t>(warnings | ((system_warnings_ & 0x3E) << 8) |
+void LinMotController::watch() noexcept {
+  watch_system();
+  Together together{.errors = together_.errors};
+  for (const std::size_t i : motors_there()) watch_motor(i, together);
+  together_ = together;
+  if (state_ == State::run && (refused_ || has_warning())) log_warnings();
+  refused_ = false;
+}
+
+void LinMotController::log_warnings() noexcept {
+  const auto logged = static_cast<std::uint16_t>(together_.warnings | ((system_warnings_ & 0x3E) << 8) |
                                                  (system_warnings_ & system_bit::kEmergencyStop) |
                                                  (refused_ ? system_bit::kRefused : 0));
-  refused_ = false;
-  if (state_ == State::run)
-    data.LoggedWarnings =
-        WORD{static_cast<std::uint16_t>(static_cast<std::uint16_t>(data.LoggedWarnings) | logged)};
+  data.LoggedWarnings =
+      WORD{static_cast<std::uint16_t>(static_cast<std::uint16_t>(data.LoggedWarnings) | logged)};
 }
 
 /// What version 3 shows is the code of the error, with the motor in its second digit. Version 2 has two

@@ -105,7 +105,7 @@ void LinMotController::read_run_curve(const ModulePlace& place, std::uint16_t wo
   const Curve* const curve = motor.curve_of(number);
   words.locked = true;
   if (number != 0 && curve == nullptr) return tell_curve_missing(place.motor);
-  words.running = true;
+  words.running = curves_run_ = true;
   words.done_toggle = !words.run_curve_toggle;
   Order order{.kind = Order::Kind::curve, .curve = curve, .cyclic = bit(word, kCyclic)};
   order.from_demand = bit(word, kIncremental) || place.module == Module::run_incremental_curve;
@@ -185,11 +185,13 @@ void LinMotController::command_motor(std::size_t index, std::uint8_t id, std::in
 
 /// Curve Done is what the toggle is, once the curve is over.
 void LinMotController::follow_curves() noexcept {
+  curves_run_ = false;
   for (std::size_t i = 0; i < hardware->motors; ++i) {
     MotorWords& words = words_[i];
-    if (!words.running || (state_ == State::run && !motors_[i].curves_over())) continue;
-    words.running = false;
-    words.done_toggle = words.run_curve_toggle;
+    if (!words.running) continue;
+    words.running = state_ == State::run && !motors_[i].curves_over();
+    if (!words.running) words.done_toggle = words.run_curve_toggle;
+    curves_run_ = curves_run_ || words.running;
   }
 }
 

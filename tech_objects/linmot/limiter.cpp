@@ -23,7 +23,7 @@ void Limiter::begin(double position, double velocity) noexcept {
   target_ = position;
   resting_ = velocity == 0.0;
   endless_ = false;
-  cycles_ = 0;
+  restart();
   if (resting_) return;
   const Limits as_it_goes{std::abs(velocity), limits_.acceleration};
   const MotionState start{position, velocity, 0.0};
@@ -41,7 +41,7 @@ void Limiter::go_to(double target, const Limits& limits) noexcept {
     return begin(start.position);
   target_ = target;
   resting_ = endless_ = false;
-  cycles_ = 0;
+  restart();
 }
 
 void Limiter::limit(const Limits& limits) noexcept {
@@ -57,7 +57,7 @@ void Limiter::stop(double acceleration) noexcept {
   const double bound = std::max(std::abs(start.velocity), 1e-6);
   if (plan_velocity(start, 0.0, profile_limits({bound, acceleration}), profile_) != PlanResult::ok)
     return begin(start.position);
-  cycles_ = 0;
+  restart();
   endless_ = false;
   target_ = profile_.target().position;
   limits_ = {bound, acceleration};
@@ -68,7 +68,7 @@ void Limiter::run(double velocity, const Limits& limits) noexcept {
   const double bounded = std::clamp(velocity, -limits.velocity, limits.velocity);
   if (plan_velocity(start, bounded, profile_limits(limits), profile_) != PlanResult::ok) return;
   limits_ = limits;
-  cycles_ = 0;
+  restart();
   resting_ = false;
   endless_ = true;
 }

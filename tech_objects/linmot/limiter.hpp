@@ -2,6 +2,7 @@
 /// @source LinMot release 1.3 addendum, 6.4 (Filter Parameter), 7.3
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "tech_objects/drive/current_loop.hpp"
@@ -36,11 +37,12 @@ class Limiter {
   LoopSetpoint step() noexcept {
     if (resting_) return {target_, 0.0, 0.0};
     const double time = static_cast<double>(cycles_) * cycle_;
-    if (!endless_ && time >= profile_.duration()) {
+    const bool over = time >= profile_.duration();
+    if (over && !endless_) {
       resting_ = true;
       return {target_, 0.0, 0.0};
     }
-    const MotionState now = profile_.at(time);
+    const MotionState now = over || cycles_ == 0 ? profile_.at(time) : phase_at(time).at(time);
     ++cycles_;
     return {now.position, now.velocity, now.acceleration};
   }
@@ -50,9 +52,20 @@ class Limiter {
 
  private:
   MotionState state() const noexcept;
+  void restart() noexcept {
+    cycles_ = 0;
+    phase_ = 0;
+  }
+  /// Time only goes on: the phase is that of the last cycle, or a later one.
+  const Profile::Phase& phase_at(double time) noexcept {
+    const auto phases = profile_.phases();
+    while (phase_ + 1 < phases.size() && time >= phases[phase_ + 1].begin) ++phase_;
+    return phases[phase_];
+  }
 
   Profile profile_;
   std::int64_t cycles_ = 0;  // since its begin
+  std::size_t phase_ = 0;    // of the last cycle
   double cycle_ = 1e-4;
   double target_ = 0.0;
   Limits limits_;

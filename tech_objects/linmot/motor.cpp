@@ -24,7 +24,7 @@ void Motor::configure(const MotorSettings& settings, const MotorParameters& para
   cycle_ = cycle;
   tick_ = tick;
   limiter_.configure(cycle);
-  thermal_.configure(settings.thermal, tick, std::max(1, static_cast<int>(tick / cycle + 0.5)));
+  thermal_.configure(settings.thermal, tick, std::max(1, static_cast<int>(std::lround(tick / cycle))));
   player_.configure(cycle);
   has_plant_ = settings.exists;
   force_constant_ = settings.force_constant;
@@ -59,6 +59,7 @@ void Motor::take(const MotorParameters& parameters) noexcept {
   amplitude_ = parameters.curve_amplitude / 100.0;
   lowest_ = parameters.minimal_position;
   highest_ = parameters.maximal_position;
+  bound_ = std::min(lowest_, highest_);
   rate_ = parameters.curve_speed / 100.0;
   if (curve_mode_ && !frozen_) player_.set_rate(rate_);
   if (energised_ && !frozen_ && !curve_mode_ && order_.follows_filter && !homes()) {
@@ -68,7 +69,7 @@ void Motor::take(const MotorParameters& parameters) noexcept {
 }
 
 double Motor::bounded(double position) const noexcept {
-  return std::clamp(position, std::min(lowest_, highest_), highest_);
+  return std::clamp(position, bound_, highest_);
 }
 
 // ---- Orders
@@ -333,21 +334,29 @@ void Motor::home_on() noexcept {
 
 // ---- Run modes and triggers
 
+/// Which it mostly is on its way to, or at.
+inline void Motor::keep_going_to(double target) noexcept {
+  if (!analog_known_ || demand_ != bounded(target)) begin_going_to(target);
+}
+
+void Motor::begin_going_to(double target) noexcept {
+  analog_known_ = true;
+  execute({.position = target, .limits = filter_, .follows_filter = true});
+}
+
+double Motor::analog_target() const noexcept {
+  const double volts =
+      settings_.analog != nullptr && std::isfinite(*settings_.analog) ? *settings_.analog : 0.0;
+  const double part = std::clamp(volts, 0.0, 10.0) / 10.0;
+  return parameters_.position_0v + (parameters_.position_10v - parameters_.position_0v) * part;
+}
+
 void Motor::run_mode(bool rising, bool falling) noexcept {
-  const auto go_there = [this](double target) {
-    if (analog_known_ && demand_ == bounded(target)) return;
-    analog_known_ = true;
-    execute({.position = target, .limits = filter_, .follows_filter = true});
-  };
   switch (static_cast<RunMode>(parameters_.run_mode)) {
-    case RunMode::analog: {
-      const double volts =
-          settings_.analog != nullptr && std::isfinite(*settings_.analog) ? *settings_.analog : 0.0;
-      const double part = std::clamp(volts, 0.0, 10.0) / 10.0;
-      return go_there(parameters_.position_0v + (parameters_.position_10v - parameters_.position_0v) * part);
-    }
+    case RunMode::analog:
+      return keep_going_to(analog_target());
     case RunMode::two_point:
-      return go_there(trigger_level() ? parameters_.position_1 : parameters_.position_0);
+      return keep_going_to(trigger_level() ? parameters_.position_1 : parameters_.position_0);
     case RunMode::continuous_curve:
       if (curve_active() && parameters_.curve_number != running_curve_) player_.end_cycle();
       if (!curve_active()) run_curve(parameters_.curve_number, true);
@@ -375,10 +384,22 @@ void Motor::run_curve(DINT number, bool cyclic) noexcept {
   execute({.kind = Order::Kind::curve, .curve = curve, .cyclic = cyclic});
 }
 
+void Motor::take_waiting_orders(bool rising) noexcept {
+  if (armed_ && rising) {
+    const Order order = *armed_;
+    armed_.reset();
+    execute(order);
+  }
+  if (queued_ && !curve_active()) {
+    const Order order = *queued_;
+    execute(order);
+  }
+}
+
 void Motor::tick(bool running) noexcept {
   velocity_ = (position_ - last_position_) / tick_;
   last_position_ = position_;
-  thermal_.tick();
+  if (thermal_.calculates()) thermal_.tick();
   const bool level = trigger_level();
   const bool rising = level && !last_trigger_;
   const bool falling = !level && last_trigger_;
@@ -386,52 +407,58 @@ void Motor::tick(bool running) noexcept {
   if (brakes_ && limiter_.at_end()) switch_off();
   if (homes()) home_on();
   if (running && energised_) {
-    if (armed_ && rising) {
-      const Order order = *armed_;
-      armed_.reset();
-      execute(order);
-    }
-    if (queued_ && !curve_active()) {
-      const Order order = *queued_;
-      execute(order);
-    }
-    run_mode(rising, falling);
+    if (armed_ || queued_) take_waiting_orders(rising);
+    if (parameters_.run_mode != static_cast<DINT>(RunMode::serial)) run_mode(rising, falling);
   }
   last_trigger_ = level;
 }
 
-// ---- Control cycle
+// ---- Control cycles
 
-LoopSetpoint Motor::next_setpoint() noexcept {
-  if (!curve_mode_) return limiter_.step();
-  LoopSetpoint now = player_.step(offset_, amplitude_);
-  if (now.position < lowest_ || now.position > highest_) now = {bounded(now.position), 0.0, 0.0};
-  if (!player_.running() && !frozen_) {
-    curve_mode_ = false;
-    limiter_.begin(now.position);
-    demand_ = now.position;
+inline void Motor::next_of_curve() noexcept {
+  setpoint_ = player_.step(offset_, amplitude_);
+  if (setpoint_.position < lowest_ || setpoint_.position > highest_)
+    setpoint_ = {bounded(setpoint_.position), 0.0, 0.0};
+  if (player_.running() || frozen_) return;
+  curve_mode_ = false;
+  demand_ = setpoint_.position;
+  limiter_.begin(demand_);
+}
+
+inline void Motor::next_setpoint() noexcept {
+  if (curve_mode_)
+    next_of_curve();
+  else
+    setpoint_ = limiter_.step();
+}
+
+/// Without current.
+void Motor::rest(int cycles) noexcept {
+  current_ = 0.0;
+  for (int i = 0; has_plant_ && i < cycles; ++i) {
+    position_ = plant_.position();
+    plant_.step(0.0, cycle_);
   }
-  return now;
+  setpoint_ = {actual(), 0.0, 0.0};
 }
 
 /// What is measured is where the slider is when the set-point is made.
-void Motor::cycle() noexcept {
-  if (has_plant_) position_ = plant_.position();
-  if (!energised_) {
-    current_ = 0.0;
-    if (has_plant_) plant_.step(0.0, cycle_);
-    setpoint_ = {actual(), 0.0, 0.0};
-    return;
-  }
-  setpoint_ = next_setpoint();
+void Motor::run(int cycles) noexcept {
+  const bool heats = thermal_.calculates();
+  if (!energised_) return rest(cycles);
   if (!has_plant_) {
+    for (int i = 0; i < cycles; ++i) next_setpoint();
     position_ = setpoint_.position + shift_;
     return;
   }
-  const LoopSetpoint on_machine{setpoint_.position + shift_, setpoint_.velocity, setpoint_.acceleration};
-  current_ = loop_.step(on_machine, position_);
-  thermal_.add(current_);
-  plant_.step(force_constant_ * current_, cycle_);
+  for (int i = 0; i < cycles; ++i) {
+    next_setpoint();
+    const LoopSetpoint on_machine{setpoint_.position + shift_, setpoint_.velocity, setpoint_.acceleration};
+    position_ = plant_.position();
+    current_ = loop_.step(on_machine, position_);
+    if (heats) thermal_.add(current_);
+    plant_.step(force_constant_ * current_, cycle_);
+  }
 }
 
 bool Motor::in_position() const noexcept {

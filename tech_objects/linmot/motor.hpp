@@ -94,16 +94,14 @@ class Motor {
   enum class Homing : std::uint8_t { none, leave_trigger, search, check, initial, done, failed };
   Homing homing() const noexcept { return homing_; }
   /// It is on its course.
-  bool homes() const noexcept {
-    return homing_ != Homing::none && homing_ != Homing::done && homing_ != Homing::failed;
-  }
+  bool homes() const noexcept { return homing_ >= Homing::leave_trigger && homing_ <= Homing::initial; }
   bool homed() const noexcept { return homed_; }
   void lose_position() noexcept { homed_ = false; }
 
   /// Triggers, run modes, homing: once in a servo tick. @param running the state is RUN
   void tick(bool running) noexcept;
-  /// A control cycle.
-  void cycle() noexcept;
+  /// The control cycles of a servo tick, of which no other motor sees anything.
+  void run(int cycles) noexcept;
   /// Starts the acknowledge time [ticks].
   void acknowledge(int ticks) noexcept { acknowledge_ticks_ = ticks; }
 
@@ -139,6 +137,10 @@ class Motor {
   void leave_curve() noexcept;
   void go(double target, const Limits& limits, bool from_actual) noexcept;
   void run_mode(bool rising, bool falling) noexcept;
+  void keep_going_to(double target) noexcept;
+  void begin_going_to(double target) noexcept;
+  double analog_target() const noexcept;
+  void take_waiting_orders(bool rising) noexcept;
   void run_curve(DINT number, bool cyclic) noexcept;
   void home_on() noexcept;
   void search(double direction) noexcept;
@@ -147,7 +149,9 @@ class Motor {
   void homing_move(Homing to, double target) noexcept;
   double bounded(double position) const noexcept;
   void configure_loop() noexcept;
-  LoopSetpoint next_setpoint() noexcept;
+  void rest(int cycles) noexcept;
+  void next_setpoint() noexcept;
+  void next_of_curve() noexcept;
   double direction_of_search() const noexcept;
   bool by_trigger() const noexcept;
   Limits homing_limits() const noexcept;
@@ -162,6 +166,7 @@ class Motor {
   bool energised_ = false, curve_mode_ = false, frozen_ = false, has_plant_ = false;
   double offset_ = 0.0, amplitude_ = 1.0;
   double lowest_ = 0.0, highest_ = 0.0;  // [mm] between which the set-point is cut
+  double bound_ = 0.0;                   // the lower of both
   Limiter limiter_;
   CurvePlayer player_;
   CurrentLoop loop_;

@@ -3,47 +3,49 @@
 namespace lockstep::linmot {
 namespace {
 
+using namespace fact;
+
 struct Transition {
-  bool (*from)(State state);
+  unsigned from;  // a bit for each state
   State to;
-  bool (*when)(const StateFacts& facts);
+  StateFacts needs, excludes;
 };
 
-template <State... states>
-constexpr bool one_of(State state) {
-  return ((state == states) || ...);
+template <class... States>
+constexpr unsigned one_of(States... states) {
+  return ((1u << static_cast<unsigned>(states)) | ...);
+}
+constexpr unsigned any_but(State state) {
+  return ~one_of(state);
 }
 
 constexpr Transition kTransitions[] = {
-    {[](State state) { return state != State::error; }, State::error,
-     [](const StateFacts& f) { return f.error; }},
-    {one_of<State::error>, State::disable,
-     [](const StateFacts& f) { return f.none_requested() && !f.cause; }},
-    {one_of<State::run, State::init>, State::stop, [](const StateFacts& f) { return f.stop; }},
-    {one_of<State::stop, State::wait_for_disable>, State::disable,
-     [](const StateFacts& f) { return f.none_requested(); }},
-    {one_of<State::disable>, State::init, [](const StateFacts& f) { return f.init && !f.stop; }},
-    {one_of<State::disable>, State::run, [](const StateFacts& f) { return f.run && !f.stop && f.homed; }},
-    {one_of<State::init>, State::run,
-     [](const StateFacts& f) {
-       const bool by_itself = f.automatic && f.none_requested() && !f.warning;
-       return f.homing_over && f.homed && ((f.run && !f.init) || by_itself);
-     }},
-    {one_of<State::init>, State::disable,
-     [](const StateFacts& f) { return !f.init && !f.run && !f.automatic; }},
-    {one_of<State::run>, State::disable, [](const StateFacts& f) { return !f.run && !f.automatic; }},
+    {any_but(State::error), State::error, kError, 0},
+    {one_of(State::error), State::disable, 0, kAnyRequest | kCause},
+    {one_of(State::run, State::init), State::stop, kStop, 0},
+    {one_of(State::stop, State::wait_for_disable), State::disable, 0, kAnyRequest},
+    {one_of(State::disable), State::init, kInit, kStop},
+    {one_of(State::disable), State::run, kRun | kHomed, kStop},
+    {one_of(State::init), State::run, kHomingOver | kHomed | kRun, kInit},
+    // By itself.
+    {one_of(State::init), State::run, kHomingOver | kHomed | kAutomatic, kAnyRequest | kWarning},
+    {one_of(State::init), State::disable, 0, kInit | kRun | kAutomatic},
+    {one_of(State::run), State::disable, 0, kRun | kAutomatic},
 };
 
 }  // namespace
 
-State first_state(const StateFacts& facts) noexcept {
-  if (facts.automatic) return State::init;
-  return facts.none_requested() ? State::disable : State::wait_for_disable;
+State first_state(StateFacts facts) noexcept {
+  if ((facts & kAutomatic) != 0) return State::init;
+  return (facts & kAnyRequest) == 0 ? State::disable : State::wait_for_disable;
 }
 
-State next_state(State state, const StateFacts& facts) noexcept {
+State next_state(State state, StateFacts facts) noexcept {
+  const unsigned now = one_of(state);
   for (const Transition& transition : kTransitions)
-    if (transition.from(state) && transition.when(facts)) return transition.to;
+    if ((transition.from & now) != 0 && (facts & transition.needs) == transition.needs &&
+        (facts & transition.excludes) == 0)
+      return transition.to;
   return state;
 }
 

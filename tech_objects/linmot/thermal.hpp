@@ -22,6 +22,7 @@ class Thermal {
   /// While loading: cold. @param tick servo cycle [s]  @param cycles control cycles in it
   void configure(const ThermalSettings& settings, double tick, int cycles) noexcept {
     heat_ = sum_ = 0.0;
+    calculates_ = settings.calculates();
     share_ = decay_within(tick / settings.time_constant);
     scale_ =
         settings.calculates() ? 100.0 / (settings.nominal_current * settings.nominal_current) / cycles : 0.0;
@@ -33,10 +34,13 @@ class Thermal {
     heat_ += share_ * (scale_ * sum_ - heat_);
     sum_ = 0.0;
   }
+  /// Else it stays cold, and neither currents nor ticks count.
+  bool calculates() const noexcept { return calculates_; }
   double heat() const noexcept { return heat_; }  ///< [%]
 
  private:
   double heat_ = 0.0, sum_ = 0.0, share_ = 0.0, scale_ = 0.0;
+  bool calculates_ = false;
 };
 
 }  // namespace lockstep::linmot

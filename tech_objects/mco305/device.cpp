@@ -2,6 +2,7 @@
 #include "tech_objects/mco305/device.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "tech_objects/drive/drive_models.hpp"
@@ -110,10 +111,16 @@ void Device::servo(bool step) noexcept {
 }
 
 void Device::read_drive() noexcept {
-  drive_actual_ = drive_->read();
-  if (drive_actual_.silent || drive_actual_.encoder_failed) return;
-  const double moved = rounded_difference(drive_actual_.position, last_drive_position_);
-  last_drive_position_ = drive_actual_.position;
+  const DriveActual now = drive_->read();
+  told_.enabled = now.enabled;
+  told_.velocity = now.velocity;
+  told_.torque = now.torque;
+  told_.fault = now.fault;
+  told_.silent = now.silent;
+  told_.encoder_failed = now.encoder_failed;
+  if (now.silent || now.encoder_failed) return;
+  const double moved = rounded_difference(now.position, last_drive_position_);
+  last_drive_position_ = now.position;
   const double before = machine_;
   machine_ += moved;
   const double start = settings_.drive.signals.start_position;
@@ -291,10 +298,9 @@ void Device::look_at_position_error() noexcept {
 }
 
 void Device::look_at_drive() noexcept {
-  if (parameters_[kEncoderMonitoring] != 0 && drive_actual_.encoder_failed && !pending_.has(kEncoderError))
+  if (parameters_[kEncoderMonitoring] != 0 && told_.encoder_failed && !pending_.has(kEncoderError))
     raise(kEncoderError);
-  if (parameters_[kStatusMonitoring] != 0 && (drive_actual_.fault || drive_actual_.silent) &&
-      !pending_.has(kDriveNotReady))
+  if (parameters_[kStatusMonitoring] != 0 && (told_.fault || told_.silent) && !pending_.has(kDriveNotReady))
     raise(kDriveNotReady);
 }
 
@@ -316,8 +322,15 @@ void Device::write_outputs() noexcept {
 }
 
 void Device::write_drive() noexcept {
-  const double velocity = drive_sign_ * reference_ / CountController::kFullScale * full_reference_;
-  drive_->write(std::clamp(velocity, -speed_limit_, speed_limit_) * kMillisecondsPerSecond);
+  // Of the same reference, to the bit, it is the same, and a division is long.
+  const bool same =
+      std::bit_cast<std::uint64_t>(reference_) == std::bit_cast<std::uint64_t>(scaled_reference_);
+  if (!same || std::isnan(scaled_reference_)) {
+    scaled_reference_ = reference_;
+    const double velocity = drive_sign_ * reference_ / CountController::kFullScale * full_reference_;
+    drive_velocity_ = std::clamp(velocity, -speed_limit_, speed_limit_) * kMillisecondsPerSecond;
+  }
+  drive_->write(drive_velocity_);
 }
 
 void Device::raise(int error) noexcept {

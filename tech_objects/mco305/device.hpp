@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -260,6 +261,9 @@ class Device {
   bool looks_at_faults_ = false;
   double drive_sign_ = 1.0;                          // of the reference: POSDRCT
   double full_reference_ = 1.0, speed_limit_ = 0.0;  // of the drive [qc/ms]
+  // Of which `drive_velocity_` [u/s] is; not a number: of none.
+  double scaled_reference_ = std::numeric_limits<double>::quiet_NaN();
+  double drive_velocity_ = 0.0;
   bool brake_ = false, brake_after_stop_ = false;
   std::int32_t open_loop_ = 0;  // OUTAN
   FourSlopeProfile profile_;
@@ -285,7 +289,11 @@ class Device {
   std::int32_t marker_type_ = 0;  // SYNCMTYPS
   MarkerTrack track_;
   std::unique_ptr<Drive> drive_;
-  DriveActual drive_actual_{};
+  /// What the drive has told last; its position is in `machine_`.
+  struct {
+    double velocity = 0.0, torque = 0.0;
+    bool silent = false, encoder_failed = false, fault = false, enabled = false;
+  } told_;
   DoubleDouble last_drive_position_{};
   ParameterValues parameters_;
   UserUnit unit_;

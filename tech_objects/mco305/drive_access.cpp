@@ -1,6 +1,7 @@
 // What the option reads of the drive in which it sits, and changes there: GETVLT, SETVLT, INAD, OUTDA.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tech_objects/mco305/device.hpp"
 #include "tech_objects/mco305_catalogue/drive_parameters.hpp"
@@ -30,6 +31,7 @@ void Device::scale_drive() noexcept {
   full_reference_ =
       maximum_reference_ > 0 ? counts_per_millisecond(maximum_reference_ / kMilli) : velocity_maximum_;
   speed_limit_ = speed_high_limit_ < 0 ? kFastest : counts_per_millisecond(speed_high_limit_);
+  scaled_reference_ = std::numeric_limits<double>::quiet_NaN();
 }
 
 double Device::analog_volts(std::size_t input) const noexcept {
@@ -53,7 +55,7 @@ bool Device::set_analog_output(std::int32_t terminal, std::int32_t value) noexce
 bool Device::drive_parameter(std::int32_t number, std::int32_t& value) const noexcept {
   const double full = full_reference_ > 0.0 ? full_reference_ : 1.0;
   const double lines = parameters_.real(kEncoder) * 4.0;
-  const double velocity = virtual_ ? 0.0 : drive_actual_.velocity / kMillisecondsPerSecond;  // [qc/ms]
+  const double velocity = virtual_ ? 0.0 : told_.velocity / kMillisecondsPerSecond;  // [qc/ms]
   switch (number) {
     case kMaximumReference:
       value = maximum_reference_ > 0 ? maximum_reference_ : whole(parameters_.real(kVelMax) * kMilli);
@@ -66,14 +68,14 @@ bool Device::drive_parameter(std::int32_t number, std::int32_t& value) const noe
       return true;
     case kDriveStatus: {
       constexpr std::int32_t kFollows = 1 | 2 | 4 | 1 << 9 | 1 << 11, kTrip = 8;
-      value = (drive_actual_.enabled ? kFollows : 0) | (drive_actual_.fault ? kTrip : 0);
+      value = (told_.enabled ? kFollows : 0) | (told_.fault ? kTrip : 0);
       return true;
     }
     case kMainActualValue:
       value = whole(velocity / full * 10'000.0);
       return true;
     case kMotorTorque:
-      value = whole(drive_actual_.torque * 10.0);
+      value = whole(told_.torque * 10.0);
       return true;
     case kMotorSpeed:
       value = whole(velocity * 60'000.0 / lines);

@@ -28,7 +28,10 @@ struct MarkerTrackSettings {
 /// Where a marker lies depends on its number alone, so it is there whenever it is passed. Thread: the cycle.
 class MarkerTrack {
  public:
-  void configure(const MarkerTrackSettings& settings) noexcept { settings_ = settings; }
+  void configure(const MarkerTrackSettings& settings) noexcept {
+    settings_ = settings;
+    free_from_ = free_to_ = 0.0;
+  }
   bool exists() const noexcept { return settings_.period > 0.0; }
   /// On the way from one place of the encoder to another, each as long as the last one's end.
   /// @param found is given where the encoder is at each marker, in their order
@@ -40,7 +43,7 @@ class MarkerTrack {
     const double part = slips() ? 1.0 - settings_.slip : 1.0;
     const double begin = carried_;
     carried_ += (to - from) * part;
-    if (on(settings_.missing)) return;
+    if (on(settings_.missing) || is_free(begin, carried_)) return;
     constexpr int kInATick = 8;  // no sensor is faster
     double at = begin;
     for (int i = 0; i < kInATick; ++i) {
@@ -60,14 +63,16 @@ class MarkerTrack {
     return settings_.slip != 0.0 && (settings_.slips == nullptr || *settings_.slips);
   }
   /// The first one met on the way; one where it begins is none.
-  std::optional<double> between(double from, double to) const noexcept {
+  std::optional<double> between(double from, double to) noexcept {
     const double period = settings_.period;
     const double turns = (from - settings_.position) / period, end = (to - settings_.position) / period;
     const double first = whole_below(turns), last = whole_below(end);
     constexpr double kPrecision = 1e-14;
     const double rounding = kNear + kPrecision * (std::abs(from) + std::abs(settings_.position));
-    if (first == last && far_from_any(turns - first, rounding) && far_from_any(end - first, rounding))
+    if (first == last && far_from_any(turns - first, rounding) && far_from_any(end - first, rounding)) {
+      note_free(first, 2.0 * rounding);
       return std::nullopt;
+    }
     const double step = from < to ? 1.0 : -1.0;
     constexpr int kMany = 64;  // periods of a tick
     std::optional<double> met;
@@ -85,6 +90,17 @@ class MarkerTrack {
       if (number == last + step) break;
     }
     return met;
+  }
+  /// Most steps are between the same two markers as the one before, which takes no division to know.
+  bool is_free(double from, double to) const noexcept {
+    return from > free_from_ && from < free_to_ && to > free_from_ && to < free_to_ &&
+           !on(settings_.spurious) && !on(settings_.twice);
+  }
+  /// @param number of a marker, behind which there is none until the next  @param margin [qc] to both
+  void note_free(double number, double margin) noexcept {
+    const double begin = settings_.position + number * settings_.period;
+    free_from_ = begin + (settings_.noise + margin);
+    free_to_ = begin + settings_.period - (settings_.noise + margin);
   }
   /// Most steps are between two markers, and have nothing to look for. @param part of a period, 0 … 1
   bool far_from_any(double part, double rounding) const noexcept {
@@ -107,7 +123,8 @@ class MarkerTrack {
 
   MarkerTrackSettings settings_;
   bool begun_ = false;
-  double carried_ = 0.0;  // where what bears the markers is
+  double carried_ = 0.0;                    // where what bears the markers is
+  double free_from_ = 0.0, free_to_ = 0.0;  // between these there is no marker
 };
 
 }  // namespace lockstep::mco305

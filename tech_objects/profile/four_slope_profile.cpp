@@ -282,24 +282,24 @@ FourSlopeState FourSlopeProfile::at(const Segment& segment, double t) const noex
       begin.velocity + change * (1.0 - turn.cosine) / 2.0, begin.acceleration * kPi / 2.0 * turn.sine};
 }
 
+/// At the end. By parts: a state that is copied as a whole waits for its position to be written.
+const FourSlopeState& FourSlopeProfile::keep_velocity(double time) noexcept {
+  const double position = end_.position + end_.velocity * time;
+  end_.position = now_.position = position;
+  now_.velocity = end_.velocity;
+  now_.acceleration = end_.acceleration;
+  phase_ = end_.velocity == 0.0 ? SlopePhase::end : SlopePhase::constant;
+  return now_;
+}
+
 const FourSlopeState& FourSlopeProfile::step(double time) noexcept {
-  if (over()) {  // at the end the velocity is kept
-    end_.position += end_.velocity * time;
-    now_ = end_;
-    phase_ = end_.velocity == 0.0 ? SlopePhase::end : SlopePhase::constant;
-    return now_;
-  }
+  if (over()) return keep_velocity(time);
   time_ += time;
   while (current_ < count_ && time_ >= segments_[current_].duration) {
     time_ -= segments_[current_].duration;
     ++current_;
   }
-  if (over()) {
-    end_.position += end_.velocity * time_;
-    now_ = end_;
-    phase_ = end_.velocity == 0.0 ? SlopePhase::end : SlopePhase::constant;
-    return now_;
-  }
+  if (over()) return keep_velocity(time_);
   now_ = at(segments_[current_], time_);
   phase_ = segments_[current_].phase;
   return now_;

@@ -86,6 +86,7 @@ class FourSlopeProfile {
 
   void begin(const FourSlopeState& from, const FourSlopeLimits& limits) noexcept;
   FourSlopeState at(const Segment& segment, double time) const noexcept;
+  const FourSlopeState& keep_velocity(double time) noexcept;
 
   std::array<Segment, kMaximumSegments> segments_{};
   std::size_t count_ = 0, current_ = 0;

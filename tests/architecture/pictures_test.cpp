@@ -85,19 +85,22 @@ TEST(Pictures, ShowATickAsTheCycleRunsIt) {
 }
 
 TEST(Pictures, ShowATickOfALinMotControllerAsItIs) {
-  const std::vector<std::string> steps = {"read_inputs",   "take_changed_parameters",
-                                          "change_state",  "freeze_motors",
-                                          "read_code",     "tick",
-                                          "home_next",     "cycle",
-                                          "follow_curves", "watch",
-                                          "write_outputs", "show"};
+  const std::vector<std::string> steps = {
+      "read_inputs", "take_changed_parameters", "change_state", "freeze_motors", "read_code",
+      "move_motors", "follow_curves",           "watch",        "write_outputs", "show"};
+  const std::vector<std::string> of_motors = {"tick", "home_next", "run"};
   const std::string readme = content_of("tech_objects/linmot/README.md");
   const std::size_t begin = readme.find("\n```\n");
   const std::string picture = readme.substr(begin, readme.find("\n```\n", begin + 1) - begin);
   EXPECT_EQ(out_of_order(picture, steps), "");
+  EXPECT_EQ(out_of_order(picture.substr(picture.find("move_motors")), of_motors), "");
   const std::string source = content_of("tech_objects/linmot/controller.cpp");
-  const std::string servo = source.substr(source.find("void LinMotController::servo("));
-  EXPECT_EQ(out_of_order(servo.substr(0, servo.find("\n}\n")), steps), "");
+  const auto body = [&source](const std::string& name) {
+    const std::string from = source.substr(source.find("void LinMotController::" + name + "("));
+    return from.substr(0, from.find("\n}\n"));
+  };
+  EXPECT_EQ(out_of_order(body("servo"), steps), "");
+  EXPECT_EQ(out_of_order(body("home_motors"), of_motors), "");
 }
 
 }  // namespace

@@ -29,11 +29,11 @@ bool ends_with(const std::string& name, const std::string& end) {
 /// How far a value may be from the stored one; the runs themselves are identical to the bit.
 double tolerance(const std::string& name) {
   for (const char* position :
-       {"Position", ".FollowingError", ".MeasuredValue1", ".PhaseShift", "error", "off", "laid"})
+       {"Position", ".SetPoint", ".FollowingError", ".MeasuredValue1", ".PhaseShift", "error", "off", "laid"})
     if (ends_with(name, position)) return 1e-6;
   if (ends_with(name, "Velocity")) return 1e-5;
   if (ends_with(name, ".Acceleration")) return 1e-3;
-  if (ends_with(name, ".ActualTorque")) return 1e-4;
+  if (ends_with(name, ".ActualTorque") || ends_with(name, ".DemandCurrent")) return 1e-4;
   return 0.0;
 }
 
@@ -95,7 +95,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Stored{"11_pick_and_place", "8s", 40}, Stored{"14_twelve_stations", "7s", 50},
                     Stored{"20_bottle_palletizer", "20s", 40}, Stored{"21_suitcase_conveyor", "16s", 20},
                     Stored{"22_teddy_packaging", "22s", 50}, Stored{"29_bottle_filler", "22s", 100},
-                    Stored{"24_brake", "4s", 10}, Stored{"26_linear_motor", "7s", 25}),
+                    Stored{"24_brake", "4s", 10}, Stored{"26_linear_motor", "7s", 25},
+                    Stored{"27_lid", "5s", 25}, Stored{"28_press", "2500ms", 10}),
     [](const auto& stored) { return std::string(stored.param.project); });
 
 // ---- Meaning

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <random>
+#include <vector>
 
 #include "tech_objects/mco305/marker_track.hpp"
 #include "tech_objects/mco305/virtual_master.hpp"
@@ -13,6 +15,7 @@
 #include "tech_objects/synchronous/marker_window.hpp"
 #include "tech_objects/synchronous/offset_spread.hpp"
 #include "tech_objects/synchronous/pursuit.hpp"
+#include "tests/support/property.hpp"
 
 namespace lockstep {
 namespace counted_following_test {
@@ -312,6 +315,45 @@ TEST(MarkerTrack, HasWhatMachinesSufferFrom) {
   ASSERT_EQ(slipped.size(), 3u);
   for (std::size_t i = 0; i < slipped.size(); ++i)
     EXPECT_NEAR(slipped[i], 4000.0 * static_cast<double>(i + 1), 1e-6);
+}
+
+// A track that remembers where there is no marker sees what one sees that begins anew.
+TEST(MarkerTrackProperty, FindsOnEveryWayTheMarkersThatLieThere) {
+  int markers = 0, steps = 0;
+  test::for_each_seed(1, test::cases(100, 10'000), [&](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    const auto below = [&random](int limit) {
+      return static_cast<int>(random() % static_cast<unsigned>(limit));
+    };
+    bool missing = false, spurious = false, twice = false;
+    mco305::MarkerTrackSettings settings{.missing = &missing, .spurious = &spurious, .twice = &twice};
+    settings.position = below(20'000) - 10'000;
+    settings.period = 1 + below(below(2) == 0 ? 100 : 5000);
+    settings.noise = below(2) == 0 ? 0.0 : settings.period * below(60) / 100.0;
+    settings.seed = one.seed % 1000;
+    mco305::MarkerTrack track;
+    track.configure(settings);
+    const int longest = 1 + below(below(2) == 0 ? 5 : 1000);
+    const auto seen = [](mco305::MarkerTrack& by, double from, double to) {
+      std::vector<double> all;
+      by.pass(from, to, [&all](double place) { all.push_back(place); });
+      return all;
+    };
+    double at = below(1'000'000) - 500'000, direction = 1.0;
+    for (int i = 0; i < 1000; ++i, ++steps) {
+      if (below(50) == 0) direction = -direction;
+      for (bool* const trouble : {&missing, &spurious, &twice})
+        if (below(*trouble ? 10 : 200) == 0) *trouble = !*trouble;
+      const double to = at + direction * below(longest + 1);
+      mco305::MarkerTrack anew;
+      anew.configure(settings);
+      const std::vector<double> found = seen(track, at, to);
+      ASSERT_EQ(found, seen(anew, at, to)) << i << ": from " << at << " to " << to;
+      markers += static_cast<int>(found.size());
+      at = to;
+    }
+  });
+  EXPECT_GT(markers, steps / 100);
 }
 
 }  // namespace

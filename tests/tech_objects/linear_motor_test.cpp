@@ -308,6 +308,43 @@ TEST(LinearMotorPlant, TakesNoForceFromATagThatIsNoNumber) {
   EXPECT_NEAR(plant.position(), 500.0, 1e-9);
 }
 
+// Where nothing can be met a step is taken at once; beside a stop out of reach it is looked for.
+TEST(LinearMotorPlantProperty, MovesToTheBitAsBesideAStopThatItNeverMeets) {
+  int turns = 0, rests = 0;
+  test::for_each_seed(1, test::cases(300, 30'000), [&](const test::Case& one) {
+    std::mt19937_64 random(one.seed);
+    const auto between = [&](double from, double to) {
+      return std::uniform_real_distribution<double>(from, to)(random);
+    };
+    const auto chance = [&](double part) { return between(0.0, 1.0) < part; };
+    LinearMotorPlantSettings settings;
+    settings.slider_mass = between(0.05, 5.0);
+    settings.friction = chance(0.8) ? between(0.0, 30.0) : 0.0;
+    settings.inclination = chance(0.5) ? between(-90.0, 90.0) : 0.0;
+    LREAL push = 0.0;
+    if (chance(0.5)) settings.external_force = &push;
+    const double start = between(-100.0, 100.0), cycle = between(20e-6, 2e-3);
+    LinearMotorPlant alone, beside;
+    alone.configure(settings, start);
+    settings.stops.push_back({1e9, 1, 1e5, 0.0});
+    beside.configure(settings, start);
+    double force = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+      if (chance(0.05)) force = chance(0.3) ? 0.0 : between(-60.0, 60.0);
+      if (chance(0.02)) push = chance(0.5) ? 0.0 : between(-60.0, 60.0);
+      const double before = alone.velocity();
+      alone.step(force, cycle);
+      beside.step(force, cycle);
+      ASSERT_EQ(alone.position(), beside.position()) << i;
+      ASSERT_EQ(alone.velocity(), beside.velocity()) << i;
+      turns += before * alone.velocity() < 0.0 ? 1 : 0;
+      rests += alone.velocity() == 0.0 ? 1 : 0;
+    }
+  });
+  EXPECT_GT(turns, 100);
+  EXPECT_GT(rests, 1000);
+}
+
 // Without current and external force nothing gives it energy, however it is thrown against stops and spring.
 TEST(LinearMotorPlantProperty, GainsNoEnergyByItself) {
   test::for_each_seed(1, test::cases(300, 30'000), [](const test::Case& one) {

@@ -144,6 +144,55 @@ TEST(LinMotControllerProperty, FollowsEverySequenceOfRequestsAndCauses) {
   EXPECT_GT(sequences, 2000);
 }
 
+// What has a heat sink to look at is always awake.
+TEST(LinMotControllerProperty, ShowsWithoutMotorsAsleepWhatItShowsAwake) {
+  std::mt19937_64 random(test::seed_of_test(17));
+  const auto chance = [&random](unsigned of) { return random() % of == 0; };
+  int changes = 0, refusals = 0;
+  for (int round = 0; round < test::cases(200, 20'000); ++round) {
+    const bool by_inputs = chance(2), cool = false;
+    Machine sleeps(CommandInterface::ascii_rs232, by_inputs), wakes(CommandInterface::ascii_rs232, by_inputs);
+    wakes.controller->wiring.heat_sink_hot = &cool;
+    const bool automatic = chance(2);
+    for (Machine* const machine : {&sleeps, &wakes}) {
+      machine->controller->data.Motors[0].Parameters.type = linmot::kNoDrive;
+      machine->controller->data.Parameters.auto_start = automatic;
+      machine->begin();
+    }
+    const auto toggle = [&](bool Machine::*input) {
+      if (chance(20)) sleeps.*input = wakes.*input = !(sleeps.*input);
+    };
+    for (int tick = 0; tick < 300; ++tick) {
+      for (bool Machine::*const input : {&Machine::run, &Machine::init, &Machine::stop, &Machine::freeze})
+        toggle(input);
+      const char* const kTexts[] = {"!SR+1", "!SR-1", "!SI+1", "!SI-1", "!SS+1", "!SS-1", "!SF+1", "!SF-1"};
+      if (chance(10)) {
+        const char* const text = kTexts[random() % 8];
+        const std::string answer = sleeps.send(text);
+        ASSERT_EQ(answer, wakes.send(text)) << text;
+        refusals += answer != "#" ? 1 : 0;
+      }
+      if (tick == 290) {
+        sleeps.controller->shut_down();
+        wakes.controller->shut_down();
+      }
+      const State before = sleeps.controller->state();
+      sleeps.tick();
+      wakes.tick();
+      const LinMotData &one = sleeps.controller->data, &other = wakes.controller->data;
+      ASSERT_EQ(one.State, other.State) << round << ", " << tick;
+      ASSERT_EQ(one.Errors, other.Errors);
+      ASSERT_EQ(one.Warnings, other.Warnings);
+      ASSERT_EQ(one.LoggedWarnings, other.LoggedWarnings);
+      ASSERT_EQ(sleeps.controller->flags(), wakes.controller->flags());
+      ASSERT_EQ(sleeps.controller->state_bits(), wakes.controller->state_bits());
+      changes += sleeps.controller->state() != before ? 1 : 0;
+    }
+  }
+  EXPECT_GT(changes, 1000);
+  EXPECT_GT(refusals, 100);
+}
+
 // ---- ASCII
 
 /// Brings a machine into a state by flags of the line.
