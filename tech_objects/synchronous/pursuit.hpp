@@ -72,6 +72,8 @@ class Pursuit {
   bool synchronous() const noexcept { return synchronous_; }
 
  private:
+  static constexpr double kRounding = 1e-14;  // of a position
+
   /// Whether it is on a counted target, and may go on with all its steps.
   bool stays_on(double whole, double rest, double target_velocity, const PursuitLimits& limits) noexcept {
     const double change = std::max(limits.acceleration, limits.deceleration);
@@ -86,8 +88,11 @@ class Pursuit {
       if (std::abs(rest) > change + uncertainty) return false;
       steady_ = velocity_;
     }
+    // What the target has stepped by beside its velocity is made up for, and within the band; what rounding
+    // leaves is nothing to make up for.
+    const double correction = std::abs(rest) <= kRounding * (1.0 + std::abs(position_)) ? 0.0 : rest;
     locked_ = std::abs(whole - steady_) <= change + uncertainty &&
-              bounded(whole, 0.0, target_velocity, limits) == whole;
+              bounded(whole, correction, target_velocity, limits) == whole;
     synchronous_ = locked_;
     return locked_;
   }
