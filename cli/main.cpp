@@ -4,6 +4,8 @@
 #include <csignal>
 #include <exception>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "cli/aposs/aposs_command.hpp"
 #include "cli/command/command.hpp"
@@ -28,17 +30,52 @@ std::string lines_shown(const std::string& text) {
   return result;
 }
 
-/// What to say of a first word that is no command and no option; empty for any other mistake.
-std::string nearest_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return "";
-  const std::string word = argv[1];
+std::vector<std::string> commands_of(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
     names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), word) != names.end()) return "";
-  const std::vector<std::string_view> known(names.begin(), names.end());
-  return "there is no command " + lockstep::quote(word) + lockstep::did_you_mean(word, known) +
-         "; commands: " + lockstep::list_of(known) + "; lockstep describe tells what a name means";
+  return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* const option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// The nearest of some names; empty where a word is one of them.
+std::string nearest(const std::string& word, const std::vector<std::string>& names) {
+  if (std::ranges::find(names, word) != names.end()) return "";
+  return lockstep::quote(word) +
+         lockstep::did_you_mean(word, std::vector<std::string_view>(names.begin(), names.end()));
+}
+
+/// What to say of a word that is no command, where one has to stand, or of an option that its command has
+/// not; empty for any other mistake. @param words the command line
+std::string mistaken_word(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* command = &app;
+  std::string name = "lockstep";
+  std::size_t at = 0;
+  for (; at < words.size(); ++at) {
+    const std::vector<std::string> commands = commands_of(*command);
+    if (commands.empty() || words[at].starts_with('-')) break;
+    if (const std::string near = nearest(words[at], commands); !near.empty()) {
+      const std::vector<std::string_view> known(commands.begin(), commands.end());
+      const std::string whose = command == &app ? "" : " of " + name;
+      return "there is no command " + near + whose + "; commands: " + lockstep::list_of(known) +
+             (command == &app ? "; lockstep describe tells what a name means" : "");
+    }
+    command = command->get_subcommand(words[at]);
+    name += " " + words[at];
+  }
+  const std::vector<std::string> options = options_of(*command);
+  for (; at < words.size() && words[at] != "--"; ++at) {
+    if (!words[at].starts_with("--")) continue;
+    if (const std::string near = nearest(words[at].substr(0, words[at].find('=')), options); !near.empty())
+      return name + " has no option " + near + "; " + name + " --help lists what it has";
+  }
+  return "";
 }
 
 int carry_out(int argc, char** argv) {
@@ -71,8 +108,11 @@ int carry_out(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (const std::string near = nearest_command(app, argc, argv); !near.empty()) {
-      tell(near, Severity::error);
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    // Help that was asked for is no mistake.
+    if (const std::string mistake = mistaken_word(app, words);
+        error.get_exit_code() != 0 && !mistake.empty()) {
+      tell(mistake, Severity::error);
       return kCouldNotStart;
     }
     std::ostringstream data, messages;

@@ -98,8 +98,10 @@ struct MC_CamIn final : ExecuteBlock {
           "MasterStartDistance", Unit::kLeading, kPositive,
           "profiles 1, 3, 4, 6: leading distance over which the axis is synchronized, > 0",
           {.error = ErrorId::leading_distance, .relevant = &over_distance}),
-      pin::velocity<MC_CamIn>("profile 0: velocity of the following axis while synchronizing; < 0: default",
-                              {.error = ErrorId::velocity, .relevant = &over_time}),
+      pin::velocity<MC_CamIn>(
+          "profile 0: velocity of the following axis while synchronizing, above the synchronous one; < 0: "
+          "default",
+          {.error = ErrorId::velocity, .relevant = &over_time}),
       pin::acceleration<MC_CamIn>({.error = ErrorId::acceleration, .relevant = &over_time}),
       pin::deceleration<MC_CamIn>({.error = ErrorId::deceleration, .relevant = &over_time}),
       pin::jerk<MC_CamIn>({.error = ErrorId::jerk, .relevant = &over_time}),

@@ -103,7 +103,8 @@ struct MC_GearInPos final : ExecuteBlock {
           "has to be farther than that from MasterSyncPosition when the job begins",
           {.error = ErrorId::leading_distance, .relevant = &over_distance}),
       pin::velocity<MC_GearInPos>(
-          "profile 0: velocity of the following axis while synchronizing; < 0: default",
+          "profile 0: velocity of the following axis while synchronizing, above the synchronous one; < 0: "
+          "default",
           {.error = ErrorId::velocity, .relevant = &over_time}),
       pin::acceleration<MC_GearInPos>({.error = ErrorId::acceleration, .relevant = &over_time}),
       pin::deceleration<MC_GearInPos>({.error = ErrorId::deceleration, .relevant = &over_time}),

@@ -19,8 +19,8 @@ namespace lockstep::cli {
 /// Exit statuses, as the contract has them.
 enum ExitStatus : int {
   kOk = 0,
-  kNotValid = 1,        ///< the project is not valid; a name is unknown; an expectation does not hold
-  kCouldNotStart = 2,   ///< a file cannot be read, a port is taken, the command line is wrong
+  kNotValid = 1,       ///< the project is not valid; a name is unknown; an expectation does not hold
+  kCouldNotStart = 2,  ///< a file cannot be read, a port is taken, the command line is wrong, nothing to test
   kStoppedByFault = 3,  ///< an internal fault, or the overrun policy
   kFailedOn = 4         ///< there was what --fail-on names
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/command/command.hpp"
 #include "cli/command/standard_streams.hpp"
@@ -158,9 +159,22 @@ std::string unknown(std::string_view word) {
          "; lockstep describe lists what there is";
 }
 
+/// Words that came in one pair of quotation marks, as "keys include", are words too.
+std::vector<std::string> apart(const std::vector<std::string>& words) {
+  std::vector<std::string> all;
+  for (const std::string& word : words) {
+    std::istringstream stream(word);
+    for (std::string one; stream >> one;) all.push_back(one);
+  }
+  return all;
+}
+
 int describe(const std::vector<std::string>& words, bool json) {
   std::string problem;
-  const Subject subject = find_subject(words, problem);
+  Subject subject = find_subject(words, problem);
+  if (!subject)
+    if (const auto single = apart(words); single.size() > words.size())
+      subject = find_subject(single, problem);
   if (!subject) {
     write_message("lockstep: " + problem + "\n");
     return kNotValid;
@@ -248,6 +262,7 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
   if (problem.empty())
     if (Subject subject = find_object(word, problem)) return subject;
   if (!problem.empty()) return {};
+  if (Subject subject = habit_subject(word)) return subject;
   if (word.find('.') == word.npos)
     if (Subject subject = search_subject(words)) return subject;
   problem = unknown(word);

@@ -77,6 +77,15 @@ std::string sections_text(const std::vector<KeySection>& sections, std::size_t w
   return text;
 }
 
+/// Of every object, without standing among its keys.
+constexpr Key kAnywhere = [] {
+  Key key = keys::kComment;
+  key.text =
+      "for the reader: every object of the file may have one, every call too; lockstep tags shows those of "
+      "tags. // to the end of a line and /* */ are comments as well";
+  return key;
+}();
+
 std::string single_text(const std::string& path, const Key& key, std::size_t width) {
   Table table = table_of_keys();
   add_row(table, key);
@@ -92,6 +101,10 @@ std::vector<std::string> key_paths() {
   return paths;
 }
 
+const Key& comment_key() {
+  return kAnywhere;
+}
+
 Subject keys_subject(std::string_view path) {
   if (path.empty()) return {&key_overview_text, [] { return sections_json(all_key_sections()); }};
   std::vector<KeySection> found;
@@ -100,15 +113,22 @@ Subject keys_subject(std::string_view path) {
   if (!found.empty())
     return {[found](std::size_t width) { return sections_text(found, width); },
             [found] { return sections_json(found); }};
+  const auto single = [](const std::string& whole, const Key& key) -> Subject {
+    return {[whole, key](std::size_t width) { return single_text(whole, key, width); },
+            [whole, key] {
+              Json json{{"kind", "key"}, {"path", whole}};
+              json.update(key_json(key));
+              return json;
+            }};
+  };
   for (const KeySection& section : all_key_sections())
     for (const Key& key : section.keys)
-      if (const std::string whole = path_of(section, key); same_name(whole, path))
-        return {[whole, key](std::size_t width) { return single_text(whole, key, width); },
-                [whole, key] {
-                  Json json{{"kind", "key"}, {"path", whole}};
-                  json.update(key_json(key));
-                  return json;
-                }};
+      if (const std::string whole = path_of(section, key); same_name(whole, path)) return single(whole, key);
+  const auto point = path.rfind('.');
+  const std::string_view of = point == path.npos ? "" : path.substr(0, point);
+  if (same_name(path.substr(point + 1), kAnywhere.name))
+    for (const KeySection& section : all_key_sections())
+      if (same_name(section.path, of)) return single(std::string(path), kAnywhere);
   return {};
 }
 

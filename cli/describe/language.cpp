@@ -6,6 +6,7 @@
 #include "cli/describe/subject.hpp"
 #include "cli/describe/table.hpp"
 #include "projects/expressions/functions.hpp"
+#include "projects/expressions/habits.hpp"
 #include "projects/expressions/operators.hpp"
 #include "projects/expressions/type_table.hpp"
 #include "projects/json/problem.hpp"
@@ -253,6 +254,22 @@ Subject language_subject(std::string_view word) {
   if (Subject subject = made_type_subject(word)) return subject;
   if (Subject subject = operator_subject(word)) return subject;
   return conversion_subject(word);
+}
+
+Subject habit_subject(std::string_view word) {
+  const Habit* const habit = habit_of(upper_case(word));
+  if (habit == nullptr) return {};
+  return {
+      [habit](std::size_t width) {
+        return std::string(habit->written) + "\n" +
+               paragraph("not of this language; here: " + std::string(habit->here), 2, width) + "\n" +
+               (habit->example.expression.empty() ? "" : examples_text(std::span(&habit->example, 1), width));
+      },
+      [habit] {
+        Json json{{"kind", "written otherwise"}, {"name", habit->written}, {"text", habit->here}};
+        json["examples"] = examples_json(std::span(&habit->example, 1));
+        return json;
+      }};
 }
 
 std::vector<std::string_view> language_names() {

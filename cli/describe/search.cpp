@@ -102,6 +102,8 @@ void add_alarms(std::vector<Finding>& all) {
 }
 
 void add_keys(std::vector<Finding>& all) {
+  const Key& comment = comment_key();
+  all.push_back({"key", "keys " + std::string(comment.name), std::string(comment.text), 5});
   std::unordered_set<std::string> seen;
   for (const KeySection& section : all_key_sections())
     for (const Key& key : section.keys) {

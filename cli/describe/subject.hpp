@@ -13,6 +13,10 @@
 #include "tech_objects/alarms/alarms.hpp"
 #include "tech_objects/data_blocks/variable.hpp"
 
+namespace lockstep {
+struct Key;
+}  // namespace lockstep
+
 namespace lockstep::cli {
 
 /// Something that can be described; the form is made when it is asked for.
@@ -56,6 +60,8 @@ std::vector<std::string_view> override_names();
 Subject keys_subject(std::string_view path);
 /// Paths of all structures and keys, for suggestions.
 std::vector<std::string> key_paths();
+/// The one that every object may have, which stands in no table of them.
+const Key& comment_key();
 
 /// The standard functions, operators and types of expressions.
 Subject functions_subject();
@@ -64,6 +70,8 @@ Subject types_subject();
 /// A function, a conversion (`TO_INT`), an operator or a type, without regard to case.
 /// @return an empty subject if the word is none of them
 Subject language_subject(std::string_view word);
+/// What other languages write, such as NORM_X: what is written here in its place.
+Subject habit_subject(std::string_view word);
 /// Their names, for suggestions.
 std::vector<std::string_view> language_names();
 

@@ -72,6 +72,17 @@ PanelEntry ModbusPanel::place_of(const ModbusMapConfig& map, const ModbusEntry& 
   return {project_.modbus.signal_of(entry).name, map.unit ? int{*map.unit} : common_unit_, &map.map, &entry};
 }
 
+bool ModbusPanel::has_map() const {
+  if (!places_.empty()) return true;
+  tell(
+      "the project has no Modbus map, so that no value has an address; its \"modbus\" takes one: \"map\": [ "
+      "{ "
+      "\"tag\": \"speed\", \"table\": \"holding_register\", \"address\": 0 } ]; lockstep describe keys "
+      "modbus.map "
+      "tells more");
+  return false;
+}
+
 std::vector<PanelName> ModbusPanel::all() const {
   std::vector<PanelName> names;
   std::unordered_set<std::string> known;

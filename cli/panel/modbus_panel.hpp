@@ -73,6 +73,8 @@ class ModbusPanel {
   /// count that the map has; of "heights[2..5]" it has to have all.
   /// @param to_write addresses that can be written
   std::optional<PanelName> find(const std::string& name, bool to_write) const;
+  /// Whether there is a map at all; that there is none is told.
+  bool has_map() const;
   /// All names of the maps, each once.
   std::vector<PanelName> all() const;
   /// Connects; false if that cannot be, which is told.

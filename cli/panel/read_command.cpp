@@ -34,6 +34,7 @@ int read_values(const PanelOptions& options) {
   auto target = find_target(*project, options);
   if (!target) return kCouldNotStart;
   ModbusPanel panel(*project, options, std::move(*target));
+  if (!panel.has_map()) return kNotValid;
   std::vector<PanelName> names;
   for (const std::string& name : options.names)
     if (auto found = panel.find(name, false)) names.push_back(std::move(*found));
@@ -68,7 +69,7 @@ void add_read_command(CLI::App& app, Action& action) {
       "request\n"
       "are of one instant. The first place of a name in the map counts.\n"
       "Such as: lockstep read 127.0.0.1:1502 speed Knife.ActualPosition --project project.json\n"
-      "Exit status: 0, 1 project not valid or no such name, 2 nobody answers, or refuses");
+      "Exit status: 0, 1 project not valid, without a map, or no such name, 2 nobody answers, or refuses");
   command->callback([&action, options] { action = [options] { return read_values(*options); }; });
 }
 

@@ -96,6 +96,7 @@ int write_values(const PanelOptions& options) {
   auto target = find_target(*project, options);
   if (!target) return kCouldNotStart;
   ModbusPanel panel(*project, options, std::move(*target));
+  if (!panel.has_map()) return kNotValid;
   std::vector<Assignment> assignments;
   for (const std::string& text : options.names)
     if (auto one = assignment(panel, text)) assignments.push_back(std::move(*one));
@@ -122,7 +123,8 @@ void add_write_command(CLI::App& app, Action& action) {
       "Nothing is written unless every name and value is good; then they go out in their order, each in a\n"
       "request of its own, an array in as many as its registers need, 123 in each.\n"
       "Such as: lockstep write 127.0.0.1:1502 speed=120 start=TRUE --project project.json\n"
-      "Exit status: 0, 1 project not valid, no such name or value, 2 nobody answers, or refuses");
+      "Exit status: 0, 1 project not valid, without a map, no such name or value, 2 nobody answers, or "
+      "refuses");
   command->callback([&action, options] { action = [options] { return write_values(*options); }; });
 }
 

@@ -134,6 +134,11 @@ int plot(const PlotOptions& options) {
     picture.title =
         options.title.empty() ? std::filesystem::path(options.trace).filename().string() : options.title;
     write_file(options.picture, run_gnuplot(plot_script(picture, format)));
+    if (options.project.empty() && std::ranges::find(known, true) == known.end())
+      tell(
+          "a CSV trace does not say its units, so the picture has [u]; --project PROJECT.json takes them, "
+          "and "
+          "the types of its signals, from the project");
     return kOk;
   } catch (const std::runtime_error& error) {
     tell(error.what(), Severity::error);

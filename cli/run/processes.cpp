@@ -56,7 +56,7 @@ std::vector<std::string> arguments_of(const RunOptions& options, FailOn fail_on,
   add(options.no_modbus, "--no-modbus");
   add(options.no_lcm, "--no-lcm");
   add(options.no_retain, "--no-retain");
-  add(fail_on.alarm, "--fail-on", "alarm");
+  add(fail_on.alarm, "--fail-on", fail_on.warning ? "warning" : "alarm");
   add(fail_on.job, "--fail-on", "job");
   return words;
 }

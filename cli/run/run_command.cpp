@@ -84,11 +84,13 @@ void add_run_command(CLI::App& app, Action& action) {
       });
   auto fail_on = std::make_shared<std::vector<std::string>>();
   command
-      ->add_option(
-          "--fail-on", *fail_on,
-          "exit with 4 if there was an alarm, or a job that failed: alarm, job, or both, comma separated")
+      ->add_option("--fail-on", *fail_on,
+                   "exit with 4 if there was such a thing, comma separated: alarm (one with a reaction, or "
+                   "that has to "
+                   "be acknowledged), warning (any alarm, warnings too, which go by themselves), job (one "
+                   "that failed)")
       ->delimiter(',')
-      ->check(CLI::IsMember({"alarm", "job"}));
+      ->check(CLI::IsMember({"alarm", "warning", "job"}));
   command->footer(
       "Without --simulate it runs in real time until SIGINT or SIGTERM (or --duration), then brings its axes "
       "to\n"
@@ -119,7 +121,8 @@ void add_run_command(CLI::App& app, Action& action) {
       options->duration = *value;
     }
     const auto named = [&](const char* what) { return std::ranges::find(*fail_on, what) != fail_on->end(); };
-    const FailOn fails{.alarm = named("alarm"), .job = named("job")};
+    const FailOn fails{
+        .alarm = named("alarm") || named("warning"), .warning = named("warning"), .job = named("job")};
     action = [options, controller, fails] {
       if (!controller->empty()) return run_controller(*options, *controller, fails);
       return is_system_file(options->file) ? run_system(*options, fails) : run_project(*options, fails);

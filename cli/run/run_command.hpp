@@ -16,8 +16,9 @@ namespace lockstep::cli {
 
 /// What makes a run fail that has otherwise ended as asked.
 struct FailOn {
-  bool alarm = false;
-  bool job = false;  ///< one that has failed or was rejected
+  bool alarm = false;    ///< one that has a reaction, or has to be acknowledged
+  bool warning = false;  ///< one that has none, and goes by itself
+  bool job = false;      ///< one that has failed or was rejected
 };
 
 /// Loads the project and carries the run out; gives the exit status.

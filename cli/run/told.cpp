@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "cli/command/command.hpp"
+#include "tech_objects/alarms/alarms.hpp"
 
 namespace lockstep::cli {
 
@@ -16,8 +17,17 @@ void ToldOnStandardError::warn(const std::string& text) noexcept {
   tell("warning: " + (controller_.empty() ? text : controller_ + ": " + text), Severity::warning);
 }
 
+namespace {
+
+bool is_warning(const TraceEvent& event) {
+  const Alarm* const alarm = find_alarm(event.number);
+  return event.reaction == 0 && alarm != nullptr && alarm->alarm_class == AlarmClass::warning;
+}
+
+}  // namespace
+
 void ToldOnStandardError::event(const TraceEvent& event) {
-  if (event.kind == EventKind::alarm) ++alarms_;
+  if (event.kind == EventKind::alarm) ++(is_warning(event) ? warnings_ : alarms_);
   if (event.kind == EventKind::job_failed) ++failed_jobs_;
   std::string text;
   if (controller_.empty()) {
@@ -55,11 +65,14 @@ void tell_counters(const Controller& controller, const std::string& who) {
 
 int status_of(int status, const FailOn& fail_on, const ToldOnStandardError& told,
               const Controller& controller) {
-  if (status != kOk || (!fail_on.alarm && !fail_on.job)) return status;
+  if (status != kOk || (!fail_on.alarm && !fail_on.warning && !fail_on.job)) return status;
   std::string reason;
-  if (fail_on.alarm && told.alarms() > 0) reason = fmt::format("{} alarms", told.alarms());
-  if (fail_on.job && told.failed_jobs() > 0)
-    reason += fmt::format("{}{} failed jobs", reason.empty() ? "" : ", ", told.failed_jobs());
+  const auto count = [&reason](bool counts, std::uint64_t number, const char* what) {
+    if (counts && number > 0) reason += fmt::format("{}{} {}", reason.empty() ? "" : ", ", number, what);
+  };
+  count(fail_on.alarm, told.alarms(), "alarms");
+  count(fail_on.warning, told.warnings(), "warnings");
+  count(fail_on.job, told.failed_jobs(), "failed jobs");
   if (const std::uint64_t lost = controller.events == nullptr ? 0 : controller.events->lost();
       reason.empty() && lost > 0)
     reason = fmt::format("{} events were lost, which may have been such ones", lost);

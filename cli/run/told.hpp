@@ -26,11 +26,14 @@ class ToldOnStandardError final : public Messages {
   /// What has been counted only. After the run.
   void tell_rest();
 
+  /// Those with a reaction, or that have to be acknowledged; the others are warnings.
   std::uint64_t alarms() const noexcept { return alarms_; }
+  std::uint64_t warnings() const noexcept { return warnings_; }
   std::uint64_t failed_jobs() const noexcept { return failed_jobs_; }
 
  private:
   std::atomic<std::uint64_t> alarms_{0};       // counted by the recorder
+  std::atomic<std::uint64_t> warnings_{0};     // the same
   std::atomic<std::uint64_t> failed_jobs_{0};  // the same
   int timeout_;
   std::string controller_;

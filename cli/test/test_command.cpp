@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -93,6 +94,16 @@ bool write_junit(const std::string& path, const std::vector<TestSuite>& suites) 
   return false;
 }
 
+/// A green result of nothing would be believed.
+int tell_nothing_checked() {
+  tell(
+      "nothing was checked: no project has \"expectations\", such as [ { \"at\": \"2s\", \"expect\": "
+      "\"Axis.Position\", \"value\": 100.0, \"tolerance\": 0.1 } ]; lockstep describe expectations tells "
+      "more",
+      Severity::error);
+  return kCouldNotStart;
+}
+
 int run_tests(const TestOptions& options) {
   if (!is_xml(options.junit)) return kCouldNotStart;
   int status = kOk;
@@ -105,10 +116,16 @@ int run_tests(const TestOptions& options) {
     passed += suite.count(TestCase::Result::passed);
     not_tested += untested;
   }
-  write_data(fmt::format("{} of {} expectations hold{}\n", passed, cases,
-                         not_tested == 0 ? ""
-                                         : fmt::format("; {} of {} projects could not be tested", not_tested,
-                                                       options.files.size())));
+  const std::size_t empty =
+      std::ranges::count_if(suites, [](const auto& suite) { return suite.cases.empty(); });
+  std::string rest;
+  const auto count = [&](std::size_t number, const char* what) {
+    if (number > 0) rest += fmt::format("; {} of {} projects {}", number, options.files.size(), what);
+  };
+  count(not_tested, "could not be tested");
+  count(empty, "have no expectations");
+  write_data(fmt::format("{} of {} expectations hold{}\n", passed, cases, rest));
+  if (status == kOk && cases == 0) status = tell_nothing_checked();
   if (!options.junit.empty() && !write_junit(options.junit, suites)) return kCouldNotStart;
   return status;
 }
@@ -129,7 +146,7 @@ void add_test_command(CLI::App& app, Action& action) {
       "were, problems of a project, alarms and failed jobs to standard error.\n"
       "Exit status: 0 all expectations hold, 1 one does not or a project is not valid, 2 a file cannot be "
       "read or\n"
-      "written");
+      "written, or nothing was checked because no project has \"expectations\"");
   command->callback([&action, options] { action = [options] { return run_tests(*options); }; });
 }
 

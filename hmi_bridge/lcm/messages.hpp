@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/lcm/channel_length.hpp"
 #include "hmi_bridge/traces/sink.hpp"
 #include "lockstep/event_detail_t.hpp"
 #include "lockstep/event_t.hpp"
@@ -16,10 +17,9 @@
 
 namespace lockstep {
 
-/// Longest channel of a trace: its header's channel must fit LCM's limit of 63 characters.
-inline constexpr std::size_t kLongestTraceChannel = 56;
 /// What is appended to the channel of the rows to name the channel of their header.
 inline constexpr std::string_view kHeaderSuffix = "_HEADER";
+static_assert(kLongestTraceChannel + kHeaderSuffix.size() == kLongestLcmChannel);
 
 /// … and the channel of the events.
 inline constexpr std::string_view kEventsSuffix = "_EVENTS";

@@ -16,6 +16,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/lcm/channel_length.hpp"
+
 namespace lockstep {
 
 /// A message as it came. Its memory is that of the datagram or of the reassembly, until the next datagram.
@@ -46,7 +48,7 @@ struct LcmDatagramCounters {
 class LcmReassembly {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::size_t kLongestChannel = 63;
+  static constexpr std::size_t kLongestChannel = kLongestLcmChannel;
 
   explicit LcmReassembly(LcmBounds bounds = {}) : bounds_(bounds) {}
 

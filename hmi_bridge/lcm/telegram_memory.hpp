@@ -9,12 +9,14 @@
 #include <string_view>
 #include <vector>
 
+#include "hmi_bridge/lcm/channel_length.hpp"
+
 namespace lockstep {
 
 /// A message as it went over the network.
 struct KeptTelegram {
   static constexpr std::size_t kLongest = 512;  ///< [byte]
-  static constexpr std::size_t kLongestChannel = 63;
+  static constexpr std::size_t kLongestChannel = kLongestLcmChannel;
 
   std::int64_t utime = 0;  ///< [µs since the epoch] when it was sent, or came
   std::uint16_t size = 0;

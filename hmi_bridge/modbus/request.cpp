@@ -42,6 +42,7 @@ std::span<const std::uint8_t> ModbusResponder::answer(std::span<const std::uint8
   image_.refresh();  // the one instant that this request sees
   unit_ = frame[kModbusHeader - 1];
   map_ = &units_.of(unit_);
+  refused_ = {};
   exception_ = perform(pdu);
   if (audit_ != nullptr && exception_ != ModbusException::none) audit_refusal(pdu);
   reply_[kModbusHeader] = pdu[0];
@@ -252,10 +253,17 @@ ModbusException ModbusResponder::write_bits(std::uint32_t address, std::uint32_t
     const ModbusEntry& entry = *map_->find(ModbusTable::coil, address + i);
     Value value{};
     value.u = bits[i / 8] >> (i % 8) & 1u;
-    if (!entry.range.allows(as_double(value, Type::BOOL))) return ModbusException::illegal_data_value;
+    if (!entry.range.allows(as_double(value, Type::BOOL))) return refuse(entry, {}, value);
     batch_.push_back({entry.signal, value});
   }
   return post();
+}
+
+/// Notes which entry has not taken its value, and which one that was.
+ModbusException ModbusResponder::refuse(const ModbusEntry& entry, ModbusWords words,
+                                        std::optional<Value> value) noexcept {
+  refused_ = {&entry, words, value};
+  return ModbusException::illegal_data_value;
 }
 
 ModbusException ModbusResponder::stage_registers(std::uint32_t address, Bytes words) {
@@ -278,7 +286,7 @@ ModbusException ModbusResponder::stage_registers(std::uint32_t address, Bytes wo
     const std::uint32_t span = modbus_span(entry);
     for (std::uint32_t k = 0; k < span; ++k) value_words[k] = word_at(words, 2 * (i - address + k));
     const auto value = decode(entry, map_->signal_type(entry), std::span(value_words).first(span));
-    if (!value) return ModbusException::illegal_data_value;
+    if (!value) return refuse(entry, value_words);
     batch_.push_back({entry.signal, *value});
     i += span;
   }
@@ -290,7 +298,7 @@ ModbusException ModbusResponder::stage_bits(const ModbusEntry& first, std::uint1
   for (const ModbusEntry* part = &first; part != nullptr; part = map_->next(*part)) {
     Value value{};
     value.u = (word & modbus_bit(*part)) != 0 ? 1 : 0;
-    if (!part->range.allows(as_double(value, Type::BOOL))) return ModbusException::illegal_data_value;
+    if (!part->range.allows(as_double(value, Type::BOOL))) return refuse(*part, {}, value);
     batch_.push_back({part->signal, value});
     word &= static_cast<std::uint16_t>(~modbus_bit(*part));
   }
@@ -313,10 +321,10 @@ ModbusException ModbusResponder::mask_register(std::uint32_t address, std::uint1
   const ModbusEntry& entry = *map_->find(ModbusTable::holding_register, address);
   const Type type = map_->signal_type(entry);
   const std::uint16_t before = words_of(entry)[0];
-  const std::uint16_t after[] = {
+  const ModbusWords after{
       static_cast<std::uint16_t>((before & and_mask) | (or_mask & static_cast<std::uint16_t>(~and_mask)))};
-  const auto value = decode(entry, type, after);
-  if (!value) return ModbusException::illegal_data_value;
+  const auto value = decode(entry, type, std::span(after).first(1));
+  if (!value) return refuse(entry, after);
   batch_.assign(1, {entry.signal, *value});
   // Bits that the request leaves alone stay what they are when the write enters, not what they were when it
   // was asked for: a program may own them. Where the register is not the signal itself, the whole value goes.
@@ -339,7 +347,7 @@ ModbusException ModbusResponder::mask_bits(const ModbusEntry& first, std::uint16
     if (!part->writable) return ModbusException::illegal_data_address;
     Value value{};
     value.u = (or_mask & modbus_bit(*part)) != 0 ? 1 : 0;
-    if (!part->range.allows(as_double(value, Type::BOOL))) return ModbusException::illegal_data_value;
+    if (!part->range.allows(as_double(value, Type::BOOL))) return refuse(*part, {}, value);
     batch_.push_back({part->signal, value});
   }
   if ((named & or_mask) != 0) return ModbusException::illegal_data_value;

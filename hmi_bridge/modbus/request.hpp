@@ -98,9 +98,12 @@ class ModbusResponder {
   ModbusException check_write(ModbusTable table, std::uint32_t address, std::uint32_t count) const;
   ModbusException stage_registers(std::uint32_t address, Bytes words);
   ModbusException stage_bits(const ModbusEntry& first, std::uint16_t word);
+  ModbusException refuse(const ModbusEntry& entry, ModbusWords words,
+                         std::optional<Value> value = std::nullopt) noexcept;
   AuditEntry audit_entry() const;
   void audit_writes();
   void audit_refusal(Bytes pdu);
+  void name_refused(AuditEntry& told) const;
   Value value_of(const ModbusEntry& entry) const;
   ModbusWords words_of(const ModbusEntry& entry) const;
 
@@ -116,6 +119,12 @@ class ModbusResponder {
   std::vector<SignalWrite> batch_;
   std::array<std::uint8_t, kModbusFrame> reply_{};
   bool refuses_writes_ = false;
+  struct Refused {
+    const ModbusEntry* entry = nullptr;  ///< that has not taken its value; nullptr: none
+    ModbusWords words{};                 ///< of the value
+    std::optional<Value> value;          ///< if it does not stand in these
+  };
+  Refused refused_;       ///< of the request at hand
   std::size_t size_ = 0;  ///< of what the reply has behind its header [byte]
   ModbusException exception_ = ModbusException::none;
 };

@@ -1,6 +1,11 @@
 // What the audit log is told of requests.
+#include <fmt/format.h>
 #include <modbus.h>
 
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "hmi_bridge/modbus/request.hpp"
@@ -34,6 +39,14 @@ std::string reason_of(ModbusException exception) {
     default:
       return "exception " + std::to_string(static_cast<int>(exception));
   }
+}
+
+/// What may be written to an entry, in the unit of the signal.
+std::string limits_of(const Range& range) {
+  const bool from = range.lowest > -std::numeric_limits<double>::max();
+  const bool to = range.highest < std::numeric_limits<double>::max();
+  if (from && to) return fmt::format("{} to {}", range.lowest, range.highest);
+  return from ? fmt::format("{} and more", range.lowest) : fmt::format("up to {}", range.highest);
 }
 
 /// What a write makes of the bits of a value.
@@ -71,6 +84,23 @@ void ModbusResponder::audit_writes() {
   }
 }
 
+/// Which tag has not taken its value, which value that was, and what it takes.
+void ModbusResponder::name_refused(AuditEntry& told) const {
+  const ModbusEntry& entry = *refused_.entry;
+  const Type type = map_->signal_type(entry);
+  ModbusEntry unlimited = entry;
+  unlimited.range = kAny;
+  std::optional<Value> value = refused_.value;
+  if (!value) value = decode(unlimited, type, std::span(refused_.words).first(modbus_span(entry)));
+  const std::string at = fmt::format("{} {}", modbus_table_name(entry.table), entry.address);
+  told.why = value ? fmt::format("exception 3: beyond the limits of {}, {}", at, limits_of(entry.range))
+                   : fmt::format("exception 3: what {} was to get is no {}", at, type_name(type));
+  if (entry.signal < names_.size() && !names_[entry.signal].empty()) told.target = names_[entry.signal];
+  told.subject = told.target + " refused";
+  told.before = audit_value(image_.value(entry.signal), type);
+  if (value) told.after = audit_value(*value, type);
+}
+
 /// A request that was answered with an exception, if it was one that writes.
 void ModbusResponder::audit_refusal(Bytes pdu) {
   for (const WriteFunction& one : kWriteFunctions) {
@@ -83,6 +113,7 @@ void ModbusResponder::audit_refusal(Bytes pdu) {
     if (one.count != 0) entry.target += ", " + std::to_string(word(one.count)) + " of them";
     entry.why = reason_of(exception_);
     entry.subject = std::string(modbus_table_name(one.table)) + std::to_string(static_cast<int>(exception_));
+    if (refused_.entry != nullptr) name_refused(entry);
     audit_->add(std::move(entry));
   }
 }

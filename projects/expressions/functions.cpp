@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "projects/expressions/habits.hpp"
 #include "projects/expressions/typing.hpp"
 
 namespace lockstep {
@@ -18,12 +19,6 @@ std::vector<std::string_view> split(std::string_view list) {
     list.remove_prefix(std::min(comma + 1, list.size()));
   }
   return parts;
-}
-
-std::string unknown_function(std::string_view name) {
-  std::string message = "the function " + quoted(name) + " is unknown; there are";
-  for (const StandardFunction& function : standard_functions()) message += " " + std::string(function.name);
-  return message + ", TO_type and type_TO_type";
 }
 
 }  // namespace

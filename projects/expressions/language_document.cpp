@@ -4,6 +4,7 @@
 #include <span>
 
 #include "projects/expressions/functions.hpp"
+#include "projects/expressions/habits.hpp"
 #include "projects/expressions/operators.hpp"
 #include "projects/expressions/type_table.hpp"
 
@@ -132,6 +133,21 @@ std::string literals_chapter() {
   return text;
 }
 
+std::string habits_chapter() {
+  std::string text =
+      "\n## Written otherwise\n\n"
+      "What S7-SCL and other languages write, and what is written here in its place; the message of an "
+      "expression with it says the same.\n\n"
+      "| elsewhere | here | example |\n|---|---|---|\n";
+  for (const Habit& habit : habits())
+    text += "| " + code(cell(habit.written)) + " | " + cell(habit.here) + " | " +
+            (habit.example.expression.empty()
+                 ? ""
+                 : code(cell(habit.example.expression)) + " gives " + result_text(habit.example)) +
+            " |\n";
+  return text;
+}
+
 }  // namespace
 
 std::string functions_document() {
@@ -142,7 +158,7 @@ std::string functions_document() {
          "functions`, `operators` and `types` show the same, `lockstep describe SEL` one of them. "
          "[LANGUAGE.md](LANGUAGE.md) says where expressions stand and when they are evaluated.\n" +
          types_chapter() + literals_chapter() + operators_chapter() + functions_chapter() +
-         conversions_chapter();
+         conversions_chapter() + habits_chapter();
 }
 
 }  // namespace lockstep

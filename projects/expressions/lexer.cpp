@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hmi_bridge/traces/text_literal.hpp"
+#include "projects/expressions/habits.hpp"
 #include "projects/expressions/letters.hpp"
 #include "projects/literals/duration.hpp"
 
@@ -36,12 +37,14 @@ Token Lexer::next() {
   if (peek() == '\'') return quoted_text(std::move(token));
   token.kind = Token::Kind::kSymbol;
   const std::string_view two = text_.substr(at_, 2);
+  // None of them begins where a sign of this language may stand; := is one, within the brackets of a call.
+  if (const Habit* const habit = habit_sign(text_.substr(at_)); habit != nullptr && habit->written != ":=")
+    throw SyntaxError{column(), quoted(habit->written) + " has no meaning here; " + std::string(habit->here)};
   for (const std::string_view symbol : {"**", "<>", "<=", ">=", ":="})
     if (two == symbol) token.text = symbol;
   if (token.text.empty() && std::string_view("+-*/<>=&().,[]").find(peek()) != std::string_view::npos)
     token.text = peek();
   if (token.text.empty()) {
-    if (peek() == '%') throw SyntaxError{column(), "'%' has no meaning here; a bit is written .X0"};
     constexpr std::string_view hex = "0123456789ABCDEF";
     const auto byte = static_cast<unsigned char>(peek());
     std::string what = quoted(text_.substr(at_, 1));

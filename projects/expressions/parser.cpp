@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "projects/expressions/habits.hpp"
 #include "projects/expressions/lexer.hpp"
 #include "projects/expressions/operators.hpp"
 
@@ -22,7 +23,7 @@ class Parser {
   Syntax whole() {
     if (token_.kind == Token::Kind::kEnd) throw SyntaxError{token_.column, "the expression is empty"};
     Syntax result = binary(1);
-    if (token_.kind != Token::Kind::kEnd) throw unexpected("an operator or the end");
+    if (token_.kind != Token::Kind::kEnd) throw behind(result);
     return result;
   }
 
@@ -60,6 +61,15 @@ class Parser {
         break;
     }
     return {token_.column, found + " found where " + allowed + " is expected"};
+  }
+
+  /// What stands behind a whole expression: something that other languages write there?
+  SyntaxError behind(const Syntax& expression) const {
+    SyntaxError error = unexpected("an operator or the end");
+    const bool condition = expression.kind == Syntax::Kind::kReference && upper_case(expression.text) == "IF";
+    if (const Habit* const habit = habit_of(condition ? "IF" : at(":=") ? ":=" : ""))
+      error.message += "; " + std::string(condition ? "IF is " : "") + std::string(habit->here);
+    return error;
   }
 
   void advance() { token_ = lexer_.next(); }

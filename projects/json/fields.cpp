@@ -135,14 +135,13 @@ std::optional<std::size_t> read_word(const JsonValue* value, std::span<const std
   return std::nullopt;
 }
 
-std::optional<std::string_view> read_title(const JsonValue* value, Problems& problems) {
-  constexpr std::size_t kLongest = 128;
+std::optional<std::string_view> read_title(const JsonValue* value, Problems& problems, std::size_t longest) {
   const auto text = read_string(value, problems);
   if (!text) return std::nullopt;
   const bool readable = visible(*text) == *text;
-  if (!text->empty() && text->size() <= kLongest && readable) return text;
+  if (!text->empty() && text->size() <= longest && readable) return text;
   problems.report(*value, value->shown() + " is not allowed here; allowed: a text of 1 to " +
-                              std::to_string(kLongest) + " bytes without control characters");
+                              std::to_string(longest) + " bytes without control characters");
   return std::nullopt;
 }
 

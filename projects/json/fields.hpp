@@ -35,8 +35,9 @@ std::optional<std::int64_t> read_duration(const JsonValue* value, std::int64_t l
 /// One of some words: its index.
 std::optional<std::size_t> read_word(const JsonValue* value, std::span<const std::string_view> words,
                                      Problems& problems);
-/// A text of 1 to 128 characters, all of which can be shown.
-std::optional<std::string_view> read_title(const JsonValue* value, Problems& problems);
+/// A text of 1 to `longest` bytes, all of which can be shown.
+std::optional<std::string_view> read_title(const JsonValue* value, Problems& problems,
+                                           std::size_t longest = kLongestTitle);
 
 /// The value itself, if it is of that kind.
 const JsonValue* read_object(const JsonValue* value, Problems& problems);

@@ -33,7 +33,7 @@ enum class KeyKind : std::uint8_t {
   duration,   ///< such as "10ms"
   word,       ///< one of some words
   text,       ///< a string
-  title,      ///< a string of 1 to 128 characters, all of which can be shown
+  title,      ///< a string of 1 to `longest` bytes, all of which can be shown
   tag,        ///< the name of a tag of a type
   signal,     ///< a path: tag, instance.Pin, Object.Variable
   object,     ///< the name of a technology object
@@ -69,6 +69,9 @@ struct KeyValue {
   void* address = nullptr;  ///< of a tag's value, or a `TechnologyObject*`
 };
 
+/// Of a text that can be shown, where its key says no other [byte].
+inline constexpr std::size_t kLongestTitle = 128;
+
 /// One key of an object.
 struct Key {
   std::string_view name;
@@ -76,6 +79,7 @@ struct Key {
   KeyKind kind = KeyKind::unspecified;
   KeyShape shape = KeyShape::one;
   Range range = kAny;  ///< of a number, integer or duration [ns]; infinite ends: as far as its type goes
+  std::size_t longest = kLongestTitle;  ///< of a title [byte]
   std::string_view unit{};
   std::string_view text{};       ///< meaning
   std::string_view otherwise{};  ///< what holds if it is not given; empty: the default of the member
@@ -251,6 +255,7 @@ struct KeyOf : Key {
   constexpr KeyOf one_or_list() const { return with(&Key::shape, KeyShape::one_or_list); }
   /// An object of which each member is a name and a value.
   constexpr KeyOf named() const { return with(&Key::shape, KeyShape::named); }
+  constexpr KeyOf up_to(std::size_t longest) const { return with(&Key::longest, longest); }
   constexpr KeyOf otherwise_is(std::string_view what) const { return with(&Key::otherwise, what); }
   constexpr KeyOf defined_as(std::string_view name) const { return with(&Key::definition, name); }
   constexpr KeyOf of(std::string_view other_unit) const { return with(&Key::unit, other_unit); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hmi_bridge/audit/file.hpp"
+#include "hmi_bridge/lcm/channel_length.hpp"
 #include "hmi_bridge/studio/config.hpp"
 #include "hmi_bridge/traces/channel.hpp"
 #include "hmi_bridge/traces/flight_recorder.hpp"
@@ -85,9 +86,10 @@ inline constexpr auto kCommands =
                                    "whose program is started and stopped: {}")
                         .named()
                         .needed());
+inline constexpr auto kChannel =
+    key::title("channel", "channel of the rows").up_to(kLongestTraceChannel).needed();
 inline constexpr auto kLcm = key_table<void>(
-    key::text("url", "network, such as udpm://239.255.76.67:7667?ttl=0").needed(),
-    key::title("channel", "channel of the rows").needed(),
+    key::text("url", "network, such as udpm://239.255.76.67:7667?ttl=0").needed(), kChannel,
     key::structure("commands", kCommands, "axes that take commands from panels").otherwise_is("none does"));
 
 inline constexpr double kLongestBefore = 600e9;  // [ns]
@@ -107,7 +109,7 @@ inline constexpr auto kTrigger = key_table<TraceSelection>(
                                            "of which the rows before count as well"),
     key::duration<&TraceSelection::after>("after", {0, kHour}, "of which the rows after count as well"));
 inline constexpr auto kTraceChannel = key_table<TraceSelection>(
-    key::title("channel", "channel of the rows").needed(), signals_key("columns").needed(),
+    kChannel, signals_key("columns").needed(),
     key::integer<&TraceSelection::every>("every", {1, 1e9}, "only each n-th row"),
     key::group<TraceSelection>("trigger", kTrigger, "only the rows at an occasion"));
 inline constexpr auto kTrace = key_table<void>(
@@ -180,6 +182,7 @@ inline constexpr auto kTransferArea = key_table<TransferArea>(
         .otherwise_is("has to be given but with 'send'"),
     key::title<&TransferArea::channel>(
         "channel", "of the network, but with 'within'; of an area of a system SYSTEM.AREA")
+        .up_to(kLongestLcmChannel)
         .otherwise_is("the name of the area"),
     key::title<&TransferArea::controller>("controller", "that sends, with 'receive'")
         .otherwise_is("has to be given with 'receive'"),

@@ -129,7 +129,7 @@ Json KeySchema::single(const Key& key) {
     case KeyKind::word:
       return words(key.words);
     case KeyKind::title:
-      return {{"type", "string"}, {"minLength", 1}, {"maxLength", 128}};
+      return {{"type", "string"}, {"minLength", 1}, {"maxLength", key.longest}};
     case KeyKind::positions: {
       Key position = key;
       position.kind = KeyKind::number;

@@ -57,7 +57,7 @@ std::string single_text(const Key& key) {
     case KeyKind::word:
       return words_text(key);
     case KeyKind::title:
-      return "text of 1 to 128 characters";
+      return "text of 1 to " + std::to_string(key.longest) + " characters";
     case KeyKind::text:
       return "text";
     case KeyKind::tag:

@@ -20,12 +20,8 @@ void load_lcm(const JsonValue& json, TraceConfig& trace, Problems& problems) {
     if (const std::string problem = lcm_url_problem(*url); !problem.empty())
       problems.report(*fields["url"], problem);
   }
-  if (const auto channel = read_title(fields["channel"], problems)) {
+  if (const auto channel = read_title(fields["channel"], problems, keys::kChannel.longest))
     trace.channel = *channel;
-    if (channel->size() > kLongestTraceChannel)
-      problems.report(*fields["channel"], fields["channel"]->shown() + " is too long; allowed: up to " +
-                                              std::to_string(kLongestTraceChannel) + " characters");
-  }
 }
 
 void load_signals(const JsonValue& json, std::vector<NamedSignal>& signals, const Loading& loading) {
@@ -71,15 +67,6 @@ void load_occasion(const JsonValue& json, TraceChannelConfig& channel, const Loa
       NamedSignal{std::string(*path), place->signal, place->unit, place->object, place->instance};
 }
 
-std::optional<std::string> read_channel(const JsonValue* json, Problems& problems) {
-  const auto channel = read_title(json, problems);
-  if (!channel) return std::nullopt;
-  if (channel->size() <= kLongestTraceChannel) return std::string(*channel);
-  problems.report(*json, json->shown() + " is too long; allowed: up to " +
-                             std::to_string(kLongestTraceChannel) + " characters");
-  return std::nullopt;
-}
-
 /// Headers, events, commands and panels go out beside a channel, under names made of its own.
 bool is_beside(std::string_view name, std::string_view channel) {
   if (!name.starts_with(channel)) return false;
@@ -105,7 +92,7 @@ void load_channel(const JsonValue& json, TraceConfig& trace, const Loading& load
   Problems& problems = loading.problems;
   TraceChannelConfig& channel = trace.channels.emplace_back();
   const Fields fields = read_struct(json, keys::kTraceChannel, channel.selection, loading);
-  if (const auto name = read_channel(fields["channel"], problems)) {
+  if (const auto name = read_title(fields["channel"], problems, keys::kChannel.longest)) {
     const JsonValue& at = *fields["channel"];
     if (!trace.channel.empty()) report_same_channel(at, *name, trace.channel, problems);
     for (const TraceChannelConfig& other : trace.channels)

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "hmi_bridge/lcm/reassembly.hpp"
+#include "hmi_bridge/lcm/channel_length.hpp"
 #include "hmi_bridge/lcm/url.hpp"
 #include "projects/json/fields.hpp"
 #include "projects/loader/addresses.hpp"
@@ -64,10 +64,9 @@ std::vector<IpNetwork> read_senders(const JsonValue* json, Problems& problems) {
 }
 
 std::string channel_problem(const std::string& channel) {
-  constexpr std::size_t kLongest = LcmReassembly::kLongestChannel;
-  if (channel.size() <= kLongest) return "";
-  return "the channel " + quote(channel) + " is too long; allowed: up to " + std::to_string(kLongest) +
-         " bytes";
+  if (channel.size() <= kLongestLcmChannel) return "";
+  return "the channel " + quote(channel) + " is too long; allowed: up to " +
+         std::to_string(kLongestLcmChannel) + " bytes";
 }
 
 }  // namespace lockstep

@@ -118,7 +118,7 @@ std::optional<KeyValue> read_value(const JsonValue* json, const Key& key, const 
     case KeyKind::word:
       return read_word(*json, key, problems);
     case KeyKind::title:
-      return read_text(read_title(json, problems));
+      return read_text(read_title(json, problems, key.longest));
     case KeyKind::tag:
       return read_tag(*json, key, loading);
     case KeyKind::object:

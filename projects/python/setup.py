@@ -1,4 +1,7 @@
-"""Builds the extension module with CMake, in the build tree of the release; the rest is in pyproject.toml."""
+"""Builds the extension module with CMake, in the build tree of the release; the rest is in pyproject.toml.
+
+In the environment: LOCKSTEP_BUILD, another build tree; LOCKSTEP_MODULE, an extension module that is built already.
+"""
 
 import os
 import re
@@ -17,6 +20,11 @@ WORK = BUILD / "python"  # what setuptools leaves behind
 
 class BuildWithCMake(build_ext):
     def build_extension(self, ext: Extension) -> None:
+        to = Path(self.get_ext_fullpath(ext.name))
+        to.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(os.environ.get("LOCKSTEP_MODULE") or self.built(), to)
+
+    def built(self) -> Path:
         # Of a virtual environment the interpreter beneath it, which is still there when that is gone.
         interpreter = getattr(sys, "_base_executable", sys.executable)
         options = [f"-DPython_EXECUTABLE={interpreter}", "-DLOCKSTEP_PYTHON=ON"]
@@ -25,10 +33,7 @@ class BuildWithCMake(build_ext):
         subprocess.run(["cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", *options], check=True)
         jobs = str(os.cpu_count() or 1)
         subprocess.run(["cmake", "--build", BUILD, "--parallel", jobs, "--target", "lockstep_python"], check=True)
-        built = next((BUILD / "projects" / "python" / "lockstep").glob("_lockstep*.so"))
-        to = Path(self.get_ext_fullpath(ext.name))
-        to.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(built, to)
+        return next((BUILD / "projects" / "python" / "lockstep").glob("_lockstep*.so"))
 
 
 def version() -> str:

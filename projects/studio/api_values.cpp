@@ -1,6 +1,10 @@
 #include "projects/studio/api_values.hpp"
 
 #include <cmath>
+#include <utility>
+
+#include "hmi_bridge/traces/text_literal.hpp"
+#include "scheduler/text.hpp"
 
 namespace lockstep::studio_api {
 
@@ -95,6 +99,36 @@ std::optional<NamedSignal> signal_at(const Project& project, const std::string& 
   }
   return NamedSignal{path, found.place->signal, found.place->unit, found.place->object,
                      found.place->instance};
+}
+
+std::optional<ReadPlace> read_place_at(const Project& project, const std::string& path,
+                                       std::string& problem) {
+  if (const StringTag* const tag = project.names.find_string(path)) {
+    ReadPlace place{tag->name, {}, tag->text.capacity};
+    // No path has a '#', so that nobody else asks for them.
+    for (const Signal& signal : text_signals(tag->text))
+      place.signals.push_back({tag->name + "#" + std::to_string(place.signals.size()), signal});
+    return place;
+  }
+  std::optional<NamedSignal> signal = signal_at(project, path, problem);
+  if (!signal) return {};
+  ReadPlace place{signal->name, {}};
+  place.signals.push_back(std::move(*signal));
+  return place;
+}
+
+Json reading_json(const ReadPlace& place, std::span<const Value> values, const StudioUnits& units) {
+  if (place.capacity > 0)
+    return {{"path", place.path},
+            {"type", text_type_name(place.capacity)},
+            {"unit", ""},
+            {"value", text_to_utf8(text_of(values, place.capacity))}};
+  const NamedSignal& signal = place.signals.front();
+  const Type type = signal.signal.value_type();
+  return {{"path", place.path},
+          {"type", type_name(type)},
+          {"unit", units.of(signal)},
+          {"value", value_json(values.front(), type)}};
 }
 
 }  // namespace lockstep::studio_api

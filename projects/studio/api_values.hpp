@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hmi_bridge/traces/columns.hpp"
 #include "projects/loader/project.hpp"
@@ -12,6 +14,7 @@
 #include "projects/studio/derived.hpp"
 #include "projects/studio/history.hpp"
 #include "projects/studio/shots.hpp"
+#include "projects/studio/units.hpp"
 
 namespace lockstep::studio_api {
 
@@ -29,5 +32,16 @@ std::unique_ptr<StudioDerived> derived_at(const Project& project, std::string_vi
                                           std::string& problem);
 /// The signal at a path, or why there is none; of a derived one nothing but its type.
 std::optional<NamedSignal> signal_at(const Project& project, const std::string& path, std::string& problem);
+
+/// What is read at a path: a signal, or those that hold the characters of a STRING.
+struct ReadPlace {
+  std::string path;
+  std::vector<NamedSignal> signals;
+  std::size_t capacity = 0;  ///< characters of the STRING; 0: it is none
+};
+/// @return none: `problem` says why there is no such place
+std::optional<ReadPlace> read_place_at(const Project& project, const std::string& path, std::string& problem);
+/// What stands there, by the values of its signals.
+Json reading_json(const ReadPlace& place, std::span<const Value> values, const StudioUnits& units);
 
 }  // namespace lockstep::studio_api

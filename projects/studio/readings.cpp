@@ -20,17 +20,18 @@ void StudioReadings::read(const StudioRequest& request, Done done) {
   Wrong wrong{422};
   for (const std::string& path : paths_in(parsed(request.body), kRead)) {
     std::string problem;
-    if (std::optional<NamedSignal> signal = signal_at(project_, path, problem))
-      reading.signals.push_back(std::move(*signal));
+    if (std::optional<ReadPlace> place = read_place_at(project_, path, problem))
+      reading.places.push_back(std::move(*place));
     else
       wrong.add("not_found", problem, {{"path", path}});
   }
   if (!wrong.errors.empty()) return done(studio_api::answer_of(wrong));
   reading.until = Clock::now() + kReadTime;
-  for (const NamedSignal& signal : reading.signals) {
-    reading.indices.push_back(feed_.index(signal));
-    kept_.insert_or_assign(signal.name, Kept{signal, reading.until});
-  }
+  for (const ReadPlace& place : reading.places)
+    for (const NamedSignal& signal : place.signals) {
+      reading.indices.push_back(feed_.index(signal));
+      kept_.insert_or_assign(signal.name, Kept{signal, reading.until});
+    }
   // The row that is being made now may be older than the question.
   reading.from = feed_.store().end();
   reading.done = std::move(done);
@@ -52,13 +53,11 @@ StudioAnswer StudioReadings::answer_of(const Reading& reading) const {
   const TraceStore& store = feed_.store();
   const TraceWindow row = store.rows(reading.indices, store.end() - 1, store.end());
   Json values = Json::array();
-  for (std::size_t i = 0; i < reading.signals.size(); ++i) {
-    const NamedSignal& signal = reading.signals[i];
-    const Type type = signal.signal.value_type();
-    values.push_back({{"path", signal.name},
-                      {"type", type_name(type)},
-                      {"unit", units_.of(signal)},
-                      {"value", value_json(row.columns[i].first[0], type)}});
+  std::size_t column = 0;
+  for (const ReadPlace& place : reading.places) {
+    std::vector<Value> here;
+    for (std::size_t i = 0; i < place.signals.size(); ++i) here.push_back(row.columns[column++].first[0]);
+    values.push_back(reading_json(place, here, units_));
   }
   return studio_api::answer_of(
       Json{{"t", std::to_string(row.t[0])}, {"tick", std::to_string(row.tick[0])}, {"values", values}});

@@ -10,6 +10,7 @@
 
 #include "hmi_bridge/studio/handler.hpp"
 #include "projects/loader/project.hpp"
+#include "projects/studio/api_values.hpp"
 #include "projects/studio/feed.hpp"
 
 namespace lockstep {
@@ -40,9 +41,9 @@ class StudioReadings {
 
  private:
   struct Reading {
-    std::vector<NamedSignal> signals;
-    std::vector<std::size_t> indices;
-    std::uint64_t from;  // no older row answers
+    std::vector<studio_api::ReadPlace> places;
+    std::vector<std::size_t> indices;  // in the store, of the signals of all places
+    std::uint64_t from;                // no older row answers
     Clock::time_point until;
     Done done;
   };

@@ -79,20 +79,18 @@ StudioAnswer StudioSession::change_simulation(const StudioRequest& request) {
 /// Values of a simulation that stands still.
 bool StudioSession::read_at_once(const StudioRequest& request, const Done& done) {
   if (powers_.simulation == nullptr) return false;
-  std::vector<NamedSignal> signals;
+  std::vector<ReadPlace> places;
   for (const std::string& path : paths_in(parsed(request.body), StudioReadings::kRead)) {
     std::string problem;
-    const std::optional<NamedSignal> signal = signal_at(project_, path, problem);
-    if (!signal || signal->signal.address == nullptr) return false;  // which is told there
-    signals.push_back(*signal);
+    std::optional<ReadPlace> place = read_place_at(project_, path, problem);
+    if (!place || place->signals.front().signal.address == nullptr) return false;  // which is told there
+    places.push_back(std::move(*place));
   }
   return powers_.simulation->while_paused([&](std::int64_t tick) {
-    const Json values = array_of(signals, [this](const NamedSignal& signal) {
-      const Type type = signal.signal.value_type();
-      return Json{{"path", signal.name},
-                  {"type", type_name(type)},
-                  {"unit", units_.of(signal)},
-                  {"value", value_json(signal.signal.load(), type)}};
+    const Json values = array_of(places, [this](const ReadPlace& place) {
+      std::vector<Value> loaded;
+      for (const NamedSignal& signal : place.signals) loaded.push_back(signal.signal.load());
+      return reading_json(place, loaded, units_);
     });
     const std::int64_t t = tick * project_.controller->clock.servo_cycle;
     done(answer_of(Json{{"t", std::to_string(t)}, {"tick", std::to_string(tick)}, {"values", values}}));

@@ -19,6 +19,12 @@ constexpr Remedy kRemedies[] = {
     {ErrorId{0x8002},
      "connect the pin with an object of a kind that it takes, and name only leading objects of the axis' "
      "leading_values"},
+    {ErrorId{0x8003},
+     "give Velocity a value that is permitted (lockstep describe BLOCK.Velocity tells which); with "
+     "SyncProfileReference 0, MC_GearInPos and MC_CamIn need one above the synchronous velocity (leading "
+     "velocity times ratio, or slope of the cam): raise the pin Velocity, or DynamicDefaults.Velocity of the "
+     "following axis where the pin is below 0 or not given, up to DynamicLimits.MaxVelocity, or synchronize "
+     "over a leading distance (profile 1 or 3)"},
     {ErrorId{0x8007}, "give a direction that is permitted, or only one of JogForward and JogBackward"},
     {ErrorId{0x8008},
      "give a distance that is permitted, and that does not lead beyond the range of positions"},

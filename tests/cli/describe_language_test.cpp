@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "projects/expressions/functions.hpp"
+#include "projects/expressions/habits.hpp"
 #include "projects/expressions/operators.hpp"
 #include "projects/expressions/type_table.hpp"
 #include "tests/cli/command_run.hpp"
@@ -101,6 +102,34 @@ TEST(DescribeLanguage, IsFoundByWhatItHasToDoWith) {
     ++told;
   }
   EXPECT_GT(told, 5);
+}
+
+TEST(DescribeLanguage, TellsWhatIsWrittenHereInPlaceOfWhatOtherLanguagesWrite) {
+  for (const Habit& habit : habits()) {
+    // What is of APOSS too, and what begins as an option does.
+    if (habit.written == "IF" || habit.written.starts_with('-')) continue;
+    const json told = described(std::string(habit.written));
+    EXPECT_EQ(told["text"], habit.here) << habit.written << ": " << told;
+  }
+  const Ended ended = lockstep({"describe", "norm_x"});
+  EXPECT_NE(ended.out.find("(VALUE - MIN) / (MAX - MIN)"), std::string::npos) << ended.out;
+}
+
+TEST(DescribeLanguage, FindsWhatMayStandAnywhereInTheFile) {
+  for (const char* const word : {"comment", "comments"}) {
+    const json found = described(word);
+    ASSERT_EQ(found["kind"], "search") << word;
+    EXPECT_EQ(found["found"][0]["name"], "keys comment") << found.dump(1);
+  }
+  for (const char* const path : {"comment", "technology_objects.comment", "programs.calls.comment"}) {
+    const Ended ended = lockstep({"describe", "keys", path});
+    EXPECT_EQ(ended.status, 0) << path << ": " << ended.err;
+    EXPECT_NE(ended.out.find("/* */"), std::string::npos) << ended.out;
+  }
+  EXPECT_EQ(lockstep({"describe", "keys", "nowhere.comment"}).status, 1);
+  EXPECT_EQ(lockstep({"describe", "keys include"}).out, lockstep({"describe", "keys", "include"}).out)
+      << "in one pair of quotation marks";
+  EXPECT_NE(lockstep({"describe", "keys include"}).out.find("files with further parts"), std::string::npos);
 }
 
 TEST(DescribeLanguage, SuggestsTheNearestName) {

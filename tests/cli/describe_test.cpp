@@ -291,6 +291,24 @@ TEST(Describe, ACommandThatThereIsNotNamesTheNearestOne) {
   EXPECT_NE(lockstep({"simulate"}).err.find("commands: "), std::string::npos);
 }
 
+TEST(CommandLine, AnOptionOrACommandOfACommandThatThereIsNotNamesTheNearestOne) {
+  const std::pair<std::vector<std::string>, std::string> cases[] = {
+      {{"run", "x.json", "--simulat"}, "lockstep run has no option '--simulat' (did you mean '--simulate'?)"},
+      {{"run", "--trase=x.csv", "x.json"}, "lockstep run has no option '--trase' (did you mean '--trace'?)"},
+      {{"plot", "--outpt", "x", "y"}, "lockstep plot has no option '--outpt' (did you mean '--output'?)"},
+      {{"cam", "check", "x", "--jsn"}, "lockstep cam check has no option '--jsn'"},
+      {{"cam", "chek"}, "there is no command 'chek' (did you mean 'check'?) of lockstep cam; commands: "},
+      {{"--verson"}, "lockstep has no option '--verson' (did you mean '--version'?)"}};
+  for (const auto& [words, message] : cases) {
+    const Ended ended = lockstep(words);
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_EQ(ended.err.find("lockstep: " + message), 0u) << ended.err;
+  }
+  EXPECT_EQ(lockstep({"run", "--help", "--simulat"}).status, 0) << "help is given";
+  const Ended value = lockstep({"run", "x.json", "--fail-on", "alrm"});
+  EXPECT_NE(value.err.find("alrm not in"), std::string::npos) << "any other mistake as before: " << value.err;
+}
+
 TEST(Describe, AnUnknownNameExitsWith1AndASuggestion) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> unknown = {
       {{"MC_GaerInPos"}, "did you mean 'MC_GearInPos'?"},

@@ -32,7 +32,6 @@ TEST(Plot, DrawsACsvTraceAsSvgWithALegendAndUnits) {
   const std::string picture = folder.file("trace.svg");
   const Ended ended = lockstep({"plot", folder.write("trace.csv", turning()), "-o", picture});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_EQ(ended.err, "");
   const std::string svg = content(picture);
   EXPECT_NE(svg.find("<svg"), std::string::npos);
   EXPECT_NE(svg.rfind("</svg>"), std::string::npos);
@@ -134,6 +133,21 @@ TEST(Plot, DrawsARealAsACurveEvenIfItsValuesAreWholeAndTakesUnitsFromAProject) {
   EXPECT_EQ(drawn({"--signals", "state"}).find(kCurve), std::string::npos);
   EXPECT_NE(drawn({}).find("position [u]"), std::string::npos);
   EXPECT_NE(drawn({"--project", project}).find("position [m]"), std::string::npos);
+}
+
+TEST(Plot, SaysThatACsvTraceHasNoUnits) {
+  const Directory folder;
+  const std::string trace = folder.file("t.csv");
+  const std::string project = LOCKSTEP_SOURCE_DIR "/projects/01_positioning/project.json";
+  ASSERT_EQ(lockstep({"run", project, "--simulate", "--duration", "1s", "--trace", trace}).status, 0);
+  const Ended without = lockstep({"plot", trace, "-o", folder.file("p.svg")});
+  EXPECT_EQ(without.status, 0);
+  EXPECT_NE(without.err.find("does not say its units"), std::string::npos) << without.err;
+  EXPECT_NE(without.err.find("--project PROJECT.json"), std::string::npos) << without.err;
+  EXPECT_EQ(lockstep({"plot", trace, "-o", folder.file("p.svg"), "--project", project}).err, "");
+  const std::string log = folder.file("t.lcm");
+  ASSERT_EQ(lockstep({"run", project, "--simulate", "--duration", "1s", "--trace", log}).status, 0);
+  EXPECT_EQ(lockstep({"plot", log, "-o", folder.file("p.svg")}).err, "") << "which has them";
 }
 
 TEST(Plot, DrawsOddTraces) {

@@ -99,8 +99,19 @@ TEST(TestCommand, SaysThatAProjectHasNoExpectations) {
   const Directory folder;
   const std::string file = folder.write("a.json", project(""));
   const Ended ended = lockstep({"test", file});
-  EXPECT_EQ(ended.status, 0);
-  EXPECT_EQ(ended.out, file + ": no expectations\n0 of 0 expectations hold\n");
+  EXPECT_EQ(ended.status, 2) << "nothing was checked";
+  EXPECT_EQ(ended.out,
+            file + ": no expectations\n0 of 0 expectations hold; 1 of 1 projects have no expectations\n");
+  EXPECT_EQ(ended.err.find("lockstep: nothing was checked: no project has \"expectations\""), 0u)
+      << ended.err;
+  const std::string other = folder.write("b.json", project(kHolds));
+  const Ended beside = lockstep({"test", file, other});
+  EXPECT_EQ(beside.status, 0) << beside.err;
+  EXPECT_TRUE(beside.out.ends_with("\n1 of 1 expectations hold; 1 of 2 projects have no expectations\n"))
+      << beside.out;
+  const Ended unread = lockstep({"test", folder.file("none.json")});
+  EXPECT_EQ(unread.err.find("nothing was checked"), std::string::npos)
+      << "it has its own reason: " << unread.err;
 }
 
 TEST(TestCommand, FindsTheExamplesAsTheyExpectThemselves) {
@@ -165,6 +176,25 @@ TEST(RunCommand, FailsOnAlarmsAndFailedJobsIfItIsToDoSo) {
   EXPECT_EQ(status(alarm, {"--fail-on", "alarms"}).status, 2);
   EXPECT_EQ(lockstep({"run", alarm, "--duration", "500ms", "--fail-on", "alarm", "--no-retain"}).status, 4)
       << "in real time too";
+}
+
+TEST(RunCommand, FailsOnAWarningOnlyIfItIsToDoSo) {
+  const Directory folder;
+  constexpr char kTooFast[] =
+      R"({ "fb": "MC_MoveVelocity", "name": "run", "in": { "Axis": "Axis", "Execute": "home.Done", "Velocity": 1.0E6 } })";
+  const std::string file = folder.write("fast.json", machine(kTooFast, "false"));
+  const auto run = [&](const char* what) {
+    return lockstep({"run", file, "--simulate", "--duration", "1s", "--fail-on", what});
+  };
+  const Ended spared = run("alarm,job");
+  EXPECT_EQ(spared.status, 0) << spared.err;
+  EXPECT_NE(spared.err.find("Axis: alarm 501: "), std::string::npos) << "a warning: " << spared.err;
+  const Ended failed = run("warning");
+  EXPECT_EQ(failed.status, 4) << failed.err;
+  EXPECT_NE(failed.err.find("failed: 1 warnings (--fail-on)"), std::string::npos) << failed.err;
+  const std::string alarm = folder.write("alarm.json", machine(kRunsOut, "true"));
+  EXPECT_EQ(lockstep({"run", alarm, "--simulate", "--duration", "1s", "--fail-on", "warning"}).status, 4)
+      << "any alarm, too";
 }
 
 TEST(TestCommand, TellsWhatHappenedInTheRun) {

@@ -311,7 +311,7 @@ class AuditedModbus : public ::testing::Test {
   AuditedModbus() {
     for (std::size_t i = 0; i < machine.signals.size(); ++i) names.push_back("signal" + std::to_string(i));
     names[0] = "start";
-    names[2004] = "word";
+    names[2005] = "word";
     responder.audit_to(log, names);
     responder.set_peer(peer);
   }
@@ -360,7 +360,7 @@ TEST_F(AuditedModbus, MaskedWriteIsToldWithTheWholeValue) {
 
 TEST_F(AuditedModbus, RefusedWriteIsToldWithItsReasonAndAReadNotAtAll) {
   ask({5, 0, 1, 0xFF, 0});
-  ask({6, 0, 31, 0, 128});
+  ask({6, 0, 31, 0});
   ask({16, 0, 40, 0, 9, 18});
   ask({3, 0, 30, 0, 1});
   ask({3, 0x12, 0x34, 0, 1});
@@ -370,6 +370,42 @@ TEST_F(AuditedModbus, RefusedWriteIsToldWithItsReasonAndAReadNotAtAll) {
   EXPECT_TRUE(has(told[0], R"("target":"coil 1","result":"refused","why":"exception 2: )")) << told[0];
   EXPECT_TRUE(has(told[1], R"("target":"holding_register 31","result":"refused","why":"exception 3: )"));
   EXPECT_TRUE(has(told[2], R"("folded":2})")) << told[2];
+}
+
+TEST_F(AuditedModbus, ValueThatItsEntryDoesNotTakeIsToldWithTagValueAndLimits) {
+  std::vector<ModbusEntry> entries = machine.map.entries();
+  for (ModbusEntry& entry : entries) {
+    if (entry.table != ModbusTable::holding_register) continue;
+    if (entry.address == 30) entry.range = {10.0, 500.0};
+    if (entry.address == 31) entry.range = {-5.0, kAny.highest};
+  }
+  std::vector<Type> types;
+  for (std::uint32_t i = 0; i < machine.signals.size(); ++i) types.push_back(machine.image.type(i));
+  const ModbusMap limited(entries, types);
+  ASSERT_TRUE(limited.problems().empty());
+  ModbusResponder narrow(limited, machine.image);
+  narrow.audit_to(log, names);
+  narrow.set_peer(peer);
+  const auto write = [&narrow](std::uint8_t address, std::uint8_t high, std::uint8_t low) {
+    const std::uint8_t frame[] = {0, 1, 0, 0, 0, 6, 3, 6, 0, address, high, low};
+    narrow.answer(frame);
+  };
+  machine.tick();
+  write(30, 0x02, 0x58);  // 600
+  write(31, 0xFF, 0xFA);  // -6
+  write(31, 0x00, 0x80);  // 128, of a SINT
+  write(30, 0x01, 0xF4);  // 500
+  const auto told = lines();
+  ASSERT_EQ(told.size(), 4u);
+  EXPECT_TRUE(has(told[0], R"("target":"word","old":3855,"new":600,"result":"refused",)"
+                           R"("why":"exception 3: beyond the limits of holding_register 30, 10 to 500"})"))
+      << told[0];
+  EXPECT_TRUE(has(told[1], R"("new":-6,"result":"refused",)"
+                           R"("why":"exception 3: beyond the limits of holding_register 31, -5 and more"})"))
+      << told[1];
+  EXPECT_TRUE(has(told[2], R"("target":"word","old":3855,"new":500,"result":"accepted"})")) << told[2];
+  EXPECT_TRUE(has(told[3], R"("why":"exception 3: what holding_register 31 was to get is no SINT"})"))
+      << told[3];
 }
 
 }  // namespace

@@ -246,6 +246,21 @@ TEST(StudioServer, HearsFiftyChangesASecond) {
   EXPECT_EQ(client.get("/api").status, 200) << "who only looks is heard";
 }
 
+TEST(StudioServer, HearsReadingsThatHaveTheirPathsInABody) {
+  Server server;
+  StudioConnection client(server.port());
+  constexpr int kMany = 400;
+  std::string all;
+  for (int i = 0; i < kMany; ++i)
+    all += "POST /api/read HTTP/1.1\r\n" + server.host_line() + server.origin_line() + kJson +
+           "Content-Length: 2\r\n\r\n{}";
+  client.send(all);
+  for (int i = 0; i < kMany; ++i)
+    ASSERT_EQ(client.answer().status, 200) << i << ": a reading changes nothing";
+  EXPECT_EQ(server.with("POST /api/read", server.host_line() + kJson, "{}").status, 403)
+      << "but it comes from the page, as every POST does";
+}
+
 TEST(StudioServer, TurnsConnectionsAwayThatAreTooMany) {
   Server server;
   std::vector<std::unique_ptr<StudioConnection>> clients;

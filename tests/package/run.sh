@@ -44,11 +44,14 @@ rehearse postrm purge >/dev/null
 echo "what is in it"
 for path in bin/lockstep share/man/man1/lockstep.1.gz share/man/man5/lockstep-project.5.gz share/man/man7/lockstep-language.7.gz \
   share/man/man7/lockstep-blocks.7.gz share/bash-completion/completions/lockstep share/zsh/vendor-completions/_lockstep \
-  share/fish/vendor_completions.d/lockstep.fish share/lockstep/LANGUAGE.md share/lockstep/FUNCTIONS.md share/lockstep/KEYS.md \
+  share/fish/vendor_completions.d/lockstep.fish \
   lib/systemd/system/lockstep@.service include/lockstep/projects/loader/simulation.hpp \
   share/lockstep/project.schema.json share/lockstep/part.schema.json share/lockstep/system.schema.json share/lockstep/projects/02_rotary_knife/project.json \
-  share/doc/lockstep/lockstep.spdx.json share/doc/lockstep/README.md share/doc/lockstep/LICENSE share/doc/lockstep/copyright share/doc/lockstep/RETAIN.md share/doc/lockstep/AUDIT.md share/doc/lockstep/STUDIO.md \
-  share/doc/lockstep/tls/certificates.sh; do
+  share/doc/lockstep/lockstep.spdx.json share/doc/lockstep/copyright share/doc/lockstep/documents/README.md share/lockstep/README.md share/lockstep/LICENSE \
+  share/lockstep/projects/README.md share/lockstep/projects/PLANT.md share/lockstep/projects/LANGUAGE.md share/lockstep/projects/FUNCTIONS.md \
+  share/lockstep/projects/KEYS.md share/lockstep/projects/CAMS.md share/lockstep/fb/BLOCKS.md share/lockstep/hmi_bridge/MODBUS.md \
+  share/lockstep/hmi_bridge/lcm/trace.lcm share/lockstep/hmi_bridge/lcm/command.lcm share/lockstep/hmi_bridge/lcm/leading_value.lcm \
+  share/lockstep/hmi_bridge/subscriber/subscriber.py share/lockstep/hmi_bridge/subscriber/subscriber.cpp share/lockstep/hmi_bridge/tls/certificates.sh; do
   [[ -s $work/root/usr/$path ]] || fail "usr/$path is not in the package"
 done
 [[ -n $(find "$work/root/usr/lib" -name LockstepConfig.cmake) ]] || fail "no CMake package"
@@ -60,6 +63,13 @@ for file in "$work"/root/usr/share/lockstep/projects/*/*.json; do
   schema=$(sed -n 's/^ *"$schema": "\([^"]*\)".*/\1/p' "$file")
   [[ -z $schema || -s $(dirname "$file")/$schema ]] || fail "$file: its schema $schema is not in the package"
 done
+
+echo "its documents lead nowhere that is not in it"
+dead=$("$sources/tests/package/check_links.py" "$work/root/usr/share") || fail "dead links: $dead"
+printf '# A\n\n[there](missing.md), not `[this](code.md)`\n' >"$work/root/usr/share/lockstep/DEAD.md"
+dead=$("$sources/tests/package/check_links.py" "$work/root/usr/share") && fail "a dead link passes"
+[[ $dead == "lockstep/DEAD.md: missing.md" ]] || fail "a dead link is told otherwise: $dead"
+rm "$work/root/usr/share/lockstep/DEAD.md"
 
 echo "its program runs"
 lockstep=$work/root/usr/bin/lockstep

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "projects/expressions/compiler.hpp"
+#include "projects/expressions/habits.hpp"
 #include "tests/projects/expression_scope.hpp"
 
 namespace lockstep::expression_compiler_test {
@@ -135,9 +136,9 @@ TEST_F(ExpressionCompiler, SyntaxErrorsNameColumnAndWhatIsExpected) {
       {"flag.", "6: the end of the expression found where the name of a variable or a bit .X0 is expected"},
       {"knife.sensor[].position", "14: ']' found where an index is expected"},
       {"knife.sensor[dint][dint]", "19: only one index may be an expression"},
-      {"flag; other", "5: ';' has no meaning in an expression"},
-      {"flag == other", "7: '=' found where a value is expected"},
-      {"flag.%X0", "6: '%' has no meaning here; a bit is written .X0"},
+      {"flag == other", "6: '==' has no meaning here; equal is ="},
+      {"flag.%X0", "6: '%' has no meaning here; a remainder is MOD, a bit is .X0"},
+      {"dint @ 2", "6: '@' has no meaning in an expression"},
       {"SQRT()", "6: ')' found where an input of SQRT is expected"},
       {"SQRT(1.0", "9: the end of the expression found where ')' is expected"},
       {"(* open", "1: the comment that begins here has no end *)"},
@@ -153,6 +154,27 @@ TEST_F(ExpressionCompiler, SyntaxErrorsNameColumnAndWhatIsExpected) {
       {"8#8", "3: a digit of the number in base 8 is missing"},
       {"16#", "4: a digit of the number in base 16 is missing"}};
   for (const auto& [text, message] : cases) EXPECT_EQ(error(text, Type::LREAL), message) << text;
+}
+
+TEST_F(ExpressionCompiler, WhatOtherLanguagesWriteIsToldAsItIsWrittenHere) {
+  for (const Habit& habit : habits()) {
+    const std::string written(habit.written);
+    const bool sign = written.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == written.npos;
+    const std::string told = error(sign ? "dint " + written + " 1" : written + "(1.0, 2.0)", Type::LREAL);
+    EXPECT_NE(told.find(habit.here), std::string::npos) << written << ": " << told;
+    EXPECT_NE(told.find("'" + written + "'"), std::string::npos) << told;
+  }
+  const std::pair<std::string, std::string> cases[] = {
+      {"dint := 1", R"({ "set": "n", "to": "n + 1" })"},
+      {"IF flag THEN", R"({ "if": "…", "then": [ … ], "else": [ … ] })"},
+      {"R_TRIG(flag)", R"({ "fb": "R_TRIG", "name": "x", "in": { … } }; its outputs are read as x.Pin)"},
+      {"REAL(dint)", "made by TO_REAL(IN)"},
+      {"LIMMIT(1, 2, 3)", "(did you mean 'LIMIT'?); there are ABS SQRT"},
+      {"norm_x(0.0, 1.0, 2.0)", "(VALUE - MIN) / (MAX - MIN)"}};
+  for (const auto& [text, part] : cases)
+    EXPECT_NE(error(text, Type::LREAL).find(part), std::string::npos) << error(text, Type::LREAL);
+  EXPECT_EQ(error("LIMIT(MN := 0, IN := dint, MX := 9)", Type::DINT), "") << ":= is of this language there";
+  EXPECT_EQ(error("dint--1", Type::DINT), "") << "and so are two signs";
 }
 
 TEST_F(ExpressionCompiler, ArithmeticFunctionsComputeWhatTheirNamesSay) {
@@ -238,8 +260,8 @@ TEST_F(ExpressionCompiler, FunctionsTellWhatTheyTake) {
             "1: SEL needs its input IN1; its inputs are G,IN0,IN1");
   EXPECT_EQ(error("LIMIT(MN := 1, 2, 3)", Type::LREAL), "16: either all inputs of LIMIT are named or none");
   EXPECT_EQ(error("LIMIT(1 := 1, 2, 3)", Type::LREAL), "9: ':=' found where ',' or ')' is expected");
-  EXPECT_EQ(error("1 + SQR(2.0)", Type::LREAL).substr(0, 58),
-            "5: the function 'SQR' is unknown; there are ABS SQRT LN LO");
+  EXPECT_EQ(error("1 + XYZ(2.0)", Type::LREAL).substr(0, 58),
+            "5: the function 'XYZ' is unknown; there are ABS SQRT LN LO");
   EXPECT_EQ(error("SQRT(flag)", Type::LREAL).substr(0, 32), "1: SQRT has no meaning for BOOL;");
 }
 

@@ -61,7 +61,8 @@ TEST_F(HostileExpression, BytesThatAreNoTextAreNamed) {
   EXPECT_EQ(error("1\xC3\xA4", Type::DINT), "2: the byte 16#C3 has no meaning in an expression");
   EXPECT_EQ(error("\x7F", Type::DINT), "1: the byte 16#7F has no meaning in an expression");
   EXPECT_EQ(error(std::string("flag\0", 5), Type::BOOL), "5: the byte 16#00 has no meaning in an expression");
-  EXPECT_EQ(error("\"text\"", Type::BOOL), "1: '\"' has no meaning in an expression");
+  EXPECT_EQ(error("\"text\"", Type::BOOL),
+            "1: '\"' has no meaning here; a name stands without quotation marks, a text in apostrophes");
 }
 
 TEST_F(HostileExpression, NumbersBeyondEveryTypeAreRefused) {

@@ -11,9 +11,11 @@
 #include <string>
 
 #include "projects/expressions/functions.hpp"
+#include "projects/expressions/habits.hpp"
 #include "projects/expressions/language_document.hpp"
 #include "projects/expressions/operators.hpp"
 #include "projects/expressions/type_table.hpp"
+#include "projects/literals/types.hpp"
 #include "tests/projects/expression_scope.hpp"
 
 namespace lockstep {
@@ -94,6 +96,16 @@ TEST(LanguageExamples, OfTypesAndLiteralsGiveWhatIsTold) {
   }
   EXPECT_EQ(types.size(), static_cast<std::size_t>(Type::TIME) + 1) << "each elementary type is told";
   for (const LiteralForm& form : literal_forms()) EXPECT_EQ(fault_of(form.example), "");
+}
+
+TEST(LanguageExamples, OfWhatIsWrittenOtherwiseGiveWhatIsTold) {
+  for (const Habit& habit : habits()) {
+    if (!habit.example.expression.empty()) {
+      EXPECT_EQ(fault_of(habit.example), "") << habit.written;
+    }
+    EXPECT_EQ(find_function(habit.written), nullptr) << "it is of this language: " << habit.written;
+    EXPECT_FALSE(tag_type(habit.written)) << habit.written;
+  }
 }
 
 TEST(LanguageExamples, StandInTheDocument) {

@@ -764,7 +764,7 @@ INSTANTIATE_TEST_SUITE_P(
         missing("channel", "/trace/lcm", "'channel' is missing"),
         at("/trace/lcm/url", "\"http://x\"", "no address of an LCM network"),
         at("/trace/lcm/channel", "\"\"", "allowed: a text"),
-        at("/trace/lcm/channel", "\"" + std::string(57, 'C') + "\"", "up to 56 characters"),
+        at("/trace/lcm/channel", "\"" + std::string(57, 'C') + "\"", "allowed: a text of 1 to 56 bytes"),
         at("/trace/lcm/commands", "true", "allowed: an object"),
         at("/trace/signals", "{}", "allowed: an array"), at("/trace/signals/4", "1", "allowed: a string"),
         at("/trace/signals/4", "\"Knife.Positon\"", "(did you mean 'Position'?)"),

@@ -83,6 +83,30 @@ TEST(StudioWrites, EnterAtOneTickWhichTheAnswerTells) {
   EXPECT_EQ(machine.simulation.project().names.find_string("product")->text.view(), "b\xe4r");
 }
 
+TEST(StudioWrites, OfATextAreReadAsAText) {
+  Machine machine;
+  machine.empower();
+  machine.run(10);
+  const auto read = [&machine] {
+    StudioRequest request;
+    request.method = "POST";
+    request.path = "/api/read";
+    request.body = std::string_view(R"({"paths":["count","PRODUCT","speed"]})");
+    Json answer;
+    machine.session.answer(request, [&answer](StudioAnswer given) { answer = Json::parse(given.body); });
+    for (int i = 0; i < 10 && answer.is_null(); ++i) machine.run(1);
+    return answer["values"];
+  };
+  Json values = read();
+  ASSERT_EQ(values.size(), 3u) << values;
+  EXPECT_EQ(values[1], (Json{{"path", "product"}, {"type", "STRING[5]"}, {"unit", ""}, {"value", "ale"}}));
+  EXPECT_EQ(values[2]["value"], 1.5) << "what stands behind it is its own";
+  machine.written(R"({"writes":[{"path":"product","value":"b\u00e4r"},{"path":"count","value":3}]})");
+  values = read();
+  EXPECT_EQ(values[0]["value"], 3);
+  EXPECT_EQ(values[1]["value"], "b\u00e4r");
+}
+
 TEST(StudioWrites, ChangeTheBitsOfAMask) {
   Machine machine;
   machine.empower();

@@ -7,7 +7,6 @@ import pydoc
 import re
 import subprocess
 import sys
-import textwrap
 from pathlib import Path
 
 import pytest
@@ -156,11 +155,18 @@ def test_the_first_steps_of_the_readme_run(tmp_path, monkeypatch):
     subprocess.run([sys.executable, script], check=True, cwd=ROOT)
 
 
-def test_what_the_readme_of_all_shows_runs_and_moves_the_machine(tmp_path):
+def test_what_the_readme_of_all_shows_runs_and_steps_the_shear(tmp_path):
     readme = (ROOT / "README.md").read_text()
-    shown = re.search(r"## From Python\n.*?\n((?:    [^\n]*\n)+)", readme, re.DOTALL).group(1)
-    script = tmp_path / "shown.py"
-    script.write_text(textwrap.dedent(shown))
-    ended = subprocess.run([sys.executable, script], check=True, cwd=ROOT, capture_output=True, text=True)
-    position, velocity = (float(number) for number in ended.stdout.split())
-    assert 0.0 <= position < 360.0 and velocity > 100.0
+    project = re.search(r"<!-- tested: file shear.json -->\n```json\n(.*?)```", readme, re.DOTALL).group(1)
+    shown = re.search(r"## From Python\n.*?```python\n(.*?)```", readme, re.DOTALL).group(1)
+    (tmp_path / "shear.json").write_text(project)
+    (tmp_path / "shear.py").write_text(shown)
+    ended = subprocess.run([sys.executable, "shear.py"], check=True, cwd=tmp_path, capture_output=True, text=True)
+    first, *alarms, last = ended.stdout.splitlines()
+    cuts, position, unit = re.fullmatch(r"(\d+) cuts, the shear at (\S+) (\S+)", first).groups()
+    assert int(cuts) >= 3 and 0.0 < float(position) < 350.0 and unit == "mm"
+    assert any("Shear: alarm 521: Following error too large" in line for line in alarms)
+    assert any(line.startswith("  remedy: check mechanics, brake and drive") for line in alarms)
+    more, lowest, highest, unit = re.fullmatch(r"(\d+) cuts, between (\S+) and (\S+) (\S+)", last).groups()
+    assert int(more) > int(cuts), "it cuts again once it has been acknowledged"
+    assert -5.0 < float(lowest) < 0.5 and 200.0 < float(highest) < 300.0 and unit == "mm"

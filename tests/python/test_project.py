@@ -5,6 +5,7 @@ import datetime
 import json
 import math
 import pickle
+import pydoc
 import re
 import signal
 import subprocess
@@ -75,6 +76,28 @@ def test_problems_are_told_as_the_command_tells_them(small, program, tmp_path):
     with pytest.raises(lockstep.InvalidProject) as error:
         lockstep.Project(file)
     assert error.value.problems == problems and pickle.loads(pickle.dumps(error.value)).problems == problems
+
+
+def test_a_text_that_is_no_json_is_a_problem_of_its_line(program, tmp_path):
+    file = tmp_path / "broken.json"
+    file.write_text('{\n  "lockstep": 1,\n  "name": broken\n}\n')
+    (problem,) = lockstep.check(file)
+    assert (problem.file, problem.line, problem.column > 10) == (str(file), 3, True)
+    told = subprocess.run([program, "check", file], capture_output=True, text=True)
+    assert told.stderr.splitlines() == [str(problem)]
+    with pytest.raises(lockstep.InvalidProject) as error:
+        lockstep.Project(file)
+    assert error.value.problems == [problem] and pickle.loads(pickle.dumps(error.value)).problems == [problem]
+
+
+@pytest.mark.parametrize("tuple_type", [lockstep.Event, lockstep.PathInfo, lockstep.Problem])
+def test_help_tells_what_each_field_is(tuple_type):
+    text = pydoc.plain(pydoc.render_doc(tuple_type))
+    assert "Alias for field" not in text
+    for name in tuple_type._fields:
+        assert getattr(tuple_type, name).__doc__.rstrip().endswith((".", "it.", "``"))
+    if tuple_type is lockstep.Event:
+        assert "Of the tick, since the start of the run [s]." in text
 
 
 def test_it_steps_by_ticks_and_by_seconds(small):

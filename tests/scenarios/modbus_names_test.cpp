@@ -463,5 +463,22 @@ TEST_F(Panel, OneControllerPollsAnother) {
   EXPECT_NE(poller.err().find("warning: Modbus client of 127.0.0.1:"), std::string::npos) << poller.err();
 }
 
+TEST(ModbusNames, OfAProjectWithoutAMapAreRefusedWithWhatItTakes) {
+  const Directory directory;
+  Json project = panel_project();
+  project.erase("modbus");
+  const std::string file = directory.write("project.json", project.dump(1));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"read", "127.0.0.1:1", "--project", file},
+        {"read", "127.0.0.1:1", "speed", "--project", file},
+        {"write", "127.0.0.1:1", "speed=1", "--project", file}}) {
+    const Ended ended = lockstep(words);
+    EXPECT_EQ(ended.status, 1) << ended.err;
+    EXPECT_NE(ended.err.find("the project has no Modbus map"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find("lockstep describe keys modbus.map"), std::string::npos) << ended.err;
+  }
+  EXPECT_EQ(lockstep({"describe", "keys", "modbus.map"}).status, 0) << "as it says";
+}
+
 }  // namespace
 }  // namespace lockstep::test::modbus_names_test

@@ -168,6 +168,44 @@ TEST(Told, AJobThatFailsIsToldOnceWithItsAxisAndCountedWhenItFailsAgain) {
   EXPECT_LT(count(ended.err, "\n"), 12u) << ended.err;
 }
 
+/// Its default velocity is below the synchronous one, which the value that is permitted for the pin does not
+/// tell.
+TEST(Told, AGearThatIsFasterThanTheVelocityOfTheJobSaysWhatToRaise) {
+  Json project = empty_project();
+  project["technology_objects"]["Belt"] = virtual_axis();
+  project["technology_objects"]["Drum"] = virtual_axis({"Belt"});
+  project["technology_objects"]["Drum"]["config"]["DynamicDefaults"]["Velocity"] = 20.0;
+  project["programs"] = {
+      {{"name", "Main"},
+       {"ob", "Main"},
+       {"cycle", "1ms"},
+       {"calls",
+        {call("MC_Power", "power_b", {{"Axis", "Belt"}, {"Enable", true}}),
+         call("MC_Power", "power_d", {{"Axis", "Drum"}, {"Enable", true}}),
+         call("MC_Home", "home", {{"Axis", "Drum"}, {"Execute", "power_d.Status"}, {"Mode", 0}}),
+         call("MC_MoveVelocity", "run",
+              {{"Axis", "Belt"}, {"Execute", "power_b.Status"}, {"Velocity", 10.0}}),
+         call("MC_GearInPos", "gear",
+              {{"Master", "Belt"},
+               {"Slave", "Drum"},
+               {"Execute", "run.InVelocity AND home.Done"},
+               {"RatioNumerator", 3},
+               {"SyncProfileReference", 0},
+               {"MasterSyncPosition", 100.0}})}}}};
+  const Ended ended = simulated(project, "8s");
+  EXPECT_NE(ended.err.find(": gear (MC_GearInPos of Drum): failed, ErrorID 16#8003: "), std::string::npos)
+      << ended.err;
+  const std::string remedy = line_behind(ended.err, "  remedy: ");
+  for (const char* const part : {"synchronous velocity", "pin Velocity", "DynamicDefaults.Velocity"})
+    EXPECT_NE(remedy.find(part), std::string::npos) << part << "\n" << ended.err;
+  // What it says to raise is what helps.
+  project["technology_objects"]["Drum"]["config"]["DynamicDefaults"]["Velocity"] = 40.0;
+  EXPECT_EQ(simulated(project, "8s").err.find("failed"), std::string::npos);
+  project["technology_objects"]["Drum"]["config"]["DynamicDefaults"]["Velocity"] = 20.0;
+  project["programs"][0]["calls"][4]["in"]["Velocity"] = 40.0;
+  EXPECT_EQ(simulated(project, "8s").err.find("failed"), std::string::npos);
+}
+
 TEST(Told, AnAbortedOffsetSaysWhatHasAbortedIt) {
   Json project = empty_project();
   project["technology_objects"]["Belt"] = virtual_axis();

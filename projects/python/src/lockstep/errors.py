@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, Iterable, NamedTuple
 
+from .fields import with_field_docs
 
+
+@with_field_docs
 class Problem(NamedTuple):
     """One thing that is wrong with a project file, or that is legal and looks like a mistake."""
 
@@ -17,7 +21,7 @@ class Problem(NamedTuple):
     file: str = ""
     """The file in which it is: the project file, or one that it includes; empty where a project has no file."""
     line: int = 0
-    """From 1; 0: not known, since the project has no file or its keys have been changed, or ``place`` tells it."""
+    """From 1; 0: not known, since the project has no file or its keys have been changed."""
     column: int = 0
     """In characters, from 1; 0 where ``line`` is."""
     owner: str = ""
@@ -27,15 +31,24 @@ class Problem(NamedTuple):
         """As ``lockstep check`` tells it: ``FILE:place: text (line 3, column 5, call 'gear')``."""
         text = f"{self.file}:" if self.file else ""
         text += f"{self.place}: {'warning: ' if self.severity == 'warning' else ''}{self.text}"
-        where = [f"line {self.line}", f"column {self.column}"] if self.line else []
+        told = self.place == f"{self.line}:{self.column}"
+        where = [f"line {self.line}", f"column {self.column}"] if self.line and not told else []
         where += [self.owner] if self.owner else []
         return f"{text} ({', '.join(where)})" if where else text
 
 
+def _problem(
+    severity: str, place: str, text: str, file: str = "", line: int = 0, column: int = 0, owner: str = ""
+) -> Problem:
+    # Where a text is no JSON, there are no pointers into it: its place is the line.
+    if not line and re.fullmatch(r"[0-9]+:[0-9]+", place):
+        line, column = map(int, place.split(":"))
+    return Problem(place, text, severity, file, line, column, owner)
+
+
 def problems_from(errors: Iterable[tuple[Any, ...]], warnings: Iterable[tuple[Any, ...]]) -> list[Problem]:
     """Problems as the runtime lists them, (place, text, file, line, column, owner): errors first."""
-    listed = [Problem(place, text, "error", *where) for place, text, *where in errors]
-    return listed + [Problem(place, text, "warning", *where) for place, text, *where in warnings]
+    return [_problem("error", *one) for one in errors] + [_problem("warning", *one) for one in warnings]
 
 
 class LockstepError(Exception):

@@ -10,10 +10,12 @@ from typing import Any, NamedTuple
 
 from . import _lockstep
 from .errors import OutOfRange, PathError, Problem, problems_from
+from .fields import with_field_docs
 from .source import ProjectSource, Text, changed, text_of
 from .trace import Trace
 
 
+@with_field_docs
 class Event(NamedTuple):
     """Something that has happened in a run."""
 
@@ -65,6 +67,7 @@ class Event(NamedTuple):
         return "\n  ".join([text, *self.details])
 
 
+@with_field_docs
 class PathInfo(NamedTuple):
     """What is at a path."""
 
