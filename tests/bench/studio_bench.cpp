@@ -107,7 +107,8 @@ class Page {
   void draw() const {
     for (auto message = connection_->hear(); message.is_there; message = connection_->hear())
       if (message.is_binary)
-        connection_->say(nlohmann::json{{"type", "ack"}, {"frame", test::DecodedFrame(message.bytes).frame}}.dump());
+        connection_->say(
+            nlohmann::json{{"type", "ack"}, {"frame", test::DecodedFrame(message.bytes).frame}}.dump());
   }
   void flood(const std::stop_token& end, const std::string& subscribe) const {
     while (!end.stop_requested()) {
