@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <condition_variable>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <mutex>
@@ -70,6 +71,15 @@ std::string project_among(const StudioOptions& options) {
     project = file;
   }
   return project;
+}
+
+/// Of the project, or else the one in which the studio was started: below it pages name traces.
+std::string folder_of(const std::string& project) {
+  const std::filesystem::path path(project);
+  std::error_code error;
+  const std::filesystem::path folder =
+      std::filesystem::absolute(path.parent_path().empty() ? "." : path.parent_path(), error);
+  return error ? "." : folder.lexically_normal().string();
 }
 
 StudioServerOptions server_options(const StudioOptions& options) {
@@ -142,6 +152,7 @@ int serve(const StudioOptions& options) {
   StudioServerOptions wanted = server_options(options);
   const std::string token = wanted.token;
   DeskHandler handler({.file = project,
+                       .folder = folder_of(project),
                        .read_only = options.read_only,
                        .describe = [](const std::string& path) { return describe_as_json(path); }});
   for (const std::string& file : options.files)

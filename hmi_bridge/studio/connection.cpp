@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <limits>
 #include <utility>
 
 #include "hmi_bridge/studio/assets.hpp"
@@ -71,7 +72,7 @@ void Connection::read() {
   upload_.reset();
   head_parser_.emplace();
   head_parser_->header_limit(StudioServer::kHeaderBytes);
-  head_parser_->body_limit(StudioServer::kUploadBytes);
+  head_parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // which depends on what it is for
   stream_.expires_after(listener_.options().request_time);
   http::async_read_header(stream_, buffer_, *head_parser_,
                           [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -90,6 +91,7 @@ void Connection::take_head() {
   if (!is_upload) return read_body();
   // Nobody fills a disk who may not ask.
   if (!is_heard(url)) return;
+  if (head_parser_->content_length().value_or(0) > StudioServer::kUploadBytes) return refuse_size(true);
   if (!listener_.handler().takes_uploads())
     return refuse(403, "not_allowed", "files are taken at the desk alone, with lockstep studio");
   if (!begin_upload(listener_.options().upload_folder))
@@ -99,8 +101,7 @@ void Connection::take_head() {
 
 void Connection::read_body() {
   // A parser looks at the length while it reads the head alone.
-  if (head_parser_->content_length().value_or(0) > StudioServer::kBodyBytes)
-    return refuse(413, "too_large", "a body may have 16 MiB");
+  if (head_parser_->content_length().value_or(0) > StudioServer::kBodyBytes) return refuse_size(false);
   parser_.emplace(std::move(*head_parser_));
   parser_->body_limit(StudioServer::kBodyBytes);
   http::async_read(stream_, buffer_, *parser_,
@@ -147,10 +148,14 @@ void Connection::fail(beast::error_code error) {
   if (error == http::error::header_limit)
     refuse(431, "too_large", "headers may have 8 KiB");
   else if (error == http::error::body_limit)
-    refuse(413, "too_large", "a body may have 16 MiB");
+    refuse_size(upload_.has_value());
   else if (error.category() == http::make_error_code(http::error::end_of_stream).category() &&
            error != http::error::end_of_stream && error != http::error::partial_message)
     refuse(400, "bad_request", "this is no HTTP");
+}
+
+void Connection::refuse_size(bool is_file) {
+  refuse(413, "too_large", is_file ? "a file may have 2 GiB" : "a body may have 16 MiB");
 }
 
 StudioCredentials Connection::credentials(std::string_view path, std::string_view query) const {
@@ -205,6 +210,7 @@ void Connection::answer() {
   asked.query = std::move(url.query);
   asked.peer = peer_;
   asked.if_match = header(http::field::if_match);
+  asked.if_none_match = header(http::field::if_none_match);
   if (parser_) asked.body = parser_->get().body();
   asked.body_file = std::exchange(upload_path_, "");
   listener_.handler().answer(

@@ -40,6 +40,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   template <class Call>
   void attempt(Call call);
   void fail(beast::error_code error);
+  void refuse_size(bool is_file);
   void refuse(unsigned status, std::string_view code, std::string_view text);
   void write(StudioAnswer answer);
   void send();

@@ -16,9 +16,10 @@ struct StudioRequest {
   std::string path;                                        ///< decoded, without the query
   std::vector<std::pair<std::string, std::string>> query;  ///< decoded
   std::string_view body;
-  std::string_view peer;      ///< address of the client
-  std::string_view if_match;  ///< of what is changed, as the client knows it; empty: not told
-  std::string body_file;      ///< file of the body, which belongs to the handler then; empty: it is in `body`
+  std::string_view peer;           ///< address of the client
+  std::string_view if_match;       ///< ETag of what is changed, as the client knows it; empty: not told
+  std::string_view if_none_match;  ///< `*`: it is made anew; empty: not told
+  std::string body_file;  ///< file of the body, which belongs to the handler then; empty: it is in `body`
 
   /// Value of a key; `otherwise`: it is not there.
   std::string_view value(std::string_view key, std::string_view otherwise = "") const noexcept {

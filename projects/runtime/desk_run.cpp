@@ -46,7 +46,7 @@ std::int64_t whole_in(const Json& request, const char* key, std::int64_t highest
 
 }  // namespace
 
-DeskRun::DeskRun(const DeskOptions& options, StudioTraceFiles& files, std::function<void()> restart)
+DeskRun::DeskRun(const DeskOptions& options, StudioTraceFiles& files, Restart restart)
     : simulation_(simulation_of(options.file)), restart_(std::move(restart)) {
   Controller& controller = *project().controller;
   session_ = std::make_unique<StudioSession>(project(), 0, project().studio.history);
@@ -78,7 +78,11 @@ void DeskRun::make_desk() {
   image_ = std::make_unique<ProcessImage>(std::move(signals));
   desk_ =
       std::make_unique<SharedDesk>(project().commands.axes, *image_, project().controller->clock.servo_cycle,
-                                   [this](const TraceEvent& event) { sink_->event(event); });
+                                   [this](const TraceEvent& event) {
+                                     if (event.kind == EventKind::command_accepted)
+                                       journal_.has_commands = true;
+                                     sink_->event(event);
+                                   });
   project().controller->images.push_back(image_.get());
 }
 
@@ -91,9 +95,22 @@ void DeskRun::give_powers(const DeskOptions& options, StudioTraceFiles& files) {
   powers.why_no_write = powers.why_no_command = reason;
   powers.why_no_files = options.read_only ? reason : "";
   powers.desk = desk_.get();
-  powers.tell = [this](const TraceEvent& event) { sink_->event(event); };
+  powers.tell = [this](TraceEvent event) {
+    if (event.t == 0) {
+      // What no tick has done, such as a refusal, has happened now.
+      const std::lock_guard lock(mutex_);
+      event.t = now();
+      event.tick = static_cast<std::uint64_t>(event.t / project().controller->clock.servo_cycle);
+    }
+    sink_->event(event);
+  };
   powers.simulation = options.file.empty() ? nullptr : this;
+  powers.journal = [this](std::int64_t tick, const std::string& body) {
+    journal_.entries.push_back({tick, body});
+  };
   powers.files = &files;
+  powers.trace_folder = options.folder;
+  powers.project_file = options.file;
   powers.describe = options.describe;
   if (!options.file.empty()) {
     powers.project_text = expanded_project(options.file);
@@ -166,11 +183,21 @@ Json DeskRun::obey(const Json& request) {
     set_pace(number);
   } else if (action == "seek") {
     const std::int64_t t = whole_in(request, "t", kLongestRun);
-    if (t < now()) throw BadRequest(409, "conflict", "a run goes forwards alone; 'restart' begins it anew");
-    run_to(t);
+    if (t >= now()) {
+      run_to(t);
+    } else if (journal_.has_commands) {
+      throw BadRequest(
+          409, "conflict",
+          "axes of this run were commanded by hand, which cannot be repeated; 'restart' begins it anew");
+    } else {
+      // Backwards: the same run once more, up to there.
+      runs_ = false;
+      restart_(t);
+      return Json{{"state", "seeking"}, {"t", std::to_string(t)}, {"tick", std::to_string(t / cycle)}};
+    }
   } else if (action == "restart") {
     runs_ = false;
-    restart_();
+    restart_(std::nullopt);
   } else {
     throw BadRequest(422, "bad_request", "'action' is none; allowed: run, pause, step, speed, seek, restart");
   }
@@ -185,7 +212,30 @@ bool DeskRun::is_due() const {
   return static_cast<double>(now() - from_t_) <= spent.count() * speed_;
 }
 
+DeskJournal DeskRun::journal_before(std::int64_t t) const {
+  DeskJournal journal = journal_;
+  const std::int64_t cycle = project().controller->clock.servo_cycle;
+  std::erase_if(journal.entries, [&](const DeskJournal::Entry& entry) { return entry.tick * cycle >= t; });
+  return journal;
+}
+
+void DeskRun::repeat(std::int64_t t, DeskJournal journal, const std::vector<std::string>& recorded) {
+  for (const DeskJournal::Entry& entry : journal.entries)
+    repeated_.emplace_back(entry.tick, session_->chosen_writes(entry.body));
+  journal_ = std::move(journal);
+  session_->record(recorded);
+  session_->look();  // hands over what is to be recorded
+  const std::lock_guard lock(mutex_);
+  run_to(t);
+  wake_.notify_all();
+}
+
 void DeskRun::tick() {
+  const std::int64_t number = now() / project().controller->clock.servo_cycle;
+  for (; next_repeated_ < repeated_.size() && repeated_[next_repeated_].first <= number; ++next_repeated_) {
+    repeating_.post(std::move(repeated_[next_repeated_].second));
+    repeating_.apply(number);
+  }
   simulation_->step();
   const std::size_t count = events_.readable();
   for (std::size_t i = 0; i < count; ++i) sink_->event(texts_.of(events_.event(i), events_.lost()));
@@ -219,7 +269,13 @@ void DeskRun::run() noexcept {
 
 DeskHandler::DeskHandler(DeskOptions options)
     : options_(std::move(options)),
-      run_(std::make_unique<DeskRun>(options_, files_, [this] { is_wanted_anew_ = true; })) {}
+      run_(std::make_unique<DeskRun>(options_, files_,
+                                     [this](std::optional<std::int64_t> t) { ask_for_another(t); })) {}
+
+void DeskHandler::ask_for_another(std::optional<std::int64_t> t) {
+  is_wanted_anew_ = true;
+  wanted_t_ = t;
+}
 
 bool DeskHandler::add_trace(const std::string& path) {
   return files_.add(path, path.substr(path.rfind('/') + 1), false) != nullptr;
@@ -241,7 +297,9 @@ void DeskHandler::restart() {
   std::string problem;
   std::unique_ptr<DeskRun> made;
   try {
-    made = std::make_unique<DeskRun>(options_, files_, [this] { is_wanted_anew_ = true; });
+    made = std::make_unique<DeskRun>(options_, files_,
+                                     [this](std::optional<std::int64_t> t) { ask_for_another(t); });
+    if (wanted_t_) made->repeat(*wanted_t_, run_->journal_before(*wanted_t_), run_->session().recorded());
   } catch (const std::exception& error) {
     problem = error.what();
   }

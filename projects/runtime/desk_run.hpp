@@ -9,34 +9,56 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "hmi_bridge/lcm/shared_desk.hpp"
 #include "projects/loader/simulation.hpp"
 #include "projects/studio/session.hpp"
+#include "scheduler/chosen_writes.hpp"
 
 namespace lockstep {
 
 /// How a desk is set up.
 struct DeskOptions {
   std::string file{};      ///< of the project; empty: there is none, only traces
+  std::string folder{};    ///< in or below which pages name traces by path; empty: nowhere
   bool read_only = false;  ///< pages only look; they may run the simulation no more than write into it
   std::function<std::optional<std::string>(const std::string&)> describe{};  ///< see StudioPowers
+};
+
+/// Writes of pages that a run has had, in their order.
+struct DeskJournal {
+  struct Entry {
+    std::int64_t tick;  ///< at the start of which they were applied
+    std::string body;   ///< of `POST /api/write`
+  };
+  std::vector<Entry> entries{};
+  bool has_commands = false;  ///< axes were commanded as well, which is not repeated
 };
 
 /// One run of it, from t = 0. Its thread ticks; what pages ask for is on the server's, unless said otherwise.
 class DeskRun final : public StudioSimulation {
  public:
-  /// @param files outlives this  @param restart is asked for by a page, and done by whoever owns this
-  /// @throws InvalidProject, UnreadableFile
-  DeskRun(const DeskOptions& options, StudioTraceFiles& files, std::function<void()> restart);
+  /// Asked for by a page, and done by whoever owns the run: another one in its place, which goes on to a time
+  /// [ns] with the same writes; without a time it begins anew, without any.
+  using Restart = std::function<void(std::optional<std::int64_t> t)>;
+
+  /// @param files outlives this  @throws InvalidProject, UnreadableFile
+  DeskRun(const DeskOptions& options, StudioTraceFiles& files, Restart restart);
   ~DeskRun() override;
   DeskRun(const DeskRun&) = delete;
   DeskRun& operator=(const DeskRun&) = delete;
 
   StudioSession& session() noexcept { return *session_; }
+  /// Writes before a time. Thread: the server's.
+  DeskJournal journal_before(std::int64_t t) const;
+  /// Goes on to a time as fast as it can, with these writes at their ticks, and records some signals on the
+  /// path. Before anything else is asked of it.
+  void repeat(std::int64_t t, DeskJournal journal, const std::vector<std::string>& recorded);
   studio_api::Json state() const override;
   studio_api::Json obey(const studio_api::Json& request) override;
   bool while_paused(const std::function<void(std::int64_t tick)>& act) override;
@@ -56,7 +78,7 @@ class DeskRun final : public StudioSimulation {
   Project& project() const { return simulation_->project(); }
 
   std::unique_ptr<Simulation> simulation_;
-  const std::function<void()> restart_;
+  const Restart restart_;
   std::vector<Problem> warnings_;
   EventQueue events_;
   EventTexts texts_;
@@ -74,6 +96,10 @@ class DeskRun final : public StudioSimulation {
   std::int64_t from_t_ = 0;  // of the pace
   Clock::time_point from_{};
   bool end_ = false;
+  DeskJournal journal_;
+  std::vector<std::pair<std::int64_t, std::vector<ChosenWrite>>> repeated_;  // by their ticks
+  std::size_t next_repeated_ = 0;
+  ChosenWrites repeating_;
   std::thread thread_;
 };
 
@@ -101,11 +127,13 @@ class DeskHandler final : public StudioHandler {
 
  private:
   void restart();
+  void ask_for_another(std::optional<std::int64_t> t);
 
   const DeskOptions options_;
   StudioTraceFiles files_;
   std::vector<StudioClient*> clients_;
   bool is_wanted_anew_ = false;
+  std::optional<std::int64_t> wanted_t_;  // to which it goes then
   std::unique_ptr<DeskRun> run_;
 };
 

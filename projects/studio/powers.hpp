@@ -51,7 +51,11 @@ struct StudioPowers {
   std::function<void(TraceEvent)> tell;    ///< an event of the studio, to all who hear events
   std::function<std::string()> health;     ///< a JSON object; empty: nothing is known
   std::function<std::optional<std::string>(const std::string&)> describe;  ///< as `lockstep describe --json`
+  /// Hears of each batch of writes that a tick has applied, as it was asked for; nullptr: nobody does.
+  std::function<void(std::int64_t tick, const std::string& body)> journal;
   StudioTraceFiles* files = nullptr;  ///< traces that pages give; nullptr: none are taken
+  std::string trace_folder;           ///< in or below which pages name traces by path; empty: nowhere
+  std::string project_file;           ///< that pages read and write, with its cams; empty: there is none
   std::string project_text;           ///< of the project, whole; empty: it is not known
   std::vector<Problem> warnings;      ///< of the loader
 };

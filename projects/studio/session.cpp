@@ -17,6 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr std::string_view kTraces = "/api/traces/";
 constexpr std::string_view kDerived = "/derived";
+constexpr std::string_view kFiles = "/api/files/";
 
 std::string chance_number() {
   std::random_device chance;
@@ -51,6 +52,14 @@ void StudioSession::empower(StudioPowers powers) {
   powers_ = std::move(powers);
   text_ = StudioProjectText(powers_.project_text);
   powers_.project_text.clear();
+  trace_folder_ = DeskFolder(powers_.trace_folder);
+  if (powers_.project_file.empty()) return;
+  std::vector<std::string> cams;
+  const Json all = text_.cams();
+  for (const Json& cam : all)
+    if (const auto file = cam.find("file"); file != cam.end() && file->is_string())
+      cams.push_back(file->get<std::string>());
+  project_files_ = StudioProjectFiles(powers_.project_file, std::move(cams));
 }
 
 void StudioSession::answer(const StudioRequest& request, Done done) {
@@ -61,6 +70,7 @@ void StudioSession::answer(const StudioRequest& request, Done done) {
       return want();
     }
     if (request.path == "/api/write" && request.method == "POST") return writes_.write(request, done);
+    if (request.path.starts_with(kFiles)) return done(answer_files(request));
     if (request.method == "GET" || request.method == "HEAD") return done(answer_get(request));
     done(answer_post(request));
   } catch (const BadRequest& bad) {
@@ -166,6 +176,7 @@ void StudioSession::obey(StudioClient& client, const StudioMessage& message) {
   if (type == "command") return panels_.obey(client, message);
   if (type == "subscribe") {
     pages_.subscribe(client, message);
+    recorded_at_first_.clear();
   } else if (type == "unsubscribe") {
     pages_.unsubscribe(client, message);
   } else if (type == "trigger") {
@@ -194,6 +205,21 @@ void StudioSession::text(StudioClient& client, std::string_view text) {
   }
 }
 
+std::vector<std::string> StudioSession::recorded() const {
+  std::vector<std::string> paths;
+  for (const TraceSignal& signal : feed_.store().signals()) paths.push_back(signal.name);
+  return paths;
+}
+
+void StudioSession::record(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    std::string problem;
+    if (std::optional<NamedSignal> signal = signal_at(project_, path, problem))
+      recorded_at_first_.push_back(*std::move(signal));
+  }
+  want();
+}
+
 /// The signals of all pages and their triggers, and those that are being read.
 void StudioSession::want() {
   std::set<std::string> names;
@@ -204,6 +230,7 @@ void StudioSession::want() {
   pages_.wanted(add);
   triggers_.wanted(add);
   readings_.wanted(add);
+  for (const NamedSignal& signal : recorded_at_first_) add(signal);
   feed_.want(std::move(signals));
 }
 

@@ -12,11 +12,13 @@
 #include "hmi_bridge/studio/handler.hpp"
 #include "hmi_bridge/studio/server.hpp"
 #include "projects/loader/project.hpp"
+#include "projects/studio/desk_folder.hpp"
 #include "projects/studio/feed.hpp"
 #include "projects/studio/history.hpp"
 #include "projects/studio/pages.hpp"
 #include "projects/studio/panels.hpp"
 #include "projects/studio/powers.hpp"
+#include "projects/studio/project_files.hpp"
 #include "projects/studio/project_text.hpp"
 #include "projects/studio/readings.hpp"
 #include "projects/studio/shots.hpp"
@@ -36,6 +38,12 @@ class StudioSession final : public StudioHandler {
 
   /// What pages may do besides looking. Before the first request; without it they only look.
   void empower(StudioPowers powers);
+  /// What a body of `POST /api/write` writes here. Before the run, or where nothing of it goes on.
+  std::vector<ChosenWrite> chosen_writes(const std::string& body) const { return writes_.chosen(body); }
+  /// The signals that are recorded now, and has some recorded until pages have said which they want. Before
+  /// the first request of a page.
+  std::vector<std::string> recorded() const;
+  void record(const std::vector<std::string>& paths);
   /// The crossing for `Controller::tap`.
   SignalTap& tap() noexcept { return feed_.tap(); }
   /// What gives it the events of the run. Before the run.
@@ -73,6 +81,8 @@ class StudioSession final : public StudioHandler {
   StudioAnswer remove_trace(const StudioRequest& request);
   StudioAnswer derive(const StudioRequest& request);
   StudioAnswer change_simulation(const StudioRequest& request);
+  StudioAnswer answer_files(const StudioRequest& request);
+  void tell_written(const StudioRequest& request, std::string_view name, const StudioAnswer& answer) const;
   bool read_at_once(const StudioRequest& request, const Done& done);
   const TraceStore* find_trace(std::string_view id) const;
   void tell_files();
@@ -98,6 +108,9 @@ class StudioSession final : public StudioHandler {
   StudioWrites writes_;
   StudioPanels panels_;
   StudioProjectText text_;
+  StudioProjectFiles project_files_;
+  DeskFolder trace_folder_;
+  std::vector<NamedSignal> recorded_at_first_;  // until a page subscribes
   bool wants_changed_ = false;
   Clock::time_point next_status_{};
 };

@@ -45,6 +45,7 @@ StudioAnswer StudioSession::answer_project(const StudioRequest& request) const {
     Json json = Json::parse(studio_project(project_));
     json["couplings"] = text_.couplings();
     json["cams"] = text_.cams();
+    json["files"] = project_files_.names();
     json["warnings"] = powers_.warnings.size();
     answer = answer_of(json);
   } else if (request.path == "/api/tags") {
@@ -67,6 +68,44 @@ StudioAnswer StudioSession::answer_project(const StudioRequest& request) const {
   answer.etag = "\"" + run_ + "\"";
   answer.cache = "no-cache";
   return answer;
+}
+
+/// Files of the project. Whoever tries to change one is told of, as of a write.
+StudioAnswer StudioSession::answer_files(const StudioRequest& request) {
+  const std::string name = behind(request, "/api/files/");
+  const bool changes = request.method == "PUT";
+  if (!changes && request.method != "GET" && request.method != "HEAD")
+    return error_answer(405, "not_allowed", "allowed here: GET, PUT");
+  StudioAnswer answer;
+  if (!project_files_.are_there()) {
+    answer = error_answer(403, "not_allowed",
+                          "files of a project are read and written at the desk alone, with lockstep studio");
+  } else if (changes && !powers_.why_no_write.empty()) {
+    answer = error_answer(403, "not_allowed", powers_.why_no_write);
+  } else {
+    try {
+      answer = project_files_.answer(request, name);
+    } catch (const BadRequest& bad) {
+      answer = error_answer(bad.status, bad.code, bad.what());
+    }
+  }
+  if (changes) tell_written(request, name, answer);
+  return answer;
+}
+
+void StudioSession::tell_written(const StudioRequest& request, std::string_view name,
+                                 const StudioAnswer& answer) const {
+  if (!powers_.tell) return;
+  TraceEvent event;
+  const bool is_done = answer.status == 200;
+  event.kind = is_done ? EventKind::written : EventKind::write_refused;
+  event.source = name;
+  event.type = "file";
+  const Json told = Json::parse(answer.body);
+  event.text = is_done ? std::to_string(told.at("bytes").get<std::uint64_t>()) + " bytes"
+                       : told.at("error").at("message").get<std::string>();
+  event.address = request.peer;
+  powers_.tell(std::move(event));
 }
 
 StudioAnswer StudioSession::change_simulation(const StudioRequest& request) {

@@ -148,7 +148,8 @@ StudioAnswer StudioSession::take_trace(const StudioRequest& request) {
     const auto given = json.is_object() ? json.find("path") : json.end();
     if (given == json.end() || !given->is_string())
       throw BadRequest(422, "bad_request", "'path' has to be the name of a file, or the body is one");
-    path = given->get<std::string>();
+    const auto named = given->get<std::string>();
+    path = trace_folder_.file(trace_folder_.name_of(named));
     name = path.substr(path.rfind('/') + 1);
   }
   name = name.substr(name.rfind('/') + 1).substr(0, kLongestName);

@@ -120,14 +120,38 @@ std::vector<std::size_t> outline(const std::vector<double>& x, const std::vector
 }
 
 /// How two runs differ in a signal.
+/// Whole numbers of 64 bits, of which many have no real number of their own.
+bool is_wide(Type type) noexcept {
+  return type == Type::LINT || type == Type::ULINT || type == Type::LWORD || type == Type::TIME;
+}
+
+/// What lies between two whole numbers of a type of 64 bits.
+std::uint64_t distance_of(Value a, Value b, Type type) noexcept {
+  const bool is_signed = type == Type::LINT || type == Type::TIME;
+  const bool is_more = is_signed ? a.i > b.i : a.u > b.u;
+  return is_more ? a.u - b.u : b.u - a.u;
+}
+
+/// Whether a whole number is no more than a real one, to the last digit.
+bool is_within(std::uint64_t whole, double tolerance) noexcept {
+  return tolerance >= 0x1p64 || whole <= static_cast<std::uint64_t>(tolerance);
+}
+
 struct Difference {
+  Type type = Type::LREAL;  // of both, if they are the same whole numbers of 64 bits
   std::uint64_t different = 0;
   std::int64_t first_t = 0, maximum_t = 0;
   std::uint64_t first_tick = 0;
-  double first_a = 0.0, first_b = 0.0, maximum = 0.0;
+  Value first_a{}, first_b{};
+  double maximum = 0.0;
+  std::uint64_t wide_maximum = 0;
 
-  void add(double a, double b, std::int64_t t, std::uint64_t tick, double tolerance) {
-    const bool same = a == b || (a != a && b != b) || std::abs(a - b) <= tolerance;
+  /// Of values of the type.
+  void add(Value a, Value b, std::int64_t t, std::uint64_t tick, double tolerance) {
+    const std::uint64_t wide = is_wide(type) ? distance_of(a, b, type) : 0;
+    const bool same = is_wide(type)
+                          ? is_within(wide, tolerance)
+                          : a.r == b.r || (a.r != a.r && b.r != b.r) || std::abs(a.r - b.r) <= tolerance;
     if (same) return;
     if (different++ == 0) {
       first_t = t;
@@ -136,8 +160,10 @@ struct Difference {
       first_b = b;
     }
     // A row without a number on one side is no distance: it is told only if there is no other.
-    if (const double apart = std::abs(a - b); apart > maximum || std::isnan(maximum) || different == 1) {
+    const double apart = is_wide(type) ? 0.0 : std::abs(a.r - b.r);
+    if (apart > maximum || wide > wide_maximum || std::isnan(maximum) || different == 1) {
       maximum = apart;
+      wide_maximum = wide;
       maximum_t = t;
     }
   }
@@ -146,9 +172,11 @@ struct Difference {
     if (different == 0) return json;
     json["first"] = {{"t", std::to_string(first_t)},
                      {"tick", std::to_string(first_tick)},
-                     {"a", number_json(first_a)},
-                     {"b", number_json(first_b)}};
-    json["maximum"] = {{"difference", number_json(maximum)}, {"t", std::to_string(maximum_t)}};
+                     {"a", value_json(first_a, type)},
+                     {"b", value_json(first_b, type)}};
+    json["maximum"] = {
+        {"difference", is_wide(type) ? Json(std::to_string(wide_maximum)) : number_json(maximum)},
+        {"t", std::to_string(maximum_t)}};
     return json;
   }
 };
@@ -268,16 +296,23 @@ StudioAnswer compare_answer(const StudioRequest& request, const TraceStore& a, c
   const TraceWindow of_b =
       b.rows(columns_b, b.row_at(of_a.t.front() + shift), b.row_at(of_a.t.back() + shift + 1));
   std::vector<Difference> differences(paths.size());
+  for (std::size_t c = 0; c < paths.size(); ++c)
+    if (of_a.columns[c].type == of_b.columns[c].type && is_wide(of_a.columns[c].type))
+      differences[c].type = of_a.columns[c].type;
   std::uint64_t rows = 0;
   std::size_t k = 0;
   for (std::size_t i = 0; i < of_a.t.size(); ++i) {
     while (k < of_b.t.size() && of_b.t[k] < of_a.t[i] + shift) ++k;
     if (k >= of_b.t.size() || of_b.t[k] != of_a.t[i] + shift) continue;
     ++rows;
-    for (std::size_t c = 0; c < paths.size(); ++c)
-      differences[c].add(as_double(of_a.columns[c].first[i], of_a.columns[c].type),
-                         as_double(of_b.columns[c].first[k], of_b.columns[c].type), of_a.t[i], of_a.tick[i],
-                         tolerance);
+    for (std::size_t c = 0; c < paths.size(); ++c) {
+      const Type type = differences[c].type;
+      const auto value = [type](const TraceWindow& window, std::size_t column, std::size_t row) {
+        const Value given = window.columns[column].first[row];
+        return is_wide(type) ? given : Value{.r = as_double(given, window.columns[column].type)};
+      };
+      differences[c].add(value(of_a, c, i), value(of_b, c, k), of_a.t[i], of_a.tick[i], tolerance);
+    }
   }
   Json signals = Json::array();
   Json first;

@@ -8,13 +8,15 @@
 namespace lockstep {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, StudioTriggerKind>, 8> kTriggerKinds{{
+constexpr std::array<std::pair<std::string_view, StudioTriggerKind>, 10> kTriggerKinds{{
     {"above", StudioTriggerKind::above},
     {"below", StudioTriggerKind::below},
     {"rising", StudioTriggerKind::rising},
     {"falling", StudioTriggerKind::falling},
     {"change", StudioTriggerKind::change},
     {"outside", StudioTriggerKind::outside},
+    {"window", StudioTriggerKind::outside},
+    {"bits", StudioTriggerKind::bits},
     {"alarm", StudioTriggerKind::alarm},
     {"job", StudioTriggerKind::job},
 }};
@@ -29,16 +31,17 @@ std::optional<StudioTriggerKind> studio_trigger_kind(std::string_view name) noex
 }
 
 std::string_view studio_trigger_kinds() noexcept {
-  return "above, below, rising, falling, change, outside, alarm, job";
+  return "above, below, rising, falling, change, outside, window, bits, alarm, job";
 }
 
-bool StudioTrigger::judge(double value) noexcept {
+bool StudioTrigger::judge(Value given, Type type) noexcept {
+  const double value = as_double(given, type);
   if (std::isnan(value)) return false;
   const auto crossed = [this](bool is_beyond, bool is_back) {
     if (is_back) is_ready_ = true;
     return is_beyond && std::exchange(is_ready_, is_ready_ && !is_beyond);
   };
-  const std::optional<double> before = std::exchange(before_, value);
+  const std::optional<Value> before = std::exchange(before_, given);
   switch (condition_.kind) {
     case StudioTriggerKind::above:
       return value > condition_.level;
@@ -49,7 +52,10 @@ bool StudioTrigger::judge(double value) noexcept {
     case StudioTriggerKind::falling:
       return crossed(value < condition_.level, value >= condition_.level + condition_.hysteresis);
     case StudioTriggerKind::change:
-      return before && *before != value;
+      // Whole numbers beyond 2^53 differ where their nearest real numbers do not.
+      return before && (is_real(type) ? before->r != given.r : before->u != given.u);
+    case StudioTriggerKind::bits:
+      return (given.u & condition_.mask) == condition_.wanted;
     case StudioTriggerKind::outside:
       return value < condition_.level || value > condition_.upper;
     default:

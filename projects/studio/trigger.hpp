@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "scheduler/events.hpp"
+#include "tech_objects/types/types.hpp"
 
 namespace lockstep {
 
@@ -15,7 +16,8 @@ enum class StudioTriggerKind : std::uint8_t {
   rising,   ///< it comes from not above the level, less the hysteresis, to above it
   falling,  ///< it comes from not below the level, plus the hysteresis, to below it
   change,   ///< it differs from the value before
-  outside,  ///< it is less than the level or greater than the upper level
+  outside,  ///< it is less than the level or greater than the upper level; `window` is another name
+  bits,     ///< those of the mask are as they are wanted
   alarm,    ///< an alarm is raised
   job       ///< a job begins
 };
@@ -33,6 +35,8 @@ class StudioTrigger {
     double level = 0.0;
     double upper = 0.0;       ///< of `outside`
     double hysteresis = 0.0;  ///< of `rising` and `falling`, ≥ 0
+    std::uint64_t mask = 0;   ///< of `bits`
+    std::uint64_t wanted = 0;
   };
 
   explicit StudioTrigger(const Condition& condition) noexcept : condition_(condition) {}
@@ -46,7 +50,8 @@ class StudioTrigger {
            (condition_.kind == StudioTriggerKind::job && event == EventKind::job_started);
   }
   /// The value of the next row. @return whether this is the occasion
-  bool judge(double value) noexcept;
+  bool judge(double value) noexcept { return judge(Value{.r = value}, Type::LREAL); }
+  bool judge(Value value, Type type) noexcept;
   /// Begins anew: what was before is forgotten.
   void begin() noexcept {
     is_ready_ = false;
@@ -55,8 +60,8 @@ class StudioTrigger {
 
  private:
   Condition condition_;
-  bool is_ready_ = false;         // it has been on the other side
-  std::optional<double> before_;  // value of the row before
+  bool is_ready_ = false;        // it has been on the other side
+  std::optional<Value> before_;  // value of the row before
 };
 
 }  // namespace lockstep

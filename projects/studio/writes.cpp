@@ -166,6 +166,7 @@ void StudioWrites::write(const StudioRequest& request, Done done) {
   Wrong wrong{422};
   Batch batch;
   batch.peer = request.peer;
+  batch.body = request.body;
   for (const Json& one : *writes) add(one, batch, wrong);
   if (!wrong.errors.empty()) {
     refuse(wrong, request.peer);
@@ -175,6 +176,15 @@ void StudioWrites::write(const StudioRequest& request, Done done) {
   batch.done = std::move(done);
   waiting_.push_back(std::move(batch));
   look(Clock::now());
+}
+
+std::vector<ChosenWrite> StudioWrites::chosen(const std::string& body) const {
+  const Json json = parsed(body);
+  Wrong wrong{422};
+  Batch batch;
+  for (const Json& one : json.at("writes")) add(one, batch, wrong);
+  if (!wrong.errors.empty()) return {};
+  return std::move(batch.writes);
 }
 
 StudioAnswer StudioWrites::answer_of(const Batch& batch) const {
@@ -222,6 +232,7 @@ void StudioWrites::look(Clock::time_point now) {
       powers_.simulation->while_paused([this](std::int64_t tick) { crossing_.apply(tick); });
     if (batch.is_posted && crossing_.is_applied()) {
       tell_applied(batch);
+      if (powers_.journal) powers_.journal(crossing_.tick(), batch.body);
       if (batch.done) batch.done(answer_of(batch));
       waiting_.pop_front();
       continue;

@@ -28,6 +28,8 @@ class StudioWrites {
 
   /// `POST /api/write`. @throws studio_api::BadRequest
   void write(const StudioRequest& request, Done done);
+  /// What a body of it writes, if all of it may be; else nothing. Any thread that has the project to itself.
+  std::vector<ChosenWrite> chosen(const std::string& body) const;
   /// Hands on what waits, answers what has been applied or has waited too long.
   void look(Clock::time_point now);
   void end() noexcept { waiting_.clear(); }
@@ -42,7 +44,7 @@ class StudioWrites {
   struct Batch {
     std::vector<ChosenWrite> writes;
     std::vector<Target> targets;
-    std::string peer;
+    std::string peer, body;
     Clock::time_point until;
     Done done;  // empty: it has been answered
     bool is_posted = false;

@@ -1,10 +1,8 @@
 // What Modbus clients cost the tick: ./dev bench flood
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <functional>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -13,6 +11,7 @@
 
 #include "bench/flooded_machine.hpp"
 #include "bench/measure.hpp"
+#include "bench/pairs.hpp"
 #include "scheduler/processor.hpp"
 #include "tests/support/flood.hpp"
 
@@ -85,56 +84,12 @@ class Counters {
   std::vector<std::jthread> threads_;
 };
 
-struct Interval {
-  double median, low, high;
-};
-
-/// The median of a sample, and the interval which holds that of the whole by 95 %: of how many values lie
-/// below it the deviation is half the root of their number.
-Interval median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const double middle = 0.5 * static_cast<double>(values.size() - 1);
-  const double reach = 0.98 * std::sqrt(static_cast<double>(values.size()));
-  const auto at = [&](double place) {
-    return values[static_cast<std::size_t>(std::clamp(place, 0.0, 2.0 * middle))];
-  };
-  return {at(middle), at(std::floor(middle - reach)), at(std::ceil(middle + reach))};
-}
-
-/// What happens beside the machine, and what was measured then and next to it.
-struct Company {
-  const char* name;
-  std::function<TickTimes()> run;
-  std::vector<TickTimes> times{}, alone{};
-};
-
-std::vector<double> column(const std::vector<TickTimes>& times, double TickTimes::*member) {
-  std::vector<double> values;
-  for (const TickTimes& time : times) values.push_back(time.*member);
-  return values;
-}
-
-void show(const Company& company, double TickTimes::*member) {
-  const std::vector<double> times = column(company.times, member);
-  const std::vector<double> alone = column(company.alone, member);
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / alone[i]);
-  const Interval ratio = median_of(ratios);
-  std::printf("  %6.2f %6.2f  %5.3f (%5.3f-%5.3f)", median_of(alone).median, median_of(times).median,
-              ratio.median, ratio.low, ratio.high);
-}
-
 void show(const MachineText& machine, const std::vector<Company>& companies) {
   std::printf("\n%-18s  %-35s  %s\n%-18s", machine.name.c_str(), "median of the ticks [us]",
               "mean of the ticks [us]", "beside them");
   for (int i = 0; i < 2; ++i) std::printf("  %6s %6s  %-20s", "alone", "so", "ratio");
   std::printf("\n");
-  for (const Company& company : companies) {
-    std::printf("  %-16s", company.name);
-    show(company, &TickTimes::median);
-    show(company, &TickTimes::mean);
-    std::printf("\n");
-  }
+  for (const Company& company : companies) print(company);
 }
 
 void measure(const MachineText& text, int processor, const Plan& plan, const StoppedSubscriber& subscriber) {
@@ -169,12 +124,7 @@ void measure(const MachineText& text, int processor, const Plan& plan, const Sto
                                     {"clients", [&] { return beside(clients); }},
                                     {"and hindered", hindered}};
   for (int round = 0; round < plan.rounds; ++round)
-    for (Company& company : companies) {
-      const bool alone_first = round % 2 == 0;
-      if (alone_first) company.alone.push_back(alone());
-      company.times.push_back(company.run());
-      if (!alone_first) company.alone.push_back(alone());
-    }
+    for (Company& company : companies) company.measure(alone, round % 2 == 0);
   for (const test::FloodClients* flood : {&elsewhere, &clients})
     if (flood->wrong() != 0 || flood->torn() != 0) throw std::runtime_error("a client got a wrong answer");
   show(text, companies);

@@ -127,6 +127,27 @@ const char* StoppedSubscriber::url() const {
   return is_there_ ? kNetwork : kWithinProcess;
 }
 
+TickTimes run_ticks(Controller& controller, int processor, int ticks) {
+  std::vector<double> times;
+  times.reserve(static_cast<std::size_t>(ticks));
+  std::thread cycle([&] {
+    const sched_param priority{80};
+    pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+    if (processor >= 0) keep_on_processor(pthread_self(), processor);
+    const std::chrono::nanoseconds period(controller.clock.servo_cycle);
+    auto due = std::chrono::steady_clock::now();
+    for (int i = -kNotCounted; i < ticks; ++i) {
+      do due += period;
+      while (due < std::chrono::steady_clock::now());
+      std::this_thread::sleep_until(due);
+      const double time = time_of_tick(controller);
+      if (i >= 0) times.push_back(time);
+    }
+  });
+  cycle.join();
+  return times_of(std::move(times));
+}
+
 FloodedMachine::Recording::Recording(const Project& project, const char* file, const char* url)
     : ring(places_of(project.trace.signals)),
       recorder(ring, columns_of(project), sinks_to(project, file, url)) {}
@@ -154,27 +175,6 @@ FloodedMachine::~FloodedMachine() {
 
 void FloodedMachine::hinder_recorder(bool hindered) {
   project_.controller->trace = hindered ? &hindered_.ring : &free_.ring;
-}
-
-TickTimes FloodedMachine::run(int ticks) {
-  std::vector<double> times;
-  times.reserve(static_cast<std::size_t>(ticks));
-  std::thread cycle([&] {
-    const sched_param priority{80};
-    pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
-    if (processor_ >= 0) keep_on_processor(pthread_self(), processor_);
-    const std::chrono::nanoseconds period(project_.controller->clock.servo_cycle);
-    auto due = std::chrono::steady_clock::now();
-    for (int i = -kNotCounted; i < ticks; ++i) {
-      do due += period;
-      while (due < std::chrono::steady_clock::now());
-      std::this_thread::sleep_until(due);
-      const double time = time_of_tick(*project_.controller);
-      if (i >= 0) times.push_back(time);
-    }
-  });
-  cycle.join();
-  return times_of(std::move(times));
 }
 
 }  // namespace lockstep::bench

@@ -45,16 +45,18 @@ struct TickTimes {
   double mean = 0.0;
 };
 
+/// So many ticks on a thread of their own, as `lockstep run` has them: with real-time priority where that is
+/// permitted, each at its time, and none made up. Those at the beginning, which find what was before, are not
+/// counted. @param processor of the cycle; negative: any
+TickTimes run_ticks(Controller& controller, int processor, int ticks);
+
 class FloodedMachine {
  public:
   /// @param processor of the cycle; negative: any
   FloodedMachine(const std::string& text, int processor, const StoppedSubscriber& subscriber);
   ~FloodedMachine();
 
-  /// So many ticks on a thread of their own, as `lockstep run` has them: with real-time priority where that
-  /// is permitted, each at its time, and none made up. Those at the beginning, which find what was before,
-  /// are not counted.
-  TickTimes run(int ticks);
+  TickTimes run(int ticks) { return run_ticks(*project_.controller, processor_, ticks); }
 
   /// Records from here on to a full disk and a stopped subscriber, or to where nothing hinders.
   void hinder_recorder(bool hindered);

@@ -66,6 +66,14 @@ class StudioConnection {
     waiting_.append(bytes, static_cast<std::size_t>(got));
     return true;
   }
+  /// Nothing more will be sent.
+  void finish() { ::shutdown(socket_, SHUT_WR); }
+  /// All that comes until the other side ends it.
+  std::string all() {
+    while (receive()) {
+    }
+    return waiting_;
+  }
   bool is_closed() {
     while (receive()) waiting_.clear();
     return true;

@@ -31,6 +31,8 @@ class Echo final : public StudioHandler {
     StudioAnswer answer;
     answer.body = std::string(request.method) + " " + request.path + " " + std::string(request.value("q")) +
                   " " + std::string(request.body.substr(0, 100));
+    if (request.path == "/known")
+      answer.body = std::string(request.if_match) + " " + std::string(request.if_none_match);
     answer.etag = "\"1\"";
     done(answer);
   }
@@ -190,9 +192,24 @@ TEST(StudioServer, RefusesWhatIsTooLarge) {
   Server server;
   const std::string known = server.host_line() + server.origin_line() + kJson;
   EXPECT_EQ(server.with("GET /api", known + "X: " + std::string(9000, 'x') + "\r\n").status, 431);
-  EXPECT_EQ(server.raw("POST /api HTTP/1.1\r\n" + known + "Content-Length: 16777217\r\n\r\n").status, 413);
+  const HttpAnswer large = server.raw("POST /api HTTP/1.1\r\n" + known + "Content-Length: 16777217\r\n\r\n");
+  EXPECT_EQ(large.status, 413);
+  EXPECT_NE(large.body.find("a body may have 16 MiB"), std::string::npos) << large.body;
+  const HttpAnswer chunked =
+      server.raw("POST /api HTTP/1.1\r\n" + known + "Transfer-Encoding: chunked\r\n\r\n1000001\r\n");
+  EXPECT_EQ(chunked.status, 413);
+  EXPECT_NE(chunked.body.find("a body may have 16 MiB"), std::string::npos) << chunked.body;
   EXPECT_EQ(server.echo.asked, 0);
   EXPECT_EQ(server.with("POST /api", known, std::string(1 << 20, ' ')).status, 200);
+}
+
+TEST(StudioServer, HandsOnWhatTheClientKnows) {
+  Server server;
+  const std::string known = server.host_line() + server.origin_line() + kJson;
+  EXPECT_EQ(server.with("PUT /known", known + "If-Match: \"7\"\r\n", "{}").body, "\"7\" ");
+  EXPECT_EQ(server.with("PUT /known", known + "If-None-Match: *\r\n", "{}").body, " *");
+  EXPECT_EQ(server.with("GET /known", known + "If-None-Match: \"1\"\r\n").status, 304);
+  EXPECT_EQ(server.with("GET /known", known + "If-None-Match: \"2\"\r\n").status, 200);
 }
 
 TEST(StudioServer, RefusesWhatIsNoHttp) {

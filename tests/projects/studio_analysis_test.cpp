@@ -232,6 +232,30 @@ TEST(StudioCompare, KeepsTheGreatestDifferenceBehindRowsWithoutANumber) {
   EXPECT_EQ(json.at("signals")[1].at("different"), 0) << "no number on both sides is the same";
 }
 
+// Two neighbours of this size are the same real number.
+TEST(StudioCompare, ComparesWholeNumbersToTheirLastDigit) {
+  test::StudioMachine machine(
+      Simulation::from_text(R"({ "lockstep": 1, "name": "wide", "clock": { "servo_cycle": "1ms" },
+    "technology_objects": {}, "tags": { "wide": { "type": "LINT", "init": 1152921504606846976 } },
+    "programs": [ { "name": "Main", "ob": "Main", "cycle": "1ms", "calls": [ { "set": "wide", "to": "wide + 1" } ] } ] })"));
+  test::StudioPage page;
+  machine.session.opened(page);
+  machine.session.text(page, R"({"type":"hello"})");
+  machine.session.text(page, R"({"type":"subscribe","id":1,"paths":["wide"]})");
+  machine.run(20);
+  const Json json = machine.get("/api/compare", {{"a", "live"}, {"b", "live"}, {"shift", "1000000"}});
+  ASSERT_GT(json.at("rows").get<int>(), 5);
+  const Json& wide = json.at("signals")[0];
+  EXPECT_EQ(wide.at("different"), json.at("rows"));
+  EXPECT_EQ(wide.at("maximum").at("difference"), "1");
+  EXPECT_EQ(std::stoll(wide.at("first").at("b").get<std::string>()),
+            std::stoll(wide.at("first").at("a").get<std::string>()) + 1);
+  const Json rough =
+      machine.get("/api/compare", {{"a", "live"}, {"b", "live"}, {"shift", "1000000"}, {"tolerance", "1"}});
+  EXPECT_EQ(rough.at("signals")[0].at("different"), 0);
+  machine.session.closed(page);
+}
+
 TEST(StudioCompare, IsRefusedWithoutSomethingToCompare) {
   Studio studio;
   const std::string a = studio.open_text("a.csv", "t,x\n0,1\n1,2\n");

@@ -48,6 +48,7 @@ class StudioOfFiles : public StudioMachine {
     StudioPowers powers;
     powers.why_no_files = "";
     powers.files = &files;
+    powers.trace_folder = std::filesystem::temp_directory_path().string();
     session.empower(powers);
   }
   StudioOfFiles()

@@ -73,6 +73,18 @@ TEST(StudioTrigger, JudgesEachKindByItsRule) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(occasions({Kind::rising, 1.0}, {0, nan, 2}), (Rows{2})) << "what is no number changes nothing";
   EXPECT_EQ(occasions({Kind::alarm}, {0, 1, 2}), Rows{});
+  // Whole numbers to their last digit.
+  const auto whole = [](const StudioTrigger::Condition& condition, const std::vector<std::uint64_t>& values) {
+    StudioTrigger trigger(condition);
+    Rows found;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (trigger.judge(Value{.u = values[i]}, Type::LWORD)) found.push_back(i);
+    return found;
+  };
+  const std::uint64_t far = std::uint64_t{1} << 60;
+  EXPECT_EQ(whole({.kind = Kind::change}, {far, far + 1, far + 1}), Rows{1});
+  EXPECT_EQ(whole({.kind = Kind::bits, .mask = 6, .wanted = 2}, {0, 2, 3, 6, 4, far + 2}), (Rows{1, 2, 5}));
+  EXPECT_EQ(whole({.kind = Kind::bits, .mask = far + 1, .wanted = far}, {far, far + 1, 0}), Rows{0});
 }
 
 TEST(StudioTrigger, CatchesWhatHappenedBeforeAndAfterItsOccasion) {
@@ -120,6 +132,54 @@ TEST(StudioTrigger, WaitsAgainAndIsDisarmed) {
   machine.run(5);
 }
 
+TEST(StudioTrigger, TakesASecondConditionAndBits) {
+  StudioMachine machine(kKnife);
+  StudioPage page;
+  subscribe(machine, page, "cuts");
+  // A cut while the web runs faster than it does before 6 s.
+  machine.session.text(page,
+                       R"({"type":"trigger","action":"arm","kind":"change","path":"cuts","mode":"normal",
+    "and":{"kind":"above","path":"Conveyor.Velocity","level":250}})");
+  EXPECT_EQ(page.last("trigger")["state"], "armed") << page.texts.back();
+  machine.run(5900);
+  EXPECT_TRUE(page.last("shot").is_null());
+  machine.run(2000);
+  ASSERT_FALSE(page.last("shot").is_null());
+  EXPECT_GT(std::stoll(page.last("shot")["t"].get<std::string>()), 6'000'000'000);
+  const std::string id = page.last("shot")["id"];
+  const Json seen = machine.get("/api/traces/" + id + "/statistics", {{"signals", "Conveyor.Velocity"}});
+  EXPECT_GT(seen[0]["first"].get<double>(), 250.0) << "it is caught, too, though nobody has subscribed to it";
+  // Homed, and in standstill no more.
+  machine.session.text(
+      page,
+      R"({"type":"trigger","action":"arm","kind":"bits","path":"Knife.StatusWord","mask":"160","value":32})");
+  EXPECT_EQ(page.last("trigger")["state"], "armed") << page.texts.back();
+  machine.run(50);
+  EXPECT_EQ(page.last("shot")["reason"], "Knife.StatusWord bits");
+}
+
+TEST(StudioTrigger, ComesByItselfWhereNothingHappens) {
+  StudioMachine machine(kKnife);
+  StudioPage page;
+  subscribe(machine, page, "cuts");
+  machine.run(10);
+  machine.session.text(
+      page, R"({"type":"trigger","action":"arm","kind":"above","path":"Knife.Position","level":1000,
+    "mode":"auto","auto":100000000,"after":10000000})");
+  machine.run(90);
+  EXPECT_TRUE(page.last("shot").is_null());
+  machine.run(40);
+  EXPECT_EQ(page.last("shot")["reason"], "Knife.Position above, by itself");
+  EXPECT_EQ(page.last("shot")["id"], "shot-1");
+  machine.run(240);
+  EXPECT_EQ(page.last("shot")["id"], "shot-3") << "again and again";
+  // What does happen comes first.
+  machine.session.text(page,
+                       R"({"type":"trigger","action":"arm","kind":"job","mode":"auto","auto":10000000000})");
+  machine.run(1500);
+  EXPECT_EQ(page.last("shot")["reason"], "job");
+}
+
 TEST(StudioTrigger, IsForcedAndWaitsForAlarmsAndJobs) {
   StudioMachine machine(kKnife);
   StudioPage page;
@@ -142,7 +202,8 @@ TEST(StudioTrigger, IsRefusedWithWhatIsAllowed) {
   StudioPage page;
   subscribe(machine, page, "cuts");
   for (const std::string bad :
-       {R"({"type":"trigger"})", R"({"type":"trigger","action":"shoot"})",
+       {R"({"type":"trigger"})",
+        R"({"type":"trigger","action":"shoot"})",
         R"({"type":"trigger","action":"force"})",
         R"({"type":"trigger","action":"arm","kind":"sideways","path":"cuts"})",
         R"({"type":"trigger","action":"arm","kind":"rising","path":"no.such"})",
@@ -153,6 +214,18 @@ TEST(StudioTrigger, IsRefusedWithWhatIsAllowed) {
         R"({"type":"trigger","action":"arm","path":"cuts","before":30000000000,"after":30000000000})",
         R"({"type":"trigger","action":"arm","path":"cuts","hysteresis":-1})",
         R"({"type":"trigger","action":"arm","path":"cuts","kind":"outside","level":2,"upper":1})",
+        R"({"type":"trigger","action":"arm","path":"cuts","kind":"bits","mask":0,"value":0})",
+        R"({"type":"trigger","action":"arm","path":"cuts","kind":"bits","mask":1,"value":2})",
+        R"({"type":"trigger","action":"arm","path":"cuts","kind":"bits","mask":-1,"value":0})",
+        R"({"type":"trigger","action":"arm","path":"cuts","kind":"bits","mask":"x","value":0})",
+        R"({"type":"trigger","action":"arm","path":"cuts","kind":"bits"})",
+        R"({"type":"trigger","action":"arm","path":"speed","kind":"bits","mask":1,"value":1})",
+        R"({"type":"trigger","action":"arm","path":"cuts","and":7})",
+        R"({"type":"trigger","action":"arm","path":"cuts","and":{"kind":"above"}})",
+        R"({"type":"trigger","action":"arm","path":"cuts","and":{"kind":"rising","path":"speed"}})",
+        R"({"type":"trigger","action":"arm","path":"cuts","and":{"kind":"above","path":"no.such"}})",
+        R"({"type":"trigger","action":"arm","path":"cuts","mode":"auto","auto":0})",
+        R"({"type":"trigger","action":"arm","path":"cuts","mode":"auto","auto":-1})",
         R"({"type":"trigger","action":"arm","path":"cuts","mode":"sometimes"})"}) {
     page.texts.clear();
     machine.session.text(page, bad);

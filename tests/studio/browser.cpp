@@ -206,7 +206,12 @@ void Browser::click(const std::string& selector) {
 }
 
 void Browser::choose(const std::string& selector, const std::string& value) {
-  evaluate("(() => { const e = document.querySelector(" + quoted(selector) + "); e.value = " + quoted(value) +
+  const std::string element = "document.querySelector(" + quoted(selector) + ")";
+  // What is chosen from has to be there: a picture fills its choices when it is drawn.
+  if (!wait_for("(" + element + ".options === undefined || [..." + element +
+                ".options].some((one) => one.value === " + quoted(value) + "))"))
+    throw std::runtime_error(selector + " has no '" + value + "' to choose");
+  evaluate("(() => { const e = " + element + "; e.value = " + quoted(value) +
            "; e.dispatchEvent(new Event('change', {bubbles: true})); })()");
 }
 

@@ -37,7 +37,7 @@ class Browser {
   void type(const std::string& text);
   /// Chooses files in a field for files.
   void choose_file(const std::string& selector, const std::string& file);
-  /// What a select has; as if it had been chosen by hand.
+  /// What a field has, or one of what a select offers, once it does; as if it had been chosen by hand.
   void choose(const std::string& selector, const std::string& value);
   /// Presses at a point and keeps it down, or lets go.
   void press_pointer(double x, double y);

@@ -235,6 +235,34 @@ TEST(StudioPage, TellsEveryBitOfAnAxisAndSinceWhen) {
   ASSERT_TRUE(page.browser.wait_for(bit + ".dataset.value === 'true'")) << "it is homed";
   EXPECT_EQ(page.browser.evaluate(bit + ".querySelector('.value').textContent"), "● TRUE")
       << "not by colour alone";
+  // In the groups of 11.1.1, with its variable; what else its words have stands behind them, each once.
+  EXPECT_EQ(page.browser.evaluate("[...document.querySelectorAll('.groups h2')].map((e) => e.textContent)."
+                                  "slice(0, 7).join()"),
+            "Motion,Axis,Limit switches,Motion,Synchronism,Errors,Warnings");
+  const auto group_of = [&page](const std::string& path) {
+    return page.browser.evaluate(
+        "[...document.querySelectorAll('[data-path=\"Knife." + path +
+        "\"]')].map((e) => e.closest('section').querySelector('h2').textContent).join()");
+  };
+  EXPECT_EQ(group_of("StatusWord.X5"), "Axis");
+  EXPECT_EQ(group_of("StatusWord.X15"), "Limit switches");
+  EXPECT_EQ(group_of("StatusWord2.X0"), "Motion");
+  EXPECT_EQ(group_of("StatusWord.X22"), "Synchronism");
+  EXPECT_EQ(group_of("ErrorWord.X11"), "Errors");
+  EXPECT_EQ(group_of("WarningWord.X6"), "Warnings");
+  EXPECT_EQ(group_of("OperativeSensor"), "Motion,Axis");
+  const Json declared = Json::parse(page.get("/api/objects/Knife").body)["variables"];
+  std::size_t bits = 0;
+  for (const Json& variable : declared)
+    if (variable.contains("bits") && variable["path"].get<std::string>().find("[]") == std::string::npos)
+      for (const Json& one : variable["bits"]) {
+        ++bits;
+        EXPECT_EQ(page.browser.evaluate("document.querySelectorAll('[data-path=\"" +
+                                        one["path"].get<std::string>() + "\"]').length"),
+                  1)
+            << one;
+      }
+  EXPECT_GT(bits, 40u);
   // The web is stopped after 13 s, so something of the knife changes while one looks.
   EXPECT_TRUE(page.browser.wait_for(
       "[...document.querySelectorAll('.since')].some((e) => /^since \\d/.test(e.textContent))"));

@@ -200,6 +200,22 @@ TEST(StudioScope, DrawsOneSignalOverAnother) {
   page.expect_quiet();
 }
 
+// Nothing moves then that would have it drawn again.
+TEST(StudioScope, ShowsAtOnceWhatIsChosenWhileThePictureStands) {
+  Page page;
+  ASSERT_TRUE(page.is_live());
+  ASSERT_TRUE(page.stop());
+  page.open_tab("XY");
+  // One after the other, faster than the curve is drawn.
+  for (const char* path : {"Knife.Velocity", "Conveyor.Position", "Conveyor.Velocity", "Knife.Position"})
+    page.browser.choose("[aria-label='Signal upwards']", path);
+  EXPECT_TRUE(
+      page.browser.wait_for("document.querySelector('.chart[aria-label]').getAttribute('aria-label')."
+                            "startsWith('Knife.Position over ')"))
+      << page.browser.evaluate("document.querySelector('.chart[aria-label]').getAttribute('aria-label')");
+  page.expect_quiet();
+}
+
 TEST(StudioScope, TellsItsPictureAsATable) {
   Page page;
   ASSERT_TRUE(page.is_live());
@@ -224,7 +240,8 @@ TEST(StudioScope, GoesFromEventToEventAndTellsWhatItWas) {
   const Json bar = page.browser.middle_of(".job[data-instance=gear] rect");
   EXPECT_GT(bar["x"].get<double>(), 0.0);
   page.browser.evaluate(
-      "document.querySelector('.job[data-instance=gear]').dispatchEvent(new MouseEvent('click'))");
+      "document.querySelector('.job[data-instance=gear]').dispatchEvent(new MouseEvent('click', {bubbles: "
+      "true}))");
   EXPECT_TRUE(
       page.browser.wait_for("document.querySelector('.note').textContent.startsWith('gear (MC_GearInPos)')"));
   page.expect_quiet();
@@ -284,6 +301,44 @@ TEST(StudioScope, LaysShotsOverEachOtherSoThatTheirOccasionsMeet) {
   EXPECT_NEAR(page.browser.evaluate("Number(document.querySelector('.shift').value)").get<double>(),
               (first - second) / 1e6, 1e-3);
   page.browser.press(" ");
+  page.expect_quiet();
+}
+
+// Lists are told anew while a pointer is down on them.
+TEST(StudioScope, LosesNoClickOnAListThatIsToldAnew) {
+  Page page;
+  ASSERT_TRUE(page.is_live());
+  page.open_tab("Trigger");
+  page.browser.choose(".trigger input[list]", "Knife.Position");
+  page.browser.choose(".trigger [aria-label=Level]", "1000");
+  page.browser.click("button[title='Wait for this']");
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('.trigger-state').textContent === 'armed'"));
+  page.browser.click("button[title='Catch what is now']");
+  page.open_tab("Traces");
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('[data-shot=shot-1]')"));
+  const Json shot = page.browser.middle_of("[data-shot=shot-1]");
+  page.browser.press_pointer(shot["x"], shot["y"]);
+  // The tab, chosen again, asks for what there is; the page has its answer before ours.
+  page.browser.evaluate("document.querySelector('[data-tab=Traces]').click()");
+  page.browser.evaluate("fetch('api/traces').then((one) => one.json()).then(() => fetch('api/traces'))");
+  page.browser.release_pointer(shot["x"], shot["y"]);
+  EXPECT_TRUE(page.browser.wait_for("document.querySelector('.shown [data-shot=shot-1]')"));
+
+  // A bar of a picture that moves is another one by the time that one lets go.
+  page.browser.press(" ");
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('.live[aria-pressed=false]')"));
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('.job[data-instance=power_k] rect')"));
+  const Json bar = page.browser.evaluate(
+      "(() => { const r = document.querySelector('.job[data-instance=power_k] "
+      "rect').getBoundingClientRect(); "
+      "const { right } = document.querySelector('.bars').getBoundingClientRect(); "
+      "return {x: (Math.max(r.x, 80) + Math.min(r.right, right - 70)) / 2, y: r.y + r.height / 2}; })()");
+  page.browser.evaluate("window.pressed = document.querySelector('.job[data-instance=power_k]')");
+  page.browser.press_pointer(bar["x"], bar["y"]);
+  ASSERT_TRUE(page.browser.wait_for("!window.pressed.isConnected"));
+  page.browser.release_pointer(bar["x"], bar["y"]);
+  EXPECT_TRUE(
+      page.browser.wait_for("document.querySelector('.note').textContent.startsWith('power_k (MC_Power)')"));
   page.expect_quiet();
 }
 

@@ -174,7 +174,7 @@ class Studio implements Listener {
     this.history = window.setTimeout(async () => {
       this.history = undefined;
       const [jobs, events] = await Promise.all([this.link.json("api/jobs"), this.link.json("api/events")]).catch(() => [null, null]);
-      if (!jobs || !events) return;
+      if (!jobs || !events) return this.link.isOpen ? this.askHistory(1000) : undefined;
       const all = events.events.map(eventOf);
       const pending = events.pending.map(eventOf);
       this.alarms.set(pending, all);

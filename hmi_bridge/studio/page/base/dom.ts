@@ -28,6 +28,20 @@ export function button(label: string, title: string, click: () => void): HTMLBut
   return html("button", { type: "button", title, click }, label);
 }
 
+/// Gives an element these children. One that looks as it did stays what it is, so that a click that has begun on it, its focus and
+/// what is typed into it are not lost when a list is told anew.
+export function renew(parent: Element, children: Element[]): void {
+  const before = new Map<string, Element[]>();
+  const isAsWritten = (element: Element): boolean => [...element.querySelectorAll("input")].every((input) => input.checked === input.defaultChecked);
+  for (const child of parent.children) if (isAsWritten(child)) before.set(child.outerHTML, [...(before.get(child.outerHTML) ?? []), child]);
+  const kept = children.map((child) => before.get(child.outerHTML)?.shift() ?? child);
+  for (const child of [...parent.children]) if (!kept.includes(child)) child.remove();
+  let at = parent.firstElementChild;
+  for (const child of kept)
+    if (child === at) at = at.nextElementSibling;
+    else parent.insertBefore(child, at);
+}
+
 /// Saves what the page has made, as the browser saves files.
 export function save(blob: Blob, name: string): void {
   const address = URL.createObjectURL(blob);

@@ -114,12 +114,6 @@ export class Link {
     return (await this.request(path, { method: "POST", body, headers: { "Content-Type": type } })).json();
   }
 
-  /// Puts what has been read with this ETag. @return the new one
-  async put(path: string, body: unknown, etag: string): Promise<string> {
-    const response = await this.request(path, { method: "PUT", body: JSON.stringify(body), headers: { "If-Match": etag } });
-    return response.headers.get("ETag") ?? "";
-  }
-
   async remove(path: string): Promise<void> { await this.request(path, { method: "DELETE" }); }
 
   /// Closes the connection, which opens another that says hello anew.

@@ -1,6 +1,6 @@
 // Alarms that stand, with cause and remedy, and what has happened before.
 
-import { button, html } from "../base/dom";
+import { button, html, renew } from "../base/dom";
 import { seconds } from "../base/scale";
 import { Event } from "../scope/bars";
 
@@ -50,10 +50,10 @@ export class Alarms {
 
   draw(): void {
     const { acknowledge } = this.notes;
-    this.pending.replaceChildren(...(this.standing.length ? this.standing.map((alarm) => this.card(alarm)) : [html("p", { class: "calm" }, "✓ No alarm is pending.")]),
-      ...(acknowledge && this.standing.length > 1 ? [button("Acknowledge all", "Reset each axis that takes commands", () => { for (const { source } of this.standing) acknowledge(source); })] : []));
+    renew(this.pending, [...(this.standing.length ? this.standing.map((alarm) => this.card(alarm)) : [html("p", { class: "calm" }, "✓ No alarm is pending.")]),
+      ...(acknowledge && this.standing.length > 1 ? [button("Acknowledge all", "Reset each axis that takes commands", () => { for (const { source } of this.standing) acknowledge(source); })] : [])]);
     const wanted = new RegExp(this.filter.value);
-    this.past.replaceChildren(...runsOf(this.events.filter(({ kind }) => wanted.test(kind))).slice(-100).reverse().map(({ event, count }) => html("li", { "data-kind": event.kind },
+    renew(this.past, runsOf(this.events.filter(({ kind }) => wanted.test(kind))).slice(-100).reverse().map(({ event, count }) => html("li", { "data-kind": event.kind },
       button(seconds(event.t, 1e6) + " s", "Show this moment", () => this.notes.show(event.t)),
       html("span", {}, html("span", { class: "sign", "aria-hidden": "true" }, kSigns.find(([kind]) => kind.test(event.kind))?.[1] ?? "·"),
         `${event.source || "the run"}: ${event.kind}${event.number ? " " + event.number : ""}${event.text ? ", " + event.text : ""}${event.address ? ` (${event.address})` : ""}${count > 1 ? ` × ${count}` : ""}`))));

@@ -1,11 +1,13 @@
 // An object at a glance: every bit of its words with its meaning and since when, and how it moves.
 
-import { button, html } from "../base/dom";
+import { button, html, renew } from "../base/dom";
 import { seconds, short } from "../base/scale";
 import { Job } from "../scope/bars";
 
 interface Found { path: string; type: string; unit: string; text: string }
 interface Reading { t: string; values: { path: string; type: string; unit: string; value: unknown }[] }
+
+interface Cell { item: HTMLElement; value: HTMLElement; since: HTMLElement | null; last: unknown }
 
 export interface DiagnosisServer {
   search(text: string, limit: number): Promise<{ signals: Found[] }>;
@@ -18,10 +20,22 @@ export interface DiagnosisServer {
   configure(name: string): void;
 }
 
-/// Words of the data block, and what is said of the motion; of what an object has.
+const bitsOf = (word: string, ...bits: number[]): string[] => bits.map((bit) => `${word}.X${bit}`);
+
+/// Status and error bits in their groups and order (11.1.1); of what an object has. `*` stands for each sensor that there is.
+const kGroups: [string, string[]][] = [
+  ["Axis", [...bitsOf("StatusWord", 25, 0, 28, 5, 1, 2, 4), "StatusDrive.InOperation", "StatusSensor[*].State", "OperativeSensor", "StatusSensor[*].Adjusted", "StatusWord.X3"]],
+  ["Limit switches", bitsOf("StatusWord", 15, 16, 17, 18)],
+  ["Motion", [...bitsOf("StatusWord", 6, 11, 9, 10, 8, 12, 7, 13, 14, 27), "StatusWord2.X0", "StatusWord.X23", "StatusWord2.X6", "StatusWord2.X7"]],
+  ["Synchronism", ["StatusWord.X21", "StatusWord.X22", "StatusWord2.X1", "StatusSynchronizedMotion.FunctionState", "StatusSynchronizedMotion.WaitingFunctionState",
+    "StatusSynchronizedMotion.StatusWord.X4", "StatusWord.X24", ...bitsOf("StatusWord2", 3, 4, 5)]],
+  ["Errors", [...bitsOf("ErrorWord", 0, 1, 2, 4), "StatusSensor[*].Error", ...bitsOf("ErrorWord", 7, 13, 3, 10, 12, 6, 11, 8, 9, 15, 14)]],
+  ["Warnings", bitsOf("WarningWord", 1, 3, 6, 14)],
+];
+/// Whatever else of these words is declared stands behind the groups.
 const kWords: [string, string][] = [
-  ["StatusWord", "Status"], ["StatusWord2", "Status, further"], ["ErrorWord", "Errors"], ["WarningWord", "Warnings"],
-  ["StatusSynchronizedMotion.StatusWord", "Synchronous motion"], ["StatusMotionIn.StatusWord", "MotionIn"],
+  ["StatusWord", "further of StatusWord"], ["StatusWord2", "further of StatusWord2"], ["ErrorWord", "further of ErrorWord"], ["WarningWord", "further of WarningWord"],
+  ["StatusSynchronizedMotion.StatusWord", "further of synchronous motion"], ["StatusMotionIn.StatusWord", "MotionIn"], ["StatusKinematicsMotion", "kinematics"],
 ];
 const kMotion = [
   "Position", "Velocity", "Acceleration", "ActualPosition", "ActualVelocity", "ActualAcceleration", "Override.Velocity", "ActualSpeed", "VelocitySetpoint",
@@ -30,18 +44,23 @@ const kMotion = [
   "StatusSynchronizedMotion.FunctionState", "StatusSynchronizedMotion.WaitingFunctionState", "StatusSynchronizedMotion.PhaseShift",
   "StatusSynchronizedMotion.ActualMaster", "StatusSynchronizedMotion.MasterOffset", "StatusSynchronizedMotion.SlaveOffset", "ErrorDetail.Number", "ErrorDetail.Reaction",
 ];
+/// A variable by what tells it from the others of its group.
+const shortened = (path: string): string => path.slice(path.indexOf(".") + 1).replace("StatusSynchronizedMotion", "…").replace("StatusMotionIn", "…");
 const kPause = 250;  // between two readings [ms]
 
 export class Diagnosis {
   private readonly choice = html("select", { "aria-label": "Object", change: () => void this.choose() });
   private readonly groups = html("div", { class: "groups" });
-  private readonly jobs = html("section", { class: "jobs", "aria-label": "Jobs of the object" });
+  private readonly jobRows = html("tbody");
+  private readonly noJobs = html("p", { class: "faint" }, "No job has moved it yet.");
+  private readonly jobTable = html("table", {}, html("caption", { class: "unseen" }, "Jobs of the object"), html("thead", {}, html("tr", {}, ...["instance", "block", "since", "state", ""].map((head) => html("th", { scope: "col" }, head)))), this.jobRows);
+  private readonly jobs = html("section", { class: "jobs", "aria-label": "Jobs of the object" }, html("h2", {}, "Jobs"), this.noJobs, this.jobTable);
   private readonly rules = html("section", { class: "rules", "aria-label": "Override rules", "aria-live": "polite" });
   readonly element = html("section", { class: "diagnosis", "aria-label": "Axis diagnosis", hidden: true },
     html("p", { class: "row" }, html("label", {}, "Object ", this.choice), button("Data block", "Its whole data block, with project and default values", () => this.server.configure(this.choice.value))), this.jobs, this.rules, this.groups);
   private all: Job[] = [];
   private paths: string[] = [];
-  private cells = new Map<string, { item: HTMLElement; value: HTMLElement; since: HTMLElement | null; last: unknown }>();
+  private cells = new Map<string, Cell[]>();  // a signal may stand in two groups
   private timer = 0;
   private chosen = 0;
 
@@ -64,9 +83,9 @@ export class Diagnosis {
     const past = own.filter(({ end }) => end !== Infinity).slice(-8).reverse();
     const row = (job: Job): HTMLElement => html("tr", { "data-instance": job.instance }, html("th", { scope: "row" }, job.instance), html("td", {}, button(job.type, `What ${job.type} overrides, and what overrides it`, () => void this.showRules(job.type, running))),
       html("td", {}, seconds(job.begin, 1e6) + " s"), html("td", {}, job.end === Infinity ? "▶ goes on" : `${{ done: "✓ ", failed: "! ", aborted: "✕ " }[job.ended.replace("job ", "")] ?? ""}${job.ended.replace("job ", "").replace("started", "begun anew")} at ${seconds(job.end, 1e6)} s`), html("td", {}, job.text || this.overriddenBy(job, own)));
-    this.jobs.replaceChildren(html("h2", {}, "Jobs"), html("table", {}, html("caption", { class: "unseen" }, "Jobs of the object"), html("thead", {}, html("tr", {}, ...["instance", "block", "since", "state", ""].map((head) => html("th", { scope: "col" }, head)))),
-      html("tbody", {}, ...running.map(row), ...past.map(row))));
-    if (!own.length) this.jobs.replaceChildren(html("h2", {}, "Jobs"), html("p", { class: "faint" }, "No job has moved it yet."));
+    renew(this.jobRows, [...running.map(row), ...past.map(row)]);
+    this.noJobs.hidden = own.length > 0;
+    this.jobTable.hidden = own.length === 0;
   }
 
   /// A job that was aborted when another of the same object began.
@@ -106,12 +125,25 @@ export class Diagnosis {
     if (turn !== this.chosen) return;
     const own = new Map(signals.filter(({ path }) => path.startsWith(name + ".")).map((signal) => [signal.path, signal]));
     this.cells.clear();
-    const sections = kWords.map(([word, title]) => this.bits(title, [...own.values()].filter(({ path }) =>
-      new RegExp(`^${word.replace(".", "\\.")}\\.X\\d+$`).test(path.slice(name.length + 1)))));
+    const sensors = await this.sensors(name, own);
+    if (turn !== this.chosen) return;
+    const placed = new Set<Found>();
+    const grouped = kGroups.map(([title, variables]) => this.bits(title, variables.flatMap((variable) => (variable.includes("*") ? sensors.map((one) => variable.replace("*", one)) : [variable]))
+      .map((variable) => own.get(`${name}.${variable}`)).filter((signal): signal is Found => !!signal && !!placed.add(signal))));
+    const further = kWords.map(([word, title]) => this.bits(title, [...own.values()].filter((signal) =>
+      !placed.has(signal) && new RegExp(`^${word.replace(".", "\\.")}\\.X\\d+$`).test(signal.path.slice(name.length + 1)))));
+    const sections = [...grouped, ...further];
     const motion = kMotion.map((variable) => own.get(`${name}.${variable}`)).filter((signal): signal is Found => !!signal);
     this.groups.replaceChildren(this.values(motion, name), ...sections.filter((section): section is HTMLElement => !!section));
     this.paths = [...this.cells.keys()].slice(0, 1000);
     void this.look(turn);
+  }
+
+  /// Numbers of the encoders that the axis has.
+  private async sensors(name: string, own: Map<string, Found>): Promise<string[]> {
+    const paths = ["1", "2", "3", "4"].map((one) => `${name}.Sensor[${one}].Existent`).filter((path) => own.has(path));
+    const read = paths.length ? await this.server.read(paths).catch(() => null) : null;
+    return read?.values.filter(({ value }) => value === true).map(({ path }) => /\[(\d)\]/.exec(path)![1]) ?? ["1"];
   }
 
   private line(signal: Found, label: string, isBit: boolean): HTMLElement {
@@ -119,14 +151,14 @@ export class Diagnosis {
     const since = isBit ? html("span", { class: "since" }) : null;
     const item = html("li", { "data-path": signal.path }, html("button", { type: "button", title: `${signal.path} into the scope`,
       click: () => this.server.show(signal.path) }, label), value, ...(since ? [since] : [html("span", { class: "unit" }, signal.unit)]));
-    this.cells.set(signal.path, { item, value, since, last: undefined });
+    this.cells.set(signal.path, [...(this.cells.get(signal.path) ?? []), { item, value, since, last: undefined }]);
     return item;
   }
 
   private bits(title: string, signals: Found[]): HTMLElement | null {
     if (!signals.length) return null;
     return html("section", {}, html("h2", {}, title), html("ul", { class: "bits" }, ...signals.map((signal) =>
-      this.line(signal, `${signal.path.slice(signal.path.lastIndexOf(".") + 1)} ${signal.text}`, true))));
+      this.line(signal, `${shortened(signal.path)} ${signal.text}`, true))));
   }
 
   private values(signals: Found[], name: string): HTMLElement {
@@ -143,12 +175,13 @@ export class Diagnosis {
   }
 
   private set(path: string, value: unknown, t: number): void {
-    const cell = this.cells.get(path);
-    if (!cell || cell.last === value) return;
-    // When a bit changed before one looked is not known.
-    if (cell.since && cell.last !== undefined) cell.since.textContent = `since ${seconds(t, 1e8)} s`;
-    cell.last = value;
-    cell.item.dataset.value = String(value);
-    cell.value.textContent = value === true ? "● TRUE" : value === false ? "○ FALSE" : typeof value === "number" ? short(value, 9) : String(value);
+    for (const cell of this.cells.get(path) ?? []) {
+      if (cell.last === value) continue;
+      // When a bit changed before one looked is not known.
+      if (cell.since && cell.last !== undefined) cell.since.textContent = `since ${seconds(t, 1e8)} s`;
+      cell.last = value;
+      cell.item.dataset.value = String(value);
+      cell.value.textContent = value === true ? "● TRUE" : value === false ? "○ FALSE" : typeof value === "number" ? short(value, 9) : String(value);
+    }
   }
 }

@@ -46,6 +46,7 @@ export class Project {
   private variables: VariableRow[] = [];
   private objects: { name: string; type?: string }[] = [];
   private timer = 0;
+  private turn = 0;  // of what is loaded: an answer to what was asked before does not replace what one types into
 
   constructor(private readonly notes: ProjectNotes) {
     this.cells = new LiveCells(notes.link, () => !this.element.hidden, (path, value) => this.couplings.told(path, value));
@@ -110,12 +111,11 @@ export class Project {
   // Tags.
 
   private async loadTags(): Promise<void> {
-    try {
-      this.tagRows = (await this.json("api/tags")).tags;
-    } catch (error) {
-      if (!isMissing(error)) throw error;
-    }
-    this.tagRows = this.tagRows.flatMap(elementsOf);
+    const turn = ++this.turn;
+    this.tagBody.replaceChildren();
+    const rows = await this.json("api/tags").then(({ tags }): TagRow[] => tags, (error) => { if (isMissing(error)) return this.tagRows; throw error; });
+    if (turn !== this.turn) return;
+    this.tagRows = rows.flatMap(elementsOf);
     this.showTags();
   }
 
@@ -174,9 +174,12 @@ export class Project {
   private async showData(): Promise<void> {
     const name = this.choice.value;
     if (!name) return;
+    const turn = ++this.turn;
     this.cells.clear();
-    this.variables = await this.variablesOf(name);
-    if (name !== this.choice.value) return;
+    this.dataBody.replaceChildren();
+    const variables = await this.variablesOf(name);
+    if (turn !== this.turn) return;
+    this.variables = variables;
     this.filterData();
   }
 
@@ -202,7 +205,7 @@ export class Project {
       const meaning = [one.text ?? "", ...(one.choices ?? []).map(({ value, text }) => `${value}: ${text}`)].filter(Boolean).join("; ");
       const canWrite = this.notes.canWrite() && one.writable === true;
       return html("tr", { class: one.different ? "different" : "", "data-path": one.path }, html("th", { scope: "row" }, ...(one.different ? [html("span", { class: "sign", title: "differs from its default" }, "≠ ")] : []), one.path.slice(name.length + 1)),
-        html("td", {}, this.cells.cell(one.path)), html("td", {}, canWrite ? writer(one.path, one.type, (path, value) => this.write(path, value)) : html("span", { class: "faint", title: one.why_not_writable ?? this.notes.whyNotWrite() }, "–")),
+        html("td", {}, one.type === "TAG" ? html("span", { class: "faint", title: "It names a tag, in the project" }, "–") : this.cells.cell(one.path)), html("td", {}, canWrite ? writer(one.path, one.type, (path, value) => this.write(path, value)) : html("span", { class: "faint", title: one.why_not_writable ?? this.notes.whyNotWrite() }, "–")),
         html("td", {}, one.unit ?? ""), html("td", {}, one.start === undefined ? "" : valueText(one.start)), html("td", {}, one.default === undefined ? "" : valueText(one.default)), html("td", {}, range), html("td", {}, one.effect ?? ""), html("td", { class: "about" }, meaning), this.tools(one.path));
     }));
     this.dataNote.textContent = `${Math.min(rows.length, kRows)} of ${this.variables.length} variables`;

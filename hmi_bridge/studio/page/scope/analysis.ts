@@ -25,19 +25,37 @@ function choices(select: HTMLSelectElement, options: [string, string][]): void {
   if (options.some(([value]) => value === before)) select.value = before;
 }
 
+/// Lets something be done so often at most; what comes too early is made up for, so that the last of it is never lost.
+class Pace {
+  private last = 0;
+  private timer = 0;
+  /// @param again called when it is time
+  constructor(private readonly pause: number, private readonly again: () => void) {}
+  isDue(): boolean {
+    const left = this.last + this.pause - performance.now();
+    if (left > 0) { this.timer ||= window.setTimeout(() => { this.timer = 0; this.again(); }, left); return false; }
+    this.last = performance.now();
+    return true;
+  }
+}
+
 const unitLabel = (path: string, unit: string): string => (unit ? `${path} [${unit}]` : path);
 
 export class XyPlot {
-  private readonly x = html("select", { "aria-label": "Signal to the right", change: () => { this.key = ""; } });
-  private readonly y = html("select", { "aria-label": "Signal upwards", change: () => { this.key = ""; } });
-  private readonly other = html("select", { "aria-label": "Trace of the signal upwards", change: () => { this.key = ""; } });
+  private readonly renew = (): void => { this.key = ""; this.changed(); };
+  private readonly x = html("select", { "aria-label": "Signal to the right", change: this.renew });
+  private readonly y = html("select", { "aria-label": "Signal upwards", change: this.renew });
+  private readonly other = html("select", { "aria-label": "Trace of the signal upwards", change: this.renew });
   private readonly picture = svg("svg", { class: "chart", role: "img", "aria-label": "XY" });
   readonly element = html("section", { class: "analysis", "aria-label": "XY", hidden: true },
     html("p", { class: "row" }, html("label", {}, "right ", this.x), html("label", {}, "up ", this.y), html("label", {}, "of ", this.other)), this.picture);
   private key = "";
-  private drawnAt = 0;
+  private readonly pace = new Pace(150, () => this.changed());
 
-  choose(path: string): void { this.y.value = path; this.key = ""; }
+  /// @param changed it has to be drawn again, though nothing moves
+  constructor(private readonly changed: () => void) {}
+
+  choose(path: string): void { this.y.value = path; this.renew(); }
 
   draw(scene: AnalysisScene): void {
     if (this.element.hidden) return;
@@ -53,17 +71,16 @@ export class XyPlot {
     const width = this.picture.clientWidth;
     const height = this.picture.clientHeight;
     const key = [this.x.value, this.y.value, this.other.value, width, height, part.from, part.to, A, B].join();
-    if (key === this.key || performance.now() - this.drawnAt < 150) return;
+    if (key === this.key || !this.pace.isDue()) return;
     this.key = key;
-    this.drawnAt = performance.now();
     this.show(scene, part, width, height);
   }
 
   private show(scene: AnalysisScene, part: Span, width: number, height: number): void {
     const { source } = scene;
     const with_ = scene.others.find(({ id }) => id === this.other.value) ?? source;
-    const recordX = source.recordFor(part, () => { this.key = ""; });
-    const recordY = with_ === source ? recordX : with_.recordFor(part, () => { this.key = ""; });
+    const recordX = source.recordFor(part, this.renew);
+    const recordY = with_ === source ? recordX : with_.recordFor(part, this.renew);
     const [columnX, columnY] = [recordX.column(this.x.value), recordY.column(this.y.value)];
     if (!columnX || !columnY) return this.picture.replaceChildren();
     const first = recordX.rowAt(part.from - source.shift);
@@ -160,17 +177,18 @@ export class ValueTable {
   private readonly body = html("tbody");
   readonly element = html("section", { class: "values", "aria-label": "Values as a table", hidden: true },
     html("table", { class: "numbers" }, html("caption", {}, "Rows of what is shown, every so many, 200 at most"), html("thead", {}, this.head), this.body));
-  private drawnAt = 0;
   private key = "";
+  private readonly pace = new Pace(500, () => this.changed());
+
+  /// @param changed it has to be drawn again, though nothing moves
+  constructor(private readonly changed: () => void) {}
 
   draw({ source, span }: AnalysisScene): void {
-    const now = performance.now();
-    if (this.element.hidden || now - this.drawnAt < 500) return;
-    const record = source.recordFor(span, () => { this.key = ""; });
+    if (this.element.hidden) return;
+    const record = source.recordFor(span, () => { this.key = ""; this.changed(); });
     const key = [span.from, span.to, record.size, record.columns.length, source.id].join();
-    if (key === this.key) return;
+    if (key === this.key || !this.pace.isDue()) return;
     this.key = key;
-    this.drawnAt = now;
     const from = record.rowAt(span.from - source.shift);
     const to = record.rowAt(span.to - source.shift + 1);
     const step = Math.max(Math.ceil((to - from) / kRows), 1);

@@ -42,9 +42,18 @@ export class Bars {
   private namesOf = "";
   private builtAt = 0;
   private built: { span: Span; width: number } | null = null;
+  private told = new WeakMap<Element, () => void>();  // what a shape stands for
+  private pressed: (() => void) | undefined;          // a live picture may be built anew until one lets go
 
   /// @param choose an event or a job has been clicked
-  constructor(private readonly choose: (t: number, text: string) => void) {}
+  constructor(private readonly choose: (t: number, text: string) => void) {
+    const at = (event: globalThis.Event): (() => void) | undefined => this.told.get((event.target as Element).closest(".job, .event") ?? this.element);
+    this.element.addEventListener("pointerdown", (event) => { this.pressed = at(event); });
+    this.element.addEventListener("pointerup", () => { this.pressed?.(); this.pressed = undefined; });
+    this.element.addEventListener("pointerleave", () => { this.pressed = undefined; });
+    // What is clicked without a pointer.
+    this.element.addEventListener("click", (event) => { if (event.detail === 0) at(event)?.(); });
+  }
 
   set(jobs: Job[], events: Event[], objects: string[]): void {
     this.events = events.filter((event) => isMark(event.kind));
@@ -108,16 +117,20 @@ export class Bars {
     const text = seen > 7 * label.length ? label : seen > 7 * job.instance.length ? job.instance : "";
     const sign = { done: "✓ ", failed: "! ", aborted: "✕ " }[state] ?? "";
     const told = `${label}: ${state}${job.text ? ", " + job.text : ""}`;
-    return svg("g", { class: "job", "data-state": state, "data-instance": job.instance, click: () => this.choose(job.begin, told) },
+    const shape = svg("g", { class: "job", "data-state": state, "data-instance": job.instance },
       svg("title", {}, told), svg("rect", { x: from, y: row + 1, width: size, height: kBar - 3, rx: 2 }),
       svg("text", { x: Math.max(from, kLeft) + 4, y: row + kBar - 6 }, text && seen > 7 * (text.length + 2) ? sign + text : text));
+    this.told.set(shape, () => this.choose(job.begin, told));
+    return shape;
   }
 
   private mark(event: Event, at: number): SVGElement {
     const [, kind, path] = kGlyphs.find(([pattern]) => pattern.test(event.kind)) ?? [null, "runs", "M-3 -8h6v6h-6z"];
     const text = `${event.source || "the run"}: ${event.kind}${event.number ? " " + event.number : ""}${event.text ? ", " + event.text : ""}`;
     const isTall = event.kind === "alarm";
-    return svg("g", { class: `event event-${kind}`, "data-kind": event.kind, click: () => this.choose(event.t, text) }, svg("title", {}, text),
+    const shape = svg("g", { class: `event event-${kind}`, "data-kind": event.kind }, svg("title", {}, text),
       ...(isTall ? [svg("line", { x1: at, x2: at, y1: kMarks - 3, y2: this.height })] : []), svg("path", { transform: `translate(${at} ${kMarks - 3})`, d: path }));
+    this.told.set(shape, () => this.choose(event.t, text));
+    return shape;
   }
 }

@@ -1,6 +1,6 @@
 // What the cursors say: values of each signal at A and B, their differences, slope, and statistics between; and values C and D.
 
-import { button, html } from "../base/dom";
+import { button, html, renew } from "../base/dom";
 import { duration, seconds, short } from "../base/scale";
 import { Recording } from "./record";
 import { View } from "./view";
@@ -40,7 +40,7 @@ export class Measure {
     if (this.element.hidden) return;
     const rowA = A === null ? -1 : record.nearest(A - shift);
     const rowB = B === null ? -1 : record.nearest(B - shift);
-    this.body.replaceChildren(...(A === null && B === null ? [] : record.columns.map((column) => this.row(column, rowA, rowB, span, shift))));
+    renew(this.body, A === null && B === null ? [] : record.columns.map((column) => this.row(column, rowA, rowB, span, shift)));
   }
 
   private row({ path, unit, value }: Recording["columns"][number], rowA: number, rowB: number, span: number, shift: number): HTMLElement {

@@ -36,9 +36,9 @@ export class Scope {
   private readonly bars = new Bars((t, text) => { this.moment(t); this.say(text); });
   private readonly overview = new Overview(this.view, () => this.latest);
   private readonly measure = new Measure((from, to) => this.statistics(from, to), (t) => this.moment(t));
-  private readonly xy = new XyPlot();
+  private readonly xy = new XyPlot(() => this.dirty());
   private readonly spectrum: Spectrum;
-  private readonly table = new ValueTable();
+  private readonly table = new ValueTable(() => this.dirty());
   private readonly picker: Picker;
   readonly trigger: Trigger;
   private readonly traces: Traces;
@@ -64,6 +64,7 @@ export class Scope {
   private isDirty = true;
   private drawnAt = -1;
   private numbersAt = 0;
+  private numbersLater = 0;  // timer of numbers that have been left out
   private before: Layout | null = null;                                // as it was before a file was opened
   private jumped: { t: number; cursor: number | null } | null = null;  // the event that one has gone to
 
@@ -81,7 +82,7 @@ export class Scope {
       if (name === "Traces") void this.traces.refresh().catch(() => undefined);
       if (name === "Layouts") this.layouts.draw();
     });
-    this.dock = new Tabs("Measuring", [["Cursors", this.measure.element], ["XY", this.xy.element], ["Spectrum", this.spectrum.element], ["Values", this.table.element]], () => this.dirty(), true);
+    this.dock = new Tabs("Measuring", [["Cursors", this.measure.element], ["XY", this.xy.element], ["Spectrum", this.spectrum.element], ["Values", this.table.element]], () => { this.numbersAt = 0; this.dirty(); }, true);
     this.element = this.build();
     this.side.choose("Signals");
     this.dock.choose("");
@@ -432,7 +433,7 @@ export class Scope {
     if (!this.isLive || now - this.numbersAt > kNumbers) {
       this.numbersAt = now;
       this.showNumbers(scene);
-    }
+    } else this.numbersLater ||= window.setTimeout(() => { this.numbersLater = 0; this.dirty(); }, kNumbers);
   }
 
   private overviewLines(): Line[] { return (this.chosen ?? this.diagrams[0])?.lines.filter(({ isVisible }) => isVisible).slice(0, 4) ?? []; }

@@ -1,6 +1,6 @@
 // What there is to draw: the run, shots of triggers, files. One is shown, others are laid over it, shifted in time, and compared.
 
-import { button, html } from "../base/dom";
+import { button, html, renew } from "../base/dom";
 import { Link, RequestError } from "../base/link";
 import { duration, numberOf, seconds, short } from "../base/scale";
 import { TraceInfo, signalsQuery, traceInfo } from "./source";
@@ -34,6 +34,7 @@ export class Traces {
   private infos: TraceInfo[] = [];
   private overlays = new Set<string>();
   private timer = 0;
+  private turn = 0;
 
   constructor(private readonly notes: TracesNotes) {
     this.path.addEventListener("keydown", (event) => { if (event.key === "Enter") void this.byPath(); });
@@ -52,7 +53,9 @@ export class Traces {
 
   /// What the server has. Those that only the page has stay.
   async refresh(): Promise<void> {
+    const turn = ++this.turn;
     const { traces } = await this.notes.link.json("api/traces");
+    if (turn !== this.turn) return;  // a later answer knows more
     const own = this.infos.filter(({ kind }) => kind === "page");
     this.infos = [...traces.map(traceInfo), ...own];
     this.draw();
@@ -112,7 +115,7 @@ export class Traces {
     const shown = this.notes.shown().id;
     const order = (info: TraceInfo): number => (info.id === "live" ? 0 : info.kind === "file" || info.kind === "page" ? 1 : 2);
     const sorted = [...this.infos].sort((a, b) => order(a) - order(b) || (b.t ?? 0) - (a.t ?? 0)).slice(0, 60);
-    this.list.replaceChildren(...sorted.map((info) => this.item(info, info.id === shown)));
+    renew(this.list, sorted.map((info) => this.item(info, info.id === shown)));
   }
 
   private item(info: TraceInfo, isShown: boolean): HTMLElement {

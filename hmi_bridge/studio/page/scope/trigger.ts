@@ -9,6 +9,11 @@ const kKinds: [string, string][] = [
   ["outside", "is outside"], ["bits", "has these bits"], ["alarm", "an alarm is raised"], ["job", "a job begins"],
 ];
 
+/// Digits of a whole number, which may be written as 16#FF, 0xFF or 2#101 and exceed 2^53.
+function digitsOf(text: string): string {
+  try { return BigInt(text.trim().replace(/_/g, "").replace(/^16#/, "0x").replace(/^8#/, "0o").replace(/^2#/, "0b")).toString(); } catch { return text; }
+}
+
 export interface Shot { id: string; reason: string; t: number }
 
 export interface TriggerNotes {
@@ -83,7 +88,7 @@ export class Trigger {
     const isBits = this.kind.value === "bits";
     const and = this.andPath.hidden || !this.andPath.value.trim() ? {} : { and: { path: this.andPath.value.trim(), kind: this.andKind.value, level: numberOf(this.andLevel.value) } };
     return { type: "trigger", action: "arm", kind: this.kind.value, path: this.path.value.trim(), level: numberOf(this.level.value), upper: numberOf(this.upper.value),
-      hysteresis: numberOf(this.hysteresis.value), ...(isBits ? { mask: Math.round(Number(this.mask.value)), value: Math.round(Number(this.bits.value)) } : {}), ...and,
+      hysteresis: numberOf(this.hysteresis.value), ...(isBits ? { mask: digitsOf(this.mask.value), value: digitsOf(this.bits.value) } : {}), ...and,
       before: ms(this.before), after: ms(this.after), mode: this.mode.value, ...(this.mode.value === "auto" ? { auto: ms(this.auto) } : {}) };
   }
 

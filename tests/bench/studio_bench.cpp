@@ -1,0 +1,263 @@
+// What pages of the studio cost the tick: ./dev bench studio
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "bench/flooded_machine.hpp"
+#include "bench/pairs.hpp"
+#include "hmi_bridge/studio/server.hpp"
+#include "projects/studio/session.hpp"
+#include "scheduler/processor.hpp"
+#include "tests/hmi_bridge/studio_client.hpp"
+
+namespace lockstep::bench {
+namespace {
+
+constexpr char kHelp[] =
+    R"(studio_bench [--rounds N] [--ticks N] [--axes N] [--share] [--quick]: pages of the studio and the tick
+
+A line shaft of six axes, and machines of 32 and 128 axes in gear (or of N alone), run in ticks of their servo
+cycle, as in real time. Each row is measured in pairs, as flood_bench does it:
+
+  no page          with --studio and nobody who looks; next to it, without
+  eight pages      four that draw 64 signals each, two that have subscribed and read nothing any more, two
+                   that subscribe and unsubscribe at full speed; next to it, without --studio
+  eight for one    eight pages that draw; next to it, one that sees the same signals
+  100 signals      one page that sees 100 signals; next to it, a trace of the same signals
+
+Shown are medians over many pairs (--rounds): processor time of a tick (CLOCK_THREAD_CPUTIME_ID without what
+reading this clock takes), and the ratio with the interval in which the true median lies by 95 %; for the middle
+one of the ticks and for their mean. The cycle has the last processor for itself, as with `lockstep run --cpu`;
+with --share it shares all with the rest.
+)";
+
+struct Plan {
+  int rounds = 60;
+  int ticks = 150;
+  int axes = 0;  ///< of a machine that is measured alone; 0: all machines
+  bool share = false;
+};
+
+/// Signals of a machine, by their paths.
+std::vector<std::string> paths_of(const Project& project, std::size_t count) {
+  std::vector<std::string> paths;
+  constexpr const char* kVariables[] = {"Position",
+                                        "Velocity",
+                                        "Acceleration",
+                                        "ActualPosition",
+                                        "ActualVelocity",
+                                        "StatusWord",
+                                        "ErrorWord",
+                                        "StatusPositioning.FollowingError",
+                                        "StatusPositioning.TargetPosition",
+                                        "WarningWord",
+                                        "Override.Velocity",
+                                        "DynamicLimits.MaxVelocity",
+                                        "DynamicLimits.MaxAcceleration",
+                                        "DynamicLimits.MaxJerk",
+                                        "StatusPositioning.Distance",
+                                        "ErrorDetail.Number",
+                                        "ErrorDetail.Reaction",
+                                        "StatusWord2"};
+  for (const char* variable : kVariables)
+    for (const auto& object : project.controller->objects) {
+      const std::string path = object->name + "." + variable;
+      if (paths.size() < count && project.names.find(path).place) paths.push_back(path);
+    }
+  return paths;
+}
+
+std::string subscribing(const std::vector<std::string>& paths) {
+  return nlohmann::json{{"type", "subscribe"}, {"id", 1}, {"paths", paths}}.dump();
+}
+
+/// A page by a socket alone. What it does ends with it.
+class Page {
+ public:
+  enum class Kind { draws, hangs, floods };
+
+  Page(std::uint16_t port, Kind kind, const std::vector<std::string>& paths)
+      : connection_(std::make_unique<test::StudioConnection>(port)) {
+    if (connection_->upgrade() != 101) throw std::runtime_error("the studio takes no page");
+    connection_->say(R"({"type":"hello"})");
+    connection_->say(subscribing(paths));
+    if (connection_->hear_text("subscribed").empty())
+      throw std::runtime_error("the studio takes no subscription");
+    if (kind == Kind::draws) thread_ = std::jthread([this] { draw(); });
+    if (kind == Kind::floods)
+      thread_ = std::jthread([this, paths](const std::stop_token& end) { flood(end, subscribing(paths)); });
+  }
+  ~Page() {
+    thread_.request_stop();
+    connection_->finish();
+  }
+  Page(const Page&) = delete;
+  Page& operator=(const Page&) = delete;
+
+ private:
+  /// Says of each frame that it has been drawn.
+  void draw() const {
+    for (auto message = connection_->hear(); message.is_there; message = connection_->hear())
+      if (message.is_binary)
+        connection_->say(
+            nlohmann::json{{"type", "ack"}, {"frame", test::DecodedFrame(message.bytes).frame}}.dump());
+  }
+  void flood(const std::stop_token& end, const std::string& subscribe) const {
+    while (!end.stop_requested()) {
+      for (int i = 0; i < 20; ++i) {
+        connection_->say(R"({"type":"unsubscribe","id":1})");
+        connection_->say(subscribe);
+      }
+      if (connection_->hear_text("subscribed").empty()) return;
+    }
+  }
+
+  std::unique_ptr<test::StudioConnection> connection_;
+  std::jthread thread_;
+};
+
+/// A machine with its studio, or without.
+class WatchedMachine {
+ public:
+  WatchedMachine(const std::string& text, int processor)
+      : project_(project_of(text)),
+        session_(project_, 0),
+        server_(options(), session_),
+        processor_(processor) {
+    project_.controller->apply_stimuli = true;
+    if (const std::string problem = server_.start(); !problem.empty()) throw std::runtime_error(problem);
+    run(1000);
+  }
+  ~WatchedMachine() { server_.stop(); }
+  WatchedMachine(const WatchedMachine&) = delete;
+  WatchedMachine& operator=(const WatchedMachine&) = delete;
+
+  TickTimes run(int ticks) { return run_ticks(*project_.controller, processor_, ticks); }
+  /// Ticks with --studio; with a trace of these signals in place of it; or with neither.
+  TickTimes watched(int ticks) {
+    project_.controller->tap = &session_.tap();
+    const TickTimes times = run(ticks);
+    project_.controller->tap = nullptr;
+    return times;
+  }
+  TickTimes traced(int ticks, std::vector<Signal> signals) {
+    TraceRing ring(std::move(signals));
+    project_.controller->trace = &ring;
+    std::jthread reader([&ring](const std::stop_token& end) {
+      while (!end.stop_requested()) {
+        ring.pop(ring.readable());
+        std::this_thread::sleep_for(std::chrono::milliseconds(16));
+      }
+    });
+    const TickTimes times = run(ticks);
+    project_.controller->trace = nullptr;
+    return times;
+  }
+  const Project& project() const { return project_; }
+  std::uint16_t port() const { return server_.endpoint().port; }
+
+ private:
+  static StudioServerOptions options() {
+    StudioServerOptions options;
+    options.listen = {"127.0.0.1", 0};
+    return options;
+  }
+
+  Project project_;
+  StudioSession session_;
+  StudioServer server_;
+  int processor_;
+};
+
+void measure(const std::string& name, const std::string& text, int processor, const Plan& plan) {
+  WatchedMachine machine(text, processor);
+  const std::vector<std::string> hundred = paths_of(machine.project(), 100);
+  const std::vector<std::string> seen(
+      hundred.begin(),
+      hundred.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(64, hundred.size())));
+  std::vector<Signal> signals;
+  for (const std::string& path : hundred) signals.push_back(machine.project().names.find(path).place->signal);
+  const auto alone = [&] { return machine.run(plan.ticks); };
+  const auto pages = [&](const std::vector<std::pair<Page::Kind, int>>& kinds,
+                         const std::vector<std::string>& paths) {
+    std::vector<std::unique_ptr<Page>> open;
+    for (const auto& [kind, count] : kinds)
+      for (int i = 0; i < count; ++i) open.push_back(std::make_unique<Page>(machine.port(), kind, paths));
+    machine.watched(50);  // what they want has been taken
+    return machine.watched(plan.ticks);
+  };
+  Company nobody{"no page", [&] { return machine.watched(plan.ticks); }};
+  Company eight{
+      "eight pages", [&] {
+        return pages({{Page::Kind::draws, 4}, {Page::Kind::hangs, 2}, {Page::Kind::floods, 2}}, seen);
+      }};
+  Company more{"eight for one", [&] { return pages({{Page::Kind::draws, 8}}, seen); }};
+  Company many{"100 signals", [&] { return pages({{Page::Kind::draws, 1}}, hundred); }};
+  for (int round = 0; round < plan.rounds; ++round) {
+    const bool first = round % 2 == 0;
+    nobody.measure(alone, first);
+    eight.measure(alone, first);
+    more.measure([&] { return pages({{Page::Kind::draws, 1}}, seen); }, first);
+    many.measure([&] { return machine.traced(plan.ticks, signals); }, first);
+  }
+  std::printf("\n%-18s  %-35s  %s\n%-18s", name.c_str(), "median of the ticks [us]", "mean of the ticks [us]",
+              "");
+  for (int i = 0; i < 2; ++i) std::printf("  %6s %6s  %-20s", "next", "so", "ratio");
+  std::printf("\n");
+  for (const Company* const company : {&nobody, &eight, &more, &many}) print(*company);
+  std::printf("pages see %zu signals, the last one %zu\n", seen.size(), hundred.size());
+}
+
+void run(const Plan& plan) {
+  int processor = -1;
+  if (!plan.share) {
+    processor = static_cast<int>(std::thread::hardware_concurrency()) - 1;
+    if (const std::string problem = leave_processor(processor); !problem.empty()) {
+      std::printf("the cycle shares its processor: %s\n", problem.c_str());
+      processor = -1;
+    }
+  }
+  const auto in_gear = [](int axes) {
+    return std::pair("gear, " + std::to_string(axes) + " axes", axes_in_gear(axes));
+  };
+  std::vector<std::pair<std::string, std::string>> machines = {
+      {"line shaft, 6 axes", line_shaft()}, in_gear(32), in_gear(128)};
+  if (plan.axes > 0) machines = {in_gear(plan.axes)};
+  for (const auto& [name, text] : machines) measure(name, text, processor, plan);
+}
+
+}  // namespace
+}  // namespace lockstep::bench
+
+int main(int argc, char** argv) {
+  lockstep::bench::Plan plan;
+  for (int i = 1; i < argc; ++i) {
+    const bool has_value = i + 1 < argc;
+    if (std::strcmp(argv[i], "--quick") == 0)
+      plan.rounds = 1, plan.ticks = 50, plan.axes = 6;
+    else if (std::strcmp(argv[i], "--share") == 0)
+      plan.share = true;
+    else if (std::strcmp(argv[i], "--rounds") == 0 && has_value)
+      plan.rounds = std::max(1, std::atoi(argv[++i]));
+    else if (std::strcmp(argv[i], "--ticks") == 0 && has_value)
+      plan.ticks = std::max(1, std::atoi(argv[++i]));
+    else if (std::strcmp(argv[i], "--axes") == 0 && has_value)
+      plan.axes = std::max(1, std::atoi(argv[++i]));
+    else
+      return std::fputs(lockstep::bench::kHelp, stderr), 2;
+  }
+  try {
+    lockstep::bench::run(plan);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "studio_bench: %s\n", error.what());
+    return 1;
+  }
+}
