@@ -674,7 +674,7 @@ TEST(SuitcaseConveyor, RunsAtTheSpeedOfTheBeltInFrontAndByHandInSteps) {
     return table["TransferBelt.AVEL"][static_cast<std::size_t>(std::lround(t * 1000.0))];
   };
   for (const double t : {3.0, 5.5, 8.5}) {
-    const std::size_t row = static_cast<std::size_t>(std::lround(t * 1000.0));
+    const auto row = static_cast<std::size_t>(std::lround(t * 1000.0));
     EXPECT_EQ(table["follows"][row], 1.0);
     EXPECT_NEAR(speed_at(t), 1.25 * table["MainBelt.AVEL"][row], 120.0) << "4 counts for 5 at " << t;
   }
@@ -758,7 +758,7 @@ TEST(MixedLine, KeepsLabellerAndStackerInStepWithTheBelt) {
     ++together;
   }
   EXPECT_GT(together, 3000u);
-  const std::size_t stopped = static_cast<std::size_t>(std::lround(5.9 * 1000.0));
+  const auto stopped = static_cast<std::size_t>(std::lround(5.9 * 1000.0));
   EXPECT_NEAR(table["Stacker.Velocity"][stopped], 0.0, 1.0) << "stops with the labeller";
 }
 

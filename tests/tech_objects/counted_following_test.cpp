@@ -17,8 +17,7 @@
 #include "tech_objects/synchronous/pursuit.hpp"
 #include "tests/support/property.hpp"
 
-namespace lockstep {
-namespace counted_following_test {
+namespace lockstep::counted_following_test {
 namespace {
 
 constexpr unsigned kSeed = 20260724;
@@ -357,5 +356,4 @@ TEST(MarkerTrackProperty, FindsOnEveryWayTheMarkersThatLieThere) {
 }
 
 }  // namespace
-}  // namespace counted_following_test
-}  // namespace lockstep
+}  // namespace lockstep::counted_following_test
