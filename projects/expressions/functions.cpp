@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "fb/block.hpp"
 #include "projects/expressions/habits.hpp"
 #include "projects/expressions/typing.hpp"
+#include "projects/json/problem.hpp"
+#include "projects/literals/types.hpp"
 
 namespace lockstep {
 namespace {
@@ -19,6 +24,24 @@ std::vector<std::string_view> split(std::string_view list) {
     list.remove_prefix(std::min(comma + 1, list.size()));
   }
   return parts;
+}
+
+/// What is said of a name that is called as a function and is none: what is written in its place, or what is
+/// there. @param name in capital letters
+std::string unknown_function(std::string_view name) {
+  const std::string begin = "the function " + quoted(name) + " is unknown";
+  if (const Habit* const habit = habit_of(name)) return begin + "; here: " + std::string(habit->here);
+  if (const BlockType* const block = find_block_type(name))
+    return quoted(name) + " is no function but a block, called by an entry of its own, { \"fb\": \"" +
+           std::string(block->name) + "\", \"name\": \"x\", \"in\": { … } }; its outputs are read as x.Pin";
+  if (tag_type(name)) return begin + "; a value of a type is made by TO_" + std::string(name) + "(IN)";
+  std::string all;
+  std::vector<std::string_view> names;
+  for (const StandardFunction& function : standard_functions()) {
+    all += " " + std::string(function.name);
+    names.push_back(function.name);
+  }
+  return begin + did_you_mean(name, names) + "; there are" + all + ", TO_type and type_TO_type";
 }
 
 }  // namespace

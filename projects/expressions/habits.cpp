@@ -2,13 +2,9 @@
 #include "projects/expressions/habits.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <iterator>
 
-#include "fb/block.hpp"
-#include "projects/expressions/functions.hpp"
 #include "projects/expressions/letters.hpp"
-#include "projects/json/problem.hpp"
-#include "projects/literals/types.hpp"
 
 namespace lockstep {
 namespace {
@@ -92,22 +88,6 @@ const Habit* habit_sign(std::string_view text) noexcept {
 const Habit* habit_of(std::string_view name) noexcept {
   const auto* const found = std::ranges::find(kHabits, name, &Habit::written);
   return found == std::end(kHabits) ? nullptr : found;
-}
-
-std::string unknown_function(std::string_view name) {
-  const std::string begin = "the function " + quoted(name) + " is unknown";
-  if (const Habit* const habit = habit_of(name)) return begin + "; here: " + std::string(habit->here);
-  if (const BlockType* const block = find_block_type(name))
-    return quoted(name) + " is no function but a block, called by an entry of its own, { \"fb\": \"" +
-           std::string(block->name) + "\", \"name\": \"x\", \"in\": { … } }; its outputs are read as x.Pin";
-  if (tag_type(name)) return begin + "; a value of a type is made by TO_" + std::string(name) + "(IN)";
-  std::string all;
-  std::vector<std::string_view> names;
-  for (const StandardFunction& function : standard_functions()) {
-    all += " " + std::string(function.name);
-    names.push_back(function.name);
-  }
-  return begin + did_you_mean(name, names) + "; there are" + all + ", TO_type and type_TO_type";
 }
 
 }  // namespace lockstep

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "projects/expressions/example.hpp"
@@ -22,9 +21,5 @@ std::span<const Habit> habits() noexcept;
 const Habit* habit_sign(std::string_view text) noexcept;
 /// @param name in capital letters  @return nullptr: there is none
 const Habit* habit_of(std::string_view name) noexcept;
-
-/// What is said of a name that is called as a function and is none: what is written in its place, or what is
-/// there. @param name in capital letters
-std::string unknown_function(std::string_view name);
 
 }  // namespace lockstep
