@@ -1,6 +1,10 @@
 #include "projects/studio/project_files.hpp"
 
+#include <nettle/base16.h>
+#include <nettle/sha2.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -19,11 +23,16 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-/// Of the content alone, so that it is the same whoever has written it (FNV-1a of 64 bits, and the size).
+/// SHA-256 of the content alone: the same whoever has written it, and another for every other content.
 std::string etag_of(std::string_view content) {
-  std::uint64_t digest = 0xcbf29ce484222325u;
-  for (const char c : content) digest = (digest ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return "\"" + std::to_string(digest) + "-" + std::to_string(content.size()) + "\"";
+  sha256_ctx context;
+  sha256_init(&context);
+  sha256_update(&context, content.size(), reinterpret_cast<const std::uint8_t*>(content.data()));
+  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+  sha256_digest(&context, digest.size(), digest.data());
+  std::string text(BASE16_ENCODE_LENGTH(digest.size()), '\0');
+  base16_encode_update(text.data(), digest.size(), digest.data());
+  return '"' + text + '"';
 }
 
 /// Whether a list of ETags has one, or is `*`. @source RFC 9110, 13.1.1

@@ -8,6 +8,7 @@
 #include "projects/studio/api_values.hpp"
 #include "projects/studio/message.hpp"
 #include "projects/studio/trace_answers.hpp"
+#include "projects/studio/trace_part.hpp"
 
 namespace lockstep {
 namespace {

@@ -119,7 +119,6 @@ std::vector<std::size_t> outline(const std::vector<double>& x, const std::vector
   return kept;
 }
 
-/// How two runs differ in a signal.
 /// Whole numbers of 64 bits, of which many have no real number of their own.
 bool is_wide(Type type) noexcept {
   return type == Type::LINT || type == Type::ULINT || type == Type::LWORD || type == Type::TIME;
@@ -137,6 +136,7 @@ bool is_within(std::uint64_t whole, double tolerance) noexcept {
   return tolerance >= 0x1p64 || whole <= static_cast<std::uint64_t>(tolerance);
 }
 
+/// How two runs differ in a signal.
 struct Difference {
   Type type = Type::LREAL;  // of both, if they are the same whole numbers of 64 bits
   std::uint64_t different = 0;

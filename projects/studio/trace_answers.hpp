@@ -1,15 +1,12 @@
 /// What may be asked of a trace, whichever it is.
 #pragma once
 
-#include <cstddef>
 #include <string_view>
 
 #include "hmi_bridge/traces/store.hpp"
 #include "projects/studio/api.hpp"
 
 namespace lockstep::studio_api {
-
-inline constexpr std::size_t kWindowPoints = 20'000;
 
 /// Signals, times, rows and gaps.
 Json trace_json(std::string_view id, const TraceStore& store);

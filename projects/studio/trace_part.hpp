@@ -10,7 +10,8 @@
 
 namespace lockstep::studio_api {
 
-inline constexpr std::size_t kWindowSignals = 512;  ///< of a window, statistics or an export
+inline constexpr std::size_t kWindowSignals = 512;    ///< of a window, statistics or an export
+inline constexpr std::size_t kWindowPoints = 20'000;  ///< of a window or a curve of XY
 
 /// What of a trace is asked for.
 struct TracePart {

@@ -49,11 +49,7 @@ class Pursuit {
     const double velocity = reachable(wanted, limits);
     const double jump = std::abs(velocity - target_velocity);
     velocity_ = velocity;
-    if (velocity == whole) {
-      position_ = target;
-    } else {
-      position_ += velocity;
-    }
+    position_ = velocity == whole ? target : position_ + velocity;
     synchronous_ =
         std::abs(target - position_) < 1.0 && jump <= std::max(limits.acceleration, limits.deceleration);
   }
