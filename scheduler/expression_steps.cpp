@@ -8,6 +8,7 @@
 
 #include "scheduler/expression_operations.hpp"
 #include "scheduler/text.hpp"
+#include "tech_objects/data_blocks/array.hpp"
 
 namespace lockstep::expression_steps {
 namespace {
