@@ -52,6 +52,7 @@ std::string_view query_of(std::string_view target) noexcept {
 }
 
 bool parse_url(std::string_view target, StudioUrl& url) {
+  if (!target.starts_with('/')) return false;
   const std::size_t mark = std::min(target.find('?'), target.size());
   return decode_url(target.substr(0, mark), false, url.path) && decode_query(query_of(target), url.query);
 }

@@ -17,7 +17,8 @@ struct StudioUrl {
 /// Text behind the question mark of a target; empty: there is none.
 std::string_view query_of(std::string_view target) noexcept;
 
-/// @return false: percent signs are not what they should be, or hide a character of control
+/// @return false: it does not begin with `/`, percent signs are not what they should be, or hide a character
+/// of control
 bool parse_url(std::string_view target, StudioUrl& url);
 
 }  // namespace lockstep

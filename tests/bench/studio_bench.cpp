@@ -1,9 +1,16 @@
 // What pages of the studio cost the tick: ./dev bench studio
+#include <stdlib.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <numeric>
+#include <random>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -23,6 +30,7 @@ namespace {
 
 constexpr char kHelp[] =
     R"(studio_bench [--rounds N] [--ticks N] [--axes N] [--share] [--quick]: pages of the studio and the tick
+studio_bench --files [--rows N]: how long a trace of ten signals takes to be read, and windows of it to be cut out
 
 A line shaft of six axes, and machines of 32 and 128 axes in gear (or of N alone), run in ticks of their servo
 cycle, as in real time. Each row is measured in pairs, as flood_bench does it:
@@ -44,6 +52,8 @@ struct Plan {
   int ticks = 150;
   int axes = 0;  ///< of a machine that is measured alone; 0: all machines
   bool share = false;
+  bool files = false;
+  int rows = 1'000'000;  ///< of a file
 };
 
 /// Signals of a machine, by their paths.
@@ -216,7 +226,71 @@ void measure(const std::string& name, const std::string& text, int processor, co
   std::printf("pages see %zu signals, the last one %zu\n", seen.size(), hundred.size());
 }
 
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// A trace of ten signals with a peak in each thousandth row.
+void write_trace(const std::string& path, int rows) {
+  std::ofstream file(path);
+  file << "t,a,b,c,d,e,f,g,h,i,j\n";
+  for (int row = 0; row < rows; ++row) {
+    file << row / 1000 << '.' << std::to_string(1000 + row % 1000).substr(1);
+    for (int column = 0; column < 10; ++column)
+      file << ',' << (row % 1000 == 500 ? "100" : std::to_string((row * (column + 3)) % 1009) + "e-3");
+    file << '\n';
+  }
+}
+
+void measure_files(int rows) {
+  std::string folder = std::filesystem::temp_directory_path().string() + "/studio_bench_XXXXXX";
+  if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no folder for a trace");
+  const std::string path = folder + "/trace.csv";
+  write_trace(path, rows);
+  StudioTraceFiles files;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string id = files.add(path, "trace.csv", false)->id;
+  while (files.find(id)->state == StudioFileState::loading) {
+    files.look([](const StudioTraceFile&) {});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const double spent = seconds_since(begin);
+  const double size = static_cast<double>(std::filesystem::file_size(path)) * 1e-6;
+  std::filesystem::remove_all(folder);
+  const StudioTraceFile& file = *files.find(id);
+  if (file.state != StudioFileState::ready) throw std::runtime_error(file.error);
+  const TraceStore& store = file.store;
+  const double data = static_cast<double>(store.end() - store.begin()) * (10 + 2) * 8;
+  std::printf("CSV of %.1e values, %.0f MB: whole after %.2f s; memory %.2f times its data\n", 10.0 * rows,
+              size, spent, static_cast<double>(store.bytes()) / data);
+  std::vector<std::size_t> columns(10);
+  std::iota(columns.begin(), columns.end(), std::size_t{0});
+  std::vector<double> times;
+  std::mt19937_64 random(20260714);
+  const std::uint64_t count = store.end() - store.begin();
+  for (int i = 0; i < 300; ++i) {
+    const std::uint64_t length = std::max<std::uint64_t>(count >> (random() % 12), 2000);
+    const std::uint64_t first = store.begin() + random() % (count - std::min(length, count) + 1);
+    const std::uint64_t behind = std::min(first + length, store.end());
+    const auto before = std::chrono::steady_clock::now();
+    const TraceWindow window = store.window(columns, first, behind, 1200);
+    times.push_back(seconds_since(before) * 1e3);
+    // Each peak that lies in it is seen.
+    const bool has_peak = behind - first >= 1000;
+    const TraceWindow::Column& seen = window.columns[0];
+    const auto& highest = seen.maximum.empty() ? seen.first : seen.maximum;
+    const bool is_seen =
+        std::any_of(highest.begin(), highest.end(), [](Value value) { return value.r == 100.0; });
+    if (has_peak && !is_seen) throw std::runtime_error("a window has lost a peak");
+  }
+  std::sort(times.begin(), times.end());
+  std::printf(
+      "a window of ten signals, 1200 pixels: median %.2f ms, longest of 300 %.2f ms; each had its peaks\n",
+      times[150], times.back());
+}
+
 void run(const Plan& plan) {
+  if (plan.files) return measure_files(plan.rows);
   int processor = -1;
   if (!plan.share) {
     processor = static_cast<int>(std::thread::hardware_concurrency()) - 1;
@@ -242,7 +316,11 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const bool has_value = i + 1 < argc;
     if (std::strcmp(argv[i], "--quick") == 0)
-      plan.rounds = 1, plan.ticks = 50, plan.axes = 6;
+      plan.rounds = 1, plan.ticks = 50, plan.axes = 6, plan.rows = 10'000;
+    else if (std::strcmp(argv[i], "--files") == 0)
+      plan.files = true;
+    else if (std::strcmp(argv[i], "--rows") == 0 && has_value)
+      plan.rows = std::max(5000, std::atoi(argv[++i]));
     else if (std::strcmp(argv[i], "--share") == 0)
       plan.share = true;
     else if (std::strcmp(argv[i], "--rounds") == 0 && has_value)

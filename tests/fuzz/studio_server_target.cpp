@@ -15,7 +15,7 @@ namespace {
 class Echo final : public StudioHandler {
  public:
   void answer(const StudioRequest& request, Done done) override {
-    require(!request.path.empty() || request.method == "OPTIONS", "a request has a path");
+    require(request.path.starts_with('/'), "a request has a path");
     StudioAnswer answer;
     answer.type = "text/plain";
     answer.body = std::string(request.method) + " " + request.path + " " + std::string(request.body);
@@ -78,15 +78,19 @@ std::vector<std::string> seeds() {
       "GET /ws HTTP/1.1\r\n@Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: "
       "13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
       "Sec-WebSocket-Protocol: lockstep.1\r\n\r\n";
+  const std::string two_readings =
+      "POST /api/read HTTP/1.1\r\n@Content-Length: 2\r\n\r\n{}"
+      "POST /api/read HTTP/1.1\r\n@Transfer-Encoding: chunked\r\n\r\n2\r\n{}\r\n0\r\n\r\n";
+  const std::string upload =
+      "POST /api/traces?name=a.csv HTTP/1.1\r\nHost: studio.example\r\nOrigin: http://studio.example\r\n"
+      "Content-Type: text/csv\r\nAuthorization: Bearer tttttttttttttttttttttttttttttttt\r\n"
+      "Content-Length: 4\r\n\r\nt,a\n";
   return {
       "GET /api?q=a%20b&x HTTP/1.1\r\n@\r\n",
       "GET / HTTP/1.1\r\n@If-None-Match: \"x\"\r\n\r\nGET /assets/none HTTP/1.1\r\n@\r\n",
       "HEAD /api HTTP/1.1\r\n@\r\nGET /api HTTP/1.0\r\n@\r\n",
-      "POST /api/read HTTP/1.1\r\n@Content-Length: 2\r\n\r\n{}POST /api/read HTTP/1.1\r\n@Transfer-Encoding: "
-      "chunked\r\n\r\n2\r\n{}\r\n0\r\n\r\n",
-      "POST /api/traces?name=a.csv HTTP/1.1\r\nHost: studio.example\r\nOrigin: "
-      "http://studio.example\r\nContent-Type: text/csv\r\n"
-      "Authorization: Bearer tttttttttttttttttttttttttttttttt\r\nContent-Length: 4\r\n\r\nt,a\n",
+      two_readings,
+      upload,
       "PUT /api/files/a HTTP/1.1\r\n@If-Match: \"x\"\r\nContent-Length: 2\r\nExpect: 100-continue\r\n\r\n{}",
       "DELETE /api/traces/a HTTP/1.1\r\n@\r\n",
       "GET /api HTTP/1.1\r\nHost: 127.0.0.1:1\r\nHost: x\r\n\r\n",

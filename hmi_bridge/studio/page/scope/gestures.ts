@@ -103,7 +103,8 @@ export class Gestures {
       for (const kind of ["pointermove", "pointerup", "pointercancel"] as const) plot.removeEventListener(kind, kind === "pointermove" ? move : end);
       const isFrame = frame.isConnected;
       frame.remove();
-      if (event.type === "pointercancel" || taken) return;
+      if (event.type === "pointercancel") return;
+      if (taken) return Math.abs(event.clientX - down.clientX) + Math.abs(event.clientY - down.clientY) > 2 ? this.drag(taken, event, begin.y) : undefined;
       if (isFrame) this.zoomTo(begin, event);
       else this.notes.view.place(event.shiftKey ? "B" : "A", this.notes.snap(this.timeAt(event.clientX)));
     };

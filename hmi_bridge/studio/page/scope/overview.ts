@@ -42,15 +42,17 @@ export class Overview {
       if (Math.abs(event.clientX - down.clientX) < 3) last = null;
       if (last) this.place(last);
     };
-    const end = (): void => {
-      this.track.removeEventListener("pointermove", move);
-      this.track.removeEventListener("pointerup", end);
+    const end = (up: PointerEvent): void => {
+      for (const kind of ["pointermove", "pointerup", "pointercancel"] as const) this.track.removeEventListener(kind, kind === "pointermove" ? move : end);
+      if (up.type === "pointercancel") return this.place(this.view.window(this.latest()));
+      move(up);  // where one lets go counts, also if the path there was too quick to be seen
       const length = shown.to - shown.from;
       if (last) this.view.show(last.from, last.to, this.latest());
       else if (!isInside) this.view.show(begin - length / 2, begin + length / 2, this.latest());
     };
     this.track.addEventListener("pointermove", move);
     this.track.addEventListener("pointerup", end);
+    this.track.addEventListener("pointercancel", end);
   }
 
   private place(span: Span): void {
