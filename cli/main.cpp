@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "cli/aposs/aposs_command.hpp"
@@ -78,16 +80,41 @@ std::string mistaken_word(const CLI::App& app, const std::vector<std::string>& w
   return "";
 }
 
+/// Where the examples are: those of the package in their folder, those of a checkout below it.
+std::string examples() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path installed = program.parent_path().parent_path() / "share/lockstep/projects";
+  return !program.empty() && std::filesystem::exists(installed, error) ? installed.string() : "projects";
+}
+
+/// The commands to begin with, as they can be typed on this machine.
+std::string first_steps() {
+  const std::string knife = examples() + "/02_rotary_knife/project.json";
+  return "First steps:\n"
+         "  lockstep check " +
+         knife +
+         "\n"
+         "  lockstep run " +
+         knife +
+         " --simulate --duration 20s --trace knife.csv\n"
+         "  lockstep plot knife.csv --project " +
+         knife +
+         " -o knife.svg\n"
+         "  lockstep run " +
+         knife +
+         " --stimuli --studio 127.0.0.1:8780\n"
+         "  lockstep describe gear\n"
+         "The last but one is in real time, until Ctrl-C, with a page for a browser; the last one looks for "
+         "what has to\n"
+         "do with a word: blocks, variables, alarms, functions, keys. Each command has a --help of its own.";
+}
+
 int carry_out(int argc, char** argv) {
   CLI::App app("Lockstep runs machines of coupled axes from a project file.", "lockstep");
   app.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
   app.require_subcommand(1);
-  app.footer(
-      "First steps:\n"
-      "  lockstep check projects/02_rotary_knife/project.json\n"
-      "  lockstep run projects/02_rotary_knife/project.json --simulate --duration 5s --trace knife.csv\n"
-      "  lockstep run projects/02_rotary_knife/project.json\n"
-      "Each command has a --help of its own.");
+  app.footer(first_steps());
   Action action;
   add_check_command(app, action);
   add_run_command(app, action);

@@ -270,8 +270,8 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
 }
 
 void add_describe_command(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("describe", "Tell about function blocks, technology objects, alarms, functions");
+  CLI::App* command = app.add_subcommand(
+      "describe", "Tell about blocks, objects, variables, alarms, functions, keys; search by a word");
   auto words = std::make_shared<std::vector<std::string>>();
   auto json = std::make_shared<bool>(false);
   command->add_option("NAME", *words, "what to tell about; without it: a list of what there is")

@@ -1,6 +1,7 @@
 // Camming on virtual axes, through the blocks: MC_CamIn, MC_CamOut, MC_InterpolateCam.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fb/cam_in.hpp"
@@ -281,6 +282,41 @@ TEST(MC_CamIn, Profile0PlansItsMotionWithinTheGivenDynamics) {
   rig.run(10);
   EXPECT_NEAR(rig.f.setpoint().position.value, rig.wave.function().value(rig.leading()).position, 1e-10);
 }
+
+/// The profile runs over the leading distance, so that it gets as steep as the leading value gets fast behind
+/// the start. The job is there before the leading axis starts from rest, as behind one button for both.
+class CamInOverTimeBehindARunUp : public ::testing::TestWithParam<double> {};
+
+TEST_P(CamInOverTimeBehindARunUp, KeepsTwiceItsDynamicsAndWaitsForTheNextTurnOtherwise) {
+  constexpr double kVelocity = 800.0, kAcceleration = 4000.0, kLeading = 150.0;
+  CamPair rig;
+  rig.in.ApplicationMode = 1;
+  rig.in.SyncProfileReference = 0;
+  rig.in.MasterSyncPosition = GetParam();
+  rig.in.Velocity = kVelocity;
+  rig.in.Acceleration = rig.in.Deceleration = kAcceleration;
+  rig.in.Jerk = 80000.0;
+  rig.in.Execute = true;
+  rig.run_l.Acceleration = kAcceleration;
+  rig.run_l.Jerk = 80000.0;
+  rig.CoupledRig::start_leading(kLeading);
+  double fastest = 0.0, steepest = 0.0;
+  for (int ticks = 0; ticks < 10000 && !rig.in.InSync; ++ticks) {
+    rig.tick();
+    fastest = std::max(fastest, std::abs(rig.f.setpoint().velocity));
+    steepest = std::max(steepest, std::abs(rig.f.setpoint().acceleration));
+  }
+  ASSERT_TRUE(rig.in.InSync);
+  EXPECT_LE(fastest, std::sqrt(2.0) * kVelocity);
+  EXPECT_LE(steepest, 2.0 * kAcceleration);
+  rig.run(5);
+  EXPECT_NEAR(rig.f.setpoint().position.value, rig.wave.function().value(rig.leading()).position, 1e-9);
+}
+
+// Places at which the wave stands far enough from rest (0) to need a profile.
+INSTANTIATE_TEST_SUITE_P(Places, CamInOverTimeBehindARunUp,
+                         ::testing::Values(5.0, 8.0, 12.0, 15.0, 20.0, 25.0, 30.0, 45.0, 60.0, 90.0, 150.0,
+                                           200.0));
 
 TEST(MC_CamIn, Profile3BeginsAtTheSynchronousPosition) {
   CamPair rig;

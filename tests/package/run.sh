@@ -74,6 +74,7 @@ rm "$work/root/usr/share/lockstep/DEAD.md"
 echo "its program runs"
 lockstep=$work/root/usr/bin/lockstep
 "$lockstep" check "$work/root/usr/share/lockstep/projects/02_rotary_knife/project.json"
+expect "$("$lockstep" --help)" "lockstep check $work/root/usr/share/lockstep/projects/02_rotary_knife/project.json"
 version=$(sed -n 's/^project(lockstep VERSION \([0-9.]*\).*/\1/p' "$sources/CMakeLists.txt")
 [[ $("$lockstep" --version) == "lockstep $version" ]] || fail "it is $("$lockstep" --version), not $version"
 [[ $(dpkg-deb -f "$package" Version) == "$version" ]] || fail "the package has another version"

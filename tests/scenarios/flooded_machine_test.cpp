@@ -5,7 +5,6 @@
 #include <sys/resource.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <thread>
 
 #include "hmi_bridge/lcm/publisher.hpp"
@@ -16,6 +15,7 @@
 #include "projects/loader/project.hpp"
 #include "tests/hmi_bridge/memory_disk.hpp"
 #include "tests/hmi_bridge/own_network.hpp"
+#include "tests/scenarios/cycle_thread.hpp"
 #include "tests/scenarios/small_project.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/flood.hpp"
@@ -127,38 +127,14 @@ TEST(FloodedMachine, TheCountOfAllocationsSeesThem) {
 }
 
 #ifndef __SANITIZE_THREAD__  // which has locks of its own behind every access
-/// The thread of a process with a name; 0: none.
-pid_t thread_named(pid_t process, const std::string& name) {
-  const std::string tasks = "/proc/" + std::to_string(process) + "/task";
-  for (const auto& task : std::filesystem::directory_iterator(tasks)) {
-    std::string found;
-    std::getline(std::ifstream(task.path() / "comm"), found);
-    if (found == name) return std::stoi(task.path().filename().string());
-  }
-  return 0;
-}
-
 TEST(FloodedMachine, TheThreadOfTheCycleAsksTheSystemForNothingButTheTimeOfItsNextTick) {
   const Directory directory;
   const std::string project = directory.write("project.json", flooded_project(example_json("03_line_shaft")));
   RunningLockstep run(project,
                       {"--stimuli", "--trace", directory.file("t.csv"), "--retain", directory.file("kept")});
-  pid_t cycle = 0;
-  ASSERT_TRUE(wait_until([&] { return (cycle = thread_named(run.pid(), "cycle")) != 0; }));
-  const std::string calls = directory.file("calls");
-  Process strace({"timeout", "-s", "INT", "3", "strace", "-qq", "-o", calls, "-p", std::to_string(cycle)});
+  CycleCalls calls(run.pid());
   const FloodClients clients(static_cast<std::uint16_t>(run.port()), kRounds, seed_of_test(20240604));
-  strace.status();
-  std::ifstream lines(calls);
-  int sleeps = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME") ||
-        line.starts_with("restart_syscall"))
-      ++sleeps;
-    else
-      EXPECT_EQ(line, "") << "a system call of the cycle";
-  }
-  EXPECT_GT(sleeps, 500);
+  calls.expect_only_waits();
   run.send(SIGTERM);
   // How it ends beside clients and a disk that is busy is the matter of `Ending…`.
   const bool held_up = run.status() == 3 && run.err().find("not finished in time") != std::string::npos;

@@ -140,6 +140,11 @@ TEST_F(FlyingShear, CutsPiecesOfOneLengthBeforeAndAfterItHasJammed) {
   double web = 0.0;
   for (std::size_t i = 1; i < table.rows; ++i) {
     web += ring_distance(table["Web.Position"][i], table["Web.Position"][i - 1], 600.0);
+    if (table["t"][i] > 11.0 && table["t"][i] < 12.0) {
+      ASSERT_EQ(table["Web.Position"][i], table["Web.Position"][i - 1])
+          << "acknowledged, but not yet started";
+      ASSERT_EQ(table["Shear.Velocity"][i], 0.0) << "acknowledged, but not yet started";
+    }
     if (table["blade"][i] == 0.0) continue;
     ASSERT_NEAR(table["Shear.Velocity"][i], 200.0, 1e-6) << "it runs along while the blade is down";
     if (table["blade"][i - 1] == 0.0) cuts.push_back(web);

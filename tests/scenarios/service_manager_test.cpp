@@ -7,9 +7,9 @@
 #include <sys/wait.h>
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 
+#include "tests/scenarios/cycle_thread.hpp"
 #include "tests/scenarios/small_project.hpp"
 
 namespace lockstep::test::service_manager_test {
@@ -120,13 +120,6 @@ class StoppedThread {
   const pid_t thread_;
 };
 
-pid_t thread_named(pid_t process, const std::string& name) {
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task"))
-    if (content(entry.path() / "comm") == name + "\n") return std::stoi(entry.path().filename());
-  ADD_FAILURE() << "there is no thread " << name;
-  return -1;
-}
-
 TEST(ServiceManager, HearsNothingWhileTicksDoNotAdvance) {
   const Directory directory;
   const NotifySocket socket(directory.file("notify"));
@@ -134,7 +127,9 @@ TEST(ServiceManager, HearsNothingWhileTicksDoNotAdvance) {
   ASSERT_EQ(socket.next(), "READY=1") << run.err();
   ASSERT_EQ(socket.next(), "WATCHDOG=1");
   {
-    const StoppedThread cycle(thread_named(run.pid(), "cycle"));
+    const pid_t thread = thread_named(run.pid(), "cycle");
+    ASSERT_NE(thread, 0);
+    const StoppedThread cycle(thread);
     // The last ticks may not have been told of yet.
     ASSERT_TRUE(wait_until([&] { return !socket.next(500ms); })) << "it is told of ticks that there are not";
     EXPECT_EQ(socket.next(1s), std::nullopt);

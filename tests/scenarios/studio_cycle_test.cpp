@@ -4,26 +4,15 @@
 #ifndef __SANITIZE_THREAD__  // which has locks of its own behind every access
 
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <thread>
 
 #include "tests/hmi_bridge/studio_client.hpp"
+#include "tests/scenarios/cycle_thread.hpp"
 #include "tests/scenarios/lockstep_process.hpp"
 
 namespace lockstep::test::studio_cycle_test {
 namespace {
-
-/// The thread of a process with a name; 0: none.
-pid_t thread_named(pid_t process, const std::string& name) {
-  for (const auto& task : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
-    std::string found;
-    std::getline(std::ifstream(task.path() / "comm"), found);
-    if (found == name) return std::stoi(task.path().filename().string());
-  }
-  return 0;
-}
 
 std::uint16_t port_of_studio(RunningLockstep& run) {
   const std::string mark = "http://127.0.0.1:";
@@ -56,30 +45,16 @@ void use(std::uint16_t port, int round) {
 }
 
 TEST(StudioCycle, AsksTheSystemForNothingWhilePagesComeAndGo) {
-  const Directory directory;
   RunningLockstep run(example("02_rotary_knife"), {"--stimuli", "--studio", "127.0.0.1:0"});
-  pid_t cycle = 0;
-  ASSERT_TRUE(wait_until([&] { return (cycle = thread_named(run.pid(), "cycle")) != 0; }));
   const std::uint16_t port = port_of_studio(run);
   ASSERT_NE(port, 0) << run.err();
-  const std::string calls = directory.file("calls");
-  Process strace({"timeout", "-s", "INT", "3", "strace", "-qq", "-o", calls, "-p", std::to_string(cycle)});
+  CycleCalls calls(run.pid());
   int rounds = 0;
   // While it is looked at, and for as many pages as go into that time.
   for (const auto begin = Clock::now(); Clock::now() - begin < std::chrono::milliseconds(2500); ++rounds)
     use(port, rounds);
-  strace.status();
   EXPECT_GT(rounds, 3);
-  std::ifstream lines(calls);
-  int sleeps = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME") ||
-        line.starts_with("restart_syscall"))
-      ++sleeps;
-    else
-      EXPECT_EQ(line, "") << "a system call of the cycle";
-  }
-  EXPECT_GT(sleeps, 500);
+  calls.expect_only_waits();
   run.send(SIGTERM);
   EXPECT_EQ(run.status(), 0) << run.err();
 }
