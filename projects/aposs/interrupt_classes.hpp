@@ -4,7 +4,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "scheduler/aposs/interrupts.hpp"
+#include "scheduler/aposs/interrupt_operands.hpp"
 
 namespace lockstep::aposs {
 

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "projects/aposs/interrupt_classes.hpp"
-#include "scheduler/aposs/interrupts.hpp"
 
 namespace lockstep::aposs {
 namespace {

@@ -3,7 +3,6 @@
 #include "projects/aposs/parameter_names.hpp"
 #include "projects/aposs/parser.hpp"
 #include "projects/json/problem.hpp"
-#include "scheduler/aposs/interrupts.hpp"
 
 namespace lockstep::aposs {
 namespace {

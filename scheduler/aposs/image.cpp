@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scheduler/aposs/interrupts.hpp"
+#include "scheduler/aposs/interrupt_operands.hpp"
 
 namespace lockstep::aposs {
 namespace {

@@ -7,26 +7,9 @@
 #include <optional>
 
 #include "scheduler/aposs/device.hpp"
+#include "scheduler/aposs/interrupt_operands.hpp"
 
 namespace lockstep::aposs {
-
-/// What DISABLE and ENABLE name.
-enum class InterruptClass : std::uint16_t {
-  kAll,
-  kInput,
-  kPosition,
-  kCombit,
-  kStatbit,
-  kParameter,
-  kTime,
-  kPeriod
-};
-inline constexpr std::size_t kInterruptClasses = 8;
-
-/// Position and direction of an ON APOS, ON MAPOS, ON MCPOS: source · 2, and 1 more for the negative
-/// direction.
-using PositionInterrupt = std::uint16_t;
-inline constexpr std::size_t kPositionInterrupts = 6;
 
 inline constexpr std::size_t kMaximumInputInterrupts = 32;
 inline constexpr std::size_t kMaximumBitInterrupts = 32;

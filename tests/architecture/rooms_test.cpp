@@ -38,7 +38,10 @@ struct Folder {
   }
 };
 
-constexpr const char* kFoldersWithRooms[] = {"tech_objects", "hmi_bridge", "projects", "cli"};
+// Folders that are all rooms; and those that have rooms, of which scheduler has a floor besides. The floor
+// may include its rooms, a room never the floor.
+constexpr const char* kFoldersOfRooms[] = {"tech_objects", "hmi_bridge", "projects", "cli"};
+constexpr const char* kFoldersWithRooms[] = {"tech_objects", "scheduler", "hmi_bridge", "projects", "cli"};
 
 // Rooms that allocate, which nothing that the cycle reaches may include, and who may.
 constexpr const char* kForTheDesk[] = {"tech_objects/cam_design/", "fb/checks/"};
@@ -105,7 +108,7 @@ TEST(Rooms, IncludeOnlyThoseThatTheyName) {
   const fs::path root = LOCKSTEP_SOURCE_DIR;
   for (const std::string name : kFoldersWithRooms) {
     const Folder folder = folder_of(name);
-    EXPECT_GE(folder.rooms.size(), 4u) << name;
+    EXPECT_GE(folder.rooms.size(), 2u) << name;
     for (const Room& room : folder.rooms)
       for (const fs::directory_entry& entry : fs::directory_iterator(root / name / room.name))
         if (is_source(entry.path())) {
@@ -116,7 +119,7 @@ TEST(Rooms, IncludeOnlyThoseThatTheyName) {
 
 TEST(Rooms, HoldEverySourceOfTheirFolder) {
   const fs::path root = LOCKSTEP_SOURCE_DIR;
-  for (const std::string name : kFoldersWithRooms) {
+  for (const std::string name : kFoldersOfRooms) {
     const Folder folder = folder_of(name);
     for (const fs::directory_entry& entry : fs::directory_iterator(root / name)) {
       const std::string file = entry.path().filename().string();
