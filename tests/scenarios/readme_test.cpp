@@ -54,9 +54,8 @@ class Reader {
   std::vector<std::string> shell(const std::string& commands) const {
     // What the package brings is that of the sources here; the test of the package runs it as it is.
     std::string script = "cd " + directory_.file("") +
-                         "\napt() { :; }\nlockstep() { " LOCKSTEP_PROGRAM " \"$@\"; }\n" +
+                         "\napt() { :; }\nPATH=$(dirname " LOCKSTEP_PROGRAM "):$PATH\n" +
                          replaced(commands, "/usr/share/lockstep/", kSource);
-    script = replaced(script, "build/release/lockstep", LOCKSTEP_PROGRAM);
     return {"bash", "-e", "-c", replaced(script, "-p 1502", "-p " + std::to_string(port_))};
   }
   void carry_out(const std::string& commands, int status) {
@@ -154,6 +153,33 @@ TEST_F(FlyingShear, CutsPiecesOfOneLengthBeforeAndAfterItHasJammed) {
   for (std::size_t i = 1; i < cuts.size(); ++i)
     EXPECT_NEAR(cuts[i] - cuts[i - 1], 600.0, 1.0)
         << "piece " << i << ", to the cycle in which the blade falls";
+}
+
+/// An operator stops it and starts it again, wherever it is just then.
+TEST_F(FlyingShear, BearsToBeStoppedAndStartedAnywhere) {
+  const nlohmann::json project = nlohmann::json::parse(content(directory_.file("shear.json")));
+  for (const double stop : {0.8, 1.0, 1.3, 1.8, 2.1, 2.2, 2.3, 2.6, 3.1, 4.2}) {
+    nlohmann::json stopped = project;
+    stopped["stimuli"] = {{{"at", "0.5s"}, {"set", {{"start", true}}}},
+                          {{"at", std::to_string(stop) + "s"}, {"set", {{"start", false}}}},
+                          {{"at", std::to_string(stop + 1.5) + "s"}, {"set", {{"start", true}}}}};
+    directory_.write("shear.json", stopped.dump());
+    Process process = run();
+    ASSERT_EQ(process.status(), 0) << process.err();
+    EXPECT_EQ(process.err().find("alarm"), std::string::npos) << process.err();
+    const CsvTable table = read_csv(directory_.file("shear.csv"));
+    EXPECT_LT(std::ranges::max(table["Shear.Position"]), 300.0) << stop;
+    EXPECT_GE(table["cuts.CV"].back(), 5.0) << stop;
+    double web = 0.0, cut = 0.0;
+    for (std::size_t i = 1; i < table.rows; ++i) {
+      web += ring_distance(table["Web.Position"][i], table["Web.Position"][i - 1], 600.0);
+      if (table["blade"][i] == 0.0 || table["blade"][i - 1] != 0.0) continue;
+      if (cut != 0.0) {
+        EXPECT_NEAR(web - cut, 600.0, 1.0) << "stopped at " << stop << " s, cut at " << web;
+      }
+      cut = web;
+    }
+  }
 }
 
 TEST_F(FlyingShear, TellsOnTheConsoleWhatHasHappenedAndWhereToReadOn) {
