@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "cli/panel/modbus_panel.hpp"
-#include "projects/loader/addresses.hpp"
+#include "projects/json/addresses.hpp"
 
 namespace lockstep::cli {
 namespace {

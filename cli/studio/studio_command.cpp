@@ -20,7 +20,7 @@
 #include "hmi_bridge/lcm/trace_reader.hpp"
 #include "hmi_bridge/studio/server.hpp"
 #include "hmi_bridge/traces/csv_reader.hpp"
-#include "projects/loader/addresses.hpp"
+#include "projects/json/addresses.hpp"
 #include "projects/runtime/desk_run.hpp"
 #include "projects/studio/trace_exports.hpp"
 

@@ -87,6 +87,13 @@ void read_structure(const JsonValue& json, const ElementType& type, char* elemen
 
 }  // namespace
 
+std::string array_type_pattern() {
+  std::string names;
+  for (const std::string_view name : element_names()) names += (names.empty() ? "" : "|") + std::string(name);
+  const std::string bound = " *-?[0-9]+ *";
+  return "^[Aa][Rr][Rr][Aa][Yy] *\\[" + bound + "\\.\\." + bound + "\\] *[Oo][Ff] *(" + names + ") *$";
+}
+
 bool is_array_type(std::string_view text) noexcept {
   return same_name(text.substr(0, 5), "ARRAY");
 }

@@ -27,6 +27,11 @@ std::optional<std::size_t> read_string_type(const JsonValue& json, Problems& pro
   return std::nullopt;
 }
 
+std::string string_type_pattern() {
+  static_assert(kLongestText == 254);
+  return "^STRING\\[0*([1-9][0-9]?|1[0-9]{2}|2[0-4][0-9]|25[0-4])\\]$";
+}
+
 std::optional<std::string> read_text_constant(const JsonValue& json, std::size_t capacity,
                                               Problems& problems) {
   const std::string allowed = "a text of up to " + std::to_string(capacity) + " printable characters";

@@ -145,6 +145,15 @@ std::optional<std::string_view> read_title(const JsonValue* value, Problems& pro
   return std::nullopt;
 }
 
+std::optional<std::string_view> read_form(const JsonValue* value, const TextForm& form, Problems& problems) {
+  const auto text = read_string(value, problems);
+  if (!text) return std::nullopt;
+  const std::string problem = form.problem(*text);
+  if (problem.empty()) return text;
+  problems.report(*value, problem);
+  return std::nullopt;
+}
+
 const JsonValue* read_object(const JsonValue* value, Problems& problems) {
   if (value == nullptr || value->kind == JsonKind::object) return value;
   report_kind(*value, "an object", problems);

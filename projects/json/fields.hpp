@@ -10,6 +10,7 @@
 #include "projects/json/document.hpp"
 #include "projects/json/key.hpp"
 #include "projects/json/problem.hpp"
+#include "projects/json/text_form.hpp"
 
 namespace lockstep {
 
@@ -38,6 +39,9 @@ std::optional<std::size_t> read_word(const JsonValue* value, std::span<const std
 /// A text of 1 to `longest` bytes, all of which can be shown.
 std::optional<std::string_view> read_title(const JsonValue* value, Problems& problems,
                                            std::size_t longest = kLongestTitle);
+
+/// A text of a form.
+std::optional<std::string_view> read_form(const JsonValue* value, const TextForm& form, Problems& problems);
 
 /// The value itself, if it is of that kind.
 const JsonValue* read_object(const JsonValue* value, Problems& problems);

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "projects/json/text_form.hpp"
 #include "tech_objects/objects/technology_object.hpp"
 #include "tech_objects/types/declaration.hpp"
 #include "tech_objects/types/types.hpp"
@@ -81,8 +82,9 @@ struct Key {
   Range range = kAny;  ///< of a number, integer or duration [ns]; infinite ends: as far as its type goes
   std::size_t longest = kLongestTitle;  ///< of a title [byte]
   std::string_view unit{};
-  std::string_view text{};       ///< meaning
-  std::string_view otherwise{};  ///< what holds if it is not given; empty: the default of the member
+  std::string_view text{};         ///< meaning
+  std::string_view otherwise{};    ///< what holds if it is not given; empty: the default of the member
+  const TextForm* form = nullptr;  ///< of a text of which more is known
   std::span<const Word> words{};
   std::span<const int> numbers{};          ///< the integers that are allowed, where they are few
   Type type = Type::BOOL;                  ///< of a tag
@@ -258,6 +260,7 @@ struct KeyOf : Key {
   constexpr KeyOf up_to(std::size_t longest) const { return with(&Key::longest, longest); }
   constexpr KeyOf otherwise_is(std::string_view what) const { return with(&Key::otherwise, what); }
   constexpr KeyOf defined_as(std::string_view name) const { return with(&Key::definition, name); }
+  constexpr KeyOf of_form(const TextForm& form) const { return with(&Key::form, &form); }
   constexpr KeyOf of(std::string_view other_unit) const { return with(&Key::unit, other_unit); }
 
  private:

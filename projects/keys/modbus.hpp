@@ -3,6 +3,7 @@
 
 #include "hmi_bridge/modbus/map.hpp"
 #include "hmi_bridge/modbus/options.hpp"
+#include "projects/json/addresses.hpp"
 #include "projects/json/key.hpp"
 
 namespace lockstep::keys {
@@ -120,12 +121,14 @@ inline constexpr auto kSerial = key_table<SerialOptions>(
         .otherwise_is("3.5 characters and at least 1.75 ms"));
 
 inline constexpr auto kServer = key_table<ModbusServerOptions>(
-    key::text("listen", "HOST:PORT, such as 127.0.0.1:1502 or [::1]:1502; a server has it or 'serial'")
+    key::text("listen", "where it listens, such as 127.0.0.1:1502 or [::1]:1502; a server has it or 'serial'")
+        .of_form(kEndpointForm)
         .one_or_list(),
     key::structure<&ModbusServerOptions::serial>("serial", kSerial,
                                                  "RTU over a serial line, in place of listen"),
     key::integer<&ModbusServerOptions::serial_unit>("unit", {1, 247}, "own address on the serial line"),
-    key::text("allow", "address or network from which clients may come, such as 192.168.1.0/24")
+    key::text("allow", "from which clients may come, such as 192.168.1.0/24")
+        .of_form(kNetworkForm)
         .list()
         .otherwise_is("from everywhere"),
     key::integer<&ModbusServerOptions::max_clients>("max_clients", {1, 1000}, "connected at the same time"),
@@ -155,7 +158,8 @@ inline constexpr auto kDevice = key_table<ModbusDevice>(
     key::structure("read", kDeviceEntry, "from the device into tags").list(),
     key::structure("write", kDeviceEntry, "from tags and variables to the device").list());
 inline constexpr auto kClient = key_table<ModbusClientOptions>(
-    key::text("connect", "HOST:PORT of the device or gateway; a client has it or 'serial'"),
+    key::text("connect", "of the device or gateway, such as 10.0.0.5:502; a client has it or 'serial'")
+        .of_form(kEndpointForm),
     key::structure<&ModbusClientOptions::serial>("serial", kSerial,
                                                  "RTU over a serial line, in place of connect"),
     key::duration<&ModbusClientOptions::timeout>("timeout", {kMilli, kMinute},

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "projects/json/addresses.hpp"
 #include "projects/json/key.hpp"
 #include "scheduler/shared_clock.hpp"
 
@@ -26,7 +27,8 @@ inline constexpr Word kSharedClocks[] = {{"monotonic", static_cast<int>(SharedCl
                                          {"tai", static_cast<int>(SharedClockKind::tai)}};
 
 inline constexpr auto kNetwork = key_table<NetworkConfig>(
-    key::text<&NetworkConfig::lcm>("lcm", "URL of the LCM network")
+    key::text<&NetworkConfig::lcm>("lcm", "network on which telegrams travel")
+        .of_form(kLcmUrlForm)
         .otherwise_is("udpm://239.255.76.67:7667?ttl=0, which stays on this machine"),
     key::word<&NetworkConfig::clock>("clock", kSharedClocks, "that all controllers share"),
     key::duration<&NetworkConfig::clock_error>("clock_error", {1'000, 1e9},

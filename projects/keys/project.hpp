@@ -89,7 +89,8 @@ inline constexpr auto kCommands =
 inline constexpr auto kChannel =
     key::title("channel", "channel of the rows").up_to(kLongestTraceChannel).needed();
 inline constexpr auto kLcm = key_table<void>(
-    key::text("url", "network, such as udpm://239.255.76.67:7667?ttl=0").needed(), kChannel,
+    key::text("url", "network, such as udpm://239.255.76.67:7667?ttl=0").of_form(kLcmUrlForm).needed(),
+    kChannel,
     key::structure("commands", kCommands, "axes that take commands from panels").otherwise_is("none does"));
 
 inline constexpr double kLongestBefore = 600e9;  // [ns]
@@ -148,10 +149,12 @@ inline constexpr auto kAudit = key_table<AuditOptions>(
                                        "in all: FILE, FILE.1 and so on; the oldest gives way"));
 
 inline constexpr auto kStudio = key_table<StudioConfig>(
-    key::text("listen", "HOST:PORT where a browser sees the run, such as 127.0.0.1:8780")
+    key::text<&StudioConfig::listen>("listen", "where a browser sees the run, such as 127.0.0.1:8780")
+        .of_form(kEndpointForm)
         .otherwise_is("nowhere unless --studio says so"),
     key::boolean<&StudioConfig::write>("write", "it may write, and command the axes of 'commands'"),
-    key::text("allow", "address or network from which clients may come, such as 192.168.1.0/24")
+    key::text("allow", "from which clients may come, such as 192.168.1.0/24")
+        .of_form(kNetworkForm)
         .list()
         .otherwise_is("from everywhere"),
     key::duration<&StudioConfig::history>("history", {1e9, kHour}, "of the run that is kept for it"),
@@ -188,7 +191,8 @@ inline constexpr auto kTransferArea = key_table<TransferArea>(
         .otherwise_is("has to be given with 'receive'"),
     key::title<&TransferArea::source>("source", "its leading object, with 'receive'")
         .otherwise_is("has to be given with 'receive'"),
-    key::text("address", "IPv4 address or network of the sender, or several of them, with 'receive'")
+    key::text("address", "of the sender, or several of them, with 'receive'")
+        .of_form(kSenderForm)
         .one_or_list()
         .otherwise_is("any"));
 
@@ -200,7 +204,7 @@ inline constexpr auto kProject = key_table<void>(
     key::structure("transfer_areas", kTransferArea, "name: path of a leading value to proxies").named(),
     key::structure("network", kProjectNetwork,
                    "by which telegrams of transfer areas travel to other processes"),
-    key::structure("tags", kTag, "name: tag").named(),
+    key::structure("tags", kTag, "name: tag").named().defined_as("tags"),
     key::structure("programs", kProgram, "programs").list(),
     key::structure("ascii", kAsciiLine, "lines to LinMot controllers").list(),
     key::structure("stimuli", kStimulus, "what comes from outside in a simulation").list(),

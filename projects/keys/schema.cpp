@@ -5,6 +5,7 @@
 
 #include "projects/json/fields.hpp"
 #include "projects/keys/texts.hpp"
+#include "projects/literals/duration.hpp"
 
 namespace lockstep {
 namespace {
@@ -145,7 +146,10 @@ Json KeySchema::single(const Key& key) {
     case KeyKind::defined:
       return Json::object();
     case KeyKind::duration:
+      return {{"type", "string"}, {"pattern", duration_pattern()}};
     case KeyKind::text:
+      if (key.form != nullptr) return {{"type", "string"}, {"pattern", key.form->pattern}};
+      return {{"type", "string"}};
     case KeyKind::tag:
     case KeyKind::signal:
     case KeyKind::object:

@@ -26,17 +26,16 @@ namespace keys {
 inline constexpr double kLongestTransfer = 10e9;  // [ns]
 inline constexpr int kSystemVersions[] = {1};
 
-inline constexpr auto kSystemController = key_table<void>(
-    key::title("project", "its project file, relative to this one").needed(),
-    key::duration("phase", {0, 1e9},
-                  "of its ticks behind whole cycles of the common time, in a simulation; "
-                  "less than its servo cycle")
-        .otherwise_is("0ns"),
-    key::text("address",
-              "in real time: IPv4 address or network from which its telegrams come, or several "
-              "of them")
-        .one_or_list()
-        .otherwise_is("any"));
+inline constexpr auto kSystemController =
+    key_table<void>(key::title("project", "its project file, relative to this one").needed(),
+                    key::duration("phase", {0, 1e9},
+                                  "of its ticks behind whole cycles of the common time, in a simulation; "
+                                  "less than its servo cycle")
+                        .otherwise_is("0ns"),
+                    key::text("address", "in real time: from which its telegrams come, or several of them")
+                        .of_form(kSenderForm)
+                        .one_or_list()
+                        .otherwise_is("any"));
 inline constexpr auto kSystemArea = key_table<void>(
     key::text("from", "CONTROLLER.OBJECT that provides its leading value").needed(),
     key::integer("interface", {1.0, 8.0}, "which CrossPlcSynchronousOperation.Interface of it provides it")

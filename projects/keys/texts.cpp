@@ -59,7 +59,7 @@ std::string single_text(const Key& key) {
     case KeyKind::title:
       return "text of 1 to " + std::to_string(key.longest) + " characters";
     case KeyKind::text:
-      return "text";
+      return key.form == nullptr ? "text" : std::string(key.form->what);
     case KeyKind::tag:
       return "name of a tag of type " + std::string(type_name(key.type));
     case KeyKind::signal:

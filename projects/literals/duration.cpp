@@ -117,7 +117,28 @@ bool take_sign(std::string_view& text) {
   return negative;
 }
 
+/// Its letters in either case.
+std::string in_any_case(std::string_view word) {
+  std::string pattern;
+  for (const char letter : word) {
+    const std::string upper = upper_case({&letter, 1});
+    pattern += "[" + upper + static_cast<char>(upper.front() - 'A' + 'a') + "]";
+  }
+  return pattern;
+}
+
 }  // namespace
+
+std::string duration_pattern() {
+  const std::string number = "[0-9][0-9_]*(\\.[0-9][0-9_]*)?";
+  std::string file_units;
+  for (const TimeUnit& unit : kFileUnits)
+    file_units += (file_units.empty() ? "" : "|") + std::string(unit.name);
+  std::string iec_units;
+  for (const TimeUnit& unit : kIecUnits) iec_units += (iec_units.empty() ? "" : "|") + in_any_case(unit.name);
+  return "^([+-]?" + number + "(" + file_units + ")|(" + in_any_case("T") + "|" + in_any_case("TIME") +
+         ")#[+-]?(" + number + "(" + iec_units + ")_?)+)$";
+}
 
 std::optional<std::int64_t> parse_iec_duration(std::string_view text, std::string& message) {
   constexpr std::string_view kForm =

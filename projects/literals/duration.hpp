@@ -14,6 +14,10 @@ namespace lockstep {
 /// @returns the duration [ns]; none for anything else, with what is wrong and what is allowed in `message`.
 std::optional<std::int64_t> parse_duration(std::string_view text, std::string& message);
 
+/// A regular expression (ECMA 262) for editors that refuses nothing that `parse_duration` takes; the order of
+/// the units of the IEC form, and what is too long or no whole number, it does not know.
+std::string duration_pattern();
+
 /// Reads what follows `T#`: days d, hours h, minutes m, seconds s, ms, us, ns in this order, each at most
 /// once, the last one with decimals if need be, underscores between them, a sign before all.
 /// @source IEC 61131-3:2013, 6.3.5

@@ -5,8 +5,8 @@
 #include "hmi_bridge/lcm/commands.hpp"
 #include "hmi_bridge/lcm/messages.hpp"
 #include "hmi_bridge/lcm/url.hpp"
+#include "projects/json/addresses.hpp"
 #include "projects/keys/project.hpp"
-#include "projects/loader/addresses.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/read_keys.hpp"
 
@@ -15,11 +15,7 @@ namespace {
 
 void load_lcm(const JsonValue& json, TraceConfig& trace, Problems& problems) {
   const Fields fields(json, keys::kLcm, problems);
-  if (const auto url = read_string(fields["url"], problems)) {
-    trace.url = *url;
-    if (const std::string problem = lcm_url_problem(*url); !problem.empty())
-      problems.report(*fields["url"], problem);
-  }
+  if (const auto url = read_form(fields["url"], kLcmUrlForm, problems)) trace.url = *url;
   if (const auto channel = read_title(fields["channel"], problems, keys::kChannel.longest))
     trace.channel = *channel;
 }

@@ -58,6 +58,9 @@ void report_modbus_problems(const ModbusMap& map, std::span<const JsonValue* con
 /// @param map nullptr: it is faulty, so that nobody knows what it has
 void load_watchdogs(const JsonValue& json, const ModbusMap* map, const Loading& loading);
 
+/// HOST:PORT; none if it is something else, which is reported. @param json may be nullptr
+std::optional<Endpoint> read_endpoint(const JsonValue* json, Problems& problems);
+
 /// Reads where the last of the servers is and whom it lets in; the keys of its maps are not looked at.
 void load_modbus_place(const JsonValue& json, const Fields& fields, const Loading& loading);
 

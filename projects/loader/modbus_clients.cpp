@@ -3,8 +3,8 @@
 #include <set>
 #include <utility>
 
+#include "projects/json/addresses.hpp"
 #include "projects/keys/modbus.hpp"
-#include "projects/loader/addresses.hpp"
 #include "projects/loader/mco305_panel.hpp"
 #include "projects/loader/modbus.hpp"
 #include "projects/loader/read_keys.hpp"
@@ -48,13 +48,9 @@ void ClientLoader::load(const JsonValue& json) {
   ModbusClientOptions& options = client_.options;
   if ((fields["connect"] == nullptr) == (fields["serial"] == nullptr))
     problems_.report(json, "a client has one connection; allowed: one of the keys 'connect', 'serial'");
-  if (const auto text = read_string(fields["connect"], problems_)) {
-    std::string problem;
-    options.connect = parse_endpoint(*text, problem);
-    if (!options.connect) problems_.report(*fields["connect"], problem);
-    if (options.connect && options.connect->port == 0)
-      problems_.report(*fields["connect"], "nobody can be reached at port 0; allowed: from 1 to 65535");
-  }
+  options.connect = read_endpoint(fields["connect"], problems_);
+  if (options.connect && options.connect->port == 0)
+    problems_.report(*fields["connect"], "nobody can be reached at port 0; allowed: from 1 to 65535");
   read_keys(fields, keys::kClient, options, loading_);
   if (const JsonValue* const serial = fields["serial"])
     report_taken_line(*serial, loading_.project.modbus, options.serial.device, problems_);

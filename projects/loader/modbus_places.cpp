@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <string>
 
+#include "projects/json/addresses.hpp"
 #include "projects/keys/modbus.hpp"
-#include "projects/loader/addresses.hpp"
 #include "projects/loader/modbus.hpp"
 #include "projects/loader/read_keys.hpp"
 
@@ -16,18 +16,12 @@ void load_listen(const JsonValue& json, ModbusServerOptions& options, Problems& 
   if (places.empty()) problems.report(json, "nowhere to listen; allowed: HOST:PORT, or an array of them");
   options.listen.clear();
   for (const JsonValue* const place : places) {
-    const auto text = read_string(place, problems);
-    if (!text) continue;
-    std::string problem;
-    const auto endpoint = parse_endpoint(*text, problem);
-    if (!endpoint) {
-      problems.report(*place, problem);
-    } else if (endpoint->port != 0 &&
-               std::find(options.listen.begin(), options.listen.end(), *endpoint) != options.listen.end()) {
+    const auto endpoint = read_endpoint(place, problems);
+    if (!endpoint) continue;
+    if (endpoint->port != 0 && std::ranges::find(options.listen, *endpoint) != options.listen.end())
       problems.report(*place, place->shown() + " is there twice; each address is allowed once");
-    } else {
+    else
       options.listen.push_back(*endpoint);
-    }
   }
 }
 
@@ -64,6 +58,12 @@ void load_line(const Fields& fields, const ModbusConfig& modbus, ModbusServerOpt
 }
 
 }  // namespace
+
+std::optional<Endpoint> read_endpoint(const JsonValue* json, Problems& problems) {
+  const auto text = read_form(json, kEndpointForm, problems);
+  std::string problem;
+  return text ? parse_endpoint(*text, problem) : std::nullopt;
+}
 
 void load_modbus_place(const JsonValue& json, const Fields& fields, const Loading& loading) {
   Problems& problems = loading.problems;

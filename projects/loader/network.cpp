@@ -4,8 +4,8 @@
 
 #include "hmi_bridge/lcm/channel_length.hpp"
 #include "hmi_bridge/lcm/url.hpp"
+#include "projects/json/addresses.hpp"
 #include "projects/json/fields.hpp"
-#include "projects/loader/addresses.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/read_keys.hpp"
 
@@ -20,9 +20,7 @@ NetworkConfig read_network(const JsonValue& json, const std::string& folder, boo
     read_struct(json, keys::kNetwork, network, loading);
   const JsonValue* const url = json.find("lcm");
   if (url != nullptr && url->kind == JsonKind::string) {
-    if (const std::string problem = lcm_url_problem(network.lcm); !problem.empty())
-      loading.problems.report(*url, problem);
-    else if (lcm_leaves_machine(network.lcm) && network.key_file.empty())
+    if (lcm_leaves_machine(network.lcm) && network.key_file.empty())
       loading.problems.warn(
           *url,
           "whoever reaches this network can send leading values in another's name; 'key_file' "
@@ -36,16 +34,9 @@ NetworkConfig read_network(const JsonValue& json, const std::string& folder, boo
 namespace {
 
 void read_sender(const JsonValue& json, std::vector<IpNetwork>& senders, Problems& problems) {
-  const auto text = read_string(&json, problems);
-  if (!text) return;
   std::string problem;
-  const auto network = IpNetwork::parse(*text, problem);
-  if (network && text->find(':') == text->npos)
-    senders.push_back(*network);
-  else
-    problems.report(json, json.shown() +
-                              " is no IPv4 network; allowed: an IPv4 address, alone or with the "
-                              "length of its prefix, as in 192.168.1.0/24");
+  if (const auto text = read_form(&json, kSenderForm, problems))
+    senders.push_back(IpNetwork::parse(*text, problem).value());
 }
 
 }  // namespace

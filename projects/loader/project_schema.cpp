@@ -4,13 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "fb/block.hpp"
 #include "projects/cam_files/schema.hpp"
 #include "projects/keys/project.hpp"
 #include "projects/keys/schema.hpp"
 #include "projects/keys/system.hpp"
+#include "projects/loader/call_schema.hpp"
 #include "projects/loader/configuration_tree.hpp"
 #include "projects/loader/linmot_schema.hpp"
+#include "projects/loader/tag_schema.hpp"
 
 namespace lockstep {
 namespace {
@@ -25,9 +26,6 @@ Json described(std::string_view description, const Json& schema) {
 
 Json text(std::string_view description) {
   return described(description, {{"type", "string"}});
-}
-Json words(std::string_view description, const std::vector<std::string_view>& list) {
-  return described(description, {{"enum", list}});
 }
 Json reference(std::string_view definition) {
   return {{"$ref", "#/definitions/" + std::string(definition)}};
@@ -92,30 +90,6 @@ Json structure_schema(const ConfigurationNode& structure, const std::string& own
   return {{"type", "object"}, {"properties", properties}, {"additionalProperties", rest}};
 }
 
-std::vector<std::string_view> block_names() {
-  std::vector<std::string_view> names;
-  for (const BlockType& type : block_types()) names.push_back(type.name);
-  return names;
-}
-
-std::vector<std::string_view> tag_type_names() {
-  std::vector<std::string_view> names;
-  for (int type = 0; type <= static_cast<int>(Type::TIME); ++type)
-    names.push_back(type_name(static_cast<Type>(type)));
-  return names;
-}
-
-/// One schema for all kinds of calls: which keys go together is told by `dependencies`.
-Json call_schema(KeySchema& keys) {
-  Json schema = keys.object(keys::kCall);
-  for (const Keys kind : {Keys(keys::kSet), Keys(keys::kSetStart), Keys(keys::kIf)})
-    schema["properties"].update(keys.object(kind)["properties"]);
-  schema.erase("required");
-  schema["dependencies"] = {{"fb", {"name"}},      {"name", {"fb"}}, {"in", {"fb"}},   {"set", {"to"}},
-                            {"set_start", {"to"}}, {"if", {"then"}}, {"then", {"if"}}, {"else", {"if"}}};
-  return schema;
-}
-
 /// What keys refer to and is declared elsewhere: variables of data blocks, cams, blocks and types.
 void add_definitions(KeySchema& keys) {
   Json& definitions = keys.definitions;
@@ -129,17 +103,8 @@ void add_definitions(KeySchema& keys) {
     definitions[std::string("cam_") + part] = cam[part];
   definitions.update(cam_schema_definitions());
   add_linmot_definitions(definitions);
-  definitions["function_block"] = words("function block", block_names());
-  definitions["tag_type_of_values"] =
-      words("type on the wire; it may narrow that of the signal", tag_type_names());
-  definitions["tag_type"] = {
-      {"description",
-       "elementary type, STRING[n], or ARRAY[lower..upper] OF an elementary type or of a structure of cams"},
-      {"anyOf", {words("elementary type", tag_type_names()), text("text of up to n characters, or array")}}};
-  definitions["initial_value"] =
-      described("value at the start; of an array [element, ...] from the first one on",
-                {{"type", {"boolean", "number", "string", "array"}}});
-  definitions["call"] = call_schema(keys);
+  add_tag_definitions(definitions);
+  add_call_definitions(keys);
   // Parameters may stand in every value of a template, so that only the loader knows what is right.
   definitions["named_parts"] = {{"type", "object"}, {"additionalProperties", {{"type", "object"}}}};
   definitions["list_of_parts"] = {{"type", "array"}};

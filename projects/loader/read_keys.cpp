@@ -126,7 +126,8 @@ std::optional<KeyValue> read_value(const JsonValue* json, const Key& key, const 
     case KeyKind::positions:
       return read_positions(*json, key, problems);
     default:
-      return read_text(read_string(json, problems));
+      return read_text(key.form == nullptr ? read_string(json, problems)
+                                           : read_form(json, *key.form, problems));
   }
 }
 

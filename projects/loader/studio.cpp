@@ -1,6 +1,6 @@
 // Where a run can be looked into, and who may do what there.
+#include "projects/json/addresses.hpp"
 #include "projects/keys/project.hpp"
-#include "projects/loader/addresses.hpp"
 #include "projects/loader/loader.hpp"
 #include "projects/loader/read_keys.hpp"
 
@@ -11,25 +11,15 @@ void load_networks(const JsonValue* json, std::vector<IpNetwork>& networks, Prob
   if (json->elements.empty())
     problems.report(*json, "an empty list lets nobody in; allowed: networks such as 192.168.1.0/24");
   for (const JsonValue* const element : json->elements) {
-    const auto text = read_string(element, problems);
-    if (!text) continue;
     std::string problem;
-    if (const auto network = IpNetwork::parse(*text, problem))
-      networks.push_back(*network);
-    else
-      problems.report(*element, element->shown() + " is no network; " + problem);
+    if (const auto text = read_form(element, kNetworkForm, problems))
+      networks.push_back(IpNetwork::parse(*text, problem).value());
   }
 }
 
 void load_studio(const JsonValue& json, const Loading& loading) {
   StudioConfig& config = loading.project.studio;
   const Fields fields = read_struct(json, keys::kStudio, config, loading);
-  if (const JsonValue* const listen = fields["listen"]) {
-    std::string problem;
-    const auto text = read_string(listen, loading.problems);
-    if (text && !parse_endpoint(*text, problem)) loading.problems.report(*listen, problem);
-    if (text) config.listen = *text;
-  }
   load_networks(fields["allow"], config.allow, loading.problems);
   if (const JsonValue* const commands = fields["commands"])
     load_commands(*commands, CommandRoute::studio, loading);

@@ -1,7 +1,7 @@
 // The Modbus server and clients of a run.
 #include <fmt/format.h>
 
-#include "projects/loader/addresses.hpp"
+#include "projects/json/addresses.hpp"
 #include "projects/runtime/run_surroundings.hpp"
 
 namespace lockstep {

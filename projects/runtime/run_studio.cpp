@@ -1,7 +1,7 @@
 // The studio of a run: what others see of it over HTTP and WebSocket.
 #include <fmt/format.h>
 
-#include "projects/loader/addresses.hpp"
+#include "projects/json/addresses.hpp"
 #include "projects/runtime/run_surroundings.hpp"
 
 namespace lockstep {

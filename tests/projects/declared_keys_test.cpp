@@ -166,6 +166,19 @@ TEST_F(DeclaredKeys, TakeTheirWordsAndNoOthers) {
     }
 }
 
+TEST_F(DeclaredKeys, TakeNoTextOfAnotherForm) {
+  int refused = 0;
+  for (const auto& [pointer, keys] : places_.found)
+    for (const Key& key : keys) {
+      if (key.form == nullptr && key.kind != KeyKind::duration) continue;
+      Pointer place = pointer / std::string(key.name);
+      if (key.shape == KeyShape::list) place /= std::size_t{0};
+      for (const char* const text : {"", "no such form", "10", "1.5 ms"}) expect_refused(place, text, true);
+      ++refused;
+    }
+  EXPECT_GT(refused, 30);
+}
+
 TEST_F(DeclaredKeys, TakeNoValueOfAnotherKind) {
   const Json values = {nullptr, true, "start", Json::array()};
   for (const auto& [pointer, keys] : places_.found)

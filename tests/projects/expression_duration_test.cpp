@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,6 +82,22 @@ TEST(Duration, WhatIsNoDurationIsRefusedWithItsReason) {
     std::string message;
     EXPECT_EQ(parse_duration(text, message), std::nullopt) << text;
     EXPECT_EQ(message, "'" + text + "'" + reason);
+  }
+}
+
+TEST(Duration, ThePatternForEditorsRefusesNoneAndWhatIsNone) {
+  const std::regex pattern(duration_pattern());
+  for (const char* const text : {"10ms", "+1.5min", "-2d", "1_000ns", "T#1s500ms", "time#-10ms", "T#25h_15m",
+                                 "T#1d2h3m4s5ms6us7.0ns", "t#14.7S", "0us", "1.5s"}) {
+    std::string message;
+    EXPECT_TRUE(parse_duration(text, message)) << message;
+    EXPECT_TRUE(std::regex_match(text, pattern)) << text;
+  }
+  for (const char* const text : {"", "10", "ms", "10 ms", "1h30", "10sec", "1m", ".5s", "5.ms", "T#", "T#5",
+                                 "X#1s", "T#1s ", " 1s", "1s1", "T#1min"}) {
+    std::string message;
+    EXPECT_FALSE(parse_duration(text, message)) << text;
+    EXPECT_FALSE(std::regex_match(text, pattern)) << text;
   }
 }
 

@@ -5,9 +5,11 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <regex>
+#include <string>
 
 #include "changed_project.hpp"
-#include "projects/loader/addresses.hpp"
+#include "projects/json/addresses.hpp"
 #include "projects/loader/project.hpp"
 #include "tests/support/values.hpp"
 
@@ -420,6 +422,50 @@ TEST(LcmUrl, NamesAMulticastNetwork) {
                             "udpm://239.1.1.256:7", "udpm://239.1.1.1:0", "udpm://239.1.1.1:65536",
                             "udpm://239.1.1.1?ttl=256", "udpm://239.1.1.1?x=1", "udpm://240.0.0.1"})
     EXPECT_NE(lcm_url_problem(wrong), "") << wrong;
+}
+
+// What editors refuse by the pattern of a form nobody may write.
+TEST(TextForms, HaveAPatternThatRefusesNothingThatIsAllowed) {
+  const char* const texts[] = {"",
+                               "127.0.0.1:1502",
+                               "plc-1.local:0",
+                               "[::1]:502",
+                               "[fe80::1]:00080",
+                               "host:65535",
+                               "host:65536",
+                               "host:",
+                               ":1",
+                               "localhost",
+                               "[1.2.3.4]:1",
+                               "10.0.0.0/8",
+                               "10.0.0.1",
+                               "fd00::/8",
+                               "::1",
+                               "::ffff:1.2.3.4",
+                               "10.0.0.0/08",
+                               "10.0.0.1/8",
+                               "1.2.3",
+                               "memq://",
+                               "udpm://",
+                               "udpm://?ttl=1",
+                               "udpm://224.0.0.1",
+                               "tcpq://",
+                               "udpm://:1",
+                               "udpm://239.1.1.1:1?ttl=0",
+                               "udpm://239.1.1:7",
+                               "udpm://239.1.1.1?x=1"};
+  int refused = 0;
+  for (const TextForm* const form : {&kEndpointForm, &kNetworkForm, &kSenderForm, &kLcmUrlForm}) {
+    const std::regex pattern{std::string(form->pattern)};
+    for (const char* const text : texts) {
+      const bool matches = std::regex_match(text, pattern);
+      if (form->problem(text).empty()) {
+        EXPECT_TRUE(matches) << form->what << ": " << text;
+      }
+      refused += matches ? 0 : 1;
+    }
+  }
+  EXPECT_GT(refused, 60);
 }
 
 }  // namespace

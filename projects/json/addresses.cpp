@@ -1,4 +1,4 @@
-#include "projects/loader/addresses.hpp"
+#include "projects/json/addresses.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -66,6 +66,24 @@ std::optional<Endpoint> parse_endpoint(std::string_view text, std::string& probl
             " is not HOST:PORT; allowed: an IPv4 address, an IPv6 address in brackets or a name, a colon and "
             "a port from 0 to 65535, as in 127.0.0.1:1502 or [::1]:1502";
   return std::nullopt;
+}
+
+std::string endpoint_problem(std::string_view text) {
+  std::string problem;
+  return parse_endpoint(text, problem) ? "" : problem;
+}
+
+std::string network_problem(std::string_view text) {
+  std::string problem;
+  return IpNetwork::parse(text, problem) ? "" : quote(text) + " is no network; " + problem;
+}
+
+std::string sender_problem(std::string_view text) {
+  std::string problem;
+  if (IpNetwork::parse(text, problem) && text.find(':') == text.npos) return "";
+  return quote(text) +
+         " is no IPv4 network; allowed: an IPv4 address, alone or with the length of its prefix, as in "
+         "192.168.1.0/24";
 }
 
 std::string lcm_url_problem(std::string_view url) {
