@@ -70,6 +70,10 @@ void load_modbus_place(const JsonValue& json, const Fields& fields, const Loadin
 void report_taken_line(const JsonValue& serial, const ModbusConfig& modbus, const std::string& device,
                        Problems& problems);
 
+/// Narrows the range of an entry to `min` and `max`, which have to lie in what signal and registers hold.
+/// @param signal type of its value
+void read_modbus_limits(const Fields& fields, ModbusEntry& entry, Type signal, const Loading& loading);
+
 /// What may be written to a variable from outside: its range, which for an enumeration goes from its first to
 /// its last value; for anything else any value.
 Range written_range(const Operand& place);
