@@ -13,7 +13,7 @@ inline void come_near_for_writing([[maybe_unused]] const void* address) noexcept
 #endif
 }
 
-/// … for reading.
+/// Has the processor bring a line of memory near, for reading.
 inline void come_near_for_reading(const void* address) noexcept {
   __builtin_prefetch(address);
 }

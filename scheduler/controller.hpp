@@ -149,7 +149,7 @@ class Controller {
   TraceRing* trace = nullptr;                    ///< crossing to the recorder; nullptr: none
   SignalTap* tap = nullptr;                      ///< crossing of signals chosen while it runs; nullptr: none
   std::vector<TelegramOutput> telegram_outputs;  ///< crossings to other controllers
-  std::vector<TelegramInput> telegram_inputs;    ///< … and from them
+  std::vector<TelegramInput> telegram_inputs;    ///< crossings from other controllers
   /// [ns] What the clock that all controllers share shows when the time of this one is 0.
   std::int64_t shared_time_at_start = 0;
 

@@ -63,7 +63,7 @@ class Program {
     call,
     copy_flag,
     copy_flag_and_call,    // the commonest pair: a pin that is wired to a BOOL, and the call of its block
-    assign_flag_and_call,  // … and one with an expression
+    assign_flag_and_call,  // a pin that gets an expression, and the call
     assign_flag,
     assign,
     assign_variable,

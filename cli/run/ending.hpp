@@ -57,7 +57,7 @@ class Ending {
   void tell_lost();
 
   int signals_in_ = -1;  // descriptor that gives the signals
-  int wake_ = -1;        // … that wakes the watch
+  int wake_ = -1;        // descriptor that wakes the watch
   std::atomic<int> signals_{0};
   std::atomic<Stage> stage_{Stage::starting};
   std::atomic<std::int64_t> spent_{0};  // [ms] of the stage, while time counts

@@ -33,8 +33,8 @@ class ToldOnStandardError final : public Messages {
 
  private:
   std::atomic<std::uint64_t> alarms_{0};       // counted by the recorder
-  std::atomic<std::uint64_t> warnings_{0};     // the same
-  std::atomic<std::uint64_t> failed_jobs_{0};  // the same
+  std::atomic<std::uint64_t> warnings_{0};     // counted by the recorder
+  std::atomic<std::uint64_t> failed_jobs_{0};  // counted by the recorder
   int timeout_;
   std::string controller_;
   EventMessages events_;

@@ -27,7 +27,7 @@ class AuditQueue {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kApart{1};       ///< between two lines of one source and subject
-  static constexpr std::chrono::seconds kSameApart{60};  ///< … of which the values are the same
+  static constexpr std::chrono::seconds kSameApart{60};  ///< between two lines whose values are the same
 
   /// @param capacity lines that wait, and pairs of source and subject that are known, at most
   explicit AuditQueue(std::size_t capacity = 4096) : capacity_(capacity) {}

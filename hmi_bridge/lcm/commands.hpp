@@ -15,9 +15,9 @@
 
 namespace lockstep {
 
-/// What is appended to the channel of a trace to name the channel of commands to its run …
+/// What is appended to the channel of a trace to name the channel of commands to its run.
 inline constexpr std::string_view kCommandSuffix = "_CMD";
-/// … and the channel on which it tells how the axes stand that take commands.
+/// What is appended to name the channel on which a run tells how the axes stand that take commands.
 inline constexpr std::string_view kPanelSuffix = "_PANEL";
 
 /// Such as "jog forward"; empty for a number that is no action.

@@ -15,8 +15,8 @@ namespace lockstep {
 namespace {
 
 constexpr int kPollTelegrams = 20;                // how long the end of a run may wait for this thread
-constexpr int kTelegramBurst = 256;               // datagrams taken at a time …
-constexpr std::int64_t kTelegramPause = 500'000;  // … behind so many of which others come first [ns]
+constexpr int kTelegramBurst = 256;               // datagrams taken at a time
+constexpr std::int64_t kTelegramPause = 500'000;  // behind so many, in which others come first [ns]
 constexpr LcmBounds kNoFragments{.message = 0};   // a telegram fits a datagram
 
 void set(CarrierCounts::Count& count, std::uint64_t value) noexcept {

@@ -32,8 +32,8 @@ class LeadingValueReceiver {
     std::vector<IpNetwork> from{};       ///< of the sender; empty: any
     std::vector<TelegramRing*> rings{};  ///< of the proxies that take the telegrams
     CarrierCounts* counts = nullptr;
-    std::string controller{};  ///< that receives …
-    std::string proxies{};     ///< … and the names of its proxies, for whoever looks at the network
+    std::string controller{};  ///< that receives
+    std::string proxies{};     ///< names of its proxies, for whoever looks at the network
   };
   static constexpr std::int64_t kTell = 1'000'000'000;  ///< between two messages of what has come [ns]
   static constexpr int kPriority = 78;                  ///< of SCHED_FIFO, as far as it is permitted

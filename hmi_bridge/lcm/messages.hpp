@@ -21,9 +21,9 @@ namespace lockstep {
 inline constexpr std::string_view kHeaderSuffix = "_HEADER";
 static_assert(kLongestTraceChannel + kHeaderSuffix.size() == kLongestLcmChannel);
 
-/// … and the channel of the events.
+/// What is appended to name the channel of the events.
 inline constexpr std::string_view kEventsSuffix = "_EVENTS";
-/// … and the channel of what is known of events besides.
+/// What is appended to name the channel of what is known of events besides.
 inline constexpr std::string_view kDetailSuffix = "_DETAIL";
 /// Whether there is anything to be said of an event besides.
 bool has_detail(const TraceEvent& event) noexcept;

@@ -25,7 +25,7 @@ struct LcmMessage {
   std::string_view channel;  ///< 1 to 63 characters, any but 0
   std::span<const std::uint8_t> data;
   std::string_view sender{};  ///< address and port of the last datagram; empty: this process
-  sockaddr_in address{};      ///< the same
+  sockaddr_in address{};      ///< of the sender of the last datagram
 };
 
 /// What the reassembly keeps at most. The defaults bear the header of a trace of 60,000 signals.

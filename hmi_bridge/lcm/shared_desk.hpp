@@ -68,7 +68,7 @@ class SharedDesk {
   const Answers answers_;
   Clock::time_point next_beat_{};
   std::string_view from_;        // of the command at hand
-  std::string_view route_name_;  // the same
+  std::string_view route_name_;  // of the command at hand
 };
 
 }  // namespace lockstep

@@ -77,8 +77,8 @@ struct ModbusClientOptions {
   std::optional<Endpoint> connect;  ///< none: over `serial`
   SerialOptions serial;
   std::chrono::milliseconds timeout{500};           ///< for connecting, and for each answer
-  std::chrono::milliseconds first_retry{100};       ///< after a failure; doubled with each further one …
-  std::chrono::milliseconds longest_retry{10'000};  ///< … up to this
+  std::chrono::milliseconds first_retry{100};       ///< after a failure; doubled with each further one
+  std::chrono::milliseconds longest_retry{10'000};  ///< up to which it is doubled
   std::vector<ModbusDevice> devices;
 
   /// Where it connects to, for messages.

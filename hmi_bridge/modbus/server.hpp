@@ -139,8 +139,8 @@ class ModbusServer {
   std::vector<Line> lines_;
   int wake_ = -1;  ///< event that ends the thread's waiting
   std::atomic<bool> is_stopping_{false};
-  std::atomic<bool> is_refusing_{false};     ///< asked to
-  std::atomic<bool> refuses_writes_{false};  ///< … and does
+  std::atomic<bool> is_refusing_{false};     ///< it is asked to refuse writes
+  std::atomic<bool> refuses_writes_{false};  ///< it refuses writes
   std::thread thread_;
 
   // The thread's.

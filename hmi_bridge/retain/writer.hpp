@@ -79,7 +79,7 @@ class RetainWriter {
   bool changed_ = false;            // since the last write that went well
   bool is_away_ = false;            // the file was not under its name, and could not be made again
   std::uint64_t asked_ = 0;         // number of the newest job that the last look saw
-  std::uint64_t answered_ = 0;      // … that has been answered
+  std::uint64_t answered_ = 0;      // number of the newest job that has been answered
 
   mutable std::mutex mutex_;  // guards those below
   std::condition_variable wake_;

@@ -16,9 +16,9 @@ namespace lockstep {
 enum class TriggerKind : std::uint8_t {
   none,     ///< every row
   above,    ///< those in which a signal is greater than the level
-  below,    ///< … less
+  below,    ///< those in which a signal is less than the level
   rising,   ///< those around the row in which a signal comes from not above the level to above it
-  falling,  ///< … from not below the level to below it
+  falling,  ///< those around the row in which a signal comes from not below the level to below it
   alarm     ///< those around an alarm
 };
 
@@ -28,7 +28,7 @@ struct TraceSelection {
   TriggerKind trigger = TriggerKind::none;
   double level = 0.5;
   std::int64_t before = 0;  ///< rows of that time before the occasion count as well [ns]
-  std::int64_t after = 0;   ///< … after it [ns]
+  std::int64_t after = 0;   ///< rows of that time after the occasion count as well [ns]
 };
 
 /// Hands some columns and rows of a trace on to another sink. With a trigger, rows before the occasion wait

@@ -32,7 +32,7 @@ class TraceColumns {
  public:
   /// The column of a signal; it is added if none of its name is there.
   std::size_t of(const NamedSignal& signal);
-  /// … of several, in their order.
+  /// The columns of several signals, in their order.
   std::vector<std::size_t> of(const std::vector<NamedSignal>& signals);
 
   /// What the ring is made with.

@@ -53,7 +53,7 @@ class FlightRecorder final : public TraceSink {
   const std::size_t capacity_;  // rows
   std::vector<TraceSignal> signals_;
   std::vector<Value> memory_;   // a ring of rows
-  std::vector<TraceRow> rows_;  // … and what stands before their values
+  std::vector<TraceRow> rows_;  // of each row of the ring what stands before its values
   std::size_t count_ = 0, next_ = 0;
   std::vector<Value> values_;
   const Recordings recordings_;

@@ -37,7 +37,7 @@ struct TraceWindow {
   };
   bool is_coarse = false;           ///< points are several rows each
   std::vector<std::int64_t> t;      ///< of the first row of each point [ns]
-  std::vector<std::uint64_t> tick;  ///< the same
+  std::vector<std::uint64_t> tick;  ///< of the first row of each point
   std::vector<Column> columns;      ///< as they were asked for
 };
 

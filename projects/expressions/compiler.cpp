@@ -70,8 +70,8 @@ void emit(const Term& term, ExpressionBuilder& code) {
     case Term::Form::kOperation:
     case Term::Form::kRounding:        // has become an operation
     case Term::Form::kText:            // stands in comparisons and choices only
-    case Term::Form::kTextChoice:      // the same
-    case Term::Form::kTextComparison:  // see above
+    case Term::Form::kTextChoice:      // stands in comparisons and choices only
+    case Term::Form::kTextComparison:  // is compiled where it is met, as a whole
       break;
   }
 }

@@ -20,8 +20,8 @@ std::optional<Endpoint> parse_endpoint(std::string_view text, std::string& probl
 /// `memq://`.
 std::string lcm_url_problem(std::string_view url);
 
-/// The same of an endpoint, of a network from which clients may come, and of one from which telegrams do,
-/// which is IPv4.
+/// What is wrong with an endpoint, with a network from which clients may come, and with one from which
+/// telegrams do, which is IPv4; empty if nothing is.
 std::string endpoint_problem(std::string_view text);
 std::string network_problem(std::string_view text);
 std::string sender_problem(std::string_view text);

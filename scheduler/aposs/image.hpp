@@ -83,7 +83,7 @@ enum class Operand : std::uint8_t {
   kNone,
   kRead,       ///< a cell
   kWrite,      ///< a cell that is no constant
-  kUpdate,     ///< likewise, read before it is written
+  kUpdate,     ///< a cell that is no constant, read before it is written
   kArray,      ///< an array by its number
   kTarget,     ///< an instruction to go on with
   kCommand,    ///< of the table of commands

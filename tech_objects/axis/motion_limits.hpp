@@ -76,7 +76,7 @@ class MotionLimits {
   /// Dynamic values of a job: defaults for negative ones, cut to the limits. A MaxJerk of 0.0 is an alarm
   /// where it would count (`zero_limit`); it takes no job its jerk.
   Dynamics effective(const Job& job) const noexcept;
-  /// The same, not cut.
+  /// Dynamic values of a job as it asks for them, with defaults for negative ones, not cut.
   Dynamics asked(const Job& job) const noexcept;
   const TO_Struct_DynamicLimits& configured() const noexcept { return data_.DynamicLimits; }
   /// Where the job asks for more.

@@ -76,7 +76,7 @@ class SuperimposedMotion {
     return base_;
   }
   void leave_base() noexcept { advancing_base_ = false; }
-  /// … function → + offset → + superimposed → setpoint
+  /// The last steps of function → + offset → + superimposed → setpoint.
   Setpoint add_to(const Setpoint& base, const Modulo& modulo) noexcept {
     base_ = base;
     advancing_base_ = false;

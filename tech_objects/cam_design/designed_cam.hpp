@@ -75,7 +75,7 @@ struct CamPolynomial {
   std::optional<double> start_value, start_velocity, start_acceleration, start_jerk;
   std::optional<double> end_value, end_velocity, end_acceleration, end_jerk;
   std::optional<double> lambda;     ///< position of the inflection point, 0 … 1 of the element
-  std::optional<double> lambda_at;  ///< the same as a leading value
+  std::optional<double> lambda_at;  ///< that position as a leading value
   std::optional<CamWave> wave;
 };
 
@@ -105,7 +105,7 @@ struct CamTransition {
   /// much as the law named keeps, at most the acceleration. Jerk at one end only.
   std::optional<Continuity> start_continuity, end_continuity;
   std::optional<double> lambda;     ///< position of the inflection point, 0 … 1 of the transition
-  std::optional<double> lambda_at;  ///< the same as a leading value
+  std::optional<double> lambda_at;  ///< that position as a leading value
   std::optional<double> ca, ca_star;
   std::size_t count = MotionLaw::kDefaultPoints;  ///< points of a law that becomes points
   std::optional<double> tolerance;
@@ -142,8 +142,8 @@ struct CamStretch {
   bool transition = false;
   double from = 0.0;
   double to = 0.0;
-  std::size_t points = 0;    ///< of the data block that it takes
-  std::size_t segments = 0;  ///< the same
+  std::size_t points = 0;    ///< of the data block, that it takes
+  std::size_t segments = 0;  ///< of the data block, that it takes
   /// The curve before its mapping to points and segments; empty for a point.
   std::function<MotionValue(double)> curve;
   /// Of a transition: its law, what it connects and what it keeps.

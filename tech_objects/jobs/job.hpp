@@ -88,9 +88,9 @@ enum class BufferMode : std::uint8_t {
   mcAborting,          ///< at once; the running one is aborted
   mcBuffered,          ///< when the running one has ended
   mcBlendingLow,       ///< at its target, which is passed with the lower velocity of both
-  mcBlendingPrevious,  ///< … with the velocity of the running one
-  mcBlendingNext,      ///< … with the velocity of the new one
-  mcBlendingHigh       ///< … with the higher velocity of both
+  mcBlendingPrevious,  ///< at its target, with the velocity of the running one
+  mcBlendingNext,      ///< at its target, with the velocity of the new one
+  mcBlendingHigh       ///< at its target, with the higher velocity of both
 };
 
 /// How far a job is. A block derives its outputs from this alone.

@@ -39,7 +39,7 @@ enum class OutputCamMode : DINT { normal = 1, inverted = 2, always_on = 3 };
 /// MC_CamTrack, Mode.
 enum class CamTrackMode : DINT {
   at_once = 0,     ///< changes and the end count at once
-  next_track = 1,  ///< … when the track is over
+  next_track = 1,  ///< changes and the end count when the track is over
   always_on = 2
 };
 
@@ -78,7 +78,7 @@ enum class SyncProfileReference : DINT {
   ahead = 1,                 ///< over the leading distance before the synchronous position
   direct = 2,                ///< the positions at hand belong together
   subsequent = 3,            ///< over the leading distance from the synchronous position on
-  subsequent_from_here = 4,  ///< … from the present position on
+  subsequent_from_here = 4,  ///< over the leading distance from the present position on
   at_cam_end = 5,            ///< at the end of the running cam
   ahead_from_here = 6        ///< over the leading distance from here on; the cam lies at its end
 };
@@ -105,7 +105,7 @@ enum class PublishedDirection : DINT { positive = 1, negative = 2, either = 3 };
 /// MC_CopyCamData, Mode.
 enum class CamCopyMode : DINT {
   invalidate = 0,  ///< what was in the cam is valid no more
-  keep = 1         ///< … stays valid
+  keep = 1         ///< what was in the cam stays valid
 };
 
 /// Pin ApplicationMode of MC_CamIn.

@@ -10,7 +10,7 @@ namespace lockstep {
 /// Where a cam shows when its output has changed, more finely than in servo cycles.
 struct SwitchingTimes {
   double* on = nullptr;   ///< of the last edge on [s] since the start of the run; nullptr: nobody asks
-  double* off = nullptr;  ///< … off
+  double* off = nullptr;  ///< of the last edge off
 };
 
 /// One output and the states of all cams that switch it. Thread: the cycle.

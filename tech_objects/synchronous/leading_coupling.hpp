@@ -70,7 +70,7 @@ class LeadingCoupling {
   void forget_last() noexcept { step_.last = step_.now; }
 
   const Setpoint& now() const noexcept { return step_.now; }    ///< effective leading value
-  const Setpoint& last() const noexcept { return step_.last; }  ///< … one tick ago
+  const Setpoint& last() const noexcept { return step_.last; }  ///< effective leading value one tick ago
   const Modulo& modulo() const noexcept { return step_.modulo; }
   const LeadingStep& step() const noexcept { return step_; }
   bool velocity_only() const noexcept { return velocity_only_; }

@@ -60,16 +60,16 @@ class MarkerFilter {
     return correction_ + take_start();
   }
 
-  double trim() const noexcept { return trim_; }                        ///< of the gear, a part of it
-  double distance() const noexcept { return distance_; }                ///< filtered [counts]
-  double last() const noexcept { return last_; }                        ///< last spacing [counts]
-  double start_rest() const noexcept { return start_rest_; }            ///< [u]
-  double start_share() const noexcept { return start_share_; }          ///< [u]
-  double correction() const noexcept { return correction_; }            ///< smoothed [u]
-  double unfiltered() const noexcept { return unfiltered_; }            ///< [u]
-  double markers() const noexcept { return markers_; }                  ///< constant of the mean distance
-  double constant() const noexcept { return constants_; }               ///< … of the correction [markers]
-  double errors() const noexcept { return errors_; }                    ///< of the distances, summed [counts]
+  double trim() const noexcept { return trim_; }                ///< of the gear, a part of it
+  double distance() const noexcept { return distance_; }        ///< filtered [counts]
+  double last() const noexcept { return last_; }                ///< last spacing [counts]
+  double start_rest() const noexcept { return start_rest_; }    ///< [u]
+  double start_share() const noexcept { return start_share_; }  ///< [u]
+  double correction() const noexcept { return correction_; }    ///< smoothed [u]
+  double unfiltered() const noexcept { return unfiltered_; }    ///< [u]
+  double markers() const noexcept { return markers_; }          ///< constant of the mean distance
+  double constant() const noexcept { return constants_; }       ///< constant of the correction [markers]
+  double errors() const noexcept { return errors_; }            ///< of the distances, summed [counts]
   double filtered_errors() const noexcept { return filtered_errors_; }  ///< [counts]
 
  private:

@@ -15,8 +15,8 @@ enum class FirstPair : std::uint8_t {
   following_first,  ///< the first of what follows, then the next of what leads
   first_two,        ///< the first of either
   forward,          ///< one of what follows with that in front of it: the correction is forwards
-  backward,         ///< … with that behind it
-  nearest           ///< … with the nearer one
+  backward,         ///< one of what follows with that behind it
+  nearest           ///< one of what follows with the nearer one
 };
 
 class MarkerPairing {

@@ -121,6 +121,45 @@ TEST(Names, AreMadeOfTheTermsOfTheField) {
   EXPECT_EQ(faults, "") << "CONTRIBUTING.md, Words, says which terms these have";
 }
 
+// Comments that only who has read the one above can understand.
+constexpr std::string_view kLeaning[] = {"…",     "the same\n", "the same;", "likewise",
+                                         "ditto", "see above",  "as above"};
+// Their own sources tell it so for now.
+constexpr std::string_view kLeanOn[] = {"/mco305/", "/linmot/", "/studio/"};
+
+// The comments of a source that begin so, one a line.
+std::string leaning_comments(const std::string& text) {
+  std::string faults;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t slashes = line.rfind("//");
+    if (slashes == std::string::npos) continue;
+    const std::size_t begin = line.find_first_not_of("/<! ", slashes);
+    if (begin == std::string::npos) continue;
+    const std::string comment = in_lower_case(line.substr(begin)) + "\n";
+    if (std::ranges::any_of(kLeaning, [&](std::string_view one) { return comment.starts_with(one); }))
+      faults += comment;
+  }
+  return faults;
+}
+
+TEST(Comments, CanBeReadByThemselves) {
+  for (const std::string_view folder : kFolders)
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(fs::path(LOCKSTEP_SOURCE_DIR) / folder)) {
+      const std::string path = entry.path().string();
+      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
+      if (std::ranges::any_of(kLeanOn, [&](std::string_view room) { return path.find(room) != path.npos; }))
+        continue;
+      EXPECT_EQ(leaning_comments(text_of(entry.path())), "") << path;
+    }
+}
+
+TEST(Comments, AreFoundThatLeanOnTheOneAbove) {
+  EXPECT_EQ(leaning_comments("int a;  ///< first\nint b;  ///< … second\n// the same\n/// the same of all\n"),
+            "… second\nthe same\n");
+}
+
 TEST(Names, AreTakenApartIntoWords) {
   EXPECT_FALSE(is_of_the_field("kMostClients"));
   EXPECT_FALSE(is_of_the_field("way_to_rest_"));

@@ -13,7 +13,7 @@ namespace lockstep::bench {
 struct Timing {
   double mean = 0.0;    ///< processor time of a run
   double median = 0.0;  ///< of bursts, per call, on the clock; infinite without bursts
-  double p99 = 0.0;     ///< likewise; bursts in which the thread lost its processor are left out
+  double p99 = 0.0;     ///< of bursts, per call; those in which the thread lost its processor are left out
 };
 
 /// How long to measure.

@@ -197,8 +197,8 @@ struct Situation {
   const char* name;
   std::function<Subject*(Stage&)> bring_about;
   bool gear = false;                ///< a gear runs or waits, so that MC_GearOut has something to leave
-  bool moves_with_leading = false;  ///< … and runs, or will once it is synchronized
-  bool cam = false;                 ///< the same of cams, for MC_CamOut
+  bool moves_with_leading = false;  ///< a gear runs, or will once it is synchronized
+  bool cam = false;                 ///< a cam runs or waits, so that MC_CamOut has something to leave
   bool moves_with_cam = false;
   bool synchronous = false;  ///< the following axis is synchronous
   bool position_controlled = true;

@@ -101,7 +101,7 @@ TEST(Pursuit, KeepsItsLimitsAndMeetsATargetThatGoesOn) {
     }
     ASSERT_LT(steps, kLongest) << i << ": " << velocity << " within " << limits.velocity << ", "
                                << limits.acceleration << ", " << limits.deceleration;
-    // … and goes along with it to the last bit.
+    // It goes along with it to the last bit.
     for (int k = 0; k < 3; ++k) {
       target += velocity;
       pursuit.step(target, velocity, limits);
