@@ -12,7 +12,7 @@ namespace lockstep {
 enum class AlarmCause : std::uint8_t {
   none = 0,                  ///< the alarm has one cause
   positive_side = 1,         ///< limit, switch or end of a range
-  negative_side = 2,         ///< …
+  negative_side = 2,         ///< limit, switch or end of a range
   approach_velocity = 3,     ///< of homing, is 0
   referencing_velocity = 4,  ///< of homing, is 0
   no_reference_switch = 5,   ///< homing finds no switch that it could look for
