@@ -108,6 +108,7 @@ void Controller::finish() {
   wire_outputs();
   order_.set_axes(axes);
   order_.rebuild();
+  for (Axis* axis : axes) axis->attention.raise_with(attention_);
   for (Program& program : programs) schedule_.push_back(&program);
   std::stable_sort(schedule_.begin(), schedule_.end(), [](const Program* a, const Program* b) {
     return a->ob() != b->ob() ? a->ob() < b->ob() : a->priority() > b->priority();

@@ -238,6 +238,7 @@ class Controller {
   void wire_outputs();
   void lay_objects_into_large_pages() const;
   void interpolate() noexcept;
+  bool start_jobs() noexcept;
   void serve_drives() noexcept;
   void step_axes() noexcept;
   void step_level(std::span<Axis* const> axes) noexcept;
@@ -272,6 +273,7 @@ class Controller {
   Levels levels_;                                  // of that order, where a crew steps the axes
   std::unique_ptr<Crew> crew_;                     // none where one processor steps them
   std::atomic<std::uint64_t> alarms_now_{0};       // counted by whoever steps an axis
+  std::atomic<bool> attention_{true};              // some axis has new jobs or another coupling
   std::unique_ptr<CamInterpolator> interpolator_;  // for the largest cam; none without cams
   std::size_t next_stimulus_ = 0;
   std::int64_t next_tick_ = 0;

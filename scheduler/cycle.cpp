@@ -105,17 +105,26 @@ void Controller::interpolate() noexcept {
   for (TechnologyObject* object : before_axes_) object->before_axes();
   bool changed = false;
   for (LeadingObject* source : sources_) changed |= std::exchange(source->lost, false);
-  for (Axis* axis : order_.axes()) {
-    if (shutting_down_) axis->power.enable = false;
-    if (axis->has_new_jobs()) axis->start_jobs();
-    changed |= axis->coupling_changed;
-    axis->coupling_changed = false;
-  }
+  changed |= start_jobs();
   if (changed) rebuild_order();
   step_axes();
   send_telegrams();
   for (TechnologyObject* object : behind_axes_) object->behind_axes();
   ++counters_.interpolator_ticks;
+}
+
+/// Of axes that ask for attention; what they raise meanwhile counts in the next tick.
+/// @return whether a coupling has changed
+bool Controller::start_jobs() noexcept {
+  if (!attention_.load(std::memory_order_relaxed) && !shutting_down_) return false;
+  attention_.store(false, std::memory_order_relaxed);
+  bool changed = false;
+  for (Axis* axis : order_.axes()) {
+    if (shutting_down_) axis->power.enable = false;
+    if (axis->has_new_jobs()) axis->start_jobs();
+    changed |= axis->attention.take_coupling_change();
+  }
+  return changed;
 }
 
 /// The leading values of this tick, to other controllers.

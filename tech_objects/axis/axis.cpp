@@ -93,7 +93,7 @@ void Axis::restart() noexcept {
   sensors_.show();
   restarted = true;
   ++restarts_;
-  coupling_changed = true;
+  attention.coupling_has_changed();
 }
 
 /// The encoder goes on from where it is, at the position that the axis has now.

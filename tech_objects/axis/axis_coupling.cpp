@@ -8,7 +8,7 @@ namespace lockstep {
 
 void AxisCoupling::show(const Job& job, AxisMotion motion) noexcept {
   motion_ = motion;
-  coupling_changed = true;
+  attention.coupling_has_changed();
   LeadingObject* const master = master_of(job);
   auto& status = data.StatusSynchronizedMotion;
   status.FunctionState = function_state(job.kind);
@@ -52,7 +52,7 @@ void AxisCoupling::end_simulated(JobPhase phase, ErrorId error) noexcept {
 void AxisCoupling::forget() noexcept {
   synchronous_.end();
   coupled_ = {};
-  coupling_changed = true;
+  attention.coupling_has_changed();
   auto& status = data.StatusSynchronizedMotion;
   status.FunctionState = 0;
   status.ActualMaster = DB_ANY{};

@@ -1,6 +1,7 @@
 /// By what an axis is led, and what shows of it.
 #pragma once
 
+#include "tech_objects/axis/attention.hpp"
 #include "tech_objects/axis/axis_state.hpp"
 #include "tech_objects/jobs/job.hpp"
 #include "tech_objects/synchronous/synchronous_motion.hpp"
@@ -14,7 +15,7 @@ struct AxisCouplingParts {
   SynchronousMotion& synchronous_;
   Coupled& coupled_;
   Job*& simulated_;
-  bool& coupling_changed;
+  Attention& attention;
 };
 
 /// Begins and forgets couplings; jobs are not ended by it, but for the gear that is simulated. Thread: the

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tech_objects/axis/arrival.hpp"
+#include "tech_objects/axis/attention.hpp"
 #include "tech_objects/axis/axis_requests.hpp"
 #include "tech_objects/axis/axis_state.hpp"
 #include "tech_objects/axis/backlash.hpp"
@@ -73,8 +74,6 @@ class AxisParts : public ConfiguredAxis {
   BOOL control_panel{};
   /// Load time. Has every cycle carried out in full, whatever happens in it: for comparisons.
   bool never_plain = false;
-  /// Raised when a coupling has changed, so that the order of the axes is built anew.
-  bool coupling_changed = false;
   /// Whether the awaited leading axis is stepped before this one; told by the order.
   bool awaited_axis_in_order = true;
 
@@ -115,6 +114,10 @@ class AxisParts : public ConfiguredAxis {
   Blending blending_;
 
   // Jobs.
+ public:
+  Attention attention;
+
+ protected:
   SynchronousMotion awaited_;  // what the waiting job prepares
   AxisData start_values_;
 

@@ -28,7 +28,7 @@ void DriveFaults::lose_sensor() noexcept {
   if (encoders_.lost()) return;
   encoders_.lose();
   data.StatusSensor[encoders_.operative()].State = SensorState::not_valid;
-  coupling_changed = true;  // axes that follow are told
+  attention.coupling_has_changed();  // axes that follow are told
   if (!encoders_.absolute(encoders_.operative())) homed_ = false;
 }
 

@@ -2,6 +2,7 @@
 /// @source S7-1500T alarms 411, 421, 431; PROFIdrive state machine
 #pragma once
 
+#include "tech_objects/axis/attention.hpp"
 #include "tech_objects/axis/reactions.hpp"
 #include "tech_objects/axis/sensors.hpp"
 
@@ -17,7 +18,7 @@ struct FaultParts {
   const AxisPosition& actual_;
   Encoders& encoders_;
   bool& homed_;
-  bool& coupling_changed;
+  Attention& attention;
   DriveControl& drive_control_;
   SensorOrders& sensors_;
   Reactions& reactions_;

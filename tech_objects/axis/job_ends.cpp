@@ -20,7 +20,7 @@ void JobEnds::end(Slot slot, JobPhase phase, ErrorId error) noexcept {
   if (slot == kBase && leaves(job->kind)) data.StatusSynchronizedMotion.FunctionState = 0;
   if (slot == kWaiting || slot == kWaitingOut) {
     show_waiting();
-    coupling_changed = true;
+    attention.coupling_has_changed();
   }
 }
 

@@ -1,6 +1,7 @@
 /// How the jobs of an axis end, and what their ends leave behind.
 #pragma once
 
+#include "tech_objects/axis/attention.hpp"
 #include "tech_objects/axis/axis_state.hpp"
 #include "tech_objects/axis/homing_course.hpp"
 #include "tech_objects/axis/job_slots.hpp"
@@ -18,7 +19,7 @@ struct JobEndParts {
   const bool& position_controlled_;
   HomingCourse& homing_;
   bool& homing_now_;
-  bool& coupling_changed;
+  Attention& attention;
   SwitchOrders& switches_;
 };
 

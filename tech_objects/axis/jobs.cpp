@@ -6,7 +6,10 @@
 namespace lockstep {
 
 void Axis::submit(Job& job) noexcept {
-  if (!acts_at_once(job.kind)) return jobs_.submit(job);
+  if (!acts_at_once(job.kind)) {
+    attention.job_is_new();
+    return jobs_.submit(job);
+  }
   if (job.kind == JobKind::MC_SetAxisSTW && stopping() && !power.enable) {
     job.phase = JobPhase::aborted;  // by disabling, like all jobs
     return;

@@ -47,7 +47,7 @@ void FollowingOrders::begin_waiting(Job& job) noexcept {
   awaited_ = planned;
   jobs_.put(kWaiting, job, JobPhase::waiting);
   ends_.show_waiting();
-  coupling_changed = true;
+  attention.coupling_has_changed();
 }
 
 void FollowingOrders::watch_waiting() noexcept {
@@ -84,7 +84,7 @@ void FollowingOrders::activate_waiting(AxisMotion motion) noexcept {
     ended.end_of_profile = true;
   }
   if (!ends_.override_running(class_of(job, true), job)) {
-    coupling_changed = true;
+    attention.coupling_has_changed();
     return;
   }
   // The new cam continues the following position of the old one, with what is superimposed on it; what still

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "tech_objects/axis/attention.hpp"
 #include "tech_objects/axis/job_dynamics.hpp"
 
 namespace lockstep {
@@ -22,7 +23,7 @@ struct FollowingParts {
   SynchronousMotion& synchronous_;
   SynchronousMotion& awaited_;
   const bool& awaited_axis_in_order;
-  bool& coupling_changed;
+  Attention& attention;
   JobEnds& ends_;
   AxisCoupling& coupling_;
   StopOrders& stops_;

@@ -107,7 +107,7 @@ TEST(WaysToAnAxis, AreJobsClaimsAndLooking) {
   EXPECT_EQ(faults("\nAxis->set_sensor(1);"), "f:2: set_sensor\n");
   EXPECT_EQ(faults("static_cast<lockstep::Axis*>(Axis)->set_sensor(1);"), "f:1: set_sensor\n");
   EXPECT_EQ(faults("(*Axis).set_sensor(1);"), "f:1: set_sensor\n");
-  EXPECT_EQ(faults("Slave->coupling_changed = true;"), "f:1: coupling_changed\n");
+  EXPECT_EQ(faults("Slave->awaited_axis_in_order = true;"), "f:1: awaited_axis_in_order\n");
   EXPECT_EQ(faults("Axis->data.Override.Velocity = 0.0;"), "f:1: writes data\n");
   EXPECT_EQ(faults("lockstep::Axis& moved = *Axis;"), "f:1: another name of it, moved\n");
 }
