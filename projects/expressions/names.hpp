@@ -98,7 +98,8 @@ class Names final : public Scope {
 
   /// The place to which a path leads, in any case.
   FoundOperand find(std::string_view path) const;
-  /// The same; an index may be missing, as in "points[].x": then the place tells what it may choose from.
+  /// The place to which a path leads whose index may be missing, as in "points[].x": then the place tells
+  /// what it may choose from.
   FoundOperand find_elements(std::string_view path) const;
 
   /// For the compiler of expressions.

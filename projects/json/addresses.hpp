@@ -31,10 +31,11 @@ inline constexpr TextForm kEndpointForm = {
     R"(^([A-Za-z0-9._-]{1,253}|\[[^\]/]*:[^\]/]*\]):0*([0-9]{1,4}|[1-5][0-9]{4}|6[0-4][0-9]{3}|65[0-4][0-9]{2}|655[0-2][0-9]|6553[0-5])$)",
     &endpoint_problem};
 inline constexpr TextForm kNetworkForm = {
-    "address or network", "^([0-9.]+(/0*[0-9]{1,2})?|[0-9A-Fa-f.]*:[0-9A-Fa-f:.]*(/0*[0-9]{1,3})?)$",
+    "address or network",
+    "^([0-9]{1,3}(\\.[0-9]{1,3}){3}(/0*[0-9]{1,2})?|[0-9A-Fa-f.]*:[0-9A-Fa-f:.]*(/0*[0-9]{1,3})?)$",
     &network_problem};
-inline constexpr TextForm kSenderForm = {"IPv4 address or network", "^[0-9.]+(/0*[0-9]{1,2})?$",
-                                         &sender_problem};
+inline constexpr TextForm kSenderForm = {"IPv4 address or network",
+                                         "^[0-9]{1,3}(\\.[0-9]{1,3}){3}(/0*[0-9]{1,2})?$", &sender_problem};
 inline constexpr TextForm kLcmUrlForm = {
     "URL of an LCM network", R"(^(memq://|udpm://([0-9]+(\.[0-9]+){3}(:[0-9]+)?)?(\?ttl=[0-9]+)?)$)",
     &lcm_url_problem};
