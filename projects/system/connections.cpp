@@ -170,22 +170,44 @@ const DelayTime* Connections::delay_of(const LeadingObject* object) const noexce
   return found == delays_.end() ? nullptr : &*found;
 }
 
+/// Whether an object of the controller follows a proxy or another object there, by whatever axes between
+/// them, and is as far ahead in time as that is: none of them is coupled behind a delay or left out.
+bool Connections::leads_undelayed(const LeadingObject* from, const LeadingObject* to) const {
+  std::vector<const LeadingObject*> open = {from};
+  std::unordered_set<const LeadingObject*> seen;
+  while (!open.empty()) {
+    const LeadingObject* const object = open.back();
+    open.pop_back();
+    for (const Interconnection& row : rows_) {
+      const LeadingObject* const leading = row.local() ? row.source.object : row.proxy;
+      const LeadingObject* const following = row.following.object;
+      if (leading != object || following == nullptr || row.coupling == Coupling::delayed ||
+          is_left_out(following))
+        continue;
+      if (following == to) return true;
+      if (seen.insert(following).second) open.push_back(following);
+    }
+  }
+  return false;
+}
+
 /// What a delay has to be at least, with the others as they are computed so far: of a leading object the
-/// transfer to each proxy and what that brings forward, and as much as the proxy that it follows itself
-/// brings forward; of a proxy the delay of those among its axes that provide their value again.
+/// transfer to each proxy and what that brings forward; and as much as that of all whose value it passes on,
+/// or that pass on its own: proxies, and axes of its controller that provide their value again.
 double Connections::needed(const DelayTime& delay) const {
+  const LeadingObject* const object = delay.object.object;
   double lowest = 0.0;
   const auto add = [&](double value) { lowest = std::max(lowest, value); };
+  for (const DelayTime& other : delays_)
+    if (&other != &delay && other.object.controller == delay.object.controller &&
+        (leads_undelayed(object, other.object.object) || leads_undelayed(other.object.object, object)))
+      add(other.computed.value_or(0.0));
   for (const Interconnection& row : rows_) {
-    if (row.proxy == nullptr || row.left_out || row.following.object == nullptr) continue;
+    if (row.local() || row.left_out || row.source.object != object || row.following.object == nullptr)
+      continue;
     const DelayTime* const of_proxy = delay_of(row.proxy);
-    const DelayTime* const of_following = delay_of(row.following.object);
-    if (delay.proxy && row.proxy == delay.object.object && of_following != nullptr)
-      add(of_following->computed.value_or(0.0));
-    if (delay.proxy || of_proxy == nullptr) continue;
-    if (row.source.object == delay.object.object)
-      add(transfer_time(row.following.controller) + of_proxy->computed.value_or(0.0));
-    if (row.following.object == delay.object.object) add(of_proxy->computed.value_or(0.0));
+    add(transfer_time(row.following.controller) +
+        (of_proxy == nullptr ? 0.0 : of_proxy->computed.value_or(0.0)));
   }
   return lowest;
 }

@@ -84,6 +84,7 @@ class Connections {
   double needed(const DelayTime& delay) const;
   void follow_back(const LeadingObject* following, Route& route, std::vector<Route>& routes) const;
   bool leads_to(const LeadingObject* from, const LeadingObject* to) const;
+  bool leads_undelayed(const LeadingObject* from, const LeadingObject* to) const;
   bool is_left_out(const LeadingObject* axis) const;
   DelayTime* find_delay(const LeadingObject* object) noexcept;
 

@@ -48,6 +48,12 @@ bool senseless(const LeadingValueTelegram& telegram) noexcept {
           (!within_limits(telegram.value) || !modulo.contains(telegram.value.position.value)));
 }
 
+/// What it is more than that of the telegram before, so long has the source stood between them.
+std::int64_t grid_of(const LeadingValueTelegram& telegram) noexcept {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(telegram.time) -
+                                   telegram.sequence * static_cast<std::uint64_t>(telegram.cycle));
+}
+
 bool same_ring(const Modulo& a, const Modulo& b) noexcept {
   return a.enabled == b.enabled && (!a.enabled || (a.length == b.length && a.start == b.start));
 }
@@ -132,8 +138,7 @@ bool LeadingAxisProxy::adopt(const LeadingValueTelegram& telegram) noexcept {
 
 void LeadingAxisProxy::take(const LeadingValueTelegram& telegram, std::int64_t now) noexcept {
   // A tick that is late, but not missed, finds telegrams of what is ahead of its time.
-  const bool ahead = telegram.time > now + std::max(telegram.cycle, cycle_);
-  if (senseless(telegram) || ahead || !adopt(telegram)) {
+  if (senseless(telegram) || telegram.time > now + std::max(telegram.cycle, cycle_) || !adopt(telegram)) {
     ++counters_.refused;
     return;
   }
@@ -155,8 +160,8 @@ void LeadingAxisProxy::record(const LeadingValueTelegram& telegram, bool newest)
   Setpoint value = telegram.value;
   const DoubleDouble behind = source_renamed_ - telegram.renamed;
   if (behind.hi != 0.0) value.position = advanced(value.position, behind, modulo_);
-  const bool repeated =
-      telegram.valid ? !recorded_.add(telegram.time, value) : !newest && telegram.sequence == newest_;
+  const bool repeated = telegram.valid ? !recorded_.add(telegram.time, value, grid_of(telegram))
+                                       : !newest && telegram.sequence == newest_;
   if (repeated) {
     ++counters_.doubled;
     return;
@@ -240,6 +245,7 @@ void LeadingAxisProxy::lead() noexcept {
   delayed_ = !undelayed_.begun() && local_delay_ == 0
                  ? setpoint_
                  : undelayed_.step(recorded_, now_, now_ - delay_, longer_cycle());
+  recorded_.mark_unchanged();
   if (!within_limits(setpoint_) || !within_limits(delayed_)) return lose_range();
   if (!begins) return;
   last_setpoint_ = setpoint_;

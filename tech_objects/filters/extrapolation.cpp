@@ -36,15 +36,15 @@ void Extrapolation::reset(AxisPosition actual) noexcept {
     filter->first.set_behind(0.0);
     filter->second.set_behind(0.0);
   }
-  values_ = {actual, 0.0, actual, 0.0};
-  direction_ = 0;
-  held_ = 0.0;
+  values_ = {actual, 0.0, actual, 0.0, actual, 0.0};
+  play_ = play_ahead_ = {};
 }
 
 void Extrapolation::shift(double by) noexcept {
   actual_ = advanced(actual_, by, modulo_);
   values_.filtered_position = advanced(values_.filtered_position, by, modulo_);
   values_.position = advanced(values_.position, by, modulo_);
+  values_.ahead = advanced(values_.ahead, by, modulo_);
 }
 
 double Extrapolation::leading_axis_time(const ExtrapolationSettings& settings) const noexcept {
@@ -64,12 +64,26 @@ const ExtrapolatedValues& Extrapolation::step(AxisPosition actual, double veloci
   const double time = leading_part + time_of(settings.further_time);
   const double behind = position_filter_.behind();
   values_.filtered_position = advanced(actual, -behind, modulo_);
+  const double hysteresis = not_negative(settings.hysteresis);
   const AxisPosition last = values_.position;
-  pass_hysteresis(advanced(actual, values_.filtered_velocity * time - behind, modulo_),
-                  not_negative(settings.hysteresis));
+  pass_hysteresis(advanced(actual, values_.filtered_velocity * time - behind, modulo_), hysteresis, play_,
+                  values_.position);
   values_.velocity = settings.velocity_of_positions
                          ? rounded_difference(values_.position, last, modulo_) / period_
                          : values_.filtered_velocity;
+  const double further = time_of(settings.time_ahead);
+  if (further == 0.0) {
+    values_.ahead = values_.position;
+    values_.velocity_ahead = values_.velocity;
+    play_ahead_ = play_;
+    return values_;
+  }
+  const AxisPosition last_ahead = values_.ahead;
+  pass_hysteresis(advanced(actual, values_.filtered_velocity * (time + further) - behind, modulo_),
+                  hysteresis, play_ahead_, values_.ahead);
+  values_.velocity_ahead = settings.velocity_of_positions
+                               ? rounded_difference(values_.ahead, last_ahead, modulo_) / period_
+                               : values_.filtered_velocity;
   return values_;
 }
 
@@ -105,19 +119,21 @@ void Extrapolation::pass_tolerance_band(double velocity, double range) noexcept 
 /// A play: in the direction in which the leading value moves it is the extrapolated position; in the other it
 /// stands until that has come back by the hysteresis, and then follows at this distance. So it never steps. A
 /// hysteresis that becomes smaller counts when the distance has been used up.
-void Extrapolation::pass_hysteresis(AxisPosition position, double hysteresis) noexcept {
-  const double distance = rounded_difference(position, values_.position, modulo_);
-  const double width = std::max(hysteresis, held_);
-  if (direction_ == 0 || width == 0.0) direction_ = distance > 0.0 ? 1 : distance < 0.0 ? -1 : direction_;
-  const double back = -direction_ * distance;
+void Extrapolation::pass_hysteresis(AxisPosition position, double hysteresis, Play& play,
+                                    AxisPosition& output) const noexcept {
+  const double distance = rounded_difference(position, output, modulo_);
+  const double width = std::max(hysteresis, play.held);
+  if (play.direction == 0 || width == 0.0)
+    play.direction = distance > 0.0 ? 1 : distance < 0.0 ? -1 : play.direction;
+  const double back = -play.direction * distance;
   if (back <= 0.0) {
-    values_.position = position;
-    held_ = 0.0;
+    output = position;
+    play.held = 0.0;
   } else if (back > width) {
-    values_.position = advanced(position, direction_ * width, modulo_);
-    held_ = width;
+    output = advanced(position, play.direction * width, modulo_);
+    play.held = width;
   } else {
-    held_ = back;
+    play.held = back;
   }
 }
 

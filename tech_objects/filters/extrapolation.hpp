@@ -3,6 +3,7 @@
 ///
 ///   actual velocity → PT2 filter → tolerance band → velocity
 ///   actual position → PT2 filter → + velocity · extrapolation time → hysteresis → position
+///   …                          → + velocity · (extrapolation time + time ahead) → hysteresis → ahead
 ///
 /// @source S7-1500T synchronous operation V7, 5.2.3, 5.2.4, 13.1 (Extrapolation, StatusExtrapolation)
 #pragma once
@@ -21,6 +22,7 @@ struct ExtrapolationSettings {
   double velocity_lags[2]{};              ///< [s] … of the velocity
   double velocity_tolerance = 0.0;        ///< [u/s] width of the tolerance band
   double hysteresis = 0.0;                ///< [u]
+  double time_ahead = 0.0;                ///< [s] by which `ahead` is extrapolated further
 };
 
 /// The values on the way to the leading value, positions with their turns.
@@ -29,6 +31,8 @@ struct ExtrapolatedValues {
   double filtered_velocity = 0.0;  ///< [u/s] behind velocity filter and tolerance band
   AxisPosition position;           ///< extrapolated, behind the hysteresis: the leading value
   double velocity = 0.0;           ///< [u/s] of the leading value
+  AxisPosition ahead;              ///< the same further on, for whoever sees it behind a delay
+  double velocity_ahead = 0.0;     ///< [u/s] of that
 };
 
 /// Extrapolation of one leading axis, run once per interpolator cycle. Thread: the cycle.
@@ -66,8 +70,14 @@ class Extrapolation {
  private:
   void tune(const ExtrapolationSettings& settings) noexcept;
   void tune_position(FirstOrderLag& lag, double time_constant, bool compensated) noexcept;
+  /// A position that is held back while it comes back by no more than the hysteresis.
+  struct Play {
+    int direction = 0;  // in which it moves without being held back: 1, -1; 0: not known yet
+    double held = 0.0;  // by how much it is held back [u] ≥ 0
+  };
   void pass_tolerance_band(double velocity, double range) noexcept;
-  void pass_hysteresis(AxisPosition position, double hysteresis) noexcept;
+  void pass_hysteresis(AxisPosition position, double hysteresis, Play& play,
+                       AxisPosition& output) const noexcept;
 
   Modulo modulo_;
   double period_ = 0.001;      // [s]
@@ -77,8 +87,8 @@ class Extrapolation {
   Pt2Filter position_filter_;  // [u]
   Pt2Filter velocity_filter_;  // [u/s]
   ExtrapolatedValues values_;
-  int direction_ = 0;  // in which the leading value moves without being held back: 1, -1; 0: not known yet
-  double held_ = 0.0;  // by how much the hysteresis holds the leading value back [u] ≥ 0
+  Play play_;        // of `position`
+  Play play_ahead_;  // of `ahead`
 };
 
 }  // namespace lockstep

@@ -7,21 +7,39 @@
 
 namespace lockstep {
 
+/// Where the path on which it is now was in the last tick: behind a step of it, where it would have been.
+Setpoint AdaptedValue::path_before(const RecordedValues& recorded, const Setpoint& target, std::int64_t time,
+                                   std::int64_t passed) const noexcept {
+  if (recorded.stood_between(time - passed, time) == 0) return recorded.at(time - passed);
+  const double t = seconds(passed);
+  const double distance = (target.velocity - 0.5 * target.acceleration * t) * t;
+  return {advanced(target.position, -distance, recorded.modulo()), target.velocity - target.acceleration * t,
+          target.acceleration};
+}
+
+/// Looks where the path was in the last tick by what is known now, and begins a return if that is not where
+/// it was then.
+void AdaptedValue::compare(const RecordedValues& recorded, const Setpoint& target, std::int64_t passed,
+                           std::int64_t time, std::int64_t stood, std::int64_t cycle) noexcept {
+  const Setpoint was = path_before(recorded, target, time, passed);
+  if (was.position == followed_.position && was.velocity == followed_.velocity &&
+      was.acceleration == followed_.acceleration)
+    return;
+  const std::int64_t change = std::abs(time - passed - time_);
+  plan({rounded_difference(followed_.position, was.position, recorded.modulo()),
+        followed_.velocity - was.velocity, followed_.acceleration - was.acceleration},
+       kReturnCycles * cycle + 4 * (std::max(extrapolated_, stood) + change), 4 * stood);
+}
+
 const Setpoint& AdaptedValue::step(const RecordedValues& recorded, std::int64_t now, std::int64_t time,
                                    std::int64_t cycle) noexcept {
   const Setpoint target = recorded.at(time);
   const Modulo& modulo = recorded.modulo();
   if (begun_) {
     const std::int64_t passed = now - now_;
-    const Setpoint was = recorded.at(time - passed);
-    const bool same = was.position == followed_.position && was.velocity == followed_.velocity &&
-                      was.acceleration == followed_.acceleration;
-    if (!same) {
-      const std::int64_t change = std::abs(time - passed - time_);
-      plan({rounded_difference(followed_.position, was.position, modulo), followed_.velocity - was.velocity,
-            followed_.acceleration - was.acceleration},
-           kReturnCycles * cycle + 4 * (std::max<std::int64_t>(extrapolated_, 0) + change));
-    }
+    const std::int64_t stood = recorded.stood_between(stood_to_, time);
+    if (stood != 0 || time - passed != time_ || time_ > recorded.changed_from())
+      compare(recorded, target, passed, time, stood, cycle);
     returned_for_ += passed;
     if (returned_for_ >= return_time_) return_time_ = 0;
   }
@@ -29,6 +47,7 @@ const Setpoint& AdaptedValue::step(const RecordedValues& recorded, std::int64_t 
   now_ = now;
   time_ = time;
   extrapolated_ = time - recorded.newest_time();
+  stood_to_ = std::min(time, recorded.newest_time());
   followed_ = value_ = target;
   if (return_time_ == 0) return value_;
   const Difference beside = difference();
@@ -38,13 +57,14 @@ const Setpoint& AdaptedValue::step(const RecordedValues& recorded, std::int64_t 
   return value_;
 }
 
-/// Begins a return with what is left of the last one and more; it takes no less time than that has left.
-void AdaptedValue::plan(const Difference& more, std::int64_t time) noexcept {
+/// Begins a return with what is left of the last one and more; it takes no less time than that has left, and
+/// longer where the source has stood meanwhile.
+void AdaptedValue::plan(const Difference& more, std::int64_t time, std::int64_t stood) noexcept {
   Difference left;
   if (return_time_ != 0) left = difference();
   start_ = {left.position + more.position, left.velocity + more.velocity,
             left.acceleration + more.acceleration};
-  return_time_ = std::max(time, return_time_ - returned_for_);
+  return_time_ = std::max(time, return_time_ - returned_for_ + stood);
   returned_for_ = 0;
 }
 

@@ -12,7 +12,8 @@ namespace lockstep {
 /// shows that the path was another one, or another delay counts, the difference in position, velocity and
 /// acceleration goes to zero along a polynomial of fifth degree that begins with all three and ends at rest.
 /// It takes `kReturnCycles` cycles (the longer one of source and receiver), four times as long as the value
-/// was extrapolated, and four times the change of a delay, so that a long gap is not made up for in a hurry.
+/// was extrapolated, or its source stood in ticks that it has missed, and four times the change of a delay,
+/// so that a long gap is not made up for in a hurry: a leading value that goes on evenly does not turn back.
 /// Where values are interpolated and none is missing there is no difference, and the recorded path is given
 /// as it is, to the bit. The acceleration alone may step: where extrapolation ends to count it. Thread: the
 /// cycle.
@@ -41,7 +42,11 @@ class AdaptedValue {
     double velocity = 0.0;      // [u/s]
     double acceleration = 0.0;  // [u/s²]
   };
-  void plan(const Difference& more, std::int64_t time) noexcept;
+  void compare(const RecordedValues& recorded, const Setpoint& target, std::int64_t passed, std::int64_t time,
+               std::int64_t stood, std::int64_t cycle) noexcept;
+  void plan(const Difference& more, std::int64_t time, std::int64_t stood) noexcept;
+  Setpoint path_before(const RecordedValues& recorded, const Setpoint& target, std::int64_t time,
+                       std::int64_t passed) const noexcept;
   Difference difference() const noexcept;
 
   bool begun_ = false;
@@ -50,6 +55,7 @@ class AdaptedValue {
   std::int64_t now_ = 0;           // [ns] of the last tick
   std::int64_t time_ = 0;          // [ns] asked for then
   std::int64_t extrapolated_ = 0;  // [ns] by how much then
+  std::int64_t stood_to_ = 0;      // [ns] up to which steps of the path have been made up for
   Difference start_;               // of the return
   std::int64_t return_time_ = 0;   // [ns] of the whole return; 0: there is none
   std::int64_t returned_for_ = 0;  // [ns]

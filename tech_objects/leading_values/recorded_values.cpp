@@ -11,13 +11,10 @@ namespace {
 /// For so many cycles of the source its acceleration goes on behind the newest value.
 constexpr int kAccelerated = 4;
 
-/// Values beside those of the longest delay, for what is under way and for lost ones.
-constexpr int kBeside = 96;
-
 }  // namespace
 
 void RecordedValues::reserve() {
-  entries_.resize(std::size_t{kLongestLeadingDelay} + std::size_t{kBeside});
+  entries_.resize(kCapacity);
 }
 
 void RecordedValues::set_source(const Modulo& modulo, std::int64_t cycle) noexcept {
@@ -25,20 +22,38 @@ void RecordedValues::set_source(const Modulo& modulo, std::int64_t cycle) noexce
   cycle_ = cycle;
 }
 
-bool RecordedValues::add(std::int64_t time, const Setpoint& value) noexcept {
+bool RecordedValues::add(std::int64_t time, const Setpoint& value, std::int64_t grid) noexcept {
   if (entries_.empty()) return false;
-  if (count_ == entries_.size()) {
+  if (count_ == kCapacity) {
     if (time <= entry(0).time) return false;
-    first_ = (first_ + 1) % entries_.size();
+    first_ = (first_ + 1) & (kCapacity - 1);
     --count_;
   }
   std::size_t index = count_;
   while (index > 0 && entry(index - 1).time > time) --index;
   if (index > 0 && entry(index - 1).time == time) return false;
   for (std::size_t i = count_; i > index; --i) entry(i) = entry(i - 1);
-  entry(index) = {time, value};
+  entry(index) = {time, value, grid};
   ++count_;
+  changed_from_ = std::min(changed_from_, index == 0 ? INT64_MIN : entry(index - 1).time);
+  for (std::size_t i = std::max<std::size_t>(index, 1); i < count_ && i <= index + 1; ++i)
+    if (stood(entry(i - 1), entry(i)) > 0) newest_step_ = std::max(newest_step_, entry(i).time);
   return true;
+}
+
+/// For how long the source has stood between two neighbours; less than half a cycle is the noise of a clock.
+/// Whoever sends may put any number into a grid: it never counts for more than the time between them.
+std::int64_t RecordedValues::stood(const Entry& from, const Entry& to) const noexcept {
+  const auto time =
+      static_cast<std::int64_t>(static_cast<std::uint64_t>(to.grid) - static_cast<std::uint64_t>(from.grid));
+  return time > cycle_ / 2 ? std::min(time, to.time - from.time) : 0;
+}
+
+std::int64_t RecordedValues::sum_of_steps(std::int64_t from, std::int64_t to) const noexcept {
+  std::int64_t sum = 0;
+  for (std::size_t i = count_; i-- > 1 && entry(i).time > from;)
+    if (entry(i).time <= to) sum += stood(entry(i - 1), entry(i));
+  return sum;
 }
 
 Setpoint RecordedValues::at(std::int64_t time) const noexcept {
@@ -46,17 +61,30 @@ Setpoint RecordedValues::at(std::int64_t time) const noexcept {
   if (time >= newest.time) return behind(newest, time);
   if (time <= entry(0).time)
     return time == entry(0).time ? entry(0).value : Setpoint{entry(0).value.position, 0.0, 0.0};
-  std::size_t low = 0;
+  const std::size_t before = index_before(time);
+  return between(entry(before), entry(before + 1), time);
+}
+
+/// The last value that is no later than a time between the oldest and the newest. Most are asked for not far
+/// ahead of the newest.
+std::size_t RecordedValues::index_before(std::int64_t time) const noexcept {
   std::size_t high = count_ - 1;  // entry(low).time <= time < entry(high).time
+  std::size_t step = 1;
+  while (step < high && entry(high - step).time > time) {
+    high -= step;
+    step *= 2;
+  }
+  std::size_t low = step < high ? high - step : 0;
   while (high - low > 1) {
     const std::size_t middle = low + (high - low) / 2;
     (entry(middle).time <= time ? low : high) = middle;
   }
-  return between(entry(low), entry(high), time);
+  return low;
 }
 
 Setpoint RecordedValues::between(const Entry& from, const Entry& to, std::int64_t time) const noexcept {
   if (time == from.time) return from.value;
+  if (stood(from, to) > 0) return behind(from, time);
   const double h = seconds(to.time - from.time);
   const double u = static_cast<double>(time - from.time) / static_cast<double>(to.time - from.time);
   const double linear = from.value.velocity * h;

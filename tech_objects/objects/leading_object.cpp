@@ -14,7 +14,7 @@ namespace {
 constexpr double kAcquisitionTime = 0.0;
 
 /// The variables Extrapolation of the data block, as the kernel takes them.
-ExtrapolationSettings settings_of(const TO_Struct_Extrapolation& from) noexcept {
+ExtrapolationSettings settings_of(const TO_Struct_Extrapolation& from, double time_ahead = 0.0) noexcept {
   return {.makes_up_for_leading_axis = from.Settings.SystemDefinedExtrapolation != 0,
           .velocity_of_positions =
               from.Settings.ExtrapolatedVelocityMode == ExtrapolatedVelocityMode::by_differentiation,
@@ -22,7 +22,8 @@ ExtrapolationSettings settings_of(const TO_Struct_Extrapolation& from) noexcept 
           .position_lags = {from.PositionFilter.T1, from.PositionFilter.T2},
           .velocity_lags = {from.VelocityFilter.T1, from.VelocityFilter.T2},
           .velocity_tolerance = from.VelocityTolerance.Range,
-          .hysteresis = from.Hysteresis.Value};
+          .hysteresis = from.Hysteresis.Value,
+          .time_ahead = time_ahead};
 }
 
 }  // namespace
@@ -44,9 +45,15 @@ void LeadingObject::reset_leading(AxisPosition actual) noexcept {
 /// of differences of what an encoder reports would be noise.
 void LeadingObject::extrapolate(AxisPosition actual, double velocity,
                                 const TO_Struct_Extrapolation& settings) noexcept {
-  const ExtrapolatedValues& values = extrapolation_.step(actual, velocity, settings_of(settings));
+  const ExtrapolatedValues& values =
+      extrapolation_.step(actual, velocity, settings_of(settings, provided_delay()));
   last_leading_actual_ = leading_actual_;
   leading_actual_ = {values.position, values.velocity, 0.0};
+}
+
+Setpoint LeadingObject::ahead_of_delay() const noexcept {
+  const ExtrapolatedValues& values = extrapolation_.values();
+  return {values.ahead, values.velocity_ahead, 0.0};
 }
 
 void LeadingObject::shift_leading(double by) noexcept {

@@ -104,13 +104,18 @@ class LeadingObject : public TechnologyObject, public LeadingSource {
   /// Provides the leading value of this tick, and shows what is seen of it behind the delay.
   void provide(const Setpoint& value, bool position_led,
                TO_Struct_StatusProvidedLeadingValue& status) noexcept;
-  /// The delay that counts [s].
-  double provided_delay() const noexcept { return provided_ == nullptr ? 0.0 : provided_->delay(); }
+  /// The actual value of this tick where it will be behind the delay: that counts as a part of the
+  /// extrapolation time, ahead of the hysteresis, of what is provided.
+  /// @source S7-1500T synchronous operation V7, 5.2.4
+  Setpoint ahead_of_delay() const noexcept;
 
   std::uint32_t restarts_ = 0;
   std::uint32_t homings_ = 0;
 
  private:
+  /// The delay that counts [s].
+  double provided_delay() const noexcept { return provided_ == nullptr ? 0.0 : provided_->delay(); }
+
   Extrapolation extrapolation_;
   std::unique_ptr<ProvidedValue> provided_;  // nullptr: it does not provide
 };

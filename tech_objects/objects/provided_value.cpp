@@ -23,7 +23,8 @@ void ProvidedValue::step(std::int64_t now, const Setpoint& value, bool valid, bo
   telegram_.value = value;
   telegram_.valid = valid;
   telegram_.position_led = position_led;
-  recorded_.add(now, value);
+  executed_ += telegram_.cycle;
+  recorded_.add(executed_, value);
 }
 
 }  // namespace lockstep

@@ -28,13 +28,16 @@ class ProvidedValue {
   /// Positions have other names from now on, each by this more [u].
   void rename(double by) noexcept { recorded_.rename(by); }
 
-  /// As it was `delay` ago; ahead of all that is known where it stood then. After a `step`.
-  Setpoint delayed() const noexcept { return recorded_.at(telegram_.time - telegram_.delay); }
+  /// As it was `delay` ago; ahead of all that is known where it stood then. Ticks that have been missed do
+  /// not count: in them this controller has stood still, and what follows goes on from where it was. After a
+  /// `step`.
+  Setpoint delayed() const noexcept { return recorded_.at(executed_ - telegram_.delay); }
   /// What other controllers are told in this tick; the sender adds `renamed` and `restarts` of the object.
   const LeadingValueTelegram& telegram() const noexcept { return telegram_; }
 
  private:
-  RecordedValues recorded_;
+  RecordedValues recorded_;    // by the time of executed ticks
+  std::int64_t executed_ = 0;  // [ns] of those
   LeadingValueTelegram telegram_;
 };
 

@@ -121,14 +121,6 @@ void ExternalEncoder::before_axes() noexcept {
   publish();
 }
 
-/// What is measured is followed where it will be when it is followed: the time of the delay counts as part of
-/// the extrapolation time of what is provided.
-Setpoint ExternalEncoder::ahead_of_delay() const noexcept {
-  Setpoint value = leading_actual_;
-  value.position = advanced(value.position, value.velocity * provided_delay(), modulo_);
-  return value;
-}
-
 void ExternalEncoder::publish() noexcept {
   data.ActualPosition = actual_.value;
   data.ActualVelocity = actual_velocity_;

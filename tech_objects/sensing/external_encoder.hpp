@@ -76,7 +76,6 @@ class ExternalEncoder final : public LeadingObject {
   /// After which distance the encoder is where it was [u]; 0: never.
   double turn() const noexcept { return modulo_.enabled ? modulo_.length : 0.0; }
   void shift(double by) noexcept;
-  Setpoint ahead_of_delay() const noexcept;
   void publish() noexcept;
 
   double servo_period_ = 0.001;  // [s]

@@ -1,6 +1,6 @@
 // Any bytes on the channel of a transfer area: each message is two bytes for its length, and itself. What is
 // of the right type is made one of the right sender, with the values of the input; what counts goes to a
-// proxy.
+// proxy. What receivers tell is read from the same bytes.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -52,7 +52,16 @@ std::vector<std::string> seeds() {
     telegram.valid = telegram.position_led = true;
     add(input, writer.write(telegram));
   }
-  return {input};
+  leading_proxies_t told{};
+  told.accepted = 7;
+  told.area = "line.main";
+  told.controller = "PLC_2";
+  told.proxies = "Line, Other";
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(told.getEncodedSize()));
+  told.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  std::string of_receivers;
+  add(of_receivers, bytes);
+  return {input, of_receivers};
 }
 
 }  // namespace lockstep::fuzz
@@ -74,6 +83,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (const auto message = decode_leading_value(bytes))
       if (const auto telegram = reader.read(aimed(*message, now, now / kMilli), now))
         proxy.take(*telegram, now);
+    if (const auto told = decode_leading_proxies(bytes))
+      require(static_cast<std::size_t>(told->getEncodedSize()) == bytes.size(),
+              "what receivers tell is a whole message");
     proxy.servo(now);
     proxy.before_axes();
     const Setpoint& setpoint = proxy.setpoint();

@@ -170,6 +170,54 @@ TEST(Connections, OfTwoVirtualAxesOfOneProxyHaveOneDelay) {
   EXPECT_EQ(delays.at("A.Lead"), 14.0);
 }
 
+/// The virtual axis that passes the value on follows another one, and that the proxy.
+SystemFiles two_hops(const std::string& coupling = "setpoint") {
+  SystemFiles files = cascade();
+  ControllerFile middle = following(2);
+  middle.axis("Draw");
+  middle.axis("Virtual");
+  middle.gear("Draw", "Line", 1, 1, coupling);
+  middle.gear("Virtual", "Draw");
+  middle.provide("Virtual", 0.0);
+  files.add("B", middle);
+  return files;
+}
+
+// As in the cascade: what is between the proxy and the virtual axis is as far ahead as both.
+TEST(Connections, OfAVirtualAxisTwoHopsBehindItsProxyHaveTheDelayOfACascade) {
+  const Shown shown(two_hops());
+  EXPECT_EQ(shown.delays(), (Delays{{"C.Virtual", 2.0},
+                                    {"C.Line", 2.0},
+                                    {"B.Virtual", 10.0},
+                                    {"B.Line", 10.0},
+                                    {"A.Lead", 14.0},
+                                    {"D.Line", 0.0}}));
+  EXPECT_EQ(shown.routes("D.Far"), "C.Virtual B.Virtual B.Draw A.Lead extrapolated\n");
+}
+
+// Behind the delay nothing is brought forward, so that bringing the proxy forward would serve nobody.
+TEST(Connections, OfAVirtualAxisBehindADelayDoNotBringItsProxyForward) {
+  const Delays delays = Shown(two_hops("delayed")).delays();
+  EXPECT_EQ(delays.at("B.Virtual"), 10.0);
+  EXPECT_EQ(delays.at("B.Line"), 0.0);
+  EXPECT_EQ(delays.at("A.Lead"), 4.0);
+}
+
+// Both provide their value: 2 × 4 ms for the one, 2 × 1 ms would do for the other.
+TEST(Connections, OfAnAxisThatFollowsTheLeadingAxisAtHomeAreThoseOfThat) {
+  SystemFiles files = plain();
+  ControllerFile one = leading();
+  one.axis("Second");
+  one.gear("Second", "Lead");
+  one.provide("Second", 0.0);
+  files.add("A", one);
+  files.add("B", following(4));
+  files.add("C", following(1));
+  files.area("other", "A.Second", {"C.Line"});
+  EXPECT_EQ(Shown(files).delays(),
+            (Delays{{"A.Lead", 8.0}, {"A.Second", 8.0}, {"B.Line", 0.0}, {"C.Line", 0.0}}));
+}
+
 SystemFiles recursive() {
   SystemFiles files;
   ControllerFile a = cascading(1);

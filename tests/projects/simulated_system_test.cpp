@@ -234,6 +234,50 @@ TEST_P(WithoutDelay, IsExtrapolatedWithinTheWrittenBound) {
 
 INSTANTIATE_TEST_SUITE_P(Cycles, WithoutDelay, testing::Values("1ms", "2ms", "4ms"));
 
+/// Between the proxy and the virtual axis that passes the value on there is another axis: with the delays
+/// that are computed what follows behind the cascade is where the local follower is.
+TEST(SimulatedSystem, LeadsWhatFollowsTwoHopsBehindAProxyToTheSamePlace) {
+  SystemFiles files;
+  files.add("PLC_1", leading(0.0));
+  ControllerFile middle("middle", "2ms");
+  middle.proxy("Line", 0.1);
+  for (const char* const axis : {"Draw", "Virtual"}) middle.axis(axis, kRing);
+  middle.gear("Draw", "Line");
+  middle.gear("Virtual", "Draw");
+  middle.provide("Virtual", 0.0);
+  give_limits(middle);
+  files.add("PLC_2", middle);
+  ControllerFile far("far", "4ms");
+  far.proxy("Line");
+  far.axis("Far", kRing);
+  far.gear("Far", "Line");
+  give_limits(far);
+  files.add("PLC_3", far);
+  files.area("line", "PLC_1.Leader", {"PLC_2.Line"});
+  files.area("cascade", "PLC_2.Virtual", {"PLC_3.Line"});
+  EXPECT_EQ(apply_calculated_delays(files), 12 * kMilli);
+  SimulatedSystem machine(files.path());
+  machine.run_for(200ms);
+  for (const char* const controller : {"PLC_1", "PLC_2", "PLC_3"})
+    machine.write(std::string(controller) + ".couple", 1.0);
+  machine.run_for(200ms);
+  machine.write("PLC_1.go", 1.0);
+  const Axis& near = axis_of(machine, 0, "Near");
+  const Axis& behind = axis_of(machine, 2, "Far");
+  std::vector<double> path;  // of the local follower, by milliseconds
+  const std::int64_t begin = machine.now();
+  double worst = 0.0;
+  while (machine.now() < begin + 800 * kMilli) {
+    const std::size_t controller = machine.next();
+    machine.step();
+    if (controller == 0) path.push_back(line_of(near.setpoint(), kRing));
+    if (controller == 2 && !path.empty())
+      worst = std::max(worst, std::abs(line_of(behind.setpoint(), kRing) - path.back()));
+  }
+  EXPECT_GT(path.back(), 100.0);
+  EXPECT_LE(worst, 1e-9);
+}
+
 /// A cascade that loses its leading value comes to rest, and who follows it follows that, without an alarm.
 TEST(SimulatedSystem, BringsWhatFollowsACascadeToRestWhereThatIsLost) {
   SystemFiles files = three(0.012, 0.008);

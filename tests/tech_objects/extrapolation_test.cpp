@@ -319,6 +319,52 @@ TEST(ExtrapolationHysteresis, ThatBecomesSmallerDoesNotStep) {
   EXPECT_DOUBLE_EQ(extrapolation.position(3.5, 0.0, settings), 3.75);
 }
 
+// ---- Ahead, for whoever sees it behind a delay
+
+TEST(ExtrapolationAhead, IsThePositionAfterTheTimeAheadAsWell) {
+  ExtrapolationSettings settings;
+  settings.time_ahead = 0.02;
+  OnLine extrapolation;
+  for (int i = 0; i < 500; ++i) {
+    const double here = 3.0 * kPeriod * i;
+    const double shown = extrapolation.position(here, 3.0, settings);
+    if (i < 2) continue;
+    ASSERT_NEAR(shown, here + 3.0 * kPeriod, 1e-12) << "who sees it without a delay sees it as before";
+    ASSERT_NEAR(extrapolation.values().ahead.value, here + 3.0 * (kPeriod + 0.02), 1e-12);
+  }
+}
+
+/// Noise of the velocity is extrapolated by the time ahead too; the hysteresis comes behind that, and holds
+/// back what it makes of the position.
+TEST(ExtrapolationAhead, NeverReversesForNoiseThatIsSmallerThanTheHysteresisOnceItIsExtrapolated) {
+  std::mt19937_64 random(test::seed_of_test(10));
+  std::uniform_real_distribution<double> noise(-1.0, 1.0);
+  ExtrapolationSettings settings;
+  settings.hysteresis = 0.5;
+  settings.time_ahead = 0.2;  // 0.2 u by 1 u/s, to and fro
+  OnLine extrapolation;
+  double last = -1.0;
+  int held = 0;
+  for (int i = 0; i < 5000; ++i) {
+    extrapolation.position(2.0 * kPeriod * i, 2.0 + noise(random), settings);
+    const double ahead = extrapolation.values().ahead.value;
+    if (i > 0) {
+      ASSERT_GE(ahead, last) << i;
+    }
+    held += ahead == last ? 1 : 0;
+    last = ahead;
+  }
+  EXPECT_GT(held, 1000) << "there was something to hold back";
+  settings.hysteresis = 0.0;
+  bool reversed = false;
+  for (int i = 5000; i < 5100; ++i) {
+    extrapolation.position(2.0 * kPeriod * i, 2.0 + noise(random), settings);
+    reversed |= extrapolation.values().ahead.value < last;
+    last = extrapolation.values().ahead.value;
+  }
+  EXPECT_TRUE(reversed) << "without it the noise is seen";
+}
+
 // ---- Velocity
 // ---------------------------------------------------------------------------------------------------
 

@@ -286,6 +286,46 @@ TEST(AdaptedValue, MeetsTheRecordedPathAgainAfterAGap) {
   EXPECT_LE(met, 1020 + 4 * 18 + 8 + 1);
 }
 
+/// A source of 250 u/s that misses up to 30 ticks at a time for a while, even before the last ones are made up
+/// for: it stands in them. What is given goes on, slower, and never back nor by a step, and then is its path again.
+TEST(AdaptedValue, NeverTurnsBackForASourceThatHasMissedTicks) {
+  for (const std::int64_t delay : {std::int64_t{0}, 2 * kCycle, 5 * kCycle + 300'000, 60 * kCycle}) {
+    SCOPED_TRACE(testing::Message() << "delay " << delay << ", seed 5");
+    std::mt19937 random(5);
+    Receiver receiver;
+    receiver.delay = delay;
+    std::int64_t executed = 0, next = 0, skipped = 0;
+    double path = 0.0;
+    Setpoint last;
+    for (int i = 0; i < 20000; ++i) {
+      const std::int64_t now = i * kCycle;
+      if (now == next) {
+        path = 0.25 * static_cast<double>(executed);
+        receiver.values.add(now, {normalised({0, path}, kRing), 250.0, 0.0}, now - executed * kCycle);
+        ++executed;
+        const bool calm = i % 2000 > 200 || i > 15000;
+        const int missed = calm || random() % 20 != 0 ? 0 : 1 + static_cast<int>(random() % 30);
+        skipped += missed;
+        next += (1 + missed) * kCycle;
+      }
+      if (!receiver.values.reaches_back_to(now - delay)) continue;
+      const bool begun = receiver.adapted.begun();
+      const Setpoint given = receiver.step(now);
+      if (begun) {
+        const double moved = rounded_difference(given.position, last.position, kRing);
+        ASSERT_NEAR(moved, 0.0005 * (given.velocity + last.velocity), 1e-2) << i;
+        ASSERT_GE(given.velocity, 0.0) << i;
+        ASSERT_LE(given.velocity, 250.0 + 1e-9) << i;
+        ASSERT_NEAR(given.velocity, last.velocity, 25.0) << i;
+      }
+      last = given;
+    }
+    EXPECT_GT(skipped, 300);
+    EXPECT_FALSE(receiver.adapted.returning());
+    EXPECT_EQ(last.position, receiver.values.at(19999 * kCycle - delay).position);
+  }
+}
+
 TEST(AdaptedValue, GoesOverToAnotherDelayWithoutAStep) {
   Receiver receiver;
   receiver.delay = 10 * kCycle;

@@ -292,6 +292,7 @@ TEST(Proxy, CountsAndDropsWhatNoSourceCanHaveSent) {
   EXPECT_EQ(refused([](auto& t) { t.renamed.hi = 1e16; }), 1u);
   EXPECT_EQ(refused([](auto& t) { t.delay = INT64_MAX; }), 1u);
   EXPECT_EQ(refused([](auto& t) { t.cycle = 0; }), 1u);
+  EXPECT_EQ(refused([](auto& t) { t.cycle = INT64_MAX; }), 1u);
   EXPECT_EQ(refused([](auto& t) { t.modulo.length = -1.0; }), 1u);
   EXPECT_EQ(refused([](auto& t) { t.renamed.hi = std::nan(""); }), 1u);
   EXPECT_EQ(refused([](auto& t) { t.delay = -1; }), 1u);
@@ -356,6 +357,35 @@ TEST(Proxy, OfAnEncoderHasWhatItProvidesAheadOfTheDelay) {
   EXPECT_NEAR(receiver.proxy.data.Position, encoder.leading_state(Coupling::actual).position.value, 1e-6);
   EXPECT_NEAR(encoder.data.StatusProvidedLeadingValue.DelayedLeadingValue.Position,
               receiver.proxy.data.Position, 1e-9);
+}
+
+/// An encoder with noise: by the delay of 0.1 s it would be seen to and fro by a unit. The delay counts ahead
+/// of the hysteresis, and nobody who follows the proxy goes back.
+TEST(Proxy, OfAnEncoderWithNoiseDoesNotReverseWithinTheHysteresis) {
+  Rig source;
+  auto& encoder =
+      static_cast<ExternalEncoder&>(source.controller.add_object(ObjectKind::TO_ExternalEncoder, "Encoder"));
+  Value signal{};
+  encoder.source_settings.signal = {&signal, Type::LREAL, -1};
+  encoder.data.Extrapolation.Hysteresis.Value = 3.0;
+  encoder.data.CrossPlcSynchronousOperation.Interface[0].EnableLeadingValueOutput = true;
+  encoder.data.CrossPlcSynchronousOperation.LocalLeadingValueDelayTime = 0.1;
+  Wire wire;
+  source.controller.telegram_outputs.push_back({&encoder, &wire.from});
+  Receiver receiver(wire, kMillisecond, 1, false);
+  double last = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    signal.r = 0.02 * i + (i % 2 == 0 ? 0.005 : -0.005);  // 20 u/s, ±10 u/s of noise
+    source.tick();
+    receiver.tick();
+    const double position = receiver.proxy.data.Position;
+    if (i > 300) {
+      ASSERT_GE(position, last - 1e-9) << i;
+    }
+    last = position;
+  }
+  EXPECT_TRUE(receiver.bit(ProxyBit::LeadingValueValid));
+  EXPECT_NEAR(last, signal.r, 3.0);
 }
 
 // ---- The blocks of table 4.4, proxy column

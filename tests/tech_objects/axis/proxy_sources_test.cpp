@@ -227,7 +227,104 @@ TEST(ProxySources, OnALineLeadToTheSamePlaceHoweverFarTheyGo) {
   EXPECT_EQ(pair.receiver.proxy.data.StatusExternalLeadingValue.ModuloLength, 0.0);
 }
 
+// ---- A source that misses ticks, and stands still in them
+
+/// Whoever follows behind the delay at home stands still with it, and whoever follows elsewhere goes on,
+/// slower, until it is at the same place again; the rigs watch that neither steps.
+TEST(ProxySources, ThatMissTicksLeadNobodyBackNorByAStep) {
+  for (const double delay : {0.0, 0.002, 0.004, 0.03}) {
+    SCOPED_TRACE(delay);
+    Pair pair(delay);
+    pair.receiver.proxy.data.Parameter.ToleranceTimeExternalLeadingValueInvalid = 0.5;
+    pair.receiver.continuity[0].highest_jerk = 2e7;  // of 0.3 u in 12 ms
+    pair.run(100);
+    pair.receiver.gear.Execute = pair.source.gear.Execute = true;
+    pair.run(50);
+    pair.source.move(300.0);
+    pair.run(2000);
+    for (const int missed : {1, 5, 6, 20, 100, 7, 7, 7}) {
+      pair.source.controller.skip(missed);
+      for (int i = 0; i < 4 * missed; ++i) {
+        pair.run(1);
+        ASSERT_GE(pair.receiver.follower.setpoint().velocity, 0.0) << missed;
+        ASSERT_FALSE(testing::Test::HasFailure()) << missed;
+      }
+    }
+    pair.run(600);
+    EXPECT_EQ(pair.receiver.proxy.data.ErrorDetail.Number, 0u);
+    EXPECT_EQ(pair.receiver.proxy.counters().missing, 0u) << "none was sent in those";
+    EXPECT_NEAR(
+        apart(pair.receiver.follower.setpoint(), pair.source.local.setpoint(), pair.source.leader.modulo()),
+        0.0, delay == 0.0 ? 1e-6 : 1e-9);
+  }
+}
+
+/// Ticks that are missed while somebody synchronizes elsewhere are no reversal: no alarm 608.
+TEST(ProxySources, ThatMissTicksWhileSomebodySynchronizesElsewhereAreMet) {
+  Pair pair(0.004);
+  pair.receiver.proxy.data.Parameter.ToleranceTimeExternalLeadingValueInvalid = 0.5;
+  pair.receiver.continuity[0].acceleration = false;  // behind the profile
+  pair.run(50);
+  pair.receiver.home.Execute = true;
+  pair.run(10);
+  pair.source.move(100.0);
+  pair.run(1000);
+  pair.receiver.gear_pos.MasterSyncPosition = 50.0;
+  pair.receiver.gear_pos.SlaveSyncPosition = 20.0;
+  pair.receiver.gear_pos.MasterStartDistance = 40.0;
+  pair.receiver.gear_pos.SyncProfileReference = 1;
+  pair.receiver.gear_pos.Execute = true;
+  bool stalled = false;
+  for (int i = 0; i < 3000 && !pair.receiver.gear_pos.InSync; ++i) {
+    if (!stalled && pair.receiver.gear_pos.StartSync) {
+      pair.run(100);
+      ASSERT_FALSE(pair.receiver.gear_pos.InSync) << "it has just begun";
+      pair.source.controller.skip(130);
+      stalled = true;
+    }
+    pair.run(1);
+  }
+  EXPECT_TRUE(stalled);
+  EXPECT_TRUE(pair.receiver.gear_pos.InSync);
+  EXPECT_EQ(pair.receiver.follower.pending_alarm(), 0);
+}
+
 // ---- Telegrams out of time
+
+/// A tick that is late by up to a second leaves telegrams to later ones; what is further ahead no tick can be
+/// late for. That is refused at once, and what comes behind it is taken.
+TEST(ProxySources, AheadByMoreThanASecondAreRefusedAndHoldNothingUp) {
+  Pair pair(0.002);
+  pair.run(50);
+  constexpr std::int64_t kSecond = 1000 * kMillisecond;
+  LeadingValueTelegram newest;
+  pair.source.wire.change = [&](const LeadingValueTelegram& one) { newest = one; };
+  pair.run(2);
+  pair.source.wire.cut = true;
+  pair.run(1);
+  const auto put = [&](std::int64_t ahead) {
+    const std::uint64_t taken = pair.receiver.proxy.counters().received;
+    LeadingValueTelegram telegram = newest;
+    telegram.sequence += 1;
+    telegram.time = pair.receiver.controller.now() + ahead;
+    pair.source.wire.to.put(telegram);
+    newest.sequence += 1;
+    newest.time = pair.receiver.controller.now();
+    pair.source.wire.to.put(newest);
+    pair.receiver.tick();
+    return pair.receiver.proxy.counters().received - taken;
+  };
+  EXPECT_EQ(put(kSecond + 1), 1u) << "the one behind it";
+  EXPECT_EQ(pair.receiver.proxy.counters().refused, 1u);
+  EXPECT_EQ(put(kSecond), 0u) << "its tick may come yet";
+  EXPECT_EQ(pair.receiver.proxy.counters().refused, 1u);
+  const std::uint64_t taken = pair.receiver.proxy.counters().received;
+  for (int i = 0; i < 998; ++i) pair.receiver.tick();
+  EXPECT_EQ(pair.receiver.proxy.counters().received, taken);
+  pair.receiver.tick();
+  EXPECT_GT(pair.receiver.proxy.counters().received, taken);
+  EXPECT_EQ(pair.receiver.proxy.counters().refused, 1u);
+}
 
 /// Homing while telegrams of before come after those of after it: they have the new names, and nothing moves.
 TEST(ProxySources, ThatAreHomedDoNotMoveWhatFollowsThoughOlderTelegramsComeLater) {
