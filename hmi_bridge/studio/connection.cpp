@@ -71,7 +71,7 @@ void Connection::read() {
   parser_.reset();
   upload_.reset();
   head_parser_.emplace();
-  head_parser_->header_limit(StudioServer::kHeaderBytes);
+  head_parser_->header_limit(StudioLimits::kHeaderBytes);
   head_parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // which depends on what it is for
   stream_.expires_after(listener_.options().request_time);
   http::async_read_header(stream_, buffer_, *head_parser_,
@@ -91,7 +91,7 @@ void Connection::take_head() {
   if (!is_upload) return read_body();
   // Nobody fills a disk who may not ask.
   if (!is_heard(url)) return;
-  if (head_parser_->content_length().value_or(0) > StudioServer::kUploadBytes) return refuse_size(true);
+  if (head_parser_->content_length().value_or(0) > StudioLimits::kUploadBytes) return refuse_size(true);
   if (!listener_.handler().takes_uploads())
     return refuse(403, "not_allowed", "files are taken at the desk alone, with lockstep studio");
   if (!begin_upload(listener_.options().upload_folder))
@@ -101,9 +101,9 @@ void Connection::take_head() {
 
 void Connection::read_body() {
   // A parser looks at the length while it reads the head alone.
-  if (head_parser_->content_length().value_or(0) > StudioServer::kBodyBytes) return refuse_size(false);
+  if (head_parser_->content_length().value_or(0) > StudioLimits::kBodyBytes) return refuse_size(false);
   parser_.emplace(std::move(*head_parser_));
-  parser_->body_limit(StudioServer::kBodyBytes);
+  parser_->body_limit(StudioLimits::kBodyBytes);
   http::async_read(stream_, buffer_, *parser_,
                    [self = shared_from_this()](beast::error_code error, std::size_t) {
                      if (error) return self->fail(error);
@@ -119,7 +119,7 @@ bool Connection::begin_upload(const std::string& folder) {
   ::close(file);
   upload_path_ = name;
   upload_.emplace(std::move(*head_parser_));
-  upload_->body_limit(StudioServer::kUploadBytes);
+  upload_->body_limit(StudioLimits::kUploadBytes);
   beast::error_code error;
   upload_->get().body().open(name.c_str(), beast::file_mode::write, error);
   return !error;
@@ -290,7 +290,7 @@ void Connection::drop() {
   stream_.async_read_some(asio::buffer(dropped_),
                           [self = shared_from_this()](beast::error_code error, std::size_t size) {
                             self->dropped_bytes_ += size;
-                            if (!error && self->dropped_bytes_ < StudioServer::kBodyBytes) self->drop();
+                            if (!error && self->dropped_bytes_ < StudioLimits::kBodyBytes) self->drop();
                           });
 }
 

@@ -14,7 +14,7 @@
 namespace lockstep::studio_net {
 
 /// One request after the other; it lives as long as something of it is under way.
-class Connection : public std::enable_shared_from_this<Connection> {
+class Connection final : public Connected, public std::enable_shared_from_this<Connection> {
  public:
   Connection(Listener& listener, Tcp::socket socket);
   ~Connection();
@@ -22,7 +22,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Connection& operator=(const Connection&) = delete;
 
   void read();
-  void close() noexcept;
+  void close() noexcept override;
   /// There are too many of them.
   void turn_away() { refuse(503, "too_many", "too many connections at once"); }
 

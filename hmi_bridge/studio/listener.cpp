@@ -3,24 +3,24 @@
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <cstring>
-#include <memory>
 #include <utility>
 
 #include "hmi_bridge/network/write_signals.hpp"
-#include "hmi_bridge/studio/connection.hpp"
-#include "hmi_bridge/studio/page.hpp"
 
 namespace lockstep::studio_net {
 
-Listener::Listener(StudioServerOptions options, StudioHandler& handler)
-    : options_(std::move(options)), guard_(options_.names, options_.token), handler_(handler) {}
+Listener::Listener(StudioServerOptions options, StudioHandler& handler, Welcome welcome)
+    : options_(std::move(options)),
+      guard_(options_.names, options_.token),
+      handler_(handler),
+      welcome_(welcome) {}
 
-void Listener::enter(Page& page) {
+void Listener::enter_page(Connected& page) {
   pages_.insert(&page);
   counters_.pages = pages_.size();
 }
 
-bool Listener::leave(Page& page) noexcept {
+bool Listener::leave_page(Connected& page) noexcept {
   if (pages_.erase(&page) == 0) return false;
   counters_.pages = pages_.size();
   return true;
@@ -65,13 +65,7 @@ void Listener::accept() {
     if (!error && !is_allowed(socket)) {
       ++counters_.refused;  // it learns nothing
     } else if (!error) {
-      guarded([&] {
-        const auto connection = std::make_shared<Connection>(*this, std::move(socket));
-        if (has_seat())
-          connection->read();
-        else
-          connection->turn_away();
-      });
+      guarded([&] { welcome_(*this, std::move(socket)); });
     }
     accept();
   });
@@ -88,7 +82,7 @@ bool Listener::is_allowed(const Tcp::socket& socket) const {
 }
 
 void Listener::look() {
-  timer_.expires_after(StudioServer::kLook);
+  timer_.expires_after(StudioLimits::kLook);
   timer_.async_wait([this](beast::error_code error) {
     if (error || stopping_) return;
     guarded([this] { handler_.look(); });
@@ -102,7 +96,7 @@ bool Listener::take_change() {
     second_ = now;
     changes_ = 0;
   }
-  return ++changes_ <= StudioServer::kChangesPerSecond;
+  return ++changes_ <= StudioLimits::kChangesPerSecond;
 }
 
 void Listener::run() noexcept {
@@ -116,8 +110,8 @@ void Listener::run() noexcept {
     }
   }
   handler_.ended();
-  for (Page* page : pages_) page->close();
-  for (Connection* connection : connections_) connection->close();
+  for (Connected* page : pages_) page->close();
+  for (Connected* connection : connections_) connection->close();
 }
 
 }  // namespace lockstep::studio_net

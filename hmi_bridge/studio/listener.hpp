@@ -13,7 +13,8 @@
 #include <string_view>
 #include <thread>
 
-#include "hmi_bridge/studio/server.hpp"
+#include "hmi_bridge/studio/handler.hpp"
+#include "hmi_bridge/studio/server_options.hpp"
 
 namespace lockstep::studio_net {
 
@@ -34,8 +35,14 @@ inline beast::string_view beast_view(std::string_view text) noexcept {
   return {text.data(), text.size()};
 }
 
-class Connection;
-class Page;
+/// Somebody who is connected, by HTTP or as a page.
+class Connected {
+ public:
+  virtual void close() noexcept = 0;
+
+ protected:
+  ~Connected() = default;
+};
 
 /// Listens, and knows who is connected. Thread: the server's, but for `start`, `stop`, `endpoint` and
 /// reading the counters.
@@ -53,7 +60,10 @@ class Listener {
     Listener& listener_;
   };
 
-  Listener(StudioServerOptions options, StudioHandler& handler);
+  /// Takes a connection that has come; whether there is a seat for it says `has_seat`.
+  using Welcome = void (*)(Listener&, Tcp::socket);
+
+  Listener(StudioServerOptions options, StudioHandler& handler, Welcome welcome);
 
   std::string start();
   void stop();
@@ -64,13 +74,13 @@ class Listener {
   StudioHandler& handler() noexcept { return handler_; }
   StudioCounters& counters() noexcept { return counters_; }
 
-  void enter(Connection& connection) { connections_.insert(&connection); }
-  void leave(Connection& connection) noexcept { connections_.erase(&connection); }
-  void enter(Page& page);
+  void enter(Connected& connection) { connections_.insert(&connection); }
+  void leave(Connected& connection) noexcept { connections_.erase(&connection); }
+  void enter_page(Connected& page);
   /// @return false: it had left before
-  bool leave(Page& page) noexcept;
-  bool has_space_for_page() const noexcept { return pages_.size() < StudioServer::kPages; }
-  bool has_seat() const noexcept { return seats_ <= StudioServer::kConnections; }
+  bool leave_page(Connected& page) noexcept;
+  bool has_space_for_page() const noexcept { return pages_.size() < StudioLimits::kPages; }
+  bool has_seat() const noexcept { return seats_ <= StudioLimits::kConnections; }
   /// Whether one more request that changes something is heard in this second.
   bool take_change();
 
@@ -91,12 +101,13 @@ class Listener {
   const StudioServerOptions options_;
   const StudioGuard guard_;
   StudioHandler& handler_;
+  const Welcome welcome_;
   StudioCounters counters_;
   std::uint16_t port_ = 0;
   std::size_t seats_ = 0;
-  std::set<Page*> pages_;
-  std::set<Connection*> connections_;  // those that ask by HTTP
-  asio::io_context context_{1};        // whose end ends connections, which know of what is above
+  std::set<Connected*> pages_;
+  std::set<Connected*> connections_;  // those that ask by HTTP
+  asio::io_context context_{1};       // whose end ends connections, which know of what is above
   Tcp::acceptor acceptor_{context_};
   asio::steady_timer timer_{context_};
   std::chrono::steady_clock::time_point second_;

@@ -21,7 +21,7 @@ Page::Page(Listener& listener, beast::tcp_stream stream, std::string peer)
       peer_(std::move(peer)),
       stream_(std::move(stream)),
       authorised_(!listener.guard().needs_token()) {
-  listener_.enter(*this);
+  listener_.enter_page(*this);
 }
 
 Page::~Page() {
@@ -36,7 +36,7 @@ void Page::accept(const Request& request) {
   timeout.keep_alive_pings = true;
   stream_.set_option(timeout);
   stream_.set_option(websocket::stream_base::decorator(name_ourselves));
-  stream_.read_message_max(StudioServer::kMessageBytes);
+  stream_.read_message_max(StudioLimits::kMessageBytes);
   stream_.auto_fragment(false);
   stream_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) return;
@@ -67,7 +67,7 @@ void Page::attempt(Call call) noexcept {
 }
 
 void Page::leave() noexcept {
-  if (listener_.leave(*this) && open_) listener_.handler().closed(*this);
+  if (listener_.leave_page(*this) && open_) listener_.handler().closed(*this);
 }
 
 void Page::read() {

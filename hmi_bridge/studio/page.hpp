@@ -14,7 +14,7 @@
 namespace lockstep::studio_net {
 
 /// It lives as long as something of it is under way.
-class Page final : public StudioClient, public std::enable_shared_from_this<Page> {
+class Page final : public StudioClient, public Connected, public std::enable_shared_from_this<Page> {
  public:
   Page(Listener& listener, beast::tcp_stream stream, std::string peer);
   ~Page() override;
@@ -23,7 +23,7 @@ class Page final : public StudioClient, public std::enable_shared_from_this<Page
 
   /// Answers the request that asks for a WebSocket, and begins to hear.
   void accept(const Request& request);
-  void close() noexcept;
+  void close() noexcept override;
 
   void send_text(std::string text) override { send({std::move(text), false}); }
   void send_bytes(std::vector<std::uint8_t> bytes) override {

@@ -1,10 +1,16 @@
 #include "hmi_bridge/traces/csv_reader.hpp"
 
+#include <sys/stat.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cstddef>
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace lockstep {
 namespace {
@@ -21,8 +27,9 @@ class Parser {
     names(line);
     while (next(line)) {
       values(line);
-      if (progress_ && line_ % kLinesPerLook == 0)
-        progress_(1.0 - static_cast<double>(text_.size()) / static_cast<double>(whole_));
+      if (line_ % kLinesPerLook != 0) continue;
+      if (line_ == kLinesPerLook) reserve();
+      if (progress_) progress_(1.0 - static_cast<double>(text_.size()) / static_cast<double>(whole_));
     }
     if (!text_.empty())
       table_.remark = place(line_ + 1, 1) + "the last line has no end: it was cut short and is left out";
@@ -62,29 +69,50 @@ class Parser {
     table_.reals.resize(table_.signals.size());
   }
 
-  void values(std::string_view line) {
-    std::size_t begin = 0;
-    for (std::size_t column = 0; begin <= line.size(); ++column) {
-      if (column > table_.columns.size()) fail(begin + 1, "more values than names: " + expected());
-      const std::size_t end = std::min(line.find(',', begin), line.size());
-      const std::string_view text = line.substr(begin, end - begin);
-      const double value = number(text, begin + 1);
-      if (column > 0 && text.find_first_of(".einEIN") != text.npos) table_.reals[column - 1] = true;
-      (column == 0 ? table_.t : table_.columns[column - 1]).push_back(value);
-      begin = end + 1;
-      if (end == line.size() && column < table_.columns.size())
-        fail(line.size() + 1, "fewer values than names: " + expected());
-    }
+  /// Memory for as many lines as there will be, if those to come are as long as those before.
+  void reserve() {
+    const double lines =
+        static_cast<double>(line_) * static_cast<double>(whole_) / static_cast<double>(whole_ - text_.size());
+    const auto rows = static_cast<std::size_t>(1.05 * lines);
+    table_.t.reserve(rows);
+    for (std::vector<double>& column : table_.columns) column.reserve(rows);
   }
 
-  double number(std::string_view text, std::size_t column) const {
+  void values(std::string_view line) {
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    const std::size_t width = table_.columns.size();
+    for (std::size_t column = 0; column <= width; ++column) {
+      double value = 0.0;
+      const auto [behind, error] = std::from_chars(at, end, value);
+      if (error != std::errc{} || (behind != end && *behind != ',')) refuse(line, at);
+      if (column == 0) {
+        table_.t.push_back(value);
+      } else {
+        if (!table_.reals[column - 1]) table_.reals[column - 1] = is_written_as_real({at, behind});
+        table_.columns[column - 1].push_back(value);
+      }
+      if (behind == end) {
+        if (column < width) fail(line.size() + 1, "fewer values than names: " + expected());
+        return;
+      }
+      at = behind + 1;
+    }
+    fail(static_cast<std::size_t>(at - line.data()) + 1, "more values than names: " + expected());
+  }
+
+  static bool is_written_as_real(std::string_view text) noexcept {
+    return text.find_first_of(".einEIN") != text.npos;
+  }
+
+  /// What begins here, up to the next comma, is no number.
+  [[noreturn]] void refuse(std::string_view line, const char* at) const {
+    const auto begin = static_cast<std::size_t>(at - line.data());
+    const std::string text(line.substr(begin, line.find(',', begin) - begin));
     double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc::result_out_of_range)
-      fail(column, "\"" + std::string(text) + "\" is outside the range of a double");
-    if (error != std::errc{} || end != text.data() + text.size())
-      fail(column, "\"" + std::string(text) + "\" is not a number");
-    return value;
+    const bool is_beyond =
+        std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc::result_out_of_range;
+    fail(begin + 1, '"' + text + (is_beyond ? "\" is outside the range of a double" : "\" is not a number"));
   }
 
   std::string expected() const {
@@ -101,17 +129,37 @@ class Parser {
   TraceTable table_;
 };
 
-std::string read_all(const std::string& path) {
+/// A file in memory, which nobody has filled with zeros before.
+struct FileText {
+  std::unique_ptr<char[]> bytes;
+  std::size_t size = 0, capacity = 0;
+
+  void grow(std::size_t wanted) {
+    std::unique_ptr<char[]> more = std::make_unique_for_overwrite<char[]>(wanted);
+    std::copy_n(bytes.get(), size, more.get());
+    bytes = std::move(more);
+    capacity = wanted;
+  }
+};
+
+std::size_t size_of(std::FILE* file) noexcept {
+  struct stat status {};
+  return ::fstat(::fileno(file), &status) == 0 && S_ISREG(status.st_mode)
+             ? static_cast<std::size_t>(status.st_size)
+             : 0;  // of a pipe nobody knows
+}
+
+FileText read_all(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rbe"), std::fclose);
   const auto fail = [&path] { throw TraceFormatError(path + ": " + std::generic_category().message(errno)); };
   if (!file) fail();
-  std::string text;
   constexpr std::size_t kBlock = std::size_t{1} << 20;
-  for (std::size_t got = kBlock; got == kBlock;) {
-    const std::size_t size = text.size();
-    text.resize(size + kBlock);
-    got = std::fread(text.data() + size, 1, kBlock, file.get());
-    text.resize(size + got);
+  FileText text;
+  text.grow(size_of(file.get()) + kBlock);
+  for (std::size_t got = 1; got != 0;) {
+    if (text.capacity - text.size < kBlock) text.grow(2 * text.capacity);
+    got = std::fread(text.bytes.get() + text.size, 1, text.capacity - text.size, file.get());
+    text.size += got;
   }
   if (std::ferror(file.get()) != 0) fail();
   return text;
@@ -125,8 +173,8 @@ TraceTable parse_csv_trace(std::string_view text, const std::string& name) {
 }
 
 TraceTable read_csv_trace(const std::string& path, const std::function<void(double)>& progress) {
-  const std::string text = read_all(path);
-  return Parser(text, path, progress).parse();
+  const FileText text = read_all(path);
+  return Parser({text.bytes.get(), text.size}, path, progress).parse();
 }
 
 }  // namespace lockstep
