@@ -61,6 +61,20 @@ def test_the_stub_declares_what_the_extension_module_has():
     assert (PACKAGE / "py.typed").exists()
 
 
+def test_all_that_python_defines_is_annotated():
+    """So that an editor and a checker of types know it: `py.typed` says that they may ask."""
+    functions = 0
+    for file in PACKAGE.glob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text())):
+            if not isinstance(node, ast.FunctionDef):
+                continue
+            arguments = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs, node.args.vararg, node.args.kwarg]
+            bare = [one.arg for one in arguments if one and one.annotation is None and one.arg not in ("self", "cls", "_")]
+            assert not bare and node.returns is not None, f"{file.name}:{node.lineno}: {node.name} {bare}"
+            functions += 1
+    assert functions > 60
+
+
 def test_errors_have_one_base_and_the_kin_that_python_gives_them():
     kin = {
         lockstep.InvalidProject: ValueError,

@@ -324,6 +324,43 @@ def test_changes_are_keys_by_pointers_and_values_by_paths(small):
         lockstep.Project(small, changes={"/name": object()})
 
 
+@pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf, np.float64("nan")])
+def test_a_number_that_is_not_finite_is_told_with_its_place(small, knife, number):
+    content = copy.deepcopy(small)
+    content["tags"]["speed"]["init"] = number
+    content["tags"]["heights"]["init"] = [1.0, number]
+    places = ["/tags/speed/init", "/tags/heights/init/1"]
+    assert [problem.place for problem in lockstep.check(content)] == places
+    with pytest.raises(lockstep.InvalidProject, match="/tags/speed/init: .*is no number of JSON; allowed: finite"):
+        lockstep.Project(content)
+    (problem,) = lockstep.check(knife, changes={"/tags/speed/init": number})
+    assert (problem.place, problem.file) == ("/tags/speed/init", str(knife))
+    with pytest.raises(lockstep.InvalidProject) as error:
+        lockstep.Project(knife, changes={"/tags/speed/init": number})
+    assert error.value.problems == [problem]
+    (row,) = lockstep.sweep(small, [{"/tags/speed/init": number}], seconds=0.01)
+    assert row.error.startswith("InvalidProject: ") and "/tags/speed/init" in row.error
+
+
+def test_check_lists_what_makes_a_text_no_json_where_keys_are_changed_too(tmp_path):
+    file = tmp_path / "broken.json"
+    file.write_text('{\n  "name": broken\n}\n')
+    (problem,) = lockstep.check(file, changes={"/name": "other"})
+    assert (problem.file, problem.line) == (str(file), 2)
+
+
+def test_an_expression_is_a_str(small):
+    project = lockstep.Project(small)
+    for wrong in (3, b"go", True, ["go"]):
+        with pytest.raises(TypeError, match="an expression is a str such as"):
+            project.run(1.0, until=wrong)
+        with pytest.raises(TypeError, match="an expression is a str such as"):
+            project.evaluate(wrong)
+    with pytest.raises(TypeError, match="not NoneType"):
+        project.evaluate(None)
+    assert project.ticks == 0
+
+
 def test_a_project_with_comments_can_be_changed(tmp_path, small):
     file = tmp_path / "commented.json"
     text = json.dumps(small, indent=1).replace('"clock"', '// a "clock" \n /* and\n more */ "clock"').replace('"An axis', '"http://axis')

@@ -9,7 +9,7 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 from . import _lockstep
-from .errors import OutOfRange, PathError, Problem, problems_from
+from .errors import InvalidProject, OutOfRange, PathError, Problem, problems_from
 from .fields import with_field_docs
 from .source import ProjectSource, Text, changed, text_of
 from .trace import Trace
@@ -88,7 +88,10 @@ def check(project: ProjectSource, *, changes: Mapping[str, Any] | None = None) -
     :raises OSError: the file cannot be read
     :raises PathError: a pointer of ``changes`` leads nowhere
     """
-    source = changed(text_of(project), _pointers(changes or {}))
+    try:
+        source = changed(text_of(project), _pointers(changes or {}))
+    except InvalidProject as error:  # before it is a text that the runtime could look at
+        return error.problems
     errors, warnings = _lockstep.check(*source)
     return problems_from(errors, warnings)
 
@@ -182,7 +185,7 @@ class Project:
         :raises KeyboardInterrupt: Ctrl-C; what ran up to then counts
         :raises MemoryError: as :meth:`step`
         """
-        return self._run.run(seconds_of(seconds), until)
+        return self._run.run(seconds_of(seconds), None if until is None else _expression_of(until))
 
     @property
     def time(self) -> float:
@@ -235,7 +238,7 @@ class Project:
 
         :raises ExpressionError: it is none, or names what is not there
         """
-        return self._run.evaluate(expression)
+        return self._run.evaluate(_expression_of(expression))
 
     # What has happened.
 
@@ -341,6 +344,16 @@ def path_of(path: str) -> str:
     if not isinstance(path, str):
         raise TypeError(f"a path is a str such as 'Axis.Position', not {type(path).__name__}")
     return path
+
+
+def _expression_of(expression: str) -> str:
+    """An expression as such.
+
+    :raises TypeError: it is no str
+    """
+    if not isinstance(expression, str):
+        raise TypeError(f"an expression is a str such as 'gear.InSync', not {type(expression).__name__}")
+    return expression
 
 
 def paths_of(paths: Iterable[str] | None) -> list[str] | None:

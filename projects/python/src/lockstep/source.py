@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, Union
 
@@ -39,10 +40,11 @@ def text_of(project: ProjectSource) -> Text:
     """The text of a project.
 
     :raises OSError: the file cannot be read
+    :raises InvalidProject: a number of the content is not finite
     :raises TypeError: what is given is neither a path nor a mapping
     """
     if isinstance(project, Mapping):
-        return Text(json.dumps(plain(project)).encode(), "", "")
+        return Text(_json_of(plain(project), ""), "", "")
     if not isinstance(project, (str, os.PathLike)):
         kind = type(project).__name__
         raise TypeError(f"a project is the path of its file, or its content as a mapping; not {kind}")
@@ -74,7 +76,7 @@ def changed(source: Text, changes: Mapping[str, Any]) -> Text:
     elements.
 
     :raises PathError: a pointer leads nowhere
-    :raises InvalidProject: the text is no JSON, or has a key twice
+    :raises InvalidProject: the text is no JSON, or has a key twice, or a number is not finite
     """
     if not changes:
         return source
@@ -88,7 +90,33 @@ def changed(source: Text, changes: Mapping[str, Any]) -> Text:
         raise InvalidProject([("1:1", f"the text cannot be changed: {error}", source.file)]) from None
     for pointer, value in changes.items():
         _set(document, pointer, plain(value))
-    return source._replace(text=json.dumps(document).encode(), as_written=False)
+    return source._replace(text=_json_of(document, source.file), as_written=False)
+
+
+def _json_of(document: Any, file: str) -> bytes:
+    """A document as text.
+
+    :raises InvalidProject: with the places of numbers that are not finite, which JSON has not
+    """
+    try:
+        return json.dumps(document, allow_nan=False).encode()
+    except ValueError:
+        found = [(place, f"{number} is no number of JSON; allowed: finite ones", file) for place, number in _not_finite(document)]
+        if not found:
+            raise
+        raise InvalidProject(found) from None
+
+
+def _not_finite(value: Any, place: str = "") -> Iterator[tuple[str, float]]:
+    """Numbers that are none, with their JSON pointers."""
+    if isinstance(value, float) and not math.isfinite(value):
+        yield place, value
+    elif isinstance(value, dict):
+        for key, member in value.items():
+            yield from _not_finite(member, f"{place}/{key.replace('~', '~0').replace('/', '~1')}")
+    elif isinstance(value, list):
+        for index, element in enumerate(value):
+            yield from _not_finite(element, f"{place}/{index}")
 
 
 def _without_comments(text: str) -> str:
