@@ -45,13 +45,6 @@ void write_output(const std::string& path, const std::string& text) {
   if (!written) throw CannotDo(path + ": " + std::generic_category().message(errno));
 }
 
-std::string stretch_name(const CamDefinition& definition, const CamStretch& stretch) {
-  if (!stretch.transition)
-    return std::string(cam_shape_name(definition.design.elements[stretch.element].shape));
-  return std::string(motion_law_name(stretch.kind)) + " " + task_letter(stretch.start_task) + "-" +
-         task_letter(stretch.end_task);
-}
-
 void add_cam_command(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("cam", "Design cams: figures, samples, checks, conversion, pictures");

@@ -9,6 +9,7 @@
 #include "cli/command/command.hpp"
 #include "cli/plot/picture.hpp"
 #include "projects/cam_files/definition.hpp"
+#include "projects/cam_files/facts.hpp"
 
 namespace lockstep::cli {
 
@@ -48,9 +49,6 @@ int with_cam(const CamInput& input, const Work& work) {
 
 /// Writes to a file, or to standard output for an empty path. @throws CannotDo, OutputFailed
 void write_output(const std::string& path, const std::string& text);
-
-/// What an element or transition is called in tables, such as "line" or "modified sine R-G".
-std::string stretch_name(const CamDefinition& definition, const CamStretch& stretch);
 
 /// The four diagrams: following value, velocity, acceleration and jerk over the leading value.
 Picture cam_picture(const CamDefinition& definition, const std::string& title);

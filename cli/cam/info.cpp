@@ -8,23 +8,16 @@
 #include "cli/cam/cam_command.hpp"
 #include "cli/describe/table.hpp"
 #include "cli/describe/values.hpp"
+#include "projects/cam_files/facts.hpp"
 
 namespace lockstep::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kQuantities[] = {"following value", "velocity", "acceleration", "jerk"};
 
 std::string shown(double value) {
   if (std::isnan(value)) return "-";
   return fmt::format("{:.7g}", value == 0.0 ? 0.0 : value);
-}
-
-/// JSON has neither infinity nor NaN.
-Json json_of(double value) {
-  if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
-  return std::isnan(value) ? Json(nullptr) : Json(value);
 }
 
 std::string_view continuity_name(Continuity continuity) {
@@ -161,56 +154,6 @@ std::string info_text(const CamDefinition& definition) {
   return text;
 }
 
-Json json_of(const MotionPeaks& peaks) {
-  Json json = Json::object();
-  for (const Figure& figure : kFigures) json[figure.name] = json_of(peaks.*figure.member);
-  return json;
-}
-
-Json json_of(const CamDefinition& definition, const CamStretch& stretch) {
-  Json json = {{"element", stretch.element},
-               {"transition", stretch.transition},
-               {"kind", stretch_name(definition, stretch)},
-               {"from", stretch.from},
-               {"to", stretch.to},
-               {"points", stretch.points},
-               {"segments", stretch.segments}};
-  if (stretch.curve) json["deviation"] = json_of(stretch.deviation);
-  if (!stretch.law) return json;
-  json["law"] = motion_law_name(stretch.kind);
-  json["task"] = std::string{task_letter(stretch.start_task), '-', task_letter(stretch.end_task)};
-  json["normalised"] = {{"law", json_of(stretch.law->normalised_peaks())},
-                        {"cam", json_of(mapped_peaks(*definition.cam.function, stretch))}};
-  json["absolute"] = {{"law", json_of(stretch.law->peaks())}};
-  return json;
-}
-
-Json info_json(const CamDefinition& definition) {
-  const CamFunction& cam = *definition.cam.function;
-  const CamExtremes all = extremes_of(cam, cam.start_leading_value(), cam.end_leading_value());
-  Json extremes = Json::object();
-  for (int order = 0; order < 4; ++order)
-    extremes[kQuantities[order]] = {json_of(all.lowest[order]), json_of(all.highest[order])};
-  Json joints = Json::array();
-  for (const CamJoint& joint : joints_of(cam, true))
-    joints.push_back({{"x", joint.x},
-                      {"steps", kQuantities[static_cast<int>(joint.keeps)]},
-                      {"left", json_of(joint.left)},
-                      {"right", json_of(joint.right)},
-                      {"wrap", joint.wrap}});
-  Json stretches = Json::array();
-  for (const CamStretch& stretch : definition.cam.stretches)
-    stretches.push_back(json_of(definition, stretch));
-  return {{"name", definition.name},
-          {"start", cam.start_leading_value()},
-          {"end", cam.end_leading_value()},
-          {"points", definition.cam.points.size()},
-          {"segments", definition.cam.segments.size()},
-          {"extremes", extremes},
-          {"joints", joints},
-          {"elements", stretches}};
-}
-
 }  // namespace
 
 void add_cam_info(CLI::App& cam, Action& action) {
@@ -228,7 +171,7 @@ void add_cam_info(CLI::App& cam, Action& action) {
   command->callback([&action, input, json] {
     action = [input, json] {
       return with_cam(*input, [&](const CamDefinition& definition) {
-        write_output("", *json ? json_text(info_json(definition)) + "\n" : info_text(definition));
+        write_output("", *json ? json_text(cam_facts(definition)) + "\n" : info_text(definition));
         return static_cast<int>(kOk);
       });
     };

@@ -21,6 +21,8 @@
 #include "hmi_bridge/studio/server.hpp"
 #include "hmi_bridge/traces/csv_reader.hpp"
 #include "projects/json/addresses.hpp"
+#include "projects/json/document.hpp"
+#include "projects/json/text_file.hpp"
 #include "projects/runtime/desk_run.hpp"
 #include "projects/studio/trace_exports.hpp"
 
@@ -49,6 +51,21 @@ bool is_trace(const std::string& file) {
   return file.ends_with(".csv") || file.ends_with(".lcm");
 }
 
+bool is_cam(const std::string& file) {
+  return file.ends_with(".cam.json");
+}
+
+/// The cam files among the files, which have to be there.
+std::vector<std::string> cams_among(const std::vector<std::string>& files) {
+  std::vector<std::string> cams;
+  for (const std::string& file : files)
+    if (is_cam(file)) {
+      read_text_file(file, JsonDocument::kLongest);  // which tells that it is not there
+      cams.push_back(file);
+    }
+  return cams;
+}
+
 /// A token for this start: 256 bits by chance, as hexadecimal digits.
 std::string made_token() {
   std::random_device chance;
@@ -64,9 +81,7 @@ std::string made_token() {
 std::string project_among(const StudioOptions& options) {
   std::string project;
   for (const std::string& file : options.files) {
-    if (is_trace(file)) continue;
-    if (file.ends_with(".cam.json"))
-      throw CannotServe(file + ": the studio has no cam editor yet; allowed: a project, traces (.csv, .lcm)");
+    if (is_trace(file) || is_cam(file)) continue;
     if (!project.empty()) throw CannotServe(file + ": one project is allowed, and " + project + " is one");
     project = file;
   }
@@ -153,6 +168,7 @@ int serve(const StudioOptions& options) {
   const std::string token = wanted.token;
   DeskHandler handler({.file = project,
                        .folder = folder_of(project),
+                       .cams = cams_among(options.files),
                        .read_only = options.read_only,
                        .describe = [](const std::string& path) { return describe_as_json(path); }});
   for (const std::string& file : options.files)
@@ -208,7 +224,8 @@ void add_studio_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("studio", "A simulation and traces in a browser, at the desk");
   auto options = std::make_shared<StudioOptions>();
   command->add_option("FILE", options->files,
-                      "a project, which is simulated and stands still at first, and traces (.csv, .lcm)");
+                      "a project, which is simulated and stands still at first, traces (.csv, .lcm), and cam "
+                      "files (.cam.json)");
   command->add_option("--listen", options->listen,
                       "HOST:PORT to listen on; without it 127.0.0.1:8780, or the next port that is free");
   command->add_option("--token-file", options->token_file,

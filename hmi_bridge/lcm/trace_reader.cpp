@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "hmi_bridge/lcm/event_messages.hpp"
 #include "hmi_bridge/network/visible_text.hpp"
 
 namespace lockstep {
@@ -139,7 +140,10 @@ bool LcmTraceReader::next() {
   const std::int64_t id = header().id;
   while (next_event()) {
     const std::string_view channel = event_.channel;
-    if (channel != channel_ && channel != channel_ + std::string(kHeaderSuffix)) continue;
+    if (channel != channel_ && channel != channel_ + std::string(kHeaderSuffix)) {
+      if (heard_) hear_event();
+      continue;
+    }
     switch (decoder_.accept(event_.data)) {
       case LcmDecoder::Message::kRow:
         return true;
@@ -179,7 +183,23 @@ bool LcmTraceReader::next_event() {
   return true;
 }
 
+/// The last event may be one of the trace's, or the detail of the one before.
+void LcmTraceReader::hear_event() {
+  const std::string_view channel = event_.channel;
+  if (!channel.starts_with(channel_)) return;
+  const std::string_view suffix = channel.substr(channel_.size());
+  if (suffix == kDetailSuffix && waiting_) add_detail(*waiting_, event_.data);
+  if (suffix != kEventsSuffix) return;
+  tell_event();
+  waiting_ = event_of(event_.data);
+}
+
+void LcmTraceReader::tell_event() {
+  if (waiting_) heard_(*std::exchange(waiting_, std::nullopt));
+}
+
 void LcmTraceReader::end_of_log() {
+  tell_event();
   if (!remark_.empty()) return;
   if (early_ > 0) remark_ = std::to_string(early_) + " rows of a trace with another header are left out";
   if (size_of_file(log_.get()) == offset_) return;

@@ -3,11 +3,15 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hmi_bridge/lcm/messages.hpp"
+#include "hmi_bridge/traces/event.hpp"
 #include "hmi_bridge/traces/table.hpp"
 
 namespace lockstep {
@@ -30,6 +34,13 @@ class LcmTraceReader {
   const std::vector<TraceSignal>& signals() const noexcept { return decoder_.signals(); }
   /// The row that `next` found, until the next call.
   TraceRow row() const noexcept { return decoder_.row(); }
+  /// Has events of the trace told while `next` goes on, each with what is known of it besides. What is no
+  /// event is passed over, whatever it is.
+  void hear_events(std::function<void(TraceEvent)> heard) { heard_ = std::move(heard); }
+  /// What part of the log has been read, from 0 to 1; 0 of what has no size.
+  double progress() const noexcept {
+    return size_ > 0 ? static_cast<double>(offset_) / static_cast<double>(size_) : 0.0;
+  }
   std::int64_t utime() const noexcept { return decoder_.message().utime; }  ///< [µs], of the row
   std::int64_t event_time() const noexcept { return event_.time; }          ///< [µs], of the row's event
   /// Names of channels that were compared to find the trace: what a log of many headers costs.
@@ -52,6 +63,8 @@ class LcmTraceReader {
   void open();
   void find_header();
   void end_of_log();
+  void hear_event();
+  void tell_event();
   [[noreturn]] void fail(const std::string& what) const;
 
   const std::string path_;
@@ -65,6 +78,8 @@ class LcmTraceReader {
   std::uint64_t early_ = 0;
   std::uint64_t comparisons_ = 0;
   std::string remark_;
+  std::function<void(TraceEvent)> heard_;  // nobody: events are passed over
+  std::optional<TraceEvent> waiting_;      // whose detail may come
 };
 
 /// Reads a whole trace.

@@ -5,10 +5,38 @@
 #include "hmi_bridge/studio/frames.hpp"
 
 namespace lockstep {
+namespace {
 
-void StudioStream::subscribe(std::uint32_t id, std::vector<std::size_t> signals, const TraceStore& store) {
+constexpr std::uint64_t kRowsAtOnce = 65'536;  // that are looked at, of which some are sent
+
+/// The first number from one on that another divides.
+std::uint64_t multiple_from(std::uint64_t number, std::uint64_t of) noexcept {
+  return (number + of - 1) / of * of;
+}
+
+/// Each so manieth element, from the first on.
+template <class Value>
+void thin_out(std::vector<Value>& values, std::uint64_t every) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < values.size(); i += every) values[kept++] = values[i];
+  values.resize(kept);
+}
+
+void thin_out(TraceWindow& window, std::uint64_t every) {
+  if (every == 1) return;
+  thin_out(window.t, every);
+  thin_out(window.tick, every);
+  for (TraceWindow::Column& column : window.columns) thin_out(column.first, every);
+}
+
+}  // namespace
+
+void StudioStream::subscribe(std::uint32_t id, std::vector<std::size_t> signals, const TraceStore& store,
+                             std::uint64_t every) {
   unsubscribe(id);
-  subscriptions_.push_back({id, std::move(signals), store.end(), 0, store.end()});
+  every = std::clamp<std::uint64_t>(every, 1, kSparsest);
+  const std::uint64_t first = multiple_from(store.end(), every);
+  subscriptions_.push_back({id, std::move(signals), first, 0, store.end(), every});
 }
 
 void StudioStream::unsubscribe(std::uint32_t id) {
@@ -29,7 +57,7 @@ void StudioStream::acknowledge(std::uint32_t frame) noexcept {
 void StudioStream::count_gaps(Subscription& subscription, const TraceStore& store) {
   if (subscription.row < store.begin()) {
     subscription.dropped += store.begin() - subscription.row;
-    subscription.row = store.begin();
+    subscription.row = multiple_from(store.begin(), subscription.every);
   }
   for (const TraceStore::Gap& gap : store.gaps())
     if (gap.row >= subscription.counted && gap.row <= subscription.row) subscription.dropped += gap.missing;
@@ -39,19 +67,23 @@ void StudioStream::count_gaps(Subscription& subscription, const TraceStore& stor
 std::vector<std::uint8_t> StudioStream::frame_of(Subscription& subscription, const TraceStore& store) {
   count_gaps(subscription, store);
   std::uint64_t end = store.end();
-  const std::uint64_t rows = end - subscription.row;
+  const std::uint64_t every = subscription.every;
+  const std::uint64_t rows = (end - subscription.row + every - 1) / every;
   StudioFrameHead head{StudioFrameKind::rows, subscription.id, ++frame_, subscription.dropped};
   TraceWindow window;
   if (rows > kRows) {
     head.kind = StudioFrameKind::coarse;
-    window = store.coarse(subscription.signals, subscription.row, end, (rows + kPoints - 1) / kPoints);
+    window =
+        store.coarse(subscription.signals, subscription.row, end, (rows + kPoints - 1) / kPoints * every);
   } else {
+    if (every > 1) end = std::min(end, subscription.row + kRowsAtOnce);
     // Rows are joined by the page within a frame only where none is missing.
     for (const TraceStore::Gap& gap : store.gaps())
       if (gap.row > subscription.row) end = std::min(end, gap.row);
     window = store.rows(subscription.signals, subscription.row, end);
+    thin_out(window, every);
   }
-  subscription.row = end;
+  subscription.row = multiple_from(end, every);
   return encode_frame(head, window);
 }
 

@@ -19,11 +19,14 @@ class StudioStream {
  public:
   static constexpr std::size_t kFrames = 8;                    ///< without an answer at most
   static constexpr std::size_t kBytes = std::size_t{4} << 20;  ///< the same
-  static constexpr std::uint64_t kRows = 512;    ///< of a frame; beyond, several come to a point
-  static constexpr std::uint64_t kPoints = 256;  ///< of a frame of points, about
+  static constexpr std::uint64_t kRows = 512;         ///< of a frame; beyond, several come to a point
+  static constexpr std::uint64_t kPoints = 256;       ///< of a frame of points, about
+  static constexpr std::uint64_t kSparsest = 10'000;  ///< every so manieth row at least
 
   /// Begins a subscription with the next row; one with this id is replaced.
-  void subscribe(std::uint32_t id, std::vector<std::size_t> signals, const TraceStore& store);
+  /// @param every only rows whose number it divides are sent, 1 to `kSparsest`
+  void subscribe(std::uint32_t id, std::vector<std::size_t> signals, const TraceStore& store,
+                 std::uint64_t every = 1);
   void unsubscribe(std::uint32_t id);
   /// The page has drawn all frames up to this one. Numbers that were not sent mean nothing.
   void acknowledge(std::uint32_t frame) noexcept;
@@ -39,6 +42,7 @@ class StudioStream {
     std::uint64_t row;          // that comes next
     std::uint64_t dropped = 0;  // rows missing before it
     std::uint64_t counted;      // gaps before this row are in `dropped`
+    std::uint64_t every;
   };
   struct Sent {
     std::uint32_t frame;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "hmi_bridge/network/write_signals.hpp"
@@ -111,6 +112,8 @@ void DeskRun::give_powers(const DeskOptions& options, StudioTraceFiles& files) {
   powers.files = &files;
   powers.trace_folder = options.folder;
   powers.project_file = options.file;
+  powers.project_folder = std::filesystem::path(options.file).parent_path().string();
+  for (const std::string& cam : options.cams) powers.cams.push_back({cam.substr(cam.rfind('/') + 1), cam});
   powers.describe = options.describe;
   if (!options.file.empty()) {
     powers.project_text = expanded_project(options.file);

@@ -26,6 +26,7 @@ namespace lockstep {
 struct DeskOptions {
   std::string file{};      ///< of the project; empty: there is none, only traces
   std::string folder{};    ///< in or below which pages name traces by path; empty: nowhere
+  std::vector<std::string> cams{};  ///< paths of cam files beside it
   bool read_only = false;  ///< pages only look; they may run the simulation no more than write into it
   std::function<std::optional<std::string>(const std::string&)> describe{};  ///< see StudioPowers
 };

@@ -1,6 +1,8 @@
 // The studio of a run: what others see of it over HTTP and WebSocket.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "projects/json/addresses.hpp"
 #include "projects/runtime/run_surroundings.hpp"
 
@@ -36,6 +38,7 @@ void RunSurroundings::empower_studio() {
   if (options_.simulate) powers.why_no_command = "virtual time runs as fast as it can: nobody commands in it";
   powers.describe = options_.describe;
   powers.health = [this] { return health(); };
+  powers.project_folder = std::filesystem::path(options_.file).parent_path().string();
   try {
     powers.project_text = expanded_project(options_.file);
   } catch (const UnreadableFile&) {

@@ -87,4 +87,9 @@ std::vector<std::string> paths_in(const Json& json, std::size_t limit) {
   return result;
 }
 
+bool is_partial(const Json& json) {
+  const auto found = json.find("partial");
+  return found != json.end() && found->is_boolean() && found->get<bool>();
+}
+
 }  // namespace lockstep::studio_api

@@ -46,6 +46,8 @@ std::int64_t whole_number(const StudioRequest& request, std::string_view key, st
 std::vector<std::string> split(std::string_view text);
 /// The paths that a message names; @throws BadRequest if they are none, or too many
 std::vector<std::string> paths_in(const Json& json, std::size_t limit);
+/// Whether what can be answered is wanted though something else of the question is wrong.
+bool is_partial(const Json& json);
 
 template <class List, class Convert>
 Json array_of(const List& list, Convert convert) {

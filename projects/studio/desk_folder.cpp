@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 #include "projects/studio/api.hpp"
 
@@ -19,22 +18,6 @@ namespace {
 using studio_api::BadRequest;
 
 constexpr std::size_t kLongestPath = 1024;
-
-class OpenFile {
- public:
-  explicit OpenFile(int number) noexcept : number_(number) {}
-  ~OpenFile() {
-    if (number_ >= 0) ::close(number_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  OpenFile(OpenFile&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  OpenFile& operator=(OpenFile&&) = delete;
-  int number() const noexcept { return number_; }
-
- private:
-  int number_;
-};
 
 /// Opens what lies below a folder; the system itself follows no link and no `..` on the path.
 OpenFile open_below(const std::string& folder, const std::string& name, std::uint64_t flags) {
@@ -52,16 +35,6 @@ OpenFile open_below(const std::string& folder, const std::string& name, std::uin
   if (error == ELOOP || error == EXDEV)
     throw BadRequest(403, "not_allowed", quoted + " is reached by a link; allowed: files by their own names");
   throw BadRequest(403, "not_allowed", quoted + ": " + std::strerror(error));
-}
-
-OpenFile open_file(const DeskFolder& folder, std::string_view name) {
-  folder.check_name(name);
-  OpenFile file = open_below(folder.path(), std::string(name), O_RDONLY | O_NONBLOCK);
-  if (file.number() < 0) refuse(name, errno);
-  struct stat status {};
-  if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
-    throw BadRequest(403, "not_allowed", "'" + std::string(name) + "' is no file");
-  return file;
 }
 
 bool write_all(int file, std::string_view content) {
@@ -106,13 +79,18 @@ bool DeskFolder::has(std::string_view name) const {
   return file.number() >= 0 || errno == ELOOP;
 }
 
-std::string DeskFolder::file(std::string_view name) const {
-  open_file(*this, name);
-  return path_ + "/" + std::string(name);
+OpenFile DeskFolder::open(std::string_view name) const {
+  check_name(name);
+  OpenFile file = open_below(path_, std::string(name), O_RDONLY | O_NONBLOCK);
+  if (file.number() < 0) refuse(name, errno);
+  struct stat status {};
+  if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
+    throw BadRequest(403, "not_allowed", "'" + std::string(name) + "' is no file");
+  return file;
 }
 
 std::string DeskFolder::read(std::string_view name, std::size_t maximum) const {
-  const OpenFile file = open_file(*this, name);
+  const OpenFile file = open(name);
   std::string content;
   char bytes[1 << 14];
   for (ssize_t got = 0; (got = ::read(file.number(), bytes, sizeof bytes)) != 0;) {

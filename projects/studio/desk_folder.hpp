@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include "projects/studio/open_file.hpp"
 
 namespace lockstep {
 
@@ -21,10 +24,10 @@ class DeskFolder {
   void check_name(std::string_view name) const;
   /// Whether there is something of this name, of any kind.
   bool has(std::string_view name) const;
-  /// The path of a regular file that is there.
+  /// A regular file that is there, open for reading: whoever puts a link in its place later changes nothing.
   /// @throws studio_api::BadRequest 403 beyond the folder, a link or no file, 404
-  std::string file(std::string_view name) const;
-  /// Its content, at most so many bytes. @throws as `file`; 413
+  OpenFile open(std::string_view name) const;
+  /// Its content, at most so many bytes. @throws as `open`; 413
   std::string read(std::string_view name, std::size_t maximum) const;
   /// Writes beside it, and gives it the name once all of it is on the disk.
   /// @throws studio_api::BadRequest 403, 404 its folder is not there, 409 it cannot be written

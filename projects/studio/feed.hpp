@@ -1,6 +1,7 @@
 /// What the pages of a run want to see, on its path from the cycle into a store.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -31,6 +32,7 @@ class StudioFeed {
   /// Hands over what is wanted as soon as the cycle takes it, and fetches rows.
   void look();
 
+  std::size_t wanted() const noexcept { return wanted_.size(); }
   SignalTap& tap() noexcept { return tap_; }
   const TraceStore& store() const noexcept { return store_; }
   /// Index of a signal in the store, which is made for it if nobody has wanted it yet.

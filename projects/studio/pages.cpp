@@ -1,5 +1,6 @@
 #include "projects/studio/pages.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -49,9 +50,29 @@ void StudioPages::check_sum(std::size_t more, const Page& page, std::uint32_t id
     throw BadRequest(422, "too_many", std::to_string(sum) + " signals of all pages; allowed: 1024");
 }
 
+/// How many rows there are to one that is sent: by `every`, or by `rate` [Hz].
+std::uint64_t StudioPages::every_of(const StudioMessage& message) const {
+  const auto every = message.json.find("every");
+  const auto rate = message.json.find("rate");
+  const bool has_every = every != message.json.end(), has_rate = rate != message.json.end();
+  if (has_every && has_rate) throw BadRequest(422, "bad_request", "either 'every' or 'rate'");
+  constexpr std::uint64_t kSparsest = StudioStream::kSparsest;
+  if (has_every) {
+    if (!every->is_number_unsigned() || *every < 1u || *every > kSparsest)
+      throw BadRequest(422, "out_of_range", "'every' has to be a whole number from 1 to 10000");
+    return every->get<std::uint64_t>();
+  }
+  if (!has_rate) return 1;
+  const double wanted = rate->is_number() ? rate->get<double>() : 0.0;
+  if (!(wanted > 0.0)) throw BadRequest(422, "out_of_range", "'rate' has to be a number above 0 [Hz]");
+  const auto cycle = static_cast<double>(project_.controller->clock.interpolator_cycle());
+  return static_cast<std::uint64_t>(std::clamp(1e9 / (wanted * cycle), 1.0, static_cast<double>(kSparsest)));
+}
+
 void StudioPages::subscribe(StudioClient& client, const StudioMessage& message) {
   Page& page = pages_.at(&client);
   const std::uint32_t id = message.number("id");
+  const std::uint64_t every = every_of(message);
   std::vector<NamedSignal> wanted;
   Json signals = Json::array();
   for (const std::string& path : paths_in(message.json, kSubscribed)) {
@@ -71,9 +92,9 @@ void StudioPages::subscribe(StudioClient& client, const StudioMessage& message) 
   std::vector<std::size_t> indices;
   for (const NamedSignal& signal : wanted) indices.push_back(feed_.index(signal));
   page.subscriptions[id] = std::move(wanted);
-  page.stream.subscribe(id, std::move(indices), feed_.store());
-  client.send_text(
-      text_of(Json{{"type", "subscribed"}, {"seq", message.seq}, {"id", id}, {"signals", signals}}));
+  page.stream.subscribe(id, std::move(indices), feed_.store(), every);
+  client.send_text(text_of(Json{
+      {"type", "subscribed"}, {"seq", message.seq}, {"id", id}, {"every", every}, {"signals", signals}}));
 }
 
 void StudioPages::tell(const std::string& text) const {

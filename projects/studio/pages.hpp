@@ -62,6 +62,7 @@ class StudioPages {
     bool is_known = false;  // it has said hello
   };
 
+  std::uint64_t every_of(const StudioMessage& message) const;
   void check_sum(std::size_t more, const Page& page, std::uint32_t id) const;
 
   const Project& project_;

@@ -13,6 +13,7 @@
 #include "hmi_bridge/traces/event.hpp"
 #include "projects/json/problem.hpp"
 #include "projects/studio/api.hpp"
+#include "projects/studio/cam_answers.hpp"
 #include "projects/studio/trace_files.hpp"
 
 namespace lockstep {
@@ -56,6 +57,8 @@ struct StudioPowers {
   StudioTraceFiles* files = nullptr;  ///< traces that pages give; nullptr: none are taken
   std::string trace_folder;           ///< in or below which pages name traces by path; empty: nowhere
   std::string project_file;           ///< that pages read and write, with its cams; empty: there is none
+  std::string project_folder;         ///< of files that the project names; empty: it names none
+  std::vector<StudioCam> cams;        ///< files that were given beside it
   std::string project_text;           ///< of the project, whole; empty: it is not known
   std::vector<Problem> warnings;      ///< of the loader
 };

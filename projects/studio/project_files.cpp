@@ -16,6 +16,7 @@ namespace {
 using namespace studio_api;
 
 constexpr std::string_view kCam = ".cam.json";
+constexpr std::string_view kLayouts = "studio.json";  // of pages, beside the project
 
 std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
@@ -49,7 +50,8 @@ bool names_etag(std::string_view list, std::string_view etag) noexcept {
   return false;
 }
 
-bool is_new_cam(std::string_view name) noexcept {
+bool may_be_new(std::string_view name) noexcept {
+  if (name == kLayouts) return true;
   return name.size() > kCam.size() && name.ends_with(kCam) && !name.starts_with('.') &&
          name.find('/') == name.npos;
 }
@@ -86,7 +88,7 @@ Json StudioProjectFiles::names() const {
 StudioAnswer StudioProjectFiles::answer(const StudioRequest& request, std::string_view name) const {
   folder_.check_name(name);
   if (request.method == "PUT") return put(request, name);
-  const bool is_file = is_held(name) || is_new_cam(name);
+  const bool is_file = is_held(name) || may_be_new(name);
   if (!is_file) throw BadRequest(404, "not_found", "the project has no file '" + std::string(name) + "'");
   StudioAnswer answer;
   answer.body = folder_.read(name, JsonDocument::kLongest);
@@ -96,10 +98,11 @@ StudioAnswer StudioProjectFiles::answer(const StudioRequest& request, std::strin
 }
 
 StudioAnswer StudioProjectFiles::put(const StudioRequest& request, std::string_view name) const {
-  if (!is_held(name) && !is_new_cam(name))
+  if (!is_held(name) && !may_be_new(name))
     throw BadRequest(404, "not_found",
                      "'" + std::string(name) +
-                         "' is no file of the project; allowed besides: a new NAME.cam.json in its folder");
+                         "' is no file of the project; allowed besides: a new NAME.cam.json in its folder, "
+                         "and studio.json");
   const bool is_there = folder_.has(name);
   if (request.if_match.empty() && request.if_none_match != "*")
     throw BadRequest(

@@ -1,5 +1,7 @@
 #include "projects/studio/project_text.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 
 #include "projects/json/problem.hpp"
@@ -110,6 +112,37 @@ bool names(std::string_view text, std::string_view name) {
   return false;
 }
 
+bool is_between(const Json& coupling, const Json& leading, std::string_view following) {
+  const Json& to = at(coupling, "leading");
+  const Json& of = at(coupling, "following");
+  return same_name(to.get_ref<const std::string&>(), leading.get_ref<const std::string&>()) &&
+         same_name(of.get_ref<const std::string&>(), following);
+}
+
+/// Adds those that the project allows, and of which no program makes anything.
+void add_possible_couplings(const Json& objects, Json& list) {
+  if (!objects.is_object()) return;
+  const std::size_t programmed = list.size();
+  for (const auto& [name, json] : objects.items()) {
+    const Json& allowed = at(json, "leading_values");
+    for (std::size_t i = 0; allowed.is_array() && i < allowed.size(); ++i) {
+      const Json& leading = at(allowed[i], "to");
+      if (!leading.is_string()) continue;
+      const auto begin = list.begin(), end = begin + static_cast<std::ptrdiff_t>(programmed);
+      const std::string& following = name;
+      if (std::any_of(begin, end, [&](const Json& one) { return is_between(one, leading, following); }))
+        continue;
+      Json one = {
+          {"following", name},
+          {"leading", leading},
+          {"possible", true},
+          {"pointer", "/technology_objects/" + escaped(name) + "/leading_values/" + std::to_string(i)}};
+      if (const Json& coupling = at(allowed[i], "coupling"); coupling.is_string()) one["coupling"] = coupling;
+      list.push_back(std::move(one));
+    }
+  }
+}
+
 }  // namespace
 
 StudioProjectText::StudioProjectText(std::string_view text) {
@@ -145,6 +178,7 @@ Json StudioProjectText::couplings() const {
       if (inputs.contains(key)) json[key] = written(inputs[key]);
     list.push_back(std::move(json));
   });
+  add_possible_couplings(at(document_, "technology_objects"), list);
   return list;
 }
 

@@ -28,6 +28,8 @@ class StudioProjectText {
   studio_api::Json configured(std::string_view object, std::string_view path) const;
   /// The cams that the project has, with their files.
   studio_api::Json cams() const;
+  /// All of it, without comments.
+  std::string whole() const { return studio_api::text_of(document_); }
 
  private:
   studio_api::Json document_;

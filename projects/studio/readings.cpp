@@ -18,14 +18,17 @@ constexpr std::chrono::seconds kReadTime{
 void StudioReadings::read(const StudioRequest& request, Done done) {
   Reading reading;
   Wrong wrong{422};
-  for (const std::string& path : paths_in(parsed(request.body), kRead)) {
+  const Json asked = parsed(request.body);
+  for (const std::string& path : paths_in(asked, kRead)) {
     std::string problem;
     if (std::optional<ReadPlace> place = read_place_at(project_, path, problem))
       reading.places.push_back(std::move(*place));
     else
       wrong.add("not_found", problem, {{"path", path}});
   }
-  if (!wrong.errors.empty()) return done(studio_api::answer_of(wrong));
+  const bool is_all_wrong = reading.places.empty() || !is_partial(asked);
+  if (!wrong.errors.empty() && is_all_wrong) return done(studio_api::answer_of(wrong));
+  reading.errors = std::move(wrong.errors);
   reading.until = Clock::now() + kReadTime;
   for (const ReadPlace& place : reading.places)
     for (const NamedSignal& signal : place.signals) {
@@ -59,8 +62,9 @@ StudioAnswer StudioReadings::answer_of(const Reading& reading) const {
     for (std::size_t i = 0; i < place.signals.size(); ++i) here.push_back(row.columns[column++].first[0]);
     values.push_back(reading_json(place, here, units_));
   }
-  return studio_api::answer_of(
-      Json{{"t", std::to_string(row.t[0])}, {"tick", std::to_string(row.tick[0])}, {"values", values}});
+  Json json = {{"t", std::to_string(row.t[0])}, {"tick", std::to_string(row.tick[0])}, {"values", values}};
+  if (!reading.errors.empty()) json["errors"] = reading.errors;
+  return studio_api::answer_of(json);
 }
 
 void StudioReadings::answer(Clock::time_point now) {

@@ -42,6 +42,7 @@ class StudioReadings {
  private:
   struct Reading {
     std::vector<studio_api::ReadPlace> places;
+    studio_api::Json errors{};         // of what cannot be read, where the rest is wanted all the same
     std::vector<std::size_t> indices;  // in the store, of the signals of all places
     std::uint64_t from;                // no older row answers
     Clock::time_point until;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "projects/studio/api_values.hpp"
+#include "projects/studio/cam_answers.hpp"
 #include "projects/studio/message.hpp"
 #include "projects/studio/trace_answers.hpp"
 #include "projects/studio/trace_part.hpp"
@@ -82,6 +83,7 @@ void StudioSession::answer(const StudioRequest& request, Done done) {
 StudioAnswer StudioSession::answer_post(const StudioRequest& request) {
   const bool posts = request.method == "POST";
   if (posts && request.path == "/api/traces") return take_trace(request);
+  if (posts && request.path == "/api/cam/design") return design_answer(request);
   if (posts && request.path == "/api/simulation") return change_simulation(request);
   if (posts && request.path.starts_with(kTraces) && request.path.ends_with(kDerived)) return derive(request);
   if (request.method == "DELETE" && request.path.starts_with(kTraces)) return remove_trace(request);
@@ -264,12 +266,17 @@ void StudioSession::tell_status(Clock::time_point now) {
   next_status_ = now + 1s;
   const TraceStore& store = feed_.store();
   const std::string t = store.end() > store.begin() ? std::to_string(store.t(store.end() - 1)) : "";
-  pages_.tell(text_of(Json{{"type", "status"},
-                           {"t", t},
-                           {"dropped", feed_.dropped()},
-                           {"bytes", store.bytes()},
-                           {"pages", pages_.size()},
-                           {"events_lost", inbox_->lost()}}));
+  Json status = {{"type", "status"},
+                 {"t", t},
+                 {"dropped", feed_.dropped()},
+                 {"bytes", store.bytes()},
+                 {"signals", feed_.wanted()},
+                 {"pages", pages_.size()},
+                 {"events_lost", inbox_->lost()}};
+  // How the cycle has gone, of a run in real time.
+  if (powers_.health && pages_.size() != 0)
+    status["cycle"] = Json::parse(powers_.health()).value("cycle", Json());
+  pages_.tell(text_of(status));
 }
 
 void StudioSession::look() {

@@ -76,11 +76,14 @@ class StudioSession final : public StudioHandler {
   StudioAnswer jobs() const;
   StudioAnswer traces() const;
   StudioAnswer part_of_trace(const StudioRequest& request) const;
+  StudioAnswer events_of(std::string_view id) const;
   StudioAnswer compare(const StudioRequest& request) const;
   StudioAnswer take_trace(const StudioRequest& request);
   StudioAnswer remove_trace(const StudioRequest& request);
   StudioAnswer derive(const StudioRequest& request);
   StudioAnswer change_simulation(const StudioRequest& request);
+  studio_api::Json cams() const;
+  StudioAnswer cam_named(const StudioRequest& request, const std::string& name) const;
   StudioAnswer answer_files(const StudioRequest& request);
   void tell_written(const StudioRequest& request, std::string_view name, const StudioAnswer& answer) const;
   bool read_at_once(const StudioRequest& request, const Done& done);

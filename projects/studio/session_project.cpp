@@ -2,6 +2,7 @@
 #include <string>
 
 #include "projects/studio/api_values.hpp"
+#include "projects/studio/cam_answers.hpp"
 #include "projects/studio/project_answers.hpp"
 #include "projects/studio/session.hpp"
 
@@ -38,13 +39,15 @@ StudioAnswer StudioSession::answer_project(const StudioRequest& request) const {
     answer.body = *told;
     return answer;
   }
+  if (request.path == "/api/cams") return answer_of(Json{{"cams", cams()}});
+  if (const std::string cam = behind(request, "/api/cams/"); !cam.empty()) return cam_named(request, cam);
   if (powers_.mode == StudioMode::files)
     return error_answer(404, "not_found", "there is no project, only traces");
   StudioAnswer answer;
   if (request.path == "/api/project") {
     Json json = Json::parse(studio_project(project_));
     json["couplings"] = text_.couplings();
-    json["cams"] = text_.cams();
+    json["cams"] = cams();
     json["files"] = project_files_.names();
     json["warnings"] = powers_.warnings.size();
     answer = answer_of(json);
@@ -68,6 +71,29 @@ StudioAnswer StudioSession::answer_project(const StudioRequest& request) const {
   answer.etag = "\"" + run_ + "\"";
   answer.cache = "no-cache";
   return answer;
+}
+
+/// Of the project, and files beside it.
+Json StudioSession::cams() const {
+  Json cams = text_.cams();
+  for (const StudioCam& cam : powers_.cams)
+    cams.push_back({{"name", cam.name}, {"type", "file"}, {"file", cam.name}});
+  return cams;
+}
+
+StudioAnswer StudioSession::cam_named(const StudioRequest& request, const std::string& name) const {
+  for (const StudioCam& cam : powers_.cams)
+    if (cam.name == name) try {
+        return cam_answer(request, load_cam_file(cam.path, "", kCam10kPoints));
+      } catch (const UnreadableFile& error) {
+        return error_answer(404, "not_found", error.what());
+      }
+  const Json all = text_.cams();
+  for (const Json& cam : all)
+    if (same_name(cam.at("name").get_ref<const std::string&>(), name))
+      return cam_answer(request,
+                        load_cam(text_.whole(), powers_.project_folder, cam.at("name"), kCam10kPoints));
+  return error_answer(404, "not_found", "there is no cam '" + name + "'");
 }
 
 /// Files of the project. Whoever tries to change one is told of, as of a write.
@@ -119,12 +145,19 @@ StudioAnswer StudioSession::change_simulation(const StudioRequest& request) {
 bool StudioSession::read_at_once(const StudioRequest& request, const Done& done) {
   if (powers_.simulation == nullptr) return false;
   std::vector<ReadPlace> places;
-  for (const std::string& path : paths_in(parsed(request.body), StudioReadings::kRead)) {
+  Wrong wrong{422};
+  const Json asked = parsed(request.body);
+  for (const std::string& path : paths_in(asked, StudioReadings::kRead)) {
     std::string problem;
     std::optional<ReadPlace> place = read_place_at(project_, path, problem);
-    if (!place || place->signals.front().signal.address == nullptr) return false;  // which is told there
-    places.push_back(std::move(*place));
+    if (place && place->signals.front().signal.address != nullptr)
+      places.push_back(std::move(*place));
+    else if (!place && is_partial(asked))
+      wrong.add("not_found", problem, {{"path", path}});
+    else
+      return false;  // which is told there
   }
+  if (places.empty()) return false;
   return powers_.simulation->while_paused([&](std::int64_t tick) {
     const Json values = array_of(places, [this](const ReadPlace& place) {
       std::vector<Value> loaded;
@@ -132,7 +165,9 @@ bool StudioSession::read_at_once(const StudioRequest& request, const Done& done)
       return reading_json(place, loaded, units_);
     });
     const std::int64_t t = tick * project_.controller->clock.servo_cycle;
-    done(answer_of(Json{{"t", std::to_string(t)}, {"tick", std::to_string(tick)}, {"values", values}}));
+    Json json = {{"t", std::to_string(t)}, {"tick", std::to_string(tick)}, {"values", values}};
+    if (!wrong.errors.empty()) json["errors"] = wrong.errors;
+    done(answer_of(json));
   });
 }
 

@@ -126,10 +126,20 @@ const TraceStore* StudioSession::find_trace(std::string_view id) const {
 StudioAnswer StudioSession::part_of_trace(const StudioRequest& request) const {
   const auto [id, what] = parts_of(request);
   const TraceStore& store = *find_trace(id);
-  if (what == "events") return events();
+  if (what == "events") return events_of(id);
   if (what != "xy") return trace_answer(request, what, store);
   const std::string_view with = request.value("with", id);
   return xy_answer(request, store, *find_trace(with));
+}
+
+/// Of the run, which shots are a part of; of a file what it has itself.
+StudioAnswer StudioSession::events_of(std::string_view id) const {
+  const StudioTraceFile* const file =
+      powers_.files == nullptr ? nullptr : std::as_const(*powers_.files).find(id);
+  const StudioHistory& history = file != nullptr ? file->history : history_;
+  return answer_of(Json{{"pending", array_of(history.pending(), event_json)},
+                        {"events", array_of(history.events(), event_json)},
+                        {"jobs", array_of(history.jobs(), job_json)}});
 }
 
 StudioAnswer StudioSession::compare(const StudioRequest& request) const {
@@ -141,21 +151,22 @@ StudioAnswer StudioSession::take_trace(const StudioRequest& request) {
   const bool is_sent = !request.body_file.empty();
   SentFile sent(request.body_file);
   if (!takes_uploads()) return error_answer(403, "not_allowed", powers_.why_no_files);
-  std::string path = request.body_file;
+  OpenFile named;
   std::string name(request.value("name", "trace.csv"));
   if (!is_sent) {
     const Json json = parsed(request.body);
     const auto given = json.is_object() ? json.find("path") : json.end();
     if (given == json.end() || !given->is_string())
       throw BadRequest(422, "bad_request", "'path' has to be the name of a file, or the body is one");
-    const auto named = given->get<std::string>();
-    path = trace_folder_.file(trace_folder_.name_of(named));
-    name = path.substr(path.rfind('/') + 1);
+    const auto path = given->get<std::string>();
+    named = trace_folder_.open(trace_folder_.name_of(path));
+    name = path;
   }
   name = name.substr(name.rfind('/') + 1).substr(0, kLongestName);
   if (!name.ends_with(".csv") && !name.ends_with(".lcm"))
     throw BadRequest(422, "bad_request", "'" + name + "' is no trace; it has to end in .csv or .lcm");
-  const StudioTraceFile* const file = powers_.files->add(path, name, is_sent);
+  const StudioTraceFile* const file = is_sent ? powers_.files->add(request.body_file, name, true)
+                                              : powers_.files->add(std::move(named), name);
   if (file == nullptr)
     throw BadRequest(422, "too_many",
                      "allowed: " + std::to_string(StudioTraceFiles::kFiles) + " files at once");

@@ -154,6 +154,9 @@ std::string trace_page(const TraceStore& store, const TracePart& part, const std
   const std::string script = "<script type=\"application/json\" id=\"lockstep-trace\">" + data + "</script>";
   if (const std::size_t body = page.find("<body"); body != std::string::npos)
     page.insert(page.find('>', body) + 1, script);
+  // It asks nobody for anything, not for its icon either.
+  if (const std::size_t icon = page.find("<link rel=\"icon\""); icon != std::string::npos)
+    page.erase(icon, page.find('>', icon) + 1 - icon);
   put_in(page, "<link rel=\"stylesheet\" href=\"", ">", "<style>", "</style>");
   put_in(page, "<script type=\"module\" src=\"", "</script>", "<script type=\"module\">", "</script>");
   return page;

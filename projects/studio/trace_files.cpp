@@ -50,13 +50,23 @@ StudioTraceFiles::~StudioTraceFiles() {
 }
 
 const StudioTraceFile* StudioTraceFiles::add(std::string path, std::string name, bool is_temporary) {
+  return queue(std::move(path), std::move(name), is_temporary, OpenFile());
+}
+
+const StudioTraceFile* StudioTraceFiles::add(OpenFile file, std::string name) {
+  std::string path = file.path();
+  return queue(std::move(path), std::move(name), false, std::move(file));
+}
+
+const StudioTraceFile* StudioTraceFiles::queue(std::string path, std::string name, bool is_temporary,
+                                               OpenFile opened) {
   if (files_.size() >= kFiles) return nullptr;
   StudioTraceFile& file = files_.emplace_back();
   file.id = "file-" + std::to_string(++number_);
   file.name = std::move(name);
   {
     const std::lock_guard lock(mutex_);
-    jobs_.push_back({file.id, std::move(path), file.name, is_temporary});
+    jobs_.push_back({file.id, std::move(path), file.name, is_temporary, std::move(opened)});
   }
   if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
   wake_.notify_one();
@@ -100,6 +110,7 @@ std::string StudioTraceFiles::take() {
     file->error = std::move(read.error);
     file->remark = std::move(read.remark);
     file->store = std::move(read.store);
+    file->history = std::move(read.history);
     return read.id;
   }
   StudioTraceFile* const file = find(current_);
@@ -119,6 +130,7 @@ StudioTraceFiles::Read StudioTraceFiles::read(const Job& job) {
   read.id = job.id;
   if (job.name.ends_with(".lcm")) {
     LcmTraceReader reader(job.path);
+    reader.hear_events([&read](TraceEvent event) { read.history.add(std::move(event)); });
     read.store.set_signals(reader.signals());
     std::int64_t before = std::numeric_limits<std::int64_t>::min();
     for (std::uint64_t rows = 0; reader.next(); ++rows) {
@@ -126,7 +138,7 @@ StudioTraceFiles::Read StudioTraceFiles::read(const Job& job) {
       if (row.t < before) throw TraceFormatError(job.name + ": the times of rows have to rise");
       before = row.t;
       read.store.append(row.t, row.tick, row.values);
-      if (rows % kRowsPerLook == 0) check_wanted(0.0);
+      if (rows % kRowsPerLook == 0) check_wanted(reader.progress());
     }
     read.remark = reader.remark();
   } else {

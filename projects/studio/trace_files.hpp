@@ -13,6 +13,8 @@
 #include <thread>
 
 #include "hmi_bridge/traces/store.hpp"
+#include "projects/studio/history.hpp"
+#include "projects/studio/open_file.hpp"
 
 namespace lockstep {
 
@@ -27,6 +29,7 @@ struct StudioTraceFile {
   std::string error;      ///< why it has failed
   std::string remark;     ///< what is missing of it; empty: nothing
   TraceStore store{TraceStoreLimits{}};
+  StudioHistory history;  ///< events and jobs of an LCM log
 };
 
 /// Thread: the server's, but for the reading. A file is read at a time, at the lowest priority.
@@ -43,6 +46,8 @@ class StudioTraceFiles {
   /// @param is_temporary it is removed when it has been read
   /// @return nullptr: there are too many
   const StudioTraceFile* add(std::string path, std::string name, bool is_temporary);
+  /// The same of a file that is open already, which is read whatever its name leads to by then.
+  const StudioTraceFile* add(OpenFile file, std::string name);
   /// @return false: there is no such file
   bool remove(std::string_view id);
   const StudioTraceFile* find(std::string_view id) const noexcept;
@@ -61,12 +66,15 @@ class StudioTraceFiles {
   struct Job {
     std::string id, path, name;
     bool is_temporary;
+    OpenFile file;  // that `path` leads to; none: the path is a name
   };
   struct Read {
     std::string id, error{}, remark{};
     TraceStore store{TraceStoreLimits{}};
+    StudioHistory history{};
   };
 
+  const StudioTraceFile* queue(std::string path, std::string name, bool is_temporary, OpenFile file);
   std::string take();
   void work() noexcept;
   Read read(const Job& job);

@@ -1,10 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <system_error>
+#include <utility>
+#include <vector>
 
+#include "hmi_bridge/lcm/event_messages.hpp"
 #include "hmi_bridge/lcm/log.hpp"
+#include "hmi_bridge/lcm/messages.hpp"
 #include "hmi_bridge/lcm/trace_reader.hpp"
 #include "tests/hmi_bridge/trace_samples.hpp"
 
@@ -89,6 +95,95 @@ TEST(LcmLog, TheHeaderStandsAtTheFrontAndOnceForEverySecond) {
   }
   lcm_eventlog_destroy(log);
   EXPECT_EQ(order, "HrrrrHrrrrHr");
+}
+
+TraceEvent alarm_of_the_knife() {
+  TraceEvent event;
+  event.kind = EventKind::alarm;
+  event.t = kPeriod;
+  event.tick = 2;
+  event.source = "Knife";
+  event.type = "TO_SynchronousAxis";
+  event.number = 521;
+  event.text = "following error";
+  event.reaction = 6;
+  event.reaction_text = "remove the enable";
+  event.cause = "it lags";
+  event.remedy = "look at Kv";
+  event.value_name = "following error";
+  event.limit_name = "permitted";
+  event.unit = "°";
+  event.value = 5.25;
+  event.limit = 5.0;
+  return event;
+}
+
+TEST(LcmLog, TellsItsEventsWithAllThatIsKnownOfThemAndHowFarItIs) {
+  const Directory directory;
+  const std::string path = directory.file("run.lcm");
+  const auto rows = sample_rows(40, 17);
+  TraceEvent started;
+  started.kind = EventKind::job_started;
+  started.source = "gear";
+  started.type = "MC_GearIn";
+  LcmLog log(path, kIdentity);
+  log.begin(sample_signals());
+  log.event(started);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    log.row({static_cast<std::int64_t>(i) * kPeriod, 2 * i, 0, rows[i]});
+    if (i == 1) log.event(alarm_of_the_knife());
+  }
+  log.end();
+
+  std::vector<TraceEvent> heard;
+  LcmTraceReader reader(path);
+  reader.hear_events([&heard](TraceEvent event) { heard.push_back(std::move(event)); });
+  double before = reader.progress();
+  EXPECT_LT(before, 0.2);
+  while (reader.next()) {
+    EXPECT_GT(reader.progress(), before);
+    before = reader.progress();
+  }
+  EXPECT_EQ(reader.progress(), 1.0);
+  ASSERT_EQ(heard.size(), 2u);
+  EXPECT_EQ(heard[0].kind, EventKind::job_started);
+  EXPECT_EQ(heard[0].source, "gear");
+  const TraceEvent wanted = alarm_of_the_knife();
+  EXPECT_EQ(heard[1].kind, wanted.kind);
+  EXPECT_EQ(heard[1].t, wanted.t);
+  EXPECT_EQ(heard[1].number, 521);
+  EXPECT_EQ(heard[1].text, wanted.text);
+  EXPECT_EQ(heard[1].reaction_text, wanted.reaction_text);
+  EXPECT_EQ(detail_lines(heard[1]), detail_lines(wanted));
+}
+
+TEST(LcmLog, PassesOverWhatIsNoEventOnTheirChannel) {
+  const std::vector<std::uint8_t> bytes(
+      LcmEncoder(kIdentity, sample_signals()).event(alarm_of_the_knife()).size());
+  EXPECT_FALSE(event_of(bytes)) << "all of it is 0";
+  LcmEncoder encoder(kIdentity, sample_signals());
+  const auto encoded = encoder.event(alarm_of_the_knife());
+  const std::vector<std::uint8_t> whole(encoded.begin(), encoded.end());
+  ASSERT_TRUE(event_of(whole));
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_FALSE(event_of(std::span(whole).first(size))) << size;
+  // Whatever is changed of it, it is an event or none, and takes no more memory than it has bytes.
+  for (std::size_t at = 0; at < whole.size(); ++at)
+    for (const int value : {0, 1, 0x7f, 0xff}) {
+      std::vector<std::uint8_t> changed = whole;
+      changed[at] = static_cast<std::uint8_t>(value);
+      const auto event = event_of(changed);
+      EXPECT_TRUE(!event || event->text.size() < whole.size());
+    }
+  TraceEvent other = alarm_of_the_knife();
+  const auto detail = encoder.detail(other);
+  const std::vector<std::uint8_t> known(detail.begin(), detail.end());
+  ++other.number;
+  EXPECT_FALSE(add_detail(other, known)) << "of another event";
+  for (std::size_t size = 0; size < known.size(); ++size) {
+    TraceEvent event = *event_of(whole);
+    EXPECT_FALSE(add_detail(event, std::span(known).first(size))) << size;
+  }
 }
 
 TEST(LcmLog, ATraceWithoutRowsStillTellsWhatItWouldHaveHeld) {

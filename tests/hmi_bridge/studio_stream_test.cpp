@@ -111,6 +111,39 @@ TEST_F(Streamed, MissingRowsEndAFrameAndAreCounted) {
   EXPECT_EQ(frame().dropped, 40u) << "each gap once";
 }
 
+TEST_F(Streamed, OnlyEachSoManiethRowIsSentWhereThatIsWanted) {
+  stream.subscribe(7, {0, 1}, store, 4);
+  add(6);
+  EXPECT_EQ(frame().tick, (std::vector<std::uint64_t>{0, 4}));
+  add(2);
+  EXPECT_FALSE(frame().is_whole) << "rows 6 and 7 are none of them";
+  add(1);
+  const DecodedFrame one = frame();
+  EXPECT_EQ(one.tick, std::vector<std::uint64_t>{8});
+  EXPECT_EQ(one.columns[0].real(0, 0), std::sin(8.0));
+  EXPECT_EQ(one.columns[1].arrays[0], std::vector<std::uint64_t>{0});
+  // Those that are missing are counted, and not those that are left out.
+  add(7, 3);
+  EXPECT_EQ(frame().dropped, 3u);
+  // One that begins later sees the same rows.
+  stream.subscribe(8, {0}, store, 5);
+  stream.unsubscribe(7);
+  add(10);
+  EXPECT_EQ(frame().tick, (std::vector<std::uint64_t>{20, 25}));
+}
+
+TEST_F(Streamed, OfThinnedRowsAPageThatComesBackSeesEveryPeak) {
+  stream.subscribe(7, {0, 1}, store, 10);
+  peak = 30'007;
+  add(40'000);
+  const DecodedFrame coarse = frame();
+  EXPECT_EQ(coarse.kind, 2);
+  EXPECT_LE(coarse.t.size(), StudioStream::kPoints + 1);
+  double highest = 0.0;
+  for (std::size_t i = 0; i < coarse.t.size(); ++i) highest = std::max(highest, coarse.columns[0].real(2, i));
+  EXPECT_EQ(highest, 1e6) << "of a row that would not have been sent by itself";
+}
+
 TEST(StudioStream, WhatTheStoreHasForgottenIsCounted) {
   TraceStore store({.bytes = 1});
   store.set_signals(std::vector<TraceSignal>{{"x", Type::LREAL, ""}});

@@ -180,6 +180,22 @@ TEST(StudioProjectText, FindsUsesOfWholeNamesAlone) {
   EXPECT_EQ(couplings[0].at("pointer"), "/programs/0/calls/2");
 }
 
+TEST(StudioProjectText, TellsWhichCouplingsArePossibleBesidesThoseOfPrograms) {
+  const StudioProjectText text(R"({ "technology_objects": {
+    "Belt": { "type": "TO_PositioningAxis" }, "Line": { "type": "TO_PositioningAxis" },
+    "Knife": { "type": "TO_SynchronousAxis", "leading_values": [
+      { "to": "belt", "coupling": "setpoint" }, { "to": "Line", "coupling": "actual" }, { "to": 7 }, 8 ] } },
+    "programs": [ { "name": "Main", "ob": "Main", "calls": [
+      { "fb": "MC_GearIn", "name": "gear", "in": { "Master": "Belt", "Slave": "Knife" } } ] } ] })");
+  const Json couplings = Json::parse(text.couplings().dump());
+  ASSERT_EQ(couplings.size(), 2u) << couplings;
+  EXPECT_EQ(couplings[0].at("instance"), "gear");
+  EXPECT_FALSE(couplings[0].contains("possible"));
+  EXPECT_EQ(
+      couplings[1].dump(),
+      R"({"coupling":"actual","following":"Knife","leading":"Line","pointer":"/technology_objects/Knife/leading_values/1","possible":true})");
+}
+
 TEST(StudioProjectText, OfNoProjectIsEmpty) {
   for (const std::string bad : {"", "{", "[]", "7", R"({"programs":7})", R"({"programs":[7]})",
                                 R"({"programs":[{"calls":[7,{}]}],"technology_objects":[]})"}) {

@@ -152,6 +152,20 @@ TEST(StudioProjectFiles, MayBeNewCams) {
   EXPECT_EQ(studio.put("new.cam.json", made.etag, "{}").status, 200u);
 }
 
+TEST(StudioProjectFiles, HoldLayoutsOfPagesBesideTheProject) {
+  Studio studio;
+  EXPECT_EQ(studio.read("studio.json").status, 404u) << "nobody has kept one yet";
+  EXPECT_EQ(studio.put("studio.json", "", "{}").status, 428u);
+  const std::string layouts = R"({"lockstep_studio":1,"layouts":{}})";
+  const StudioAnswer made = studio.put("studio.json", "new", layouts);
+  EXPECT_EQ(made.status, 200u) << made.body;
+  EXPECT_EQ(content_of(studio.desk.at("studio.json")), layouts);
+  EXPECT_EQ(studio.read("studio.json").etag, made.etag);
+  EXPECT_EQ(studio.put("studio.json", "new", "{}").status, 412u) << "somebody else has";
+  EXPECT_EQ(studio.put("studio.json", made.etag, "{}").status, 200u);
+  EXPECT_EQ(studio.put("cams/studio.json", "new", "{}").status, 404u) << "beside the project alone";
+}
+
 TEST(StudioProjectFiles, AreNothingElse) {
   Studio studio;
   studio.desk.folder.write("other.json", "{}");

@@ -111,6 +111,26 @@ TEST(StudioSession, TellsAllThatIsWrongWithAReading) {
   EXPECT_EQ(machine.ask("POST", "/api/read", {}, std::string(100'000, '[')).status, 422u);
 }
 
+TEST(StudioSession, ReadsTheRestWhereThatIsWanted) {
+  Machine machine;
+  Json told;
+  StudioRequest request;
+  const std::string body = R"({"paths":["Knife","speed","x"],"partial":true})";
+  request.method = "POST";
+  request.path = "/api/read";
+  request.body = body;
+  machine.session.answer(request, [&told](const StudioAnswer& given) { told = Json::parse(given.body); });
+  machine.run(10);
+  ASSERT_TRUE(told.contains("values")) << told;
+  ASSERT_EQ(told["values"].size(), 1u);
+  EXPECT_EQ(told["values"][0]["path"], "speed");
+  EXPECT_EQ(told["values"][0]["value"], 200.0);
+  ASSERT_EQ(told["errors"].size(), 2u);
+  EXPECT_EQ(told["errors"][0]["path"], "Knife") << "an axis has no value";
+  EXPECT_EQ(machine.ask("POST", "/api/read", {}, R"({"paths":["x"],"partial":true})").status, 422u)
+      << "there is no rest";
+}
+
 TEST(StudioSession, StreamsWhatAPageSubscribes) {
   Machine machine;
   Client client;
@@ -146,6 +166,41 @@ TEST(StudioSession, StreamsWhatAPageSubscribes) {
   EXPECT_TRUE(client.frames.empty());
   machine.session.closed(client);
   machine.run(5);
+}
+
+TEST(StudioSession, SendsSoManyRowsAsAreWanted) {
+  Machine machine;
+  Client client;
+  machine.session.opened(client);
+  machine.session.text(client, R"({"type":"hello"})");
+  const auto subscribe = [&](const std::string& how) {
+    client.texts.clear();
+    machine.session.text(client,
+                         R"({"type":"subscribe","seq":1,"id":1,"paths":["Conveyor.Position"],)" + how + "}");
+    const Json subscribed = client.last("subscribed");
+    return subscribed.is_null() ? Json() : subscribed.at("every");
+  };
+  EXPECT_EQ(subscribe(R"("every":5)"), 5);
+  for (int tick = 0; tick < 500; ++tick) {
+    machine.run(1);
+    for (const DecodedFrame& frame : client.frames) {
+      machine.session.text(client, Json{{"type", "ack"}, {"frame", frame.frame}}.dump());
+    }
+  }
+  std::size_t rows = 0;
+  for (const DecodedFrame& frame : client.frames) rows += frame.t.size();
+  const std::size_t all = machine.get("/api/traces")["traces"][0]["rows"];
+  EXPECT_NEAR(static_cast<double>(rows), static_cast<double>(all) / 5.0, 1.0);
+  const std::int64_t cycle = machine.simulation.project().controller->clock.interpolator_cycle();
+  EXPECT_EQ(subscribe("\"rate\":" + std::to_string(1e9 / static_cast<double>(8 * cycle))), 8);
+  EXPECT_EQ(subscribe(R"("rate":1e9)"), 1) << "faster than there are rows";
+  EXPECT_EQ(subscribe(R"("rate":0.000001)"), 10'000);
+  for (const std::string wrong :
+       {R"("every":0)", R"("every":10001)", R"("every":-1)", R"("every":1.5)", R"("every":"2")",
+        R"("rate":0)", R"("rate":-3)", R"("rate":"x")", R"("every":2,"rate":2)"}) {
+    subscribe(wrong);
+    EXPECT_FALSE(client.last("error").is_null()) << wrong;
+  }
 }
 
 TEST(StudioSession, AnswersWindowsAndStatisticsOfWhatHasBeen) {

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,8 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include "hmi_bridge/lcm/log.hpp"
 #include "hmi_bridge/studio/server.hpp"
 #include "tests/projects/studio_files.hpp"
+#include "tests/support/values.hpp"
 
 namespace lockstep::studio_upload_test {
 namespace {
@@ -240,6 +244,69 @@ TEST(StudioUpload, OfAPathStaysInTheFolderOfTheStudio) {
   powers.trace_folder = "";
   studio.session.empower(powers);
   EXPECT_EQ(studio.by_path("mine.csv").status, 403u);
+}
+
+TEST(StudioUpload, OfALogHasItsEventsAndJobs) {
+  Studio studio;
+  const std::string path = (studio.folder.path() / "run.lcm").string();
+  const std::vector<TraceSignal> signals = {{"v", Type::LREAL, ""}};
+  LcmLog log(path, {"files", "TRACE", 1'000'000, 0});
+  log.begin(signals);
+  TraceEvent event;
+  event.source = "gear";
+  event.type = "MC_GearIn";
+  for (std::int64_t t = 0; t < 10; ++t) {
+    event.t = t * 1'000'000;
+    event.kind = t == 2 ? EventKind::job_started : EventKind::job_done;
+    if (t == 2 || t == 7) log.event(event);
+    log.row({event.t, static_cast<std::uint64_t>(t), 0, std::vector<Value>{test::real(1.0)}});
+  }
+  log.end();
+  std::ifstream file(path, std::ios::binary);
+  EXPECT_EQ(studio.send("run.lcm", {std::istreambuf_iterator<char>(file), {}}).status, 202u);
+  EXPECT_EQ(studio.settled("file-1").at("rows"), 10);
+  const Json told = studio.get("/api/traces/file-1/events");
+  ASSERT_EQ(told.at("events").size(), 2u) << told;
+  EXPECT_EQ(told.at("events").at(1).at("kind"), "job done");
+  ASSERT_EQ(told.at("jobs").size(), 1u) << told;
+  EXPECT_EQ(told.at("jobs").at(0).at("instance"), "gear");
+  EXPECT_EQ(told.at("jobs").at(0).at("begin"), "2000000");
+  EXPECT_EQ(told.at("jobs").at(0).at("end"), "7000000");
+  EXPECT_EQ(studio.get("/api/events").at("events").size(), 0u) << "the run has had none";
+}
+
+/// Keeps the thread that reads files from the next one, until it is let go.
+class Pipe {
+ public:
+  explicit Pipe(Studio& studio) : path_((studio.folder.path() / "waits.pipe").string()) {
+    EXPECT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+    EXPECT_NE(studio.files.add(path_, "waits.csv", false), nullptr);
+  }
+  void let_go() const { std::ofstream(path_) << kTrace; }
+
+ private:
+  std::string path_;
+};
+
+TEST(StudioUpload, OfAPathIsTheFileThatWasThereWhenItWasAskedFor) {
+  Studio studio;
+  const StudioFolder elsewhere;
+  const std::string secret = elsewhere.write("secret.csv", "t,secret\n0,1\n");
+  const std::string mine = studio.folder.write("mine.csv", kTrace);
+  StudioPowers powers;
+  powers.why_no_files = "";
+  powers.files = &studio.files;
+  powers.trace_folder = studio.folder.path().string();
+  studio.session.empower(powers);
+  const Pipe pipe(studio);
+  EXPECT_EQ(studio.by_path("mine.csv").status, 202u);
+  std::filesystem::remove(mine);
+  std::filesystem::create_symlink(secret, mine);
+  pipe.let_go();
+  const Json trace = studio.settled("file-2");
+  EXPECT_EQ(trace.at("state"), "ready") << trace;
+  EXPECT_EQ(trace.at("name"), "mine.csv");
+  EXPECT_EQ(trace.at("signals").at(0).at("path"), "v") << "not of what a link leads to by now";
 }
 
 /// The studio behind its server; all is asked of it over the network.

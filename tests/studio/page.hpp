@@ -43,6 +43,16 @@ inline RunOptions options_of(const std::string& file) {
           .studio = "127.0.0.1:0"};
 }
 
+/// Nothing went wrong in the page, and it asked nobody else. @param host with its port
+inline void expect_quiet(const Browser& browser, const std::string& host) {
+  EXPECT_EQ(browser.complaints(), std::vector<std::string>{});
+  const std::string url = "http://" + host + "/";
+  for (const std::string& request : browser.requests())
+    EXPECT_TRUE(request.starts_with(url) || request.starts_with("ws://" + host + "/") ||
+                request.starts_with("blob:" + url) || request == "about:blank")
+        << request;
+}
+
 class StudioPage {
  public:
   using Json = nlohmann::json;
@@ -85,14 +95,7 @@ class StudioPage {
     const Json at = box(diagram);
     return at["y"].get<double>() + share * at["h"].get<double>();
   }
-  /// Nothing went wrong in the page, and it asked nobody else.
-  void expect_quiet() {
-    EXPECT_EQ(browser.complaints(), std::vector<std::string>{});
-    for (const std::string& request : browser.requests())
-      EXPECT_TRUE(request.starts_with(url()) || request.starts_with("ws://" + host() + "/") ||
-                  request.starts_with("blob:" + url()) || request == "about:blank")
-          << request;
-  }
+  void expect_quiet() const { test::expect_quiet(browser, host()); }
 
   Runtime machine;
   Browser browser;

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/studio/proxy.hpp"
 #include "tests/support/directory.hpp"
 
 namespace lockstep::page_test {
@@ -353,6 +354,24 @@ TEST(StudioPage, IsWorkedByKeysAndTellsThem) {
                 "[...document.querySelectorAll('button, input')].filter((e) => e.tabIndex < 0).length"),
             0);
   page.expect_quiet();
+}
+
+// As the example for nginx in STUDIO.md has it.
+TEST(StudioPage, WorksBelowAPathOfAProxy) {
+  RunOptions options = options_of(kKnife);
+  options.studio_names = {"127.0.0.1"};  // the proxy's port is not the studio's
+  Page page(std::move(options));
+  const test::Proxy proxy(page.machine.studio_endpoint()->port, "/lockstep");
+  test::Browser browser;
+  browser.open("http://" + proxy.host() + "/lockstep/");
+  ASSERT_TRUE(browser.wait_for(test::kHasRows)) << browser.text("body");
+  browser.press("2");
+  EXPECT_TRUE(browser.wait_for("document.querySelectorAll('.bits li[data-value]').length > 20"));
+  EXPECT_EQ(browser.complaints(), std::vector<std::string>{});
+  for (const std::string& request : browser.requests())
+    EXPECT_TRUE(request.starts_with("http://" + proxy.host() + "/lockstep/") ||
+                request == "ws://" + proxy.host() + "/lockstep/ws" || request == "about:blank")
+        << request;
 }
 
 TEST(StudioPage, AsksForTheTokenAndTakesItOffTheAddress) {

@@ -188,6 +188,69 @@ TEST(StudioPanel, LeavesNoMotionBehindWhenTheBrowserIsKilled) {
   EXPECT_TRUE(knife_stands(page)) << knife_velocity(page);
 }
 
+TEST(StudioPanel, ShowsASecondOneWhoHoldsTheAxisAndRefusesIt) {
+  const test::Directory directory;
+  Page page(test::options_of(directory.write("project.json", knife_that_jams().dump())));
+  ASSERT_TRUE(page.is_live());
+  let_the_knife_stand(page);
+  test::Browser second;
+  second.open(page.url());
+  ASSERT_TRUE(second.wait_for(test::kHasRows));
+  second.press("4");
+  jog(page);
+  const std::string state = "document.querySelector('" + kKnifePanel + ".panel-state').textContent";
+  EXPECT_TRUE(second.wait_for(state + ".includes('held by another panel')")) << second.text(kKnifePanel);
+  EXPECT_TRUE(page.browser.wait_for(state + ".includes('held by this page')"))
+      << page.browser.text(kKnifePanel);
+  EXPECT_FALSE(second.evaluate("document.querySelector('.control').hidden").get<bool>())
+      << "on every screen of every page";
+  const Json middle = second.middle_of(kKnifePanel + "[data-action='jog backward']");
+  second.press_pointer(middle["x"], middle["y"]);
+  EXPECT_TRUE(second.wait_for("document.querySelector('" + kKnifePanel +
+                              ".lost').textContent.startsWith('jog backward: ')"))
+      << second.text(kKnifePanel);
+  EXPECT_TRUE(second.wait_for("!document.querySelector('.jog[aria-pressed=true]')"))
+      << "it lets go by itself";
+  second.release_pointer(1, 1);
+  // Stop is everybody's, and is not taken back by the one who still holds the button.
+  second.press("Escape");
+  EXPECT_TRUE(knife_stands(page));
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_LT(std::abs(knife_velocity(page)), 0.01) << "reading " << i;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  page.browser.release_pointer(1, 1);
+}
+
+TEST(StudioPanel, HomesAndSetsTheOverrideAndSaysWhatIsRefused) {
+  const test::Directory directory;
+  Page page(test::options_of(directory.write("project.json", knife_that_jams().dump())));
+  ASSERT_TRUE(page.is_live());
+  let_the_knife_stand(page);
+  page.browser.choose(kKnifePanel + "[aria-label='Position after homing']", "42.5");
+  page.browser.click(kKnifePanel + "button[title='Set the position (MC_Home)']");
+  const std::string number = "parseFloat(document.querySelector('" + kKnifePanel + "[data-name=";
+  EXPECT_TRUE(page.browser.wait_for("Math.abs(" + number + "position]').textContent) - 42.5) < 0.01"))
+      << page.browser.text(kKnifePanel);
+  page.browser.choose(kKnifePanel + "[aria-label='Override [%]']", "50");
+  page.browser.click(kKnifePanel + "button[title='Override of the velocity']");
+  EXPECT_TRUE(page.browser.wait_for(number + "override]').textContent) === 50"))
+      << page.browser.text(kKnifePanel);
+  page.browser.choose(kKnifePanel + "[aria-label='Override [%]']", "900");
+  page.browser.click(kKnifePanel + "button[title='Override of the velocity']");
+  EXPECT_TRUE(page.browser.wait_for("document.querySelector('" + kKnifePanel +
+                                    ".lost').textContent.startsWith('override: ')"))
+      << page.browser.text(kKnifePanel);
+  EXPECT_EQ(page.browser.evaluate(number + "override]').textContent)"), 50);
+  // Who enables the axis is said where the panel does not.
+  EXPECT_TRUE(
+      page.browser
+          .evaluate("document.querySelector('" + kKnifePanel + "button[title$=\"not the panel\"]').disabled")
+          .get<bool>())
+      << page.browser.text(kKnifePanel);
+  page.expect_quiet();
+}
+
 TEST(StudioPanel, SaysWhyItMayNotCommand) {
   Json project = knife_that_jams();
   project.erase("studio");

@@ -57,6 +57,7 @@ class Studio implements Listener {
   private readonly token = this.tokenForm();
 
   constructor() {
+    document.getElementById("first")?.remove();  // what was seen until now
     document.body.append(this.header(), this.control, html("main", {}, this.scope.element, this.diagnosis.element, this.projectScreen.element, this.panel.element, this.alarms.element), this.dialog, this.token);
     this.setScreen("scope");
     document.addEventListener("keydown", (event) => this.key(event));
@@ -109,7 +110,10 @@ class Studio implements Listener {
   async greeted(hello: Message): Promise<void> {
     const isNewRun = hello.run !== this.run;
     this.run = hello.run;
-    const [api, project] = await Promise.all([this.link.json("api"), this.link.json("api/project")]);
+    const api = await this.link.json("api");
+    const hasProject = api.mode !== "files";
+    const project = hasProject ? await this.link.json("api/project") : { name: "traces", trace: [], objects: [], tags: [], instances: [] };
+    for (const screen of ["axes", "panel"] as const) this.screens[screen].hidden = !hasProject;
     this.link.hasMore = api.rights?.simulation !== undefined;
     this.setRights(hello.rights ?? api.rights, hello.why_not ?? api.why_not);
     this.title.textContent = document.title = project.name;

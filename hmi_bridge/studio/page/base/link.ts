@@ -114,6 +114,11 @@ export class Link {
     return (await this.request(path, { method: "POST", body, headers: { "Content-Type": type } })).json();
   }
 
+  /// A file as a whole, in place of the one with this ETag; "": of none.
+  async put(path: string, text: string, etag: string): Promise<void> {
+    await this.request(path, { method: "PUT", body: text, headers: etag ? { "If-Match": etag } : { "If-None-Match": "*" } });
+  }
+
   async remove(path: string): Promise<void> { await this.request(path, { method: "DELETE" }); }
 
   /// Closes the connection, which opens another that says hello anew.

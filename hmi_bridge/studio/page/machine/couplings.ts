@@ -3,13 +3,14 @@
 import { html, svg } from "../base/dom";
 import { LiveCells } from "./tables";
 
-export interface Coupling { following: string; leading: string; kind?: string; RatioNumerator?: string; RatioDenominator?: string; Cam?: string; instance?: string; block?: string; cam?: string; possible?: boolean }
+export interface Coupling { following: string; leading: string; kind?: string; RatioNumerator?: string; RatioDenominator?: string; Cam?: string; instance?: string; block?: string; cam?: string; possible?: boolean; coupling?: string }
 
 const kBox = { width: 150, height: 44, gapX: 40, gapY: 60 };
 
 /// What a coupling does, as the block and its pins say.
 function kindOf(one: Coupling): string {
   if (one.kind) return one.kind;
+  if (!one.block && one.coupling) return `${one.coupling} coupling`;
   if (/Cam/.test(one.block ?? "")) return "cam";
   if (/Velocity/.test(one.block ?? "")) return "velocity gear";
   return /Gear/.test(one.block ?? "") ? "gear" : one.block ?? "";
@@ -36,12 +37,42 @@ export function layersOf(objects: string[], couplings: Coupling[]): Map<string, 
   return layers;
 }
 
+/// All that an object may follow, whichever way.
+function sourcesOf(name: string, couplings: Coupling[], found = new Set<string>()): Set<string> {
+  for (const { following, leading } of couplings)
+    if (following === name && !found.has(leading)) sourcesOf(leading, couplings, found.add(leading));
+  return found;
+}
+
+/// With all couplings active, the leading object would follow its own leading value.
+export function isRecursive({ following, leading }: Coupling, couplings: Coupling[]): boolean {
+  return leading === following || sourcesOf(leading, couplings).has(following);
+}
+
+/// Every way from an object back to where its leading value comes from, but for those that go round (10.6.3).
+export function routesOf(name: string, couplings: Coupling[], below: string[] = []): string[][] {
+  const leading = [...new Set(couplings.filter((one) => one.following === name).map((one) => one.leading))];
+  if (!leading.length) return [[name]];
+  return leading.filter((one) => one !== name && !below.includes(one)).flatMap((one) => routesOf(one, couplings, [...below, name])).map((route) => [name, ...route]);
+}
+
+type State = "possible" | "waits" | "synchronizing" | "synchronous";
+const kSigns: Record<State, string> = { possible: "○ possible", waits: "… waits", synchronizing: "▷ synchronizing", synchronous: "▶ synchronous" };
+
+/// What outputs of its block say. One without StartSync synchronizes as soon as it is at work.
+function stateOf(pins: Map<string, unknown>): State {
+  if (pins.get("InSync") === true || pins.get("InGear") === true) return "synchronous";
+  if (pins.get("Busy") !== true) return "possible";
+  return pins.get("StartSync") === false ? "waits" : "synchronizing";
+}
+
 export class Couplings {
   private readonly picture = svg("svg", { class: "graph", role: "img", "aria-label": "Which object follows which" });
   private readonly body = html("tbody");
   readonly element = html("section", { "aria-label": "Interconnection overview" }, this.picture,
-    html("table", {}, html("caption", {}, "Couplings"), html("thead", {}, html("tr", {}, ...["following", "leading", "kind", "function or cam", "by", "state"].map((head) => html("th", { scope: "col" }, head)))), this.body));
+    html("table", {}, html("caption", {}, "Couplings"), html("thead", {}, html("tr", {}, ...["following", "leading", "kind", "function or cam", "by", "state", "outputs", "route of the leading value"].map((head) => html("th", { scope: "col" }, head)))), this.body));
   private edges = new Map<string, SVGElement>();
+  private states = new Map<string, { element: HTMLElement; pins: Map<string, unknown> }>();  // by instance
 
   /// @param cells shows what couplings do now
   set(objects: { name: string; type?: string }[], couplings: Coupling[], cells: LiveCells, isTold = true): void {
@@ -68,10 +99,21 @@ export class Couplings {
         return svg("g", { class: "node", "data-object": name }, svg("rect", { x, y, width: kBox.width, height: kBox.height, rx: 6 }), svg("text", { x: x + kBox.width / 2, y: y + 19, "text-anchor": "middle", class: "node-name" }, name),
           svg("text", { x: x + kBox.width / 2, y: y + 35, "text-anchor": "middle", class: "tick" }, type ?? ""));
       }));
-    this.body.replaceChildren(...couplings.map((one) => html("tr", { "data-coupling": `${one.leading} ${one.following}` }, html("th", { scope: "row" }, one.following), html("td", {}, one.leading), html("td", {}, kindOf(one)),
-      html("td", {}, functionOf(one)), html("td", {}, one.instance ? `${one.instance} (${one.block ?? ""})` : "the project"),
-      html("td", {}, ...(one.instance ? [cells.cell(`${one.instance}.Busy`), " ", cells.cell(`${one.instance}.InSync`)] : [one.possible ? "possible" : ""])))));
-    if (!couplings.length) this.body.replaceChildren(html("tr", {}, html("td", { colspan: 6 }, isTold ? "No object follows another." : "This studio does not tell what follows what.")));
+    this.states.clear();
+    this.body.replaceChildren(...couplings.map((one) => this.row(one, couplings, cells)));
+    if (!couplings.length) this.body.replaceChildren(html("tr", {}, html("td", { colspan: 8 }, isTold ? "No object follows another." : "This studio does not tell what follows what.")));
+  }
+
+  private row(one: Coupling, couplings: Coupling[], cells: LiveCells): HTMLElement {
+    const isRound = isRecursive(one, couplings);
+    const state = html("output", { class: "coupling-state", "data-state": "possible" }, kSigns.possible);
+    const outputs = one.instance ? ["Busy", ...(one.block === "MC_GearIn" ? ["InGear"] : ["StartSync", "InSync"])] : [];
+    if (one.instance) this.states.set(one.instance, { element: state, pins: new Map() });
+    return html("tr", { "data-coupling": `${one.leading} ${one.following}`, class: isRound ? "recursive" : "" }, html("th", { scope: "row" }, one.following), html("td", {}, one.leading),
+      html("td", {}, kindOf(one), ...(isRound ? [html("span", { class: "sign", title: "With all couplings active, the leading object would follow its own leading value" }, " ↻ recursive")] : [])),
+      html("td", {}, functionOf(one)), html("td", {}, one.instance ? `${one.instance} (${one.block ?? ""})` : "the project"), html("td", {}, state),
+      html("td", {}, ...outputs.flatMap((pin) => [html("span", { class: "unit" }, pin + " "), cells.cell(`${one.instance}.${pin}`), " "])),
+      html("td", { class: "route" }, routesOf(one.leading, couplings, [one.following]).map((route) => [one.following, ...route].join(" ← ")).join("; ") || "none: it goes round"));
   }
 
   private edge(one: Coupling, places: Map<string, { x: number; y: number }>): SVGElement {
@@ -89,8 +131,16 @@ export class Couplings {
   /// What a coupling does now: waits, runs or is synchronous.
   told(path: string, value: unknown): void {
     const dot = path.lastIndexOf(".");
-    const edge = this.edges.get(path.slice(0, dot));
+    const instance = path.slice(0, dot);
+    const edge = this.edges.get(instance);
     const pin = path.slice(dot + 1);
-    if (edge && (pin === "Busy" || pin === "InSync")) edge.classList.toggle(pin === "Busy" ? "busy" : "synchronous", value === true);
+    const told = this.states.get(instance);
+    if (told) {
+      told.pins.set(pin, value);
+      const state = stateOf(told.pins);
+      told.element.textContent = kSigns[state];
+      told.element.dataset.state = state;
+    }
+    if (edge && /^(Busy|InSync|InGear)$/.test(pin)) edge.classList.toggle(pin === "Busy" ? "busy" : "synchronous", value === true);
   }
 }

@@ -44,6 +44,12 @@ const kMotion = [
   "StatusSynchronizedMotion.FunctionState", "StatusSynchronizedMotion.WaitingFunctionState", "StatusSynchronizedMotion.PhaseShift",
   "StatusSynchronizedMotion.ActualMaster", "StatusSynchronizedMotion.MasterOffset", "StatusSynchronizedMotion.SlaveOffset", "ErrorDetail.Number", "ErrorDetail.Reaction",
 ];
+/// What the words of a telegram of drive and encoders would tell (11.1.3), and which variable tells it here.
+const kTelegram: [string, string][] = [
+  ["ZSW1, operation enabled", "StatusDrive.InOperation"], ["ZSW1, fault", "StatusDrive.Error"], ["NSOLL", "VelocitySetpoint"], ["NIST", "ActualVelocity"],
+  ["Gx_ZSW, error", "StatusSensor[*].Error"], ["Gx_XIST1", "StatusSensor[*].Position"],
+];
+const kNoTelegram = "There is none: drive and encoders are models that exchange values with the controller, without words of PROFIdrive. What those would tell:";
 /// A variable by what tells it from the others of its group.
 const shortened = (path: string): string => path.slice(path.indexOf(".") + 1).replace("StatusSynchronizedMotion", "…").replace("StatusMotionIn", "…");
 const kPause = 250;  // between two readings [ms]
@@ -134,7 +140,7 @@ export class Diagnosis {
       !placed.has(signal) && new RegExp(`^${word.replace(".", "\\.")}\\.X\\d+$`).test(signal.path.slice(name.length + 1)))));
     const sections = [...grouped, ...further];
     const motion = kMotion.map((variable) => own.get(`${name}.${variable}`)).filter((signal): signal is Found => !!signal);
-    this.groups.replaceChildren(this.values(motion, name), ...sections.filter((section): section is HTMLElement => !!section));
+    this.groups.replaceChildren(...[this.values(motion, name), ...sections, this.telegram(name, own, sensors)].filter((section): section is HTMLElement => !!section));
     this.paths = [...this.cells.keys()].slice(0, 1000);
     void this.look(turn);
   }
@@ -159,6 +165,14 @@ export class Diagnosis {
     if (!signals.length) return null;
     return html("section", {}, html("h2", {}, title), html("ul", { class: "bits" }, ...signals.map((signal) =>
       this.line(signal, `${shortened(signal.path)} ${signal.text}`, true))));
+  }
+
+  private telegram(name: string, own: Map<string, Found>, sensors: string[]): HTMLElement | null {
+    const told = kTelegram.flatMap(([word, variable]) => (variable.includes("*") ? sensors : [""]).map((sensor): [string, Found | undefined] =>
+      [word.replace("Gx", `G${sensor}`), own.get(`${name}.${variable.replace("*", sensor)}`)])).filter((one): one is [string, Found] => !!one[1]);
+    if (!told.length) return null;
+    return html("section", { class: "telegram" }, html("h2", {}, "Telegram of drive and encoders"), html("p", { class: "faint" }, kNoTelegram),
+      html("ul", { class: "bits" }, ...told.map(([word, signal]) => this.line(signal, `${word}: ${signal.path.slice(name.length + 1)}`, false))));
   }
 
   private values(signals: Found[], name: string): HTMLElement {

@@ -8,7 +8,7 @@ export interface Call {
 }
 export interface Program { name: string; ob: string; cycle?: string; pointer: string; calls: Call[] }
 
-const kOutputs = ["Done", "Busy", "InSync", "Error", "ErrorID"];
+const kOutputs = ["Done", "Busy", "StartSync", "InSync", "InGear", "Error", "ErrorID"];
 
 export interface ProgramsNotes { cells: LiveCells; show(path: string): void; pins(instance: string): Promise<string[]> }
 

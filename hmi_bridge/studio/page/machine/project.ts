@@ -4,6 +4,7 @@ import { button, html } from "../base/dom";
 import { Link, RequestError } from "../base/link";
 import { valueText } from "../base/scale";
 import { Tabs } from "../base/tabs";
+import { Cams } from "./cams";
 import { Coupling, Couplings } from "./couplings";
 import { Programs } from "./programs";
 import { LiveCells, valueOf, writer } from "./tables";
@@ -38,6 +39,7 @@ export class Project {
   private readonly dataNote = html("p", { class: "faint", role: "status" });
   private readonly data: HTMLElement;
   private readonly checks = html("section", { "aria-label": "Checks" });
+  private readonly cams: Cams;
   private readonly health = html("section", { "aria-label": "Health" });
   private readonly tabs: Tabs;
   readonly element: HTMLElement;
@@ -51,10 +53,11 @@ export class Project {
   constructor(private readonly notes: ProjectNotes) {
     this.cells = new LiveCells(notes.link, () => !this.element.hidden, (path, value) => this.couplings.told(path, value));
     this.programs = new Programs({ cells: this.cells, show: notes.show, pins: (instance) => this.pinsOf(instance) });
+    this.cams = new Cams(notes.link);
     this.tags.append(html("p", { class: "row" }, this.tagFilter, this.batch), html("table", { class: "wide" }, html("caption", { class: "unseen" }, "Tags"), heads("tag", "value", "new value", "type", "start", "Modbus", "retain", "comment", ""), this.tagBody));
     this.data = html("section", { "aria-label": "Data blocks" }, html("p", { class: "row" }, html("label", {}, "of ", this.choice), this.dataFilter, html("label", {}, this.onlyDifferent, " only what differs"), this.dataNote),
       html("table", { class: "wide" }, html("caption", { class: "unseen" }, "Variables"), heads("variable", "value", "new value", "unit", "in the project", "default", "range", "effect", "meaning", ""), this.dataBody));
-    this.tabs = new Tabs("Project", [["Overview", this.couplings.element], ["Programs", this.programs.element], ["Tags", this.tags], ["Data", this.data], ["Checks", this.checks], ["Health", this.health]], (name) => void this.open(name));
+    this.tabs = new Tabs("Project", [["Overview", this.couplings.element], ["Programs", this.programs.element], ["Tags", this.tags], ["Data", this.data], ["Cams", this.cams.element], ["Checks", this.checks], ["Health", this.health]], (name) => void this.open(name));
     this.element = html("section", { class: "project-screen", "aria-label": "Project", hidden: true }, this.tabs.element);
   }
 
@@ -71,7 +74,7 @@ export class Project {
     clearTimeout(this.timer);
     if (!isVisible) return;
     if (this.tabs.chosen) void this.open(this.tabs.chosen);
-    else this.tabs.choose("Overview");
+    else this.tabs.choose(this.objects.length ? "Overview" : "Cams");
   }
 
   showObject(name: string): void { this.choice.value = name; this.tabs.choose("Data"); }
@@ -80,7 +83,7 @@ export class Project {
     clearTimeout(this.timer);
     if (!this.element || this.element.hidden) return;
     this.cells.clear();
-    const screens: Record<string, () => Promise<void>> = { Overview: () => this.showOverview(), Programs: () => this.showPrograms(), Tags: () => this.loadTags(), Data: () => this.showData(), Checks: () => this.showChecks(), Health: () => this.showHealth() };
+    const screens: Record<string, () => Promise<void>> = { Overview: () => this.showOverview(), Programs: () => this.showPrograms(), Tags: () => this.loadTags(), Data: () => this.showData(), Cams: () => this.cams.load(), Checks: () => this.showChecks(), Health: () => this.showHealth() };
     await screens[name]?.().catch((error) => { this.dataNote.textContent = error.message; });
     this.cells.start();
   }

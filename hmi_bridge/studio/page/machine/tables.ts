@@ -7,7 +7,7 @@ import { numberOf, valueText } from "../base/scale";
 const kPause = 300;     // between two readings [ms]
 const kAtOnce = 400;
 
-export interface Reading { t: string; values: { path: string; type: string; unit: string; value: unknown }[] }
+export interface Reading { t: string; values: { path: string; type: string; unit: string; value: unknown }[]; errors?: { path: string }[] }
 
 /// Reads what has been given to it, while it is seen.
 export class LiveCells {
@@ -38,10 +38,11 @@ export class LiveCells {
 
   private async read(paths: string[]): Promise<void> {
     try {
-      const read: Reading = await this.link.post("api/read", { paths });
+      const read: Reading = await this.link.post("api/read", { paths, partial: true });
+      // What is no signal (a text, an axis) is left out from then on.
+      for (const one of read.errors ?? []) this.rejected.add(one.path);
       for (const { path, value } of read.values) this.set(path, value, Number(read.t));
     } catch (error) {
-      // What is no signal (a text, an axis) is left out from then on.
       if (error instanceof RequestError && error.status === 422) for (const one of error.errors) if (one.path) this.rejected.add(one.path);
     }
   }

@@ -6,7 +6,7 @@ import { Recording, Signal } from "./record";
 import { Span } from "./view";
 
 /// As the server writes it into a page, and the page into its own files.
-export interface Kept { about: { project: string; version?: string; name?: string }; signals: Signal[]; frame: string; gaps?: any[]; events?: any[]; jobs?: any[]; layout?: unknown; window?: Span }
+export interface Kept { about: { project?: string; version?: string; name?: string }; signals: Signal[]; frame: string; gaps?: any[]; events?: any[]; jobs?: any[]; layout?: unknown; window?: Span }
 
 const kPiece = 0x8000;
 

@@ -24,7 +24,7 @@ import { Traces } from "./traces";
 import { Trigger } from "./trigger";
 import { Cursor, Span, View } from "./view";
 
-export interface Project { couplings?: unknown; name: string; trace: string[]; objects: { name: string; type?: string }[]; tags?: { name: string; comment?: string }[]; instances?: { name: string; type: string }[] }
+export interface Project { couplings?: unknown; files?: string[]; name: string; trace: string[]; objects: { name: string; type?: string }[]; tags?: { name: string; comment?: string }[]; instances?: { name: string; type: string }[] }
 
 const kNumbers = 200;  // texts are written each so many ms: nobody reads faster
 
@@ -61,7 +61,9 @@ export class Scope {
   project: Project = { name: "", trace: [], objects: [] };
   private modulo = new Map<string, number>();  // length by object
   private events: Event[] = [];
+  private history: { jobs: Job[]; events: Event[] } = { jobs: [], events: [] };  // of the run
   private isDirty = true;
+  private hasPicture = false;
   private drawnAt = -1;
   private numbersAt = 0;
   private numbersLater = 0;  // timer of numbers that have been left out
@@ -76,7 +78,7 @@ export class Scope {
     this.trigger = new Trigger({ ask: (message) => link.ask(message), changed: () => this.dirty() });
     this.traces = new Traces({ link, show: (id) => void this.show(id), overlay: (id, isOn) => void this.overlay(id, isOn), shift: (id, by) => this.shift(id, by), paths: () => this.paths(),
       shown: () => ({ id: this.main.id, shift: this.main.shift }), shiftOf: (id) => this.overlays.find((one) => one.id === id)?.shift ?? 0, moment: (t) => this.moment(t), open: (text) => this.open(text) });
-    this.layouts = new Layouts({ project: () => this.project.name, layout: () => this.layout, use: (layout) => this.use(layout) });
+    this.layouts = new Layouts({ link, project: () => this.project.name, layout: () => this.layout, use: (layout) => this.use(layout) });
     this.toolbar = new Toolbar(this);
     this.side = new Tabs("Tools", [["Signals", this.picker.element], ["Trigger", this.trigger.element], ["Traces", this.traces.element], ["Layouts", this.layouts.element]], (name) => {
       if (name === "Traces") void this.traces.refresh().catch(() => undefined);
@@ -106,6 +108,7 @@ export class Scope {
   async greeted(project: Project, isNewRun: boolean): Promise<void> {
     if (isNewRun) this.live.record = new Recording([]);
     this.project = project;
+    this.layouts.setDesk((project.files?.length ?? 0) > 0);
     this.subscription = 0;
     if (!this.main.isLive && this.main.info.kind !== "page") this.main = this.live;
     this.picker.setTree([...project.objects.map(({ name, type }) => ({ name, kind: "Objects", text: type ?? "" })), ...(project.instances ?? []).map(({ name, type }) => ({ name, kind: "Instances", text: type })),
@@ -135,10 +138,26 @@ export class Scope {
   get lostRows(): number { return this.live.record.missing; }
   get end(): number { return this.live.record.end; }
 
+  /// Of the run, and so of its shots.
   setHistory(jobs: Job[], events: Event[]): void {
+    this.history = { jobs, events };
+    if (!this.hasOwnEvents) this.showHistory(jobs, events);
+  }
+
+  private showHistory(jobs: Job[], events: Event[]): void {
     this.events = events;
     this.bars.set(jobs, events, this.project.objects.map(({ name }) => name));
     this.dirty();
+  }
+
+  /// Files and saved pages have events of their own, or none.
+  private get hasOwnEvents(): boolean { return this.main.info.kind === "file" || this.main.info.kind === "page"; }
+
+  private async showOwnEvents(source: Source): Promise<void> {
+    if (source.info.kind === "page") return;
+    if (source.info.kind !== "file") return this.showHistory(this.history.jobs, this.history.events);
+    const told = await this.link.json(`api/traces/${source.id}/events`).catch(() => null);
+    if (this.main === source) this.showHistory((told?.jobs ?? []).map(jobOf), (told?.events ?? []).map(eventOf));
   }
 
   /// Positions of an axis with modulo jump by its length, and a line would say that they had come back.
@@ -181,6 +200,7 @@ export class Scope {
     this.main = source;
     this.overlays = this.overlays.filter((one) => one.id !== id);
     if (!source.isLive) await this.fitSignals(source);
+    void this.showOwnEvents(source);
     if (source.isLive && this.before) {
       // What a file has brought with it goes with it.
       this.use(this.before);
@@ -232,7 +252,7 @@ export class Scope {
     const id = `page-${this.pages.size + 1}`;
     const { record } = kept;
     if (this.main.info.kind !== "page" && this.diagrams.length) this.before = structuredClone(this.layout);
-    const source = new Source({ id, name: `${kept.about.project} (saved)`, kind: "page", signals: kept.signals, from: record.begin, to: record.end }, false, null);
+    const source = new Source({ id, name: `${kept.about.project ?? kept.about.name ?? "trace"} (saved)`, kind: "page", signals: kept.signals, from: record.begin, to: record.end }, false, null);
     source.record = record;
     this.pages.set(id, source);
     this.traces.add(source.info);
@@ -241,7 +261,7 @@ export class Scope {
     this.view.show(Number(kept.window?.from ?? record.begin), Number(kept.window?.to ?? record.end), this.latest);
     this.relabel();
     this.toolbar.update();
-    if (kept.events || kept.jobs) this.setHistory((kept.jobs ?? []).map(jobOf), (kept.events ?? []).map(eventOf));
+    this.showHistory((kept.jobs ?? []).map(jobOf), (kept.events ?? []).map(eventOf));
     return true;
   }
 
@@ -426,8 +446,12 @@ export class Scope {
     this.isDirty = false;
     this.drawnAt = end;
     for (const diagram of this.diagrams) diagram.draw(scene);
+    if (!this.hasPicture && this.record.size > 1) {
+      this.hasPicture = true;
+      performance.mark("first picture");
+    }
     this.axis.draw(scene.span, this.view.isSweeping && this.isLive);
-    this.bars.draw(scene.span, this.live.end, this.isLive);
+    this.bars.draw(scene.span, this.hasOwnEvents ? this.main.end : this.live.end, this.isLive);
     this.overview.draw(this.main, this.overviewLines(), this.colour, scene.span, this.wrap);
     const now = performance.now();
     if (!this.isLive || now - this.numbersAt > kNumbers) {

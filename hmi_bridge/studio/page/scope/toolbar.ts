@@ -13,7 +13,7 @@ const kFormats: [string, "csv" | "lcm" | "html" | "svg" | "png" | "json", string
 
 export class Toolbar {
   private readonly live: HTMLButtonElement;
-  private readonly mode = html("select", { "aria-label": "How a live picture moves", change: () => this.scope.view.setSweeping(this.mode.value === "sweep") },
+  private readonly mode: HTMLSelectElement = html("select", { "aria-label": "How a live picture moves", change: () => this.scope.view.setSweeping(this.mode.value === "sweep") },
     html("option", { value: "roll" }, "roll"), html("option", { value: "sweep" }, "sweep"));
   private readonly length: HTMLSelectElement;
   private readonly menu: HTMLDetailsElement;

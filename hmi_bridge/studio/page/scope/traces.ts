@@ -24,7 +24,7 @@ const kRefresh = 500;  // [ms]
 export class Traces {
   private readonly list = html("ul", { class: "traces", "aria-label": "Traces" });
   private readonly state = html("p", { class: "faint", role: "status" });
-  private readonly file = html("input", { type: "file", "aria-label": "Files to open", accept: ".csv,.lcm,.json,.html", multiple: true, hidden: true, change: () => void this.take(this.file.files) });
+  private readonly file: HTMLInputElement = html("input", { type: "file", "aria-label": "Files to open", accept: ".csv,.lcm,.json,.html", multiple: true, hidden: true, change: () => void this.take(this.file.files) });
   private readonly path = html("input", { "aria-label": "File on the machine of the studio", placeholder: "or a path, at the desk", spellcheck: "false" });
   private readonly tolerance = html("input", { "aria-label": "Tolerance", inputmode: "decimal", value: "0" });
   private readonly differences = html("div", { class: "compare", "aria-live": "polite" });
