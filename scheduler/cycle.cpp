@@ -29,8 +29,11 @@ void Controller::tick() noexcept {
   run_programs(Ob::MC_PostServo, t);
 
   if (interpolator_tick) {
+    // They get up while the programs run, so that none is late at the axes.
+    if (crew_ != nullptr) crew_->wake();
     run_programs(Ob::MC_PreInterpolator, t);
     interpolate();
+    if (crew_ != nullptr) crew_->rest();
   }
 
   for (TechnologyObject* object : with_programs_) object->run_program(t);
@@ -159,13 +162,10 @@ void Controller::step_axes_in_turn(std::span<Axis* const> axes) noexcept {
 /// Leading before following: in their order, or level by level with a crew.
 void Controller::step_axes() noexcept {
   alarms_now_.store(0, std::memory_order_relaxed);
-  if (crew_ == nullptr) {
+  if (crew_ == nullptr)
     step_axes_in_turn(order_.axes());
-  } else {
-    crew_->wake();
+  else
     for (std::size_t level = 0; level < levels_.count(); ++level) step_level(levels_[level]);
-    crew_->rest();
-  }
   counters_.alarms = alarms_now_.load(std::memory_order_relaxed);
 }
 

@@ -26,7 +26,7 @@ rm -rf "$other/tests/bench"
 cp -r tests/bench "$other/tests/bench"
 # The first paragraph is about that benchmark; others may need what the other revision does not have.
 sed '/^$/,$d' tests/bench/CMakeLists.txt >"$other/tests/bench/CMakeLists.txt"
-grep -qx 'add_subdirectory(bench)' "$other/tests/CMakeLists.txt" ||
+grep -q '^ *add_subdirectory(bench)$' "$other/tests/CMakeLists.txt" ||
   echo 'add_subdirectory(bench)' >>"$other/tests/CMakeLists.txt"
 
 for tree in . "$other"; do

@@ -168,7 +168,7 @@ class Report {
   }
 
   void part(Part& part) const {
-    const int calls = options_.quick ? std::min(part.calls, 100) : part.calls;
+    const int calls = options_.quick ? std::min(part.calls, 10) : part.calls;
     double figure = 0.0;
     if (options_.instructions) {
       figure = static_cast<double>(count_instructions([&] { part.work(calls); })) / calls;
