@@ -131,6 +131,7 @@ class LinMotController final : public TechnologyObject {
     std::uint16_t errors = 0, warnings = 0, causes = 0;
     bool homed = true;  ///< all
   };
+  linmot::MotorSettings settings_with_inputs(std::size_t index) noexcept;
 
   std::span<const std::uint8_t> motors_there() const noexcept { return {there_.data(), there_count_}; }
   void keep_parameters(std::size_t index) noexcept;
@@ -211,6 +212,8 @@ class LinMotController final : public TechnologyObject {
   bool automatic_ = false;
   bool shutting_down_ = false;
   bool out_of_range_ = false;
+  std::array<const bool*, linmot::kMotors> wired_triggers_{};  // that count besides the control word
+  std::array<bool, linmot::kMotors> bus_triggers_{};           // both
   linmot::CodeFilter code_;
   int row_ = -1;
   bool refused_ = false;                                  // something that was asked for, and is to be logged
