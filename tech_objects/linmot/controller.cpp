@@ -7,7 +7,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "tech_objects/linmot/ascii_line.hpp"
 #include "tech_objects/linmot_catalogue/errors.hpp"
 #include "tech_objects/linmot_catalogue/increments.hpp"
 #include "tech_objects/types/bool_tag.hpp"
@@ -57,6 +56,7 @@ void LinMotController::configure(double servo_period, int) {
   watch();
   show();
 }
+
 /// The inputs that IO Configuration has it read; with PROFIBUS bits of the control word are triggers too.
 MotorSettings LinMotController::settings_with_inputs(std::size_t index) noexcept {
   const SystemParameters& system = data.Parameters;
@@ -73,14 +73,13 @@ MotorSettings LinMotController::settings_with_inputs(std::size_t index) noexcept
   return settings;
 }
 
-
 bool LinMotController::takes_ascii() const noexcept {
   return command_interface() == CommandInterface::ascii_rs232 ||
          command_interface() == CommandInterface::ascii_rs485;
 }
 
 void LinMotController::servo(std::int64_t now) noexcept {
-  for (AsciiLine* const line : lines) line->step(now);
+  for (Line* const line : lines) line->step(now);
   read_inputs();
   if (asleep_ && !wakes()) return;
   if (there_count_ != 0) take_changed_parameters();
