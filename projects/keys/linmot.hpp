@@ -134,6 +134,8 @@ inline constexpr Word kLineModes[] = {{"RS232", static_cast<int>(linmot::AsciiLi
                                       {"RS485", static_cast<int>(linmot::AsciiLine::Mode::rs485)}};
 inline constexpr auto kAsciiLine = key_table<linmot::AsciiLine>(
     key::word<&linmot::AsciiLine::mode>("mode", kLineModes, "one controller, or up to six"),
+    key::boolean<&linmot::AsciiLine::pace>(
+        "pace", "characters take their time, as with 9600 baud: answers of stimuli come later by that"),
     key::object("controllers", kLinMotController, "1 to 6: LinMot controller").named().needed());
 inline constexpr auto kScriptedCommand =
     key_table<void>(key::integer("line", {0, 31}, "index of the line in 'ascii'").otherwise_is("0"),

@@ -120,6 +120,11 @@ void LinMotLoader::load_parameter(const JsonValue& json, const linmot::Parameter
     if (const auto number = read_integer(&json, static_cast<std::int64_t>(parameter.range.lowest),
                                          static_cast<std::int64_t>(parameter.range.highest), problems_))
       value = static_cast<double>(*number);
+  } else if (parameter.unit == "ms" && json.kind == JsonKind::string) {
+    constexpr double kMillisecond = 1e6;  // [ns]
+    if (const auto time = read_duration(&json, std::llround(parameter.range.lowest * kMillisecond),
+                                        std::llround(parameter.range.highest * kMillisecond), problems_))
+      value = static_cast<double>(*time) / kMillisecond;
   } else {
     value = read_number(&json, parameter.range.lowest, parameter.range.highest, problems_);
   }

@@ -16,16 +16,17 @@ namespace {
 constexpr double kMillisecond = 1e-3;
 constexpr std::size_t kLargestCurveFile = 8 << 20;
 constexpr std::size_t kMaximumPoints = 100'000;
+constexpr const char* kTooManyPoints = "there are more than 100000 points";
+constexpr double kLatest = 1e9, kFurthest = 2520.0;  // [ms], [mm] of a point
 
 void load_points(const JsonValue& json, linmot::CurvePart& part, const Loading& loading) {
   if (read_array(&json, loading.problems) == nullptr) return;
-  if (json.elements.size() > kMaximumPoints)
-    return loading.problems.report(json, "there are more than " + std::to_string(kMaximumPoints) + " points");
+  if (json.elements.size() > kMaximumPoints) return loading.problems.report(json, kTooManyPoints);
   for (const JsonValue* const point : json.elements) {
     if (point->kind != JsonKind::array || point->elements.size() != 2)
       return report_kind(*point, "[time in ms, position in mm]", loading.problems);
-    const auto time = read_number(point->elements[0], 0.0, 1e9, loading.problems);
-    const auto position = read_number(point->elements[1], -2520.0, 2520.0, loading.problems);
+    const auto time = read_number(point->elements[0], 0.0, kLatest, loading.problems);
+    const auto position = read_number(point->elements[1], -kFurthest, kFurthest, loading.problems);
     if (!time || !position) return;
     if (!part.points.empty() && !(*time * kMillisecond > part.points.back().x))
       return loading.problems.report(*point, "its time is not behind that of the point before");
@@ -43,26 +44,38 @@ bool take_figure(std::string_view& line, double& value) {
   return true;
 }
 
-/// ms;mm in each line; one without figures at the top is a heading.
+/// A point of a line. @return what is wrong with it; empty: nothing
+std::string take_point(std::string_view line, linmot::CurvePart& part) {
+  double time = 0.0, position = 0.0;
+  const bool figures = take_figure(line, time) && take_figure(line, position);
+  if (!figures || !(time >= 0.0 && time <= kLatest && std::abs(position) <= kFurthest))
+    return "allowed: a time in ms from 0 on and a position in mm from -2520 to 2520";
+  if (!part.points.empty() && !(time * kMillisecond > part.points.back().x))
+    return "its time is not behind that of the point before";
+  if (part.points.size() == kMaximumPoints) return kTooManyPoints;
+  part.points.push_back({time * kMillisecond, position});
+  return "";
+}
+
+/// ms;mm in each line; one that begins without a figure at the top is a heading.
 void load_curve_file(const JsonValue& json, linmot::CurvePart& part, const Loading& loading) {
   const auto name = read_string(&json, loading.problems);
   if (!name) return;
   const std::string path = std::filesystem::path(loading.folder) / std::string(*name);
   try {
     const std::string text = read_text_file(path, kLargestCurveFile);
+    if (text.size() > kLargestCurveFile) return loading.problems.report(json, path + " has more than 8 MiB");
     std::size_t number = 0;
     for (std::string_view rest = text; !rest.empty();) {
-      std::string_view line = rest.substr(0, rest.find('\n'));
+      const std::string_view line = rest.substr(0, rest.find('\n'));
       rest.remove_prefix(std::min(rest.size(), line.size() + 1));
       ++number;
-      double time = 0.0, position = 0.0;
-      if (take_figure(line, time) && take_figure(line, position)) {
-        part.points.push_back({time * kMillisecond, position});
+      double figure = 0.0;
+      std::string_view begin = line;
+      if (line.find_first_not_of(" \r\t") == line.npos || (number == 1 && !take_figure(begin, figure)))
         continue;
-      }
-      if (number > 1 && line.find_first_not_of(" \r\t") != line.npos)
-        return loading.problems.report(
-            json, path + ":" + std::to_string(number) + ": allowed: a time in ms and a position in mm");
+      if (const std::string fault = take_point(line, part); !fault.empty())
+        return loading.problems.report(json, path + ":" + std::to_string(number) + ": " + fault);
     }
   } catch (const UnreadableFile& error) {
     loading.problems.report(json, error.what());

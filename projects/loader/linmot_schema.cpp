@@ -27,6 +27,8 @@ Json leaf(const linmot::Parameter& parameter) {
     for (const std::string_view option : parameter.options) schema["enum"].push_back(option);
   } else {
     schema["type"] = parameter.kind == whole ? "integer" : "number";
+    // Or a duration, such as "5ms".
+    if (parameter.unit == "ms") schema["type"] = {"number", "string"};
     schema["minimum"] = parameter.range.lowest;
     schema["maximum"] = parameter.range.highest;
   }

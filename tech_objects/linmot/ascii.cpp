@@ -44,17 +44,18 @@ AsciiRequest read_ascii(std::string_view text) noexcept {
   const AsciiForm form = request.command->form;
   text.remove_prefix(3);
   const bool signs = form == AsciiForm::sign_controller || form == AsciiForm::sign_any;
+  const bool counts = form == AsciiForm::number_drive;
   const bool has_sign = !text.empty() && (text[0] == '+' || text[0] == '-');
-  if (signs && !has_sign) return refused(kSign);
   request.on = has_sign && text[0] == '+';
   const bool negative = has_sign && text[0] == '-';
-  if (form == AsciiForm::number_drive && negative && !request.command->is(AsciiCommand::kSigned))
-    return refused(kSign);
-  if (has_sign && !signs && form != AsciiForm::number_drive) return refused(kForm);
+  if (has_sign && !signs && !counts) return refused(kForm);
   if (has_sign) text.remove_prefix(1);
-  if (form == AsciiForm::number_drive && !take_number(text, request.number)) return refused(kForm);
-  if (negative) request.number = -request.number;
+  if (counts && !take_number(text, request.number)) return refused(kForm);
   if (text.size() != 1 || !is_target(text[0], form)) return refused(kForm);
+  // Its form is right.
+  if (signs && !has_sign) return refused(kSign);
+  if (counts && negative && !request.command->is(AsciiCommand::kSigned)) return refused(kSign);
+  if (negative) request.number = -request.number;
   request.target = text[0];
   return request;
 }
@@ -68,6 +69,20 @@ std::string ascii_text(const AsciiAnswer& answer) {
   if (answer.letter == 'E') text += std::to_string(answer.number);
   if (answer.letter == 'E' && answer.motor != 0) text += answer.motor;
   return text;
+}
+
+std::size_t ascii_length(const AsciiAnswer& answer) noexcept {
+  using enum AsciiAnswer::Kind;
+  std::size_t length = 1;
+  if (answer.kind == error || answer.kind == status) ++length;
+  if (answer.kind == done || (answer.kind == status && answer.letter != 'E')) return length;
+  if (answer.number < 0) ++length;
+  std::int32_t rest = answer.number;
+  do {
+    ++length;
+    rest /= 10;
+  } while (rest != 0);
+  return answer.kind == status && answer.motor != 0 ? length + 1 : length;
 }
 
 }  // namespace lockstep::linmot

@@ -2,6 +2,7 @@
 /// @source LinMot release 1.3 addendum, 8
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -32,5 +33,7 @@ struct AsciiAnswer {
 AsciiRequest read_ascii(std::string_view text) noexcept;
 /// "#" and what there is to say, without its end. Not in the cycle.
 std::string ascii_text(const AsciiAnswer& answer);
+/// How many characters that has. Any thread.
+std::size_t ascii_length(const AsciiAnswer& answer) noexcept;
 
 }  // namespace lockstep::linmot

@@ -349,13 +349,21 @@ AsciiAnswer AsciiLine::carry_out(const AsciiRequest& request) noexcept {
   return addressed.is_motor ? execution.of_motor() : execution.of_controller();
 }
 
+/// [ns] With the CR behind them; ten bits each.
+std::int64_t AsciiLine::time_of(std::size_t characters) const noexcept {
+  constexpr std::int64_t kSecond = 1'000'000'000, kBits = 10, kBaud = 9600;
+  return pace ? static_cast<std::int64_t>(characters + 1) * kBits * kSecond / kBaud : 0;
+}
+
 /// One command in a tick: its answer comes before the next one.
 void AsciiLine::step(std::int64_t now) noexcept {
-  if (next_ == script.size() || script[next_].at > now) return;
+  if (next_ == script.size()) return;
+  ScriptedCommand& command = script[next_];
+  if (std::max(command.at, free_at_) + time_of(command.text.size()) > now) return;
   if (applies != nullptr && !*applies) return;
-  ScriptedCommand& command = script[next_++];
+  ++next_;
   command.answer = carry_out(command.request);
-  command.answered_at = now;
+  command.answered_at = free_at_ = now + time_of(ascii_length(command.answer));
 }
 
 }  // namespace lockstep::linmot

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tech_objects/linmot/ascii.hpp"
+#include "tech_objects/linmot/line.hpp"
 
 namespace lockstep {
 
@@ -23,12 +24,12 @@ struct ScriptedCommand {
   std::string text;
   AsciiRequest request;
   AsciiAnswer answer;
-  std::int64_t answered_at = -1;  ///< [ns]; -1: not yet
+  std::int64_t answered_at = -1;  ///< when the answer is there [ns]; -1: not yet
 };
 
-/// One command is under way at a time: each is carried out in the input phase of a servo tick. Thread: that
-/// of the cycle, but for what says otherwise.
-class AsciiLine {
+/// One command is under way at a time: each is carried out in the input phase of a servo tick, the first one
+/// when its last character is there. Thread: that of the cycle, but for what says otherwise.
+class AsciiLine final : public Line {
  public:
   enum class Mode : std::uint8_t { rs232, rs485 };
 
@@ -37,9 +38,9 @@ class AsciiLine {
   std::array<LinMotController*, kControllersOnLine> controllers{};
   std::vector<ScriptedCommand> script;  ///< by time
   const bool* applies = nullptr;        ///< whether the script counts
+  bool pace = false;                    ///< characters take their time, 9600 baud
 
-  /// Carries out what is due. @param now time of the tick [ns]
-  void step(std::int64_t now) noexcept;
+  void step(std::int64_t now) noexcept override;
   AsciiAnswer carry_out(const AsciiRequest& request) noexcept;
 
  private:
@@ -49,8 +50,10 @@ class AsciiLine {
     bool is_motor = false;
   };
   int find(const AsciiRequest& request, Addressed& addressed) const noexcept;
+  std::int64_t time_of(std::size_t characters) const noexcept;
 
   std::size_t next_ = 0;
+  std::int64_t free_at_ = 0;  // when the last answer is there [ns]
 };
 
 }  // namespace linmot

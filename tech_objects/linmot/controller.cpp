@@ -7,7 +7,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "tech_objects/linmot/ascii_line.hpp"
 #include "tech_objects/linmot_catalogue/errors.hpp"
 #include "tech_objects/linmot_catalogue/increments.hpp"
 #include "tech_objects/types/bool_tag.hpp"
@@ -39,7 +38,7 @@ void LinMotController::configure(double servo_period, int) {
   for (std::size_t i = 0; i < kMotors; ++i) {
     motors_[i].use_curves(curves.data());
     if (hardware->range_switch) motors_[i].limit_current(data.Motors[i].Parameters.range_3a ? 3.0 : 2.0);
-    motors_[i].configure(motor_settings[i], data.Motors[i].Parameters, cycle, servo_period);
+    motors_[i].configure(settings_with_inputs(i), data.Motors[i].Parameters, cycle, servo_period);
     keep_parameters(i);
     if (has_motor(i)) there_[there_count_++] = static_cast<std::uint8_t>(i);
   }
@@ -58,13 +57,29 @@ void LinMotController::configure(double servo_period, int) {
   show();
 }
 
+/// The inputs that IO Configuration has it read; with PROFIBUS bits of the control word are triggers too.
+MotorSettings LinMotController::settings_with_inputs(std::size_t index) noexcept {
+  const SystemParameters& system = data.Parameters;
+  const std::array<BOOL, kMotors> reads = {system.analog_trig_drive_a, system.analog_trig_drive_b,
+                                           system.analog_trig_drive_c, system.analog_trig_drive_d};
+  MotorSettings settings = motor_settings[index];
+  if (!reads[index]) {
+    settings.trigger = nullptr;
+    settings.analog = nullptr;
+  }
+  if (command_interface() != CommandInterface::profibus) return settings;
+  wired_triggers_[index] = settings.trigger;
+  settings.trigger = &bus_triggers_[index];
+  return settings;
+}
+
 bool LinMotController::takes_ascii() const noexcept {
   return command_interface() == CommandInterface::ascii_rs232 ||
          command_interface() == CommandInterface::ascii_rs485;
 }
 
 void LinMotController::servo(std::int64_t now) noexcept {
-  for (AsciiLine* const line : lines) line->step(now);
+  for (Line* const line : lines) line->step(now);
   read_inputs();
   if (asleep_ && !wakes()) return;
   if (there_count_ != 0) take_changed_parameters();

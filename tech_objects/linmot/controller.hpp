@@ -11,6 +11,7 @@
 
 #include "tech_objects/data_blocks/linmot.hpp"
 #include "tech_objects/linmot/hardware.hpp"
+#include "tech_objects/linmot/line.hpp"
 #include "tech_objects/linmot/motor.hpp"
 #include "tech_objects/linmot/multi_trigger.hpp"
 #include "tech_objects/linmot/process_image.hpp"
@@ -21,8 +22,6 @@
 namespace lockstep {
 
 namespace linmot {
-
-class AsciiLine;
 
 /// Tags that are inputs and outputs; nullptr: not wired.
 struct Wiring {
@@ -50,7 +49,7 @@ class LinMotController final : public TechnologyObject {
   std::array<linmot::Curve, linmot::kCurves> curves{};
   linmot::StateTable table;
   linmot::ProcessImageLayout image;
-  std::vector<linmot::AsciiLine*> lines;  ///< that it serves, for itself and others
+  std::vector<linmot::Line*> lines;  ///< that it serves, for itself and others
 
   LinMotData data;
   void* data_block() noexcept override { return &data; }
@@ -132,6 +131,7 @@ class LinMotController final : public TechnologyObject {
     bool homed = true;  ///< all
   };
 
+  linmot::MotorSettings settings_with_inputs(std::size_t index) noexcept;
   std::span<const std::uint8_t> motors_there() const noexcept { return {there_.data(), there_count_}; }
   void keep_parameters(std::size_t index) noexcept;
   void take_changed_parameters() noexcept;
@@ -212,6 +212,8 @@ class LinMotController final : public TechnologyObject {
   bool shutting_down_ = false;
   bool out_of_range_ = false;
   linmot::CodeFilter code_;
+  std::array<const bool*, linmot::kMotors> wired_triggers_{};  // that count besides the control word
+  std::array<bool, linmot::kMotors> bus_triggers_{};           // both
   int row_ = -1;
   bool refused_ = false;                                  // something that was asked for, and is to be logged
   std::array<std::uint32_t, linmot::kMotors> address_{};  // of the memory, as each motor's commands set it

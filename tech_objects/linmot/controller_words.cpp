@@ -3,6 +3,7 @@
 
 #include "tech_objects/linmot/controller.hpp"
 #include "tech_objects/linmot_catalogue/increments.hpp"
+#include "tech_objects/types/bool_tag.hpp"
 
 namespace lockstep {
 
@@ -35,7 +36,12 @@ void LinMotController::read_control(std::uint16_t word) noexcept {
   flags_.stop = bit(word, 2);
   flags_.init = bit(word, 3);
   flags_.freeze = bit(word, 4);
-  for (std::size_t i = 0; i < kMotors; ++i) flags_.freeze_motor[i] = bit(word, 12 + static_cast<int>(i));
+  constexpr int kFirstTrigger = 8, kFirstFreeze = 12;
+  for (std::size_t i = 0; i < kMotors; ++i) {
+    const int motor = static_cast<int>(i);
+    flags_.freeze_motor[i] = bit(word, kFirstFreeze + motor);
+    bus_triggers_[i] = bit(word, kFirstTrigger + motor) || is_on(wired_triggers_[i]);
+  }
 }
 
 /// A value out of its range changes nothing, and leads to ERROR.

@@ -39,7 +39,7 @@ void Motor::configure(const MotorSettings& settings, const MotorParameters& para
 
 void Motor::configure_loop() noexcept {
   const double maximum = std::min(parameters_.maximal_current, hardware_current_);
-  const double limit = homes() ? maximum * parameters_.maximal_init_current / 100.0 : maximum;
+  const double limit = gentle_ ? maximum * parameters_.maximal_init_current / 100.0 : maximum;
   loop_.configure({.proportional = parameters_.proportional,
                    .derivative = parameters_.derivative,
                    .integral = parameters_.integral,
@@ -88,6 +88,7 @@ void Motor::energise() noexcept {
   setpoint_ = {actual(), 0.0, 0.0};
   limiter_.begin(actual());
   loop_.reset(position_);
+  gentle_ = homes();
   configure_loop();
   order_ = {.position = demand_, .limits = filter_, .follows_filter = true};
   limiter_.go_to(bounded(demand_), filter_);
@@ -207,11 +208,14 @@ void Motor::move_names(double distance) noexcept {
   limiter_.begin(setpoint_.position);
 }
 
+/// Homing ends, and with it the current that it may press with stays as low; where no position is known, none
+/// is gone to.
 void Motor::emergency_stop() noexcept {
   using enum EmergencyStopMode;
   frozen_ = false;
   disarm();
   queued_.reset();
+  give_up_homing();
   const Limits limits = limits_of(parameters_.emergency_max_speed, parameters_.emergency_max_acceleration);
   switch (static_cast<EmergencyStopMode>(parameters_.emergency_stop_mode)) {
     case off:
@@ -219,6 +223,7 @@ void Motor::emergency_stop() noexcept {
     case freeze:
       return stop(parameters_.emergency_max_acceleration);
     case goto_position:
+      if (!homed_) return stop(parameters_.emergency_max_acceleration);
       order_ = {.position = parameters_.stop_position, .limits = limits};
       return go(parameters_.stop_position, limits, false);
   }
@@ -247,6 +252,7 @@ void Motor::begin_homing() noexcept {
     assign_home();
     homing_ = Homing::done;
     homed_ = true;
+    gentle_ = false;
     configure_loop();
     return;
   }
@@ -322,6 +328,7 @@ void Motor::home_on() noexcept {
         if (homing_ == Homing::check) return homing_move(Homing::initial, parameters_.initial_position);
         homing_ = Homing::done;
         homed_ = true;
+        gentle_ = false;
         order_ = {.position = demand_, .limits = filter_, .follows_filter = true};
         return configure_loop();
       }

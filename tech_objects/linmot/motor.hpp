@@ -71,6 +71,7 @@ class Motor {
     energised_ = frozen_ = brakes_ = curve_missing_ = false;
     curve_mode_ = false;
     player_.stop();
+    give_up_homing();
   }
   bool energised() const noexcept { return energised_; }
   void execute(const Order& order) noexcept;
@@ -130,6 +131,10 @@ class Motor {
   double shift() const noexcept { return shift_; }
 
  private:
+  /// One that is done stays so.
+  void give_up_homing() noexcept {
+    if (homing_ != Homing::done) homing_ = Homing::none;
+  }
   bool trigger_level() const noexcept { return settings_.trigger != nullptr && *settings_.trigger; }
   void apply(const Order& order) noexcept;
   void resume() noexcept;
@@ -190,6 +195,7 @@ class Motor {
   const Curve* curves_ = nullptr;
   Homing homing_ = Homing::none;
   bool homed_ = false;
+  bool gentle_ = false;  // no more than the current of homing
   int slow_ticks_ = 0;
   int limit_ticks_ = 0;
   std::int64_t homing_ticks_left_ = 0;

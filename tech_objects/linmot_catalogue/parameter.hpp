@@ -43,10 +43,10 @@ struct SystemParameters {
   BOOL init_input = false;
   BOOL freeze_input = false;
   BOOL emerg_stop_input = false;
-  BOOL analog_trig_drive_a = false;
-  BOOL analog_trig_drive_b = false;
-  BOOL analog_trig_drive_c = false;
-  BOOL analog_trig_drive_d = false;
+  BOOL analog_trig_drive_a = true;
+  BOOL analog_trig_drive_b = true;
+  BOOL analog_trig_drive_c = true;
+  BOOL analog_trig_drive_d = true;
   BOOL error_output = true;
   BOOL warn_output = true;
   BOOL pos_error_output = true;

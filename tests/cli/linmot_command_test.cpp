@@ -101,6 +101,82 @@ TEST(LinMotCommand, CalculatesFeedForward) {
     EXPECT_NE(ended.out.find(figure), std::string::npos) << figure << "\n" << ended.out;
 }
 
+/// The lid with comments, which stay, and with no feed-forward of C.
+std::string lid_with_comments(const Directory& directory) {
+  std::string text = content(std::string(LOCKSTEP_SOURCE_DIR) + "/projects/27_lid/project.json");
+  text.insert(text.find("\"Drive B\""), "// the container\n          ");
+  const std::string feed_forward =
+      ", \"FF Friction\": 0.2, \"FF Acceleration\": 28.2, \"FF Deceleration\": 28.2";
+  const auto found = text.find(feed_forward);
+  EXPECT_NE(found, text.npos);
+  text.erase(found, feed_forward.size());
+  return directory.write("lid.json", text);
+}
+
+TEST(LinMotCommand, TunesAMotorOfAProject) {
+  const Directory directory;
+  const std::string project = lid_with_comments(directory), before = content(project);
+  const Ended told = lockstep({"linmot", "tune", project, "Lid", "B"});
+  EXPECT_EQ(told.status, 0) << told.err;
+  for (const char* const figure : {"2.029 kg", "0.2500 A", "50.725 mA/(m/s²)", "0.00000 A"})
+    EXPECT_NE(told.out.find(figure), std::string::npos) << figure << "\n" << told.out;
+  EXPECT_EQ(content(project), before);
+  const Ended applied = lockstep({"linmot", "tune", project, "Lid", "B", "--apply"});
+  EXPECT_EQ(applied.status, 0) << applied.err;
+  EXPECT_NE(applied.out.find("lid.json:19: FF Friction\n"), std::string::npos) << applied.out;
+  EXPECT_EQ(lockstep({"linmot", "tune", project, "Lid", "C", "--apply"}).status, 0);
+  const std::string after = content(project);
+  EXPECT_NE(after.find("// the container"), after.npos);
+  EXPECT_NE(after.find(R"("Current Offset": 0)"), after.npos) << after;
+  const Json drives =
+      Json::parse(after, nullptr, true, true)["technology_objects"]["Lid"]["config"]["Drives"];
+  const auto of = [&drives](const char* drive) { return drives[drive]["Control Parameters"]; };
+  EXPECT_EQ(
+      of("Drive A"),
+      Json::parse(before, nullptr, true,
+                  true)["technology_objects"]["Lid"]["config"]["Drives"]["Drive A"]["Control Parameters"]);
+  EXPECT_DOUBLE_EQ(of("Drive B")["FF Friction"], 0.25);
+  EXPECT_DOUBLE_EQ(of("Drive B")["FF Acceleration"], 50.725);
+  EXPECT_DOUBLE_EQ(of("Drive C")["FF Friction"], 0.2);
+  EXPECT_DOUBLE_EQ(of("Drive C")["FF Deceleration"], 28.225);
+  EXPECT_DOUBLE_EQ(of("Drive C")["Maximal Current"], 5.0);
+  // Once more changes nothing.
+  EXPECT_EQ(lockstep({"linmot", "tune", project, "Lid", "C", "--apply"}).status, 0);
+  EXPECT_EQ(content(project), after);
+}
+
+TEST(LinMotCommand, RefusesToTuneWhatIsNotThere) {
+  const Directory directory;
+  const std::string project = lid_with_comments(directory), before = content(project);
+  const auto refused = [&](std::vector<std::string> words, int status, const std::string& text) {
+    words.insert(words.begin(), {"linmot", "tune"});
+    const Ended ended = lockstep(words);
+    EXPECT_EQ(ended.status, status) << ended.err;
+    EXPECT_NE(ended.err.find(text), std::string::npos) << text << "\n" << ended.err;
+  };
+  refused({project, "Lib", "A", "--apply"}, 1, "there is no LinMot_Controller 'Lib'");
+  refused({project, "Lid", "D", "--apply"}, 1, "'motors' of Lid does not describe D");
+  refused({project, "Lid", "E"}, 2, "one of A, B, C, D");
+  refused({project, "Lid", "A", "--friction", "3"}, 2, "");
+  refused({project, "Lid"}, 2, "");
+  refused({"--apply"}, 2, "");
+  refused({}, 2, "FILE CONTROLLER A");
+  refused({"/nowhere/x.json", "Lid", "A"}, 2, "");
+  EXPECT_EQ(content(project), before);
+  // A controller that another file has.
+  Json whole = Json::parse(before, nullptr, true, true), part;
+  for (const char* const key : {"technology_objects", "tags", "programs"}) {
+    part[key] = whole[key];
+    whole.erase(key);
+  }
+  whole["include"] = {"lid.json"};
+  directory.write("whole.json", whole.dump());
+  directory.write("lid.json", part.dump());
+  const std::string in_part = content(project);
+  refused({directory.file("whole.json"), "Lid", "A", "--apply"}, 1, "does not stand in this file itself");
+  EXPECT_EQ(content(project), in_part);
+}
+
 TEST(LinMotCommand, TellsCurvesAndRows) {
   const std::string project = std::string(LOCKSTEP_SOURCE_DIR) + "/projects/27_lid/project.json";
   const Ended curves = lockstep({"linmot", "curve", project, "--number", "1"});
@@ -171,6 +247,20 @@ TEST(RunCommand, WritesWhatWasSaidOnTheLines) {
   EXPECT_EQ(ended.status, 0) << ended.err;
   // One command at a time: the second has its answer a tick later.
   EXPECT_EQ(content(file), "t,line,request,answer\n0.01,0,!PV1,#2\n0.011,0,!GS1,#W\n0.02,0,\"a,b\",#E59\n");
+}
+
+// With the time of 9600 baud: "!PV1", CR, the next tick, "#2", CR; then the next command.
+TEST(RunCommand, WritesWhenAnswersAreThereOnALineWithPace) {
+  const Directory directory;
+  Json project = talking();
+  project["ascii"][0]["pace"] = true;
+  std::ofstream(directory.file("project.json")) << project.dump();
+  const std::string file = directory.file("said.csv");
+  const Ended ended = lockstep(
+      {"run", directory.file("project.json"), "--simulate", "--duration", "100ms", "--transcript", file});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(content(file),
+            "t,line,request,answer\n0.019125,0,!PV1,#2\n0.028125,0,!GS1,#W\n0.038208333,0,\"a,b\",#E59\n");
 }
 
 TEST(RunCommand, RefusesATranscriptWithoutALine) {

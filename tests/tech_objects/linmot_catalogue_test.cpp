@@ -1,11 +1,14 @@
 // The tables of a LinMot controller against the catalogues; increments.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
+#include "tech_objects/linmot/hardware.hpp"
 #include "tech_objects/linmot_catalogue/ascii_commands.hpp"
 #include "tech_objects/linmot_catalogue/errors.hpp"
 #include "tech_objects/linmot_catalogue/increments.hpp"
@@ -135,6 +138,84 @@ TEST(LinMotErrors, AreThePublishedOnes) {
     EXPECT_EQ(std::to_string(linmot::errors()[i].ascii), code);
   }
   EXPECT_EQ(linmot::warnings().size(), document.at("warnings").size());
+}
+
+/// The number in "GE bit 1", "E0010", "E0x03 (x = motor)", "Stat A long, Stat B 2x", "3x" behind a text; -1:
+/// it is not there.
+int number_in(const Json& text, const std::string& behind, int base = 10) {
+  if (!text.is_string()) return -1;
+  const auto all = text.get<std::string>();
+  const auto found = all.find(behind);
+  if (found == all.npos) return -1;
+  try {
+    return std::stoi(all.substr(found + behind.size()), nullptr, base);
+  } catch (const std::exception&) {
+    return -1;
+  }
+}
+
+TEST(LinMotErrors, HaveThePublishedBitsAndCodes) {
+  const Json document = catalogue("errors");
+  int bits = 0, codes = 0, blinks = 0, masks = 0;
+  for (std::size_t i = 0; i < linmot::errors().size(); ++i) {
+    const Json& one = document.at("catalog")[i];
+    const linmot::ErrorRow& row = linmot::errors()[i];
+    const std::string name(row.name);
+    if (const int bit = number_in(one.at("asciiStatusBit"), "bit "); bit >= 0) {
+      EXPECT_EQ(row.bit, bit) << name;
+      ++bits;
+    }
+    if (const int bit = number_in(one.at("profibusErrorBit"), "bit "); bit >= 0) {
+      EXPECT_EQ(row.diagnosis_bit, bit) << name;
+    }
+    const int code =
+        row.of_motor ? number_in(one.at("v3Code"), "E0x", 16) : number_in(one.at("v3Code"), "E", 16);
+    if (code >= 0) {
+      EXPECT_EQ(row.code, code) << name;
+      ++codes;
+    }
+    // Version 2 flashes as often as the number of the status says.
+    int blink = number_in(one.at("v2StatB"), "Stat B ");
+    if (blink < 0 && one.at("v2StatB").is_string()) blink = number_in(one.at("v2StatB"), "");
+    if (blink >= 0) {
+      EXPECT_EQ(row.ascii, blink) << name;
+      ++blinks;
+    }
+    if (one.at("errorMask").is_string() && one.at("errorMask").get<std::string>().starts_with("always")) {
+      EXPECT_EQ(row.mask, "") << name;
+      ++masks;
+    }
+  }
+  EXPECT_GE(bits, 10);
+  EXPECT_GE(codes, 12);
+  EXPECT_GE(blinks, 6);
+  EXPECT_GE(masks, 5);
+}
+
+/// The thresholds of a supply, from low error to high error.
+std::array<double, 4> thresholds_of(const Json& row) {
+  return {row.at("low").at("error").get<double>(), row.at("low").at("warn").get<double>(),
+          row.at("high").at("warn").get<double>(), row.at("high").at("error").get<double>()};
+}
+std::array<double, 4> as_array(const linmot::SupplyThresholds& one) {
+  return {one.low_error, one.low_warning, one.high_warning, one.high_error};
+}
+
+TEST(LinMotHardware, HasThePublishedThresholdsOfItsSupplies) {
+  const Json table = catalogue("errors").at("supplyThresholds");
+  for (const linmot::Hardware& one : linmot::all_hardware()) {
+    const bool third = one.version == 3;
+    const bool high = one.name.size() >= 5 && one.name[4] >= '0' && one.name[4] <= '9';  // E1000 and above
+    const Json& rows = table.at(third ? "v3" : "v2");
+    EXPECT_EQ(as_array(one.signal), thresholds_of(rows[0])) << one.name;
+    EXPECT_EQ(as_array(one.power), thresholds_of(rows[third ? 1 : high ? 2 : 1])) << one.name;
+    EXPECT_EQ(one.range_switch, !third && !high) << one.name;
+    EXPECT_EQ(one.mt, one.name.ends_with("-MT")) << one.name;
+    EXPECT_EQ(one.profibus, one.name.ends_with("-DP")) << one.name;
+    EXPECT_EQ(one.motors, one.name[1] - '0') << one.name;
+  }
+  EXPECT_EQ(linmot::find_hardware("E100")->power.low_error, 18.24);
+  EXPECT_EQ(linmot::find_hardware("E5000"), nullptr);
 }
 
 }  // namespace

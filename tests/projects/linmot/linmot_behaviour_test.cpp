@@ -192,6 +192,22 @@ TEST(LinMotErrors, ShowTheCodesOfTheirVersion) {
   }
 }
 
+// Whoever has the error, and at once.
+TEST(LinMotErrors, TakeTheCurrentOfEveryMotor) {
+  LinMotRun run(four_motors());
+  run.start();
+  for (const char* const motor : {"A", "B", "C", "D"})
+    EXPECT_EQ(run.send(std::string("!SP5120") + motor), "#");
+  run.run(0.02);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NE(run.motor(i).DemandCurrent, 0.0) << i;
+  run.write("hot", 1);
+  run.write("missing", 1);  // that of A
+  run.step();
+  EXPECT_EQ(run.state(), State::error);
+  run.step();
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(run.motor(i).DemandCurrent, 0.0) << i;
+}
+
 TEST(LinMotErrors, CalculateATemperatureWhereOneIsDescribed) {
   Json project = linmot_project("1ms");
   controller_of(project)["motors"]["A"]["inclination"] = 90.0;

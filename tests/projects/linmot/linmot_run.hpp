@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "projects/loader/simulation.hpp"
+#include "tech_objects/linmot/ascii_line.hpp"
 #include "tech_objects/linmot/controller.hpp"
 
 namespace lockstep {
@@ -105,6 +106,7 @@ class LinMotRun {
   }
 
   LinMotController& controller() { return *controller_; }
+  linmot::AsciiLine& line() { return simulation_.project().ascii_lines.front(); }
   LinMotMotorData& motor(std::size_t index = 0) { return controller_->data.Motors[index]; }
   linmot::State state() const { return controller_->state(); }
   void write(const std::string& path, double value) { simulation_.write(path, value); }
@@ -123,13 +125,12 @@ class LinMotRun {
   void run(double seconds) { until(time() + seconds); }
   /// Sends a command in the next tick. @return the answer
   std::string send(const std::string& text) {
-    linmot::AsciiLine& line = simulation_.project().ascii_lines.front();
-    linmot::ScriptedCommand& sent = line.script.emplace_back();
+    linmot::ScriptedCommand& sent = line().script.emplace_back();
     sent.at = simulation_.now().count();
     sent.text = text;
     sent.request = linmot::read_ascii(text);
     step();
-    const linmot::ScriptedCommand& command = line.script.back();
+    const linmot::ScriptedCommand& command = line().script.back();
     return command.answered_at < 0 ? "no answer" : linmot::ascii_text(command.answer);
   }
   /// From power-up into RUN, homed.

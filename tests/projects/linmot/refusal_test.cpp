@@ -125,6 +125,10 @@ TEST(LinMotProject, NeedsHardwareForWhatItIsToDo) {
   EXPECT_NE(errors_of(project).find("1 motors, and B is none"), std::string::npos);
   controller_of(project)["hardware"] = "E400-MT";
   EXPECT_EQ(errors_of(project), "");
+  controller_of(project)["config"]["System"]["Command Interface"] = "PROFIBUS";
+  EXPECT_NE(errors_of(project).find("E400-MT has no PROFIBUS; allowed: one with -DP"), std::string::npos);
+  controller_of(project)["hardware"] = "E430-DP";
+  EXPECT_EQ(errors_of(project), "");
 }
 
 TEST(LinMotProject, WarnsOfCurvesThatAreBad) {
