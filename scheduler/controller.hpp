@@ -15,6 +15,7 @@
 #include "scheduler/levels.hpp"
 #include "scheduler/process_image.hpp"
 #include "scheduler/program.hpp"
+#include "scheduler/shown_count.hpp"
 #include "scheduler/signal_tap.hpp"
 #include "scheduler/telegram_ring.hpp"
 #include "scheduler/text.hpp"
@@ -150,6 +151,7 @@ class Controller {
   SignalTap* tap = nullptr;                      ///< crossing of signals chosen while it runs; nullptr: none
   std::vector<TelegramOutput> telegram_outputs;  ///< crossings to other controllers
   std::vector<TelegramInput> telegram_inputs;    ///< crossings from other controllers
+  std::vector<ShownCount> shown_counts;          ///< of threads that carry something, in tags
   /// [ns] What the clock that all controllers share shows when the time of this one is 0.
   std::int64_t shared_time_at_start = 0;
 

@@ -67,6 +67,7 @@ void Controller::take_inputs(std::int64_t t) noexcept {
       input.proxy->take(telegram, t);
       return true;
     });
+  for (const ShownCount& one : shown_counts) one.show();
   encoder_saving.step();
   if (apply_stimuli)
     for (; next_stimulus_ < stimuli.size() && stimuli[next_stimulus_].at <= t; ++next_stimulus_)

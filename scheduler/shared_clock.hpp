@@ -52,6 +52,7 @@ class ClockWatch {
   bool trusted() const noexcept { return trusted_.load(std::memory_order_relaxed); }
   /// Times at which it has been found to have jumped, or not to be locked any more.
   std::uint64_t losses() const noexcept { return losses_.load(std::memory_order_relaxed); }
+  const std::atomic<std::uint64_t>& loss_count() const noexcept { return losses_; }
 
  private:
   void lose(std::int64_t now, std::int64_t offset) noexcept;

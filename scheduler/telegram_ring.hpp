@@ -48,6 +48,8 @@ class TelegramRing {
   }
 
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+  /// The count of those itself. Any thread.
+  const std::atomic<std::uint64_t>& drops() const noexcept { return dropped_; }
 
  private:
   alignas(kCacheLine) std::atomic<std::size_t> begin_{0};

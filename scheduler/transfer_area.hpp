@@ -45,4 +45,12 @@ struct TransferArea {
   }
 };
 
+/// Where the counts of telegrams are shown that go out over networks; nullptr: nobody asks.
+struct SentTelegramTags {
+  std::uint64_t* sent = nullptr;
+  std::uint64_t* failed = nullptr;
+  std::uint64_t* dropped = nullptr;
+  std::uint64_t* clock_losses = nullptr;
+};
+
 }  // namespace lockstep

@@ -196,6 +196,17 @@ inline constexpr auto kTransferArea = key_table<TransferArea>(
         .one_or_list()
         .otherwise_is("any"));
 
+inline constexpr auto kSentTelegrams = key_table<SentTelegramTags>(
+    key::tag<&SentTelegramTags::sent>("sent", "ULINT tag: telegrams that the network has taken", Type::ULINT),
+    key::tag<&SentTelegramTags::failed>("failed", "ULINT tag: those that it has not taken", Type::ULINT),
+    key::tag<&SentTelegramTags::dropped>("dropped", "ULINT tag: those for which there was no space left",
+                                         Type::ULINT),
+    key::tag<&SentTelegramTags::clock_losses>(
+        "clock_losses",
+        "ULINT tag: times at which the clock that all controllers share has jumped, or was not kept in step "
+        "any more",
+        Type::ULINT));
+
 inline constexpr auto kProject = key_table<void>(
     kSchema, kInclude, key::one_of("lockstep", kVersions, "version of the format").needed(),
     key::title("name", "name of the project").needed(), key::text("description", "what the project does"),
@@ -204,6 +215,8 @@ inline constexpr auto kProject = key_table<void>(
     key::structure("transfer_areas", kTransferArea, "name: path of a leading value to proxies").named(),
     key::structure("network", kProjectNetwork,
                    "by which telegrams of transfer areas travel to other processes"),
+    key::structure("telegrams", kSentTelegrams,
+                   "where the counts of telegrams stand that go out over networks, in real time"),
     key::structure("tags", kTag, "name: tag").named().defined_as("tags"),
     key::structure("programs", kProgram, "programs").list(),
     key::structure("ascii", kAsciiLine, "lines to LinMot controllers").list(),

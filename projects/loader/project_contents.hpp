@@ -149,6 +149,7 @@ struct Project {
   std::deque<linmot::AsciiLine> ascii_lines;            ///< to LinMot controllers
   std::vector<TransferArea> transfer_areas;             ///< within the controller
   std::vector<NetworkCoupling> couplings;               ///< to other processes, in real time
+  SentTelegramTags sent_tags;                           ///< of those
   std::optional<FlightRecorderConfig> flight_recorder;  ///< none: the project has none
   std::optional<AuditOptions> audit;                    ///< none: the project has no audit log
   Expectations expectations;                            ///< of a simulated run

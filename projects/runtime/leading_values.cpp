@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <exception>
 #include <random>
 #include <utility>
@@ -48,6 +50,23 @@ LeadingValueExchange::LeadingValueExchange(Project& project, const NetworkCoupli
   } catch (const std::exception& error) {
     throw CouldNotStart(std::string("leading values: ") + error.what());
   }
+  show_counts(project);
+}
+
+/// Adds the counts of this network to the tags that the project names for those of all.
+void LeadingValueExchange::show_counts(Project& project) const {
+  const auto show = [&](std::uint64_t* tag, const std::atomic<std::uint64_t>& count) {
+    if (tag == nullptr) return;
+    auto& shown = project.controller->shown_counts;
+    const auto there = std::ranges::find(shown, tag, &ShownCount::tag);
+    (there != shown.end() ? *there : shown.emplace_back(ShownCount{tag})).counts.push_back(&count);
+  };
+  const SentTelegramTags& tags = project.sent_tags;
+  show(tags.clock_losses, watch_.loss_count());
+  if (!sender_) return;
+  show(tags.sent, sender_->sent().telegrams);
+  show(tags.failed, sender_->sent().failed);
+  for (const TelegramRing* const ring : sent_rings_) show(tags.dropped, ring->drops());
 }
 
 std::vector<LeadingValueSender::Area> LeadingValueExchange::outgoing(Project& project,

@@ -50,6 +50,7 @@ class LeadingValueExchange {
                                                  const SharedKey& key);
   std::vector<LeadingValueReceiver::Area> incoming(Project& project, const NetworkCoupling& coupling,
                                                    const SharedKey& key);
+  void show_counts(Project& project) const;
   TelegramRing& add_ring() { return *rings_.emplace_back(std::make_unique<TelegramRing>()); }
 
   const NetworkConfig network_;

@@ -1,6 +1,7 @@
 // What telegrams of leading values cost a tick.
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 #include "bench/measure.hpp"
 #include "bench/parts.hpp"
@@ -17,11 +18,34 @@ constexpr char kSource[] = R"({
   "technology_objects": {
     "Main": { "type": "TO_PositioningAxis",
               "config": { "VirtualAxis": { "Mode": 1 }, "Modulo": { "Enable": true, "Length": 360.0 },
-                          "CrossPlcSynchronousOperation": { "Interface[1]": { "EnableLeadingValueOutput": true } } } } },
+                          "CrossPlcSynchronousOperation": { "LocalLeadingValueDelayTime": 0.008,
+                                                            "Interface[1]": { "EnableLeadingValueOutput": true } } } } },
   "programs": [ { "name": "Main", "ob": "Main", "cycle": "1ms", "calls": [
     { "fb": "MC_Power", "name": "power", "in": { "Axis": "Main", "Enable": true } },
     { "fb": "MC_MoveVelocity", "name": "run", "in": { "Axis": "Main", "Execute": "power.Status", "Velocity": 100.0 } } ] } ]
 })";
+
+/// Ticks of a controller with one leading axis, that sends its value or provides none.
+Part ticks(bool sends) {
+  std::string text = kSource;
+  const std::string enabled = "\"EnableLeadingValueOutput\": true";
+  if (!sends) text.replace(text.find(enabled), enabled.size(), "\"EnableLeadingValueOutput\": false");
+  auto loaded = std::make_shared<LoadedProject>(load_project(text));
+  if (!loaded->project) throw std::runtime_error("no source of telegrams");
+  auto ring = std::make_shared<TelegramRing>();
+  Controller& controller = *loaded->project->controller;
+  if (sends) controller.telegram_outputs.push_back({controller.axes[0], ring.get()});
+  for (int i = 0; i < 5000; ++i) controller.tick();
+  return {std::string("tick of a controller with one leading axis, ") +
+              (sends ? "that sends its leading value" : "that provides none"),
+          [loaded, ring, &controller](int calls) {
+            for (int i = 0; i < calls; ++i) {
+              controller.tick();
+              ring->take([](const LeadingValueTelegram& one) { keep(one); });
+            }
+          },
+          100'000};
+}
 
 /// A telegram is made and put, as a tick does for each transfer area; now and then the ring is emptied.
 Part out() {
@@ -82,14 +106,16 @@ Part in() {
           100'000};
 }
 
-Part led() {
+/// What comes in and what is given in a tick. @param phase of the receiver behind the source [ns]
+Part led(std::int64_t phase) {
   auto line = std::make_shared<Line>();
-  return {"telegram of a leading value: in, and the value of a proxy in this tick",
-          [line](int calls) {
+  return {phase == 0 ? "telegram of a leading value: in, and the value of a proxy in this tick"
+                     : "the same, between two telegrams",
+          [line, phase](int calls) {
             for (int i = 0; i < calls; ++i) {
               line->send();
               line->take();
-              line->proxy.servo(line->telegram.time);
+              line->proxy.servo(line->telegram.time + phase);
               line->proxy.before_axes();
             }
             keep(line->proxy);
@@ -100,7 +126,7 @@ Part led() {
 }  // namespace
 
 std::vector<Part> telegram_parts() {
-  return {out(), in(), led()};
+  return {out(), ticks(false), ticks(true), in(), led(0), led(300'000)};
 }
 
 }  // namespace lockstep::bench

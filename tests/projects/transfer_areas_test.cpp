@@ -196,6 +196,23 @@ TEST(TransferAreas, HaveTheirCountsInTagsOfTheRightTypeOnly) {
   EXPECT_NE(all.problems[0].text.find("ULINT tag"), std::string::npos) << all.problems[0].text;
 }
 
+/// Those of what goes out stand at the root: they are of the controller, whatever provides.
+TEST(TransferAreas, HaveTheCountsOfWhatGoesOutInTagsOfTheRightTypeOnly) {
+  Json json = Json::parse(project(kArea));
+  json["tags"]["sent"] = {{"type", "ULINT"}};
+  json["telegrams"]["sent"] = "sent";
+  const LoadedProject loaded = load_project(json.dump());
+  ASSERT_TRUE(loaded.project);
+  EXPECT_NE(loaded.project->sent_tags.sent, nullptr);
+  EXPECT_EQ(loaded.project->sent_tags.clock_losses, nullptr);
+  for (const Problem& warning : loaded.warnings) EXPECT_NE(warning.place, "/tags/sent") << "it is used";
+  json["tags"]["sent"]["type"] = "UDINT";
+  const Told all = told(json.dump());
+  ASSERT_EQ(all.problems.size(), 1u);
+  EXPECT_EQ(all.problems[0].place, "/telegrams/sent");
+  EXPECT_NE(all.problems[0].text.find("ULINT tag"), std::string::npos) << all.problems[0].text;
+}
+
 // ---- Files and templates
 
 /// What a project comes to of which the areas, and proxies with them, stand elsewhere.

@@ -80,6 +80,7 @@ inline constexpr char kRestOfProject[] = R"json({
   "transfer_areas": { "line": { "from": "Provider", "interface": 2, "to": "Line" },
                       "out": { "direction": "send", "from": "Provider", "interface": 3, "channel": "whole.out" } },
   "network": { "lcm": "udpm://239.255.76.67:7667?ttl=0", "clock": "tai", "controller": "Whole" },
+  "telegrams": { "failed": "refused" },
   "tags": {
     "switch": { "type": "BOOL" }, "fault": { "type": "BOOL" }, "seconds": { "type": "LREAL" },
     "silent": { "type": "BOOL" }, "heard": { "type": "BOOL" }, "since": { "type": "TIME" },

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/projects/system_files.hpp"
@@ -157,21 +159,49 @@ struct Signal {
   std::string name;
 };
 
-/// The largest distance of two signals on the ring, one `later` [ms] than the other, from `from` [s] of the
-/// second one on.
-double largest_deviation(Signal a, Signal b, std::int64_t later, double from) {
+/// Times in which not all controllers had their ticks, or had not made up for it yet [ms].
+class Disturbed {
+ public:
+  void add(const Recorded& of) {
+    std::int64_t last = -1;
+    for (const auto& [time, row] : of.rows()) {
+      const std::int64_t missed = last < 0 ? 0 : time - last - 1;
+      if (missed > 0) times_.emplace_back(last, time + kMadeUp + 5 * missed);
+      last = time;
+    }
+  }
+  bool at(std::int64_t time) const {
+    return std::ranges::any_of(times_,
+                               [=](const auto& one) { return time > one.first && time < one.second; });
+  }
+  std::size_t stalls() const { return times_.size(); }
+
+ private:
+  static constexpr std::int64_t kMadeUp = 300;
+  std::vector<std::pair<std::int64_t, std::int64_t>> times_;
+};
+
+/// The largest distance of two signals on the ring.
+struct Deviation {
+  double all = 0.0, undisturbed = 0.0;
+  std::size_t compared = 0;  // undisturbed
+};
+
+/// One of the signals is `later` [ms] than the other. @param from [s] of the second one
+Deviation largest_deviation(Signal a, Signal b, std::int64_t later, double from, const Disturbed& disturbed) {
   const std::vector<double>& va = a.of[a.name];
   const std::vector<double>& vb = b.of[b.name];
   const std::vector<double>& t = b.of["t"];
-  double largest = 0.0;
-  std::size_t compared = 0;
+  Deviation largest;
   for (const auto& [time, row] : b.of.rows()) {
     const auto other = a.of.rows().find(time + later);
     if (other == a.of.rows().end() || t[row] < from) continue;
-    largest = std::max(largest, std::abs(std::remainder(va[other->second] - vb[row], kRing)));
-    ++compared;
+    const double apart = std::abs(std::remainder(va[other->second] - vb[row], kRing));
+    largest.all = std::max(largest.all, apart);
+    if (disturbed.at(time) || disturbed.at(time + later)) continue;
+    largest.undisturbed = std::max(largest.undisturbed, apart);
+    ++largest.compared;
   }
-  EXPECT_GT(compared, 500u) << a.name << ", " << b.name;
   return largest;
 }
 
@@ -183,26 +213,28 @@ double extrapolation_bound(double time) {
 
 struct Adjustments {
   double least = INFINITY, most = -INFINITY;  // [s]
+  double undisturbed = -INFINITY;             // [s] most
 };
-Adjustments adjustments(Recorded& of, const std::string& proxy, double from) {
+Adjustments adjustments(Recorded& of, const std::string& proxy, double from, const Disturbed& disturbed) {
   const std::vector<double>& t = of["t"];
-  const std::vector<double>& time = of[proxy + ".StatusExternalLeadingValue.AdjustmentTime"];
+  const std::vector<double>& times = of[proxy + ".StatusExternalLeadingValue.AdjustmentTime"];
   Adjustments found;
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    if (t[i] < from) continue;
-    found.least = std::min(found.least, time[i]);
-    found.most = std::max(found.most, time[i]);
+  for (const auto& [time, row] : of.rows()) {
+    if (t[row] < from) continue;
+    found.least = std::min(found.least, times[row]);
+    found.most = std::max(found.most, times[row]);
+    if (!disturbed.at(time)) found.undisturbed = std::max(found.undisturbed, times[row]);
   }
   return found;
 }
 
-/// For how long a process has had no tick within a tenth of a second, at worst [s]: its axes stood still in
-/// that time, and what looks ahead of what it tells goes on.
-double longest_stall(Recorded& of, double from) {
+/// For how long a process has had no tick within a time, at worst [s]: its axes stood still in it, and what
+/// looks ahead of what it tells goes on.
+double longest_stall(Recorded& of, double from, double within) {
   const std::vector<double>& t = of["t"];
   double longest = 0.0;
   for (std::size_t i = 1, begin = 1; i < t.size(); ++i) {
-    while (t[i] - t[begin - 1] > 0.1 && begin < i) ++begin;
+    while (t[i] - t[begin - 1] > within && begin < i) ++begin;
     if (t[begin - 1] >= from)
       longest = std::max(longest, t[i] - t[begin - 1] - 0.001 * static_cast<double>(i + 1 - begin));
   }
@@ -223,86 +255,148 @@ void expect_no_step(Recorded& of, const std::string& name, double from, double b
   }
 }
 
-// Ten minutes in a soak; here a hundredth.
+constexpr double kFrom = 0.7;  // [s] when all of them lead, and the conveyor stands yet
+constexpr int kFailed = 4;     // exit status of a run with an alarm or a failed job
+
+/// A run of the three controllers on a wire.
+class PlantRun {
+ public:
+  PlantRun(const VirtualPlant& plant, int seconds) : files_(three()) {
+    const std::string system = files_.path();
+    // Those that follow come first, so that all of them couple before the conveyor moves.
+    for (std::size_t i = 3; i-- > 0;) {
+      processes_[i] = std::make_unique<Process>(
+          plant.on(i, lockstep_command({"run", system, "--controller", name(i), "--trace",
+                                        files_.directory().file("t.csv"), "--duration",
+                                        std::to_string(seconds) + "s", "--fail-on", "alarm,job"})));
+      const auto runs = [&] { return processes_[i]->err().find("time 0 is") != std::string::npos; };
+      EXPECT_TRUE(wait_until([&] { return runs() || !processes_[i]->running(); })) << name(i);
+    }
+    const auto ended = [&] {
+      return std::ranges::none_of(processes_, [](auto& process) { return process->running(); });
+    };
+    EXPECT_TRUE(wait_until(ended, std::chrono::seconds(seconds) + kDeadline));
+    for (std::size_t i = 0; i < 3; ++i)
+      recorded_[i] =
+          std::make_unique<Recorded>(files_.directory().file("t." + name(i) + ".csv"), processes_[i]->err());
+  }
+
+  Recorded& of(std::size_t controller) { return *recorded_[controller]; }
+  /// For how long at most one of them had no tick [s].
+  double stalled(double within) {
+    double longest = 0.0;
+    for (const auto& one : recorded_) longest = std::max(longest, longest_stall(*one, kFrom, within));
+    return longest;
+  }
+  /// Whether none of them has had an alarm or a job that failed. Every other end but that is a failure.
+  bool without_alarm() {
+    bool without = true;
+    for (const auto& process : processes_) {
+      EXPECT_TRUE(process->status() == 0 || process->status() == kFailed) << process->err();
+      without &= process->status() == 0;
+    }
+    return without;
+  }
+  std::string told() const {
+    std::string text;
+    for (const auto& process : processes_) text += process->err();
+    return text;
+  }
+
+ private:
+  static std::string name(std::size_t controller) { return "PLC_" + std::to_string(controller + 1); }
+
+  SystemFiles files_;
+  std::array<std::unique_ptr<Process>, 3> processes_;
+  std::array<std::unique_ptr<Recorded>, 3> recorded_;
+};
+
+/// A path of a leading value to a proxy.
+struct Path {
+  const char* text;
+  Recorded& of;
+  std::string proxy;
+  Signal source;
+  std::int64_t later;  // [ms] by which the source shows its value
+};
+
+/// What the network does is held against what is promised: without an alarm, each copy beside its source by
+/// no more than extrapolation may be wrong by, without a step. A machine that leaves out ticks of a
+/// controller has its axes stand still in them, and those elsewhere go on: by so much more they may be off
+/// until that is made up for, and where more than two ticks were left out, an alarm may come of it.
+/// @return whether there was enough time in which all had their ticks
+bool judge(PlantRun& run) {
+  const char* const provided = "StatusProvidedLeadingValue.DelayedLeadingValue.Position";
+  const Signal conveyor{run.of(0), std::string("Conveyor.") + provided};
+  const Signal draw{run.of(1), std::string("Draw.") + provided};
+  const Path paths[] = {{"PLC_2.Line", run.of(1), "Line", conveyor, 2},
+                        {"PLC_3.Line", run.of(2), "Line", conveyor, 0},
+                        {"PLC_3.Web", run.of(2), "Web", draw, 0}};
+  Disturbed disturbed;
+  for (std::size_t i = 0; i < 3; ++i) disturbed.add(run.of(i));
+  const double stalled = run.stalled(1.0);
+  const bool without_alarm = run.without_alarm();
+  std::printf("without a tick %zu times, for up to %.1f ms\n", disturbed.stalls(), stalled * 1e3);
+  if (run.stalled(0.1) < 0.0025) {
+    EXPECT_TRUE(without_alarm) << run.told();
+  }
+  if (!without_alarm) return false;
+  bool enough = true;
+  double largest = 0.0;
+  for (const Path& path : paths) {
+    const auto count = [&](const char* kind) { return path.of.last(path.proxy + kind); };
+    const Adjustments adjusted = adjustments(path.of, path.proxy, kFrom, disturbed);
+    const Deviation deviation =
+        largest_deviation(path.source, {path.of, path.proxy + ".Position"}, path.later, kFrom, disturbed);
+    std::printf(
+        "  %-10s  %.0f telegrams, %.0f missing, %.0f late; AdjustmentTime %.3f … %.3f ms; largest deviation "
+        "%.3g u, where all had their ticks %.3g u in %zu cycles\n",
+        path.text, count("_received"), count("_missing"), count("_late"), adjusted.least * 1e3,
+        adjusted.most * 1e3, deviation.all, deviation.undisturbed, deviation.compared);
+    EXPECT_LE(deviation.undisturbed, 1e-9 + extrapolation_bound(std::max(adjusted.undisturbed, 0.0)))
+        << path.text;
+    const double bound = 1e-9 + extrapolation_bound(std::max(adjusted.most, 0.0)) + 2.0 * kVelocity * stalled;
+    EXPECT_LE(deviation.all, bound) << path.text;
+    expect_no_step(path.of, path.proxy + ".Position", kFrom, bound);
+    // Whatever the machine does, nothing else than telegrams comes.
+    for (const char* const kind : {"_foreign", "_malformed"})
+      EXPECT_EQ(count(kind), 0.0) << path.text << kind;
+    EXPECT_GT(count("_received"), 1000.0) << path.text;
+    enough &= deviation.compared > 500;
+    if (enough) {
+      EXPECT_LE(count("_missing"), 0.01 * count("_received") + 5.0) << path.text;
+    }
+    largest = std::max(largest, bound);
+  }
+  std::fflush(stdout);
+  for (const char* const axis : {"Stacker.Position", "Reel.Position"})
+    expect_no_step(run.of(2), axis, kFrom, largest);
+  return enough;
+}
+
+// Ten minutes in a soak; here a hundredth, and once more where the machine has left out too many ticks.
 TEST(Plant, OfThreeControllersOnABadNetworkStaysTogether) {
   const int seconds = cases(8, 600);
+  constexpr int kRuns = 3;
   in_own_network(
       [seconds] {
         const VirtualPlant plant(3, {});
         ASSERT_FALSE(HasFailure());
-        const SystemFiles files = three();
-        const std::string system = files.path();
-        const std::string trace = files.directory().file("t.csv");
-        std::vector<std::unique_ptr<Process>> processes;
-        for (std::size_t i = 0; i < 3; ++i)
-          processes.push_back(std::make_unique<Process>(
-              plant.on(i, lockstep_command({"run", system, "--controller", "PLC_" + std::to_string(i + 1),
-                                            "--trace", trace, "--duration", std::to_string(seconds) + "s",
-                                            "--fail-on", "alarm,job"}))));
-        const auto all_ended = [&] {
-          return std::ranges::none_of(processes, [](auto& process) { return process->running(); });
-        };
-        ASSERT_TRUE(wait_until(all_ended, std::chrono::seconds(seconds) + kDeadline));
-        for (auto& process : processes) EXPECT_EQ(process->status(), 0) << process->err();
-        ASSERT_FALSE(HasFailure());
-
-        const auto of = [&](int number) {
-          return Recorded(files.directory().file("t.PLC_" + std::to_string(number) + ".csv"),
-                          processes[static_cast<std::size_t>(number - 1)]->err());
-        };
-        Recorded first = of(1), second = of(2), third = of(3);
-        constexpr double kFrom = 0.7;  // [s] when all of them lead, and the conveyor stands yet
-        const char* const source = "Conveyor.StatusProvidedLeadingValue.DelayedLeadingValue.Position";
-        struct Way {
-          const char* text;
-          Recorded* of;
-          std::string proxy;
-          Signal source;
-          std::int64_t later;  // [ms] by which the source shows its value
-        };
-        const Way ways[] = {{"PLC_2.Line", &second, "Line", {first, source}, 2},
-                            {"PLC_3.Line", &third, "Line", {first, source}, 0},
-                            {"PLC_3.Web",
-                             &third,
-                             "Web",
-                             {second, "Draw.StatusProvidedLeadingValue.DelayedLeadingValue.Position"},
-                             0}};
-        const double stalled = std::max(
-            {longest_stall(first, kFrom), longest_stall(second, kFrom), longest_stall(third, kFrom)});
-        // How far the copies lie beside their sources says something of the product only where all had their
-        // ticks.
-        const bool judged = stalled < 0.002;
-        double largest = 0.0;
-        std::printf("%d s at 1 ms, 200 ± 50 µs and 0.1 %% loss by %s; without a tick for up to %.1f ms%s:\n",
-                    seconds, plant.carrier().c_str(), stalled * 1e3,
-                    judged ? "" : ", so deviations are not judged");
-        for (const Way& way : ways) {
-          const Adjustments adjusted = adjustments(*way.of, way.proxy, kFrom);
-          const double deviation =
-              largest_deviation(way.source, {*way.of, way.proxy + ".Position"}, way.later, kFrom);
-          std::printf(
-              "  %-10s  %.0f telegrams, %.0f missing, %.0f late; AdjustmentTime %.3f … %.3f ms; largest "
-              "deviation %.3g u\n",
-              way.text, way.of->last(way.proxy + "_received"), way.of->last(way.proxy + "_missing"),
-              way.of->last(way.proxy + "_late"), adjusted.least * 1e3, adjusted.most * 1e3, deviation);
-          const double bound = 1e-9 + extrapolation_bound(std::max(adjusted.most, 0.0)) +
-                               (adjusted.most > 0.0 ? 2.0 * kVelocity * stalled : 0.0);
-          if (judged) {
-            EXPECT_LE(deviation, bound) << way.text;
-          }
-          for (const char* const kind : {"_foreign", "_malformed", "_stale"})
-            EXPECT_EQ(way.of->last(way.proxy + kind), 0.0) << way.text << kind;
-          if (judged) expect_no_step(*way.of, way.proxy + ".Position", kFrom, bound);
-          largest = std::max(largest, bound);
+        bool judged = false;
+        for (int i = 0; i < kRuns && !judged; ++i) {
+          PlantRun run(plant, seconds);
+          ASSERT_FALSE(HasFailure()) << run.told();
+          std::printf("%d s at 1 ms, 200 ± 50 µs, 0.1 %% loss and 100 Mbit/s by %s; ", seconds,
+                      plant.carrier().c_str());
+          judged = judge(run);
+          if (HasFailure() || seconds > 60) break;
         }
-        std::fflush(stdout);
-        for (const char* const axis : {"Stacker.Position", "Reel.Position"})
-          if (judged) expect_no_step(third, axis, kFrom, largest);
+        if (!judged) std::printf("the machine left out so many ticks that deviations were not judged\n");
         if (plant.wire() != nullptr) {
           EXPECT_GT(plant.wire()->lost(), 0u);
         }
       },
-      std::chrono::seconds(seconds) + 4 * kDeadline);
+      kRuns * (std::chrono::seconds(seconds) + 4 * kDeadline));
 }
 
 }  // namespace

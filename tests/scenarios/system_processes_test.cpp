@@ -26,7 +26,12 @@ SystemFiles two() {
   infeed.call({{"fb", "MC_MoveVelocity"},
                {"name", "run"},
                {"in", {{"Axis", "Conveyor"}, {"Velocity", "100.0"}, {"Execute", "power_Conveyor.Status"}}}});
-  infeed.json["trace"]["signals"] = {"Conveyor.Position", "Conveyor.Velocity"};
+  for (const char* const tag : {"sent", "failed", "clock_losses"}) {
+    infeed.json["tags"][tag]["type"] = "ULINT";
+    infeed.json["telegrams"][tag] = tag;
+  }
+  infeed.json["trace"]["signals"] = {"Conveyor.Position", "Conveyor.Velocity", "sent", "failed",
+                                     "clock_losses"};
   ControllerFile press("press", "2ms");
   // A source that misses ticks stands still in them; what looks ahead goes on, and back.
   press.axis("Press")["config"]["Synchronization"]["MasterReversionTolerance"] = 1000.0;
@@ -96,6 +101,10 @@ TEST(SystemProcesses, RunEachControllerAndComeToRestTogether) {
     EXPECT_TRUE(std::regex_search(text, std::regex("Press +synchronous +at .*brought to rest at"))) << text;
     EXPECT_TRUE(std::regex_search(text, std::regex("Line  [0-9]+ telegrams, "))) << text;
     EXPECT_LT(text.rfind("time 0 is"), text.find("\nran ")) << "one summary, at the end: " << text;
+    CsvTable infeed = read_csv(files.directory().file("t.PLC_1.csv"));
+    EXPECT_GT(infeed["sent"].back(), 100.0);
+    EXPECT_LE(infeed["sent"].back(), static_cast<double>(infeed.rows));
+    EXPECT_EQ(infeed["failed"].back() + infeed["clock_losses"].back(), 0.0);
   });
 }
 

@@ -9,6 +9,7 @@
 
 #include "scheduler/controller.hpp"
 #include "scheduler/real_time.hpp"
+#include "scheduler/shown_count.hpp"
 
 namespace lockstep::shared_clock_test {
 namespace {
@@ -63,6 +64,24 @@ TEST(SharedClocks, ThatJumpCountWithTheirNewOffsetOnceTheyHaveSettled) {
     EXPECT_EQ(watch.offset(), before + 2 * jump);
     EXPECT_EQ(watch.losses(), 1u);
   }
+}
+
+/// What is lost of several networks is one number of a tag.
+TEST(SharedClocks, TellInATagHowOftenTheyWereLost) {
+  SetClock first, second;
+  ClockWatch one(first), other(second);
+  std::uint64_t tag = 99;
+  const ShownCount shown{&tag, {&one.loss_count(), &other.loss_count()}};
+  shown.show();
+  EXPECT_EQ(tag, 0u);
+  first.locked = false;
+  second.offset += kSecond;
+  std::int64_t now = 0;
+  look(one, now, kSecond);
+  now = 0;
+  look(other, now, kSecond);
+  shown.show();
+  EXPECT_EQ(tag, 2u);
 }
 
 TEST(SharedClocks, ThatNobodyDisciplinesDoNotCount) {

@@ -36,6 +36,7 @@ struct WireQuality {
   std::chrono::microseconds delay{200};
   std::chrono::microseconds jitter{50};  ///< more or less by up to it, evenly spread
   double loss = 0.001;
+  std::int64_t rate = 100'000'000;  ///< at which each machine can send [bit/s]
   std::uint32_t seed = 1;
 };
 
@@ -50,6 +51,7 @@ class UserWire {
   UserWire(const std::vector<std::string>& interfaces, const WireQuality& quality)
       : quality_(quality), random_(quality.seed) {
     for (const std::string& name : interfaces) sockets_.push_back(open(name));
+    free_.resize(sockets_.size());
     thread_ = std::thread([this] { run(); });
     sched_param priority{.sched_priority = 85};  // above the programs that it stands between
     pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &priority);
@@ -119,9 +121,14 @@ class UserWire {
       leave_out_checksum(std::span(buffer).first(static_cast<std::size_t>(size)));
       const auto most = quality_.jitter.count();
       const std::chrono::microseconds jitter(std::uniform_int_distribution(-most, most)(random_));
-      under_way_.emplace(std::chrono::steady_clock::now() + quality_.delay + jitter,
+      under_way_.emplace(sent(from, size) + quality_.delay + jitter,
                          Frame{from, {buffer.begin(), buffer.begin() + size}});
     }
+  }
+  /// When the last bit of a frame of so many bytes has left its machine, behind those before it.
+  Time sent(std::size_t from, ssize_t bytes) {
+    const std::chrono::nanoseconds takes(8'000'000'000 * bytes / quality_.rate);
+    return free_[from] = std::max(free_[from], std::chrono::steady_clock::now()) + takes;
   }
   /// The kernel leaves the sum of UDP to a network card, which there is none here: 0 says that there is no
   /// sum.
@@ -145,6 +152,7 @@ class UserWire {
   const WireQuality quality_;
   std::mt19937 random_;
   std::vector<int> sockets_;
+  std::vector<Time> free_;  // when each machine has sent what it had to
   std::multimap<Time, Frame> under_way_;
   std::atomic<std::uint64_t> lost_{0}, carried_{0};
   std::atomic<bool> stop_{false};
@@ -193,7 +201,8 @@ class VirtualPlant {
   bool bridged(const WireQuality& quality) const {
     const std::string netem = "netem delay " + std::to_string(quality.delay.count()) + "us " +
                               std::to_string(quality.jitter.count()) + "us loss " +
-                              std::to_string(100.0 * quality.loss) + "%";
+                              std::to_string(100.0 * quality.loss) + "% rate " +
+                              std::to_string(quality.rate) + "bit";
     std::string line = "set -e; exec 2>/dev/null; ";
     for (const std::string& port : ports_) line += "tc qdisc add dev " + port + " root " + netem + "; ";
     if (shell(line) != 0) return false;
