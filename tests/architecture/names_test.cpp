@@ -122,7 +122,7 @@ TEST(Names, AreMadeOfTheTermsOfTheField) {
 }
 
 // Comments that only who has read the one above can understand.
-constexpr std::string_view kLeaning[] = {"… ",     "the same\n", "the same;", "likewise",
+constexpr std::string_view kLeaning[] = {"… ",    "the same\n", "the same;", "likewise",
                                          "ditto", "see above",  "as above"};
 // Their own sources tell it so for now.
 constexpr std::string_view kLeanOn[] = {"/mco305/", "/linmot/", "/studio/"};
