@@ -198,8 +198,8 @@ void LinMotLoader::load_drives(const JsonValue& json) {
   constexpr std::array<std::string_view, kMotors> kDrives = {"Drive A", "Drive B", "Drive C", "Drive D"};
   if (read_object(&json, problems_) == nullptr) return;
   for (const auto& [name, drive] : json.members) {
-    const auto found =
-        std::ranges::find_if(kDrives, [&](std::string_view one) { return same_name(one, name); });
+    const auto found = std::ranges::find_if(
+        kDrives, [&wanted = name](std::string_view one) { return same_name(one, wanted); });
     if (found == kDrives.end()) {
       problems_.report_key(*drive, "there is no drive " + quote(name) + "; allowed: " + list_of(kDrives));
       continue;
