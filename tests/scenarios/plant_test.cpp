@@ -211,6 +211,9 @@ double extrapolation_bound(double time) {
   return 0.5 * kAcceleration * time * time + kJerk * time * time * time;
 }
 
+/// What interpolation may be wrong by where up to two telegrams in a row are lost: between values 3 ms apart.
+constexpr double kInterpolationBound = kJerk * 0.003 * 0.003 * 0.003 / 160.0;
+
 struct Adjustments {
   double least = INFINITY, most = -INFINITY;  // [s]
   double undisturbed = -INFINITY;             // [s] most
@@ -321,9 +324,10 @@ struct Path {
 };
 
 /// What the network does is held against what is promised: without an alarm, each copy beside its source by
-/// no more than extrapolation may be wrong by, without a step. A machine that leaves out ticks of a
-/// controller has its axes stand still in them, and those elsewhere go on: by so much more they may be off
-/// until that is made up for, and where more than two ticks were left out, an alarm may come of it.
+/// no more than interpolation and extrapolation may be wrong by, without a step. A machine that leaves out
+/// ticks of a controller has its axes stand still in them, and those elsewhere go on: by so much more they
+/// may be off until that is made up for, and where more than two ticks were left out, an alarm may come of
+/// it.
 /// @return whether there was enough time in which all had their ticks
 bool judge(PlantRun& run) {
   const char* const provided = "StatusProvidedLeadingValue.DelayedLeadingValue.Position";
@@ -353,9 +357,11 @@ bool judge(PlantRun& run) {
         "%.3g u, where all had their ticks %.3g u in %zu cycles\n",
         path.text, count("_received"), count("_missing"), count("_late"), adjusted.least * 1e3,
         adjusted.most * 1e3, deviation.all, deviation.undisturbed, deviation.compared);
-    EXPECT_LE(deviation.undisturbed, 1e-9 + extrapolation_bound(std::max(adjusted.undisturbed, 0.0)))
+    EXPECT_LE(deviation.undisturbed,
+              kInterpolationBound + extrapolation_bound(std::max(adjusted.undisturbed, 0.0)))
         << path.text;
-    const double bound = 1e-9 + extrapolation_bound(std::max(adjusted.most, 0.0)) + 2.0 * kVelocity * stalled;
+    const double bound =
+        kInterpolationBound + extrapolation_bound(std::max(adjusted.most, 0.0)) + 2.0 * kVelocity * stalled;
     EXPECT_LE(deviation.all, bound) << path.text;
     expect_no_step(path.of, path.proxy + ".Position", kFrom, bound);
     // Whatever the machine does, nothing else than telegrams comes.
