@@ -86,9 +86,7 @@ TEST(StudioPage, DrawsNothingAcrossTheJumpOfAModulo) {
 TEST(StudioPage, StopsThePictureAndMeasuresWithTwoCursors) {
   Page page;
   ASSERT_TRUE(page.is_live());
-  page.browser.press(" ");
-  ASSERT_TRUE(
-      page.browser.wait_for("document.querySelector('.live[aria-pressed=true]').textContent === '▶ Live'"));
+  ASSERT_TRUE(page.stop());
   const Json still = page.drawn();
   const std::string clock = page.browser.text(".clock");
   page.browser.press("a");

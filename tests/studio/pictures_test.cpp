@@ -77,7 +77,10 @@ TEST(StudioPictures, AreOfThePageAsItIs) {
   hold(browser, "scope.png");
   browser.press("Escape");
   browser.press("2");
-  ASSERT_TRUE(browser.wait_for("document.querySelectorAll('.bits li[data-value]').length > 20"));
+  browser.choose(".diagnosis select", "Knife");
+  ASSERT_TRUE(
+      browser.wait_for("document.querySelectorAll('.bits li[data-value]').length > 20 && "
+                       "document.querySelector('[data-path=\"Knife.StatusWord.X5\"]').dataset.value"));
   hold(browser, "axes.png");
   browser.press("1");
   browser.press(" ");

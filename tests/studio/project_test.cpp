@@ -199,11 +199,14 @@ TEST(StudioProject, MarksWhatOfADataBlockDiffersFromItsDefault) {
   EXPECT_TRUE(page.browser.wait_for(velocity + ".querySelector('[data-live]').textContent === '1200'"));
   page.browser.click("[aria-label='Only what differs from its default']");
   EXPECT_TRUE(page.browser.wait_for(
-      "document.querySelectorAll('[aria-label=\"Data blocks\"] tbody tr').length < 40 && " + velocity));
+      "document.querySelectorAll('[aria-label=Data] tbody tr').length < 40 && " + velocity));
+  EXPECT_EQ(
+      page.browser.evaluate("document.querySelectorAll('[aria-label=Data] tbody tr:not(.different)').length"),
+      0);
   page.browser.click("[aria-label='Filter variables']");
   page.browser.type("limits.maxjerk");
   EXPECT_TRUE(
-      page.browser.wait_for("[...document.querySelectorAll('[aria-label=\"Data blocks\"] tbody tr')].map((e) "
+      page.browser.wait_for("[...document.querySelectorAll('[aria-label=Data] tbody tr')].map((e) "
                             "=> e.dataset.path).join() === 'Knife.DynamicLimits.MaxJerk'"));
   // Into the trigger, by its button.
   page.browser.click("button[title='Trigger on Knife.DynamicLimits.MaxJerk']");
