@@ -163,6 +163,7 @@ std::string command_page(const aposs::CommandRow& row, std::size_t width) {
   table.row({"Is", std::string(kind_text(row))});
   if (row.kind == aposs::CommandKind::kStatement) table.row({"Program", std::string(waits_text(row))});
   if (row.given_up) table.row({"Interrupt", "ends it"});
+  if (row.later_edition) table.row({"Edition", "later, from firmware 5.00"});
   if (row.refusal != aposs::Refusal::kNone) table.row({"Refused", std::string(refusal_text(row.refusal))});
   return "Command " + std::string(row.name) + " of APOSS\n" + paragraph(aposs::meaning_of(row), 2, width) +
          "\n" + table.text(2, width) + (is_of_drive(row) ? drive_table(row, width) : "");
@@ -217,16 +218,16 @@ std::string variable_page(const mco305::SystemVariable& variable, std::size_t wi
   if (!variable.unit.empty()) table.row({"Unit", std::string(variable.unit)});
   table.row({"Read by", "SYSVAR[" + std::to_string(variable.index) + "]" +
                             (variable.built ? "" : ": not built, error 112")});
+  if (variable.built)
+    table.row({"Path", "SysVar." + std::to_string(variable.index) + ", SysVar." + std::string(variable.name) +
+                           " below the device"});
   return "System variable " + std::to_string(variable.index) + " of an MCO_305\n" +
          paragraph(variable.text, 2, width) + "\n" + table.text(2, width);
 }
 
 Json variable_json(const mco305::SystemVariable& variable) {
-  return {{"kind", "system_variable"},
-          {"index", variable.index},
-          {"text", variable.text},
-          {"unit", variable.unit},
-          {"built", variable.built}};
+  return {{"kind", "system_variable"}, {"index", variable.index}, {"name", variable.name},
+          {"text", variable.text},     {"unit", variable.unit},   {"built", variable.built}};
 }
 
 std::optional<int> whole(std::string_view text) {

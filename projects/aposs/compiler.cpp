@@ -16,7 +16,7 @@ CompiledProgram compile_program(std::string name, std::string_view text, const R
   Messages messages;
   CompiledProgram result;
   Tokens tokens = cut(std::move(name), text, read, messages);
-  Parser parser(tokens.list, messages, settings.later_edition);
+  Parser parser(tokens.list, messages, settings.later_edition, settings.variables_of_others);
   parser.program();
   Image image = parser.finish(settings.maximum_variables);
   image.files = result.files = std::move(tokens.files);

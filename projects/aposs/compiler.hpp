@@ -16,6 +16,9 @@ namespace lockstep::aposs {
 struct CompilerSettings {
   std::size_t maximum_variables = 92;  ///< with the arrays, as published
   bool later_edition = true;           ///< "5.00"; else parameters of that edition are none
+  /// Variables of other programs of the same device: they stand first in its memory, so that each variable
+  /// has the same cell in all of them.
+  std::vector<std::string> variables_of_others{};
 };
 
 struct CompiledProgram {

@@ -43,9 +43,16 @@ Cell Emitter::constants(const std::vector<std::int32_t>& values) {
 }
 
 Cell Emitter::variable(const std::string& folded_name, const std::string& name) {
-  const auto [known, fresh] = variables_.try_emplace(folded_name, static_cast<std::uint32_t>(names_.size()));
-  if (fresh) names_.push_back(name);
-  return {Cell::Space::kVariable, known->second};
+  reserve_variable(folded_name, name);
+  const std::uint32_t cell = variables_.at(folded_name);
+  used_[cell] = true;
+  return {Cell::Space::kVariable, cell};
+}
+
+void Emitter::reserve_variable(const std::string& folded_name, const std::string& name) {
+  if (!variables_.try_emplace(folded_name, static_cast<std::uint32_t>(names_.size())).second) return;
+  names_.push_back(name);
+  used_.push_back(false);
 }
 
 Cell Emitter::temporary(std::uint32_t count) {
@@ -118,7 +125,8 @@ Image Emitter::finish(Messages& messages, std::size_t arrays, std::size_t maximu
       messages.error({}, "the program has " + std::to_string(count) + " " + what +
                              "; allowed: " + std::to_string(maximum));
   };
-  refuse("variables and arrays", names_.size() + arrays, maximum_variables);
+  const auto used = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
+  refuse("variables and arrays", used + arrays, maximum_variables);
   refuse("temporaries", maximum_temporaries_, kMaximumTemporaries);
   refuse("internal commands", code_.size(), Image::kMaximumInstructions);
   refuse("variables, temporaries and constants", names_.size() + maximum_temporaries_ + constants_.size(),

@@ -47,8 +47,8 @@ class Emitter {
   /// Constants one behind the other.
   Cell constants(const std::vector<std::int32_t>& values);
   Cell variable(const std::string& folded_name, const std::string& name);
-  bool has_variable(const std::string& folded_name) const { return variables_.contains(folded_name); }
-  std::size_t variable_count() const noexcept { return names_.size(); }
+  /// The next cell is that of a variable, whether the program has it or not.
+  void reserve_variable(const std::string& folded_name, const std::string& name);
   /// Temporaries live until `release` with what `mark` said.
   Cell temporary(std::uint32_t count = 1);
   std::uint32_t mark() const noexcept { return temporaries_; }
@@ -74,6 +74,7 @@ class Emitter {
   std::vector<Emitted> code_;
   std::map<std::string, std::uint32_t> variables_;
   std::vector<std::string> names_;
+  std::vector<bool> used_;  // of these
   std::uint32_t temporaries_ = 0, maximum_temporaries_ = 0;
   std::vector<std::int32_t> constants_;
   std::map<std::vector<std::int32_t>, std::uint32_t> sequences_;

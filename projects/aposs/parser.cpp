@@ -12,11 +12,11 @@ constexpr std::size_t kDeepestBlock = 64;
 
 }  // namespace
 
-Parser::Parser(std::span<const Token> tokens, Messages& messages, bool later_edition)
-    : tokens_(tokens),
-      messages_(messages),
-      later_edition_(later_edition),
-      assigned_(assigned_names(tokens)) {}
+Parser::Parser(std::span<const Token> tokens, Messages& messages, bool later_edition,
+               const std::vector<std::string>& first_variables)
+    : tokens_(tokens), messages_(messages), later_edition_(later_edition), assigned_(assigned_names(tokens)) {
+  for (const std::string& name : first_variables) emitter_.reserve_variable(folded(name), name);
+}
 
 const Token& Parser::peek(std::size_t ahead) const {
   return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];

@@ -25,8 +25,10 @@ struct Uses {
 
 class Parser {
  public:
-  /// @param later_edition whether parameters of firmware 5.00 are there
-  Parser(std::span<const Token> tokens, Messages& messages, bool later_edition);
+  /// @param later_edition whether parameters of firmware 5.00 are there  @param first_variables names of
+  /// those that have the first cells, used or not
+  Parser(std::span<const Token> tokens, Messages& messages, bool later_edition,
+         const std::vector<std::string>& first_variables = {});
 
   void program();
   Image finish(std::size_t maximum_variables);

@@ -251,7 +251,7 @@ ExpressionPointer Parser::bracketed_index(std::string_view of) {
 ExpressionPointer Parser::function(const NamedCommand& named, const Token& at) {
   const CommandRow& row = row_of(named.command);
   const bool simple = named.command == Command::kTime || named.command == Command::kErrno;
-  if (row.refusal != Refusal::kNone) refuse(row, at.place);
+  refuse(row, at.place);
   if (row.kind != CommandKind::kFunction && !simple)
     fail(at.place, quote(at.text) + " is a command and gives no value");
   for (std::size_t i = 0; i < named.words; ++i) take();

@@ -129,8 +129,11 @@ void Parser::assign_pseudo_array(Command read, Command write) {
   emit_command(name.place, write, operands);
 }
 
+/// Returns if there is nothing to refuse.
 void Parser::refuse(const CommandRow& row, const Place& place) {
   const std::string name(row.name);
+  if (row.later_edition && !later_edition_)
+    fail(place, name + " is of the later edition; allowed with firmware 5.00");
   switch (row.refusal) {
     case Refusal::kLaterEdition:
       fail(place, name + " is of the later edition (firmware from 5.00) and not built yet");
@@ -157,7 +160,7 @@ void Parser::after_argument(const CommandRow& row) {
 
 void Parser::command_statement(const NamedCommand& named, const Token& at) {
   const CommandRow& row = row_of(named.command);
-  if (row.refusal != Refusal::kNone) refuse(row, at.place);
+  refuse(row, at.place);
   if (!named.unusual.empty() && row.kind != CommandKind::kLanguage)
     messages_.warn(at.place, quote(named.unusual) + ": the usual form is " + std::string(row.name));
   if (named.command == Command::kSysvar && at_symbol("[", 1))

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "projects/expressions/letters.hpp"
+#include "projects/expressions/own_variables.hpp"
 #include "projects/json/problem.hpp"
 
 namespace lockstep {
@@ -214,6 +215,43 @@ FoundOperand find_variables_of(TechnologyObject& object, std::string_view path, 
   return found;
 }
 
+/// The element of an array that one object alone has. @param index "[3]"
+FoundOperand find_own_element(const OwnVariable& own, TechnologyObject& object, std::string_view path,
+                              std::string_view index) {
+  const Variable& variable = own.declaration;
+  std::size_t number = 0;
+  const char* const last = index.data() + index.size() - 1;
+  const auto [end, error] = std::from_chars(index.data() + 1, last, number);
+  if (error != std::errc{} || end != last || number < 1 || number > variable.count)
+    return refuse("'" + object.name + "." + std::string(path) + "' is no element of an array of " +
+                  std::to_string(variable.count) + "; allowed: [1] to [" + std::to_string(variable.count) +
+                  "]");
+  return {Operand{.signal = {static_cast<char*>(own.address) + (number - 1) * variable.stride, variable.type},
+                  .unit = variable.unit,
+                  .variable = &variable,
+                  .object = &object},
+          "", false};
+}
+
+/// Of the variables that this object alone has.
+std::optional<FoundOperand> find_own_variable(TechnologyObject& object, std::string_view path) {
+  const std::size_t open = std::min(path.find('['), path.size());
+  for (const OwnVariable& own : own_variables(object)) {
+    const Variable& variable = own.declaration;
+    const bool array = variable.count > 0;
+    if (array != (open < path.size())) continue;
+    if (fold(variable.path.substr(0, variable.path.find('['))) != fold(path.substr(0, open))) continue;
+    if (array && !path.ends_with(']')) return std::nullopt;  // a bit of an element, if anything
+    if (array) return find_own_element(own, object, path, path.substr(open));
+    return FoundOperand{Operand{.signal = {own.address, variable.type},
+                                .unit = variable.unit,
+                                .variable = &variable,
+                                .object = &object},
+                        "", false};
+  }
+  return std::nullopt;
+}
+
 FoundOperand find_variable_of(TechnologyObject& object, std::string_view path) {
   if (const auto brackets = path.find("[]"); brackets != path.npos)
     return find_variables_of(object, path, brackets);
@@ -221,16 +259,21 @@ FoundOperand find_variable_of(TechnologyObject& object, std::string_view path) {
   const VariableAddress place = find_variable(object.kind, path);
   if (place.variable != nullptr) {
     if (place.variable->type == Type::TAG) return refuse(quote(path) + " names a tag and has no value");
+    expect_reads(object, *place.variable);
     return {Operand{.signal = place.signal(data),
                     .unit = place.variable->unit,
                     .variable = place.variable,
                     .object = &object},
             "", false};
   }
+  if (auto own = find_own_variable(object, path)) return std::move(*own);
   std::string_view word = path;
-  if (const int bit = take_bit(word); bit >= 0)
+  if (const int bit = take_bit(word); bit >= 0) {
     if (const VariableAddress whole = find_variable(object.kind, word); whole.variable != nullptr)
       return with_bit({.signal = whole.signal(data)}, bit, word);
+    if (auto own = find_own_variable(object, word))
+      return own->place ? with_bit(*own->place, bit, word) : std::move(*own);
+  }
   const std::string what =
       "'" + object.name + "' is a technology object (" + std::string(kind_name(object.kind)) + ")";
   if (path.empty())
@@ -238,6 +281,7 @@ FoundOperand find_variable_of(TechnologyObject& object, std::string_view path) {
   std::vector<std::string_view> names;
   for (const auto list : data_block_of(object.kind).lists())
     for (const Variable& variable : list) names.push_back(variable.path);
+  for (const OwnVariable& own : own_variables(object)) names.push_back(own.declaration.path);
   return refuse(what + ", which has no variable " + quote(path) + did_you_mean(path, names));
 }
 

@@ -52,8 +52,8 @@ std::string why_not_writable(const Operand& place);
 std::string why_no_start_value(const Operand& place);
 
 /// The names of tags, instances and technology objects; they share one name space without regard to case.
-/// What is named has to stay where it is. Looking up writes nothing, so that any number of threads may do it
-/// at once, as long as nobody adds and nothing is recorded.
+/// What is named has to stay where it is. Looking up writes nothing (but that somebody may read it now, see
+/// own_variables.hpp), so that any number of threads may do it at once, while nobody adds or records.
 class Names final : public Scope {
  public:
   /// What a name stands for; monostate: something whose declaration is faulty.

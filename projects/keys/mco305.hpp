@@ -52,7 +52,13 @@ inline constexpr auto kDeviceFaults = key_table<DeviceFaultTags>(
                                        "BOOL tag: while TRUE the external 24 V are missing (EXTERNAL24V)"),
     key::tag<&DeviceFaultTags::output>("output", "BOOL tag: while TRUE a digital output is overloaded"),
     key::tag<&DeviceFaultTags::master_encoder>(
-        "master_encoder", "BOOL tag: while TRUE the master encoder tells nothing (MENCODERMONITORING)"));
+        "master_encoder", "BOOL tag: while TRUE the master encoder tells nothing (MENCODERMONITORING)"),
+    key::tag<&DeviceFaultTags::encoder_counts>(
+        "encoder_counts", "DINT tag: is added to what an absolute encoder tells (ENCODERABSTYPE) [qc]",
+        Type::DINT),
+    key::tag<&DeviceFaultTags::master_encoder_counts>(
+        "master_encoder_counts",
+        "DINT tag: is added to what an absolute master encoder tells (MENCODERABSTYPE) [qc]", Type::DINT));
 
 inline constexpr auto kDeviceProgram = key_table<void>(
     key::integer("number", {0, kHighestProgram}, "of the program, each once").needed(),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "projects/aposs/compiler.hpp"
 #include "projects/aposs/parameter_names.hpp"
@@ -53,13 +54,23 @@ class DeviceLoader {
   void load_programs(const JsonValue& json);
   void load_program(const JsonValue& json);
   void compile(const JsonValue& at, const Fields& fields, DeviceProgram& program);
-  aposs::CompilerSettings edition() const { return {.later_edition = device_.settings.later_edition}; }
+  void warn_of_budget(const JsonValue& json) const;
+  void align_variables(const JsonValue& json);
+  aposs::CompilerSettings compiler_settings() const {
+    return {.later_edition = device_.settings.later_edition, .variables_of_others = variables_};
+  }
+  /// The same, with problems told elsewhere.
+  Loading telling(Problems& problems) const {
+    return {loading_.project, problems,     loading_.instances,   loading_.folder,
+            loading_.named,   loading_.use, loading_.used_outside};
+  }
   void take(const JsonValue& at, aposs::CompiledProgram compiled, DeviceProgram& program);
 
   Mco305& device_;
   const Loading& loading_;
   Problems& problems_;
   std::map<std::int32_t, std::string> given_;  // parameters of the project itself
+  std::vector<std::string> variables_;         // of all programs, once these are known
 };
 
 void DeviceLoader::load_parameter(const std::string& name, const JsonValue& json) {
@@ -115,8 +126,7 @@ void DeviceLoader::load_parameter_file(const JsonValue& json) {
     for (const Problem& problem : document.problems()) problems_.report(json, path + ": " + problem.text);
     if (!document.usable()) return;
     Problems inner;
-    const Loading of_file{loading_.project, inner,        loading_.instances,   loading_.folder,
-                          loading_.named,   loading_.use, loading_.used_outside};
+    const Loading of_file = telling(inner);
     DeviceLoader file(device_, of_file);
     file.load_parameters(document.root(), true);
     for (const Problem& problem : inner.take_errors())
@@ -224,7 +234,9 @@ void DeviceLoader::compile(const JsonValue& at, const Fields& fields, DeviceProg
     const auto name = read_string(file, problems_);
     if (!name) return;
     try {
-      take(*file, aposs::compile_file(std::filesystem::path(loading_.folder) / std::string(*name), edition()),
+      take(*file,
+           aposs::compile_file(std::filesystem::path(loading_.folder) / std::string(*name),
+                               compiler_settings()),
            program);
     } catch (const UnreadableFile& error) {
       problems_.report(*file, error.what());
@@ -235,7 +247,8 @@ void DeviceLoader::compile(const JsonValue& at, const Fields& fields, DeviceProg
   std::string text;
   for (const JsonValue* const line : lines->elements)
     if (const auto one = read_string(line, problems_)) text += std::string(*one) + "\n";
-  take(*lines, aposs::compile_program("program " + std::to_string(program.number), text, {}, edition()),
+  take(*lines,
+       aposs::compile_program("program " + std::to_string(program.number), text, {}, compiler_settings()),
        program);
 }
 
@@ -262,6 +275,30 @@ void DeviceLoader::load_program(const JsonValue& json) {
 void DeviceLoader::load_programs(const JsonValue& json) {
   if (read_array(&json, problems_) == nullptr) return;
   for (const JsonValue* const program : json.elements) load_program(*program);
+  const auto is_faulty = [](const DeviceProgram& program) { return program.image.code.empty(); };
+  if (device_.programs.size() != json.elements.size() || std::ranges::any_of(device_.programs, is_faulty))
+    return;
+  align_variables(json);
+  device_.declare_values();
+}
+
+/// Gives each variable the same cell in all programs: those with others of their own are compiled anew. What
+/// there was to say has been said.
+void DeviceLoader::align_variables(const JsonValue& json) {
+  std::set<std::string> known;
+  std::vector<std::string> all;
+  for (const DeviceProgram& program : device_.programs)
+    for (const std::string& name : program.image.variables)
+      if (known.insert(aposs::folded(name)).second) all.push_back(name);
+  Problems said;
+  const Loading silent = telling(said);
+  DeviceLoader again(device_, silent);
+  again.variables_ = all;
+  for (std::size_t i = 0; i < device_.programs.size(); ++i) {
+    if (device_.programs[i].image.variables == all) continue;
+    const Fields fields(*json.elements[i], keys::kDeviceProgram, said);
+    again.compile(*json.elements[i], fields, device_.programs[i]);
+  }
 }
 
 /// The tags at its terminals.
@@ -285,6 +322,25 @@ void DeviceLoader::load_wiring(const Fields& fields) {
        [&](std::size_t, void* tag) { settings.analog_output = static_cast<double*>(tag); });
 }
 
+/// Where programs that never wait would take a quarter of each step: told at the device that is one too many.
+void DeviceLoader::warn_of_budget(const JsonValue& json) const {
+  constexpr std::int64_t kCommand = 8, kQuarter = 250'000;  // [ns]
+  if (device_.programs.empty()) return;
+  std::int64_t others = 0;
+  for (const auto& object : loading_.controller().objects) {
+    if (object->kind != ObjectKind::MCO_305 || object.get() == &device_) continue;
+    const auto& other = static_cast<const Mco305&>(*object);
+    if (!other.programs.empty()) others += other.steps_per_millisecond;
+  }
+  const std::int64_t all = others + device_.steps_per_millisecond;
+  if (others * kCommand > kQuarter || all * kCommand <= kQuarter) return;
+  problems_.warn(json,
+                 "with this device programs may carry out " + std::to_string(all) +
+                     " internal commands in a step, which can take a quarter of a millisecond and more; "
+                     "allowed without this warning: " +
+                     std::to_string(kQuarter / kCommand) + " in all ('steps_per_ms')");
+}
+
 void DeviceLoader::load(const JsonValue& json) {
   const Fields fields(json, keys::kObjects, variant_of(device_), problems_);
   if (const auto edition = read_value(fields, keys::kMco305["firmware"], loading_))
@@ -304,6 +360,7 @@ void DeviceLoader::load(const JsonValue& json) {
   if (const auto times = read_value(fields, keys::kMco305["time_interrupts"], loading_))
     device_.time_interrupts = static_cast<std::int32_t>(times->integer);
   if (const JsonValue* const programs = fields["programs"]) load_programs(*programs);
+  warn_of_budget(json);
   if (const auto locked = read_value(fields, keys::kMco305["write_protected"], loading_))
     device_.eeprom.write_protected = locked->integer != 0;
   device_.eeprom.disk = &loading_.controller().encoder_saving;

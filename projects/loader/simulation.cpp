@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "projects/expressions/own_variables.hpp"
 #include "projects/loader/mco305_panel.hpp"
 #include "projects/loader/written_value.hpp"
 
@@ -39,7 +40,9 @@ void Simulation::run_for(std::chrono::nanoseconds duration) noexcept {
 }
 
 double read_value_of(const Project& project, std::string_view path) {
-  const Signal signal = operand_at(project, path).signal;
+  const Operand place = operand_at(project, path);
+  if (place.object != nullptr) bring_up_to_date(*place.object);
+  const Signal signal = place.signal;
   return as_double(signal.load(), signal.value_type());
 }
 

@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "projects/expressions/own_variables.hpp"
 #include "projects/loader/mco305_panel.hpp"
 #include "projects/python/raise.hpp"
 #include "projects/python/values.hpp"
@@ -80,11 +81,13 @@ Place find_place(const Project& project, std::string_view path) {
 }
 
 py::object read_place(const Place& place) {
-  return std::visit(
-      Each{[](const Operand& value) { return to_python(value.signal.load(), value.signal.value_type()); },
-           [](const StringTag* text) -> py::object { return text_to_python(text->text); },
-           [](const ElementPath& elements) -> py::object { return read_elements(elements); }},
-      place);
+  return std::visit(Each{[](const Operand& value) {
+                           if (value.object != nullptr) bring_up_to_date(*value.object);
+                           return to_python(value.signal.load(), value.signal.value_type());
+                         },
+                         [](const StringTag* text) -> py::object { return text_to_python(text->text); },
+                         [](const ElementPath& elements) -> py::object { return read_elements(elements); }},
+                    place);
 }
 
 void write_place(const Place& place, py::handle object, std::string_view path) {

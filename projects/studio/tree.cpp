@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "projects/expressions/own_variables.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -74,9 +76,12 @@ std::vector<StudioSignal> studio_signals(const Project& project, const StudioUni
   const Controller& controller = *project.controller;
   Collector collector(project, units);
   for (const Tag& tag : controller.tags) collector.add(tag.name, tag.comment);
-  for (const auto& object : controller.objects)
+  for (const auto& object : controller.objects) {
     for (const std::span<const Variable> list : data_block_of(object->kind).lists())
       for (const Variable& variable : list) collector.add_variable(object->name, variable);
+    for (const OwnVariable& own : own_variables(*object))
+      collector.add_variable(object->name, own.declaration);
+  }
   for (const Instance& instance : controller.instances)
     for (const Pin& pin : instance.type->pins)
       collector.add(instance.name + "." + std::string(pin.name), pin.text);

@@ -245,7 +245,9 @@ constexpr Meaning kMeanings[] = {
      "the output takes the input's state at the position)"},
     {"LINKPDO", "Maps part of a received PDO into a system variable/parameter/array in the background"},
     {"LINKSDO", "Maps an internal object into a transmitted PDO"},
-    {"SYNCMARKERSTART", "Resets a marker or the whole marker handling during marker synchronisation"},
+    {"SYNCMARKERSTART",
+     "Resets the markers (0) or the whole marker handling (1) during marker synchronisation; which value "
+     "means which is not in the sources"},
     {"CANDEL", "Deletes CAN mailboxes"},
     {"CANIN", "Reads a CAN object"},
     {"CANOUT", "Sends a CAN object"},

@@ -226,6 +226,7 @@ struct CommandRow {
   bool pure;      ///< reads what cannot change within a step, and changes nothing
   bool given_up;  ///< by an interrupt, in place of going on behind it
   Refusal refusal;
+  bool later_edition = false;  ///< taken with firmware 5.00 alone
 
   std::size_t arity() const noexcept;
 };

@@ -14,8 +14,10 @@ int Arrays::fit(std::span<const ArrayDeclaration> wanted) {
     if (wanted[i].size == 0 || wanted[i].size > kMaximumCells - first) return 175;
     extents_.resize(i);
     extents_.push_back({static_cast<std::uint32_t>(first), wanted[i].size});
-    cells_.resize(first);
-    cells_.resize(first + wanted[i].size, 0);
+    const std::size_t end = first + wanted[i].size;
+    if (cells_.size() < end) cells_.resize(end);
+    std::fill(cells_.begin() + static_cast<std::ptrdiff_t>(first),
+              cells_.begin() + static_cast<std::ptrdiff_t>(end), 0);
     count_ = i + 1;
   }
   return 0;
@@ -25,7 +27,7 @@ void Arrays::reserve(std::span<const ArrayDeclaration> wanted) {
   std::size_t cells = 0;
   for (const ArrayDeclaration& one : wanted) cells += one.size;
   extents_.reserve(wanted.size());
-  if (cells <= kMaximumCells) cells_.reserve(cells);
+  if (cells <= kMaximumCells && cells_.size() < cells) cells_.resize(cells);
 }
 
 bool Stack::call(std::uint16_t from) noexcept {

@@ -23,7 +23,8 @@ class Arrays {
   /// @return 0; 170 if one is there with another size, 175 without memory for it
   int fit(std::span<const ArrayDeclaration> wanted);
 
-  /// Memory for these, so that `fit` allocates nothing, whatever has been deleted. At load.
+  /// Memory for these, so that `fit` allocates nothing, whatever has been deleted, and each stays where it
+  /// is. At load.
   void reserve(std::span<const ArrayDeclaration> wanted);
   std::size_t count() const noexcept { return count_; }
   /// DELETE ARRAYS: none is there any more.
@@ -43,8 +44,11 @@ class Arrays {
 
   /// All of them, one behind the other.
   std::span<std::int32_t> all() noexcept {
-    return count_ == 0 ? std::span<std::int32_t>() : std::span(cells_);
+    return count_ == 0 ? std::span<std::int32_t>()
+                       : std::span(cells_).first(extents_[count_ - 1].first + extents_[count_ - 1].size);
   }
+  /// The memory, whose first elements are those of the first array.
+  std::span<std::int32_t> memory() noexcept { return cells_; }
 
   static constexpr std::size_t kMaximumCells = std::size_t{1} << 22;
 

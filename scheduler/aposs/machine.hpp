@@ -2,6 +2,7 @@
 /// was.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -46,6 +47,8 @@ class Machine {
   /// it.
   /// @return 0; 110, 196: the image is damaged or of another version; 170, 175: its arrays do not fit
   int load(const Image& image);
+  /// Memory for programs of so many cells, so that their variables stay where they are. At load.
+  void reserve(std::size_t cells) { cells_.assign(std::max(cells, cells_.size()), 0); }
   /// Another one that has been loaded before, from its beginning: nothing is allocated.
   void take(const Image& image) noexcept;
   /// Ends the program, as the user does. Nothing runs until it is started.
@@ -77,6 +80,8 @@ class Machine {
   int error() const noexcept { return error_count_ == 0 ? 0 : errors_[0]; }
   /// Of a variable by its number.
   std::int32_t variable(std::size_t number) const noexcept { return cells_[number]; }
+  /// Where that stands, as long as no program needs more cells than have been reserved.
+  std::int32_t* variable_address(std::size_t number) noexcept { return &cells_[number]; }
 
   const MachineCounters& counters() const noexcept { return counters_; }
   PrintQueue& prints() noexcept { return prints_; }

@@ -86,8 +86,7 @@ Reply DeviceCommands::motion(Command command, const std::int32_t* arguments) noe
     case Command::kContinue:
       return done(device_.go_on());
     case Command::kDefOrigin:
-      device_.define_origin();
-      return Reply::done();
+      return done(device_.define_origin());
     case Command::kSetOrigin:
       device_.set_origin(arguments[0]);
       return Reply::done();
@@ -101,6 +100,7 @@ Reply DeviceCommands::motion(Command command, const std::int32_t* arguments) noe
     case Command::kWaitax:
       return device_.arrived() ? Reply::done() : Reply::busy();
     case Command::kWaitndx:
+      if (device_.is_absolute()) return Reply::failed(mco305::kUnknownCommand);
       latches_ = device_.latches();
       return Reply::busy();
     case Command::kWaitp:
@@ -128,9 +128,12 @@ Reply DeviceCommands::following(Command command, const std::int32_t* arguments) 
     case Command::kSyncstatclr:
       device_.clear_sync_status(arguments[0]);
       return Reply::done();
-    case Command::kDefmorigin:
-      device_.master().set_origin(0);
+    case Command::kSyncmarkerstart:
+      if (arguments[0] != 0 && arguments[0] != 1) return Reply::failed(mco305::kUnknownParameter);
+      device_.restart_markers(arguments[0] == 1);
       return Reply::done();
+    case Command::kDefmorigin:
+      return done(device_.define_master_origin());
     case Command::kSetmorigin:
       device_.master().set_origin(arguments[0]);
       return Reply::done();
@@ -398,6 +401,12 @@ Reply DeviceCommands::proceed(Command command, const std::int32_t* arguments, st
 }
 
 void DeviceCommands::error_raised(int error) noexcept {
+  std::copy_backward(history_.begin(), history_.end() - 1, history_.end());
+  const bool runs = machine_ != nullptr && program_ >= 0;
+  history_.front() = {.Number = error,
+                      .Time = static_cast<DINT>(device_.milliseconds() & 0x7FFFFFFF),
+                      .Program = program_,
+                      .Line = runs ? static_cast<DINT>(machine_->error_place().line) : -1};
   if (raised_count_ < raised_.size())
     raised_[raised_count_++] = error;
   else

@@ -16,8 +16,8 @@ namespace lockstep {
 
 class DeviceCommands final : public aposs::Device {
  public:
-  DeviceCommands(mco305::Device& device, Eeprom& eeprom, Mco305Outside& outside)
-      : device_(device), eeprom_(eeprom), outside_(outside) {}
+  DeviceCommands(mco305::Device& device, Eeprom& eeprom, Mco305Outside& outside, Mco305ErrorHistory& history)
+      : device_(device), eeprom_(eeprom), outside_(outside), history_(history) {}
 
   /// Whose lines SYSVAR[33] tells.
   void watch(const aposs::Machine& machine) noexcept { machine_ = &machine; }
@@ -39,8 +39,11 @@ class DeviceCommands final : public aposs::Device {
 
   /// LINKSYSVAR, in each step: every 40 ms one of the links is renewed.
   void refresh_links() noexcept;
-  /// A program begins, which has none yet.
-  void forget_links() noexcept { link_count_ = 0; }
+  /// A program begins, which has no links yet.
+  void begin_program(std::int32_t number) noexcept {
+    link_count_ = 0;
+    program_ = number;
+  }
 
   /// An error that has been raised, for whoever tells of it; 0: none.
   int take_raised() noexcept;
@@ -73,6 +76,8 @@ class DeviceCommands final : public aposs::Device {
   std::uint32_t unheard_ = 0;
   std::uint32_t latches_ = 0;  // when WAITNDX began
   Mco305Outside& outside_;
+  Mco305ErrorHistory& history_;
+  std::int32_t program_ = -1;
   /// A system variable that an application parameter shows.
   struct Link {
     std::int32_t variable = 0, parameter = 0;

@@ -1,7 +1,9 @@
 #include "scheduler/mco305/mco305.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <utility>
 
@@ -51,6 +53,31 @@ void Mco305::configure(double servo_period, int ratio) {
   show();
 }
 
+void Mco305::declare_values() {
+  std::vector<const aposs::Image*> images;
+  for (const DeviceProgram& program : programs) images.push_back(&program.image);
+  values_.declare(images, machine_, arrays_);
+}
+
+void Mco305::expect_reads(const Variable& variable) noexcept {
+  constexpr std::size_t kFirst = offsetof(Mco305Data, SystemVariables);
+  if (variable.offset < kFirst || variable.offset >= kFirst + sizeof data.SystemVariables) return;
+  const std::size_t index = (variable.offset - kFirst) / sizeof(DINT);
+  looked_at_[index / 64].fetch_or(std::uint64_t{1} << index % 64, std::memory_order_relaxed);
+}
+
+/// Those that somebody looks at.
+void Mco305::show_system_variables() noexcept {
+  for (std::size_t word = 0; word < looked_at_.size(); ++word) {
+    std::uint64_t bits = looked_at_[word].load(std::memory_order_relaxed);
+    if (bits != 0) device_.set_program_line(static_cast<std::int32_t>(machine_.place().line));
+    for (; bits != 0; bits &= bits - 1) {
+      const std::size_t index = 64 * word + static_cast<std::size_t>(std::countr_zero(bits));
+      device_.system_variable(mco305::system_variables()[index].index, data.SystemVariables[index]);
+    }
+  }
+}
+
 /// One list of texts for all programs, so that a printed line is read right whichever runs by then.
 void Mco305::share_texts() {
   for (DeviceProgram& program : programs) {
@@ -93,7 +120,7 @@ void Mco305::take_line(std::string& line) {
 
 /// Its arrays are those that are there, or new behind them: what another program has deleted is made anew.
 void Mco305::start(DeviceProgram& program) noexcept {
-  commands_.forget_links();
+  commands_.begin_program(program.number);
   machine_.take(program.image);
   current_ = &program;
   running_ = true;
@@ -354,6 +381,7 @@ void Mco305::show() noexcept {
   data.Program.Line = current_ == nullptr ? 0 : static_cast<DINT>(machine_.place().line);
   data.Program.Steps = machine_.counters().commands;
   data.Program.Starved = machine_.counters().starved;
+  show_system_variables();
   data.In = device_.io().inputs();
   data.Out = device_.io().outputs();
 }

@@ -2,16 +2,20 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "scheduler/aposs/machine.hpp"
 #include "scheduler/mco305/device_commands.hpp"
 #include "scheduler/mco305/eeprom.hpp"
+#include "scheduler/mco305/program_values.hpp"
 #include "tech_objects/data_blocks/mco305.hpp"
 #include "tech_objects/mco305/device.hpp"
+#include "tech_objects/mco305_catalogue/system_variables.hpp"
 #include "tech_objects/objects/leading_object.hpp"
 #include "tech_objects/objects/load_position.hpp"
 
@@ -53,6 +57,13 @@ class Mco305 final : public LeadingObject {
   /// From now on parameters may be written from outside, as by a panel: in `data`, between two steps. Without
   /// that nobody looks at them. While loading, or between two ticks.
   void expect_writes() noexcept { expects_writes_ = true; }
+  /// Once all programs are compiled, with their variables in the same cells: from now on these have paths.
+  void declare_values();
+  std::span<const OwnVariable> own_variables() const noexcept { return values_.all(); }
+  /// Somebody may read a system variable from now on, if it is one: it is computed in each step. Any thread.
+  void expect_reads(const Variable& variable) noexcept;
+  /// Computes those at once. Between two ticks.
+  void bring_up_to_date() noexcept { show_system_variables(); }
 
   Mco305Data data;
   void* data_block() noexcept override { return &data; }
@@ -93,6 +104,7 @@ class Mco305 final : public LeadingObject {
   std::int32_t selected() const noexcept;
   void take_device_errors() noexcept;
   void show() noexcept;
+  void show_system_variables() noexcept;
   void share_texts();
   void turn_master(std::int64_t now) noexcept;
   void take_parameters() noexcept;
@@ -100,12 +112,15 @@ class Mco305 final : public LeadingObject {
   double units_of(double counts) const noexcept;
 
   mco305::Device device_;
-  DeviceCommands commands_{device_, eeprom, data.Outside};
+  DeviceCommands commands_{device_, eeprom, data.Outside, data.ErrorHistory};
   aposs::Arrays arrays_;
   aposs::Machine machine_{commands_, arrays_};
   const DeviceProgram* current_ = nullptr;
   std::uint32_t shown_version_ = 0;
   bool expects_writes_ = false;
+  /// Which system variables somebody looks at; the others are not computed.
+  std::array<std::atomic<std::uint64_t>, (mco305::kSystemVariableCount + 63) / 64> looked_at_{};
+  ProgramValues values_;
   UDINT seen_starts_ = 0, seen_stops_ = 0, seen_resets_ = 0;
   std::array<DINT, mco305::kParameterCount> shown_parameters_{};
   bool program_due_ = false;

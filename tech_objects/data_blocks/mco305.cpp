@@ -38,10 +38,6 @@ const Variable kReadOuts[] = {
     SHOWN("STAT", Read.STAT, "state of axis and controller"),
     SHOWN("ERRNO", Read.ERRNO, "first error that has not been cleared; 0: none"),
     SHOWN("CURVEPOS", Read.CURVEPOS, "position of the slave on the curve; curves are not built: 0 [UU]"),
-    SHOWN("SysVar.4096", Read.ActualPosition, "actual position [qc]"),
-    SHOWN("SysVar.4097", Read.SetPosition, "set position [qc]"),
-    SHOWN("SysVar.4111", Read.Reference, "reference of the position controller, ±1048575"),
-    SHOWN("SysVar.4275", Read.JerkState, "phase of a motion, 1 to 15"),
     SHOWN("Program.Number", Program.Number, "number of the program; -1: none"),
     SHOWN("Program.State", Program.State,
           "0: none, 1: runs, 2: waits, 3: a handler runs, 4: ended, 5: ended by an error, 6: refused"),
@@ -110,6 +106,24 @@ std::vector<Variable> declare_status(std::deque<std::string>& names) {
                    .text = text,
                    .start = &start_value_in<Data>});
   };
+  const auto add_past = [&](const char* path, std::size_t offset, const char* text) {
+    all.push_back({.path = path,
+                   .type = Type::DINT,
+                   .offset = offsetof(Data, ErrorHistory) + offset,
+                   .count = kMco305PastErrors,
+                   .stride = sizeof(Mco305PastError),
+                   .effect = Effect::RON,
+                   .computed = true,
+                   .unit = Unit::kNone,
+                   .range = kWhole,
+                   .text = text,
+                   .start = &start_value_in<Data>});
+  };
+  add_past("ErrorHistory[].Number", offsetof(Mco305PastError, Number),
+           "number of an error that there has been, the newest first; 0: none");
+  add_past("ErrorHistory[].Time", offsetof(Mco305PastError, Time), "when it came up, as TIME [ms]");
+  add_past("ErrorHistory[].Program", offsetof(Mco305PastError, Program), "program that ran; -1: none");
+  add_past("ErrorHistory[].Line", offsetof(Mco305PastError, Line), "line that was carried out; -1: none");
   add_words("PcdIn[]", offsetof(Data, Outside.PcdIn), Effect::DIR,
             "process data that come from a field bus: PCD, COMOPTGET, ON COMBIT");
   add_words("PcdOut[]", offsetof(Data, Outside.PcdOut), Effect::RON,
@@ -125,6 +139,34 @@ std::vector<Variable> declare_status(std::deque<std::string>& names) {
   add_bits("In.", Data{}.In.size(), offsetof(Data, In), "digital input");
   add_bits("Out.", Data{}.Out.size(), offsetof(Data, Out),
            "digital output; 30, 31, 32: X34/1, X34/5, X34/10");
+  return all;
+}
+
+/// By their indices and by their names. What is read most is there in every step.
+std::vector<Variable> declare_system_variables(std::deque<std::string>& names) {
+  std::vector<Variable> all;
+  const auto numbered = mco305::system_variables();
+  for (std::size_t i = 0; i < numbered.size(); ++i) {
+    const mco305::SystemVariable& of = numbered[i];
+    std::size_t offset = offsetof(Data, SystemVariables) + i * sizeof(DINT);
+    if (of.index == 4096) offset = offsetof(Data, Read.ActualPosition);
+    if (of.index == 4097) offset = offsetof(Data, Read.SetPosition);
+    if (of.index == 4111) offset = offsetof(Data, Read.Reference);
+    if (of.index == 4275) offset = offsetof(Data, Read.JerkState);
+    const std::string& text =
+        names.emplace_back(std::string(of.text) + (of.unit.empty() ? "" : " [" + std::string(of.unit) + "]"));
+    for (const std::string& name : {std::to_string(of.index), std::string(of.name)})
+      all.push_back({.path = names.emplace_back("SysVar." + name),
+                     .type = Type::DINT,
+                     .offset = offset,
+                     .effect = Effect::RON,
+                     .computed = true,
+                     .unit = Unit::kNone,
+                     .range = kWhole,
+                     .text = text,
+                     .later = !of.built,
+                     .start = &start_value_in<Data>});
+  }
   return all;
 }
 
@@ -161,9 +203,11 @@ std::vector<Variable> declare_parameters(std::deque<std::string>& names) {
 struct Declared {
   std::deque<std::string> names;
   std::vector<Variable> status = declare_status(names);
+  std::vector<Variable> system_variables = declare_system_variables(names);
   std::vector<Variable> parameters = declare_parameters(names);
   DataBlock block{{}, {}};
   Declared() {
+    status.insert(status.end(), system_variables.begin(), system_variables.end());
     status.insert(status.end(), parameters.begin(), parameters.end());
     block = {{}, status};
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tech_objects/mco305_catalogue/parameters.hpp"
+#include "tech_objects/mco305_catalogue/system_variables.hpp"
 #include "tech_objects/types/types.hpp"
 
 namespace lockstep {
@@ -33,6 +34,14 @@ struct Mco305Program {
   ULINT Steps{}, Starved{};  ///< internal commands; steps whose budget was used up
 };
 
+/// An error that there has been.
+struct Mco305PastError {
+  DINT Number{}, Time{};         ///< 0: none; as TIME when it came up [ms]
+  DINT Program = -1, Line = -1;  ///< that ran; -1: none
+};
+inline constexpr std::size_t kMco305PastErrors = 50;
+using Mco305ErrorHistory = std::array<Mco305PastError, kMco305PastErrors>;  ///< the newest first
+
 /// The whole data block of an MCO 305.
 struct Mco305Data {
   Mco305ReadOuts Read{};
@@ -41,6 +50,8 @@ struct Mco305Data {
   std::array<BOOL, 33> In{};
   std::array<BOOL, 32> Out{};
   std::array<DINT, mco305::kParameterCount> Parameters = mco305::ParameterValues().all();
+  Mco305ErrorHistory ErrorHistory{};
+  std::array<DINT, mco305::kSystemVariableCount> SystemVariables{};  ///< of which somebody looks at
 };
 
 /// Path of a parameter below its device: its mnemonic, or P33_81 of one without.

@@ -18,23 +18,27 @@ constexpr double kFullReference = 0x4000;       // of OUTAN
 void Device::configure(const DeviceSettings& settings, double servo_period) {
   settings_ = settings;
   virtual_ = !settings.has_drive;
+  const double start = settings.drive.signals.start_position;
   for (std::size_t i = 0; i < settings.inputs.size(); ++i)
     if (settings.inputs[i] != nullptr) wired_inputs_.push_back({i + 1, settings.inputs[i]});
   for (std::size_t i = 0; i < settings.outputs.size(); ++i)
     if (settings.outputs[i] != nullptr) wired_outputs_.push_back({i + 1, settings.outputs[i]});
-  master_.configure(settings.has_master, settings.master_marks);
+  master_.configure(settings.has_master, settings.master_marks, settings.faults.master_encoder_counts);
   track_.configure(settings.markers);
   const DeviceFaults& faults = settings.faults;
   looks_at_faults_ = faults.supply != nullptr || faults.output != nullptr || faults.master_encoder != nullptr;
   if (!parameters_.power_up()) raise(kParametersCorrupted);
+  absolute_.configure(virtual_ ? 0 : parameters_[kEncoderAbsType], parameters_[kEncoderDatLen],
+                      counts_of(start));
+  master_.power_up(parameters_);
   refresh();
   if (settings.has_drive) {
     drive_ = kDriveModels[0].make();
-    drive_->configure(settings.drive, servo_period,
-                      2.0 * 3.14159265358979323846 / (4.0 * parameters_.real(kEncoder)));
-    machine_ = settings.drive.signals.start_position;
+    drive_->configure(settings.drive, servo_period, 2.0 * 3.14159265358979323846 / turn_);
+    machine_ = start;
+    swap_offset_ = actual_ = absolute_.position();
   }
-  profile_.stand(0.0);
+  profile_.stand(static_cast<double>(actual_));
   if (parameters_[kPowerUpState] != 0) motor_on();
   was_reset_ = false;
 }
@@ -43,7 +47,8 @@ void Device::configure(const DeviceSettings& settings, double servo_period) {
 void Device::refresh() noexcept {
   const ParameterValues& p = parameters_;
   unit_ = {p[kPosFactZ], p[kPosFactN], p[kPosDirection] >= 3 ? -1 : 1};
-  velocity_maximum_ = std::min(p.real(kVelMax) * p.real(kEncoder) * 4.0 / 60'000.0, kFastest);
+  turn_ = absolute_.present() ? p.real(kEncoderAbsRes) : 4.0 * p.real(kEncoder);
+  velocity_maximum_ = counts_per_millisecond(p.real(kVelMax));
   acceleration_maximum_ = velocity_maximum_ / p.real(kRampMin);
   profile_time_ = p[kProfTime];
   sampling_ = p[kTimer];
@@ -90,6 +95,7 @@ void Device::servo(bool step) noexcept {
   if (!virtual_) read_drive();
   if (step) {
     ++now_;
+    if (absolute_.present()) read_absolute();
     sample_inputs();
     if (has_master_) step_master();
     if (mode_ == MotionMode::kHome) step_home();
@@ -124,10 +130,22 @@ void Device::read_drive() noexcept {
   const double before = machine_;
   machine_ += moved;
   const double start = settings_.drive.signals.start_position;
-  actual_ = counts_of(machine_ - start) + swap_offset_;
+  if (!absolute_.present()) actual_ = counts_of(machine_ - start) + swap_offset_;
   if (moved != 0.0) latch(before, machine_);
   for (const DigitalInput& input : settings_.drive.signals.digital_inputs)
     *input.tag = input.range.contains(machine_, 0.0);
+}
+
+/// What a leap that was taken has added belongs to the places of markers too.
+void Device::read_absolute() noexcept {
+  const std::int32_t* const disturbed = settings_.faults.encoder_counts;
+  const double start = settings_.drive.signals.start_position;
+  const auto resolution = static_cast<std::int64_t>(turn_);
+  const bool good = absolute_.read(counts_of(machine_ - start) + counts_of(start),
+                                   disturbed == nullptr ? 0 : *disturbed, resolution);
+  actual_ = absolute_.position();
+  swap_offset_ = actual_ - counts_of(machine_ - start);
+  if (!good && on_ && !pending_.has(kPositionError)) raise(kPositionError);
 }
 
 // On the counter.
@@ -141,7 +159,7 @@ void Device::latch(double from, double to) noexcept {
   if (marker_type_ >= 2)
     return track_.pass(from, to, [this, start](double place) { take_latch(encoder_count(place - start)); });
   const auto& marks = settings_.drive.signals.zero_marks;
-  if (!marks) return;
+  if (!marks || absolute_.present()) return;
   if (const auto mark = marks->between(from, to)) take_latch(encoder_count(*mark - start + 0.5));
 }
 
@@ -160,6 +178,7 @@ void Device::mark(double place) noexcept {
 void Device::step_master() noexcept {
   master_.look_at_marker(io_.input(5));
   master_.step();
+  sync_.average(master_);
   if (mode_ != MotionMode::kFollow) sync_.end();
   if (sync_.runs()) sync_.step(master_, actual_);
 }

@@ -11,6 +11,7 @@
 
 #include "tech_objects/drive/count_controller.hpp"
 #include "tech_objects/drive/drive.hpp"
+#include "tech_objects/mco305/absolute_encoder.hpp"
 #include "tech_objects/mco305/inputs_outputs.hpp"
 #include "tech_objects/mco305/marker_track.hpp"
 #include "tech_objects/mco305/master_input.hpp"
@@ -27,6 +28,9 @@ struct DeviceFaults {
   const bool* supply = nullptr;          ///< the external 24 V are missing
   const bool* output = nullptr;          ///< a digital output is overloaded
   const bool* master_encoder = nullptr;  ///< the master encoder tells nothing
+  // Added to what absolute encoders tell [qc].
+  const std::int32_t* encoder_counts = nullptr;
+  const std::int32_t* master_encoder_counts = nullptr;
 };
 
 /// What a project says of a device.
@@ -88,6 +92,7 @@ class Device {
   void define_sync_origin(std::int32_t master, std::int32_t slave) noexcept;
   void move_sync_origin(std::int32_t by) noexcept { sync_.move_origin(by); }        ///< MOVESYNCORIGIN
   void clear_sync_status(std::int32_t bits) noexcept { sync_.clear_status(bits); }  ///< SYNCSTATCLR
+  void restart_markers(bool whole) noexcept { sync_.restart_markers(whole); }       ///< SYNCMARKERSTART
   /// PULSVEL, with the acceleration of PULSACC.
   void turn_own_master(std::int32_t hertz) noexcept;
   /// Whether it has had a master; without one nothing is computed for one.
@@ -98,7 +103,7 @@ class Device {
   /// Whether the axis rests where it was told to: the end of POSA, POSR, MOTOR STOP, WAITAX.
   bool arrived() const noexcept { return arrived_; }
 
-  /// SWAPMENC. @return false: something else turns its master encoder
+  /// SWAPMENC. @return false: something else turns its master encoder, or an encoder is absolute
   bool swap_encoders(bool swapped) noexcept;
 
   // ---- The drive in which it sits
@@ -112,7 +117,8 @@ class Device {
 
   // ---- Zero points, homing, index
 
-  void define_origin() noexcept;                    ///< DEF ORIGIN
+  int define_origin() noexcept;                     ///< DEF ORIGIN
+  int define_master_origin() noexcept;              ///< DEFMORIGIN
   void set_origin(std::int32_t units) noexcept;     ///< SET ORIGIN
   void reset_origin() noexcept { temporary_ = 0; }  ///< RST ORIGIN
   /// HOME, INDEX. They are over when `homing` is false; then `homing_error` says how.
@@ -121,6 +127,8 @@ class Device {
   bool following() const noexcept { return mode_ == MotionMode::kFollow; }
   int homing_error() const noexcept { return home_.error; }
   void give_up_home() noexcept;
+  /// Whether its position is there at power-up: no DEF ORIGIN, HOME, INDEX, WAITNDX.
+  bool is_absolute() const noexcept { return absolute_.present(); }
   /// How many zero pulses or markers have been latched: WAITNDX.
   std::uint32_t latches() const noexcept { return latches_; }
 
@@ -200,6 +208,7 @@ class Device {
 
   void refresh() noexcept;
   void read_drive() noexcept;
+  void read_absolute() noexcept;
   void latch(double from, double to) noexcept;
   std::int64_t encoder_count(double place) const noexcept;
   void take_latch(std::int64_t place) noexcept;
@@ -304,6 +313,8 @@ class Device {
   std::int32_t maximum_reference_ = 0, speed_high_limit_ = -1;  // 3-03, 4-13; 0, -1: not set
   double analog_output_ = 0.0;                                  // [mA]
   bool swapped_ = false;                                        // SWAPMENC
+  AbsoluteEncoder absolute_;
+  double turn_ = 4096.0;          // of the motor [qc]
   std::int64_t swap_offset_ = 0;  // from what the drive's encoder has counted to the counter [qc]
   std::int64_t origin_ = 0, temporary_ = 0, limits_origin_ = 0;  // [qc]
   bool homed_ = false;

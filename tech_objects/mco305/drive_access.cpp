@@ -13,6 +13,11 @@ constexpr double kVolts = 10.0, kPerVolt = 100.0;                 // INAD: 1 is 
 constexpr double kMilliamperes = 20.0, kPerMilliampere = 5000.0;  // OUTDA: 50000 is 10 mA
 constexpr double kMilli = 1000.0;
 
+// The motor that is assumed: the sources have none.
+constexpr double kPolePairs = 2.0;
+constexpr double kRatedVoltage = 400.0, kVoltsPerHertz = kRatedVoltage / 50.0;
+constexpr double kMagnetizing = 1.0, kAmperesPerTorque = 0.3;  // [A], [A/Nm]
+
 std::int32_t whole(double value) noexcept {
   constexpr double kLargest = 2'147'483'647.0;
   if (!(std::abs(value) <= kLargest)) return value > 0.0 ? 2'147'483'647 : value < 0.0 ? -2'147'483'647 : 0;
@@ -23,7 +28,7 @@ std::int32_t whole(double value) noexcept {
 
 // [qc/ms] of a motor that turns so fast [1/min]
 double Device::counts_per_millisecond(double rpm) const noexcept {
-  return std::min(rpm * parameters_.real(kEncoder) * 4.0 / 60'000.0, kFastest);
+  return std::min(rpm * turn_ / 60'000.0, kFastest);
 }
 
 /// What the drive makes of a reference; where a parameter of either has changed.
@@ -54,8 +59,8 @@ bool Device::set_analog_output(std::int32_t terminal, std::int32_t value) noexce
 
 bool Device::drive_parameter(std::int32_t number, std::int32_t& value) const noexcept {
   const double full = full_reference_ > 0.0 ? full_reference_ : 1.0;
-  const double lines = parameters_.real(kEncoder) * 4.0;
-  const double velocity = virtual_ ? 0.0 : told_.velocity / kMillisecondsPerSecond;  // [qc/ms]
+  const double velocity = virtual_ ? 0.0 : told_.velocity / kMillisecondsPerSecond;           // [qc/ms]
+  const double frequency = std::abs(velocity) * kMillisecondsPerSecond / turn_ * kPolePairs;  // [Hz]
   switch (number) {
     case kMaximumReference:
       value = maximum_reference_ > 0 ? maximum_reference_ : whole(parameters_.real(kVelMax) * kMilli);
@@ -74,11 +79,22 @@ bool Device::drive_parameter(std::int32_t number, std::int32_t& value) const noe
     case kMainActualValue:
       value = whole(velocity / full * 10'000.0);
       return true;
+    case kMotorVoltage:
+      value = whole(told_.enabled ? std::min(frequency * kVoltsPerHertz, kRatedVoltage) * 10.0 : 0.0);
+      return true;
+    case kMotorFrequency:
+      value = whole(told_.enabled ? frequency * 10.0 : 0.0);
+      return true;
+    case kMotorCurrent: {
+      const double across = kAmperesPerTorque * told_.torque;
+      value = whole(told_.enabled ? std::sqrt(kMagnetizing * kMagnetizing + across * across) * 100.0 : 0.0);
+      return true;
+    }
     case kMotorTorque:
       value = whole(told_.torque * 10.0);
       return true;
     case kMotorSpeed:
-      value = whole(velocity * 60'000.0 / lines);
+      value = whole(velocity * 60'000.0 / turn_);
       return true;
     case kDriveInputs:
       value = io_.input_byte(1);
@@ -107,7 +123,7 @@ int Device::set_drive_parameter(std::int32_t number, std::int32_t value) noexcep
 /// SWAPMENC: the drive turns the motor whose encoder is the feedback, and the other one stands; counters and
 /// zero points change their places.
 bool Device::swap_encoders(bool swapped) noexcept {
-  if (settings_.has_master) return false;
+  if (settings_.has_master || absolute_.present() || master_.is_absolute()) return false;
   if (swapped == swapped_) return true;
   swapped_ = swapped;
   has_master_ = true;

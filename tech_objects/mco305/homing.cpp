@@ -14,6 +14,7 @@ constexpr double kSlowest = 0.1;  // [qc/ms]
 }  // namespace
 
 int Device::begin_home(bool index_only) noexcept {
+  if (is_absolute()) return kUnknownCommand;
   if (pending_.any() || !on_) return kErrorNotReset;
   const std::int32_t velocity = parameters_[kHomeVel];
   if (velocity == 0) return kHomeVelocityZero;

@@ -8,8 +8,15 @@ namespace lockstep::mco305 {
 
 void MasterInput::refresh(const ParameterValues& parameters) noexcept {
   type_ = parameters[kMasterEncoderType];
+  simulated_ = type_ == kSimulated || (!wired_ && parameters[kMasterEncoderAbsType] == kSimulated);
+  resolution_ = parameters[kMasterEncoderAbsRes];
   marker_type_ = parameters[kMarkerTypeMaster];
   turn_ = 4.0 * parameters.real(kMasterEncoder);
+}
+
+void MasterInput::power_up(const ParameterValues& parameters) noexcept {
+  absolute_type_ = wired_ ? parameters[kMasterEncoderAbsType] : 0;
+  data_bits_ = parameters[kMasterEncoderDatLen];
 }
 
 void MasterInput::move(std::int64_t counts) noexcept {
@@ -52,14 +59,32 @@ void MasterInput::turn(double encoder) noexcept {
   shown_encoder_ = whole;
   if (!heard_) {
     heard_ = true;
+    absolute_.configure(absolute_type_, data_bits_, whole);
+    read_ = whole;
+    if (absolute_.present()) last_ = position_ = absolute_.position();
     return;
   }
   turned_ += counts;
+  if (absolute_.present()) return pass_absolute(last, encoder);
   if (own_.active() || type_ == 0 || type_ == kSimulated || encoder == last) return;
   // Between two counts it is where the encoder is.
   const double begin = static_cast<double>(position_) + (last - whole_below(last));
   move(counts);
   pass(begin, begin + (encoder - last));
+}
+
+/// It is read in each millisecond; its markers, which are external ones, are where it is.
+void MasterInput::pass_absolute(double from, double to) noexcept {
+  if (own_.active() || marker_type_ < 2 || from == to) return;
+  const auto beside = static_cast<double>(position_ - read_);
+  pass(from + beside, to + beside);
+}
+
+void MasterInput::read_absolute() noexcept {
+  const std::int64_t before = absolute_.position();
+  absolute_.read(shown_encoder_, disturbed_ == nullptr ? 0 : *disturbed_, resolution_);
+  read_ = shown_encoder_;
+  if (!own_.active()) move(absolute_.position() - before);
 }
 
 void MasterInput::exchange(std::int64_t& position, std::int64_t& origin) noexcept {
@@ -83,12 +108,13 @@ void MasterInput::set_velocity(std::int32_t value) noexcept {
 }
 
 bool MasterInput::move_to(std::int32_t value) noexcept {
-  if (type_ != kSimulated) return false;
+  if (!simulated_) return false;
   move(value - shown());
   return true;
 }
 
 void MasterInput::step() noexcept {
+  if (absolute_.present()) read_absolute();
   if (own_.active()) {
     const auto begin = static_cast<double>(position_);
     move(own_.step());

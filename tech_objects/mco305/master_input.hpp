@@ -2,10 +2,12 @@
 /// @source MCO 305 Design Guide, MAPOS, MAVEL, MIPOS, DEFMORIGIN, SETMORIGIN; 32-30, 32-31, 33-19
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "tech_objects/mco305/absolute_encoder.hpp"
 #include "tech_objects/mco305/marker_track.hpp"
 #include "tech_objects/mco305/units.hpp"
 #include "tech_objects/mco305/virtual_master.hpp"
@@ -16,11 +18,16 @@ namespace lockstep::mco305 {
 /// Thread: that of the cycle, but for `configure`.
 class MasterInput {
  public:
-  /// @param wired whether there is an encoder, signal or device to count
-  void configure(bool wired, const MarkerTrackSettings& markers) noexcept {
+  /// @param wired whether there is an encoder, signal or device to count  @param disturbed added to what an
+  /// absolute encoder tells [qc]; nullptr: nothing
+  void configure(bool wired, const MarkerTrackSettings& markers,
+                 const std::int32_t* disturbed = nullptr) noexcept {
     wired_ = wired;
+    disturbed_ = disturbed;
     track_.configure(markers);
   }
+  /// What it is, until the next time.
+  void power_up(const ParameterValues& parameters) noexcept;
   void refresh(const ParameterValues& parameters) noexcept;
 
   // ---- Steps
@@ -45,7 +52,7 @@ class MasterInput {
   void stop() noexcept { own_.stop(); }                                                 ///< [Esc]
   /// DEFMORIGIN, SETMORIGIN: the position is this from now on [qc].
   void set_origin(std::int32_t value) noexcept { origin_ = position_ - value; }
-  /// SYSVAR[4105] while MENCODERTYPE is 5. @return false: it is not
+  /// SYSVAR[4105] while MENCODERTYPE is 5, or MENCODERABSTYPE without an encoder. @return false: it is not
   bool move_to(std::int32_t value) noexcept;
 
   // ---- Read-outs
@@ -55,8 +62,12 @@ class MasterInput {
   std::int32_t shown() const noexcept { return shown_position(position_ - origin_); }  ///< MAPOS
   std::int32_t shown_latch() const noexcept { return shown_position(latched_ - origin_); }  ///< MIPOS
   std::int64_t origin() const noexcept { return origin_; }
+  /// How many of so many milliseconds there have been.
+  std::int64_t known(std::int64_t milliseconds) const noexcept { return std::min(milliseconds, now_); }
   std::int64_t moved_in(std::int64_t milliseconds) const noexcept;        ///< [qc], up to 255 ms
   std::int32_t real_velocity() const noexcept { return real_velocity_; }  ///< SYSVAR 4128 [qc/s]
+  bool is_absolute() const noexcept { return absolute_.present(); }
+  const AbsoluteEncoder& absolute() const noexcept { return absolute_; }
   const VirtualMaster& own() const noexcept { return own_; }
   /// Markers of this step, in their order [qc].
   std::size_t mark_count() const noexcept { return mark_count_; }
@@ -72,8 +83,16 @@ class MasterInput {
   void pass(double from, double to) noexcept;
   void latch(double place) noexcept;
 
-  bool wired_ = false, begun_ = false, heard_ = false;
-  std::int32_t type_ = 1, marker_type_ = 0;  // MENCODERTYPE, SYNCMTYPM
+  void read_absolute() noexcept;
+  void pass_absolute(double from, double to) noexcept;
+
+  bool wired_ = false, begun_ = false, heard_ = false, simulated_ = false;
+  std::int32_t type_ = 1, marker_type_ = 0;          // MENCODERTYPE, SYNCMTYPM
+  std::int32_t absolute_type_ = 0, data_bits_ = 25;  // MENCODERABSTYPE, MENCODERDATLEN
+  std::int64_t resolution_ = 8192;                   // MENCODERABSRES
+  AbsoluteEncoder absolute_;
+  std::int64_t read_ = 0;  // where it was when it was read last [qc]
+  const std::int32_t* disturbed_ = nullptr;
   std::int64_t position_ = 0, last_ = 0, moved_ = 0, origin_ = 0;
   double encoder_ = 0.0;
   std::int64_t shown_encoder_ = 0, turned_ = 0;  // whole counts of the encoder, and those of this step

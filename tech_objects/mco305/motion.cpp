@@ -211,9 +211,17 @@ void Device::define_sync_origin(std::int32_t master, std::int32_t slave) noexcep
 }
 
 /// The limits stay where they are on the machine.
-void Device::define_origin() noexcept {
+int Device::define_origin() noexcept {
+  if (is_absolute()) return kUnknownCommand;
   origin_ = actual_;
   temporary_ = 0;
+  return 0;
+}
+
+int Device::define_master_origin() noexcept {
+  if (master_.is_absolute()) return kUnknownCommand;
+  master_.set_origin(0);
+  return 0;
 }
 
 void Device::set_origin(std::int32_t units) noexcept {

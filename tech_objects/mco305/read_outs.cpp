@@ -71,11 +71,14 @@ std::int32_t Device::status() const noexcept {
   return static_cast<std::int32_t>(top << 24 | second << 16 | lowest);
 }
 
-// SYSVAR 4218: those of SYNCSTAT are its top ones.
+// SYSVAR 4218: those of SYNCSTAT are its top ones. A position that is not shown as it is has overflowed.
 std::int32_t Device::flags() const noexcept {
-  return (moving_ ? 1 | 1 << 8 : 0) | (arrived_ ? 4 : 0) | (latches_ != 0 ? 8 : 0) |
-         (pending_.has(kPositionError) ? 32 : 0) | (on_ ? 0 : 128) | (controller_.idle() ? 8 << 8 : 0) |
-         sync_.status() << kFirstSyncFlag;
+  const auto overflows = [](std::int64_t position) noexcept { return shown_position(position) != position; };
+  const bool slave = overflows(actual_ - origin_),
+             leading = has_master_ && overflows(master_.position() - master_.origin());
+  return (slave ? 2 << 8 : 0) | (leading ? 4 << 8 : 0) | (moving_ ? 1 | 1 << 8 : 0) | (arrived_ ? 4 : 0) |
+         (latches_ != 0 ? 8 : 0) | (pending_.has(kPositionError) ? 32 : 0) | (on_ ? 0 : 128) |
+         (controller_.idle() ? 8 << 8 : 0) | sync_.status() << kFirstSyncFlag;
 }
 
 bool Device::system_variable(std::int32_t index, std::int32_t& value) const noexcept {
@@ -89,12 +92,19 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
     case 9:
       value = io_.output_byte();
       return true;
+    case 16:
+      value = absolute_.errors() + master_.absolute().errors();
+      return true;
     case 17:
       value = status() >> 16 & 0xFFFF;
       return true;
     case 22:
       value = static_cast<std::int32_t>(now_ & 0x7FFFFFFF);
       return true;
+    case 28:
+      return drive_parameter(kMotorCurrent, value);
+    case 30:
+      return drive_parameter(kMotorVoltage, value);
     case 31:
       return drive_parameter(kDriveStatus, value);
     case 32:
@@ -102,6 +112,8 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
     case 33:
       value = program_line_;
       return true;
+    case 34:
+      return drive_parameter(kMotorFrequency, value);
     case 35:
       return drive_parameter(kMotorTorque, value);
     case 4096:
@@ -119,6 +131,12 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
     case 4101:
       value = shown_position(set_counts() - actual_);
       return true;
+    case 4102:
+      value = static_cast<std::int32_t>(absolute_.turns(parameters_[kEncoder]));
+      return true;
+    case 4103:
+      value = static_cast<std::int32_t>(master_.absolute().turns(parameters_[kMasterEncoder]));
+      return true;
     case 4107:
       value = static_cast<std::int32_t>(
           now_ < 1 ? 0 : actual_ - positions_[static_cast<std::size_t>(now_ - 1) % kVelocityRing]);
@@ -131,6 +149,13 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
       return true;
     case 4114:
       value = parameters_[kProfTime];
+      return true;
+    case 4115:
+      value = 1;  // the reference has a sign,
+      return true;
+    case 4116:
+    case 4127:
+      value = 0;  // no output has it; without its controller the motor is free
       return true;
     case 4122:
       value = open_loop_;
@@ -215,12 +240,18 @@ bool Device::sync_variable(std::int32_t index, std::int32_t& value) const noexce
       return held(master_.real_velocity());
     case 4238:
       return rounded(filter.distance());
+    case 4240:
+      return rounded(filter.start());
     case 4241:
       return rounded(filter.start_rest());
     case 4242:
       return rounded(filter.correction());
     case 4243:
       return rounded(std::abs(sync_.master_spacing()));
+    case 4244: {
+      constexpr double kScale = 65'536.0;  // that of the sources is not printed
+      return rounded(filter.trim() * kScale);
+    }
     case 4245:
       return rounded(filter.unfiltered());
     case 4246:

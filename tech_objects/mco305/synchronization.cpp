@@ -30,6 +30,7 @@ void Synchronization::refresh(const ParameterValues& p, bool later_edition,
   signed_error_ = p[kSyncAccuracy] < 0;
   looks_ahead_ = p[kSyncType] == 1;
   filter_parameter_ = p[kSyncVfTime];
+  filter_limit_ = later_edition ? p.real(kSyncVfLimit) : 0.0;
   published_time_ = CountFilter::published_time(p.real(kMasterEncoder));
   constexpr double kTimes = 5.0;  // of the velocity, as resolution for the table
   slave_filter_time_ = CountFilter::published_time(kTimes * velocity_maximum);
@@ -42,6 +43,8 @@ void Synchronization::refresh(const ParameterValues& p, bool later_edition,
   start_ = p[kSyncMStart];
   filter_bits_ = p[kSyncMfPar];
   marker_filter_time_ = std::max(p.real(kSyncMfTime), 0.0);
+  constexpr std::int32_t kAlways = 64;
+  averages_ = marker_filter_time_ > 0.0 && (filter_bits_ & kAlways) != 0;
   maximum_correction_ = p.real(kSyncMMaxCorr);
   velocity_precontrol_ = later_edition ? p.real(kSyncFfVel) / kThousand : 0.0;
   constexpr double kPercent = 0.01;
@@ -81,9 +84,14 @@ void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const Fou
   reached_ = false;
   take_limits(limits);
   pursuit_.begin(from.position, from.velocity);
+  constexpr std::int64_t kKnown = 64;  // [ms] of the master that say how fast it is
+  if (const std::int64_t known = master.known(kKnown); known > 0)
+    pursuit_.expect(static_cast<double>(master.moved_in(known)) * gear_.ratio() / static_cast<double>(known),
+                    static_cast<double>(known));
   last_velocity_ = from.velocity;
   velocity_filter_.begin(static_cast<double>(master.moved()));
   slave_filter_.begin(from.velocity);
+  fading_.begin(velocity_filter_.velocity(), filter_time());
   velocity_ = velocity_filter_.velocity();
   master_position_ = master.position();
   gear_.set(factor_master_, factor_slave_);
@@ -100,7 +108,8 @@ void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const Fou
   quality_.clear();
   error_ = 0;
   wanted_ = nearest_count(gear_.position());
-  filter_.begin(master_tolerance_.distance);
+  const bool averaged = averages_ && averaged_.distance() > 0.0;
+  filter_.begin(averaged ? averaged_.distance() : master_tolerance_.distance);
   path_.clear();
   awaits_path_ = false;
   if (mode == SyncMode::kMarkers) begin_markers();
@@ -110,6 +119,7 @@ void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const Fou
   offset_.want(wanted_offset());
   target_ = before_ = gear_.position();
   target_velocity_ = velocity_before_ = velocity_ * gear_.ratio();
+  spread_ = spread_before_ = limits_.spread = 0.0;
 }
 
 void Synchronization::define_origin(std::int64_t master, double slave) noexcept {
@@ -133,7 +143,9 @@ void Synchronization::step(const MasterInput& master, std::int64_t actual) noexc
   gear_.move(master.moved());
   double velocity = moved, lag = 0.0;
   if (filter_parameter_ < 0) {
-    velocity = velocity_filter_.step_and_return(moved, filter_time());
+    double time = filter_time();
+    if (filter_limit_ > 0.0) time = fading_.step(moved, time, filter_limit_);
+    velocity = velocity_filter_.step_and_return(moved, time);
     lag = velocity_filter_.lag();
     velocity_ = velocity_filter_.velocity();
   } else {
@@ -149,9 +161,10 @@ void Synchronization::step(const MasterInput& master, std::int64_t actual) noexc
   }
   before_ = target_;
   velocity_before_ = target_velocity_;
+  spread_before_ = spread_;
   const double offset = offset_.step(), correction = correction_.step();
-  target_velocity_ =
-      velocity * ratio * (1.0 + filter_.trim()) + offset_.velocity() * ratio + correction_.velocity();
+  spread_ = offset_.velocity() * ratio + correction_.velocity();
+  target_velocity_ = velocity * ratio * (1.0 + filter_.trim()) + spread_;
   target_ = gear_.position() + (offset - lag) * ratio + correction + trimmed_ +
             velocity_precontrol_ * target_velocity_;
   if (path_.active()) follow_path();
@@ -180,8 +193,10 @@ FourSlopeState Synchronization::set_point(std::int64_t actual, bool controls_vel
   } else if (awaits_path_) {
     pursuit_.follow(0.0, limits_);
   } else if (looks_ahead_) {
+    limits_.spread = spread_;
     pursuit_.step(target_, target_velocity_, limits_);
   } else {
+    limits_.spread = spread_before_;
     pursuit_.step(before_, velocity_before_, limits_);
   }
   const double goes = looks_ahead_ ? target_velocity_ : velocity_before_;

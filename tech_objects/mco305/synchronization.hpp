@@ -53,6 +53,11 @@ class Synchronization {
     slave_mark_known_ = true;
     slave_mark_ = place;
   }
+  /// SYNCMFPAR 64: the distance of the master's markers is averaged whatever it does. Each millisecond,
+  /// behind that of the master.
+  void average(const MasterInput& master) noexcept {
+    if (averages_ && master.mark_count() != 0) average_markers(master);
+  }
   /// A marker of the slave has been latched [qc].
   void take_slave_mark(double place) noexcept;
   /// One millisecond, behind that of the master. @param actual position of the slave [qc]
@@ -72,6 +77,9 @@ class Synchronization {
 
   std::int32_t status() const noexcept;                                             ///< SYNCSTAT
   void clear_status(std::int32_t bits) noexcept { hits_ &= ~(bits & kClearable); }  ///< SYNCSTATCLR
+  /// SYNCMARKERSTART, while SYNCM follows: the next markers are the first ones, wherever they lie. The set
+  /// position does not step. @param whole the start behaviour, the filter and the flags begin anew as well
+  void restart_markers(bool whole) noexcept;
   const MarkerFilter& filter() const noexcept { return filter_; }
   double slave_spacing() const noexcept { return slave_window_.spacing(); }    ///< [qc]
   double master_spacing() const noexcept { return master_window_.spacing(); }  ///< [qc]
@@ -86,6 +94,7 @@ class Synchronization {
   double pair_distance() const noexcept;
   void take_limits(const FourSlopeLimits& limits) noexcept;
   void begin_markers() noexcept;
+  void average_markers(const MasterInput& master) noexcept;
   void take_master_mark(double place) noexcept;
   void look_for_missed(double master, double slave) noexcept;
   void pair(double apart) noexcept;
@@ -98,12 +107,14 @@ class Synchronization {
   bool reached_ = false;  // the velocity of the master, since the start
   CountGear gear_;
   CountFilter velocity_filter_;
+  FadingTime fading_;
   Pursuit pursuit_;
   PursuitLimits limits_;
   double last_velocity_ = 0.0;                   // [qc/ms] of the set position
   double velocity_ = 0.0;                        // of the master, smoothed [qc/ms]
   double target_ = 0.0, target_velocity_ = 0.0;  // of this step
   double before_ = 0.0, velocity_before_ = 0.0;  // … and of the one before
+  double spread_ = 0.0, spread_before_ = 0.0;    // of these velocities what spreads offsets and corrections
   double slave_filter_time_ = 1.0;               // [ms]
   CountFilter slave_filter_;
   std::int64_t last_actual_ = 0, error_ = 0, wanted_ = 0;
@@ -120,6 +131,9 @@ class Synchronization {
   MarkerWindow master_window_, slave_window_;
   MarkerPairing pairing_;
   MarkerFilter filter_;
+  bool averages_ = false;
+  MarkerWindow averaged_window_;
+  MarkerFilter averaged_;
   bool corrected_ = false;  // there has been a pair
   bool late_ = false;       // the marker at hand came behind a missed one
   MeetingPath path_;        // start 7
@@ -136,7 +150,7 @@ class Synchronization {
   std::int64_t ready_count_ = 1, fault_count_ = 10;
   std::int32_t start_ = 0, filter_parameter_ = 0, filter_bits_ = 0;
   double marker_filter_time_ = 0.0, maximum_correction_ = 0.0, published_time_ = 1.0;
-  double velocity_precontrol_ = 0.0;
+  double velocity_precontrol_ = 0.0, filter_limit_ = 0.0;
 };
 
 }  // namespace lockstep::mco305

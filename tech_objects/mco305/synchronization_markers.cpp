@@ -38,6 +38,23 @@ void Synchronization::begin_markers() noexcept {
   awaits_path_ = start_ % kStarts == kByPath;
 }
 
+/// What markers have moved the slave by stays.
+void Synchronization::restart_markers(bool whole) noexcept {
+  if (!following_ || mode_ != SyncMode::kMarkers) return;
+  late_ = false;
+  master_marks_ = slave_marks_ = 0;
+  master_window_.begin();
+  slave_window_.begin();
+  pairing_.drop();
+  if (!whole) return;
+  hits_ = 0;
+  corrected_ = false;
+  quality_.clear();
+  filter_.begin(master_tolerance_.distance);
+  pairing_.begin(first_pair(start_));
+  offset_.want(wanted_offset());
+}
+
 /// From pair to pair, on the side of the slave [qc].
 double Synchronization::pair_distance() const noexcept {
   return std::abs(gear_.ratio()) * master_tolerance_.distance * static_cast<double>(marks_per_pair_master_);
@@ -53,6 +70,16 @@ MarkerFilterSettings Synchronization::filter_settings() const noexcept {
           .trims_gear = (filter_bits_ & kNoTrim) == 0,
           .by_time = (filter_bits_ & kByFilterTime) != 0 || (filter_bits_ & kOnlySmoothing) != 0,
           .looks_at_distance = (filter_bits_ & kOnlySmoothing) == 0};
+}
+
+void Synchronization::average_markers(const MasterInput& master) noexcept {
+  if (!(averaged_.distance() > 0.0)) averaged_.begin(master_tolerance_.distance);
+  averaged_window_.missed(static_cast<double>(master.position()), master_tolerance_);
+  for (std::size_t i = 0; i < master.mark_count(); ++i) {
+    if (averaged_window_.take(master.mark(i), master_tolerance_) == MarkerWindow::Verdict::ignored) continue;
+    averaged_.take_spacing(std::abs(averaged_window_.spacing()), static_cast<double>(master.moved()),
+                           filter_settings());
+  }
 }
 
 void Synchronization::take_master_mark(double place) noexcept {
@@ -148,6 +175,7 @@ void Synchronization::pair(double apart) noexcept {
   quality_.evaluate(ready_count_, fault_count_);
   if (!std::exchange(late_, false)) hits_ &= ~(kMasterMissed | kSlaveMissed);
   const bool filters = marker_filter_time_ > 0.0;
+  if (!filters) filter_.note_pair(apart, first);
   double correction = filters ? filter_.take_pair(apart, first, gear_.ratio(), filter_settings()) : apart;
   if (maximum_correction_ < 0.0) correction = 0.0;
   if (maximum_correction_ > 0.0)

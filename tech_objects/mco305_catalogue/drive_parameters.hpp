@@ -1,7 +1,7 @@
 /// The parameters of the drive in which the option sits, as far as the simulated drive has them: what GETVLT
 /// reads and SETVLT changes. All others are error 112.
-/// @source MCO 305 Design Guide, GETVLT, SETVLT, SYSVAR 31, 32, 35; the conversion indices are those of the
-/// FC 300
+/// @source MCO 305 Design Guide, GETVLT, SETVLT, SYSVAR 28, 30 to 32, 34, 35; the conversion indices are
+/// those of the FC 300
 #pragma once
 
 #include <cstdint>
@@ -26,6 +26,9 @@ enum DriveParameterNumber : std::int32_t {
   kReferencePercent = 1602,
   kDriveStatus = 1603,
   kMainActualValue = 1605,
+  kMotorVoltage = 1612,
+  kMotorFrequency = 1613,
+  kMotorCurrent = 1614,
   kMotorTorque = 1616,
   kMotorSpeed = 1617,
   kDriveInputs = 1660,

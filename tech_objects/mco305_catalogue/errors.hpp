@@ -29,6 +29,7 @@ enum ErrorNumber : int {
   kHomeVelocityZero = 107,
   kPositionError = 108,
   kIndexNotFound = 109,
+  kUnknownCommand = 110,
   kSoftwareLimit = 111,
   kUnknownParameter = 112,
   kDriveNotReady = 113,

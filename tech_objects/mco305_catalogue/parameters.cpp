@@ -4,8 +4,8 @@ namespace lockstep::mco305 {
 namespace {
 
 /// Divisors: 0 or less would leave nothing to compute with.
-constexpr std::int32_t kDivisors[] = {kEncoder,  kPosFactN, kPosFactZ, kTimer,
-                                      kProfTime, kVelMax,   kRampMin,  kVelRes};
+constexpr std::int32_t kDivisors[] = {kEncoder,  kEncoderAbsRes, kPosFactN, kPosFactZ, kTimer,
+                                      kProfTime, kVelMax,        kRampMin,  kVelRes};
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 /// @source MCO 305 Design Guide, SYSVAR
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -10,10 +11,13 @@ namespace lockstep::mco305 {
 
 struct SystemVariable {
   std::int32_t index;
+  std::string_view name;  ///< as a path beside its index; published where it is in capitals
   std::string_view text;
   std::string_view unit;
   bool built;  ///< else reading it is error 112
 };
+
+inline constexpr std::size_t kSystemVariableCount = 76;
 
 /// By their indices.
 std::span<const SystemVariable> system_variables() noexcept;

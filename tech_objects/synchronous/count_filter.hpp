@@ -3,6 +3,7 @@
 /// @source MCO 305 Design Guide, 33-26 velocity filter
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -53,6 +54,34 @@ class CountFilter {
 
  private:
   double velocity_ = 0.0, lag_ = 0.0;
+};
+
+/// Takes the time constant of a filter back where what it holds back becomes too much, and gives it back
+/// where that has become little: by 1 ms in a millisecond, and never below 5 ms.
+/// @source MG.33.L5.03, 33-33 synchronization error window
+class FadingTime {
+ public:
+  /// @param time constant [ms]
+  void begin(double velocity, double time) noexcept {
+    whole_.begin(velocity);
+    time_ = time;
+    fades_ = false;
+  }
+  /// @param limit of what the filter may hold back with its whole time constant [counts] > 0
+  /// @param time its whole time constant [ms]  @return the one of this millisecond [ms]
+  double step(double counts, double time, double limit) noexcept {
+    constexpr double kMinimum = 5.0, kAgain = 0.2;
+    whole_.step_and_return(counts, time);
+    const double held = std::abs(whole_.lag());
+    fades_ = fades_ ? held >= kAgain * limit : held >= limit;
+    time_ = fades_ ? std::max(time_ - 1.0, kMinimum) : time_ + 1.0;
+    return time_ = std::min(time_, time);
+  }
+
+ private:
+  CountFilter whole_;
+  double time_ = 0.0;
+  bool fades_ = false;
 };
 
 }  // namespace lockstep

@@ -48,7 +48,7 @@ class MarkerFilter {
   double take_pair(double apart, bool first, double ratio, const MarkerFilterSettings& settings) noexcept {
     const double in_offset_time = velocity_ * settings.offset_time / settings.distance;
     if (first) {
-      start_rest_ = apart;
+      start_ = start_rest_ = apart;
       start_share_ = apart / std::max(in_offset_time, 1.0);
       correction_ = 0.0;
       return take_start();
@@ -60,9 +60,13 @@ class MarkerFilter {
     return correction_ + take_start();
   }
 
+  /// A pair whose correction is not filtered.
+  void note_pair(double apart, bool first) noexcept { (first ? start_ : unfiltered_) = apart; }
+
   double trim() const noexcept { return trim_; }                ///< of the gear, a part of it
   double distance() const noexcept { return distance_; }        ///< filtered [counts]
   double last() const noexcept { return last_; }                ///< last spacing [counts]
+  double start() const noexcept { return start_; }              ///< of the first pair [u]
   double start_rest() const noexcept { return start_rest_; }    ///< [u]
   double start_share() const noexcept { return start_share_; }  ///< [u]
   double correction() const noexcept { return correction_; }    ///< smoothed [u]
@@ -81,7 +85,8 @@ class MarkerFilter {
 
   double distance_ = 0.0, last_ = 0.0, velocity_ = 0.0, markers_ = 0.0, trim_ = 0.0;
   double errors_ = 0.0, filtered_errors_ = 0.0;
-  double start_rest_ = 0.0, start_share_ = 0.0, correction_ = 0.0, unfiltered_ = 0.0, constants_ = 0.0;
+  double start_ = 0.0, start_rest_ = 0.0, start_share_ = 0.0, correction_ = 0.0, unfiltered_ = 0.0,
+         constants_ = 0.0;
 };
 
 }  // namespace lockstep

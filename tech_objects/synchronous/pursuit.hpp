@@ -5,24 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+
+#include "tech_objects/synchronous/counted_pace.hpp"
+#include "tech_objects/synchronous/pursuit_limits.hpp"
 
 namespace lockstep {
-
-struct PursuitLimits {
-  double velocity = 0.0;      ///< [u/step] ≥ 0
-  double acceleration = 1.0;  ///< [u/step²] > 0, of what becomes faster in either direction
-  double deceleration = 1.0;  ///< [u/step²] > 0, of what becomes slower
-  /// Part of the target's velocity by which the own one may differ while the target is being met, 0 … 1;
-  /// below 0: as it likes.
-  double band = -1.0;
-  /// Whether the velocity may be negative: always, while the target's is, never.
-  enum class Reversal : std::uint8_t { free, with_target, never } reversal = Reversal::free;
-  /// By how much the velocity of a target that is counted is uncertain: one count in a step [u/step] ≥ 0.
-  /// Once it is on such a target it takes each count as it comes, as long as the velocity stays within so
-  /// much of one that keeps the limits.
-  double uncertainty = 0.0;
-};
 
 class Pursuit {
  public:
@@ -31,21 +18,28 @@ class Pursuit {
     position_ = position;
     velocity_ = steady_ = last_target_velocity_ = velocity;
     synchronous_ = locked_ = false;
+    pace_.begin();
   }
+  /// What is known of a counted target beforehand: its mean velocity over so many steps [u/step].
+  void expect(double velocity, double steps) noexcept { pace_.expect(velocity, steps); }
   /// One step. @param target where to be at its end [u]  @param target_velocity how far the target moves in a
   /// step, without steps of its own [u/step]; all finite
   void step(double target, double target_velocity, const PursuitLimits& limits) noexcept {
     const double whole = target - position_;
     const double rest = whole - target_velocity;  // beyond going along
-    const bool stays = limits.uncertainty > 0.0 && stays_on(whole, rest, target_velocity, limits);
+    const bool counted = limits.uncertainty > 0.0;
+    double pace = target_velocity;
+    if (counted)
+      pace = limits.spread + pace_.step(target_velocity - limits.spread, limits.uncertainty,
+                                        std::min(limits.acceleration, limits.deceleration));
+    const bool stays = counted && stays_on(whole, rest, target_velocity, limits);
     last_target_velocity_ = target_velocity;
     if (stays) {
       velocity_ = whole;
       position_ = target;
       return;
     }
-    const double wanted =
-        bounded(target_velocity + approach(rest, target_velocity, limits), rest, target_velocity, limits);
+    const double wanted = bounded(pace + approach(rest, pace, limits), rest, pace, limits);
     const double velocity = reachable(wanted, limits);
     const double jump = std::abs(velocity - target_velocity);
     velocity_ = velocity;
@@ -111,10 +105,10 @@ class Pursuit {
   static double bounded(double wanted, double rest, double target_velocity,
                         const PursuitLimits& limits) noexcept {
     double low = -limits.velocity, high = limits.velocity;
-    if (limits.band >= 0.0 && rest != 0.0) {
-      const double band = std::abs(target_velocity) * limits.band;
-      low = std::clamp(target_velocity - band, low, high);
-      high = std::clamp(target_velocity + band, low, high);
+    if (limits.band >= 0.0 && (rest != 0.0 || limits.spread != 0.0)) {
+      const double pace = target_velocity - limits.spread, band = std::abs(pace) * limits.band;
+      low = std::clamp(pace - band, low, high);
+      high = std::clamp(pace + band, low, high);
     }
     using Reversal = PursuitLimits::Reversal;
     const bool forward = limits.reversal == Reversal::never ||
@@ -144,6 +138,7 @@ class Pursuit {
   double position_ = 0.0, velocity_ = 0.0;
   double steady_ = 0.0;  // velocity that keeps the limits, beside which that of a counted target jumps
   double last_target_velocity_ = 0.0;
+  CountedPace pace_;
   bool synchronous_ = false, locked_ = false;
 };
 

@@ -110,6 +110,43 @@ TEST(Pursuit, KeepsItsLimitsAndMeetsATargetThatGoesOn) {
   }
 }
 
+// A target that is counted: its velocity is known by its counts alone, and none of them is a motion.
+TEST(Pursuit, MeetsACountedTargetWithoutOvershooting) {
+  std::mt19937_64 random(kSeed);
+  const auto of = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  constexpr int kCases = 3000, kKnown = 64;
+  int over = 0;
+  double farthest = 0.0;
+  for (int i = 0; i < kCases; ++i) {
+    PursuitLimits limits{.velocity = of(5.0, 100.0),
+                         .acceleration = of(0.02, 2.0),
+                         .deceleration = of(0.02, 2.0),
+                         .uncertainty = 1.0};
+    const double velocity = of(-0.6, 0.6) * limits.velocity, offset = of(-3000.0, 3000.0);
+    double place = velocity * kKnown, counted = std::floor(place);
+    Pursuit pursuit;
+    pursuit.begin(counted, velocity);
+    pursuit.expect(counted / kKnown, kKnown);
+    double beyond = 0.0;
+    int steps = 0;
+    for (; steps < 20'000 && !(steps > 10 && pursuit.position() == counted + offset); ++steps) {
+      place += velocity;
+      const double before = counted;
+      counted = std::floor(place);
+      pursuit.step(counted + offset, counted - before, limits);
+      beyond = std::max(beyond, (pursuit.position() - counted - offset) * (offset > 0.0 ? 1.0 : -1.0));
+    }
+    ASSERT_LT(steps, 20'000) << i << ": it is met";
+    over += beyond > 2.0 ? 1 : 0;
+    farthest = std::max(farthest, beyond);
+  }
+  // Where a single count comes but once in a long while nobody can know it beforehand.
+  EXPECT_LE(over, kCases / 500);
+  EXPECT_LE(farthest, 50.0);
+}
+
 TEST(Pursuit, DoesNotOvershootAStandingTarget) {
   std::mt19937_64 random(kSeed);
   for (int i = 0; i < 2000; ++i) {

@@ -30,16 +30,28 @@ TEST(AposCatalogue, HasEveryCommandAndNoOther) {
     EXPECT_EQ(published.contains(std::string(row.name)), row.kind != CommandKind::kForm) << row.name;
 }
 
-// What is refused is of the later edition alone, but for what needs a bus or an encoder that is not there.
+// What is refused is of the later edition alone, but for what needs a bus or an encoder that is not there;
+// what is taken of that edition is not taken before it.
 TEST(AposCatalogue, RefusesNoCommandOfBothEditions) {
   const nlohmann::json document = catalogue("commands.json");
-  int taken = 0;
+  int taken = 0, later_ones = 0;
   for (const auto& command : document.at("commands")) {
     const bool later = command.at("edition").get<std::string>().starts_with("de-only");
-    EXPECT_EQ(row_named(command.at("name"))->refusal != Refusal::kNone, later) << command.at("name");
+    const CommandRow& row = *row_named(command.at("name"));
+    EXPECT_EQ(row.refusal != Refusal::kNone || row.later_edition, later) << row.name;
     taken += later ? 0 : 1;
+    later_ones += row.later_edition ? 1 : 0;
   }
   EXPECT_EQ(taken, 112);
+  EXPECT_EQ(later_ones, 1) << "SYNCMARKERSTART";
+}
+
+TEST(AposCatalogue, TakesACommandOfTheLaterEditionFromThereOn) {
+  EXPECT_TRUE(compile_program("x.m", "SYNCMARKERSTART 1\n").errors.empty());
+  const CompiledProgram before = compile_program("x.m", "SYNCMARKERSTART 1\n", {}, {.later_edition = false});
+  ASSERT_EQ(before.errors.size(), 1u);
+  EXPECT_EQ(to_string(before.files, before.errors[0]),
+            "x.m:1:1: SYNCMARKERSTART is of the later edition; allowed with firmware 5.00");
 }
 
 TEST(AposCatalogue, HasTheArgumentsOfEachCommandOfTheDevice) {

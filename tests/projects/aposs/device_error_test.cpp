@@ -141,8 +141,48 @@ TEST(DeviceErrors, AreEachProvokedByAProject) {
   }
 }
 
+// The last fifty, the newest first, each with its time, its program and its line.
+TEST(DeviceErrors, StandInTheirHistory) {
+  Json json = Json::parse(R"({ "lockstep": 1, "name": "history", "clock": { "servo_cycle": "1ms" },
+    "technology_objects": { "Lift": { "type": "MCO_305", "programs": [ { "number": 7, "autostart": true } ] } } })");
+  json["technology_objects"]["Lift"]["programs"][0]["lines"] = {"ON ERROR GOSUB trouble",
+                                                                "DELAY 10",
+                                                                "a = GET 32-99",
+                                                                "again:",
+                                                                "HOME",
+                                                                "DELAY 10",
+                                                                "GOTO again",
+                                                                "SUBMAINPROG",
+                                                                "SUBPROG trouble",
+                                                                "ERRCLR",
+                                                                "RETURN",
+                                                                "ENDPROG"};
+  json["technology_objects"]["Lift"]["parameters"] = {{"HOME_VEL", 0}};
+  Simulation machine = Simulation::from_text(json.dump());
+  const auto past = [&](int i, const std::string& what) {
+    return machine.read("Lift.ErrorHistory[" + std::to_string(i) + "]." + what);
+  };
+  EXPECT_EQ(past(1, "Number"), 0);
+  machine.run_for(std::chrono::milliseconds(15));
+  EXPECT_EQ(past(1, "Number"), 107);
+  EXPECT_EQ(past(1, "Line"), 5);
+  EXPECT_EQ(past(2, "Number"), 112);
+  EXPECT_EQ(past(2, "Program"), 7);
+  EXPECT_EQ(past(2, "Line"), 3);
+  EXPECT_NEAR(past(2, "Time"), 10, 1);
+  EXPECT_EQ(past(3, "Number"), 0);
+  machine.run_for(std::chrono::milliseconds(2000));
+  for (int i = 1; i <= 50; ++i) {
+    EXPECT_EQ(past(i, "Number"), 107) << i;
+    if (i < 50) {
+      EXPECT_GT(past(i, "Time"), past(i + 1, "Time"));
+    }
+  }
+}
+
 // What has no program of its own here: 105 waits behind another one, 110 and 196 need a damaged image, 115 a
-// disk that is gone, 116 a damaged retain file, 170 and 176 two programs; each has its test elsewhere.
+// disk that is gone, 116 a damaged retain file, 170 and 176 two
+// programs; each has its test elsewhere.
 TEST(DeviceErrors, HaveATestEachOrSayWhyNot) {
   std::set<int> tested = {105, 110, 115, 116, 170, 175, 176, 196};
   for (const Provoked& one : provoked()) tested.insert(one.number);

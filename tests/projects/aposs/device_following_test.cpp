@@ -94,6 +94,26 @@ TEST(DevicesInAProject, CountATagThatWraps) {
   EXPECT_EQ(machine.read("Device.CPOS") - begin, 10'000.0);
 }
 
+TEST(DevicesInAProject, FollowAnExternalEncoder) {
+  Json json = project_of(
+      {{"Boxes",
+        {{"type", "TO_ExternalEncoder"}, {"encoder", {{"model", "simulated"}, {"signal", "place"}}}}},
+       {"Device",
+        device_with(kFollows, {{"master", {{"follows", "Boxes"}, {"counts_per_unit", {2048, 55}}}}})}});
+  json["tags"]["place"] = {{"type", "LREAL"}};
+  Simulation machine = Simulation::from_text(json.dump());
+  machine.run_for(milliseconds(50));
+  const double begin = machine.read("Device.CPOS");
+  double place = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    machine.write("place", place += 0.25);
+    machine.run_for(milliseconds(1));
+  }
+  machine.run_for(milliseconds(1000));
+  EXPECT_NEAR(machine.read("Device.MAPOS"), 250.0 * 2048.0 / 55.0, 1.0);
+  EXPECT_NEAR(machine.read("Device.CPOS") - begin, 250.0 * 2048.0 / 55.0, 2.0);
+}
+
 Json belt() {
   return Json::parse(R"({ "type": "TO_PositioningAxis", "config": { "VirtualAxis": { "Mode": 1 },
     "DynamicDefaults": { "Velocity": 200.0, "Acceleration": 400.0, "Deceleration": 400.0, "Jerk": 4000.0 } } })");

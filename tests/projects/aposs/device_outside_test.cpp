@@ -2,7 +2,9 @@
 // outside, contents of a Modbus map, GETVLT, SETVLT, analog terminals, keys.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -255,6 +257,30 @@ TEST(DriveParameters, ScaleAndLimitTheReference) {
   EXPECT_EQ(half[1], 1'500'000);
   const auto limited = speed({"SETVLT 4-13 600"});
   EXPECT_NEAR(limited[0], 600, 5);
+}
+
+// A motor of four poles, 400 V at 50 Hz: its current is what magnetizes it and, across to that, its torque.
+TEST(DriveParameters, TellVoltageFrequencyAndCurrentOfTheMotor) {
+  Json project = with_drive(project_with(with_rest(
+      {"VEL 100", "ACC 100", "DEC 100", "CVEL 50", "CSTART", "DELAY 1500", "SET 1901 (GETVLT 16-17)",
+       "SET 1902 (SYSVAR[34])", "SET 1903 (SYSVAR[30])", "SET 1904 (SYSVAR[28])", "SET 1905 (SYSVAR[35])",
+       "SET 1906 (GETVLT 16-12)", "SET 1907 (GETVLT 16-13)", "SET 1908 (GETVLT 16-14)", "MOTOR OFF",
+       "DELAY 1000", "SET 1909 (SYSVAR[28])", "SET 1910 (SYSVAR[30])"})));
+  project["technology_objects"]["Teddy"]["drive"]["plant"] = {{"inertia", 0.002}, {"load_torque", -10.0}};
+  Machine run(project);
+  run.run(3000);
+  EXPECT_EQ(run["ERRNO"], 0);
+  const double speed = run["P1901"];
+  EXPECT_NEAR(speed, 1500, 60);
+  EXPECT_NEAR(run["P1902"], speed / 60.0 * 2.0 * 10.0, 1.0) << "1/10 Hz";
+  EXPECT_NEAR(run["P1903"], std::min(speed / 60.0 * 2.0 * 8.0, 400.0) * 10.0, 10.0) << "1/10 V";
+  EXPECT_NEAR(run["P1905"], 100, 2) << "the motor holds the load";
+  EXPECT_NEAR(run["P1904"], std::sqrt(10.0) * 100.0, 5) << "1/100 A";
+  EXPECT_EQ(run["P1906"], run["P1903"]);
+  EXPECT_EQ(run["P1907"], run["P1902"]);
+  EXPECT_EQ(run["P1908"], run["P1904"]);
+  EXPECT_EQ(run["P1909"], 0);
+  EXPECT_EQ(run["P1910"], 0);
 }
 
 TEST(DriveParameters, OfAnotherNumberAreError112) {

@@ -111,6 +111,27 @@ TEST(HostileProject, SurvivesProgramsOfAnySize) {
   }
 }
 
+// 31,250 internal commands of 8 ns are a quarter of a step.
+TEST(HostileProject, IsWarnedOfProgramsThatMayTakeAQuarterOfAStep) {
+  const auto warnings = [](int devices, int steps) {
+    Json json = Json::parse(R"({ "lockstep": 1, "name": "budget", "clock": { "servo_cycle": "1ms" } })");
+    for (int i = 0; i < devices; ++i)
+      json["technology_objects"]["D" + std::to_string(i)] = {
+          {"type", "MCO_305"},
+          {"steps_per_ms", steps},
+          {"programs", {{{"number", 0}, {"autostart", true}, {"lines", {"DELAY 10"}}}}}};
+    int count = 0;
+    const LoadedProject loaded = load_project(json.dump());
+    for (const Problem& problem : loaded.warnings)
+      count += problem.text.find("quarter of a millisecond") != std::string::npos ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(warnings(128, 200), 0) << "as many as there may be, with the start value";
+  EXPECT_EQ(warnings(2, 15'625), 0);
+  EXPECT_EQ(warnings(2, 15'626), 1);
+  EXPECT_EQ(warnings(5, 31'251), 1) << "told once";
+}
+
 TEST(HostileProject, SurvivesManyProgramsAndArrays) {
   Json programs = Json::array();
   for (int i = 0; i < 128; ++i)

@@ -50,6 +50,23 @@ TEST(Mco305Features, APositionThatWrapsStepsNothing) {
   }
   EXPECT_LT(run.device().master().shown(), 0) << "beyond 2^30 it begins again";
   EXPECT_LE(largest, 2);
+  EXPECT_EQ(run.system_variable(4218) & (2 << 8 | 4 << 8), 4 << 8) << "that of the master has overflowed";
+}
+
+TEST(Mco305Features, APositionBeyond2To30HasAFlag) {
+  Bench run;
+  run.set("VELMAX", 100'000);
+  run.begin_with("CVEL 100\nCSTART\n");
+  bool flag = false;
+  for (int i = 0; i < 400'000 && !flag; ++i) {
+    run.step();
+    const bool before = run.device().actual_position() < (1 << 30);
+    flag = (run.system_variable(4218) & 2 << 8) != 0;
+    ASSERT_EQ(flag, !before) << i;
+  }
+  EXPECT_TRUE(flag);
+  EXPECT_LT(run.device().actual_units(), 0);
+  EXPECT_EQ(run.system_variable(4218) & 4 << 8, 0);
 }
 
 // 4
@@ -359,6 +376,92 @@ TEST(Mco305Features, SystemVariablesAgreeWithEachOther) {
     flags |= run.system_variable(4218);
   }
   EXPECT_NE(flags & 4 << 24, 0) << "it was accurate";
+}
+
+// Sample B3: another program knows the arrays by their order.
+TEST(Mco305Samples, ArraysHaveOtherNamesInAnotherProgram) {
+  Bench run;
+  run.add_program(
+      "DIM target1[20], target2[20], target3[20], plant_offset[50]\nDIM parameter[10]\n"
+      "target1[1] = 1234\nplant_offset[50] = 99\nSET PRGPAR 1\n");
+  run.add_program(
+      "DIM xpos[20], ypos[20], zpos[20], offs[50]\nVEL 100\na = xpos[1]\nb = offs[50]\nxpos[1] = 10000\n"
+      "xpos[2] = 20000\nxpos[3] = 30000\ni = 1\nWHILE (i<20) DO\nypos[i] = i*1000\ni = i+1\nENDWHILE\n"
+      "zpos[1] = APOS\nPOSA xpos[1]\noffs[1] = (xpos[2]) % 20\nc = offs[1]\nd = ypos[19]\ne = APOS\n"
+      "wait:\nGOTO wait\n",
+      1, false);
+  run.begin();
+  run.run(3000);
+  EXPECT_EQ(run.variable("a"), 1234);
+  EXPECT_EQ(run.variable("b"), 99);
+  EXPECT_EQ(run.variable("c"), 1000);
+  EXPECT_EQ(run.variable("d"), 19'000);
+  EXPECT_EQ(run.variable("e"), 10'000);
+}
+
+// Samples B5, B6: SET ORIGIN and DEF ORIGIN.
+TEST(Mco305Samples, ZeroPointsAreThoseOfThePrintedOutputs) {
+  Bench run;
+  run.begin_with(
+      "POSA 2000\na = APOS\nDEF ORIGIN\nb = APOS\nPOSA (-2000)\nDEF ORIGIN\nSET ORIGIN 2000\nPOSA 2000\nc = "
+      "APOS\nd = SYSVAR[4096]\n");
+  run.run(3000);
+  EXPECT_EQ(run.variable("a"), 2000);
+  EXPECT_EQ(run.variable("b"), 0);
+  EXPECT_EQ(run.variable("c"), 2000);
+  EXPECT_EQ(run.variable("d"), 4000) << "from the real one";
+}
+
+// Sample B8: a velocity that is changed on the way, and an output that shows bit 6.
+TEST(Mco305Samples, AxendTellsOfAMotionAndOfTheController) {
+  Bench run;
+  run.begin_with(
+      "NOWAIT ON\nVEL 5\nPOSA 100000\nWHILE (AXEND & 2) DO\nIF IN 2 THEN\nVEL 50\nPOSA 100000\nENDIF\n"
+      "ENDWHILE\nOUT 2 1\nMOTOR OFF\n"
+      "show:\nIF (AXEND & 64) THEN\nOUT 1 1\nELSE\nOUT 1 0\nENDIF\nGOTO show\n");
+  run.run(1000);
+  EXPECT_EQ(run.device().set_velocity_now(), 5.0);
+  run.device().io().set_input(2, true);
+  run.run(2);
+  run.device().io().set_input(2, false);
+  run.run(600);
+  EXPECT_EQ(run.device().set_velocity_now(), 50.0);
+  EXPECT_FALSE(run.device().io().output(2));
+  run.run(2500);
+  EXPECT_EQ(run.position(), 100'000);
+  EXPECT_TRUE(run.device().io().output(2));
+  EXPECT_TRUE(run.device().io().output(1));
+}
+
+// Sample B12: it stops behind the position that calls for it.
+TEST(Mco305Samples, APositionStopsTheDrive) {
+  Bench run;
+  run.add_program(
+      "VEL 100\nACC 100\nDEC 100\nCVEL 20\nCSTART\nON +APOS 2000 GOSUB STOP\nwait:\nGOTO wait\nSUBMAINPROG\n"
+      "SUBPROG STOP\nCSTOP\nRETURN\nENDPROG\n");
+  run.begin();
+  run.run(3000);
+  EXPECT_EQ(run.device().set_velocity_now(), 0.0);
+  constexpr double kStop = 20.0 * 20.0 / (2.0 * 0.2);
+  EXPECT_GE(run.position(), 2000 + kStop - 1);
+  EXPECT_LE(run.position(), 2000 + kStop + 2 * 20 + 20);
+}
+
+// Sample B27: in the middle of a motion, and at an index or behind its time.
+TEST(Mco305Samples, WaitsForAPositionAndForAnIndex) {
+  Bench run;
+  run.begin_with("NOWAIT ON\nPOSA 10000\nWAITP 5000\na = APOS\nOUT 1 1\nNOWAIT OFF\nWAITAX\n");
+  while (!run.device().io().output(1) && run.now() < 2000) run.step();
+  EXPECT_GE(run.variable("a"), 5000);
+  EXPECT_LE(run.variable("a"), 5000 + 45);
+  run.run(1000);
+  EXPECT_EQ(run.position(), 10'000);
+  Bench index;
+  index.object.settings.drive.signals.zero_marks = ZeroMarks{.position = 3000.0, .period = 4000.0};
+  index.begin_with("CVEL 1\nCSTART\nWAITNDX 10000\na = APOS\nOUT 1 1\n");
+  while (!index.device().io().output(1) && index.now() < 9000) index.step();
+  EXPECT_NEAR(index.variable("a"), 3000, 3);
+  EXPECT_NEAR(index.device().latched_units(), 3000, 1);
 }
 
 // Samples B9, B10: a latch is where the marker was, a position read later is further on.

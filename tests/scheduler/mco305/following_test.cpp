@@ -1,5 +1,6 @@
 // What the scenarios do not say of synchronizing: commands in their order, a drive, markers with all that
 // goes wrong with them.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/scheduler/mco305/device_run.hpp"
@@ -104,6 +105,275 @@ TEST(Mco305Following, FollowsByVelocityWithADrive) {
   EXPECT_EQ(run.object.machine().error(), 0);
   // Nothing is made up for: what the master has gone before the start of the ramp is lost.
   EXPECT_LT(std::abs(run.device().following_error()), 50);
+}
+
+/// A device that follows a master of 20 qc/ms by markers; those of its own can be moved.
+struct MarkersThatMove : Following {
+  std::int64_t moved = 0;  ///< beside multiples of 4000 [qc]
+
+  explicit MarkersThatMove(int start) {
+    object.master.signal = &turned_;
+    for (const auto& [name, value] : {std::pair{"SYNCMTYPM", 2.0},
+                                      {"SYNCMTYPS", 2.0},
+                                      {"SYNCMPULSM", 4000.0},
+                                      {"SYNCMPULSS", 4000.0},
+                                      {"SYNCMWINM", 200.0},
+                                      {"SYNCMWINS", 200.0},
+                                      {"SYNCMSTART", start * 1.0}})
+      set(name, value);
+  }
+  void turn(int steps) {
+    for (int i = 0; i < steps; ++i) {
+      turned_ += 20;
+      if (turned_ % 4000 == 0) device().master().mark(turned_);
+      const std::int64_t before = number();
+      step();
+      if (number() > before) device().mark(static_cast<double>(4000 * number() + moved));
+    }
+  }
+  double apart() { return device().set_position() - turned_; }
+
+ private:
+  std::int64_t number() {
+    return static_cast<std::int64_t>(
+        std::floor(static_cast<double>(device().actual_position() - moved) / 4000.0));
+  }
+  DINT turned_ = 0;
+};
+
+TEST(Mco305Following, SyncmarkerstartTakesTheNextMarkersWhereverTheyLie) {
+  for (const int whole : {0, 1}) {
+    MarkersThatMove run(4);
+    run.begin_with("SYNCM\nWAITI 1 ON\na = SYNCSTAT\nSYNCMARKERSTART " + std::to_string(whole) +
+                   "\nb = SYNCSTAT\n");
+    run.run(5);
+    run.turn(4000);
+    EXPECT_NEAR(std::remainder(run.apart(), 4000.0), 0.0, 1.0);
+    const double before = run.apart();
+    run.moved = 1000;
+    run.turn(3000);
+    EXPECT_NEAR(run.apart(), before, 1.0) << "they lie outside of the window";
+    run.device().io().set_input(1, true);
+    double velocity = run.device().set_velocity_now();
+    for (int i = 0; i < 4000; ++i) {
+      run.turn(1);
+      ASSERT_LE(std::abs(run.device().set_velocity_now() - velocity), 0.2 + 1e-9) << i;
+      velocity = run.device().set_velocity_now();
+    }
+    // From the first pair on SYNCMSTART 4 corrects backwards; the pairs behind that go the shorter distance.
+    EXPECT_NEAR(run.apart(), before + (whole == 0 ? 1000.0 : -3000.0), 1.0);
+    EXPECT_NE(run.variable("a") & 64, 0);
+    EXPECT_EQ(run.variable("b") & (8 | 16 | 32 | 64),
+              whole == 0 ? run.variable("a") & (8 | 16 | 32 | 64) : 0);
+  }
+}
+
+TEST(Mco305Following, SyncmarkerstartIsNothingBesideSyncmAndErrorOfOtherValues) {
+  Following run;
+  run.begin_with("SYNCMARKERSTART 1\nSYNCP\nSYNCMARKERSTART 0\na = ERRNO\nSYNCMARKERSTART 2\n");
+  run.run(10);
+  EXPECT_EQ(run.variable("a"), 0);
+  EXPECT_EQ(run.object.device().pending().first(), 112);
+}
+
+// SYNCVELREL is of the master, and SYNCOFFTIME may want to be faster.
+TEST(Mco305Following, KeepsItsBandWhileAnOffsetIsSpread) {
+  for (const int type : {0, 1})
+    for (const int offset : {2000, -2000}) {
+      Following run;
+      DINT turned = 0;
+      run.object.master.signal = &turned;
+      run.set("SYNCTYPE", type);
+      run.set("SYNCVELREL", 5);
+      run.set("SYNCMPULSM", 4000);
+      run.set("SYNCOFFTIME", 100);  // alone it would be 50 qc/ms
+      run.begin_with("SYNCP\nWAITI 1 ON\nSET SYNCPOSOFFS (" + std::to_string(offset) + ")\n");
+      run.run(5);
+      const auto turn = [&](int steps) {
+        for (int i = 0; i < steps; ++i) turned += 10, run.step();
+      };
+      turn(6000);
+      const double before = run.device().set_position() - turned;
+      run.device().io().set_input(1, true);
+      double lowest = 10.0, highest = 10.0;
+      int steps = 0;
+      for (; steps < 6000 && std::abs(run.device().set_position() - turned - before - offset) > 0.5;
+           ++steps) {
+        turn(1);
+        lowest = std::min(lowest, run.device().set_velocity_now());
+        highest = std::max(highest, run.device().set_velocity_now());
+      }
+      EXPECT_GE(lowest, 9.5 - 1e-9) << offset;
+      EXPECT_LE(highest, 10.5 + 1e-9) << offset;
+      EXPECT_NEAR(steps, 4000, 60) << "2000 at 0.5 qc/ms";
+      turn(1000);
+      EXPECT_NEAR(run.device().set_position() - turned, before + offset, 1e-6);
+    }
+}
+
+TEST(Mco305Following, SystemVariablesTellOfTheFirstCorrectionAndOfTheTrim) {
+  for (const double time : {0.0, 1000.0}) {
+    Following run;
+    DINT turned = 0;
+    run.object.master.signal = &turned;
+    run.object.settings.master_marks = {.period = 4040.0};
+    run.object.settings.markers = {.position = 700.0, .period = 4040.0};
+    for (const auto& [name, value] : {std::pair{"SYNCMTYPM", 2.0},
+                                      {"SYNCMTYPS", 2.0},
+                                      {"SYNCMPULSM", 4000.0},
+                                      {"SYNCMPULSS", 4000.0},
+                                      {"SYNCMSTART", 5.0},
+                                      {"SYNCMFTIME", time}})
+      run.set(name, value);
+    run.begin_with("SYNCM\n");
+    run.run(5);
+    int first = 0;
+    for (int i = 0; i < 60'000; ++i) {
+      turned += 20;
+      run.step();
+      if (first == 0) first = run.system_variable(4240);
+      ASSERT_EQ(run.system_variable(4240), first) << "that of the start stays";
+    }
+    EXPECT_NE(first, 0);
+    EXPECT_LE(std::abs(first), 2000) << "the nearer one";
+    EXPECT_EQ(run.system_variable(4243), 4040);
+    // (4000 - 4040) / 4040 of the gear, which its mean of at least 100 markers comes near.
+    EXPECT_NEAR(run.system_variable(4244), time == 0.0 ? 0.0 : -65'536.0 / 101.0, 40.0);
+  }
+}
+
+TEST(Mco305Following, AnAbsoluteMasterIsWhereItIsAndIsBridged) {
+  Following run;
+  DINT turned = 700;
+  std::int32_t disturbed = 0;
+  run.object.master.signal = &turned;
+  run.object.settings.faults.master_encoder_counts = &disturbed;
+  run.object.settings.master_marks = {.position = 21'000.0, .period = 100'000.0};
+  run.set("MENCODERABSTYPE", 5);
+  run.set("MENCODERDATLEN", 14);
+  run.set("SYNCMTYPM", 2);
+  run.set("MENCODER", 1000);
+  run.begin_with("DELAY 5\na = MAPOS\nDEFMORIGIN\nb = ERRNO\nSYNCP\n");
+  run.run(20);
+  EXPECT_EQ(run.variable("a"), 700);
+  EXPECT_EQ(run.object.device().pending().first(), 110);
+  run.device().clear_all_errors();
+  EXPECT_EQ(run.device().follow(mco305::SyncMode::kPosition), 0);
+  std::int32_t last = run.device().master().shown();
+  for (int i = 0; i < 2000; ++i) {
+    turned += 20;
+    disturbed = i >= 500 && i < 550 ? 8000 : 0;
+    run.step();
+    ASSERT_EQ(run.device().master().shown() - last, 20) << i;
+    last = run.device().master().shown();
+  }
+  EXPECT_EQ(last, turned) << "beyond its 14 bits";
+  EXPECT_EQ(run.device().master().shown_latch(), 21'000);
+  EXPECT_EQ(run.system_variable(16), 50);
+  EXPECT_EQ(run.system_variable(4103), (40'700 - 16'384) / 1000);
+  EXPECT_EQ(run.device().master_velocity(), 20'000);
+}
+
+TEST(Mco305Following, AMasterWithoutEncoderIsMovedByItsAbsoluteTypeToo) {
+  Following run;
+  run.set("MENCODERABSTYPE", 5);
+  run.begin_with("SYSVAR[4105] = 1234\na = MAPOS\n");
+  run.run(5);
+  EXPECT_EQ(run.variable("a"), 1234);
+}
+
+// SYNCVFLIMIT: behind a master that speeds up the filter would hold back 10,000 counts.
+TEST(Mco305Following, FadesItsFilterWhereItHoldsBackTooMuch) {
+  std::int32_t farthest[2];
+  double smooth[2];
+  for (const int limits : {0, 1}) {
+    Following run;
+    DINT turned = 0;
+    run.object.master.signal = &turned;
+    run.set("SYNCVFTIME", -200'000);
+    run.set("SYNCVFLIMIT", limits * 500);
+    run.begin_with("SYNCP\n");
+    double velocity = 0.0, place = 0.0;
+    farthest[limits] = 0;
+    const auto turn = [&](int steps, double to) {
+      double changes = 0.0;
+      for (int i = 0; i < steps; ++i) {
+        velocity = std::min(velocity + 0.1, to);
+        turned = static_cast<DINT>(place += velocity);
+        const double before = run.device().set_velocity_now();
+        run.step();
+        changes = std::max(changes, std::abs(run.device().set_velocity_now() - before));
+        farthest[limits] =
+            std::max(farthest[limits], std::abs(run.device().master().shown() - run.device().set_units()));
+      }
+      return changes;
+    };
+    turn(1000, 50.0);
+    turn(40'000, 50.0);
+    turned += 20;
+    place += 20.0;
+    smooth[limits] = turn(50, 50.0);
+  }
+  EXPECT_GT(farthest[0], 3000);
+  EXPECT_LT(farthest[1], farthest[0] / 2);
+  EXPECT_LT(smooth[0], 0.6) << "a leap of the master is smoothed";
+  EXPECT_NEAR(smooth[1], smooth[0], 0.05) << "later on with the whole filter again";
+}
+
+// SYNCMFPAR 64: what markers are apart is known when SYNCM begins.
+TEST(Mco305Following, AveragesMarkersWhileItDoesNotFollow) {
+  for (const int bits : {0, 64}) {
+    Following run;
+    DINT turned = 0;
+    run.object.master.signal = &turned;
+    run.object.settings.master_marks = {.period = 4040.0};
+    for (const auto& [name, value] : {std::pair{"SYNCMTYPM", 2.0},
+                                      {"SYNCMPULSM", 4000.0},
+                                      {"SYNCMFTIME", 1000.0},
+                                      {"SYNCMFPAR", bits * 1.0}})
+      run.set(name, value);
+    run.begin_with("WAITI 1 ON\nSYNCM\n");
+    const auto turn = [&](int steps) {
+      for (int i = 0; i < steps; ++i) turned += 20, run.step();
+    };
+    turn(100'000);  // some 495 markers
+    run.device().io().set_input(1, true);
+    turn(1000);
+    EXPECT_NEAR(run.system_variable(4238), bits == 0 ? 4000 : 4040, 3);
+    EXPECT_NEAR(run.system_variable(4244), bits == 0 ? 0 : -649, 30);
+  }
+}
+
+// SYNCMARKM, SYNCMARKS: each marker of the master with every third of the slave, and the other way round.
+TEST(Mco305Following, PairsMarkersByTheirNumbers) {
+  for (const bool more_of_the_slave : {true, false}) {
+    Following run;
+    DINT turned = 0;
+    run.object.master.signal = &turned;
+    const double many = 1500.0, few = 4500.0;
+    run.object.settings.master_marks = {.period = more_of_the_slave ? few : many};
+    run.object.settings.markers = {.position = 400.0, .period = more_of_the_slave ? many : few};
+    for (const auto& [name, value] : {std::pair{"SYNCMTYPM", 2.0},
+                                      {"SYNCMTYPS", 2.0},
+                                      {"SYNCMPULSM", more_of_the_slave ? few : many},
+                                      {"SYNCMPULSS", more_of_the_slave ? many : few},
+                                      {"SYNCMWINM", 100.0},
+                                      {"SYNCMWINS", 100.0},
+                                      {"SYNCMARKM", more_of_the_slave ? 1.0 : 3.0},
+                                      {"SYNCMARKS", more_of_the_slave ? 3.0 : 1.0},
+                                      {"SYNCMSTART", 5.0}})
+      run.set(name, value);
+    run.begin_with("SYNCM\n");
+    run.run(5);
+    const auto turn = [&](int steps) {
+      for (int i = 0; i < steps; ++i) turned += 20, run.step();
+      return run.device().set_position() - turned;
+    };
+    const double apart = turn(8000);
+    EXPECT_NEAR(std::remainder(apart - 400.0, many), 0.0, 1.0) << "a marker beside a marker";
+    EXPECT_NEAR(turn(4000), apart, 1.0) << "and it stays";
+    EXPECT_EQ(run.device().sync_status() & (mco305::kMasterMissed | mco305::kSlaveMissed), 0);
+  }
 }
 
 /// Mean, over the last markers, of how far the slave's are from where the master's say.
