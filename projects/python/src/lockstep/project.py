@@ -114,6 +114,7 @@ def check(project: ProjectSource, *, changes: Mapping[str, Any] | None = None) -
     :return: all problems, those of severity ``error`` first; it is valid if there are none of these
     :raises OSError: the file cannot be read
     :raises PathError: a pointer of ``changes`` leads nowhere
+    :raises OutOfRange: a value holds itself, or is nested far deeper than a file may be, or a text is no Unicode
     """
     try:
         source = changed(text_of(project), _pointers(changes or {}))
@@ -140,7 +141,9 @@ class Project:
     strings are int, REAL and LREAL float, TIME float [s] (a ``timedelta`` can be written), STRING str; several elements
     of an array are a list.
 
-    Threads: one at a time. The GIL is released while ticks run; what another thread asks meanwhile raises
+    Threads: one at a time. A value that closes the project while it is converted, or lets another thread close or run it,
+    is not written: :class:`ClosedError`, :class:`BusyError`. The GIL is released while ticks run; what another thread
+    asks meanwhile raises
     :class:`BusyError`. Ctrl-C ends a long run within a fraction of a second; the project stays where it is then.
     Projects side by side in several threads or processes are independent of each other.
 

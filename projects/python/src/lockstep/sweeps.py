@@ -119,7 +119,8 @@ def sweep(
         importable there (Dask sends it along)
     :param signals: of the trace, for ``function`` and ``traces``; None: what the project says
     :param traces: whether rows have the trace
-    :param results: a file that each row is added to once it is there, a line of JSON each, of up to 1 GiB. A sweep whose file is there
+    :param results: a file that each row is added to once it is there, a line of JSON each, of up to 1 GiB. A
+        sweep whose file is there
         goes on where that one was stopped, also by a kill; it has to be the same sweep
     :param progress: called in this thread with the number of rows that are there, of all, and the row: first with those
         of ``results`` and None, then for each
