@@ -104,11 +104,16 @@ LcmTraceReader::LcmTraceReader(const std::string& path, const std::string& chann
 }
 
 void LcmTraceReader::open() {
-  log_.reset(std::fopen(path_.c_str(), "rbe"));
   struct stat status {};
+  // Looked at before it is opened, too: opening a pipe waits for who writes to it.
+  if (::stat(path_.c_str(), &status) == 0 && !S_ISDIR(status.st_mode) && !S_ISREG(status.st_mode))
+    throw TraceFormatError(path_ + ": is no regular file");
+  log_.reset(std::fopen(path_.c_str(), "rbe"));
   if (log_ == nullptr) throw TraceFormatError(path_ + ": " + std::generic_category().message(errno));
-  if (::fstat(::fileno(log_.get()), &status) == 0 && S_ISDIR(status.st_mode))
-    throw TraceFormatError(path_ + ": " + std::generic_category().message(EISDIR));
+  if (::fstat(::fileno(log_.get()), &status) == 0 && !S_ISREG(status.st_mode))
+    throw TraceFormatError(path_ + ": " +
+                           (S_ISDIR(status.st_mode) ? std::generic_category().message(EISDIR)
+                                                    : std::string("is no regular file")));
   number_ = -1;
   offset_ = 0;
   size_ = size_of_file(log_.get());

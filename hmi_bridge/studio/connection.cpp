@@ -127,14 +127,16 @@ bool Connection::begin_upload(const std::string& folder) {
 
 /// Piece by piece: it may take long, but not stand still.
 void Connection::read_upload() {
+  if (upload_->is_done()) {  // a body without a byte is there with its head
+    upload_->get().body().close();
+    stream_.expires_never();
+    return attempt([&] { answer(); });
+  }
   stream_.expires_after(listener_.options().request_time);
   http::async_read_some(stream_, buffer_, *upload_,
                         [self = shared_from_this()](beast::error_code error, std::size_t) {
                           if (error) return self->fail(error);
-                          if (!self->upload_->is_done()) return self->read_upload();
-                          self->upload_->get().body().close();
-                          self->stream_.expires_never();
-                          self->attempt([&] { self->answer(); });
+                          self->read_upload();
                         });
 }
 

@@ -1,6 +1,8 @@
 #include "hmi_bridge/traces/csv_reader.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -8,6 +10,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <memory>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -142,26 +145,62 @@ struct FileText {
   }
 };
 
-std::size_t size_of(std::FILE* file) noexcept {
-  struct stat status {};
-  return ::fstat(::fileno(file), &status) == 0 && S_ISREG(status.st_mode)
-             ? static_cast<std::size_t>(status.st_size)
-             : 0;  // of a pipe nobody knows
-}
+constexpr std::size_t kReadAtOnce = std::size_t{4} << 20;
+constexpr std::size_t kLongestLine = std::size_t{16} << 20;  // far beyond what a trace of thousands has
+constexpr std::size_t kSizeBelieved = std::size_t{1} << 30;  // a file of holes says any size
+
+/// Counts lines, so that no memory is filled with what has none.
+class LineWatch {
+ public:
+  /// @return false: a line is too long
+  bool look(std::string_view block) noexcept {
+    for (std::size_t at = 0; at < block.size();) {
+      const std::size_t end = block.find('\n', at);
+      length_ += std::min(end, block.size()) - at;
+      if (length_ > kLongestLine) return false;
+      if (end == block.npos) return true;
+      ++line_;
+      length_ = 0;
+      at = end + 1;
+    }
+    return true;
+  }
+  std::size_t line() const noexcept { return line_; }
+
+ private:
+  std::size_t line_ = 1, length_ = 0;
+};
 
 FileText read_all(const std::string& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rbe"), std::fclose);
-  const auto fail = [&path] { throw TraceFormatError(path + ": " + std::generic_category().message(errno)); };
-  if (!file) fail();
-  constexpr std::size_t kBlock = std::size_t{1} << 20;
-  FileText text;
-  text.grow(size_of(file.get()) + kBlock);
-  for (std::size_t got = 1; got != 0;) {
-    if (text.capacity - text.size < kBlock) text.grow(2 * text.capacity);
-    got = std::fread(text.bytes.get() + text.size, 1, text.capacity - text.size, file.get());
-    text.size += got;
+  // Opening a pipe without waiting for who writes to it; then it is refused.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  const auto fail = [&path](int error) {
+    throw TraceFormatError(path + ": " + std::generic_category().message(error));
+  };
+  if (descriptor < 0) fail(errno);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(::fdopen(descriptor, "rb"), std::fclose);
+  if (!file) {
+    const int error = errno;
+    ::close(descriptor);
+    fail(error);
   }
-  if (std::ferror(file.get()) != 0) fail();
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) fail(errno);
+  if (S_ISDIR(status.st_mode)) fail(EISDIR);
+  if (!S_ISREG(status.st_mode)) throw TraceFormatError(path + ": is no regular file");
+  FileText text;
+  text.grow(std::min(static_cast<std::size_t>(status.st_size), kSizeBelieved) + kReadAtOnce);
+  LineWatch lines;
+  for (std::size_t got = 1; got != 0;) {
+    if (text.capacity - text.size < kReadAtOnce) text.grow(2 * text.capacity);
+    char* const at = text.bytes.get() + text.size;
+    got = std::fread(at, 1, kReadAtOnce, file.get());
+    text.size += got;
+    if (!lines.look({at, got}))
+      throw TraceFormatError(path + ":" + std::to_string(lines.line()) + ":1: the line is longer than " +
+                             std::to_string(kLongestLine >> 20) + " MiB");
+  }
+  if (std::ferror(file.get()) != 0) fail(errno);
   return text;
 }
 

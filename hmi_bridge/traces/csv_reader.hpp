@@ -13,7 +13,8 @@ namespace lockstep {
 /// A last line without its end is left out, with a remark.
 /// @throws TraceFormatError "FILE:line:column: …" for what is not a number, a line with more or fewer values
 /// than
-///     names, a first column that is not `t`; "FILE: …" if it cannot be read
+///     names, a first column that is not `t`, a line of more than 16 MiB; "FILE: …" if it cannot be read, or
+///     is no regular file
 /// @param progress is called now and then with what part of it has been read, from 0 to 1; what it throws
 ///     ends the reading
 TraceTable read_csv_trace(const std::string& path, const std::function<void(double)>& progress = {});

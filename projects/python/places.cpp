@@ -31,29 +31,31 @@ const Range& range_of(const Operand& place) {
   return place.variable != nullptr ? place.variable->range : kAny;
 }
 
-void write_elements(const ElementPath& elements, py::handle object, std::string_view path) {
+/// Of what Python calls meanwhile nothing is there but the object: the sequence may close the project.
+std::vector<Value> elements_from(py::handle object, const ElementPath& elements, const Range& range,
+                                 std::string_view path) {
   const bool is_text = py::isinstance<py::str>(object) || py::isinstance<py::bytes>(object);
   if (is_text || PySequence_Check(object.ptr()) == 0)
     throw py::type_error(fmt::format("{} is of type {}; allowed: a sequence of {} values", path,
                                      elements.type, elements.count()));
   const auto sequence = py::reinterpret_borrow<py::sequence>(object);
-  if (sequence.size() != elements.count())
-    throw py::value_error(fmt::format("{} has {} elements, not {}", path, elements.count(), sequence.size()));
+  if (const std::size_t size = sequence.size(); size != elements.count())
+    throw py::value_error(fmt::format("{} has {} elements, not {}", path, elements.count(), size));
   std::vector<Value> values;
   for (std::int64_t index = elements.first; index <= elements.last; ++index)
     values.push_back(from_python(sequence[static_cast<std::size_t>(index - elements.first)],
-                                 elements.signal_of(index).value_type(), range_of(elements.place),
-                                 elements.name_of(index)));
-  for (std::int64_t index = elements.first; index <= elements.last; ++index)
-    elements.signal_of(index).store(values[static_cast<std::size_t>(index - elements.first)]);
+                                 elements.place.signal.value_type(), range, elements.name_of(index)));
+  return values;
 }
 
+/// All are read before the list is made: making it may call what closes the project.
 py::list read_elements(const ElementPath& elements) {
+  std::vector<Value> read;
+  for (std::int64_t index = elements.first; index <= elements.last; ++index)
+    read.push_back(elements.signal_of(index).load());
+  const Type type = elements.place.signal.value_type();
   py::list values;
-  for (std::int64_t index = elements.first; index <= elements.last; ++index) {
-    const Signal signal = elements.signal_of(index);
-    values.append(to_python(signal.load(), signal.value_type()));
-  }
+  for (const Value value : read) values.append(to_python(value, type));
   return values;
 }
 
@@ -90,17 +92,35 @@ py::object read_place(const Place& place) {
                     place);
 }
 
-void write_place(const Place& place, py::handle object, std::string_view path) {
+NewValues values_for(const Place& place, py::handle object, std::string_view path) {
   if (const std::string reason = why_read_only(place); !reason.empty())
     raise("ReadOnly", fmt::format("'{}' cannot be written: {}", path, reason));
+  // From here on Python runs; what is in the project is copied before.
+  return std::visit(Each{[&](const Operand& value) -> NewValues {
+                           const Range range = range_of(value);
+                           return std::vector{from_python(object, value.signal.value_type(), range, path)};
+                         },
+                         [&](const StringTag* text) -> NewValues {
+                           return text_from_python(object, text->text.capacity, path);
+                         },
+                         [&](const ElementPath& elements) -> NewValues {
+                           const Range range = range_of(elements.place);
+                           return elements_from(object, elements, range, path);
+                         }},
+                    place);
+}
+
+void store(const Place& place, const NewValues& values) {
   std::visit(Each{[&](const Operand& value) {
                     expect_writes(value);
-                    value.signal.store(from_python(object, value.signal.value_type(), range_of(value), path));
+                    value.signal.store(std::get<std::vector<Value>>(values).front());
                   },
-                  [&](const StringTag* text) {
-                    text->text.assign(text_from_python(object, text->text.capacity, path));
-                  },
-                  [&](const ElementPath& elements) { write_elements(elements, object, path); }},
+                  [&](const StringTag* text) { text->text.assign(std::get<std::string>(values)); },
+                  [&](const ElementPath& elements) {
+                    const auto& all = std::get<std::vector<Value>>(values);
+                    for (std::size_t k = 0; k < all.size(); ++k)
+                      elements.signal_of(elements.first + static_cast<std::int64_t>(k)).store(all[k]);
+                  }},
              place);
 }
 

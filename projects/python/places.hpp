@@ -23,10 +23,16 @@ Place find_place(const Project& project, std::string_view path);
 /// The value there; of several elements, a list of their values.
 pybind11::object read_place(const Place& place);
 
-/// Writes a tag, a text, elements, or a variable that a program may set. Of several elements all are checked
-/// before the first one is written.
+/// What a place shall have: a text, or as many values as it has elements.
+using NewValues = std::variant<std::vector<Value>, std::string>;
+
+/// Converts what a tag, a text, elements, or a variable that a program may set shall have; all of it before
+/// any is written. Python runs meanwhile, such as `__index__` of the object or another thread, and may close
+/// the project: look again whether it is there before `store`.
 /// @throws lockstep.ReadOnly, lockstep.OutOfRange, TypeError; ValueError for another number of elements
-void write_place(const Place& place, pybind11::handle object, std::string_view path);
+NewValues values_for(const Place& place, pybind11::handle object, std::string_view path);
+/// Writes them; nothing of Python runs. The project of the place has to be there.
+void store(const Place& place, const NewValues& values);
 
 /// Why nobody may write there; empty if one may.
 std::string why_read_only(const Place& place);

@@ -1,5 +1,7 @@
 #include "projects/python/problems.hpp"
 
+#include "projects/python/raise.hpp"
+
 namespace py = pybind11;
 
 namespace lockstep::python {
@@ -9,8 +11,9 @@ py::list listed(const std::vector<Problem>& problems, const TextSource& source) 
   for (const Problem& problem : problems) {
     const bool included = !problem.file.empty();
     const bool at_line = included || source.as_written;
-    list.append(py::make_tuple(problem.place, problem.text, included ? problem.file : source.file,
-                               at_line ? problem.line : 0, at_line ? problem.column : 0, problem.owner));
+    list.append(py::make_tuple(shown(problem.place), shown(problem.text),
+                               shown(included ? problem.file : source.file), at_line ? problem.line : 0,
+                               at_line ? problem.column : 0, shown(problem.owner)));
   }
   return list;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -88,14 +89,20 @@ class RealTimeProject {
   void stop() { opened().stop(); }
   bool wait(double seconds);
   void close();
-  bool closed() const noexcept { return !runtime_; }
+  bool closed() const noexcept { return !runtime_ || is_copy(); }
 
   py::object read(const std::string& path);
   void write(const std::string& path, py::handle value);
   std::vector<std::string> paths() const { return paths_; }
 
-  py::list events() const { return listed(kept_->events()); }
-  std::vector<std::string> messages() const { return kept_->messages(); }
+  py::list events() const {
+    require_own();
+    return listed(kept_->events());
+  }
+  std::vector<std::string> messages() const {
+    require_own();
+    return kept_->messages();
+  }
   std::string state() const;
   py::dict status();
   std::vector<std::string> modbus_endpoints();
@@ -103,7 +110,17 @@ class RealTimeProject {
 
  private:
   void end() noexcept;
+  /// Whether this process was forked after the start: the threads of the run are not here, whatever they held
+  /// stays locked.
+  bool is_copy() const noexcept { return process_ != ::getpid(); }
+  void require_own() const {
+    if (is_copy())
+      raise("ClosedError",
+            fmt::format("the run is in process {}, of which this one was forked; allowed: to start one here",
+                        process_));
+  }
   Runtime& opened() {
+    require_own();
     if (!runtime_) raise("ClosedError", "the run has been closed");
     return *runtime_;
   }
@@ -117,6 +134,7 @@ class RealTimeProject {
   std::vector<std::string> paths_;
   std::string name_;
   int waiting_ = 0;  // threads in `wait`
+  pid_t process_ = ::getpid();
 };
 
 /// Those that were asked for; else every tag that is one value, and what the project's trace has.
@@ -190,6 +208,7 @@ bool RealTimeProject::wait(double seconds) {
 }
 
 void RealTimeProject::close() {
+  if (is_copy()) return;
   if (waiting_ != 0) raise("BusyError", "another thread waits for the end of this run; stop() ends it");
   end();
 }
@@ -197,6 +216,11 @@ void RealTimeProject::close() {
 /// What does not come to its end is left alone, with the image that it may still look into.
 void RealTimeProject::end() noexcept {
   if (!runtime_) return;
+  if (is_copy()) {  // its threads are not here to be waited for
+    static_cast<void>(runtime_.release());
+    static_cast<void>(image_.release());
+    return;
+  }
   const std::unique_ptr<Runtime> runtime = std::move(runtime_);
   const WithoutGil without_gil;
   runtime->stop();
@@ -228,13 +252,14 @@ void RealTimeProject::write(const std::string& path, py::handle value) {
   const Crossing& place = crossing(path);
   if (!place.read_only.empty())
     raise("ReadOnly", fmt::format("'{}' cannot be written: {}", path, place.read_only));
-  const SignalWrite write{static_cast<std::uint32_t>(place.index),
-                          from_python(value, image_->type(place.index), place.range, path), ~0ULL};
+  const Value converted = from_python(value, image_->type(place.index), place.range, path);
+  opened();  // the value, or another thread, may have closed the run meanwhile
+  const SignalWrite write{static_cast<std::uint32_t>(place.index), converted, ~0ULL};
   image_->post({&write, 1});
 }
 
 std::string RealTimeProject::state() const {
-  if (!runtime_) return "closed";
+  if (closed()) return "closed";
   switch (runtime_->state()) {
     case RuntimeState::loaded:
       return "loaded";
@@ -249,14 +274,22 @@ std::string RealTimeProject::state() const {
 }
 
 py::dict RealTimeProject::status() {
+  // All is read before the dictionary is made: making it may call what closes the run.
   const RealTimeStatus& status = opened().status();
+  const auto seconds = [](std::int64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1e9; };
+  const double time = seconds(status.time.load());
+  const auto ticks = status.ticks.load();
+  const auto missed_ticks = status.missed_ticks.load();
+  const auto overruns = status.overruns.load();
+  const double worst_lateness = seconds(status.worst_lateness.load());
+  const double longest_tick = seconds(status.longest_tick.load());
   py::dict values;
-  values["time"] = static_cast<double>(status.time.load()) / 1e9;
-  values["ticks"] = status.ticks.load();
-  values["missed_ticks"] = status.missed_ticks.load();
-  values["overruns"] = status.overruns.load();
-  values["worst_lateness"] = static_cast<double>(status.worst_lateness.load()) / 1e9;
-  values["longest_tick"] = static_cast<double>(status.longest_tick.load()) / 1e9;
+  values["time"] = time;
+  values["ticks"] = ticks;
+  values["missed_ticks"] = missed_ticks;
+  values["overruns"] = overruns;
+  values["worst_lateness"] = worst_lateness;
+  values["longest_tick"] = longest_tick;
   return values;
 }
 

@@ -9,7 +9,10 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "projects/python/events.hpp"
 #include "projects/python/gil.hpp"
@@ -29,7 +32,9 @@ constexpr std::uint64_t kTicksAtOnce = 32;
 constexpr double kLongest = 9e9;  // [s], which nanoseconds in 64 bits hold
 
 /// A run in virtual time. Its state is guarded by the GIL, which is let go while ticks run; whoever comes
-/// then is refused, so that two threads never touch one controller.
+/// then is refused, so that two threads never touch one controller. Whatever runs Python, such as converting
+/// a value or making a list, may let another thread in or call back here: what has been fetched of the
+/// project before is fetched, or checked, again.
 class SteppedProject {
  public:
   SteppedProject(std::string_view text, const std::string& folder, const TextSource& source,
@@ -46,7 +51,10 @@ class SteppedProject {
 
   py::object read(std::string_view path) { return read_place(find_place(project(), path)); }
   void write(std::string_view path, py::handle value) {
-    write_place(find_place(project(), path), value, path);
+    const Place place = find_place(project(), path);
+    const NewValues values = values_for(place, value, path);
+    idle();  // the value, or another thread, may have closed the project or run it meanwhile
+    store(place, values);
   }
   py::object evaluate(std::string_view text) { return python::evaluate(project(), text); }
   std::vector<std::string> paths() { return all_paths(project()); }
@@ -56,7 +64,10 @@ class SteppedProject {
   }
 
   TraceView trace() { return TraceView(idle().trace()); }
-  py::list events() { return python::listed(idle().events()); }
+  py::list events() {
+    const std::vector<TraceEvent> events = idle().events();  // listing them may call what closes the project
+    return python::listed(events);
+  }
   py::list warnings() const { return warnings_; }
   std::string name() const { return name_; }
   std::string description() const { return description_; }

@@ -66,9 +66,26 @@ TraceView read_log(const std::string& path) {
   return TraceView(trace);
 }
 
+bool is_unicode(const std::string& text) {
+  const auto decoded = py::reinterpret_steal<py::object>(
+      PyUnicode_FromStringAndSize(text.data(), static_cast<Py_ssize_t>(text.size())));
+  if (!decoded) PyErr_Clear();
+  return static_cast<bool>(decoded);
+}
+
+/// Names of signals are keys in Python, where they are Unicode.
+void require_unicode(const TraceView& view, const std::string& path) {
+  for (const TraceSignal& signal : view.signals())
+    for (const std::string* const text : {&signal.name, &signal.unit})
+      if (!is_unicode(*text))
+        throw TraceFormatError(path + ": the name or the unit of a signal is no UTF-8: " + *text);
+}
+
 TraceView read_trace(const std::string& path) {
   try {
-    return path.ends_with(".lcm") ? read_log(path) : read_csv(path);
+    TraceView view = path.ends_with(".lcm") ? read_log(path) : read_csv(path);
+    require_unicode(view, path);
+    return view;
   } catch (const TraceFormatError& error) {
     raise("TraceError", error.what());
   }

@@ -11,20 +11,23 @@ namespace py = pybind11;
 namespace lockstep::python {
 namespace {
 
-std::string shown(py::handle object) {
+std::string repr_of(py::handle object) {
   const std::string text = py::repr(object);
-  return text.size() <= 60 ? text : text.substr(0, 57) + "…";
+  if (text.size() <= 60) return text;
+  std::size_t end = 57;
+  while ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // a character stays whole
+  return text.substr(0, end) + "…";
 }
 
 [[noreturn]] void wrong_type(py::handle object, std::string_view path, std::string_view type,
                              std::string_view allowed) {
   throw py::type_error(
-      fmt::format("{} is of type {}: {} of type {} does not fit; allowed: {}", path, type, shown(object),
+      fmt::format("{} is of type {}: {} of type {} does not fit; allowed: {}", path, type, repr_of(object),
                   py::str(py::type::of(object).attr("__name__")).cast<std::string>(), allowed));
 }
 
 [[noreturn]] void outside(std::string_view path, py::handle object, std::string_view allowed) {
-  raise("OutOfRange", fmt::format("{} may not be {}; allowed: {}", path, shown(object), allowed));
+  raise("OutOfRange", fmt::format("{} may not be {}; allowed: {}", path, repr_of(object), allowed));
 }
 
 std::string range_text(const Range& range) {
@@ -64,7 +67,9 @@ Value bool_from(py::handle object, std::string_view path) {
                        py::str(py::type::of(object).attr("__name__")).cast<std::string>() == kNumPyBool;
   if (!is_bool) wrong_type(object, path, "BOOL", "True, False");
   Value value{};
-  value.u = PyObject_IsTrue(object.ptr()) == 1 ? 1 : 0;
+  const int is_true = PyObject_IsTrue(object.ptr());
+  if (is_true < 0) throw py::error_already_set();
+  value.u = is_true == 1 ? 1 : 0;
   return value;
 }
 

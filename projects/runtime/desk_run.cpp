@@ -194,13 +194,13 @@ Json DeskRun::obey(const Json& request) {
           "axes of this run were commanded by hand, which cannot be repeated; 'restart' begins it anew");
     } else {
       // Backwards: the same run once more, up to there.
-      runs_ = false;
       restart_(t);
+      runs_ = false;
       return Json{{"state", "seeking"}, {"t", std::to_string(t)}, {"tick", std::to_string(t / cycle)}};
     }
   } else if (action == "restart") {
-    runs_ = false;
     restart_(std::nullopt);
+    runs_ = false;
   } else {
     throw BadRequest(422, "bad_request", "'action' is none; allowed: run, pause, step, speed, seek, restart");
   }
@@ -276,7 +276,8 @@ DeskHandler::DeskHandler(DeskOptions options)
                                      [this](std::optional<std::int64_t> t) { ask_for_another(t); })) {}
 
 void DeskHandler::ask_for_another(std::optional<std::int64_t> t) {
-  is_wanted_anew_ = true;
+  next_ = std::make_unique<DeskRun>(options_, files_,
+                                    [this](std::optional<std::int64_t> then) { ask_for_another(then); });
   wanted_t_ = t;
 }
 
@@ -296,15 +297,13 @@ void DeskHandler::closed(StudioClient& client) noexcept {
 
 /// A new run in place of the old one; its pages have to say hello again.
 void DeskHandler::restart() {
-  is_wanted_anew_ = false;
   std::string problem;
-  std::unique_ptr<DeskRun> made;
+  std::unique_ptr<DeskRun> made = std::move(next_);
   try {
-    made = std::make_unique<DeskRun>(options_, files_,
-                                     [this](std::optional<std::int64_t> t) { ask_for_another(t); });
     if (wanted_t_) made->repeat(*wanted_t_, run_->journal_before(*wanted_t_), run_->session().recorded());
   } catch (const std::exception& error) {
     problem = error.what();
+    made.reset();
   }
   Json told = {{"type", "restarted"}};
   if (!problem.empty()) told = {{"type", "error"}, {"error", {{"code", "conflict"}, {"message", problem}}}};
@@ -319,7 +318,7 @@ void DeskHandler::restart() {
 }
 
 void DeskHandler::look() {
-  if (is_wanted_anew_) restart();
+  if (next_) restart();
   run_->session().look();
 }
 

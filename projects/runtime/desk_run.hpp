@@ -24,8 +24,8 @@ namespace lockstep {
 
 /// How a desk is set up.
 struct DeskOptions {
-  std::string file{};      ///< of the project; empty: there is none, only traces
-  std::string folder{};    ///< in or below which pages name traces by path; empty: nowhere
+  std::string file{};               ///< of the project; empty: there is none, only traces
+  std::string folder{};             ///< in or below which pages name traces by path; empty: nowhere
   std::vector<std::string> cams{};  ///< paths of cam files beside it
   bool read_only = false;  ///< pages only look; they may run the simulation no more than write into it
   std::function<std::optional<std::string>(const std::string&)> describe{};  ///< see StudioPowers
@@ -45,7 +45,8 @@ struct DeskJournal {
 class DeskRun final : public StudioSimulation {
  public:
   /// Asked for by a page, and done by whoever owns the run: another one in its place, which goes on to a time
-  /// [ns] with the same writes; without a time it begins anew, without any.
+  /// [ns] with the same writes; without a time it begins anew, without any. @throws as DeskRun; the run that
+  /// is there stays then
   using Restart = std::function<void(std::optional<std::int64_t> t)>;
 
   /// @param files outlives this  @throws InvalidProject, UnreadableFile
@@ -133,7 +134,7 @@ class DeskHandler final : public StudioHandler {
   const DeskOptions options_;
   StudioTraceFiles files_;
   std::vector<StudioClient*> clients_;
-  bool is_wanted_anew_ = false;
+  std::unique_ptr<DeskRun> next_;         // it takes the place of the one that is there at the next look
   std::optional<std::int64_t> wanted_t_;  // to which it goes then
   std::unique_ptr<DeskRun> run_;
 };

@@ -2,11 +2,24 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "projects/json/problem.hpp"
 
 namespace lockstep::studio_api {
 namespace {
 
 constexpr int kDepth = 20;  // of JSON
+
+/// What is wrong with a text, without the number that the library gives to it.
+std::string syntax_problem(std::string text) {
+  const std::size_t end = text.find("] ");
+  if (text.starts_with("[json.exception.") && end != text.npos) text.erase(0, end + 2);
+  return "this is no JSON: " + text;
+}
 
 }  // namespace
 
@@ -39,15 +52,20 @@ StudioAnswer error_answer(unsigned status, std::string_view code, const std::str
 }
 
 Json parsed(std::string_view text) {
-  const Json::parser_callback_t bounded = [](int depth, Json::parse_event_t, Json&) {
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  const Json::parser_callback_t bounded = [&keys](int depth, Json::parse_event_t event, Json& value) {
     if (depth > kDepth)
       throw BadRequest(422, "bad_request", "this JSON is nested too deeply; allowed: 20 levels");
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      throw BadRequest(422, "bad_request", "the key " + quote(value.get<std::string>()) + " is there twice");
     return true;
   };
   try {
     return Json::parse(text, bounded);
   } catch (const Json::exception& error) {
-    throw BadRequest(422, "bad_request", error.what());
+    throw BadRequest(422, "bad_request", syntax_problem(error.what()));
   }
 }
 

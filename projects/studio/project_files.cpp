@@ -36,9 +36,8 @@ std::string etag_of(std::string_view content) {
   return '"' + text + '"';
 }
 
-/// Whether a list of ETags has one, or is `*`. @source RFC 9110, 13.1.1
+/// Whether a list of ETags has one. @source RFC 9110, 13.1.1
 bool names_etag(std::string_view list, std::string_view etag) noexcept {
-  if (list == "*") return true;
   while (!list.empty()) {
     const std::size_t comma = std::min(list.find(','), list.size());
     std::string_view one = list.substr(0, comma);
@@ -110,6 +109,10 @@ StudioAnswer StudioProjectFiles::put(const StudioRequest& request, std::string_v
         is_there ? "the header If-Match has to be the ETag of the file as it was read"
                  : "there is no '" + std::string(name) + "' yet; the header 'If-None-Match: *' makes it");
   const std::string before = is_there ? etag_of(folder_.read(name, JsonDocument::kLongest)) : "";
+  if (request.if_match == "*")
+    throw BadRequest(
+        428, "stale",
+        "the header If-Match has to be the ETag of the file as it was read; '*' says nothing of it");
   const bool is_known =
       request.if_match.empty() ? !is_there : is_there && names_etag(request.if_match, before);
   if (!is_known)

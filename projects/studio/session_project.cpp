@@ -1,6 +1,10 @@
 // What pages ask of the project and of how the run goes.
+#include <algorithm>
+#include <cstddef>
 #include <string>
+#include <string_view>
 
+#include "projects/loader/simulation.hpp"
 #include "projects/studio/api_values.hpp"
 #include "projects/studio/cam_answers.hpp"
 #include "projects/studio/project_answers.hpp"
@@ -138,7 +142,21 @@ StudioAnswer StudioSession::change_simulation(const StudioRequest& request) {
   if (powers_.simulation == nullptr)
     return error_answer(409, "conflict", "this run goes on by itself; lockstep studio drives a simulation");
   if (!powers_.why_no_write.empty()) return error_answer(403, "not_allowed", powers_.why_no_write);
-  return answer_of(powers_.simulation->obey(parsed(request.body)));
+  const Json asked = parsed(request.body);
+  Wrong wrong{422};
+  try {
+    return answer_of(powers_.simulation->obey(asked));
+  } catch (const InvalidProject& error) {  // the file is another one since; a line for each problem
+    const std::string_view text = error.what();
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = std::min(text.find('\n', at), text.size());
+      wrong.add("invalid_project", std::string(text.substr(at, end - at)));
+      at = end + 1;
+    }
+  } catch (const UnreadableFile& error) {
+    wrong.add("invalid_project", error.what());
+  }
+  return answer_of(wrong);
 }
 
 /// Values of a simulation that stands still.

@@ -2,7 +2,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "projects/studio/api_values.hpp"
@@ -165,6 +167,9 @@ StudioAnswer StudioSession::take_trace(const StudioRequest& request) {
   name = name.substr(name.rfind('/') + 1).substr(0, kLongestName);
   if (!name.ends_with(".csv") && !name.ends_with(".lcm"))
     throw BadRequest(422, "bad_request", "'" + name + "' is no trace; it has to end in .csv or .lcm");
+  std::error_code unknown;
+  if (is_sent && std::filesystem::file_size(request.body_file, unknown) == 0)
+    throw BadRequest(422, "bad_request", "the body is empty; a trace has a line of names at least");
   const StudioTraceFile* const file = is_sent ? powers_.files->add(request.body_file, name, true)
                                               : powers_.files->add(std::move(named), name);
   if (file == nullptr)

@@ -1,9 +1,14 @@
 #include "projects/studio/writes.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <initializer_list>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "hmi_bridge/traces/text_literal.hpp"
+#include "projects/json/problem.hpp"
 #include "projects/loader/written_value.hpp"
 #include "projects/studio/api_values.hpp"
 
@@ -66,6 +71,16 @@ Json before_of(const ChosenWrite& write, Type type, bool is_text) {
   return is_text ? Json(old_text_of(write)) : value_json(write.before, type);
 }
 
+/// A key that is none, such as one with a mistake in it; empty: there is none.
+std::string unknown_key(const Json& json, std::initializer_list<std::string_view> allowed) {
+  std::string names;
+  for (const std::string_view name : allowed) names += (names.empty() ? "" : ", ") + std::string(name);
+  for (const auto& [key, value] : json.items())
+    if (std::find(allowed.begin(), allowed.end(), key) == allowed.end())
+      return "unknown key " + quote(key) + "; allowed: " + names;
+  return "";
+}
+
 }  // namespace
 
 void StudioWrites::add_text(const StringTag& tag, const Json& json, Batch& batch, Wrong& wrong) const {
@@ -85,6 +100,8 @@ void StudioWrites::add(const Json& json, Batch& batch, Wrong& wrong) const {
   const auto path_of = json.is_object() ? json.find("path") : json.end();
   if (path_of == json.end() || !path_of->is_string() || !json.contains("value"))
     return wrong.add("bad_request", "each write has a 'path' and a 'value'");
+  if (const std::string unknown = unknown_key(json, {"path", "value", "bits"}); !unknown.empty())
+    return wrong.add("bad_request", unknown, {{"path", *path_of}});
   const std::string path = path_of->get<std::string>();
   const Json& wanted = json.at("value");
   if (const StringTag* const text = project_.names.find_string(path))
@@ -157,6 +174,8 @@ void StudioWrites::write(const StudioRequest& request, Done done) {
   const auto writes = json.is_object() ? json.find("writes") : json.end();
   if (writes == json.end() || !writes->is_array() || writes->empty())
     throw BadRequest(422, "bad_request", "'writes' has to be a list of {\"path\", \"value\"}, one at least");
+  if (const std::string unknown = unknown_key(json, {"writes"}); !unknown.empty())
+    throw BadRequest(422, "bad_request", unknown);
   if (writes->size() > ChosenWrites::kMaximum)
     throw BadRequest(
         422, "too_many",

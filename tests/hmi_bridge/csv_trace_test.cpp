@@ -1,12 +1,17 @@
 #include "hmi_bridge/traces/csv_trace.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
+#include <string>
 #include <system_error>
 
 #include "hmi_bridge/traces/csv_number.hpp"
@@ -171,6 +176,31 @@ TEST(CsvReader, ErrorsNameLineAndColumn) {
   EXPECT_EQ(message_of("t,a\n\n"), "run.csv:2:1: \"\" is not a number");
   EXPECT_THROW(read_csv_trace("/no/such/run.csv"), TraceFormatError);
   EXPECT_THROW(read_csv_trace("/"), TraceFormatError);
+}
+
+TEST(CsvReader, WhatHasNoEndIsRefused) {
+  const Directory directory;
+  const auto refused = [](const std::string& path) {
+    try {
+      read_csv_trace(path);
+    } catch (const TraceFormatError& error) {
+      return std::string(error.what());
+    }
+    return std::string("was read");
+  };
+  for (const char* const device : {"/dev/zero", "/dev/full"}) {
+    const std::string link = directory.file(device + 5) + ".csv";
+    std::filesystem::create_symlink(device, link);
+    EXPECT_EQ(refused(link), link + ": is no regular file");
+  }
+  const std::string pipe = directory.file("pipe.csv");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(refused(pipe), pipe + ": is no regular file");
+  // A terabyte of holes: the third line has no end.
+  const std::string holes = directory.file("holes.csv");
+  std::ofstream(holes) << "t,a\n0,1\n";
+  std::filesystem::resize_file(holes, std::uintmax_t{1} << 40);
+  EXPECT_EQ(refused(holes), holes + ":3:1: the line is longer than 16 MiB");
 }
 
 TEST(CsvReader, ALastLineThatWasCutShortIsLeftOutWithARemark) {

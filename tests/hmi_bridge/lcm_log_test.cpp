@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -229,6 +231,22 @@ TEST(LcmLog, AFileThatCannotBeOpenedIsNamed) {
     FAIL() << "opened";
   } catch (const std::system_error& error) {
     EXPECT_EQ(std::string(error.what()), "/no/such/folder/run.lcm: No such file or directory");
+  }
+}
+
+TEST(LcmTraceReader, WhatHasNoEndIsRefused) {
+  const Directory directory;
+  const std::string link = directory.file("zero.lcm");
+  std::filesystem::create_symlink("/dev/zero", link);
+  const std::string pipe = directory.file("pipe.lcm");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {link, pipe}) {
+    try {
+      LcmTraceReader reader(path);
+      FAIL() << path;
+    } catch (const TraceFormatError& error) {
+      EXPECT_EQ(error.what(), path + ": is no regular file");
+    }
   }
 }
 

@@ -6,12 +6,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "projects/loader/simulation.hpp"
+#include "tests/projects/studio_files.hpp"
 #include "tests/projects/studio_machine.hpp"
 
 namespace lockstep::desk_run_test {
@@ -26,7 +31,7 @@ const std::vector<std::string> kPaths = {"Knife.Position",    "Knife.Velocity", 
 
 class Desk {
  public:
-  Desk() : handler({.file = kKnife}) {
+  explicit Desk(const std::string& file = kKnife) : handler({.file = file}) {
     handler.opened(page);
     handler.text(page, R"({"type":"hello"})");
   }
@@ -155,6 +160,39 @@ TEST(DeskRun, DoesNotRepeatWhatWasCommandedByHand) {
   EXPECT_EQ(desk.state()["t"], "0");
   desk.seek(1 * kSecond);
   desk.seek(kSecond / 2);
+}
+
+TEST(DeskRun, TellsWhyAProjectThatHasBecomeInvalidIsNotBegunAnew) {
+  const test::StudioFolder folder;
+  std::ifstream knife(kKnife);
+  const std::string whole((std::istreambuf_iterator<char>(knife)), std::istreambuf_iterator<char>());
+  const std::string file = folder.write("project.json", whole);
+  Desk desk(file);
+  desk.seek(kSecond / 10);
+  std::string wrong = whole;
+  for (const std::string_view type : {"LREAL", "BOOL"}) {
+    const std::size_t at = wrong.find("\"type\": \"" + std::string(type) + '"');
+    ASSERT_NE(at, wrong.npos);
+    wrong.replace(at + 9, type.size(), "FLOAT");
+  }
+  for (const std::string& content : {wrong, std::string("{"), std::string()}) {
+    folder.write("project.json", content);
+    for (const Json& ask : {Json{{"action", "restart"}}, Json{{"action", "seek"}, {"t", "1000000"}}}) {
+      const StudioAnswer answer = desk.simulate(ask);
+      EXPECT_EQ(answer.status, 422u) << answer.body;
+      const Json errors = Json::parse(answer.body).at("errors");
+      EXPECT_EQ(errors.at(0).at("code"), "invalid_project");
+      EXPECT_GE(errors.size(), content == wrong ? 2u : 1u) << errors;
+      desk.look();
+      EXPECT_EQ(desk.state().at("t"), "100000000") << "it stays where it is";
+    }
+  }
+  std::filesystem::remove(file);
+  EXPECT_EQ(desk.simulate({{"action", "restart"}}).status, 422u);
+  folder.write("project.json", whole);
+  EXPECT_EQ(desk.simulate({{"action", "restart"}}).status, 200u);
+  desk.look();
+  EXPECT_EQ(desk.state().at("t"), "0");
 }
 
 }  // namespace

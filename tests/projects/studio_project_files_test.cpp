@@ -115,9 +115,9 @@ TEST(StudioProjectFiles, AreChangedByWhoKnowsWhatIsInThem) {
   EXPECT_EQ(studio.told[0].kind, EventKind::written);
   EXPECT_EQ(studio.told[0].source, "desk.json");
   EXPECT_EQ(studio.told[0].address, "192.0.2.7:4242");
-  // A list of ETags, and any of them at all.
+  // A list of ETags, but not any of them at all.
   EXPECT_EQ(studio.put("desk.json", "\"a\", " + put.etag, "{}").status, 200u);
-  EXPECT_EQ(studio.put("cams/feeder.cam.json", "*", "{}").status, 200u);
+  EXPECT_EQ(studio.put("cams/feeder.cam.json", "*", "{}").status, 428u);
 }
 
 TEST(StudioProjectFiles, AskForIfMatchAndRefuseWhatIsStale) {
@@ -127,6 +127,10 @@ TEST(StudioProjectFiles, AskForIfMatchAndRefuseWhatIsStale) {
   EXPECT_EQ(unknown.status, 428u);
   EXPECT_EQ(code_of(unknown), "stale");
   EXPECT_NE(unknown.body.find("If-Match"), std::string::npos);
+  const StudioAnswer whatever = studio.put("desk.json", "*", "{}");
+  EXPECT_EQ(whatever.status, 428u);
+  EXPECT_NE(whatever.body.find("'*' says nothing"), std::string::npos) << whatever.body;
+  EXPECT_EQ(content_of(studio.desk.project), kProject);
   // Somebody else changes it meanwhile.
   studio.desk.folder.write("desk.json", kProject + "\n");
   const StudioAnswer stale = studio.put("desk.json", etag, "{}");

@@ -128,8 +128,7 @@ TEST(StudioUpload, ThatIsNoTraceIsRefusedAndLeavesNoFile) {
 
 TEST(StudioUpload, ThatCannotBeReadTellsWhyByItsOwnName) {
   Studio studio;
-  const std::vector<std::pair<std::string, std::string>> bad = {{"empty.csv", ""},
-                                                                {"words.csv", "t,v\n0,one\n"},
+  const std::vector<std::pair<std::string, std::string>> bad = {{"words.csv", "t,v\n0,one\n"},
                                                                 {"short.csv", "t,v,w\n0,1\n"},
                                                                 {"back.csv", "t,v\n1,1\n0,1\n"},
                                                                 {"far.csv", "t,v\n0,1\n1e300,1\n"},
@@ -148,6 +147,11 @@ TEST(StudioUpload, ThatCannotBeReadTellsWhyByItsOwnName) {
     EXPECT_EQ(message.find(studio.folder.path().string()), std::string::npos) << message;
     EXPECT_EQ(studio.ask("GET", "/api/traces/" + id + "/window", {{"signals", "v"}}).status, 422u);
     EXPECT_EQ(studio.ask("GET", "/api/traces/" + id + "/xy", {{"x", "v"}, {"y", "v"}}).status, 422u);
+  }
+  for (const char* const name : {"empty.csv", "empty.lcm"}) {
+    const StudioAnswer answer = studio.send(name, "");
+    EXPECT_EQ(answer.status, 422u) << answer.body;
+    EXPECT_NE(answer.body.find("the body is empty"), std::string::npos) << answer.body;
   }
   EXPECT_TRUE(is_emptied(studio.folder));
 }
@@ -275,18 +279,12 @@ TEST(StudioUpload, OfALogHasItsEventsAndJobs) {
   EXPECT_EQ(studio.get("/api/events").at("events").size(), 0u) << "the run has had none";
 }
 
-/// Keeps the thread that reads files from the next one, until it is let go.
-class Pipe {
- public:
-  explicit Pipe(Studio& studio) : path_((studio.folder.path() / "waits.pipe").string()) {
-    EXPECT_EQ(::mkfifo(path_.c_str(), 0600), 0);
-    EXPECT_NE(studio.files.add(path_, "waits.csv", false), nullptr);
-  }
-  void let_go() const { std::ofstream(path_) << kTrace; }
-
- private:
-  std::string path_;
-};
+/// Keeps the thread that reads files from the next one for a while.
+void keep_busy(Studio& studio) {
+  std::string rows = "t,a\n";
+  for (int row = 0; row < 300'000; ++row) rows += "0,1\n";
+  EXPECT_NE(studio.files.add(studio.folder.write("long.csv", rows), "long.csv", false), nullptr);
+}
 
 TEST(StudioUpload, OfAPathIsTheFileThatWasThereWhenItWasAskedFor) {
   Studio studio;
@@ -298,11 +296,10 @@ TEST(StudioUpload, OfAPathIsTheFileThatWasThereWhenItWasAskedFor) {
   powers.files = &studio.files;
   powers.trace_folder = studio.folder.path().string();
   studio.session.empower(powers);
-  const Pipe pipe(studio);
+  keep_busy(studio);
   EXPECT_EQ(studio.by_path("mine.csv").status, 202u);
   std::filesystem::remove(mine);
   std::filesystem::create_symlink(secret, mine);
-  pipe.let_go();
   const Json trace = studio.settled("file-2");
   EXPECT_EQ(trace.at("state"), "ready") << trace;
   EXPECT_EQ(trace.at("name"), "mine.csv");
@@ -350,6 +347,18 @@ TEST(StudioUpload, OverTheNetworkArrivesWholeOrNotAtAll) {
   const Json told = Json::parse(taken.body);
   EXPECT_EQ(told.at("id"), "file-1") << "the broken one has never been a trace";
   EXPECT_EQ(told.at("name"), "whole.csv");
+  EXPECT_TRUE(is_emptied(served.folder));
+}
+
+TEST(StudioUpload, OverTheNetworkOfNothingIsRefused) {
+  Served served;
+  StudioConnection client(served.server->endpoint().port);
+  for (int again = 0; again < 2; ++again) {
+    client.send(served.head(client, "/api/traces?name=empty.csv", "text/csv", 0));
+    const test::HttpAnswer answer = client.answer();
+    EXPECT_EQ(answer.status, 422) << answer.body;
+    EXPECT_NE(answer.body.find("empty"), std::string::npos) << answer.body;
+  }
   EXPECT_TRUE(is_emptied(served.folder));
 }
 

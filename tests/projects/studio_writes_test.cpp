@@ -140,6 +140,37 @@ TEST(StudioWrites, AreAllRefusedForOneAndToldAllThatIsWrong) {
   EXPECT_EQ(Json::parse(machine.write(many + "]}").body)["error"]["code"], "too_many");
 }
 
+TEST(StudioWrites, HaveNoKeyTwiceAndNoneThatIsUnknown) {
+  Machine machine;
+  machine.empower();
+  const auto refusal_of = [&](const char* body) {
+    const StudioAnswer answer = machine.write(body);
+    EXPECT_EQ(answer.status, 422u) << body;
+    return Json::parse(answer.body)["error"].value("message", "");
+  };
+  EXPECT_EQ(refusal_of(R"({"writes":[{"path":"speed","value":1,"value":2}]})"),
+            "the key 'value' is there twice");
+  EXPECT_EQ(refusal_of(R"({"writes":[{"path":"speed","value":2}],"writes":[{"path":"count","value":2}]})"),
+            "the key 'writes' is there twice");
+  EXPECT_EQ(refusal_of(R"({"writes":[{"path":"speed","value":2,"bit":1}]})"),
+            "unknown key 'bit'; allowed: path, value, bits");
+  EXPECT_EQ(refusal_of(R"({"writes":[{"path":"speed","value":2}],"write":[]})"),
+            "unknown key 'write'; allowed: writes");
+  machine.run(2);
+  EXPECT_EQ(machine.read("speed"), 1.5);
+}
+
+TEST(StudioWrites, ThatAreNoJsonAreToldInPlainWords) {
+  Machine machine;
+  machine.empower();
+  for (const char* const body :
+       {"", "{", "{\"writes\":[}", "\xff", "{\"writes\":[{\"path\":\"speed\",\"value\":1e999}]}"}) {
+    const std::string message = Json::parse(machine.write(body).body)["error"].value("message", "");
+    EXPECT_EQ(message.find("json.exception"), std::string::npos) << message;
+    EXPECT_TRUE(message.starts_with("this is no JSON: ")) << message;
+  }
+}
+
 /// What the simulation takes of its own writes is what pages may write, and the other way round.
 TEST(StudioWrites, AreCheckedAsThoseOfAProgramThatEmbedsTheRun) {
   Machine machine;

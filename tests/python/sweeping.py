@@ -31,6 +31,10 @@ def gives_what_nobody_keeps(project: lockstep.Project) -> dict:
     return {"project": object()}
 
 
+def writes_much(project: lockstep.Project) -> dict:
+    return {"much": "x" * 1000}
+
+
 def gives_no_mapping(project: lockstep.Project) -> int:
     return 3
 

@@ -2,6 +2,7 @@
 
 import copy
 import datetime
+import gc
 import json
 import math
 import pickle
@@ -427,8 +428,9 @@ def test_alarms_are_pending_until_they_are_acknowledged(small):
     assert alarm.limit == 20.0 and alarm.unit == "mm" and alarm.value == pytest.approx(20.0, abs=1.0)
     assert alarm.tick == round(alarm.time / project.servo_cycle) and alarm.clock is None
     told = str(alarm).splitlines()
-    assert told[0] == f"{alarm.time:.3f} s Axis: alarm {alarm.number}: {alarm.text} ({alarm.reaction})"
-    assert [line.strip() for line in told[1:]] == list(alarm.details)
+    assert told[0] == f"{alarm.time:.6f} s: Axis: alarm {alarm.number}: {alarm.text} ({alarm.reaction})"
+    assert [line.strip() for line in told[1:]] == [f"tick {alarm.tick}", *alarm.details]
+    assert "alarm 9: text (no reaction)" in str(alarm._replace(number=9, text="text", reaction=""))
     project["go"] = False
     project["reset"] = True
     project.run(0.1)
@@ -436,6 +438,26 @@ def test_alarms_are_pending_until_they_are_acknowledged(small):
     assert (acknowledged.cause, acknowledged.value, acknowledged.limit, acknowledged.details) == ("", None, None, ())
     assert project.alarms == []
     assert [event.kind for event in project.events] == ["alarm", "acknowledged"]
+
+
+def test_events_are_printed_as_the_console_tells_them(small, program, tmp_path):
+    limited = copy.deepcopy(small)
+    limited["technology_objects"]["Axis"]["config"]["PositionLimits_SW"] = {"Active": True, "MaxPosition": 20.0}
+    limited["tags"]["go"]["init"] = True
+    limited["programs"][0]["calls"] += [
+        {"fb": "MC_Home", "name": "home", "in": {"Axis": "Axis", "Execute": "power.Status", "Mode": 0}},
+        {"fb": "MC_MoveVelocity", "name": "wrong", "in": {"Axis": "Axis", "Execute": "run.Busy", "Velocity": "-1.0", "Direction": 7}},
+        {"fb": "MC_Reset", "name": "reset", "in": {"Axis": "Axis", "Execute": "Axis.ErrorDetail.Number > 0"}},
+    ]
+    file = tmp_path / "limited.json"
+    file.write_text(json.dumps(limited))
+    with lockstep.Project(file, jobs=True) as project:
+        project.run(10.0)
+        events = [event for event in project.events if event.kind in ("alarm", "acknowledged", "job failed")]
+    told = subprocess.run([program, "run", file, "--simulate", "--duration", "10s"], capture_output=True, text=True).stderr
+    assert {event.kind for event in events} == {"alarm", "acknowledged", "job failed"}
+    for event in events:
+        assert f"lockstep: {event}\n" in told
 
 
 def test_warnings_of_the_file_are_messages(small):
@@ -571,3 +593,214 @@ def test_misuse_of_the_extension_module_does_not_crash():
     for use in (lambda: raw["go"], raw.step, raw.close, lambda: repr(raw)):
         with pytest.raises(AttributeError):
             use()
+
+
+class Calling:
+    """A number, of the sequence too, that calls something when it is asked for its value."""
+
+    def __init__(self, call):
+        self.call = call
+
+    def number(self):
+        self.call()
+        return 1
+
+    __index__ = __int__ = __len__ = number
+
+    def __float__(self):
+        return float(self.number())
+
+    def __repr__(self):
+        return f"the number {self.number()}"
+
+
+class Elements:
+    """A sequence that calls something when it is asked for its length, or for an element."""
+
+    def __init__(self, length, element):
+        self.length, self.element = length, element
+
+    def __len__(self):
+        self.length()
+        return 4
+
+    def __getitem__(self, index):
+        self.element()
+        return 1.0
+
+
+def nothing():
+    pass
+
+
+WAYS = {
+    "index": ("count", Calling),
+    "float": ("speed", Calling),
+    "time": ("pause", Calling),
+    "element": ("heights", lambda call: [1.0, 2.0, Calling(call), 4.0]),
+    "length": ("heights", lambda call: Elements(call, nothing)),
+    "item": ("heights", lambda call: Elements(nothing, call)),
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_value_that_closes_the_project_is_not_written(small, way):
+    path, make = WAYS[way]
+    for _ in range(5):
+        project = lockstep.Project(small)
+        others = []
+
+        def close():
+            project.close()
+            others.append(lockstep.Project(small))  # which takes the memory that has become free
+
+        with pytest.raises(lockstep.ClosedError):
+            project[path] = make(close)
+        assert others and all(other["heights"] == [5.0, 7.5, 0.0, 0.0] and other["speed"] == 10.0 for other in others)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_value_that_steps_the_project_is_written_behind_that(small, way):
+    path, make = WAYS[way]
+    project = lockstep.Project(small)
+    project[path] = make(lambda: project.step(3))
+    assert project.ticks >= 3 and project[path] != lockstep.Project(small)[path]
+
+
+def test_a_text_that_does_not_fit_may_close_the_project_when_it_is_told(small):
+    for path in ("kind", "go", "mask"):
+        project = lockstep.Project(small)
+        with pytest.raises(TypeError, match="the number 1"):
+            project[path] = type("Told", (), {"__repr__": lambda self: (project.close(), "the number 1")[1]})()
+        assert project.closed
+
+
+def test_another_thread_that_closes_the_project_while_a_value_is_converted_is_told(small):
+    project = lockstep.Project(small)
+
+    def close():
+        closing = threading.Thread(target=project.close)
+        closing.start()
+        closing.join()
+
+    with pytest.raises(lockstep.ClosedError):
+        project["count"] = Calling(close)
+
+
+def test_a_value_is_refused_if_another_thread_runs_the_project_once_it_is_converted(small, ctrl_c):
+    project = lockstep.Project(small, signals=[])
+    converting = threading.Event()
+    told = []
+
+    def until_it_runs():
+        converting.set()
+        end = time.monotonic() + 60.0
+        while time.monotonic() < end:
+            try:
+                project.ticks
+            except lockstep.BusyError:
+                return
+            time.sleep(0.001)
+
+    def write():
+        try:
+            project["count"] = Calling(until_it_runs)
+        except lockstep.BusyError as error:
+            told.append(error)
+        signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+
+    writing = threading.Thread(target=write)
+    writing.start()
+    converting.wait()
+    with pytest.raises(KeyboardInterrupt):
+        project.run(1e8)
+    writing.join()
+    assert told and project["count"] == 0
+
+
+@pytest.mark.parametrize("wish", ["heights", "events"])
+def test_what_the_collector_of_garbage_calls_may_close_the_project(small, wish):
+    for threshold in range(1, 12):
+        project = lockstep.Project(small, jobs=True)
+        project["go"] = True
+        project.run(0.1)
+        whole = project[wish] if wish == "heights" else project.events
+        ring = type("Ring", (), {"__del__": lambda self, project=project: project.close()})()
+        ring.itself = ring
+        before = gc.get_threshold()
+        del ring
+        gc.set_threshold(threshold)
+        try:
+            assert (project[wish] if wish == "heights" else project.events) == whole
+        except lockstep.ClosedError:
+            pass
+        finally:
+            gc.set_threshold(*before)
+        project.close()
+
+
+def test_a_duration_is_a_number(small):
+    project = lockstep.Project(small)
+    for wrong in ("1", b"1", None, [1.0]):
+        with pytest.raises(TypeError):
+            project.run(wrong)
+    assert project.ticks == 0
+
+
+def test_a_value_that_holds_itself_or_is_nested_deeply_is_refused(small):
+    ring: dict = {}
+    ring["again"] = ring
+    deep: list = []
+    for _ in range(100_000):
+        deep = [deep]
+    for wrong in (ring, deep):
+        for use in (lambda: lockstep.check(small, changes={"/tags/go/init": wrong}), lambda: lockstep.Project({**small, "tags": wrong})):
+            with pytest.raises(lockstep.OutOfRange, match="nested too deeply"):
+                use()
+        with pytest.raises(lockstep.OutOfRange, match="nested too deeply"):
+            lockstep.sweep(small, [{"/tags/go/init": wrong}], seconds=1.0)
+    deep = 1
+    for _ in range(80):
+        deep = [deep]
+    assert "nested too deeply" in lockstep.check({**small, "tags": deep})[0].text  # with its place
+
+
+def test_halves_of_surrogate_pairs_are_refused(small):
+    half = "speed\ud800"
+    project = lockstep.Project(small)
+    for use in (lambda: project[half], lambda: project.info(half), lambda: lockstep.Project(small, signals=[half])):
+        with pytest.raises(lockstep.PathError, match="half of a surrogate pair"):
+            use()
+    assert (half in project) is False
+    for use in (lambda: project.evaluate(half), lambda: project.run(1.0, until=half)):
+        with pytest.raises(lockstep.ExpressionError, match="half of a surrogate pair"):
+            use()
+    for use in (lambda: lockstep.check({**small, half: 1}), lambda: lockstep.check(small, changes={"/name": half})):
+        with pytest.raises(lockstep.OutOfRange, match="half of a surrogate pair"):
+            use()
+
+
+def test_a_file_name_with_nul_is_refused_whole(small, tmp_path):
+    name = str(tmp_path / "a.csv\0b.csv")
+    (tmp_path / "a.csv").write_text("t,x\n0,1\n")
+    with pytest.raises(lockstep.TraceError, match=r"a\.csv\\x00b\.csv"):
+        lockstep.read_trace(name)
+    for use in (
+        lambda: lockstep.check(name),
+        lambda: lockstep.RealTime(name),
+        lambda: lockstep.RealTime(tmp_path / "a.csv", trace=name),
+        lambda: lockstep.sweep(small, [{}], seconds=0.1, results=name),
+    ):
+        with pytest.raises(lockstep.OutOfRange, match=r"a\.csv\\x00b\.csv"):
+            use()
+    assert (tmp_path / "a.csv").read_text() == "t,x\n0,1\n"
+
+
+def test_a_file_may_have_any_name_that_the_system_takes(small, tmp_path):
+    name = tmp_path / "caf\udce9.json"
+    name.write_text(json.dumps(dict(small, nothing=1)))
+    problems = lockstep.check(name)
+    assert any("caf\\xe9.json" in problem.file for problem in problems)
+    name.write_text(json.dumps(small))
+    with lockstep.Project(name) as project:
+        assert project.name == "small"

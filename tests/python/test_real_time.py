@@ -1,7 +1,10 @@
 """Projects in real time. Nothing here depends on how fast the machine is: what is waited for has a generous limit."""
 
+import os
 import signal
 import socket
+import subprocess
+import sys
 import threading
 import time
 
@@ -127,3 +130,73 @@ def test_it_is_brought_to_rest_when_nobody_has_it_any_more(file):
     machine["go"] = True
     del machine  # nothing crashes, nothing runs on
     assert threading.active_count() == 1
+
+
+@pytest.mark.parametrize("path", ["count", "speed"])
+def test_a_value_that_closes_the_run_is_not_written(file, path):
+    machine = lockstep.RealTime(file, signals=["count", "speed"], **QUIET)
+
+    class Closing:
+        def __index__(self):
+            machine.close()
+            return 1
+
+        def __float__(self):
+            return float(self.__index__())
+
+    with pytest.raises(lockstep.ClosedError):
+        machine[path] = Closing()
+
+
+def ended_in_child(child) -> bool:
+    """Whether a forked process that calls this comes to its end, and by itself."""
+    pid = os.fork()
+    if pid == 0:
+        status = 1
+        try:
+            child()
+            status = 0
+        finally:
+            os._exit(status)
+    end = time.monotonic() + LIMIT
+    while time.monotonic() < end:
+        ended, status = os.waitpid(pid, os.WNOHANG)
+        if ended:
+            return status == 0
+        time.sleep(0.001)
+    os.kill(pid, signal.SIGKILL)
+    os.waitpid(pid, 0)
+    return False
+
+
+def test_a_child_of_a_fork_has_no_run(file):
+    machines = [lockstep.RealTime(file, **QUIET)]
+
+    def is_refused():
+        (machine,) = machines
+        assert machine.closed and machine.state == "closed" and "closed" in repr(machine)
+        uses = [machine.stop, lambda: machine["go"], lambda: machine.status, lambda: machine.wait(1.0)]
+        for use in [*uses, lambda: machine.events, lambda: machine.messages, lambda: machine.modbus_endpoints]:
+            with pytest.raises(lockstep.ClosedError, match="forked"):
+                use()
+        with pytest.raises(lockstep.ClosedError, match=str(os.getppid())):
+            machine["go"] = True
+
+    assert ended_in_child(is_refused)
+    assert ended_in_child(machines[0].close)
+    assert ended_in_child(machines.clear)
+    assert machines[0].state == "running"
+    machines[0].close()
+
+
+def test_a_child_of_a_fork_ends_as_if_there_were_no_run(file):
+    script = (
+        "import lockstep, os, sys\n"
+        f"machine = lockstep.RealTime({str(file)!r}, modbus=False, lcm=False, retain=False)\n"
+        "pid = os.fork()\n"
+        "if pid == 0: sys.exit(0)\n"
+        "print(os.waitpid(pid, 0)[1], machine.state)\n"
+        "machine.close()\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", script], timeout=LIMIT, capture_output=True, text=True)
+    assert (ended.returncode, ended.stdout) == (0, "0 running\n"), ended.stderr

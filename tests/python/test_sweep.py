@@ -1,5 +1,7 @@
 """Sweeps: the same rows on every executor, also after a kill; what fails is told in its row."""
 
+import json
+import os
 import signal
 import subprocess
 import sys
@@ -206,3 +208,91 @@ def test_an_error_of_progress_ends_the_sweep(small):
 
     with ThreadPoolExecutor(2) as pool, pytest.raises(ZeroDivisionError):
         lockstep.sweep(small, {"count": range(100)}, pool, seconds=0.01, progress=fail)
+
+
+@pytest.mark.parametrize("device", ["/dev/full", "/dev/zero", "/dev/null", "pipe"])
+def test_results_are_a_regular_file(small, tmp_path, device):
+    name = tmp_path / "rows.jsonl"
+    if device == "pipe":
+        os.mkfifo(name)
+    else:
+        name.symlink_to(device)
+    with pytest.raises(lockstep.SweepError, match="rows.jsonl: is no regular file"):
+        lockstep.sweep(small, [{}], seconds=0.1, results=name)
+
+
+def test_lines_of_results_have_a_limit(small, tmp_path, monkeypatch):
+    from lockstep import sweeps
+
+    results = tmp_path / "rows.jsonl"
+    with results.open("wb") as file:
+        file.truncate(1 << 40)  # of holes
+    with pytest.raises(lockstep.SweepError, match="no file of a sweep"):
+        lockstep.sweep(small, [{}], seconds=0.1, results=results)
+    results.unlink()
+    arguments = dict(seconds=0.1, values=["speed"], results=results)
+    lockstep.sweep(small, [{}], **arguments)
+    monkeypatch.setattr(sweeps, "_LONGEST_ROW", 50)
+    before = results.read_bytes()
+    with pytest.raises(lockstep.SweepError, match="rows.jsonl:2: the line is longer"):
+        lockstep.sweep(small, [{}], **arguments)
+    assert results.read_bytes() == before
+    monkeypatch.setattr(sweeps, "_LONGEST_ROW", 150)
+    results.unlink()
+    with pytest.raises(lockstep.SweepError, match="rows.jsonl: a row of .* too long"):
+        lockstep.sweep(small, [{"count": 1}], function=sweeping.writes_much, **arguments)
+
+
+ROW = {"index": 0, "variant": {}, "values": {}, "trace": None, "error": None}
+ARRAY = {"array": "AAAAAAAA8D8=", "type": "<f8", "shape": [1]}
+
+
+@pytest.mark.parametrize(
+    "damaged",
+    [
+        {"index": "1"}, {"index": True}, {"index": 1.0}, {"index": None}, {"variant": []}, {"values": []}, {"values": None},
+        {"error": 3}, {"trace": 3}, {"trace": {}}, {"trace": []}, {"trace": {"time": ARRAY, "signals": 3}},
+        {"trace": {"time": [0.0], "signals": []}}, {"trace": {"time": ARRAY, "signals": [["a", "LREAL", ""]]}},
+        {"trace": {"time": ARRAY, "signals": [[[], "LREAL", "", ARRAY]]}}, {"values": {"a": dict(ARRAY, type="O")}},
+        {"values": {"a": dict(ARRAY, type="(1,")}}, {"values": {"a": dict(ARRAY, type=3)}}, {"values": {"a": dict(ARRAY, shape=[2])}},
+        {"values": {"a": dict(ARRAY, shape=["x"])}}, {"values": {"a": dict(ARRAY, array=3)}}, {"index": 7}, {"index": -1},
+    ],
+)  # fmt: skip
+def test_damaged_rows_are_told_by_their_line(small, tmp_path, damaged):
+    results = tmp_path / "rows.jsonl"
+    arguments = dict(seconds=0.01, values=["count"], results=results)
+    lockstep.sweep(small, [{}, {}], **arguments)
+    first, second, *_ = results.read_bytes().split(b"\n")
+    results.write_bytes(b"\n".join([first, second, json.dumps({**ROW, **damaged}).encode(), b""]))
+    with pytest.raises(lockstep.SweepError, match="rows.jsonl:3: "):
+        lockstep.sweep(small, [{}, {}], **arguments)
+
+
+@pytest.mark.parametrize("line", [b"[" * 200_000, b'{"index":' * 200_000, b"3", b"null", b"[]", b"\xff", b"{}", b"1" * 10_000])
+def test_lines_that_are_no_rows_are_told(small, tmp_path, line):
+    results = tmp_path / "rows.jsonl"
+    arguments = dict(seconds=0.01, values=["count"], results=results)
+    lockstep.sweep(small, [{}], **arguments)
+    first = results.read_bytes().split(b"\n")[0]
+    results.write_bytes(b"\n".join([first, line, b""]))
+    with pytest.raises(lockstep.SweepError, match="rows.jsonl:2: "):
+        lockstep.sweep(small, [{}], **arguments)
+    results.write_bytes(line + b"\n")
+    with pytest.raises(lockstep.SweepError, match="no file of a sweep"):
+        lockstep.sweep(small, [{}], **arguments)
+
+
+def test_a_full_disk_names_the_file(tmp_path):
+    results = tmp_path / "rows.jsonl"
+    script = (
+        "import resource, signal, sys; sys.path.insert(0, sys.argv[2]); from conftest import SMALL; import lockstep\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        "def sweep(): return lockstep.sweep(SMALL, {'count': range(100)}, seconds=0.01, values=['count'], results=sys.argv[1])\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (2000, resource.RLIM_INFINITY))\n"
+        "try: sweep()\n"
+        "except OSError as error: print(error.filename)\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))\n"
+        "print(len(sweep()))\n"
+    )
+    ran = subprocess.run([sys.executable, "-c", script, results, Path(__file__).parent], capture_output=True, text=True, timeout=120)
+    assert ran.stdout.split() == [str(results), "100"], ran.stderr

@@ -2,6 +2,7 @@
 
 import csv
 import gc
+import json
 import pickle
 import subprocess
 import weakref
@@ -202,3 +203,32 @@ def test_files_of_the_command_are_read(knife, program, tmp_path):
         lockstep.read_trace(broken)
     with pytest.raises(lockstep.TraceError, match="none.csv"):
         lockstep.read_trace(tmp_path / "none.csv")
+
+
+@pytest.mark.parametrize(
+    "content", [b"t,\xff\n0,1\n", b"t,a\n0,\xff\n", b"\xff,a\n0,1\n", b"t,a\n\xff\n", b"\xff\xfet\x00,\x00a\x00\n\x00"]
+)
+@pytest.mark.parametrize("ending", ["csv", "lcm"])
+def test_what_is_no_text_is_told(tmp_path, content, ending):
+    file = tmp_path / f"caf\udce9.{ending}"
+    file.write_bytes(content)
+    with pytest.raises(lockstep.TraceError, match=r"caf\\xe9"):
+        lockstep.read_trace(file)
+
+
+def test_a_name_of_a_signal_in_a_log_that_is_no_text_is_told(small, program, tmp_path):
+    (tmp_path / "small.json").write_text(json.dumps(small))
+    log = tmp_path / "run.lcm"
+    subprocess.run([program, "run", tmp_path / "small.json", "--simulate", "--duration", "1s", "--trace", log], check=True, capture_output=True)
+    assert lockstep.read_trace(log).rows > 0
+    log.write_bytes(log.read_bytes().replace(b"Axis.Position", b"Axis.Posit\xffon"))
+    with pytest.raises(lockstep.TraceError, match=r"run.lcm"):
+        lockstep.read_trace(log)
+
+
+@pytest.mark.parametrize("ending", ["csv", "lcm"])
+def test_a_trace_is_a_regular_file(tmp_path, ending):
+    file = tmp_path / f"zero.{ending}"
+    file.symlink_to("/dev/zero")
+    with pytest.raises(lockstep.TraceError, match="is no regular file"):
+        lockstep.read_trace(file)

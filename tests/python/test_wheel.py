@@ -1,6 +1,7 @@
 """The wheel that ./dev python builds: it is whole, and what is installed from it runs a project."""
 
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -10,6 +11,8 @@ from conftest import ROOT
 
 import lockstep
 from lockstep import _lockstep
+
+OF_EVERY_SYSTEM = {"libc", "libm", "libstdc", "libgcc_s"}
 
 
 @pytest.fixture(scope="module")
@@ -41,6 +44,12 @@ def test_it_has_every_file_of_the_package_and_its_version(environment):
     assert wheel.name.startswith(f"lockstep-{lockstep.__version__}-cp3")
     information = zipfile.ZipFile(wheel).read(f"lockstep-{lockstep.__version__}.dist-info/METADATA").decode()
     assert "Requires-Dist: numpy" in information
+    # Whoever has the wheel alone is told which packages of Debian it needs.
+    needed = subprocess.run(["readelf", "-d", _lockstep.__file__], check=True, capture_output=True, text=True).stdout
+    libraries = set(re.findall(r"NEEDED.*\[(lib\w+)\.so\.(\d+)\]", needed))
+    others = {name + ("-" if name[-1].isdigit() else "") + major for name, major in libraries if name not in OF_EVERY_SYSTEM}
+    assert {"libfmt9", "libsqlite3-0"} <= others
+    assert [package for package in sorted(others) if package not in information] == []
 
 
 def test_what_is_installed_from_it_runs_a_project(environment, tmp_path):

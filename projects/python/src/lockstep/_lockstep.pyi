@@ -79,15 +79,15 @@ class RealTimeProject:
     def name(self) -> str: ...
 
 def load(
-    text: bytes, folder: str, file: str, as_written: bool, signals: list[str] | None, jobs: bool
+    text: bytes, folder: bytes, file: bytes, as_written: bool, signals: list[str] | None, jobs: bool
 ) -> SteppedProject:
     """A project in virtual time, at its beginning."""
 
-def start(file: str, signals: list[str] | None, options: dict[str, Any]) -> RealTimeProject:
+def start(file: bytes, signals: list[str] | None, options: dict[str, Any]) -> RealTimeProject:
     """A project in real time, running."""
 
-def check(text: bytes, folder: str, file: str, as_written: bool) -> tuple[list[_Problem], list[_Problem]]:
+def check(text: bytes, folder: bytes, file: bytes, as_written: bool) -> tuple[list[_Problem], list[_Problem]]:
     """(problems, warnings)."""
 
-def read_trace(path: str) -> TraceView:
+def read_trace(path: bytes) -> TraceView:
     """A trace from a .csv or .lcm file."""

@@ -9,9 +9,9 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 from . import _lockstep
-from .errors import InvalidProject, OutOfRange, PathError, Problem, problems_from
+from .errors import ExpressionError, InvalidProject, OutOfRange, PathError, Problem, problems_from
 from .fields import with_field_docs
-from .source import ProjectSource, Text, changed, text_of
+from .source import ProjectSource, Text, changed, text_of, unicode_of
 from .trace import Trace
 
 
@@ -59,12 +59,39 @@ class Event(NamedTuple):
     """What is known besides, a line each, as ``lockstep run`` tells it: values and address, cause, remedy."""
 
     def __str__(self) -> str:
-        """The same in lines: ``8.013 s Shear: alarm 521: Following error …``, below it the details."""
-        text = f"{self.time:.3f} s {self.source or 'the run'}: {self.kind}"
-        text += f" {self.number}" if self.kind == "alarm" else ""
-        text += f": {self.text}" if self.text else ""
-        text += f" ({self.reaction})" if self.reaction else ""
-        return "\n  ".join([text, *self.details])
+        """The same in lines, as ``lockstep run`` tells it on the console behind ``lockstep:``. An alarm:
+        ``8.013000 s: Shear: alarm 521: Following error … (reaction)``, below it its tick, and :attr:`clock` where there
+        is one, and the details.
+        """
+        return "\n  ".join([f"{self.time:.6f} s: {self.source}{self._what()}", *self._below()])
+
+    def _what(self) -> str:
+        block = f" ({self.type} of {self.object})" if self.object else f" ({self.type})"
+        if self.kind == "alarm":
+            return f": alarm {self.number}: {self.text} ({self.reaction or 'no reaction'})"
+        if self.kind == "acknowledged":
+            return ": alarms acknowledged"
+        if self.kind == "job failed":
+            return f"{block}: failed, ErrorID 16#{self.number:04X}: {self.text}"
+        if self.kind.startswith("job "):
+            return f"{block}: {self.kind.removeprefix('job ')} {self.text}".rstrip()
+        if self.kind == "printed":
+            return f": {self.text}"
+        if self.kind == "program error":
+            return f": error {self.number}: {self.text}"
+        return f": {self.kind}: {self.text}" if self.text else f": {self.kind}"
+
+    def _below(self) -> list[str]:
+        if self.kind != "alarm":
+            return list(self.details) if self.kind == "job failed" and self.number != _BY_ALARM else []
+        moment = f"tick {self.tick}"
+        if self.clock is not None:
+            moment += f", {datetime.datetime.fromtimestamp(self.clock, datetime.timezone.utc):%Y-%m-%d %H:%M:%S.%f} UTC"
+        return [moment, *self.details]
+
+
+_BY_ALARM = 0x8001
+"""ErrorID of a job that an alarm has ended; what helps stands with the alarm."""
 
 
 @with_field_docs
@@ -87,12 +114,13 @@ def check(project: ProjectSource, *, changes: Mapping[str, Any] | None = None) -
     :return: all problems, those of severity ``error`` first; it is valid if there are none of these
     :raises OSError: the file cannot be read
     :raises PathError: a pointer of ``changes`` leads nowhere
+    :raises OutOfRange: a value holds itself, or is nested far deeper than a file may be, or a text is no Unicode
     """
     try:
         source = changed(text_of(project), _pointers(changes or {}))
     except InvalidProject as error:  # before it is a text that the runtime could look at
         return error.problems
-    errors, warnings = _lockstep.check(*source)
+    errors, warnings = _lockstep.check(*source.for_runtime())
     return problems_from(errors, warnings)
 
 
@@ -113,7 +141,9 @@ class Project:
     strings are int, REAL and LREAL float, TIME float [s] (a ``timedelta`` can be written), STRING str; several elements
     of an array are a list.
 
-    Threads: one at a time. The GIL is released while ticks run; what another thread asks meanwhile raises
+    Threads: one at a time. A value that closes the project while it is converted, or lets another thread close or run it,
+    is not written: :class:`ClosedError`, :class:`BusyError`. The GIL is released while ticks run; what another thread
+    asks meanwhile raises
     :class:`BusyError`. Ctrl-C ends a long run within a fraction of a second; the project stays where it is then.
     Projects side by side in several threads or processes are independent of each other.
 
@@ -155,7 +185,7 @@ class Project:
         pointers = _pointers(changes or {}, others=True)
         source = changed(source, pointers)
         self._file = source.file
-        self._run = _lockstep.load(*source, paths_of(signals), bool(jobs))
+        self._run = _lockstep.load(*source.for_runtime(), paths_of(signals), bool(jobs))
         for path, value in (changes or {}).items():
             if path not in pointers:
                 self[path] = value
@@ -214,7 +244,7 @@ class Project:
         if not isinstance(path, str):
             return False
         try:
-            self._run.describe(path)
+            self._run.describe(path_of(path))
         except PathError:
             return False
         return True
@@ -332,18 +362,26 @@ def pending(events: Iterable[Event]) -> list[Event]:
 
 
 def seconds_of(duration: float | datetime.timedelta) -> float:
-    """A duration in seconds."""
-    return duration.total_seconds() if isinstance(duration, datetime.timedelta) else float(duration)
+    """A duration in seconds.
+
+    :raises TypeError: it is no number, as a text is none
+    """
+    if isinstance(duration, datetime.timedelta):
+        return duration.total_seconds()
+    if isinstance(duration, (str, bytes, bytearray)):
+        raise TypeError(f"a duration is a number [s] or a timedelta, not {duration!r}")
+    return float(duration)
 
 
 def path_of(path: str) -> str:
     """A path as such.
 
     :raises TypeError: it is no str
+    :raises PathError: it is no text of Unicode
     """
     if not isinstance(path, str):
         raise TypeError(f"a path is a str such as 'Axis.Position', not {type(path).__name__}")
-    return path
+    return unicode_of(path, "the path", PathError)
 
 
 def _expression_of(expression: str) -> str:
@@ -353,7 +391,7 @@ def _expression_of(expression: str) -> str:
     """
     if not isinstance(expression, str):
         raise TypeError(f"an expression is a str such as 'gear.InSync', not {type(expression).__name__}")
-    return expression
+    return unicode_of(expression, "the expression", ExpressionError)
 
 
 def paths_of(paths: Iterable[str] | None) -> list[str] | None:

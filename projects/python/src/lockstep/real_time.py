@@ -14,6 +14,7 @@ from typing import Any, Union
 from . import _lockstep
 from .errors import OutOfRange
 from .project import Event, path_of, paths_of, pending, seconds_of
+from .source import file_name
 
 Place = Union[str, bool, None]
 """Where something is: a text; None: as the project says; False: nowhere."""
@@ -44,7 +45,9 @@ class RealTime:
     tick, what is written is taken at the start of the next one. So a Python program never disturbs the cycle beyond
     what the processors share; the memory of its process is locked as far as the system permits.
 
-    A run that is still there when the interpreter ends is brought to rest. Threads: any. Stimuli do not apply unless asked for.
+    A run that is still there when the interpreter ends is brought to rest. Threads: any. The run stays in its process:
+    in a child of :func:`os.fork` the object counts as closed, and what is asked of it raises :class:`ClosedError`. Stimuli do
+    not apply unless asked for.
 
     :param file: the project file
     :param signals: what can be read and written, by paths to single values; None: all tags that are one value, and
@@ -87,15 +90,16 @@ class RealTime:
             options["duration"] = seconds_of(duration)
             if not 0 < options["duration"] < 9e9:
                 raise OutOfRange(f"duration may not be {options['duration']:g}; allowed: above 0 to 9e9 s")
-        options["trace"] = "" if trace is None else os.fspath(trace)
+        options["trace"] = b"" if trace is None else os.fsencode(file_name(trace))
         for name, place in (("modbus", modbus), ("lcm", lcm), ("retain", retain)):
             if place is True:
                 raise TypeError(f"{name} is a text, None (as the project says) or False (none), not True")
-            options[name] = "" if place is None or place is False else os.fspath(place)
+            options[name] = b"" if place is None or place is False else os.fsencode(file_name(place))
             options[f"no_{name}"] = place is False
-        with open(file, "rb"):
+        name = file_name(file)
+        with open(name, "rb"):
             pass  # what cannot be read is told as Python tells it
-        self._run = _lockstep.start(os.fspath(file), paths_of(signals), options)
+        self._run = _lockstep.start(os.fsencode(name), paths_of(signals), options)
         _open.add(self)
 
     def wait(self, seconds: float | datetime.timedelta) -> bool:

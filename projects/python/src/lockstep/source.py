@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, Union
 
 import numpy as np
 
-from .errors import InvalidProject, PathError
+from .errors import InvalidProject, OutOfRange, PathError
 
 ProjectSource = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 """A project file, or its content as ``json.load`` gives it."""
@@ -35,12 +35,17 @@ class Text(NamedTuple):
     as_written: bool = False
     """Whether its lines are those of the file, which is not so once keys have been changed."""
 
+    def for_runtime(self) -> tuple[bytes, bytes, bytes, bool]:
+        """The same with names as the system has them."""
+        return self.text, os.fsencode(self.folder), os.fsencode(self.file), self.as_written
+
 
 def text_of(project: ProjectSource) -> Text:
     """The text of a project.
 
     :raises OSError: the file cannot be read
     :raises InvalidProject: a number of the content is not finite
+    :raises OutOfRange: the name or the content is none that files can have
     :raises TypeError: what is given is neither a path nor a mapping
     """
     if isinstance(project, Mapping):
@@ -48,26 +53,57 @@ def text_of(project: ProjectSource) -> Text:
     if not isinstance(project, (str, os.PathLike)):
         kind = type(project).__name__
         raise TypeError(f"a project is the path of its file, or its content as a mapping; not {kind}")
-    path = Path(project)
+    path = Path(file_name(project))
     with path.open("rb") as file:
         return Text(file.read(_LONGEST), str(path.parent), str(path), as_written=True)
 
 
-def plain(value: Any) -> Any:
+def file_name(path: str | os.PathLike[str]) -> str:
+    """The name of a file as such.
+
+    :raises OutOfRange: it has a NUL, at which the system would end it
+    """
+    name = os.fsdecode(path)
+    if "\0" in name:
+        raise OutOfRange(f"{name!r} is no name of a file; allowed: one without NUL")
+    return name
+
+
+def unicode_of(text: str, what: str, error: type[Exception]) -> str:
+    """A text as such, which has no halves of surrogate pairs: no file and no name of a project has them."""
+    if not text.isascii():
+        try:
+            text.encode()
+        except UnicodeEncodeError as wrong:
+            found = text[wrong.start]
+            raise error(f"{what} {text!a} has half of a surrogate pair, {found!a}, which is no character") from None
+    return text
+
+
+_DEEPEST = 128
+"""Levels of objects and lists in each other; project files have 64 at most, which the loader tells with the place."""
+
+
+def plain(value: Any, level: int = 0) -> Any:
     """A value as JSON has it; NumPy's scalars and arrays and tuples become Python's numbers and lists.
 
     :raises TypeError: JSON has no such value
+    :raises OutOfRange: it is nested too deeply, as one that holds itself is, or a text is no Unicode
     """
+    if level > _DEEPEST:
+        raise OutOfRange("a value is nested too deeply, or holds itself; allowed are 64 levels")
     if isinstance(value, (np.generic, np.ndarray)):
-        return plain(value.tolist())
-    if value is None or isinstance(value, (bool, int, float, str)):
+        return plain(value.tolist(), level)
+    if isinstance(value, str):
+        return unicode_of(value, "the text", OutOfRange)
+    if value is None or isinstance(value, (bool, int, float)):
         return value
     if isinstance(value, Mapping):
         if not all(isinstance(key, str) for key in value):
             raise TypeError("keys of an object have to be str")
-        return {key: plain(item) for key, item in value.items()}
+        return {unicode_of(key, "the key", OutOfRange): plain(item, level + 1) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
+        return [plain(item, level + 1) for item in value]
     raise TypeError(f"JSON has no {type(value).__name__}; allowed: bool, int, float, str, None, list, dict")
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import base64
+import errno
 import fcntl
 import hashlib
 import inspect
 import itertools
 import json
 import os
+import re
+import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import contextmanager
@@ -20,7 +23,7 @@ import numpy as np
 from . import _lockstep
 from .errors import OutOfRange, SweepError
 from .project import Project, paths_of, seconds_of
-from .source import ProjectSource, Text, plain, text_of
+from .source import ProjectSource, Text, file_name, plain, text_of
 from .trace import Trace
 
 Grid = Union[Mapping[str, Iterable[Any]], Iterable[Mapping[str, Any]]]
@@ -116,13 +119,16 @@ def sweep(
         importable there (Dask sends it along)
     :param signals: of the trace, for ``function`` and ``traces``; None: what the project says
     :param traces: whether rows have the trace
-    :param results: a file that each row is added to once it is there, a line of JSON each. A sweep whose file is there
+    :param results: a file that each row is added to once it is there, a line of JSON each, of up to 1 GiB. A
+        sweep whose file is there
         goes on where that one was stopped, also by a kill; it has to be the same sweep
     :param progress: called in this thread with the number of rows that are there, of all, and the row: first with those
         of ``results`` and None, then for each
     :param in_flight: variants that are handed to the executor at once, at most; None: 64, or four for each processor of
         this machine if that is more
-    :raises SweepError: ``results`` is of another sweep, is no such file, or another sweep writes to it
+    :raises SweepError: ``results`` is of another sweep, is no such file or no regular one, has a damaged row (the text
+        names its line), or another sweep writes to it
+    :raises OSError: ``results`` cannot be written, such as on a full disk; rows up to then are there
     :raises OutOfRange: ``seconds`` or ``in_flight``
     :raises BrokenExecutor: a worker has died; rows up to then are in ``results``
     """
@@ -147,8 +153,7 @@ def sweep(
         tasks = ((work, index, variant) for index, variant in enumerate(wanted) if index not in rows)
         for line in _lines(tasks, executor, in_flight):
             if file:
-                file.write(line.encode() + b"\n")
-                file.flush()
+                file.add(line)
             row = _row_of(line)
             rows[row.index] = row
             if progress:
@@ -217,18 +222,48 @@ def _line_of(row: Row) -> str:
 
 
 def _row_of(line: str | bytes) -> Row:
-    data = json.loads(line)
+    """The row of a line.
+
+    :raises ValueError, KeyError, TypeError: it is none
+    """
+    data = _json_of(line)
+    index, variant, values, error = data["index"], data["variant"], data["values"], data["error"]
+    if isinstance(index, bool) or not isinstance(index, int):
+        raise TypeError(f"index is {index!r}; allowed: a whole number")
+    for name, value in (("variant", variant), ("values", values)):
+        if not isinstance(value, dict):
+            raise TypeError(f"{name} is of type {type(value).__name__}; allowed: an object")
+    if not (error is None or isinstance(error, str)):
+        raise TypeError(f"error is of type {type(error).__name__}; allowed: a text, null")
     trace = None
-    if data["trace"]:
+    if data["trace"] is not None:
         signals = data["trace"]["signals"]
+        if not all(isinstance(text, str) for signal in signals for text in signal[:3]):
+            raise TypeError("a signal has no name, type and unit")
         trace = Trace.from_arrays(
-            _unpacked(data["trace"]["time"]),
-            {name: _unpacked(column) for name, _, _, column in signals},
+            _column(data["trace"]["time"]),
+            {name: _column(column) for name, _, _, column in signals},
             {name: kind for name, kind, _, _ in signals},
             {name: unit for name, _, unit, _ in signals},
         )
-    values = {name: _unpacked(value) for name, value in data["values"].items()}
-    return Row(data["index"], data["variant"], values, trace, data["error"])
+    return Row(index, variant, {name: _unpacked(value) for name, value in values.items()}, trace, error)
+
+
+def _json_of(line: str | bytes) -> dict[str, Any]:
+    try:
+        data = json.loads(line)
+    except RecursionError:
+        raise ValueError("it is nested too deeply") from None
+    if not isinstance(data, dict):
+        raise TypeError("it is no object")
+    return data
+
+
+def _column(value: Any) -> Any:
+    array = _unpacked(value)
+    if not isinstance(array, np.ndarray) or array.ndim != 1:
+        raise TypeError("a column of the trace is no array of one dimension")
+    return array
 
 
 def _packed(value: Any) -> Any:
@@ -243,7 +278,9 @@ def _packed(value: Any) -> Any:
 def _unpacked(value: Any) -> Any:
     if not (isinstance(value, dict) and set(value) == {"array", "type", "shape"}):
         return value
-    array = np.frombuffer(base64.b64decode(value["array"]), value["type"])
+    if not (isinstance(value["type"], str) and re.fullmatch(r"[<|][biuf][0-9]{1,2}", value["type"])):
+        raise TypeError(f"{value['type']!r} is no type of an array")
+    array = np.frombuffer(base64.b64decode(value["array"], validate=True), value["type"])
     return array.reshape(value["shape"])
 
 
@@ -254,26 +291,73 @@ def _unpacked(value: Any) -> Any:
 @contextmanager
 def _opened(
     path: str | os.PathLike[str] | None, work: _Work, wanted: list[dict[str, Any]]
-) -> Iterator[tuple[IO[bytes] | None, dict[int, Row]]]:
+) -> Iterator[tuple[_Results | None, dict[int, Row]]]:
     if path is None:
         yield None, {}
         return
+    name = file_name(path)
+    _require_regular(name)
     with open(path, "a+b") as file, _alone(path, file):
-        file.seek(0)
-        *lines, cut_short = file.read().split(b"\n")
+        _require_regular(name)  # what is there now, and stays open
         mark = _mark_of(work, wanted)
-        is_begun = bool(lines)
+        file.seek(0)
+        first = file.readline(_LONGEST_MARK + 1)
+        is_begun = first.endswith(b"\n")
         # A file with something in it is only ever added to if it is of a sweep.
-        if cut_short and not (is_begun or mark.encode().startswith(cut_short)):
-            raise SweepError(f"{os.fspath(path)}: is no file of a sweep")
+        if first and not (is_begun or mark.encode().startswith(first)):
+            raise SweepError(f"{name}: is no file of a sweep")
+        rows: dict[int, Row] = {}
+        whole = 0
         if is_begun:
-            _require_same(path, lines[0], mark)
-        rows = _rows_of(path, lines[1:], len(wanted))
-        file.truncate(sum(len(line) + 1 for line in lines))
+            _require_same(path, first[:-1], mark)
+            rows, length = _rows_of(name, file, len(wanted))
+            whole = len(first) + length
+        file.truncate(whole)
+        results = _Results(name, file.fileno())
         if not is_begun:
-            file.write(mark.encode() + b"\n")
-            file.flush()
-        yield file, rows
+            results.add(mark)
+        yield results, rows
+
+
+_LONGEST_MARK = 4096
+"""Of the line that says of which sweep a file is [byte]; it has about 150."""
+_LONGEST_ROW = 1 << 30
+"""Of a line with a row [byte]."""
+
+
+def _require_regular(name: str) -> None:
+    """Refuses what has no end, such as a device: of a file of results all is read."""
+    try:
+        mode = os.stat(name).st_mode
+    except FileNotFoundError:
+        return
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), name)
+    if not stat.S_ISREG(mode):
+        raise SweepError(f"{name}: is no regular file; allowed: one, or a name that is not taken")
+
+
+class _Results(NamedTuple):
+    """Where rows are added."""
+
+    name: str
+    file: int
+
+    def add(self, line: str) -> None:
+        """Adds a line, whole on its way to the file when this returns.
+
+        :raises OSError: such as of a full disk, with the name of the file; what is there of the line counts as not there
+        """
+        rest = memoryview(line.encode() + b"\n")
+        if len(rest) > _LONGEST_ROW:
+            raise SweepError(
+                f"{self.name}: a row of {len(rest)} bytes is too long; allowed: {_LONGEST_ROW}, as of fewer signals"
+            )
+        try:
+            while rest:
+                rest = rest[os.write(self.file, rest) :]
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, self.name) from None
 
 
 _written: set[str] = set()
@@ -298,17 +382,25 @@ def _alone(path: str | os.PathLike[str], file: IO[bytes]) -> Iterator[None]:
         _written.discard(name)
 
 
-def _rows_of(path: str | os.PathLike[str], lines: list[bytes], count: int) -> dict[int, Row]:
-    rows = {}
-    for number, line in enumerate(lines, 2):
+def _rows_of(name: str, file: IO[bytes], count: int) -> tuple[dict[int, Row], int]:
+    """The rows that are there from here on, and how long their lines are in all [byte]."""
+    rows: dict[int, Row] = {}
+    length = 0
+    for number in itertools.count(2):
+        line = file.readline(_LONGEST_ROW + 1)
+        if len(line) > _LONGEST_ROW:
+            raise SweepError(f"{name}:{number}: the line is longer than {_LONGEST_ROW} bytes")
+        if not line.endswith(b"\n"):
+            return rows, length
+        length += len(line)
         try:
             row = _row_of(line)
-        except (ValueError, KeyError, TypeError) as error:
-            raise SweepError(f"{os.fspath(path)}:{number}: is no row of a sweep: {error}") from None
+        except (ValueError, KeyError, TypeError, RecursionError) as error:
+            raise SweepError(f"{name}:{number}: is no row of a sweep: {error}") from None
         if not 0 <= row.index < count:
-            raise SweepError(f"{os.fspath(path)}:{number}: there is no variant {row.index}")
+            raise SweepError(f"{name}:{number}: there is no variant {row.index}")
         rows[row.index] = row
-    return rows
+    raise AssertionError
 
 
 def _mark_of(work: _Work, wanted: list[dict[str, Any]]) -> str:
@@ -333,8 +425,8 @@ def _require_same(path: str | os.PathLike[str], line: bytes, mark: str) -> None:
     if line == mark.encode():
         return
     try:
-        is_sweep = json.loads(line).get("lockstep") == "sweep"
-    except (ValueError, AttributeError):
+        is_sweep = _json_of(line).get("lockstep") == "sweep"
+    except (ValueError, TypeError):
         is_sweep = False
     if not is_sweep:
         raise SweepError(f"{os.fspath(path)}: is no file of a sweep")

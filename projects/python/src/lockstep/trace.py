@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _lockstep
+from .errors import TraceError
 
 
 class Trace(Mapping[str, "NDArray[Any]"]):
@@ -131,4 +132,7 @@ def read_trace(path: str | os.PathLike[str]) -> Trace:
 
     :raises TraceError: the file cannot be read, or is damaged; the text says where
     """
-    return Trace(_lockstep.read_trace(os.fspath(path)))
+    name = os.fsdecode(path)
+    if "\0" in name:
+        raise TraceError(f"{name!r} is no name of a file; allowed: one without NUL")
+    return Trace(_lockstep.read_trace(os.fsencode(name)))
