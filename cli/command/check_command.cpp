@@ -77,6 +77,7 @@ void add_check_command(CLI::App& app, Action& action) {
   command->add_flag(
       "-v,--verbose", *verbose,
       "of a valid project, also what of LinMot controllers counts: limits and rows in whole increments");
+  refuse_empty_texts(*command);
   command->footer(
       "Problems go to standard error, one a line: FILE:/json/pointer: what is wrong, what is allowed (line, "
       "column,\n"

@@ -44,6 +44,10 @@ void add_doctor_command(CLI::App& app, Action& action);
 /// Behind all others, whose declarations it reads when it is carried out.
 void add_completion_command(CLI::App& app, Action& action);
 
+/// Refuses an option or a file that is an empty text, as a script gives it whose variable is not set, in
+/// place of taking it for one that is not there. Behind all options of the command.
+void refuse_empty_texts(CLI::App& command);
+
 /// Whether warnings of a project are told: not by commands that use it and do not judge it.
 enum class Warnings : std::uint8_t { told, kept };
 

@@ -400,6 +400,7 @@ void add_tags_command(CLI::App& app, Action& action) {
   command->add_option("FILE", *file, "the project file")->required();
   auto* const as_json = command->add_flag("--json", *json, "as JSON, for programs");
   command->add_flag("--csv", *csv, "what is on Modbus as CSV, for HMI systems")->excludes(as_json);
+  refuse_empty_texts(*command);
   command->footer(
       "Address: zero-based, first to last. As: the type on the wire, most significant word first unless it\n"
       "says little, with the number of elements of an array. Access: what a client may do. Number: what\n"

@@ -68,6 +68,19 @@ std::vector<bool> know_signals(const PlotOptions& options, TraceTable& trace) {
   return known;
 }
 
+/// Signals of the picture that the project does not know: it may be another one than that of the trace.
+void tell_unknown(const PlotOptions& options, const TraceTable& trace, const PlotRange& range,
+                  const std::vector<bool>& known) {
+  std::vector<std::string_view> unknown;
+  for (const std::size_t signal : range.signals)
+    if (!known[signal]) unknown.push_back(trace.signals[signal].name);
+  if (!unknown.empty())
+    tell("warning: --project: " + quote(options.project) + " knows " +
+             (unknown.size() == range.signals.size() ? "none of these signals: " : "nothing of: ") +
+             list_of(unknown) + "; their units and types are guessed",
+         Severity::warning);
+}
+
 /// A time of the trace [s]: a number of seconds or a duration; `open` for an empty text.
 double time_of(const char* option, const std::string& text, double open) {
   if (text.empty()) return open;
@@ -130,7 +143,9 @@ int plot(const PlotOptions& options) {
     TraceTable trace = read_trace(options);
     if (!trace.remark.empty()) tell("warning: " + trace.remark);
     const std::vector<bool> known = know_signals(options, trace);
-    Picture picture = arrange(trace, chosen_range(trace, options), known);
+    const PlotRange range = chosen_range(trace, options);
+    if (!options.project.empty()) tell_unknown(options, trace, range, known);
+    Picture picture = arrange(trace, range, known);
     picture.title =
         options.title.empty() ? std::filesystem::path(options.trace).filename().string() : options.title;
     write_file(options.picture, run_gnuplot(plot_script(picture, format)));
@@ -162,6 +177,7 @@ void add_plot_command(CLI::App& app, Action& action) {
   command->add_option("--project", options->project,
                       "project of a CSV trace, for the units and types of its signals");
   command->add_option("--title", options->title, "title; without it: the name of the file");
+  refuse_empty_texts(*command);
   command->footer(
       "One diagram for each quantity, BOOL and integer states as lanes below, one time axis. The line of a\n"
       "modulo position is broken where it wraps. gnuplot draws (Debian: gnuplot-nox).\n"

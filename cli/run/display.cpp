@@ -8,6 +8,7 @@
 
 #include "cli/command/command.hpp"
 #include "cli/run/run_command.hpp"
+#include "cli/run/told.hpp"
 #include "scheduler/units.hpp"
 
 namespace lockstep::cli {
@@ -31,10 +32,6 @@ std::string value_text(Value value, Type type) {
 }
 
 std::string state_text(const AxisSummary& axis, bool has_position) {
-  if (axis.alarm != 0) {
-    const Alarm* alarm = find_alarm(static_cast<int>(axis.alarm));
-    return fmt::format("alarm {} ({})", axis.alarm, alarm == nullptr ? "" : alarm->text);
-  }
   if (!has_bit(axis.status_word, StatusBit::Enable)) return "not enabled";
   if (has_bit(axis.status_word, StatusBit::Synchronous)) return "synchronous";
   if (has_bit(axis.status_word, StatusBit::Synchronizing)) return "synchronizing";
@@ -112,14 +109,15 @@ void tell_proxies(const Controller& controller) {
   }
 }
 
-void tell_axes(const Controller& controller) {
+void tell_axes(const Controller& controller, const ToldOnStandardError& told) {
   std::size_t width = 4;
   for (const auto& axis : controller.axes) width = std::max(width, axis->name.size());
   for (std::size_t i = 0; i < controller.axes.size(); ++i) {
     const AxisSummary& end = controller.summary()[i];
     const Axis& axis = *controller.axes[i];
-    std::string line = fmt::format("  {:<{}}  {:<14} {}", axis.name, width,
-                                   state_text(end, axis.has_position()), place_text(end, axis));
+    const std::string state = end.alarm == 0 ? state_text(end, axis.has_position())
+                                             : told.alarm_text(axis.name, static_cast<int>(end.alarm));
+    std::string line = fmt::format("  {:<{}}  {:<14} {}", axis.name, width, state, place_text(end, axis));
     if (axis.was_synchronous())
       line += fmt::format("; largest deviation while synchronous {:.3g} {}", end.largest_deviation,
                           unit_of(Unit::kPosition, axis));

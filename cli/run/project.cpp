@@ -164,7 +164,7 @@ int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const R
   messages.tell_rest();
   surroundings.tell_losses();
   tell_proxies(*project.controller);
-  tell_axes(*project.controller);
+  tell_axes(*project.controller, messages);
   tell_counters(*project.controller);
   const int status = transcript.write(project) ? kOk : kCouldNotStart;
   return status_of(status, fail_on, messages, *project.controller);
@@ -205,7 +205,7 @@ int run_in_real_time(Project project, std::unique_ptr<RetainWriter> keeper, cons
   int status = tell_end(machine.status(), controller);
   if (!transcript.write(machine.project()) && status == kOk) status = kCouldNotStart;
   tell_proxies(controller);
-  tell_axes(controller);
+  tell_axes(controller, *messages);
   tell_counters(controller);
   return status_of(status, fail_on, *messages, controller);
 }

@@ -76,12 +76,8 @@ void add_run_command(CLI::App& app, Action& action) {
                     "pages may write, and command the axes that the project names in studio.commands");
   command->add_flag("--no-studio", options->no_studio, "no studio, whatever the project says")
       ->excludes(studio);
-  command
-      ->add_option("--audit", options->audit,
-                   "append who writes or commands what to this file instead of the project's")
-      ->check([](const std::string& name) {
-        return name.empty() ? std::string("needs the name of a file") : "";
-      });
+  command->add_option("--audit", options->audit,
+                      "append who writes or commands what to this file instead of the project's");
   auto fail_on = std::make_shared<std::vector<std::string>>();
   command
       ->add_option("--fail-on", *fail_on,
@@ -91,6 +87,7 @@ void add_run_command(CLI::App& app, Action& action) {
                    "that failed)")
       ->delimiter(',')
       ->check(CLI::IsMember({"alarm", "warning", "job"}));
+  refuse_empty_texts(*command);
   command->footer(
       "Without --simulate it runs in real time until SIGINT or SIGTERM (or --duration), then brings its axes "
       "to\n"

@@ -14,6 +14,8 @@
 
 namespace lockstep::cli {
 
+class ToldOnStandardError;
+
 /// What makes a run fail that has otherwise ended as asked.
 struct FailOn {
   bool alarm = false;    ///< one that has a reaction, or has to be acknowledged
@@ -63,7 +65,7 @@ class Display {
 
 /// What proxies have had, a line each.
 void tell_proxies(const Controller& controller);
-/// Tells how the axes stood at the end.
-void tell_axes(const Controller& controller);
+/// Tells how the axes stood at the end. @param told what has been told of their alarms
+void tell_axes(const Controller& controller, const ToldOnStandardError& told);
 
 }  // namespace lockstep::cli

@@ -120,7 +120,7 @@ int tell_ends(const System& system, const std::vector<ControllerRun>& runs, cons
     runs[i].surroundings->tell_losses();
     write_message(one.name + "\n");
     tell_proxies(controller);
-    tell_axes(controller);
+    tell_axes(controller, *runs[i].messages);
     tell_counters(controller, one.name + ": ");
     if (const int its = status_of(kOk, fail_on, *runs[i].messages, controller); its != kOk) status = its;
   }

@@ -27,7 +27,11 @@ bool is_warning(const TraceEvent& event) {
 }  // namespace
 
 void ToldOnStandardError::event(const TraceEvent& event) {
-  if (event.kind == EventKind::alarm) ++(is_warning(event) ? warnings_ : alarms_);
+  if (event.kind == EventKind::alarm) {
+    ++(is_warning(event) ? warnings_ : alarms_);
+    // Of the same once: objects and numbers have an end.
+    texts_.insert_or_assign({event.source, event.number}, event.text);
+  }
   if (event.kind == EventKind::job_failed) ++failed_jobs_;
   std::string text;
   if (controller_.empty()) {
@@ -39,6 +43,13 @@ void ToldOnStandardError::event(const TraceEvent& event) {
   }
   // On a terminal the line of live values stands where the message goes.
   if (!text.empty()) write_message((isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + text, timeout_);
+}
+
+std::string ToldOnStandardError::alarm_text(const std::string& object, int number) const {
+  const auto told = texts_.find({object, number});
+  const Alarm* const alarm = find_alarm(number);
+  const std::string_view published = alarm == nullptr ? "" : alarm->text;
+  return fmt::format("alarm {} ({})", number, told == texts_.end() ? published : told->second);
 }
 
 void ToldOnStandardError::tell_rest() {

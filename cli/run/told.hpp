@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -26,15 +27,20 @@ class ToldOnStandardError final : public Messages {
   /// What has been counted only. After the run.
   void tell_rest();
 
+  /// "alarm 343 (…)" with the text that was told of it, which says of some alarms what was missing. After the
+  /// run.
+  std::string alarm_text(const std::string& object, int number) const;
+
   /// Those with a reaction, or that have to be acknowledged; the others are warnings.
   std::uint64_t alarms() const noexcept { return alarms_; }
   std::uint64_t warnings() const noexcept { return warnings_; }
   std::uint64_t failed_jobs() const noexcept { return failed_jobs_; }
 
  private:
-  std::atomic<std::uint64_t> alarms_{0};       // counted by the recorder
-  std::atomic<std::uint64_t> warnings_{0};     // counted by the recorder
-  std::atomic<std::uint64_t> failed_jobs_{0};  // counted by the recorder
+  std::atomic<std::uint64_t> alarms_{0};                      // counted by the recorder
+  std::atomic<std::uint64_t> warnings_{0};                    // the same
+  std::atomic<std::uint64_t> failed_jobs_{0};                 // the same
+  std::map<std::pair<std::string, int>, std::string> texts_;  // of alarms, by object and number
   int timeout_;
   std::string controller_;
   EventMessages events_;

@@ -10,10 +10,17 @@
 namespace lockstep::cli {
 namespace {
 
+/// The text, with "?" for U+FFFE and U+FFFF, which are no characters of XML.
+std::string xml_characters(std::string text) {
+  for (const std::string_view none : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})
+    for (std::size_t at = 0; (at = text.find(none, at)) != text.npos;) text.replace(at, none.size(), "?");
+  return text;
+}
+
 /// A text as the value of an attribute, in its quotes. XML has no control characters, not even escaped ones.
 std::string attribute(std::string_view text) {
   std::string result = "\"";
-  for (const char c : visible(text)) {
+  for (const char c : xml_characters(visible(text))) {
     switch (c) {
       case '&':
         result += "&amp;";

@@ -138,6 +138,7 @@ void add_test_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<TestOptions>();
   command->add_option("FILE", options->files, "project files")->required();
   command->add_option("--junit", options->junit, "write the results to this file (*.xml), as JUnit XML");
+  refuse_empty_texts(*command);
   command->footer(
       "Each project is simulated in virtual time, with its stimuli, to its last expectation or for its "
       "\"duration\";\n"

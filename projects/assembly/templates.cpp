@@ -100,6 +100,12 @@ std::vector<std::string_view> names_of(const JsonValue* object) {
   return names;
 }
 
+/// Whether a template may have it; what else it has is reported with the template.
+bool is_section(std::string_view key) {
+  const Keys sections(keys::kTemplate);
+  return std::ranges::find(sections, key, &Key::name) != sections.end();
+}
+
 void TemplateExpansion::add_instances(const JsonValue& json) {
   const Fields fields(json, keys::kInstance, problems_);
   if (!fields.usable()) return;
@@ -231,7 +237,7 @@ void TemplateExpansion::add_instance(const JsonValue& json, const JsonValue& kin
                                                 quote(asked->text) + place.substr(0, place.find(" (")));
   const TemplateInstance instance{text, std::move(parameters)};
   for (const auto& [key, section] : kind.members)
-    if (key != "parameters" && key != keys::kComment.name) put_section(key, *section, instance);
+    if (key != "parameters" && is_section(key)) put_section(key, *section, instance);
 }
 
 /// A value with its parameters filled in; nullptr when there are too many values.

@@ -356,6 +356,8 @@ JsonDocument::JsonDocument(std::string_view text, std::string file, std::string 
     const auto nul = text.find('\0');
     if (nul == text.npos)
       read();
+    else if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") || nul < 2)
+      refuse("1:1", "the file is in UTF-16; allowed: UTF-8, which editors offer where they save a file");
     else
       refuse(text_of(source_->position(nul)), "a NUL character is not allowed");
   }

@@ -12,6 +12,8 @@
 namespace lockstep {
 namespace {
 
+constexpr std::string_view kSystemVersion = "lockstep_system";
+
 /// Warns of what nothing refers to: it may be a name that was mistyped elsewhere. Not where there are errors:
 /// who refers to it may be what is wrong.
 void warn_of_unused(const JsonValue& root, const Names::Uses& uses, const Loading& loading) {
@@ -34,7 +36,19 @@ void load_identity(const Fields& fields, const Loading& loading) {
     loading.project.description = text->text;
 }
 
+/// Whether it is a system file, of which one thing is told in place of all its keys.
+bool is_of_a_system(const JsonValue& root, const Loading& loading) {
+  const JsonValue* const version = root.find(kSystemVersion);
+  if (version == nullptr || root.find(keys::kProject["lockstep"].name) != nullptr) return false;
+  loading.problems.report_key(
+      *version,
+      "this is the file of a system of several controllers; allowed here: the project "
+      "of one, such as those that it names in 'controllers'");
+  return true;
+}
+
 void load_sections(const JsonValue& root, const Loading& loading) {
+  if (is_of_a_system(root, loading)) return;
   const Fields fields(root, keys::kProject, loading.problems);
   if (!fields.usable()) return;
   load_identity(fields, loading);

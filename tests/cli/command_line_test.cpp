@@ -1,6 +1,8 @@
 // What all commands have in common: --help, --version, exit statuses.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/cli/command_run.hpp"
 
 namespace lockstep::cli::command_line_test {
@@ -43,6 +45,58 @@ TEST(CommandLine, AWrongOneExitsWith2AndSaysSoOnStandardError) {
     EXPECT_EQ(ended.status, 2) << (arguments.empty() ? "nothing" : arguments.back());
     EXPECT_NE(ended.err, "");
     EXPECT_EQ(ended.out, "");
+  }
+}
+
+/// What a script gives whose variable is not set is not as if nothing had been asked for.
+TEST(CommandLine, AnEmptyTextIsNotTakenForAnOptionThatIsNotThere) {
+  const Directory folder;
+  const std::string project = folder.write(
+      "p.json", R"({ "lockstep": 1, "name": "p", "clock": { "servo_cycle": "1ms" }, "duration": "2ms",
+                     "expectations": [ { "at": "1ms", "expect": "TRUE" } ] })");
+  const std::string trace = folder.write("t.csv", "t,a\n0,1\n1,2\n"), picture = folder.file("t.svg");
+  const std::vector<std::vector<std::string>> commands = {
+      {"run", project, "--simulate", "--duration"},
+      {"run", project, "--simulate", "--duration", "2ms", "--trace"},
+      {"run", project, "--simulate", "--duration", "2ms", "--transcript"},
+      {"run", project, "--simulate", "--duration", "2ms", "--lcm"},
+      {"run", project, "--duration", "2ms", "--no-retain", "--modbus"},
+      {"run", project, "--duration", "2ms", "--retain"},
+      {"run", project, "--duration", "2ms", "--no-retain", "--controller"},
+      {"run", project, "--duration", "2ms", "--no-retain", "--studio"},
+      {"test", project, "--junit"},
+      {"plot", trace, "-o", picture, "--project"},
+      {"plot", trace, "-o", picture, "--from"},
+      {"doctor", "--duration", "10ms", "--servo-cycle"},
+      {"check"},
+      {"tags"}};
+  for (std::vector<std::string> words : commands) {
+    const std::string last = words.back();
+    words.emplace_back("");
+    const Ended ended = lockstep(words);
+    EXPECT_EQ(ended.status, 2) << last;
+    EXPECT_EQ(ended.out, "") << last;
+    EXPECT_NE(ended.err.find("an empty text is no value"), std::string::npos) << last << ": " << ended.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(picture));
+}
+
+TEST(CommandLine, TheFileOfASystemIsToldAsSuchWhereAProjectIsAskedFor) {
+  const std::string system = LOCKSTEP_SOURCE_DIR "/projects/12_two_presses/system.json";
+  const Directory folder;
+  const std::string trace = folder.write("t.csv", "t,a\n0,1\n1,2\n");
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"tags", system},
+                                             {"test", system},
+                                             {"doctor", system},
+                                             {"plot", trace, "-o", folder.file("t.svg"), "--project", system},
+                                             {"read", "127.0.0.1:1", "--project", system}}) {
+    const Ended ended = lockstep(words);
+    EXPECT_NE(ended.status, 0) << words[0];
+    EXPECT_NE(ended.err.find("/lockstep_system: this is the file of a system of several controllers; "),
+              std::string::npos)
+        << words[0] << ": " << ended.err;
+    EXPECT_EQ(ended.err.find("unknown key"), std::string::npos) << "one thing in place of all its keys";
   }
 }
 

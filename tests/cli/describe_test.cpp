@@ -283,6 +283,32 @@ TEST(Describe, TellsCauseAndRemedyOfAnAlarm) {
   EXPECT_NE(all.out.find("remedy: "), std::string::npos);
 }
 
+/// A text without the ends of its lines and their indentation.
+std::string on_one_line(const std::string& text) {
+  std::string result;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) result += (result.empty() ? "" : " ") + word;
+  return result;
+}
+
+TEST(Describe, TheTablesOfAlarmsAndErrorsSayOfEachWhatHelps) {
+  const std::string table = on_one_line(lockstep({"describe", "alarms"}).out);
+  std::size_t raised = 0;
+  for (const Alarm& alarm : alarms()) {
+    if (!alarm.not_raised.empty()) continue;
+    for (const std::string_view part : {alarm.text, alarm.cause, alarm.remedy})
+      EXPECT_NE(table.find(on_one_line(std::string(part))), std::string::npos)
+          << alarm.number << ": " << part;
+    ++raised;
+  }
+  EXPECT_GT(raised, 40u);
+  const std::string errors = on_one_line(lockstep({"describe", "errors"}).out);
+  for (const ErrorText& error : error_texts())
+    for (const std::string_view part :
+         {std::string_view(error.text), std::string_view(error_remedy(error.id))})
+      EXPECT_NE(errors.find(on_one_line(std::string(part))), std::string::npos) << part;
+}
+
 TEST(Describe, ACommandThatThereIsNotNamesTheNearestOne) {
   const Ended wrong = lockstep({"decribe", "521"});
   EXPECT_EQ(wrong.status, 2);

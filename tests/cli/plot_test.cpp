@@ -150,6 +150,24 @@ TEST(Plot, SaysThatACsvTraceHasNoUnits) {
   EXPECT_EQ(lockstep({"plot", log, "-o", folder.file("p.svg")}).err, "") << "which has them";
 }
 
+TEST(Plot, TellsWhatItsProjectDoesNotKnow) {
+  const Directory folder;
+  const std::string trace = folder.write("t.csv", "t,level,Slide.Position,gone\n0,1.5,0.5,1\n1,2.5,1.5,0\n");
+  const std::string project = folder.write("whole.json", kWhole), picture = folder.file("t.svg");
+  const auto told = [&](const std::string& of, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"plot", trace, "-o", picture, "--project", of});
+    const Ended ended = lockstep(more);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return ended.err;
+  };
+  EXPECT_EQ(told(project, {"--signals", "level,Slide.Position"}), "");
+  EXPECT_NE(told(project).find("whole.json' knows nothing of: gone; their units"), std::string::npos)
+      << told(project);
+  const std::string other = LOCKSTEP_SOURCE_DIR "/projects/02_rotary_knife/project.json";
+  EXPECT_NE(told(other).find("knows none of these signals: level, Slide.Position, gone;"), std::string::npos)
+      << told(other);
+}
+
 TEST(Plot, DrawsOddTraces) {
   const Directory folder;
   const std::pair<const char*, const char*> odd[] = {

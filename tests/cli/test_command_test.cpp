@@ -135,6 +135,10 @@ TEST(Junit, LeavesNothingThatWouldBreakTheDocument) {
       junit_xml({{.name = "a\"b'c&<d>\x01\n", .file = "f", .cases = {{.name = "\xff]]>", .message = ""}}}});
   EXPECT_NE(xml.find("name=\"a&quot;b&apos;c&amp;&lt;d&gt;??\""), std::string::npos) << xml;
   EXPECT_NE(xml.find("name=\"?]]&gt;\""), std::string::npos) << xml;
+  const std::string none =
+      junit_xml({{.name = "\xEF\xBF\xBE\xEF\xBF\xBF\xEF\xBF\xBD", .file = "f", .cases = {}}});
+  EXPECT_NE(none.find("name=\"??\xEF\xBF\xBD\""), std::string::npos)
+      << "Unicode has U+FFFE and U+FFFF, XML has not: " << none;
 }
 
 /// An axis whose halt is rejected for its deceleration of 0, or which runs into its limit switch.

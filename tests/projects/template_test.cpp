@@ -154,6 +154,17 @@ TEST(Templates, RefuseWrongTemplates) {
             std::string::npos);
 }
 
+TEST(Templates, TellOnceWhatATemplateMayNotHaveHoweverManyInstancesThereAre) {
+  for (const char* const section : {"clock", "templates", "instances", "retain", "include"})
+    EXPECT_EQ(
+        told(R"([ { "template": "t", "name": "x" }, { "template": "t", "name": "y" } ])",
+             R"("templates": { "t": { ")" + std::string(section) + R"(": {} } })")
+            .substr(0, 40),
+        ("/templates/t/" + std::string(section) + ": unknown key '" + section + "'; allowed: parameters")
+            .substr(0, 40))
+        << section;
+}
+
 TEST(Templates, StopAtTheGreatestNumberOfValues) {
   const std::string many = R"("templates": { "t": { "parameters": { "n": {} }, "trace": { "signals": [ "x")" +
                            [] {

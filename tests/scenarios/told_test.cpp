@@ -85,10 +85,8 @@ TEST(Told, AnAlarmNamesItsCauseItsRemedyAndTheValuesInTheUnitOfTheProject) {
   EXPECT_EQ(json.at("remedy"), std::string(alarm.remedy));
 }
 
-TEST(Told, AnLcmLogHoldsTheDetailsBehindTheEvent) {
-  const Directory directory;
-  const std::string path = directory.file("run.lcm");
-  EXPECT_EQ(simulated(lagging_slide(), "2s", path).status, 0);
+/// The first alarm of an LCM log, and its details.
+std::pair<event_t, event_detail_t> first_alarm(const std::string& path) {
   const std::unique_ptr<lcm_eventlog_t, void (*)(lcm_eventlog_t*)> log(lcm_eventlog_create(path.c_str(), "r"),
                                                                        &lcm_eventlog_destroy);
   event_t event{};
@@ -101,6 +99,14 @@ TEST(Told, AnLcmLogHoldsTheDetailsBehindTheEvent) {
     if (name.ends_with("_DETAIL") && detail.kind != "alarm") detail = decode_detail(bytes).value();
     lcm_eventlog_free_event(entry);
   }
+  return {event, detail};
+}
+
+TEST(Told, AnLcmLogHoldsTheDetailsBehindTheEvent) {
+  const Directory directory;
+  const std::string path = directory.file("run.lcm");
+  EXPECT_EQ(simulated(lagging_slide(), "2s", path).status, 0);
+  const auto [event, detail] = first_alarm(path);
   EXPECT_EQ(event.kind, "alarm");
   EXPECT_EQ(detail.kind, "alarm");
   EXPECT_EQ(detail.t, event.t);
@@ -116,6 +122,27 @@ TEST(Told, AnLcmLogHoldsTheDetailsBehindTheEvent) {
   EXPECT_GT(detail.values[0], 2.5);
   EXPECT_EQ(detail.names[1], "permitted");
   EXPECT_EQ(detail.values[1], 2.5);
+}
+
+std::int64_t wall_clock() {  // [µs]
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+TEST(Told, AnLcmLogOfARunInRealTimeHasTheTimeOfTheDayToo) {
+  const Directory directory;
+  const std::string path = directory.file("run.lcm");
+  const std::int64_t before = wall_clock();
+  const Ended ended = lockstep({"run", directory.write("project.json", lagging_slide().dump(1)), "--duration",
+                                "500ms", "--no-modbus", "--no-lcm", "--no-retain", "--trace", path});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const auto [event, detail] = first_alarm(path);
+  EXPECT_EQ(event.kind, "alarm") << ended.err;
+  EXPECT_EQ(event.number, 521);
+  EXPECT_GT(event.tick, 0);
+  EXPECT_GE(event.utime, before);
+  EXPECT_LE(event.utime, wall_clock());
 }
 
 TEST(Told, ASoftwareLimitNamesItsSideThePositionAndTheLimit) {
@@ -265,14 +292,11 @@ TEST(Told, TheNewestAlarmStandsOnModbusWithItsValuesAndItsTime) {
     {"diagnostic": "alarm_value", "table": "input_register", "address": 4},
     {"diagnostic": "alarm_limit", "table": "input_register", "address": 8},
     {"diagnostic": "alarm_clock", "table": "input_register", "address": 12},
-    {"tag": "Slide.ErrorDetail.Number", "table": "input_register", "address": 16} ])");
+    {"tag": "Slide.ErrorDetail.Number", "table": "input_register", "address": 16},
+    {"diagnostic": "alarm_tick", "table": "input_register", "address": 18},
+    {"diagnostic": "alarm_time", "table": "input_register", "address": 22, "type": "LINT"} ])");
   const Directory directory;
-  const auto clock = [] {
-    return std::chrono::duration_cast<std::chrono::microseconds>(
-               std::chrono::system_clock::now().time_since_epoch())
-        .count();
-  };
-  const auto before = clock();
+  const auto before = wall_clock();
   RunningLockstep run(directory.write("project.json", project.dump()));
   const RawModbus client = connected(run.port());
   ASSERT_TRUE(wait_until([&] { return registers(client.get(), 0, 1) == 521; })) << run.err();
@@ -281,8 +305,11 @@ TEST(Told, TheNewestAlarmStandsOnModbusWithItsValuesAndItsTime) {
   EXPECT_GT(std::bit_cast<double>(registers(client.get(), 4, 4)), 2.5);
   EXPECT_EQ(std::bit_cast<double>(registers(client.get(), 8, 4)), 2.5);
   EXPECT_GE(static_cast<std::int64_t>(registers(client.get(), 12, 4)), before);
-  EXPECT_LE(static_cast<std::int64_t>(registers(client.get(), 12, 4)), clock() + 1'000'000);
+  EXPECT_LE(static_cast<std::int64_t>(registers(client.get(), 12, 4)), wall_clock() + 1'000'000);
   EXPECT_EQ(registers(client.get(), 16, 2), 521u);
+  const std::uint64_t tick = registers(client.get(), 18, 4);
+  EXPECT_GT(tick, 0u);
+  EXPECT_EQ(registers(client.get(), 22, 4), tick * 1'000'000) << "[ns] of ticks of a millisecond";
 }
 
 TEST(Told, AMapEntryWithLimitsRefusesWhatIsOutsideAndWritesNothingOfThatRequest) {
@@ -318,6 +345,37 @@ TEST(Told, AMapEntryWithLimitsRefusesWhatIsOutsideAndWritesNothingOfThatRequest)
   EXPECT_EQ(modbus_read_registers(client.get(), 9, 2, read), -1) << "before the first entry is no gap";
   EXPECT_EQ(modbus_read_registers(client.get(), 14, 2, read), -1) << "nor behind the last one";
   EXPECT_EQ(modbus_write_register(client.get(), 12, 0), -1) << "nobody writes to a gap";
+}
+
+TEST(Told, GapsOfBitsAreReadAsZeroOnlyWhereTheProjectSaysSo) {
+  Json project = empty_project();
+  project["tags"] =
+      Json::parse(R"({"a": {"type": "BOOL", "init": true}, "b": {"type": "BOOL", "init": true}})");
+  project["modbus"]["map"] = Json::parse(R"([
+    {"tag": "a", "table": "coil", "address": 10}, {"tag": "b", "table": "coil", "address": 13},
+    {"tag": "a", "table": "discrete_input", "address": 10}, {"tag": "b", "table": "discrete_input", "address": 13} ])");
+  const Directory directory;
+  std::uint8_t read[4] = {9, 9, 9, 9};
+  {
+    RunningLockstep run(directory.write("refused.json", project.dump()));
+    const RawModbus client = connected(run.port());
+    EXPECT_EQ(modbus_read_bits(client.get(), 10, 4, read), -1);
+    EXPECT_EQ(errno, EMBXILADD);
+  }
+  project["modbus"]["gaps"] = "zero";
+  RunningLockstep run(directory.write("zero.json", project.dump()));
+  const RawModbus client = connected(run.port());
+  for (const auto function : {&modbus_read_bits, &modbus_read_input_bits}) {
+    ASSERT_EQ(function(client.get(), 10, 4, read), 4) << modbus_strerror(errno);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(read[i], i == 0 || i == 3 ? 1 : 0) << i;
+    EXPECT_EQ(function(client.get(), 9, 2, read), -1) << "before the first entry is no gap";
+    EXPECT_EQ(function(client.get(), 13, 2, read), -1) << "nor behind the last one";
+  }
+  EXPECT_EQ(modbus_write_bit(client.get(), 11, 1), -1) << "nobody writes to a gap";
+  const std::uint8_t all[] = {0, 0, 0, 0};
+  EXPECT_EQ(modbus_write_bits(client.get(), 10, 4, all), -1);
+  ASSERT_EQ(modbus_read_bits(client.get(), 10, 4, read), 4);
+  EXPECT_EQ(read[0], 1) << "and nothing of that request is written";
 }
 
 TEST(Told, LimitsOfAnEntryAreCheckedAgainstItsTypeAndScale) {
