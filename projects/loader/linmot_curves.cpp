@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
+#include "projects/json/named_file.hpp"
 #include "projects/json/text_file.hpp"
 #include "projects/keys/linmot.hpp"
 #include "projects/loader/read_keys.hpp"
@@ -45,11 +45,11 @@ bool take_figure(std::string_view& line, double& value) {
 
 /// ms;mm in each line; one without figures at the top is a heading.
 void load_curve_file(const JsonValue& json, linmot::CurvePart& part, const Loading& loading) {
-  const auto name = read_string(&json, loading.problems);
-  if (!name) return;
-  const std::string path = std::filesystem::path(loading.folder) / std::string(*name);
+  if (!read_string(&json, loading.problems)) return;
+  const auto path = named_file(json, loading.folder, loading.folder, loading.problems);
+  if (!path) return;
   try {
-    const std::string text = read_text_file(path, kLargestCurveFile);
+    const std::string text = read_text_file(*path, kLargestCurveFile);
     std::size_t number = 0;
     for (std::string_view rest = text; !rest.empty();) {
       std::string_view line = rest.substr(0, rest.find('\n'));
@@ -62,7 +62,7 @@ void load_curve_file(const JsonValue& json, linmot::CurvePart& part, const Loadi
       }
       if (number > 1 && line.find_first_not_of(" \r\t") != line.npos)
         return loading.problems.report(
-            json, path + ":" + std::to_string(number) + ": allowed: a time in ms and a position in mm");
+            json, *path + ":" + std::to_string(number) + ": allowed: a time in ms and a position in mm");
     }
   } catch (const UnreadableFile& error) {
     loading.problems.report(json, error.what());
