@@ -103,7 +103,7 @@ std::string first_steps() {
          " -o knife.svg\n"
          "  lockstep run " +
          knife +
-         " --stimuli --studio 127.0.0.1:8780\n"
+         " --stimuli --no-retain --studio 127.0.0.1:8780\n"
          "  lockstep describe gear\n"
          "The last but one is in real time, until Ctrl-C, with a page for a browser; the last one looks for "
          "what has to\n"
@@ -132,10 +132,12 @@ int carry_out(int argc, char** argv) {
   add_aposs_command(app, action);
   add_linmot_command(app, action);
   add_completion_command(app, action);
+  refuse_empty_texts(app);
+  const std::vector<std::string> words =
+      with_empty_texts(std::vector<std::string>(argv + std::min(argc, 1), argv + argc));
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the end
   } catch (const CLI::ParseError& error) {
-    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     // Help that was asked for is no mistake.
     if (const std::string mistake = mistaken_word(app, words);
         error.get_exit_code() != 0 && !mistake.empty()) {

@@ -2,11 +2,9 @@
 #include "cli/cam/cam_command.hpp"
 
 #include <CLI/App.hpp>
-#include <cerrno>
-#include <cstdio>
-#include <system_error>
 
 #include "cli/command/standard_streams.hpp"
+#include "cli/command/whole_file.hpp"
 #include "projects/cam_files/file.hpp"
 
 namespace lockstep::cli {
@@ -39,10 +37,7 @@ std::optional<CamDefinition> load_cam_or_tell(const CamInput& input, int& status
 
 void write_output(const std::string& path, const std::string& text) {
   if (path.empty()) return write_data(text);
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wbe"), std::fclose);
-  const bool written = file && std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() &&
-                       std::fflush(file.get()) == 0;
-  if (!written) throw CannotDo(path + ": " + std::generic_category().message(errno));
+  write_whole_file(path, text);
 }
 
 void add_cam_command(CLI::App& app, Action& action) {

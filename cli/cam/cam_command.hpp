@@ -47,7 +47,7 @@ int with_cam(const CamInput& input, const Work& work) {
   }
 }
 
-/// Writes to a file, or to standard output for an empty path. @throws CannotDo, OutputFailed
+/// Writes to a file, or to standard output for an empty path. @throws std::runtime_error, OutputFailed
 void write_output(const std::string& path, const std::string& text);
 
 /// The four diagrams: following value, velocity, acceleration and jerk over the leading value.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "projects/loader/project.hpp"
 #include "projects/system/system.hpp"
@@ -19,8 +20,9 @@ namespace lockstep::cli {
 /// Exit statuses, as the contract has them.
 enum ExitStatus : int {
   kOk = 0,
-  kNotValid = 1,       ///< the project is not valid; a name is unknown; an expectation does not hold
-  kCouldNotStart = 2,  ///< a file cannot be read, a port is taken, the command line is wrong, nothing to test
+  kNotValid = 1,        ///< the project is not valid; a name is unknown; an expectation does not hold
+  kCouldNotStart = 2,   ///< a file cannot be read or written, a port is taken, the command line is wrong,
+                        ///< nothing to test
   kStoppedByFault = 3,  ///< an internal fault, or the overrun policy
   kFailedOn = 4         ///< there was what --fail-on names
 };
@@ -44,9 +46,13 @@ void add_doctor_command(CLI::App& app, Action& action);
 /// Behind all others, whose declarations it reads when it is carried out.
 void add_completion_command(CLI::App& app, Action& action);
 
-/// Refuses an option or a file that is an empty text, as a script gives it whose variable is not set, in
-/// place of taking it for one that is not there. Behind all options of the command.
-void refuse_empty_texts(CLI::App& command);
+/// Makes all options and arguments of all commands refuse an empty text, as a script gives it whose variable
+/// is not set, in place of taking it for one that is not there: the one rule of all of them. Behind the last
+/// command.
+void refuse_empty_texts(CLI::App& app);
+/// The words of a command line with each "--option=" as two, of which the second is empty: CLI11 would take
+/// the next one for its value.
+std::vector<std::string> with_empty_texts(const std::vector<std::string>& words);
 
 /// Whether warnings of a project are told: not by commands that use it and do not judge it.
 enum class Warnings : std::uint8_t { told, kept };

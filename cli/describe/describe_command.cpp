@@ -74,6 +74,14 @@ std::optional<std::uint32_t> number_of(std::string_view word, bool& hexadecimal)
   return number;
 }
 
+/// Of an error: "16#8001", "8001" and "32769" are the same.
+std::optional<std::uint32_t> number_of_error(const std::string& word) {
+  bool hexadecimal = false;
+  const auto number = number_of(word, hexadecimal);
+  if (!number || hexadecimal || *number >= 0x8000) return number;
+  return number_of("16#" + word, hexadecimal);
+}
+
 Subject find_error(std::uint32_t number) {
   const auto id = static_cast<ErrorId>(number);
   return number <= 0xFFFF && !error_text(id).empty() ? error_subject(id) : Subject{};
@@ -219,9 +227,12 @@ Subject find_by_words(const std::vector<std::string>& words, std::string& proble
       return {};
     }
     if (Subject subject = topic ? Subject{} : mco305_subject(words)) return subject;
-    if (same_name(word, "error"))
+    // As a run tells them.
+    if (same_name(word, "alarm"))
       if (bool hexadecimal = false; const auto number = number_of(words[1], hexadecimal))
-        return find_error_of_any(words[1], *number, problem);
+        return find_number(words[1], false, *number, problem);
+    if (same_name(word, "error") || same_name(word, "ErrorID"))
+      if (const auto number = number_of_error(words[1])) return find_error_of_any(words[1], *number, problem);
   }
   if (Subject subject = topic ? Subject{} : search_subject(words)) return subject;
   problem = topic ? quote(word) + (words.size() == 2 ? " takes no second name" : " takes no third name")
@@ -258,7 +269,7 @@ Subject find_subject(const std::vector<std::string>& words, std::string& problem
   if (Subject subject = language_subject(word)) return subject;
   if (Subject subject = find_block(word, problem)) return subject;
   if (problem.empty())
-    if (Subject subject = mco305_subject(words)) return subject;
+    if (Subject subject = mco305_subject(words)) return with_namesakes(subject, word);
   if (problem.empty())
     if (Subject subject = find_object(word, problem)) return subject;
   if (!problem.empty()) return {};
@@ -274,8 +285,7 @@ void add_describe_command(CLI::App& app, Action& action) {
       "describe", "Tell about blocks, objects, variables, alarms, functions, keys; search by a word");
   auto words = std::make_shared<std::vector<std::string>>();
   auto json = std::make_shared<bool>(false);
-  command->add_option("NAME", *words, "what to tell about; without it: a list of what there is")
-      ->expected(0, -1);
+  command->add_option("NAME", *words, "what to tell about; without it: a list of what there is");
   command->add_flag("--json", *json, "as JSON, for programs");
   command->footer(
       "NAME, without regard to case:\n"
@@ -285,6 +295,7 @@ void add_describe_command(CLI::App& app, Action& action) {
       "                                           some variables, one, one bit\n"
       "  608, alarms                              a technology alarm, all of them\n"
       "  16#8026, errors                          an ErrorID, all of them\n"
+      "  alarm 608, ErrorID 16#8026               the same, as a run tells them\n"
       "  override MC_GearInPos                    what such a job does to those that run\n"
       "  keys, keys technology_objects.drive      keys of the project file\n"
       "  functions, operators, types              those of expressions\n"

@@ -13,4 +13,8 @@ namespace lockstep::cli {
 /// words are too short to search for
 Subject search_subject(const std::vector<std::string>& words);
 
+/// Something of a dialect, with what else, of all but dialects, is called like that: the command HOME, and
+/// MC_Home.
+Subject with_namesakes(const Subject& subject, const std::string& word);
+
 }  // namespace lockstep::cli

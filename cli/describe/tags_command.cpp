@@ -134,9 +134,30 @@ std::string table_text(const Entry& entry) {
   return text;
 }
 
+/// Limits as the project says them: of a scaled entry the range is wider by what rounding may do.
+Range told_range(const ModbusEntry& place) {
+  const double rounding = place.is_scaled ? 1e-6 * std::abs(place.scale) : 0.0;
+  const auto told = [](double value) {
+    return std::isfinite(value) ? std::stod(fmt::format("{:.12g}", value)) : value;
+  };
+  return {told(place.range.lowest + rounding), told(place.range.highest - rounding)};
+}
+
+/// What a client may do, and between which values.
+std::string access_text(const ModbusEntry& place) {
+  if (!place.writable) return "read";
+  constexpr double kFar = 1e12;  // the range of every number in a data block
+  const Range range = told_range(place);
+  const bool from = std::abs(range.lowest) < kFar, to = std::abs(range.highest) < kFar;
+  return std::string("write") + (from ? fmt::format(" {}", range.lowest) : "") +
+         (to     ? fmt::format(" to {}", range.highest)
+          : from ? " or more"
+                 : "");
+}
+
 /// The cells of an entry: table, address, type, access.
 std::vector<std::string> cells(const Entry& entry) {
-  return {table_text(entry), address_text(entry), wire_text(entry), entry.place->writable ? "write" : "read"};
+  return {table_text(entry), address_text(entry), wire_text(entry), access_text(*entry.place)};
 }
 
 bool is_kept(const Project& project, const ArrayTag& tag) {
@@ -225,15 +246,6 @@ std::string project_text(const Project& project, std::size_t width) {
     objects.row({std::to_string(static_cast<std::uint32_t>(object->number)), object->name,
                  std::string(kind_name(object->kind))});
   return objects.empty() ? text : text + "\n" + objects.text(0, width);
-}
-
-/// Limits as the project says them: of a scaled entry the range is wider by what rounding may do.
-Range told_range(const ModbusEntry& place) {
-  const double rounding = place.is_scaled ? 1e-6 * std::abs(place.scale) : 0.0;
-  const auto told = [](double value) {
-    return std::isfinite(value) ? std::stod(fmt::format("{:.12g}", value)) : value;
-  };
-  return {told(place.range.lowest + rounding), told(place.range.highest - rounding)};
 }
 
 nlohmann::ordered_json place_json(const Entry& entry) {
@@ -400,7 +412,6 @@ void add_tags_command(CLI::App& app, Action& action) {
   command->add_option("FILE", *file, "the project file")->required();
   auto* const as_json = command->add_flag("--json", *json, "as JSON, for programs");
   command->add_flag("--csv", *csv, "what is on Modbus as CSV, for HMI systems")->excludes(as_json);
-  refuse_empty_texts(*command);
   command->footer(
       "Address: zero-based, first to last. As: the type on the wire, most significant word first unless it\n"
       "says little, with the number of elements of an array. Access: what a client may do. Number: what\n"

@@ -130,7 +130,6 @@ void add_doctor_command(CLI::App& app, Action& action) {
   command->add_option("--cpu", options->cpu, "measure on this processor, from 0, as lockstep run --cpu does")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--json", options->json, "the report as JSON, for programs");
-  refuse_empty_texts(*command);
   command->footer(
       "It waits for each tick of that servo_cycle as a run does, with its priority and locked memory, and "
       "does\n"

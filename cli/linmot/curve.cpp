@@ -4,13 +4,13 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "cli/command/standard_streams.hpp"
+#include "cli/command/whole_file.hpp"
 #include "cli/linmot/linmot_command.hpp"
 #include "cli/plot/picture.hpp"
 #include "hmi_bridge/network/visible_text.hpp"
@@ -85,11 +85,7 @@ void draw_curve(const LinMotController& controller, std::size_t number, const st
   picture.end = curve.duration() * 1e3;
   for (int order = 0; order < 3; ++order) picture.diagrams.push_back(curve_diagram(curve, order));
   const PictureFormat format = path.ends_with(".png") ? PictureFormat::png : PictureFormat::svg;
-  const std::string bytes = run_gnuplot(plot_script(picture, format));
-  std::ofstream file(path, std::ios::binary);
-  file << bytes;
-  file.close();
-  if (!file) throw std::runtime_error("'" + path + "' cannot be written");
+  write_whole_file(path, run_gnuplot(plot_script(picture, format)));
 }
 
 struct CurveOptions {

@@ -3,16 +3,15 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <system_error>
+#include <stdexcept>
 
 #include "cli/command/command.hpp"
+#include "cli/command/whole_file.hpp"
 #include "cli/plot/picture.hpp"
 #include "hmi_bridge/lcm/trace_reader.hpp"
 #include "hmi_bridge/traces/csv_reader.hpp"
@@ -130,13 +129,6 @@ PlotRange chosen_range(const TraceTable& trace, const PlotOptions& options) {
           chosen_signals(trace, options.signals)};
 }
 
-void write_file(const std::string& path, const std::string& bytes) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wbe"), std::fclose);
-  const bool written = file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() &&
-                       std::fflush(file.get()) == 0;
-  if (!written) throw CannotPlot(path + ": " + std::generic_category().message(errno));
-}
-
 int plot(const PlotOptions& options) {
   try {
     const PictureFormat format = format_of(options.picture);
@@ -148,7 +140,7 @@ int plot(const PlotOptions& options) {
     Picture picture = arrange(trace, range, known);
     picture.title =
         options.title.empty() ? std::filesystem::path(options.trace).filename().string() : options.title;
-    write_file(options.picture, run_gnuplot(plot_script(picture, format)));
+    write_whole_file(options.picture, run_gnuplot(plot_script(picture, format)));
     if (options.project.empty() && std::ranges::find(known, true) == known.end())
       tell(
           "a CSV trace does not say its units, so the picture has [u]; --project PROJECT.json takes them, "
@@ -177,7 +169,6 @@ void add_plot_command(CLI::App& app, Action& action) {
   command->add_option("--project", options->project,
                       "project of a CSV trace, for the units and types of its signals");
   command->add_option("--title", options->title, "title; without it: the name of the file");
-  refuse_empty_texts(*command);
   command->footer(
       "One diagram for each quantity, BOOL and integer states as lanes below, one time axis. The line of a\n"
       "modulo position is broken where it wraps. gnuplot draws (Debian: gnuplot-nox).\n"

@@ -47,20 +47,24 @@ struct Forgetting {
 };
 
 /// Virtual time: as fast as the machine can; waits for the disk, never for the clock.
-void simulate(Project& project, RunSurroundings& surroundings, Display& display, Ending& ending,
-              std::int64_t duration) {
+/// @return time of the first integer division by zero [ns]; negative: there is none
+std::int64_t simulate(Project& project, RunSurroundings& surroundings, Display& display, Ending& ending,
+                      std::int64_t duration) {
   Controller& controller = *project.controller;
   const auto begin = std::chrono::steady_clock::now();
   auto next_look = begin;
   const Forgetting at_the_end{ending};
   ending.run([&surroundings] { surroundings.wait_no_more(); });
   bool last = false;
+  std::int64_t divided = -1;
   controller.employ_processors(static_cast<int>(std::thread::hardware_concurrency()));
   for (std::uint64_t tick = 0; !last && surroundings.wait_for_recorder(); ++tick) {
     last =
         (duration >= 0 && controller.now() + controller.clock.servo_cycle >= duration) || ending.requested();
     if (last) surroundings.take_no_more();
     controller.tick();
+    if (divided < 0 && controller.counters().evaluation.integer_divisions_by_zero != 0)
+      divided = controller.now() - controller.clock.servo_cycle;
     if (tick % kTicksBetweenLooks != 0) continue;
     const auto now = std::chrono::steady_clock::now();
     if (now < next_look) continue;
@@ -77,6 +81,7 @@ void simulate(Project& project, RunSurroundings& surroundings, Display& display,
   const double simulated = static_cast<double>(controller.now()) * 1e-9;
   write_message(fmt::format("simulated {:.3f} s in {:.3f} s ({:.0f} × real time), {} ticks\n", simulated,
                             spent.count(), simulated / spent.count(), controller.counters().ticks));
+  return divided;
 }
 
 /// What goes wrong with the clock, for the display; nothing as long as nothing does.
@@ -160,13 +165,14 @@ int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const R
   Ending ending;
   RunSurroundings surroundings(project, options, std::move(keeper), messages);
   Display display(project, surroundings.signals(), options.duration);
-  simulate(project, surroundings, display, ending, options.duration);
+  const std::int64_t divided = simulate(project, surroundings, display, ending, options.duration);
   messages.tell_rest();
   surroundings.tell_losses();
   tell_proxies(*project.controller);
   tell_axes(*project.controller, messages);
-  tell_counters(*project.controller);
-  const int status = transcript.write(project) ? kOk : kCouldNotStart;
+  tell_counters(*project.controller, "", divided);
+  // In virtual time nothing is lost but by a disk, and the trace is what the run was for.
+  const int status = transcript.write(project) && !surroundings.trace_is_incomplete() ? kOk : kCouldNotStart;
   return status_of(status, fail_on, messages, *project.controller);
 }
 

@@ -87,7 +87,6 @@ void add_run_command(CLI::App& app, Action& action) {
                    "that failed)")
       ->delimiter(',')
       ->check(CLI::IsMember({"alarm", "warning", "job"}));
-  refuse_empty_texts(*command);
   command->footer(
       "Without --simulate it runs in real time until SIGINT or SIGTERM (or --duration), then brings its axes "
       "to\n"
@@ -103,11 +102,11 @@ void add_run_command(CLI::App& app, Action& action) {
       "With --simulate, Modbus, LCM and the audit log are off unless asked for.\n"
       "Values that are kept stand, unless named, beside the project file or in the state directory of "
       "systemd.\n"
-      "Exit status: 0 ended as asked, 1 project not valid, 2 could not start, 3 stopped by an internal fault "
-      "or by\n"
-      "the overrun policy, or something did not come to its end, 4 there was what --fail-on names, or events "
-      "were lost\n"
-      "and nobody knows");
+      "Exit status: 0 ended as asked, 1 project not valid, 2 could not start, or what it simulated is not "
+      "whole in\n"
+      "the file of --trace or --transcript, 3 stopped by an internal fault or by the overrun policy, or "
+      "something did\n"
+      "not come to its end, 4 there was what --fail-on names, or events were lost and nobody knows");
   command->callback([&action, options, controller, duration, fail_on] {
     if (!duration->empty()) {
       std::string problem;

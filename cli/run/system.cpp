@@ -122,7 +122,8 @@ int tell_ends(const System& system, const std::vector<ControllerRun>& runs, cons
     tell_proxies(controller);
     tell_axes(controller, *runs[i].messages);
     tell_counters(controller, one.name + ": ");
-    if (const int its = status_of(kOk, fail_on, *runs[i].messages, controller); its != kOk) status = its;
+    const int written = runs[i].surroundings->trace_is_incomplete() ? kCouldNotStart : kOk;
+    if (const int its = status_of(written, fail_on, *runs[i].messages, controller); its != kOk) status = its;
   }
   return status;
 }

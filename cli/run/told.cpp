@@ -56,10 +56,11 @@ void ToldOnStandardError::tell_rest() {
   if (const std::string text = events_.rest(); !text.empty()) write_message(text);
 }
 
-void tell_counters(const Controller& controller, const std::string& who) {
+void tell_counters(const Controller& controller, const std::string& who, std::int64_t divided) {
   const std::string begin = "warning: " + who;
   if (const auto zero = controller.counters().evaluation.integer_divisions_by_zero; zero != 0)
-    tell(begin + fmt::format("{} integer divisions by zero gave 0", zero));
+    tell(begin + fmt::format("{} integer divisions by zero gave 0", zero) +
+         (divided < 0 ? "" : fmt::format(", the first at {} s", static_cast<double>(divided) * 1e-9)));
   if (const auto outside = controller.counters().evaluation.indices_out_of_range; outside != 0)
     tell(begin + fmt::format("{} indices of arrays were out of range; what was read there counted as 0, what "
                              "was to be written is lost",

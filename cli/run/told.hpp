@@ -48,7 +48,8 @@ class ToldOnStandardError final : public Messages {
 
 /// What a run has counted that somebody has to look at.
 /// @param who stands before each message; empty: nothing
-void tell_counters(const Controller& controller, const std::string& who = "");
+/// @param divided time of the first integer division by zero [ns]; negative: nobody knows
+void tell_counters(const Controller& controller, const std::string& who = "", std::int64_t divided = -1);
 
 /// The exit status of a run that would have had another one. Whether there was what it is to fail on is in
 /// doubt where events were lost.

@@ -4,17 +4,18 @@
 #include <array>
 #include <condition_variable>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "cli/command/command.hpp"
 #include "cli/command/standard_streams.hpp"
+#include "cli/command/whole_file.hpp"
 #include "cli/describe/subject.hpp"
 #include "cli/run/ending.hpp"
 #include "hmi_bridge/lcm/trace_reader.hpp"
@@ -198,10 +199,12 @@ int export_page(const StudioOptions& options) {
   studio_api::TracePart part{{}, store.begin(), store.end()};
   for (std::size_t i = 0; i < store.signals().size(); ++i) part.columns.push_back(i);
   const std::string name = options.files[0].substr(options.files[0].rfind('/') + 1);
-  std::ofstream page(options.export_file, std::ios::binary);
-  page << studio_api::trace_page(store, part, name);
-  page.close();
-  if (!page) throw CannotServe("--export: " + options.export_file + " cannot be written");
+  const std::string page = studio_api::trace_page(store, part, name);
+  try {
+    write_whole_file(options.export_file, page);
+  } catch (const std::runtime_error& error) {
+    throw CannotServe(std::string("--export: ") + error.what());
+  }
   return kOk;
 }
 

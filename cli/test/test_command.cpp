@@ -3,12 +3,12 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <functional>
+#include <stdexcept>
 
 #include "cli/command/command.hpp"
 #include "cli/command/standard_streams.hpp"
+#include "cli/command/whole_file.hpp"
 #include "cli/run/told.hpp"
 #include "cli/test/junit.hpp"
 #include "hmi_bridge/network/visible_text.hpp"
@@ -85,13 +85,15 @@ bool is_xml(const std::string& path) {
   return false;
 }
 
-bool write_junit(const std::string& path, const std::vector<TestSuite>& suites) {
-  std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  out << junit_xml(suites);
-  out.close();
-  if (out) return true;
-  tell("--junit: " + path + ": " + std::strerror(errno), Severity::error);
-  return false;
+/// Does what writes the results, or looks whether they may be written.
+bool junit_is_well(const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const std::runtime_error& error) {
+    tell(std::string("--junit: ") + error.what(), Severity::error);
+    return false;
+  }
 }
 
 /// A green result of nothing would be believed.
@@ -105,7 +107,10 @@ int tell_nothing_checked() {
 }
 
 int run_tests(const TestOptions& options) {
-  if (!is_xml(options.junit)) return kCouldNotStart;
+  const std::string& junit = options.junit;
+  if (!is_xml(junit)) return kCouldNotStart;
+  // Better now than behind simulations that may take long.
+  if (!junit.empty() && !junit_is_well([&] { require_writable(junit); })) return kCouldNotStart;
   int status = kOk;
   std::vector<TestSuite> suites;
   std::size_t cases = 0, passed = 0, not_tested = 0;
@@ -126,7 +131,8 @@ int run_tests(const TestOptions& options) {
   count(empty, "have no expectations");
   write_data(fmt::format("{} of {} expectations hold{}\n", passed, cases, rest));
   if (status == kOk && cases == 0) status = tell_nothing_checked();
-  if (!options.junit.empty() && !write_junit(options.junit, suites)) return kCouldNotStart;
+  if (!junit.empty() && !junit_is_well([&] { write_whole_file(junit, junit_xml(suites)); }))
+    return kCouldNotStart;
   return status;
 }
 
@@ -138,7 +144,6 @@ void add_test_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<TestOptions>();
   command->add_option("FILE", options->files, "project files")->required();
   command->add_option("--junit", options->junit, "write the results to this file (*.xml), as JUnit XML");
-  refuse_empty_texts(*command);
   command->footer(
       "Each project is simulated in virtual time, with its stimuli, to its last expectation or for its "
       "\"duration\";\n"

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "projects/json/named_file.hpp"
 #include "projects/json/text_file.hpp"
 
 namespace lockstep::aposs {
@@ -28,11 +29,14 @@ CompiledProgram compile_program(std::string name, std::string_view text, const R
   return result;
 }
 
-CompiledProgram compile_file(const std::string& path, const CompilerSettings& settings) {
+CompiledProgram compile_file(const std::string& path, const CompilerSettings& settings,
+                             const std::optional<std::string>& top) {
   const std::string text = read_text_file(path, kLargestFile);
-  const ReadIncluded read = [&path](const std::string& name) -> std::optional<std::string> {
+  const ReadIncluded read = [&](const std::string& name) -> std::optional<std::string> {
+    const std::string beside = (std::filesystem::path(path).parent_path() / name).string();
+    if (top && !stays_within(beside, *top)) return std::nullopt;
     try {
-      return read_text_file(std::filesystem::path(path).parent_path() / name, kLargestFile);
+      return read_text_file(beside, kLargestFile);
     } catch (const UnreadableFile&) {
       return std::nullopt;
     }

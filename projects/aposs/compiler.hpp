@@ -34,7 +34,10 @@ struct CompiledProgram {
 CompiledProgram compile_program(std::string name, std::string_view text, const ReadIncluded& read = {},
                                 const CompilerSettings& settings = {});
 /// Reads a file, and those that it includes from beside it. @throws UnreadableFile
-CompiledProgram compile_file(const std::string& path, const CompilerSettings& settings = {});
+/// @param top folder of the project, out of which no included file leads, not by a symbolic link either;
+///     none: it is of no project
+CompiledProgram compile_file(const std::string& path, const CompilerSettings& settings = {},
+                             const std::optional<std::string>& top = std::nullopt);
 
 /// "teddy.m:14:9: text".
 std::string to_string(const std::vector<std::string>& files, const Message& message);

@@ -7,6 +7,7 @@
 
 #include "projects/assembly/templates.hpp"
 #include "projects/json/fields.hpp"
+#include "projects/json/named_file.hpp"
 #include "projects/json/text_file.hpp"
 #include "projects/keys/parts.hpp"
 
@@ -18,10 +19,6 @@ namespace fs = std::filesystem;
 /// The path of a file by which it is known again; empty with an error if there is none.
 fs::path real_path(const std::string& path, std::error_code& error) {
   return fs::canonical(path.empty() ? fs::path(".") : fs::path(path), error);
-}
-
-bool is_within(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
 /// Of an object a member takes the place of one of the same key.
@@ -85,7 +82,7 @@ void ProjectSources::include(const JsonValue& name, const std::string& folder, c
   if (error)
     return found_.report(name, name.shown() + " cannot be included: " + error.message() +
                                    "; allowed: a file, relative to the one that includes it");
-  if (fs::path(name.text).is_absolute() || top_.empty() || !is_within(path, top_))
+  if (fs::path(name.text).is_absolute() || top_.empty() || !stays_within(path.string(), top_))
     return found_.report(
         name, name.shown() + " leads out of the folder of the project; allowed: files in it and below it");
   if (!fs::is_regular_file(path, error))

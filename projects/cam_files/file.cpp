@@ -6,22 +6,24 @@
 #include "projects/cam_files/fields.hpp"
 #include "projects/cam_files/table.hpp"
 #include "projects/json/fields.hpp"
+#include "projects/json/named_file.hpp"
 
 namespace lockstep {
 namespace {
 
 /// A file beside the project. Its problems are told with the place in it.
-void define_by_file(const JsonValue& object, const std::string& folder, CamDefinition& definition,
-                    Problems& problems) {
+void define_by_file(const JsonValue& object, const std::string& folder, const std::string& top,
+                    CamDefinition& definition, Problems& problems) {
   const JsonValue& file = *object.find("file");
   for (const char* key : {"elements", "optimization", "points", "segments"})
     if (const JsonValue* const value = object.find(key))
       problems.report(*value, "is not allowed beside a file, which defines the cam");
   const auto name = read_title(&file, problems);
   if (!name) return;
-  const std::filesystem::path path = std::filesystem::path(folder) / *name;
+  const std::optional<std::string> path = named_file(file, folder, top, problems);
+  if (!path) return;
   try {
-    LoadedCam loaded = load_cam_file(path.string(), "", definition.capacity);
+    LoadedCam loaded = load_cam_file(*path, "", definition.capacity);
     for (const Problem& problem : loaded.problems) problems.report(file, to_string(*name, problem));
     for (const Problem& warning : loaded.warnings) problems.warn(file, to_string(*name, warning));
     if (!loaded.definition) return;
@@ -78,8 +80,8 @@ void read_project(const JsonValue& root, const std::string& folder, const std::s
   definition.capacity = found->find("type")->text == "TO_Cam_10k" ? kCam10kPoints : kCamPoints;
   read_settings(*found, definition.design.interpolation, problems);
   const JsonValue* const file = found->find("file");
-  read_cam_definition(*found, file != nullptr ? file->source()->folder() : folder, CamWithoutCurve::refused,
-                      definition, problems);
+  read_cam_definition(*found, file != nullptr ? file->source()->folder() : folder, folder,
+                      CamWithoutCurve::refused, definition, problems);
 }
 
 /// The cam of a project, of which other files may be parts.
@@ -118,9 +120,9 @@ LoadedCam load_json(std::string_view text, const std::string& folder, const std:
 
 }  // namespace
 
-void read_cam_definition(const JsonValue& object, const std::string& folder, CamWithoutCurve without_curve,
-                         CamDefinition& definition, Problems& problems) {
-  if (object.find("file") != nullptr) return define_by_file(object, folder, definition, problems);
+void read_cam_definition(const JsonValue& object, const std::string& folder, const std::string& top,
+                         CamWithoutCurve without_curve, CamDefinition& definition, Problems& problems) {
+  if (object.find("file") != nullptr) return define_by_file(object, folder, top, definition, problems);
   read_cam_members(object, without_curve, definition, problems);
 }
 

@@ -36,9 +36,10 @@ LoadedCam load_cam_file(const std::string& path, const std::string& name, std::s
 /// other members of `object` are not looked at. For the loader of projects: every problem is reported where
 /// it stands, and without one `definition.cam` has points and segments for the data block.
 /// @param folder of the document, for `file`
+/// @param top folder of the project, out of which no file leads
 /// @param definition with capacity and design.interpolation as they are known so far; a file brings its own
 ///     interpolation
-void read_cam_definition(const JsonValue& object, const std::string& folder, CamWithoutCurve without_curve,
-                         CamDefinition& definition, Problems& problems);
+void read_cam_definition(const JsonValue& object, const std::string& folder, const std::string& top,
+                         CamWithoutCurve without_curve, CamDefinition& definition, Problems& problems);
 
 }  // namespace lockstep

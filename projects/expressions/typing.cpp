@@ -17,6 +17,13 @@ std::vector<Term> pair_of(Term left, Term right) {
 bool is_integer_literal(const Term& term) {
   return term.shape == Shape::kInteger && term.form == Term::Form::kLiteral;
 }
+/// Whether a term is the integer 0, as a literal.
+bool is_zero(const Term& term) {
+  if (term.form != Term::Form::kLiteral || term.faulty) return false;
+  return is_integer_literal(term)
+             ? term.integer == 0
+             : term.shape == Shape::kTyped && lockstep::is_integer(term.type) && term.value.u == 0;
+}
 bool is_typed(const Term& term, Type type) {
   return term.shape == Shape::kTyped && term.type == type;
 }
@@ -230,12 +237,18 @@ Term Typing::arithmetic(Operation operation, std::string_view text, int column, 
   if (is_integer_literal(left) && is_integer_literal(right)) return folded(operation, column, left, right);
   const auto common = join(common_of(left), common_of(right));
   const bool modulo = operation == Operation::kModulo;
+  const bool division = modulo || operation == Operation::kDivide;
+  if (division && common && is_integer(*common) && is_zero(right)) warn_of_zero(column);
   std::vector<Term> operands = pair_of(std::move(left), std::move(right));
   if (!common || !(modulo ? is_integer(*common) : is_number(*common)))
     return no_meaning(text, column, operands,
                       modulo ? "allowed are integers of a common type"
                              : "allowed are numbers of a common type (TO_type converts) and TIME");
   return this->operation(operation, column, *common, std::move(operands));
+}
+
+void Typing::warn_of_zero(int column) {
+  settling_.warnings.push_back({column, "the divisor is always 0: the result is 0 and counts as an error"});
 }
 
 /// The exact result of an operation on two integer literals is a literal again.
@@ -258,7 +271,7 @@ Term Typing::folded(Operation operation, int column, const Term& left, const Ter
   if (division && right.integer == 0) {
     term.integer = 0;
     ++term.divisions_by_zero;
-    settling_.warnings.push_back({column, "the divisor is always 0: the result is 0 and counts as an error"});
+    warn_of_zero(column);
   }
   if (operation == Operation::kDivide) term.division_column = column;
   if (overflow) {
@@ -290,6 +303,7 @@ Term Typing::time_arithmetic(Operation operation, std::string_view text, int col
 Term Typing::scaled_time(Operation operation, int column, Term time, Term number) {
   const bool exact = is_integer(common_of(number));
   Common common{Shape::kTyped, exact ? Type::LINT : Type::LREAL, 0, 0};
+  if (operation == Operation::kDivide && exact && is_zero(number)) warn_of_zero(column);
   settling_.settle(number, common.type);
   number.division_column = 0;
   // As nanoseconds: in integers exactly, with a real number rounded to the nearest.

@@ -27,6 +27,7 @@ class Typing {
   Term arithmetic(Operation operation, std::string_view text, int column, Term left, Term right);
   Term time_arithmetic(Operation operation, std::string_view text, int column, Term left, Term right);
   Term scaled_time(Operation operation, int column, Term time, Term number);
+  void warn_of_zero(int column);
   Term folded(Operation operation, int column, const Term& left, const Term& right);
   Term real_operation(Operation operation, std::string_view text, int column, std::vector<Term> operands);
   Term comparison(Operation operation, std::string_view text, int column, Term left, Term right);

@@ -17,6 +17,8 @@ std::string text_of(SourcePosition position) {
 /// What people write who think of another notation.
 std::string_view hint(std::string_view message) {
   const auto has = [message](std::string_view part) { return message.find(part) != message.npos; };
+  if (has("unexpected number literal") && has("expected string literal"))
+    return " (the decimal point is '.', as in 1.5; a key is a text in \"\")";
   const bool begins_another = has("unexpected string literal") || has("unexpected '{'") ||
                               has("unexpected '['") || has("unexpected number") || has("unexpected true") ||
                               has("unexpected false");

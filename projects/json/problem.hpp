@@ -1,6 +1,7 @@
 /// Problems of a project file: where, what is wrong, what is allowed.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +27,8 @@ struct Problem {
 /// What is wrong with a value, or with the key of a member of an object.
 Problem problem_at(const JsonValue& value, std::string text);
 Problem problem_at_key(const JsonValue& member, std::string text);
+/// What is wrong within a text, such as an expression. @param column in it, in bytes, from 1
+Problem problem_within(const JsonValue& value, std::size_t column, std::string text);
 
 /// Where another value stands, for the message about one: " in line 3", " in axes.json, line 3".
 std::string other_place(const JsonValue& other, const JsonValue& value);
@@ -41,8 +44,11 @@ class Problems {
   void report(const JsonValue& at, std::string text);
   /// The same of the key of a member.
   void report_key(const JsonValue& member, std::string text);
+  /// The same at a column of a text, in bytes, from 1.
+  void report_within(const JsonValue& at, std::size_t column, std::string text);
   /// Something that is legal and looks like a mistake.
   void warn(const JsonValue& at, std::string text);
+  void warn_within(const JsonValue& at, std::size_t column, std::string text);
 
   std::size_t count() const noexcept { return errors_.size(); }
   bool none() const noexcept { return errors_.empty(); }

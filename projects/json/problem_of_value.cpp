@@ -25,6 +25,19 @@ Problem problem_at_key(const JsonValue& member, std::string text) {
   return problem;
 }
 
+Problem problem_within(const JsonValue& value, std::size_t column, std::string text) {
+  Problem problem = problem_at(value, std::move(text));
+  // Where the text has escapes, or is that of an instance, its columns are none of the file.
+  const bool as_written =
+      value.source() != nullptr && value.kind == JsonKind::string &&
+      value.source()->text().compare(value.begin() + 1, value.text.size() + 1, value.text + "\"") == 0;
+  if (as_written)
+    problem.column = value.source()->position(value.begin() + column).column;
+  else
+    problem.text += " (character " + std::to_string(column) + " of the text)";
+  return problem;
+}
+
 std::string other_place(const JsonValue& other, const JsonValue& value) {
   if (other.source() == nullptr) return "";
   std::string text = " in ";
@@ -41,6 +54,14 @@ void Problems::report(const JsonValue& at, std::string text) {
 
 void Problems::report_key(const JsonValue& member, std::string text) {
   errors_.push_back(problem_at_key(member, std::move(text)));
+}
+
+void Problems::report_within(const JsonValue& at, std::size_t column, std::string text) {
+  errors_.push_back(problem_within(at, column, std::move(text)));
+}
+
+void Problems::warn_within(const JsonValue& at, std::size_t column, std::string text) {
+  warnings_.push_back(problem_within(at, column, std::move(text)));
 }
 
 void Problems::warn(const JsonValue& at, std::string text) {

@@ -1,5 +1,9 @@
 #include "projects/json/text_file.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -7,11 +11,32 @@
 #include <memory>
 
 namespace lockstep {
+namespace {
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+/// Without waiting for who might write to a pipe. @throws UnreadableFile
+File opened(const std::string& path) {
+  const auto fail = [&](int error) { throw UnreadableFile(path + ": " + std::strerror(error)); };
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  if (descriptor < 0) fail(errno);
+  File file(::fdopen(descriptor, "rb"), &std::fclose);
+  if (file == nullptr) {
+    const int error = errno;
+    ::close(descriptor);
+    fail(error);
+  }
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) fail(errno);
+  if (S_ISDIR(status.st_mode)) fail(EISDIR);
+  if (!S_ISREG(status.st_mode)) throw UnreadableFile(path + ": is no file but a pipe, a device or a socket");
+  return file;
+}
+
+}  // namespace
 
 std::string read_text_file(const std::string& path, std::size_t maximum) {
-  const auto fail = [&] { throw UnreadableFile(path + ": " + std::strerror(errno)); };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (file == nullptr) fail();
+  const File file = opened(path);
   std::string text(64 * 1024, '\0');
   std::size_t size = 0;
   while (size <= maximum) {
@@ -20,7 +45,7 @@ std::string read_text_file(const std::string& path, std::size_t maximum) {
     size += count;
     if (count == 0) break;
   }
-  if (std::ferror(file.get()) != 0) fail();
+  if (std::ferror(file.get()) != 0) throw UnreadableFile(path + ": " + std::strerror(errno));
   text.resize(size);
   return text;
 }

@@ -48,7 +48,7 @@ void load_cam(const JsonValue& json, Cam& cam, const Loading& loading) {
   // Relative to the file that names it, which may be an included one.
   const std::string folder =
       file != nullptr && file->source() != nullptr ? file->source()->folder() : loading.folder;
-  read_cam_definition(json, folder, CamWithoutCurve::allowed, definition, problems);
+  read_cam_definition(json, folder, loading.folder, CamWithoutCurve::allowed, definition, problems);
   if (problems.count() != before) return;
   define(cam, definition.cam);
   const CamElements elements = cam.elements();

@@ -39,7 +39,7 @@ std::optional<Expression> compile(const JsonValue& json, bool is_number, const L
   const std::string hint = is_number ? "; with 'value' it has to be a number" : "";
   for (const ExpressionError& error : compiled.errors)
     if (error.message.find(Names::kKnownProblem) == std::string::npos)
-      loading.problems.report(json, error.message + hint + " (column " + std::to_string(error.column) + ")");
+      loading.problems.report_within(json, static_cast<std::size_t>(error.column), error.message + hint);
   return std::move(compiled.expression);
 }
 

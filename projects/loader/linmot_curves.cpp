@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
+#include "projects/json/named_file.hpp"
 #include "projects/json/text_file.hpp"
 #include "projects/keys/linmot.hpp"
 #include "projects/loader/read_keys.hpp"
@@ -59,12 +59,12 @@ std::string take_point(std::string_view line, linmot::CurvePart& part) {
 
 /// ms;mm in each line; one that begins without a figure at the top is a heading.
 void load_curve_file(const JsonValue& json, linmot::CurvePart& part, const Loading& loading) {
-  const auto name = read_string(&json, loading.problems);
-  if (!name) return;
-  const std::string path = std::filesystem::path(loading.folder) / std::string(*name);
+  if (!read_string(&json, loading.problems)) return;
+  const auto path = named_file(json, loading.folder, loading.folder, loading.problems);
+  if (!path) return;
   try {
-    const std::string text = read_text_file(path, kLargestCurveFile);
-    if (text.size() > kLargestCurveFile) return loading.problems.report(json, path + " has more than 8 MiB");
+    const std::string text = read_text_file(*path, kLargestCurveFile);
+    if (text.size() > kLargestCurveFile) return loading.problems.report(json, *path + " has more than 8 MiB");
     std::size_t number = 0;
     for (std::string_view rest = text; !rest.empty();) {
       const std::string_view line = rest.substr(0, rest.find('\n'));
@@ -75,7 +75,7 @@ void load_curve_file(const JsonValue& json, linmot::CurvePart& part, const Loadi
       if (line.find_first_not_of(" \r\t") == line.npos || (number == 1 && !take_figure(begin, figure)))
         continue;
       if (const std::string fault = take_point(line, part); !fault.empty())
-        return loading.problems.report(json, path + ":" + std::to_string(number) + ": " + fault);
+        return loading.problems.report(json, *path + ":" + std::to_string(number) + ": " + fault);
     }
   } catch (const UnreadableFile& error) {
     loading.problems.report(json, error.what());

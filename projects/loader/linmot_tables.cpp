@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
+#include "projects/json/named_file.hpp"
 #include "projects/json/text_file.hpp"
 #include "projects/keys/linmot.hpp"
 #include "projects/loader/linmot_curves.hpp"
@@ -269,11 +269,10 @@ class TableFile {
 };
 
 void load_table_file(const JsonValue& json, LinMotController& controller, const Loading& loading) {
-  const auto name = read_string(&json, loading.problems);
-  if (!name) return;
+  if (!read_string(&json, loading.problems)) return;
   try {
-    const std::string path = (std::filesystem::path(loading.folder) / std::string(*name)).string();
-    TableFile(path, json, controller, loading.problems).load();
+    if (const auto path = named_file(json, loading.folder, loading.folder, loading.problems))
+      TableFile(*path, json, controller, loading.problems).load();
   } catch (const UnreadableFile& error) {
     loading.problems.report(json, error.what());
   }

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <set>
 
 #include "projects/aposs/compiler.hpp"
 #include "projects/aposs/parameter_names.hpp"
+#include "projects/json/named_file.hpp"
 #include "projects/json/text_file.hpp"
 #include "projects/keys/objects.hpp"
 #include "projects/loader/loader.hpp"
@@ -118,19 +118,19 @@ void DeviceLoader::store(std::int32_t number, std::int32_t value, const JsonValu
 }
 
 void DeviceLoader::load_parameter_file(const JsonValue& json) {
-  const auto name = read_string(&json, problems_);
-  if (!name) return;
-  const std::string path = std::filesystem::path(loading_.folder) / std::string(*name);
+  if (!read_string(&json, problems_)) return;
+  const auto path = named_file(json, loading_.folder, loading_.folder, problems_);
+  if (!path) return;
   try {
-    const JsonDocument document(read_text_file(path, kLargestParameterFile));
-    for (const Problem& problem : document.problems()) problems_.report(json, path + ": " + problem.text);
+    const JsonDocument document(read_text_file(*path, kLargestParameterFile));
+    for (const Problem& problem : document.problems()) problems_.report(json, *path + ": " + problem.text);
     if (!document.usable()) return;
     Problems inner;
     const Loading of_file = telling(inner);
     DeviceLoader file(device_, of_file);
     file.load_parameters(document.root(), true);
     for (const Problem& problem : inner.take_errors())
-      problems_.report(json, path + problem.place + ": " + problem.text);
+      problems_.report(json, *path + problem.place + ": " + problem.text);
   } catch (const UnreadableFile& error) {
     problems_.report(json, error.what());
   }
@@ -231,13 +231,11 @@ void DeviceLoader::compile(const JsonValue& at, const Fields& fields, DeviceProg
   if ((file == nullptr) == (lines == nullptr))
     return problems_.report(at, "a program is a 'file' or 'lines'; allowed is one of the two");
   if (file != nullptr) {
-    const auto name = read_string(file, problems_);
-    if (!name) return;
+    if (!read_string(file, problems_)) return;
+    const auto path = named_file(*file, loading_.folder, loading_.folder, problems_);
+    if (!path) return;
     try {
-      take(*file,
-           aposs::compile_file(std::filesystem::path(loading_.folder) / std::string(*name),
-                               compiler_settings()),
-           program);
+      take(*file, aposs::compile_file(*path, compiler_settings(), loading_.folder), program);
     } catch (const UnreadableFile& error) {
       problems_.report(*file, error.what());
     }

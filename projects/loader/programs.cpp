@@ -1,8 +1,11 @@
 // Programs: from JSON calls to compiled sequences.
 #include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <unordered_map>
 
 #include "projects/expressions/constant.hpp"
+#include "projects/json/fields.hpp"
 #include "projects/keys/project.hpp"
 #include "projects/loader/call_checks.hpp"
 #include "projects/loader/loader.hpp"
@@ -62,8 +65,12 @@ void declare_calls(const JsonValue* calls, const Loading& loading) {
   }
 }
 
-std::string message_of(const ExpressionError& error) {
-  return error.message + " (column " + std::to_string(error.column) + ")";
+/// Column in the text of a value of a mistake in an expression that is all of it, or a part.
+std::size_t column_in(const JsonValue& json, std::string_view expression, const ExpressionError& error) {
+  const std::string_view whole = json.text;
+  const bool is_part = std::less_equal<>()(whole.data(), expression.data()) &&
+                       std::less_equal<>()(expression.data(), whole.data() + whole.size());
+  return static_cast<std::size_t>(error.column + (is_part ? expression.data() - whole.data() : 0));
 }
 
 /// Compiles the calls of one program.
@@ -98,7 +105,7 @@ class ProgramLoader {
   std::optional<Expression> compile(const JsonValue* json, Type type);
   std::optional<Expression> compile_expression_at(const JsonValue& json, std::string_view expression,
                                                   Type type);
-  void report(const JsonValue& json, const std::vector<ExpressionError>& errors);
+  void report(const JsonValue& json, std::string_view expression, const std::vector<ExpressionError>& errors);
   static std::optional<Value> constant_value(const Expression& expression);
 
   Program& program_;
@@ -139,17 +146,19 @@ std::optional<Expression> ProgramLoader::compile(const JsonValue* json, Type typ
   return compile_expression_at(*json, json->text, type);
 }
 
-void ProgramLoader::report(const JsonValue& json, const std::vector<ExpressionError>& errors) {
+void ProgramLoader::report(const JsonValue& json, std::string_view expression,
+                           const std::vector<ExpressionError>& errors) {
   for (const ExpressionError& error : errors)
     if (error.message.find(Names::kKnownProblem) == std::string::npos)
-      problems_.report(json, message_of(error));
+      problems_.report_within(json, column_in(json, expression, error), error.message);
 }
 
 std::optional<Expression> ProgramLoader::compile_expression_at(const JsonValue& json,
                                                                std::string_view expression, Type type) {
   CompiledExpression compiled = compile_expression(expression, type, loading_.names());
-  report(json, compiled.errors);
-  for (const ExpressionError& warning : compiled.warnings) problems_.warn(json, message_of(warning));
+  report(json, expression, compiled.errors);
+  for (const ExpressionError& warning : compiled.warnings)
+    problems_.warn_within(json, column_in(json, expression, warning), warning.message);
   return std::move(compiled.expression);
 }
 
@@ -217,7 +226,7 @@ void ProgramLoader::assign_text(const JsonValue* to, const StringTag& tag) {
   if (to->kind != JsonKind::string)
     return report_kind(*to, "a text such as \"'ale'\", or a tag of type STRING", problems_);
   CompiledText compiled = compile_text(to->text, loading_.names());
-  report(*to, compiled.errors);
+  report(*to, to->text, compiled.errors);
   if (!compiled.text) return;
   if (compiled.text->capacity() > tag.text.capacity)
     return problems_.report(*to, to->shown() + " may have " + std::to_string(compiled.text->capacity()) +
@@ -389,7 +398,7 @@ std::int64_t read_cycle(const Fields& fields, Ob ob, const Loading& loading) {
   if (cycle && cycle->integer % servo_cycle != 0)
     loading.problems.report(*json, json->shown() +
                                        " is no whole multiple of servo_cycle; allowed: multiples of " +
-                                       std::to_string(servo_cycle) + "ns");
+                                       duration_text(servo_cycle));
   return cycle ? cycle->integer : servo_cycle;
 }
 

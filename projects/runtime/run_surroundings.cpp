@@ -85,6 +85,10 @@ void RunSurroundings::tell_losses() {
   for (const std::string& loss : recorder_->losses()) messages_.warn(loss);
 }
 
+bool RunSurroundings::trace_is_incomplete() const {
+  return !options_.trace.empty() && !recorder_->losses().empty();
+}
+
 std::vector<std::string> RunSurroundings::unfinished() const {
   std::vector<std::string> texts = recorder_->losses();
   if (std::string held_up = recorder_->held_up(); !held_up.empty()) texts.push_back(std::move(held_up));

@@ -76,6 +76,8 @@ class RunSurroundings {
   void end();
   /// Tells what is missing. After `end`.
   void tell_losses();
+  /// Whether the file of `trace` is not what was asked for. After `end`.
+  bool trace_is_incomplete() const;
   /// What `end` has not come to, a line each. Any thread, while it goes on.
   std::vector<std::string> unfinished() const;
 

@@ -1,7 +1,12 @@
 // What all commands have in common: --help, --version, exit statuses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/cli/command_run.hpp"
 
@@ -100,6 +105,76 @@ TEST(CommandLine, TheFileOfASystemIsToldAsSuchWhereAProjectIsAskedFor) {
   }
 }
 
+/// The commands that a help lists, behind "Subcommands:".
+std::vector<std::string> commands_in(const std::string& help) {
+  std::vector<std::string> names;
+  std::istringstream lines(help.substr(std::min(help.find("Subcommands:\n"), help.size())));
+  std::string line;
+  for (std::getline(lines, line); std::getline(lines, line) && line.starts_with("  ");)
+    names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return names;
+}
+
+/// The options that take a value; "" stands for a command's own argument.
+std::vector<std::string> with_a_value(const std::string& help) {
+  std::vector<std::string> names;
+  std::istringstream lines(help);
+  const std::regex option(R"(^  (?:-\w,)?(--[\w-]+) (?:TEXT|INT|UINT|FLOAT|NUMBER|ENUM).*)");
+  const std::regex argument(R"(^  [A-Z]+ (?:TEXT|INT|UINT|FLOAT).*)");
+  std::smatch match;
+  for (std::string line; std::getline(lines, line);) {
+    if (std::regex_match(line, match, option)) names.push_back(match[1]);
+    if (std::regex_match(line, argument)) names.emplace_back();
+  }
+  return names;
+}
+
+/// Tries every option of a command, and of those below it, with an empty value. @return how many
+std::size_t try_empty_values(const std::vector<std::string>& command) {
+  std::vector<std::string> asking = command;
+  asking.emplace_back("--help");
+  const std::string help = lockstep(asking).out;
+  std::size_t tried = 0;
+  for (const std::string& name : with_a_value(help)) {
+    ++tried;
+    const std::vector<std::vector<std::string>> forms =
+        name.empty() ? std::vector<std::vector<std::string>>{{""}}
+                     : std::vector<std::vector<std::string>>{{name, ""}, {name + "=", "x"}};
+    for (const std::vector<std::string>& form : forms) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), form.begin(), form.end());
+      const Ended ended = lockstep(words);
+      EXPECT_EQ(ended.status, 2) << command.back() << " " << form[0];
+      EXPECT_NE(ended.err.find(name + ": an empty text is no value; needed: "), std::string::npos)
+          << command.back() << " " << form[0] << ": " << ended.err;
+      EXPECT_EQ(ended.out, "");
+    }
+  }
+  for (const std::string& below : commands_in(help)) {
+    std::vector<std::string> deeper = command;
+    deeper.push_back(below);
+    tried += try_empty_values(deeper);
+  }
+  return tried;
+}
+
+// An empty one is that of a variable that is not set; a studio without the token that was asked for would be
+// open.
+TEST(CommandLine, EveryOptionRefusesAnEmptyValueAndSaysWhatItNeeds) {
+  std::size_t tried = 0;
+  for (const std::string& command : commands_in(lockstep({"--help"}).out))
+    tried += try_empty_values({command});
+  EXPECT_GT(tried, 80U);
+}
+
+TEST(CommandLine, ARunWithoutTheTokenThatWasAskedForDoesNotBegin) {
+  const std::string project = LOCKSTEP_SOURCE_DIR "/projects/02_rotary_knife/project.json";
+  const Ended ended = lockstep({"run", project, "--no-retain", "--no-modbus", "--no-lcm", "--duration", "1ms",
+                                "--studio", "127.0.0.1:0", "--studio-write", "--studio-token-file", ""});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_NE(ended.err.find("file of the token"), std::string::npos) << ended.err;
+}
+
 // The loop of position control leaves ever less of a deviation, 1e-200 in the end.
 TEST(CommandLine, ARunShowsAnAxisThatHasComeToRestAtZeroThere) {
   const std::string project = LOCKSTEP_SOURCE_DIR "/projects/09_flying_saw/project.json";
@@ -123,6 +198,19 @@ TEST(CommandLine, ARunShowsHowFastASpeedAxisTurnsSinceItHasNoPosition) {
   EXPECT_EQ(ended.status, 0);
   EXPECT_NE(ended.err.find("  Fan   turning        at 1500 1/min\n"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("  Pump  standing       at 0 1/s\n"), std::string::npos) << ended.err;
+}
+
+TEST(CommandLine, ARunTellsHowManyIntegersWereDividedByZeroAndWhenFirst) {
+  const Directory folder;
+  const std::string file = folder.write("project.json", R"({
+    "lockstep": 1, "name": "divided", "clock": { "servo_cycle": "1ms" },
+    "tags": { "a": { "type": "DINT" }, "n": { "type": "DINT", "init": -5 } },
+    "programs": [ { "name": "Main", "ob": "Main", "cycle": "1ms", "calls": [
+      { "set": "a", "to": "7 / n" }, { "set": "n", "to": "n + 1" } ] } ] })");
+  const Ended ended = lockstep({"run", file, "--simulate", "--duration", "10ms"});
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_NE(ended.err.find("1 integer divisions by zero gave 0, the first at 0.005 s\n"), std::string::npos)
+      << ended.err;
 }
 
 TEST(CommandLine, ARunTellsHowManyIndicesWereOutOfRange) {

@@ -343,7 +343,6 @@ TEST(Describe, AnUnknownNameExitsWith1AndASuggestion) {
       {{"StatusWrod"}, "did you mean 'StatusWord'?"},
       {{"StatusWord.X32"}, "there is nothing called"},
       {{"Sensor[5]"}, "there is nothing called"},
-      {{""}, "there is nothing called"},
       {{"8026"}, "did you mean '16#8026'?"},
       {{"16#9999"}, "there is no error"},
       {{"99999999999999999999"}, "there is nothing called"},

@@ -42,7 +42,7 @@ TEST(SystemCommand, IsCheckedWithAllItsProjects) {
   SystemFiles files = two();
   const Ended valid = lockstep({"check", files.path()});
   EXPECT_EQ(valid.status, 0) << valid.err;
-  EXPECT_EQ(valid.err, "");
+  EXPECT_EQ(valid.err, files.path() + ": valid\n");
   files.json["transfer_areas"]["line"]["from"] = "PLC_1.Convayor";
   const Ended wrong = lockstep({"check", files.path()});
   EXPECT_EQ(wrong.status, 1);

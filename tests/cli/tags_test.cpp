@@ -55,6 +55,20 @@ TEST(Write, SaysOnceWhatIsAllowed) {
   }
 }
 
+TEST(Tags, TellsBetweenWhichValuesAClientMayWrite) {
+  const Directory folder;
+  json project = json::parse(kProject);
+  project["modbus"]["map"][1].update({{"min", 2.5}, {"max", 300}});
+  project["modbus"]["map"].push_back(
+      {{"tag", "wait"}, {"table", "holding_register"}, {"address", 30}, {"max", 60}});
+  const Ended ended = lockstep({"tags", folder.write("project.json", project.dump())});
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_NE(ended.out.find("write 2.5 to 300"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("write to 60"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("BOOL          write\n"), std::string::npos)
+      << "a BOOL has no limits: " << ended.out;
+}
+
 TEST(Tags, TellsWhatIsOnModbusAsCsv) {
   const Directory folder;
   json project = json::parse(kProject);

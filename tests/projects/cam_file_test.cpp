@@ -306,7 +306,7 @@ TEST(CamFile, AProjectsCamMayBeEmptyUntilTheProgramFillsIt) {
     const JsonDocument document(text);
     CamDefinition definition;
     Problems found;
-    read_cam_definition(document.root(), "", CamWithoutCurve::allowed, definition, found);
+    read_cam_definition(document.root(), "", "", CamWithoutCurve::allowed, definition, found);
     EXPECT_EQ(found.count(), problems) << text;
     if (problems == 0) {
       EXPECT_FALSE(definition.cam.function) << text;

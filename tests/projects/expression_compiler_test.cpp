@@ -332,6 +332,20 @@ TEST_F(ExpressionCompiler, DivisionsByZeroGiveZeroAndAreCounted) {
   EXPECT_EQ(counters.integer_divisions_by_zero, 6u);
   EXPECT_FALSE(compile_expression("1 / 0", Type::DINT, scope).expression->constant());
   EXPECT_EQ(warning("3 + 1 / 0", Type::DINT), 7);
+  // A literal 0 divides by zero whatever it divides; a real has infinities.
+  EXPECT_EQ(warning("dint / 0", Type::DINT), 6);
+  EXPECT_EQ(warning("dint MOD 0", Type::DINT), 6);
+  EXPECT_EQ(warning("dint / (3 - 3)", Type::DINT), 6);
+  EXPECT_EQ(warning("dint / DINT#0", Type::DINT), 6);
+  EXPECT_EQ(warning("DINT#1 / DINT#0", Type::DINT), 8);
+  EXPECT_EQ(warning("DIV(dint, 0)", Type::DINT), 1);
+  EXPECT_EQ(warning("time / 0", Type::TIME), 6);
+  EXPECT_EQ(warning("dint / 1", Type::DINT), 0);
+  EXPECT_EQ(warning("dint / dint", Type::DINT), 0);
+  EXPECT_EQ(warning("0 / dint", Type::DINT), 0);
+  EXPECT_EQ(warning("lreal / 0", Type::LREAL), 0);
+  EXPECT_EQ(warning("dint / 0.0", Type::LREAL), 0);
+  EXPECT_EQ(warning("time / 0.0", Type::TIME), 0);
   EXPECT_EQ(real("1.0 / 0"), std::numeric_limits<double>::infinity());
   EXPECT_TRUE(std::isnan(real("0.0 / (lreal - lreal)")));
   EXPECT_EQ(counters.integer_divisions_by_zero, 6u);

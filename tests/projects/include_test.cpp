@@ -200,7 +200,7 @@ TEST(Problems, TellLineAndColumnAndWhatTheyArePartOf) {
   }
   EXPECT_EQ(told, (std::vector<std::string>{"/tags/n/init (line 2, column 51, tag 'n')",
                                             "/programs/0/comment (line 3, column 76, program 'Main')",
-                                            "/programs/0/calls/0/in/IN (line 5, column 50, call 'wait')",
+                                            "/programs/0/calls/0/in/IN (line 5, column 61, call 'wait')",
                                             "/programs/0/calls/0/in/TP (line 5, column 65, call 'wait')"}));
 }
 

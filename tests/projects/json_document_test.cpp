@@ -48,6 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"empty", "", "1:1", "empty"}, Refused{"blank", " \n\t ", "1:1", "empty"},
         Refused{"cut_short", "{\"a\": 1", "1:8", "expected"},
         Refused{"trailing_comma", "{\"a\": 1,}", "1:9", "expected string literal"},
+        Refused{"decimal_comma", "{\"a\": 1,5}", "1:9", "the decimal point is '.', as in 1.5"},
         Refused{"trailing_comma_of_an_array", "[1,]", "1:4", "(no comma stands before it)"},
         Refused{"missing_comma", "{\"a\": 1\n  \"clock\": 2}", "2:3", "(a comma is missing before it)"},
         Refused{"missing_comma_of_an_array", "[1 [2]]", "1:4", "(a comma is missing before it)"},

@@ -69,6 +69,37 @@ TEST(ProjectProblems, AreToldForDuplicateKeysAndWhatElseIsWrong) {
             "them or of a structure of cams\n");
 }
 
+TEST(ProjectProblems, OfAnExpressionHaveOnePlaceWhichIsThatInTheFile) {
+  const auto told = [](const std::string& set, const std::string& to) {
+    const LoadedProject loaded = load_project(R"({"lockstep": 1, "name": "x", "clock": {"servo_cycle": "1ms"},
+"tags": {"n": {"type": "DINT"}, "a": {"type": "ARRAY[1..3] OF DINT"}},
+"programs": [{"name": "M", "ob": "Main", "cycle": "1ms", "calls": [
+{"set": )" + set + R"(, "to": )" + to + "}]}]}");
+    std::string text;
+    for (const Problem& problem : loaded.problems.empty() ? loaded.warnings : loaded.problems)
+      text += to_string("FILE", problem) + "\n";
+    return text;
+  };
+  EXPECT_NE(told("\"n\"", "\"n + m\"").find("unknown name 'm'"), std::string::npos);
+  EXPECT_NE(told("\"n\"", "\"n + m\"").find(" (line 4, column 25"), std::string::npos)
+      << told("\"n\"", "\"n + m\"");
+  EXPECT_NE(told("\"n\"", "\"n / 0\"").find("the divisor is always 0"), std::string::npos);
+  EXPECT_NE(told("\"n\"", "\"n / 0\"").find(" (line 4, column 23"), std::string::npos)
+      << told("\"n\"", "\"n / 0\"");
+  EXPECT_NE(told("\"a[n + m]\"", "1").find(" (line 4, column 16"), std::string::npos)
+      << told("\"a[n + m]\"", "1");
+  // Of a text with escapes no column of the file is known.
+  EXPECT_NE(told("\"n\"", R"("n \u002B m")").find(" (character 5 of the text) (line 4, column 20"),
+            std::string::npos)
+      << told("\"n\"", R"("n \u002B m")");
+}
+
+TEST(ProjectProblems, NameTheServoCycleWithItsUnit) {
+  const LoadedProject loaded = load_project(changed("/programs/0/cycle", "\"1500us\""));
+  EXPECT_NE(lines(loaded.problems).find("allowed: multiples of 1ms"), std::string::npos)
+      << lines(loaded.problems);
+}
+
 TEST(ProjectProblems, NameAPlaceOnOneLineWhateverTheKey) {
   const LoadedProject loaded = load_project(
       "{\"lockstep\": 1, \"name\": \"x\", \"clock\": {\"servo_cycle\": \"1ms\"}, \"tags\": {\"a\\nb\": "

@@ -560,8 +560,8 @@ INSTANTIATE_TEST_SUITE_P(
         at(kGear + "/RatioNumerator", "\"speed\"", "LREAL"),
         at(kGear + "/Execute", "1", "allowed: true, false"),
         at(kGear + "/Execute", "\"speed\"", "BOOL"),
-        at(kGear + "/Execute", "\"start AND\"", "(column"),
-        at(kGear + "/Execute", "\"\"", "(column 1)"),
+        at(kGear + "/Execute", "\"start AND\"", "found where a value is expected"),
+        at(kGear + "/Execute", "\"\"", "the expression is empty"),
         at(kGear + "/Execute", "\"home_k.Don\"", "has no pin 'Don' (did you mean 'Done'?)"),
         at(kGear + "/Execute", "\"home_k\"", "one of its pins has to follow"),
         at(kGear + "/Execute", "\"home_k.Axis\"", "takes a technology object and has no value"),
@@ -800,7 +800,7 @@ INSTANTIATE_TEST_SUITE_P(
              "/technology_objects/Spare", "nothing uses the technology object 'Spare'"},
         Rule{kNew, R"({"set": "Knife.Override.Velocity", "to": 300})", kNew + "/to",
              "allowed: from 0 to 200"},
-        Rule{kNew, R"({"set": "speed", "to": "1 / 2"})", kNew + "/to", "(column"},
+        Rule{kNew, R"({"set": "speed", "to": "1 / 2"})", kNew + "/to", "integer division truncates"},
         Rule{kConfig + "/Actor", R"({"Type": 0})", kConfig + "/Actor/Type", "no effect yet"}}));
 
 TEST(ModbusServers, ThatDoNotSayWhereTheyAreAreEachToldOf) {

@@ -3,14 +3,18 @@
 
 #include <bit>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <string>
 
 #include "changed_project.hpp"
 #include "projects/json/addresses.hpp"
+#include "projects/json/text_file.hpp"
 #include "projects/loader/project.hpp"
+#include "tests/support/directory.hpp"
 #include "tests/support/values.hpp"
 
 namespace lockstep::project_wiring_test {
@@ -368,8 +372,12 @@ TEST(LoadProjectFile, ReadsAFileAndTellsWhenItCannot) {
   EXPECT_THROW(load_project_file(testing::TempDir()), UnreadableFile);
 }
 
-TEST(LoadProjectFile, StopsReadingWhatHasNoEnd) {
-  const LoadedProject loaded = load_project_file("/dev/zero");
+TEST(LoadProjectFile, StopsReadingWhatIsTooLong) {
+  EXPECT_THROW(load_project_file("/dev/zero"), UnreadableFile) << "which has no end";
+  const test::Directory folder;
+  const std::string file = folder.write("long.json", "{}");
+  std::filesystem::resize_file(file, std::uintmax_t{64} << 20);
+  const LoadedProject loaded = load_project_file(file);
   ASSERT_EQ(loaded.problems.size(), 1u);
   EXPECT_NE(loaded.problems[0].text.find("16 MiB"), std::string::npos);
 }

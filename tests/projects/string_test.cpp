@@ -138,8 +138,7 @@ TEST(Strings, AreToldOfWhatIsWrongWhereTheyAreUsed) {
   EXPECT_EQ(set("3").substr(0, to.size()), to);
   EXPECT_EQ(set("\"last\""), to + "'last' may have 6 characters; allowed for 'kind': up to 5");
   EXPECT_EQ(set("\"'porter'\""), to + "''porter'' may have 6 characters; allowed for 'kind': up to 5");
-  EXPECT_EQ(set("\"n\""),
-            to + "DINT is no text; allowed: a text such as 'ale', or a tag of type STRING (column 1)");
+  EXPECT_EQ(set("\"n\""), to + "DINT is no text; allowed: a text such as 'ale', or a tag of type STRING");
   EXPECT_NE(set("\"ale\"").find("unknown name 'ale'"), std::string::npos);
   EXPECT_NE(set("\"'ale\"").find("has no end '"), std::string::npos);
   EXPECT_NE(set("\"kind\"", "n").find("a text does not fit where DINT is expected"), std::string::npos);
