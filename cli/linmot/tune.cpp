@@ -148,7 +148,7 @@ void add_linmot_tune(CLI::App& linmot, Action& action) {
   auto options = std::make_shared<TuneOptions>();
   auto* const motor =
       command->add_option("MOTOR", options->motor, "project, LinMot controller and A to D: a motor in it")
-          ->expected(3)
+          ->expected(1, 3)  // exactly three are asked for below, behind what each value is
           ->type_name("FILE CONTROLLER A");
   add_described_motor(*command, *options, *motor);
   command->add_option("--external-force", options->input.external_force, "out of each motor [N]")
@@ -166,6 +166,8 @@ void add_linmot_tune(CLI::App& linmot, Action& action) {
   command->callback([&action, options, command] {
     if (options->motor.empty() && command->count("--force-constant") == 0)
       throw CLI::RequiredError("FILE CONTROLLER A, or --force-constant and --slider-mass");
+    if (!options->motor.empty() && options->motor.size() != 3)
+      throw CLI::ArgumentMismatch("a motor of a project is named by FILE CONTROLLER A");
     if (!options->motor.empty() &&
         (options->motor[2].size() != 1 || options->motor[2][0] < 'A' || options->motor[2][0] > 'D'))
       throw CLI::ValidationError("MOTOR", "the motor is one of A, B, C, D");

@@ -3,7 +3,7 @@
 ///
 ///   actual velocity → PT2 filter → tolerance band → velocity
 ///   actual position → PT2 filter → + velocity · extrapolation time → hysteresis → position
-///   …                          → + velocity · (extrapolation time + time ahead) → hysteresis → ahead
+///   actual position → PT2 filter → + velocity · (extrapolation time + time ahead) → hysteresis → ahead
 ///
 /// @source S7-1500T synchronous operation V7, 5.2.3, 5.2.4, 13.1 (Extrapolation, StatusExtrapolation)
 #pragma once

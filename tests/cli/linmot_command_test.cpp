@@ -158,7 +158,7 @@ TEST(LinMotCommand, RefusesToTuneWhatIsNotThere) {
   refused({project, "Lid", "D", "--apply"}, 1, "'motors' of Lid does not describe D");
   refused({project, "Lid", "E"}, 2, "one of A, B, C, D");
   refused({project, "Lid", "A", "--friction", "3"}, 2, "");
-  refused({project, "Lid"}, 2, "");
+  refused({project, "Lid"}, 2, "FILE CONTROLLER A");
   refused({"--apply"}, 2, "");
   refused({}, 2, "FILE CONTROLLER A");
   refused({"/nowhere/x.json", "Lid", "A"}, 2, "");
