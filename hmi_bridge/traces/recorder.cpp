@@ -76,6 +76,12 @@ std::vector<std::string> TraceRecorder::losses() const {
   return texts;
 }
 
+bool TraceRecorder::has_lost(std::string_view name) const {
+  if (ring_.dropped() > 0) return true;
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(losses_, [name](const Loss& loss) { return loss.name == name; });
+}
+
 std::string TraceRecorder::held_up() const {
   const TraceSink* const sink = busy_.load(std::memory_order_acquire);
   if (sink == nullptr) return "";

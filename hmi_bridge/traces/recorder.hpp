@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -56,6 +57,9 @@ class TraceRecorder {
   /// text such as "trace incomplete: 12 rows lost in run.csv: No space left on device". Empty if nothing is
   /// missing. Any thread but the cycle's.
   std::vector<std::string> losses() const;
+  /// Whether rows are missing from a sink with this name, or from the ring and so from all of them. Any
+  /// thread but the cycle's.
+  bool has_lost(std::string_view name) const;
   /// What a sink holds up that is being written to at this moment, as a text of the same kind; empty: none.
   /// For one that does not come back. Any thread but the cycle's, while the recorder lives.
   std::string held_up() const;

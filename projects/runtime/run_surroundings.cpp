@@ -86,7 +86,7 @@ void RunSurroundings::tell_losses() {
 }
 
 bool RunSurroundings::trace_is_incomplete() const {
-  return !options_.trace.empty() && !recorder_->losses().empty();
+  return !options_.trace.empty() && recorder_->has_lost(options_.trace);
 }
 
 std::vector<std::string> RunSurroundings::unfinished() const {
