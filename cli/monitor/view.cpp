@@ -1,8 +1,11 @@
 #include "cli/monitor/view.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <ctime>
 
 #include "cli/describe/table.hpp"
 #include "projects/json/problem.hpp"
@@ -167,6 +170,15 @@ std::string time_text(const event_t& event) {
   return fmt::format("{:>10.3f} s  ", seconds(event.t));
 }
 
+/// For a log book: of a run in real time the clock on the wall, and the tick.
+std::string moment_text(const event_t& event) {
+  const std::string tick = fmt::format("tick {}", event.tick);
+  constexpr std::int64_t kEnd = 253'402'300'800;  // [s] of the year 9999: a message may have any number
+  const std::int64_t since_1970 = event.utime / 1'000'000;
+  if (event.utime == event.t / 1000 || since_1970 <= 0 || since_1970 >= kEnd) return tick;
+  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC, ", fmt::gmtime(static_cast<std::time_t>(since_1970))) + tick;
+}
+
 Lines jobs(const Model& model, std::size_t height) {
   const HeardEvents& events = model.shown().events;
   Lines lines;
@@ -198,7 +210,8 @@ Lines alarms(const Model& model, std::size_t height) {
     if (event.kind == "alarm")
       lines.push_back({time_text(event) + printable(event.source) +
                            fmt::format("  {}: {}", event.number, printable(event.text)) +
-                           (event.reaction_text.empty() ? "" : " (" + printable(event.reaction_text) + ")"),
+                           (event.reaction_text.empty() ? "" : " (" + printable(event.reaction_text) + ")") +
+                           "  " + moment_text(event),
                        Look::alarm});
     else
       lines.push_back({time_text(event) + printable(event.source) + "  acknowledged"});

@@ -27,6 +27,10 @@ ElementKey split(std::string_view key) {
   return plain ? ElementKey{key.substr(0, open), index} : ElementKey{key};
 }
 
+const JsonValue* member_of(const JsonValue* json, std::string_view key) {
+  return json != nullptr && json->kind == JsonKind::object ? json->find(key) : nullptr;
+}
+
 class ConfigurationLoader {
  public:
   ConfigurationLoader(TechnologyObject& object, const Loading& loading)
@@ -113,6 +117,34 @@ void ConfigurationLoader::load_tag_reference(const JsonValue& json, const Signal
   place.store(address);
 }
 
+// Defaults are numbers, made for mm: what is a tight window there lets a machine push for seconds in m.
+constexpr const char* kMadeForMillimetres[][2] = {{"FollowingError", "MinValue"},
+                                                  {"FollowingError", "MaxValue"},
+                                                  {"PositioningMonitoring", "Window"},
+                                                  {"StandstillSignal", "VelocityThreshold"}};
+
+/// Of an axis whose unit of length is longer than mm: which variables that watch over it are at their
+/// defaults.
+void warn_of_defaults(const JsonValue& config, TechnologyObject& object, Problems& problems) {
+  const JsonValue* const unit = member_of(member_of(&config, "Units"), "LengthUnit");
+  if (unit == nullptr) return;
+  constexpr std::uint64_t kLonger[] = {1010, 1011, 1018, 1019, 1021};  // m, km, ft, in, mi
+  const Signal place = find_variable(object.kind, "Units.LengthUnit").signal(object.data_block());
+  if (std::ranges::find(kLonger, place.load().u) == std::end(kLonger)) return;
+  std::string left;
+  for (const auto& [structure, name] : kMadeForMillimetres) {
+    const VariableAddress found = find_variable(object.kind, std::string(structure) + "." + name);
+    if (found.variable == nullptr || member_of(member_of(&config, structure), name) != nullptr) continue;
+    const Signal variable = found.signal(object.data_block());
+    left += std::string(left.empty() ? "" : ", ") + structure + "." + name + " " +
+            value_text(variable.load(), variable.type);
+  }
+  if (!left.empty())
+    problems.warn(*unit, "numbers of '" + object.name +
+                             "' are in that unit, defaults too, which are made for mm: " + left +
+                             "; set them to what the machine needs");
+}
+
 }  // namespace
 
 void check_delay(const JsonValue& config, double delay, const Loading& loading) {
@@ -128,6 +160,7 @@ void check_delay(const JsonValue& config, double delay, const Loading& loading) 
 
 void load_configuration(const JsonValue& config, TechnologyObject& object, const Loading& loading) {
   ConfigurationLoader(object, loading).load_structure(config, configuration_tree(object.kind), 0);
+  warn_of_defaults(config, object, loading.problems);
 }
 
 }  // namespace lockstep

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "projects/expressions/own_variables.hpp"
+#include "projects/json/problem.hpp"
 #include "projects/loader/mco305_panel.hpp"
 #include "projects/python/raise.hpp"
 #include "projects/python/values.hpp"
@@ -62,8 +63,8 @@ py::list read_elements(const ElementPath& elements) {
 std::string problems_of(const std::vector<ExpressionError>& errors, std::string_view text) {
   std::string problems;
   for (const ExpressionError& error : errors)
-    problems +=
-        fmt::format("{}'{}', column {}: {}", problems.empty() ? "" : "\n", text, error.column, error.message);
+    problems += fmt::format("{}{}, column {}: {}", problems.empty() ? "" : "\n", quote(text), error.column,
+                            error.message);
   return problems;
 }
 

@@ -128,7 +128,7 @@ KNIFE: knife  t 9.980 s  50 rows/s  age 0.0 s  dropped 0  lost 0
 
 
 -- alarms heard of: 1 not acknowledged, 0 overruns
-     7.500 s  Knife  541: target not reached (remove the enable)
+     7.500 s  Knife  541: target not reached (remove the enable)  tick 0
 
 
 

@@ -15,7 +15,8 @@ using test::ControllerFile;
 using test::SystemFiles;
 using Json = nlohmann::json;
 
-SystemFiles two() {
+/// @param failing whether a halt of the second one is rejected, whose deceleration is 0
+SystemFiles two(bool failing = false) {
   ControllerFile infeed("infeed");
   infeed.axis("Conveyor");
   infeed.provide("Conveyor", 0.0);
@@ -30,6 +31,10 @@ SystemFiles two() {
   press.json["tags"]["couple"]["init"] = false;
   press.json["stimuli"] = test::SystemJson::parse(R"([ { "at": "50ms", "set": { "couple": true } } ])");
   press.json["trace"]["signals"] = {"Line.Position", "Press.Velocity"};
+  if (failing)
+    press.call({{"fb", "MC_Halt"},
+                {"name", "halt"},
+                {"in", {{"Axis", "Press"}, {"Execute", "power_Press.Status"}, {"Deceleration", 0.0}}}});
   SystemFiles files;
   files.add("PLC_1", infeed);
   files.add("PLC_2", press, "300us");
@@ -104,6 +109,21 @@ TEST(SystemCommand, FailsOnAlarmsOfAnyController) {
       lockstep({"run", files.path(), "--simulate", "--duration", "5s", "--fail-on", "alarm,job"});
   EXPECT_EQ(run.status, 4) << run.err;
   EXPECT_NE(run.err.find("PLC_2.Press"), std::string::npos) << "whose it is: " << run.err;
+}
+
+TEST(SystemCommand, FailsOnAFailedJobOfAnyController) {
+  const auto run = [](const SystemFiles& files, const char* fail_on) {
+    return lockstep({"run", files.path(), "--simulate", "--duration", "40ms", "--fail-on", fail_on});
+  };
+  const Ended good = run(two(), "alarm,job");
+  EXPECT_EQ(good.status, 0) << good.err;
+  const SystemFiles files = two(true);
+  const Ended spared = run(files, "alarm");
+  EXPECT_EQ(spared.status, 0) << "it is no alarm: " << spared.err;
+  const Ended failed = run(files, "job");
+  EXPECT_EQ(failed.status, 4) << failed.err;
+  EXPECT_NE(failed.err.find("PLC_2.halt (MC_Halt of Press): failed, ErrorID 16#8005"), std::string::npos)
+      << failed.err;
 }
 
 TEST(Connections, ShowTheOverviewAsTextJsonAndPicture) {

@@ -118,6 +118,34 @@ TEST_F(Includes, TellWhatIsWrongInThemWithTheirOwnFileAndLine) {
   EXPECT_EQ(told(R"("include": [ "part.json" ])").substr(0, 34), "part.json:1:1: the file is empty; ");
 }
 
+TEST_F(Includes, TellOfATemplateInThemItsFileAndThatOfItsInstance) {
+  const std::string instance = R"("include": [ "parts/kit.json" ],
+    "instances": [ { "template": "kit", "name": "First", "with": { "n": 1 } } ])";
+  write("machine/parts/kit.json", R"({ "templates": { "kit": { "parameters": { "n": {} },
+  "tags": { "a${n}": { "type": "INTEGER" } } } } })");
+  const std::string type = told(instance);
+  EXPECT_EQ(type.substr(0, 69), "parts/kit.json:/templates/kit/tags/a${n}/type: unknown type 'INTEGER'");
+  EXPECT_NE(
+      type.find("(line 2, column 32, tag 'a1', instance 'First' of the template 'kit' in the project file, "
+                "line 3)"),
+      std::string::npos)
+      << type;
+  write("machine/parts/kit.json", R"({ "templates": { "kit": { "parameters": { "m": {} } } } })");
+  const LoadedProject wrong = load(instance);
+  ASSERT_EQ(wrong.problems.size(), 2u) << lines(wrong.problems);
+  for (const Problem& problem : wrong.problems)
+    EXPECT_EQ(to_string(main(), problem).rfind(main() + ":/instances/0", 0), 0u)
+        << to_string(main(), problem);
+}
+
+TEST_F(Includes, TellOfExpectationsInThemTheirFile) {
+  write("machine/part.json",
+        "{ \"tags\": { \"n\": { \"type\": \"INT\" } },\n"
+        "\"expectations\": [ { \"at\": \"1s\", \"expect\": \"m = 1\" } ] }");
+  EXPECT_EQ(told(R"("include": [ "part.json" ])"),
+            "part.json:/expectations/0/expect: unknown name 'm' (did you mean 'n'?) (line 2, column 44)");
+}
+
 TEST_F(Includes, TellBothPlacesOfANameThatIsThereTwice) {
   write("machine/part.json", "{\n\"tags\": { \"n\": { \"type\": \"INT\" } } }");
   EXPECT_EQ(told("\"include\": [ \"part.json\" ],\n\"tags\": { \"N\": { \"type\": \"INT\" } }"),

@@ -48,6 +48,33 @@ TEST(ProjectProblems, DoNotRepeatThemselvesWhereAFaultyObjectIsUsed) {
   EXPECT_EQ(loaded.problems[0].place, "/technology_objects/Knife/type");
 }
 
+/// A following error of 100 is 100 m there, and a machine pushes for long before it is seen.
+TEST(ProjectProblems, WarnOfDefaultsThatAreMadeForMillimetresInALongerUnit) {
+  Json project = Json::parse(kExampleProject);
+  Json& config = project["technology_objects"]["Knife"]["config"];
+  const auto warned = [&project] {
+    std::string text;
+    for (const Problem& warning : load_project(project.dump()).warnings)
+      if (warning.place == "/technology_objects/Knife/config/Units/LengthUnit") text = warning.text;
+    return text;
+  };
+  config["Units"]["LengthUnit"] = 1013;
+  EXPECT_EQ(warned(), "");
+  for (const int longer : {1010, 1011, 1018, 1019, 1021}) {
+    config["Units"]["LengthUnit"] = longer;
+    EXPECT_NE(warned().find(
+                  "FollowingError.MinValue 10, FollowingError.MaxValue 100, PositioningMonitoring.Window 1, "
+                  "StandstillSignal.VelocityThreshold 5;"),
+              std::string::npos)
+        << longer << warned();
+  }
+  config["FollowingError"] = {{"MinValue", 0.001}, {"MaxValue", 0.01}};
+  EXPECT_EQ(warned().find("FollowingError"), std::string::npos) << warned();
+  config["PositioningMonitoring"]["Window"] = 0.001;
+  config["StandstillSignal"]["VelocityThreshold"] = 0.005;
+  EXPECT_EQ(warned(), "");
+}
+
 TEST(ProjectProblems, IncludeThePinsOfACallWhoseNameIsTaken) {
   const LoadedProject loaded = load_project(
       changed("/programs/0/calls/7", R"({"fb": "R_TRIG", "name": "run", "in": {"CLCK": true}})"));

@@ -359,6 +359,9 @@ def test_an_expression_is_a_str(small):
             project.evaluate(wrong)
     with pytest.raises(TypeError, match="not NoneType"):
         project.evaluate(None)
+    with pytest.raises(lockstep.ExpressionError, match="allowed are 4096") as error:
+        project.evaluate("(" * 100_000)
+    assert len(str(error.value)) < 200  # a message, not the whole text
     assert project.ticks == 0
 
 
