@@ -19,7 +19,7 @@ double age_of(HeardLeadingValues::Clock::time_point last, HeardLeadingValues::Cl
 
 std::string source_line(const HeardSource& source, double age) {
   const leading_value_t& value = source.value;
-  std::string line = fmt::format("  {} from {}  #{}  {:.4f} u  {:.4f} u/s", printable(value.area),
+  std::string line = fmt::format("  {} from {}  #{}  {:.4f}, {:.4f}/s", printable(value.area),
                                  printable(value.sender), value.sequence, value.position, value.velocity);
   if ((value.flags & leading_value_t::VALID) == 0) line += "  NOT VALID";
   line +=

@@ -62,7 +62,7 @@ TEST(MonitorLeading, ShowsSourcesWithTheProxiesThatHearThem) {
   EXPECT_TRUE(heard.accept("line.main_PROXIES", proxies("PLC_2"), now));
   EXPECT_EQ(text_of(heard, now),
             "leading values:\n"
-            "  line.main from PLC_1  #10  12.5000 u  100.0000 u/s  every 1.000 ms  1 missing\n"
+            "  line.main from PLC_1  #10  12.5000, 100.0000/s  every 1.000 ms  1 missing\n"
             "    to PLC_2.Line  42 taken\n"
             "    to PLC_3.Line  42 taken  5 foreign\n");
   const std::string later = text_of(heard, now + 5s);
