@@ -72,7 +72,8 @@ TEST(Expectations, AreCheckedWhenTheProjectIsLoaded) {
       told(R"([ { "at": "1s", "expect": "n = 1", "value": 1 } ])").find("with 'value' it has to be a number"),
       std::string::npos);
   EXPECT_NE(told(R"([ { "at": "1s", "expect": "m = 1" } ])").find("unknown name 'm'"), std::string::npos);
-  EXPECT_NE(told(R"([ { "at": "1s", "expect": "n = (1" } ])").find("/expectations/0/expect: "), std::string::npos);
+  EXPECT_NE(told(R"([ { "at": "1s", "expect": "n = (1" } ])").find("/expectations/0/expect: "),
+            std::string::npos);
   EXPECT_EQ(told(R"([ { "at": "1s" } ])"), "/expectations/0: the key 'expect' is missing");
   EXPECT_EQ(told(R"([ { "at": "soon", "expect": "TRUE" } ])").substr(0, 47),
             "/expectations/0/at: 'soon' is not a duration; a")

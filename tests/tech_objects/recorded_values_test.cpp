@@ -286,8 +286,9 @@ TEST(AdaptedValue, MeetsTheRecordedPathAgainAfterAGap) {
   EXPECT_LE(met, 1020 + 4 * 18 + 8 + 1);
 }
 
-/// A source of 250 u/s that misses up to 30 ticks at a time for a while, even before the last ones are made up
-/// for: it stands in them. What is given goes on, slower, and never back nor by a step, and then is its path again.
+/// A source of 250 u/s that misses up to 30 ticks at a time for a while, even before the last ones are made
+/// up for: it stands in them. What is given goes on, slower, and never back nor by a step, and then is its
+/// path again.
 TEST(AdaptedValue, NeverTurnsBackForASourceThatHasMissedTicks) {
   for (const std::int64_t delay : {std::int64_t{0}, 2 * kCycle, 5 * kCycle + 300'000, 60 * kCycle}) {
     SCOPED_TRACE(testing::Message() << "delay " << delay << ", seed 5");
