@@ -1,20 +1,17 @@
 #include "hmi_bridge/lcm/trace_reader.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <map>
 #include <span>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "hmi_bridge/lcm/event_messages.hpp"
 #include "hmi_bridge/network/visible_text.hpp"
+#include "hmi_bridge/traces/regular_file.hpp"
 
 namespace lockstep {
 namespace {
@@ -33,12 +30,6 @@ std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at) noe
 
 std::int64_t time_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
   return static_cast<std::int64_t>(std::uint64_t{number_at(bytes, at)} << 32 | number_at(bytes, at + 4));
-}
-
-/// 0 for what has no size, such as a pipe.
-std::int64_t size_of_file(std::FILE* file) noexcept {
-  struct stat status {};
-  return ::fstat(::fileno(file), &status) == 0 && S_ISREG(status.st_mode) ? std::int64_t{status.st_size} : 0;
 }
 
 constexpr std::size_t kMaximumTraces = 10'000;  // that are told apart; a log that holds more is no run's
@@ -104,19 +95,11 @@ LcmTraceReader::LcmTraceReader(const std::string& path, const std::string& chann
 }
 
 void LcmTraceReader::open() {
-  struct stat status {};
-  // Looked at before it is opened, too: opening a pipe waits for who writes to it.
-  if (::stat(path_.c_str(), &status) == 0 && !S_ISDIR(status.st_mode) && !S_ISREG(status.st_mode))
-    throw TraceFormatError(path_ + ": is no regular file");
-  log_.reset(std::fopen(path_.c_str(), "rbe"));
-  if (log_ == nullptr) throw TraceFormatError(path_ + ": " + std::generic_category().message(errno));
-  if (::fstat(::fileno(log_.get()), &status) == 0 && !S_ISREG(status.st_mode))
-    throw TraceFormatError(path_ + ": " +
-                           (S_ISDIR(status.st_mode) ? std::generic_category().message(EISDIR)
-                                                    : std::string("is no regular file")));
+  log_ = open_regular_file(path_);
+  if (!log_.problem.empty()) throw TraceFormatError(path_ + ": " + log_.problem);
+  size_ = log_.size();
   number_ = -1;
   offset_ = 0;
-  size_ = size_of_file(log_.get());
 }
 
 void LcmTraceReader::find_header() {
@@ -170,18 +153,19 @@ bool LcmTraceReader::next() {
 /// reader believes what the lengths claim and takes memory for up to 2 GiB.
 bool LcmTraceReader::next_event() {
   std::array<std::uint8_t, kHeadSize> head;
-  if (std::fread(head.data(), 1, head.size(), log_.get()) != head.size() || number_at(head, 0) != kMark)
+  if (std::fread(head.data(), 1, head.size(), log_.stream.get()) != head.size() ||
+      number_at(head, 0) != kMark)
     return false;
   const std::uint32_t channel = number_at(head, kChannelLength), data = number_at(head, kDataLength);
   if (channel == 0 || channel > kLongestChannel || data > kLongestMessage) return false;
   const std::int64_t end = offset_ + kHeadSize + channel + data;
-  if (end > size_) size_ = size_of_file(log_.get());  // it may be growing
+  if (end > size_) size_ = log_.size();  // it may be growing
   if (end > size_) return false;
   event_.time = time_at(head, kTime);
   event_.channel.resize(channel);
   event_.data.resize(data);
-  if (std::fread(event_.channel.data(), 1, channel, log_.get()) != channel ||
-      std::fread(event_.data.data(), 1, data, log_.get()) != data)
+  if (std::fread(event_.channel.data(), 1, channel, log_.stream.get()) != channel ||
+      std::fread(event_.data.data(), 1, data, log_.stream.get()) != data)
     return false;
   ++number_;
   offset_ = end;
@@ -207,7 +191,7 @@ void LcmTraceReader::end_of_log() {
   tell_event();
   if (!remark_.empty()) return;
   if (early_ > 0) remark_ = std::to_string(early_) + " rows of a trace with another header are left out";
-  if (size_of_file(log_.get()) == offset_) return;
+  if (log_.size() == offset_) return;
   if (!remark_.empty()) remark_ += "; ";
   remark_ += "the log is cut short or damaged behind event " + std::to_string(number_);
 }

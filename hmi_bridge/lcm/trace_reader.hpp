@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +10,7 @@
 
 #include "hmi_bridge/lcm/messages.hpp"
 #include "hmi_bridge/traces/event.hpp"
+#include "hmi_bridge/traces/regular_file.hpp"
 #include "hmi_bridge/traces/table.hpp"
 
 namespace lockstep {
@@ -50,9 +49,6 @@ class LcmTraceReader {
   const std::string& remark() const noexcept { return remark_; }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-  };
   struct Event {
     std::string channel;
     std::int64_t time = 0;  // [µs]
@@ -69,7 +65,7 @@ class LcmTraceReader {
 
   const std::string path_;
   std::string channel_;
-  std::unique_ptr<std::FILE, Close> log_;
+  RegularFile log_;
   LcmDecoder decoder_;
   Event event_;               // read last
   std::int64_t number_ = -1;  // of it

@@ -1,9 +1,5 @@
 #include "hmi_bridge/traces/csv_reader.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -14,6 +10,8 @@
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include "hmi_bridge/traces/regular_file.hpp"
 
 namespace lockstep {
 namespace {
@@ -172,35 +170,22 @@ class LineWatch {
 };
 
 FileText read_all(const std::string& path) {
-  // Opening a pipe without waiting for who writes to it; then it is refused.
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  const auto fail = [&path](int error) {
-    throw TraceFormatError(path + ": " + std::generic_category().message(error));
-  };
-  if (descriptor < 0) fail(errno);
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(::fdopen(descriptor, "rb"), std::fclose);
-  if (!file) {
-    const int error = errno;
-    ::close(descriptor);
-    fail(error);
-  }
-  struct stat status {};
-  if (::fstat(descriptor, &status) != 0) fail(errno);
-  if (S_ISDIR(status.st_mode)) fail(EISDIR);
-  if (!S_ISREG(status.st_mode)) throw TraceFormatError(path + ": is no regular file");
+  const RegularFile file = open_regular_file(path);
+  if (!file.problem.empty()) throw TraceFormatError(path + ": " + file.problem);
   FileText text;
-  text.grow(std::min(static_cast<std::size_t>(status.st_size), kSizeBelieved) + kReadAtOnce);
+  text.grow(std::min(static_cast<std::size_t>(file.size()), kSizeBelieved) + kReadAtOnce);
   LineWatch lines;
   for (std::size_t got = 1; got != 0;) {
     if (text.capacity - text.size < kReadAtOnce) text.grow(2 * text.capacity);
     char* const at = text.bytes.get() + text.size;
-    got = std::fread(at, 1, kReadAtOnce, file.get());
+    got = std::fread(at, 1, kReadAtOnce, file.stream.get());
     text.size += got;
     if (!lines.look({at, got}))
       throw TraceFormatError(path + ":" + std::to_string(lines.line()) + ":1: the line is longer than " +
                              std::to_string(kLongestLine >> 20) + " MiB");
   }
-  if (std::ferror(file.get()) != 0) fail(errno);
+  if (std::ferror(file.stream.get()) != 0)
+    throw TraceFormatError(path + ": " + std::generic_category().message(errno));
   return text;
 }
 

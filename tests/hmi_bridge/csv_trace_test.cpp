@@ -191,11 +191,11 @@ TEST(CsvReader, WhatHasNoEndIsRefused) {
   for (const char* const device : {"/dev/zero", "/dev/full"}) {
     const std::string link = directory.file(device + 5) + ".csv";
     std::filesystem::create_symlink(device, link);
-    EXPECT_EQ(refused(link), link + ": is no regular file");
+    EXPECT_EQ(refused(link), link + ": is no regular file but a pipe, a device or a socket");
   }
   const std::string pipe = directory.file("pipe.csv");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(refused(pipe), pipe + ": is no regular file");
+  EXPECT_EQ(refused(pipe), pipe + ": is no regular file but a pipe, a device or a socket");
   // A terabyte of holes: the third line has no end.
   const std::string holes = directory.file("holes.csv");
   std::ofstream(holes) << "t,a\n0,1\n";

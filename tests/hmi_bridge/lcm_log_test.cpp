@@ -245,7 +245,7 @@ TEST(LcmTraceReader, WhatHasNoEndIsRefused) {
       LcmTraceReader reader(path);
       FAIL() << path;
     } catch (const TraceFormatError& error) {
-      EXPECT_EQ(error.what(), path + ": is no regular file");
+      EXPECT_EQ(error.what(), path + ": is no regular file but a pipe, a device or a socket");
     }
   }
 }

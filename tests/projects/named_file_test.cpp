@@ -74,7 +74,7 @@ TEST_F(NamedFiles, StayWithinTheFolderOfTheProject) {
 
 TEST_F(NamedFiles, AreNoPipes) {
   for (const auto& [place, object] : objects("pipe"))
-    EXPECT_NE(told(object).find("machine/pipe: is no file but a pipe, a device or a socket"),
+    EXPECT_NE(told(object).find("machine/pipe: is no regular file but a pipe, a device or a socket"),
               std::string::npos)
         << place << ": " << told(object);
 }
@@ -115,7 +115,7 @@ TEST_F(NamedFiles, ThatEverythingBeginsWithAreNoPipesOrDevicesEither) {
     "controllers": { "A": { "project": "pipe" } } })");
   std::string lines;
   for (const Problem& problem : load_system_file(system).problems) lines += to_string("", problem) + "\n";
-  EXPECT_NE(lines.find("pipe: is no file but a pipe"), std::string::npos) << lines;
+  EXPECT_NE(lines.find("pipe: is no regular file but a pipe"), std::string::npos) << lines;
 }
 
 }  // namespace
