@@ -132,28 +132,47 @@ std::optional<LeadingValueTelegram> LeadingValueReader::read(std::span<const std
   if (message->time < now - kLongestAge || message->time > now + ahead || message->sequence < 1)
     return refused(counters_.stale);
   if (is_ambiguous(*message, now)) return refused(counters_.ambiguous);
-  if (is_repeated(*message)) return refused(counters_.repeated);
+  if (is_ahead(*message)) return refused(counters_.stale);
+  if (is_repeated(*message, now)) return refused(counters_.repeated);
   ++counters_.accepted;
   return telegram_of(*message);
 }
 
 /// A run that another one has replaced and that goes on in time: there are two senders. Which of them leads
-/// is not to be told, so that for a while none does.
+/// is not to be told, so that none does until one of them has been silent for a while.
 bool LeadingValueReader::is_ambiguous(const leading_value_t& message, std::int64_t now) noexcept {
-  if (known_ && run_before_ != 0 && message.run == run_before_ && message.time > newest_time_)
-    ambiguous_to_ = now + kAmbiguousFor;
-  return now < ambiguous_to_;
+  if (!known_) return false;
+  if (message.run == run_)
+    heard_ = now;
+  else if (run_before_ != 0 && message.run == run_before_ && message.time > newest_time_)
+    before_ = now;
+  const auto lately = [&](const std::optional<std::int64_t>& heard) {
+    return heard && now - *heard < kAmbiguousFor;
+  };
+  return lately(heard_) && lately(before_);
+}
+
+/// A sequence that goes on faster than a sender can count, one in each of its cycles: what it would leave
+/// behind it could not be told from telegrams that are repeated.
+bool LeadingValueReader::is_ahead(const leading_value_t& message) const noexcept {
+  const auto sequence = static_cast<std::uint64_t>(message.sequence);
+  if (!known_ || message.run != run_ || sequence <= newest_) return false;
+  const std::int64_t time = std::max<std::int64_t>(message.time - time_of_newest_, 0);
+  return sequence - newest_ > kWindow + static_cast<std::uint64_t>(time / std::max<std::int64_t>(cycle_, 1));
 }
 
 /// Of a run each sequence counts once, and none that is far behind; another run counts if it goes on in time.
-bool LeadingValueReader::is_repeated(const leading_value_t& message) noexcept {
+bool LeadingValueReader::is_repeated(const leading_value_t& message, std::int64_t now) noexcept {
   const auto sequence = static_cast<std::uint64_t>(message.sequence);
   if (!known_ || message.run != run_) {
     if (known_ && message.time <= newest_time_) return true;
     if (known_) run_before_ = run_;
     known_ = true;
     run_ = message.run;
-    newest_time_ = message.time;
+    heard_ = now;
+    before_.reset();
+    newest_time_ = time_of_newest_ = message.time;
+    cycle_ = message.cycle;
     newest_ = sequence;
     window_ = 1;
     return false;
@@ -162,6 +181,7 @@ bool LeadingValueReader::is_repeated(const leading_value_t& message) noexcept {
     const std::uint64_t further = sequence - newest_;
     window_ = further < kWindow ? window_ << further | 1u : 1u;
     newest_ = sequence;
+    time_of_newest_ = message.time;
     newest_time_ = std::max(newest_time_, message.time);
     return false;
   }

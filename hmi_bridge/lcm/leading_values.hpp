@@ -51,7 +51,7 @@ struct LeadingValueCounters {
   std::uint64_t not_signed = 0;  ///< without the right code
   std::uint64_t repeated = 0;    ///< that have been accepted already, or are as old as such ones
   std::uint64_t ambiguous = 0;   ///< while there are two senders
-  std::uint64_t stale = 0;       ///< older or newer than the clock allows
+  std::uint64_t stale = 0;  ///< older or newer than the clock allows, or with a sequence ahead of its time
 };
 
 /// Takes telegrams of one area from its one sender. Any bytes may come: nothing that a sender puts into them
@@ -60,7 +60,7 @@ class LeadingValueReader {
  public:
   /// How old a telegram may be [ns]. From the future it may be by its own cycle, but no more than this.
   static constexpr std::int64_t kLongestAge = 1'000'000'000;
-  /// For so long nothing counts once two senders have been heard [ns].
+  /// While two senders have been heard within that time [ns], nothing counts.
   static constexpr std::int64_t kAmbiguousFor = 1'000'000'000;
 
   explicit LeadingValueReader(LeadingValueLink link);
@@ -73,18 +73,22 @@ class LeadingValueReader {
 
  private:
   bool is_ambiguous(const leading_value_t& message, std::int64_t now) noexcept;
-  bool is_repeated(const leading_value_t& message) noexcept;
+  bool is_ahead(const leading_value_t& message) const noexcept;
+  bool is_repeated(const leading_value_t& message, std::int64_t now) noexcept;
 
   const LeadingValueLink link_;
   const std::int64_t layout_;
   LeadingValueCounters counters_;
   bool known_ = false;
-  std::int64_t run_ = 0;                   // of the sender
-  std::int64_t run_before_ = 0;            // which `run_` has replaced; 0: none
-  std::int64_t ambiguous_to_ = INT64_MIN;  // [ns]
-  std::int64_t newest_time_ = 0;           // [ns] accepted
-  std::uint64_t newest_ = 0;               // sequence accepted
-  std::uint64_t window_ = 0;               // bit n: `newest_` − n has been accepted
+  std::int64_t run_ = 0;                // of the sender
+  std::int64_t run_before_ = 0;         // which `run_` has replaced; 0: none
+  std::optional<std::int64_t> heard_;   // [ns] `run_`
+  std::optional<std::int64_t> before_;  // [ns] `run_before_`, going on behind its replacement
+  std::int64_t newest_time_ = 0;        // [ns] accepted
+  std::int64_t cycle_ = 0;              // [ns] of `run_`
+  std::uint64_t newest_ = 0;            // sequence accepted
+  std::int64_t time_of_newest_ = 0;     // [ns]
+  std::uint64_t window_ = 0;            // bit n: `newest_` − n has been accepted
 };
 
 /// The message, if the bytes are one of this type, whole and without anything behind it. Any thread.

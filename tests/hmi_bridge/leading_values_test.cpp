@@ -168,6 +168,44 @@ TEST(LeadingValues, OfTwoSendersDoNotCount) {
   EXPECT_TRUE(reader.read(written(other, telegram(1000, later)), later)) << "one of them has ended";
 }
 
+TEST(LeadingValues, OfTheFirstSenderCountAgainWhenTheSecondHasEnded) {
+  LeadingValueWriter one(link(), 99), other(link(), 100);
+  LeadingValueReader reader(link());
+  const std::int64_t kLast = kNow + 50'000'000;  // of the other one
+  std::int64_t counts_again = 0;
+  for (std::uint64_t i = 1; i <= 3000; ++i) {
+    const std::int64_t now = kNow + static_cast<std::int64_t>(i) * 1'000'000;
+    const bool counted = reader.read(written(one, telegram(i, now)), now).has_value();
+    if (i >= 10 && now <= kLast) reader.read(written(other, telegram(i, now + 1)), now + 1);
+    if (now <= kLast) continue;
+    if (counted && counts_again == 0) counts_again = now;
+    EXPECT_EQ(counted, counts_again != 0) << "never lost again";
+  }
+  EXPECT_EQ(counts_again, kLast + kSecond + 1'000'000)
+      << "a second behind the last telegram of the other one";
+}
+
+// One forged or broken telegram must not make all that follow it old.
+TEST(LeadingValues, OfASequenceAheadOfItsTimeDoNotCount) {
+  LeadingValueWriter writer(link(), 99);
+  LeadingValueReader reader(link());
+  EXPECT_TRUE(reader.read(written(writer, telegram(1, kNow)), kNow));
+  for (const std::int64_t far : {std::int64_t{66}, std::int64_t{1000}, INT64_MAX})
+    EXPECT_FALSE(reader.read(written(writer, telegram(static_cast<std::uint64_t>(far), kNow)), kNow)) << far;
+  LeadingValueTelegram fast = telegram(1000, kNow + 1000);
+  fast.cycle = 1;
+  EXPECT_FALSE(reader.read(written(writer, fast), kNow + 1000)) << "the cycle of a run does not change";
+  EXPECT_EQ(reader.counters().stale, 4u);
+  EXPECT_TRUE(reader.read(written(writer, telegram(65, kNow)), kNow));
+  EXPECT_TRUE(reader.read(written(writer, telegram(2, kNow + 1'000'000)), kNow + 1'000'000))
+      << "the true one";
+  // A network that has been away for a while, and a clock that has been set back.
+  const std::int64_t later = kNow + 100 * kSecond;
+  EXPECT_TRUE(reader.read(written(writer, telegram(100'001, later)), later));
+  EXPECT_TRUE(reader.read(written(writer, telegram(100'002, kNow)), kNow));
+  EXPECT_TRUE(reader.read(written(writer, telegram(105'002, kNow + 5 * kSecond)), kNow + 5 * kSecond));
+}
+
 TEST(LeadingValues, OfAnyOtherBytesAreMalformed) {
   LeadingValueWriter writer(link(), 99);
   const Bytes good = written(writer, telegram(1));
