@@ -130,6 +130,7 @@ bool LinMotController::wakes() const noexcept {
 bool LinMotController::take_parameters(std::size_t index) noexcept {
   MotorParameters& wanted = data.Motors[index].Parameters;
   bool allowed = true;
+  show_curve_offset(index);
   for (const Parameter& parameter : motor_parameters()) {
     if (parameter.scope > Scope::linear_motor || !parameter.effective()) continue;
     const double value = parameter_value(parameter, &wanted);
@@ -438,10 +439,16 @@ void LinMotController::show() noexcept {
     shown.Frozen = motor.frozen();
     shown.Errors = WORD{errors_[i]};
     shown.Warnings = WORD{warnings_[i]};
-    if (motor.curve_offset() != taken_[i].curve_pos_offset)
-      shown.Parameters.curve_pos_offset = taken_[i].curve_pos_offset = motor.curve_offset();
+    show_curve_offset(i);
   }
   if (command_interface() == CommandInterface::profibus) write_words();
+}
+
+/// That the motor has changed; what somebody else has written since counts.
+void LinMotController::show_curve_offset(std::size_t index) noexcept {
+  LREAL &wanted = data.Motors[index].Parameters.curve_pos_offset, &taken = taken_[index].curve_pos_offset;
+  const double offset = motors_[index].curve_offset();
+  if (offset != taken && wanted == taken) wanted = taken = offset;
 }
 
 }  // namespace lockstep

@@ -182,6 +182,7 @@ class LinMotController final : public TechnologyObject {
   bool output_function(DINT function) const noexcept;
   bool message() const noexcept;
   void show() noexcept;
+  void show_curve_offset(std::size_t index) noexcept;
 
   // What every tick touches stands first.
   State state_ = State::disable;

@@ -31,6 +31,8 @@ class CurvePlayer {
   void end_cycle() noexcept { cyclic_ = false; }
 
   bool running() const noexcept { return curve_ != nullptr && !done_; }
+  /// It has given a setpoint, and is behind its start.
+  bool begun() const noexcept { return cycles_ != 0 || base_ != 0.0 || runs_ != 0; }
   bool cyclic() const noexcept { return cyclic_; }
   const Curve* curve() const noexcept { return curve_; }
   /// The runs of a cyclic curve that are over.

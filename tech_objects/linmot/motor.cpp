@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tech_objects/linmot_catalogue/increments.hpp"
 
@@ -75,7 +76,7 @@ double Motor::bounded(double position) const noexcept {
 // ---- Orders
 
 void Motor::enter_run() noexcept {
-  curve_missing_ = fall_waits_ = analog_known_ = false;
+  curve_missing_ = rise_waits_ = fall_waits_ = analog_known_ = false;
   last_trigger_ = trigger_level();
   if (!energised_) energise();
 }
@@ -95,10 +96,6 @@ void Motor::energise() noexcept {
 }
 
 void Motor::execute(const Order& order) noexcept {
-  if (order.from_demand && order.curve != nullptr) {
-    const double demand = curve_mode_ ? setpoint_.position : demand_;
-    offset_ = demand - amplitude_ * order.curve->start();
-  }
   queued_.reset();
   if (!frozen_) return apply(order);
   has_waiting_order_ = true;
@@ -138,7 +135,9 @@ void Motor::go(double target, const Limits& limits, bool from_actual) noexcept {
   limiter_.go_to(demand_, limits);
 }
 
+/// The curve still gives the set-point of the next control cycle, from which the limiter goes on.
 void Motor::leave_curve() noexcept {
+  if (player_.begun()) setpoint_ = step_of_curve();
   curve_mode_ = false;
   player_.stop();
   limiter_.begin(setpoint_.position, setpoint_.velocity);
@@ -147,6 +146,7 @@ void Motor::leave_curve() noexcept {
 void Motor::start_curve(const Order& order) noexcept {
   order_ = order;
   curve_mode_ = true;
+  if (order.from_demand) offset_ = setpoint_.position - amplitude_ * order.curve->start();
   player_.start(*order.curve, order.cyclic, rate_);
   demand_ = bounded(offset_ + amplitude_ * order.curve->end());
 }
@@ -169,16 +169,20 @@ void Motor::freeze(bool frozen) noexcept {
   frozen_ = frozen;
   if (!frozen) return resume();
   has_waiting_order_ = false;
-  if (curve_mode_)
-    player_.ramp_to(0.0, std::abs(setpoint_.velocity) / filter_.acceleration);
-  else
-    limiter_.stop(order_.limits.acceleration);
+  if (curve_mode_ && player_.begun())
+    return player_.ramp_to(0.0, std::abs(setpoint_.velocity) / filter_.acceleration);
+  if (!curve_mode_) return limiter_.stop(order_.limits.acceleration);
+  // It has come in the tick in which the motor freezes: it waits.
+  has_waiting_order_ = true;
+  leave_curve();
+  limiter_.stop(filter_.acceleration);
 }
 
 /// The last order that has come meanwhile, or else what was interrupted.
 void Motor::resume() noexcept {
   if (has_waiting_order_) {
-    const Order order = order_;
+    Order order = order_;
+    if (order.follows_filter) order.limits = filter_;
     return apply(order);
   }
   if (curve_mode_) {
@@ -187,6 +191,7 @@ void Motor::resume() noexcept {
     player_.ramp_to(rate_, velocity / filter_.acceleration);
     return;
   }
+  if (order_.follows_filter) order_.limits = filter_;
   limiter_.go_to(demand_, order_.limits);
 }
 
@@ -369,19 +374,22 @@ void Motor::run_mode(bool rising, bool falling) noexcept {
       if (!curve_active()) run_curve(parameters_.curve_number, true);
       return;
     case RunMode::trigger_curve:
-      if (rising) run_curve(parameters_.rise_curve_number, false);
-      if (falling && curve_active())
-        fall_waits_ = true;
-      else if (falling || (fall_waits_ && !curve_active()))
-        run_curve(parameters_.fall_curve_number, false);
-      return;
+      return follow_trigger(rising, falling);
     case RunMode::serial:
       return;
   }
 }
 
+/// An edge while a curve runs has its curve at the end of that one; a rise takes back a fall that waits.
+void Motor::follow_trigger(bool rising, bool falling) noexcept {
+  if (rising && !std::exchange(fall_waits_, false)) rise_waits_ = true;
+  if (falling) fall_waits_ = true;
+  if (curve_active()) return;
+  if (std::exchange(rise_waits_, false)) return run_curve(parameters_.rise_curve_number, false);
+  if (std::exchange(fall_waits_, false)) run_curve(parameters_.fall_curve_number, false);
+}
+
 void Motor::run_curve(DINT number, bool cyclic) noexcept {
-  fall_waits_ = false;
   running_curve_ = number;
   const Curve* const curve = curve_of(number);
   if (number != 0 && curve == nullptr) {
@@ -422,10 +430,14 @@ void Motor::tick(bool running) noexcept {
 
 // ---- Control cycles
 
+inline LoopSetpoint Motor::step_of_curve() noexcept {
+  const LoopSetpoint setpoint = player_.step(offset_, amplitude_);
+  if (setpoint.position >= lowest_ && setpoint.position <= highest_) return setpoint;
+  return {bounded(setpoint.position), 0.0, 0.0};
+}
+
 inline void Motor::next_of_curve() noexcept {
-  setpoint_ = player_.step(offset_, amplitude_);
-  if (setpoint_.position < lowest_ || setpoint_.position > highest_)
-    setpoint_ = {bounded(setpoint_.position), 0.0, 0.0};
+  setpoint_ = step_of_curve();
   if (player_.running() || frozen_) return;
   curve_mode_ = false;
   demand_ = setpoint_.position;

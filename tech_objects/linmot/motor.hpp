@@ -38,7 +38,7 @@ struct Order {
   bool from_actual = false;      ///< the limiter begins at the actual position and velocity
   const Curve* curve = nullptr;  ///< nullptr: the empty one, which moves nothing
   bool cyclic = false;
-  bool from_demand = false;  ///< the offset is changed so that the curve begins where the demand is
+  bool from_demand = false;  ///< the offset is changed so that the curve begins where the set-point is
 };
 
 /// The cycle's thread.
@@ -146,6 +146,7 @@ class Motor {
   void begin_going_to(double target) noexcept;
   double analog_target() const noexcept;
   void take_waiting_orders(bool rising) noexcept;
+  void follow_trigger(bool rising, bool falling) noexcept;
   void run_curve(DINT number, bool cyclic) noexcept;
   void home_on() noexcept;
   void search(double direction) noexcept;
@@ -156,6 +157,7 @@ class Motor {
   void configure_loop() noexcept;
   void rest(int cycles) noexcept;
   void next_setpoint() noexcept;
+  LoopSetpoint step_of_curve() noexcept;
   void next_of_curve() noexcept;
   double direction_of_search() const noexcept;
   bool by_trigger() const noexcept;
@@ -189,8 +191,9 @@ class Motor {
   double tick_ = 1e-3;
   double hardware_current_ = 1e9;
   int acknowledge_ticks_ = 0;
-  bool last_trigger_ = false, analog_known_ = false, fall_waits_ = false, curve_missing_ = false;
-  bool brakes_ = false;  // and is off when it stands
+  bool last_trigger_ = false, analog_known_ = false, curve_missing_ = false;
+  bool rise_waits_ = false, fall_waits_ = false;  // for the end of a curve
+  bool brakes_ = false;                           // and is off when it stands
   DINT running_curve_ = 0;
   const Curve* curves_ = nullptr;
   Homing homing_ = Homing::none;
