@@ -70,6 +70,7 @@ void Device::refresh() noexcept {
   master_.refresh(p);
   has_master_ = has_master_ || master_.present();
   sync_.refresh(p, settings_.later_edition, velocity_maximum_);
+  note_what_is_watched();
   drive_sign_ = p[kPosDirection] % 2 == 0 ? -1.0 : 1.0;
   scale_drive();
 }
@@ -108,7 +109,7 @@ void Device::servo(bool step) noexcept {
     }
     control();
     look_at_arrival();
-    monitor();
+    if (watches_ || now_ == next_monitoring_) monitor();
     if (has_master_) sync_.judge(actual_);
     positions_[static_cast<std::size_t>(now_) % kVelocityRing] = actual_;
     write_outputs();
@@ -185,24 +186,22 @@ void Device::step_master() noexcept {
 
 void Device::sample_inputs() noexcept {
   for (const WiredInput& input : wired_inputs_) io_.set_input(input.number, *input.tag);
-  if (!io_.any_input_function() && marker_type_ < 2) {
-    last_marker_input_ = io_.input(6);
-    return;
-  }
-  const auto& cam = settings_.drive.signals.reference_cam;
-  const std::size_t home_switch = io_.input_of(InputFunction::kHomeSwitch);
-  if (cam && home_switch != 0 && settings_.inputs[home_switch - 1] == nullptr) {
-    const bool closed = parameters_[kFirstInputFunction + static_cast<std::int32_t>(home_switch) -
-                                    (home_switch <= 10 ? 1 : 0)] == 2;
-    io_.set_input(home_switch, cam->contains(machine_, 0.0) != closed);
-  }
+  if (io_.any_input_function()) sample_home_switch();
   // The marker of the following side is input 6.
   const std::int32_t type = marker_type_;
   const bool marker = io_.input(6);
-  if (type >= 2 && marker != last_marker_input_ && marker == (type == 2)) {
-    take_latch(actual_);
-  }
+  if (type >= 2 && marker != last_marker_input_ && marker == (type == 2)) take_latch(actual_);
   last_marker_input_ = marker;
+}
+
+/// One that nothing is wired to is that of the machine.
+void Device::sample_home_switch() noexcept {
+  const auto& cam = settings_.drive.signals.reference_cam;
+  const std::size_t home_switch = io_.input_of(InputFunction::kHomeSwitch);
+  if (!cam || home_switch == 0 || settings_.inputs[home_switch - 1] != nullptr) return;
+  const bool closed = parameters_[kFirstInputFunction + static_cast<std::int32_t>(home_switch) -
+                                  (home_switch <= 10 ? 1 : 0)] == 2;
+  io_.set_input(home_switch, cam->contains(machine_, 0.0) != closed);
 }
 
 void Device::generate() noexcept {
@@ -242,21 +241,28 @@ void Device::control() noexcept {
 
 /// TESTWIN: the profile is at its end, the axis within the window, and it hardly moves.
 void Device::look_at_arrival() noexcept {
-  const bool ended = profile_.over() && profile_.state().velocity == 0.0;
-  moving_ = on_ && !(ended && mode_ != MotionMode::kHome);
+  const bool stands = profile_.state().velocity == 0.0;
   if (mode_ == MotionMode::kFollow) {
-    moving_ = on_ && profile_.state().velocity != 0.0;
+    moving_ = on_ && !stands;
     return;
   }
-  if (mode_ == MotionMode::kStop && ended && brake_after_stop_) {
+  const bool ended = stands && profile_.over();
+  moving_ = on_ && !(ended && mode_ != MotionMode::kHome);
+  if (!ended) {
+    window_since_ = -1;
+  } else if (!arrived_) {
+    look_into_window();
+  }
+}
+
+/// At the end of the profile.
+void Device::look_into_window() noexcept {
+  if (mode_ == MotionMode::kStop && brake_after_stop_) {
     brake_ = true;
     brake_after_stop_ = false;
     motor_off();
   }
-  if (arrived_ || !on_ || !ended) {
-    if (!ended) window_since_ = -1;
-    return;
-  }
+  if (arrived_ || !on_) return;
   const std::int64_t window = parameters_[kTestWin];
   if (window == 0 || virtual_ || mode_ != MotionMode::kPosition) {
     arrived_ = true;
@@ -272,19 +278,27 @@ void Device::look_at_arrival() noexcept {
   }
 }
 
+/// Most devices have nothing of this to look at in most of their steps.
+void Device::note_what_is_watched() noexcept {
+  watches_inputs_ = io_.any_input_function() || at_negative_end_ || at_positive_end_ || break_input_;
+  watches_ = watches_inputs_ || checks_limits_ || looks_at_faults_;
+}
+
 void Device::monitor() noexcept {
-  const bool looks_at_inputs =
-      io_.any_input_function() || at_negative_end_ || at_positive_end_ || break_input_;
-  if (looks_at_inputs || checks_limits_) look_at_limits();
-  if (!virtual_ && on_ && now_ % kMonitoringPeriod == 0) {
-    look_at_position_error();
-    look_at_drive();
+  if (watches_inputs_ || checks_limits_) look_at_limits();
+  if (now_ == next_monitoring_) {
+    next_monitoring_ += kMonitoringPeriod;
+    if (!virtual_ && on_) {
+      look_at_position_error();
+      look_at_drive();
+    }
   }
   if (looks_at_faults_) look_at_faults();
-  if (!looks_at_inputs) return;
+  if (!watches_inputs_) return;
   const bool user_break = io_.active(InputFunction::kBreak);
   if (user_break && !break_input_) raise(kUserAbort);
   break_input_ = user_break;
+  note_what_is_watched();
 }
 
 void Device::look_at_limits() noexcept {

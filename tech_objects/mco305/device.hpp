@@ -214,9 +214,12 @@ class Device {
   void take_latch(std::int64_t place) noexcept;
   void step_master() noexcept;
   void sample_inputs() noexcept;
+  void sample_home_switch() noexcept;
   void generate() noexcept;
   void control() noexcept;
   void look_at_arrival() noexcept;
+  void look_into_window() noexcept;
+  void note_what_is_watched() noexcept;
   void monitor() noexcept;
   void look_at_limits() noexcept;
   void look_at_position_error() noexcept;
@@ -266,7 +269,9 @@ class Device {
   std::int64_t profile_time_ = 1, sampling_ = 1;  // PROFTIME, TIMER [ms]
   std::int64_t position_error_ = 20'000;          // POSERR [qc]
   bool checks_limits_ = false;
-  bool has_master_ = false;  // something turns here
+  bool watches_ = false, watches_inputs_ = false;  // inputs, limits or faults, in every step; inputs
+  std::int64_t next_monitoring_ = 0;               // of following error and drive [ms]
+  bool has_master_ = false;                        // something turns here
   bool looks_at_faults_ = false;
   double drive_sign_ = 1.0;                          // of the reference: POSDRCT
   double full_reference_ = 1.0, speed_limit_ = 0.0;  // of the drive [qc/ms]
