@@ -88,7 +88,7 @@ class Synchronization {
  private:
   static constexpr std::int32_t kClearable = kMasterHit | kSlaveHit | kMasterMissed | kSlaveMissed;
 
-  double filter_time() const noexcept;
+  double filter_time(double resolution) const noexcept;
   double wanted_offset() const noexcept;
   double total_offset() const noexcept;
   double pair_distance() const noexcept;
@@ -149,7 +149,7 @@ class Synchronization {
   std::int64_t marks_per_pair_master_ = 1, marks_per_pair_slave_ = 1;
   std::int64_t ready_count_ = 1, fault_count_ = 10;
   std::int32_t start_ = 0, filter_parameter_ = 0, filter_bits_ = 0;
-  double marker_filter_time_ = 0.0, maximum_correction_ = 0.0, published_time_ = 1.0;
+  double marker_filter_time_ = 0.0, maximum_correction_ = 0.0, filter_time_ = 1.0;
   double velocity_precontrol_ = 0.0, filter_limit_ = 0.0;
 };
 

@@ -21,7 +21,7 @@ inline std::int64_t counts_of(double position) noexcept {
   constexpr auto kFar = static_cast<double>(kFarthest);
   if (!(std::abs(position) < kFar)) return position > 0.0 ? kFarthest : -kFarthest;
   const auto cut = static_cast<std::int64_t>(position);
-  return cut - (static_cast<double>(cut) > position ? 1 : 0);
+  return static_cast<double>(cut) > position ? cut - 1 : cut;
 }
 /// The floor, without the call that it takes where the processor has no instruction for it.
 inline double whole_below(double value) noexcept {
