@@ -5,8 +5,6 @@
 #include <bit>
 #include <cmath>
 
-#include "tech_objects/drive/drive_models.hpp"
-
 namespace lockstep::mco305 {
 namespace {
 
@@ -33,7 +31,7 @@ void Device::configure(const DeviceSettings& settings, double servo_period) {
   master_.power_up(parameters_);
   refresh();
   if (settings.has_drive) {
-    drive_ = kDriveModels[0].make();
+    drive_ = std::make_unique<SimulatedDrive>();
     drive_->configure(settings.drive, servo_period, 2.0 * 3.14159265358979323846 / turn_);
     machine_ = start;
     swap_offset_ = actual_ = absolute_.position();
@@ -133,6 +131,10 @@ void Device::read_drive() noexcept {
   const double start = settings_.drive.signals.start_position;
   if (!absolute_.present()) actual_ = counts_of(machine_ - start) + swap_offset_;
   if (moved != 0.0) latch(before, machine_);
+  if (!settings_.drive.signals.digital_inputs.empty()) show_switches();
+}
+
+void Device::show_switches() noexcept {
   for (const DigitalInput& input : settings_.drive.signals.digital_inputs)
     *input.tag = input.range.contains(machine_, 0.0);
 }

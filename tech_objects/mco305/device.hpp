@@ -11,6 +11,7 @@
 
 #include "tech_objects/drive/count_controller.hpp"
 #include "tech_objects/drive/drive.hpp"
+#include "tech_objects/drive/simulated_drive.hpp"
 #include "tech_objects/mco305/absolute_encoder.hpp"
 #include "tech_objects/mco305/inputs_outputs.hpp"
 #include "tech_objects/mco305/marker_track.hpp"
@@ -208,6 +209,7 @@ class Device {
 
   void refresh() noexcept;
   void read_drive() noexcept;
+  void show_switches() noexcept;
   void read_absolute() noexcept;
   void latch(double from, double to) noexcept;
   std::int64_t encoder_count(double place) const noexcept;
@@ -302,7 +304,7 @@ class Device {
   std::vector<WiredOutput> wired_outputs_;
   std::int32_t marker_type_ = 0;  // SYNCMTYPS
   MarkerTrack track_;
-  std::unique_ptr<Drive> drive_;
+  std::unique_ptr<SimulatedDrive> drive_;
   /// What the drive has told last; its position is in `machine_`.
   struct {
     double velocity = 0.0, torque = 0.0;
