@@ -90,6 +90,8 @@ void Device::forget_settings() noexcept {
   refresh();
 }
 
+// What is called here in every step is inline: to save registers and to hand over by memory would take up to
+// a seventh of its instructions.
 void Device::servo(bool step) noexcept {
   if (!virtual_) read_drive();
   if (step) {
@@ -178,7 +180,7 @@ void Device::mark(double place) noexcept {
 }
 
 /// Of the markers of this millisecond those of the slave have been taken while its drive was read.
-void Device::step_master() noexcept {
+inline void Device::step_master() noexcept {
   master_.look_at_marker(io_.input(5));
   master_.step();
   sync_.average(master_);
@@ -186,14 +188,18 @@ void Device::step_master() noexcept {
   if (sync_.runs()) sync_.step(master_, actual_);
 }
 
-void Device::sample_inputs() noexcept {
-  for (const WiredInput& input : wired_inputs_) io_.set_input(input.number, *input.tag);
+inline void Device::sample_inputs() noexcept {
+  if (!wired_inputs_.empty()) sample_wired_inputs();
   if (io_.any_input_function()) sample_home_switch();
   // The marker of the following side is input 6.
-  const std::int32_t type = marker_type_;
   const bool marker = io_.input(6);
-  if (type >= 2 && marker != last_marker_input_ && marker == (type == 2)) take_latch(actual_);
+  if (marker == last_marker_input_) return;
   last_marker_input_ = marker;
+  if (marker_type_ >= 2 && marker == (marker_type_ == 2)) take_latch(actual_);
+}
+
+[[gnu::noinline]] void Device::sample_wired_inputs() noexcept {
+  for (const WiredInput& input : wired_inputs_) io_.set_input(input.number, *input.tag);
 }
 
 /// One that nothing is wired to is that of the machine.
@@ -206,7 +212,7 @@ void Device::sample_home_switch() noexcept {
   io_.set_input(home_switch, cam->contains(machine_, 0.0) != closed);
 }
 
-void Device::generate() noexcept {
+inline void Device::generate() noexcept {
   if (!on_) {
     // MOTOR OFF: the set position is where the axis is.
     if (!virtual_) profile_.stand(static_cast<double>(actual_));
@@ -215,23 +221,24 @@ void Device::generate() noexcept {
   }
   if (mode_ == MotionMode::kFollow) {
     const double before = profile_.state().position;
-    profile_.lead(sync_.set_point(actual_, !virtual_));
-    const FourSlopeState& now = profile_.state();
-    if (sync_.mode() == SyncMode::kVelocity) unled_ += now.position - before - now.velocity;
+    sync_.set_point(actual_, !virtual_);
+    profile_.lead({sync_.set_position(), sync_.set_velocity(), sync_.set_acceleration()});
+    if (sync_.mode() == SyncMode::kVelocity) unled_ += sync_.set_position() - before - sync_.set_velocity();
     return;
   }
   if (profile_time_ == 1 || now_ % profile_time_ == 0) profile_.step(static_cast<double>(profile_time_));
 }
 
-void Device::control() noexcept {
+inline void Device::control() noexcept {
+  if (on_ && !virtual_) return control_position();
+  reference_ =
+      virtual_ ? 0.0 : static_cast<double>(open_loop_) / kFullReference * CountController::kFullScale;
+  if (!on_) controller_.reset();
+  last_velocity_ = profile_.state().velocity;
+}
+
+void Device::control_position() noexcept {
   const FourSlopeState& set = profile_.state();
-  if (!on_ || virtual_) {
-    reference_ =
-        virtual_ ? 0.0 : static_cast<double>(open_loop_) / kFullReference * CountController::kFullScale;
-    if (!on_) controller_.reset();
-    last_velocity_ = set.velocity;
-    return;
-  }
   if (sampling_ != 1 && now_ % sampling_ != 0) return;
   const auto period = static_cast<double>(sampling_);
   const bool by_velocity = mode_ == MotionMode::kFollow && sync_.mode() == SyncMode::kVelocity;
@@ -242,7 +249,7 @@ void Device::control() noexcept {
 }
 
 /// TESTWIN: the profile is at its end, the axis within the window, and it hardly moves.
-void Device::look_at_arrival() noexcept {
+inline void Device::look_at_arrival() noexcept {
   const bool stands = profile_.state().velocity == 0.0;
   if (mode_ == MotionMode::kFollow) {
     moving_ = on_ && !stands;
@@ -350,9 +357,13 @@ void Device::look_at_faults() noexcept {
   report(parameters_[kMasterEncoderMonitoring] != 0 && present(faults.master_encoder), kEncoderError);
 }
 
-void Device::write_outputs() noexcept {
+inline void Device::write_outputs() noexcept {
   io_.show({moving_, pending_.any(), brake_});
   brake_ = false;
+  if (!wired_outputs_.empty()) write_wired_outputs();
+}
+
+void Device::write_wired_outputs() noexcept {
   for (const WiredOutput& output : wired_outputs_) *output.tag = io_.output(output.number);
 }
 

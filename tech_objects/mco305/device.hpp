@@ -216,9 +216,11 @@ class Device {
   void take_latch(std::int64_t place) noexcept;
   void step_master() noexcept;
   void sample_inputs() noexcept;
+  void sample_wired_inputs() noexcept;
   void sample_home_switch() noexcept;
   void generate() noexcept;
   void control() noexcept;
+  void control_position() noexcept;
   void look_at_arrival() noexcept;
   void look_into_window() noexcept;
   void note_what_is_watched() noexcept;
@@ -229,6 +231,7 @@ class Device {
   void look_at_faults() noexcept;
   bool sync_variable(std::int32_t index, std::int32_t& value) const noexcept;
   void write_outputs() noexcept;
+  void write_wired_outputs() noexcept;
   void write_drive() noexcept;
 
   double counts_per_millisecond(double rpm) const noexcept;

@@ -34,7 +34,7 @@ void MasterInput::move(std::int64_t counts) noexcept {
 }
 
 /// The zero pulse of the encoder, or the markers that the sensor at input 5 sees.
-void MasterInput::pass(double from, double to) noexcept {
+inline void MasterInput::pass(double from, double to) noexcept {
   if (marker_type_ >= 2) return track_.pass(from, to, [this](double place) { latch(place); });
   if (from > free_from_ && from < free_to_ && to > free_from_ && to < free_to_) return;
   pass_pulses(from, to);
@@ -138,7 +138,8 @@ void MasterInput::step() noexcept {
     pass(begin, static_cast<double>(position_));
   }
   constexpr std::int64_t kFar = std::int64_t{1} << 30;  // what a gear takes in a step; nothing real is faster
-  moved_ = std::clamp(position_ - last_, -kFar, kFar);
+  moved_ = position_ - last_;
+  if (moved_ > kFar || moved_ < -kFar) moved_ = moved_ < 0 ? -kFar : kFar;
   last_ = position_;
   real_velocity_ = turned_ == 0 ? 0 : per_second(std::clamp(turned_, -kFar, kFar));
   turned_ = 0;

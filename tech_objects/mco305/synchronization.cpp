@@ -155,7 +155,8 @@ void Synchronization::step(const MasterInput& master, std::int64_t actual) noexc
   if (mode_ == SyncMode::kMarkers) {
     if (following_) {
       for (std::size_t i = 0; i < master.mark_count(); ++i) take_master_mark(master.mark(i));
-      look_for_missed(static_cast<double>(master_position_), static_cast<double>(actual));
+      if (master_window_.missed(static_cast<double>(master_position_), master_tolerance_)) miss_master_mark();
+      if (slave_window_.missed(static_cast<double>(actual), slave_tolerance_)) miss_slave_mark();
     }
     trimmed_ += velocity * filter_.trim() * ratio;
   }
@@ -179,7 +180,7 @@ void Synchronization::judge(std::int64_t actual) noexcept {
   if (following_ && reached_) quality_.look(error_, accuracy_);
 }
 
-FourSlopeState Synchronization::set_point(std::int64_t actual, bool controls_velocity) noexcept {
+void Synchronization::set_point(std::int64_t actual, bool controls_velocity) noexcept {
   last_velocity_ = pursuit_.velocity();
   if (mode_ == SyncMode::kVelocity) {
     pursuit_.follow(velocity_ * gear_.ratio(), limits_);
@@ -199,15 +200,9 @@ FourSlopeState Synchronization::set_point(std::int64_t actual, bool controls_vel
     limits_.spread = spread_before_;
     pursuit_.step(before_, velocity_before_, limits_);
   }
+  if (reached_ || awaits_path_ || path_.active()) return;
   const double goes = looks_ahead_ ? target_velocity_ : velocity_before_;
-  const bool begins = awaits_path_ || path_.active();
-  if (!begins)
-    reached_ =
-        reached_ || pursuit_.synchronous() || std::abs(pursuit_.velocity() - goes) <= limits_.acceleration;
-  // What single counts do to the velocity is no acceleration that a motion could begin with.
-  const double change = std::max(limits_.acceleration, limits_.deceleration);
-  return {pursuit_.position(), pursuit_.velocity(),
-          std::clamp(pursuit_.velocity() - last_velocity_, -change, change)};
+  reached_ = pursuit_.synchronous() || std::abs(pursuit_.velocity() - goes) <= limits_.acceleration;
 }
 
 std::int32_t Synchronization::status() const noexcept {

@@ -2,6 +2,7 @@
 /// @source MCO 305 Design Guide, SYNCV, SYNCP, SYNCM; 33-1*, 33-2*, 33-3*
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "tech_objects/mco305/master_input.hpp"
@@ -64,9 +65,16 @@ class Synchronization {
   void step(const MasterInput& master, std::int64_t actual) noexcept;
   /// At the end of a step: how accurate it is. @param actual [qc]
   void judge(std::int64_t actual) noexcept;
-  /// The set position of this step. @param actual [qc]  @param controls_velocity a drive follows, which
+  /// Moves the set position in this step. @param actual [qc]  @param controls_velocity a drive follows, which
   /// gets no position but in SYNCV the error of its velocity
-  FourSlopeState set_point(std::int64_t actual, bool controls_velocity) noexcept;
+  void set_point(std::int64_t actual, bool controls_velocity) noexcept;
+  double set_position() const noexcept { return pursuit_.position(); }  ///< [qc]
+  double set_velocity() const noexcept { return pursuit_.velocity(); }  ///< [qc/ms]
+  /// [qc/ms²] What single counts do to the velocity is no acceleration that a motion could begin with.
+  double set_acceleration() const noexcept {
+    const double change = std::max(limits_.acceleration, limits_.deceleration);
+    return std::clamp(pursuit_.velocity() - last_velocity_, -change, change);
+  }
 
   SyncMode mode() const noexcept { return mode_; }
   /// Whether `step` has anything to do.
@@ -96,7 +104,8 @@ class Synchronization {
   void begin_markers() noexcept;
   void average_markers(const MasterInput& master) noexcept;
   void take_master_mark(double place) noexcept;
-  void look_for_missed(double master, double slave) noexcept;
+  void miss_master_mark() noexcept;
+  void miss_slave_mark() noexcept;
   void pair(double apart) noexcept;
   void meet_at_a_marker(double place) noexcept;
   void follow_path() noexcept;
