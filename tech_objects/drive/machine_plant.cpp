@@ -18,6 +18,7 @@ void MachinePlant::configure(const MachinePlantSettings& settings, double motor_
   settings_ = settings;
   inertia_ = settings.inertia * motor_angle;
   per_torque_ = cycle / inertia_;
+  rubs_ = per_torque_ * settings.friction;
   start_ = start;
   cycle_ = cycle;
   // A stop takes the energy of what runs into it: critically damped with the inertia of the machine.
@@ -46,30 +47,33 @@ double MachinePlant::stop_torque(const Begin& begin, double velocity) const noex
 }
 
 /// The motor does what it may; the velocity that comes of it.
-double MachinePlant::push(double velocity_before, double wanted_velocity, const TorqueBand& limits,
-                          double additive) noexcept {
+inline double MachinePlant::push(double velocity_before, double wanted_velocity, const TorqueBand& permitted,
+                                 double additive) noexcept {
   const double asked = (wanted_velocity - velocity_before) / per_torque_ + known_ + additive;
-  torque_ = permitted(limits).cut(asked);
+  torque_ = permitted.cut(asked);
   limited_ = torque_ != asked;
   return wanted_velocity + per_torque_ * ((torque_ - asked) + (known_ + additive + settings_.load_torque));
 }
 
 MachinePlant::Motion MachinePlant::step(const Begin& begin, const Motion& wanted, bool pulses,
-                                        const TorqueBand& limits, double additive) noexcept {
+                                        const TorqueBand& permitted, double additive) noexcept {
   if (!pulses) {
     torque_ = known_ = 0.0;
     if (begin.velocity == 0.0) return {};  // the brake holds
   }
-  double velocity = pulses ? push(begin.velocity, wanted.velocity, limits, additive)
+  double velocity = pulses ? push(begin.velocity, wanted.velocity, permitted, additive)
                            : begin.velocity + per_torque_ * settings_.load_torque;
-  const double stopped = settings_.has_stop ? stop_torque(begin, velocity) : 0.0;
-  velocity -= per_torque_ * settings_.stop.side * stopped;
-  const double maximum = per_torque_ * settings_.friction;
-  const double rubbed = std::clamp(velocity, -maximum, maximum);
+  double stopped = 0.0, pushed_back = 0.0;
+  if (settings_.has_stop) {
+    stopped = stop_torque(begin, velocity);
+    pushed_back = settings_.stop.side * stopped;
+    velocity -= per_torque_ * settings_.stop.side * stopped;
+  }
+  const double rubbed = std::clamp(velocity, -rubs_, rubs_);
   velocity -= rubbed;
   if (!pulses && velocity * begin.velocity <= 0.0) velocity = 0.0;
   const double friction = rubbed == 0.0 ? rubbed : rubbed / per_torque_;  // a division is long
-  const double against = settings_.stop.side * stopped + friction - settings_.load_torque - additive;
+  const double against = pushed_back + friction - settings_.load_torque - additive;
   if (pulses) known_ += (against - known_) * learning_;
   // At the stop with the velocity of the end, as its torque has been found; else the means of the cycle.
   if (stopped > 0.0) return {velocity * cycle_, velocity};
@@ -77,8 +81,8 @@ MachinePlant::Motion MachinePlant::step(const Begin& begin, const Motion& wanted
   return {wanted.distance + 0.5 * (velocity - wanted.velocity) * cycle_, velocity};
 }
 
-void MachinePlant::hold(double wanted_velocity, const TorqueBand& limits) noexcept {
-  torque_ = permitted(limits).cut(inertia_ / cycle_ * wanted_velocity);
+void MachinePlant::hold(double wanted_velocity, const TorqueBand& permitted) noexcept {
+  torque_ = permitted.cut(inertia_ / cycle_ * wanted_velocity);
 }
 
 }  // namespace lockstep

@@ -58,22 +58,24 @@ class MachinePlant {
   };
   /// @param wanted what the velocity loop alone would do
   /// @param pulses whether the motor has torque; without, a brake holds the machine once it rests
-  Motion step(const Begin& begin, const Motion& wanted, bool pulses, const TorqueBand& limits,
+  /// @param permitted limits as the function of this name gives them
+  Motion step(const Begin& begin, const Motion& wanted, bool pulses, const TorqueBand& permitted,
               double additive) noexcept;
   /// A servo cycle in which nothing can move.
-  void hold(double wanted_velocity, const TorqueBand& limits) noexcept;
+  void hold(double wanted_velocity, const TorqueBand& permitted) noexcept;
 
   double torque() const noexcept { return torque_; }
   /// What the drive may make within limits given to it.
   TorqueBand permitted(const TorqueBand& limits) const noexcept;
 
  private:
-  double push(double velocity_before, double wanted_velocity, const TorqueBand& limits,
+  double push(double velocity_before, double wanted_velocity, const TorqueBand& permitted,
               double additive) noexcept;
   double stop_torque(const Begin& begin, double velocity) const noexcept;
 
   double torque_ = 0.0;      // of the motor
   double per_torque_ = 0.0;  // velocity that a torque makes in a cycle [u/s per Nm]
+  double rubs_ = 0.0;        // velocity that the friction takes in a cycle at most [u/s]
   double inertia_ = 0.0;     // torque per acceleration of the machine [Nm s²/u]
   MachinePlantSettings settings_;
   double start_ = 0.0;

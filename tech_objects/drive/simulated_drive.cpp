@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "tech_objects/arithmetic/decay.hpp"
-#include "tech_objects/drive/encoder_source.hpp"
 #include "tech_objects/drive/whole_cycles.hpp"
 
 namespace lockstep {
@@ -26,11 +25,11 @@ DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double 
   loop_cycles_ = 0;
   position_ = reported_ = {};
   velocity_ = 0.0;
-  torque_ = {};
   ramp_ = last_setpoint_ = 0.0;
   quick_stop_ = std::max(0.0, settings.quick_stop);
   plant_.configure(settings.plant, motor_angle, settings.signals.start_position, settings.time_constant,
                    servo_cycle);
+  command_torque({});
   const Cycles dead = cycles_of(settings.dead_time, servo_cycle, kDelay - 2);
   const double time_constant = std::max(0.0, settings.time_constant);
   servo_cycle_ = servo_cycle;
@@ -122,14 +121,14 @@ double SimulatedDrive::quick_stop_setpoint() noexcept {
 
 void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velocity_before) noexcept {
   if (unit_.blocked()) {
-    plant_.hold(velocity_, torque_.band);
+    plant_.hold(velocity_, permitted_);
     position_ = position_before;
     velocity_ = 0.0;
     return;
   }
   const MachinePlant::Motion wanted{(position_ - position_before).rounded(), velocity_};
   const MachinePlant::Motion made = plant_.step({position_before.rounded(), velocity_before}, wanted,
-                                                states().pulses(), torque_.band, torque_.additive);
+                                                states().pulses(), permitted_, torque_.additive);
   if (made.distance != wanted.distance) position_ = position_before + made.distance;
   velocity_ = made.velocity;
 }
@@ -139,20 +138,6 @@ void SimulatedDrive::control(std::uint16_t stw1, std::uint16_t stw2) noexcept {
   if (unit_.control(stw1, stw2))
     ramp_ = states().state() == DriveStates::State::quick_stop && quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
   if (!states().operation() && !states().stopping()) last_setpoint_ = 0.0;
-}
-
-DriveActual SimulatedDrive::read() noexcept {
-  return unit_.tell(plant_.torque(), [this](DriveActual& now) { read_encoder(now); });
-}
-
-void SimulatedDrive::read_encoder(DriveActual& now) noexcept {
-  now.position = position_;
-  now.velocity = velocity_;
-  if (resolution_ > 0.0) {
-    now.position = quantised(position_, resolution_);
-    now.velocity = (now.position - reported_).rounded() / servo_cycle_;
-  }
-  reported_ = now.position;
 }
 
 }  // namespace lockstep

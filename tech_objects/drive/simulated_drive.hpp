@@ -8,6 +8,7 @@
 
 #include "tech_objects/arithmetic/double_double.hpp"
 #include "tech_objects/drive/drive.hpp"
+#include "tech_objects/drive/encoder_source.hpp"
 #include "tech_objects/drive/machine_plant.hpp"
 #include "tech_objects/drive/simulated_control_unit.hpp"
 
@@ -25,11 +26,17 @@ class SimulatedDrive final : public Drive {
   DriveProperties configure(const DriveSettings& settings, double servo_cycle,
                             double motor_angle) noexcept override;
 
-  DriveActual read() noexcept override;
+  // Here, so that who knows that its drive is simulated has what it reads where it needs it.
+  DriveActual read() noexcept override {
+    return unit_.tell(plant_.torque(), [this](DriveActual& now) noexcept { read_encoder(now); });
+  }
   void write(double velocity) noexcept override;
   void write_position(const PositionCommand& command) noexcept override;
   void control(std::uint16_t stw1, std::uint16_t stw2) noexcept override;
-  void command_torque(const TorqueCommand& command) noexcept override { torque_ = command; }
+  void command_torque(const TorqueCommand& command) noexcept override {
+    torque_ = command;
+    permitted_ = plant_.permitted(command.band);
+  }
 
   SensorActual read_sensor(std::size_t sensor) noexcept override {
     return unit_.read_sensor(sensor, position_);
@@ -64,7 +71,15 @@ class SimulatedDrive final : public Drive {
   /// dead time needs.
   std::size_t kept(std::size_t cycle) const noexcept { return cycle & (ring_ - 1); }
   void run_position_loop() noexcept;
-  void read_encoder(DriveActual& now) noexcept;
+  void read_encoder(DriveActual& now) noexcept {
+    now.position = position_;
+    now.velocity = velocity_;
+    if (resolution_ > 0.0) {
+      now.position = quantised(position_, resolution_);
+      now.velocity = (now.position - reported_).rounded() / servo_cycle_;
+    }
+    reported_ = now.position;
+  }
   double quick_stop_setpoint() noexcept;
   void move_plant(const DoubleDouble& position_before, double velocity_before) noexcept;
 
@@ -84,6 +99,7 @@ class SimulatedDrive final : public Drive {
   double resolution_ = 0.0;
   DoubleDouble reported_;
   MachinePlant plant_;
+  TorqueBand permitted_;  // of torque_, that the plant permits
   SimulatedControlUnit unit_;
 
   std::array<double, kDelay> written_{};  // velocity setpoints, by cycle

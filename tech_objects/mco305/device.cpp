@@ -5,8 +5,6 @@
 #include <bit>
 #include <cmath>
 
-#include "tech_objects/drive/drive_models.hpp"
-
 namespace lockstep::mco305 {
 namespace {
 
@@ -33,7 +31,7 @@ void Device::configure(const DeviceSettings& settings, double servo_period) {
   master_.power_up(parameters_);
   refresh();
   if (settings.has_drive) {
-    drive_ = kDriveModels[0].make();
+    drive_ = std::make_unique<SimulatedDrive>();
     drive_->configure(settings.drive, servo_period, 2.0 * 3.14159265358979323846 / turn_);
     machine_ = start;
     swap_offset_ = actual_ = absolute_.position();
@@ -70,6 +68,7 @@ void Device::refresh() noexcept {
   master_.refresh(p);
   has_master_ = has_master_ || master_.present();
   sync_.refresh(p, settings_.later_edition, velocity_maximum_);
+  note_what_is_watched();
   drive_sign_ = p[kPosDirection] % 2 == 0 ? -1.0 : 1.0;
   scale_drive();
 }
@@ -91,6 +90,8 @@ void Device::forget_settings() noexcept {
   refresh();
 }
 
+// What is called here in every step is inline: to save registers and to hand over by memory would take up to
+// a seventh of its instructions.
 void Device::servo(bool step) noexcept {
   if (!virtual_) read_drive();
   if (step) {
@@ -108,7 +109,7 @@ void Device::servo(bool step) noexcept {
     }
     control();
     look_at_arrival();
-    monitor();
+    if (watches_ || now_ == next_monitoring_) monitor();
     if (has_master_) sync_.judge(actual_);
     positions_[static_cast<std::size_t>(now_) % kVelocityRing] = actual_;
     write_outputs();
@@ -132,6 +133,10 @@ void Device::read_drive() noexcept {
   const double start = settings_.drive.signals.start_position;
   if (!absolute_.present()) actual_ = counts_of(machine_ - start) + swap_offset_;
   if (moved != 0.0) latch(before, machine_);
+  if (!settings_.drive.signals.digital_inputs.empty()) show_switches();
+}
+
+void Device::show_switches() noexcept {
   for (const DigitalInput& input : settings_.drive.signals.digital_inputs)
     *input.tag = input.range.contains(machine_, 0.0);
 }
@@ -175,7 +180,7 @@ void Device::mark(double place) noexcept {
 }
 
 /// Of the markers of this millisecond those of the slave have been taken while its drive was read.
-void Device::step_master() noexcept {
+inline void Device::step_master() noexcept {
   master_.look_at_marker(io_.input(5));
   master_.step();
   sync_.average(master_);
@@ -183,29 +188,31 @@ void Device::step_master() noexcept {
   if (sync_.runs()) sync_.step(master_, actual_);
 }
 
-void Device::sample_inputs() noexcept {
-  for (const WiredInput& input : wired_inputs_) io_.set_input(input.number, *input.tag);
-  if (!io_.any_input_function() && marker_type_ < 2) {
-    last_marker_input_ = io_.input(6);
-    return;
-  }
-  const auto& cam = settings_.drive.signals.reference_cam;
-  const std::size_t home_switch = io_.input_of(InputFunction::kHomeSwitch);
-  if (cam && home_switch != 0 && settings_.inputs[home_switch - 1] == nullptr) {
-    const bool closed = parameters_[kFirstInputFunction + static_cast<std::int32_t>(home_switch) -
-                                    (home_switch <= 10 ? 1 : 0)] == 2;
-    io_.set_input(home_switch, cam->contains(machine_, 0.0) != closed);
-  }
+inline void Device::sample_inputs() noexcept {
+  if (!wired_inputs_.empty()) sample_wired_inputs();
+  if (io_.any_input_function()) sample_home_switch();
   // The marker of the following side is input 6.
-  const std::int32_t type = marker_type_;
   const bool marker = io_.input(6);
-  if (type >= 2 && marker != last_marker_input_ && marker == (type == 2)) {
-    take_latch(actual_);
-  }
+  if (marker == last_marker_input_) return;
   last_marker_input_ = marker;
+  if (marker_type_ >= 2 && marker == (marker_type_ == 2)) take_latch(actual_);
 }
 
-void Device::generate() noexcept {
+[[gnu::noinline]] void Device::sample_wired_inputs() noexcept {
+  for (const WiredInput& input : wired_inputs_) io_.set_input(input.number, *input.tag);
+}
+
+/// One that nothing is wired to is that of the machine.
+void Device::sample_home_switch() noexcept {
+  const auto& cam = settings_.drive.signals.reference_cam;
+  const std::size_t home_switch = io_.input_of(InputFunction::kHomeSwitch);
+  if (!cam || home_switch == 0 || settings_.inputs[home_switch - 1] != nullptr) return;
+  const bool closed = parameters_[kFirstInputFunction + static_cast<std::int32_t>(home_switch) -
+                                  (home_switch <= 10 ? 1 : 0)] == 2;
+  io_.set_input(home_switch, cam->contains(machine_, 0.0) != closed);
+}
+
+inline void Device::generate() noexcept {
   if (!on_) {
     // MOTOR OFF: the set position is where the axis is.
     if (!virtual_) profile_.stand(static_cast<double>(actual_));
@@ -214,23 +221,24 @@ void Device::generate() noexcept {
   }
   if (mode_ == MotionMode::kFollow) {
     const double before = profile_.state().position;
-    profile_.lead(sync_.set_point(actual_, !virtual_));
-    const FourSlopeState& now = profile_.state();
-    if (sync_.mode() == SyncMode::kVelocity) unled_ += now.position - before - now.velocity;
+    sync_.set_point(actual_, !virtual_);
+    profile_.lead({sync_.set_position(), sync_.set_velocity(), sync_.set_acceleration()});
+    if (sync_.mode() == SyncMode::kVelocity) unled_ += sync_.set_position() - before - sync_.set_velocity();
     return;
   }
   if (profile_time_ == 1 || now_ % profile_time_ == 0) profile_.step(static_cast<double>(profile_time_));
 }
 
-void Device::control() noexcept {
+inline void Device::control() noexcept {
+  if (on_ && !virtual_) return control_position();
+  reference_ =
+      virtual_ ? 0.0 : static_cast<double>(open_loop_) / kFullReference * CountController::kFullScale;
+  if (!on_) controller_.reset();
+  last_velocity_ = profile_.state().velocity;
+}
+
+void Device::control_position() noexcept {
   const FourSlopeState& set = profile_.state();
-  if (!on_ || virtual_) {
-    reference_ =
-        virtual_ ? 0.0 : static_cast<double>(open_loop_) / kFullReference * CountController::kFullScale;
-    if (!on_) controller_.reset();
-    last_velocity_ = set.velocity;
-    return;
-  }
   if (sampling_ != 1 && now_ % sampling_ != 0) return;
   const auto period = static_cast<double>(sampling_);
   const bool by_velocity = mode_ == MotionMode::kFollow && sync_.mode() == SyncMode::kVelocity;
@@ -241,22 +249,29 @@ void Device::control() noexcept {
 }
 
 /// TESTWIN: the profile is at its end, the axis within the window, and it hardly moves.
-void Device::look_at_arrival() noexcept {
-  const bool ended = profile_.over() && profile_.state().velocity == 0.0;
-  moving_ = on_ && !(ended && mode_ != MotionMode::kHome);
+inline void Device::look_at_arrival() noexcept {
+  const bool stands = profile_.state().velocity == 0.0;
   if (mode_ == MotionMode::kFollow) {
-    moving_ = on_ && profile_.state().velocity != 0.0;
+    moving_ = on_ && !stands;
     return;
   }
-  if (mode_ == MotionMode::kStop && ended && brake_after_stop_) {
+  const bool ended = stands && profile_.over();
+  moving_ = on_ && !(ended && mode_ != MotionMode::kHome);
+  if (!ended) {
+    window_since_ = -1;
+  } else if (!arrived_) {
+    look_into_window();
+  }
+}
+
+/// At the end of the profile.
+void Device::look_into_window() noexcept {
+  if (mode_ == MotionMode::kStop && brake_after_stop_) {
     brake_ = true;
     brake_after_stop_ = false;
     motor_off();
   }
-  if (arrived_ || !on_ || !ended) {
-    if (!ended) window_since_ = -1;
-    return;
-  }
+  if (arrived_ || !on_) return;
   const std::int64_t window = parameters_[kTestWin];
   if (window == 0 || virtual_ || mode_ != MotionMode::kPosition) {
     arrived_ = true;
@@ -272,19 +287,27 @@ void Device::look_at_arrival() noexcept {
   }
 }
 
+/// Most devices have nothing of this to look at in most of their steps.
+void Device::note_what_is_watched() noexcept {
+  watches_inputs_ = io_.any_input_function() || at_negative_end_ || at_positive_end_ || break_input_;
+  watches_ = watches_inputs_ || checks_limits_ || looks_at_faults_;
+}
+
 void Device::monitor() noexcept {
-  const bool looks_at_inputs =
-      io_.any_input_function() || at_negative_end_ || at_positive_end_ || break_input_;
-  if (looks_at_inputs || checks_limits_) look_at_limits();
-  if (!virtual_ && on_ && now_ % kMonitoringPeriod == 0) {
-    look_at_position_error();
-    look_at_drive();
+  if (watches_inputs_ || checks_limits_) look_at_limits();
+  if (now_ == next_monitoring_) {
+    next_monitoring_ += kMonitoringPeriod;
+    if (!virtual_ && on_) {
+      look_at_position_error();
+      look_at_drive();
+    }
   }
   if (looks_at_faults_) look_at_faults();
-  if (!looks_at_inputs) return;
+  if (!watches_inputs_) return;
   const bool user_break = io_.active(InputFunction::kBreak);
   if (user_break && !break_input_) raise(kUserAbort);
   break_input_ = user_break;
+  note_what_is_watched();
 }
 
 void Device::look_at_limits() noexcept {
@@ -334,9 +357,13 @@ void Device::look_at_faults() noexcept {
   report(parameters_[kMasterEncoderMonitoring] != 0 && present(faults.master_encoder), kEncoderError);
 }
 
-void Device::write_outputs() noexcept {
+inline void Device::write_outputs() noexcept {
   io_.show({moving_, pending_.any(), brake_});
   brake_ = false;
+  if (!wired_outputs_.empty()) write_wired_outputs();
+}
+
+void Device::write_wired_outputs() noexcept {
   for (const WiredOutput& output : wired_outputs_) *output.tag = io_.output(output.number);
 }
 

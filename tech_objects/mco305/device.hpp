@@ -11,6 +11,7 @@
 
 #include "tech_objects/drive/count_controller.hpp"
 #include "tech_objects/drive/drive.hpp"
+#include "tech_objects/drive/simulated_drive.hpp"
 #include "tech_objects/mco305/absolute_encoder.hpp"
 #include "tech_objects/mco305/inputs_outputs.hpp"
 #include "tech_objects/mco305/marker_track.hpp"
@@ -208,15 +209,21 @@ class Device {
 
   void refresh() noexcept;
   void read_drive() noexcept;
+  void show_switches() noexcept;
   void read_absolute() noexcept;
   void latch(double from, double to) noexcept;
   std::int64_t encoder_count(double place) const noexcept;
   void take_latch(std::int64_t place) noexcept;
   void step_master() noexcept;
   void sample_inputs() noexcept;
+  void sample_wired_inputs() noexcept;
+  void sample_home_switch() noexcept;
   void generate() noexcept;
   void control() noexcept;
+  void control_position() noexcept;
   void look_at_arrival() noexcept;
+  void look_into_window() noexcept;
+  void note_what_is_watched() noexcept;
   void monitor() noexcept;
   void look_at_limits() noexcept;
   void look_at_position_error() noexcept;
@@ -224,6 +231,7 @@ class Device {
   void look_at_faults() noexcept;
   bool sync_variable(std::int32_t index, std::int32_t& value) const noexcept;
   void write_outputs() noexcept;
+  void write_wired_outputs() noexcept;
   void write_drive() noexcept;
 
   double counts_per_millisecond(double rpm) const noexcept;
@@ -266,7 +274,9 @@ class Device {
   std::int64_t profile_time_ = 1, sampling_ = 1;  // PROFTIME, TIMER [ms]
   std::int64_t position_error_ = 20'000;          // POSERR [qc]
   bool checks_limits_ = false;
-  bool has_master_ = false;  // something turns here
+  bool watches_ = false, watches_inputs_ = false;  // inputs, limits or faults, in every step; inputs
+  std::int64_t next_monitoring_ = 0;               // of following error and drive [ms]
+  bool has_master_ = false;                        // something turns here
   bool looks_at_faults_ = false;
   double drive_sign_ = 1.0;                          // of the reference: POSDRCT
   double full_reference_ = 1.0, speed_limit_ = 0.0;  // of the drive [qc/ms]
@@ -297,7 +307,7 @@ class Device {
   std::vector<WiredOutput> wired_outputs_;
   std::int32_t marker_type_ = 0;  // SYNCMTYPS
   MarkerTrack track_;
-  std::unique_ptr<Drive> drive_;
+  std::unique_ptr<SimulatedDrive> drive_;
   /// What the drive has told last; its position is in `machine_`.
   struct {
     double velocity = 0.0, torque = 0.0;

@@ -64,8 +64,7 @@ void InputsOutputs::assign(const ParameterValues& parameters) noexcept {
   }
 }
 
-void InputsOutputs::show(const Shown& now) noexcept {
-  if (!any_function_) return;
+void InputsOutputs::show_functions(const Shown& now) noexcept {
   for (std::size_t i = 0; i < kFunctionOutputs; ++i) {
     const std::uint8_t function = functions_[i];
     if (function == 0) continue;

@@ -73,9 +73,12 @@ class InputsOutputs {
     return number != 0 && inputs_[number - 1] != closed_[static_cast<std::size_t>(function)];
   }
   /// Switches the outputs that have a function, when what they show changes.
-  void show(const Shown& now) noexcept;
+  void show(const Shown& now) noexcept {
+    if (any_function_) show_functions(now);
+  }
 
  private:
+  void show_functions(const Shown& now) noexcept;
   void switch_one(std::size_t index, bool on) noexcept;
 
   std::int32_t input_word_ = 0, output_byte_ = 0;

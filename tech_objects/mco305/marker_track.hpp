@@ -30,6 +30,8 @@ class MarkerTrack {
  public:
   void configure(const MarkerTrackSettings& settings) noexcept {
     settings_ = settings;
+    plain_ = settings.slip == 0.0 && settings.missing == nullptr && settings.spurious == nullptr &&
+             settings.twice == nullptr;
     free_from_ = free_to_ = 0.0;
   }
   bool exists() const noexcept { return settings_.period > 0.0; }
@@ -37,6 +39,23 @@ class MarkerTrack {
   /// @param found is given where the encoder is at each marker, in their order
   template <class Found>
   void pass(double from, double to, Found&& found) noexcept {
+    if (!stays_free(to - from)) look_for_marks(from, to, found);
+  }
+
+ private:
+  static constexpr double kBetween = 0.45, kBehind = 0.1;  // of a period
+  static constexpr double kNear = 1e-3;                    // [qc]
+
+  /// Most steps are between the same two markers as the one before, where it is while there is such a
+  /// stretch; so it has to be seen only that it does not leave it.
+  bool stays_free(double by) noexcept {
+    const double carried = carried_ + by;
+    if (!plain_ || !(carried > free_from_ && carried < free_to_)) return false;
+    carried_ = carried;
+    return true;
+  }
+  template <class Found>
+  [[gnu::noinline]] void look_for_marks(double from, double to, Found& found) noexcept {
     if (!exists() || from == to) return;
     if (!begun_) carried_ = from;
     begun_ = true;
@@ -44,19 +63,17 @@ class MarkerTrack {
     const double begin = carried_;
     carried_ += (to - from) * part;
     if (on(settings_.missing) || is_free(begin, carried_)) return;
+    free_from_ = free_to_ = 0.0;
     constexpr int kInATick = 8;  // no sensor is faster
     double at = begin;
     for (int i = 0; i < kInATick; ++i) {
       const std::optional<double> mark = between(at, carried_);
-      if (!mark) return;
+      if (!mark) break;
       found(from + (*mark - begin) / part);
       at = *mark;
     }
+    if (!(carried_ > free_from_ && carried_ < free_to_)) free_from_ = free_to_ = 0.0;
   }
-
- private:
-  static constexpr double kBetween = 0.45, kBehind = 0.1;  // of a period
-  static constexpr double kNear = 1e-3;                    // [qc]
 
   static bool on(const bool* tag) noexcept { return tag != nullptr && *tag; }
   bool slips() const noexcept {
@@ -91,7 +108,7 @@ class MarkerTrack {
     }
     return met;
   }
-  /// Most steps are between the same two markers as the one before, which takes no division to know.
+  /// … of a track with tags, too, which takes no division to know.
   bool is_free(double from, double to) const noexcept {
     return from > free_from_ && from < free_to_ && to > free_from_ && to < free_to_ &&
            !on(settings_.spurious) && !on(settings_.twice);
@@ -123,8 +140,9 @@ class MarkerTrack {
 
   MarkerTrackSettings settings_;
   bool begun_ = false;
+  bool plain_ = true;                       // nothing but period and noise
   double carried_ = 0.0;                    // where what bears the markers is
-  double free_from_ = 0.0, free_to_ = 0.0;  // between these there is no marker
+  double free_from_ = 0.0, free_to_ = 0.0;  // between these there is no marker; the same: nothing is known
 };
 
 }  // namespace lockstep::mco305

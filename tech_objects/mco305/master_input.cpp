@@ -5,6 +5,14 @@
 #include <utility>
 
 namespace lockstep::mco305 {
+namespace {
+
+std::int32_t per_second(std::int64_t counts) noexcept {
+  constexpr std::int64_t kSteps = 1000;
+  return static_cast<std::int32_t>(std::clamp<std::int64_t>(counts * kSteps, -2147483648LL, 2147483647LL));
+}
+
+}  // namespace
 
 void MasterInput::refresh(const ParameterValues& parameters) noexcept {
   type_ = parameters[kMasterEncoderType];
@@ -12,6 +20,7 @@ void MasterInput::refresh(const ParameterValues& parameters) noexcept {
   resolution_ = parameters[kMasterEncoderAbsRes];
   marker_type_ = parameters[kMarkerTypeMaster];
   turn_ = 4.0 * parameters.real(kMasterEncoder);
+  free_from_ = free_to_ = 0.0;
 }
 
 void MasterInput::power_up(const ParameterValues& parameters) noexcept {
@@ -25,13 +34,17 @@ void MasterInput::move(std::int64_t counts) noexcept {
 }
 
 /// The zero pulse of the encoder, or the markers that the sensor at input 5 sees.
-void MasterInput::pass(double from, double to) noexcept {
-  if (from == to) return;
+inline void MasterInput::pass(double from, double to) noexcept {
   if (marker_type_ >= 2) return track_.pass(from, to, [this](double place) { latch(place); });
+  if (from > free_from_ && from < free_to_ && to > free_from_ && to < free_to_) return;
+  pass_pulses(from, to);
+}
+
+void MasterInput::pass_pulses(double from, double to) noexcept {
+  if (from == to) return;
   const bool forward = from < to;
-  // Most steps are between two pulses.
   const double begin = whole_below(from / turn_), end = whole_below(to / turn_);
-  if (begin == end && (forward || begin * turn_ < to)) return;
+  if (begin == end && (forward || begin * turn_ < to)) return note_free(begin);
   for (std::size_t i = 0; i < kMarks; ++i) {
     const double turns = from / turn_;
     const double place = (forward ? std::floor(turns) + 1.0 : std::ceil(turns) - 1.0) * turn_;
@@ -39,6 +52,16 @@ void MasterInput::pass(double from, double to) noexcept {
     latch(place);
     from = place;
   }
+}
+
+/// Most steps are between the same two pulses as the one before, which takes no division to know. A count to
+/// both sides is more than what up to 2⁵⁰ qc is lost by rounding, of the quotient or of the bounds.
+void MasterInput::note_free(double turn) noexcept {
+  constexpr double kFar = 1125899906842624.0, kMargin = 1.0;  // 2⁵⁰; [qc]
+  const double begin = turn * turn_;
+  const bool exact = std::abs(begin) < kFar && turn_ < kFar;
+  free_from_ = exact ? begin + kMargin : 0.0;
+  free_to_ = exact ? begin + turn_ - kMargin : 0.0;
 }
 
 void MasterInput::latch(double place) noexcept {
@@ -96,12 +119,6 @@ void MasterInput::exchange(std::int64_t& position, std::int64_t& origin) noexcep
   begun_ = true;
 }
 
-void MasterInput::look_at_marker(bool level) noexcept {
-  if (marker_type_ >= 2 && level != last_level_ && level == (marker_type_ == 2))
-    latch(static_cast<double>(position_));
-  last_level_ = level;
-}
-
 void MasterInput::set_velocity(std::int32_t value) noexcept {
   own_.set_velocity(value);
   begun_ = true;
@@ -121,10 +138,10 @@ void MasterInput::step() noexcept {
     pass(begin, static_cast<double>(position_));
   }
   constexpr std::int64_t kFar = std::int64_t{1} << 30;  // what a gear takes in a step; nothing real is faster
-  moved_ = std::clamp(position_ - last_, -kFar, kFar);
+  moved_ = position_ - last_;
+  if (moved_ > kFar || moved_ < -kFar) moved_ = moved_ < 0 ? -kFar : kFar;
   last_ = position_;
-  real_velocity_ = static_cast<std::int32_t>(
-      std::clamp<std::int64_t>(std::clamp(turned_, -kFar, kFar) * 1000, -2147483648LL, 2147483647LL));
+  real_velocity_ = turned_ == 0 ? 0 : per_second(std::clamp(turned_, -kFar, kFar));
   turned_ = 0;
   mark_count_ = next_mark_count_;
   next_mark_count_ = 0;

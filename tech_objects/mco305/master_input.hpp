@@ -35,7 +35,11 @@ class MasterInput {
   /// What the encoder shows in a servo tick [qc], |encoder| < 2⁵³; before `step` of the same tick.
   void turn(double encoder) noexcept;
   /// The level of input 5 in a servo tick.
-  void look_at_marker(bool level) noexcept;
+  void look_at_marker(bool level) noexcept {
+    if (level == last_level_) return;
+    last_level_ = level;
+    if (marker_type_ >= 2 && level == (marker_type_ == 2)) latch(static_cast<double>(position_));
+  }
   /// An external marker at a place of the counter [qc].
   void mark(double place) noexcept;
   /// SWAPMENC: the counter and its zero change places with those.
@@ -81,6 +85,8 @@ class MasterInput {
 
   void move(std::int64_t counts) noexcept;
   void pass(double from, double to) noexcept;
+  void pass_pulses(double from, double to) noexcept;
+  void note_free(double turn) noexcept;
   void latch(double place) noexcept;
 
   void read_absolute() noexcept;
@@ -97,6 +103,7 @@ class MasterInput {
   double encoder_ = 0.0;
   std::int64_t shown_encoder_ = 0, turned_ = 0;  // whole counts of the encoder, and those of this step
   double turn_ = 4096.0;                         // [qc] of a turn of the encoder
+  double free_from_ = 0.0, free_to_ = 0.0;       // between these there is no zero pulse [qc]
   std::int32_t real_velocity_ = 0;
   VirtualMaster own_;
   MarkerTrack track_;

@@ -31,7 +31,7 @@ void Synchronization::refresh(const ParameterValues& p, bool later_edition,
   looks_ahead_ = p[kSyncType] == 1;
   filter_parameter_ = p[kSyncVfTime];
   filter_limit_ = later_edition ? p.real(kSyncVfLimit) : 0.0;
-  published_time_ = CountFilter::published_time(p.real(kMasterEncoder));
+  filter_time_ = filter_time(p.real(kMasterEncoder));
   constexpr double kTimes = 5.0;  // of the velocity, as resolution for the table
   slave_filter_time_ = CountFilter::published_time(kTimes * velocity_maximum);
   master_tolerance_ = {p.real(kSyncMPulsM), std::max(p.real(kSyncMWinM), 0.0)};
@@ -55,9 +55,10 @@ void Synchronization::refresh(const ParameterValues& p, bool later_edition,
 }
 
 /// [ms]
-double Synchronization::filter_time() const noexcept {
+double Synchronization::filter_time(double resolution) const noexcept {
   const std::int64_t time = std::abs(std::int64_t{filter_parameter_});
-  return time < kOwnFilterFrom ? published_time_ : static_cast<double>(time) / kThousand;
+  return time < kOwnFilterFrom ? CountFilter::published_time(resolution)
+                               : static_cast<double>(time) / kThousand;
 }
 
 /// [qc of the master]
@@ -91,7 +92,7 @@ void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const Fou
   last_velocity_ = from.velocity;
   velocity_filter_.begin(static_cast<double>(master.moved()));
   slave_filter_.begin(from.velocity);
-  fading_.begin(velocity_filter_.velocity(), filter_time());
+  fading_.begin(velocity_filter_.velocity(), filter_time_);
   velocity_ = velocity_filter_.velocity();
   master_position_ = master.position();
   gear_.set(factor_master_, factor_slave_);
@@ -137,14 +138,13 @@ void Synchronization::step(const MasterInput& master, std::int64_t actual) noexc
   const auto moved = static_cast<double>(master.moved());
   master_position_ = master.position();
   if (mode_ == SyncMode::kVelocity) {
-    velocity_ = velocity_filter_.step(moved, filter_time());
+    velocity_ = velocity_filter_.step(moved, filter_time_);
     return;
   }
   gear_.move(master.moved());
   double velocity = moved, lag = 0.0;
   if (filter_parameter_ < 0) {
-    double time = filter_time();
-    if (filter_limit_ > 0.0) time = fading_.step(moved, time, filter_limit_);
+    const double time = filter_limit_ > 0.0 ? fading_.step(moved, filter_time_, filter_limit_) : filter_time_;
     velocity = velocity_filter_.step_and_return(moved, time);
     lag = velocity_filter_.lag();
     velocity_ = velocity_filter_.velocity();
@@ -155,7 +155,8 @@ void Synchronization::step(const MasterInput& master, std::int64_t actual) noexc
   if (mode_ == SyncMode::kMarkers) {
     if (following_) {
       for (std::size_t i = 0; i < master.mark_count(); ++i) take_master_mark(master.mark(i));
-      look_for_missed(static_cast<double>(master_position_), static_cast<double>(actual));
+      if (master_window_.missed(static_cast<double>(master_position_), master_tolerance_)) miss_master_mark();
+      if (slave_window_.missed(static_cast<double>(actual), slave_tolerance_)) miss_slave_mark();
     }
     trimmed_ += velocity * filter_.trim() * ratio;
   }
@@ -179,7 +180,7 @@ void Synchronization::judge(std::int64_t actual) noexcept {
   if (following_ && reached_) quality_.look(error_, accuracy_);
 }
 
-FourSlopeState Synchronization::set_point(std::int64_t actual, bool controls_velocity) noexcept {
+void Synchronization::set_point(std::int64_t actual, bool controls_velocity) noexcept {
   last_velocity_ = pursuit_.velocity();
   if (mode_ == SyncMode::kVelocity) {
     pursuit_.follow(velocity_ * gear_.ratio(), limits_);
@@ -199,15 +200,9 @@ FourSlopeState Synchronization::set_point(std::int64_t actual, bool controls_vel
     limits_.spread = spread_before_;
     pursuit_.step(before_, velocity_before_, limits_);
   }
+  if (reached_ || awaits_path_ || path_.active()) return;
   const double goes = looks_ahead_ ? target_velocity_ : velocity_before_;
-  const bool begins = awaits_path_ || path_.active();
-  if (!begins)
-    reached_ =
-        reached_ || pursuit_.synchronous() || std::abs(pursuit_.velocity() - goes) <= limits_.acceleration;
-  // What single counts do to the velocity is no acceleration that a motion could begin with.
-  const double change = std::max(limits_.acceleration, limits_.deceleration);
-  return {pursuit_.position(), pursuit_.velocity(),
-          std::clamp(pursuit_.velocity() - last_velocity_, -change, change)};
+  reached_ = pursuit_.synchronous() || std::abs(pursuit_.velocity() - goes) <= limits_.acceleration;
 }
 
 std::int32_t Synchronization::status() const noexcept {

@@ -2,6 +2,7 @@
 /// @source MCO 305 Design Guide, SYNCV, SYNCP, SYNCM; 33-1*, 33-2*, 33-3*
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "tech_objects/mco305/master_input.hpp"
@@ -64,9 +65,16 @@ class Synchronization {
   void step(const MasterInput& master, std::int64_t actual) noexcept;
   /// At the end of a step: how accurate it is. @param actual [qc]
   void judge(std::int64_t actual) noexcept;
-  /// The set position of this step. @param actual [qc]  @param controls_velocity a drive follows, which
+  /// Moves the set position in this step. @param actual [qc]  @param controls_velocity a drive follows, which
   /// gets no position but in SYNCV the error of its velocity
-  FourSlopeState set_point(std::int64_t actual, bool controls_velocity) noexcept;
+  void set_point(std::int64_t actual, bool controls_velocity) noexcept;
+  double set_position() const noexcept { return pursuit_.position(); }  ///< [qc]
+  double set_velocity() const noexcept { return pursuit_.velocity(); }  ///< [qc/ms]
+  /// [qc/ms²] What single counts do to the velocity is no acceleration that a motion could begin with.
+  double set_acceleration() const noexcept {
+    const double change = std::max(limits_.acceleration, limits_.deceleration);
+    return std::clamp(pursuit_.velocity() - last_velocity_, -change, change);
+  }
 
   SyncMode mode() const noexcept { return mode_; }
   /// Whether `step` has anything to do.
@@ -88,7 +96,7 @@ class Synchronization {
  private:
   static constexpr std::int32_t kClearable = kMasterHit | kSlaveHit | kMasterMissed | kSlaveMissed;
 
-  double filter_time() const noexcept;
+  double filter_time(double resolution) const noexcept;
   double wanted_offset() const noexcept;
   double total_offset() const noexcept;
   double pair_distance() const noexcept;
@@ -96,7 +104,8 @@ class Synchronization {
   void begin_markers() noexcept;
   void average_markers(const MasterInput& master) noexcept;
   void take_master_mark(double place) noexcept;
-  void look_for_missed(double master, double slave) noexcept;
+  void miss_master_mark() noexcept;
+  void miss_slave_mark() noexcept;
   void pair(double apart) noexcept;
   void meet_at_a_marker(double place) noexcept;
   void follow_path() noexcept;
@@ -149,7 +158,7 @@ class Synchronization {
   std::int64_t marks_per_pair_master_ = 1, marks_per_pair_slave_ = 1;
   std::int64_t ready_count_ = 1, fault_count_ = 10;
   std::int32_t start_ = 0, filter_parameter_ = 0, filter_bits_ = 0;
-  double marker_filter_time_ = 0.0, maximum_correction_ = 0.0, published_time_ = 1.0;
+  double marker_filter_time_ = 0.0, maximum_correction_ = 0.0, filter_time_ = 1.0;
   double velocity_precontrol_ = 0.0, filter_limit_ = 0.0;
 };
 

@@ -158,15 +158,14 @@ void Synchronization::take_slave_mark(double place) noexcept {
 }
 
 /// Where one has been missed, its partner is not used.
-void Synchronization::look_for_missed(double master, double slave) noexcept {
-  if (master_window_.missed(master, master_tolerance_)) {
-    hits_ |= kMasterMissed;
-    if (++master_marks_ % marks_per_pair_master_ == 0) pairing_.drop();
-  }
-  if (slave_window_.missed(slave, slave_tolerance_)) {
-    hits_ |= kSlaveMissed;
-    if (++slave_marks_ % marks_per_pair_slave_ == 0) pairing_.drop();
-  }
+void Synchronization::miss_master_mark() noexcept {
+  hits_ |= kMasterMissed;
+  if (++master_marks_ % marks_per_pair_master_ == 0) pairing_.drop();
+}
+
+void Synchronization::miss_slave_mark() noexcept {
+  hits_ |= kSlaveMissed;
+  if (++slave_marks_ % marks_per_pair_slave_ == 0) pairing_.drop();
 }
 
 /// By how much the slave is behind is a new offset.

@@ -19,9 +19,9 @@ constexpr std::int64_t within_reach(std::int64_t counts) noexcept {
 /// The count at or below a position.
 inline std::int64_t counts_of(double position) noexcept {
   constexpr auto kFar = static_cast<double>(kFarthest);
-  const double within = position > kFar ? kFar : position < -kFar ? -kFar : position;
-  const auto cut = static_cast<std::int64_t>(within);
-  return static_cast<double>(cut) > within ? cut - 1 : cut;
+  if (!(std::abs(position) < kFar)) return position > 0.0 ? kFarthest : -kFarthest;
+  const auto cut = static_cast<std::int64_t>(position);
+  return static_cast<double>(cut) > position ? cut - 1 : cut;
 }
 /// The floor, without the call that it takes where the processor has no instruction for it.
 inline double whole_below(double value) noexcept {

@@ -27,7 +27,7 @@ class VirtualMaster {
     if (!active_) return 0;
     constexpr std::int64_t kParts = 1'000'000;
     const std::int64_t before = frequency_;
-    frequency_ += std::clamp(target_ - frequency_, -acceleration_, acceleration_);
+    if (frequency_ != target_) frequency_ += std::clamp(target_ - frequency_, -acceleration_, acceleration_);
     rest_ += 2 * (before + frequency_);  // 4 counts a pulse, the mean of both ends
     std::int64_t counts = rest_ / kParts;
     rest_ -= counts * kParts;

@@ -282,18 +282,7 @@ FourSlopeState FourSlopeProfile::at(const Segment& segment, double t) const noex
       begin.velocity + change * (1.0 - turn.cosine) / 2.0, begin.acceleration * kPi / 2.0 * turn.sine};
 }
 
-/// At the end. By parts: a state that is copied as a whole waits for its position to be written.
-const FourSlopeState& FourSlopeProfile::keep_velocity(double time) noexcept {
-  const double position = end_.position + end_.velocity * time;
-  end_.position = now_.position = position;
-  now_.velocity = end_.velocity;
-  now_.acceleration = end_.acceleration;
-  phase_ = end_.velocity == 0.0 ? SlopePhase::end : SlopePhase::constant;
-  return now_;
-}
-
-const FourSlopeState& FourSlopeProfile::step(double time) noexcept {
-  if (over()) return keep_velocity(time);
+const FourSlopeState& FourSlopeProfile::go_on(double time) noexcept {
   time_ += time;
   while (current_ < count_ && time_ >= segments_[current_].duration) {
     time_ -= segments_[current_].duration;

@@ -64,7 +64,7 @@ class FourSlopeProfile {
   void to_position(const FourSlopeState& from, double target, const FourSlopeLimits& limits) noexcept;
 
   /// Goes on by some time [ms] ≥ 0.
-  const FourSlopeState& step(double time) noexcept;
+  const FourSlopeState& step(double time) noexcept { return over() ? keep_velocity(time) : go_on(time); }
   const FourSlopeState& state() const noexcept { return now_; }
   /// Whether the end is reached: at rest, or at the velocity.
   bool over() const noexcept { return current_ == count_; }
@@ -86,7 +86,16 @@ class FourSlopeProfile {
 
   void begin(const FourSlopeState& from, const FourSlopeLimits& limits) noexcept;
   FourSlopeState at(const Segment& segment, double time) const noexcept;
-  const FourSlopeState& keep_velocity(double time) noexcept;
+  const FourSlopeState& go_on(double time) noexcept;
+  /// At the end. By parts: a state that is copied as a whole waits for its position to be written.
+  const FourSlopeState& keep_velocity(double time) noexcept {
+    const double position = end_.position + end_.velocity * time;
+    end_.position = now_.position = position;
+    now_.velocity = end_.velocity;
+    now_.acceleration = end_.acceleration;
+    phase_ = end_.velocity == 0.0 ? SlopePhase::end : SlopePhase::constant;
+    return now_;
+  }
 
   std::array<Segment, kMaximumSegments> segments_{};
   std::size_t count_ = 0, current_ = 0;

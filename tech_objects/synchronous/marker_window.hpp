@@ -40,9 +40,10 @@ class MarkerWindow {
   }
   /// Whether a marker has just been missed; the next one is expected from where it should have been.
   bool missed(double position, const MarkerTolerance& allowed) noexcept {
-    if (!begun_ || !(allowed.window > 0.0) || !(allowed.distance > 0.0)) return false;
     const double moved = position - last_;
+    // First what most steps end with.
     if (std::abs(moved) <= allowed.distance + allowed.window) return false;
+    if (!begun_ || !(allowed.window > 0.0) || !(allowed.distance > 0.0)) return false;
     last_ += moved < 0.0 ? -allowed.distance : allowed.distance;
     return true;
   }

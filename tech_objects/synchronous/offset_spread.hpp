@@ -23,20 +23,25 @@ class OffsetSpread {
   }
   /// What is wanted from now on, in equal steps of this time alone [ms].
   void want_within(double offset, double time) noexcept {
-    wanted_ = offset;
+    want(offset);
     at_once_ = !(time > 1.0);
     if (at_once_) return;
     limits_.velocity = std::abs(offset - moved_.position()) / time;
     limits_.acceleration = limits_.deceleration = kAny;
   }
   void begin(double offset) noexcept {
-    wanted_ = offset;
+    want(offset);
     moved_.begin(offset, 0.0);
   }
-  void want(double offset) noexcept { wanted_ = offset; }
+  void want(double offset) noexcept {
+    wanted_ = offset;
+    rests_ = false;
+  }
   /// One millisecond.
   double step() noexcept {
-    if (moved_.position() == wanted_ && moved_.velocity() == 0.0) return wanted_;
+    if (rests_) return wanted_;
+    rests_ = moved_.position() == wanted_ && moved_.velocity() == 0.0;
+    if (rests_) return wanted_;
     if (at_once_)
       moved_.begin(wanted_, 0.0);
     else if (limits_.acceleration == kAny)
@@ -57,10 +62,11 @@ class OffsetSpread {
   void step_equally() noexcept {
     const double rest = wanted_ - moved_.position();
     const double by = std::clamp(rest, -limits_.velocity, limits_.velocity);
-    moved_.begin(by == rest ? wanted_ : moved_.position() + by, by);
+    moved_.move_to(by == rest ? wanted_ : moved_.position() + by, by);
   }
 
   bool at_once_ = true;
+  bool rests_ = false;  // at what is wanted
   double wanted_ = 0.0;
   Pursuit moved_;
   PursuitLimits limits_;

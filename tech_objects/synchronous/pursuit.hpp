@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "tech_objects/synchronous/counted_pace.hpp"
 #include "tech_objects/synchronous/pursuit_limits.hpp"
@@ -19,6 +20,11 @@ class Pursuit {
     velocity_ = steady_ = last_target_velocity_ = velocity;
     synchronous_ = locked_ = false;
     pace_.begin();
+  }
+  /// Is moved by somebody else, along with no counted target. @param velocity [u/step]
+  void move_to(double position, double velocity) noexcept {
+    position_ = position;
+    velocity_ = velocity;
   }
   /// What is known of a counted target beforehand: its mean velocity over so many steps [u/step].
   void expect(double velocity, double steps) noexcept { pace_.expect(velocity, steps); }
@@ -86,9 +92,15 @@ class Pursuit {
     synchronous_ = locked_;
     return locked_;
   }
+  /// The floor of what is not negative, without the call that it takes where the processor has no instruction
+  /// for it.
+  static double whole_of(double value) noexcept {
+    constexpr double kWhole = 4503599627370496.0;  // 2⁵²: from here on there is nothing behind the point
+    return value < kWhole ? static_cast<double>(static_cast<std::int64_t>(value)) : value;
+  }
   /// How fast it may come nearer, so that whole steps of braking behind this one end on the target.
   static double speed(double distance, double braking) noexcept {
-    const double steps = std::floor(std::sqrt(0.25 + 2.0 * distance / braking) - 0.5);
+    const double steps = whole_of(std::sqrt(0.25 + 2.0 * distance / braking) - 0.5);
     return steps < 1.0 ? distance : steps * braking;
   }
   static double approach(double rest, double target_velocity, const PursuitLimits& limits) noexcept {
