@@ -4,15 +4,17 @@
 #include <bit>
 #include <chrono>
 #include <thread>
-#include <utility>
+
+#include "scheduler/come_near.hpp"
 
 namespace lockstep {
 
 TraceRing::TraceRing(std::vector<Signal> signals, std::size_t rows)
-    : signals_(std::move(signals)),
-      stride_(kPrefix + signals_.size()),
+    : copies_(signals),
+      row_lines_(((kPrefix + copies_.words()) * sizeof(std::uint64_t) + sizeof(Line) - 1) / sizeof(Line)),
       mask_(std::bit_ceil(std::max<std::size_t>(rows, 2)) - 1),
-      cells_((mask_ + 1) * stride_) {}
+      lines_((mask_ + 1) * row_lines_),
+      values_(signals.size()) {}
 
 bool TraceRing::push(std::int64_t t, std::uint64_t tick) noexcept {
   const std::uint64_t written = written_.load(std::memory_order_relaxed);
@@ -24,12 +26,15 @@ bool TraceRing::push(std::int64_t t, std::uint64_t tick) noexcept {
       return false;
     }
   }
-  Value* cell = cells_.data() + (written & mask_) * stride_;
-  (cell++)->i = t;
-  (cell++)->u = tick;
-  (cell++)->u = dropped;
-  for (const Signal& signal : signals_) *cell++ = signal.load();
+  std::uint64_t* const row = row_at(written);
+  row[0] = static_cast<std::uint64_t>(t);
+  row[1] = tick;
+  row[2] = dropped;
+  copies_.take(row + kPrefix);
   written_.store(written + 1, std::memory_order_release);
+  const std::uint64_t* const next = row_at(written + 1);
+  for (std::size_t line = 0; line < row_lines_; ++line)
+    come_near_for_writing(next + line * (sizeof(Line) / sizeof(std::uint64_t)));
   return true;
 }
 
@@ -50,9 +55,10 @@ std::size_t TraceRing::readable() const noexcept {
   return written_.load(std::memory_order_acquire) - read_.load(std::memory_order_relaxed);
 }
 
-TraceRow TraceRing::row(std::size_t index) const noexcept {
-  const Value* cell = cells_.data() + ((read_.load(std::memory_order_relaxed) + index) & mask_) * stride_;
-  return {cell[0].i, cell[1].u, cell[2].u, {cell + kPrefix, signals_.size()}};
+TraceRow TraceRing::row(std::size_t index) noexcept {
+  const std::uint64_t* const row = row_at(read_.load(std::memory_order_relaxed) + index);
+  copies_.read(row + kPrefix, values_);
+  return {static_cast<std::int64_t>(row[0]), row[1], row[2], values_};
 }
 
 void TraceRing::pop(std::size_t rows) noexcept {

@@ -2,12 +2,14 @@
 /// reader, neither of which ever waits for the other inside a tick.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "scheduler/signal_copies.hpp"
 #include "tech_objects/arithmetic/cache_line.hpp"
 #include "tech_objects/types/types.hpp"
 
@@ -21,8 +23,10 @@ struct TraceRow {
   std::span<const Value> values;  ///< one for each signal, in the order of the signals
 };
 
-/// Threads: the *cycle* pushes, the *runner* (the same thread, between two ticks) may wait, the *recorder*
-/// reads.
+/// The cycle copies what stands in memory; what the values are is found out by who reads them. A row has
+/// lines of the cache of its own, and those of the next one are fetched ahead, since the recorder had them
+/// last. Threads: the *cycle* pushes, the *runner* (the same thread, between two ticks) may wait, the
+/// *recorder* reads.
 class TraceRing {
  public:
   /// Rows that outlast a disk's pause of some seconds at the usual cycles, and keep virtual time from waiting
@@ -48,25 +52,32 @@ class TraceRing {
 
   /// Rows that can be read now. Recorder.
   std::size_t readable() const noexcept;
-  /// The row at an index < `readable()`, oldest first; valid until it is popped. Recorder.
-  TraceRow row(std::size_t index) const noexcept;
+  /// The row at an index < `readable()`, oldest first; its values until the next call. Recorder.
+  TraceRow row(std::size_t index) noexcept;
   /// Gives the oldest rows back; rows ≤ `readable()`. Recorder.
   void pop(std::size_t rows) noexcept;
   /// Nothing will be read any more: ends a `wait_for_space` in progress. Recorder.
   void close() noexcept;
 
   std::size_t capacity() const noexcept { return mask_ + 1; }  ///< [rows]
-  std::size_t columns() const noexcept { return signals_.size(); }
+  std::size_t columns() const noexcept { return values_.size(); }
 
  private:
   static constexpr std::size_t kPrefix = 3;  // t, tick, dropped stand before the values
 
-  bool has_space() const noexcept;
+  struct alignas(kCacheLine) Line {
+    std::array<std::uint64_t, kCacheLine / sizeof(std::uint64_t)> words;
+  };
 
-  const std::vector<Signal> signals_;
-  const std::size_t stride_;
+  bool has_space() const noexcept;
+  std::uint64_t* row_at(std::uint64_t number) noexcept {
+    return lines_.data()[(number & mask_) * row_lines_].words.data();
+  }
+
+  const SignalCopies copies_;
+  const std::size_t row_lines_;
   const std::size_t mask_;
-  std::vector<Value> cells_;
+  std::vector<Line> lines_;
 
   // Both counters only grow; a row lives at counter & mask_. Each side owns a cache line.
   alignas(kCacheLine) std::atomic<std::uint64_t> written_{0};
@@ -74,6 +85,7 @@ class TraceRing {
   std::atomic<std::uint64_t> dropped_{0};
   alignas(kCacheLine) std::atomic<std::uint64_t> read_{0};
   std::atomic<bool> closed_{false};
+  std::vector<Value> values_;  // of the row that is read
 };
 
 }  // namespace lockstep

@@ -1,5 +1,7 @@
 #include "hmi_bridge/studio/listener.hpp"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <cstring>
@@ -101,6 +103,7 @@ bool Listener::take_change() {
 
 void Listener::run() noexcept {
   block_write_signals();
+  ::pthread_setname_np(::pthread_self(), "studio");  // for top and strace
   while (!stopping_) {
     try {
       context_.run();

@@ -32,7 +32,7 @@ void Page::accept(const Request& request) {
   beast::get_lowest_layer(stream_).expires_never();
   websocket::stream_base::timeout timeout{};
   timeout.handshake_timeout = listener_.options().request_time;
-  timeout.idle_timeout = std::chrono::seconds(60);  // asked half-way whether it is there
+  timeout.idle_timeout = 2 * listener_.options().silence;  // asked half-way whether it is there
   timeout.keep_alive_pings = true;
   stream_.set_option(timeout);
   stream_.set_option(websocket::stream_base::decorator(name_ourselves));

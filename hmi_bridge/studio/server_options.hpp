@@ -20,6 +20,8 @@ struct StudioServerOptions {
   std::vector<IpNetwork> allow;                    ///< from which clients may come; none: from everywhere
   std::string upload_folder = "/tmp";              ///< for files that are sent, until they are read
   std::chrono::milliseconds request_time{10'000};  ///< for a request to be there whole
+  /// After which a page is asked whether it is there; after the same time once more it is closed.
+  std::chrono::milliseconds silence{30'000};
 };
 
 /// What has come. Any thread may read.

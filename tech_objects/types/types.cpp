@@ -71,6 +71,10 @@ std::uint64_t highest(Type type) noexcept {
 }
 
 Value Signal::load() const noexcept {
+  return load_value(address, type, bit);
+}
+
+Value load_value(const void* address, Type type, std::int8_t bit) noexcept {
   Value value{};
   switch (type) {
     case Type::BOOL:

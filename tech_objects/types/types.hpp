@@ -146,6 +146,9 @@ struct Signal {
   void store(Value value) const noexcept;
 };
 
+/// What `Signal::load` gives for a variable in memory: of this type, or a bit of it.
+Value load_value(const void* address, Type type, std::int8_t bit = -1) noexcept;
+
 /// The value as a double, whatever its type (BOOL as 0 or 1, TIME in seconds): for traces and displays.
 double as_double(Value value, Type type) noexcept;
 

@@ -160,6 +160,16 @@ class StudioConnection {
       if (code == 1 || code == 2) return message;
     }
   }
+  /// Answers a ping that is the next that comes; false: something else has come, or nothing.
+  bool answer_ping() {
+    if (!have(2) || (waiting_[0] & 15) != 9) return false;
+    const std::size_t size = static_cast<unsigned char>(waiting_[1]) & 127u;
+    if (!have(2 + size)) return false;
+    send("\x8a" + std::string(1, static_cast<char>(0x80 | size)) + std::string(4, '\0') +
+         waiting_.substr(2, size));
+    waiting_.erase(0, 2 + size);
+    return true;
+  }
   /// The next text message that has a part; empty: none comes.
   std::string hear_text(std::string_view part) {
     for (Message message = hear(); message.is_there; message = hear())

@@ -334,6 +334,22 @@ TEST(StudioPages, AreClosedForAMessageThatIsTooLarge) {
   EXPECT_FALSE(page.hear().is_there);
 }
 
+TEST(StudioPages, AreAskedWhetherTheyAreThereAndClosedWhenTheyAreNot) {
+  EXPECT_EQ(StudioServerOptions{}.silence, std::chrono::seconds(30));
+  StudioServerOptions options;
+  options.silence = std::chrono::seconds(1);
+  Server server(options);
+  StudioConnection silent(server.port()), there(server.port());
+  ASSERT_EQ(silent.upgrade(), 101);
+  ASSERT_EQ(there.upgrade(), 101);
+  ASSERT_TRUE(there.answer_ping()) << "it is asked";
+  const std::string told = silent.all();
+  EXPECT_TRUE(told.starts_with("\x89")) << "it was asked, too, and then closed";
+  there.say("still");
+  EXPECT_EQ(there.hear_text("still"), "known still");
+  EXPECT_EQ(server.server->counters().pages, 1u);
+}
+
 TEST(StudioPages, AreLetGoWhenTheServerStops) {
   Server server;
   StudioConnection page(server.port());
