@@ -100,6 +100,7 @@ class SimulatedDrive final : public Drive {
   DoubleDouble reported_;
   MachinePlant plant_;
   TorqueBand permitted_;  // of torque_, that the plant permits
+  TorqueCommand torque_;
   SimulatedControlUnit unit_;
 
   std::array<double, kDelay> written_{};  // velocity setpoints, by cycle
@@ -112,7 +113,6 @@ class SimulatedDrive final : public Drive {
   int steps_ = 1;  // of the position loop in a servo cycle
   Piece step_;
   double arrival_ = 0.0;  // [s] of a setpoint, from the beginning of its servo cycle
-  TorqueCommand torque_;
 };
 
 }  // namespace lockstep

@@ -290,11 +290,8 @@ class Device {
   CountControllerSettings control_;
   InputsOutputs io_;
   PendingErrors pending_;
-  MasterInput master_;
   Synchronization sync_;
   double unled_ = 0.0;  // what set positions have stepped [qc]
-
-  DeviceSettings settings_;
   struct WiredInput {
     std::size_t number = 0;  // from 1
     const bool* tag = nullptr;
@@ -314,24 +311,27 @@ class Device {
     bool silent = false, encoder_failed = false, fault = false, enabled = false;
   } told_;
   DoubleDouble last_drive_position_{};
+  bool last_marker_input_ = false;
+  AbsoluteEncoder absolute_;
+  std::int64_t swap_offset_ = 0;  // from what the drive's encoder has counted to the counter [qc]
+  MasterInput master_;
+
+  DeviceSettings settings_;
   ParameterValues parameters_;
   UserUnit unit_;
   double acceleration_maximum_ = 1.0;                                   // [qc/ms²]
   std::int32_t velocity_ = -1, acceleration_ = -1, deceleration_ = -1;  // below 0: as by default
   std::int32_t speed_ = 0;
   std::int32_t program_line_ = 0;
-  std::int32_t maximum_reference_ = 0, speed_high_limit_ = -1;  // 3-03, 4-13; 0, -1: not set
-  double analog_output_ = 0.0;                                  // [mA]
-  bool swapped_ = false;                                        // SWAPMENC
-  AbsoluteEncoder absolute_;
-  double turn_ = 4096.0;          // of the motor [qc]
-  std::int64_t swap_offset_ = 0;  // from what the drive's encoder has counted to the counter [qc]
+  std::int32_t maximum_reference_ = 0, speed_high_limit_ = -1;   // 3-03, 4-13; 0, -1: not set
+  double analog_output_ = 0.0;                                   // [mA]
+  bool swapped_ = false;                                         // SWAPMENC
+  double turn_ = 4096.0;                                         // of the motor [qc]
   std::int64_t origin_ = 0, temporary_ = 0, limits_origin_ = 0;  // [qc]
   bool homed_ = false;
   Home home_;
   std::int64_t latched_ = 0;
   std::uint32_t latches_ = 0;
-  bool last_marker_input_ = false;
   std::int64_t over_since_ = -1;  // following error [ms]
   std::int64_t window_position_ = 0, window_since_ = -1;
   bool at_negative_end_ = false, at_positive_end_ = false, beyond_ = false, break_input_ = false,
