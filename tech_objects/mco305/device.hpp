@@ -162,6 +162,7 @@ class Device {
   double set_position() const noexcept { return profile_.state().position; }      ///< [qc] on the counter
   double set_velocity_now() const noexcept { return profile_.state().velocity; }  ///< [qc/ms]
   bool controlled() const noexcept { return on_; }
+  bool encoder_failed() const noexcept { return told_.encoder_failed; }  ///< its own
   /// Whether OUTAN turns the drive.
   bool open_loop() const noexcept { return open_loop_ != 0; }
   bool moving() const noexcept { return moving_; }
@@ -213,7 +214,9 @@ class Device {
   void read_absolute() noexcept;
   void latch(double from, double to) noexcept;
   std::int64_t encoder_count(double place) const noexcept;
+  void latch_virtual(double from, double to) noexcept;
   void take_latch(std::int64_t place) noexcept;
+  int choose_encoder(std::int32_t number, std::int32_t value) noexcept;
   void step_master() noexcept;
   void sample_inputs() noexcept;
   void sample_wired_inputs() noexcept;
@@ -302,7 +305,9 @@ class Device {
   };
   std::vector<WiredInput> wired_inputs_;
   std::vector<WiredOutput> wired_outputs_;
-  std::int32_t marker_type_ = 0;  // SYNCMTYPS
+  std::int32_t marker_type_ = 0, marker_input_ = 6;    // SYNCMTYPS
+  double virtual_pulse_ = 0.0;                         // [qc] from one to the next; 0: there are none
+  double no_pulse_from_ = 0.0, no_pulse_until_ = 0.0;  // between these [qc]
   MarkerTrack track_;
   std::unique_ptr<SimulatedDrive> drive_;
   /// What the drive has told last; its position is in `machine_`.

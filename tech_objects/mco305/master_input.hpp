@@ -28,14 +28,17 @@ class MasterInput {
   }
   /// What it is, until the next time.
   void power_up(const ParameterValues& parameters) noexcept;
-  void refresh(const ParameterValues& parameters) noexcept;
+  void refresh(const ParameterValues& parameters, bool later_edition) noexcept;
+  /// The input that has to be on for external markers to count; 0: none.
+  std::int32_t enabling_input() const noexcept { return enabling_input_; }
 
   // ---- Steps
 
   /// What the encoder shows in a servo tick [qc], |encoder| < 2⁵³; before `step` of the same tick.
   void turn(double encoder) noexcept;
-  /// The level of input 5 in a servo tick.
-  void look_at_marker(bool level) noexcept {
+  /// The level of input 5 in a step, and whether external markers count.
+  void look_at_marker(bool level, bool enabled) noexcept {
+    enabled_ = enabled;
     if (level == last_level_) return;
     last_level_ = level;
     if (marker_type_ >= 2 && level == (marker_type_ == 2)) latch(static_cast<double>(position_));
@@ -93,7 +96,8 @@ class MasterInput {
   void pass_absolute(double from, double to) noexcept;
 
   // What every step needs stands first.
-  bool wired_ = false, begun_ = false, heard_ = false, simulated_ = false, last_level_ = false;
+  bool wired_ = false, begun_ = false, heard_ = false, simulated_ = false, last_level_ = false,
+       enabled_ = true;
   std::int32_t type_ = 1, marker_type_ = 0;  // MENCODERTYPE, SYNCMTYPM
   std::int64_t position_ = 0, last_ = 0, moved_ = 0, origin_ = 0;
   double encoder_ = 0.0;
@@ -101,6 +105,7 @@ class MasterInput {
   double free_from_ = 0.0, free_to_ = 0.0;       // between these there is no zero pulse [qc]
   std::int32_t real_velocity_ = 0;
   VirtualMaster own_;
+  std::int32_t enabling_input_ = 0;
   std::size_t mark_count_ = 0, next_mark_count_ = 0;
   std::int64_t now_ = 0;
   AbsoluteEncoder absolute_;

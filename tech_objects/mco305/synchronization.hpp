@@ -10,6 +10,7 @@
 #include "tech_objects/profile/four_slope_profile.hpp"
 #include "tech_objects/synchronous/count_filter.hpp"
 #include "tech_objects/synchronous/count_gear.hpp"
+#include "tech_objects/synchronous/held_back.hpp"
 #include "tech_objects/synchronous/marker_filter.hpp"
 #include "tech_objects/synchronous/marker_pairing.hpp"
 #include "tech_objects/synchronous/marker_window.hpp"
@@ -109,6 +110,7 @@ class Synchronization {
   void pair(double apart) noexcept;
   void meet_at_a_marker(double place) noexcept;
   void follow_path() noexcept;
+  void pursue_what_holds_back() noexcept;
   MarkerFilterSettings filter_settings() const noexcept;
 
   // What every step of following needs stands first, in lines of the cache.
@@ -128,6 +130,7 @@ class Synchronization {
   double spread_ = 0.0, spread_before_ = 0.0;    // of these velocities what spreads offsets and corrections
   Pursuit pursuit_;
   PursuitLimits limits_;
+  HeldBack held_;               // by REVERS [qc]
   double last_velocity_ = 0.0;  // [qc/ms] of the set position
   std::int64_t error_ = 0, wanted_ = 0, accuracy_ = 1000;
   SyncQuality quality_;
