@@ -12,6 +12,8 @@ namespace {
 
 /// Steps of the drive's own position loop in a servo cycle, at most.
 constexpr int kMaximumSteps = 256;
+/// [u/s] Nothing that moves is as slow.
+constexpr double kNoMotion = 1e-300;
 
 }  // namespace
 
@@ -26,6 +28,7 @@ DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double 
   position_ = reported_ = {};
   velocity_ = 0.0;
   ramp_ = last_setpoint_ = 0.0;
+  rests_ = false;
   quick_stop_ = std::max(0.0, settings.quick_stop);
   plant_.configure(settings.plant, motor_angle, settings.signals.start_position, settings.time_constant,
                    servo_cycle);
@@ -63,6 +66,19 @@ void SimulatedDrive::run(const Piece& piece, double velocity) noexcept {
   velocity_ += change[1];
 }
 
+/// The setpoints that arrive in this cycle, the older and the newer one, are those that have not moved it.
+inline bool SimulatedDrive::stays() const noexcept {
+  const double newer = written_[kept(cycle_ - whole_cycles_)];
+  const double older = before_.duration > 0.0 ? written_[kept(cycle_ - whole_cycles_ - 1)] : newer;
+  return same_bits(rested_, {older, newer});
+}
+
+[[gnu::noinline]] void SimulatedDrive::look_for_rest(const DoubleDouble& position, double velocity) noexcept {
+  rests_ = same_bits(position, position_) && same_bits({velocity, 0.0}, {velocity_, 0.0});
+  const double newer = written_[kept(cycle_ - whole_cycles_)];
+  rested_ = {before_.duration > 0.0 ? written_[kept(cycle_ - whole_cycles_ - 1)] : newer, newer};
+}
+
 void SimulatedDrive::write(double velocity) noexcept {
   if (unit_.has_faults() && unit_.watch_causes()) ramp_ = quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
   if (states().operation()) last_setpoint_ = velocity;
@@ -70,14 +86,20 @@ void SimulatedDrive::write(double velocity) noexcept {
   const DoubleDouble position_before = position_;
   const double velocity_before = velocity_;
   if (loop_cycles_ > 0) {
+    rests_ = false;
     run_position_loop();
-  } else {
+  } else if (!rests_ || !stays()) {
+    rests_ = false;
     // The setpoint written `whole_cycles_` ago arrives after the broken part of the dead time.
     if (before_.duration > 0.0) run(before_, written_[kept(cycle_ - whole_cycles_ - 1)]);
     run(after_, written_[kept(cycle_ - whole_cycles_)]);
+    if (std::abs(velocity_) < kNoMotion) look_for_rest(position_before, velocity_before);
   }
   ++cycle_;
-  if (plant_.exists() || unit_.blocked()) move_plant(position_before, velocity_before);
+  if (plant_.exists() || unit_.blocked()) {
+    move_plant(position_before, velocity_before);
+    rests_ = false;
+  }
   if (states().stopping()) unit_.watch_stop(velocity_, ramp_);
 }
 

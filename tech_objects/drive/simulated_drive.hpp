@@ -70,6 +70,8 @@ class SimulatedDrive final : public Drive {
   /// Index in `written_` and `targets_` of what is written in a cycle. Only as much memory is touched as the
   /// dead time needs.
   std::size_t kept(std::size_t cycle) const noexcept { return cycle & (ring_ - 1); }
+  bool stays() const noexcept;
+  void look_for_rest(const DoubleDouble& position, double velocity) noexcept;
   void run_position_loop() noexcept;
   void read_encoder(DriveActual& now) noexcept {
     now.position = position_;
@@ -89,6 +91,10 @@ class SimulatedDrive final : public Drive {
   std::size_t whole_cycles_ = 0;  // of dead time
   DoubleDouble position_;
   double velocity_ = 0.0;
+  // What setpoints (older and newer one) have not moved by a bit they do not move in the next cycle either.
+  // At rest velocities are below 2^-1022, and to compute with those takes a processor tens of times as long.
+  bool rests_ = false;
+  DoubleDouble rested_;
 
   Piece before_;  // of a cycle: with the setpoint one older
   Piece after_;
@@ -100,6 +106,7 @@ class SimulatedDrive final : public Drive {
   DoubleDouble reported_;
   MachinePlant plant_;
   TorqueBand permitted_;  // of torque_, that the plant permits
+  TorqueCommand torque_;
   SimulatedControlUnit unit_;
 
   std::array<double, kDelay> written_{};  // velocity setpoints, by cycle
@@ -112,7 +119,6 @@ class SimulatedDrive final : public Drive {
   int steps_ = 1;  // of the position loop in a servo cycle
   Piece step_;
   double arrival_ = 0.0;  // [s] of a setpoint, from the beginning of its servo cycle
-  TorqueCommand torque_;
 };
 
 }  // namespace lockstep

@@ -162,6 +162,7 @@ class Device {
   double set_position() const noexcept { return profile_.state().position; }      ///< [qc] on the counter
   double set_velocity_now() const noexcept { return profile_.state().velocity; }  ///< [qc/ms]
   bool controlled() const noexcept { return on_; }
+  bool encoder_failed() const noexcept { return told_.encoder_failed; }  ///< its own
   /// Whether OUTAN turns the drive.
   bool open_loop() const noexcept { return open_loop_ != 0; }
   bool moving() const noexcept { return moving_; }
@@ -213,7 +214,9 @@ class Device {
   void read_absolute() noexcept;
   void latch(double from, double to) noexcept;
   std::int64_t encoder_count(double place) const noexcept;
+  void latch_virtual(double from, double to) noexcept;
   void take_latch(std::int64_t place) noexcept;
+  int choose_encoder(std::int32_t number, std::int32_t value) noexcept;
   void step_master() noexcept;
   void sample_inputs() noexcept;
   void sample_wired_inputs() noexcept;
@@ -290,11 +293,8 @@ class Device {
   CountControllerSettings control_;
   InputsOutputs io_;
   PendingErrors pending_;
-  MasterInput master_;
   Synchronization sync_;
   double unled_ = 0.0;  // what set positions have stepped [qc]
-
-  DeviceSettings settings_;
   struct WiredInput {
     std::size_t number = 0;  // from 1
     const bool* tag = nullptr;
@@ -305,7 +305,9 @@ class Device {
   };
   std::vector<WiredInput> wired_inputs_;
   std::vector<WiredOutput> wired_outputs_;
-  std::int32_t marker_type_ = 0;  // SYNCMTYPS
+  std::int32_t marker_type_ = 0, marker_input_ = 6;    // SYNCMTYPS
+  double virtual_pulse_ = 0.0;                         // [qc] from one to the next; 0: there are none
+  double no_pulse_from_ = 0.0, no_pulse_until_ = 0.0;  // between these [qc]
   MarkerTrack track_;
   std::unique_ptr<SimulatedDrive> drive_;
   /// What the drive has told last; its position is in `machine_`.
@@ -314,24 +316,27 @@ class Device {
     bool silent = false, encoder_failed = false, fault = false, enabled = false;
   } told_;
   DoubleDouble last_drive_position_{};
+  bool last_marker_input_ = false;
+  AbsoluteEncoder absolute_;
+  std::int64_t swap_offset_ = 0;  // from what the drive's encoder has counted to the counter [qc]
+  MasterInput master_;
+
+  DeviceSettings settings_;
   ParameterValues parameters_;
   UserUnit unit_;
   double acceleration_maximum_ = 1.0;                                   // [qc/ms²]
   std::int32_t velocity_ = -1, acceleration_ = -1, deceleration_ = -1;  // below 0: as by default
   std::int32_t speed_ = 0;
   std::int32_t program_line_ = 0;
-  std::int32_t maximum_reference_ = 0, speed_high_limit_ = -1;  // 3-03, 4-13; 0, -1: not set
-  double analog_output_ = 0.0;                                  // [mA]
-  bool swapped_ = false;                                        // SWAPMENC
-  AbsoluteEncoder absolute_;
-  double turn_ = 4096.0;          // of the motor [qc]
-  std::int64_t swap_offset_ = 0;  // from what the drive's encoder has counted to the counter [qc]
+  std::int32_t maximum_reference_ = 0, speed_high_limit_ = -1;   // 3-03, 4-13; 0, -1: not set
+  double analog_output_ = 0.0;                                   // [mA]
+  bool swapped_ = false;                                         // SWAPMENC
+  double turn_ = 4096.0;                                         // of the motor [qc]
   std::int64_t origin_ = 0, temporary_ = 0, limits_origin_ = 0;  // [qc]
   bool homed_ = false;
   Home home_;
   std::int64_t latched_ = 0;
   std::uint32_t latches_ = 0;
-  bool last_marker_input_ = false;
   std::int64_t over_since_ = -1;  // following error [ms]
   std::int64_t window_position_ = 0, window_since_ = -1;
   bool at_negative_end_ = false, at_positive_end_ = false, beyond_ = false, break_input_ = false,

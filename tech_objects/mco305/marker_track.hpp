@@ -138,11 +138,11 @@ class MarkerTrack {
     return 2.0 * static_cast<double>(bits >> 11) * kUnit - 1.0;
   }
 
-  MarkerTrackSettings settings_;
   bool begun_ = false;
   bool plain_ = true;                       // nothing but period and noise
   double carried_ = 0.0;                    // where what bears the markers is
   double free_from_ = 0.0, free_to_ = 0.0;  // between these there is no marker; the same: nothing is known
+  MarkerTrackSettings settings_;
 };
 
 }  // namespace lockstep::mco305

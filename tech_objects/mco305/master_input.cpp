@@ -14,11 +14,14 @@ std::int32_t per_second(std::int64_t counts) noexcept {
 
 }  // namespace
 
-void MasterInput::refresh(const ParameterValues& parameters) noexcept {
+void MasterInput::refresh(const ParameterValues& parameters, bool later_edition) noexcept {
   type_ = parameters[kMasterEncoderType];
+  if (later_edition && encoder_input_of(type_) != 0) type_ %= 10;
   simulated_ = type_ == kSimulated || (!wired_ && parameters[kMasterEncoderAbsType] == kSimulated);
   resolution_ = parameters[kMasterEncoderAbsRes];
-  marker_type_ = parameters[kMarkerTypeMaster];
+  const MarkerType marker = marker_type_of(parameters[kMarkerTypeMaster], later_edition);
+  marker_type_ = marker.type;
+  enabling_input_ = marker.input;
   turn_ = 4.0 * parameters.real(kMasterEncoder);
   free_from_ = free_to_ = 0.0;
 }
@@ -65,6 +68,7 @@ void MasterInput::note_free(double turn) noexcept {
 }
 
 void MasterInput::latch(double place) noexcept {
+  if (marker_type_ >= 2 && !enabled_) return;
   latched_ = counts_of(place);
   ++latches_;
   if (next_mark_count_ < kMarks) next_marks_[next_mark_count_++] = static_cast<double>(latched_);

@@ -28,14 +28,17 @@ class MasterInput {
   }
   /// What it is, until the next time.
   void power_up(const ParameterValues& parameters) noexcept;
-  void refresh(const ParameterValues& parameters) noexcept;
+  void refresh(const ParameterValues& parameters, bool later_edition) noexcept;
+  /// The input that has to be on for external markers to count; 0: none.
+  std::int32_t enabling_input() const noexcept { return enabling_input_; }
 
   // ---- Steps
 
   /// What the encoder shows in a servo tick [qc], |encoder| < 2⁵³; before `step` of the same tick.
   void turn(double encoder) noexcept;
-  /// The level of input 5 in a servo tick.
-  void look_at_marker(bool level) noexcept {
+  /// The level of input 5 in a step, and whether external markers count.
+  void look_at_marker(bool level, bool enabled) noexcept {
+    enabled_ = enabled;
     if (level == last_level_) return;
     last_level_ = level;
     if (marker_type_ >= 2 && level == (marker_type_ == 2)) latch(static_cast<double>(position_));
@@ -92,27 +95,29 @@ class MasterInput {
   void read_absolute() noexcept;
   void pass_absolute(double from, double to) noexcept;
 
-  bool wired_ = false, begun_ = false, heard_ = false, simulated_ = false;
-  std::int32_t type_ = 1, marker_type_ = 0;          // MENCODERTYPE, SYNCMTYPM
-  std::int32_t absolute_type_ = 0, data_bits_ = 25;  // MENCODERABSTYPE, MENCODERDATLEN
-  std::int64_t resolution_ = 8192;                   // MENCODERABSRES
-  AbsoluteEncoder absolute_;
-  std::int64_t read_ = 0;  // where it was when it was read last [qc]
-  const std::int32_t* disturbed_ = nullptr;
+  // What every step needs stands first.
+  bool wired_ = false, begun_ = false, heard_ = false, simulated_ = false, last_level_ = false,
+       enabled_ = true;
+  std::int32_t type_ = 1, marker_type_ = 0;  // MENCODERTYPE, SYNCMTYPM
   std::int64_t position_ = 0, last_ = 0, moved_ = 0, origin_ = 0;
   double encoder_ = 0.0;
   std::int64_t shown_encoder_ = 0, turned_ = 0;  // whole counts of the encoder, and those of this step
-  double turn_ = 4096.0;                         // [qc] of a turn of the encoder
   double free_from_ = 0.0, free_to_ = 0.0;       // between these there is no zero pulse [qc]
   std::int32_t real_velocity_ = 0;
   VirtualMaster own_;
-  MarkerTrack track_;
-  bool last_level_ = false;
-  std::int64_t latched_ = 0;
-  std::uint32_t latches_ = 0;
-  std::array<double, kMarks> marks_{}, next_marks_{};
+  std::int32_t enabling_input_ = 0;
   std::size_t mark_count_ = 0, next_mark_count_ = 0;
   std::int64_t now_ = 0;
+  AbsoluteEncoder absolute_;
+  MarkerTrack track_;
+  std::array<double, kMarks> marks_{}, next_marks_{};
+  std::int64_t latched_ = 0;
+  std::uint32_t latches_ = 0;
+  double turn_ = 4096.0;                             // [qc] of a turn of the encoder
+  std::int32_t absolute_type_ = 0, data_bits_ = 25;  // MENCODERABSTYPE, MENCODERDATLEN
+  std::int64_t resolution_ = 8192;                   // MENCODERABSRES
+  std::int64_t read_ = 0;                            // where it was when it was read last [qc]
+  const std::int32_t* disturbed_ = nullptr;
   std::array<std::int64_t, kRing> positions_{};
 };
 

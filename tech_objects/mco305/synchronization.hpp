@@ -10,6 +10,7 @@
 #include "tech_objects/profile/four_slope_profile.hpp"
 #include "tech_objects/synchronous/count_filter.hpp"
 #include "tech_objects/synchronous/count_gear.hpp"
+#include "tech_objects/synchronous/held_back.hpp"
 #include "tech_objects/synchronous/marker_filter.hpp"
 #include "tech_objects/synchronous/marker_pairing.hpp"
 #include "tech_objects/synchronous/marker_window.hpp"
@@ -109,57 +110,61 @@ class Synchronization {
   void pair(double apart) noexcept;
   void meet_at_a_marker(double place) noexcept;
   void follow_path() noexcept;
+  void pursue_what_holds_back() noexcept;
   MarkerFilterSettings filter_settings() const noexcept;
 
+  // What every step of following needs stands first, in lines of the cache.
   SyncMode mode_ = SyncMode::kNone;
   bool following_ = false, later_edition_ = true, signed_error_ = false, looks_ahead_ = false;
   bool reached_ = false;  // the velocity of the master, since the start
+  bool awaits_path_ = false, averages_ = false;
   CountGear gear_;
   CountFilter velocity_filter_;
-  FadingTime fading_;
-  Pursuit pursuit_;
-  PursuitLimits limits_;
-  double last_velocity_ = 0.0;                   // [qc/ms] of the set position
+  std::int32_t filter_parameter_ = 0, hits_ = 0;
+  double filter_time_ = 1.0, filter_limit_ = 0.0, velocity_precontrol_ = 0.0;
+  double trimmed_ = 0.0;  // by the trim of the gear [qc]
+  std::int64_t master_position_ = 0;
   double velocity_ = 0.0;                        // of the master, smoothed [qc/ms]
   double target_ = 0.0, target_velocity_ = 0.0;  // of this step
   double before_ = 0.0, velocity_before_ = 0.0;  // … and of the one before
   double spread_ = 0.0, spread_before_ = 0.0;    // of these velocities what spreads offsets and corrections
-  double slave_filter_time_ = 1.0;               // [ms]
-  CountFilter slave_filter_;
-  std::int64_t last_actual_ = 0, error_ = 0, wanted_ = 0;
+  Pursuit pursuit_;
+  PursuitLimits limits_;
+  HeldBack held_;               // by REVERS [qc]
+  double last_velocity_ = 0.0;  // [qc/ms] of the set position
+  std::int64_t error_ = 0, wanted_ = 0, accuracy_ = 1000;
+  SyncQuality quality_;
+  MarkerWindow master_window_, slave_window_;
+  MarkerTolerance master_tolerance_, slave_tolerance_;
+  MarkerFilter filter_;
+  MeetingPath path_;         // start 7
   OffsetSpread offset_;      // [qc of the master]
   OffsetSpread correction_;  // by markers [qc]
-  double trimmed_ = 0.0;     // by the trim of the gear [qc]
+
+  FadingTime fading_;
+  double slave_filter_time_ = 1.0;  // [ms]
+  CountFilter slave_filter_;
+  std::int64_t last_actual_ = 0;
   double moved_origin_ = 0.0;
   bool origin_defined_ = false;
   std::int64_t origin_master_ = 0;
   double origin_slave_ = 0.0;
-  std::int64_t master_position_ = 0;
-  SyncQuality quality_;
-  std::int32_t hits_ = 0;
-  MarkerWindow master_window_, slave_window_;
   MarkerPairing pairing_;
-  MarkerFilter filter_;
-  bool averages_ = false;
   MarkerWindow averaged_window_;
   MarkerFilter averaged_;
   bool corrected_ = false;  // there has been a pair
   bool late_ = false;       // the marker at hand came behind a missed one
-  MeetingPath path_;        // start 7
-  bool awaits_path_ = false;
   bool slave_mark_known_ = false;
   double slave_mark_ = 0.0;  // the last one there was, also before the start [qc]
   std::int64_t master_marks_ = 0, slave_marks_ = 0;
 
   // Parameters.
-  std::int64_t factor_master_ = 1, factor_slave_ = 1, accuracy_ = 1000;
+  std::int64_t factor_master_ = 1, factor_slave_ = 1;
   double position_offset_ = 0.0, offset_time_ = 0.0;
-  MarkerTolerance master_tolerance_, slave_tolerance_;
   std::int64_t marks_per_pair_master_ = 1, marks_per_pair_slave_ = 1;
   std::int64_t ready_count_ = 1, fault_count_ = 10;
-  std::int32_t start_ = 0, filter_parameter_ = 0, filter_bits_ = 0;
-  double marker_filter_time_ = 0.0, maximum_correction_ = 0.0, filter_time_ = 1.0;
-  double velocity_precontrol_ = 0.0, filter_limit_ = 0.0;
+  std::int32_t start_ = 0, filter_bits_ = 0;
+  double marker_filter_time_ = 0.0, maximum_correction_ = 0.0;
 };
 
 }  // namespace lockstep::mco305

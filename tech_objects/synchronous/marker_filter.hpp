@@ -83,7 +83,8 @@ class MarkerFilter {
     return share;
   }
 
-  double distance_ = 0.0, last_ = 0.0, velocity_ = 0.0, markers_ = 0.0, trim_ = 0.0;
+  double trim_ = 0.0;  // what every step needs
+  double distance_ = 0.0, last_ = 0.0, velocity_ = 0.0, markers_ = 0.0;
   double errors_ = 0.0, filtered_errors_ = 0.0;
   double start_ = 0.0, start_rest_ = 0.0, start_share_ = 0.0, correction_ = 0.0, unfiltered_ = 0.0,
          constants_ = 0.0;

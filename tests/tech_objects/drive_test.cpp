@@ -101,6 +101,26 @@ TEST(SimulatedDrive, TheEncoderReportsWholeIncrements) {
   }
 }
 
+// A drive whose position loop runs without gain, once in a servo cycle, computes the same in every cycle.
+TEST(SimulatedDrive, AtRestItIsToTheBitWhereOneIsThatGoesOnComputing) {
+  DriveSettings settings{0.002, 0.003, 0.0};
+  settings.position_cycle = kCycle;
+  SimulatedDrive resting, computing;
+  for (SimulatedDrive* const drive : {&resting, &computing}) {
+    drive->configure(settings, kCycle, 1.0);
+    drive->enable(true);
+  }
+  for (int i = 0; i < 48'000; ++i) {
+    // From its start it rests, then it moves five times; each rest is long enough to lose all digits.
+    const double velocity = i % 8000 < 50 ? 100.0 * (i / 8000) : 0.0;
+    resting.write(velocity);
+    computing.write_position({.velocity = velocity});
+    const DriveActual a = resting.read(), b = computing.read();
+    ASSERT_TRUE(same_bits(a.position, b.position)) << "cycle " << i;
+    ASSERT_TRUE(same_bits({a.velocity, 0.0}, {b.velocity, 0.0})) << "cycle " << i;
+  }
+}
+
 TEST(SimulatedDrive, SwitchedOffItCoastsToRestAndTakesNoSetpoint) {
   SimulatedDrive drive;
   drive.configure({0.002, 0.001, 0.0}, kCycle, 1.0);
