@@ -90,6 +90,7 @@ class Synchronization {
 
   double filter_time() const noexcept;
   double wanted_offset() const noexcept;
+  double pair_offset() const noexcept;
   double total_offset() const noexcept;
   double pair_distance() const noexcept;
   void take_limits(const FourSlopeLimits& limits) noexcept;
