@@ -47,10 +47,13 @@ void add_aposs_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("aposs", "Programs in APOSS, the language of the MCO 305");
   command->require_subcommand(1);
   command->footer(
-      "What is there: the language, that is variables, arrays, arithmetic, blocks, subprograms, interrupts, "
-      "PRINT\n"
-      "and time. What is not: the machine; commands that move something are checked, and refused when they "
-      "run.\n"
+      "A run is one device on the bench: a virtual axis whose actual position is its set position, or with "
+      "--plant\n"
+      "a simulated drive with its machine, and an encoder output of its own as master. In a project a device "
+      "has\n"
+      "drive, master, tags at its terminals. Commands of cams, recording and CAN are refused: those of CAN "
+      "by check,\n"
+      "the others when they run.\n"
       "  lockstep aposs check palletizer.m\n"
       "  lockstep aposs list palletizer.m\n"
       "  lockstep aposs run palletizer.m --duration 5s --in 1=0.5s:1\n"

@@ -179,10 +179,12 @@ std::vector<std::string> apart(const std::vector<std::string>& words) {
 
 int describe(const std::vector<std::string>& words, bool json) {
   std::string problem;
-  Subject subject = find_subject(words, problem);
-  if (!subject)
-    if (const auto single = apart(words); single.size() > words.size())
-      subject = find_subject(single, problem);
+  const auto single = apart(words);
+  const bool quoted_together = single.size() > words.size();
+  Subject subject;
+  if (quoted_together && single.size() == 2) subject = mco305_subject(single);  // "error 108"
+  if (!subject) subject = find_subject(words, problem);
+  if (!subject && quoted_together) subject = find_subject(single, problem);
   if (!subject) {
     write_message("lockstep: " + problem + "\n");
     return kNotValid;

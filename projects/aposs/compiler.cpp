@@ -29,8 +29,23 @@ CompiledProgram compile_program(std::string name, std::string_view text, const R
   return result;
 }
 
+std::string_view why_not_readable(const std::string& path) {
+  std::string end = std::filesystem::path(path).extension().string();
+  for (char& c : end) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (end != ".cnf" && end != ".zbc") return {};
+  return "files .cnf and .zbc of the vendor are not described in its documents and cannot be read; allowed: "
+         "programs as text (.m), parameters as a JSON file";
+}
+
 CompiledProgram compile_file(const std::string& path, const CompilerSettings& settings,
                              const std::optional<std::string>& top) {
+  if (const std::string_view reason = why_not_readable(path); !reason.empty()) {
+    CompiledProgram refused;
+    refused.files = {path};
+    refused.errors.push_back({{}, std::string(reason)});
+    refused.errors_found = 1;
+    return refused;
+  }
   const std::string text = read_text_file(path, kLargestFile);
   const ReadIncluded read = [&](const std::string& name) -> std::optional<std::string> {
     const std::string beside = (std::filesystem::path(path).parent_path() / name).string();

@@ -39,6 +39,9 @@ CompiledProgram compile_program(std::string name, std::string_view text, const R
 CompiledProgram compile_file(const std::string& path, const CompilerSettings& settings = {},
                              const std::optional<std::string>& top = std::nullopt);
 
+/// Of a file of the vendor's tool, by its name; empty: it is none.
+std::string_view why_not_readable(const std::string& path);
+
 /// "teddy.m:14:9: text".
 std::string to_string(const std::vector<std::string>& files, const Message& message);
 

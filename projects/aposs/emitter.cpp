@@ -1,6 +1,7 @@
 #include "projects/aposs/emitter.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace lockstep::aposs {
 namespace {
@@ -117,18 +118,32 @@ std::uint32_t Emitter::place_of(const EmittedOperand& operand) const {
   return kNoCell;
 }
 
+// The instruction with the first variable that is one too many.
+Place Emitter::place_of_variable_beyond(std::size_t maximum) const {
+  std::set<std::uint32_t> seen;
+  for (const Emitted& at : code_)
+    for (const EmittedOperand& operand : at.operands)
+      if (operand.is_cell && operand.cell.space == Cell::Space::kVariable &&
+          seen.insert(operand.cell.index).second && seen.size() > maximum)
+        return at.place;
+  return {};
+}
+
 Image Emitter::finish(Messages& messages, std::size_t arrays, std::size_t maximum_variables) {
   rest_where_nothing_changes();
   Image image;
-  const auto refuse = [&messages](const std::string& what, std::size_t count, std::size_t maximum) {
+  const auto refuse = [&messages](const std::string& what, std::size_t count, std::size_t maximum,
+                                  const Place& place = {}) {
     if (count > maximum)
-      messages.error({}, "the program has " + std::to_string(count) + " " + what +
-                             "; allowed: " + std::to_string(maximum));
+      messages.error(place, "the program has " + std::to_string(count) + " " + what +
+                                "; allowed: " + std::to_string(maximum));
   };
   const auto used = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
-  refuse("variables and arrays", used + arrays, maximum_variables);
+  refuse("variables and arrays", used + arrays, maximum_variables,
+         place_of_variable_beyond(maximum_variables - std::min(arrays, maximum_variables)));
   refuse("temporaries", maximum_temporaries_, kMaximumTemporaries);
-  refuse("internal commands", code_.size(), Image::kMaximumInstructions);
+  refuse("internal commands", code_.size(), Image::kMaximumInstructions,
+         code_.size() > Image::kMaximumInstructions ? code_[Image::kMaximumInstructions].place : Place{});
   refuse("variables, temporaries and constants", names_.size() + maximum_temporaries_ + constants_.size(),
          Image::kMaximumCells);
   refuse("texts", texts_.size(), Image::kMaximumCells);

@@ -70,6 +70,7 @@ class Emitter {
   void rest_where_nothing_changes();
   bool only_reads(std::uint32_t from, std::uint32_t to) const;
   std::uint32_t place_of(const EmittedOperand& operand) const;
+  Place place_of_variable_beyond(std::size_t maximum) const;
 
   std::vector<Emitted> code_;
   std::map<std::string, std::uint32_t> variables_;

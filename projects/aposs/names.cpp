@@ -57,6 +57,15 @@ bool is_no_label(std::string_view folded_name) {
   return folded_name != "WAIT" && is_reserved(folded_name);
 }
 
+std::string commands_of_first_word(std::string_view folded_name) {
+  std::string all;
+  for (const auto& [command, row] : command_names())
+    if (command.size() > folded_name.size() && command.starts_with(folded_name) &&
+        command[folded_name.size()] == ' ' && row.unusual.empty())
+      all += (all.empty() ? "" : ", ") + command;
+  return all;
+}
+
 std::string nearest_name(std::string_view name, const std::set<std::string>& others) {
   std::vector<std::string_view> names(std::begin(kWords), std::end(kWords));
   for (const auto& [command, row] : command_names()) names.push_back(command);

@@ -27,6 +27,8 @@ std::optional<NamedCommand> command_at(std::span<const Token> tokens);
 bool is_reserved(std::string_view folded_name);
 /// The same for a label: WAIT alone is an unusual form of WAITT, and a label may have its name.
 bool is_no_label(std::string_view folded_name);
+/// "MOTOR OFF, MOTOR ON, MOTOR STOP": the commands of two words of which this is the first; empty: none.
+std::string commands_of_first_word(std::string_view folded_name);
 /// " (did you mean …?)" among commands and other names.
 std::string nearest_name(std::string_view name, const std::set<std::string>& others);
 

@@ -131,6 +131,7 @@ class Parser {
   ExpressionPointer state(std::string_view of, bool optional);
   ExpressionPointer parameter(std::string_view of);
   void use_parameter(const Place& place, std::int32_t number);
+  void use_input(const Place& place, const Expression& input);
   ExpressionPointer drive_parameter(std::string_view of);
   ExpressionPointer output();
   ExpressionPointer array_argument(std::string_view of);

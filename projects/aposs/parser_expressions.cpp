@@ -447,19 +447,21 @@ ExpressionPointer Parser::argument_of(Argument kind, const CommandRow& row) {
   return constant(peek().place, 0);
 }
 
+void Parser::use_input(const Place& place, const Expression& input) {
+  if (input.kind != Expression::Kind::kConstant) return;
+  const std::int32_t n = input.value;
+  uses_.inputs.insert(n);
+  if (!((n >= 1 && n <= 12) || n == 18 || n == 19 || n == 27 || n == 29 || n == 32 || n == 33))
+    messages_.warn(
+        place, "input " + std::to_string(n) + " is not published; inputs: 1 to 12, 18, 19, 27, 29, 32, 33");
+}
+
 std::vector<ExpressionPointer> Parser::arguments(const CommandRow& row) {
   std::vector<ExpressionPointer> result;
   for (std::size_t i = 0; i < row.arity(); ++i) {
     const Token& token = peek();
     result.push_back(argument_of(row.arguments[i], row));
-    const bool input = i == 0 && row.command == Command::kIn;
-    if (input && result[0]->kind == Expression::Kind::kConstant) {
-      const std::int32_t n = result[0]->value;
-      uses_.inputs.insert(n);
-      if (!((n >= 1 && n <= 12) || n == 18 || n == 19 || n == 27 || n == 29 || n == 32 || n == 33))
-        messages_.warn(token.place, "input " + std::to_string(n) +
-                                        " is not published; inputs: 1 to 12, 18, 19, 27, 29, 32, 33");
-    }
+    if (i == 0 && row.command == Command::kIn) use_input(token.place, *result[0]);
   }
   return result;
 }

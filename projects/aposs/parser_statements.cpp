@@ -54,6 +54,9 @@ void Parser::assignment() {
   if (at_symbol("++", 1) || at_symbol("--", 1))
     fail(peek(1).place, quote(peek(1).text) + " is of the later edition and not built yet; allowed: " +
                             name.text + " = " + name.text + " + 1");
+  if (const std::string two = commands_of_first_word(name.folded); !is_target && !two.empty())
+    fail(name.place, "there is no command " + quote(name.text) + " alone; allowed: " + two + ", " +
+                         name.text + ": as a label, " + name.text + " = as a variable");
   if (!is_target)
     fail(name.place, "there is no command " + quote(name.text) + nearest_name(name.folded, {}) +
                          "; allowed: a command, " + name.text + ": as a label, " + name.text +
@@ -257,6 +260,7 @@ void Parser::time_statement(Operation operation, const Token& at) {
 void Parser::wait_for_input(const Token& at) {
   const NamedCommand named = *command_at(tokens_.subspan(at_));
   ExpressionPointer input;
+  Place place = at.place;
   bool usual = named.unusual.empty();
   if (named.command == Command::kWaitt) {
     take();
@@ -264,9 +268,10 @@ void Parser::wait_for_input(const Token& at) {
     input = constant(glued.place, *glued_input(glued));
   } else {
     for (std::size_t i = 0; i < named.words; ++i) take();
+    place = peek().place;
     input = argument("WAITI");
   }
-  if (input->kind == Expression::Kind::kConstant) uses_.inputs.insert(input->value);
+  use_input(place, *input);
   const bool has_state = on_same_line() && (at_word("ON") || at_word("OFF") || argument_follows());
   const ExpressionPointer level = state("WAITI", true);
   if (!usual || !has_state) messages_.warn(at.place, "the usual form is WAITI n ON or WAITI n OFF");

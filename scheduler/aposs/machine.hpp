@@ -65,6 +65,10 @@ class Machine {
 
   /// A step of 1 ms: sources of interrupts are compared, then at most `budget` internal commands carried out.
   void step(std::int32_t budget) noexcept;
+  /// An error that stood before the program began: ERRNO tells it, and its handler is called once it is said.
+  void take_standing(int error) noexcept {
+    if (error_count_ < errors_.size()) errors_[error_count_++] = error;
+  }
   /// Raises an error: the handler begins in the next step; without one the program ends.
   void raise(int error) noexcept;
 

@@ -436,15 +436,15 @@ void DeviceCommands::error_raised(int error) noexcept {
                       .Line = runs ? static_cast<DINT>(machine_->error_place().line) : -1,
                       .Value = value_of(error)};
   if (raised_count_ < raised_.size())
-    raised_[raised_count_++] = error;
+    raised_[raised_count_++] = {error, program_, static_cast<int>(runs ? machine_->error_place().line : 0)};
   else
     ++unheard_;
   device_.react(error);
 }
 
-int DeviceCommands::take_raised() noexcept {
-  if (raised_count_ == 0) return 0;
-  const int error = raised_[0];
+RaisedError DeviceCommands::take_raised() noexcept {
+  if (raised_count_ == 0) return {};
+  const RaisedError error = raised_[0];
   std::copy(raised_.begin() + 1, raised_.end(), raised_.begin());
   --raised_count_;
   return error;

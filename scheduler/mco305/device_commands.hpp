@@ -14,6 +14,13 @@
 
 namespace lockstep {
 
+/// An error, and what the program was at.
+struct RaisedError {
+  int number = 0;    ///< 0: none
+  int program = -1;  ///< -1: none
+  int line = 0;
+};
+
 class DeviceCommands final : public aposs::Device {
  public:
   DeviceCommands(mco305::Device& device, Eeprom& eeprom, Mco305Outside& outside, Mco305ErrorHistory& history)
@@ -45,8 +52,8 @@ class DeviceCommands final : public aposs::Device {
     program_ = number;
   }
 
-  /// An error that has been raised, for whoever tells of it; 0: none.
-  int take_raised() noexcept;
+  /// An error that has been raised, for whoever tells of it; number 0: none.
+  RaisedError take_raised() noexcept;
   /// How many were raised and found no space, since it was asked last.
   std::uint32_t take_unheard() noexcept { return std::exchange(unheard_, 0); }
 
@@ -73,7 +80,7 @@ class DeviceCommands final : public aposs::Device {
   mco305::Device& device_;
   Eeprom& eeprom_;
   const aposs::Machine* machine_ = nullptr;
-  std::array<int, 8> raised_{};
+  std::array<RaisedError, 8> raised_{};
   std::size_t raised_count_ = 0;
   std::uint32_t unheard_ = 0;
   std::uint32_t latches_ = 0;  // when WAITNDX began

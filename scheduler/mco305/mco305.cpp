@@ -103,12 +103,17 @@ bool Mco305::take_note(ProgramNote& note) noexcept {
     lost_ = lost;
     return true;
   }
-  note.error = commands_.take_raised();
+  const RaisedError raised = commands_.take_raised();
+  note.error = raised.number;
   const bool refused = machine_.state() == aposs::ProgramState::kRefused && !told_refusal_;
   if (note.error == 0 && !refused) return false;
   if (note.error == 0) told_refusal_ = true;
-  const aposs::Place place = note.error == 0 ? machine_.place() : machine_.error_place();
-  note.line = static_cast<int>(place.line);
+  if (note.error == 0) {
+    note.line = static_cast<int>(machine_.place().line);
+    return true;
+  }
+  note.program = raised.program;
+  note.line = raised.line;
   return true;
 }
 
@@ -122,6 +127,7 @@ void Mco305::take_line(std::string& line) {
 void Mco305::start(DeviceProgram& program) noexcept {
   commands_.begin_program(program.number);
   machine_.take(program.image);
+  for (const int error : device_.pending().all()) machine_.take_standing(error);
   current_ = &program;
   running_ = true;
   if (program.fault == 0 || program.fault == kOtherArrays) program.fault = arrays_.fit(program.image.arrays);

@@ -353,15 +353,24 @@ void Device::look_at_limits() noexcept {
   const bool pressed = (negative && !at_negative_end_) || (positive && !at_positive_end_);
   at_negative_end_ = negative;
   at_positive_end_ = positive;
-  if (pressed) raise(kHardwareLimit);
+  const double velocity = profile_.state().velocity;
+  // Once such an error has been cleared a master may lead back only.
+  const bool may_be_led_out = mode_ == MotionMode::kFollow && on_ && !pending_.any();
+  if (pressed)
+    raise(kHardwareLimit);
+  else if (may_be_led_out && settings_.later_edition &&
+           ((negative && velocity < 0.0) || (positive && velocity > 0.0)))
+    raise(kFurtherOut);
   if (!checks_limits_) return;
   const std::int64_t at = (virtual_ ? set_counts() : actual_) - limits_origin_;
   const bool below = parameters_[kSwNegLimAct] != 0 && at < parameters_[kNegLimit];
   const bool above = parameters_[kSwPosLimAct] != 0 && at > parameters_[kPosLimit];
-  const bool moves_out =
-      (below && profile_.state().velocity < 0.0) || (above && profile_.state().velocity > 0.0);
+  const bool moves_out = (below && velocity < 0.0) || (above && velocity > 0.0);
   const bool beyond = below || above;
-  if (beyond && !beyond_ && moves_out && on_) raise(kSoftwareLimit);
+  if (beyond && !beyond_ && moves_out && on_)
+    raise(kSoftwareLimit);
+  else if (beyond_ && moves_out && may_be_led_out)
+    raise(further_out());
   beyond_ = beyond;
 }
 
@@ -433,7 +442,7 @@ void Device::react(int error) noexcept {
   if (open_loop_ != 0) motor_off();
   if (!on_) return;
   std::int32_t reaction = parameters_[kErrCond];
-  if (error == kHardwareLimit && parameters_[kEndSwMod] == 1 && reaction < 2) reaction = 2;
+  if (error == kHardwareLimit && parameters_[kEndSwMod] == 1 && (reaction < 2 || reaction == 5)) reaction = 2;
   if (reaction == 5) return;
   if (homing()) end_home(error);
   if (reaction == 2 || reaction == 3) {
@@ -447,8 +456,10 @@ void Device::react(int error) noexcept {
 void Device::clear_error() noexcept {
   pending_.clear_first();
   over_since_ = -1;
-  if (!virtual_) {
+  if (!virtual_ && told_.fault) {
+    // A fault has switched the drive off, whatever the controller does; it is taken over where it is.
     constexpr std::uint16_t kAcknowledge = 1U << 7;
+    motor_off();
     drive_->control(kControlOff | kAcknowledge, 0);
   }
   motor_on();

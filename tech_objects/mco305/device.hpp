@@ -243,6 +243,8 @@ class Device {
 
   bool may_move(int& error) const noexcept;
   bool within_limits(std::int64_t target, int& error) const noexcept;
+  bool leads_out(double velocity) const noexcept;
+  int further_out() const noexcept;
   FourSlopeLimits limits() const noexcept;
   double relative_velocity(std::int32_t velocity) const noexcept;
   void move_to(double target) noexcept;

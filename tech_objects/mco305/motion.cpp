@@ -95,9 +95,23 @@ int Device::position_to(std::int32_t units, bool relative) noexcept {
   return 0;
 }
 
+int Device::further_out() const noexcept {
+  return settings_.later_edition ? kFurtherOut : kSoftwareLimit;
+}
+
+bool Device::leads_out(double velocity) const noexcept {
+  if (velocity == 0.0) return false;
+  const bool backwards = velocity < 0.0;
+  if (settings_.later_edition && (backwards ? at_negative_end_ : at_positive_end_)) return true;
+  const std::int64_t at = set_counts() - limits_origin_;
+  return backwards ? parameters_[kSwNegLimAct] != 0 && at < parameters_[kNegLimit]
+                   : parameters_[kSwPosLimAct] != 0 && at > parameters_[kPosLimit];
+}
+
+/// While it moves, a new velocity that leads further out is an error like one that begins so.
 void Device::set_speed(std::int32_t velocity) noexcept {
   speed_ = velocity;
-  if (mode_ == MotionMode::kSpeed && on_) start_speed();
+  if (mode_ == MotionMode::kSpeed && on_ && start_speed() == further_out()) raise(further_out());
 }
 
 int Device::start_speed() noexcept {
@@ -106,8 +120,7 @@ int Device::start_speed() noexcept {
   if (!on_) return kErrorNotReset;
   const auto sign = static_cast<double>(unit_.sign);
   const double velocity = sign * relative_velocity(speed_);
-  const bool out = (velocity < 0.0 && at_negative_end_) || (velocity > 0.0 && at_positive_end_);
-  if (out && settings_.later_edition) return kFurtherOut;
+  if (leads_out(velocity)) return further_out();
   mode_ = MotionMode::kSpeed;
   arrived_ = false;
   was_reset_ = false;
@@ -126,8 +139,10 @@ void Device::stop(double deceleration, MotionMode mode) noexcept {
   arrived_ = false;
 }
 
+/// The motion is over, not interrupted.
 void Device::stop_speed() noexcept {
   stop(limits().deceleration, MotionMode::kHold);
+  interrupted_ = MotionMode::kHold;
 }
 
 void Device::motor_stop() noexcept {

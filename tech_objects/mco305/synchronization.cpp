@@ -71,6 +71,14 @@ double Synchronization::wanted_offset() const noexcept {
   return waits ? 0.0 : position_offset_ + moved_origin_;
 }
 
+/// What counts of markers alone, for pairs [qc]: an offset is kept by them, so that the slave is marked that
+/// much before or behind its master; where that is more than half a distance the partner is another one.
+double Synchronization::pair_offset() const noexcept {
+  const double distance = pair_distance(), whole = offset_.wanted() * gear_.ratio() / distance;
+  const bool turns = distance > 0.0 && pairing_.paired();
+  return correction_.wanted() + trimmed_ + (turns ? std::floor(whole + 0.5) * distance : 0.0);
+}
+
 /// All that counts from now on, beside the gear [qc].
 double Synchronization::total_offset() const noexcept {
   return offset_.wanted() * gear_.ratio() + correction_.wanted() + trimmed_;
@@ -181,7 +189,7 @@ void Synchronization::step(const MasterInput& master, std::int64_t actual) noexc
 /// Behind the end of the mode its flags stay as they were.
 void Synchronization::judge(std::int64_t actual) noexcept {
   if (mode_ < SyncMode::kPosition) return;
-  error_ = wanted_ - actual;
+  if (following_ || later_edition_) error_ = wanted_ - actual;
   if (following_ && reached_) quality_.look(error_, accuracy_);
 }
 

@@ -99,6 +99,7 @@ class Synchronization {
 
   double filter_time(double resolution) const noexcept;
   double wanted_offset() const noexcept;
+  double pair_offset() const noexcept;
   double total_offset() const noexcept;
   double pair_distance() const noexcept;
   void take_limits(const FourSlopeLimits& limits) noexcept;

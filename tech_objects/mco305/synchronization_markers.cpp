@@ -97,7 +97,7 @@ void Synchronization::take_master_mark(double place) noexcept {
   if (waits_for_velocity(start_) && !reached_) return;
   const double since = static_cast<double>(master_position_) - place;
   const auto apart =
-      pairing_.leading(gear_.position() - since * gear_.ratio(), total_offset(), pair_distance());
+      pairing_.leading(gear_.position() - since * gear_.ratio(), pair_offset(), pair_distance());
   if (apart) pair(*apart);
 }
 
@@ -154,7 +154,7 @@ void Synchronization::take_slave_mark(double place) noexcept {
   if (++slave_marks_ % marks_per_pair_slave_ != 0) return;
   hits_ |= kSlaveHit;
   if (waits_for_velocity(start_) && !reached_) return;
-  if (const auto apart = pairing_.following(place, total_offset(), pair_distance())) pair(*apart);
+  if (const auto apart = pairing_.following(place, pair_offset(), pair_distance())) pair(*apart);
 }
 
 /// Where one has been missed, its partner is not used.

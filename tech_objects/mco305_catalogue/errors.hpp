@@ -63,6 +63,8 @@ class PendingErrors {
   /// Whether there is no other one.
   bool only(int number) const noexcept;
   int first() const noexcept { return count_ == 0 ? 0 : numbers_[0]; }
+  /// In their order.
+  std::span<const int> all() const noexcept { return {numbers_.data(), count_}; }
   /// 34-70, 34-71; bit 31 of the first says that the second has bits.
   std::int32_t alarm_word(int word) const noexcept;
 

@@ -137,9 +137,12 @@ constexpr Meaning kMeanings[] = {
     {3322, "As 33-21 for the slave (flag SMERR)"},
     {3323,
      "Which markers are used for the first correction of SYNCM/SYNCCMM and when the offset "
-     "becomes active: 0 Start 1; 1 Start 2; 2 Start 3; 3 Start 4; 4 Start 5; 5 Start 6; 6 "
-     "Start 7; 1000 Start 8; 1001 Start 9; 1002 Start 10; 1003 Start 11; 1004 Start 12; "
-     "1005 Start 13; 1006 Start 14; 2000 CAM master start"},
+     "becomes active: 0 first of the master, next of the slave; 1 first of the slave, next of "
+     "the master; 2 at the velocity of the master, the next two; 3 then forwards to the "
+     "master's marker in front; 4 backwards to the one behind; 5 to the nearer one; 6 the "
+     "first two; 7 from 5.00 on along a path that meets the master at a marker; 1000 to 1007 "
+     "like 0 to 7, the offset only from the first correction on; 2000 counting begins with "
+     "the master's marker (cams)"},
     {3324, "FAULT when more than this many consecutive evaluations were inaccurate"},
     {3325, "READY when more than this many consecutive evaluations were accurate"},
     {3326,

@@ -43,6 +43,14 @@ TEST(DescribeMco305, TellsOfAParameterByNameAndNumber) {
   EXPECT_EQ(lockstep({"describe", "32-99"}).status, 1);
 }
 
+// As the words stand in a message, in one pair of quotation marks.
+TEST(DescribeMco305, TakesTwoWordsInOne) {
+  EXPECT_EQ(described({"error 108"}), described({"error", "108"}));
+  EXPECT_EQ(described({"sysvar 4277"}), described({"sysvar", "4277"}));
+  EXPECT_EQ(described({"DEF ORIGIN"}), described({"DEF", "ORIGIN"}));
+  EXPECT_EQ(described({"error 108"})["kind"], described({"error", "108"})["kind"]);
+}
+
 TEST(DescribeMco305, TellsOfCommandsErrorsAndSystemVariables) {
   const Json home = described({"HOME"});
   EXPECT_EQ(home["kind"], "command");

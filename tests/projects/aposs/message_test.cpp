@@ -13,6 +13,19 @@ TEST(AposMessages, TellTheNearestParameter) {
                                             "published, 1900 to 1999"});
 }
 
+TEST(AposMessages, TellTheWordsThatBelongToTheFirst) {
+  EXPECT_EQ(said_of("MOTOR\n"), Lines{"x.m:1:1: there is no command 'MOTOR' alone; allowed: MOTOR OFF, MOTOR "
+                                      "ON, MOTOR STOP, MOTOR: as a label, MOTOR = as a variable"});
+  EXPECT_EQ(said_of("DEF zero\n").at(0).substr(0, 76),
+            "x.m:1:1: there is no command 'DEF' alone; allowed: DEF ORIGIN, DEF SYNCORIGI");
+}
+
+TEST(AposMessages, WarnOfAnInputForWhichNobodyWaits) {
+  EXPECT_EQ(said_of("WAITI 99 ON\n"),
+            Lines{"warning: x.m:1:7: input 99 is not published; inputs: 1 to 12, 18, "
+                  "19, 27, 29, 32, 33"});
+}
+
 TEST(AposMessages, TellWhichBlockHasNoEnd) {
   EXPECT_EQ(said_of("IF 1 THEN\nx = 1\nENDIF\nENDIF\n"),
             Lines{"x.m:4:1: ENDIF without IF; the IF of line 1 ended in line 3"});
@@ -185,7 +198,10 @@ TEST(AposIncludes, AreReadFromBesideTheProgram) {
 TEST(AposLimits, HoldForVariablesAndNesting) {
   std::string many = "DIM a[1]\n";
   for (int i = 0; i < 92; ++i) many += "v" + std::to_string(i) + " = 1\n";
-  EXPECT_EQ(said_of(many), Lines{"x.m: the program has 93 variables and arrays; allowed: 92"});
+  EXPECT_EQ(said_of(many), Lines{"x.m:93:7: the program has 93 variables and arrays; allowed: 92"});
+  std::string long_one;
+  for (int i = 0; i <= 60'000; ++i) long_one += "ERRCLR\n";
+  EXPECT_EQ(said_of(long_one).at(0).substr(0, 48), "x.m:60001:1: the program has 60002 internal comm");
   std::string deep = "x = " + std::string(1000, '(') + "1" + std::string(1000, ')') + "\n";
   EXPECT_EQ(said_of(deep).at(0).substr(0, 45), "x.m:1:69: the expression is nested too deep; ");
   std::string sum = "x = 1";

@@ -275,6 +275,48 @@ TEST(Mco305Following, SyncmarkerstartIsNothingBesideSyncmAndErrorOfOtherValues) 
   EXPECT_EQ(run.object.device().pending().first(), 112);
 }
 
+// An alignment may be set by SYNCPOSOFFS, and markers keep it; so is what MOVESYNCORIGIN adds.
+TEST(Mco305Following, MarkersKeepTheOffset) {
+  for (const int start : {0, 5, 1000, 1005})
+    for (const int offset : {0, 300, -700, 1990, 3000, -3000, 5000, -9000, 12'100}) {
+      MarkersThatMove run(start);
+      run.moved = 700;
+      run.set("SYNCPOSOFFS", offset);
+      run.begin_with("SYNCM\nWAITI 1 ON\nMOVESYNCORIGIN 200\nWAITI 2 ON\nSET SYNCPOSOFFS (-400)\n");
+      run.run(5);
+      run.turn(8000);
+      const double first = run.apart() - offset;
+      EXPECT_NEAR(std::remainder(first - 700.0, 4000.0), 0.0, 2.0) << start << " " << offset;
+      run.device().io().set_input(1, true);
+      run.turn(3000);
+      EXPECT_NEAR(run.apart() - first, offset + 200.0, 2.0) << start << " " << offset;
+      run.device().io().set_input(2, true);
+      run.turn(5000);
+      EXPECT_NEAR(run.apart() - first, -200.0, 2.0) << start << " " << offset;
+      // Markers still correct.
+      run.moved = 750;
+      run.turn(3000);
+      EXPECT_NEAR(run.apart() - first, -150.0, 2.0) << start << " " << offset;
+    }
+}
+
+// Below 5.00 SYNCERR is as it was when the mode was left.
+TEST(Mco305Following, SyncerrStandsBehindTheModeBefore500) {
+  for (const bool later : {false, true}) {
+    Following run;
+    run.object.settings.later_edition = later;
+    DINT turned = 0;
+    run.object.master.signal = &turned;
+    run.begin_with("SYNCP\nDELAY 1000\na = SYNCERR\nMOTOR STOP\nDELAY 500\nb = SYNCERR\n");
+    for (int i = 0; i < 3000; ++i) turned += 10, run.step();
+    EXPECT_NEAR(run.variable("a"), 0, 10);
+    if (later)
+      EXPECT_GT(run.variable("b"), 3000);
+    else
+      EXPECT_EQ(run.variable("b"), run.variable("a"));
+  }
+}
+
 // SYNCVELREL is of the master, and SYNCOFFTIME may want to be faster.
 TEST(Mco305Following, KeepsItsBandWhileAnOffsetIsSpread) {
   for (const int type : {0, 1})
