@@ -3,11 +3,13 @@
 
 #include <CLI/App.hpp>
 #include <memory>
-#include <system_error>
+#include <stdexcept>
+#include <string>
 
 #include "cli/command/command.hpp"
 #include "cli/command/shortage.hpp"
 #include "cli/command/standard_streams.hpp"
+#include "cli/command/whole_file.hpp"
 #include "cli/connections/overview.hpp"
 #include "cli/describe/table.hpp"
 #include "projects/system/apply_delays.hpp"
@@ -28,8 +30,9 @@ int apply(const System& system, const Connections& connections) {
   const ChangedFiles changed = with_delays(system, connections);
   for (const std::string& problem : changed.problems) tell(problem, Severity::error);
   if (!changed.problems.empty()) return kNotValid;
+  for (const ChangedFile& file : changed.files) require_writable(file.path);
   for (const ChangedFile& file : changed.files) {
-    replace_file(file.path, file.text);
+    write_whole_file(file.path, file.text);
     tell(fmt::format("{}: {} delay{} written", file.path, file.delays, file.delays == 1 ? "" : "s"));
   }
   if (changed.files.empty()) tell("all delays are as computed; nothing to write");
@@ -63,12 +66,13 @@ int show(const ConnectionsOptions& options) {
     }
   }
   try {
-    if (!options.svg.empty()) replace_file(options.svg, overview_svg(*system, connections, options.overview));
+    if (!options.svg.empty())
+      write_whole_file(options.svg, overview_svg(*system, connections, options.overview));
     write_data(options.json ? overview_json(*system, connections, options.overview)
                             : overview_text(*system, connections, options.overview, output_width()));
     if (options.overview.computed) tell_recursions(connections);
     return options.apply ? apply(*system, connections) : static_cast<int>(kOk);
-  } catch (const std::system_error& error) {
+  } catch (const std::runtime_error& error) {
     tell(with_help(error.what()), Severity::error);
     return kCouldNotStart;
   }
@@ -98,13 +102,10 @@ void add_connections_command(CLI::App& app, Action& action) {
         return name.ends_with(".svg") ? "" : std::string("has to end in .svg");
       });
   command->footer(
-      "A delay time is two application cycles of the controller of each proxy, and what is behind it; with "
-      "it "
-      "the\n"
-      "leading value is interpolated everywhere, and all axes see the same one at the same time. What "
-      "\"delays\" "
-      "of the\n"
-      "system file names is left out.\n"
+      "A delay time is two application cycles of the controller of each proxy, and what is behind it; with\n"
+      "it all axes see the same leading value at the same time, interpolated everywhere but where the\n"
+      "application cycle of a source is longer than that. What \"delays\" of the system file names is left\n"
+      "out.\n"
       "Exit status: 0 shown, 1 not valid, 2 cannot be read or written");
   command->callback([&action, options] { action = [options] { return show(*options); }; });
 }

@@ -72,6 +72,7 @@ Json row_json(const System& system, const Connections& connections, const Interc
   }
   json["coupling"] = coupling_of(row);
   json["recursive"] = row.recursive;
+  json["recursion_left_out"] = row.cut;
   json["left_out"] = row.left_out;
   json["ambiguous"] = row.ambiguous;
   if (!row.local()) json["extrapolated"] = row.extrapolated;
@@ -96,7 +97,8 @@ bool is_shown(const System& system, const Interconnection& row, const OverviewOp
 
 std::string remark_of(const Connections& connections, const Interconnection& row) {
   if (row.following.object == nullptr) return "nothing follows";
-  if (row.recursive) return row.left_out ? "recursive, left out" : "recursive";
+  if (row.recursive)
+    return row.left_out ? "recursive, left out" : row.cut ? "recursive, one left out" : "recursive";
   if (row.left_out) return "left out";
   if (row.local()) return "";
   const DelayTime* const source = connections.delay_of(row.source.object);

@@ -40,14 +40,15 @@ bool same_code(const MessageCode& a, const MessageCode& b) noexcept {
 }
 
 SharedKey read_key_file(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   if (file < 0) refuse_key(path, std::generic_category().message(errno));
   struct stat status {};
   SharedKey key(kLongest + 2);
-  const bool known = ::fstat(file, &status) == 0;
-  const ssize_t size = ::read(file, key.data(), key.size());
+  const bool plain = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+  const ssize_t size = plain ? ::read(file, key.data(), key.size()) : -1;
   ::close(file);
-  if (!known || size < 0) refuse_key(path, "cannot be read");
+  if (!plain) refuse_key(path, "is no file but a folder, a pipe, a device or a socket");
+  if (size < 0) refuse_key(path, "cannot be read");
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     refuse_key(path, "others than its owner may read it; allowed: chmod 600");
   key.resize(static_cast<std::size_t>(size));

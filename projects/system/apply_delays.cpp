@@ -146,7 +146,8 @@ ChangedFiles with_delays(const System& system, const Connections& connections) {
   return writer.take();
 }
 
-void replace_file(const std::string& path, const std::string& text) {
+void replace_file(const std::string& named, const std::string& text) {
+  const std::string path = fs::weakly_canonical(named).string();
   const std::string temporary = path + ".new";
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   file << text;

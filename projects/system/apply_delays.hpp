@@ -26,7 +26,8 @@ struct ChangedFiles {
 /// the structure to which it belongs. What is fixed, recursive or as it should be stays.
 ChangedFiles with_delays(const System& system, const Connections& connections);
 
-/// Puts a text in place of a file, whole or not at all. @throws std::system_error
-void replace_file(const std::string& path, const std::string& text);
+/// Puts a text in place of a file, whole or not at all; a symbolic link goes on pointing to where it does.
+/// @throws std::system_error
+void replace_file(const std::string& named, const std::string& text);
 
 }  // namespace lockstep

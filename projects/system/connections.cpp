@@ -125,8 +125,17 @@ bool Connections::is_left_out(const LeadingObject* axis) const {
 
 // ---- Recursions
 
+/// Whether the calculation has to do with an interconnection: it is not left out, nor is one of its objects.
+bool Connections::counts(const Interconnection& row) const {
+  const auto fixed = [&](const LeadingObject* object) {
+    const DelayTime* const delay = delay_of(object);
+    return delay != nullptr && delay->fixed;
+  };
+  return row.local() || !(row.left_out || fixed(row.source.object) || fixed(row.proxy));
+}
+
 /// Whether the value of an object comes, by whatever axes and proxies, to another one.
-bool Connections::leads_to(const LeadingObject* from, const LeadingObject* to) const {
+bool Connections::leads_to(const LeadingObject* from, const LeadingObject* to, Ways ways) const {
   std::vector<const LeadingObject*> open = {from};
   std::unordered_set<const LeadingObject*> seen;
   while (!open.empty()) {
@@ -134,6 +143,7 @@ bool Connections::leads_to(const LeadingObject* from, const LeadingObject* to) c
     open.pop_back();
     for (const Interconnection& row : rows_) {
       if (row.source.object != object || row.following.object == nullptr) continue;
+      if (ways == Ways::counted && !counts(row)) continue;
       if (row.following.object == to) return true;
       if (seen.insert(row.following.object).second) open.push_back(row.following.object);
     }
@@ -141,10 +151,15 @@ bool Connections::leads_to(const LeadingObject* from, const LeadingObject* to) c
   return false;
 }
 
+/// Whether the source of an interconnection follows its own value by it.
+bool Connections::goes_round(const Interconnection& row, Ways ways) const {
+  if (row.following.object == nullptr || (ways == Ways::counted && !counts(row))) return false;
+  return row.following.object == row.source.object || leads_to(row.following.object, row.source.object, ways);
+}
+
 void Connections::mark_recursive() {
-  for (Interconnection& row : rows_)
-    row.recursive = row.following.object != nullptr && (row.following.object == row.source.object ||
-                                                        leads_to(row.following.object, row.source.object));
+  for (Interconnection& row : rows_) row.recursive = goes_round(row, Ways::all);
+  for (Interconnection& row : rows_) row.cut = row.recursive && !goes_round(row, Ways::counted);
 }
 
 bool Connections::recursive() const noexcept {
@@ -153,9 +168,13 @@ bool Connections::recursive() const noexcept {
 
 // ---- Delays
 
-double Connections::transfer_time(std::size_t controller) const {
+double Connections::cycle_of(std::size_t controller) const {
   const Clock& clock = system_.controllers[controller].project.controller->clock;
-  return kTransferCycles * static_cast<double>(clock.interpolator_cycle()) * kNano;
+  return static_cast<double>(clock.interpolator_cycle()) * kNano;
+}
+
+double Connections::transfer_time(std::size_t controller) const {
+  return kTransferCycles * cycle_of(controller);
 }
 
 DelayTime* Connections::find_delay(const LeadingObject* object) noexcept {
@@ -224,29 +243,41 @@ bool Connections::computed_once() {
   return changed;
 }
 
+/// Whether an object is part of a recursion, or leads to one.
+bool Connections::ends_in_recursion(const LeadingObject* object) const {
+  const auto is_there = [&](const LeadingObject* leading, const Interconnection& round) {
+    return round.source.object == leading || leads_to(leading, round.source.object, Ways::counted);
+  };
+  const auto ends_there = [&](const Interconnection& round) {
+    if (!round.recursive || round.cut) return false;
+    if (round.proxy == object || round.following.object == object || is_there(object, round)) return true;
+    return std::ranges::any_of(rows_, [&](const Interconnection& row) {
+      return row.proxy == object && row.following.object != nullptr && counts(row) &&
+             is_there(row.following.object, round);
+    });
+  };
+  return std::ranges::any_of(rows_, ends_there);
+}
+
 /// From 0 they grow until nothing asks for more: as many rounds as there are cascades.
 void Connections::compute_delays() {
   for (DelayTime& delay : delays_) {
-    const auto ends_in_recursion = [&](const Interconnection& row) {
-      if (!row.recursive || row.left_out) return false;
-      const LeadingObject* const object = delay.object.object;
-      return row.source.object == object || row.proxy == object || row.following.object == object ||
-             leads_to(object, row.source.object);
-    };
     if (delay.fixed)
       delay.computed = delay.configured;
-    else if (std::ranges::none_of(rows_, ends_in_recursion))
+    else if (!ends_in_recursion(delay.object.object))
       delay.computed = 0.0;
   }
   for (std::size_t round = 0; round <= delays_.size() && computed_once(); ++round) continue;
 }
 
-/// By the delays as they are configured.
+/// By the delays as they are configured: what is at hand has to last for the transfer, and until the next
+/// telegram of a source that is slow.
 void Connections::mark_extrapolated() {
   for (Interconnection& row : rows_) {
     if (row.local()) continue;
     const double at_hand = delay_configured_of(*row.source.object) - delay_configured_of(*row.proxy);
-    row.extrapolated = transfer_time(row.following.controller) > at_hand + 0.5 * kNano;
+    const double needed = std::max(transfer_time(row.following.controller), cycle_of(row.source.controller));
+    row.extrapolated = needed > at_hand + 0.5 * kNano;
   }
 }
 
@@ -256,8 +287,9 @@ void Connections::follow_back(const LeadingObject* following, Route& route,
                               std::vector<Route>& routes) const {
   bool has_source = false;
   for (const Interconnection& row : rows_) {
-    if (row.following.object != following || row.recursive) continue;
+    if (row.following.object != following) continue;
     has_source = true;
+    if (row.recursive) continue;
     route.hops.push_back(&row);
     follow_back(row.source.object, route, routes);
     route.hops.pop_back();

@@ -28,9 +28,10 @@ struct Interconnection {
   SystemObject following{};                 ///< with an object of nullptr: nothing follows the proxy
   Coupling coupling = Coupling::setpoint;
   bool recursive = false;     ///< the leading axis would follow its own value
+  bool cut = false;           ///< recursive, and an interconnection of each way around does not count
   bool left_out = false;      ///< does not count in the calculation of delays
   bool ambiguous = false;     ///< the proxy has several sources
-  bool extrapolated = false;  ///< the proxy looks ahead of what has come, by the delays as configured
+  bool extrapolated = false;  ///< the proxy looks ahead of what has come, by delays and cycles as configured
 
   bool local() const noexcept { return proxy == nullptr; }
 };
@@ -64,10 +65,13 @@ class Connections {
   const DelayTime* delay_of(const LeadingObject* object) const noexcept;
   bool recursive() const noexcept;
 
-  /// The routes by which an axis gets leading values, without recursive ones. At most `kMaximumRoutes`.
+  /// The routes by which an axis gets leading values, without those that a recursion is part of. At most
+  /// `kMaximumRoutes`.
   std::vector<Route> routes_of(const LeadingObject* following) const;
   static constexpr std::size_t kMaximumRoutes = 1000;
 
+  /// The application cycle of a controller [s].
+  double cycle_of(std::size_t controller) const;
   /// Two application cycles of the controller: of the transfer to a proxy on it [s].
   double transfer_time(std::size_t controller) const;
 
@@ -83,7 +87,11 @@ class Connections {
   bool computed_once();
   double needed(const DelayTime& delay) const;
   void follow_back(const LeadingObject* following, Route& route, std::vector<Route>& routes) const;
-  bool leads_to(const LeadingObject* from, const LeadingObject* to) const;
+  enum class Ways { all, counted };
+  bool leads_to(const LeadingObject* from, const LeadingObject* to, Ways ways) const;
+  bool goes_round(const Interconnection& row, Ways ways) const;
+  bool counts(const Interconnection& row) const;
+  bool ends_in_recursion(const LeadingObject* object) const;
   bool leads_undelayed(const LeadingObject* from, const LeadingObject* to) const;
   bool is_left_out(const LeadingObject* axis) const;
   DelayTime* find_delay(const LeadingObject* object) noexcept;

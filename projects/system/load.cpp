@@ -198,7 +198,7 @@ std::optional<FullName> SystemLoader::full_name_at(const JsonValue* json) {
   std::vector<std::string_view> names;
   for (const SystemController& one : system_.controllers) names.push_back(one.name);
   problems_.report(*json, "there is no controller " + quote(controller) + did_you_mean(controller, names) +
-                              "; allowed: " + list_of(names));
+                              (names.empty() ? "" : "; allowed: " + list_of(names)));
   return std::nullopt;
 }
 

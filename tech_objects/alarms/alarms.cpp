@@ -399,7 +399,7 @@ constexpr CauseText kCauses[] = {
     {AlarmCause::left_window, "the positioning window was left within MinDwellTime", ""},
     {AlarmCause::not_assigned, "it is not assigned as a leading object of this axis",
      "name it in leading_values of the following axis"},
-    {AlarmCause::values_invalid, "its actual values are not valid", ""},
+    {AlarmCause::values_invalid, "its values are not valid", ""},
     {AlarmCause::restarted, "it has been restarted", ""},
     {AlarmCause::enabled, "the object is enabled or still switching off",
      "disable it (MC_Power.Enable FALSE), wait for StatusWord.X0 FALSE, then MC_Reset with Restart again"},

@@ -265,6 +265,10 @@ TEST(KeyFiles, AreThoseThatOnlyTheirOwnerReads) {
   directory.write("key", std::string(1025, 'x'));
   EXPECT_NE(refusal_of(path).find("allowed: 16 to 1024"), std::string::npos);
   EXPECT_NE(refusal_of(directory.file("none")).find(directory.file("none")), std::string::npos);
+  ASSERT_EQ(::mkfifo(directory.file("pipe").c_str(), 0600), 0);
+  EXPECT_NE(refusal_of(directory.file("pipe")).find("is no file but"), std::string::npos)
+      << "nobody waits for it";
+  EXPECT_NE(refusal_of(directory.file("")).find("is no file but"), std::string::npos);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -61,6 +62,7 @@ struct Shown {
       text += name(row.source) + " " + (row.local() ? "local" : row.area + ":" + row.proxy->name) + " " +
               name(row.following);
       for (const auto& [is, word] : {std::pair{row.recursive, " recursive"},
+                                     {row.cut, " cut"},
                                      {row.left_out, " left out"},
                                      {row.ambiguous, " ambiguous"},
                                      {row.extrapolated, " extrapolated"}})
@@ -263,7 +265,71 @@ TEST(Connections, OfARecursionThatIsLeftOut) {
   const Shown shown(files);
   EXPECT_EQ(shown.delays().at("A.Virtual"), 4.0) << "for B.Far";
   EXPECT_EQ(shown.delays().at("B.Virtual"), 2.0) << "for A.Far";
-  EXPECT_NE(shown.rows().find("B.Virtual recursive left out"), std::string::npos);
+  EXPECT_NE(shown.rows().find("B.Virtual recursive cut left out"), std::string::npos);
+}
+
+// 10.6.2: of a recursion one interconnection does not count. A.Virtual no longer is an axis of A.Line, so
+// that B.Virtual delays by 2 × 1 ms, for A.Far; as much brings B.Line forward, and A.Virtual delays by 2 × 2
+// ms more.
+TEST(Connections, OfARecursionOfWhichOneIsLeftOutAreComputed) {
+  SystemFiles files = recursive();
+  files.json["delays"]["left_out"] = {"A.Virtual"};
+  const Shown shown(files);
+  EXPECT_EQ(shown.delays(), (Delays{{"A.Line", 0.0},
+                                    {"A.Virtual", 6.0},
+                                    {"B.Line", 2.0},
+                                    {"B.Virtual", 2.0},
+                                    {"A.Free", 8.0},
+                                    {"C.Line", 0.0}}));
+  EXPECT_NE(shown.rows().find("A.Virtual there:Line B.Virtual recursive cut extrapolated\n"),
+            std::string::npos)
+      << shown.rows();
+  EXPECT_NE(shown.rows().find("B.Virtual back:Line A.Virtual recursive cut left out extrapolated\n"),
+            std::string::npos);
+  EXPECT_TRUE(shown.connections->recursive()) << "it is there for all that";
+  // An object whose delay stays as it is leaves its interconnections out as well.
+  files.json["delays"] = {{"fixed", {"A.Line"}}};
+  EXPECT_EQ(Shown(files).delays().at("A.Virtual"), 6.0);
+}
+
+// The way of D.Far goes through a recursion; whoever leads into one has no delay either, nor the proxy before
+// it.
+TEST(Connections, OfWhatLeadsThroughARecursionHaveNoRoute) {
+  SystemFiles files;
+  files.add("A", leading());
+  files.add("B", cascading(1));
+  ControllerFile c = cascading(1);
+  c.proxy("Back", 0.1, 0.0);
+  c.interconnect("Virtual", "Back");
+  files.add("C", c);
+  files.add("D", cascading(1));
+  files.area("in", "A.Lead", {"B.Line"});
+  files.area("there", "B.Virtual", {"C.Line"});
+  files.area("round", "C.Virtual", {"D.Line"});
+  files.area("back", "D.Virtual", {"C.Back"});
+  const Shown shown(files);
+  for (const char* const none :
+       {"A.Lead", "B.Line", "B.Virtual", "C.Line", "C.Virtual", "D.Line", "D.Virtual"})
+    EXPECT_EQ(shown.delays().at(none), -1.0) << none;
+  EXPECT_EQ(shown.routes("D.Far"), "C.Virtual B.Virtual A.Lead extrapolated\n");
+  EXPECT_EQ(Shown(recursive()).routes("A.Far"), "") << "there is no other way";
+}
+
+// Telegrams come every 8 ms: 2 × 1 ms, as computed, do not last until the next one.
+TEST(Connections, OfASlowSourceAreExtrapolatedBetweenItsTelegrams) {
+  for (const auto& [delay, word] :
+       {std::pair{0.002, "A.Lead extrapolated\n"}, {0.008, "A.Lead interpolated\n"}}) {
+    SystemFiles files;
+    ControllerFile slow("leading", "1ms", 8);
+    slow.axis("Lead");
+    slow.provide("Lead", delay);
+    files.add("A", slow);
+    files.add("B", following(1));
+    files.area("line", "A.Lead", {"B.Line"});
+    const Shown shown(files);
+    EXPECT_EQ(shown.delays().at("A.Lead"), 2.0) << "as published";
+    EXPECT_EQ(shown.routes("B.Far"), word);
+  }
 }
 
 TEST(Connections, OfAProxyWithTwoSourcesAreAmbiguous) {
@@ -342,6 +408,18 @@ TEST(ApplyDelays, ChangesNoOtherByte) {
   EXPECT_EQ(again.routes("B.Far"), "A.Lead interpolated\n");
 }
 
+TEST(ApplyDelays, LeavesALinkToAProject) {
+  const SystemFiles files = plain();
+  const std::string link = files.directory().file("A.json"), real = files.directory().file("real.json");
+  std::filesystem::rename(link, real);
+  std::filesystem::create_symlink("real.json", link);
+  const Shown shown(files);
+  for (const ChangedFile& file : with_delays(*shown.system, *shown.connections).files)
+    replace_file(file.path, file.text);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_NE(test::content(real).find("0.004"), std::string::npos);
+}
+
 TEST(ApplyDelays, PutsWhatIsNotThereIntoItsStructure) {
   const SystemFiles files = cascade();
   const Shown shown(files);
@@ -354,7 +432,9 @@ TEST(ApplyDelays, PutsWhatIsNotThereIntoItsStructure) {
   ASSERT_TRUE(again.system);
   for (const DelayTime& delay : again.connections->delays())
     EXPECT_TRUE(delay.is_current()) << again.name(delay.object) << " " << delay.configured;
-  EXPECT_EQ(again.routes("D.Far"), "C.Virtual B.Virtual A.Lead interpolated\n");
+  EXPECT_EQ(again.routes("C.Far"), "B.Virtual A.Lead interpolated\n");
+  EXPECT_EQ(again.routes("D.Far"), "C.Virtual B.Virtual A.Lead extrapolated\n")
+      << "C sends every 4 ms, 2 × 1 ms do not last as long";
 }
 
 TEST(ApplyDelays, FindsObjectsInIncludedFilesAndTellsThoseOfTemplates) {
