@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace lockstep {
 
@@ -15,5 +16,10 @@ struct UnreadableFile : std::runtime_error {
 /// it ends.
 /// @throws UnreadableFile
 std::string read_text_file(const std::string& path, std::size_t maximum);
+
+/// The text behind the byte order mark of UTF-8 with which spreadsheets begin a file.
+inline std::string_view without_mark(std::string_view text) {
+  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+}
 
 }  // namespace lockstep

@@ -207,6 +207,11 @@ void LinMotLoader::load_drives(const JsonValue& json) {
     const auto index = static_cast<std::size_t>(found - kDrives.begin());
     load_directory(*drive, "", &controller_.data.Motors[index].Parameters, true);
     check_type(*drive, index);
+    const linmot::MotorParameters& limits = controller_.data.Motors[index].Parameters;
+    if (limits.minimal_position > limits.maximal_position)
+      problems_.report(*drive, "Minimal Position, " + decimal_text(limits.minimal_position) +
+                                   " mm, is above Maximal Position, " +
+                                   decimal_text(limits.maximal_position) + " mm; allowed: at most that");
   }
 }
 

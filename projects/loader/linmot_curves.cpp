@@ -9,6 +9,7 @@
 #include "projects/json/text_file.hpp"
 #include "projects/keys/linmot.hpp"
 #include "projects/loader/read_keys.hpp"
+#include "tech_objects/linmot_catalogue/increments.hpp"
 
 namespace lockstep {
 namespace {
@@ -50,6 +51,8 @@ std::string take_point(std::string_view line, linmot::CurvePart& part) {
   const bool figures = take_figure(line, time) && take_figure(line, position);
   if (!figures || !(time >= 0.0 && time <= kLatest && std::abs(position) <= kFurthest))
     return "allowed: a time in ms from 0 on and a position in mm from -2520 to 2520";
+  if (line.find_first_not_of(" ;\t\r") != line.npos)
+    return "more than a time and a position; allowed: ms;mm with decimal points";
   if (!part.points.empty() && !(time * kMillisecond > part.points.back().x))
     return "its time is not behind that of the point before";
   if (part.points.size() == kMaximumPoints) return kTooManyPoints;
@@ -66,7 +69,7 @@ void load_curve_file(const JsonValue& json, linmot::CurvePart& part, const Loadi
     const std::string text = read_text_file(*path, kLargestCurveFile);
     if (text.size() > kLargestCurveFile) return loading.problems.report(json, *path + " has more than 8 MiB");
     std::size_t number = 0;
-    for (std::string_view rest = text; !rest.empty();) {
+    for (std::string_view rest = without_mark(text); !rest.empty();) {
       const std::string_view line = rest.substr(0, rest.find('\n'));
       rest.remove_prefix(std::min(rest.size(), line.size() + 1));
       ++number;
@@ -121,6 +124,8 @@ void load_curve(const std::string& name, const JsonValue& json, LinMotController
   }
   if (loading.problems.count() != before) return;
   linmot::Curve& curve = controller.curves[static_cast<std::size_t>(number)];
+  if (curve.exists())
+    return loading.problems.report_key(json, "curve " + std::to_string(number) + " is there already");
   if (!curve.make(parts))
     return loading.problems.report(
         json,
@@ -150,6 +155,22 @@ std::string step_between(const CamDerivatives& before, const CamDerivatives& beh
   if (std::abs(before.first - behind.first) > kVelocityStep)
     return "a step of the velocity by " + places((behind.first - before.first) / 1e3) + " m/s" + where;
   return "";
+}
+
+/// Of its ends, or of its points; empty: protocols have them all.
+std::string reach_finding(const linmot::CurvePart& part) {
+  constexpr double kReach = linmot::kPositionReach * linmot::kPositionIncrement;
+  double furthest = 0.0;
+  const auto look_at = [&furthest](double position) {
+    if (std::abs(position) > std::abs(furthest)) furthest = position;
+  };
+  for (const auto& point : part.points) look_at(point.y);
+  if (part.points.empty()) {
+    look_at(part.start);
+    look_at(part.end);
+  }
+  if (std::abs(furthest) <= kReach) return "";
+  return "positions outside of those that protocols have, ±630 mm, such as " + places(furthest) + " mm";
 }
 
 bool runs_cyclically(const linmot::MotorParameters& parameters, std::size_t number) {
@@ -194,6 +215,7 @@ std::vector<std::string> curve_findings(const linmot::Curve& curve,
   for (const linmot::CurvePart& part : parts) {
     if (part.points.size() > 2 && part.points.size() < 16)
       findings.push_back("fewer than 16 points, " + std::to_string(part.points.size()));
+    if (std::string finding = reach_finding(part); !finding.empty()) findings.push_back(std::move(finding));
     for (std::size_t i = 1; i < part.points.size(); ++i)
       if (part.points[i].x - part.points[i - 1].x < kMillisecond - 1e-9) {
         findings.push_back("points nearer than 1 ms, from " + places(part.points[i - 1].x * 1e3) + " ms on");

@@ -10,6 +10,7 @@
 #include "projects/keys/linmot.hpp"
 #include "projects/loader/linmot_curves.hpp"
 #include "projects/loader/read_keys.hpp"
+#include "tech_objects/linmot_catalogue/increments.hpp"
 #include "tech_objects/linmot_catalogue/spelling.hpp"
 
 namespace lockstep {
@@ -36,13 +37,12 @@ Range range_of_argument(const linmot::MtArgument& argument) {
   return argument.unit.empty() ? Range{0.0, 63.0} : Range{0.0, 3264.0};
 }
 
-/// A row by its number, which then exists; nullptr: it is none.
+/// A row by its number; nullptr: it is none.
 linmot::StateRow* row_of(std::string_view number, linmot::StateTable& table) {
   int row = -1;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), row);
   if (error != std::errc{} || end != number.data() + number.size() || row < 0 || row >= linmot::kStates)
     return nullptr;
-  table.rows[static_cast<std::size_t>(row)].exists = true;
   return &table.rows[static_cast<std::size_t>(row)];
 }
 
@@ -71,6 +71,20 @@ std::size_t missing_curve(const linmot::MtRow& command, const linmot::Cell& cell
   if (command.arguments[0].name != "Curve number") return 0;
   const auto number = static_cast<std::size_t>(cell.arguments[0]);
   return number != 0 && !controller.curves[number].exists() ? number : 0;
+}
+
+/// That the cell holds a position which protocols do not have; empty: they have it.
+std::string reach_finding(const linmot::MtRow& command, const linmot::Cell& cell) {
+  constexpr double kReach = linmot::kPositionReach * linmot::kPositionIncrement;
+  if (command.arity() == 0 || command.arguments[0].name != "Position") return "";
+  if (std::abs(cell.arguments[0]) <= kReach) return "";
+  return decimal_text(cell.arguments[0]) + " mm lies outside of the positions that protocols have, ±630 mm";
+}
+
+std::string there_already(std::string_view row) {
+  int number = 0;
+  std::from_chars(row.data(), row.data() + row.size(), number);
+  return "row " + std::to_string(number) + " is there already";
 }
 
 class TableLoader {
@@ -103,6 +117,8 @@ void TableLoader::load_arguments(const JsonValue& json, const linmot::MtRow& com
   }
   if (const std::size_t number = missing_curve(command, cell, controller_); number != 0)
     problems_.report(json, "there is no curve " + std::to_string(number));
+  if (const std::string finding = reach_finding(command, cell); !finding.empty())
+    problems_.warn(*json.elements[0], finding);
 }
 
 void TableLoader::load_cell(const std::string& motor, const JsonValue& json, linmot::StateRow& row) {
@@ -130,6 +146,7 @@ void TableLoader::load_row(const std::string& name, const JsonValue& json) {
   linmot::StateRow* const row = row_of(name, controller_.table);
   if (row == nullptr)
     return problems_.report_key(json, quote(name) + " is no row; allowed: 0 to 63, or file");
+  if (std::exchange(row->exists, true)) return problems_.report_key(json, there_already(name));
   if (read_object(&json, problems_) == nullptr) return;
   for (const auto& [motor, cell] : json.members) load_cell(motor, *cell, *row);
 }
@@ -188,7 +205,7 @@ class TableFile {
   void load() {
     const std::string text = read_text_file(path_, kLargestTable);
     if (text.size() > kLargestTable) return report("has more than 1 MiB");
-    for (std::string_view rest = text; !rest.empty();) {
+    for (std::string_view rest = without_mark(text); !rest.empty();) {
       const std::string_view line = rest.substr(0, rest.find('\n'));
       rest.remove_prefix(std::min(rest.size(), line.size() + 1));
       ++line_;
@@ -215,8 +232,10 @@ class TableFile {
   bool take_heading(std::string_view line) {
     const std::vector<std::string_view> names = columns_of(line);
     for (std::size_t i = 1; i < names.size(); ++i) motors_.push_back(linmot_motor(names[i]));
-    const bool good = names[0] == "state" && !motors_.empty() &&
-                      std::ranges::none_of(motors_, [](std::size_t motor) { return motor >= kMotors; });
+    const bool good =
+        names[0] == "state" && !motors_.empty() && std::ranges::none_of(motors_, [this](std::size_t motor) {
+          return motor >= kMotors || std::ranges::count(motors_, motor) > 1;
+        });
     if (!good) report("allowed as the first line: state;A;B;C;D, or some of these motors");
     return good;
   }
@@ -226,6 +245,10 @@ class TableFile {
     if (row == nullptr) report(quote(cells[0]) + " is no row; allowed: 0 to 63");
     if (cells.size() > motors_.size() + 1) report("has more cells than the first line");
     if (row == nullptr || cells.size() > motors_.size() + 1) return false;
+    if (std::exchange(row->exists, true)) {
+      report(there_already(cells[0]));
+      return false;
+    }
     for (std::size_t i = 1; i < cells.size(); ++i)
       if (!cells[i].empty()) take_cell(cells[i], motors_[i - 1], *row);
     return true;
@@ -258,6 +281,8 @@ class TableFile {
     }
     if (const std::size_t number = missing_curve(*found.command, cell, controller_); number != 0)
       report("there is no curve " + std::to_string(number));
+    if (const std::string finding = reach_finding(*found.command, cell); !finding.empty())
+      problems_.warn(json_, path_ + ":" + std::to_string(line_) + ": " + finding);
   }
 
   std::string path_;

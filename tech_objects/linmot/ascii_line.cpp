@@ -1,6 +1,7 @@
 #include "tech_objects/linmot/ascii_line.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tech_objects/linmot/controller.hpp"
 #include "tech_objects/linmot_catalogue/errors.hpp"
@@ -17,6 +18,14 @@ AsciiAnswer refusal(int code) noexcept {
 }
 AsciiAnswer told(std::int64_t value) noexcept {
   return {AsciiAnswer::Kind::number, static_cast<std::int32_t>(value)};
+}
+/// Whoever reads it takes a word of ±32256.
+AsciiAnswer told_position(double position) noexcept {
+  return told(std::clamp(increments(position, kPositionIncrement), -kPositionReach, kPositionReach));
+}
+
+bool reaches(double position) noexcept {
+  return std::abs(position) <= kPositionReach * kPositionIncrement;
 }
 
 constexpr int id(char first, char second) noexcept {
@@ -207,9 +216,7 @@ AsciiAnswer Execution::move() noexcept {
   Order order{.position = length(), .limits = motor_.filter(), .follows_filter = true};
   order.from_actual = what == id('S', 'W') || what == id('T', 'W');
   if (increment) {
-    constexpr double kFurthest = kPositionReach * kPositionIncrement;
-    if (const double sum = motor_.demand() + length(); sum < -kFurthest || sum > kFurthest)
-      return refusal(kRange);
+    if (!reaches(motor_.demand() + length())) return refusal(kRange);
     order.kind = Order::Kind::increment;
   }
   // Outside of RUN the demand counts from RUN on.
@@ -235,6 +242,7 @@ AsciiAnswer Execution::rename() noexcept {
   double distance = -length();
   if (command_.name == "RP") distance = length() - motor_.actual();
   if (command_.name == "ZD") distance = -motor_.actual();
+  if (!reaches(motor_.demand() + distance) && command_.name == "MH") return refusal(kRange);
   return controller_.move_names(index_, distance, false) ? AsciiAnswer{} : refusal(kNotInRun);
 }
 
@@ -307,10 +315,10 @@ AsciiAnswer Execution::read() const noexcept {
     case id('E', 'W'):
       return told(controller_.motor_warnings(index_));
     case id('G', 'P'):
-      return told(increments(motor_.actual(), kPositionIncrement));
+      return told_position(motor_.actual());
     case id('G', 'D'):
       if (motor_.curve_active()) return refusal(kNotInRun);
-      return told(increments(motor_.demand(), kPositionIncrement));
+      return told_position(motor_.demand());
     case id('R', 'E'): {
       const std::uint16_t word = controller_.read_memory(index_);
       controller_.next_word(index_);

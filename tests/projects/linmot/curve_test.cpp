@@ -129,6 +129,18 @@ TEST(LinMotCurve, ComesFromAFile) {
   for (int k = 0; k <= 100; ++k) EXPECT_EQ(at(curve, 0.001 * k), at(same, 0.001 * k)) << k;
 }
 
+// Spreadsheets begin their files with a byte order mark, and end lines with a separator.
+TEST(LinMotCurve, OfAFileThatASpreadsheetHasWrittenHasItsFirstPoint) {
+  linmot::Curve curve;
+  EXPECT_EQ(loaded_with_file("\xEF\xBB\xBF"
+                             "0;0\n50;4.2;\r\n100;10; \n",
+                             &curve),
+            "");
+  ASSERT_TRUE(curve.exists());
+  EXPECT_EQ(curve.duration(), 0.1);
+  EXPECT_EQ(curve.start(), 0.0);
+}
+
 TEST(LinMotCurve, NamesTheLineOfAFileThatIsWrong) {
   const std::pair<const char*, const char*> cases[] = {
       {"ms;mm\n0;0\n10\n", "press.csv:3: allowed: a time in ms from 0 on and a position in mm"},
@@ -138,6 +150,9 @@ TEST(LinMotCurve, NamesTheLineOfAFileThatIsWrong) {
       {"0;0\nnan;1\n20;1\n", "press.csv:2: allowed: a time in ms"},
       {"0;0\n10;1e9\n", "press.csv:2: allowed: a time in ms"},
       {"-1;0\n10;1\n", "press.csv:1: allowed: a time in ms"},
+      {"0;0\n100;1,5\n", "press.csv:2: more than a time and a position; allowed: ms;mm with decimal points"},
+      {"0;0;0\n100;1;2\n", "press.csv:1: more than a time and a position"},
+      {"0;0\n100;1x\n", "press.csv:2: more than a time and a position"},
       {"0;0\n", "that makes no curve"},
       {"", "that makes no curve"},
   };

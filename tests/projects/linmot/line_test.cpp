@@ -193,6 +193,26 @@ TEST(LinMotAscii, GivesPositionsOtherNames) {
 }
 
 /// EX, as the states have it.
+/// What is read as a sint16 of ±32256 is one wherever the slider is, and whatever it is called.
+TEST(LinMotAscii, TellsNoPositionBeyondItsRange) {
+  LinMotRun run(linmot_project("1ms"));
+  run.start();
+  EXPECT_EQ(run.send("!MH32000A"), "#");
+  EXPECT_EQ(run.send("!GPA"), "#-32000");
+  EXPECT_EQ(run.send("!MH257A"), "#E64");
+  EXPECT_EQ(run.send("!MH256A"), "#");
+  EXPECT_EQ(run.send("!GDA"), "#-32256");
+  run.write("force", -100.0);
+  run.run(1.0);
+  EXPECT_LT(run.motor().ActualPosition, -630.0);
+  EXPECT_EQ(run.send("!GPA"), "#-32256");
+  EXPECT_EQ(run.send("!SR-1"), "#");
+  run.write("force", 1000.0);
+  run.run(2.0);
+  EXPECT_GT(run.motor().ActualPosition, 630.0);
+  EXPECT_EQ(run.send("!GPA"), "#32256");
+}
+
 TEST(LinMotAscii, ShowsEveryStateInEX) {
   LinMotRun run(linmot_project("1ms"));
   run.send("!SR-1");

@@ -159,6 +159,46 @@ TEST(LinMotProject, WarnsOfPositionsBeyondWhatProtocolsHave) {
       << warnings_of(project) << errors_of(project);
 }
 
+TEST(LinMotProject, WarnsOfPositionsOfRowsAndCurvesBeyondWhatProtocolsHave) {
+  Json project = linmot_project("1ms");
+  controller_of(project)["state_table"] = Json::parse(
+      R"({ "0": { "A": { "Abs. Position": [631, 1, 10] } }, "1": { "A": { "Rel. Position": [-631, 1, 10] } } })");
+  EXPECT_NE(warnings_of(project).find(
+                "/state_table/0/A/Abs. Position/0: 631 mm lies outside of the positions that protocols have"),
+            std::string::npos)
+      << warnings_of(project);
+  EXPECT_EQ(warnings_of(project).find("-631"), std::string::npos) << "a distance may be longer";
+  controller_of(project).erase("state_table");
+  for (const char* const curve : {R"({ "end": 700.0, "time": "1s" })",
+                                  R"({ "parts": [ { "start": -640, "end": 0.0, "time": "1s" } ] })",
+                                  R"({ "points": [[0,0],[500,630.1],[1000,0]] })"}) {
+    controller_of(project)["curves"]["1"] = Json::parse(curve);
+    EXPECT_NE(warnings_of(project).find("/curves/1: positions outside of those that protocols have, ±630 mm"),
+              std::string::npos)
+        << warnings_of(project);
+  }
+}
+
+TEST(LinMotProject, RefusesRowsCurvesAndLimitsThatContradictEachOther) {
+  Json project = linmot_project("1ms");
+  controller_of(project)["state_table"] =
+      Json::parse(R"({ "0": { "A": { "Freeze": [] } }, "00": { "A": { "Unfreeze": [] } } })");
+  EXPECT_NE(errors_of(project).find("/state_table/00: row 0 is there already"), std::string::npos)
+      << errors_of(project);
+  project = linmot_project("1ms");
+  controller_of(project)["curves"] =
+      Json::parse(R"({ "1": { "end": 1, "time": "1s" }, "01": { "end": 2, "time": "1s" } })");
+  EXPECT_NE(errors_of(project).find("/curves/01: curve 1 is there already"), std::string::npos)
+      << errors_of(project);
+  project = linmot_project("1ms");
+  drive_of(project)["Set Value Generation"]["Set Value Configuration"] = {{"Minimal Position", 50.0},
+                                                                          {"Maximal Position", -50.0}};
+  EXPECT_NE(errors_of(project).find("/config/Drives/Drive A: Minimal Position, 50 mm, is above Maximal "
+                                    "Position, -50 mm; allowed: at most that"),
+            std::string::npos)
+      << errors_of(project);
+}
+
 TEST(LinMotProject, WarnsOfCurvesThatTheirMotorsCannotFollow) {
   Json project = linmot_project("1ms");
   // 2.029 kg · 8 · 0.1 m / (0.05 s)² and 10 N: 659 N, and 40 N/A · 5 A.
@@ -222,6 +262,22 @@ TEST(LinMotTable, ComesFromAFile) {
   EXPECT_FALSE(rows[1].exists);
 }
 
+TEST(LinMotTable, WarnsOfAPositionOfAFileBeyondWhatProtocolsHave) {
+  const test::Directory directory;
+  // As a spreadsheet writes it, with a byte order mark.
+  std::ofstream(directory.file("table.csv")) << "\xEF\xBB\xBFstate;A\n0;Abs. Position 631, 1, 10\n";
+  Json project = linmot_project("1ms");
+  controller_of(project)["state_table"] = {{"file", "table.csv"}};
+  std::ofstream(directory.file("project.json")) << project.dump();
+  const LoadedProject result = load_project_file(directory.file("project.json"));
+  EXPECT_TRUE(result.project);
+  std::string text;
+  for (const Problem& warning : result.warnings) text += warning.text + "\n";
+  EXPECT_NE(text.find("table.csv:2: 631 mm lies outside of the positions that protocols have"),
+            std::string::npos)
+      << text;
+}
+
 TEST(LinMotTable, NamesTheLineOfAFileThatIsWrong) {
   const std::pair<const char*, const char*> cases[] = {
       {"A;B\n", "table.csv:1: allowed as the first line: state;A;B;C;D"},
@@ -236,6 +292,8 @@ TEST(LinMotTable, NamesTheLineOfAFileThatIsWrong) {
       {"state;A\n0;Curve 7\n", "table.csv:2: there is no curve 7"},
       {"state;A\n0;Abs. Current 1\n", "table.csv:2: Abs. Current is one of magnets"},
       {"state;A;B\n0;;Freeze\n", "table.csv:2: Drive B is 'No Drive'"},
+      {"state;A;A\n0;Freeze;Unfreeze\n", "table.csv:1: allowed as the first line: state;A;B;C;D"},
+      {"state;A\n0;Freeze\n1;Freeze\n0;Unfreeze\n", "table.csv:4: row 0 is there already"},
   };
   for (const auto& [csv, text] : cases) {
     const std::string errors = errors_with_table(csv);
