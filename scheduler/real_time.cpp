@@ -122,6 +122,9 @@ void RealTimeRun::run() noexcept {
 
     const std::int64_t end = clock_.now();
     raise_to(status_.longest_tick, end - begin);
+    // This thread alone writes it.
+    status_.busy.store(status_.busy.load(std::memory_order_relaxed) + (end - begin),
+                       std::memory_order_relaxed);
     const std::int64_t late = end - (due + cycle);
     // The grid of ticks stays; those whose time has passed are left out.
     const std::int64_t missed = late > 0 ? (late + cycle - 1) / cycle : 0;

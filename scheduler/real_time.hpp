@@ -25,6 +25,7 @@ struct RealTimeStatus {
   std::atomic<std::uint64_t> overruns{0};  ///< interpolator cycles that were not over at the next one's time
   std::atomic<std::int64_t> worst_lateness{0};  ///< latest start of a tick after its time [ns]
   std::atomic<std::int64_t> longest_tick{0};    ///< [ns]
+  std::atomic<std::int64_t> busy{0};            ///< time of all ticks together [ns]
   std::atomic<std::int64_t> time{0};            ///< time of the controller [ns]
   std::atomic<std::int64_t> start{0};           ///< of its clock when that time is 0 [ns]; 0: not known yet
   std::atomic<bool> stopped_by_overrun{false};

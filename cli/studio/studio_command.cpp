@@ -25,6 +25,7 @@
 #include "projects/json/document.hpp"
 #include "projects/json/text_file.hpp"
 #include "projects/runtime/desk_run.hpp"
+#include "projects/studio/history.hpp"
 #include "projects/studio/trace_exports.hpp"
 
 namespace lockstep::cli {
@@ -186,20 +187,32 @@ int serve(const StudioOptions& options) {
   return kOk;
 }
 
-TraceStore store_of(const std::string& file) {
-  if (file.ends_with(".csv")) return TraceStore(read_csv_trace(file));
-  return TraceStore(read_lcm_trace(file, ""));
+/// A trace with what has happened meanwhile, where its file tells.
+struct KeptTrace {
+  TraceStore store;
+  StudioHistory history;
+};
+
+KeptTrace trace_of(const std::string& file) {
+  if (file.ends_with(".csv")) return {TraceStore(read_csv_trace(file)), {}};
+  KeptTrace trace{TraceStore(TraceStoreLimits{}), {}};
+  LcmTraceReader reader(file);
+  reader.hear_events([&trace](TraceEvent event) { trace.history.add(std::move(event)); });
+  trace.store.set_signals(reader.signals());
+  while (reader.next()) trace.store.append(reader.row().t, reader.row().tick, reader.row().values);
+  return trace;
 }
 
 /// The trace as a page that opens without a server.
 int export_page(const StudioOptions& options) {
   if (options.files.size() != 1 || !is_trace(options.files[0]))
     throw CannotServe("--export takes one trace; allowed: FILE.csv or FILE.lcm");
-  const TraceStore store = store_of(options.files[0]);
+  const KeptTrace trace = trace_of(options.files[0]);
+  const TraceStore& store = trace.store;
   studio_api::TracePart part{{}, store.begin(), store.end()};
   for (std::size_t i = 0; i < store.signals().size(); ++i) part.columns.push_back(i);
   const std::string name = options.files[0].substr(options.files[0].rfind('/') + 1);
-  const std::string page = studio_api::trace_page(store, part, name);
+  const std::string page = studio_api::trace_page(store, part, trace.history, name);
   try {
     write_whole_file(options.export_file, page);
   } catch (const std::runtime_error& error) {

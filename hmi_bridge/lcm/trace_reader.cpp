@@ -129,6 +129,7 @@ bool LcmTraceReader::next() {
   while (next_event()) {
     const std::string_view channel = event_.channel;
     if (channel != channel_ && channel != channel_ + std::string(kHeaderSuffix)) {
+      note_other();
       if (heard_) hear_event();
       continue;
     }
@@ -170,6 +171,27 @@ bool LcmTraceReader::next_event() {
   ++number_;
   offset_ = end;
   return true;
+}
+
+/// The event may be of another trace.
+void LcmTraceReader::note_other() {
+  std::string_view channel = event_.channel;
+  if (const auto found = others_.find(channel); found != others_.end()) {
+    found->second = true;
+    return;
+  }
+  if (!channel.ends_with(kHeaderSuffix) || others_.size() >= kMaximumTraces) return;
+  channel.remove_suffix(kHeaderSuffix.size());
+  if (others_.find(channel) != others_.end()) return;
+  LcmDecoder decoder;  // whose header is nobody's so far
+  if (decoder.accept(event_.data) == LcmDecoder::Message::kHeader) others_.emplace(channel, false);
+}
+
+std::vector<std::string> LcmTraceReader::others() const {
+  std::vector<std::string> channels;
+  for (const auto& [channel, has_rows] : others_)
+    if (has_rows) channels.push_back(channel);
+  return channels;
 }
 
 /// The last event may be one of the trace's, or the detail of the one before.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -44,6 +45,8 @@ class LcmTraceReader {
   std::int64_t event_time() const noexcept { return event_.time; }          ///< [µs], of the row's event
   /// Names of channels that were compared to find the trace: what a log of many headers costs.
   std::uint64_t comparisons() const noexcept { return comparisons_; }
+  /// Channels of the other traces that have rows, by name. Complete when `next` was false.
+  std::vector<std::string> others() const;
   /// What is missing: rows before the first header, or an end that was cut short. Complete when `next` was
   /// false.
   const std::string& remark() const noexcept { return remark_; }
@@ -59,6 +62,7 @@ class LcmTraceReader {
   void open();
   void find_header();
   void end_of_log();
+  void note_other();
   void hear_event();
   void tell_event();
   [[noreturn]] void fail(const std::string& what) const;
@@ -73,6 +77,7 @@ class LcmTraceReader {
   std::int64_t size_ = 0;     // of the file, as far as it is known [byte]
   std::uint64_t early_ = 0;
   std::uint64_t comparisons_ = 0;
+  std::map<std::string, bool, std::less<>> others_;  // channels of other traces; whether they have rows
   std::string remark_;
   std::function<void(TraceEvent)> heard_;  // nobody: events are passed over
   std::optional<TraceEvent> waiting_;      // whose detail may come

@@ -75,7 +75,8 @@ std::string RunSurroundings::health() const {
                      {"overruns", status->overruns.load()},
                      {"missed_ticks", status->missed_ticks.load()},
                      {"worst_lateness_us", static_cast<double>(status->worst_lateness.load()) * 1e-3},
-                     {"longest_tick_us", static_cast<double>(status->longest_tick.load()) * 1e-3}};
+                     {"longest_tick_us", static_cast<double>(status->longest_tick.load()) * 1e-3},
+                     {"busy_us", static_cast<double>(status->busy.load()) * 1e-3}};
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

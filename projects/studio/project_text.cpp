@@ -119,7 +119,8 @@ bool is_between(const Json& coupling, const Json& leading, std::string_view foll
          same_name(of.get_ref<const std::string&>(), following);
 }
 
-/// Adds those that the project allows, and of which no program makes anything.
+/// Adds how the leading value is taken, and those couplings that the project allows and of which no program
+/// makes anything.
 void add_possible_couplings(const Json& objects, Json& list) {
   if (!objects.is_object()) return;
   const std::size_t programmed = list.size();
@@ -129,15 +130,20 @@ void add_possible_couplings(const Json& objects, Json& list) {
       const Json& leading = at(allowed[i], "to");
       if (!leading.is_string()) continue;
       const auto begin = list.begin(), end = begin + static_cast<std::ptrdiff_t>(programmed);
-      const std::string& following = name;
-      if (std::any_of(begin, end, [&](const Json& one) { return is_between(one, leading, following); }))
-        continue;
+      const Json& coupling = at(allowed[i], "coupling");
+      bool is_programmed = false;
+      for (auto programmed_one = begin; programmed_one != end; ++programmed_one)
+        if (is_between(*programmed_one, leading, name)) {
+          is_programmed = true;
+          if (coupling.is_string()) (*programmed_one)["coupling"] = coupling;
+        }
+      if (is_programmed) continue;
       Json one = {
           {"following", name},
           {"leading", leading},
           {"possible", true},
           {"pointer", "/technology_objects/" + escaped(name) + "/leading_values/" + std::to_string(i)}};
-      if (const Json& coupling = at(allowed[i], "coupling"); coupling.is_string()) one["coupling"] = coupling;
+      if (coupling.is_string()) one["coupling"] = coupling;
       list.push_back(std::move(one));
     }
   }

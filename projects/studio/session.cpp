@@ -274,8 +274,12 @@ void StudioSession::tell_status(Clock::time_point now) {
                  {"pages", pages_.size()},
                  {"events_lost", inbox_->lost()}};
   // How the cycle has gone, of a run in real time.
-  if (powers_.health && pages_.size() != 0)
-    status["cycle"] = Json::parse(powers_.health()).value("cycle", Json());
+  if (const Json cycle = powers_.health ? Json::parse(powers_.health()).value("cycle", Json()) : Json();
+      cycle.is_object()) {
+    tap_cost_.add(cycle.at("ticks"), cycle.at("busy_us"), feed_.wanted());
+    status["cycle"] = cycle;
+    status["tap"] = tap_cost_.told();
+  }
   pages_.tell(text_of(status));
 }
 

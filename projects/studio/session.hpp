@@ -22,6 +22,7 @@
 #include "projects/studio/project_text.hpp"
 #include "projects/studio/readings.hpp"
 #include "projects/studio/shots.hpp"
+#include "projects/studio/tap_cost.hpp"
 #include "projects/studio/tree.hpp"
 #include "projects/studio/triggers.hpp"
 #include "projects/studio/writes.hpp"
@@ -76,6 +77,7 @@ class StudioSession final : public StudioHandler {
   StudioAnswer jobs() const;
   StudioAnswer traces() const;
   StudioAnswer part_of_trace(const StudioRequest& request) const;
+  const StudioHistory& history_of(std::string_view id) const;
   StudioAnswer events_of(std::string_view id) const;
   StudioAnswer compare(const StudioRequest& request) const;
   StudioAnswer take_trace(const StudioRequest& request);
@@ -114,6 +116,7 @@ class StudioSession final : public StudioHandler {
   StudioProjectFiles project_files_;
   DeskFolder trace_folder_;
   std::vector<NamedSignal> recorded_at_first_;  // until a page subscribes
+  TapCost tap_cost_;
   bool wants_changed_ = false;
   Clock::time_point next_status_{};
 };

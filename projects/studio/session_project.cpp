@@ -7,6 +7,7 @@
 #include "projects/loader/simulation.hpp"
 #include "projects/studio/api_values.hpp"
 #include "projects/studio/cam_answers.hpp"
+#include "projects/studio/couplings.hpp"
 #include "projects/studio/project_answers.hpp"
 #include "projects/studio/session.hpp"
 
@@ -28,6 +29,7 @@ StudioAnswer StudioSession::answer_project(const StudioRequest& request) const {
     health["tap"] = {{"signals", feed_.store().signals().size()},
                      {"dropped", feed_.dropped()},
                      {"bytes", feed_.store().bytes()}};
+    if (!tap_cost_.told().is_null()) health["tap"].update(tap_cost_.told());
     health["pages"] = pages_.size();
     health["events_lost"] = inbox_->lost();
     return answer_of(health);
@@ -50,7 +52,7 @@ StudioAnswer StudioSession::answer_project(const StudioRequest& request) const {
   StudioAnswer answer;
   if (request.path == "/api/project") {
     Json json = Json::parse(studio_project(project_));
-    json["couplings"] = text_.couplings();
+    json["couplings"] = couplings_json(project_, text_);
     json["cams"] = cams();
     json["files"] = project_files_.names();
     json["warnings"] = powers_.warnings.size();

@@ -34,6 +34,7 @@ Json file_json(const StudioTraceFile& file) {
                {"progress", file.progress}};
   if (!file.error.empty()) json["error"] = {{"code", "bad_request"}, {"message", file.error}};
   if (!file.remark.empty()) json["remark"] = file.remark;
+  if (!file.of.empty()) json["of"] = file.of;
   return json;
 }
 
@@ -129,16 +130,20 @@ StudioAnswer StudioSession::part_of_trace(const StudioRequest& request) const {
   const auto [id, what] = parts_of(request);
   const TraceStore& store = *find_trace(id);
   if (what == "events") return events_of(id);
-  if (what != "xy") return trace_answer(request, what, store);
+  if (what != "xy") return trace_answer(request, what, store, history_of(id));
   const std::string_view with = request.value("with", id);
   return xy_answer(request, store, *find_trace(with));
 }
 
 /// Of the run, which shots are a part of; of a file what it has itself.
-StudioAnswer StudioSession::events_of(std::string_view id) const {
+const StudioHistory& StudioSession::history_of(std::string_view id) const {
   const StudioTraceFile* const file =
       powers_.files == nullptr ? nullptr : std::as_const(*powers_.files).find(id);
-  const StudioHistory& history = file != nullptr ? file->history : history_;
+  return file != nullptr ? file->history : history_;
+}
+
+StudioAnswer StudioSession::events_of(std::string_view id) const {
+  const StudioHistory& history = history_of(id);
   return answer_of(Json{{"pending", array_of(history.pending(), event_json)},
                         {"events", array_of(history.events(), event_json)},
                         {"jobs", array_of(history.jobs(), job_json)}});

@@ -88,7 +88,8 @@ Json trace_json(std::string_view id, const TraceStore& store) {
   return json;
 }
 
-StudioAnswer trace_answer(const StudioRequest& request, std::string_view what, const TraceStore& store) {
+StudioAnswer trace_answer(const StudioRequest& request, std::string_view what, const TraceStore& store,
+                          const StudioHistory& history) {
   TracePart part = trace_part(request, store);
   if (what == "spectrum") return spectrum_answer(request, store, part);
   Wrong wrong{422};
@@ -96,7 +97,7 @@ StudioAnswer trace_answer(const StudioRequest& request, std::string_view what, c
   if (!wrong.errors.empty()) return answer_of(wrong);
   if (what == "window") return window(request, store, part);
   if (what == "statistics") return statistics(store, part);
-  if (what == "export") return export_answer(request, store, part);
+  if (what == "export") return export_answer(request, store, part, history);
   return error_answer(404, "not_found",
                       "a trace has no '" + std::string(what) +
                           "'; allowed: window, statistics, spectrum, xy, export, events");

@@ -5,6 +5,7 @@
 
 #include "hmi_bridge/traces/store.hpp"
 #include "projects/studio/api.hpp"
+#include "projects/studio/history.hpp"
 
 namespace lockstep::studio_api {
 
@@ -12,7 +13,8 @@ namespace lockstep::studio_api {
 Json trace_json(std::string_view id, const TraceStore& store);
 
 /// `window`, `statistics`, `spectrum` or `export` of the signals and the time that the request names.
-/// @throws BadRequest
-StudioAnswer trace_answer(const StudioRequest& request, std::string_view what, const TraceStore& store);
+/// @param history of the trace @throws BadRequest
+StudioAnswer trace_answer(const StudioRequest& request, std::string_view what, const TraceStore& store,
+                          const StudioHistory& history);
 
 }  // namespace lockstep::studio_api

@@ -128,9 +128,25 @@ void put_in(std::string& page, std::string_view begin, std::string_view end, std
   }
 }
 
+/// Those of the time of the rows, whatever of it.
+Json events_within(const StudioHistory& history, std::int64_t from, std::int64_t to) {
+  Json events = Json::array();
+  for (const TraceEvent& event : history.events())
+    if (event.t >= from && event.t <= to) events.push_back(event_json(event));
+  return events;
+}
+
+Json jobs_within(const StudioHistory& history, std::int64_t from, std::int64_t to) {
+  Json jobs = Json::array();
+  for (const StudioJob& job : history.jobs())
+    if (job.begin <= to && (job.end < 0 || job.end >= from)) jobs.push_back(job_json(job));
+  return jobs;
+}
+
 }  // namespace
 
-std::string trace_page(const TraceStore& store, const TracePart& part, const std::string& name) {
+std::string trace_page(const TraceStore& store, const TracePart& part, const StudioHistory& history,
+                       const std::string& name) {
   const TraceWindow seen = store.rows(part.columns, part.first, part.behind);
   Json signals = Json::array();
   for (const TraceWindow::Column& column : seen.columns) {
@@ -140,11 +156,13 @@ std::string trace_page(const TraceStore& store, const TracePart& part, const std
   const Json gaps = array_of(store.gaps(), [](const TraceStore::Gap& gap) {
     return Json{{"t", std::to_string(gap.t)}, {"rows", gap.missing}};
   });
+  const std::int64_t from = seen.t.empty() ? 0 : seen.t.front();
+  const std::int64_t to = seen.t.empty() ? -1 : seen.t.back();
   std::string data = text_of(Json{{"about", {{"version", LOCKSTEP_VERSION}, {"name", name}}},
                                   {"signals", signals},
                                   {"gaps", gaps},
-                                  {"events", Json::array()},
-                                  {"jobs", Json::array()},
+                                  {"events", events_within(history, from, to)},
+                                  {"jobs", jobs_within(history, from, to)},
                                   {"frame", base64(encode_frame({StudioFrameKind::window, 0, 0, 0}, seen))}});
   // Names are text, never markup.
   replace_all(data, "<", "\\u003c");
@@ -162,7 +180,8 @@ std::string trace_page(const TraceStore& store, const TracePart& part, const std
   return page;
 }
 
-StudioAnswer export_answer(const StudioRequest& request, const TraceStore& store, const TracePart& part) {
+StudioAnswer export_answer(const StudioRequest& request, const TraceStore& store, const TracePart& part,
+                           const StudioHistory& history) {
   const std::uint64_t values = (part.behind - part.first) * (part.columns.size() + 1);
   if (values > kExportValues)
     return error_answer(413, "too_large",
@@ -175,7 +194,7 @@ StudioAnswer export_answer(const StudioRequest& request, const TraceStore& store
   StudioAnswer answer;
   answer.type = "text/html; charset=utf-8";
   answer.file_name = "lockstep.html";
-  answer.body = trace_page(store, part, std::string(request.value("name", "trace")));
+  answer.body = trace_page(store, part, history, std::string(request.value("name", "trace")));
   return answer;
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -35,6 +37,13 @@ void check_times(const TraceTable& table, const std::string& name) {
   }
 }
 
+/// What is wrong with a file: what stands in the message of a temporary one is where it lay.
+std::string said_of(const std::exception& error, const std::string& path, const std::string& name) {
+  std::string text = error.what();
+  if (const std::size_t at = text.find(path); at != std::string::npos) text.replace(at, path.size(), name);
+  return text;
+}
+
 }  // namespace
 
 StudioTraceFiles::~StudioTraceFiles() {
@@ -61,9 +70,7 @@ const StudioTraceFile* StudioTraceFiles::add(OpenFile file, std::string name) {
 const StudioTraceFile* StudioTraceFiles::queue(std::string path, std::string name, bool is_temporary,
                                                OpenFile opened) {
   if (files_.size() >= kFiles) return nullptr;
-  StudioTraceFile& file = files_.emplace_back();
-  file.id = "file-" + std::to_string(++number_);
-  file.name = std::move(name);
+  StudioTraceFile& file = enter(std::move(name));
   {
     const std::lock_guard lock(mutex_);
     jobs_.push_back({file.id, std::move(path), file.name, is_temporary, std::move(opened)});
@@ -71,6 +78,13 @@ const StudioTraceFile* StudioTraceFiles::queue(std::string path, std::string nam
   if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
   wake_.notify_one();
   return &file;
+}
+
+StudioTraceFile& StudioTraceFiles::enter(std::string name) {
+  StudioTraceFile& file = files_.emplace_back();
+  file.id = "file-" + std::to_string(++number_);
+  file.name = std::move(name);
+  return file;
 }
 
 bool StudioTraceFiles::remove(std::string_view id) {
@@ -103,15 +117,24 @@ std::string StudioTraceFiles::take() {
     Read read = std::move(finished_.front());
     finished_.pop_front();
     told_ = -1.0;
-    StudioTraceFile* const file = find(read.id);
+    StudioTraceFile* file = find(read.id);
     if (file == nullptr) return "";
+    if (!read.name.empty() && files_.size() >= kFiles) {
+      file->remark += (file->remark.empty() ? "" : "; ") + read.name + " is left out: there are " +
+                      std::to_string(kFiles) + " traces";
+      return read.id;
+    }
+    if (!read.name.empty()) {
+      file = &enter(std::move(read.name));
+      file->of = read.id;
+    }
     file->state = read.error.empty() ? StudioFileState::ready : StudioFileState::failed;
     file->progress = 1.0;
     file->error = std::move(read.error);
     file->remark = std::move(read.remark);
     file->store = std::move(read.store);
     file->history = std::move(read.history);
-    return read.id;
+    return file->id;
   }
   StudioTraceFile* const file = find(current_);
   const double progress = progress_;
@@ -125,22 +148,33 @@ void StudioTraceFiles::check_wanted(double progress) {
   if (cancel_) throw NotWanted{};
 }
 
-StudioTraceFiles::Read StudioTraceFiles::read(const Job& job) {
+void StudioTraceFiles::read_log(LcmTraceReader& reader, const std::string& name, Read& read) {
+  reader.hear_events([&read](TraceEvent event) { read.history.add(std::move(event)); });
+  read.store.set_signals(reader.signals());
+  std::int64_t before = std::numeric_limits<std::int64_t>::min();
+  for (std::uint64_t rows = 0; reader.next(); ++rows) {
+    const TraceRow row = reader.row();
+    if (row.t < before) throw TraceFormatError(name + ": the times of rows have to rise");
+    before = row.t;
+    read.store.append(row.t, row.tick, row.values);
+    if (rows % kRowsPerLook == 0) check_wanted(reader.progress());
+  }
+  read.remark = reader.remark();
+}
+
+/// @param others gets the channels of further traces
+StudioTraceFiles::Read StudioTraceFiles::read(const Job& job, std::vector<std::string>& others) {
   Read read;
   read.id = job.id;
   if (job.name.ends_with(".lcm")) {
     LcmTraceReader reader(job.path);
-    reader.hear_events([&read](TraceEvent event) { read.history.add(std::move(event)); });
-    read.store.set_signals(reader.signals());
-    std::int64_t before = std::numeric_limits<std::int64_t>::min();
-    for (std::uint64_t rows = 0; reader.next(); ++rows) {
-      const TraceRow row = reader.row();
-      if (row.t < before) throw TraceFormatError(job.name + ": the times of rows have to rise");
-      before = row.t;
-      read.store.append(row.t, row.tick, row.values);
-      if (rows % kRowsPerLook == 0) check_wanted(reader.progress());
+    read_log(reader, job.name, read);
+    others = reader.others();
+    if (others.size() >= kFiles) {
+      read.remark += (read.remark.empty() ? "" : "; ") + std::to_string(others.size() - kFiles + 1) +
+                     " further traces are left out";
+      others.resize(kFiles - 1);
     }
-    read.remark = reader.remark();
   } else {
     const TraceTable table = read_csv_trace(job.path, [this](double part) { check_wanted(part * 0.8); });
     check_times(table, job.name);
@@ -148,6 +182,26 @@ StudioTraceFiles::Read StudioTraceFiles::read(const Job& job) {
     read.remark = table.remark;
   }
   return read;
+}
+
+/// A further trace of a log, which may be damaged where the first one is not.
+StudioTraceFiles::Read StudioTraceFiles::read_other(const Job& job, const std::string& channel) {
+  Read read;
+  read.id = job.id;
+  read.name = job.name + ", " + channel;
+  try {
+    LcmTraceReader reader(job.path, channel);
+    read_log(reader, read.name, read);
+  } catch (const std::exception& error) {
+    read.error = said_of(error, job.path, job.name);
+  }
+  return read;
+}
+
+void StudioTraceFiles::read_all(const Job& job, std::vector<Read>& results) {
+  std::vector<std::string> others;
+  results.push_back(read(job, others));
+  for (const std::string& channel : others) results.push_back(read_other(job, channel));
 }
 
 void StudioTraceFiles::work() noexcept {
@@ -163,23 +217,18 @@ void StudioTraceFiles::work() noexcept {
     cancel_ = false;
     progress_ = 0.0;
     lock.unlock();
-    Read result;
-    result.id = job.id;
+    std::vector<Read> results;
     try {
-      result = read(job);
+      read_all(job, results);
     } catch (const NotWanted&) {
-      result.error = "given up";
+      results.assign(1, Read{.id = job.id, .error = "given up"});
     } catch (const std::exception& error) {
-      // What stands in the message of a temporary file is where it lay.
-      std::string text = error.what();
-      if (const std::size_t at = text.find(job.path); at != std::string::npos)
-        text.replace(at, job.path.size(), job.name);
-      result.error = text;
+      results.assign(1, Read{.id = job.id, .error = said_of(error, job.path, job.name)});
     }
     if (job.is_temporary) ::unlink(job.path.c_str());
     lock.lock();
     current_.clear();
-    finished_.push_back(std::move(result));
+    std::move(results.begin(), results.end(), std::back_inserter(finished_));
   }
 }
 

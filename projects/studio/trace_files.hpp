@@ -11,7 +11,9 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
+#include "hmi_bridge/lcm/trace_reader.hpp"
 #include "hmi_bridge/traces/store.hpp"
 #include "projects/studio/history.hpp"
 #include "projects/studio/open_file.hpp"
@@ -24,6 +26,8 @@ enum class StudioFileState : std::uint8_t { loading, ready, failed };
 struct StudioTraceFile {
   std::string id;    ///< "file-1", and so on
   std::string name;  ///< as it was called
+  std::string
+      of{};  ///< the one in which it stands besides, of a further trace of a log; empty: it is one by itself
   StudioFileState state = StudioFileState::loading;
   double progress = 0.0;  ///< 0 to 1
   std::string error;      ///< why it has failed
@@ -42,7 +46,8 @@ class StudioTraceFiles {
   StudioTraceFiles(const StudioTraceFiles&) = delete;
   StudioTraceFiles& operator=(const StudioTraceFiles&) = delete;
 
-  /// Begins to read a file, .csv or .lcm by its name. @param name by which it is called
+  /// Begins to read a file, .csv or .lcm by its name. Further traces of an LCM log, each on a channel of its
+  /// own, become files besides it, called "NAME, CHANNEL". @param name by which it is called
   /// @param is_temporary it is removed when it has been read
   /// @return nullptr: there are too many
   const StudioTraceFile* add(std::string path, std::string name, bool is_temporary);
@@ -69,7 +74,9 @@ class StudioTraceFiles {
     OpenFile file;  // that `path` leads to; none: the path is a name
   };
   struct Read {
-    std::string id, error{}, remark{};
+    std::string id{};    // of the file; of a further trace that of the file in which it stands
+    std::string name{};  // of a further trace
+    std::string error{}, remark{};
     TraceStore store{TraceStoreLimits{}};
     StudioHistory history{};
   };
@@ -77,7 +84,11 @@ class StudioTraceFiles {
   const StudioTraceFile* queue(std::string path, std::string name, bool is_temporary, OpenFile file);
   std::string take();
   void work() noexcept;
-  Read read(const Job& job);
+  StudioTraceFile& enter(std::string name);
+  Read read(const Job& job, std::vector<std::string>& others);
+  Read read_other(const Job& job, const std::string& channel);
+  void read_log(LcmTraceReader& reader, const std::string& name, Read& read);
+  void read_all(const Job& job, std::vector<Read>& results);
   void check_wanted(double progress);
 
   std::deque<StudioTraceFile> files_;

@@ -211,6 +211,30 @@ TEST(LcmLog, ItsOwnTraceIsTheFirstOfAllChannels) {
   EXPECT_EQ(read_lcm_trace(path, "SLOW").t.size(), 1u);
 }
 
+TEST(LcmTraceReader, TellsTheOtherTracesOfALogThatHaveRows) {
+  const Directory directory;
+  const std::string path = directory.file("run.lcm");
+  const auto rows = sample_rows(4, 17);
+  LcmLog log(path, kIdentity);
+  const auto slow = log.add_channel({"rotary_knife", "SLOW", kPeriod, 0});
+  const auto fast = log.add_channel({"rotary_knife", "FAST", kPeriod, 0});
+  const auto empty = log.add_channel({"rotary_knife", "EMPTY", kPeriod, 0});
+  for (TraceSink* sink : {slow.get(), fast.get(), empty.get(), static_cast<TraceSink*>(&log)})
+    sink->begin(sample_signals());
+  for (std::size_t i = 0; i < 4; ++i)
+    for (TraceSink* sink : {slow.get(), fast.get(), static_cast<TraceSink*>(&log)})
+      sink->row({static_cast<std::int64_t>(i) * kPeriod, 0, 0, rows[i]});
+  for (TraceSink* sink : {slow.get(), fast.get(), empty.get()}) sink->end();
+  log.event(alarm_of_the_knife());
+  log.end();
+  LcmTraceReader reader(path);
+  while (reader.next()) continue;
+  EXPECT_EQ(reader.others(), (std::vector<std::string>{"FAST", "SLOW"})) << "by name; no row, no trace";
+  LcmTraceReader other(path, "SLOW");
+  while (other.next()) continue;
+  EXPECT_EQ(other.others(), (std::vector<std::string>{"FAST", "KNIFE"}));
+}
+
 TEST(LcmTraceReader, WithoutAChannelReadsTheFirstTraceThatHasRows) {
   const Directory directory;
   const std::string path = directory.file("run.lcm");

@@ -11,9 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "hmi_bridge/lcm/log.hpp"
 #include "hmi_bridge/lcm/trace_reader.hpp"
 #include "projects/studio/project_text.hpp"
 #include "tests/projects/studio_files.hpp"
+#include "tests/support/values.hpp"
 
 namespace lockstep::studio_export_test {
 namespace {
@@ -121,6 +123,49 @@ TEST(StudioExport, AsAPageHasTheRowsToTheBitAndNoMarkupOfNames) {
   // It needs no server: nothing of it is named that would have to be fetched.
   EXPECT_EQ(answer.body.find("<script type=\"module\" src="), std::string::npos);
   EXPECT_EQ(answer.body.find("<link rel=\"stylesheet\""), std::string::npos);
+}
+
+TEST(StudioExport, AsAPageHasTheEventsAndJobsOfItsTime) {
+  StudioOfFiles studio;
+  const StudioFolder folder;
+  const std::string path = (folder.path() / "run.lcm").string();
+  const std::vector<TraceSignal> signals = {{"v", Type::LREAL, ""}};
+  LcmLog log(path, {"files", "TRACE", 1'000'000, 0});
+  log.begin(signals);
+  const auto tell = [&log](std::int64_t t, const std::string& instance, EventKind kind) {
+    TraceEvent event;
+    event.t = t * 1'000'000;
+    event.source = instance;
+    event.type = "MC_GearIn";
+    event.text = "</script><script>alert('seen')</script>";
+    event.kind = kind;
+    log.event(event);
+  };
+  for (std::int64_t t = 0; t < 100; ++t) {
+    if (t == 2) tell(t, "early", EventKind::job_started);
+    if (t == 5) tell(t, "early", EventKind::job_done);
+    if (t == 10) tell(t, "across", EventKind::job_started);
+    if (t == 50) tell(t, "across", EventKind::job_done);
+    if (t == 55) tell(t, "goes_on", EventKind::job_started);
+    if (t == 80) tell(t, "late", EventKind::job_started);
+    log.row({t * 1'000'000, static_cast<std::uint64_t>(t), 0, std::vector<Value>{test::real(1.0)}});
+  }
+  log.end();
+  const std::string id = studio.open(path);
+  const StudioAnswer answer =
+      studio.ask("GET", "/api/traces/" + id + "/export",
+                 {{"format", "html"}, {"signals", "v"}, {"from", "20000000"}, {"to", "60000000"}});
+  ASSERT_EQ(answer.status, 200u) << answer.body;
+  EXPECT_EQ(answer.body.find("<script>alert"), std::string::npos);
+  const std::string opening = R"(<script type="application/json" id="lockstep-trace">)";
+  const std::size_t data = answer.body.find(opening) + opening.size();
+  const Json json = Json::parse(answer.body.substr(data, answer.body.find("</script>", data) - data));
+  std::vector<std::string> jobs, events;
+  for (const Json& job : json.at("jobs")) jobs.push_back(job.at("instance"));
+  for (const Json& event : json.at("events"))
+    events.push_back(event.at("source").get<std::string>() + " " + event.at("t").get<std::string>());
+  EXPECT_EQ(jobs, (std::vector<std::string>{"across", "goes_on"}));
+  EXPECT_EQ(events, (std::vector<std::string>{"across 50000000", "goes_on 55000000"}));
 }
 
 Json document_of(const std::string& project) {

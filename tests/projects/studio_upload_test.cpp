@@ -279,6 +279,65 @@ TEST(StudioUpload, OfALogHasItsEventsAndJobs) {
   EXPECT_EQ(studio.get("/api/events").at("events").size(), 0u) << "the run has had none";
 }
 
+/// A log of traces of v, each on a channel of its own, with as many rows as its name has letters.
+std::string log_of(const StudioFolder& folder, const std::vector<std::string>& channels) {
+  const std::string path = (folder.path() / "channels.lcm").string();
+  const std::vector<TraceSignal> signals = {{"v", Type::LREAL, ""}};
+  LcmLog log(path, {"files", "TRACE", 1'000'000, 0});
+  log.begin(signals);
+  log.row({0, 0, 0, std::vector<Value>{test::real(0.0)}});
+  for (const std::string& channel : channels) {
+    const auto sink = log.add_channel({"files", channel, 1'000'000, 0});
+    sink->begin(signals);
+    for (std::uint64_t row = 0; row < channel.size(); ++row)
+      sink->row({static_cast<std::int64_t>(row) * 1'000'000, row, 0,
+                 std::vector<Value>{test::real(static_cast<double>(row) + 0.5)}});
+    sink->end();
+  }
+  log.end();
+  return path;
+}
+
+/// Has a log read, and waits until the last of its traces is there.
+void read_log(Studio& studio, const std::string& path, const std::string& last) {
+  ASSERT_NE(studio.files.add(path, "channels.lcm", false), nullptr);
+  EXPECT_EQ(studio.settled("file-1").at("rows"), 1);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  while (studio.told(last).is_null() && std::chrono::steady_clock::now() < deadline) {
+    studio.session.look();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+TEST(StudioUpload, OfALogHasATraceForEachOfItsChannels) {
+  Studio studio;
+  read_log(studio, log_of(studio.folder, {"SECOND", "OTHER"}), "file-3");
+  const Json other = studio.told("file-2");
+  EXPECT_EQ(other.value("name", ""), "channels.lcm, OTHER") << "by name";
+  EXPECT_EQ(other.value("state", ""), "ready");
+  EXPECT_EQ(other.value("of", ""), "file-1");
+  EXPECT_FALSE(studio.told("file-1").contains("of"));
+  EXPECT_EQ(other.value("rows", 0), 5);
+  EXPECT_EQ(studio.told("file-3").value("name", ""), "channels.lcm, SECOND");
+  EXPECT_EQ(studio.told("file-3").value("rows", 0), 6);
+  const Json statistics = studio.get("/api/traces/file-3/statistics", {{"signals", "v"}});
+  EXPECT_EQ(statistics.at(0).at("maximum"), 5.5);
+  studio.session.look();
+  EXPECT_TRUE(studio.told("file-4").is_null()) << "there is no further one";
+}
+
+TEST(StudioUpload, OfALogOfManyChannelsSaysWhatIsLeftOut) {
+  Studio studio;
+  std::vector<std::string> channels;
+  for (int i = 0; i < 40; ++i) channels.push_back("C" + std::to_string(100 + i));
+  read_log(studio, log_of(studio.folder, channels), "file-32");
+  for (int i = 0; i < 10; ++i) studio.session.look();
+  EXPECT_EQ(studio.files.all().size(), StudioTraceFiles::kFiles);
+  EXPECT_NE(studio.told("file-1").value("remark", "").find("9 further traces are left out"),
+            std::string::npos)
+      << studio.told("file-1");
+}
+
 /// Keeps the thread that reads files from the next one for a while.
 void keep_busy(Studio& studio) {
   std::string rows = "t,a\n";
