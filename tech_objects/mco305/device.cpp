@@ -122,7 +122,7 @@ void Device::servo(bool step) noexcept {
       const double before = machine_;
       machine_ = profile_.state().position;
       actual_ = counts_of(machine_ + 0.5);
-      if (machine_ != before) latch(before, machine_);
+      if (machine_ != before && !meets_no_pulse(before, machine_)) latch(before, machine_);
     }
     control();
     look_at_arrival();
@@ -186,10 +186,13 @@ void Device::latch(double from, double to) noexcept {
   if (const auto mark = marks->between(from, to)) take_latch(encoder_count(*mark - start + 0.5));
 }
 
+/// Most steps are between the same two of them as the one before.
+inline bool Device::meets_no_pulse(double from, double to) const noexcept {
+  return from > no_pulse_from_ && from < no_pulse_until_ && to > no_pulse_from_ && to < no_pulse_until_;
+}
+
 /// Those of a simulated slave: one each ENCODERFREQ, the first ones half of that from where it begins.
 void Device::latch_virtual(double from, double to) noexcept {
-  const auto is_free = [this](double place) { return place > no_pulse_from_ && place < no_pulse_until_; };
-  if (is_free(from) && is_free(to)) return;
   constexpr int kInAStep = 8;
   const bool forward = from < to;
   const double half = 0.5 * virtual_pulse_;

@@ -214,6 +214,7 @@ class Device {
   void read_absolute() noexcept;
   void latch(double from, double to) noexcept;
   std::int64_t encoder_count(double place) const noexcept;
+  bool meets_no_pulse(double from, double to) const noexcept;
   void latch_virtual(double from, double to) noexcept;
   void take_latch(std::int64_t place) noexcept;
   int choose_encoder(std::int32_t number, std::int32_t value) noexcept;

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
+#include "tech_objects/synchronous/braking_speed.hpp"
 #include "tech_objects/synchronous/counted_pace.hpp"
 #include "tech_objects/synchronous/pursuit_limits.hpp"
 
@@ -16,8 +16,7 @@ class Pursuit {
  public:
   /// Goes on from here. @param velocity [u/step]
   void begin(double position, double velocity) noexcept {
-    position_ = position;
-    velocity_ = steady_ = last_target_velocity_ = velocity;
+    move_to(position, steady_ = last_target_velocity_ = velocity);
     synchronous_ = locked_ = false;
     pace_.begin();
   }
@@ -100,26 +99,15 @@ class Pursuit {
     synchronous_ = locked_;
     return locked_;
   }
-  /// The floor of what is not negative, without the call that it takes where the processor has no instruction
-  /// for it.
-  static double whole_of(double value) noexcept {
-    constexpr double kWhole = 4503599627370496.0;  // 2⁵²: from here on there is nothing behind the point
-    return value < kWhole ? static_cast<double>(static_cast<std::int64_t>(value)) : value;
-  }
-  /// How fast it may come nearer, so that whole steps of braking behind this one end on the target.
-  static double speed(double distance, double braking) noexcept {
-    const double steps = whole_of(std::sqrt(0.25 + 2.0 * distance / braking) - 0.5);
-    return steps < 1.0 ? distance : steps * braking;
-  }
   static double approach(double rest, double target_velocity, const PursuitLimits& limits) noexcept {
     const double distance = std::abs(rest);
     if (distance == 0.0) return 0.0;
     const bool catches_up = (rest > 0.0) == (target_velocity >= 0.0);
-    double towards = speed(distance, catches_up ? limits.deceleration : limits.acceleration);
+    double towards = braking_speed(distance, catches_up ? limits.deceleration : limits.acceleration);
     // On its way back through standstill both count.
     if (!catches_up && towards > std::abs(target_velocity))
       towards = std::max(std::min(towards, std::abs(target_velocity)),
-                         speed(distance, std::min(limits.acceleration, limits.deceleration)));
+                         braking_speed(distance, std::min(limits.acceleration, limits.deceleration)));
     return rest < 0.0 ? -towards : towards;
   }
   static double bounded(double wanted, double rest, double target_velocity,
