@@ -102,10 +102,20 @@ void DeviceLoader::load_parameter(const std::string& name, const JsonValue& json
                                         R"( is of the later edition; allowed with "firmware": "5.00")");
     if (*number == 3200) highest = 9;
   }
+  const bool belongs_to_can = *number == mco305::kCanNumber || *number == mco305::kCanBaud;
   if (scale == 1.0) {
     const auto value =
         read_integer(&json, static_cast<std::int64_t>(lowest), static_cast<std::int64_t>(highest), problems_);
-    if (value) store(*number, static_cast<std::int32_t>(*value), json);
+    if (!value) return;
+    const auto whole = static_cast<std::int32_t>(*value);
+    if (!mco305::is_option(*number, whole, device_.settings.later_edition))
+      return problems_.report(json, std::to_string(whole) + " is not allowed here; allowed: " +
+                                        std::string(mco305::options_of(*number)));
+    if (belongs_to_can && whole != device_.parameters()[*number])
+      return problems_.report(json, aposs::parameter_text(*number) +
+                                        " belongs to CAN, which is not built; allowed: its start value " +
+                                        std::to_string(device_.parameters()[*number]));
+    store(*number, whole, json);
     return;
   }
   const auto value = read_number(&json, lowest, highest, problems_);
@@ -131,6 +141,8 @@ void DeviceLoader::load_parameter_file(const JsonValue& json) {
   if (!read_string(&json, problems_)) return;
   const auto path = named_file(json, loading_.folder, loading_.folder, problems_);
   if (!path) return;
+  if (const std::string_view reason = aposs::why_not_readable(*path); !reason.empty())
+    return problems_.report(json, *path + ": " + std::string(reason));
   try {
     const JsonDocument document(read_text_file(*path, kLargestParameterFile));
     for (const Problem& problem : document.problems()) problems_.report(json, *path + ": " + problem.text);

@@ -82,11 +82,12 @@ std::size_t make_kept_arrays(Mco305& device) {
 
 void keep_mco305(Mco305& device, std::vector<KeptValue>& values) {
   const bool saves = uses(device, {Command::kSave, Command::kSaveprom});
-  if (saves || uses(device, {Command::kSet, Command::kLinkgpar}))
+  if (saves || device.has_panel() || uses(device, {Command::kSet, Command::kLinkgpar}))
     keep_set(device, "USRPARS", ParameterSet::kApplication, values);
-  if (!saves) return;
+  if (!saves && !device.has_panel()) return;
   keep_set(device, "AXPARS", ParameterSet::kAxis, values);
   keep_set(device, "GLBPARS", ParameterSet::kGlobal, values);
+  if (!saves) return;
   values.push_back(
       {.name = device.name + ".EepromWrites", .signal = {&device.eeprom.writes, Type::UDINT, -1}});
   if (device.eeprom.arrays.empty()) return;

@@ -59,6 +59,13 @@ void Mco305::declare_values() {
   values_.declare(images, machine_, arrays_);
 }
 
+void Mco305::expect_writes_at(const void* place) noexcept {
+  expect_writes();
+  const auto* const first = reinterpret_cast<const std::byte*>(data.Parameters.data());
+  const auto* const at = static_cast<const std::byte*>(place);
+  has_panel_ = has_panel_ || (at >= first && at < first + sizeof data.Parameters);
+}
+
 void Mco305::expect_reads(const Variable& variable) noexcept {
   constexpr std::size_t kFirst = offsetof(Mco305Data, SystemVariables);
   if (variable.offset < kFirst || variable.offset >= kFirst + sizeof data.SystemVariables) return;
@@ -210,8 +217,8 @@ void Mco305::servo(std::int64_t now) noexcept {
   show();
 }
 
-/// What has been written from outside since it was shown: as by a panel. What nothing can be computed with is
-/// as it was.
+/// What has been written from outside since it was shown: as by a panel. What nothing can be computed with,
+/// and what is no published option, is as it was.
 void Mco305::take_parameters() noexcept {
   if (std::memcmp(data.Parameters.data(), shown_parameters_.data(), sizeof data.Parameters) == 0) return;
   const auto numbered = mco305::parameters();
@@ -220,7 +227,8 @@ void Mco305::take_parameters() noexcept {
     const std::int32_t number = i < numbered.size() ? numbered[i].number
                                                     : mco305::kFirstApplicationParameter +
                                                           static_cast<std::int32_t>(i - numbered.size());
-    device_.change_parameter(number, data.Parameters[i]);
+    if (mco305::is_option(number, data.Parameters[i], settings.later_edition))
+      device_.change_parameter(number, data.Parameters[i]);
   }
   data.Parameters = shown_parameters_ = device_.parameters().all();
   shown_version_ = device_.parameters().version();

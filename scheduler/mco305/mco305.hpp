@@ -57,6 +57,10 @@ class Mco305 final : public LeadingObject {
   /// From now on parameters may be written from outside, as by a panel: in `data`, between two steps. Without
   /// that nobody looks at them. While loading, or between two ticks.
   void expect_writes() noexcept { expects_writes_ = true; }
+  /// The same of what stands there. @param place in `data`
+  void expect_writes_at(const void* place) noexcept;
+  /// Whether parameters may be written from outside, so that they are kept as a panel keeps them.
+  bool has_panel() const noexcept { return has_panel_; }
   /// Once all programs are compiled, with their variables in the same cells: from now on these have paths.
   void declare_values();
   std::span<const OwnVariable> own_variables() const noexcept { return values_.all(); }
@@ -117,7 +121,7 @@ class Mco305 final : public LeadingObject {
   aposs::Machine machine_{commands_, arrays_};
   const DeviceProgram* current_ = nullptr;
   std::uint32_t shown_version_ = 0;
-  bool expects_writes_ = false;
+  bool expects_writes_ = false, has_panel_ = false;
   /// Which system variables somebody looks at; the others are not computed.
   std::array<std::atomic<std::uint64_t>, (mco305::kSystemVariableCount + 63) / 64> looked_at_{};
   ProgramValues values_;

@@ -7,7 +7,49 @@ namespace {
 constexpr std::int32_t kDivisors[] = {kEncoder,  kEncoderAbsRes, kPosFactN, kPosFactZ, kTimer,
                                       kProfTime, kVelMax,        kRampMin,  kVelRes};
 
+/// From 5.00 on there is one more start behaviour.
+constexpr std::int32_t kLastStart = 6, kLastStartLater = 7, kOffsetWaits = 1000, kByCurve = 2000;
+
+bool is_start_behaviour(std::int32_t value, bool later_edition) noexcept {
+  const std::int32_t last = later_edition ? kLastStartLater : kLastStart;
+  return (value >= 0 && value <= last) || (value >= kOffsetWaits && value <= kOffsetWaits + last) ||
+         value == kByCurve;
+}
+
 }  // namespace
+
+std::string_view options_of(std::int32_t number) noexcept {
+  switch (number) {
+    case kEncoderAbsType:
+    case kMasterEncoderAbsType:
+      return "0, 4, 5";
+    case kSyncMStart:
+      return R"(0 to 6, 1000 to 1006, 2000, with "firmware": "5.00" also 7 and 1007)";
+    case kErrCond:
+      return "0, 1, 2, 3, 5";
+    case kCanBaud:
+      return "16 to 22, 24";
+    default:
+      return {};
+  }
+}
+
+bool is_option(std::int32_t number, std::int32_t value, bool later_edition) noexcept {
+  constexpr std::int32_t kFirstProtocol = 4, kNoReaction = 4, kNoRate = 23;
+  switch (number) {
+    case kEncoderAbsType:
+    case kMasterEncoderAbsType:
+      return value == 0 || value >= kFirstProtocol;
+    case kSyncMStart:
+      return is_start_behaviour(value, later_edition);
+    case kErrCond:
+      return value != kNoReaction;
+    case kCanBaud:
+      return value != kNoRate;
+    default:
+      return true;
+  }
+}
 
 ParameterSet set_of(std::int32_t number) noexcept {
   if (is_application_parameter(number)) return ParameterSet::kApplication;

@@ -45,6 +45,10 @@ std::span<const Parameter> parameters() noexcept;
 constexpr bool is_application_parameter(std::int32_t number) noexcept {
   return number >= kFirstApplicationParameter && number <= kLastApplicationParameter;
 }
+/// What is published of it between its lowest and highest value; empty: all of them.
+std::string_view options_of(std::int32_t number) noexcept;
+/// Whether a value of its range is one of those.
+bool is_option(std::int32_t number, std::int32_t value, bool later_edition) noexcept;
 /// Where its value stands; `kNoParameter` if there is no such number.
 std::size_t parameter_index(std::int32_t number) noexcept;
 /// Process data and read-outs: a program reads them only.
@@ -140,6 +144,8 @@ enum ParameterNumber : std::int32_t {
   kErrCond = 3383,
   kEscCond = 3384,
   kExternalSupply = 3385,
+  kCanNumber = 3390,
+  kCanBaud = 3391,
 };
 
 /// What SAVE keeps together.

@@ -30,12 +30,15 @@ struct Machine {
   bool loses_its_disk = false;  ///< when the run has begun
   const char* disk = nullptr;   ///< name of SQLite's access to files; nullptr: the usual one
   std::size_t rests_in = 0;     ///< line of the loop in which it has done all; 0: the last one but one
+  Json map = Json::array();     ///< of Modbus
+  std::vector<std::pair<std::int32_t, DINT>> panel{};  ///< parameters that a client writes in the third tick
 
   std::string text() const {
     Json json = Json::parse(R"({ "lockstep": 1, "name": "kept", "clock": { "servo_cycle": "1ms" },
       "technology_objects": { "Lift": { "type": "MCO_305", "programs": [ { "number": 0, "autostart": true } ] } } })");
     json["technology_objects"]["Lift"]["parameters"] = parameters;
     json["technology_objects"]["Lift"]["programs"][0]["lines"] = program;
+    if (!map.empty()) json["modbus"] = {{"server", {{"listen", "127.0.0.1:0"}}}, {"map", map}};
     return json.dump();
   }
 
@@ -59,6 +62,9 @@ struct Machine {
     Mco305& device = device_of(*project);
     for (int i = 0; i < kTries && !waits(device); ++i) {
       controller.tick();
+      if (i == 2)
+        for (const auto& [number, value] : panel)
+          device.data.Parameters[mco305::parameter_index(number)] = value;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));  // the disk has its own time
     }
     EXPECT_TRUE(waits(device)) << "error " << device.machine().error();
@@ -171,6 +177,30 @@ TEST(DeviceRetain, KeepsOnlyThePartThatIsSaved) {
     ASSERT_NE(second, nullptr);
     EXPECT_EQ(element(*first, "e"), 0);
     EXPECT_EQ(element(*second, "e"), saved ? 2 : 0);
+  }
+}
+
+// Without any SAVE: a panel keeps what is changed at it.
+TEST(DeviceRetain, KeepsWhatAClientWrites) {
+  const test::Directory directory;
+  const Json whole = {{{"object", "Lift"}, {"content", "parameters"}, {"address", 0}}};
+  const Json single = {
+      {{"tag", "Lift.KDER"}, {"table", "holding_register"}, {"address", 0}, {"access", "write"}}};
+  const Json words = {{{"object", "Lift"}, {"content", "pcd"}, {"address", 0}}};
+  for (const Json& map : {whole, single, words}) {
+    Machine machine{
+        directory.file("kept" + std::to_string(map[0].size()) + map[0].dump().substr(2, 12)),
+        {"DELAY 20", "k = GET KDER", "e = GET 33-83", "z = GET 1903", "wait:", "DELAY 100", "GOTO wait"}};
+    machine.map = map;
+    machine.panel = {{3261, 77}, {3383, 2}, {1903, 9}};
+    ASSERT_NE(machine.run(), nullptr);
+    machine.panel.clear();
+    const auto project = machine.run();
+    ASSERT_NE(project, nullptr);
+    const bool kept = map != words;
+    EXPECT_EQ(element(*project, "k"), kept ? 77 : 0) << map;
+    EXPECT_EQ(element(*project, "e"), kept ? 2 : 0) << map;
+    EXPECT_EQ(element(*project, "z"), kept ? 9 : 0) << map;
   }
 }
 

@@ -1,5 +1,6 @@
 // What becomes of an axis when errors are cleared, beyond its limits, and when one program follows another.
 #include <cmath>
+#include <random>
 
 #include "tests/scheduler/mco305/device_run.hpp"
 
@@ -49,6 +50,70 @@ TEST(Mco305Clearing, LetsAnAxisGoOnThatItsErrorHasHeld) {
     EXPECT_EQ(run.variable("n"), 1);
     EXPECT_NEAR(run.variable("b"), 5000, 20) << reaction;
   }
+}
+
+// Whatever it has been told before, in whatever order: then a drive follows where it is told to go.
+TEST(Mco305Clearing, AnyCommandsLeaveADriveThatFollows) {
+  constexpr unsigned kPrograms = 80;
+  const char* const commands[] = {"POSA %",    "POSR %",      "CVEL 40\nCSTART", "CVEL -40\nCSTART",
+                                  "CSTOP",     "MOTOR STOP",  "MOTOR OFF",       "MOTOR ON",
+                                  "ERRCLR",    "CONTINUE",    "SYNCV",           "SYNCP",
+                                  "SYNCM",     "DEF ORIGIN",  "SET ORIGIN %",    "RST ORIGIN",
+                                  "OUTAN 400", "SET 99-99 1", "SET RAMPTYPE 2",  "MOVESYNCORIGIN %",
+                                  "DEC 40",    "NOWAIT OFF",  "NOWAIT ON",       "SET SYNCPOSOFFS %"};
+  for (unsigned seed = 0; seed < kPrograms; ++seed) {
+    std::mt19937 random(seed);
+    Axis run(true);
+    run.set("POSERR", 1'000'000);
+    run.set("ERRCOND", seed % 6 == 4 ? 5 : seed % 6);
+    DINT turned = 0;
+    run.object.master.signal = &turned;
+    std::string text = "NOWAIT ON\n";
+    for (int i = 0; i < 10; ++i) {
+      std::string command = commands[random() % std::size(commands)];
+      if (const auto at = command.find('%'); at != std::string::npos)
+        command.replace(at, 1, "(" + std::to_string(static_cast<int>(random() % 20'000) - 10'000) + ")");
+      text += command + "\nDELAY " + std::to_string(random() % 120) + "\n";
+    }
+    run.begin_with("ON ERROR GOSUB trouble\nd = 0\n" + text +
+                       "MOTOR ON\nMOTOR STOP\nDELAY 1500\na = CPOS\nVEL 100\nPOSR 5000\nDELAY 1500\nb = "
+                       "CPOS\nc = APOS\nd = 1\n",
+                   "SUBPROG trouble\nDELAY 20\nERRCLR\nRETURN\n");
+    for (int i = 0; i < 12'000 && run.variable("d") == 0; ++i) turned += 5, run.step();
+    ASSERT_EQ(run.variable("d"), 1) << text;
+    EXPECT_NEAR(run.variable("b") - run.variable("a"), 5000, 60) << text;
+    EXPECT_NEAR(run.variable("c"), run.variable("b"), 60) << text;
+  }
+}
+
+// The place of the zero for each type, from before the switch, from behind it and from within it.
+TEST(Mco305Homing, FindsItsPlaceFromEverywhere) {
+  constexpr double kFrom = 5000.0, kTo = 6000.0, kMarks = 2000.0;
+  const auto place = [&](int type, bool forwards) {
+    const bool leaves_forwards = forwards == (type >= 2);
+    const double edge = leaves_forwards ? kTo : kFrom;
+    if (type % 2 != 0) return edge;
+    return (leaves_forwards ? std::floor(edge / kMarks) + 1.0 : std::ceil(edge / kMarks) - 1.0) * kMarks;
+  };
+  for (const int offset : {0, 500, -700})
+    for (int type = 0; type < 4; ++type)
+      for (const auto& [start, velocity] : {std::pair{0.0, 10}, {9000.0, -10}, {5500.0, 10}, {5500.0, -10}}) {
+        Axis run(true);
+        run.object.settings.drive.signals.start_position = start;
+        run.object.settings.drive.signals.zero_marks = ZeroMarks{0.0, kMarks};
+        run.object.settings.drive.signals.reference_cam = PositionRange{kFrom, kTo};
+        run.set("HOME_TYPE", type);
+        run.set("HOME_VEL", velocity);
+        run.set("HOME_RAMP", 50);
+        run.set("HOME_OFFSET", offset);
+        run.set("I_FUNCTION_3", 1);
+        run.begin_with("n = 0\nHOME\nDELAY 300\na = APOS\nn = 1\n");
+        for (int i = 0; i < 12'000 && run.variable("n") == 0; ++i) run.step();
+        ASSERT_EQ(run.variable("n"), 1) << type << " " << start << " " << velocity;
+        EXPECT_NEAR(run.variable("a"), 0, 2);
+        EXPECT_NEAR(run.device().machine_position(), place(type, velocity > 0) + offset, 12.0)
+            << type << " " << start << " " << velocity << " " << offset;
+      }
 }
 
 TEST(Mco305Limits, RefuseASpeedFurtherOut) {
