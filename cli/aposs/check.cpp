@@ -12,7 +12,7 @@ namespace lockstep::cli {
 namespace {
 
 template <class List, class Text>
-std::string joined(const List& list, Text text) {
+std::string listed(const List& list, Text text) {
   std::string result;
   for (const auto& one : list) result += (result.empty() ? "" : ", ") + text(one);
   return result;
@@ -30,13 +30,13 @@ std::string needs_of(const std::string& path, const aposs::CompiledProgram& prog
   const auto line = [&text](const char* what, const std::string& list) {
     if (!list.empty()) text += std::string("  ") + what + " " + list + "\n";
   };
-  line("arrays", joined(image.arrays, [](const aposs::ArrayDeclaration& array) {
+  line("arrays", listed(image.arrays, [](const aposs::ArrayDeclaration& array) {
          return array.name + "[" + std::to_string(array.size) + "]";
        }));
-  line("inputs", joined(program.uses.inputs, number_text));
-  line("outputs", joined(program.uses.outputs, number_text));
-  line("parameters", joined(program.uses.parameters, aposs::parameter_text));
-  line("handlers", joined(handlers_of(image), [&image](const aposs::Routine& routine) {
+  line("inputs", listed(program.uses.inputs, number_text));
+  line("outputs", listed(program.uses.outputs, number_text));
+  line("parameters", listed(program.uses.parameters, aposs::parameter_text));
+  line("handlers", listed(handlers_of(image), [&image](const aposs::Routine& routine) {
          const auto longest = longest_run(image, routine.entry);
          return routine.name + " (" + (longest ? "at most " + std::to_string(*longest) : "any number of") +
                 " internal commands)";

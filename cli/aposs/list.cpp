@@ -12,7 +12,7 @@
 namespace lockstep::cli {
 namespace {
 
-constexpr std::size_t kMaximum = 1 << 20;
+constexpr std::size_t kMaximumSize = 1 << 20;
 
 int list(const std::string& path, const aposs::CompilerSettings& settings) {
   int status = kOk;
@@ -21,7 +21,7 @@ int list(const std::string& path, const aposs::CompilerSettings& settings) {
   std::vector<std::string> sources;
   for (const std::string& file : program->files) {
     const std::filesystem::path beside = std::filesystem::path(path).parent_path() / file;
-    sources.push_back(read_text_file(sources.empty() ? path : beside.string(), kMaximum));
+    sources.push_back(read_text_file(sources.empty() ? path : beside.string(), kMaximumSize));
   }
   std::string line, text;
   for (std::istringstream lines(aposs::listing(*program->image, sources)); std::getline(lines, line);)

@@ -28,7 +28,7 @@ struct InputChange {
   bool level = false;
 };
 
-struct RunOptions {
+struct ProgramOptions {
   std::string file;
   std::int64_t duration = 10'000;  ///< [ms]
   std::int32_t steps_per_ms = 200;
@@ -185,7 +185,7 @@ int tell_end(const std::vector<std::string>& files, aposs::Machine& machine, con
   return kOk;
 }
 
-int run(const RunOptions& options) {
+int run(const ProgramOptions& options) {
   int status = kOk;
   auto program = compile_or_tell(options.file, options.settings, status);
   if (!program) return status;
@@ -228,7 +228,7 @@ int run(const RunOptions& options) {
 void add_aposs_run(CLI::App& aposs, Action& action) {
   CLI::App* command =
       aposs.add_subcommand("run", "Run a program in virtual time, on an axis that is where it is told to be");
-  auto options = std::make_shared<RunOptions>();
+  auto options = std::make_shared<ProgramOptions>();
   auto duration = std::make_shared<std::string>("10s");
   auto inputs = std::make_shared<std::vector<std::string>>();
   auto parameters = std::make_shared<std::vector<std::string>>();

@@ -9,10 +9,10 @@
 namespace lockstep::cli {
 namespace {
 
-constexpr int kSamples = 3000;  // over the cam
-constexpr int kBins = 1300;     // about one a pixel
+constexpr int kSamples = 3000;    // over the cam
+constexpr int kCurveBins = 1300;  // about one a pixel
 
-struct PlotOptions {
+struct CurveOptions {
   CamInput input;
   std::string picture;
   std::string title;
@@ -44,7 +44,7 @@ Curve curve_of(const CamFunction& cam, const std::string& name, int order) {
   Curve curve;
   curve.name = name;
   curve.color = order;
-  curve.pieces = {thinned(points, cam.start_leading_value(), cam.end_leading_value(), kBins)};
+  curve.pieces = {thinned(points, cam.start_leading_value(), cam.end_leading_value(), kCurveBins)};
   return curve;
 }
 
@@ -60,7 +60,7 @@ std::vector<Lane> lanes_of(const CamDefinition& definition) {
   return lanes;
 }
 
-PictureFormat format_of(const std::string& path) {
+PictureFormat picture_format(const std::string& path) {
   if (path.ends_with(".svg")) return PictureFormat::svg;
   if (path.ends_with(".png")) return PictureFormat::png;
   throw CannotDo("-o: '" + path + "' has to end in .svg or .png");
@@ -91,7 +91,7 @@ Picture cam_picture(const CamDefinition& definition, const std::string& title) {
 
 void add_cam_plot(CLI::App& cam, Action& action) {
   CLI::App* command = cam.add_subcommand("plot", "Draw following value, velocity, acceleration and jerk");
-  auto options = std::make_shared<PlotOptions>();
+  auto options = std::make_shared<CurveOptions>();
   add_cam_input(*command, options->input);
   command->add_option("-o,--output", options->picture, "the picture: FILE.svg or FILE.png")->required();
   command->add_option("--title", options->title, "title; without it: the name of the cam or of the file");
@@ -100,7 +100,7 @@ void add_cam_plot(CLI::App& cam, Action& action) {
   command->callback([&action, options] {
     action = [options] {
       return with_cam(options->input, [&](const CamDefinition& definition) {
-        const PictureFormat format = format_of(options->picture);
+        const PictureFormat format = picture_format(options->picture);
         std::string title = options->title.empty() ? definition.name : options->title;
         if (title.empty()) title = std::filesystem::path(options->input.file).filename().string();
         write_output(options->picture, run_gnuplot(plot_script(cam_picture(definition, title), format)));

@@ -14,8 +14,8 @@ constexpr int kColumn = 260;  // [px] from controller to controller
 constexpr int kRow = 64;      // from box to box
 constexpr int kBoxWidth = 150;
 constexpr int kBoxHeight = 40;
-constexpr int kMargin = 30;
-constexpr int kTop = 60;  // below the names of the controllers
+constexpr int kBorder = 30;
+constexpr int kFirstRow = 60;  // below the names of the controllers
 
 /// A text as it may stand in XML.
 std::string escaped(std::string_view text) {
@@ -49,8 +49,8 @@ class Drawing {
     std::size_t controller = 0;
     int row = 0;
     const LeadingObject* object = nullptr;
-    int x() const { return kMargin + static_cast<int>(controller) * kColumn; }
-    int y() const { return kTop + row * kRow; }
+    int x() const { return kBorder + static_cast<int>(controller) * kColumn; }
+    int y() const { return kFirstRow + row * kRow; }
   };
   void place();
   void add(const SystemObject& object);
@@ -127,8 +127,8 @@ std::string Drawing::arrow_text(const LeadingObject* from, const LeadingObject* 
 std::string Drawing::text() {
   int highest = 1;
   for (const auto& [controller, rows] : rows_) highest = std::max(highest, rows);
-  const int width = 2 * kMargin + static_cast<int>(system_.controllers.size()) * kColumn;
-  const int height = kTop + highest * kRow + kMargin;
+  const int width = 2 * kBorder + static_cast<int>(system_.controllers.size()) * kColumn;
+  const int height = kFirstRow + highest * kRow + kBorder;
   std::string text = fmt::format(
       R"x(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="sans-serif" font-size="13">
 <title>{2}</title>
@@ -139,7 +139,7 @@ std::string Drawing::text() {
   for (std::size_t i = 0; i < system_.controllers.size(); ++i)
     text += fmt::format(R"x(<text x="{}" y="35" font-weight="bold" text-anchor="middle">{}</text>)x"
                         "\n",
-                        kMargin + static_cast<int>(i) * kColumn + kBoxWidth / 2,
+                        kBorder + static_cast<int>(i) * kColumn + kBoxWidth / 2,
                         escaped(system_.controllers[i].name));
   std::map<const LeadingAxisProxy*, std::vector<const LeadingObject*>> drawn;
   for (const Interconnection& row : connections_.rows()) {

@@ -30,7 +30,7 @@ constexpr Topic kTopics[] = {
     {"types", "types and literals; describe LREAL: one of them", &types_subject},
 };
 
-std::string overview_text(std::size_t width) {
+std::string subjects_text(std::size_t width) {
   Table blocks({"Function block", ""});
   for (const BlockType& type : block_types()) blocks.row({std::string(type.name), std::string(type.text)});
   Table objects({"Technology object", ""});
@@ -47,7 +47,7 @@ std::string overview_text(std::size_t width) {
   return blocks.text(0, width) + "\n" + objects.text(0, width) + "\n" + topics.text(0, width);
 }
 
-nlohmann::ordered_json overview_json() {
+nlohmann::ordered_json subjects_json() {
   nlohmann::ordered_json json{{"kind", "overview"}};
   const auto add = [](nlohmann::ordered_json& list, std::string_view name, std::string_view text) {
     list.push_back({{"name", name}, {"text", text}});
@@ -197,7 +197,7 @@ int describe(const std::vector<std::string>& words, bool json) {
 }  // namespace
 
 Subject overview() {
-  return {&overview_text, &overview_json};
+  return {&subjects_text, &subjects_json};
 }
 
 std::vector<std::string> describable_names() {

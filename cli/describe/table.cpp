@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kUsualWidth = 80;
 constexpr std::size_t kMinimumLast = 30;  // columns, below which the last column goes on lines of its own
-constexpr std::size_t kGap = 2;
+constexpr std::size_t kColumnGap = 2;
 
 void trim_end(std::string& line) {
   line.erase(line.find_last_not_of(' ') + 1);
@@ -99,14 +99,14 @@ std::vector<std::size_t> Table::widths() const {
 std::string Table::text(std::size_t indent, std::size_t width) const {
   const std::vector<std::size_t> columns = widths();
   std::size_t start = indent;  // of the last column
-  for (const std::size_t column : columns) start += column == 0 ? 0 : column + kGap;
+  for (const std::size_t column : columns) start += column == 0 ? 0 : column + kColumnGap;
   const bool below = start + kMinimumLast > width;
   const std::size_t last_start = below ? indent + 4 : start;
   std::string result;
   const auto add = [&](const std::vector<std::string>& cells, const std::vector<std::string>& last) {
     std::string line(indent, ' ');
     for (std::size_t i = 0; i < columns.size(); ++i)
-      if (columns[i] != 0) line += padded(cells[i], columns[i] + kGap);
+      if (columns[i] != 0) line += padded(cells[i], columns[i] + kColumnGap);
     bool open = !below;  // whether the last column goes on in this line
     for (const std::string& part : last) {
       if (part.empty()) continue;

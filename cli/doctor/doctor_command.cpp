@@ -24,7 +24,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kRefresh = 200ms;                           // of the progress
+constexpr auto kProgressRefresh = 200ms;                   // of the progress
 constexpr std::int64_t kLongestCycle = 60'000'000'000;     // [ns], as in a project
 constexpr std::int64_t kLongest = 7 * 86'400'000'000'000;  // [ns] of measuring
 
@@ -49,7 +49,8 @@ void wait_for(const std::atomic<bool>& over, const DoctorOptions& options, const
   const bool terminal = isatty(STDERR_FILENO) == 1;
   while (!over.load(std::memory_order_acquire)) {
     if (terminal) show_progress(options, lateness);
-    for (auto waited = 0ms; waited < kRefresh && !over.load(std::memory_order_acquire); waited += 10ms)
+    for (auto waited = 0ms; waited < kProgressRefresh && !over.load(std::memory_order_acquire);
+         waited += 10ms)
       std::this_thread::sleep_for(10ms);
   }
   if (terminal) write_message("\r\033[K", 0);

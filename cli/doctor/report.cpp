@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string joined(const std::vector<std::string>& words) {
+std::string one_line(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
@@ -59,7 +59,7 @@ std::string system_lines(const Findings& findings) {
                                : fmt::format("no real-time one; the limit is {}", facts.priority_limit),
       findings.rights.memory ? "locked" : "not locked", visible(facts.processors),
       facts.isolated.empty() ? "none isolated" : "isolated: " + visible(facts.isolated),
-      facts.governors.empty() ? "not told by this machine" : visible(joined(facts.governors)));
+      facts.governors.empty() ? "not told by this machine" : visible(one_line(facts.governors)));
 }
 
 std::string advice_lines(const std::vector<Advice>& advice) {

@@ -23,7 +23,7 @@ int terminal_width() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kDefaultWidth;
 }
 
-std::string value_text(Value value, Type type) {
+std::string shown_value(Value value, Type type) {
   if (type == Type::BOOL) return value.u != 0 ? "TRUE" : "FALSE";
   if (is_real(type)) return fmt::format("{:.3f}", value.r);
   if (is_signed_integer(type)) return fmt::format("{}", value.i);
@@ -80,7 +80,7 @@ void Display::show(std::int64_t time, const std::string& note) {
   const auto width = static_cast<std::size_t>(terminal_width() - 1);
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     const std::string part =
-        fmt::format("  {} {}", shown_[i].name, value_text(image_->value(i), image_->type(i)));
+        fmt::format("  {} {}", shown_[i].name, shown_value(image_->value(i), image_->type(i)));
     if (line.size() + part.size() > width) break;
     line += part;
   }

@@ -35,10 +35,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kRefresh = 100ms;                        // of the display
-constexpr std::size_t kDescriptors = 40;                // beside those of Modbus clients
-constexpr std::size_t kMemory = std::size_t{32} << 20;  // [byte] stacks, and what grows with the run
-constexpr std::uint64_t kTicksBetweenLooks = 4096;      // of a simulation, at the clock and for signals
+constexpr auto kRefresh = 100ms;                           // of the display
+constexpr std::size_t kRunDescriptors = 40;                // beside those of Modbus clients
+constexpr std::size_t kRunMemory = std::size_t{32} << 20;  // [byte] stacks, and what grows with the run
+constexpr std::uint64_t kTicksBetweenLooks = 4096;         // of a simulation, at the clock and for signals
 
 /// What a signal is to do is forgotten with what it is done to.
 struct Forgetting {
@@ -153,8 +153,8 @@ std::size_t clients_of(const Project& project) {
 
 /// Before the axes move: whether what a run may need can be had.
 void require_means(const Project& project, bool modbus) {
-  require_descriptors(kDescriptors + (modbus ? clients_of(project) : 0));
-  require_memory(kMemory);
+  require_descriptors(kRunDescriptors + (modbus ? clients_of(project) : 0));
+  require_memory(kRunMemory);
 }
 
 int run_simulated(Project project, std::unique_ptr<RetainWriter> keeper, const RunOptions& options,
