@@ -38,7 +38,7 @@ class CountFilter {
   }
   /// The smoothed velocity alone. @param time [ms]; up to 1: as it is
   double step(double counts, double time) noexcept {
-    velocity_ += time > 1.0 ? (counts - velocity_) / time : counts - velocity_;
+    velocity_ = settled(velocity_ + (time > 1.0 ? (counts - velocity_) / time : counts - velocity_));
     return velocity_;
   }
   /// The smoothed motion of this millisecond: what has been held back comes back in ten time constants.
@@ -46,13 +46,17 @@ class CountFilter {
     constexpr double kTimes = 10.0;
     step(counts, time);
     const double returned = time > 1.0 ? lag_ / (kTimes * time) : lag_;
-    lag_ += counts - velocity_ - returned;
+    lag_ = settled(lag_ + (counts - velocity_ - returned));
     return velocity_ + returned;
   }
   double velocity() const noexcept { return velocity_; }  ///< [counts/ms]
   double lag() const noexcept { return lag_; }            ///< by how much what is given is behind [counts]
 
  private:
+  /// Behind a counter that stands, both halve without end, and a processor takes several times as long for
+  /// numbers below 2⁻¹⁰²² as for others: what is far below anything that is ever added is nothing.
+  static double settled(double value) noexcept { return std::abs(value) < 1e-300 ? 0.0 : value; }
+
   double velocity_ = 0.0, lag_ = 0.0;
 };
 

@@ -192,6 +192,20 @@ TEST(Pursuit, StaysInItsBandAndNeverReverses) {
   EXPECT_EQ(pursuit.position(), target);
 }
 
+// What halves without end would be computed with numbers that a processor is slow with.
+TEST(CountFilter, ComesToRestBehindACounterThatStands) {
+  CountFilter filter;
+  filter.begin(0.0);
+  for (int ms = 0; ms < 1000; ++ms) filter.step_and_return(7.0, 20.0);
+  for (int ms = 0; ms < 2'000'000; ++ms) {
+    filter.step_and_return(0.0, 20.0);
+    ASSERT_NE(std::fpclassify(filter.velocity()), FP_SUBNORMAL) << ms;
+    ASSERT_NE(std::fpclassify(filter.lag()), FP_SUBNORMAL) << ms;
+  }
+  EXPECT_EQ(filter.velocity(), 0.0);
+  EXPECT_EQ(filter.lag(), 0.0);
+}
+
 TEST(CountFilter, GivesBackWhatItHoldsBack) {
   CountFilter filter;
   filter.begin(0.0);
