@@ -203,9 +203,9 @@ TEST(StudioDesk, ShowsEachChannelOfALogAsATraceOfItsOwn) {
   EXPECT_EQ(page.browser.evaluate("document.querySelector('[data-trace=file-2]').textContent"),
             "run.lcm, SLOW");
   page.browser.click("[data-trace=file-2]");
-  EXPECT_TRUE(
-      page.browser.wait_for("document.querySelector('.shown [data-trace=file-2]') && " + kDrawn +
-                            ".some((one) => one.signals.some((s) => s.path === 'v' && s.rows >= 19 && s.rows <= 20))"))
+  EXPECT_TRUE(page.browser.wait_for(
+      "document.querySelector('.shown [data-trace=file-2]') && " + kDrawn +
+      ".some((one) => one.signals.some((s) => s.path === 'v' && s.rows >= 19 && s.rows <= 20))"))
       << page.browser.evaluate(kDrawn);
   page.expect_quiet();
 }
