@@ -134,6 +134,82 @@ TEST(StudioDesk, TellsTheSpectrumOfASignalWithItsPeaks) {
   page.expect_quiet();
 }
 
+TEST(StudioDesk, TellsTheSpectrumByOrdersOfALeadingAxis) {
+  Page page({});
+  ASSERT_TRUE(page.is_greeted());
+  page.open_tab("Traces");
+  // An axis that speeds up, so that a frequency would be smeared; three waves to each unit of its position.
+  const std::string drum = csv("hum,Drum.Position", 4000, [](int i) {
+    const double t = i / 1000.0;
+    const double position = 5.0 * t + 1.5 * t * t;
+    return number(2.0 * std::sin(2 * kPi * 3.0 * position)) + "," + number(position);
+  });
+  show(page, "drum.csv", drum, "file-1");
+  page.open_tab("Spectrum");
+  page.browser.choose("[aria-label='Signal of the spectrum']", "hum");
+  page.browser.choose("[aria-label='Window of the spectrum']", "flattop");
+  page.browser.choose("[aria-label='Axis of the orders']", "Drum.Position");
+  page.browser.evaluate(
+      "[...document.querySelectorAll('.analysis button')].find((e) => e.textContent === 'Compute').click()");
+  const std::string peak = "document.querySelectorAll('[aria-label=Spectrum] tbody tr')";
+  ASSERT_TRUE(page.browser.wait_for(peak + ".length >= 1"))
+      << page.browser.text("[aria-label=Spectrum].analysis");
+  const auto number_in = [&](int column) {
+    return page.browser
+        .evaluate("parseFloat(" + peak + "[0].cells[" + std::to_string(column) + "].textContent)")
+        .get<double>();
+  };
+  EXPECT_NEAR(number_in(0), 3.0, 0.05) << "waves to a unit of the position, whatever the speed";
+  EXPECT_NEAR(number_in(1), 2.0, 0.05);
+  EXPECT_TRUE(
+      page.browser
+          .evaluate("document.querySelector('svg[aria-label=Spectrum]').textContent.includes('order')")
+          .get<bool>());
+  // Of one that turns back there are none, and the page says so.
+  const std::string back = csv("hum,Drum.Position", 2000,
+                               [](int i) { return number(i % 7) + "," + number(i < 1000 ? i : 2000 - i); });
+  show(page, "back.csv", back, "file-2");
+  page.browser.choose("[aria-label='Axis of the orders']", "Drum.Position");
+  page.browser.evaluate(
+      "[...document.querySelectorAll('.analysis button')].find((e) => e.textContent === 'Compute').click()");
+  EXPECT_TRUE(page.browser.wait_for(
+      "document.querySelector('[aria-label=Spectrum] [role=status]').textContent.includes('turns back')"))
+      << page.browser.text("[aria-label=Spectrum].analysis");
+  EXPECT_EQ(page.browser.evaluate(peak + ".length"), 0);
+}
+
+TEST(StudioDesk, ShowsEachChannelOfALogAsATraceOfItsOwn) {
+  const test::Directory directory;
+  const std::string path = directory.file("run.lcm");
+  const std::vector<TraceSignal> signals = {{"v", Type::LREAL, ""}};
+  {
+    LcmLog log(path, {"desk", "MAIN", 1'000'000, 0});
+    const auto slow = log.add_channel({"desk", "SLOW", 10'000'000, 0});
+    for (TraceSink* sink : {static_cast<TraceSink*>(&log), slow.get()}) sink->begin(signals);
+    for (std::int64_t t = 0; t < 200; ++t) {
+      log.row({t * 1'000'000, static_cast<std::uint64_t>(t), 0, std::vector<Value>{test::real(1.0)}});
+      if (t % 10 == 0)
+        slow->row({t * 1'000'000, static_cast<std::uint64_t>(t), 0, std::vector<Value>{test::real(2.0)}});
+    }
+    slow->end();
+    log.end();
+  }
+  Page page({});
+  ASSERT_TRUE(page.is_greeted());
+  page.open_tab("Traces");
+  page.browser.choose_file("[aria-label='Files to open']", path);
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('[data-trace=file-2]')"))
+      << page.browser.text(".traces-panel");
+  EXPECT_EQ(page.browser.evaluate("document.querySelector('[data-trace=file-2]').textContent"),
+            "run.lcm, SLOW");
+  page.browser.click("[data-trace=file-2]");
+  EXPECT_TRUE(page.browser.wait_for(
+      "document.querySelector('.shown [data-trace=file-2]') && " + kDrawn +
+      ".some((one) => one.signals.some((s) => s.path === 'v' && s.rows >= 19 && s.rows <= 20))"))
+      << page.browser.evaluate(kDrawn);
+  page.expect_quiet();
+}
+
 TEST(StudioDesk, ComputesSignalsOfTheOthersByTheProjectsExpressions) {
   Page page({});
   ASSERT_TRUE(page.is_greeted());

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "cli/describe/subject.hpp"
+#include "tests/projects/crossing_project.hpp"
+#include "tests/studio/desk_page.hpp"
 #include "tests/studio/page.hpp"
 #include "tests/support/directory.hpp"
 
@@ -47,7 +49,7 @@ TEST(StudioProject, ShowsWhichObjectFollowsWhichAndWhatItsCouplingDoes) {
   };
   EXPECT_EQ(text("Shaft Chill", 2), "gear");
   EXPECT_EQ(text("Shaft Chill", 3), "355 : 113");
-  EXPECT_EQ(text("Chill Slitter", 7), "Slitter ← Chill ← Shaft")
+  EXPECT_EQ(text("Chill Slitter", 8), "Slitter ← Chill ← Shaft")
       << "back to where its leading value comes from";
   EXPECT_TRUE(page.browser.wait_for(row("Chill Slitter") +
                                     ".querySelector('[data-state]').dataset.state === 'synchronous'"))
@@ -84,6 +86,31 @@ TEST(StudioProject, TellsCouplingsThatGoRoundApart) {
       << "not by colour alone";
   EXPECT_EQ(page.browser.evaluate("document.querySelector('tr.recursive .route').textContent"),
             "none: it goes round");
+  page.expect_quiet();
+}
+
+TEST(StudioProject, ShowsWhatComesFromOtherControllersAndHowMuchLeadingValuesAreDelayed) {
+  const test::Directory directory;
+  test::DeskPage page({.file = directory.write("project.json", test::crossing_project())});
+  ASSERT_TRUE(page.is_greeted());
+  page.browser.press("3");
+  page.open_tab("Overview");
+  const auto row = [](const std::string& coupling) {
+    return "document.querySelector('tr[data-coupling=\"" + coupling + "\"]')";
+  };
+  ASSERT_TRUE(page.browser.wait_for(row("Infeed.Conveyor Beyond"))) << page.browser.text(".project-screen");
+  EXPECT_EQ(page.browser.evaluate(row("Infeed.Conveyor Beyond") + ".cells[2].textContent"), "transfer area");
+  EXPECT_EQ(page.browser.evaluate(row("Infeed.Conveyor Beyond") + ".cells[4].textContent"), "belt");
+  const Json elsewhere = page.browser.evaluate(
+      "[...document.querySelectorAll('.node.elsewhere')].map((one) => one.dataset.object)");
+  EXPECT_EQ(elsewhere, (Json{"Infeed.Conveyor", "proxies of out"}));
+  // The route goes on beyond this controller.
+  EXPECT_EQ(page.browser.evaluate(row("Beyond Far") + ".cells[8].textContent"),
+            "Far ← Beyond ← Infeed.Conveyor");
+  EXPECT_TRUE(page.browser.wait_for(row("Main Near") + ".cells[7].textContent === '0.004'"))
+      << page.browser.evaluate(row("Main Near") + ".cells[7].textContent");
+  EXPECT_TRUE(page.browser.wait_for(row("Line Far") + ".cells[7].textContent === '0.002'"));
+  EXPECT_EQ(page.browser.evaluate(row("Main Far") + ".cells[7].textContent"), "");
   page.expect_quiet();
 }
 
@@ -235,7 +262,7 @@ TEST(StudioProject, TellsHowTheRunIsAndWhatCheckSays) {
                                     ".querySelectorAll('dt')]; return Number(all.find((e) => e.textContent "
                                     "=== 'ticks').nextElementSibling.textContent) > " +
                                     std::to_string(before) + "; })()"));
-  for (const char* name : {"overruns", "missed ticks", "worst lateness us"})
+  for (const char* name : {"overruns", "missed ticks", "worst lateness [µs]"})
     EXPECT_NE(page.browser.text("[aria-label=Health]").find(name), std::string::npos) << name;
   for (const char* name : {"tap", "modbus", "retain", "studio"})
     EXPECT_TRUE(page.browser

@@ -91,6 +91,31 @@ TEST(StudioScope, DrawsASignalInAnotherColourScaledMovedAndHidden) {
   page.expect_quiet();
 }
 
+TEST(StudioScope, DrawsStatesAsBandsWithTheNamesOfTheirValues) {
+  Page page;
+  ASSERT_TRUE(page.is_live());
+  const std::string path = "Knife.StatusSynchronizedMotion.FunctionState";
+  page.browser.press("/");
+  page.browser.type(path);
+  ASSERT_TRUE(
+      page.browser.wait_for("document.querySelector('.found button')?.dataset.path === '" + path + "'"));
+  page.browser.press("Enter", true);
+  // What its gear makes of the knife most of the time, as it is declared with the variable; as much as fits.
+  EXPECT_TRUE(
+      page.browser.wait_for("[...document.querySelectorAll('.band-name')].some((one) => "
+                            "/gearing/.test(one.lastChild.textContent))"))
+      << page.browser.evaluate("[...document.querySelectorAll('.band-name')].map((one) => one.textContent)");
+  // As a line it has an axis of values in place of names.
+  page.browser.click("[data-line='" + path + "']");
+  const std::string popover = ".popover:not([hidden]) ";
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('" + popover + "[aria-label=\"Drawn as\"]')"));
+  page.browser.choose(popover + "[aria-label='Drawn as']", "line");
+  EXPECT_TRUE(
+      page.browser.wait_for("![...document.querySelectorAll('.band-name')].some((one) => "
+                            "/gearing/.test(one.lastChild.textContent))"));
+  page.expect_quiet();
+}
+
 TEST(StudioScope, RollsByMovingThePictureAndSweepsWithAPen) {
   Page page;
   ASSERT_TRUE(page.is_live());
@@ -325,6 +350,12 @@ TEST(StudioScope, LosesNoClickOnAListThatIsToldAnew) {
   page.open_tab("Traces");
   ASSERT_TRUE(page.browser.wait_for("document.querySelector('[data-shot=shot-1]')"));
   const Json shot = page.browser.middle_of("[data-shot=shot-1]");
+  const auto is_at = [](const Json& place, const std::string& what) {
+    return "document.elementFromPoint(" + place["x"].dump() + ", " + place["y"].dump() + ")?.closest('" +
+           what + "') !== null";
+  };
+  ASSERT_TRUE(page.browser.evaluate(is_at(shot, "[data-shot=shot-1]")).get<bool>())
+      << page.browser.text("body");
   page.browser.press_pointer(shot["x"], shot["y"]);
   // The tab, chosen again, asks for what there is; the page has its answer before ours.
   page.browser.evaluate("document.querySelector('[data-tab=Traces]').click()");
@@ -342,6 +373,8 @@ TEST(StudioScope, LosesNoClickOnAListThatIsToldAnew) {
       "const { right } = document.querySelector('.bars').getBoundingClientRect(); "
       "return {x: (Math.max(r.x, 80) + Math.min(r.right, right - 70)) / 2, y: r.y + r.height / 2}; })()");
   page.browser.evaluate("window.pressed = document.querySelector('.job[data-instance=power_k]')");
+  ASSERT_TRUE(page.browser.evaluate(is_at(bar, ".job[data-instance=power_k]")).get<bool>())
+      << bar << page.browser.text(".under");
   page.browser.press_pointer(bar["x"], bar["y"]);
   ASSERT_TRUE(page.browser.wait_for("!window.pressed.isConnected"));
   page.browser.release_pointer(bar["x"], bar["y"]);

@@ -54,6 +54,50 @@ TEST(StudioUsable, NamesWhateverCanBeWorkedForScreenReaders) {
   page.expect_quiet();
 }
 
+TEST(StudioUsable, ShowsEachLaneWholeOnASmallScreen) {
+  Page page;
+  page.browser.call("Emulation.setDeviceMetricsOverride",
+                    {{"width", 1280}, {"height", 720}, {"deviceScaleFactor", 1}, {"mobile", false}});
+  ASSERT_TRUE(page.is_live());
+  // The last diagram has the BOOLs of the project's trace, a lane of 18 pixels each.
+  const std::string lanes = "[...document.querySelectorAll('.plot')].at(-1)";
+  EXPECT_TRUE(page.browser.wait_for(
+      "[...document.querySelectorAll('.plot canvas')].at(-1).drawn.signals.length === 4 && " + lanes +
+      ".clientHeight >= 4 * 18"))
+      << page.browser.evaluate(lanes + ".clientHeight");
+  // All diagrams are seen without scrolling.
+  EXPECT_TRUE(page.browser.wait_for(
+      "(() => { const stack = document.querySelector('.stack'); return stack.scrollHeight <= "
+      "stack.clientHeight + 1; })()"))
+      << page.browser.evaluate(
+             "(() => { const { scrollHeight, clientHeight } = document.querySelector('.stack'); return { "
+             "scrollHeight, clientHeight }; })()");
+}
+
+TEST(StudioUsable, KeepsTheFocusOfWhoChoosesByKeys) {
+  Page page;
+  ASSERT_TRUE(page.is_live());
+  page.open_tab("Trigger");
+  page.browser.choose(".trigger input[list]", "Knife.Position");
+  page.browser.choose(".trigger [aria-label=Level]", "1000");
+  page.browser.click("button[title='Wait for this']");
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('.trigger-state').textContent === 'armed'"));
+  page.browser.click("button[title='Catch what is now']");
+  page.open_tab("Traces");
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('[data-shot=shot-1]')"));
+  const auto has_focus = [&](const std::string& id) {
+    return page.browser.wait_for("document.activeElement.dataset.trace === '" + id + "'");
+  };
+  for (int i = 0; i < 40 && page.browser.evaluate("document.activeElement.dataset.trace") != "shot-1"; ++i)
+    page.browser.press("Tab");
+  ASSERT_TRUE(has_focus("shot-1"));
+  page.browser.press("Enter");
+  ASSERT_TRUE(page.browser.wait_for("document.querySelector('.shown [data-shot=shot-1]')"));
+  EXPECT_TRUE(has_focus("shot-1")) << "the entry looks otherwise now, and is another element";
+  page.browser.press("Tab", true);
+  EXPECT_TRUE(has_focus("live")) << page.browser.evaluate("document.activeElement.outerHTML");
+}
+
 // 1280 × 720 at 200 % is a page of 640 × 360.
 TEST(StudioUsable, FitsAPageThatIsEnlargedTwice) {
   Page page;

@@ -28,9 +28,13 @@ export function button(label: string, title: string, click: () => void): HTMLBut
   return html("button", { type: "button", title, click }, label);
 }
 
+/// By what one knows an element again that has been made anew.
+const nameOf = (element: Element): string => element.tagName + ["data-trace", "data-line", "aria-label", "title"].map((name) => element.getAttribute(name) ?? "").join("|") + (element.getAttribute("data-trace") ? "" : element.textContent);
+
 /// Gives an element these children. One that looks as it did stays what it is, so that a click that has begun on it, its focus and
 /// what is typed into it are not lost when a list is told anew.
 export function renew(parent: Element, children: Element[]): void {
+  const focused = parent.contains(document.activeElement) && document.activeElement!.matches(":focus-visible") ? document.activeElement! : null;
   const before = new Map<string, Element[]>();
   const isAsWritten = (element: Element): boolean => [...element.querySelectorAll("input")].every((input) => input.checked === input.defaultChecked);
   for (const child of parent.children) if (isAsWritten(child)) before.set(child.outerHTML, [...(before.get(child.outerHTML) ?? []), child]);
@@ -40,6 +44,9 @@ export function renew(parent: Element, children: Element[]): void {
   for (const child of kept)
     if (child === at) at = at.nextElementSibling;
     else parent.insertBefore(child, at);
+  // Who works by keys goes on where he was, though what he has chosen looks otherwise now.
+  if (focused && document.activeElement !== focused)
+    [...parent.querySelectorAll<HTMLElement>(focused.tagName)].find((one) => one === focused || nameOf(one) === nameOf(focused))?.focus({ preventScroll: true });
 }
 
 /// Saves what the page has made, as the browser saves files.

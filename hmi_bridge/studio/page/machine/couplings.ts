@@ -3,13 +3,14 @@
 import { html, svg } from "../base/dom";
 import { LiveCells } from "./tables";
 
-export interface Coupling { following: string; leading: string; kind?: string; RatioNumerator?: string; RatioDenominator?: string; Cam?: string; instance?: string; block?: string; cam?: string; possible?: boolean; coupling?: string }
+export interface Coupling { following: string; leading: string; kind?: string; RatioNumerator?: string; RatioDenominator?: string; Cam?: string; instance?: string; block?: string; cam?: string; possible?: boolean; coupling?: string; area?: string; remote?: "leading" | "following"; delay?: string }
 
 const kBox = { width: 150, height: 44, gapX: 40, gapY: 60 };
 
 /// What a coupling does, as the block and its pins say.
 function kindOf(one: Coupling): string {
   if (one.kind) return one.kind;
+  if (one.area) return "transfer area";
   if (!one.block && one.coupling) return `${one.coupling} coupling`;
   if (/Cam/.test(one.block ?? "")) return "cam";
   if (/Velocity/.test(one.block ?? "")) return "velocity gear";
@@ -70,12 +71,14 @@ export class Couplings {
   private readonly picture = svg("svg", { class: "graph", role: "img", "aria-label": "Which object follows which" });
   private readonly body = html("tbody");
   readonly element = html("section", { "aria-label": "Interconnection overview" }, this.picture,
-    html("table", {}, html("caption", {}, "Couplings"), html("thead", {}, html("tr", {}, ...["following", "leading", "kind", "function or cam", "by", "state", "outputs", "route of the leading value"].map((head) => html("th", { scope: "col" }, head)))), this.body));
+    html("table", {}, html("caption", {}, "Couplings"), html("thead", {}, html("tr", {}, ...["following", "leading", "kind", "function or cam", "by", "state", "outputs", "delay [s]", "route of the leading value"].map((head) => html("th", { scope: "col" }, head)))), this.body));
   private edges = new Map<string, SVGElement>();
   private states = new Map<string, { element: HTMLElement; pins: Map<string, unknown> }>();  // by instance
 
   /// @param cells shows what couplings do now
-  set(objects: { name: string; type?: string }[], couplings: Coupling[], cells: LiveCells, isTold = true): void {
+  set(here: { name: string; type?: string }[], couplings: Coupling[], cells: LiveCells, isTold = true): void {
+    const elsewhere = new Set(couplings.flatMap((one) => (one.remote ? [one[one.remote]] : [])));
+    const objects = [...here, ...[...elsewhere].map((name) => ({ name, type: "another controller" }))];
     const layers = layersOf(objects.map(({ name }) => name), couplings);
     const places = new Map<string, { x: number; y: number }>();
     const count = new Map<number, number>();
@@ -93,15 +96,15 @@ export class Couplings {
     this.edges.clear();
     const names = new Set(objects.map(({ name }) => name));
     const edges = couplings.filter(({ following, leading }) => names.has(following) && names.has(leading)).map((one) => this.edge(one, places));
-    this.picture.replaceChildren(svg("defs", {}, svg("marker", { id: "arrow", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 8, markerHeight: 8, orient: "auto" }, svg("path", { d: "M0 0l8 4l-8 4z", class: "arrow" }))), ...edges,
+    this.picture.replaceChildren(svg("defs", {}, svg("marker", { id: "arrow", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 10, markerHeight: 10, markerUnits: "userSpaceOnUse", orient: "auto" }, svg("path", { d: "M0 0l8 4l-8 4z", class: "arrow" }))), ...edges,
       ...objects.map(({ name, type }) => {
         const { x, y } = places.get(name)!;
-        return svg("g", { class: "node", "data-object": name }, svg("rect", { x, y, width: kBox.width, height: kBox.height, rx: 6 }), svg("text", { x: x + kBox.width / 2, y: y + 19, "text-anchor": "middle", class: "node-name" }, name),
+        return svg("g", { class: elsewhere.has(name) ? "node elsewhere" : "node", "data-object": name }, svg("title", {}, name), svg("rect", { x, y, width: kBox.width, height: kBox.height, rx: 6 }), svg("text", { x: x + kBox.width / 2, y: y + 19, "text-anchor": "middle", class: "node-name" }, name.length > 19 ? name.slice(0, 18) + "…" : name),
           svg("text", { x: x + kBox.width / 2, y: y + 35, "text-anchor": "middle", class: "tick" }, type ?? ""));
       }));
     this.states.clear();
     this.body.replaceChildren(...couplings.map((one) => this.row(one, couplings, cells)));
-    if (!couplings.length) this.body.replaceChildren(html("tr", {}, html("td", { colspan: 8 }, isTold ? "No object follows another." : "This studio does not tell what follows what.")));
+    if (!couplings.length) this.body.replaceChildren(html("tr", {}, html("td", { colspan: 9 }, isTold ? "No object follows another." : "This studio does not tell what follows what.")));
   }
 
   private row(one: Coupling, couplings: Coupling[], cells: LiveCells): HTMLElement {
@@ -111,8 +114,9 @@ export class Couplings {
     if (one.instance) this.states.set(one.instance, { element: state, pins: new Map() });
     return html("tr", { "data-coupling": `${one.leading} ${one.following}`, class: isRound ? "recursive" : "" }, html("th", { scope: "row" }, one.following), html("td", {}, one.leading),
       html("td", {}, kindOf(one), ...(isRound ? [html("span", { class: "sign", title: "With all couplings active, the leading object would follow its own leading value" }, " ↻ recursive")] : [])),
-      html("td", {}, functionOf(one)), html("td", {}, one.instance ? `${one.instance} (${one.block ?? ""})` : "the project"), html("td", {}, state),
+      html("td", {}, functionOf(one)), html("td", {}, one.instance ? `${one.instance} (${one.block ?? ""})` : one.area ?? "the project"), html("td", {}, ...(one.area ? [] : [state])),
       html("td", {}, ...outputs.flatMap((pin) => [html("span", { class: "unit" }, pin + " "), cells.cell(`${one.instance}.${pin}`), " "])),
+      html("td", {}, ...(one.delay ? [cells.cell(one.delay)] : [])),
       html("td", { class: "route" }, routesOf(one.leading, couplings, [one.following]).map((route) => [one.following, ...route].join(" ← ")).join("; ") || "none: it goes round"));
   }
 
@@ -122,8 +126,8 @@ export class Couplings {
     const a = { x: from.x + kBox.width / 2, y: from.y + kBox.height };
     const b = { x: to.x + kBox.width / 2, y: to.y };
     const path = b.y > a.y ? `M${a.x} ${a.y}C${a.x} ${a.y + 30} ${b.x} ${b.y - 30} ${b.x} ${b.y}` : `M${a.x} ${a.y}C${a.x + 120} ${a.y + 40} ${b.x + 120} ${b.y - 40} ${b.x} ${b.y}`;
-    const edge = svg("g", { class: "edge" + (one.instance ? "" : " possible") }, svg("title", {}, `${one.following} follows ${one.leading}: ${kindOf(one)} ${functionOf(one)}`), svg("path", { d: path, "marker-end": "url(#arrow)" }),
-      svg("text", { class: "tick", x: (a.x + b.x) / 2 + 6, y: (a.y + b.y) / 2 + 4 }, `${one.instance ?? ""} ${kindOf(one)} ${functionOf(one)}`.trim()));
+    const edge = svg("g", { class: "edge" + (one.instance || one.area ? "" : " possible") }, svg("title", {}, `${one.following} follows ${one.leading}: ${kindOf(one)} ${functionOf(one)}`), svg("path", { d: path, "marker-end": "url(#arrow)" }),
+      svg("text", { class: "tick", x: (a.x + b.x) / 2 + 6, y: (a.y + b.y) / 2 + 4 }, `${one.instance ?? one.area ?? ""} ${kindOf(one)} ${functionOf(one)}`.trim()));
     if (one.instance) this.edges.set(one.instance, edge);
     return edge;
   }

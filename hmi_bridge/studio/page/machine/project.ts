@@ -232,7 +232,7 @@ export class Project {
     try {
       const health = await this.json("api/health");
       this.health.replaceChildren(...Object.entries<any>(health).map(([part, values]) => html("section", { class: "health" }, html("h2", {}, part.replaceAll("_", " ")),
-        values === null ? html("p", { class: "faint" }, "is not part of this run") : typeof values === "object" ? html("dl", { class: "facts" }, ...facts(values)) : html("p", {}, String(values)))));
+        values === null ? html("p", { class: "faint" }, "is not part of this run") : Array.isArray(values) ? html("p", values.length ? { class: "lost" } : {}, values.join("; ") || "none") : typeof values === "object" ? html("dl", { class: "facts" }, ...facts(values)) : html("p", {}, String(values)))));
       this.timer = window.setTimeout(() => { if (this.tabs.chosen === "Health" && !this.element.hidden) void this.showHealth(); }, 1000);
     } catch (error) {
       if (!isMissing(error)) throw error;
@@ -259,5 +259,5 @@ function configured(one: VariableRow): VariableRow[] {
 /// Keys and values, those of inner objects with both keys.
 function facts(values: Record<string, any>, before = ""): HTMLElement[] {
   return Object.entries(values).flatMap(([key, value]) => value !== null && typeof value === "object" && !Array.isArray(value) ? facts(value, before + key + " ")
-    : [html("dt", {}, (before + key).replaceAll("_", " ")), html("dd", {}, Array.isArray(value) ? value.map((one) => (typeof one === "object" ? JSON.stringify(one) : String(one))).join(", ") || "–" : valueText(value))]);
+    : [html("dt", {}, (before + key).replace(/_us$/, " [µs]").replaceAll("_", " ")), html("dd", {}, key.endsWith("_us") && typeof value === "number" ? value.toFixed(1) : Array.isArray(value) ? value.map((one) => (typeof one === "object" ? JSON.stringify(one) : String(one))).join(", ") || "–" : valueText(value))]);
 }

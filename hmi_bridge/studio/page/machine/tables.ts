@@ -9,6 +9,8 @@ const kAtOnce = 400;
 
 export interface Reading { t: string; values: { path: string; type: string; unit: string; value: unknown }[]; errors?: { path: string }[] }
 
+function textOf(value: unknown): string { return value === true ? "● TRUE" : value === false ? "○ FALSE" : valueText(value); }
+
 /// Reads what has been given to it, while it is seen.
 export class LiveCells {
   private readonly cells = new Map<string, HTMLElement[]>();
@@ -22,7 +24,9 @@ export class LiveCells {
   clear(): void { this.cells.clear(); this.values.clear(); this.rejected.clear(); ++this.turn; }
 
   cell(path: string): HTMLElement {
-    const element = html("output", { class: "value", "data-live": path }, "–");
+    // What does not change is told once: a cell that is made later begins with it.
+    const element = html("output", { class: "value", "data-live": path }, this.values.has(path) ? textOf(this.values.get(path)) : "–");
+    if (this.values.has(path)) element.dataset.value = String(this.values.get(path));
     this.cells.set(path, [...(this.cells.get(path) ?? []), element]);
     return element;
   }
@@ -51,7 +55,7 @@ export class LiveCells {
     const before = this.values.get(path);
     if (before === value) return;
     this.values.set(path, value);
-    const text = value === true ? "● TRUE" : value === false ? "○ FALSE" : valueText(value);
+    const text = textOf(value);
     for (const element of this.cells.get(path) ?? []) {
       element.textContent = text;
       element.dataset.value = String(value);

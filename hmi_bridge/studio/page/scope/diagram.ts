@@ -292,6 +292,8 @@ export class Diagram {
     const key = [width, height, this.lanes, ...units.flatMap((unit) => [unit, this.rangeOf(unit).low, this.rangeOf(unit).high])].join();
     if (key === this.gridOf) return;
     this.gridOf = key;
+    // Lanes need their height, whatever else there is space for.
+    this.plot.style.minHeight = this.lanes ? `${this.lanes * kLane + (units.length ? 40 : 4)}px` : "";
     const inner = this.lineHeight();
     const shapes: SVGElement[] = [];
     units.slice(0, 2).forEach((unit, side) => {
@@ -371,7 +373,8 @@ export class Diagram {
         const from = Math.max(this.x(record.t[begin], map), kLeft);
         const to = Math.min(this.x(record.t[Math.min(row, record.size - 1)], map), kLeft + this.size.width);
         const text = column.names?.[column.value[begin]] ?? short(column.value[begin]);
-        if (to - from > 7 * text.length + 6) shapes.push(svg("text", { class: "band-name", x: from + 4, y }, text));
+        const fits = Math.floor((to - from - 6) / 7);
+        if (fits >= Math.min(text.length, 4)) shapes.push(svg("text", { class: "band-name", x: from + 4, y }, svg("title", {}, text), text.length <= fits ? text : text.slice(0, fits - 1) + "…"));
         begin = row;
       }
     });

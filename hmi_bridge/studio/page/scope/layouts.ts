@@ -47,7 +47,7 @@ export class Layouts {
   private readonly name = html("input", { "aria-label": "Name of the layout", placeholder: "name", spellcheck: "false" });
   private readonly list = html("ul", { class: "layouts", "aria-label": "Layouts" });
   private readonly shareButton = button("Keep beside the project", "Keep this layout in studio.json beside the project", () => this.share(this.name.value.trim(), structuredClone(this.notes.layout())));
-  private readonly sharedList = html("ul", { class: "layouts", "aria-label": "Layouts beside the project" });
+  private readonly sharedList = html("ul", { class: "layouts", "aria-label": "Layouts beside the project" }, html("li", { class: "faint" }, "None yet."));  // so that what is below does not move when they are read
   private readonly told = html("p", { class: "faint", role: "status" });
   private readonly beside = html("section", { "aria-label": "Beside the project", hidden: true }, html("h3", {}, "Beside the project"), this.sharedList, html("p", { class: "row" }, this.shareButton), this.told);
   readonly element = html("section", { class: "layouts-panel", "aria-label": "Layouts" }, html("p", { class: "row" }, this.name, button("Keep", "Keep this layout in the browser", () => this.keep())),

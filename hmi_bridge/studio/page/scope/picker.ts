@@ -30,7 +30,7 @@ export function treeOf(signals: Found[]): Branch {
 }
 
 export class Picker {
-  readonly input = html("input", { type: "search", placeholder: "Search, or = expression   ( / )", "aria-label": "Search signals",
+  readonly input = html("input", { type: "search", placeholder: "Search, or =expression (/)", "aria-label": "Search signals",
     autocomplete: "off", spellcheck: "false" });
   private readonly list = html("ul", { class: "found", "aria-label": "Signals found" });
   private readonly tree = html("div", { class: "tree", "aria-label": "All signals" });

@@ -62,6 +62,8 @@ export class Scope {
   private modulo = new Map<string, number>();  // length by object
   private events: Event[] = [];
   private history: { jobs: Job[]; events: Event[] } = { jobs: [], events: [] };  // of the run
+  private shown: { jobs: Job[]; events: Event[] } = { jobs: [], events: [] };
+  private readonly pageHistory = new Map<string, [Job[], Event[]]>();  // of saved pages
   private isDirty = true;
   private hasPicture = false;
   private drawnAt = -1;
@@ -146,7 +148,10 @@ export class Scope {
 
   private showHistory(jobs: Job[], events: Event[]): void {
     this.events = events;
-    this.bars.set(jobs, events, this.project.objects.map(({ name }) => name));
+    this.shown = { jobs, events };
+    // A file may tell of objects that no project here has.
+    const objects = [...this.project.objects.map(({ name }) => name), ...jobs.map(({ object }) => object)];
+    this.bars.set(jobs, events, [...new Set(objects)].filter((name) => name !== ""));
     this.dirty();
   }
 
@@ -154,7 +159,7 @@ export class Scope {
   private get hasOwnEvents(): boolean { return this.main.info.kind === "file" || this.main.info.kind === "page"; }
 
   private async showOwnEvents(source: Source): Promise<void> {
-    if (source.info.kind === "page") return;
+    if (source.info.kind === "page") return this.showHistory(...(this.pageHistory.get(source.id) ?? [[], []]));
     if (source.info.kind !== "file") return this.showHistory(this.history.jobs, this.history.events);
     const told = await this.link.json(`api/traces/${source.id}/events`).catch(() => null);
     if (this.main === source) this.showHistory((told?.jobs ?? []).map(jobOf), (told?.events ?? []).map(eventOf));
@@ -162,7 +167,8 @@ export class Scope {
 
   /// Positions of an axis with modulo jump by its length, and a line would say that they had come back.
   private async readModulo(): Promise<void> {
-    await Promise.all(this.project.objects.map(async ({ name }) => {
+    const turning = this.project.objects.filter(({ type }) => /^TO_(PositioningAxis|SynchronousAxis|ExternalEncoder)$/.test(type ?? ""));
+    await Promise.all(turning.map(async ({ name }) => {
       const paths = [name + ".Modulo.Enable", name + ".Modulo.Length"];
       const read = await this.link.post("api/read", { paths }).catch(() => null);
       if (read?.values[0].value === true) this.modulo.set(name, Number(read.values[1].value));
@@ -261,7 +267,8 @@ export class Scope {
     this.view.show(Number(kept.window?.from ?? record.begin), Number(kept.window?.to ?? record.end), this.latest);
     this.relabel();
     this.toolbar.update();
-    this.showHistory((kept.jobs ?? []).map(jobOf), (kept.events ?? []).map(eventOf));
+    this.pageHistory.set(id, [(kept.jobs ?? []).map(jobOf), (kept.events ?? []).map(eventOf)]);
+    void this.showOwnEvents(source);
     return true;
   }
 
@@ -376,6 +383,7 @@ export class Scope {
       this.subscription = 0;
       return;
     }
+    const kept = this.link.json("api/traces").catch(() => null);
     const answer = await this.link.ask({ type: "subscribe", id, paths });
     if (old) void this.link.ask({ type: "unsubscribe", id: old });
     if (id !== this.subscribing) return;
@@ -385,8 +393,9 @@ export class Scope {
     const wrong = answer.signals.filter((signal: any) => signal.error);
     if (wrong.length) this.say(wrong.map((signal: any) => `${signal.path}: ${signal.error.message}`).join("; "));
     const signals: Signal[] = answer.signals.filter((signal: any) => !signal.error);
-    // Where nobody has seen any of them there is nothing yet.
-    const record = await fetchWindow(this.link, "live", signals, null).catch(() => new Recording(signals));
+    // Where nobody has seen any of them there is nothing yet, nor of a simulation that has not begun.
+    const isEmpty = (await kept)?.traces.find((one: any) => one.id === "live")?.rows === 0 && this.live.record.size === 0;
+    const record = isEmpty ? new Recording(signals) : await fetchWindow(this.link, "live", signals, null).catch(() => new Recording(signals));
     if (id !== this.subscription) return;
     this.live.record = record;
     this.isPreloading = false;
@@ -586,7 +595,10 @@ export class Scope {
       if (format === "svg") return saveSvg(this.picture(), name);
       if (format === "png") return await savePng(this.picture(), name);
       if (format === "json") {
-        const kept: Kept = keptOf(name, this.main.recordFor({ from, to }, () => undefined), { from: from - this.main.shift, to: to - this.main.shift }, this.layout, { from, to });
+        const span = { from: from - this.main.shift, to: to - this.main.shift };
+        const kept: Kept = keptOf(name, this.main.recordFor({ from, to }, () => undefined), span, this.layout, { from, to });
+        kept.jobs = this.shown.jobs.filter((job) => job.begin <= span.to && job.end >= span.from);
+        kept.events = this.shown.events.filter(({ t }) => t >= span.from && t <= span.to);
         return save(new Blob([JSON.stringify(kept)], { type: "application/json" }), name + ".studio.json");
       }
       const response = await this.link.get(`api/traces/${this.main.id}/export?format=${format}&${this.names()}&${this.part(from, to)}`);

@@ -68,7 +68,8 @@ export class Traces {
     if (message.state === "failed") this.state.textContent = `${name}: ${message.error?.message ?? "cannot be read"}`;
     if (message.state === "ready") {
       this.state.textContent = "";
-      void this.refresh().then(() => this.notes.show(message.id));
+      // A further trace of a log does not take the picture from the one that was opened.
+      void this.refresh().then(() => { if (!message.of) this.notes.show(message.id); });
     }
   }
 
