@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -35,16 +36,20 @@ int apply(const System& system, const Connections& connections) {
     write_whole_file(file.path, file.text);
     tell(fmt::format("{}: {} delay{} written", file.path, file.delays, file.delays == 1 ? "" : "s"));
   }
-  if (changed.files.empty()) tell("all delays are as computed; nothing to write");
+  if (changed.files.empty())
+    tell(std::ranges::all_of(connections.delays(), &DelayTime::is_current)
+             ? "all delays are as computed; nothing to write"
+             : "nothing to write");
   return kOk;
 }
 
 void tell_recursions(const Connections& connections) {
-  if (connections.recursive())
-    tell(
-        "warning: there are recursive interconnections, for which no delays can be computed; one that takes "
-        "effect is not allowed",
-        Severity::warning);
+  if (!connections.recursive()) return;
+  const bool open = std::ranges::any_of(connections.rows(),
+                                        [](const Interconnection& row) { return row.recursive && !row.cut; });
+  tell(fmt::format("warning: there are recursive interconnections{}; one that takes effect is not allowed",
+                   open ? ", for which no delays can be computed" : ""),
+       Severity::warning);
 }
 
 int show(const ConnectionsOptions& options) {

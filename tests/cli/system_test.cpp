@@ -161,6 +161,17 @@ TEST(Connections, WriteDelaysAndAreThenAsComputed) {
   EXPECT_NE(again.out.find("interpolated"), std::string::npos) << again.out;
 }
 
+TEST(Connections, WriteThroughALinkToAProject) {
+  const SystemFiles files = two();
+  files.path();
+  const std::string link = files.directory().file("PLC_1.json"), real = files.directory().file("real.json");
+  std::filesystem::rename(link, real);
+  std::filesystem::create_symlink("real.json", link);
+  EXPECT_EQ(lockstep({"connections", files.path(), "--calculate", "--apply"}).status, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_NE(content(real).find("\"LocalLeadingValueDelayTime\": 0.004"), std::string::npos) << content(real);
+}
+
 TEST(Connections, TellWhatIsNoSystem) {
   const SystemFiles files = two();
   files.path();
