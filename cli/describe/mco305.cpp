@@ -41,6 +41,20 @@ std::string_view open_text(std::int32_t number) {
   if (number >= 3260 && number <= 3266)
     return "formula and scale of the position controller are not in the sources: README of "
            "tech_objects/mco305";
+  if (number == 3206)
+    return "the distance of the zero pulses of a simulated slave (ENCODERTYPE 9) is this number in "
+           "thousandths, as "
+           "a program sees it; there is no line that could be clocked";
+  if (number == 3213 || number == 3243)
+    return "1, 3: where ENCODERTYPE 11 and 21 or SWAPMENC change the encoder what is read goes on from where "
+           "it is. "
+           "DEF ORIGIN and DEFMORIGIN never alter what an encoder has counted: 2 and 3 do not differ from 0 "
+           "and 1";
+  if (number == 3319)
+    return "SET takes n2 and n3 too: external marker and input n; which number means which is not in the "
+           "sources";
+  if (number == 3320) return "of a simulated slave SET takes n2 and n3 too: edges of input n";
+  if (number == 3360) return "as at power-up; SET changes it for the next run, once it is saved";
   if (number >= 3286 && number <= 3289)
     return "jerk = (VELMAX / RAMPMIN) / JERKMIN of the slope is not in the sources";
   return "";

@@ -117,6 +117,13 @@ bool put(sqlite3* database, const std::string& project, const KeptRow& row) {
   return statement.code() == SQLITE_DONE;
 }
 
+bool clear(sqlite3* database, const std::string& project) {
+  Statement statement(database, "DELETE FROM kept WHERE project = ?");
+  statement.bind(1, project);
+  statement.next();
+  return statement.code() == SQLITE_DONE;
+}
+
 bool put_state(sqlite3* database, const std::string& project, std::size_t count, const std::string& sum) {
   Statement statement(database, "REPLACE INTO state (project, count, sum) VALUES (?, ?, ?)");
   statement.bind(1, project);
@@ -316,6 +323,10 @@ std::string RetainFile::write_once(std::span<const KeptRow> rows) {
     fresh.push_back(&row);
     after.insert_or_assign(folded(row.name), row);
   }
+  if (differs_) {
+    fresh.clear();
+    for (const auto& [name, row] : after) fresh.push_back(&row);
+  }
   if (fresh.empty()) return "";
   const std::string problem = begin_and_write(fresh, sum_of(project_, after));
   if (!problem.empty()) {
@@ -325,6 +336,7 @@ std::string RetainFile::write_once(std::span<const KeptRow> rows) {
   }
   rows_ = std::move(after);
   empty_ = false;
+  differs_ = false;
   ++commits_;
   return "";
 }
@@ -334,6 +346,7 @@ std::string RetainFile::begin_and_write(std::span<const KeptRow* const> rows, co
   sqlite3* const database = database_.get();
   if (!run(database, "BEGIN IMMEDIATE") || (empty_ && !run(database, kTables)))
     return sqlite3_errmsg(database);
+  if (differs_ && !clear(database, project_)) return sqlite3_errmsg(database);
   std::size_t count = rows_.size();
   for (const KeptRow* const row : rows) {
     if (find(row->name) == nullptr) ++count;
@@ -341,6 +354,21 @@ std::string RetainFile::begin_and_write(std::span<const KeptRow* const> rows, co
   }
   if (!put_state(database, project_, count, sum)) return sqlite3_errmsg(database);
   return run(database, "COMMIT") ? "" : sqlite3_errmsg(database);
+}
+
+bool RetainFile::verify() {
+  if (empty_ || !database_) return rows_.empty();
+  sqlite3_db_release_memory(database_.get());  // pages that it has read or written already
+  Statement rows(database_.get(), "SELECT name, type, value, basis FROM kept WHERE project = ?");
+  rows.bind(1, project_);
+  Rows found;
+  while (rows.next()) {
+    KeptRow row{rows.text(0), rows.text(1), rows.text(2), rows.text(3)};
+    std::string name = folded(row.name);
+    found.emplace(std::move(name), std::move(row));
+  }
+  differs_ = rows.code() != SQLITE_DONE || found != rows_;
+  return !differs_;
 }
 
 std::string RetainFile::remark() {

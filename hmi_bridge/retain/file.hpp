@@ -68,6 +68,10 @@ class RetainFile {
   /// an error, the disk has them, under the name of the file. Does nothing if there is nothing new.
   /// @return what went wrong: then the file is as before; empty: nothing
   std::string write(std::span<const KeptRow> rows);
+  /// Reads the rows of the project back from the file. If they differ, the next `write` writes all of them
+  /// anew.
+  /// @return whether they are what was written
+  bool verify();
   /// Makes sure that what was written last is under the name of the file: looks whether somebody has been at
   /// it, and makes it again if so.
   /// @return why it is not there and cannot be; empty: it is there
@@ -119,6 +123,7 @@ class RetainFile {
   std::uint64_t commits_ = 0;
   bool full_ = false;
   bool empty_ = false;    // it has no tables yet
+  bool differs_ = false;  // what was read back is not what was written
   bool watched_ = false;  // what happens to it under its name
   FileStamp stamp_, journal_;
   std::string remark_;

@@ -29,6 +29,7 @@ std::vector<Signal> signals_of(const std::vector<KeptValue>& values, EncoderSavi
   signals.push_back({&saving->asked, Type::UDINT, -1});
   signals.push_back({&saving->answered, Type::UDINT, -1});
   signals.push_back({&saving->error, Type::WORD, -1});
+  signals.push_back({&saving->differs, Type::BOOL, -1});
   return signals;
 }
 
@@ -252,13 +253,18 @@ void RetainWriter::add_news(std::string text) {
 /// To the job that waits: the disk has what the last look saw, or why it has not.
 void RetainWriter::answer() {
   if (asked_ == answered_) return;
-  Value number{}, error{};
+  Value number{}, error{}, differs{};
   number.u = asked_;
+  if (!changed_ && !file_.verify()) {
+    changed_ = true;
+    differs.u = 1;
+    note("what was read back is not what was written");
+  }
   if (changed_)
     error.u = static_cast<std::uint64_t>(file_.full() ? ErrorId::encoder_data_no_space
                                                       : ErrorId::encoder_data_not_written);
   const auto place = static_cast<std::uint32_t>(asked_at_);
-  const SignalWrite writes[] = {{place + 1, number}, {place + 2, error}};
+  const SignalWrite writes[] = {{place + 1, number}, {place + 2, error}, {place + 3, differs}};
   image_.post(writes);
   answered_ = asked_;
 }

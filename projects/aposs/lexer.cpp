@@ -258,7 +258,9 @@ class Cutter {
     step();
     token.kind = Token::Kind::kNumber;
     token.number = static_cast<unsigned char>(peek());
-    token.text = std::string("'") + peek() + "'";
+    const char one = peek();
+    const bool shows = static_cast<unsigned char>(one) >= 0x20 && one != 0x7F;
+    token.text = "'" + (shows ? as_utf8({&one, 1}) : "?") + "'";
     if (done() || peek(1) != '\'') {
       messages_.error(token.place, "one character has to stand between two apostrophes, as in 'A'");
       skip_line();

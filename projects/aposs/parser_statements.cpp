@@ -41,8 +41,7 @@ void Parser::dim_statement() {
     const bool fresh = array_numbers_.try_emplace(name.folded, number).second;
     if (!fresh || assigned_.contains(name.folded))
       messages_.error(name.place, quote(name.text) + (fresh ? " is a variable too" : " is declared twice"));
-    else
-      arrays_.push_back({name.text, static_cast<std::uint32_t>(size.number)});
+    if (fresh) arrays_.push_back({name.text, static_cast<std::uint32_t>(size.number)});
     if (arrays_.size() > 1000) fail(name.place, "too many arrays");
   } while (accept_symbol(","));
 }

@@ -43,6 +43,7 @@ class DeviceLoader {
   void load_parameters(const JsonValue& json, bool from_file);
   void load_parameter(const std::string& name, const JsonValue& json);
   void store(std::int32_t number, std::int32_t value, const JsonValue& json);
+  void warn_without_effect(std::int32_t number, std::int32_t value, const JsonValue& json) const;
   void load_parameter_file(const JsonValue& json);
   void load_drive(const JsonValue& json);
   void load_master(const JsonValue& json);
@@ -51,6 +52,7 @@ class DeviceLoader {
   template <std::size_t n>
   std::optional<std::size_t> line(const std::string& name, const JsonValue& json, const int (&allowed)[n]);
   void load_wiring(const Fields& fields);
+  void warn_of_shared_terminals(const Fields& fields) const;
   void load_programs(const JsonValue& json);
   void load_program(const JsonValue& json);
   void compile(const JsonValue& at, const Fields& fields, DeviceProgram& program);
@@ -122,9 +124,17 @@ void DeviceLoader::load_parameter(const std::string& name, const JsonValue& json
 
 /// A value of the range with which nothing can be computed, such as 0 of what others are divided by, is none.
 void DeviceLoader::store(std::int32_t number, std::int32_t value, const JsonValue& json) {
-  if (device_.parameters().set(number, value) == 0) return;
+  if (device_.parameters().set(number, value) == 0) return warn_without_effect(number, value, json);
   problems_.report(json, aposs::parameter_text(number) + " = " + std::to_string(value) +
                              ": nothing can be computed with it; allowed: another value of its range");
+}
+
+void DeviceLoader::warn_without_effect(std::int32_t number, std::int32_t value, const JsonValue& json) const {
+  if (mco305::is_application_parameter(number)) return;
+  const mco305::Parameter& of = mco305::parameters()[mco305::parameter_index(number)];
+  if (!of.effective && value != of.start)
+    problems_.warn(json, aposs::parameter_text(number) + (of.mnemonic.empty() ? "" : " ") +
+                             std::string(of.mnemonic) + " is declared, without effect");
 }
 
 void DeviceLoader::load_parameter_file(const JsonValue& json) {
@@ -332,6 +342,23 @@ void DeviceLoader::load_wiring(const Fields& fields) {
        [&](std::size_t, void* tag) { settings.analog_output = static_cast<double*>(tag); });
 }
 
+/// X59/1 and X59/2 are inputs or outputs.
+void DeviceLoader::warn_of_shared_terminals(const Fields& fields) const {
+  const bool are_inputs = device_.parameters()[mco305::kIoMode] == 0;
+  constexpr std::size_t kFirstInput = 11;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string terminal = " is terminal X59/" + std::to_string(i + 1);
+    if (!are_inputs && device_.settings.inputs[kFirstInput + i - 1] != nullptr)
+      problems_.warn(*fields["inputs"],
+                     "input " + std::to_string(kFirstInput + i) + terminal +
+                         R"(, which is an output and reads FALSE; allowed with "IOMODE": 0)");
+    if (are_inputs && device_.settings.outputs[i] != nullptr)
+      problems_.warn(*fields["outputs"],
+                     "output " + std::to_string(i + 1) + terminal +
+                         R"(, which is an input and stays FALSE; allowed with "IOMODE": 1)");
+  }
+}
+
 /// Where programs that never wait would take a quarter of each step: told at the device that is one too many.
 void DeviceLoader::warn_of_budget(const JsonValue& json) const {
   constexpr std::int64_t kCommand = 8, kQuarter = 250'000;  // [ns]
@@ -363,6 +390,7 @@ void DeviceLoader::load(const JsonValue& json) {
   if (const JsonValue* const faults = fields["faults"])
     read_struct(*faults, keys::kDeviceFaults, device_.settings.faults, loading_);
   load_wiring(fields);
+  warn_of_shared_terminals(fields);
   if (const auto scale = read_value(fields, keys::kMco305["controller_scale"], loading_))
     device_.settings.controller_scale = scale->number;
   if (const auto steps = read_value(fields, keys::kMco305["steps_per_ms"], loading_))

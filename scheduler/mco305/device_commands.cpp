@@ -1,6 +1,7 @@
 #include "scheduler/mco305/device_commands.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace lockstep {
 namespace {
@@ -144,9 +145,7 @@ Reply DeviceCommands::following(Command command, const std::int32_t* arguments) 
       device_.turn_own_master(arguments[0]);
       return Reply::done();
     case Command::kSetSysvar:
-      return device_.set_system_variable(arguments[0], arguments[1])
-                 ? Reply::done()
-                 : Reply::failed(mco305::kUnknownParameter);
+      return device_.set_system_variable(arguments[0], arguments[1]) ? Reply::done() : unknown(arguments[0]);
     case Command::kMapos:
       return Reply::done(device_.master().shown());
     case Command::kMipos:
@@ -191,7 +190,7 @@ Reply DeviceCommands::reading(Command command, const std::int32_t* arguments) no
     case Command::kSysvar:
       if (machine_ != nullptr) device_.set_program_line(static_cast<std::int32_t>(machine_->place().line));
       if (device_.system_variable(arguments[0], value)) return Reply::done(value);
-      return Reply::failed(mco305::kUnknownParameter);
+      return unknown(arguments[0]);
     case Command::kGet:
       return get(arguments[0]);
     case Command::kSet:
@@ -221,13 +220,18 @@ Reply DeviceCommands::reading(Command command, const std::int32_t* arguments) no
 }
 
 /// GET: process data stand here, all else in the device.
-Reply DeviceCommands::get(std::int32_t number) const noexcept {
+Reply DeviceCommands::get(std::int32_t number) noexcept {
   if (const WORD* const word = word_at(outside_.PcdIn, number, kFirstWordIn))
     return Reply::done(word_of(*word));
   if (const WORD* const word = word_at(outside_.PcdOut, number, kFirstWordOut))
     return Reply::done(word_of(*word));
   std::int32_t value = 0;
   if (device_.get_parameter(number, value)) return Reply::done(value);
+  return unknown(number);
+}
+
+Reply DeviceCommands::unknown(std::int32_t number) noexcept {
+  unknown_ = number;
   return Reply::failed(mco305::kUnknownParameter);
 }
 
@@ -282,8 +286,7 @@ Reply DeviceCommands::drive(Command command, const std::int32_t* arguments) noex
   std::int32_t value = 0;
   switch (command) {
     case Command::kGetvlt:
-      return device_.drive_parameter(arguments[0], value) ? Reply::done(value)
-                                                          : Reply::failed(mco305::kUnknownParameter);
+      return device_.drive_parameter(arguments[0], value) ? Reply::done(value) : unknown(arguments[0]);
     case Command::kSetvlt:
       return done(device_.set_drive_parameter(arguments[0], arguments[1]));
     case Command::kGetvltsub:  // none of those that are there has indices
@@ -344,7 +347,10 @@ Reply DeviceCommands::keeping(Command command, const std::int32_t* arguments,
 
 /// SET: an input function by its own name is that of an input.
 Reply DeviceCommands::set(std::int32_t number, std::int32_t value) noexcept {
-  if (number < kInputFunction) return done(device_.set_parameter(number, value));
+  if (number < kInputFunction) {
+    const int error = device_.set_parameter(number, value);
+    return error == mco305::kUnknownParameter ? unknown(number) : done(error);
+  }
   const std::int32_t function = (number - kInputFunction) / 100;
   const std::int32_t input = (number - kInputFunction) % 100;
   if (input != 0) return done(device_.set_parameter(function_parameter(input), value != 0 ? function : 0));
@@ -400,13 +406,35 @@ Reply DeviceCommands::proceed(Command command, const std::int32_t* arguments, st
   }
 }
 
+/// What the history keeps of it beside its number.
+std::int32_t DeviceCommands::value_of(int error) noexcept {
+  switch (error) {
+    case mco305::kPositionError:
+      return device_.set_counts_shown() - device_.actual_counts_shown();
+    case mco305::kSoftwareLimit:
+    case mco305::kFurtherOut:
+      return device_.actual_counts_shown();
+    case mco305::kUnknownParameter:
+      return std::exchange(unknown_, 0);
+    case mco305::kHardwareLimit:
+      for (const auto end : {mco305::InputFunction::kNegativeEnd, mco305::InputFunction::kPositiveEnd})
+        if (device_.io().active(end)) return static_cast<std::int32_t>(device_.io().input_of(end));
+      return 0;
+    case mco305::kEncoderError:
+      return device_.encoder_failed() ? 2 : 1;
+    default:
+      return 0;
+  }
+}
+
 void DeviceCommands::error_raised(int error) noexcept {
   std::copy_backward(history_.begin(), history_.end() - 1, history_.end());
   const bool runs = machine_ != nullptr && program_ >= 0;
   history_.front() = {.Number = error,
                       .Time = static_cast<DINT>(device_.milliseconds() & 0x7FFFFFFF),
                       .Program = program_,
-                      .Line = runs ? static_cast<DINT>(machine_->error_place().line) : -1};
+                      .Line = runs ? static_cast<DINT>(machine_->error_place().line) : -1,
+                      .Value = value_of(error)};
   if (raised_count_ < raised_.size())
     raised_[raised_count_++] = {error, program_, static_cast<int>(runs ? machine_->error_place().line : 0)};
   else

@@ -67,7 +67,9 @@ class DeviceCommands final : public aposs::Device {
   aposs::Reply copy_words(aposs::Command command, const std::int32_t* arguments,
                           aposs::Arrays& arrays) noexcept;
   aposs::Reply drive(aposs::Command command, const std::int32_t* arguments) noexcept;
-  aposs::Reply get(std::int32_t number) const noexcept;
+  aposs::Reply get(std::int32_t number) noexcept;
+  aposs::Reply unknown(std::int32_t number) noexcept;
+  std::int32_t value_of(int error) noexcept;
   aposs::Reply link_system_variable(const std::int32_t* arguments) noexcept;
   std::int32_t keys() const noexcept;
   aposs::Reply set(std::int32_t number, std::int32_t value) noexcept;
@@ -84,6 +86,7 @@ class DeviceCommands final : public aposs::Device {
   std::uint32_t latches_ = 0;  // when WAITNDX began
   Mco305Outside& outside_;
   Mco305ErrorHistory& history_;
+  std::int32_t unknown_ = 0;  // number that is none, for the history
   std::int32_t program_ = -1;
   /// A system variable that an application parameter shows.
   struct Link {

@@ -34,7 +34,8 @@ Reply Eeprom::write() noexcept {
 Reply Eeprom::proceed() const noexcept {
   const auto since = static_cast<DINT>(disk->answered - request_);
   if (since < 0) return Reply::busy();
-  return disk->error == WORD{} ? Reply::done() : Reply::failed(mco305::kSavingFailed);
+  if (disk->error == WORD{}) return Reply::done();
+  return Reply::failed(disk->differs ? mco305::kVerificationFailed : mco305::kSavingFailed);
 }
 
 Reply Eeprom::save(std::int32_t part, mco305::ParameterValues& parameters, aposs::Arrays& source) noexcept {

@@ -27,7 +27,7 @@ class Eeprom {
   /// SAVE of a part, by its number in `kSavedParts`, and SAVEPROM. @errors 190 it is write-protected
   aposs::Reply save(std::int32_t part, mco305::ParameterValues& parameters, aposs::Arrays& source) noexcept;
   aposs::Reply save_all(aposs::Arrays& source) noexcept;
-  /// Busy until the disk has it. @errors 115 it cannot be written
+  /// Busy until the disk has it. @errors 115 it cannot be written; 162 it was read back otherwise
   aposs::Reply proceed() const noexcept;
 
  private:

@@ -124,6 +124,10 @@ std::vector<Variable> declare_status(std::deque<std::string>& names) {
   add_past("ErrorHistory[].Time", offsetof(Mco305PastError, Time), "when it came up, as TIME [ms]");
   add_past("ErrorHistory[].Program", offsetof(Mco305PastError, Program), "program that ran; -1: none");
   add_past("ErrorHistory[].Line", offsetof(Mco305PastError, Line), "line that was carried out; -1: none");
+  add_past(
+      "ErrorHistory[].Value", offsetof(Mco305PastError, Value),
+      "of 108 the following error, of 111 and 198 the actual position [qc]; of 112 the parameter or system "
+      "variable; of 125 the input; of 192 the encoder (1 master, 2 slave); else 0");
   add_words("PcdIn[]", offsetof(Data, Outside.PcdIn), Effect::DIR,
             "process data that come from a field bus: PCD, COMOPTGET, ON COMBIT");
   add_words("PcdOut[]", offsetof(Data, Outside.PcdOut), Effect::RON,

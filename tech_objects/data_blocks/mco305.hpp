@@ -38,6 +38,7 @@ struct Mco305Program {
 struct Mco305PastError {
   DINT Number{}, Time{};         ///< 0: none; as TIME when it came up [ms]
   DINT Program = -1, Line = -1;  ///< that ran; -1: none
+  DINT Value{};                  ///< what belongs to the error
 };
 inline constexpr std::size_t kMco305PastErrors = 50;
 using Mco305ErrorHistory = std::array<Mco305PastError, kMco305PastErrors>;  ///< the newest first

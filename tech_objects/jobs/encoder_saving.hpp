@@ -29,6 +29,7 @@ class EncoderSaving {
   UDINT asked{};     ///< number of the newest job
   UDINT answered{};  ///< number of the newest job that is over
   WORD error{};      ///< why that one failed, an ErrorId; 0: the adjustments of a tick that knew it are kept
+  BOOL differs{};    ///< of an error: they were written, and read back otherwise
 
  private:
   Job* job_ = nullptr;

@@ -31,6 +31,7 @@ void Device::configure(const DeviceSettings& settings, double servo_period) {
   absolute_.configure(virtual_ ? 0 : parameters_[kEncoderAbsType], parameters_[kEncoderDatLen],
                       counts_of(start));
   master_.power_up(parameters_);
+  io_.power_up(parameters_);
   refresh();
   if (settings.has_drive) {
     drive_ = kDriveModels[0].make();
@@ -52,7 +53,13 @@ void Device::refresh() noexcept {
   acceleration_maximum_ = velocity_maximum_ / p.real(kRampMin);
   profile_time_ = p[kProfTime];
   sampling_ = p[kTimer];
-  marker_type_ = p[kMarkerTypeSlave];
+  constexpr std::int32_t kUsualInput = 6;
+  const MarkerType marker = marker_type_of(p[kMarkerTypeSlave], settings_.later_edition && virtual_);
+  marker_type_ = marker.type;
+  marker_input_ = marker.input != 0 ? marker.input : kUsualInput;
+  const bool pulses = virtual_ && settings_.later_edition && marker.type == 0 && p[kEncoderFreq] > 0;
+  virtual_pulse_ = pulses ? p.real(kEncoderFreq) : 0.0;
+  no_pulse_from_ = no_pulse_until_ = 0.0;
   position_error_ = p[kPosErr];
   checks_limits_ = p[kSwNegLimAct] != 0 || p[kSwPosLimAct] != 0;
   control_.proportional = p.real(kKProp);
@@ -67,14 +74,24 @@ void Device::refresh() noexcept {
   control_.integral_time = std::max(p[kKILimTime], -kLargestPosition);
   control_.scale = settings_.controller_scale;
   io_.assign(p);
-  master_.refresh(p);
+  master_.refresh(p, settings_.later_edition);
   has_master_ = has_master_ || master_.present();
   sync_.refresh(p, settings_.later_edition, velocity_maximum_);
   drive_sign_ = p[kPosDirection] % 2 == 0 ? -1.0 : 1.0;
   scale_drive();
 }
 
+/// ENCODERTYPE, MENCODERTYPE of two digits, in place of SWAPMENC. @errors 112 the inputs cannot change places
+int Device::choose_encoder(std::int32_t number, std::int32_t value) noexcept {
+  const bool own = number == kEncoderType;
+  if ((!own && number != kMasterEncoderType) || !settings_.later_edition) return 0;
+  const std::int32_t input = encoder_input_of(value);
+  if (input == 0) return 0;
+  return swap_encoders((input == 1) == own) ? 0 : kUnknownParameter;
+}
+
 int Device::set_parameter(std::int32_t number, std::int32_t value) noexcept {
+  if (const int error = choose_encoder(number, value); error != 0) return error;
   const int error = parameters_.set(number, value);
   if (error == 0 && !is_application_parameter(number)) refresh();
   return error;
@@ -159,8 +176,27 @@ void Device::latch(double from, double to) noexcept {
   if (marker_type_ >= 2)
     return track_.pass(from, to, [this, start](double place) { take_latch(encoder_count(place - start)); });
   const auto& marks = settings_.drive.signals.zero_marks;
+  if (!marks && virtual_pulse_ > 0.0) return latch_virtual(from, to);
   if (!marks || absolute_.present()) return;
   if (const auto mark = marks->between(from, to)) take_latch(encoder_count(*mark - start + 0.5));
+}
+
+/// Those of a simulated slave: one each ENCODERFREQ, the first ones half of that from where it begins.
+void Device::latch_virtual(double from, double to) noexcept {
+  const auto is_free = [this](double place) { return place > no_pulse_from_ && place < no_pulse_until_; };
+  if (is_free(from) && is_free(to)) return;
+  constexpr int kInAStep = 8;
+  const bool forward = from < to;
+  const double half = 0.5 * virtual_pulse_;
+  double number = whole_below((from - half) / virtual_pulse_);
+  if (forward || number * virtual_pulse_ + half == from) number += forward ? 1.0 : -1.0;
+  for (int i = 0; i < kInAStep; ++i, number += forward ? 1.0 : -1.0) {
+    const double place = number * virtual_pulse_ + half;
+    if (forward ? place > to : place < to) break;
+    take_latch(counts_of(place));
+  }
+  no_pulse_from_ = whole_below((to - half) / virtual_pulse_) * virtual_pulse_ + half;
+  no_pulse_until_ = no_pulse_from_ + virtual_pulse_;
 }
 
 void Device::take_latch(std::int64_t place) noexcept {
@@ -176,7 +212,8 @@ void Device::mark(double place) noexcept {
 
 /// Of the markers of this millisecond those of the slave have been taken while its drive was read.
 void Device::step_master() noexcept {
-  master_.look_at_marker(io_.input(5));
+  const std::int32_t enabling = master_.enabling_input();
+  master_.look_at_marker(io_.input(5), enabling == 0 || io_.input(enabling));
   master_.step();
   sync_.average(master_);
   if (mode_ != MotionMode::kFollow) sync_.end();
@@ -186,7 +223,7 @@ void Device::step_master() noexcept {
 void Device::sample_inputs() noexcept {
   for (const WiredInput& input : wired_inputs_) io_.set_input(input.number, *input.tag);
   if (!io_.any_input_function() && marker_type_ < 2) {
-    last_marker_input_ = io_.input(6);
+    last_marker_input_ = io_.input(marker_input_);
     return;
   }
   const auto& cam = settings_.drive.signals.reference_cam;
@@ -196,9 +233,9 @@ void Device::sample_inputs() noexcept {
                                     (home_switch <= 10 ? 1 : 0)] == 2;
     io_.set_input(home_switch, cam->contains(machine_, 0.0) != closed);
   }
-  // The marker of the following side is input 6.
+  // The marker of the following side is input 6, of a simulated one any.
   const std::int32_t type = marker_type_;
-  const bool marker = io_.input(6);
+  const bool marker = io_.input(marker_input_);
   if (type >= 2 && marker != last_marker_input_ && marker == (type == 2)) {
     take_latch(actual_);
   }

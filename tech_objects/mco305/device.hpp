@@ -161,6 +161,7 @@ class Device {
   double set_position() const noexcept { return profile_.state().position; }      ///< [qc] on the counter
   double set_velocity_now() const noexcept { return profile_.state().velocity; }  ///< [qc/ms]
   bool controlled() const noexcept { return on_; }
+  bool encoder_failed() const noexcept { return told_.encoder_failed; }  ///< its own
   /// Whether OUTAN turns the drive.
   bool open_loop() const noexcept { return open_loop_ != 0; }
   bool moving() const noexcept { return moving_; }
@@ -211,7 +212,9 @@ class Device {
   void read_absolute() noexcept;
   void latch(double from, double to) noexcept;
   std::int64_t encoder_count(double place) const noexcept;
+  void latch_virtual(double from, double to) noexcept;
   void take_latch(std::int64_t place) noexcept;
+  int choose_encoder(std::int32_t number, std::int32_t value) noexcept;
   void step_master() noexcept;
   void sample_inputs() noexcept;
   void generate() noexcept;
@@ -297,7 +300,9 @@ class Device {
   };
   std::vector<WiredInput> wired_inputs_;
   std::vector<WiredOutput> wired_outputs_;
-  std::int32_t marker_type_ = 0;  // SYNCMTYPS
+  std::int32_t marker_type_ = 0, marker_input_ = 6;    // SYNCMTYPS
+  double virtual_pulse_ = 0.0;                         // [qc] from one to the next; 0: there are none
+  double no_pulse_from_ = 0.0, no_pulse_until_ = 0.0;  // between these [qc]
   MarkerTrack track_;
   std::unique_ptr<Drive> drive_;
   /// What the drive has told last; its position is in `machine_`.

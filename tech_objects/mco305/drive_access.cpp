@@ -121,15 +121,24 @@ int Device::set_drive_parameter(std::int32_t number, std::int32_t value) noexcep
 }
 
 /// SWAPMENC: the drive turns the motor whose encoder is the feedback, and the other one stands; counters and
-/// zero points change their places.
+/// zero points change their places. Where ENCCONTROL, MENCCONTROL say so what is read goes on from where it
+/// is.
 bool Device::swap_encoders(bool swapped) noexcept {
   if (settings_.has_master || absolute_.present() || master_.is_absolute()) return false;
   if (swapped == swapped_) return true;
   swapped_ = swapped;
   has_master_ = true;
-  const std::int64_t before = actual_;
-  master_.exchange(actual_, origin_);
-  swap_offset_ += actual_ - before;
+  constexpr std::int32_t kSoftChange = 1;
+  const auto is_soft = [this](std::int32_t number) noexcept {
+    return settings_.later_edition && (parameters_[number] & kSoftChange) != 0;
+  };
+  std::int64_t position = is_soft(kMasterEncControl) ? master_.position() : actual_;
+  std::int64_t origin = is_soft(kMasterEncControl) ? master_.origin() : origin_;
+  if (!is_soft(kMasterEncControl)) master_.exchange(position, origin);
+  if (is_soft(kEncControl)) return true;
+  swap_offset_ += position - actual_;
+  actual_ = position;
+  origin_ = origin;
   std::fill(positions_.begin(), positions_.end(), actual_);
   if (virtual_) {
     machine_ = static_cast<double>(actual_);

@@ -32,6 +32,7 @@ bool InputsOutputs::switch_output(std::int32_t number, bool on) noexcept {
 }
 
 void InputsOutputs::switch_one(std::size_t index, bool on) noexcept {
+  if (shared_are_inputs_ && is_shared_output(index + 1)) return;
   outputs_[index] = on;
   if (index >= kFunctionOutputs) return;
   const std::int32_t bit = 1 << index;
@@ -49,7 +50,7 @@ void InputsOutputs::assign(const ParameterValues& parameters) noexcept {
   any_input_function_ = false;
   for (std::size_t input = kFunctionInputs; input >= 1; --input) {
     const std::int32_t function = parameters[function_parameter(input)];
-    if (function < 1 || function > 15) continue;
+    if (function < 1 || function > 15 || (is_shared_input(input) && !shared_are_inputs_)) continue;
     any_input_function_ = true;
     const auto open = static_cast<std::size_t>(function - (function % 2 == 0 ? 1 : 0));
     input_of_[open] = static_cast<std::uint8_t>(input);

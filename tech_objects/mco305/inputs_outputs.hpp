@@ -34,8 +34,15 @@ class InputsOutputs {
   static constexpr std::size_t kOutputs = 32;  ///< 30, 31, 32: the relays X34/1, X34/5, X34/10
   static constexpr std::size_t kFunctionInputs = 12, kFunctionOutputs = 8;
 
+  /// IOMODE, until the next time: terminals X59/1 and X59/2 are inputs 11 and 12, or outputs 1 and 2.
+  void power_up(const ParameterValues& parameters) noexcept { shared_are_inputs_ = parameters[kIoMode] == 0; }
+  static constexpr bool is_shared_input(std::size_t number) noexcept { return number == 11 || number == 12; }
+  static constexpr bool is_shared_output(std::size_t number) noexcept { return number == 1 || number == 2; }
+
+  /// One whose terminal is an output has no level.
   void set_input(std::size_t number, bool level) noexcept {
     if (number < 1 || number > kInputs || inputs_[number - 1] == level) return;
+    if (is_shared_input(number) && !shared_are_inputs_) return;
     inputs_[number - 1] = level;
     input_word_ = input_byte(0) | input_byte(1) << 8 | input_byte(2) << 16;
   }
@@ -53,7 +60,7 @@ class InputsOutputs {
   bool output(std::size_t number) const noexcept {
     return number >= 1 && number <= kOutputs && outputs_[number - 1];
   }
-  /// OUT. False if there is no such output.
+  /// OUT. False if there is no such output; one whose terminal is an input stays off.
   bool switch_output(std::int32_t number, bool on) noexcept;
   /// Those of the option and of the drive.
   void switch_all(bool on) noexcept;
@@ -78,6 +85,7 @@ class InputsOutputs {
  private:
   void switch_one(std::size_t index, bool on) noexcept;
 
+  bool shared_are_inputs_ = false;
   std::int32_t input_word_ = 0, output_byte_ = 0;
   std::array<bool, kInputs> inputs_{};
   std::array<bool, kOutputs> outputs_{};

@@ -6,11 +6,14 @@
 
 namespace lockstep::mco305 {
 
-void MasterInput::refresh(const ParameterValues& parameters) noexcept {
+void MasterInput::refresh(const ParameterValues& parameters, bool later_edition) noexcept {
   type_ = parameters[kMasterEncoderType];
+  if (later_edition && encoder_input_of(type_) != 0) type_ %= 10;
   simulated_ = type_ == kSimulated || (!wired_ && parameters[kMasterEncoderAbsType] == kSimulated);
   resolution_ = parameters[kMasterEncoderAbsRes];
-  marker_type_ = parameters[kMarkerTypeMaster];
+  const MarkerType marker = marker_type_of(parameters[kMarkerTypeMaster], later_edition);
+  marker_type_ = marker.type;
+  enabling_input_ = marker.input;
   turn_ = 4.0 * parameters.real(kMasterEncoder);
 }
 
@@ -42,6 +45,7 @@ void MasterInput::pass(double from, double to) noexcept {
 }
 
 void MasterInput::latch(double place) noexcept {
+  if (marker_type_ >= 2 && !enabled_) return;
   latched_ = counts_of(place);
   ++latches_;
   if (next_mark_count_ < kMarks) next_marks_[next_mark_count_++] = static_cast<double>(latched_);
@@ -96,7 +100,8 @@ void MasterInput::exchange(std::int64_t& position, std::int64_t& origin) noexcep
   begun_ = true;
 }
 
-void MasterInput::look_at_marker(bool level) noexcept {
+void MasterInput::look_at_marker(bool level, bool enabled) noexcept {
+  enabled_ = enabled;
   if (marker_type_ >= 2 && level != last_level_ && level == (marker_type_ == 2))
     latch(static_cast<double>(position_));
   last_level_ = level;

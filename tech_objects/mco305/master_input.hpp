@@ -28,14 +28,16 @@ class MasterInput {
   }
   /// What it is, until the next time.
   void power_up(const ParameterValues& parameters) noexcept;
-  void refresh(const ParameterValues& parameters) noexcept;
+  void refresh(const ParameterValues& parameters, bool later_edition) noexcept;
+  /// The input that has to be on for external markers to count; 0: none.
+  std::int32_t enabling_input() const noexcept { return enabling_input_; }
 
   // ---- Steps
 
   /// What the encoder shows in a servo tick [qc], |encoder| < 2⁵³; before `step` of the same tick.
   void turn(double encoder) noexcept;
-  /// The level of input 5 in a servo tick.
-  void look_at_marker(bool level) noexcept;
+  /// The level of input 5 in a step, and whether external markers count.
+  void look_at_marker(bool level, bool enabled) noexcept;
   /// An external marker at a place of the counter [qc].
   void mark(double place) noexcept;
   /// SWAPMENC: the counter and its zero change places with those.
@@ -100,7 +102,8 @@ class MasterInput {
   std::int32_t real_velocity_ = 0;
   VirtualMaster own_;
   MarkerTrack track_;
-  bool last_level_ = false;
+  bool last_level_ = false, enabled_ = true;
+  std::int32_t enabling_input_ = 0;
   std::int64_t latched_ = 0;
   std::uint32_t latches_ = 0;
   std::array<double, kMarks> marks_{}, next_marks_{};

@@ -52,6 +52,10 @@ void Synchronization::refresh(const ParameterValues& p, bool later_edition,
   limits_.reversal = static_cast<PursuitLimits::Reversal>(std::clamp(p[kRevers], 0, 2));
   offset_.set(master_tolerance_.distance, offset_time_, later_edition);
   offset_.want(wanted_offset());
+  constexpr double kDither = 2.0;  // [qc of the master]
+  const bool gives_back = later_edition && limits_.reversal != PursuitLimits::Reversal::free;
+  const double ratio = std::abs(gear_.ratio());
+  held_.set(gives_back ? master_tolerance_.distance * ratio : 0.0, offset_time_, kDither * ratio);
 }
 
 /// [ms]
@@ -125,6 +129,7 @@ void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const Fou
   correction_.set(0.0, 0.0, false);
   offset_.begin(0.0);
   offset_.want(wanted_offset());
+  held_.begin();
   target_ = before_ = gear_.position();
   target_velocity_ = velocity_before_ = velocity_ * gear_.ratio();
   spread_ = spread_before_ = limits_.spread = 0.0;
@@ -187,6 +192,17 @@ void Synchronization::judge(std::int64_t actual) noexcept {
   if (following_ && reached_) quality_.look(error_, accuracy_);
 }
 
+/// Along with a target that is ahead by what REVERS has held back, and not given back yet.
+void Synchronization::pursue_what_holds_back() noexcept {
+  const double target = looks_ahead_ ? target_ : before_;
+  const double velocity = looks_ahead_ ? target_velocity_ : velocity_before_;
+  const double spread = looks_ahead_ ? spread_ : spread_before_;
+  limits_.spread = spread;
+  held_.step(target, velocity, pursuit_, Pursuit::only_forward(velocity, limits_), limits_);
+  limits_.spread = spread + held_.velocity();
+  pursuit_.step(target + held_.by(), velocity + held_.velocity(), limits_);
+}
+
 FourSlopeState Synchronization::set_point(std::int64_t actual, bool controls_velocity) noexcept {
   last_velocity_ = pursuit_.velocity();
   if (mode_ == SyncMode::kVelocity) {
@@ -200,6 +216,8 @@ FourSlopeState Synchronization::set_point(std::int64_t actual, bool controls_vel
     }
   } else if (awaits_path_) {
     pursuit_.follow(0.0, limits_);
+  } else if (held_.active()) {
+    pursue_what_holds_back();
   } else if (looks_ahead_) {
     limits_.spread = spread_;
     pursuit_.step(target_, target_velocity_, limits_);

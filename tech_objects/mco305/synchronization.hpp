@@ -9,6 +9,7 @@
 #include "tech_objects/profile/four_slope_profile.hpp"
 #include "tech_objects/synchronous/count_filter.hpp"
 #include "tech_objects/synchronous/count_gear.hpp"
+#include "tech_objects/synchronous/held_back.hpp"
 #include "tech_objects/synchronous/marker_filter.hpp"
 #include "tech_objects/synchronous/marker_pairing.hpp"
 #include "tech_objects/synchronous/marker_window.hpp"
@@ -101,6 +102,7 @@ class Synchronization {
   void pair(double apart) noexcept;
   void meet_at_a_marker(double place) noexcept;
   void follow_path() noexcept;
+  void pursue_what_holds_back() noexcept;
   MarkerFilterSettings filter_settings() const noexcept;
 
   SyncMode mode_ = SyncMode::kNone;
@@ -111,6 +113,7 @@ class Synchronization {
   FadingTime fading_;
   Pursuit pursuit_;
   PursuitLimits limits_;
+  HeldBack held_;                                // by REVERS [qc]
   double last_velocity_ = 0.0;                   // [qc/ms] of the set position
   double velocity_ = 0.0;                        // of the master, smoothed [qc/ms]
   double target_ = 0.0, target_velocity_ = 0.0;  // of this step

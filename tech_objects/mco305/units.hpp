@@ -31,6 +31,24 @@ inline double whole_below(double value) noexcept {
   return cut > value ? cut - 1.0 : cut;
 }
 
+/// ENCODERTYPE, MENCODERTYPE of two digits: the first one is the encoder input, 1: X56, 2: X55; 0: none is
+/// named.
+constexpr std::int32_t encoder_input_of(std::int32_t type) noexcept {
+  return type >= 10 && type < 30 ? type / 10 : 0;
+}
+
+/// SYNCMTYPM, SYNCMTYPS: the later edition has two more digits, which name an input.
+struct MarkerType {
+  std::int32_t type = 0;   ///< 0, 1: zero pulse; 2: rising edge, 3: falling edge
+  std::int32_t input = 0;  ///< 0: none is named
+};
+constexpr MarkerType marker_type_of(std::int32_t value, bool later_edition) noexcept {
+  constexpr std::int32_t kTen = 10, kLastInput = 33;
+  const std::int32_t input = value / kTen, type = value % kTen;
+  if (!later_edition || input < 1 || input > kLastInput || (type != 2 && type != 3)) return {value, 0};
+  return {type, input};
+}
+
 /// 1 user unit = numerator / denominator counts (qc); both > 0.
 struct UserUnit {
   std::int64_t numerator = 1;    ///< POSFACT_Z

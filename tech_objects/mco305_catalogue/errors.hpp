@@ -40,6 +40,7 @@ enum ErrorNumber : int {
   kNoSupply = 150,
   kOutputOverloaded = 154,
   kLinkFailed = 155,
+  kVerificationFailed = 162,
   kArrayBound = 171,
   kWaitIndexTimeout = 179,
   kWriteProtected = 190,

@@ -56,6 +56,14 @@ class Pursuit {
   /// Called by another name: what it is at moves, it does not.
   void shift(double by) noexcept { position_ += by; }
 
+  /// Whether the velocity must not be negative. What spreads a correction is no motion of the target.
+  static bool only_forward(double target_velocity, const PursuitLimits& limits) noexcept {
+    constexpr double kRests = -1e-9;  // [u/step]
+    using Reversal = PursuitLimits::Reversal;
+    return limits.reversal == Reversal::never ||
+           (limits.reversal == Reversal::with_target && target_velocity - limits.spread >= kRests);
+  }
+
   double position() const noexcept { return position_; }
   double velocity() const noexcept { return velocity_; }  ///< [u/step] of the last step
   /// Whether it is within one unit of the target and goes along with it.
@@ -110,10 +118,7 @@ class Pursuit {
       low = std::clamp(pace - band, low, high);
       high = std::clamp(pace + band, low, high);
     }
-    using Reversal = PursuitLimits::Reversal;
-    const bool forward = limits.reversal == Reversal::never ||
-                         (limits.reversal == Reversal::with_target && target_velocity >= 0.0);
-    if (forward) {
+    if (only_forward(target_velocity, limits)) {
       low = std::max(low, 0.0);
       high = std::max(high, 0.0);
     }

@@ -75,8 +75,9 @@ class MemoryDisk {
   std::vector<DiskOperation> operations;
   bool recording = false;
   std::atomic<std::size_t> space =
-      SIZE_MAX;         ///< of all files together [byte]; changed while another thread writes
-  bool broken = false;  ///< every write and sync fails with an input/output error
+      SIZE_MAX;           ///< of all files together [byte]; changed while another thread writes
+  std::string spoiled{};  ///< a text of which the disk keeps '#' in place of its last character
+  bool broken = false;    ///< every write and sync fails with an input/output error
 
  private:
   struct File {
@@ -179,8 +180,10 @@ class MemoryDisk {
     const std::size_t end = static_cast<std::size_t>(offset) + static_cast<std::size_t>(size);
     const std::size_t present = disk.content[*of(file)->name].size();
     if (end > present && disk.used() + (end - present) > disk.space) return SQLITE_FULL;
-    disk.note({DiskOperation::write, *of(file)->name, static_cast<std::size_t>(offset),
-               std::string(static_cast<const char*>(data), static_cast<std::size_t>(size))});
+    std::string kept(static_cast<const char*>(data), static_cast<std::size_t>(size));
+    if (const std::size_t at = kept.find(disk.spoiled); !disk.spoiled.empty() && at != kept.npos)
+      kept[at + disk.spoiled.size() - 1] = '#';
+    disk.note({DiskOperation::write, *of(file)->name, static_cast<std::size_t>(offset), std::move(kept)});
     return SQLITE_OK;
   }
 

@@ -199,5 +199,23 @@ TEST(RetainFullDisk, ABrokenOneIsToldAndTriedAgain) {
   EXPECT_EQ(held(disk.content, 2), 2);
 }
 
+TEST(RetainVerification, OfAnotherContentIsToldAndTheNextWriteWritesAllOfItAgain) {
+  MemoryDisk disk;
+  RetainFile file(kFile, kProject, disk.name());
+  ASSERT_EQ(file.write(snapshot(1)), "");
+  EXPECT_TRUE(file.verify());
+  const std::vector<KeptRow> beside = {{"Beside", "INT", "815", ""}};
+  disk.spoiled = "815";
+  ASSERT_EQ(file.write(beside), "");
+  EXPECT_FALSE(file.verify());
+  disk.spoiled.clear();
+  ASSERT_EQ(file.write(snapshot(1)), "") << "nothing new, but for what the disk has not";
+  EXPECT_TRUE(file.verify());
+  const RetainFile again(kFile, kProject, disk.name());
+  ASSERT_NE(again.find("Beside"), nullptr);
+  EXPECT_EQ(again.find("Beside")->value, "815");
+  EXPECT_EQ(by_name(again.rows()), by_name(file.rows()));
+}
+
 }  // namespace
 }  // namespace lockstep::test::retain_crash_test

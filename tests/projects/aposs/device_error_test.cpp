@@ -141,6 +141,48 @@ TEST(DeviceErrors, AreEachProvokedByAProject) {
   }
 }
 
+// What belongs to an error beside its number, of those of which anything does.
+TEST(DeviceErrors, HaveAValueInTheirHistory) {
+  int looked_at = 0;
+  for (const Provoked& one : provoked()) {
+    Simulation machine = Simulation::from_text(project_of(one).dump());
+    machine.run_for(std::chrono::milliseconds(400));
+    const auto past = [&](int i, const std::string& what) {
+      return machine.read("Lift.ErrorHistory[" + std::to_string(i) + "]." + what);
+    };
+    double value = 0.0;
+    for (int i = 1; i <= 50; ++i)
+      if (past(i, "Number") == one.number) value = past(i, "Value");
+    ++looked_at;
+    if (one.number == 108) {
+      EXPECT_GT(value, 1000.0) << "the following error, beyond POSERR";
+      EXPECT_LT(value, 5000.0);
+    } else if (one.number == 112) {
+      EXPECT_EQ(value, 3299.0);
+    } else if (one.number == 125) {
+      EXPECT_EQ(value, one.input);
+    } else if (one.number == 192) {
+      EXPECT_EQ(value, one.drive ? 2.0 : 1.0);
+    } else if (one.number != 198 && one.number != 111) {
+      EXPECT_EQ(value, 0.0) << one.number;
+    }
+  }
+  EXPECT_GT(looked_at, 20);
+  const Provoked beyond{.number = 111,
+                        .program = {"CVEL 20", "CSTART"},
+                        .parameters = {{"SWPOSLIMACT", 1}, {"POSLIMIT", 1000}}};
+  Simulation machine = Simulation::from_text(project_of(beyond).dump());
+  machine.run_for(std::chrono::milliseconds(2000));
+  bool found = false;
+  for (int i = 1; i <= 50 && !found; ++i) {
+    found = machine.read("Lift.ErrorHistory[" + std::to_string(i) + "].Number") == 111.0;
+    if (found) {
+      EXPECT_GT(machine.read("Lift.ErrorHistory[" + std::to_string(i) + "].Value"), 1000.0);
+    }
+  }
+  EXPECT_TRUE(found);
+}
+
 // The last fifty, the newest first, each with its time, its program and its line.
 TEST(DeviceErrors, StandInTheirHistory) {
   Json json = Json::parse(R"({ "lockstep": 1, "name": "history", "clock": { "servo_cycle": "1ms" },
@@ -184,7 +226,7 @@ TEST(DeviceErrors, StandInTheirHistory) {
 // disk that is gone, 116 a damaged retain file, 170 and 176 two
 // programs; each has its test elsewhere.
 TEST(DeviceErrors, HaveATestEachOrSayWhyNot) {
-  std::set<int> tested = {105, 110, 115, 116, 170, 175, 176, 196};
+  std::set<int> tested = {105, 110, 115, 116, 162, 170, 175, 176, 196};
   for (const Provoked& one : provoked()) tested.insert(one.number);
   for (const mco305::Error& error : mco305::errors())
     EXPECT_EQ(tested.contains(error.number), error.never.empty()) << error.number;

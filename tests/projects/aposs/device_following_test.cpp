@@ -114,6 +114,34 @@ TEST(DevicesInAProject, FollowAnExternalEncoder) {
   EXPECT_NEAR(machine.read("Device.CPOS") - begin, 250.0 * 2048.0 / 55.0, 2.0);
 }
 
+// A proxy leads a device as the axis does whose value it brings, later by the one tick of the transfer.
+TEST(DevicesInAProject, FollowALeadingAxisProxy) {
+  Json json = project_of(
+      {{"Belt", Json::parse(R"({ "type": "TO_PositioningAxis", "config": { "VirtualAxis": { "Mode": 1 },
+          "CrossPlcSynchronousOperation": { "Interface[1]": { "EnableLeadingValueOutput": true },
+                                            "LocalLeadingValueDelayTime": 0.004 },
+          "DynamicDefaults": { "Velocity": 200.0, "Acceleration": 400.0, "Deceleration": 400.0, "Jerk": 4000.0 } } })")},
+       {"Line", {{"type", "TO_LeadingAxisProxy"}}},
+       {"Device",
+        device_with(kFollows, {{"master", {{"follows", "Line"}, {"counts_per_unit", {100, 1}}}}})}});
+  json["transfer_areas"] = {{"line", {{"from", "Belt"}, {"to", "Line"}}}};
+  json["tags"]["go"] = {{"type", "BOOL"}};
+  json["programs"] = Json::parse(R"([ { "name": "Main", "ob": "Main", "cycle": "1ms", "calls": [
+    { "fb": "MC_Power", "name": "power", "in": { "Axis": "Belt", "Enable": true } },
+    { "fb": "MC_MoveVelocity", "name": "run", "in": { "Axis": "Belt", "Execute": "go", "Velocity": 200.0 } } ] } ])");
+  Simulation machine = Simulation::from_text(json.dump());
+  machine.run_for(milliseconds(200));
+  machine.write("go", 1.0);
+  machine.run_for(milliseconds(3000));
+  constexpr double kStep = 200.0 * 100.0 / 1000.0;  // [qc] of a millisecond
+  EXPECT_NEAR(machine.read("Device.MAPOS"), 100.0 * machine.read("Belt.Position"), 8.0 * kStep);
+  EXPECT_NEAR(machine.read("Device.CPOS"), machine.read("Device.MAPOS"), 2.0);
+  const double before = machine.read("Device.CPOS"), belt = machine.read("Belt.Position");
+  machine.run_for(milliseconds(1000));
+  EXPECT_NEAR(machine.read("Device.CPOS") - before, 100.0 * (machine.read("Belt.Position") - belt), 2.0);
+  EXPECT_GT(machine.read("Device.CPOS") - before, 19'000.0);
+}
+
 Json belt() {
   return Json::parse(R"({ "type": "TO_PositioningAxis", "config": { "VirtualAxis": { "Mode": 1 },
     "DynamicDefaults": { "Velocity": 200.0, "Acceleration": 400.0, "Deceleration": 400.0, "Jerk": 4000.0 } } })");

@@ -13,6 +13,7 @@
 #include "hmi_bridge/retain/writer.hpp"
 #include "projects/loader/project.hpp"
 #include "scheduler/mco305/mco305.hpp"
+#include "tests/hmi_bridge/memory_disk.hpp"
 #include "tests/support/directory.hpp"
 
 namespace lockstep::device_retain_test {
@@ -27,6 +28,7 @@ struct Machine {
   Json parameters = {{"KPROP", 30}, {"1900", 4}};
   std::vector<std::string> remarks{};
   bool loses_its_disk = false;  ///< when the run has begun
+  const char* disk = nullptr;   ///< name of SQLite's access to files; nullptr: the usual one
   std::size_t rests_in = 0;     ///< line of the loop in which it has done all; 0: the last one but one
   Json map = Json::array();     ///< of Modbus
   std::vector<std::pair<std::int32_t, DINT>> panel{};  ///< parameters that a client writes in the third tick
@@ -45,7 +47,7 @@ struct Machine {
     std::unique_ptr<RetainWriter> writer;
     remarks.clear();
     LoadedProject loaded = load_project(text(), "", [&](Project& project) {
-      RetainFile kept(file, project.name);
+      RetainFile kept(file, project.name, disk);
       remarks = restore(kept, project.retain.values);
       writer = std::make_unique<RetainWriter>(std::move(kept), project.retain.values, std::chrono::seconds(1),
                                               &project.controller->encoder_saving);
@@ -126,6 +128,41 @@ TEST(DeviceRetain, TellsThatTheDiskIsNotThereAnyMore) {
   const auto project = machine.run();
   ASSERT_NE(project, nullptr);
   EXPECT_EQ(element(*project, "found"), 115);
+}
+
+// The disk keeps another value than was written: it is read back.
+TEST(DeviceRetain, TellsThatTheDiskKeepsSomethingElse) {
+  for (const bool spoils : {false, true}) {
+    test::MemoryDisk disk;
+    if (spoils) disk.spoiled = "815,4711";
+    Machine machine{.file = "kept",
+                    .program = {"DIM a[2]",
+                                "found = -1",
+                                "ON ERROR GOSUB trouble",
+                                "a[1] = 815",
+                                "a[2] = 4711",
+                                "SAVE ARRAYS",
+                                "DELAY 20",
+                                "IF (found == -1) THEN",
+                                "found = 0",
+                                "ENDIF",
+                                "rest:",
+                                "DELAY 100",
+                                "GOTO rest",
+                                "SUBMAINPROG",
+                                "SUBPROG trouble",
+                                "found = ERRNO",
+                                "bits = GET 34-70",
+                                "ERRCLR",
+                                "RETURN",
+                                "ENDPROG"},
+                    .disk = disk.name(),
+                    .rests_in = 11};
+    const auto project = machine.run();
+    ASSERT_NE(project, nullptr);
+    EXPECT_EQ(element(*project, "found"), spoils ? 162 : 0);
+    EXPECT_EQ(element(*project, "bits"), spoils ? 1 << 10 : 0);
+  }
 }
 
 // 33-83 is one of GLBPARS: SAVE AXPARS leaves it out.

@@ -103,6 +103,29 @@ TEST(HostileProject, IsToldOfFilesOfTheVendor) {
     EXPECT_NE(problem.text.find("not described in its documents"), std::string::npos) << problem.text;
 }
 
+// A parameter that nothing looks at says so, where a value was given to it.
+TEST(HostileProject, IsWarnedOfParametersWithoutEffect) {
+  const auto told = [](const std::string& text) {
+    std::string all;
+    for (const Problem& problem : load_project(text).warnings)
+      all += problem.place + ": " + problem.text + "\n";
+    return all;
+  };
+  int without = 0;
+  for (const mco305::Parameter& of : mco305::parameters()) {
+    if (of.decimals != 0 || mco305::is_read_out(of.number)) continue;
+    if (of.number == mco305::kCanNumber || of.number == mco305::kCanBaud) continue;  // an error
+    const std::string name = aposs::parameter_text(of.number);
+    const bool warns = told(text_with(name, std::to_string(of.start == of.highest ? of.lowest : of.highest)))
+                           .find("without effect") != std::string::npos;
+    EXPECT_EQ(warns, !of.effective) << name;
+    EXPECT_EQ(told(text_with(name, std::to_string(of.start))).find("without effect"), std::string::npos)
+        << name;
+    without += of.effective ? 0 : 1;
+  }
+  EXPECT_GT(without, 10);
+}
+
 std::string repeated(const std::string& text, std::size_t count) {
   std::string all;
   all.reserve(text.size() * count);

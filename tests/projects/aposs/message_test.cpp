@@ -81,6 +81,9 @@ TEST(AposMessages, TellOfNamesThatAreNotThere) {
 TEST(AposMessages, TellOfNamesThatAreThereTwice) {
   EXPECT_EQ(said_of("a:\na:\n"), Lines{"x.m:2:1: a second label 'a'; the first stands in line 1"});
   EXPECT_EQ(said_of("DIM a[1], a[2]\n"), Lines{"x.m:1:11: 'a' is declared twice"});
+  // Its elements can be read all the same, and those of the arrays behind it.
+  EXPECT_EQ(said_of("DIM a[9], b[2]\na = 1\na[2] = a[3] + b[1] + b[3]\n").at(0),
+            "x.m:1:5: 'a' is a variable too");
   EXPECT_EQ(said_of("a = 1\na:\n"), Lines{"x.m:2:1: 'a' is a variable and a label; allowed: one of the two"});
   EXPECT_EQ(said_of("x = 1\nDIM a[3]\n"),
             Lines{"x.m:2:1: DIM behind another statement; allowed: DIM at the beginning of the "
@@ -105,6 +108,13 @@ TEST(AposMessages, TellOfCommentsThatAreNested) {
   EXPECT_EQ(said_of("x = 1\n/* one\n"),
             Lines{"x.m:2:1: the comment that begins here does not end; allowed: '*/' behind it"});
   EXPECT_EQ(said_of("/*****/ x = 1 /** y **/ // z\n"), Lines{});
+}
+
+TEST(AposMessages, AreOneLineWhateverStandsInTheText) {
+  for (const char one : {'\n', '\r', '\x1b', '\t', '\x7f', '\0', '\x80'})
+    for (const char* const before : {"ON ", "ON +", "a = ", "GOSUB ", ""})
+      for (const std::string& line : said_of(std::string(before) + "'" + one + "\nb = 1\n"))
+        EXPECT_EQ(line.find_first_of("\n\r\x1b"), line.npos) << line;
 }
 
 TEST(AposMessages, TellWhatComesLaterAndWhatNever) {

@@ -475,6 +475,25 @@ TEST(AposPrintedPrograms, B22TurnsTwoMotorsInTurn) {
   EXPECT_FALSE(run.object.device().io().output(1));
 }
 
+// B1 is a loop alone: what it calls is added, and it goes to one of two subprograms as input 3 says.
+TEST(AposPrintedPrograms, B1ChoosesBetweenTwoSubprograms) {
+  const auto text = corrected("B1", {},
+                              "SUBMAINPROG\nSUBPROG syncprog\ns = s + 1\nDELAY 5\nRETURN\n"
+                              "SUBPROG speedprog\nv = v + 1\nDELAY 5\nRETURN\nENDPROG\n");
+  if (!text) return;
+  PrintedRun run("s = 0\nv = 0\n" + *text);
+  run.begin();
+  run.turn(100, 10);
+  EXPECT_EQ(run.variable("s"), 0);
+  const auto passes = run.variable("v");
+  EXPECT_GT(passes, 10);
+  run.input(3, true);
+  run.turn(100, 10);
+  EXPECT_GT(run.variable("s"), 10);
+  EXPECT_LE(run.variable("v"), passes + 1);
+  EXPECT_EQ(run.object.machine().error(), 0);
+}
+
 // B26: three lines every ten milliseconds.
 TEST(AposPrintedPrograms, B26PrintsPositionsAndTheirError) {
   const auto text = corrected("B26");

@@ -554,5 +554,119 @@ TEST(Mco305Features, EverySystemVariableIsThereOrSaysThatItIsNot) {
   EXPECT_GE(built, 50u);
 }
 
+// 33-60: X59/1 and X59/2 are inputs 11 and 12, or outputs 1 and 2.
+TEST(Mco305Features, TwoTerminalsAreInputsOrOutputs) {
+  for (const bool inputs : {false, true}) {
+    Bench run;
+    run.set("IOMODE", inputs ? 0 : 1);
+    run.set("33-61", 3);  // negative end switch
+    run.set("33-63", 1);  // moving
+    run.set("33-65", 1);
+    run.begin_with("ON ERROR GOSUB trouble\nn = 0\nOUT 2 1\nCVEL 10\nCSTART\n",
+                   "SUBPROG trouble\nn = ERRNO\nRETURN\n");
+    bool level = false;
+    run.run(20);
+    EXPECT_EQ(run.device().io().output(1), !inputs);
+    EXPECT_EQ(run.device().io().output(2), !inputs);
+    EXPECT_TRUE(run.device().io().output(3));
+    level = true;
+    run.device().io().set_input(11, level);
+    run.device().io().set_input(12, level);
+    run.run(20);
+    EXPECT_EQ(run.device().io().input(11), inputs);
+    EXPECT_EQ(run.device().io().input_byte(2), inputs ? 12 : 0) << "bits 2 and 3 of inputs 9 to 12";
+    EXPECT_EQ(run.variable("n"), inputs ? 125 : 0);
+  }
+}
+
+// 33-20 of a simulated slave: 0: a pulse each ENCODERFREQ; n2, n3: edges of input n.
+TEST(Mco305Features, ASimulatedSlaveHasPulsesAndAnyInputForItsMarkers) {
+  for (const bool later : {false, true}) {
+    Bench run;
+    run.object.settings.later_edition = later;
+    run.begin_with("SET ENCODERFREQ 300\nPOSA 1000\na = IPOS\nPOSA 700\nb = IPOS\n");
+    run.run(3000);
+    EXPECT_EQ(run.variable("a"), later ? 750 : 0);
+    EXPECT_EQ(run.variable("b"), later ? 750 : 0);
+    EXPECT_EQ(run.device().latches(), later ? 4u : 0u) << "150, 450, 750, and 750 again";
+  }
+  for (const int type : {42, 43}) {
+    Bench run;
+    run.begin_with("SET SYNCMTYPS " + std::to_string(type) + "\nCVEL 100\nCSTART\n");
+    run.run(100);
+    run.device().io().set_input(6, true);
+    run.run(2);
+    EXPECT_EQ(run.device().latches(), 0u);
+    run.device().io().set_input(4, true);
+    run.run(1);
+    const auto risen = run.device().actual_units();
+    run.run(50);
+    EXPECT_EQ(run.device().latches(), type == 42 ? 1u : 0u);
+    run.device().io().set_input(4, false);
+    run.run(1);
+    const auto fallen = run.device().actual_units();
+    EXPECT_GT(fallen, risen + 500);
+    EXPECT_EQ(run.device().latches(), 1u);
+    EXPECT_NEAR(run.device().latched_units(), type == 42 ? risen : fallen, 50) << "to a millisecond";
+  }
+}
+
+// 33-19: an external marker and a second input.
+TEST(Mco305Features, MarkersOfTheMasterMayWaitForAnInput) {
+  for (const bool later : {false, true}) {
+    Bench run;
+    DINT turned = 0;
+    run.object.settings.later_edition = later;
+    run.object.master.signal = &turned;
+    run.begin_with("SET SYNCMTYPM 32\n");
+    const auto pass = [&] {
+      for (int i = 0; i < 10; ++i) turned += 10, run.step();
+      run.device().io().set_input(5, true);
+      for (int i = 0; i < 10; ++i) turned += 10, run.step();
+      run.device().io().set_input(5, false);
+      return run.device().master().shown_latch();
+    };
+    run.run(5);
+    EXPECT_EQ(pass(), 0);
+    EXPECT_EQ(pass() == 0, later) << "before, 32 names no input: a falling edge";
+    run.device().io().set_input(3, true);
+    const auto met = pass();
+    EXPECT_NE(met, 0);
+    run.device().io().set_input(3, false);
+    EXPECT_EQ(pass() == met, later);
+  }
+}
+
+// 32-00, 32-30: two digits in place of SWAPMENC; 32-13, 32-43: what is read goes on.
+TEST(Mco305Features, EncodersChangePlacesByTheirTypesHardOrSoft) {
+  for (const int soft : {0, 1, 3}) {
+    for (const bool by_master : {false, true}) {
+      Bench run;
+      const std::string first = by_master ? "SET MENCODERTYPE 21\n" : "SET ENCODERTYPE 11\n";
+      const std::string second = by_master ? "SET MENCODERTYPE 11\n" : "SET ENCODERTYPE 21\n";
+      run.begin_with("SET ENCCONTROL " + std::to_string(soft) + "\nSET MENCCONTROL " + std::to_string(soft) +
+                     "\nPOSA 3000\nMOTOR OFF\n" + first +
+                     "a = APOS\nb = MAPOS\nMOTOR ON\nPOSA 10000\nMOTOR OFF\n" + second +
+                     "c = APOS\nd = MAPOS\n");
+      run.run(3000);
+      EXPECT_EQ(run.variable("a"), soft != 0 ? 3000 : 0);
+      EXPECT_EQ(run.variable("b"), soft != 0 ? 0 : 3000);
+      EXPECT_EQ(run.variable("c"), soft != 0 ? 10'000 : 3000);
+      EXPECT_EQ(run.variable("d"), soft != 0 ? 0 : 10'000);
+    }
+  }
+  Bench run;  // in motion: neither the axis nor what is read of it steps
+  run.begin_with("SET ENCCONTROL 1\nCVEL 50\nCSTART\nDELAY 1000\nSET ENCODERTYPE 11\n");
+  std::int32_t last = 0;
+  for (int i = 0; i < 2000; ++i) {
+    run.step();
+    const std::int32_t now = run.device().actual_units();
+    if (i > 500) {
+      ASSERT_EQ(now - last, 50) << i;
+    }
+    last = now;
+  }
+}
+
 }  // namespace
 }  // namespace lockstep::mco305_feature_test

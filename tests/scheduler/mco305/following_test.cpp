@@ -107,6 +107,105 @@ TEST(Mco305Following, FollowsByVelocityWithADrive) {
   EXPECT_LT(std::abs(run.device().following_error()), 50);
 }
 
+/// What REVERS has held back of 4000 qc, and what is done about it when the master goes forward again.
+struct HeldBackRun : Following {
+  DINT turned = 0;
+  double slowest = 1e9, fastest = 0.0;
+  int steps = 0;  ///< of 20 qc until the axis is where its master is
+
+  HeldBackRun(bool later, int time, int reversal = 2) {
+    object.settings.later_edition = later;
+    object.master.signal = &turned;
+    for (const auto& [name, value] : {std::pair{"REVERS", reversal * 1.0},
+                                      {"SYNCMPULSM", 4000.0},
+                                      {"SYNCACCURACY", -1000.0},
+                                      {"SYNCOFFTIME", time * 1.0}})
+      set(name, value);
+    begin_with("SYNCP\n");
+    turn(0, 20);
+    turn(20, 400);
+    turn(-20, 200);
+  }
+  void turn(int by, int times) {
+    for (int i = 0; i < times; ++i) turned += by, step();
+  }
+  /// Forward until nothing is ahead any more.
+  void go_on(int settled) {
+    for (steps = 0; steps < 5000 && std::abs(device().sync_error()) > 2; ++steps) {
+      turn(20, 1);
+      if (steps < settled) continue;
+      slowest = std::min(slowest, device().set_velocity_now());
+      fastest = std::max(fastest, device().set_velocity_now());
+    }
+  }
+};
+
+// 33-27 of the later edition: what REVERS has held back is given back as the trapezoid that takes SYNCOFFTIME
+// for one SYNCMPULSM: at most 4000 / (0.8 · 1000 ms) = 5 qc/ms, beside the 20 qc/ms of the master.
+TEST(Mco305Following, GivesBackWhatReversHasHeldBackInTheTimeOfAnOffset) {
+  HeldBackRun run(true, 1000);
+  EXPECT_EQ(run.device().set_velocity_now(), 0.0);
+  const int ahead = -run.device().sync_error();
+  EXPECT_GT(ahead, 3900);
+  constexpr int kUpToSpeed = 120;  // 20 qc/ms by 0.2 qc/ms², in which the master comes up by 1000 qc
+  run.go_on(kUpToSpeed);
+  EXPECT_NEAR(run.slowest, 15.0, 0.3);
+  EXPECT_LE(run.fastest, 20.5);
+  const double given = ahead - 1000.0;  // a trapezoid of the same slopes, which is shorter at its top
+  EXPECT_NEAR(run.steps, 100 + given / 5.0 + 200.0, 25.0);
+  double largest = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    run.turn(20, 1);
+    largest = std::max(largest, std::abs(run.device().set_position() - run.turned));
+  }
+  EXPECT_LE(largest, 2.0) << "and then it goes along";
+}
+
+TEST(Mco305Following, WaitsForItsMasterWhereNothingIsGivenBack) {
+  for (const auto& [later, time] : {std::pair{false, 1000}, {true, 0}}) {
+    HeldBackRun run(later, time);
+    run.go_on(0);
+    EXPECT_EQ(run.slowest, 0.0);
+    EXPECT_LE(run.steps, 320) << "4000 qc of 20 qc/ms, and the way up to them";
+  }
+}
+
+// A master that only shakes carries nobody forward, and one that goes back again leaves the axis where it is.
+TEST(Mco305Following, StandsWhereItsMasterShakesOrGoesBackAgain) {
+  HeldBackRun run(true, 1000);
+  const double stood = run.device().set_position();
+  for (int i = 0; i < 3000; ++i) run.turn(i % 2 == 0 ? 1 : -1, 1);
+  EXPECT_EQ(run.device().set_position(), stood);
+  run.turn(20, 300);
+  const double further = run.device().set_position();
+  EXPECT_GT(further, stood + 2000.0);
+  double last = further;
+  for (int i = 0; i < 500; ++i) {
+    run.turn(-20, 1);
+    ASSERT_GE(run.device().set_position(), last);
+    last = run.device().set_position();
+  }
+  run.go_on(0);
+  EXPECT_LT(run.steps, 5000) << "all of it is given back";
+}
+
+// REVERS 1: an offset that is taken up backwards is no reversing master.
+TEST(Mco305Following, AnOffsetDoesNotReverseBesideAMasterThatStands) {
+  Following run;
+  run.set("REVERS", 1);
+  run.set("SYNCMPULSM", 4000);
+  run.set("SYNCOFFTIME", 1000);
+  run.object.master.signal = nullptr;
+  run.begin_with(
+      "PULSACC 100000\nPULSVEL 5000\nSYNCP\nDELAY 500\nPULSVEL 0\nDELAY 500\nSET SYNCPOSOFFS (-4000)\n");
+  double last = -1e9;
+  for (int i = 0; i < 4000; ++i) {
+    run.step();
+    ASSERT_GE(run.device().set_position(), last) << i;
+    last = run.device().set_position();
+  }
+}
+
 /// A device that follows a master of 20 qc/ms by markers; those of its own can be moved.
 struct MarkersThatMove : Following {
   std::int64_t moved = 0;  ///< beside multiples of 4000 [qc]
