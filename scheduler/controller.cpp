@@ -88,6 +88,23 @@ void Controller::assign_parts() {
   }
 }
 
+/// Of the same priority an object comes first.
+void Controller::order_due_programs() {
+  Part objects = with_programs_;
+  std::stable_sort(objects.begin(), objects.end(), [](const TechnologyObject* a, const TechnologyObject* b) {
+    return a->program_priority() > b->program_priority();
+  });
+  auto next = objects.begin();
+  for (const Program* program : schedule_) {
+    if (program->ob() < Ob::Cyclic) continue;
+    while (next != objects.end() &&
+           (program->ob() == Ob::Main || (*next)->program_priority() >= program->priority()))
+      due_.push_back({nullptr, *next++});
+    due_.push_back({program, nullptr});
+  }
+  while (next != objects.end()) due_.push_back({nullptr, *next++});
+}
+
 void Controller::finish() {
   const double servo_period = static_cast<double>(clock.servo_cycle) * 1e-9;
   for (const Axis* axis : axes)
@@ -113,6 +130,7 @@ void Controller::finish() {
   std::stable_sort(schedule_.begin(), schedule_.end(), [](const Program* a, const Program* b) {
     return a->ob() != b->ob() ? a->ob() < b->ob() : a->priority() > b->priority();
   });
+  order_due_programs();
   std::stable_sort(stimuli.begin(), stimuli.end(),
                    [](const Stimulus& a, const Stimulus& b) { return a.at < b.at; });
   lay_objects_into_large_pages();

@@ -237,6 +237,7 @@ class Controller {
   bool due(std::int64_t cycle, std::int64_t now) const noexcept;
   void servo(std::int64_t now) noexcept;
   void assign_parts();
+  void order_due_programs();
   void wire_outputs();
   void lay_objects_into_large_pages() const;
   void interpolate() noexcept;
@@ -258,7 +259,14 @@ class Controller {
   static constexpr std::size_t kWorthSharing = 2 * Crew::kPortion;
 
   std::deque<Value> tag_memory_;
+  /// What runs when its time has come: a program of the project, or that of an object.
+  struct Due {
+    const Program* program = nullptr;
+    TechnologyObject* object = nullptr;
+  };
+
   std::vector<Program*> schedule_;  // sorted by organization block, then priority
+  std::vector<Due> due_;            // of Cyclic and Main, in their order, with those of objects
   std::vector<Axis*> driven_;       // axes with a drive, which come first in MC_Servo
   Part servo_;                      // the others
   Part before_axes_;

@@ -36,7 +36,6 @@ void Controller::tick() noexcept {
     if (crew_ != nullptr) crew_->rest();
   }
 
-  for (TechnologyObject* object : with_programs_) object->run_program(t);
   run_due_programs(t);
 
   if (events != nullptr) tell_events(t);
@@ -189,11 +188,13 @@ void Controller::run_programs(Ob ob, std::int64_t t) noexcept {
     if (program->ob() == ob) program->run(t, counters_.evaluation);
 }
 
-/// Cyclic programs by priority, then Main.
+/// Cyclic programs and those of objects by priority, then Main. Objects go on while they come to rest.
 void Controller::run_due_programs(std::int64_t t) noexcept {
-  if (shutting_down_) return;
-  for (const Program* program : schedule_)
-    if (program->ob() >= Ob::Cyclic && due(program->cycle(), t)) program->run(t, counters_.evaluation);
+  for (const Due& one : due_)
+    if (one.object != nullptr)
+      one.object->run_program(t);
+    else if (!shutting_down_ && due(one.program->cycle(), t))
+      one.program->run(t, counters_.evaluation);
 }
 
 /// Alarms and jobs of this tick.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "projects/keys/drive.hpp"
+#include "projects/keys/priority.hpp"
 #include "tech_objects/mco305/device.hpp"
 
 namespace lockstep::keys {
@@ -93,6 +94,9 @@ inline constexpr auto kMco305 = key_table<void>(
     key::integer("steps_per_ms", {1, kMaximumSteps},
                  "internal commands that a program may carry out in a step")
         .otherwise_is("200"),
+    key::integer("priority", {kLowestPriority, kHighestPriority},
+                 "of its programs among the Cyclic ones; the higher runs first, of the same one the device")
+        .otherwise_is("before all Cyclic programs"),
     key::word("time_interrupts", kTimeInterrupts, "how often ON TIME and ON PERIOD are looked at")
         .otherwise_is("1ms"));
 

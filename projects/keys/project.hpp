@@ -10,14 +10,11 @@
 #include "projects/keys/network.hpp"
 #include "projects/keys/objects.hpp"
 #include "projects/keys/parts.hpp"
+#include "projects/keys/priority.hpp"
 #include "scheduler/controller.hpp"
 #include "scheduler/transfer_area.hpp"
 
 namespace lockstep::keys {
-
-/// Priorities of a Cyclic program.
-inline constexpr int kLowestPriority = 1;
-inline constexpr int kHighestPriority = 26;
 
 inline constexpr double kShortestServoCycle = 1e3;  // what a call of the system's clock takes some of [ns]
 inline constexpr Word kOverruns[] = {{"report", 0}, {"stop", 1}};

@@ -395,6 +395,8 @@ void DeviceLoader::load(const JsonValue& json) {
     device_.settings.controller_scale = scale->number;
   if (const auto steps = read_value(fields, keys::kMco305["steps_per_ms"], loading_))
     device_.steps_per_millisecond = static_cast<std::int32_t>(steps->integer);
+  if (const auto priority = read_value(fields, keys::kMco305["priority"], loading_))
+    device_.priority = static_cast<int>(priority->integer);
   if (const auto times = read_value(fields, keys::kMco305["time_interrupts"], loading_))
     device_.time_interrupts = static_cast<std::int32_t>(times->integer);
   if (const JsonValue* const programs = fields["programs"]) load_programs(*programs);

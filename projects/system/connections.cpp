@@ -135,7 +135,7 @@ bool Connections::counts(const Interconnection& row) const {
 }
 
 /// Whether the value of an object comes, by whatever axes and proxies, to another one.
-bool Connections::leads_to(const LeadingObject* from, const LeadingObject* to, Ways ways) const {
+bool Connections::leads_to(const LeadingObject* from, const LeadingObject* to, Along along) const {
   std::vector<const LeadingObject*> open = {from};
   std::unordered_set<const LeadingObject*> seen;
   while (!open.empty()) {
@@ -143,7 +143,7 @@ bool Connections::leads_to(const LeadingObject* from, const LeadingObject* to, W
     open.pop_back();
     for (const Interconnection& row : rows_) {
       if (row.source.object != object || row.following.object == nullptr) continue;
-      if (ways == Ways::counted && !counts(row)) continue;
+      if (along == Along::counted && !counts(row)) continue;
       if (row.following.object == to) return true;
       if (seen.insert(row.following.object).second) open.push_back(row.following.object);
     }
@@ -152,14 +152,15 @@ bool Connections::leads_to(const LeadingObject* from, const LeadingObject* to, W
 }
 
 /// Whether the source of an interconnection follows its own value by it.
-bool Connections::goes_round(const Interconnection& row, Ways ways) const {
-  if (row.following.object == nullptr || (ways == Ways::counted && !counts(row))) return false;
-  return row.following.object == row.source.object || leads_to(row.following.object, row.source.object, ways);
+bool Connections::goes_round(const Interconnection& row, Along along) const {
+  if (row.following.object == nullptr || (along == Along::counted && !counts(row))) return false;
+  return row.following.object == row.source.object ||
+         leads_to(row.following.object, row.source.object, along);
 }
 
 void Connections::mark_recursive() {
-  for (Interconnection& row : rows_) row.recursive = goes_round(row, Ways::all);
-  for (Interconnection& row : rows_) row.cut = row.recursive && !goes_round(row, Ways::counted);
+  for (Interconnection& row : rows_) row.recursive = goes_round(row, Along::all);
+  for (Interconnection& row : rows_) row.cut = row.recursive && !goes_round(row, Along::counted);
 }
 
 bool Connections::recursive() const noexcept {
@@ -246,7 +247,7 @@ bool Connections::computed_once() {
 /// Whether an object is part of a recursion, or leads to one.
 bool Connections::ends_in_recursion(const LeadingObject* object) const {
   const auto is_there = [&](const LeadingObject* leading, const Interconnection& round) {
-    return round.source.object == leading || leads_to(leading, round.source.object, Ways::counted);
+    return round.source.object == leading || leads_to(leading, round.source.object, Along::counted);
   };
   const auto ends_there = [&](const Interconnection& round) {
     if (!round.recursive || round.cut) return false;

@@ -27,8 +27,8 @@ struct Interconnection {
   const LeadingAxisProxy* proxy = nullptr;  ///< that the axis follows; nullptr: the source itself
   SystemObject following{};                 ///< with an object of nullptr: nothing follows the proxy
   Coupling coupling = Coupling::setpoint;
-  bool recursive = false;     ///< the leading axis would follow its own value
-  bool cut = false;           ///< recursive, and an interconnection of each way around does not count
+  bool recursive = false;  ///< the leading axis would follow its own value
+  bool cut = false;  ///< recursive, and each circle that it is in has an interconnection that does not count
   bool left_out = false;      ///< does not count in the calculation of delays
   bool ambiguous = false;     ///< the proxy has several sources
   bool extrapolated = false;  ///< the proxy looks ahead of what has come, by delays and cycles as configured
@@ -87,9 +87,9 @@ class Connections {
   bool computed_once();
   double needed(const DelayTime& delay) const;
   void follow_back(const LeadingObject* following, Route& route, std::vector<Route>& routes) const;
-  enum class Ways { all, counted };
-  bool leads_to(const LeadingObject* from, const LeadingObject* to, Ways ways) const;
-  bool goes_round(const Interconnection& row, Ways ways) const;
+  enum class Along { all, counted };
+  bool leads_to(const LeadingObject* from, const LeadingObject* to, Along along) const;
+  bool goes_round(const Interconnection& row, Along along) const;
   bool counts(const Interconnection& row) const;
   bool ends_in_recursion(const LeadingObject* object) const;
   bool leads_undelayed(const LeadingObject* from, const LeadingObject* to) const;

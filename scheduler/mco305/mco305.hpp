@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <climits>
 #include <cstdint>
 #include <deque>
 #include <span>
@@ -49,6 +50,7 @@ class Mco305 final : public LeadingObject {
   std::deque<DeviceProgram> programs;
   std::int32_t steps_per_millisecond = 200;
   std::int32_t time_interrupts = 1;  ///< [ms]
+  int priority = INT_MAX;            ///< of its programs among the Cyclic ones
   bool repeats = true;               ///< the program that starts by itself begins anew when it has ended
   Eeprom eeprom;
   DeviceMaster master;
@@ -81,6 +83,7 @@ class Mco305 final : public LeadingObject {
   /// Shows axes that follow it where it is: by the position on its counter, which no zero point steps.
   void before_axes() noexcept override;
   void run_program(std::int64_t now) noexcept override;
+  int program_priority() const noexcept override { return priority; }
   AxisPosition actual_position() const noexcept override { return {0, measured_line().rounded()}; }
   bool measured_in_servo() const noexcept override { return true; }
   DoubleDouble measured_line() const noexcept override;

@@ -1,6 +1,7 @@
 /// What every technology object has: a kind, a name, a number and a data block.
 #pragma once
 
+#include <climits>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -14,7 +15,7 @@ namespace lockstep {
 struct Job;
 
 /// A phase of a tick in which an object may take part. Between the two of the interpolator the axes are
-/// stepped, in the order of their couplings; programs of objects run before those of the project.
+/// stepped, in the order of their couplings; programs of objects run among the Cyclic ones of the project.
 enum class Phase : std::uint8_t { servo, before_axes, behind_axes, programs };
 
 /// An output that an object switches.
@@ -67,8 +68,11 @@ class TechnologyObject {
   /// Its parts of MC_Interpolator.
   virtual void before_axes() noexcept {}
   virtual void behind_axes() noexcept {}
-  /// Its own program, before those of the project. @param now time of the tick [ns]
+  /// Its own program, before those of Main. @param now time of the tick [ns]
   virtual void run_program([[maybe_unused]] std::int64_t now) noexcept {}
+  /// Where that is among the Cyclic programs: before those of this priority or a lower one. Asked once, after
+  /// `configure`.
+  virtual int program_priority() const noexcept { return INT_MAX; }
   /// What has come up since it was asked last; false: nothing. Thread: the cycle.
   virtual bool take_note(ProgramNote&) noexcept { return false; }
   /// The next printed line, once for each note of one. Thread: whoever tells events.

@@ -67,6 +67,40 @@ TEST(ProgramValues, AreReadByTheirPaths) {
   EXPECT_EQ(run["Arr.target1[3].X3"], 1);
 }
 
+// What two Cyclic programs of the project see of a count that the device's program steps in each millisecond.
+TEST(ProgramValues, ComeBetweenCyclicProgramsByThePriorityOfTheDevice) {
+  const auto behind = [](const Json& priority) {
+    Json project = project_with({{"n = 0", "main:", "n = n + 1", "DELAY 1", "GOTO main"}});
+    project["tags"] = {
+        {"high", {{"type", "DINT"}}}, {"low", {{"type", "DINT"}}}, {"last", {{"type", "DINT"}}}};
+    project["programs"] = Json::array();
+    const auto program = [&](const char* name, const char* ob, int of, const char* tag) {
+      Json one = {{"name", name}, {"ob", ob}, {"cycle", "1ms"}};
+      if (of != 0) one["priority"] = of;
+      one["calls"] = {{{"set", tag}, {"to", "Teddy.Var.n"}}};
+      project["programs"].push_back(one);
+    };
+    program("Last", "Main", 0, "last");
+    program("Low", "Cyclic", 4, "low");
+    program("High", "Cyclic", 10, "high");
+    if (!priority.is_null()) project["technology_objects"]["Teddy"]["priority"] = priority;
+    Machine run(project);
+    run.run(20);
+    const double last = run.machine.read("last");
+    return std::vector<double>{last - run.machine.read("high"), last - run.machine.read("low")};
+  };
+  using Steps = std::vector<double>;
+  EXPECT_EQ(behind(nullptr), (Steps{0, 0})) << "before all Cyclic programs";
+  EXPECT_EQ(behind(26), (Steps{0, 0}));
+  EXPECT_EQ(behind(10), (Steps{0, 0})) << "of the same one the device is first";
+  EXPECT_EQ(behind(9), (Steps{1, 0}));
+  EXPECT_EQ(behind(4), (Steps{1, 0}));
+  EXPECT_EQ(behind(1), (Steps{1, 1})) << "before Main in any case";
+  Json wrong = project_with({kCounts});
+  wrong["technology_objects"]["Teddy"]["priority"] = 27;
+  EXPECT_NE(problems_of(wrong).find("allowed: an integer from 1 to 26"), std::string::npos) << problems_of(wrong);
+}
+
 TEST(ProgramValues, AreSignalsOfATraceOfModbusAndOfThePrograms) {
   Json project = project_with({kCounts});
   project["trace"] = {
