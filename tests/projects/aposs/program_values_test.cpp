@@ -98,7 +98,8 @@ TEST(ProgramValues, ComeBetweenCyclicProgramsByThePriorityOfTheDevice) {
   EXPECT_EQ(behind(1), (Steps{1, 1})) << "before Main in any case";
   Json wrong = project_with({kCounts});
   wrong["technology_objects"]["Teddy"]["priority"] = 27;
-  EXPECT_NE(problems_of(wrong).find("allowed: an integer from 1 to 26"), std::string::npos) << problems_of(wrong);
+  EXPECT_NE(problems_of(wrong).find("allowed: an integer from 1 to 26"), std::string::npos)
+      << problems_of(wrong);
 }
 
 TEST(ProgramValues, AreSignalsOfATraceOfModbusAndOfThePrograms) {

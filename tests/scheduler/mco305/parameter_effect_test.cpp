@@ -31,8 +31,7 @@ class Shown : public DeviceRun {
       object.settings.drive.faults = {.drive = &fault_, .encoder = &encoder_, .blocked = &blocked_};
     }
     object.settings.drive.signals.reference_cam = PositionRange{5000.0, 6000.0};
-    if (look.drive)
-      object.settings.drive.signals.zero_marks = ZeroMarks{.position = 700.0, .period = 2000.0};
+    if (look.drive) object.settings.drive.signals.zero_marks = ZeroMarks{.position = 700.0, .period = 2000.0};
     object.settings.markers = {.position = 300.0, .period = 4040.0, .noise = 20.0};
     object.settings.master_marks = {.position = 700.0, .period = 4000.0, .noise = 30.0};
     object.settings.faults.supply = &fault_;
