@@ -108,7 +108,8 @@ class MarkerTrack {
     }
     return met;
   }
-  /// … of a track with tags, too, which takes no division to know.
+  /// Whether a step lies between the same two markers as the one before, of a track with tags, too: it takes
+  /// no division to know.
   bool is_free(double from, double to) const noexcept {
     return from > free_from_ && from < free_to_ && to > free_from_ && to < free_to_ &&
            !on(settings_.spurious) && !on(settings_.twice);

@@ -29,14 +29,14 @@ class HeldBack {
     given_.begin(0.0, 0.0);
   }
   bool active() const noexcept { return active_; }
-  /// One millisecond, before that of the axis. @param target where it would be at the end [u]
+  /// One millisecond, before that of the axis, while `active`. @param target where it would be at the end [u]
   /// @param velocity of the target [u/step]  @param axis as the last step has left it  @param forward whether
   /// it may not reverse
   void step(double target, double velocity, const Pursuit& axis, bool forward,
             const PursuitLimits& of_axis) noexcept {
     constexpr double kShare = 1.0 / 64.0;  // of one millisecond in the mean velocity
     mean_ += (velocity - mean_) * kShare;
-    if (!active_) return;
+    if (std::abs(mean_) < 1e-300) mean_ = 0.0;  // a processor is slow with what is below 2⁻¹⁰²²
     const double ahead = axis.position() - (target - velocity);
     if (forward && axis.velocity() <= 0.0 && ahead > by() && state_ != State::starts) {
       if (state_ != State::waits) turned_ = target;
