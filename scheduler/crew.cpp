@@ -27,10 +27,10 @@ bool open(std::uint32_t call) noexcept {
 
 }  // namespace
 
-Crew::Crew(int helpers) {
+Crew::Crew(int helpers) : shares_(static_cast<std::size_t>(helpers) + 1) {
   helpers_.reserve(static_cast<std::size_t>(helpers));
-  for (int i = 0; i < helpers; ++i) {
-    helpers_.emplace_back([this] { help(); });
+  for (std::size_t i = 1; i < shares_.size(); ++i) {
+    helpers_.emplace_back([this, i] { help(i); });
     pthread_setname_np(helpers_.back().native_handle(), "cycle helper");  // for top and strace
   }
 }
@@ -62,28 +62,45 @@ void Crew::share(std::size_t count, Work work, void* context) noexcept {
   work_.store(work, std::memory_order_relaxed);
   context_.store(context, std::memory_order_relaxed);
   done_.store(0, std::memory_order_relaxed);
-  const std::uint64_t number = (offer_.load(std::memory_order_relaxed) >> kItemBits) + 1;
-  offer_.store(number << kItemBits, std::memory_order_release);
-  while (take_portion()) {
+  ++number_;
+  for (std::size_t i = 0; i < shares_.size(); ++i)
+    shares_[i].offer.store(number_ << kItemBits | begin_of(i, count), std::memory_order_release);
+  while (take_portion(0)) {
   }
   for (int turn = 1; done_.load(std::memory_order_acquire) != count; ++turn)
     turn % kPatience == 0 ? static_cast<void>(sched_yield()) : breathe();
   // Nothing of this number can be taken from now on, whatever the next piece of work has as its count.
-  offer_.store(offer_.load(std::memory_order_relaxed) | kItems, std::memory_order_relaxed);
+  for (Share& share : shares_) share.offer.store(number_ << kItemBits | kItems, std::memory_order_relaxed);
 }
 
+std::size_t Crew::begin_of(std::size_t share, std::size_t count) const noexcept {
+  const std::size_t portions = (count + kPortion - 1) / kPortion;
+  return std::min(share * portions / shares_.size() * kPortion, count);
+}
+
+/// Of the own share, then of those of the others, once the own one has been offered too.
 /// @return false if nothing is left to take
-bool Crew::take_portion() noexcept {
-  std::uint64_t offer = offer_.load(std::memory_order_acquire);
+bool Crew::take_portion(std::size_t own) noexcept {
+  const std::uint64_t number = shares_[own].offer.load(std::memory_order_acquire) >> kItemBits;
+  for (std::size_t i = 0; i < shares_.size(); ++i)
+    if (take_portion_of((own + i) % shares_.size(), number)) return true;
+  return false;
+}
+
+bool Crew::take_portion_of(std::size_t share, std::uint64_t number) noexcept {
+  std::atomic<std::uint64_t>& offered = shares_[share].offer;
+  std::uint64_t offer = offered.load(std::memory_order_acquire);
   for (;;) {
+    if (offer >> kItemBits != number) return false;
     const std::size_t begin = offer & kItems;
     const std::size_t count = count_.load(std::memory_order_relaxed);
     const Work work = work_.load(std::memory_order_relaxed);
     void* const context = context_.load(std::memory_order_relaxed);
-    if (begin >= count) return false;
-    const std::size_t end = std::min(begin + kPortion, count);
+    const std::size_t behind = begin_of(share + 1, count);
+    if (begin >= behind) return false;
+    const std::size_t end = std::min(begin + kPortion, behind);
     const std::uint64_t taken = (offer & ~kItems) | end;
-    if (!offer_.compare_exchange_weak(offer, taken, std::memory_order_acq_rel, std::memory_order_acquire))
+    if (!offered.compare_exchange_weak(offer, taken, std::memory_order_acq_rel, std::memory_order_acquire))
       continue;
     work(context, begin, end);
     done_.fetch_add(end - begin, std::memory_order_release);
@@ -91,12 +108,12 @@ bool Crew::take_portion() noexcept {
   }
 }
 
-void Crew::help() noexcept {
+void Crew::help(std::size_t own) noexcept {
   int idle = 0;
   while (!ending_.load(std::memory_order_relaxed)) {
     const std::uint32_t call = call_.load(std::memory_order_acquire);
     if (open(call)) {
-      if (!take_portion()) breathe();
+      if (!take_portion(own)) breathe();
       idle = 0;
     } else if (++idle < kAwake) {
       breathe();

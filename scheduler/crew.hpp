@@ -9,9 +9,12 @@
 #include <thread>
 #include <vector>
 
+#include "tech_objects/arithmetic/cache_line.hpp"
+
 namespace lockstep {
 
-/// A crew takes portions of a piece of work together with the thread of the cycle. That thread waits for
+/// A crew takes portions of a piece of work together with the thread of the cycle: each thread first those of
+/// its own share, the same at each tick, then what is left of the others'. The thread of the cycle waits for
 /// nobody who has not begun: who comes late finds less to do, and if nobody comes it does all by itself.
 ///
 /// Between two pieces of work the helpers stay awake for some microseconds, then they sleep; waking them is
@@ -37,7 +40,7 @@ class Crew {
   void wake() noexcept;
   void rest() noexcept;
 
-  /// Has `count` items done, portion by portion, by whoever comes first; all are done when it returns, and
+  /// Has `count` items done, portion by portion; all are done when it returns, and
   /// seen by the calling thread. Between `wake` and `rest`.
   void share(std::size_t count, Work work, void* context) noexcept;
 
@@ -45,17 +48,26 @@ class Crew {
   std::vector<pthread_t> threads();
 
  private:
-  void help() noexcept;
-  bool take_portion() noexcept;
+  /// What each thread does first, so that it finds in its cache what it had there at the last tick.
+  struct alignas(kCacheLine) Share {
+    // The number of the piece of work, and the item behind those that have been taken: the highest, between
+    // two pieces. Who takes some by compare and exchange has read what belongs to that number.
+    std::atomic<std::uint64_t> offer{kMaximumItems};
+  };
 
-  // `offer_` is the number of the piece of work, and how many of its items have been taken: all, between two
-  // pieces. A helper that takes some by compare and exchange has read what belongs to that number.
-  alignas(64) std::atomic<std::uint64_t> offer_{kMaximumItems};  // all taken
-  std::atomic<std::size_t> count_{0};
+  void help(std::size_t own) noexcept;
+  bool take_portion(std::size_t own) noexcept;
+  bool take_portion_of(std::size_t share, std::uint64_t number) noexcept;
+  /// The first item of a share; whole portions, and the last share has the rest.
+  std::size_t begin_of(std::size_t share, std::size_t count) const noexcept;
+
+  std::vector<Share> shares_;  // the first one is the cycle's
+  std::uint64_t number_ = 0;   // of the piece of work
+  alignas(kCacheLine) std::atomic<std::size_t> count_{0};
   std::atomic<Work> work_{nullptr};
   std::atomic<void*> context_{nullptr};
-  alignas(64) std::atomic<std::size_t> done_{0};
-  alignas(64) std::atomic<std::uint32_t> call_{0};  // odd while work may be offered
+  alignas(kCacheLine) std::atomic<std::size_t> done_{0};
+  alignas(kCacheLine) std::atomic<std::uint32_t> call_{0};  // odd while work may be offered
   std::atomic<bool> ending_{false};
   std::vector<std::thread> helpers_;
 };

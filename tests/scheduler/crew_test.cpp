@@ -3,6 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
 #include <vector>
 
 namespace lockstep::crew_test {
@@ -48,6 +53,48 @@ TEST_P(Crews, EndWhileTheirHelpersSleepOrWake) {
     crew.share(100, Items::work, &items);
     crew.rest();
     ASSERT_EQ(*std::min_element(items.done.begin(), items.done.end()), 1);
+  }
+}
+
+/// Where each thread begins; none goes on before all have begun.
+struct Beginnings {
+  std::size_t threads;
+  std::mutex lock;
+  std::map<std::thread::id, std::size_t> first;
+  std::atomic<std::size_t> begun{0};
+
+  static void work(void* context, std::size_t begin, std::size_t /*end*/) noexcept {
+    auto& all = *static_cast<Beginnings*>(context);
+    {
+      const std::scoped_lock locked(all.lock);
+      if (all.first.emplace(std::this_thread::get_id(), begin).second) ++all.begun;
+    }
+    while (all.begun != all.threads) std::this_thread::yield();
+  }
+};
+
+/// So that each finds in its cache what it had there before.
+TEST_P(Crews, BeginEachWithAShareOfItsOwnThatStaysTheSame) {
+  Crew crew(GetParam());
+  const auto threads = static_cast<std::size_t>(GetParam()) + 1;
+  const std::size_t portions = 4;
+  std::map<std::thread::id, std::size_t> before;
+  for (int piece = 0; piece < 20; ++piece) {
+    Beginnings beginnings{threads, {}, {}, {}};
+    crew.wake();
+    crew.share(threads * portions * Crew::kPortion, Beginnings::work, &beginnings);
+    crew.rest();
+    ASSERT_EQ(beginnings.first.at(std::this_thread::get_id()), 0u);
+    std::set<std::size_t> first;
+    for (const auto& [thread, begin] : beginnings.first) {
+      ASSERT_EQ(begin % (portions * Crew::kPortion), 0u);
+      first.insert(begin);
+    }
+    ASSERT_EQ(first.size(), threads);
+    if (piece > 0) {
+      ASSERT_EQ(beginnings.first, before);
+    }
+    before = beginnings.first;
   }
 }
 
