@@ -5,6 +5,7 @@
 #include "cli/describe/subject.hpp"
 #include "cli/describe/table.hpp"
 #include "cli/describe/values.hpp"
+#include "projects/aposs/argument_check.hpp"
 #include "projects/aposs/parameter_names.hpp"
 #include "projects/json/problem.hpp"
 #include "scheduler/aposs/commands.hpp"
@@ -171,12 +172,21 @@ std::string drive_table(const aposs::CommandRow& row, std::size_t width) {
   return "\nOf the drive's parameters there are these; any other is error 112:\n" + table.text(2, width);
 }
 
+std::string outside_text(const aposs::ArgumentRange& range) {
+  if (range.error != 0) return "error " + std::to_string(range.error);
+  return std::string(range.outside);
+}
+
 std::string command_page(const aposs::CommandRow& row, std::size_t width) {
   Table table({"", ""});
   table.row({"Form", usage_of(row)});
   table.row({"Is", std::string(kind_text(row))});
   if (row.kind == aposs::CommandKind::kStatement) table.row({"Program", std::string(waits_text(row))});
   if (row.given_up) table.row({"Interrupt", "ends it"});
+  for (const aposs::ArgumentRange& range : aposs::argument_ranges())
+    if (range.command == row.command)
+      table.row({"Allowed", std::string(range.name) + " " + aposs::allowed_text(range) +
+                                "; any other: " + outside_text(range)});
   if (row.later_edition) table.row({"Edition", "later, from firmware 5.00"});
   if (row.refusal != aposs::Refusal::kNone) table.row({"Refused", std::string(refusal_text(row.refusal))});
   return "Command " + std::string(row.name) + " of APOSS\n" + paragraph(aposs::meaning_of(row), 2, width) +
@@ -191,6 +201,12 @@ Json command_json(const aposs::CommandRow& row) {
             {"is", kind_text(row)},
             {"program", waits_text(row)},
             {"refused", refusal_text(row.refusal)}};
+  for (const aposs::ArgumentRange& range : aposs::argument_ranges())
+    if (range.command == row.command)
+      json["ranges"].push_back({{"argument", range.argument},
+                                {"name", range.name},
+                                {"allowed", aposs::allowed_text(range)},
+                                {"any_other", outside_text(range)}});
   if (!is_of_drive(row)) return json;
   for (const mco305::DriveParameter& one : mco305::drive_parameters())
     json["parameters"].push_back({{"number", drive_number(one)},

@@ -6,12 +6,6 @@
 #include "projects/json/text_file.hpp"
 
 namespace lockstep::aposs {
-namespace {
-
-constexpr std::size_t kLargestFile = 1 << 20;
-
-}  // namespace
-
 CompiledProgram compile_program(std::string name, std::string_view text, const ReadIncluded& read,
                                 const CompilerSettings& settings) {
   Messages messages;
@@ -56,13 +50,7 @@ CompiledProgram compile_file(const std::string& path, const CompilerSettings& se
       return std::nullopt;
     }
   };
-  CompiledProgram result = compile_program(path, text, read, settings);
-  if (text.size() > kLargestFile) {
-    result.image.reset();
-    result.errors.insert(result.errors.begin(), {{}, "the file is larger than 1 MiB"});
-    ++result.errors_found;
-  }
-  return result;
+  return compile_program(path, text, read, settings);
 }
 
 std::string to_string(const std::vector<std::string>& files, const Message& message) {

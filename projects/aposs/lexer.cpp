@@ -74,11 +74,14 @@ class Cutter {
     const Place outer_place = place_;
     const std::size_t outer_depth = depth_;
     text_ = text;
-    at_ = 0;
+    at_ = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
     place_ = {index, 1, 1};
     depth_ = depth;
-    while (next_token()) {
-    }
+    if (text.size() > kLargestFile)
+      too_large();
+    else
+      while (next_token()) {
+      }
     text_ = outer_text;
     at_ = outer_at;
     end_ = place_;
@@ -102,6 +105,16 @@ class Cutter {
     }
     ++at_;
     ++place_.column;
+  }
+
+  /// Tells where the first byte stands that is too much; nothing of the file is read.
+  void too_large() {
+    const std::string_view before = text_.substr(0, kLargestFile);
+    const std::size_t end = before.rfind('\n'), begin = end == before.npos ? 0 : end + 1;
+    place_.line = static_cast<std::uint32_t>(1 + std::count(before.begin(), before.end(), '\n'));
+    place_.column = static_cast<std::uint32_t>(1 + before.size() - begin);
+    messages_.error(place_, "the file goes on behind 1 MiB; allowed: files of at most " +
+                                std::to_string(kLargestFile) + " bytes");
   }
 
   void skip_line() {
@@ -355,7 +368,6 @@ std::string folded(std::string_view text) {
 }
 
 Tokens cut(std::string name, std::string_view text, const ReadIncluded& read, Messages& messages) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   Cutter cutter(read, messages);
   cutter.file(std::move(name), text, 0);
   return cutter.take();

@@ -2,6 +2,7 @@
 /// @source MCO 305 Design Guide, tips for readability; constants; #INCLUDE
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -11,6 +12,8 @@
 #include "projects/aposs/message.hpp"
 
 namespace lockstep::aposs {
+
+inline constexpr std::size_t kLargestFile = 1 << 20;  ///< [byte]
 
 struct Token {
   enum class Kind : std::uint8_t { kEnd, kName, kNumber, kText, kSymbol };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -115,7 +116,7 @@ class Parser {
 
   void on_statement();
   void on_position(const Place& place);
-  void on_source(const Place& place, Operation operation);
+  void on_source(const Place& place, Command command, Operation operation);
   void on_parameter(const Place& place);
   void on_delete(const Place& place);
   void subprogram_reference(std::uint32_t instruction);
@@ -131,7 +132,7 @@ class Parser {
   ExpressionPointer state(std::string_view of, bool optional);
   ExpressionPointer parameter(std::string_view of);
   void use_parameter(const Place& place, std::int32_t number);
-  void use_input(const Place& place, const Expression& input);
+  void use_input(const Expression& input);
   ExpressionPointer drive_parameter(std::string_view of);
   ExpressionPointer output();
   ExpressionPointer array_argument(std::string_view of);
@@ -151,6 +152,9 @@ class Parser {
   ExpressionPointer bracketed_index(std::string_view of);
   std::optional<std::int32_t> glued_input(const Token& token) const;
   void count_operator(const Place& place);
+  /// Tells of constants that are not what they may be.
+  void check(Command command, const std::vector<ExpressionPointer>& arguments);
+  void check(Command command, std::initializer_list<const Expression*> arguments);
 
   // Code.
 

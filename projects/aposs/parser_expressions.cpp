@@ -1,6 +1,7 @@
 // Expressions and arguments.
 #include <algorithm>
 
+#include "projects/aposs/argument_check.hpp"
 #include "projects/aposs/parameter_names.hpp"
 #include "projects/aposs/parser.hpp"
 #include "projects/json/problem.hpp"
@@ -328,11 +329,6 @@ ExpressionPointer Parser::parameter(std::string_view of) {
   ExpressionPointer number = drive_parameter(of);
   if (number->kind != Expression::Kind::kConstant) return number;
   use_parameter(token.place, number->value);
-  if (!is_parameter(number->value))
-    messages_.warn(token.place,
-                   parameter_text(number->value) +
-                       " is no parameter of this option and will be error 112; allowed: 32-00 to 34-71 "
-                       "as published, 1900 to 1999");
   return number;
 }
 
@@ -359,12 +355,6 @@ ExpressionPointer Parser::output() {
     ExpressionPointer number = argument("OUT");
     if (number->kind != Expression::Kind::kConstant) return number;
     uses_.outputs.insert(number->value);
-    const std::int32_t n = number->value;
-    const bool has_state = on_same_line() && (argument_follows() || at_word("ON") || at_word("OFF"));
-    if (has_state && !((n >= 1 && n <= 8) || n == 21 || n == 22 || n == 27 || n == 29))
-      messages_.warn(token.place,
-                     "output " + std::to_string(n) +
-                         " is not published; outputs: 1 to 8, 21, 22, 27, 29, X34/1, X34/5, X34/10");
     return number;
   }
   const std::string block = take().folded;
@@ -447,21 +437,26 @@ ExpressionPointer Parser::argument_of(Argument kind, const CommandRow& row) {
   return constant(peek().place, 0);
 }
 
-void Parser::use_input(const Place& place, const Expression& input) {
-  if (input.kind != Expression::Kind::kConstant) return;
-  const std::int32_t n = input.value;
-  uses_.inputs.insert(n);
-  if (!((n >= 1 && n <= 12) || n == 18 || n == 19 || n == 27 || n == 29 || n == 32 || n == 33))
-    messages_.warn(
-        place, "input " + std::to_string(n) + " is not published; inputs: 1 to 12, 18, 19, 27, 29, 32, 33");
+void Parser::use_input(const Expression& input) {
+  if (input.kind == Expression::Kind::kConstant) uses_.inputs.insert(input.value);
+}
+
+void Parser::check(Command command, const std::vector<ExpressionPointer>& arguments) {
+  std::vector<const Expression*> all;
+  for (const ExpressionPointer& argument : arguments) all.push_back(argument.get());
+  check_arguments(command, all, {later_edition_, arrays_}, messages_);
+}
+
+void Parser::check(Command command, std::initializer_list<const Expression*> arguments) {
+  check_arguments(command, std::span(arguments.begin(), arguments.size()), {later_edition_, arrays_},
+                  messages_);
 }
 
 std::vector<ExpressionPointer> Parser::arguments(const CommandRow& row) {
   std::vector<ExpressionPointer> result;
   for (std::size_t i = 0; i < row.arity(); ++i) {
-    const Token& token = peek();
     result.push_back(argument_of(row.arguments[i], row));
-    if (i == 0 && row.command == Command::kIn) use_input(token.place, *result[0]);
+    if (i == 0 && row.command == Command::kIn) use_input(*result[0]);
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #include "projects/aposs/parameter_names.hpp"
 #include "projects/aposs/parser.hpp"
 #include "projects/json/problem.hpp"
+#include "scheduler/aposs/arithmetic.hpp"
 
 namespace lockstep::aposs {
 namespace {
@@ -23,33 +24,22 @@ void Parser::on_statement() {
     expect_word("GOSUB", "behind ON ERROR");
     return subprogram_reference(emitter_.emit(place, Operation::kOnError));
   }
-  if (accept_word("INT")) return on_source(place, Operation::kOnInput);
-  if (accept_word("COMBIT")) return on_source(place, Operation::kOnCombit);
-  if (accept_word("STATBIT")) return on_source(place, Operation::kOnStatbit);
-  if (accept_word("TIME")) return on_source(place, Operation::kOnTime);
-  if (accept_word("PERIOD")) return on_source(place, Operation::kOnPeriod);
+  if (accept_word("INT")) return on_source(place, Command::kOnInt, Operation::kOnInput);
+  if (accept_word("COMBIT")) return on_source(place, Command::kOnCombit, Operation::kOnCombit);
+  if (accept_word("STATBIT")) return on_source(place, Command::kOnStatbit, Operation::kOnStatbit);
+  if (accept_word("TIME")) return on_source(place, Command::kOnTime, Operation::kOnTime);
+  if (accept_word("PERIOD")) return on_source(place, Command::kOnPeriod, Operation::kOnPeriod);
   if (accept_word("PARAM")) return on_parameter(place);
   if (accept_word("DELETE")) return on_delete(place);
   fail(peek().place, "ON " + peek().text + ": " + shown() + " is no interrupt" + did_you_mean(word, kKinds) +
                          "; allowed: " + list_of(kKinds));
 }
 
-void Parser::on_source(const Place& place, Operation operation) {
-  const Token& at = peek();
+void Parser::on_source(const Place& place, Command command, Operation operation) {
   const ExpressionPointer number = argument("ON");
-  if (number->kind == Expression::Kind::kConstant) {
-    const std::int64_t n = number->value, size = n < 0 ? -n : n;
-    const bool input = operation == Operation::kOnInput;
-    if (input && !((size >= 1 && size <= 12) || (size >= 18 && size <= 33)))
-      messages_.error(at.place, "ON INT " + std::to_string(n) +
-                                    "; allowed: inputs 1 to 12 and 18 to 33, below 0 for "
-                                    "the falling edge");
-    if ((operation == Operation::kOnCombit || operation == Operation::kOnStatbit) && (size < 1 || size > 32))
-      messages_.error(at.place, "there is no bit " + std::to_string(n) +
-                                    "; allowed: 1 to 32, below 0 for the falling "
-                                    "edge");
-    if (input) uses_.inputs.insert(static_cast<std::int32_t>(size));
-  }
+  check(command, {number.get()});
+  if (command == Command::kOnInt && number->kind == Expression::Kind::kConstant)
+    uses_.inputs.insert(absolute(number->value));
   const Cell cell = value(*number);
   expect_word("GOSUB", "behind what the interrupt watches");
   subprogram_reference(emitter_.emit(place, operation, cell));
@@ -78,6 +68,7 @@ void Parser::on_parameter(const Place& place) {
   const bool by_name = peek().kind == Token::Kind::kName;
   // Those of the drive count as well, so a number is taken as it is.
   const ExpressionPointer number = by_name ? parameter("ON PARAM") : drive_parameter("ON PARAM");
+  check(Command::kOnParam, {number.get()});
   const Cell cell = value(*number);
   expect_word("GOSUB", "behind the parameter");
   subprogram_reference(emitter_.emit(place, Operation::kOnParameter, cell));

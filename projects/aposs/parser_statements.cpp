@@ -112,6 +112,7 @@ void Parser::assign_pseudo_array(Command read, Command write) {
   std::vector<ExpressionPointer> operands;
   operands.push_back(bracketed_index(name.text));
   if (accept_symbol(".")) {
+    check(write, {operands[0].get()});
     auto [part, number] = selector();
     expect_symbol("=", "behind what is assigned to");
     const ExpressionPointer right = expression();
@@ -236,7 +237,9 @@ void Parser::language_statement(Command command, const Token& at) {
                                at.place);
     case Command::kNowait: {
       take();
-      emitter_.emit(at.place, Operation::kNoWait, value(*state("NOWAIT", false)));
+      const ExpressionPointer on = state("NOWAIT", false);
+      check(command, {on.get()});
+      emitter_.emit(at.place, Operation::kNoWait, value(*on));
       return after_argument(row_of(command));
     }
     default:
@@ -254,13 +257,13 @@ void Parser::time_statement(Operation operation, const Token& at) {
   for (std::size_t i = 0; i < named.words; ++i) take();
   const ExpressionPointer time = argument(row.name);
   after_argument(row);
+  check(row.command, {time.get()});
   emitter_.emit(at.place, operation, value(*time));
 }
 
 void Parser::wait_for_input(const Token& at) {
   const NamedCommand named = *command_at(tokens_.subspan(at_));
   ExpressionPointer input;
-  Place place = at.place;
   bool usual = named.unusual.empty();
   if (named.command == Command::kWaitt) {
     take();
@@ -268,14 +271,14 @@ void Parser::wait_for_input(const Token& at) {
     input = constant(glued.place, *glued_input(glued));
   } else {
     for (std::size_t i = 0; i < named.words; ++i) take();
-    place = peek().place;
     input = argument("WAITI");
   }
-  use_input(place, *input);
+  use_input(*input);
   const bool has_state = on_same_line() && (at_word("ON") || at_word("OFF") || argument_follows());
   const ExpressionPointer level = state("WAITI", true);
   if (!usual || !has_state) messages_.warn(at.place, "the usual form is WAITI n ON or WAITI n OFF");
   after_argument(row_of(Command::kWaiti));
+  check(Command::kWaiti, {input.get(), level.get()});
   const Cell number = value(*input);
   emitter_.emit(at.place, Operation::kWaitInput, number, value(*level));
 }
@@ -296,6 +299,7 @@ void Parser::goto_statement() {
 void Parser::loop_statement() {
   const Place place = take().place;
   const ExpressionPointer count = argument("LOOP");
+  check(Command::kLoop, {count.get()});
   const Cell cell = value(*count);
   jump_to(place, Operation::kLoop, cell);
 }
@@ -347,6 +351,7 @@ void Parser::print_statement() {
   const Place place = take().place;
   if (accept_word("DEV")) {
     const ExpressionPointer device = argument("PRINT DEV");
+    check(Command::kPrintDev, {device.get()});
     emitter_.emit(place, Operation::kPrintDevice, value(*device));
   }
   PrintList list;
@@ -412,6 +417,7 @@ Cell Parser::gathered(const std::vector<ExpressionPointer>& arguments) {
 
 void Parser::emit_command(const Place& place, Command command,
                           const std::vector<ExpressionPointer>& arguments, Cell result) {
+  check(command, arguments);
   const Cell cells = gathered(arguments);
   const EmittedOperand first = arguments.empty() ? EmittedOperand(std::uint32_t{0}) : EmittedOperand(cells);
   emitter_.emit(place, Operation::kCommand, static_cast<std::uint32_t>(command), first, result);

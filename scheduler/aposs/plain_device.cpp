@@ -50,6 +50,14 @@ Reply PlainDevice::switch_output(std::int32_t number, bool on) noexcept {
   return Reply::done();
 }
 
+// Byte 0: outputs 1 to 8, the lowest first; 1: 27, 29.
+Reply PlainDevice::switch_byte(std::int32_t number, std::int32_t bits) noexcept {
+  if (number != 0 && number != 1) return Reply::failed(171);
+  for (std::int32_t bit = 0; bit < (number == 0 ? 8 : 2); ++bit)
+    switch_output(number == 0 ? bit + 1 : 27 + 2 * bit, ((bits >> bit) & 1) != 0);
+  return Reply::done();
+}
+
 // LINKGPAR: the stored value is brought into the limits.
 Reply PlainDevice::link(const std::int32_t* arguments) noexcept {
   if (!has(arguments[0]) || arguments[2] > arguments[3]) return Reply::failed(kLinkFailed);
@@ -67,9 +75,7 @@ Reply PlainDevice::begin(Command command, const std::int32_t* arguments, Arrays&
     case Command::kOut:
       return switch_output(arguments[0], arguments[1] != 0);
     case Command::kOutb:
-      if (arguments[0] != 0) return Reply::failed(171);
-      for (std::int32_t bit = 0; bit < 8; ++bit) switch_output(bit + 1, ((arguments[1] >> bit) & 1) != 0);
-      return Reply::done();
+      return switch_byte(arguments[0], arguments[1]);
     case Command::kGet:
       if (has(arguments[0])) return Reply::done(of(arguments[0]).value);
       return arguments[0] < 1000 ? Reply::failed(kUnknownParameter) : Reply::refused();

@@ -50,6 +50,7 @@ class PlainDevice : public Device {
   }
   std::int32_t input_byte(std::int32_t number) const noexcept;
   Reply switch_output(std::int32_t number, bool on) noexcept;
+  Reply switch_byte(std::int32_t number, std::int32_t bits) noexcept;
   Reply link(const std::int32_t* arguments) noexcept;
 
   std::int64_t now_ = 0;

@@ -1,6 +1,8 @@
 #include "scheduler/mco305/device_commands.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 namespace lockstep {
@@ -371,9 +373,14 @@ Reply DeviceCommands::link(const std::int32_t* arguments) noexcept {
 }
 
 Reply DeviceCommands::output_byte(const std::int32_t* arguments) noexcept {
-  if (arguments[0] != 0) return Reply::failed(mco305::kArrayBound);
-  for (std::int32_t bit = 0; bit < 8; ++bit)
-    device_.io().switch_output(bit + 1, ((arguments[1] >> bit) & 1) != 0);
+  constexpr std::array<std::int32_t, 8> kOption{1, 2, 3, 4, 5, 6, 7, 8};
+  constexpr std::array<std::int32_t, 2> kDrive{27, 29};
+  if (arguments[0] != 0 && arguments[0] != 1) return Reply::failed(mco305::kArrayBound);
+  std::int32_t bits = arguments[1];
+  for (const std::int32_t output : arguments[0] == 0 ? std::span<const std::int32_t>(kOption) : kDrive) {
+    device_.io().switch_output(output, (bits & 1) != 0);
+    bits >>= 1;
+  }
   return Reply::done();
 }
 

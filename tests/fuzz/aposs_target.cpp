@@ -58,25 +58,50 @@ void run(const aposs::Image& image, std::int32_t budget) {
   }
 }
 
+/// Each command of the device in a line of its own, with arguments of the kinds that it has; so that changes
+/// put them together.
+std::string every_command() {
+  constexpr std::string_view kArguments[] = {"",       " 1",    " 2",     " ON", "",        "[1]",   " a",
+                                             " 32-67", " 3-03", " \"t\"", " 5",  " ARRAYS", " KPROP"};
+  std::string text = "DIM a[9]\n";
+  for (const aposs::CommandRow& row : aposs::commands()) {
+    if (row.kind != aposs::CommandKind::kStatement && row.kind != aposs::CommandKind::kFunction) continue;
+    if (row.kind == aposs::CommandKind::kFunction) text += "x = ";
+    text += row.name;
+    for (std::size_t i = 0; i < row.arity(); ++i)
+      text += kArguments[static_cast<std::size_t>(row.arguments[i])];
+    text += "\n";
+  }
+  return text;
+}
+
+void look_at(const std::vector<std::string>& files, const aposs::Message& message) {
+  require(message.place.file < files.size() && message.place.line > 0 && message.place.column > 0,
+          "a message has a place");
+  require(to_string(files, message).find_first_of("\n\r\x1b") == std::string::npos,
+          "a message is one line without control sequences");
+}
+
 }  // namespace
 
 std::vector<std::string> seeds() {
-  std::vector<std::string> texts;
-  for (const char* text : {"DIM a[9], b[2]\nON ERROR GOSUB fault\nON PERIOD 5 GOSUB tick\nON INT -2 GOSUB "
-                           "tick\ni = 1\nagain:\na[i] = i * 3 % 2\n"
-                           "i = i + 1\nIF i < 12 THEN\n GOTO again\nELSEIF NOT (IN 1) THEN\n OUT 2 "
-                           "1\nENDIF\nDELAY 7\nPOSA (a[2] + 5)\n"
-                           "SUBMAINPROG\nSUBPROG fault\n PRINT \"error \", ERRNO\n ERRCLR\nRETURN\nSUBPROG "
-                           "tick\n n = n + 1\nRETURN\nENDPROG\n",
-                           "x = 0x7FFFFFFF + 1 rnd 3 mod 7 << 2\nx.b2 = 'A'\nx.3 = x.w1 & ~5 | 6 ^ 1\nWHILE "
-                           "(x > 0) AND (TIME < 50) DO\n x = x - 1\n"
-                           "ENDWHILE\nPRINT CHR(65), x, \"end\";\nREPEAT\nUNTIL SYNCSTAT & 4\n",
-                           "NOWAIT ON\nHOME\nSET SYNCMSTART 2000\nSET 32-67 5\nLINKGPAR 1900 \"a\" 0 9 "
-                           "0\nCVEL GET 1900\nCSTART\nWAITI 3 OFF\n"
-                           "ON +APOS 2000 GOSUB s\nON DELETE 0 GOSUB s\nDISABLE ALL\nENABLE "
-                           "ALL\nSYNCP\nWAITAX\nl: LOOP 3 l\nSYSVAR[4105] = PCD[1].3\n"
-                           "SUBMAINPROG\nSUBPROG s\n CSTOP\nRETURN\nENDPROG\n",
-                           "GOSUB a\nEXIT\nSUBMAINPROG\nSUBPROG a\n GOSUB a\nRETURN\nENDPROG\n"})
+  std::vector<std::string> texts{"\x20" + every_command()};
+  for (const char* text :
+       {"DIM a[9], b[2]\nON ERROR GOSUB fault\nON PERIOD 5 GOSUB tick\nON INT -2 GOSUB "
+        "tick\ni = 1\nagain:\na[i] = i * 3 % 2\n"
+        "i = i + 1\nIF i < 12 THEN\n GOTO again\nELSEIF NOT (IN 1) THEN\n OUT 2 "
+        "1\nENDIF\nDELAY 7\nPOSA (a[2] + 5)\n"
+        "SUBMAINPROG\nSUBPROG fault\n PRINT \"error \", ERRNO\n ERRCLR\nRETURN\nSUBPROG "
+        "tick\n n = n + 1\nRETURN\nENDPROG\n",
+        "x = 0x7FFFFFFF + 1 rnd 3 mod 7 << 2\nx.b2 = 'A'\nx.3 = x.w1 & ~5 | 6 ^ 1\nWHILE "
+        "(x > 0) AND (TIME < 50) DO\n x = x - 1\n"
+        "ENDWHILE\nPRINT CHR(65), x, \"end\";\nREPEAT\nUNTIL SYNCSTAT & 4\n",
+        "NOWAIT ON\nHOME\nSET SYNCMSTART 2000\nSET 32-67 5\nLINKGPAR 1900 \"a\" 0 9 "
+        "0\nCVEL GET 1900\nCSTART\nWAITI 3 OFF\n"
+        "ON +APOS 2000 GOSUB s\nON DELETE 0 GOSUB s\nDISABLE ALL\nENABLE "
+        "ALL\nSYNCP\nWAITAX\nl: LOOP 3 l\nSYSVAR[4105] = PCD[1].3\n"
+        "SUBMAINPROG\nSUBPROG s\n CSTOP\nRETURN\nENDPROG\n",
+        "#INCLUDE a.m\nGOSUB a\nEXIT\nSUBMAINPROG\nSUBPROG a\n GOSUB a\nRETURN\nENDPROG\n"})
     for (const char budget : {'\1', '\x40'}) texts.push_back(budget + std::string(text));
   return texts;
 }
@@ -85,14 +110,15 @@ std::vector<std::string> seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lockstep;
   if (size == 0) return 0;
-  const aposs::CompiledProgram compiled = aposs::compile_program("x.m", fuzz::text_of(data + 1, size - 1));
+  const std::string_view program = fuzz::text_of(data + 1, size - 1);
+  // What a file includes is its own first half, by a short name.
+  const aposs::ReadIncluded half = [program](const std::string& name) {
+    return name.size() > 4 ? std::nullopt : std::optional(std::string(program.substr(0, program.size() / 2)));
+  };
+  const aposs::CompiledProgram compiled = aposs::compile_program("x.m", program, half);
   fuzz::require(compiled.image.has_value() == compiled.errors.empty(), "a program or problems");
-  for (const aposs::Message& error : compiled.errors) {
-    const std::string text = to_string(compiled.files, error);
-    fuzz::require(text.starts_with("x.m:"), "a message has a place");
-    fuzz::require(text.find_first_of("\n\r\x1b") == text.npos,
-                  "a message is one line without control sequences");
-  }
+  for (const auto& messages : {compiled.errors, compiled.warnings})
+    for (const aposs::Message& message : messages) fuzz::look_at(compiled.files, message);
   if (!compiled.image) return 0;
   fuzz::require(compiled.image->fault() == 0, "what the compiler makes is sound");
   fuzz::require(!aposs::listing(*compiled.image, {}).empty(), "a program can be listed");

@@ -8,9 +8,8 @@ TEST(AposMessages, TellTheNearestParameter) {
   EXPECT_EQ(said_of("SET SYNCMPULS 5\n"), Lines{"x.m:1:5: 'SYNCMPULS' is no parameter; allowed here: a "
                                                 "parameter (nearest: SYNCMPULSM 33-17) or 1900 to "
                                                 "1999"});
-  EXPECT_EQ(said_of("x = GET 132\n"), Lines{"warning: x.m:1:9: 132 is no parameter of this option and will "
-                                            "be error 112; allowed: 32-00 to 34-71 as "
-                                            "published, 1900 to 1999"});
+  EXPECT_EQ(said_of("x = GET 132\n"), Lines{"warning: x.m:1:9: GET: parameter 132: error 112 when it runs; "
+                                            "allowed: 32-00 to 34-71 as published, 1900 to 1999"});
 }
 
 TEST(AposMessages, TellTheWordsThatBelongToTheFirst) {
@@ -21,9 +20,9 @@ TEST(AposMessages, TellTheWordsThatBelongToTheFirst) {
 }
 
 TEST(AposMessages, WarnOfAnInputForWhichNobodyWaits) {
-  EXPECT_EQ(said_of("WAITI 99 ON\n"),
-            Lines{"warning: x.m:1:7: input 99 is not published; inputs: 1 to 12, 18, "
-                  "19, 27, 29, 32, 33"});
+  EXPECT_EQ(
+      said_of("WAITI 99 ON\n"),
+      Lines{"warning: x.m:1:7: WAITI: input 99: it is always off; allowed: 1 to 12, 18, 19, 27, 29, 32, 33"});
 }
 
 TEST(AposMessages, TellWhichBlockHasNoEnd) {
@@ -210,6 +209,23 @@ TEST(AposLimits, HoldForVariablesAndNesting) {
   std::string ifs;
   for (int i = 0; i < 200; ++i) ifs += "IF x THEN\n";
   EXPECT_FALSE(said_of(ifs).empty());
+}
+
+TEST(AposLimits, HoldForFilesWithThePlaceOfTheFirstByteThatIsTooMuch) {
+  const std::string line(1023, ' ');
+  std::string text;
+  while (text.size() < kLargestFile) text += line + "\n";
+  EXPECT_EQ(text.size(), kLargestFile);
+  EXPECT_EQ(said_of(text), Lines{});
+  EXPECT_EQ(said_of(text + "x"),
+            Lines{"x.m:1025:1: the file goes on behind 1 MiB; allowed: files of at most 1048576 bytes"});
+  EXPECT_EQ(said_of(std::string(kLargestFile + 1, ' ')),
+            Lines{"x.m:1:1048577: the file goes on behind 1 MiB; allowed: files of at most 1048576 bytes"});
+  EXPECT_EQ(said_of("\xef\xbb\xbf" + text),
+            Lines{"x.m:1024:1022: the file goes on behind 1 MiB; allowed: files of at most 1048576 bytes"});
+  const ReadIncluded read = [&text](const std::string&) -> std::optional<std::string> { return text + "x"; };
+  EXPECT_EQ(said_of("#INCLUDE big.m\n", read),
+            Lines{"big.m:1025:1: the file goes on behind 1 MiB; allowed: files of at most 1048576 bytes"});
 }
 
 TEST(AposListing, ShowsEachLineAboveWhatItBecame) {
