@@ -120,7 +120,7 @@ class Check {
       case Allowed::kBits:
         return (value_ & ~range_.spans.front().highest) == 0;
       case Allowed::kUpToNext:
-        return !is_constant(1) || value_ <= neighbour(1);
+        return !is_constant(behind()) || value_ <= behind().value;
       case Allowed::kWithinArray:
         return value_ >= range_.spans.front().lowest && value_ <= highest_of_array();
       case Allowed::kSystemVariable:
@@ -130,9 +130,9 @@ class Check {
       case Allowed::kWritten:
         return is_written(value_);
       case Allowed::kValueOfWritten:
-        return !is_constant(-1) || is_value(neighbour(-1), value_);
+        return !is_constant(before()) || is_value(before().value, value_);
       case Allowed::kPublishedValue:
-        return !is_constant(-1) || is_published(neighbour(-1), value_, program_.later_edition);
+        return !is_constant(before()) || is_published(before().value, value_, program_.later_edition);
       case Allowed::kDrive:
         return mco305::find_drive_parameter(value_) != nullptr;
       case Allowed::kWrittenDrive: {
@@ -142,9 +142,9 @@ class Check {
       case Allowed::kIndexedDrive:
         return false;
       case Allowed::kValueOfDrive:
-        return !is_constant(-1) || is_value_of_drive(neighbour(-1), value_);
+        return !is_constant(before()) || is_value_of_drive(before().value, value_);
       case Allowed::kPidValue:
-        return value_ != 0 || neighbour(-1) != kTimer;
+        return value_ != 0 || before().value != kTimer;
     }
     return true;
   }
@@ -159,28 +159,26 @@ class Check {
  private:
   static constexpr std::int32_t kTimer = 4;  // of the coefficients of PID
 
-  const Expression& at(int ahead) const {
-    return *arguments_[static_cast<std::size_t>(static_cast<int>(range_.argument) + ahead)];
-  }
-  bool is_constant(int ahead) const { return at(ahead).kind == Expression::Kind::kConstant; }
-  std::int32_t neighbour(int ahead) const { return at(ahead).value; }
+  const Expression& before() const { return *arguments_[range_.argument - 1]; }
+  const Expression& behind() const { return *arguments_[range_.argument + 1]; }
+  static bool is_constant(const Expression& one) { return one.kind == Expression::Kind::kConstant; }
 
   std::int64_t highest_of_array() const {
-    const auto size = program_.arrays[static_cast<std::size_t>(neighbour(1))].size;
+    const auto size = program_.arrays[static_cast<std::size_t>(behind().value)].size;
     return std::min<std::int64_t>(size, range_.spans.front().highest);
   }
 
   std::string allowed() const {
     switch (range_.allowed) {
       case Allowed::kUpToNext:
-        return "up to " + std::to_string(neighbour(1)) + ", the value behind it";
+        return "up to " + std::to_string(behind().value) + ", the value behind it";
       case Allowed::kWithinArray:
         return "0 to " + std::to_string(highest_of_array());
       case Allowed::kValueOfWritten:
       case Allowed::kPublishedValue:
         return of_parameter();
       case Allowed::kValueOfDrive: {
-        const mco305::DriveParameter& of = *mco305::find_drive_parameter(neighbour(-1));
+        const mco305::DriveParameter& of = *mco305::find_drive_parameter(before().value);
         return std::to_string(of.lowest) + " to " + std::to_string(of.highest);
       }
       default:
@@ -188,10 +186,10 @@ class Check {
     }
   }
   std::string of_parameter() const {
-    if (takes_input(neighbour(-1))) return span_text(range_, kInputOfFunction[0]);
-    const std::string_view options = mco305::options_of(neighbour(-1));
+    if (takes_input(before().value)) return span_text(range_, kInputOfFunction[0]);
+    const std::string_view options = mco305::options_of(before().value);
     if (!options.empty()) return std::string(options);
-    const mco305::Parameter& of = *numbered(neighbour(-1));
+    const mco305::Parameter& of = *numbered(before().value);
     return std::to_string(of.lowest) + " to " + std::to_string(of.highest) +
            (of.decimals == 0 ? "" : ", in thousandths");
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "hmi_bridge/network/visible_text.hpp"
 #include "projects/json/problem.hpp"
 
 namespace lockstep::aposs {
@@ -333,7 +334,10 @@ class Cutter {
     if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
     const std::string file(name);
     const std::string allowed = "; allowed: a file beside the program whose name ends in .m";
-    if (!folded(file).ends_with(".M") || file.find_first_of("/\\:<>\"") != file.npos || file.starts_with('.'))
+    // Its name stands in front of each message about it.
+    const bool shows = visible(as_utf8(file)) == as_utf8(file);
+    if (!shows || !folded(file).ends_with(".M") || file.find_first_of("/\\:<>\"") != file.npos ||
+        file.starts_with('.'))
       return messages_.error(place, "#INCLUDE of " + quote(file) + allowed);
     if (std::find(files_open_.begin(), files_open_.end(), folded(file)) != files_open_.end())
       return messages_.error(place, "#INCLUDE of " + quote(file) + ": the file includes itself");

@@ -33,8 +33,8 @@ enum class Allowed : std::uint8_t {
   kValueOfWritten,  ///< what the parameter before it can be
   kPublishedValue,  ///< what the documents give the parameter before it
   kDrive,           ///< a parameter of the simulated drive
-  kIndexedDrive,    ///< … that has indices: there is none
-  kWrittenDrive,    ///< … that SETVLT changes
+  kIndexedDrive,    ///< one of its parameters that has indices: there is none
+  kWrittenDrive,    ///< a parameter of the simulated drive that SETVLT changes
   kValueOfDrive,    ///< what the parameter before it can be
   kPidValue,        ///< what the coefficient before it can be
 };

@@ -51,6 +51,17 @@ TEST(DescribeMco305, TakesTwoWordsInOne) {
   EXPECT_EQ(described({"error 108"})["kind"], described({"error", "108"})["kind"]);
 }
 
+TEST(DescribeMco305, TellsWhatTheArgumentsOfACommandMayBe) {
+  const Json ranges = described({"OUTDA"})["ranges"];
+  ASSERT_EQ(ranges.size(), 2u);
+  EXPECT_EQ(ranges[0]["name"], "output");
+  EXPECT_EQ(ranges[0]["allowed"], "42");
+  EXPECT_EQ(ranges[0]["any_other"], "error 171");
+  EXPECT_EQ(ranges[1]["allowed"], "0 to 100000");
+  EXPECT_FALSE(described({"POSA"}).contains("ranges"));
+  EXPECT_NE(lockstep({"describe", "OUTDA"}).out.find("output 42; any other: error 171"), std::string::npos);
+}
+
 TEST(DescribeMco305, TellsOfCommandsErrorsAndSystemVariables) {
   const Json home = described({"HOME"});
   EXPECT_EQ(home["kind"], "command");

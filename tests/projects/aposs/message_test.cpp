@@ -188,6 +188,14 @@ TEST(AposIncludes, AreReadFromBesideTheProgram) {
   EXPECT_EQ(
       said_of("#INCLUDE ../secret.m\n", read),
       Lines{"x.m:1:1: #INCLUDE of '../secret.m'; allowed: a file beside the program whose name ends in .m"});
+  const ReadIncluded any = [](const std::string&) { return std::optional<std::string>("CANDEL 1\n"); };
+  for (const std::string name : {"\x1b[2J.m", "\x7f.m", "\xc2\x9b.m"}) {
+    const Lines said = said_of("#INCLUDE " + name + "\n", any);
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_TRUE(said[0].starts_with("x.m:1:1: #INCLUDE of '")) << said[0];
+    EXPECT_EQ(said[0].find(name[0]), said[0].npos)
+        << "its name would stand in front of each message about it";
+  }
   EXPECT_EQ(said_of("#INCLUDE none.m\n", read),
             Lines{"x.m:1:1: #INCLUDE of 'none.m': the file cannot be read; allowed: a file beside the "
                   "program whose name ends in "
