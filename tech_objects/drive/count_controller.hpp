@@ -28,6 +28,12 @@ class CountController {
  public:
   static constexpr double kFullScale = 1'048'575.0;
 
+  /// What it goes by from now on.
+  void set(const CountControllerSettings& settings) noexcept {
+    settings_ = settings;
+    band_ = kFullScale * settings.bandwidth / 1000.0;
+    plain_ = settings.active_above <= 0 && settings.integral_time == 0;
+  }
   void reset() noexcept {
     sum_ = 0.0;
     idle_ = false;
@@ -36,36 +42,39 @@ class CountController {
   }
   /// @param velocity, acceleration of the setpoint [qc/ms], [qc/ms²]  @param period [ms] ≥ 1
   /// @return the reference, -kFullScale to kFullScale
-  double step(const CountControllerSettings& settings, double setpoint, double actual, double velocity,
-              double acceleration, double period) noexcept {
+  double step(double setpoint, double actual, double velocity, double acceleration, double period) noexcept {
     const double error = setpoint - actual;
     const double moved = begun_ ? actual - last_ : 0.0;
     last_ = actual;
     begun_ = true;
-    if (settings.active_above > 0) {
-      const double distance = error < 0.0 ? -error : error;
-      if (distance > static_cast<double>(settings.active_above)) idle_ = false;
-      if (distance < static_cast<double>(settings.idle_below)) idle_ = true;
-      if (idle_) {
-        sum_ = 0.0;
-        return 0.0;
-      }
-    } else {
+    double limit = settings_.integral_limit;
+    if (plain_) {
       idle_ = false;
+    } else {
+      if (rests_within(error)) return 0.0;
+      limit *= faded(settings_.integral_time, velocity, period);
     }
-    const double limit = settings.integral_limit * faded(settings.integral_time, velocity, period);
     sum_ = std::clamp(sum_ + error, -limit, limit);
-    const double band = kFullScale * settings.bandwidth / 1000.0;
-    const double pid = settings.scale * (settings.proportional * error + settings.integral * sum_ -
-                                         settings.derivative * moved);
-    const double precontrol = settings.scale * (settings.velocity_precontrol * velocity +
-                                                settings.acceleration_precontrol * acceleration);
-    return std::clamp(std::clamp(pid, -band, band) + precontrol, -kFullScale, kFullScale);
+    const double pid = settings_.scale * (settings_.proportional * error + settings_.integral * sum_ -
+                                          settings_.derivative * moved);
+    const double precontrol = settings_.scale * (settings_.velocity_precontrol * velocity +
+                                                 settings_.acceleration_precontrol * acceleration);
+    return std::clamp(std::clamp(pid, -band_, band_) + precontrol, -kFullScale, kFullScale);
   }
   /// POSFLOAT: the error is within the control window.
   bool idle() const noexcept { return idle_; }
 
  private:
+  // The control window: whether it is switched off.
+  bool rests_within(double error) noexcept {
+    idle_ = idle_ && settings_.active_above > 0;
+    if (settings_.active_above <= 0) return false;
+    const double distance = error < 0.0 ? -error : error;
+    if (distance > static_cast<double>(settings_.active_above)) idle_ = false;
+    if (distance < static_cast<double>(settings_.idle_below)) idle_ = true;
+    if (idle_) sum_ = 0.0;
+    return idle_;
+  }
   // What part of its limit the sum may have, 0 to 1.
   double faded(std::int32_t time, double velocity, double period) noexcept {
     if (time == 0) return 1.0;
@@ -75,8 +84,11 @@ class CountController {
     return fade_;
   }
 
-  double sum_ = 0.0, last_ = 0.0, fade_ = 0.0;
   bool idle_ = false, begun_ = false;
+  bool plain_ = true;  // neither the control window nor KILIMTIME counts
+  double sum_ = 0.0, last_ = 0.0, fade_ = 0.0;
+  double band_ = kFullScale;
+  CountControllerSettings settings_;
 };
 
 }  // namespace lockstep

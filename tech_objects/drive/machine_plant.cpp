@@ -19,6 +19,7 @@ void MachinePlant::configure(const MachinePlantSettings& settings, double motor_
   inertia_ = settings.inertia * motor_angle;
   per_torque_ = cycle / inertia_;
   rubs_ = per_torque_ * settings.friction;
+  undisturbed_ = settings.friction == 0.0 && settings.load_torque == 0.0 && !settings.has_stop;
   start_ = start;
   cycle_ = cycle;
   // A stop takes the energy of what runs into it: critically damped with the inertia of the machine.

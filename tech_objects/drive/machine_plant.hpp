@@ -64,6 +64,22 @@ class MachinePlant {
   /// A servo cycle in which nothing can move.
   void hold(double wanted_velocity, const TorqueBand& permitted) noexcept;
 
+  /// The same where nothing disturbs the machine and the torque is permitted that its motion takes, so that
+  /// it moves as is wanted. @return false: it is not so; `step` has to say what comes of it
+  bool follow(double velocity, double wanted_velocity, const TorqueBand& permitted,
+              double additive) noexcept {
+    if (!undisturbed_ || known_ != 0.0 || additive != 0.0) return false;
+    const double asked = (wanted_velocity - velocity) / per_torque_ + 0.0;  // no -0
+    if (!(asked >= permitted.lower && asked <= permitted.upper)) return false;
+    torque_ = asked;
+    return true;
+  }
+
+  /// What it keeps from a cycle to the next.
+  struct Memory {
+    double torque, known;
+  };
+  Memory memory() const noexcept { return {torque_, known_}; }
   double torque() const noexcept { return torque_; }
   /// What the drive may make within limits given to it.
   TorqueBand permitted(const TorqueBand& limits) const noexcept;
@@ -73,7 +89,9 @@ class MachinePlant {
               double additive) noexcept;
   double stop_torque(const Begin& begin, double velocity) const noexcept;
 
+  bool undisturbed_ = true;  // neither friction nor load, nor a stop
   double torque_ = 0.0;      // of the motor
+  double known_ = 0.0;       // disturbance that the drive makes up for
   double per_torque_ = 0.0;  // velocity that a torque makes in a cycle [u/s per Nm]
   double rubs_ = 0.0;        // velocity that the friction takes in a cycle at most [u/s]
   double inertia_ = 0.0;     // torque per acceleration of the machine [Nm s²/u]
@@ -82,7 +100,6 @@ class MachinePlant {
   double cycle_ = 0.001;
   double damping_ = 0.0;   // of the stop [Nm s/u]
   double learning_ = 0.0;  // part of a disturbance that is made up for within a cycle
-  double known_ = 0.0;     // disturbance that the drive makes up for
   bool limited_ = false;
 };
 

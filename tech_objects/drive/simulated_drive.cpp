@@ -45,11 +45,17 @@ DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double 
   steps_ = std::max(1, static_cast<int>(std::floor(steps + 0.5)));
   step_ = piece(servo_cycle / steps_, time_constant);
   resolution_ = std::max(0.0, settings.resolution);
+  choose_path();
   const double transport_delay = (static_cast<double>(dead.whole) + dead.part + 0.5) * servo_cycle;
   return {.known_delay = transport_delay + time_constant,
           .transport_delay = transport_delay,
           .dead_time = transport_delay - 0.5 * servo_cycle,
           .tells_torque = plant_.exists()};
+}
+
+void SimulatedDrive::choose_path() noexcept {
+  const bool delays = whole_cycles_ > 0 || before_.duration > 0.0;
+  at_once_ = !delays && !unit_.has_faults() && states().operation() && loop_cycles_ == 0;
 }
 
 SimulatedDrive::Piece SimulatedDrive::piece(double duration, double time_constant) noexcept {
@@ -66,47 +72,67 @@ void SimulatedDrive::run(const Piece& piece, double velocity) noexcept {
   velocity_ += change[1];
 }
 
-/// The setpoints that arrive in this cycle, the older and the newer one, are those that have not moved it.
-inline bool SimulatedDrive::stays() const noexcept {
+/// The setpoints that arrive in this cycle, the older and the newer one.
+inline DoubleDouble SimulatedDrive::arriving() const noexcept {
   const double newer = written_[kept(cycle_ - whole_cycles_)];
-  const double older = before_.duration > 0.0 ? written_[kept(cycle_ - whole_cycles_ - 1)] : newer;
-  return same_bits(rested_, {older, newer});
+  return {before_.duration > 0.0 ? written_[kept(cycle_ - whole_cycles_ - 1)] : newer, newer};
 }
 
-[[gnu::noinline]] void SimulatedDrive::look_for_rest(const DoubleDouble& position, double velocity) noexcept {
-  rests_ = same_bits(position, position_) && same_bits({velocity, 0.0}, {velocity_, 0.0});
-  const double newer = written_[kept(cycle_ - whole_cycles_)];
-  rested_ = {before_.duration > 0.0 ? written_[kept(cycle_ - whole_cycles_ - 1)] : newer, newer};
+[[gnu::noinline]] void SimulatedDrive::look_for_rest(const Motion& before,
+                                                     const DoubleDouble& setpoints) noexcept {
+  const MachinePlant::Memory plant = plant_.memory();
+  rests_ = same_bits(before.position, position_) && same_bits({before.velocity, 0.0}, {velocity_, 0.0}) &&
+           same_bits({before.plant.torque, before.plant.known}, {plant.torque, plant.known});
+  rested_ = setpoints;
 }
 
+/// First what most drives are in most of their cycles: on, without dead time.
 void SimulatedDrive::write(double velocity) noexcept {
+  if (!at_once_) return write_with_all(velocity);
+  last_setpoint_ = velocity;
+  if (std::abs(velocity_) < kNoMotion) return write_at_standstill(velocity);
+  const DoubleDouble position_before = position_;
+  const double velocity_before = velocity_;
+  run(after_, velocity);
+  if (plant_.exists()) move_plant(position_before, velocity_before);
+}
+
+[[gnu::noinline]] void SimulatedDrive::write_at_standstill(double velocity) noexcept {
+  if (rests_ && same_bits(rested_, {velocity, velocity})) return;
+  const Motion before{position_, velocity_, plant_.memory()};
+  run(after_, velocity);
+  if (plant_.exists()) move_plant(before.position, before.velocity);
+  look_for_rest(before, {velocity, velocity});
+}
+
+[[gnu::noinline]] void SimulatedDrive::write_with_all(double velocity) noexcept {
   if (unit_.has_faults() && unit_.watch_causes()) ramp_ = quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
   if (states().operation()) last_setpoint_ = velocity;
   written_[kept(cycle_)] = states().operation() ? velocity : quick_stop_setpoint();
-  const DoubleDouble position_before = position_;
-  const double velocity_before = velocity_;
+  const Motion before{position_, velocity_, plant_.memory()};
   if (loop_cycles_ > 0) {
     rests_ = false;
     run_position_loop();
-  } else if (!rests_ || !stays()) {
+  } else if (!rests_ || !same_bits(rested_, arriving())) {
     rests_ = false;
     // The setpoint written `whole_cycles_` ago arrives after the broken part of the dead time.
     if (before_.duration > 0.0) run(before_, written_[kept(cycle_ - whole_cycles_ - 1)]);
     run(after_, written_[kept(cycle_ - whole_cycles_)]);
-    if (std::abs(velocity_) < kNoMotion) look_for_rest(position_before, velocity_before);
+    if (std::abs(velocity_) < kNoMotion) look_for_rest(before, arriving());
   }
   ++cycle_;
   if (plant_.exists() || unit_.blocked()) {
-    move_plant(position_before, velocity_before);
+    move_plant(before.position, before.velocity);
     rests_ = false;
   }
   if (states().stopping()) unit_.watch_stop(velocity_, ramp_);
+  choose_path();
 }
 
 void SimulatedDrive::write_position(const PositionCommand& command) noexcept {
   next_target_ = {reported_ + command.xerr, command.kpc, command.pace, command.maximum};
   loop_cycles_ = kDelay;
-  write(command.velocity);
+  write_with_all(command.velocity);
 }
 
 /// The position loop of the drive: in steps of its own, with the position of each of them. Between two
@@ -148,6 +174,7 @@ void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velo
     velocity_ = 0.0;
     return;
   }
+  if (states().pulses() && plant_.follow(velocity_before, velocity_, permitted_, torque_.additive)) return;
   const MachinePlant::Motion wanted{(position_ - position_before).rounded(), velocity_};
   const MachinePlant::Motion made = plant_.step({position_before.rounded(), velocity_before}, wanted,
                                                 states().pulses(), permitted_, torque_.additive);
@@ -160,6 +187,8 @@ void SimulatedDrive::control(std::uint16_t stw1, std::uint16_t stw2) noexcept {
   if (unit_.control(stw1, stw2))
     ramp_ = states().state() == DriveStates::State::quick_stop && quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
   if (!states().operation() && !states().stopping()) last_setpoint_ = 0.0;
+  rests_ = false;
+  choose_path();
 }
 
 }  // namespace lockstep

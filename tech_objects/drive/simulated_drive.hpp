@@ -30,12 +30,21 @@ class SimulatedDrive final : public Drive {
   DriveActual read() noexcept override {
     return unit_.tell(plant_.torque(), [this](DriveActual& now) noexcept { read_encoder(now); });
   }
+  /// Whether nothing goes wrong with it and it tells no increments: then `read` has nothing to tell but what
+  /// the members behind this one do, `read_position` in its place.
+  bool exact() const noexcept { return !unit_.has_faults() && !(resolution_ > 0.0); }
+  const DoubleDouble& read_position() noexcept { return reported_ = position_; }
+  double velocity() const noexcept { return velocity_; }      ///< [u/s]
+  double torque() const noexcept { return plant_.torque(); }  ///< as `DriveActual::torque`
+  /// Whether the last `write` has changed nothing: all of that is as it was.
+  bool rests() const noexcept { return rests_; }
   void write(double velocity) noexcept override;
   void write_position(const PositionCommand& command) noexcept override;
   void control(std::uint16_t stw1, std::uint16_t stw2) noexcept override;
   void command_torque(const TorqueCommand& command) noexcept override {
     torque_ = command;
     permitted_ = plant_.permitted(command.band);
+    rests_ = false;
   }
 
   SensorActual read_sensor(std::size_t sensor) noexcept override {
@@ -70,8 +79,17 @@ class SimulatedDrive final : public Drive {
   /// Index in `written_` and `targets_` of what is written in a cycle. Only as much memory is touched as the
   /// dead time needs.
   std::size_t kept(std::size_t cycle) const noexcept { return cycle & (ring_ - 1); }
-  bool stays() const noexcept;
-  void look_for_rest(const DoubleDouble& position, double velocity) noexcept;
+  /// What a cycle may change beside setpoints that are kept.
+  struct Motion {
+    DoubleDouble position;
+    double velocity;
+    MachinePlant::Memory plant;
+  };
+  void choose_path() noexcept;
+  void write_with_all(double velocity) noexcept;
+  void write_at_standstill(double velocity) noexcept;
+  DoubleDouble arriving() const noexcept;
+  void look_for_rest(const Motion& before, const DoubleDouble& setpoints) noexcept;
   void run_position_loop() noexcept;
   void read_encoder(DriveActual& now) noexcept {
     now.position = position_;
@@ -86,6 +104,7 @@ class SimulatedDrive final : public Drive {
   void move_plant(const DoubleDouble& position_before, double velocity_before) noexcept;
 
   // What every cycle touches, in lines of the cache.
+  bool at_once_ = false;  // a setpoint counts in the cycle in which it is written, and nothing else does
   std::size_t ring_ = 1;  // of written_, as many as are kept; a power of two
   std::size_t cycle_ = 0;
   std::size_t whole_cycles_ = 0;  // of dead time

@@ -15,6 +15,7 @@ constexpr double kFullReference = 0x4000;       // of OUTAN
 
 void Device::configure(const DeviceSettings& settings, double servo_period) {
   settings_ = settings;
+  machine_start_ = settings.drive.signals.start_position;
   virtual_ = !settings.has_drive;
   const double start = settings.drive.signals.start_position;
   for (std::size_t i = 0; i < settings.inputs.size(); ++i)
@@ -36,6 +37,8 @@ void Device::configure(const DeviceSettings& settings, double servo_period) {
     drive_->configure(settings.drive, servo_period, 2.0 * 3.14159265358979323846 / turn_);
     machine_ = start;
     swap_offset_ = actual_ = absolute_.position();
+    reads_position_alone_ =
+        drive_->exact() && !absolute_.present() && settings.drive.signals.digital_inputs.empty();
   }
   profile_.stand(static_cast<double>(actual_));
   if (parameters_[kPowerUpState] != 0) motor_on();
@@ -58,20 +61,26 @@ void Device::refresh() noexcept {
   const bool pulses = virtual_ && settings_.later_edition && marker.type == 0 && p[kEncoderFreq] > 0;
   virtual_pulse_ = pulses ? p.real(kEncoderFreq) : 0.0;
   no_pulse_from_ = no_pulse_until_ = 0.0;
+  meets_pulses_ = settings_.drive.signals.zero_marks ? !absolute_.present() : virtual_pulse_ > 0.0;
   position_error_ = p[kPosErr];
   checks_limits_ = p[kSwNegLimAct] != 0 || p[kSwPosLimAct] != 0;
-  control_.proportional = p.real(kKProp);
-  control_.derivative = p.real(kKDer);
-  control_.integral = p.real(kKInt);
-  control_.integral_limit = std::max(p.real(kKILim), 0.0);
-  control_.bandwidth = std::max(p.real(kBandwidth), 0.0);
-  control_.velocity_precontrol = p.real(kFFVel);
-  control_.acceleration_precontrol = p.real(kFFAcc);
-  control_.active_above = p[kRegWMax];
-  control_.idle_below = p[kRegWMin];
-  control_.integral_time = std::max(p[kKILimTime], -kLargestPosition);
-  control_.scale = settings_.controller_scale;
+  CountControllerSettings control;
+  control.proportional = p.real(kKProp);
+  control.derivative = p.real(kKDer);
+  control.integral = p.real(kKInt);
+  control.integral_limit = std::max(p.real(kKILim), 0.0);
+  control.bandwidth = std::max(p.real(kBandwidth), 0.0);
+  control.velocity_precontrol = p.real(kFFVel);
+  control.acceleration_precontrol = p.real(kFFAcc);
+  control.active_above = p[kRegWMax];
+  control.idle_below = p[kRegWMin];
+  control.integral_time = std::max(p[kKILimTime], -kLargestPosition);
+  control.scale = settings_.controller_scale;
+  controller_.set(control);
   io_.assign(p);
+  samples_ = absolute_.present() || !wired_inputs_.empty() || io_.any_input_function();
+  shows_ = !wired_outputs_.empty() || io_.any_output_function();
+  sampled_inputs_ = master_inputs_ = io_.changes() - 1;
   master_.refresh(p, settings_.later_edition);
   has_master_ = has_master_ || master_.present();
   sync_.refresh(p, settings_.later_edition, velocity_maximum_);
@@ -113,8 +122,7 @@ void Device::servo(bool step) noexcept {
   if (!virtual_) read_drive();
   if (step) {
     ++now_;
-    if (absolute_.present()) read_absolute();
-    sample_inputs();
+    if (samples_ || io_.changes() != sampled_inputs_) sample();
     if (has_master_) step_master();
     if (mode_ == MotionMode::kHome) step_home();
     generate();
@@ -129,12 +137,34 @@ void Device::servo(bool step) noexcept {
     if (watches_ || now_ == next_monitoring_) monitor();
     if (has_master_) sync_.judge(actual_);
     positions_[static_cast<std::size_t>(now_) % kVelocityRing] = actual_;
-    write_outputs();
+    if (shows_) write_outputs();
+    brake_ = false;
   }
   if (!virtual_) write_drive();
 }
 
-void Device::read_drive() noexcept {
+/// A drive that does not move has nothing new to tell but its state.
+inline void Device::read_drive() noexcept {
+  if (!reads_position_alone_) return read_whole_drive();
+  told_.enabled = drive_->states().operation();
+  if (drive_->rests()) return;
+  told_.velocity = drive_->velocity();
+  told_.torque = drive_->torque();
+  const double before = machine_;
+  if (!take_position(drive_->read_position())) return;
+  actual_ = counts_of(machine_ - machine_start_) + swap_offset_;
+  latch(before, machine_);
+}
+
+/// @return whether it is another one
+inline bool Device::take_position(const DoubleDouble& position) noexcept {
+  const double moved = rounded_difference(position, last_drive_position_);
+  last_drive_position_ = position;
+  machine_ += moved;
+  return moved != 0.0;
+}
+
+[[gnu::noinline]] void Device::read_whole_drive() noexcept {
   const DriveActual now = drive_->read();
   told_.enabled = now.enabled;
   told_.velocity = now.velocity;
@@ -143,13 +173,10 @@ void Device::read_drive() noexcept {
   told_.silent = now.silent;
   told_.encoder_failed = now.encoder_failed;
   if (now.silent || now.encoder_failed) return;
-  const double moved = rounded_difference(now.position, last_drive_position_);
-  last_drive_position_ = now.position;
   const double before = machine_;
-  machine_ += moved;
-  const double start = settings_.drive.signals.start_position;
-  if (!absolute_.present()) actual_ = counts_of(machine_ - start) + swap_offset_;
-  if (moved != 0.0) latch(before, machine_);
+  const bool moves = take_position(now.position);
+  if (!absolute_.present()) actual_ = counts_of(machine_ - machine_start_) + swap_offset_;
+  if (moves) latch(before, machine_);
   if (!settings_.drive.signals.digital_inputs.empty()) show_switches();
 }
 
@@ -175,11 +202,17 @@ std::int64_t Device::encoder_count(double place) const noexcept {
   return counts_of(place) + (virtual_ ? 0 : swap_offset_);
 }
 
+/// What most steps are: between two markers, or without any.
+inline void Device::latch(double from, double to) noexcept {
+  if (marker_type_ >= 2 ? !track_.stays_free(to - from) : meets_pulses_) look_for_latches(from, to);
+}
+
 /// A zero pulse is met exactly, wherever in the tick it lies.
-void Device::latch(double from, double to) noexcept {
+[[gnu::noinline]] void Device::look_for_latches(double from, double to) noexcept {
   const double start = virtual_ ? 0.0 : settings_.drive.signals.start_position;
   if (marker_type_ >= 2)
-    return track_.pass(from, to, [this, start](double place) { take_latch(encoder_count(place - start)); });
+    return track_.look_for_marks(from, to,
+                                 [this, start](double place) { take_latch(encoder_count(place - start)); });
   const auto& marks = settings_.drive.signals.zero_marks;
   if (!marks && virtual_pulse_ > 0.0) return latch_virtual(from, to);
   if (!marks || absolute_.present()) return;
@@ -220,17 +253,22 @@ void Device::mark(double place) noexcept {
 
 /// Of the markers of this millisecond those of the slave have been taken while its drive was read.
 inline void Device::step_master() noexcept {
-  const std::int32_t enabling = master_.enabling_input();
-  master_.look_at_marker(io_.input(5), enabling == 0 || io_.input(enabling));
+  if (io_.changes() != master_inputs_) {
+    master_inputs_ = io_.changes();
+    const std::int32_t enabling = master_.enabling_input();
+    master_.look_at_marker(io_.input(5), enabling == 0 || io_.input(enabling));
+  }
   master_.step();
   sync_.average(master_);
   if (mode_ != MotionMode::kFollow) sync_.end();
   if (sync_.runs()) sync_.step(master_, actual_);
 }
 
-inline void Device::sample_inputs() noexcept {
+[[gnu::noinline]] void Device::sample() noexcept {
+  if (absolute_.present()) read_absolute();
   if (!wired_inputs_.empty()) sample_wired_inputs();
   if (io_.any_input_function()) sample_home_switch();
+  sampled_inputs_ = io_.changes();
   // The marker of the following side is input 6, of a simulated one any.
   const bool marker = io_.input(marker_input_);
   if (marker == last_marker_input_) return;
@@ -238,7 +276,7 @@ inline void Device::sample_inputs() noexcept {
   if (marker_type_ >= 2 && marker == (marker_type_ == 2)) take_latch(actual_);
 }
 
-[[gnu::noinline]] void Device::sample_wired_inputs() noexcept {
+void Device::sample_wired_inputs() noexcept {
   for (const WiredInput& input : wired_inputs_) io_.set_input(input.number, *input.tag);
 }
 
@@ -269,23 +307,29 @@ inline void Device::generate() noexcept {
   if (profile_time_ == 1 || now_ % profile_time_ == 0) profile_.step(static_cast<double>(profile_time_));
 }
 
+inline void Device::control_position() noexcept {
+  if (sampling_ != 1 && now_ % sampling_ != 0) return;
+  const FourSlopeState& set = profile_.state();
+  const bool by_velocity = mode_ == MotionMode::kFollow && sync_.mode() == SyncMode::kVelocity;
+  const double setpoint = by_velocity ? set.position : static_cast<double>(set_counts());
+  const double change = set.velocity - last_velocity_;
+  last_velocity_ = set.velocity;
+  // A division is long.
+  if (sampling_ == 1) {
+    reference_ = controller_.step(setpoint, static_cast<double>(actual_), set.velocity, change, 1.0);
+  } else {
+    const auto period = static_cast<double>(sampling_);
+    reference_ =
+        controller_.step(setpoint, static_cast<double>(actual_), set.velocity, change / period, period);
+  }
+}
+
 inline void Device::control() noexcept {
   if (on_ && !virtual_) return control_position();
   reference_ =
       virtual_ ? 0.0 : static_cast<double>(open_loop_) / kFullReference * CountController::kFullScale;
   if (!on_) controller_.reset();
   last_velocity_ = profile_.state().velocity;
-}
-
-void Device::control_position() noexcept {
-  const FourSlopeState& set = profile_.state();
-  if (sampling_ != 1 && now_ % sampling_ != 0) return;
-  const auto period = static_cast<double>(sampling_);
-  const bool by_velocity = mode_ == MotionMode::kFollow && sync_.mode() == SyncMode::kVelocity;
-  const double setpoint = by_velocity ? set.position : static_cast<double>(set_counts());
-  reference_ = controller_.step(control_, setpoint, static_cast<double>(actual_), set.velocity,
-                                (set.velocity - last_velocity_) / period, period);
-  last_velocity_ = set.velocity;
 }
 
 /// TESTWIN: the profile is at its end, the axis within the window, and it hardly moves.
@@ -406,21 +450,16 @@ void Device::look_at_faults() noexcept {
   report(parameters_[kMasterEncoderMonitoring] != 0 && present(faults.master_encoder), kEncoderError);
 }
 
-inline void Device::write_outputs() noexcept {
+void Device::write_outputs() noexcept {
   io_.show({moving_, pending_.any(), brake_});
-  brake_ = false;
-  if (!wired_outputs_.empty()) write_wired_outputs();
-}
-
-void Device::write_wired_outputs() noexcept {
   for (const WiredOutput& output : wired_outputs_) *output.tag = io_.output(output.number);
 }
 
-void Device::write_drive() noexcept {
+inline void Device::write_drive() noexcept {
   // Of the same reference, to the bit, it is the same, and a division is long.
   const bool same =
       std::bit_cast<std::uint64_t>(reference_) == std::bit_cast<std::uint64_t>(scaled_reference_);
-  if (!same || std::isnan(scaled_reference_)) {
+  if (!same) {
     scaled_reference_ = reference_;
     const double velocity = drive_sign_ * reference_ / CountController::kFullScale * full_reference_;
     drive_velocity_ = std::clamp(velocity, -speed_limit_, speed_limit_) * kMillisecondsPerSecond;

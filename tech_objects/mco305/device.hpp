@@ -210,16 +210,19 @@ class Device {
 
   void refresh() noexcept;
   void read_drive() noexcept;
+  void read_whole_drive() noexcept;
+  bool take_position(const DoubleDouble& position) noexcept;
   void show_switches() noexcept;
   void read_absolute() noexcept;
   void latch(double from, double to) noexcept;
+  void look_for_latches(double from, double to) noexcept;
   std::int64_t encoder_count(double place) const noexcept;
   bool meets_no_pulse(double from, double to) const noexcept;
   void latch_virtual(double from, double to) noexcept;
   void take_latch(std::int64_t place) noexcept;
   int choose_encoder(std::int32_t number, std::int32_t value) noexcept;
   void step_master() noexcept;
-  void sample_inputs() noexcept;
+  void sample() noexcept;
   void sample_wired_inputs() noexcept;
   void sample_home_switch() noexcept;
   void generate() noexcept;
@@ -235,7 +238,6 @@ class Device {
   void look_at_faults() noexcept;
   bool sync_variable(std::int32_t index, std::int32_t& value) const noexcept;
   void write_outputs() noexcept;
-  void write_wired_outputs() noexcept;
   void write_drive() noexcept;
 
   double counts_per_millisecond(double rpm) const noexcept;
@@ -283,6 +285,11 @@ class Device {
   bool watches_ = false, watches_inputs_ = false;  // inputs, limits or faults, in every step; inputs
   std::int64_t next_monitoring_ = 0;               // of following error and drive [ms]
   bool has_master_ = false;                        // something turns here
+  bool reads_position_alone_ = false;              // of its drive: there is nothing else that could change
+  bool samples_ = false, shows_ = false, meets_pulses_ = false;  // inputs, outputs
+  // `InputsOutputs::changes` that the device has seen, and its master.
+  std::uint32_t sampled_inputs_ = 0, master_inputs_ = 0;
+  double machine_start_ = 0.0;  // [qc]
   bool looks_at_faults_ = false;
   double drive_sign_ = 1.0;                          // of the reference: POSDRCT
   double full_reference_ = 1.0, speed_limit_ = 0.0;  // of the drive [qc/ms]
@@ -293,7 +300,6 @@ class Device {
   std::int32_t open_loop_ = 0;  // OUTAN
   FourSlopeProfile profile_;
   CountController controller_;
-  CountControllerSettings control_;
   InputsOutputs io_;
   PendingErrors pending_;
   Synchronization sync_;

@@ -44,8 +44,11 @@ class InputsOutputs {
     if (number < 1 || number > kInputs || inputs_[number - 1] == level) return;
     if (is_shared_input(number) && !shared_are_inputs_) return;
     inputs_[number - 1] = level;
+    ++changes_;
     input_word_ = input_byte(0) | input_byte(1) << 8 | input_byte(2) << 16;
   }
+  /// Counts every change of an input.
+  std::uint32_t changes() const noexcept { return changes_; }
   const std::array<bool, kInputs>& inputs() const noexcept { return inputs_; }
   const std::array<bool, kOutputs>& outputs() const noexcept { return outputs_; }
   /// False for a number that is not there.
@@ -79,6 +82,8 @@ class InputsOutputs {
     const std::size_t number = input_of(function);
     return number != 0 && inputs_[number - 1] != closed_[static_cast<std::size_t>(function)];
   }
+  /// Whether any output has had one.
+  bool any_output_function() const noexcept { return any_function_; }
   /// Switches the outputs that have a function, when what they show changes.
   void show(const Shown& now) noexcept {
     if (any_function_) show_functions(now);
@@ -89,6 +94,7 @@ class InputsOutputs {
   void switch_one(std::size_t index, bool on) noexcept;
 
   bool shared_are_inputs_ = false;
+  std::uint32_t changes_ = 0;
   std::int32_t input_word_ = 0, output_byte_ = 0;
   std::array<bool, kInputs> inputs_{};
   std::array<bool, kOutputs> outputs_{};

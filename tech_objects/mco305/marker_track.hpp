@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "tech_objects/mco305/units.hpp"
@@ -32,7 +33,8 @@ class MarkerTrack {
     settings_ = settings;
     plain_ = settings.slip == 0.0 && settings.missing == nullptr && settings.spurious == nullptr &&
              settings.twice == nullptr;
-    free_from_ = free_to_ = 0.0;
+    free_to_ = exists() ? 0.0 : std::numeric_limits<double>::infinity();
+    free_from_ = -free_to_;
   }
   bool exists() const noexcept { return settings_.period > 0.0; }
   /// On the way from one place of the encoder to another, each as long as the last one's end.
@@ -41,13 +43,8 @@ class MarkerTrack {
   void pass(double from, double to, Found&& found) noexcept {
     if (!stays_free(to - from)) look_for_marks(from, to, found);
   }
-
- private:
-  static constexpr double kBetween = 0.45, kBehind = 0.1;  // of a period
-  static constexpr double kNear = 1e-3;                    // [qc]
-
-  /// Most steps are between the same two markers as the one before, where it is while there is such a
-  /// stretch; so it has to be seen only that it does not leave it.
+  /// Its first part. Most steps are between the same two markers as the one before, where it is while there
+  /// is such a stretch; so it has to be seen only that it does not leave it.
   bool stays_free(double by) noexcept {
     const double carried = carried_ + by;
     if (!plain_ || !(carried > free_from_ && carried < free_to_)) return false;
@@ -55,7 +52,7 @@ class MarkerTrack {
     return true;
   }
   template <class Found>
-  [[gnu::noinline]] void look_for_marks(double from, double to, Found& found) noexcept {
+  [[gnu::noinline]] void look_for_marks(double from, double to, Found&& found) noexcept {
     if (!exists() || from == to) return;
     if (!begun_) carried_ = from;
     begun_ = true;
@@ -74,6 +71,10 @@ class MarkerTrack {
     }
     if (!(carried_ > free_from_ && carried_ < free_to_)) free_from_ = free_to_ = 0.0;
   }
+
+ private:
+  static constexpr double kBetween = 0.45, kBehind = 0.1;  // of a period
+  static constexpr double kNear = 1e-3;                    // [qc]
 
   static bool on(const bool* tag) noexcept { return tag != nullptr && *tag; }
   bool slips() const noexcept {

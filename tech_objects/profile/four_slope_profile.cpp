@@ -267,14 +267,8 @@ void FourSlopeProfile::to_position(const FourSlopeState& from, double target,
   end_ = {between.met ? target : from.position + plan.now().position, 0.0, 0.0};
 }
 
-FourSlopeState FourSlopeProfile::at(const Segment& segment, double t) const noexcept {
+FourSlopeState FourSlopeProfile::at_half_sine(const Segment& segment, double t) const noexcept {
   const FourSlopeState& begin = segment.begin;
-  if (!sinusoidal_ || begin.acceleration == 0.0) {
-    return {origin_ + begin.position +
-                t * (begin.velocity + t * (begin.acceleration / 2.0 + t * segment.jerk / 6.0)),
-            begin.velocity + t * (begin.acceleration + t * segment.jerk / 2.0),
-            begin.acceleration + t * segment.jerk};
-  }
   const double duration = segment.duration, change = begin.acceleration * duration;
   const Turn turn = half_turn(t / duration);
   return {
@@ -282,15 +276,35 @@ FourSlopeState FourSlopeProfile::at(const Segment& segment, double t) const noex
       begin.velocity + change * (1.0 - turn.cosine) / 2.0, begin.acceleration * kPi / 2.0 * turn.sine};
 }
 
+/// By parts: a state that is copied as a whole waits for its last part.
+inline void FourSlopeProfile::move_along(const Segment& segment, double t) noexcept {
+  const FourSlopeState& begin = segment.begin;
+  const double place = origin_ + begin.position;
+  if (begin.acceleration == 0.0 && segment.jerk == 0.0 && begin.velocity != 0.0) {
+    // Most steps, without the division.
+    now_.position = place + t * begin.velocity;
+    now_.velocity = begin.velocity;
+    now_.acceleration = 0.0;
+  } else if (!sinusoidal_ || begin.acceleration == 0.0) {
+    now_.position = place + t * (begin.velocity + t * (begin.acceleration / 2.0 + t * segment.jerk / 6.0));
+    now_.velocity = begin.velocity + t * (begin.acceleration + t * segment.jerk / 2.0);
+    now_.acceleration = begin.acceleration + t * segment.jerk;
+  } else {
+    now_ = at_half_sine(segment, t);
+  }
+  phase_ = segment.phase;
+}
+
+/// Not called at the end.
 const FourSlopeState& FourSlopeProfile::go_on(double time) noexcept {
   time_ += time;
-  while (current_ < count_ && time_ >= segments_[current_].duration) {
-    time_ -= segments_[current_].duration;
-    ++current_;
+  const Segment* segment = &segments_[current_];
+  while (time_ >= segment->duration) {
+    time_ -= segment->duration;
+    if (++current_ == count_) return keep_velocity(time_);
+    ++segment;
   }
-  if (over()) return keep_velocity(time_);
-  now_ = at(segments_[current_], time_);
-  phase_ = segments_[current_].phase;
+  move_along(*segment, time_);
   return now_;
 }
 

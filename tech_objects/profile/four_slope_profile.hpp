@@ -64,7 +64,10 @@ class FourSlopeProfile {
   void to_position(const FourSlopeState& from, double target, const FourSlopeLimits& limits) noexcept;
 
   /// Goes on by some time [ms] ≥ 0.
-  const FourSlopeState& step(double time) noexcept { return over() ? keep_velocity(time) : go_on(time); }
+  const FourSlopeState& step(double time) noexcept {
+    if (phase_ == SlopePhase::end) return now_;  // it stands
+    return over() ? keep_velocity(time) : go_on(time);
+  }
   const FourSlopeState& state() const noexcept { return now_; }
   /// Whether the end is reached: at rest, or at the velocity.
   bool over() const noexcept { return current_ == count_; }
@@ -85,7 +88,8 @@ class FourSlopeProfile {
   };
 
   void begin(const FourSlopeState& from, const FourSlopeLimits& limits) noexcept;
-  FourSlopeState at(const Segment& segment, double time) const noexcept;
+  FourSlopeState at_half_sine(const Segment& segment, double time) const noexcept;
+  void move_along(const Segment& segment, double time) noexcept;
   const FourSlopeState& go_on(double time) noexcept;
   /// At the end. By parts: a state that is copied as a whole waits for its position to be written.
   const FourSlopeState& keep_velocity(double time) noexcept {

@@ -31,6 +31,10 @@ class CountGear {
   }
   /// What leads has moved by so many counts, |counts| ≤ 2³¹.
   void move(std::int64_t counts) noexcept {
+    if (leading_ == 1) {  // what needs no division
+      whole_ += counts * following_;
+      return;
+    }
     rest_ += counts * following_;
     std::int64_t whole = rest_ / leading_;
     rest_ -= whole * leading_;
@@ -43,7 +47,9 @@ class CountGear {
 
   std::int64_t whole() const noexcept { return whole_; }  ///< [qc] at or below the position
   /// [qc] beyond that, 0 … 1
-  double fraction() const noexcept { return static_cast<double>(rest_) / static_cast<double>(leading_); }
+  double fraction() const noexcept {
+    return rest_ == 0 ? 0.0 : static_cast<double>(rest_) / static_cast<double>(leading_);
+  }
   double position() const noexcept { return static_cast<double>(whole_) + fraction(); }  ///< [qc]
   double ratio() const noexcept { return ratio_; }  ///< following per leading
 

@@ -6,12 +6,18 @@
 namespace lockstep {
 namespace {
 
+double step(CountController& controller, const CountControllerSettings& settings, double setpoint,
+            double actual, double velocity, double acceleration, double period) {
+  controller.set(settings);
+  return controller.step(setpoint, actual, velocity, acceleration, period);
+}
+
 TEST(CountController, WeighsTheFollowingError) {
   CountController controller;
   CountControllerSettings settings;
   settings.proportional = 100.0;
-  EXPECT_EQ(controller.step(settings, 5243.0, 0.0, 0.0, 0.0, 1.0), 524'300.0);
-  EXPECT_EQ(controller.step(settings, 20'000.0, 0.0, 0.0, 0.0, 1.0), CountController::kFullScale);
+  EXPECT_EQ(step(controller, settings, 5243.0, 0.0, 0.0, 0.0, 1.0), 524'300.0);
+  EXPECT_EQ(step(controller, settings, 20'000.0, 0.0, 0.0, 0.0, 1.0), CountController::kFullScale);
 }
 
 TEST(CountController, DampsByTheActualVelocityAndCarriesTheSetpointBeforehand) {
@@ -20,9 +26,9 @@ TEST(CountController, DampsByTheActualVelocityAndCarriesTheSetpointBeforehand) {
   settings.derivative = 20.0;
   settings.velocity_precontrol = 20.0;  // equal to KDER: together KDER·(v_set - v)
   settings.acceleration_precontrol = 3.0;
-  controller.step(settings, 0.0, 0.0, 0.0, 0.0, 1.0);
-  EXPECT_EQ(controller.step(settings, 50.0, 40.0, 50.0, 0.0, 1.0), 200.0);
-  EXPECT_EQ(controller.step(settings, 90.0, 90.0, 50.0, 2.0, 1.0), 6.0);
+  step(controller, settings, 0.0, 0.0, 0.0, 0.0, 1.0);
+  EXPECT_EQ(step(controller, settings, 50.0, 40.0, 50.0, 0.0, 1.0), 200.0);
+  EXPECT_EQ(step(controller, settings, 90.0, 90.0, 50.0, 2.0, 1.0), 6.0);
 }
 
 TEST(CountController, LimitsItsSumAndThenWeighsIt) {
@@ -30,11 +36,11 @@ TEST(CountController, LimitsItsSumAndThenWeighsIt) {
   CountControllerSettings settings;
   settings.integral = 2.0;
   settings.integral_limit = 25.0;
-  EXPECT_EQ(controller.step(settings, 10.0, 0.0, 0.0, 0.0, 1.0), 20.0);
-  EXPECT_EQ(controller.step(settings, 10.0, 0.0, 0.0, 0.0, 1.0), 40.0);
-  EXPECT_EQ(controller.step(settings, 10.0, 0.0, 0.0, 0.0, 1.0), 50.0);
+  EXPECT_EQ(step(controller, settings, 10.0, 0.0, 0.0, 0.0, 1.0), 20.0);
+  EXPECT_EQ(step(controller, settings, 10.0, 0.0, 0.0, 0.0, 1.0), 40.0);
+  EXPECT_EQ(step(controller, settings, 10.0, 0.0, 0.0, 0.0, 1.0), 50.0);
   settings.integral_limit = 0.0;
-  EXPECT_EQ(controller.step(settings, 10.0, 0.0, 0.0, 0.0, 1.0), 0.0);
+  EXPECT_EQ(step(controller, settings, 10.0, 0.0, 0.0, 0.0, 1.0), 0.0);
 }
 
 TEST(CountController, LimitsItsPartsToTheBandwidthButNotThePrecontrol) {
@@ -43,8 +49,8 @@ TEST(CountController, LimitsItsPartsToTheBandwidthButNotThePrecontrol) {
   settings.proportional = 100.0;
   settings.bandwidth = 200.0;
   settings.velocity_precontrol = 100.0;
-  EXPECT_DOUBLE_EQ(controller.step(settings, 20'000.0, 0.0, 0.0, 0.0, 1.0), 209'715.0);
-  EXPECT_DOUBLE_EQ(controller.step(settings, 20'000.0, 0.0, 50.0, 0.0, 1.0), 214'715.0);
+  EXPECT_DOUBLE_EQ(step(controller, settings, 20'000.0, 0.0, 0.0, 0.0, 1.0), 209'715.0);
+  EXPECT_DOUBLE_EQ(step(controller, settings, 20'000.0, 0.0, 50.0, 0.0, 1.0), 214'715.0);
 }
 
 TEST(CountController, RestsWithinItsWindow) {
@@ -53,11 +59,11 @@ TEST(CountController, RestsWithinItsWindow) {
   settings.proportional = 1.0;
   settings.idle_below = 5;
   settings.active_above = 20;
-  EXPECT_EQ(controller.step(settings, 10.0, 0.0, 0.0, 0.0, 1.0), 10.0);
-  EXPECT_EQ(controller.step(settings, 4.0, 0.0, 0.0, 0.0, 1.0), 0.0);
+  EXPECT_EQ(step(controller, settings, 10.0, 0.0, 0.0, 0.0, 1.0), 10.0);
+  EXPECT_EQ(step(controller, settings, 4.0, 0.0, 0.0, 0.0, 1.0), 0.0);
   EXPECT_TRUE(controller.idle());
-  EXPECT_EQ(controller.step(settings, 20.0, 0.0, 0.0, 0.0, 1.0), 0.0);
-  EXPECT_EQ(controller.step(settings, 21.0, 0.0, 0.0, 0.0, 1.0), 21.0);
+  EXPECT_EQ(step(controller, settings, 20.0, 0.0, 0.0, 0.0, 1.0), 0.0);
+  EXPECT_EQ(step(controller, settings, 21.0, 0.0, 0.0, 0.0, 1.0), 21.0);
   EXPECT_FALSE(controller.idle());
 }
 
@@ -67,11 +73,11 @@ TEST(CountController, FadesItsSumInMotionOrAtStandstill) {
   settings.integral = 1.0;
   settings.integral_limit = 100.0;
   settings.integral_time = 10;  // in motion only
-  EXPECT_EQ(controller.step(settings, 1000.0, 0.0, 0.0, 0.0, 1.0), 0.0);
-  EXPECT_DOUBLE_EQ(controller.step(settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 10.0);
-  EXPECT_DOUBLE_EQ(controller.step(settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 20.0);
+  EXPECT_EQ(step(controller, settings, 1000.0, 0.0, 0.0, 0.0, 1.0), 0.0);
+  EXPECT_DOUBLE_EQ(step(controller, settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 10.0);
+  EXPECT_DOUBLE_EQ(step(controller, settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 20.0);
   settings.integral_time = -10;
-  EXPECT_DOUBLE_EQ(controller.step(settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 10.0);
+  EXPECT_DOUBLE_EQ(step(controller, settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 10.0);
 }
 
 }  // namespace

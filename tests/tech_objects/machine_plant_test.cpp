@@ -50,6 +50,38 @@ TEST(MachinePlant, LeavesADriveWithoutLimitsAndDisturbancesToTheBitAsItIs) {
   }
 }
 
+TEST(MachinePlant, UndisturbedItIsToTheBitOneWhoseStopIsFarAway) {
+  DriveSettings near = machine(0.25);
+  near.plant.maximum_torque = 30.0;
+  DriveSettings far = near;
+  far.plant.has_stop = true;
+  far.plant.stop = {1e9, 1, 10.0};
+  Machine a(near), b(far);
+  int limited = 0;
+  for (int i = 0; i < 3000; ++i) {
+    // Ramps, leaps that take more torque than there is, and rests.
+    const double setpoint = i % 900 < 150 ? 0.1 * (i % 900) : i % 900 < 300 ? 40.0 : 0.0;
+    a.run(setpoint, 1);
+    b.run(setpoint, 1);
+    limited += std::abs(a.actual.torque) == 30.0;
+    ASSERT_EQ(a.actual.position, b.actual.position) << i;
+    ASSERT_EQ(a.actual.velocity, b.actual.velocity) << i;
+    ASSERT_EQ(a.actual.torque, b.actual.torque) << i;
+  }
+  EXPECT_GT(limited, 20);
+}
+
+TEST(MachinePlant, AtRestItIsMovedByATorqueThatIsAdded) {
+  Machine held(machine(0.5));
+  held.run(1.0, 100);
+  held.run(0.0, 5000);
+  ASSERT_TRUE(held.drive.rests());
+  const double before = held.actual.position.rounded();
+  held.drive.command_torque({.additive = 1.0});
+  held.run(0.0, 10);
+  EXPECT_GT(held.actual.position.rounded(), before + 1e-6);
+}
+
 TEST(MachinePlant, TakesTheTorqueThatInertiaAndAccelerationAsk) {
   Machine machine_1(machine(0.5));
   // Behind a ramp the lag has the same acceleration.

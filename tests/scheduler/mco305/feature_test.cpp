@@ -78,9 +78,10 @@ TEST(Mco305Features, AnIntegralPartRemovesWhatALoadLeaves) {
     settings.integral_limit = 1e9;
     settings.bandwidth = 1000;
     CountController controller;
+    controller.set(settings);
     double actual = 0.0;
     for (int i = 0; i < 20'000; ++i) {
-      const double u = controller.step(settings, 0.0, actual, 0.0, 0.0, 1.0);
+      const double u = controller.step(0.0, actual, 0.0, 0.0, 1.0);
       actual += u / CountController::kFullScale * 100.0 - 0.05;  // an integrator, and a load
     }
     return -actual;
