@@ -78,6 +78,19 @@ class StudioPage {
   Json drawn() { return browser.evaluate(kDrawn); }
   /// A panel of those that lie behind each other.
   void open_tab(const std::string& name) { browser.click("[data-tab='" + name + "']"); }
+  /// Arms the trigger for what does not happen and has it catch what is now: "shot-1" of the traces.
+  void catch_a_shot() {
+    open_tab("Trigger");
+    browser.choose(".trigger input[list]", "Knife.Position");
+    browser.choose(".trigger [aria-label=Level]", "1000");
+    browser.click("button[title='Wait for this']");
+    ASSERT_TRUE(browser.wait_for("document.querySelector('.trigger-state').textContent === 'armed'"))
+        << browser.text(".trigger-state");
+    browser.click("button[title='Catch what is now']");
+    open_tab("Traces");
+    ASSERT_TRUE(browser.wait_for("document.querySelector('[data-shot=shot-1]')"))
+        << browser.text(".trigger-state");
+  }
   /// The picture stands.
   bool stop() {
     browser.press(" ");

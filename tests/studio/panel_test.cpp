@@ -197,6 +197,10 @@ TEST(StudioPanel, ShowsASecondOneWhoHoldsTheAxisAndRefusesIt) {
   second.open(page.url());
   ASSERT_TRUE(second.wait_for(test::kHasRows));
   second.press("4");
+  const std::string places =
+      "[...document.querySelectorAll('main, .panel button')].map((one) => { const { x, y } = "
+      "one.getBoundingClientRect(); return [x, y]; })";
+  const Json before = second.evaluate(places);
   jog(page);
   const std::string state = "document.querySelector('" + kKnifePanel + ".panel-state').textContent";
   EXPECT_TRUE(second.wait_for(state + ".includes('held by another panel')")) << second.text(kKnifePanel);
@@ -204,6 +208,7 @@ TEST(StudioPanel, ShowsASecondOneWhoHoldsTheAxisAndRefusesIt) {
       << page.browser.text(kKnifePanel);
   EXPECT_FALSE(second.evaluate("document.querySelector('.control').hidden").get<bool>())
       << "on every screen of every page";
+  EXPECT_EQ(second.evaluate(places), before) << "no button has moved to where another one was";
   const Json middle = second.middle_of(kKnifePanel + "[data-action='jog backward']");
   second.press_pointer(middle["x"], middle["y"]);
   EXPECT_TRUE(second.wait_for("document.querySelector('" + kKnifePanel +

@@ -341,14 +341,7 @@ TEST(StudioScope, LaysShotsOverEachOtherSoThatTheirOccasionsMeet) {
 TEST(StudioScope, LosesNoClickOnAListThatIsToldAnew) {
   Page page;
   ASSERT_TRUE(page.is_live());
-  page.open_tab("Trigger");
-  page.browser.choose(".trigger input[list]", "Knife.Position");
-  page.browser.choose(".trigger [aria-label=Level]", "1000");
-  page.browser.click("button[title='Wait for this']");
-  ASSERT_TRUE(page.browser.wait_for("document.querySelector('.trigger-state').textContent === 'armed'"));
-  page.browser.click("button[title='Catch what is now']");
-  page.open_tab("Traces");
-  ASSERT_TRUE(page.browser.wait_for("document.querySelector('[data-shot=shot-1]')"));
+  ASSERT_NO_FATAL_FAILURE(page.catch_a_shot());
   const Json shot = page.browser.middle_of("[data-shot=shot-1]");
   const auto is_at = [](const Json& place, const std::string& what) {
     return "document.elementFromPoint(" + place["x"].dump() + ", " + place["y"].dump() + ")?.closest('" +

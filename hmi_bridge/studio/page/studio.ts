@@ -51,6 +51,7 @@ class Studio implements Listener {
     project: button("Project", "The project (3)", () => this.setScreen("project")), panel: button("Panel", "The control panel (4)", () => this.setScreen("panel")),
   };
   private readonly control = html("p", { class: "control", role: "alert", hidden: true });
+  private readonly controlSpace = html("div", { class: "control-space", hidden: true }, this.control);  // so that nothing moves when it comes
   private readonly dialog: HTMLDialogElement = html("dialog", { "aria-label": "Keys", class: "keys" }, html("h2", {}, "Keys"),
     html("div", { class: "key-groups" }, ...kKeys.map(([group, keys]) => html("section", {}, html("h3", {}, group), html("dl", {}, ...keys.flatMap(([key, text]) => [html("dt", {}, html("kbd", {}, key)), html("dd", {}, text)]))))),
     button("Close", "Close", () => this.dialog.close()));
@@ -58,7 +59,7 @@ class Studio implements Listener {
 
   constructor() {
     document.getElementById("first")?.remove();  // what was seen until now
-    document.body.append(this.header(), this.control, html("main", {}, this.scope.element, this.diagnosis.element, this.projectScreen.element, this.panel.element, this.alarms.element), this.dialog, this.token);
+    document.body.append(this.header(), html("main", {}, this.scope.element, this.diagnosis.element, this.projectScreen.element, this.panel.element, this.alarms.element), this.dialog, this.token);
     this.setScreen("scope");
     document.addEventListener("keydown", (event) => this.key(event));
     if (!this.isExported()) this.link.connect();
@@ -66,7 +67,7 @@ class Studio implements Listener {
   }
 
   private header(): HTMLElement {
-    return html("header", { class: "top" }, this.title, html("nav", { "aria-label": "Screens" }, ...Object.values(this.screens)), this.clock, this.state, this.bell, this.stop,
+    return html("header", { class: "top" }, this.title, html("nav", { "aria-label": "Screens" }, ...Object.values(this.screens)), this.clock, this.controlSpace, this.state, this.bell, this.stop,
       button("◐", "Light or dark (T)", () => this.theme.toggle()), button("?", "Keys", () => this.dialog.showModal()));
   }
 
@@ -142,6 +143,7 @@ class Studio implements Listener {
   private showControl(): void {
     const isControlled = this.panel.isControlled;
     this.stop.hidden = !(this.panel.isThere && this.rights.command);
+    this.controlSpace.hidden = !this.panel.isThere;
     this.control.hidden = !isControlled;
     document.body.classList.toggle("controlled", isControlled);
     if (isControlled) this.control.textContent = "⚠ The control panel moves the machine";

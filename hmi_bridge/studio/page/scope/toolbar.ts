@@ -49,6 +49,6 @@ export class Toolbar {
     const known = kLengths.find((one) => Math.abs(one - length) < 1e-6 * one);
     const options = [...(known ? [] : [length]), ...kLengths];
     this.length.replaceChildren(...options.map((one) => html("option", { value: one, selected: one === (known ?? length) }, duration(Number(one.toPrecision(3))))));
-    this.source.textContent = this.scope.sourceName;
+    this.source.textContent = this.source.title = this.scope.sourceName;
   }
 }
