@@ -7,7 +7,7 @@
 #include "scheduler/aposs/printed_line.hpp"
 #include "tests/fuzz/texts.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::aposs_target {
 namespace {
 
 /// Answers every command somehow: at once, after a while, or with an error.
@@ -80,24 +80,23 @@ std::vector<std::string> seeds() {
     for (const char budget : {'\1', '\x40'}) texts.push_back(budget + std::string(text));
   return texts;
 }
-}  // namespace lockstep::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
+int take(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const aposs::CompiledProgram compiled = aposs::compile_program("x.m", fuzz::text_of(data + 1, size - 1));
-  fuzz::require(compiled.image.has_value() == compiled.errors.empty(), "a program or problems");
+  const aposs::CompiledProgram compiled = aposs::compile_program("x.m", text_of(data + 1, size - 1));
+  require(compiled.image.has_value() == compiled.errors.empty(), "a program or problems");
   for (const aposs::Message& error : compiled.errors) {
     const std::string text = to_string(compiled.files, error);
-    fuzz::require(text.starts_with("x.m:"), "a message has a place");
-    fuzz::require(text.find_first_of("\n\r\x1b") == text.npos,
-                  "a message is one line without control sequences");
+    require(text.starts_with("x.m:"), "a message has a place");
+    require(text.find_first_of("\n\r\x1b") == text.npos, "a message is one line without control sequences");
   }
   if (!compiled.image) return 0;
-  fuzz::require(compiled.image->fault() == 0, "what the compiler makes is sound");
-  fuzz::require(!aposs::listing(*compiled.image, {}).empty(), "a program can be listed");
+  require(compiled.image->fault() == 0, "what the compiler makes is sound");
+  require(!aposs::listing(*compiled.image, {}).empty(), "a program can be listed");
   for (const aposs::Routine& handler : handlers_of(*compiled.image))
     longest_run(*compiled.image, handler.entry);
-  fuzz::run(*compiled.image, 1 + data[0] % 100);
+  run(*compiled.image, 1 + data[0] % 100);
   return 0;
 }
+
+}  // namespace lockstep::fuzz::aposs_target
