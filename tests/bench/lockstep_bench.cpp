@@ -96,6 +96,7 @@ std::vector<MachinePlan> plans(const Options& options) {
                                  : options.quick  ? std::vector{1, 8}
                                                   : std::vector{1, 8, 32, 128, 1000};
   const int varied = options.quick ? 8 : 128;
+  const int cam_points = options.quick ? 100 : 10'000;
   std::vector<MachinePlan> result;
   for (const Motion motion : {Motion::gear, Motion::shifted, Motion::cam, Motion::positioning, Motion::idle})
     for (const bool drives : {false, true})
@@ -105,7 +106,7 @@ std::vector<MachinePlan> plans(const Options& options) {
             const bool plain = ratio == 1 && signals == 0;
             const bool one_varied = axes == varied && (ratio == 1 || signals == 0);
             if (options.full || plain || one_varied)
-              result.push_back({motion, axes, drives, ratio, signals, options.processors});
+              result.push_back({motion, axes, drives, ratio, signals, options.processors, cam_points});
           }
   return result;
 }

@@ -31,12 +31,11 @@ bool follows(const MachinePlan& plan) {
   return plan.motion == Motion::gear || plan.motion == Motion::shifted || plan.motion == Motion::cam;
 }
 
-/// A parabola up and down, ten thousand points long, that begins and ends alike.
-std::string cam_object() {
-  constexpr int kPoints = 10'000;
+/// A parabola up and down that begins and ends alike.
+std::string cam_object(int number_of_points) {
   std::string points;
-  for (int i = 0; i < kPoints; ++i) {
-    const double x = 360.0 * i / (kPoints - 1);
+  for (int i = 0; i < number_of_points; ++i) {
+    const double x = 360.0 * i / (number_of_points - 1);
     points +=
         (i == 0 ? "[" : ", [") + std::to_string(x) + ", " + std::to_string(x * (360.0 - x) / 400.0) + "]";
   }
@@ -168,7 +167,7 @@ std::string MachinePlan::name() const {
 std::string project_text(const MachinePlan& plan) {
   const bool gear = follows(plan);
   std::string objects(gear ? kLeadingObject : "");
-  if (plan.motion == Motion::cam) objects += ",\n" + cam_object();
+  if (plan.motion == Motion::cam) objects += ",\n" + cam_object(plan.cam_points);
   std::string calls(gear ? kLeadingCalls : "");
   for (int number = 1; number <= plan.axes; ++number) {
     const std::string_view separator = objects.empty() ? "" : ",\n";

@@ -15,7 +15,7 @@ enum class Motion {
   gear,         ///< follow one leading axis: MC_Power and MC_GearIn each, called in every cycle
   shifted,      ///< the same while a phase shift is in effect and an offset runs: MC_PhasingRelative and
                 ///< MC_OffsetRelative as well, which exclude each other while they move
-  cam,          ///< follow one leading axis on one cam of 10,000 points: MC_Power and MC_CamIn each
+  cam,          ///< follow one leading axis on one cam: MC_Power and MC_CamIn each
   positioning,  ///< move back and forth: MC_Power and two MC_MoveRelative each, called in every cycle
   idle          ///< enabled and standing: MC_Power each, called in every cycle
 };
@@ -28,6 +28,7 @@ struct MachinePlan {
   int ratio = 1;        ///< servo ticks per interpolator cycle
   int signals = 0;      ///< traced, by turns: position, velocity, actual position, bit of the status word
   int processors = 1;   ///< that a tick uses
+  int cam_points = 10'000;
 
   std::string name() const;  ///< such as "gear 128 virtual 1:1 8 signals"
 };

@@ -7,7 +7,7 @@
 #include "scheduler/aposs/printed_line.hpp"
 #include "tests/fuzz/texts.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::aposs_target {
 namespace {
 
 /// Answers every command somehow: at once, after a while, or with an error.
@@ -105,25 +105,25 @@ std::vector<std::string> seeds() {
     for (const char budget : {'\1', '\x40'}) texts.push_back(budget + std::string(text));
   return texts;
 }
-}  // namespace lockstep::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
+int take(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const std::string_view program = fuzz::text_of(data + 1, size - 1);
+  const std::string_view program = text_of(data + 1, size - 1);
   // What a file includes is its own first half, by a short name.
   const aposs::ReadIncluded half = [program](const std::string& name) {
     return name.size() > 4 ? std::nullopt : std::optional(std::string(program.substr(0, program.size() / 2)));
   };
   const aposs::CompiledProgram compiled = aposs::compile_program("x.m", program, half);
-  fuzz::require(compiled.image.has_value() == compiled.errors.empty(), "a program or problems");
+  require(compiled.image.has_value() == compiled.errors.empty(), "a program or problems");
   for (const auto& messages : {compiled.errors, compiled.warnings})
-    for (const aposs::Message& message : messages) fuzz::look_at(compiled.files, message);
+    for (const aposs::Message& message : messages) look_at(compiled.files, message);
   if (!compiled.image) return 0;
-  fuzz::require(compiled.image->fault() == 0, "what the compiler makes is sound");
-  fuzz::require(!aposs::listing(*compiled.image, {}).empty(), "a program can be listed");
+  require(compiled.image->fault() == 0, "what the compiler makes is sound");
+  require(!aposs::listing(*compiled.image, {}).empty(), "a program can be listed");
   for (const aposs::Routine& handler : handlers_of(*compiled.image))
     longest_run(*compiled.image, handler.entry);
-  fuzz::run(*compiled.image, 1 + data[0] % 100);
+  run(*compiled.image, 1 + data[0] % 100);
   return 0;
 }
+
+}  // namespace lockstep::fuzz::aposs_target

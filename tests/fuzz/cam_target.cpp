@@ -2,7 +2,7 @@
 #include "projects/cam_files/file.hpp"
 #include "tests/fuzz/texts.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::cam_target {
 
 std::vector<std::string> seeds() {
   std::vector<std::string> texts;
@@ -10,15 +10,15 @@ std::vector<std::string> seeds() {
     texts.push_back(source_file(std::string("projects/cams/") + name));
   return texts;
 }
-}  // namespace lockstep::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
-  const LoadedCam loaded = load_cam(fuzz::text_of(data, size), "/nonexistent", "", 1000);
-  fuzz::require(loaded.definition.has_value() == loaded.problems.empty(), "a cam or problems");
+int take(const std::uint8_t* data, std::size_t size) {
+  const LoadedCam loaded = load_cam(text_of(data, size), "/nonexistent", "", 1000);
+  require(loaded.definition.has_value() == loaded.problems.empty(), "a cam or problems");
   for (const Problem& problem : loaded.problems)
-    fuzz::require(!problem.text.empty() &&
-                      (problem.place + problem.text).find_first_of("\n\r\x1b") == std::string::npos,
-                  "a problem is one line without control sequences");
+    require(!problem.text.empty() &&
+                (problem.place + problem.text).find_first_of("\n\r\x1b") == std::string::npos,
+            "a problem is one line without control sequences");
   return 0;
 }
+
+}  // namespace lockstep::fuzz::cam_target

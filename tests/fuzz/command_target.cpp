@@ -8,7 +8,7 @@
 #include "hmi_bridge/lcm/command_desk.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::command_target {
 namespace {
 
 constexpr std::int64_t kRun = 77;
@@ -91,37 +91,36 @@ std::vector<std::string> seeds() {
   add(others, 2, encoded(event));
   return {commands, others, std::string("\3\11\3") + std::string(8, '\x3F')};
 }
-}  // namespace lockstep::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
-  fuzz::Operand knife, fan;
-  ProcessImage image(fuzz::both(knife, fan));
-  CommandDesk desk({{"Knife", fuzz::kFastest, "", knife.signals()},
-                    {"Fan", fuzz::kFastest, "", fan.signals(), "TO_SpeedAxis", "1/min", false}},
-                   image, fuzz::kRun);
+int take(const std::uint8_t* data, std::size_t size) {
+  Operand knife, fan;
+  ProcessImage image(both(knife, fan));
+  CommandDesk desk({{"Knife", kFastest, "", knife.signals()},
+                    {"Fan", kFastest, "", fan.signals(), "TO_SpeedAxis", "1/min", false}},
+                   image, kRun);
   desk.beat();
   CommandDesk::Clock::time_point now{std::chrono::hours(1)};
-  fuzz::Bytes rest(data, size);
+  Bytes rest(data, size);
   std::uint64_t given = 0;
   for (std::int64_t i = 0; rest.size() >= 2; ++i) {
     const std::size_t length = std::min<std::size_t>(rest[1], rest.size() - 2);
-    const fuzz::Bytes message = rest.subspan(2, length);
+    const Bytes message = rest.subspan(2, length);
     const int kind = rest[0] % 4;
     if (kind == 1) decode_panel(message);
     if (kind == 2) decode_event(message);
     if (kind == 2) decode_detail(message);
     if (kind == 0) desk.accept(message, now);
-    if (kind == 3) desk.accept(encoded(fuzz::aimed(message, 1, i)), now);
+    if (kind == 3) desk.accept(encoded(aimed(message, 1, i)), now);
     if (kind == 0 || kind == 3) ++given;
     image.take_writes();
-    fuzz::check(knife);
-    fuzz::check(fan);
-    fuzz::require(fan.counts[1] == 0, "what has no position is never homed");
+    check(knife);
+    check(fan);
+    require(fan.counts[1] == 0, "what has no position is never homed");
     now += std::chrono::milliseconds(rest[0]);
     rest = rest.subspan(2 + length);
   }
-  fuzz::require(desk.counters().accepted + desk.counters().refused() == given,
-                "each command is counted once");
+  require(desk.counters().accepted + desk.counters().refused() == given, "each command is counted once");
   return 0;
 }
+
+}  // namespace lockstep::fuzz::command_target

@@ -5,7 +5,7 @@
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/support/datagrams.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::datagram_target {
 namespace {
 
 void add(std::string& input, char sender, const std::vector<std::uint8_t>& datagram) {
@@ -31,27 +31,27 @@ std::vector<std::string> seeds() {
   add(lies, 1, test::fragment_datagram({.size = 0xFFFFFFFF, .number = 0, .count = 65535}, "A"));
   return {whole, cut, mixed, lies};
 }
-}  // namespace lockstep::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
+int take(const std::uint8_t* data, std::size_t size) {
   constexpr LcmBounds kBounds{.message = 4000, .memory = 10'000, .incomplete = 5};
   LcmReassembly reassembly(kBounds);
   auto now = LcmReassembly::Clock::time_point{} + std::chrono::hours(1);
   unsigned sum = 0;
-  for (fuzz::Bytes rest(data, size); rest.size() >= 3; now += std::chrono::milliseconds(50)) {
+  for (Bytes rest(data, size); rest.size() >= 3; now += std::chrono::milliseconds(50)) {
     const std::size_t length = std::min<std::size_t>(rest[1] << 8 | rest[2], rest.size() - 3);
     if (const auto message = reassembly.accept(rest.subspan(3, length), rest[0], now)) {
-      fuzz::require(!message->channel.empty() && message->channel.size() <= LcmReassembly::kLongestChannel,
-                    "a channel has a name");
-      fuzz::require(message->channel.find('\0') == message->channel.npos, "and it ends at its 0");
-      fuzz::require(message->data.size() <= std::max<std::size_t>(kBounds.message, length),
-                    "no message is longer than allowed");
+      require(!message->channel.empty() && message->channel.size() <= LcmReassembly::kLongestChannel,
+              "a channel has a name");
+      require(message->channel.find('\0') == message->channel.npos, "and it ends at its 0");
+      require(message->data.size() <= std::max<std::size_t>(kBounds.message, length),
+              "no message is longer than allowed");
       for (const std::uint8_t byte : message->data) sum += byte;  // all of it can be read
     }
-    fuzz::require(reassembly.memory() <= kBounds.memory, "there is an end to the memory");
-    fuzz::require(reassembly.incomplete() <= kBounds.incomplete, "and to what is incomplete");
+    require(reassembly.memory() <= kBounds.memory, "there is an end to the memory");
+    require(reassembly.incomplete() <= kBounds.incomplete, "and to what is incomplete");
     rest = rest.subspan(3 + length);
   }
   return sum == 0xFFFFFFFF ? 1 : 0;
 }
+
+}  // namespace lockstep::fuzz::datagram_target

@@ -1,6 +1,6 @@
 // Drives a fuzz target with seeded random changes of its seeds: the same inputs on every machine, no compiler
-// but g++. FUZZ_TARGET [NUMBER]; a single input: FUZZ_TARGET --input FILE; seeds and corpus, to begin with:
-// --seeds FOLDER.
+// but g++. fuzz_targets TARGET [NUMBER]; a single input: fuzz_targets TARGET --input FILE; seeds and corpus,
+// to begin with: fuzz_targets TARGET --seeds FOLDER.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/time.h>
@@ -154,10 +154,10 @@ void watch_no_more() {
   ::alarm(0);
 }
 
-void look_at(const std::string& input) {
+void look_at(const Target& target, const std::string& input) {
   // A copy of exactly this size, so that reading beyond its end is seen.
   const std::vector<std::uint8_t> bytes(input.begin(), input.end());
-  LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+  target.take(bytes.data(), bytes.size());
 }
 
 std::string content(const std::filesystem::path& path) {
@@ -166,48 +166,48 @@ std::string content(const std::filesystem::path& path) {
 }
 
 /// What has been found once, in files of tests/fuzz/corpus; there need not be any.
-std::vector<std::string> corpus() {
+std::vector<std::string> corpus(const Target& target) {
   std::vector<std::filesystem::path> paths;
   std::error_code none;
-  for (const auto& file : std::filesystem::directory_iterator(LOCKSTEP_CORPUS, none))
-    paths.push_back(file.path());
+  const std::filesystem::path folder = std::filesystem::path(LOCKSTEP_CORPUS) / target.name;
+  for (const auto& file : std::filesystem::directory_iterator(folder, none)) paths.push_back(file.path());
   std::sort(paths.begin(), paths.end());
   std::vector<std::string> inputs;
   for (const auto& path : paths) inputs.push_back(content(path));
   return inputs;
 }
 
-int look_at_file(const char* path) {
+int look_at_file(const Target& target, const char* path) {
   std::string input = content(path);
   if (std::string_view(path).ends_with(".witness") && input.size() >= 8) {
     std::uint64_t size = 0;
     std::memcpy(&size, input.data(), 8);
     input = input.substr(8, size);
   }
-  look_at(input);
+  look_at(target, input);
   return 0;
 }
 
-int write_seeds(const std::string& folder) {
+int write_seeds(const Target& target, const std::string& folder) {
   int number = 0;
-  for (const std::string& seed : seeds())
+  for (const std::string& seed : target.seeds())
     std::ofstream(folder + "/seed_" + std::to_string(++number), std::ios::binary) << seed;
-  for (const std::string& found : corpus())
+  for (const std::string& found : corpus(target))
     std::ofstream(folder + "/found_" + std::to_string(++number), std::ios::binary) << found;
   return 0;
 }
 
-int run(const char* name, int inputs) {
-  const std::string witness = std::string(name) + ".witness";
-  std::cout << "if it ends early: " << name << " --input " << witness << std::endl;
-  Mutator mutator(seeds(), test::seed_of_run(20260714));
+int run(const Target& target, const char* program, int inputs) {
+  const std::string witness = std::string(program) + "_" + std::string(target.name) + ".witness";
+  std::cout << "if it ends early: " << program << " " << target.name << " --input " << witness << std::endl;
+  Mutator mutator(target.seeds(), test::seed_of_run(20260714));
   Witness place(witness);
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < inputs; ++i) {
     const std::string input = mutator.next();
     place.note(input);
     watch();
-    look_at(input);
+    look_at(target, input);
   }
   watch_no_more();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
@@ -215,19 +215,28 @@ int run(const char* name, int inputs) {
   return 0;
 }
 
+int drive(const Target& target, int argc, char** argv) {
+  const std::string_view first = argc > 2 ? argv[2] : "";
+  if (first == "--input" && argc > 3) return look_at_file(target, argv[3]);
+  if (first == "--seeds" && argc > 3) return write_seeds(target, argv[3]);
+  for (const std::string& seed : target.seeds()) look_at(target, seed);
+  for (const std::string& found : corpus(target)) {
+    watch();
+    look_at(target, found);
+  }
+  const int inputs = argc > 2 ? std::atoi(argv[2]) : 1000;
+  return run(target, argv[0], test::cases(inputs, 100 * inputs));
+}
+
 }  // namespace
 }  // namespace lockstep::fuzz
 
 int main(int argc, char** argv) {
-  using namespace lockstep::fuzz;
-  const std::string_view first = argc > 1 ? argv[1] : "";
-  if (first == "--input" && argc > 2) return look_at_file(argv[2]);
-  if (first == "--seeds" && argc > 2) return write_seeds(argv[2]);
-  for (const std::string& seed : seeds()) look_at(seed);
-  for (const std::string& found : corpus()) {
-    watch();
-    look_at(found);
-  }
-  const int inputs = argc > 1 ? std::atoi(argv[1]) : 1000;
-  return run(argv[0], lockstep::test::cases(inputs, 100 * inputs));
+  const std::string_view name = argc > 1 ? argv[1] : "";
+  for (const lockstep::fuzz::Target& target : lockstep::fuzz::targets())
+    if (target.name == name) return lockstep::fuzz::drive(target, argc, argv);
+  std::cerr << "fuzz_targets TARGET [NUMBER], of which TARGET is one of" << std::endl;
+  for (const lockstep::fuzz::Target& target : lockstep::fuzz::targets())
+    std::cerr << target.name << std::endl;
+  return 2;
 }

@@ -2,7 +2,7 @@
 #include "projects/expressions/compiler.hpp"
 #include "tests/fuzz/texts.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::expression_target {
 namespace {
 
 /// A variable of each type, named as its type; and one with a path.
@@ -41,23 +41,23 @@ std::vector<std::string> seeds() {
     for (const char type : {'\0', '\3', '\xE'}) texts.push_back(type + std::string(text));
   return texts;
 }
-}  // namespace lockstep::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
+int take(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  static const fuzz::OneOfEach scope;
+  static const OneOfEach scope;
   const auto type = static_cast<Type>(data[0] % (static_cast<int>(Type::TIME) + 1));
-  const CompiledExpression compiled = compile_expression(fuzz::text_of(data + 1, size - 1), type, scope);
-  fuzz::require(compiled.expression.has_value() == compiled.errors.empty(), "an expression or errors");
+  const CompiledExpression compiled = compile_expression(text_of(data + 1, size - 1), type, scope);
+  require(compiled.expression.has_value() == compiled.errors.empty(), "an expression or errors");
   if (!compiled.expression) return 0;
   EvaluationCounters counters;
   const Value value = compiled.expression->evaluate(counters);
   if (is_integer(type) && is_signed_integer(type))
-    fuzz::require(value.i >= lowest(type) && value.i <= static_cast<std::int64_t>(highest(type)),
-                  "the value is in the range of its type");
+    require(value.i >= lowest(type) && value.i <= static_cast<std::int64_t>(highest(type)),
+            "the value is in the range of its type");
   if (is_unsigned_integer(type) || is_bit_string(type))
-    fuzz::require(value.u <= highest(type), "the value is in the range of its type");
-  if (type == Type::BOOL) fuzz::require(value.u <= 1, "a BOOL is 0 or 1");
+    require(value.u <= highest(type), "the value is in the range of its type");
+  if (type == Type::BOOL) require(value.u <= 1, "a BOOL is 0 or 1");
   return 0;
 }
+
+}  // namespace lockstep::fuzz::expression_target

@@ -1,4 +1,6 @@
-/// What a fuzz target gives, whoever drives it: libFuzzer (./dev fuzz) or the driver of the tests.
+/// What a fuzz target gives, whoever drives it: libFuzzer (./dev fuzz), of which each is a program, or the
+/// driver of the tests, which has them all. Its source, NAME_target.cpp, defines seeds() and take() in
+/// lockstep::fuzz::NAME_target.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +9,23 @@
 #include <cstdlib>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lockstep::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Inputs to begin with, each of which the target takes as good.
-std::vector<std::string> seeds();
+struct Target {
+  std::string_view name;
+  /// Inputs to begin with, each of which the target takes as good.
+  std::vector<std::string> (*seeds)();
+  /// Takes one input; whatever it is, it returns 0.
+  int (*take)(const std::uint8_t* data, std::size_t size);
+};
+
+/// Those of the program, of which CMake writes the list.
+std::span<const Target> targets();
 
 /// Ends the program where something does not hold that has to hold for every input.
 inline void require(bool holds, const char* what) {
@@ -24,6 +35,3 @@ inline void require(bool holds, const char* what) {
 }
 
 }  // namespace lockstep::fuzz
-
-/// Takes one input; whatever it is, it returns 0.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

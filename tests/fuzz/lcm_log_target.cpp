@@ -6,7 +6,7 @@
 #include "hmi_bridge/lcm/trace_reader.hpp"
 #include "tests/fuzz/texts.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::lcm_log_target {
 namespace {
 
 /// A file in memory, with a path.
@@ -41,17 +41,17 @@ std::vector<std::string> seeds() {
   std::ifstream stream(file.path(), std::ios::binary);
   return {{std::istreambuf_iterator<char>(stream), {}}};
 }
-}  // namespace lockstep::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
-  const fuzz::MemoryFile file(fuzz::text_of(data, size));
+int take(const std::uint8_t* data, std::size_t size) {
+  const MemoryFile file(text_of(data, size));
   try {
     const TraceTable table = read_lcm_trace(file.path());
     for (const auto& column : table.columns)
-      fuzz::require(column.size() == table.t.size(), "columns of one length");
+      require(column.size() == table.t.size(), "columns of one length");
   } catch (const TraceFormatError& error) {
-    fuzz::require(std::string_view(error.what()).starts_with(file.path()), "an error names its file");
+    require(std::string_view(error.what()).starts_with(file.path()), "an error names its file");
   }
   return 0;
 }
+
+}  // namespace lockstep::fuzz::lcm_log_target

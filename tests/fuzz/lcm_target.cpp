@@ -6,7 +6,7 @@
 #include "cli/monitor/traces.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::lcm_target {
 namespace {
 
 constexpr std::size_t kWidth = 80;
@@ -41,26 +41,26 @@ std::vector<std::string> seeds() {
   add(rows, 0, encoder.header());
   return {whole, headers, rows};
 }
-}  // namespace lockstep::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
+int take(const std::uint8_t* data, std::size_t size) {
   cli::HeardTraces traces;
   const auto begin = cli::HeardTrace::Clock::time_point{} + std::chrono::hours(1);
-  fuzz::Bytes rest(data, size);
+  Bytes rest(data, size);
   for (int i = 0; rest.size() >= 3; ++i) {
     const std::size_t length = std::min<std::size_t>(rest[1] << 8 | rest[2], rest.size() - 3);
     const std::string channel = "C" + std::to_string(rest[0] / 2) + (rest[0] % 2 != 0 ? "_HEADER" : "");
     traces.accept(channel, rest.subspan(3, length), begin + std::chrono::milliseconds(i));
     rest = rest.subspan(3 + length);
   }
-  fuzz::require(traces.all().size() <= cli::HeardTraces::kMaximum, "there is an end to the number of traces");
-  for (const std::string& line : cli::trace_lines(traces, begin + std::chrono::seconds(1), fuzz::kWidth)) {
-    fuzz::require(std::none_of(line.begin(), line.end(),
-                               [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }),
-                  "no control characters reach the terminal");
+  require(traces.all().size() <= cli::HeardTraces::kMaximum, "there is an end to the number of traces");
+  for (const std::string& line : cli::trace_lines(traces, begin + std::chrono::seconds(1), kWidth)) {
+    require(std::none_of(line.begin(), line.end(),
+                         [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }),
+            "no control characters reach the terminal");
     const auto columns = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
-    fuzz::require(static_cast<std::size_t>(columns) <= fuzz::kWidth, "no line is longer than the terminal");
+    require(static_cast<std::size_t>(columns) <= kWidth, "no line is longer than the terminal");
   }
   return 0;
 }
+
+}  // namespace lockstep::fuzz::lcm_target

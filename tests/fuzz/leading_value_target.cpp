@@ -9,7 +9,7 @@
 #include "tech_objects/cross_controller/leading_axis_proxy.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::leading_value_target {
 namespace {
 
 constexpr std::int64_t kMilli = 1'000'000;
@@ -64,11 +64,7 @@ std::vector<std::string> seeds() {
   return {input, of_receivers};
 }
 
-}  // namespace lockstep::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
-  using namespace lockstep::fuzz;
+int take(const std::uint8_t* data, std::size_t size) {
   LeadingAxisProxy proxy("Line", static_cast<DB_ANY>(1));
   proxy.configure(0.001, 1);
   LeadingValueReader reader(link());
@@ -95,3 +91,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace lockstep::fuzz::leading_value_target

@@ -6,7 +6,7 @@
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/hmi_bridge/modbus_machine.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::modbus_target {
 namespace {
 
 std::string frame(std::initializer_list<int> pdu) {
@@ -41,25 +41,25 @@ std::vector<std::string> seeds() {
                              frame({8, 0, 0, 1, 2}) + frame({7});
   return {reads, writes, others, reads + writes + others};
 }
-}  // namespace lockstep::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
+int take(const std::uint8_t* data, std::size_t size) {
   static ModbusMachine machine;
   static const ModbusUnits units(machine.map);
   static ModbusResponder responder(units, machine.image);
-  fuzz::Bytes rest(data, size);
+  Bytes rest(data, size);
   while (!rest.empty()) {
     const auto length = modbus_frame_length(rest);
     if (!length) break;  // the server closes the connection
     if (*length == 0 || *length > rest.size()) break;
-    const fuzz::Bytes request = rest.first(*length);
-    const fuzz::Bytes answer = responder.answer(request);
-    fuzz::check_answer(request, answer, responder.exception());
+    const Bytes request = rest.first(*length);
+    const Bytes answer = responder.answer(request);
+    check_answer(request, answer, responder.exception());
     machine.tick();
     rest = rest.subspan(*length);
   }
-  fuzz::require(std::isfinite(machine.speed) && std::isfinite(machine.rounded), "no value that is no number");
-  fuzz::require(machine.locked == 77, "what is read-only stays");
+  require(std::isfinite(machine.speed) && std::isfinite(machine.rounded), "no value that is no number");
+  require(machine.locked == 77, "what is read-only stays");
   return 0;
 }
+
+}  // namespace lockstep::fuzz::modbus_target

@@ -7,7 +7,7 @@
 #include "tests/projects/example_project.hpp"
 #include "tests/support/directory.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::project_target {
 namespace {
 
 constexpr std::string_view kNextFile = "\n#####\n";  // between the project, part0.json and part1.json
@@ -70,17 +70,16 @@ std::vector<std::string> seeds() {
   return texts;
 }
 
-}  // namespace lockstep::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
+int take(const std::uint8_t* data, std::size_t size) {
   // Nothing outside of the folder can be included; other files that it names are not there.
-  const std::string_view text = fuzz::text_of(data, size);
-  const LoadedProject loaded = load_project(fuzz::with_parts(text), fuzz::folder().file(""));
-  fuzz::require(loaded.project.has_value() == loaded.problems.empty(), "a project or problems");
-  for (const Problem& problem : loaded.problems) fuzz::check(problem);
-  for (const Problem& warning : loaded.warnings) fuzz::check(warning);
+  const std::string_view text = text_of(data, size);
+  const LoadedProject loaded = load_project(with_parts(text), folder().file(""));
+  require(loaded.project.has_value() == loaded.problems.empty(), "a project or problems");
+  for (const Problem& problem : loaded.problems) check(problem);
+  for (const Problem& warning : loaded.warnings) check(warning);
   if (!loaded.project) return 0;
-  for (int tick = 0; tick < fuzz::kTicks; ++tick) loaded.project->controller->tick();
+  for (int tick = 0; tick < kTicks; ++tick) loaded.project->controller->tick();
   return 0;
 }
+
+}  // namespace lockstep::fuzz::project_target

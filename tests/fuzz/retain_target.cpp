@@ -6,7 +6,7 @@
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/hmi_bridge/memory_disk.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::retain_target {
 namespace {
 
 constexpr const char* kFile = "values";
@@ -25,11 +25,9 @@ std::vector<std::string> seeds() {
   }
   return {disk.content[kFile]};
 }
-}  // namespace lockstep::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
-  test::MemoryDisk disk({{fuzz::kFile, std::string(data, data + size)}});
+int take(const std::uint8_t* data, std::size_t size) {
+  test::MemoryDisk disk({{kFile, std::string(data, data + size)}});
   std::int32_t a = 1;
   double b = 2.0;
   bool c = false;
@@ -42,13 +40,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                       {.name = "c", .signal = {&c, Type::BOOL, -1}, .basis = "x=1"},
                                       array};
   try {
-    RetainFile file(fuzz::kFile, "p", disk.name());
+    RetainFile file(kFile, "p", disk.name());
     restore(file, values);
-    fuzz::require(file.rows().empty() || (a == 7 && b == 1.5 && c && d[0] == 4 && d[1] == 5 && d[2] == 6),
-                  "all that was written, or nothing");
+    require(file.rows().empty() || (a == 7 && b == 1.5 && c && d[0] == 4 && d[1] == 5 && d[2] == 6),
+            "all that was written, or nothing");
   } catch (const RetainFileError& error) {
-    fuzz::require(std::string_view(error.what()).find(fuzz::kFile) != std::string_view::npos,
-                  "an error names its file");
+    require(std::string_view(error.what()).find(kFile) != std::string_view::npos, "an error names its file");
   }
   return 0;
 }
+
+}  // namespace lockstep::fuzz::retain_target

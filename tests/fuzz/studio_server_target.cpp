@@ -8,7 +8,7 @@
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/hmi_bridge/studio_client.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::studio_server_target {
 namespace {
 
 /// Answers everything with what it was asked, and says what is said.
@@ -101,18 +101,17 @@ std::vector<std::string> seeds() {
       upgrade + masked("\xff\xfe", 1)};
 }
 
-}  // namespace lockstep::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
-  static fuzz::Studio studio;
+int take(const std::uint8_t* data, std::size_t size) {
+  static Studio studio;
   test::StudioConnection connection(studio.port());
-  fuzz::require(connection.is_connected(), "it is there for the next");
-  connection.send(fuzz::written_out({reinterpret_cast<const char*>(data), size}));
+  require(connection.is_connected(), "it is there for the next");
+  connection.send(written_out({reinterpret_cast<const char*>(data), size}));
   connection.finish();
   const std::string answer = connection.all();
-  fuzz::require(answer.empty() || answer.starts_with("HTTP/1.1 "), "what is answered is HTTP");
-  fuzz::require(answer.find("HTTP/1.1 500") == std::string::npos, "no internal fault");
-  fuzz::require(studio.server.counters().faults == 0, "no internal fault");
+  require(answer.empty() || answer.starts_with("HTTP/1.1 "), "what is answered is HTTP");
+  require(answer.find("HTTP/1.1 500") == std::string::npos, "no internal fault");
+  require(studio.server.counters().faults == 0, "no internal fault");
   return 0;
 }
+
+}  // namespace lockstep::fuzz::studio_server_target

@@ -8,7 +8,7 @@
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/projects/studio_machine.hpp"
 
-namespace lockstep::fuzz {
+namespace lockstep::fuzz::studio_session_target {
 namespace {
 
 using Json = nlohmann::json;
@@ -128,13 +128,10 @@ std::vector<std::string> seeds() {
       "/api/traces {\"path\":\"a.csv\"}\nGET /api/describe/MC_Power\n"};
 }
 
-}  // namespace lockstep::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace lockstep;
-  fuzz::Machine machine;
+int take(const std::uint8_t* data, std::size_t size) {
+  Machine machine;
   std::string_view rest(reinterpret_cast<const char*>(data), size);
-  for (std::size_t lines = 0; !rest.empty() && lines < fuzz::kLines; ++lines) {
+  for (std::size_t lines = 0; !rest.empty() && lines < kLines; ++lines) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view line = rest.substr(0, end);
     if (line.starts_with('~'))
@@ -142,9 +139,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     else if (line.starts_with('{'))
       machine.session.text(machine.page, line);
     else
-      fuzz::ask(machine, line);
-    fuzz::check(machine.page);
+      ask(machine, line);
+    check(machine.page);
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return 0;
 }
+
+}  // namespace lockstep::fuzz::studio_session_target

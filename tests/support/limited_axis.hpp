@@ -29,10 +29,6 @@ inline void within_a_hundred(AxisData& data) {
   use_limits(data, -100.0, 100.0);
 }
 
-inline bool bit(const Axis& axis, StatusBit which) {
-  return has_bit(axis.data.StatusWord, which);
-}
-
 /// A leading axis without and a following axis with limits, both enabled and homed at 0.
 struct Limited : Rig {
   explicit Limited(int ratio = 1, bool driven = false, const Configure& configure = within_a_hundred)

@@ -135,4 +135,9 @@ class Rig {
   bool finished_ = false;
 };
 
+/// A bit of the status word.
+inline bool bit(const Axis& axis, StatusBit which) {
+  return has_bit(axis.data.StatusWord, which);
+}
+
 }  // namespace lockstep::test
