@@ -29,6 +29,8 @@ void Controller::tick() noexcept {
   run_programs(Ob::MC_PostServo, t);
 
   if (interpolator_tick) {
+    if (trace != nullptr) trace->prefetch();
+    if (tap != nullptr) tap->prefetch();
     // They get up while the programs run, so that none is late at the axes.
     if (crew_ != nullptr) crew_->wake();
     run_programs(Ob::MC_PreInterpolator, t);

@@ -1,8 +1,10 @@
 #include "scheduler/signal_copies.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -11,47 +13,84 @@ namespace {
 
 template <std::size_t kSize>
 char* copy(const void* const* address, const void* const* end, char* to) noexcept {
-  // Four at a time: the loop would cost as much as what it copies.
-  for (; end - address >= 4; address += 4, to += 4 * kSize) {
+  // Eight at a time: the loop would cost as much as what it copies.
+  for (; end - address >= 8; address += 8, to += 8 * kSize) {
     std::memcpy(to, address[0], kSize);
     std::memcpy(to + kSize, address[1], kSize);
     std::memcpy(to + 2 * kSize, address[2], kSize);
     std::memcpy(to + 3 * kSize, address[3], kSize);
+    std::memcpy(to + 4 * kSize, address[4], kSize);
+    std::memcpy(to + 5 * kSize, address[5], kSize);
+    std::memcpy(to + 6 * kSize, address[6], kSize);
+    std::memcpy(to + 7 * kSize, address[7], kSize);
   }
   for (; address != end; ++address, to += kSize) std::memcpy(to, *address, kSize);
   return to;
+}
+
+/// Variables by address and size, and where each lies in what is taken.
+using Variables = std::map<std::pair<const char*, std::size_t>, std::uint32_t>;
+
+struct Piece {
+  Variables::iterator first;  // of the variables in it
+  std::size_t count = 0;
+  std::size_t size = 0;
+};
+
+/// The piece that begins with a variable: as many of those that follow without a gap as make a power of two.
+Piece piece_at(Variables& variables, Variables::iterator first, std::size_t maximum) {
+  Piece piece{first, 1, first->first.second};
+  const char* const begin = first->first.first;
+  std::size_t count = 0;
+  std::size_t size = 0;
+  for (auto next = first; next != variables.end() && next->first.first == begin + size; ++next) {
+    size += next->first.second;
+    ++count;
+    if (size > maximum) break;
+    if (std::has_single_bit(size)) piece = {first, count, size};
+  }
+  return piece;
 }
 
 }  // namespace
 
 SignalCopies::SignalCopies(std::span<const Signal> signals) {
   // Bits of a word are taken with it, once.
-  std::array<std::map<const void*, std::uint32_t, std::less<>>, kSizes.size()> variables;
-  const auto rank = [](Type type) {
-    const auto size = static_cast<std::size_t>(size_of(type));
-    return static_cast<std::size_t>(std::find(kSizes.begin(), kSizes.end(), size) - kSizes.begin());
+  Variables variables;
+  const auto key = [](const Signal& signal) {
+    return std::pair(static_cast<const char*>(signal.address),
+                     static_cast<std::size_t>(size_of(signal.type)));
   };
-  for (const Signal& signal : signals) variables[rank(signal.type)].try_emplace(signal.address);
-  std::uint32_t offset = 0;
-  for (std::size_t i = 0; i < kSizes.size(); ++i) {
-    for (auto& [address, its_offset] : variables[i]) {
-      addresses_.push_back(address);
-      its_offset = std::exchange(offset, offset + static_cast<std::uint32_t>(kSizes[i]));
-    }
-    ends_[i] = static_cast<std::uint32_t>(addresses_.size());
+  for (const Signal& signal : signals) variables.try_emplace(key(signal));
+  std::vector<Piece> pieces;
+  for (auto next = variables.begin(); next != variables.end();) {
+    pieces.push_back(piece_at(variables, next, kSizes.front()));
+    std::advance(next, pieces.back().count);
   }
+  std::ranges::stable_sort(pieces, std::greater<>(), &Piece::size);
+  std::uint32_t offset = 0;
+  for (const Piece& piece : pieces) {
+    addresses_.push_back(piece.first->first.first);
+    auto variable = piece.first;
+    for (std::size_t i = 0; i < piece.count; ++i, ++variable)
+      variable->second = std::exchange(offset, offset + static_cast<std::uint32_t>(variable->first.second));
+  }
+  for (std::size_t i = 0; i < kSizes.size(); ++i)
+    ends_[i] = static_cast<std::uint32_t>(
+        std::ranges::count_if(pieces, [&](const Piece& piece) { return piece.size >= kSizes[i]; }));
   words_ = (offset + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
-  for (const Signal& signal : signals)
-    taken_.push_back({variables[rank(signal.type)].at(signal.address), signal.type, signal.bit});
+  for (const Signal& signal : signals) taken_.push_back({variables.at(key(signal)), signal.type, signal.bit});
 }
 
 void SignalCopies::take(std::uint64_t* to) const noexcept {
   const void* const* const begin = addresses_.data();
   char* next = reinterpret_cast<char*>(to);
-  next = copy<8>(begin, begin + ends_[0], next);
-  next = copy<4>(begin + ends_[0], begin + ends_[1], next);
-  next = copy<2>(begin + ends_[1], begin + ends_[2], next);
-  copy<1>(begin + ends_[2], begin + ends_[3], next);
+  next = copy<32>(begin, begin + ends_[0], next);
+  next = copy<16>(begin + ends_[0], begin + ends_[1], next);
+  next = copy<8>(begin + ends_[1], begin + ends_[2], next);
+  next = copy<4>(begin + ends_[2], begin + ends_[3], next);
+  next = copy<2>(begin + ends_[3], begin + ends_[4], next);
+  copy<1>(begin + ends_[4], begin + ends_[5], next);
 }
 
 void SignalCopies::read(const std::uint64_t* from, std::span<Value> values) const noexcept {

@@ -11,10 +11,10 @@
 
 namespace lockstep {
 
-/// Copies the variables in which signals lie as they stand in memory, each once, by size and among those of a
-/// size by address; what they mean is found out where they are read. So a signal costs the cycle the fetch of
-/// an address, of a value and its store, without a call, a branch or a conversion, and fetches that miss the
-/// cache overlap.
+/// Copies the variables in which signals lie as they stand in memory, each once, those that lie beside each
+/// other in one piece; what they mean is found out where they are read. Pieces are copied by size and among
+/// those of a size by address. So one costs the cycle the fetch of an address, of a value and its store,
+/// without a call, a branch or a conversion, and fetches that miss the cache overlap.
 class SignalCopies {
  public:
   /// What the signals point at must outlive the last `take`.
@@ -22,6 +22,8 @@ class SignalCopies {
 
   /// Memory that `take` fills.
   std::size_t words() const noexcept { return words_; }
+  /// How often `take` fetches and stores something.
+  std::size_t pieces() const noexcept { return addresses_.size(); }
   /// Copies the variables. A constant number of steps. Thread: the cycle.
   void take(std::uint64_t* to) const noexcept;
   /// What the signals had, of what `take` has filled. Any thread.
@@ -29,7 +31,7 @@ class SignalCopies {
   void read(const std::uint64_t* from, std::span<Value> values) const noexcept;
 
  private:
-  static constexpr std::array<std::size_t, 4> kSizes = {8, 4, 2, 1};
+  static constexpr std::array<std::size_t, 6> kSizes = {32, 16, 8, 4, 2, 1};  // of pieces
 
   /// Where the value of a signal lies in what was taken.
   struct Taken {
@@ -38,7 +40,7 @@ class SignalCopies {
     std::int8_t bit = -1;
   };
 
-  std::vector<const void*> addresses_;               // those of 8 bytes first
+  std::vector<const void*> addresses_;               // of the pieces, the largest first
   std::array<std::uint32_t, kSizes.size()> ends_{};  // of the addresses of each size
   std::size_t words_ = 0;
   std::vector<Taken> taken_;

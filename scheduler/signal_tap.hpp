@@ -38,6 +38,10 @@ class SignalTap {
     number_ = wanted;
     taken_.store(wanted, std::memory_order_release);
   }
+  /// Has the memory that `push` will write brought near while the tick computes. Thread: the cycle.
+  void prefetch() const noexcept {
+    if (ring_ != nullptr) ring_->prefetch();
+  }
   /// Reads the signals into the ring, if there is one. Thread: the cycle.
   void push(std::int64_t t, std::uint64_t tick) noexcept {
     if (ring_ != nullptr) ring_->push(t, tick);

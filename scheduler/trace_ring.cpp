@@ -16,6 +16,11 @@ TraceRing::TraceRing(std::vector<Signal> signals, std::size_t rows)
       lines_((mask_ + 1) * row_lines_),
       values_(signals.size()) {}
 
+void TraceRing::prefetch() const noexcept {
+  const Line* const row = &lines_[(written_.load(std::memory_order_relaxed) & mask_) * row_lines_];
+  for (std::size_t line = 0; line < row_lines_; ++line) come_near_for_writing(row + line);
+}
+
 bool TraceRing::push(std::int64_t t, std::uint64_t tick) noexcept {
   const std::uint64_t written = written_.load(std::memory_order_relaxed);
   const std::uint64_t dropped = dropped_.load(std::memory_order_relaxed);
@@ -32,9 +37,6 @@ bool TraceRing::push(std::int64_t t, std::uint64_t tick) noexcept {
   row[2] = dropped;
   copies_.take(row + kPrefix);
   written_.store(written + 1, std::memory_order_release);
-  const std::uint64_t* const next = row_at(written + 1);
-  for (std::size_t line = 0; line < row_lines_; ++line)
-    come_near_for_writing(next + line * (sizeof(Line) / sizeof(std::uint64_t)));
   return true;
 }
 

@@ -38,6 +38,8 @@ cycle, as in real time. Each row is measured in pairs, as flood_bench does it:
   no page          with --studio and nobody who looks; next to it, without
   eight pages      four that draw 64 signals each, two that have subscribed and read nothing any more, two
                    that subscribe and unsubscribe at full speed; next to it, without --studio
+  eight elsewhere  the same eight pages, of a machine whose rows come from a thread beside the cycle: what their
+                   traffic costs a cycle that records nothing; next to it, without
   eight for one    eight pages that draw; next to it, one that sees the same signals
   100 signals      one page that sees 100 signals; next to it, a trace of the same signals
 
@@ -171,6 +173,21 @@ class WatchedMachine {
     project_.controller->trace = nullptr;
     return times;
   }
+  /// Rows from a thread that shares its processor with the rest, at the pace of the cycle, as long as the
+  /// result is there. Nothing else runs this machine meanwhile.
+  std::jthread told_elsewhere() {
+    return std::jthread([this](const std::stop_token& end) {
+      SignalTap& tap = session_.tap();
+      const std::int64_t cycle = project_.controller->clock.interpolator_cycle();
+      auto due = std::chrono::steady_clock::now();
+      while (!end.stop_requested()) {
+        tap.exchange();
+        tap.push(elsewhere_ * cycle, static_cast<std::uint64_t>(elsewhere_));
+        ++elsewhere_;
+        std::this_thread::sleep_until(due += std::chrono::nanoseconds(cycle));
+      }
+    });
+  }
   const Project& project() const { return project_; }
   std::uint16_t port() const { return server_.endpoint().port; }
 
@@ -185,10 +202,12 @@ class WatchedMachine {
   StudioSession session_;
   StudioServer server_;
   int processor_;
+  std::int64_t elsewhere_ = 10'000;  // cycles that have been told elsewhere, behind all of its own
 };
 
 void measure(const std::string& name, const std::string& text, int processor, const Plan& plan) {
   WatchedMachine machine(text, processor);
+  WatchedMachine other(text, processor);
   const std::vector<std::string> hundred = paths_of(machine.project(), 100);
   const std::vector<std::string> seen(
       hundred.begin(),
@@ -196,25 +215,35 @@ void measure(const std::string& name, const std::string& text, int processor, co
   std::vector<Signal> signals;
   for (const std::string& path : hundred) signals.push_back(machine.project().names.find(path).place->signal);
   const auto alone = [&] { return machine.run(plan.ticks); };
-  const auto pages = [&](const std::vector<std::pair<Page::Kind, int>>& kinds,
-                         const std::vector<std::string>& paths) {
-    std::vector<std::unique_ptr<Page>> open;
+  using Kinds = std::vector<std::pair<Page::Kind, int>>;
+  const auto open = [](const WatchedMachine& seen_one, const Kinds& kinds,
+                       const std::vector<std::string>& paths) {
+    std::vector<std::unique_ptr<Page>> pages;
     for (const auto& [kind, count] : kinds)
-      for (int i = 0; i < count; ++i) open.push_back(std::make_unique<Page>(machine.port(), kind, paths));
+      for (int i = 0; i < count; ++i) pages.push_back(std::make_unique<Page>(seen_one.port(), kind, paths));
+    return pages;
+  };
+  const auto pages = [&](const Kinds& kinds, const std::vector<std::string>& paths) {
+    const auto opened = open(machine, kinds, paths);
     machine.watched(50);  // what they want has been taken
     return machine.watched(plan.ticks);
   };
+  const Kinds mixed = {{Page::Kind::draws, 4}, {Page::Kind::hangs, 2}, {Page::Kind::floods, 2}};
   Company nobody{"no page", [&] { return machine.watched(plan.ticks); }};
-  Company eight{
-      "eight pages", [&] {
-        return pages({{Page::Kind::draws, 4}, {Page::Kind::hangs, 2}, {Page::Kind::floods, 2}}, seen);
-      }};
+  Company eight{"eight pages", [&] { return pages(mixed, seen); }};
+  Company elsewhere{"eight elsewhere", [&] {
+                      const std::jthread rows = other.told_elsewhere();
+                      const auto opened = open(other, mixed, seen);
+                      machine.run(50);
+                      return machine.run(plan.ticks);
+                    }};
   Company more{"eight for one", [&] { return pages({{Page::Kind::draws, 8}}, seen); }};
   Company many{"100 signals", [&] { return pages({{Page::Kind::draws, 1}}, hundred); }};
   for (int round = 0; round < plan.rounds; ++round) {
     const bool first = round % 2 == 0;
     nobody.measure(alone, first);
     eight.measure(alone, first);
+    elsewhere.measure(alone, first);
     more.measure([&] { return pages({{Page::Kind::draws, 1}}, seen); }, first);
     many.measure([&] { return machine.traced(plan.ticks, signals); }, first);
   }
@@ -222,7 +251,7 @@ void measure(const std::string& name, const std::string& text, int processor, co
               "");
   for (int i = 0; i < 2; ++i) std::printf("  %6s %6s  %-20s", "next", "so", "ratio");
   std::printf("\n");
-  for (const Company* const company : {&nobody, &eight, &more, &many}) print(*company);
+  for (const Company* const company : {&nobody, &eight, &elsewhere, &more, &many}) print(*company);
   std::printf("pages see %zu signals, the last one %zu\n", seen.size(), hundred.size());
 }
 

@@ -65,7 +65,56 @@ TEST(SignalCopies, OfNothingAreNothing) {
   copies.read(nullptr, {});
 }
 
-// Values of every type at addresses of every kind, NaNs with their payload among them.
+TEST(SignalCopies, TakeInOnePieceWhatLiesBesideEachOther) {
+  struct {
+    LREAL position = 1.5, velocity = -2.5, actual_position = 3.5, actual_velocity = 4.5;
+    LREAL acceleration = 5.5;
+    UDINT sensor = 6;
+    DINT cycle = -7;
+    DINT unwanted = 8;
+    INT count = -9;
+    BOOL done = true, busy = false;
+  } axis;
+  const SignalCopies four(
+      {{Signal{&axis.actual_velocity, Type::LREAL}, Signal{&axis.position, Type::LREAL},
+        Signal{&axis.velocity, Type::LREAL}, Signal{&axis.actual_position, Type::LREAL}}});
+  EXPECT_EQ(four.pieces(), 1u);
+  // 32 bytes, 16 bytes, and behind what nobody wants 4.
+  const std::vector<Signal> signals = {
+      {&axis.done, Type::BOOL},          {&axis.cycle, Type::DINT},
+      {&axis.sensor, Type::UDINT},       {&axis.position, Type::LREAL},
+      {&axis.acceleration, Type::LREAL}, {&axis.velocity, Type::LREAL},
+      {&axis.count, Type::INT},          {&axis.actual_position, Type::LREAL},
+      {&axis.busy, Type::BOOL},          {&axis.actual_velocity, Type::LREAL}};
+  const SignalCopies copies(signals);
+  EXPECT_EQ(copies.pieces(), 3u);
+  EXPECT_EQ(copies.words(), 7u);
+  const std::vector<Value> values = read_of(copies, signals.size());
+  for (std::size_t i = 0; i < signals.size(); ++i) EXPECT_EQ(values[i].u, signals[i].load().u) << i;
+}
+
+// What does not add up to a piece: 8 and 4 bytes, and 8.
+TEST(SignalCopies, KeepAVariableWhole) {
+  struct {
+    DINT first = -1;
+    DINT second = -2;
+    DINT third = -3;
+    REAL fourth = 0.5F;
+    DINT fifth = -5;
+  } all;
+  const std::vector<Signal> signals = {{&all.first, Type::DINT},
+                                       {&all.second, Type::DINT},
+                                       {&all.third, Type::DINT},
+                                       {&all.fourth, Type::REAL},
+                                       {&all.fifth, Type::DINT}};
+  const SignalCopies copies(signals);
+  EXPECT_EQ(copies.pieces(), 2u);
+  const std::vector<Value> values = read_of(copies, signals.size());
+  for (std::size_t i = 0; i < signals.size(); ++i) EXPECT_EQ(values[i].u, signals[i].load().u) << i;
+}
+
+// Values of every type at addresses of every kind, NaNs with their payload among them; each other time many
+// beside each other.
 TEST(SignalCopies, AreToTheBitWhatSignalsLoad) {
   constexpr unsigned kSeed = 20261126;
   std::mt19937_64 random(kSeed);
@@ -76,8 +125,9 @@ TEST(SignalCopies, AreToTheBitWhatSignalsLoad) {
   for (std::byte& byte : memory) byte = static_cast<std::byte>(random());
   for (int round = 0; round < 500; ++round) {
     std::vector<Signal> signals;
+    const std::size_t size = round % 2 == 0 ? memory.size() - 8 : 200;
     for (std::size_t count = random() % 150; count > 0; --count) {
-      Signal signal{&memory[random() % (memory.size() - 8)], kTypes[random() % kTypes.size()]};
+      Signal signal{&memory[random() % size], kTypes[random() % kTypes.size()]};
       if (signal.type == Type::BOOL) *static_cast<bool*>(signal.address) = random() % 2 == 0;
       const bool has_bits = signal.type != Type::BOOL && signal.type < Type::REAL;
       if (has_bits && random() % 4 == 0)
