@@ -37,7 +37,7 @@ class TelegramRing {
     begin_.store(end, std::memory_order_release);
   }
 
-  /// The same up to one that `use` does not want yet: that and those behind it stay.
+  /// Hands telegrams to `use` up to one that it does not want yet: that and those behind it stay.
   /// @param use gives whether it has taken it
   template <class Use>
   void take_while(Use use) noexcept {

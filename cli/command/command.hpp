@@ -63,7 +63,7 @@ enum class Warnings : std::uint8_t { told, kept };
 std::optional<Project> load_or_tell(const std::string& path, int& status, const Prepare& prepare = {},
                                     Warnings warnings = Warnings::told, LoadedFor use = LoadedFor::running);
 
-/// The same for a system file.
+/// Loads a system file and tells its problems and warnings on standard error.
 std::optional<System> load_system_or_tell(const std::string& path, int& status,
                                           LoadedFor use = LoadedFor::running,
                                           SeveralSources sources = SeveralSources::refused);
@@ -79,7 +79,7 @@ enum class Severity : std::uint8_t { error = 3, warning = 4, information = 6 };
 /// Writes one line to standard error: "lockstep: " and the text, which begins with "warning: " for a warning.
 /// Parts of it may come from files and networks: what a terminal would obey is shown as "?".
 void tell(const std::string& text, Severity severity = Severity::information) noexcept;
-/// The same without the name of the program.
+/// Writes one line to standard error, without the name of the program; otherwise as `tell`.
 void tell_line(const std::string& text, Severity severity) noexcept;
 
 }  // namespace lockstep::cli

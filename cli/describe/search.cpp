@@ -127,7 +127,7 @@ int fit_of(std::string_view word, const Finding& finding) {
   return std::max({4 * in_name, in_text, in_rest});
 }
 
-/// The same for all of some words; another name of one counts, but only where it is a whole word.
+/// How well a finding fits all of some words; another name of one counts, but only where it is a whole word.
 int rank_of(const std::vector<std::string>& words, const Finding& finding) {
   int rank = 0;
   for (const std::string& word : words) {

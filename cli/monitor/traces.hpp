@@ -30,7 +30,7 @@ class HeardTrace {
 
   /// What is kept of it [byte], about.
   std::size_t memory() const noexcept { return memory_of(header_message_.size(), signals().size()); }
-  /// The same of a trace whose description is a message of so many bytes with so many signals.
+  /// What is kept [byte] of a trace whose description is a message of so many bytes with so many signals.
   static std::size_t memory_of(std::size_t bytes, std::size_t signals) noexcept {
     constexpr std::size_t kSignal = 400;  // three texts in the header, two in the signal, and values
     return 2 * bytes + kSignal * signals;

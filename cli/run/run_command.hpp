@@ -26,12 +26,12 @@ struct FailOn {
 /// Loads the project and carries the run out; gives the exit status.
 int run_project(const RunOptions& options, FailOn fail_on);
 
-/// The same for a system file: in virtual time all controllers in this process, in real time each in a
-/// process of its own.
+/// Carries the run of a system file out: in virtual time all controllers in this process, in real time each
+/// in a process of its own. Gives the exit status.
 int run_system(const RunOptions& options, FailOn fail_on);
 int run_processes(const RunOptions& options, FailOn fail_on);
 
-/// The same for one of its controllers, which runs here, in real time.
+/// Carries out the run of one controller of a system, here, in real time; gives the exit status.
 int run_controller(const RunOptions& options, const std::string& controller, FailOn fail_on);
 
 /// What the options of a run of a system come to for one of its controllers: its project file, its trace, its

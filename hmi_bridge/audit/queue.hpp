@@ -38,7 +38,7 @@ class AuditQueue {
 
   /// Moves what waits, and what is due by then, behind `lines`, oldest first.
   void take(Clock::time_point now, std::vector<AuditLine>& lines);
-  /// The same at the end: whatever was put together is due.
+  /// Moves whatever there is behind `lines` at the end: what was put together is due then.
   void take_all(std::vector<AuditLine>& lines);
   bool empty() const noexcept { return waiting_.empty() && lost_ == 0; }
 

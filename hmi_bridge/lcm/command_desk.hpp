@@ -121,7 +121,7 @@ class CommandDesk {
 
   /// Takes one message. @return what is to be told; none for what is only counted and for a jog that goes on
   std::optional<Answer> accept(std::span<const std::uint8_t> bytes, Clock::time_point now);
-  /// The same of a command that is one.
+  /// Takes one command, as a message brings it.
   Verdict give(const command_t& command, Clock::time_point now, CommandRoute route);
   /// A panel is gone: what it jogs stops.
   void leave(std::int64_t sender, Clock::time_point now);

@@ -22,8 +22,8 @@ char* print_seconds(char* out, std::int64_t nanoseconds) noexcept;
 /// @return end of the text
 char* print_value(char* out, Value value, Type type) noexcept;
 
-/// The same as it stands in a column of a trace: a real number of a whole value gets ".0", so that a reader
-/// of the file knows its type.
+/// A value as `print_value` has it, for a column of a trace: a real number of a whole value gets ".0", so
+/// that a reader of the file knows its type.
 /// @param out space for `kNumberLength` characters
 /// @return end of the text
 char* print_column_value(char* out, Value value, Type type) noexcept;

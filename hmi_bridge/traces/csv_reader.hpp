@@ -19,7 +19,7 @@ namespace lockstep {
 ///     ends the reading
 TraceTable read_csv_trace(const std::string& path, const std::function<void(double)>& progress = {});
 
-/// The same from a text in memory; `name` stands for the file in messages.
+/// `read_csv_trace` from a text in memory; `name` stands for the file in messages.
 TraceTable parse_csv_trace(std::string_view text, const std::string& name);
 
 }  // namespace lockstep

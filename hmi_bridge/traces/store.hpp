@@ -98,7 +98,8 @@ class TraceStore {
   /// @param signals indices
   TraceWindow window(std::span<const std::size_t> signals, std::uint64_t from, std::uint64_t to,
                      std::size_t points) const;
-  /// The same in points of `per_point` rows each, the last one of what is left over.
+  /// The rows from `from` to before `to` in points of `per_point` rows each, the last one of what is left
+  /// over.
   TraceWindow coarse(std::span<const std::size_t> signals, std::uint64_t from, std::uint64_t to,
                      std::uint64_t per_point) const;
   /// The rows themselves.

@@ -25,7 +25,8 @@ struct NamedCommand {
 std::optional<NamedCommand> command_at(std::span<const Token> tokens);
 /// Words that belong to commands and expressions, which no variable, array or label may be.
 bool is_reserved(std::string_view folded_name);
-/// The same for a label: WAIT alone is an unusual form of WAITT, and a label may have its name.
+/// Words that no label may be, those of `is_reserved` but one: WAIT alone is an unusual form of WAITT, and a
+/// label may have its name.
 bool is_no_label(std::string_view folded_name);
 /// "MOTOR OFF, MOTOR ON, MOTOR STOP": the commands of two words of which this is the first; empty: none.
 std::string commands_of_first_word(std::string_view folded_name);

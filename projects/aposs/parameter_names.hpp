@@ -16,7 +16,8 @@ inline constexpr std::int32_t kInputFunction = 1'000'000;
 
 /// The number of a parameter by what a program calls it, in upper case.
 std::optional<std::int32_t> parameter_number(std::string_view name);
-/// The same by what a project or a command line calls it, in any case: "SYNCMPULSM", "33-17", "1900".
+/// The number of a parameter by what a project or a command line calls it, in any case: "SYNCMPULSM",
+/// "33-17", "1900".
 std::optional<std::int32_t> parameter_of(std::string_view name);
 /// Whether there is a parameter of this number.
 bool is_parameter(std::int32_t number) noexcept;

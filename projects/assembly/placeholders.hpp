@@ -19,7 +19,7 @@ using TemplateParameters = std::map<std::string, const JsonValue*, std::less<>>;
 /// @return what is wrong, and what is allowed; empty: nothing
 std::string fill_placeholders(JsonValue& value, const TemplateParameters& parameters);
 
-/// The same for a key.
+/// A text, such as a key, with the values of parameters in place of what stands for them.
 /// @param problem what is wrong; empty: nothing
 std::string filled_text(std::string_view text, const TemplateParameters& parameters, std::string& problem);
 

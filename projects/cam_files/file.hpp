@@ -28,7 +28,7 @@ struct LoadedCam {
 LoadedCam load_cam(std::string_view text, const std::string& folder, const std::string& name,
                    std::size_t capacity);
 
-/// The same from a file. @throws UnreadableFile
+/// `load_cam` from a file. @throws UnreadableFile
 LoadedCam load_cam_file(const std::string& path, const std::string& name, std::size_t capacity);
 
 /// Reads what defines a cam: `elements`, with `optimization` for their transitions by a law; or `points` and

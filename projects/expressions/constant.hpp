@@ -15,7 +15,8 @@ namespace lockstep {
 /// constant expression such as "16#FF" for any type. What does not fit is reported.
 std::optional<Value> read_constant(const JsonValue& value, Type type, Problems& problems);
 
-/// The same for a JSON boolean or number alone; anything else is reported with what is allowed.
+/// Reads a value of an elementary type from a JSON boolean or number alone; anything else is reported with
+/// what is allowed.
 std::optional<Value> read_plain_constant(const JsonValue& value, Type type, Problems& problems);
 
 /// What is wrong with a value by a range and a list of choices, and what is allowed; empty if nothing is.

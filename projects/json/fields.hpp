@@ -52,7 +52,7 @@ const JsonValue* read_array(const JsonValue* value, Problems& problems);
 class Fields {
  public:
   Fields(const JsonValue& value, Keys keys, Problems& problems);
-  /// The same for one of several kinds of objects: of a key of another kind it is told where it is allowed.
+  /// One of several kinds of objects: of a key of another kind it is told where it is allowed.
   Fields(const JsonValue& value, std::span<const KeyVariant> variants, std::size_t variant,
          Problems& problems);
 

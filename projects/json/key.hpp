@@ -420,7 +420,7 @@ constexpr auto structure(std::string_view name, const Table& table, std::string_
   if constexpr (sizeof...(Path) > 0) key.part = &key_detail::part<Path...>;
   return KeyOfPath<Path...>(key);
 }
-/// The same, for keys that are apart in the file and one struct in the program.
+/// A structure of keys that are apart in the file and one struct in the program.
 template <class S, class Table>
 constexpr auto group(std::string_view name, const Table& table, std::string_view text) {
   Key made = structure(name, table, text);

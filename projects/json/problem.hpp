@@ -42,9 +42,9 @@ class Problems {
  public:
   /// Something for which the project is not valid.
   void report(const JsonValue& at, std::string text);
-  /// The same of the key of a member.
+  /// Something of the key of a member for which the project is not valid.
   void report_key(const JsonValue& member, std::string text);
-  /// The same at a column of a text, in bytes, from 1.
+  /// Something at a column of a text, in bytes, from 1, for which the project is not valid.
   void report_within(const JsonValue& at, std::size_t column, std::string text);
   /// Something that is legal and looks like a mistake.
   void warn(const JsonValue& at, std::string text);

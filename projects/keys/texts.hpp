@@ -33,7 +33,7 @@ struct KeySection {
 /// All places of a project file, from its root on, in the order of the declarations.
 std::vector<KeySection> key_sections();
 
-/// The same of a system file; its paths begin with "system".
+/// All places of a system file, from its root on; their paths begin with "system".
 std::vector<KeySection> system_key_sections();
 /// Those of both.
 std::vector<KeySection> all_key_sections();

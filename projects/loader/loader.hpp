@@ -41,7 +41,7 @@ struct Loading {
   bool is_led_from_outside(std::string_view proxy) const { return used_outside.contains(fold(proxy)); }
   /// The place to which a path leads, or none: then that is reported, unless the problem is known already.
   std::optional<Operand> find(const JsonValue& at, std::string_view path) const;
-  /// The same for a path whose index may be missing, as in "points[].x".
+  /// `find` for a path whose index may be missing, as in "points[].x".
   std::optional<Operand> find_elements(const JsonValue& at, std::string_view path) const;
   /// A technology object of one of the kinds, or nullptr: then that is reported, unless the problem is known
   /// already.

@@ -61,7 +61,7 @@ class DeviceLoader {
   aposs::CompilerSettings compiler_settings() const {
     return {.later_edition = device_.settings.later_edition, .variables_of_others = variables_};
   }
-  /// The same, with problems told elsewhere.
+  /// This loading, with problems told elsewhere.
   Loading telling(Problems& problems) const {
     return {loading_.project, problems,     loading_.instances,   loading_.folder,
             loading_.named,   loading_.use, loading_.used_outside};

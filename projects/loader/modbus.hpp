@@ -37,7 +37,7 @@ std::size_t add_modbus_entries(const ModbusEntry& shape, const ModbusSource& sou
                                const Fields& fields, Problems& problems, std::vector<ModbusEntry>& entries,
                                std::vector<NamedSignal>& signals);
 
-/// The same for a text: the shape of its first entry (none: it is reported), and the entries. The first
+/// Entries of a text: the shape of its first one (none: it is reported), and all of them. The first
 /// character of a register is its more significant byte, unless `byte_order` is little.
 std::optional<ModbusEntry> read_modbus_text(const Fields& fields, const Loading& loading);
 std::size_t add_modbus_text(const ModbusEntry& shape, const StringTag& tag, const Fields& fields,

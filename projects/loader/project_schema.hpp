@@ -12,10 +12,10 @@ namespace lockstep {
 /// round. `project.schema.json` is this text; a test compares them.
 std::string project_schema();
 
-/// The same of a file that a project includes. `part.schema.json` is this text.
+/// The schema of a file that a project includes, as text. `part.schema.json` is this text.
 std::string part_schema();
 
-/// The same of a system file. `system.schema.json` is this text.
+/// The schema of a system file, as text. `system.schema.json` is this text.
 std::string system_schema();
 
 }  // namespace lockstep

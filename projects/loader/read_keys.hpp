@@ -10,7 +10,8 @@ namespace lockstep {
 /// declared: then that is reported.
 std::optional<KeyValue> read_value(const JsonValue* json, const Key& key, const Loading& loading);
 
-/// The same for a key of an object.
+/// The value of a key of an object; none if it is missing, or is not as it is declared: then that is
+/// reported.
 inline std::optional<KeyValue> read_value(const Fields& fields, const Key& key, const Loading& loading) {
   return read_value(fields[key.name], key, loading);
 }
@@ -32,7 +33,7 @@ void read_keys(const Fields& fields, const KeyTable<S, n>& table, S& target, con
   read_members(fields, table, &target, loading);
 }
 
-/// The same for an object that is looked at whole: unknown and missing keys are reported.
+/// Reads the keys of a struct from an object that is looked at whole: unknown and missing keys are reported.
 template <class S, std::size_t n>
 Fields read_struct(const JsonValue& json, const KeyTable<S, n>& table, S& target, const Loading& loading) {
   const Fields fields(json, table, loading.problems);

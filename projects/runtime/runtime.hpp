@@ -46,7 +46,7 @@ class Runtime {
   /// @param messages hears what the run tells; it lives as long as something of it does; nullptr: nobody
   /// @throws InvalidProject, UnreadableFile, RetainFileError, and CouldNotStart for options of virtual time
   explicit Runtime(RunOptions options, std::shared_ptr<Messages> messages = nullptr);
-  /// The same for a project that has been loaded.
+  /// For a project that has been loaded.
   /// @param keeper as `restore_kept` has given it for this project; nullptr: nothing is kept
   Runtime(Project project, std::unique_ptr<RetainWriter> keeper, RunOptions options,
           std::shared_ptr<Messages> messages = nullptr);
@@ -80,7 +80,7 @@ class Runtime {
   /// @param timeout for what comes after that
   /// @return false if something does not come to its end (`unfinished`); it may be called again
   bool wait(std::chrono::milliseconds timeout = kPatience);
-  /// The same until the axes are at rest, for so long at most, or until `stop`, if that comes first.
+  /// Waits until the axes are at rest, for so long at most, or until `stop`, if that comes first.
   /// @return whether they are
   bool wait_for_rest(std::chrono::milliseconds time);
 

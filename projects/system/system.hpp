@@ -98,7 +98,7 @@ LoadedSystem load_controller_of(const std::string& path, std::string_view contro
 
 /// Whether a text looks like a system file: an object with the key `lockstep_system`.
 bool is_system(std::string_view text);
-/// The same for a file; one that cannot be read is none.
+/// Whether a file looks like a system file; one that cannot be read does not.
 bool is_system_file(const std::string& path);
 
 /// Where the leading object `object` of a controller stands in messages: "PLC_1.Conveyor".

@@ -113,7 +113,7 @@ inline DoubleDouble difference(AxisPosition to, AxisPosition from, const Modulo&
   return turns_distance(turns, modulo.length) + values;
 }
 
-/// The same rounded to a double.
+/// `difference`, rounded to a double.
 inline double rounded_difference(AxisPosition to, AxisPosition from, const Modulo& modulo) noexcept {
   return to.turns == from.turns ? to.value - from.value : difference(to, from, modulo).rounded();
 }

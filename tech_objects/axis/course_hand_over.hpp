@@ -17,7 +17,7 @@ class CourseHandOver {
   bool begin(const Setpoint& ahead, const Dynamics& dynamics) noexcept {
     return run_down(to_setpoint_, ahead, dynamics);
   }
-  /// The same for the distance back from zero.
+  /// Begins to bring down the distance back from zero. False: nothing could be planned, and it is gone.
   bool begin_return(const Setpoint& ahead, const Dynamics& dynamics) noexcept {
     return run_down(from_zero_, ahead, dynamics);
   }

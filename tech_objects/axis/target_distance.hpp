@@ -10,8 +10,9 @@ namespace lockstep {
 /// From a position to the target of the job [u]; on a ring in its direction, or the shortest one.
 double absolute_distance(const MoveAbsoluteJob& job, double here, const Modulo& modulo) noexcept;
 
-/// The same for a motion that begins at a setpoint. In a direction that is asked for it goes on to the pass
-/// of the target that the axis can still come to rest at: turning back would be the other direction.
+/// From a setpoint, at which the motion begins, to the target of the job [u]; on a ring in its direction, or
+/// the shortest one. In a direction that is asked for it goes on to the pass of the target that the axis can
+/// still come to rest at: turning back would be the other direction.
 /// @param beyond_target distance that the axis has made since the target of the motion before, from which a
 /// motion that blends counts [u]
 DoubleDouble absolute_distance(const MoveAbsoluteJob& job, const Setpoint& from, DoubleDouble beyond_target,

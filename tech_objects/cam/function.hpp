@@ -59,7 +59,7 @@ class CamFunction {
             2.0 * c[2] + 6.0 * c[3] * d};
   }
 
-  /// The same without a hint.
+  /// Value at a leading value, without a hint.
   CamValue value(double leading_value) const noexcept {
     CamHint hint{count_ + 1};
     return value(leading_value, hint);

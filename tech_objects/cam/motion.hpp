@@ -51,7 +51,7 @@ class CamFollowing {
   void set(const CamFunction& function, const CamUse& use, AxisPosition place, DoubleDouble from_start,
            const Modulo& leading, const Modulo& following) noexcept;
 
-  /// The same with the start of the cam at a leading position that need not be on the ring.
+  /// Applies a curve, with the start of the cam at a leading position that need not be on the ring.
   void set_start(const CamFunction& function, const CamUse& use, std::int64_t start_turns,
                  DoubleDouble start_value, const Modulo& leading, const Modulo& following) noexcept;
 
@@ -74,8 +74,8 @@ class CamFollowing {
     return place_of(function_->value(first_ + rest.hi * per_scaling_, hint_));
   }
 
-  /// The same seen from the side from which a leading axis comes that moves in `direction` (1, -1) beyond the
-  /// place: derivatives at a corner are those ahead. Does not count.
+  /// The following value seen from the side from which a leading axis comes that moves in `direction` (1, -1)
+  /// beyond the place: derivatives at a corner are those ahead. Does not count.
   CamFollowingValue joined_at(AxisPosition leading, int direction) const noexcept;
 
   /// Which end a leading axis at that position would have reached since the last value.

@@ -13,7 +13,7 @@ struct CamValue {
   double second_derivative = 0.0;  ///< [following u / leading u²]
 };
 
-/// The same with the third derivative.
+/// A following value and its derivatives with respect to the leading value, up to the third.
 struct CamDerivatives {
   double position = 0.0;
   double first = 0.0;

@@ -23,13 +23,13 @@ class CamSpline {
   std::span<const double> through(std::span<const CamPoint> points, std::optional<double> left_slope,
                                   std::optional<double> right_slope) noexcept;
 
-  /// The same for a spline through `points` that goes on through `next`, whose first point is the last of
-  /// `points` seen from elsewhere (the start of a cam, seen as its end). The moments of `next` begin with
-  /// that of the common point, at points.size() - 1.
+  /// Second derivatives of the spline through `points` that goes on through `next`, whose first point is the
+  /// last of `points` seen from elsewhere (the start of a cam, seen as its end). The moments of `next` begin
+  /// with that of the common point, at points.size() - 1.
   std::span<const double> through(std::span<const CamPoint> points, std::span<const CamPoint> next,
                                   double left_slope, double right_slope) noexcept;
 
-  /// The same for the spline whose first and second derivative at the end equal those at the start.
+  /// Second derivatives of the spline whose first and second derivative at the end equal those at the start.
   std::span<const double> closed_through(std::span<const CamPoint> points) noexcept;
 
  private:

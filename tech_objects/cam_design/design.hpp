@@ -21,7 +21,8 @@ DesignedCam checked_cam(std::vector<TO_Cam_Struct_PointData> points,
                         std::vector<TO_Cam_Struct_SegmentData> segments,
                         const TO_Cam_Struct_InterpolationSettings& interpolation, std::size_t capacity);
 
-/// The same, and, if nothing is wrong so far, interpolated, with what findings_of finds.
+/// Points and segments as `checked_cam` has them, and, if nothing is wrong so far, interpolated, with what
+/// findings_of finds.
 DesignedCam interpolated_cam(std::vector<TO_Cam_Struct_PointData> points,
                              std::vector<TO_Cam_Struct_SegmentData> segments,
                              const TO_Cam_Struct_InterpolationSettings& interpolation, std::size_t capacity);

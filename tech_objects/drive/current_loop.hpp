@@ -68,7 +68,7 @@ class CurrentLoop {
     const double upper = std::clamp(band.upper, lower, maximum_);
     return step_within(setpoint, actual, additive, lower, upper);
   }
-  /// The same where nothing limits or adds but the settings.
+  /// One step where nothing limits or adds but the settings. @return the current [A], within ±maximum_current
   double step(const LoopSetpoint& setpoint, double actual) noexcept {
     return step_within(setpoint, actual, 0.0, -maximum_, maximum_);
   }

@@ -59,7 +59,7 @@ struct SystemParameters {
   BOOL bytes_reversed = false;
 };
 
-/// The same of one motor; those of a linear motor.
+/// Parameters of one motor that have an effect, with the start values of a linear motor.
 struct MotorParameters {
   DINT type = 0;
   DINT init_mode = 0;

@@ -27,7 +27,7 @@ const Parameter* find_motor_parameter(std::string_view path) noexcept;
 /// The name that a part of a path has as a signal: letters and digits, each word with a capital; "+" Plus,
 /// "-" Minus, a leading digit behind the rest. Not in the cycle.
 std::string signal_name(std::string_view part);
-/// The same of a whole path, with points. Not in the cycle.
+/// The name that a whole path has as a signal: `signal_name` of each part, with points. Not in the cycle.
 std::string signal_path(std::string_view path);
 
 /// As a number: an option by its index, on by 1. @param parameters the struct in which it has its place

@@ -19,7 +19,7 @@ struct RiseLimits {
   double below;
   double above;
 
-  /// The same motion run backwards: what slowed down speeds up.
+  /// Those of this motion run backwards: what slowed down speeds up.
   RiseLimits reversed() const noexcept { return {above, below}; }
 };
 

@@ -14,8 +14,8 @@ class ProfileWalk {
   /// From the beginning of a profile.
   void begin() noexcept { *this = {}; }
 
-  /// The same bits as profile.at(t). @param profile the one it began with  @param t [s] not before the last
-  /// one
+  /// What profile.at(t) gives, to the bit. @param profile the one it began with  @param t [s] not before the
+  /// last one
   MotionState at(const Profile& profile, double t) noexcept {
     if (within(t)) return phase_.at(t);
     if (t > 0.0 && t < profile.duration()) enter_phase(profile, t);
@@ -26,7 +26,7 @@ class ProfileWalk {
   MotionState here(double t) const noexcept { return phase_.at(t); }
   /// Whether the phase at hand, and so the profile, is not over yet.
   bool within(double t) const noexcept { return t > 0.0 && before_end(t); }
-  /// The same of a time that is > 0.
+  /// Whether the phase at hand is not over yet at a time that is > 0.
   bool before_end(double t) const noexcept { return t < end_; }
 
  private:

@@ -108,8 +108,8 @@ class SyncProfile {
 /// the curvature times D², so in [u]. Infinite if there is none. Any thread.
 double minimum_monotone_distance(double start_slope, double start_curvature, double end_slope) noexcept;
 
-/// The same for a quintic that ends with a slope ≥ 0 and a curvature (times D²); searched for, so about right
-/// to 1.0E-9.
+/// `minimum_monotone_distance` of a quintic that ends with a slope ≥ 0 and a curvature (times D²); searched
+/// for, so about right to 1.0E-9.
 double minimum_monotone_distance(double start_slope, double start_curvature, double end_slope,
                                  double end_curvature) noexcept;
 

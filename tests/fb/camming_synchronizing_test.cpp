@@ -11,7 +11,6 @@ namespace {
 
 using test::bit;
 using test::CamPair;
-using test::CoupledRig;
 using test::fast_ring;
 
 TEST(MC_CamIn, Profile1IsSynchronousAtTheSynchronousPosition) {
