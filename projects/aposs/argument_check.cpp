@@ -152,8 +152,10 @@ class Check {
   std::string text() const {
     const std::string happens = range_.error != 0 ? "error " + std::to_string(range_.error) + " when it runs"
                                                   : std::string(range_.outside);
-    return std::string(row_of(range_.command).name) + ": " + std::string(range_.name) + " " +
-           value_text(range_, value_) + ": " + happens + "; allowed: " + allowed();
+    std::string name(row_of(range_.command).name);
+    if (name.ends_with(" =")) name.resize(name.size() - 2);
+    return name + ": " + std::string(range_.name) + " " + value_text(range_, value_) + ": " + happens +
+           "; allowed: " + allowed();
   }
 
  private:

@@ -103,7 +103,7 @@ constexpr ArgumentRange kRanges[] = {
     {C::kSyncmarkerstart, 0, "type", Allowed::kSpans, kState, kNoSuchParameter, {}},
     {C::kSyncstatclr, 0, "value", Allowed::kBits, kFlags, 0, "no other flag is cleared"},
     {C::kSysvar, 0, "index", Allowed::kSystemVariable, {}, kNoSuchParameter, {}},
-    {C::kSetSysvar, 0, "index", Allowed::kSpans, kMasterPosition, kNoSuchParameter, {}},
+    {C::kSetSysvar, 0, "written index", Allowed::kSpans, kMasterPosition, kNoSuchParameter, {}},
     {C::kTestsetp, 0, "time", Allowed::kSpans, kFromOne, 0, "nothing is recorded"},
     {C::kTestsetp, 1, "index", Allowed::kSystemVariable, {}, 0, kNone},
     {C::kTestsetp, 2, "index", Allowed::kSystemVariable, {}, 0, kNone},

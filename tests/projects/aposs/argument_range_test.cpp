@@ -96,8 +96,8 @@ const std::vector<Case>& cases() {
       {"OUTDA 43 0", "7: OUTDA: output 43: error 171 when it runs; allowed: 42", 171},
       {"OUTDA 42 100001", "10: OUTDA: value 100001: the nearest of these is taken; allowed: 0 to 100000"},
       {"x = PCD[11]", "9: PCD: word 11: error 171 when it runs; allowed: 1 to 10", 171},
-      {"PCD[0] = 1", "5: PCD =: word 0: error 171 when it runs; allowed: 1 to 10", 171},
-      {"PCD[11].3 = 1", "5: PCD =: word 11: error 171 when it runs; allowed: 1 to 10", 171},
+      {"PCD[0] = 1", "5: PCD: word 0: error 171 when it runs; allowed: 1 to 10", 171},
+      {"PCD[11].3 = 1", "5: PCD: word 11: error 171 when it runs; allowed: 1 to 10", 171},
       {"PRINT DEV -2 \"a\"",
        "11: PRINT DEV: device -2: below 0 nothing is printed, else everything; allowed: -1, 0"},
       {"SET 34-70 1",
@@ -122,7 +122,7 @@ const std::vector<Case>& cases() {
        "13: SYNCSTATCLR: value 12: no other flag is cleared; allowed: 8, 16, 32, 64 and their sums"},
       {"x = SYSVAR[5]",
        "12: SYSVAR: index 5: error 112 when it runs; allowed: the index of a system variable", 112},
-      {"SYSVAR[4107] = 1", "8: SYSVAR =: index 4107: error 112 when it runs; allowed: 4105", 112},
+      {"SYSVAR[4107] = 1", "8: SYSVAR: written index 4107: error 112 when it runs; allowed: 4105", 112},
       {"DIM a[20] TESTSETP 0 1 1 1 a", "20: TESTSETP: time 0: nothing is recorded; allowed: 1 and more"},
       {"DIM a[20] TESTSETP 1 5 1 1 a",
        "22: TESTSETP: index 5: there is none; allowed: the index of a system variable"},
@@ -162,7 +162,8 @@ TEST(AposRanges, AreToldOfConstantsBesideThem) {
 
 TEST(AposRanges, AreToldEachOfSomeCase) {
   for (const ArgumentRange& range : argument_ranges()) {
-    const std::string begin = std::string(row_of(range.command).name) + ": " + std::string(range.name) + " ";
+    std::string begin(row_of(range.command).name);
+    begin = begin.substr(0, begin.find(" =")) + ": " + std::string(range.name) + " ";
     const std::string happens =
         range.error != 0 ? "error " + std::to_string(range.error) : std::string(range.outside);
     const auto tells = [&](const Case& one) {
