@@ -94,7 +94,8 @@ void SimulatedDrive::write(double velocity) noexcept {
   const DoubleDouble position_before = position_;
   const double velocity_before = velocity_;
   run(after_, velocity);
-  if (plant_.exists()) move_plant(position_before, velocity_before);
+  if (plant_.exists() && !plant_.follow(velocity_before, velocity_, permitted_, torque_.additive))
+    move_plant(position_before, velocity_before);
 }
 
 [[gnu::noinline]] void SimulatedDrive::write_at_standstill(double velocity) noexcept {
@@ -174,7 +175,6 @@ void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velo
     velocity_ = 0.0;
     return;
   }
-  if (states().pulses() && plant_.follow(velocity_before, velocity_, permitted_, torque_.additive)) return;
   const MachinePlant::Motion wanted{(position_ - position_before).rounded(), velocity_};
   const MachinePlant::Motion made = plant_.step({position_before.rounded(), velocity_before}, wanted,
                                                 states().pulses(), permitted_, torque_.additive);

@@ -108,7 +108,7 @@ class Pursuit {
     if (!catches_up && towards > std::abs(target_velocity))
       towards = std::max(std::min(towards, std::abs(target_velocity)),
                          braking_speed(distance, std::min(limits.acceleration, limits.deceleration)));
-    return rest < 0.0 ? -towards : towards;
+    return std::copysign(towards, rest);
   }
   static double bounded(double wanted, double rest, double target_velocity,
                         const PursuitLimits& limits) noexcept {
@@ -130,13 +130,11 @@ class Pursuit {
     if (own == 0.0) return std::clamp(wanted, -limits.acceleration, limits.acceleration);
     const bool mirrored = own < 0.0;
     const double speed = mirrored ? -own : own, to = mirrored ? -wanted : wanted;
-    double reached = std::min(to, speed + limits.acceleration);
-    if (to < speed) {
-      double lowest = speed - limits.deceleration;
-      // What is left of the step when it stands goes into the other direction.
-      if (lowest < 0.0) lowest = -(1.0 - speed / limits.deceleration) * limits.acceleration;
-      reached = std::max(to, lowest);
-    }
+    double lowest = speed - limits.deceleration;
+    // What is left of the step when it stands goes into the other direction.
+    if (lowest < 0.0) lowest = -(1.0 - speed / limits.deceleration) * limits.acceleration;
+    // Both bounds, without a branch: which of them counts changes from step to step.
+    const double reached = std::min(std::max(to, lowest), speed + limits.acceleration);
     return mirrored ? -reached : reached;
   }
 
