@@ -363,7 +363,7 @@ export class Diagram {
       const one = curves.find(({ line, order }) => order === 0 && line.path === path);
       if (!one) return;
       const y = this.size.height - (lanes.length - lane) * kLane + kLane - kLanePause - 3;
-      shapes.push(svg("text", { class: "tick", x: kLeft - 6, y, "text-anchor": "end" }, path.length > 12 ? "…" + path.slice(-11) : path));
+      shapes.push(svg("text", { class: "tick", x: kLeft - 6, y, "text-anchor": "end" }, path.length > 11 ? "…" + path.slice(-8) : path));
       if (one.column.type === "BOOL" || map.isSweeping) return;
       const { record, column } = one;
       let begin = Math.max(record.rowAt(scene.span.from) - 1, 0);
