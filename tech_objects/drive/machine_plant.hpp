@@ -64,8 +64,8 @@ class MachinePlant {
   /// A servo cycle in which nothing can move.
   void hold(double wanted_velocity, const TorqueBand& permitted) noexcept;
 
-  /// The same where nothing disturbs the machine and the torque is permitted that its motion takes, so that
-  /// it moves as is wanted. @return false: it is not so; `step` has to say what comes of it
+  /// A cycle of a machine that nothing disturbs, and that may take the torque which its motion asks for: it
+  /// moves as is wanted. @return false: it is not so; `step` has to say what comes of it
   bool follow(double velocity, double wanted_velocity, const TorqueBand& permitted,
               double additive) noexcept {
     if (!undisturbed_ || known_ != 0.0 || additive != 0.0) return false;
