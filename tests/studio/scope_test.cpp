@@ -283,6 +283,7 @@ TEST(StudioScope, GoesFromEventToEventAndTellsWhatItWas) {
 TEST(StudioScope, DrawsTheLevelOfTheTriggerWhereItIsDragged) {
   Page page;
   ASSERT_TRUE(page.is_live());
+  ASSERT_TRUE(page.stop());  // the line moves with the range of a running picture
   const std::string path = "Knife.StatusPositioning.FollowingError";
   page.browser.click("[data-line='" + path + "']");
   page.browser.evaluate(
@@ -293,7 +294,6 @@ TEST(StudioScope, DrawsTheLevelOfTheTriggerWhereItIsDragged) {
   const double before =
       page.browser.evaluate("Number(document.querySelector('.trigger [aria-label=Level]').value)")
           .get<double>();
-  ASSERT_TRUE(page.stop());  // the line moves with the range of a running picture
   const Json line = page.browser.middle_of(".level");
   page.browser.drag(page.x(0.4), line["y"], page.x(0.4), line["y"].get<double>() - 15);
   EXPECT_TRUE(page.browser.wait_for("Number(document.querySelector('.trigger [aria-label=Level]').value) > " +
