@@ -92,10 +92,11 @@ std::vector<std::string> restore(RetainFile& file, const std::vector<KeptValue>&
 }
 
 RetainWriter::RetainWriter(RetainFile file, std::vector<KeptValue> values, std::chrono::nanoseconds interval,
-                           EncoderSaving* saving)
+                           EncoderSaving* saving, std::chrono::nanoseconds watch)
     : file_(std::move(file)),
       values_(std::move(values)),
       interval_(interval),
+      watch_(watch),
       asked_at_(count_of(values_)),
       image_(signals_of(values_, saving)),
       seen_(asked_at_),
@@ -147,7 +148,7 @@ void RetainWriter::run() {
   look();
   write();
   auto next_write = std::chrono::steady_clock::now() + interval_;
-  auto next_watch = std::chrono::steady_clock::now() + kWatch;
+  auto next_watch = std::chrono::steady_clock::now() + watch_;
   while (wait(poll)) {
     changed_ |= look();
     const auto now = std::chrono::steady_clock::now();
@@ -161,7 +162,7 @@ void RetainWriter::run() {
     } else {
       continue;
     }
-    next_watch = std::chrono::steady_clock::now() + kWatch;
+    next_watch = std::chrono::steady_clock::now() + watch_;
   }
   look();  // the last tick is over
   write();

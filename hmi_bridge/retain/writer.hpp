@@ -30,12 +30,13 @@ std::vector<std::string> restore(RetainFile& file, const std::vector<KeptValue>&
 class RetainWriter {
  public:
   static constexpr std::chrono::milliseconds kPoll{20};  ///< how often it looks at most
-  static constexpr std::chrono::seconds kWatch{1};  ///< how often it looks whether the file is there still
+  static constexpr std::chrono::seconds kWatch{1};  ///< between two looks whether the file is there still
 
   /// The signals stay where they are for the life of the writer.
   /// @param saving whose jobs it answers; nullptr: there are none
+  /// @param watch how often it looks whether the file is there still
   RetainWriter(RetainFile file, std::vector<KeptValue> values, std::chrono::nanoseconds interval,
-               EncoderSaving* saving = nullptr);
+               EncoderSaving* saving = nullptr, std::chrono::nanoseconds watch = kWatch);
   ~RetainWriter();  ///< stops
   RetainWriter(const RetainWriter&) = delete;
   RetainWriter& operator=(const RetainWriter&) = delete;
@@ -70,7 +71,7 @@ class RetainWriter {
 
   RetainFile file_;
   const std::vector<KeptValue> values_;
-  const std::chrono::nanoseconds interval_;
+  const std::chrono::nanoseconds interval_, watch_;
   const std::size_t asked_at_;      // place in the image of EncoderSaving::asked; its end: nobody asks
   ProcessImage image_;              // all values, whether those are present that need not be, EncoderSaving
   std::vector<Value> seen_;         // what the last look saw in it

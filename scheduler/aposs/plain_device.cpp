@@ -1,6 +1,9 @@
 #include "scheduler/aposs/plain_device.hpp"
 
 #include <algorithm>
+#include <span>
+
+#include "scheduler/aposs/output_bytes.hpp"
 
 namespace lockstep::aposs {
 namespace {
@@ -50,12 +53,13 @@ Reply PlainDevice::switch_output(std::int32_t number, bool on) noexcept {
   return Reply::done();
 }
 
-// Byte 0: outputs 1 to 8, the lowest first; 1: 27, 29.
 Reply PlainDevice::switch_byte(std::int32_t number, std::int32_t bits) noexcept {
-  if (number != 0 && number != 1) return Reply::failed(171);
-  for (std::int32_t bit = 0; bit < (number == 0 ? 8 : 2); ++bit)
-    switch_output(number == 0 ? bit + 1 : 27 + 2 * bit, ((bits >> bit) & 1) != 0);
-  return Reply::done();
+  const std::span<const std::int32_t> outputs = outputs_of_byte(number);
+  for (const std::int32_t output : outputs) {
+    switch_output(output, (bits & 1) != 0);
+    bits >>= 1;
+  }
+  return outputs.empty() ? Reply::failed(171) : Reply::done();
 }
 
 // LINKGPAR: the stored value is brought into the limits.

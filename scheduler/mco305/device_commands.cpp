@@ -1,9 +1,10 @@
 #include "scheduler/mco305/device_commands.hpp"
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <utility>
+
+#include "scheduler/aposs/output_bytes.hpp"
 
 namespace lockstep {
 namespace {
@@ -373,15 +374,13 @@ Reply DeviceCommands::link(const std::int32_t* arguments) noexcept {
 }
 
 Reply DeviceCommands::output_byte(const std::int32_t* arguments) noexcept {
-  constexpr std::array<std::int32_t, 8> kOption{1, 2, 3, 4, 5, 6, 7, 8};
-  constexpr std::array<std::int32_t, 2> kDrive{27, 29};
-  if (arguments[0] != 0 && arguments[0] != 1) return Reply::failed(mco305::kArrayBound);
+  const std::span<const std::int32_t> outputs = aposs::outputs_of_byte(arguments[0]);
   std::int32_t bits = arguments[1];
-  for (const std::int32_t output : arguments[0] == 0 ? std::span<const std::int32_t>(kOption) : kDrive) {
+  for (const std::int32_t output : outputs) {
     device_.io().switch_output(output, (bits & 1) != 0);
     bits >>= 1;
   }
-  return Reply::done();
+  return outputs.empty() ? Reply::failed(mco305::kArrayBound) : Reply::done();
 }
 
 Reply DeviceCommands::proceed(Command command, const std::int32_t* arguments, std::int64_t elapsed) noexcept {

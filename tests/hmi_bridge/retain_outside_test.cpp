@@ -29,6 +29,12 @@ bool wait_until(Condition condition) {
   return true;
 }
 
+/// As a run has it, but for how often it looks at its file.
+RetainWriter watchful(const std::string& path, std::int32_t& count) {
+  static_assert(RetainWriter::kWatch == 1s, "as RETAIN.md says");
+  return {RetainFile(path, "p"), {{.name = "count", .signal = {&count, Type::DINT, -1}}}, 1h, nullptr, 20ms};
+}
+
 std::vector<KeptRow> row(int number) {
   return {{"count", "DINT", std::to_string(number), ""}};
 }
@@ -176,7 +182,7 @@ TEST_P(RetainOutside, SavingIsDoneOnlyWhenTheValuesAreUnderTheNameOfTheFile) {
 
 TEST_P(RetainOutside, WhereNothingIsToBeWrittenItIsSeenAllTheSame) {
   std::int32_t count = 7;
-  RetainWriter writer(RetainFile(path, "p"), {{.name = "count", .signal = {&count, Type::DINT, -1}}}, 1h);
+  RetainWriter writer = watchful(path, count);
   writer.start();
   ASSERT_TRUE(wait_until([&] { return writer.commits() == 1; }));
   deed.perform(path);
@@ -258,7 +264,7 @@ TEST(RetainOutsideFile, WithoutItsDirectoryFailsUntilThereIsOneAgain) {
   fs::create_directory(folder);
   const std::string path = folder + "/values";
   std::int32_t count = 7;
-  RetainWriter writer(RetainFile(path, "p"), {{.name = "count", .signal = {&count, Type::DINT, -1}}}, 1h);
+  RetainWriter writer = watchful(path, count);
   writer.start();
   ASSERT_TRUE(wait_until([&] { return writer.commits() == 1; }));
   fs::rename(folder, directory.file("elsewhere"));

@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <map>
@@ -76,9 +78,9 @@ void Browser::thaw() const {
 void Browser::kill() {
   if (child_ <= 0) return;
   ::kill(-child_, SIGKILL);
-  waitpid(child_, nullptr, 0);
-  // Its other processes end a moment later, and write to its profile until then.
-  while (::kill(-child_, 0) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  // Its other processes end a moment later, and write to its profile until then. They come to this one as
+  // their own parents end: whoever takes up orphans of the system may let them lie for seconds.
+  while (waitpid(-child_, nullptr, 0) > 0 || errno == EINTR) continue;
   child_ = -1;
 }
 
@@ -90,6 +92,7 @@ void Browser::start() {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  if (prctl(PR_SET_CHILD_SUBREAPER, 1) != 0) throw std::runtime_error("no orphans can be taken up");
   child_ = fork();
   if (child_ == 0) {
     setpgid(0, 0);

@@ -104,6 +104,40 @@ TEST(StudioDesk, SaysWhyAFileIsNoTrace) {
       << page.browser.text(".traces-panel");
 }
 
+// That a file is no trace comes over another connection than the answer to its sending, and so at times
+// before it.
+TEST(StudioDesk, SaysWhyAFileIsNoTraceThoughItIsToldBeforeTheSendingIsAnswered) {
+  Page page({});
+  ASSERT_TRUE(page.is_greeted());
+  page.open_tab("Traces");
+  const std::string state = "document.querySelector('.traces-panel [role=status]').textContent";
+  page.browser.evaluate(
+      "window.ask = fetch; window.fetch = async (path, options) => { const answer = await ask(path, "
+      "options); "
+      "while (path.startsWith('api/traces?name') && !" +
+      state +
+      ".includes('notes.csv:1:1')) await new Promise((done) => setTimeout(done, 5)); return answer; }; true");
+  page.drop("notes.csv", "this is no trace\n1,2\n");
+  ASSERT_TRUE(page.browser.wait_for(
+      "document.querySelector('[data-trace=file-1]').textContent.includes('cannot be read')"))
+      << page.browser.text(".traces-panel");
+  EXPECT_NE(page.browser.evaluate(state).get<std::string>().find("notes.csv:1:1"), std::string::npos)
+      << page.browser.evaluate(state);
+}
+
+TEST(StudioDesk, SaysWhyAFileIsNoTraceThoughTheMessageIsLost) {
+  Page page({});
+  ASSERT_TRUE(page.is_greeted());
+  page.open_tab("Traces");
+  page.browser.evaluate(
+      "window.parse = JSON.parse; JSON.parse = (text) => { const message = parse(text); return message.type "
+      "=== 'trace' ? { type: 'lost' } : message; }; true");
+  page.drop("notes.csv", "this is no trace\n1,2\n");
+  EXPECT_TRUE(page.browser.wait_for(
+      "document.querySelector('.traces-panel [role=status]').textContent.includes('notes.csv:1:1')"))
+      << page.browser.text(".traces-panel");
+}
+
 TEST(StudioDesk, TellsTheSpectrumOfASignalWithItsPeaks) {
   Page page({});
   ASSERT_TRUE(page.is_greeted());

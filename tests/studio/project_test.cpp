@@ -35,7 +35,11 @@ void open(Page& page, const std::string& tab) {
 }
 
 TEST(StudioProject, ShowsWhichObjectFollowsWhichAndWhatItsCouplingDoes) {
-  Page page(kShaft);
+  Json project = Json::parse(std::ifstream(kShaft));
+  project.erase("stimuli");
+  project["studio"] = {{"write", true}};
+  const test::Directory directory;
+  Page page(directory.write("project.json", project.dump()));
   ASSERT_TRUE(page.is_live());
   open(page, "Overview");
   const auto row = [](const std::string& coupling) {
@@ -65,9 +69,15 @@ TEST(StudioProject, ShowsWhichObjectFollowsWhichAndWhatItsCouplingDoes) {
   };
   EXPECT_LT(top("Shaft"), top("Chill"));
   EXPECT_LT(top("Chill"), top("Slitter"));
-  EXPECT_TRUE(page.browser.wait_for(row("Shaft Chill") +
-                                    ".querySelector('[data-state]').dataset.state === 'possible'"))
-      << "after 12 s the project itself opens clutch 3: " << text("Shaft Chill", 5);
+  const std::string state = row("Shaft Chill") + ".querySelector('[data-state]').dataset.state";
+  ASSERT_TRUE(page.browser.wait_for(state + " === 'synchronous'")) << text("Shaft Chill", 5);
+  EXPECT_EQ(
+      page.browser.evaluate(
+          "fetch('api/write', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: "
+          "JSON.stringify({ writes: [{ path: 'clutch_3', value: false }] }) }).then((one) => one.status)"),
+      200);
+  EXPECT_TRUE(page.browser.wait_for(state + " === 'possible'"))
+      << "clutch 3 is open: " << text("Shaft Chill", 5);
   page.expect_quiet();
 }
 

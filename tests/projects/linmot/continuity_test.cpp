@@ -2,12 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/projects/linmot/bus.hpp"
 #include "tests/projects/linmot/linmot_run.hpp"
 
 namespace lockstep::linmot_continuity_test {
 namespace {
-
-using linmot::State;
 
 constexpr double kSpeed = 0.78125;                           // [m/s] the basic setting
 constexpr double kAcceleration = 30.517578125;               // [m/s²]
@@ -87,19 +86,6 @@ Json bus(const Json& modules) {
   controller_of(project)["profibus"] = {{"modules", modules}, {"preset", {{"Max. Speed", 4096}}}};
   return project;
 }
-
-struct Bus : LinMotRun {
-  using LinMotRun::LinMotRun;
-  void out(int word, int value) { write("C.ProfibusOut[" + std::to_string(word) + "]", value & 0xFFFF); }
-  void into_run() {
-    step();
-    out(1, 0x0008);
-    run(0.01);
-    out(1, 0x0002);
-    run(0.01);
-    ASSERT_EQ(state(), State::run);
-  }
-};
 
 TEST(LinMotContinuity, OfAnIncrementalCurveWhoseTelegramHasAnotherSpeed) {
   Bus run(bus({"Control/Status", "Set Position", "Run Curve", "Max. Speed"}));

@@ -3,6 +3,7 @@
 
 #include "tech_objects/linmot_catalogue/increments.hpp"
 #include "tech_objects/linmot_catalogue/modules.hpp"
+#include "tests/projects/linmot/bus.hpp"
 #include "tests/projects/linmot/linmot_run.hpp"
 
 namespace lockstep::linmot_word_test {
@@ -21,20 +22,6 @@ Json bus(const Json& modules, int motors = 1) {
   }
   return project;
 }
-
-struct Bus : LinMotRun {
-  using LinMotRun::LinMotRun;
-  void out(int word, int value) { write("C.ProfibusOut[" + std::to_string(word) + "]", value & 0xFFFF); }
-  int in(int word) { return static_cast<int>(read("C.ProfibusIn[" + std::to_string(word) + "]")); }
-  void into_run() {
-    step();
-    out(1, 0x0008);
-    run(0.01);
-    out(1, 0x0002);
-    run(0.01);
-    ASSERT_EQ(state(), State::run);
-  }
-};
 
 const std::string kSettings = "SetValueGeneration.SetValueConfiguration.";
 const std::string kFilter = "SetValueGeneration.FilterParameter.";

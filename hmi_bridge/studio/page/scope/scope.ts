@@ -108,7 +108,10 @@ export class Scope {
   // What comes from the server.
 
   async greeted(project: Project, isNewRun: boolean): Promise<void> {
-    if (isNewRun) this.live.record = new Recording([]);
+    if (isNewRun) {
+      this.live.record = new Recording([]);
+      this.traces.restart();
+    }
     this.project = project;
     this.layouts.setDesk((project.files?.length ?? 0) > 0);
     this.subscription = 0;

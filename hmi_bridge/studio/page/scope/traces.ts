@@ -33,6 +33,7 @@ export class Traces {
     this.state, this.differences);
   private infos: TraceInfo[] = [];
   private overlays = new Set<string>();
+  private ended = new Set<string>();  // files of which it has been told that they have been read, or cannot be
   private timer = 0;
   private turn = 0;
 
@@ -61,9 +62,14 @@ export class Traces {
     this.draw();
   }
 
+  /// Another run, in which files are numbered anew.
+  restart(): void { this.ended.clear(); }
+
   /// A file is being read, or has been.
   told(message: any): void {
     const name = message.name ?? message.id;
+    if (this.ended.has(message.id)) return;
+    if (message.state !== "loading") this.ended.add(message.id);
     if (message.state === "loading") this.state.textContent = `${name}: ${Math.round(100 * (message.progress ?? 0))} %`;
     if (message.state === "failed") this.state.textContent = `${name}: ${message.error?.message ?? "cannot be read"}`;
     if (message.state === "ready") {
@@ -82,7 +88,8 @@ export class Traces {
           continue;
         }
         const { id } = await this.notes.link.send(`api/traces?name=${encodeURIComponent(file.name)}`, file, /\.csv$/.test(file.name) ? "text/csv" : "application/octet-stream");
-        this.state.textContent = `${file.name} is read`;
+        // What has become of it may be told before the answer to its sending has come.
+        if (!this.ended.has(id)) this.state.textContent = `${file.name} is read`;
         await this.refresh();
         this.poll(id);
       } catch (error) {
@@ -106,7 +113,9 @@ export class Traces {
     clearTimeout(this.timer);
     this.timer = window.setTimeout(async () => {
       await this.refresh().catch(() => undefined);
-      if (this.info(id)?.state === "loading") this.poll(id);
+      const info = this.info(id);
+      if (info?.state === "loading") this.poll(id);
+      else if (info) this.told(info);
     }, kRefresh);
   }
 
