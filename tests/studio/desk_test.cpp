@@ -10,6 +10,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hmi_bridge/lcm/log.hpp"
@@ -102,6 +103,18 @@ TEST(StudioDesk, SaysWhyAFileIsNoTrace) {
   EXPECT_TRUE(
       page.browser.wait_for("document.querySelector('.traces-panel').textContent.includes('.csv or .lcm')"))
       << page.browser.text(".traces-panel");
+}
+
+TEST(StudioDesk, SaysOfEachFileThatIsNoTraceWhy) {
+  Page page({});
+  ASSERT_TRUE(page.is_greeted());
+  page.open_tab("Traces");
+  page.drop("notes.csv", "this is no trace\n1,2\n");
+  page.drop("numbers.csv", "t,a\n0,1\n0.001,one\n");
+  for (const auto& [id, place] : {std::pair("file-1", "notes.csv:1:1"), std::pair("file-2", "numbers.csv:3:7")})
+    EXPECT_TRUE(page.browser.wait_for("document.querySelector('[data-trace=" + std::string(id) +
+                                      "]')?.textContent.includes('" + place + "')"))
+        << page.browser.text(".traces-panel");
 }
 
 // That a file is no trace comes over another connection than the answer to its sending, and so at times

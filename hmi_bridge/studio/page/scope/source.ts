@@ -11,6 +11,7 @@ const kRowsOfPoint = 4;
 export interface TraceInfo {
   id: string; name?: string; kind?: string; state?: string; progress?: number;
   signals: Signal[]; from: number; to: number; t?: number; reason?: string; rows?: number;
+  error?: { message: string };  // of one that cannot be read
 }
 
 /// As /api/traces tells of a trace.

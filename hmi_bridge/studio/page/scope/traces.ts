@@ -131,7 +131,7 @@ export class Traces {
   private item(info: TraceInfo, isShown: boolean): HTMLElement {
     const isShot = info.id.startsWith("shot");
     const name = info.id === "live" ? "the run" : isShot ? `${seconds(info.t ?? 0, 1e6)} s ${info.reason ?? ""}` : info.name ?? info.id;
-    const state = info.state === "loading" ? ` ${Math.round(100 * (info.progress ?? 0))} %` : info.state === "failed" ? " cannot be read" : "";
+    const state = info.state === "loading" ? ` ${Math.round(100 * (info.progress ?? 0))} %` : info.state === "failed" ? ` cannot be read: ${info.error?.message ?? "for no reason that is known"}` : "";
     const over = html("input", { type: "checkbox", "aria-label": `Lay ${name} over what is shown`, title: "lay over", checked: this.overlays.has(info.id), disabled: isShown, change: () => {
       if (over.checked) this.overlays.add(info.id); else this.overlays.delete(info.id);
       this.notes.overlay(info.id, over.checked);
