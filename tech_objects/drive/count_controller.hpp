@@ -6,20 +6,22 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "tech_objects/arithmetic/double_double.hpp"
+
 namespace lockstep {
 
 /// In qc and ms; what is not printed is a decision (README of `mco305`).
 struct CountControllerSettings {
+  double bandwidth = 1000.0;           ///< BANDWIDTH [1/1000 of full scale], of the three parts together
+  std::int64_t idle_below = 0;         ///< REGWMIN [qc]: a smaller error switches the controller off …
+  std::int64_t active_above = 0;       ///< REGWMAX [qc]: … until it is larger than this; 0: never
+  std::int32_t integral_time = 0;      ///< KILIMTIME [ms]: > 0 in motion only, < 0 at standstill only; fades
   double proportional = 0.0;           ///< KPROP, per qc
   double derivative = 0.0;             ///< KDER, per qc/ms of the actual value
   double integral = 0.0;               ///< KINT, per summed qc
   double integral_limit = 0.0;         ///< KILIM, of the sum [qc]; 0: no integral part
-  double bandwidth = 1000.0;           ///< BANDWIDTH [1/1000 of full scale], of the three parts together
   double velocity_precontrol = 0.0;    ///< FFVEL, per qc/ms
   double acceleration_precontrol = 0;  ///< FFACC, per qc/ms²
-  std::int64_t idle_below = 0;         ///< REGWMIN [qc]: a smaller error switches the controller off …
-  std::int64_t active_above = 0;       ///< REGWMAX [qc]: … until it is larger than this; 0: never
-  std::int32_t integral_time = 0;      ///< KILIMTIME [ms]: > 0 in motion only, < 0 at standstill only; fades
   double scale = 1.0;
 };
 
@@ -33,20 +35,26 @@ class CountController {
     settings_ = settings;
     band_ = kFullScale * settings.bandwidth / 1000.0;
     plain_ = settings.active_above <= 0 && settings.integral_time == 0;
+    still_ = false;
   }
   void reset() noexcept {
     sum_ = 0.0;
     idle_ = false;
     begun_ = false;
+    still_ = false;
     fade_ = 0.0;
   }
   /// @param velocity, acceleration of the setpoint [qc/ms], [qc/ms²]  @param period [ms] ≥ 1
   /// @return the reference, -kFullScale to kFullScale
   double step(double setpoint, double actual, double velocity, double acceleration, double period) noexcept {
+    const auto at_rest = [=]() noexcept { return same_bits({velocity, acceleration}, {0.0, 0.0}); };
+    if (still_ && at_rest() && same_bits({setpoint, actual}, {last_setpoint_, last_})) return reference_;
     const double error = setpoint - actual;
     const double moved = begun_ ? actual - last_ : 0.0;
+    last_setpoint_ = setpoint;
     last_ = actual;
     begun_ = true;
+    const double sum_before = sum_;
     double limit = settings_.integral_limit;
     if (plain_) {
       idle_ = false;
@@ -59,7 +67,9 @@ class CountController {
                                           settings_.derivative * moved);
     const double precontrol = settings_.scale * (settings_.velocity_precontrol * velocity +
                                                  settings_.acceleration_precontrol * acceleration);
-    return std::clamp(std::clamp(pid, -band_, band_) + precontrol, -kFullScale, kFullScale);
+    reference_ = std::clamp(std::clamp(pid, -band_, band_) + precontrol, -kFullScale, kFullScale);
+    still_ = moved == 0.0 && at_rest() && plain_ && same_bits({sum_, 0.0}, {sum_before, 0.0});
+    return reference_;
   }
   /// POSFLOAT: the error is within the control window.
   bool idle() const noexcept { return idle_; }
@@ -84,11 +94,14 @@ class CountController {
     return fade_;
   }
 
-  bool idle_ = false, begun_ = false;
-  bool plain_ = true;  // neither the control window nor KILIMTIME counts
-  double sum_ = 0.0, last_ = 0.0, fade_ = 0.0;
-  double band_ = kFullScale;
+  // For the cache: seldom of account, then what a step needs, and at the end what one at rest does.
+  double fade_ = 0.0;
   CountControllerSettings settings_;
+  double band_ = kFullScale, sum_ = 0.0;
+  double reference_ = 0.0, last_setpoint_ = 0.0, last_ = 0.0;
+  bool idle_ = false, begun_ = false;
+  bool plain_ = true;   // neither the control window nor KILIMTIME counts
+  bool still_ = false;  // with the same again, at rest, the next step gives the same and changes nothing
 };
 
 }  // namespace lockstep

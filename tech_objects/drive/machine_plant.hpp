@@ -90,6 +90,7 @@ class MachinePlant {
   double stop_torque(const Begin& begin, double velocity) const noexcept;
 
   bool undisturbed_ = true;  // neither friction nor load, nor a stop
+  bool limited_ = false;
   double torque_ = 0.0;      // of the motor
   double known_ = 0.0;       // disturbance that the drive makes up for
   double per_torque_ = 0.0;  // velocity that a torque makes in a cycle [u/s per Nm]
@@ -100,7 +101,6 @@ class MachinePlant {
   double cycle_ = 0.001;
   double damping_ = 0.0;   // of the stop [Nm s/u]
   double learning_ = 0.0;  // part of a disturbance that is made up for within a cycle
-  bool limited_ = false;
 };
 
 }  // namespace lockstep

@@ -32,6 +32,7 @@ DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double 
   quick_stop_ = std::max(0.0, settings.quick_stop);
   plant_.configure(settings.plant, motor_angle, settings.signals.start_position, settings.time_constant,
                    servo_cycle);
+  has_plant_ = plant_.exists();
   command_torque({});
   const Cycles dead = cycles_of(settings.dead_time, servo_cycle, kDelay - 2);
   const double time_constant = std::max(0.0, settings.time_constant);
@@ -50,12 +51,13 @@ DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double 
   return {.known_delay = transport_delay + time_constant,
           .transport_delay = transport_delay,
           .dead_time = transport_delay - 0.5 * servo_cycle,
-          .tells_torque = plant_.exists()};
+          .tells_torque = has_plant_};
 }
 
 void SimulatedDrive::choose_path() noexcept {
+  operates_ = states().operation();
   const bool delays = whole_cycles_ > 0 || before_.duration > 0.0;
-  at_once_ = !delays && !unit_.has_faults() && states().operation() && loop_cycles_ == 0;
+  at_once_ = !delays && !unit_.has_faults() && operates_ && loop_cycles_ == 0;
 }
 
 SimulatedDrive::Piece SimulatedDrive::piece(double duration, double time_constant) noexcept {
@@ -87,22 +89,19 @@ inline DoubleDouble SimulatedDrive::arriving() const noexcept {
 }
 
 /// First what most drives are in most of their cycles: on, without dead time.
-void SimulatedDrive::write(double velocity) noexcept {
-  if (!at_once_) return write_with_all(velocity);
-  last_setpoint_ = velocity;
+void SimulatedDrive::write_at_once(double velocity) noexcept {
   if (std::abs(velocity_) < kNoMotion) return write_at_standstill(velocity);
   const DoubleDouble position_before = position_;
   const double velocity_before = velocity_;
   run(after_, velocity);
-  if (plant_.exists() && !plant_.follow(velocity_before, velocity_, permitted_, torque_.additive))
+  if (has_plant_ && !plant_.follow(velocity_before, velocity_, permitted_, additive_torque_))
     move_plant(position_before, velocity_before);
 }
 
 [[gnu::noinline]] void SimulatedDrive::write_at_standstill(double velocity) noexcept {
-  if (rests_ && same_bits(rested_, {velocity, velocity})) return;
   const Motion before{position_, velocity_, plant_.memory()};
   run(after_, velocity);
-  if (plant_.exists()) move_plant(before.position, before.velocity);
+  if (has_plant_) move_plant(before.position, before.velocity);
   look_for_rest(before, {velocity, velocity});
 }
 
@@ -122,7 +121,7 @@ void SimulatedDrive::write(double velocity) noexcept {
     if (std::abs(velocity_) < kNoMotion) look_for_rest(before, arriving());
   }
   ++cycle_;
-  if (plant_.exists() || unit_.blocked()) {
+  if (has_plant_ || unit_.blocked()) {
     move_plant(before.position, before.velocity);
     rests_ = false;
   }
@@ -177,7 +176,7 @@ void SimulatedDrive::move_plant(const DoubleDouble& position_before, double velo
   }
   const MachinePlant::Motion wanted{(position_ - position_before).rounded(), velocity_};
   const MachinePlant::Motion made = plant_.step({position_before.rounded(), velocity_before}, wanted,
-                                                states().pulses(), permitted_, torque_.additive);
+                                                states().pulses(), permitted_, additive_torque_);
   if (made.distance != wanted.distance) position_ = position_before + made.distance;
   velocity_ = made.velocity;
 }

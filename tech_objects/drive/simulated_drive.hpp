@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tech_objects/arithmetic/cache_line.hpp"
 #include "tech_objects/arithmetic/double_double.hpp"
 #include "tech_objects/drive/drive.hpp"
 #include "tech_objects/drive/encoder_source.hpp"
@@ -18,7 +19,7 @@ namespace lockstep {
 /// is held from cycle to cycle; with a plant the torque that this takes, and what happens when it is not
 /// there. Switched off (without plant) it takes 0 as its setpoint and so coasts to rest. Deterministic: the
 /// only transcendental numbers are made in `configure`, by additions and multiplications.
-class SimulatedDrive final : public Drive {
+class alignas(kCacheLine) SimulatedDrive final : public Drive {
  public:
   static constexpr std::size_t kDelay = 256;  ///< servo cycles kept
 
@@ -31,18 +32,28 @@ class SimulatedDrive final : public Drive {
     return unit_.tell(plant_.torque(), [this](DriveActual& now) noexcept { read_encoder(now); });
   }
   /// Whether nothing goes wrong with it and it tells no increments: then `read` has nothing to tell but what
-  /// the members behind this one do, `read_position` in its place.
+  /// the members behind this one do.
   bool exact() const noexcept { return !unit_.has_faults() && !(resolution_ > 0.0); }
-  const DoubleDouble& read_position() noexcept { return reported_ = position_; }
-  double velocity() const noexcept { return velocity_; }      ///< [u/s]
-  double torque() const noexcept { return plant_.torque(); }  ///< as `DriveActual::torque`
+  /// [u] From the last reading to this one.
+  double read_distance() noexcept {
+    const double distance = rounded_difference(position_, reported_);
+    reported_ = position_;
+    return distance;
+  }
+  double velocity() const noexcept { return velocity_; }                         ///< [u/s]
+  double torque() const noexcept { return has_plant_ ? plant_.torque() : 0.0; }  ///< `DriveActual::torque`
+  bool operates() const noexcept { return operates_; }                           ///< `DriveActual::enabled`
   /// Whether the last `write` has changed nothing: all of that is as it was.
   bool rests() const noexcept { return rests_; }
-  void write(double velocity) noexcept override;
+  void write(double velocity) noexcept override {
+    if (!at_once_) return write_with_all(velocity);
+    last_setpoint_ = velocity;
+    if (!rests_ || !same_bits(rested_, {velocity, velocity})) write_at_once(velocity);
+  }
   void write_position(const PositionCommand& command) noexcept override;
   void control(std::uint16_t stw1, std::uint16_t stw2) noexcept override;
   void command_torque(const TorqueCommand& command) noexcept override {
-    torque_ = command;
+    additive_torque_ = command.additive;
     permitted_ = plant_.permitted(command.band);
     rests_ = false;
   }
@@ -86,6 +97,7 @@ class SimulatedDrive final : public Drive {
     MachinePlant::Memory plant;
   };
   void choose_path() noexcept;
+  void write_at_once(double velocity) noexcept;
   void write_with_all(double velocity) noexcept;
   void write_at_standstill(double velocity) noexcept;
   DoubleDouble arriving() const noexcept;
@@ -103,31 +115,39 @@ class SimulatedDrive final : public Drive {
   double quick_stop_setpoint() noexcept;
   void move_plant(const DoubleDouble& position_before, double velocity_before) noexcept;
 
-  // What every cycle touches, in lines of the cache.
-  bool at_once_ = false;  // a setpoint counts in the cycle in which it is written, and nothing else does
-  std::size_t ring_ = 1;  // of written_, as many as are kept; a power of two
-  std::size_t cycle_ = 0;
-  std::size_t whole_cycles_ = 0;  // of dead time
-  DoubleDouble position_;
-  double velocity_ = 0.0;
+  // In lines of the cache: of many drives it is the lines which a cycle touches that take its time. First
+  // what one at rest needs.
+  bool at_once_ = false;   // a setpoint counts in the cycle in which it is written, and nothing else does
+  bool operates_ = false;  // `states().operation()`
+  bool has_plant_ = false;
   // What setpoints (older and newer one) have not moved by a bit they do not move in the next cycle either.
   // At rest velocities are below 2^-1022, and to compute with those takes a processor tens of times as long.
   bool rests_ = false;
+  double velocity_ = 0.0;
+  double last_setpoint_ = 0.0;  // heard last [u/s]
   DoubleDouble rested_;
+  DoubleDouble position_;
 
-  Piece before_;  // of a cycle: with the setpoint one older
-  Piece after_;
-  double last_setpoint_ = 0.0;   // heard last [u/s]
-  std::size_t loop_cycles_ = 0;  // in which a target of the position loop may still be under way
-
-  double servo_cycle_ = 0.001;
-  double resolution_ = 0.0;
+  // What one that moves needs besides.
+  Piece after_;  // of a cycle: with the setpoint that arrives in it
   DoubleDouble reported_;
+
+  // What one with a plant needs.
+  double additive_torque_ = 0.0;
+  TorqueBand permitted_;  // of what has been commanded, that the plant permits
   MachinePlant plant_;
-  TorqueBand permitted_;  // of torque_, that the plant permits
-  TorqueCommand torque_;
+
+  // What its states are read from.
   SimulatedControlUnit unit_;
 
+  // What one with a dead time needs, or increments.
+  double servo_cycle_ = 0.001;
+  double resolution_ = 0.0;
+  std::size_t ring_ = 1;  // of written_, as many as are kept; a power of two
+  std::size_t cycle_ = 0;
+  std::size_t whole_cycles_ = 0;          // of dead time
+  std::size_t loop_cycles_ = 0;           // in which a target of the position loop may still be under way
+  Piece before_;                          // of a cycle: with the setpoint one older
   std::array<double, kDelay> written_{};  // velocity setpoints, by cycle
 
   // Seldom of account.

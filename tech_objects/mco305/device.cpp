@@ -57,6 +57,7 @@ void Device::refresh() noexcept {
   constexpr std::int32_t kUsualInput = 6;
   const MarkerType marker = marker_type_of(p[kMarkerTypeSlave], settings_.later_edition && virtual_);
   marker_type_ = marker.type;
+  meets_markers_ = marker_type_ >= 2;
   marker_input_ = marker.input != 0 ? marker.input : kUsualInput;
   const bool pulses = virtual_ && settings_.later_edition && marker.type == 0 && p[kEncoderFreq] > 0;
   virtual_pulse_ = pulses ? p.real(kEncoderFreq) : 0.0;
@@ -136,7 +137,7 @@ void Device::servo(bool step) noexcept {
     look_at_arrival();
     if (watches_ || now_ == next_monitoring_) monitor();
     if (has_master_) sync_.judge(actual_);
-    positions_[static_cast<std::size_t>(now_) % kVelocityRing] = actual_;
+    positions_.keep(now_, actual_);
     if (shows_) write_outputs();
     brake_ = false;
   }
@@ -146,37 +147,31 @@ void Device::servo(bool step) noexcept {
 /// A drive that does not move has nothing new to tell but its state.
 inline void Device::read_drive() noexcept {
   if (!reads_position_alone_) return read_whole_drive();
-  told_.enabled = drive_->states().operation();
+  drive_enabled_ = drive_->operates();
   if (drive_->rests()) return;
   told_.velocity = drive_->velocity();
   told_.torque = drive_->torque();
+  const double moved = drive_->read_distance();
+  if (moved == 0.0) return;
   const double before = machine_;
-  if (!take_position(drive_->read_position())) return;
+  machine_ += moved;
   actual_ = counts_of(machine_ - machine_start_) + swap_offset_;
   latch(before, machine_);
 }
 
-/// @return whether it is another one
-inline bool Device::take_position(const DoubleDouble& position) noexcept {
-  const double moved = rounded_difference(position, last_drive_position_);
-  last_drive_position_ = position;
-  machine_ += moved;
-  return moved != 0.0;
-}
-
 [[gnu::noinline]] void Device::read_whole_drive() noexcept {
   const DriveActual now = drive_->read();
-  told_.enabled = now.enabled;
+  drive_enabled_ = now.enabled;
   told_.velocity = now.velocity;
   told_.torque = now.torque;
-  told_.fault = now.fault;
-  told_.silent = now.silent;
-  told_.encoder_failed = now.encoder_failed;
+  trouble_ = {now.silent, now.encoder_failed, now.fault};
   if (now.silent || now.encoder_failed) return;
   const double before = machine_;
-  const bool moves = take_position(now.position);
+  const double moved = rounded_difference(now.position, last_drive_position_);
+  last_drive_position_ = now.position;
+  machine_ += moved;
   if (!absolute_.present()) actual_ = counts_of(machine_ - machine_start_) + swap_offset_;
-  if (moves) latch(before, machine_);
+  if (moved != 0.0) latch(before, machine_);
   if (!settings_.drive.signals.digital_inputs.empty()) show_switches();
 }
 
@@ -204,7 +199,7 @@ std::int64_t Device::encoder_count(double place) const noexcept {
 
 /// What most steps are: between two markers, or without any.
 inline void Device::latch(double from, double to) noexcept {
-  if (marker_type_ >= 2 ? !track_.stays_free(to - from) : meets_pulses_) look_for_latches(from, to);
+  if (meets_markers_ ? !track_.stays_free(to - from) : meets_pulses_) look_for_latches(from, to);
 }
 
 /// A zero pulse is met exactly, wherever in the tick it lies.
@@ -433,9 +428,10 @@ void Device::look_at_position_error() noexcept {
 }
 
 void Device::look_at_drive() noexcept {
-  if (parameters_[kEncoderMonitoring] != 0 && told_.encoder_failed && !pending_.has(kEncoderError))
+  if (parameters_[kEncoderMonitoring] != 0 && trouble_.encoder_failed && !pending_.has(kEncoderError))
     raise(kEncoderError);
-  if (parameters_[kStatusMonitoring] != 0 && (told_.fault || told_.silent) && !pending_.has(kDriveNotReady))
+  if (parameters_[kStatusMonitoring] != 0 && (trouble_.fault || trouble_.silent) &&
+      !pending_.has(kDriveNotReady))
     raise(kDriveNotReady);
 }
 
@@ -498,7 +494,7 @@ void Device::react(int error) noexcept {
 void Device::clear_error() noexcept {
   pending_.clear_first();
   over_since_ = -1;
-  if (!virtual_ && told_.fault) {
+  if (!virtual_ && trouble_.fault) {
     // A fault has switched the drive off, whatever the controller does; it is taken over where it is.
     constexpr std::uint16_t kAcknowledge = 1U << 7;
     motor_off();

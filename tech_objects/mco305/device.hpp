@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "tech_objects/arithmetic/cache_line.hpp"
 #include "tech_objects/drive/count_controller.hpp"
 #include "tech_objects/drive/drive.hpp"
 #include "tech_objects/drive/simulated_drive.hpp"
@@ -16,6 +17,7 @@
 #include "tech_objects/mco305/inputs_outputs.hpp"
 #include "tech_objects/mco305/marker_track.hpp"
 #include "tech_objects/mco305/master_input.hpp"
+#include "tech_objects/mco305/recent_positions.hpp"
 #include "tech_objects/mco305/synchronization.hpp"
 #include "tech_objects/mco305/units.hpp"
 #include "tech_objects/mco305_catalogue/errors.hpp"
@@ -54,7 +56,7 @@ struct DeviceSettings {
 enum class MotionMode : std::uint8_t { kHold, kPosition, kSpeed, kStop, kHome, kFollow };
 
 /// One device. Thread: that of the cycle, but for `configure`. Errors are published numbers; 0: none.
-class Device {
+class alignas(kCacheLine) Device {
  public:
   /// Call once, with the parameters set. @param servo_period [s]
   void configure(const DeviceSettings& settings, double servo_period);
@@ -162,7 +164,7 @@ class Device {
   double set_position() const noexcept { return profile_.state().position; }      ///< [qc] on the counter
   double set_velocity_now() const noexcept { return profile_.state().velocity; }  ///< [qc/ms]
   bool controlled() const noexcept { return on_; }
-  bool encoder_failed() const noexcept { return told_.encoder_failed; }  ///< its own
+  bool encoder_failed() const noexcept { return trouble_.encoder_failed; }  ///< its own
   /// Whether OUTAN turns the drive.
   bool open_loop() const noexcept { return open_loop_ != 0; }
   bool moving() const noexcept { return moving_; }
@@ -206,12 +208,9 @@ class Device {
     int error = 0;
   };
 
-  static constexpr std::size_t kVelocityRing = 256;
-
   void refresh() noexcept;
   void read_drive() noexcept;
   void read_whole_drive() noexcept;
-  bool take_position(const DoubleDouble& position) noexcept;
   void show_switches() noexcept;
   void read_absolute() noexcept;
   void latch(double from, double to) noexcept;
@@ -264,46 +263,73 @@ class Device {
   void end_home(int error) noexcept;
 
   std::int64_t zero() const noexcept { return origin_ + temporary_; }
-  std::int64_t set_counts() const noexcept;
+  std::int64_t set_counts() const noexcept { return counts_of(profile_.state().position + 0.5); }
   std::int32_t shown_units(std::int64_t counter) const noexcept;
   std::int64_t moved_in_window() const noexcept;
 
-  // What every step needs stands first.
-  bool on_ = false, moving_ = false, arrived_ = true, was_reset_ = false, virtual_ = true;
+  // In lines of the cache: of many devices it is the lines which a step touches that take its time. First
+  // two that every step needs; the third of them holds the end of the controller and what is behind it.
+  RecentPositions positions_;
+  bool on_ = false, virtual_ = true, moving_ = false, arrived_ = true, was_reset_ = false;
+  bool brake_ = false;
   MotionMode mode_ = MotionMode::kHold;
-  MotionMode interrupted_ = MotionMode::kHold;    // by MOTOR STOP, an error or MOTOR OFF
-  std::int64_t now_ = -1;                         // [ms]
-  std::int64_t actual_ = 0;                       // [qc] counter
-  double machine_ = 0.0;                          // [qc]
-  double reference_ = 0.0;                        // of the controller, ±1,048,575
-  double velocity_maximum_ = 1.0;                 // [qc/ms]
-  double last_velocity_ = 0.0;                    // of the set position [qc/ms]
-  std::int64_t target_ = 0;                       // [qc] counter
-  std::int64_t profile_time_ = 1, sampling_ = 1;  // PROFTIME, TIMER [ms]
-  std::int64_t position_error_ = 20'000;          // POSERR [qc]
-  bool checks_limits_ = false;
-  bool watches_ = false, watches_inputs_ = false;  // inputs, limits or faults, in every step; inputs
-  std::int64_t next_monitoring_ = 0;               // of following error and drive [ms]
-  bool has_master_ = false;                        // something turns here
-  bool reads_position_alone_ = false;              // of its drive: there is nothing else that could change
-  bool samples_ = false, shows_ = false, meets_pulses_ = false;  // inputs, outputs
-  // `InputsOutputs::changes` that the device has seen, and its master.
-  std::uint32_t sampled_inputs_ = 0, master_inputs_ = 0;
-  double machine_start_ = 0.0;  // [qc]
-  bool looks_at_faults_ = false;
-  double drive_sign_ = 1.0;                          // of the reference: POSDRCT
-  double full_reference_ = 1.0, speed_limit_ = 0.0;  // of the drive [qc/ms]
+  bool drive_enabled_ = false;            // as the drive has told
+  bool reads_position_alone_ = false;     // of its drive: there is nothing else that could change
+  bool has_master_ = false;               // something turns here
+  bool samples_ = false, shows_ = false;  // inputs, outputs
+  bool meets_markers_ = false, meets_pulses_ = false;  // of its own encoder
+  bool watches_ = false, watches_inputs_ = false;      // inputs, limits or faults, in every step; inputs
+  std::unique_ptr<SimulatedDrive> drive_;
+  std::int64_t now_ = -1;             // [ms]
+  std::int64_t actual_ = 0;           // [qc] counter
+  std::int64_t next_monitoring_ = 0;  // of following error and drive [ms]
+
+  double reference_ = 0.0;  // of the controller, ±1,048,575
   // Of which `drive_velocity_` [u/s] is; not a number: of none.
   double scaled_reference_ = std::numeric_limits<double>::quiet_NaN();
   double drive_velocity_ = 0.0;
-  bool brake_ = false, brake_after_stop_ = false;
-  std::int32_t open_loop_ = 0;  // OUTAN
+  std::int32_t profile_time_ = 1, sampling_ = 1;  // PROFTIME, TIMER [ms]
   FourSlopeProfile profile_;
+
   CountController controller_;
+  double last_velocity_ = 0.0;  // of the set position [qc/ms]
+  // `InputsOutputs::changes` that the device has seen, and its master.
+  std::uint32_t sampled_inputs_ = 0, master_inputs_ = 0;
   InputsOutputs io_;
+
+  // What one that moves needs besides.
+  alignas(kCacheLine) double machine_ = 0.0;  // [qc]
+  double machine_start_ = 0.0;                // [qc]
+  std::int64_t swap_offset_ = 0;              // from what the drive's encoder has counted to the counter [qc]
+  /// What the drive has told last, beside `drive_enabled_` and `trouble_`; its position is in `machine_`.
+  struct {
+    double velocity = 0.0, torque = 0.0;
+  } told_;
+  std::int64_t window_since_ = -1;  // [ms]
+
+  // What one needs whose reference changes, or whose markers are seen.
+  double drive_sign_ = 1.0;                          // of the reference: POSDRCT
+  double full_reference_ = 1.0, speed_limit_ = 0.0;  // of the drive [qc/ms]
+  double unled_ = 0.0;                               // what set positions have stepped [qc]
+  MarkerTrack track_;
+
+  // What one that is led needs.
+  alignas(kCacheLine) Synchronization sync_;
+  MasterInput master_;
+
+  // Seldom of account.
+  MotionMode interrupted_ = MotionMode::kHold;  // by MOTOR STOP, an error or MOTOR OFF
+  bool checks_limits_ = false, looks_at_faults_ = false;
+  bool brake_after_stop_ = false;
+  struct {
+    bool silent = false, encoder_failed = false, fault = false;
+  } trouble_;                             // of the drive, as it has told
+  DoubleDouble last_drive_position_{};    // where it has to be read as a whole
+  std::int32_t open_loop_ = 0;            // OUTAN
+  double velocity_maximum_ = 1.0;         // [qc/ms]
+  std::int64_t target_ = 0;               // [qc] counter
+  std::int64_t position_error_ = 20'000;  // POSERR [qc]
   PendingErrors pending_;
-  Synchronization sync_;
-  double unled_ = 0.0;  // what set positions have stepped [qc]
   struct WiredInput {
     std::size_t number = 0;  // from 1
     const bool* tag = nullptr;
@@ -317,19 +343,8 @@ class Device {
   std::int32_t marker_type_ = 0, marker_input_ = 6;    // SYNCMTYPS
   double virtual_pulse_ = 0.0;                         // [qc] from one to the next; 0: there are none
   double no_pulse_from_ = 0.0, no_pulse_until_ = 0.0;  // between these [qc]
-  MarkerTrack track_;
-  std::unique_ptr<SimulatedDrive> drive_;
-  /// What the drive has told last; its position is in `machine_`.
-  struct {
-    double velocity = 0.0, torque = 0.0;
-    bool silent = false, encoder_failed = false, fault = false, enabled = false;
-  } told_;
-  DoubleDouble last_drive_position_{};
   bool last_marker_input_ = false;
   AbsoluteEncoder absolute_;
-  std::int64_t swap_offset_ = 0;  // from what the drive's encoder has counted to the counter [qc]
-  MasterInput master_;
-
   DeviceSettings settings_;
   ParameterValues parameters_;
   UserUnit unit_;
@@ -347,13 +362,12 @@ class Device {
   std::int64_t latched_ = 0;
   std::uint32_t latches_ = 0;
   std::int64_t over_since_ = -1;  // following error [ms]
-  std::int64_t window_position_ = 0, window_since_ = -1;
+  std::int64_t window_position_ = 0;
   bool at_negative_end_ = false, at_positive_end_ = false, beyond_ = false, break_input_ = false,
        clear_input_ = false;
   std::array<int, 8> raised_{};
   std::size_t raised_count_ = 0;
   std::int64_t velocity_window_ = 20;
-  std::array<std::int64_t, kVelocityRing> positions_{};
 };
 
 }  // namespace lockstep::mco305

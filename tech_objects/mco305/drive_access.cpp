@@ -73,21 +73,21 @@ bool Device::drive_parameter(std::int32_t number, std::int32_t& value) const noe
       return true;
     case kDriveStatus: {
       constexpr std::int32_t kFollows = 1 | 2 | 4 | 1 << 9 | 1 << 11, kTrip = 8;
-      value = (told_.enabled ? kFollows : 0) | (told_.fault ? kTrip : 0);
+      value = (drive_enabled_ ? kFollows : 0) | (trouble_.fault ? kTrip : 0);
       return true;
     }
     case kMainActualValue:
       value = whole(velocity / full * 10'000.0);
       return true;
     case kMotorVoltage:
-      value = whole(told_.enabled ? std::min(frequency * kVoltsPerHertz, kRatedVoltage) * 10.0 : 0.0);
+      value = whole(drive_enabled_ ? std::min(frequency * kVoltsPerHertz, kRatedVoltage) * 10.0 : 0.0);
       return true;
     case kMotorFrequency:
-      value = whole(told_.enabled ? frequency * 10.0 : 0.0);
+      value = whole(drive_enabled_ ? frequency * 10.0 : 0.0);
       return true;
     case kMotorCurrent: {
       const double across = kAmperesPerTorque * told_.torque;
-      value = whole(told_.enabled ? std::sqrt(kMagnetizing * kMagnetizing + across * across) * 100.0 : 0.0);
+      value = whole(drive_enabled_ ? std::sqrt(kMagnetizing * kMagnetizing + across * across) * 100.0 : 0.0);
       return true;
     }
     case kMotorTorque:
@@ -139,7 +139,7 @@ bool Device::swap_encoders(bool swapped) noexcept {
   swap_offset_ += position - actual_;
   actual_ = position;
   origin_ = origin;
-  std::fill(positions_.begin(), positions_.end(), actual_);
+  positions_.fill(actual_);
   if (virtual_) {
     machine_ = static_cast<double>(actual_);
     profile_.stand(machine_);

@@ -10,10 +10,6 @@ FourSlopeState Device::state() const noexcept {
   return profile_.state();
 }
 
-std::int64_t Device::set_counts() const noexcept {
-  return counts_of(profile_.state().position + 0.5);
-}
-
 // [qc/ms]
 double Device::relative_velocity(std::int32_t velocity) const noexcept {
   const double wanted = static_cast<double>(velocity) / parameters_.real(kVelRes) * velocity_maximum_;

@@ -31,13 +31,13 @@ std::int32_t Device::following_error() const noexcept {
 }
 
 void Device::set_velocity_window(std::int32_t milliseconds) noexcept {
-  velocity_window_ = std::clamp<std::int64_t>(milliseconds, 1, kVelocityRing - 1);
+  velocity_window_ = std::clamp<std::int64_t>(milliseconds, 1, RecentPositions::kSteps - 1);
 }
 
 // [qc]
 std::int64_t Device::moved_in_window() const noexcept {
   const std::int64_t window = std::min(velocity_window_, now_);
-  return window <= 0 ? 0 : actual_ - positions_[static_cast<std::size_t>(now_ - window) % kVelocityRing];
+  return window <= 0 ? 0 : actual_ - positions_.at(now_ - window);
 }
 
 // [UU/s]
@@ -138,8 +138,7 @@ bool Device::system_variable(std::int32_t index, std::int32_t& value) const noex
       value = static_cast<std::int32_t>(master_.absolute().turns(parameters_[kMasterEncoder]));
       return true;
     case 4107:
-      value = static_cast<std::int32_t>(
-          now_ < 1 ? 0 : actual_ - positions_[static_cast<std::size_t>(now_ - 1) % kVelocityRing]);
+      value = static_cast<std::int32_t>(now_ < 1 ? 0 : actual_ - positions_.at(now_ - 1));
       return true;
     case 4111:
       value = reference();

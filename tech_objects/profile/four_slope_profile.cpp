@@ -44,7 +44,7 @@ class FourSlopePlan {
       : now_(from), limits_(limits), segments_(segments) {}
 
   const FourSlopeState& now() const noexcept { return now_; }
-  std::size_t count() const noexcept { return count_; }
+  std::uint8_t count() const noexcept { return count_; }
 
   void to_velocity(double wanted) noexcept;
   void keep(double duration, SlopePhase phase) noexcept { add(duration, 0.0, phase); }
@@ -75,7 +75,7 @@ class FourSlopePlan {
   FourSlopeState now_;
   const FourSlopeLimits& limits_;
   Segment* segments_;  // none: only the end is asked for
-  std::size_t count_ = 0;
+  std::uint8_t count_ = 0;
   double heading_ = 1.0;
 };
 
@@ -200,13 +200,19 @@ void FourSlopeProfile::begin(const FourSlopeState& from, const FourSlopeLimits& 
   phase_ = SlopePhase::start;
 }
 
+void FourSlopeProfile::follow(const FourSlopePlan& plan) noexcept {
+  count_ = plan.count();
+  segment_ = segments_[0];
+  straight_ = false;
+}
+
 void FourSlopeProfile::to_velocity(const FourSlopeState& from, double velocity,
                                    const FourSlopeLimits& limits) noexcept {
   begin(from, limits);
   const double lowest = limits.reverses ? -limits.velocity : 0.0;
   FourSlopePlan plan({0.0, from.velocity, from.acceleration}, limits, segments_.data());
   plan.to_velocity(std::clamp(velocity, lowest, limits.velocity));
-  count_ = plan.count();
+  follow(plan);
   end_ = plan.now();
   end_.position += origin_;
 }
@@ -263,7 +269,7 @@ void FourSlopeProfile::to_position(const FourSlopeState& from, double target,
   if (between.rest != 0.0 && between.velocity != 0.0)
     plan.keep(between.rest / between.velocity, SlopePhase::constant);
   plan.to_velocity(0.0);
-  count_ = plan.count();
+  follow(plan);
   end_ = {between.met ? target : from.position + plan.now().position, 0.0, 0.0};
 }
 
@@ -277,11 +283,14 @@ FourSlopeState FourSlopeProfile::at_half_sine(const Segment& segment, double t) 
 }
 
 /// By parts: a state that is copied as a whole waits for its last part.
-inline void FourSlopeProfile::move_along(const Segment& segment, double t) noexcept {
+inline void FourSlopeProfile::move_along() noexcept {
+  const Segment& segment = segment_;
   const FourSlopeState& begin = segment.begin;
+  const double t = time_;
   const double place = origin_ + begin.position;
   if (begin.acceleration == 0.0 && segment.jerk == 0.0 && begin.velocity != 0.0) {
-    // Most steps, without the division.
+    // Without the division; most steps do not even come here.
+    straight_ = true;
     now_.position = place + t * begin.velocity;
     now_.velocity = begin.velocity;
     now_.acceleration = 0.0;
@@ -296,15 +305,14 @@ inline void FourSlopeProfile::move_along(const Segment& segment, double t) noexc
 }
 
 /// Not called at the end.
-const FourSlopeState& FourSlopeProfile::go_on(double time) noexcept {
-  time_ += time;
-  const Segment* segment = &segments_[current_];
-  while (time_ >= segment->duration) {
-    time_ -= segment->duration;
+const FourSlopeState& FourSlopeProfile::go_on() noexcept {
+  while (time_ >= segment_.duration) {
+    straight_ = false;
+    time_ -= segment_.duration;
     if (++current_ == count_) return keep_velocity(time_);
-    ++segment;
+    segment_ = segments_[current_];
   }
-  move_along(*segment, time_);
+  move_along();
   return now_;
 }
 

@@ -10,6 +10,8 @@
 
 namespace lockstep {
 
+class FourSlopePlan;
+
 /// What a motion may do, in both directions.
 struct FourSlopeLimits {
   double velocity = 0.0;      ///< [u/ms] ≥ 0
@@ -66,7 +68,11 @@ class FourSlopeProfile {
   /// Goes on by some time [ms] ≥ 0.
   const FourSlopeState& step(double time) noexcept {
     if (phase_ == SlopePhase::end) return now_;  // it stands
-    return over() ? keep_velocity(time) : go_on(time);
+    if (over()) return keep_velocity(time);
+    time_ += time;
+    if (!straight_ || time_ >= segment_.duration) return go_on();
+    now_.position = origin_ + segment_.begin.position + time_ * segment_.begin.velocity;
+    return now_;
   }
   const FourSlopeState& state() const noexcept { return now_; }
   /// Whether the end is reached: at rest, or at the velocity.
@@ -89,8 +95,10 @@ class FourSlopeProfile {
 
   void begin(const FourSlopeState& from, const FourSlopeLimits& limits) noexcept;
   FourSlopeState at_half_sine(const Segment& segment, double time) const noexcept;
-  void move_along(const Segment& segment, double time) noexcept;
-  const FourSlopeState& go_on(double time) noexcept;
+  /// Of the plan that has been made in `segments_`.
+  void follow(const FourSlopePlan& plan) noexcept;
+  void move_along() noexcept;
+  const FourSlopeState& go_on() noexcept;
   /// At the end. By parts: a state that is copied as a whole waits for its position to be written.
   const FourSlopeState& keep_velocity(double time) noexcept {
     const double position = end_.position + end_.velocity * time;
@@ -101,13 +109,17 @@ class FourSlopeProfile {
     return now_;
   }
 
-  std::array<Segment, kMaximumSegments> segments_{};
-  std::size_t count_ = 0, current_ = 0;
+  // For the cache: what one that stands is asked for, then what a step along a segment needs.
+  SlopePhase phase_ = SlopePhase::end;
+  bool sinusoidal_ = false;
+  bool straight_ = false;  // along the current segment only the position changes any more
+  std::uint8_t count_ = 0, current_ = 0;
+  FourSlopeState now_{};
   double time_ = 0.0;    // in the current segment
   double origin_ = 0.0;  // positions of the segments count from there
-  FourSlopeState now_{}, end_{};
-  bool sinusoidal_ = false;
-  SlopePhase phase_ = SlopePhase::end;
+  Segment segment_{};    // the current one
+  FourSlopeState end_{};
+  std::array<Segment, kMaximumSegments> segments_{};
 };
 
 }  // namespace lockstep

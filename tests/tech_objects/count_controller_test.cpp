@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <random>
+
 namespace lockstep {
 namespace {
 
@@ -78,6 +83,46 @@ TEST(CountController, FadesItsSumInMotionOrAtStandstill) {
   EXPECT_DOUBLE_EQ(step(controller, settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 20.0);
   settings.integral_time = -10;
   EXPECT_DOUBLE_EQ(step(controller, settings, 1000.0, 0.0, 5.0, 0.0, 1.0), 10.0);
+}
+
+// What it does not compute again at rest it would have computed: the same as one that is told its settings
+// anew in each step, and so computes everything.
+TEST(CountController, GivesAtRestWhatItWouldCompute) {
+  constexpr std::array kTimes = {0, 0, 20, -20};
+  constexpr std::array kWindows = {0, 0, 3, 50};
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    std::mt19937 random(seed);
+    const auto chosen = [&random](int count) { return static_cast<int>(random() % count); };
+    CountControllerSettings settings;
+    settings.proportional = 30.0;
+    settings.derivative = 10.0 * chosen(3);
+    settings.integral = 0.5 * chosen(3);
+    settings.integral_limit = 20.0 * chosen(3);
+    settings.velocity_precontrol = 20.0;
+    settings.acceleration_precontrol = 3.0;
+    settings.active_above = kWindows[chosen(4)];
+    settings.idle_below = settings.active_above / 2;
+    settings.integral_time = kTimes[chosen(4)];
+    CountController one, other;
+    one.set(settings);
+    double setpoint = 0.0, actual = 0.0, velocity = 0.0;
+    for (int i = 0; i < 300; ++i) {
+      if (chosen(20) == 0) setpoint = chosen(100) - 50.0;
+      if (chosen(20) == 0) actual = setpoint + chosen(9) - 4.0;
+      if (chosen(20) == 0) velocity = chosen(2) == 0 ? 0.0 : 2.5;
+      if (chosen(60) == 0) velocity = -0.0;
+      if (chosen(100) == 0) {
+        one.reset();
+        other.reset();
+      }
+      const double acceleration = chosen(40) == 0 ? 0.25 : 0.0;
+      const double reference = one.step(setpoint, actual, velocity, acceleration, 1.0);
+      const double computed = step(other, settings, setpoint, actual, velocity, acceleration, 1.0);
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(reference), std::bit_cast<std::uint64_t>(computed))
+          << "seed " << seed << ", step " << i;
+      ASSERT_EQ(one.idle(), other.idle()) << "seed " << seed << ", step " << i;
+    }
+  }
 }
 
 }  // namespace
