@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tech_objects/arithmetic/cache_line.hpp"
 #include "tech_objects/mco305/absolute_encoder.hpp"
 #include "tech_objects/mco305/marker_track.hpp"
 #include "tech_objects/mco305/units.hpp"
@@ -99,8 +100,8 @@ class MasterInput {
   void pass_absolute(double from, double to) noexcept;
 
   // What every step needs stands first, what is there of `own_` and `absolute_` within it.
-  bool wired_ = false, begun_ = false, heard_ = false, simulated_ = false, last_level_ = false,
-       enabled_ = true;
+  alignas(kCacheLine) bool wired_ = false;
+  bool begun_ = false, heard_ = false, simulated_ = false, last_level_ = false, enabled_ = true;
   std::int32_t real_velocity_ = 0;
   std::int32_t type_ = 1, marker_type_ = 0;  // MENCODERTYPE, SYNCMTYPM
   std::uint32_t mark_count_ = 0, next_mark_count_ = 0;
