@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "tech_objects/mco305/synchronization_step.hpp"
+
 namespace lockstep::mco305 {
 namespace {
 
@@ -247,7 +249,7 @@ void Device::mark(double place) noexcept {
 }
 
 /// Of the markers of this millisecond those of the slave have been taken while its drive was read.
-inline void Device::step_master() noexcept {
+[[gnu::always_inline]] inline void Device::step_master() noexcept {
   if (io_.changes() != master_inputs_) {
     master_inputs_ = io_.changes();
     const std::int32_t enabling = master_.enabling_input();

@@ -5,14 +5,6 @@
 #include <utility>
 
 namespace lockstep::mco305 {
-namespace {
-
-std::int32_t per_second(std::int64_t counts) noexcept {
-  constexpr std::int64_t kSteps = 1000;
-  return static_cast<std::int32_t>(std::clamp<std::int64_t>(counts * kSteps, -2147483648LL, 2147483647LL));
-}
-
-}  // namespace
 
 void MasterInput::refresh(const ParameterValues& parameters, bool later_edition) noexcept {
   type_ = parameters[kMasterEncoderType];
@@ -29,18 +21,6 @@ void MasterInput::refresh(const ParameterValues& parameters, bool later_edition)
 void MasterInput::power_up(const ParameterValues& parameters) noexcept {
   absolute_type_ = wired_ ? parameters[kMasterEncoderAbsType] : 0;
   data_bits_ = parameters[kMasterEncoderDatLen];
-}
-
-void MasterInput::move(std::int64_t counts) noexcept {
-  begun_ = begun_ || counts != 0;
-  position_ = within_reach(position_ + counts);
-}
-
-/// The zero pulse of the encoder, or the markers that the sensor at input 5 sees.
-inline void MasterInput::pass(double from, double to) noexcept {
-  if (marker_type_ >= 2) return track_.pass(from, to, [this](double place) { latch(place); });
-  if (from > free_from_ && from < free_to_ && to > free_from_ && to < free_to_) return;
-  pass_pulses(from, to);
 }
 
 void MasterInput::pass_pulses(double from, double to) noexcept {
@@ -134,24 +114,17 @@ bool MasterInput::move_to(std::int32_t value) noexcept {
   return true;
 }
 
-void MasterInput::step() noexcept {
-  if (absolute_.present()) read_absolute();
-  if (own_.active()) {
-    const auto begin = static_cast<double>(position_);
-    move(own_.step());
-    pass(begin, static_cast<double>(position_));
-  }
-  constexpr std::int64_t kFar = std::int64_t{1} << 30;  // what a gear takes in a step; nothing real is faster
-  moved_ = position_ - last_;
-  if (moved_ > kFar || moved_ < -kFar) moved_ = moved_ < 0 ? -kFar : kFar;
-  last_ = position_;
-  real_velocity_ = turned_ == 0 ? 0 : per_second(std::clamp(turned_, -kFar, kFar));
+void MasterInput::show_velocity() noexcept {
+  constexpr std::int64_t kSteps = 1000, kLowest = -2147483648LL, kHighest = 2147483647LL;
+  real_velocity_ = static_cast<std::int32_t>(
+      std::clamp(std::clamp(turned_, -kFastest, kFastest) * kSteps, kLowest, kHighest));
   turned_ = 0;
+}
+
+void MasterInput::hand_over_marks() noexcept {
   mark_count_ = next_mark_count_;
   next_mark_count_ = 0;
-  if (mark_count_ != 0) marks_ = next_marks_;
-  ++now_;
-  positions_[static_cast<std::size_t>(now_) % kRing] = position_;
+  marks_ = next_marks_;
 }
 
 std::int64_t MasterInput::moved_in(std::int64_t milliseconds) const noexcept {

@@ -1,4 +1,4 @@
-// A millisecond of following.
+// How following begins, and what few of its steps need.
 #include "tech_objects/mco305/synchronization.hpp"
 
 #include <algorithm>
@@ -10,10 +10,6 @@ namespace {
 constexpr std::int32_t kOwnFilterFrom = 1000;  // |SYNCVFTIME| [µs]; below that the table counts
 constexpr std::int32_t kOffsetLater = 1000;    // SYNCMSTART: the offset waits for the first correction
 constexpr double kThousand = 1000.0;
-
-std::int64_t nearest_count(double position) noexcept {
-  return counts_of(position + 0.5);
-}
 
 }  // namespace
 
@@ -131,9 +127,8 @@ void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const Fou
   offset_.begin(0.0);
   offset_.want(wanted_offset());
   held_.begin();
-  target_ = before_ = gear_.position();
-  target_velocity_ = velocity_before_ = velocity_ * gear_.ratio();
-  spread_ = spread_before_ = limits_.spread = 0.0;
+  target_ = before_ = {.position = gear_.position(), .velocity = velocity_ * gear_.ratio(), .spread = 0.0};
+  limits_.spread = 0.0;
 }
 
 void Synchronization::define_origin(std::int64_t master, double slave) noexcept {
@@ -147,88 +142,34 @@ void Synchronization::move_origin(std::int32_t by) noexcept {
   offset_.want(wanted_offset());
 }
 
-void Synchronization::step(const MasterInput& master, std::int64_t actual) noexcept {
-  const auto moved = static_cast<double>(master.moved());
-  master_position_ = master.position();
-  if (mode_ == SyncMode::kVelocity) {
-    velocity_ = velocity_filter_.step(moved, filter_time_);
-    return;
-  }
-  gear_.move(master.moved());
-  double velocity = moved, lag = 0.0;
-  if (filter_parameter_ < 0) {
-    const double time = filter_limit_ > 0.0 ? fading_.step(moved, filter_time_, filter_limit_) : filter_time_;
-    velocity = velocity_filter_.step_and_return(moved, time);
-    lag = velocity_filter_.lag();
-    velocity_ = velocity_filter_.velocity();
-  } else {
-    velocity_ = moved;
-  }
-  const double ratio = gear_.ratio();
-  if (mode_ == SyncMode::kMarkers) {
-    if (following_) {
-      for (std::size_t i = 0; i < master.mark_count(); ++i) take_master_mark(master.mark(i));
-      if (master_window_.missed(static_cast<double>(master_position_), master_tolerance_)) miss_master_mark();
-      if (slave_window_.missed(static_cast<double>(actual), slave_tolerance_)) miss_slave_mark();
-    }
-    trimmed_ += velocity * filter_.trim() * ratio;
-  }
-  before_ = target_;
-  velocity_before_ = target_velocity_;
-  spread_before_ = spread_;
-  const double offset = offset_.step(), correction = correction_.step();
-  spread_ = offset_.velocity() * ratio + correction_.velocity();
-  target_velocity_ = velocity * ratio * (1.0 + filter_.trim()) + spread_;
-  target_ = gear_.position() + (offset - lag) * ratio + correction + trimmed_ +
-            velocity_precontrol_ * target_velocity_;
-  if (path_.active()) follow_path();
-  wanted_ = nearest_count(gear_.position() + total_offset());
-}
-
-/// Until the velocity of the master has been reached once a small error is the beginning of a large one.
-/// Behind the end of the mode its flags stay as they were.
-void Synchronization::judge(std::int64_t actual) noexcept {
-  if (mode_ < SyncMode::kPosition) return;
-  if (following_ || later_edition_) error_ = wanted_ - actual;
-  if (following_ && reached_) quality_.look(error_, accuracy_);
+/// What SYNCVFLIMIT leaves of the filter time [ms].
+double Synchronization::faded_time(double moved) noexcept {
+  return fading_.step(moved, filter_time_, filter_limit_);
 }
 
 /// Along with a target that is ahead by what REVERS has held back, and not given back yet.
 void Synchronization::pursue_what_holds_back() noexcept {
-  const double target = looks_ahead_ ? target_ : before_;
-  const double velocity = looks_ahead_ ? target_velocity_ : velocity_before_;
-  const double spread = looks_ahead_ ? spread_ : spread_before_;
-  limits_.spread = spread;
-  held_.step(target, velocity, pursuit_, Pursuit::only_forward(velocity, limits_), limits_);
-  limits_.spread = spread + held_.velocity();
-  pursuit_.step(target + held_.by(), velocity + held_.velocity(), limits_);
+  const Target aim = pursued();
+  limits_.spread = aim.spread;
+  held_.step(aim.position, aim.velocity, pursuit_, limits_.only_forward(aim.velocity), limits_);
+  limits_.spread += held_.velocity();
+  pursuit_.step(aim.position + held_.by(), aim.velocity + held_.velocity(), limits_);
 }
 
-void Synchronization::set_point(std::int64_t actual, bool controls_velocity) noexcept {
-  last_velocity_ = pursuit_.velocity();
-  if (mode_ == SyncMode::kVelocity) {
-    pursuit_.follow(velocity_ * gear_.ratio(), limits_);
-    const auto moved = static_cast<double>(actual - last_actual_);
-    last_actual_ = actual;
-    if (controls_velocity) {
-      // The controller gets the error of the velocity, as a distance from where the axis is.
-      const double own = slave_filter_.step(moved, slave_filter_time_);
-      pursuit_.shift(static_cast<double>(actual) + pursuit_.velocity() - own - pursuit_.position());
-    }
-  } else if (awaits_path_) {
-    pursuit_.follow(0.0, limits_);
-  } else if (held_.active()) {
-    pursue_what_holds_back();
-  } else if (looks_ahead_) {
-    limits_.spread = spread_;
-    pursuit_.step(target_, target_velocity_, limits_);
-  } else {
-    limits_.spread = spread_before_;
-    pursuit_.step(before_, velocity_before_, limits_);
-  }
-  if (reached_ || awaits_path_ || path_.active()) return;
-  const double goes = looks_ahead_ ? target_velocity_ : velocity_before_;
-  reached_ = pursuit_.synchronous() || std::abs(pursuit_.velocity() - goes) <= limits_.acceleration;
+void Synchronization::follow_velocity(std::int64_t actual, bool controls_velocity) noexcept {
+  pursuit_.follow(velocity_ * gear_.ratio(), limits_);
+  const auto moved = static_cast<double>(actual - last_actual_);
+  last_actual_ = actual;
+  if (!controls_velocity) return;
+  // The controller gets the error of the velocity, as a distance from where the axis is.
+  const double own = slave_filter_.step(moved, slave_filter_time_);
+  pursuit_.shift(static_cast<double>(actual) + pursuit_.velocity() - own - pursuit_.position());
+}
+
+void Synchronization::look_whether_reached() noexcept {
+  if (awaits_path_ || path_.active()) return;
+  reached_ =
+      pursuit_.synchronous() || std::abs(pursuit_.velocity() - pursued().velocity) <= limits_.acceleration;
 }
 
 std::int32_t Synchronization::status() const noexcept {

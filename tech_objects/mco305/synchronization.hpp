@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "tech_objects/arithmetic/cache_line.hpp"
 #include "tech_objects/mco305/master_input.hpp"
 #include "tech_objects/mco305_catalogue/parameters.hpp"
 #include "tech_objects/profile/four_slope_profile.hpp"
@@ -62,6 +63,9 @@ class Synchronization {
   }
   /// A marker of the slave has been latched [qc].
   void take_slave_mark(double place) noexcept;
+
+  // ---- Steps, in `synchronization_step.hpp`
+
   /// One millisecond, behind that of the master. @param actual position of the slave [qc]
   void step(const MasterInput& master, std::int64_t actual) noexcept;
   /// At the end of a step: how accurate it is. @param actual [qc]
@@ -69,6 +73,9 @@ class Synchronization {
   /// Moves the set position in this step. @param actual [qc]  @param controls_velocity a drive follows, which
   /// gets no position but in SYNCV the error of its velocity
   void set_point(std::int64_t actual, bool controls_velocity) noexcept;
+
+  // ---- Read-outs
+
   double set_position() const noexcept { return pursuit_.position(); }  ///< [qc]
   double set_velocity() const noexcept { return pursuit_.velocity(); }  ///< [qc/ms]
   /// [qc/ms²] What single counts do to the velocity is no acceleration that a motion could begin with.
@@ -95,6 +102,11 @@ class Synchronization {
   double master_velocity() const noexcept { return velocity_; }                ///< smoothed [qc/ms]
 
  private:
+  struct Target {
+    double position = 0.0, velocity = 0.0;
+    double spread = 0.0;  // of that velocity what spreads offsets and corrections
+  };
+
   static constexpr std::int32_t kClearable = kMasterHit | kSlaveHit | kMasterMissed | kSlaveMissed;
 
   double filter_time(double resolution) const noexcept;
@@ -105,42 +117,53 @@ class Synchronization {
   void take_limits(const FourSlopeLimits& limits) noexcept;
   void begin_markers() noexcept;
   void average_markers(const MasterInput& master) noexcept;
+  void look_for_markers(const MasterInput& master, std::int64_t actual) noexcept;
+  void take_master_marks(const MasterInput& master) noexcept;
   void take_master_mark(double place) noexcept;
   void miss_master_mark() noexcept;
   void miss_slave_mark() noexcept;
   void pair(double apart) noexcept;
   void meet_at_a_marker(double place) noexcept;
   void follow_path() noexcept;
+  void follow_velocity(std::int64_t actual, bool controls_velocity) noexcept;
+  double faded_time(double moved) noexcept;
   void pursue_what_holds_back() noexcept;
+  void look_whether_reached() noexcept;
+  /// Which target it pursues: by SYNCTYPE that of this step, or of the one before.
+  const Target& pursued() const noexcept { return looks_ahead_ ? target_ : before_; }
   MarkerFilterSettings filter_settings() const noexcept;
 
-  // What every step of following needs stands first, in lines of the cache.
+  // In the order of need, so that a step touches few lines of the cache. First what steps of SYNCM need
+  // alone.
+  alignas(kCacheLine) MarkerTolerance master_tolerance_;
+  MarkerTolerance slave_tolerance_;
+  MarkerWindow master_window_, slave_window_;
+  CountFilter velocity_filter_;
+  double filter_time_ = 1.0, filter_limit_ = 0.0;
+  std::int64_t master_marks_ = 0, slave_marks_ = 0;
+
+  // What all steps of following need, from the flag at the end of `held_` to that in front of `filter_`.
+  HeldBack held_;  // by REVERS [qc]
   SyncMode mode_ = SyncMode::kNone;
   bool following_ = false, later_edition_ = true, signed_error_ = false, looks_ahead_ = false;
   bool reached_ = false;  // the velocity of the master, since the start
   bool awaits_path_ = false, averages_ = false;
-  CountGear gear_;
-  CountFilter velocity_filter_;
   std::int32_t filter_parameter_ = 0, hits_ = 0;
-  double filter_time_ = 1.0, filter_limit_ = 0.0, velocity_precontrol_ = 0.0;
+  CountGear gear_;
+  double velocity_precontrol_ = 0.0;
   double trimmed_ = 0.0;  // by the trim of the gear [qc]
   std::int64_t master_position_ = 0;
-  double velocity_ = 0.0;                        // of the master, smoothed [qc/ms]
-  double target_ = 0.0, target_velocity_ = 0.0;  // of this step
-  double before_ = 0.0, velocity_before_ = 0.0;  // … and of the one before
-  double spread_ = 0.0, spread_before_ = 0.0;    // of these velocities what spreads offsets and corrections
+  double velocity_ = 0.0;   // of the master, smoothed [qc/ms]
+  Target target_, before_;  // of this step, and of the one before
   Pursuit pursuit_;
   PursuitLimits limits_;
-  HeldBack held_;               // by REVERS [qc]
   double last_velocity_ = 0.0;  // [qc/ms] of the set position
   std::int64_t error_ = 0, wanted_ = 0, accuracy_ = 1000;
   SyncQuality quality_;
-  MarkerWindow master_window_, slave_window_;
-  MarkerTolerance master_tolerance_, slave_tolerance_;
-  MarkerFilter filter_;
-  MeetingPath path_;         // start 7
   OffsetSpread offset_;      // [qc of the master]
   OffsetSpread correction_;  // by markers [qc]
+  MeetingPath path_;         // start 7
+  MarkerFilter filter_;
 
   FadingTime fading_;
   double slave_filter_time_ = 1.0;  // [ms]
@@ -157,7 +180,6 @@ class Synchronization {
   bool late_ = false;       // the marker at hand came behind a missed one
   bool slave_mark_known_ = false;
   double slave_mark_ = 0.0;  // the last one there was, also before the start [qc]
-  std::int64_t master_marks_ = 0, slave_marks_ = 0;
 
   // Parameters.
   std::int64_t factor_master_ = 1, factor_slave_ = 1;

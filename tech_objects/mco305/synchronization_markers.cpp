@@ -1,6 +1,7 @@
 // Following by markers.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "tech_objects/mco305/synchronization.hpp"
@@ -82,6 +83,10 @@ void Synchronization::average_markers(const MasterInput& master) noexcept {
   }
 }
 
+void Synchronization::take_master_marks(const MasterInput& master) noexcept {
+  for (std::size_t i = 0; i < master.mark_count(); ++i) take_master_mark(master.mark(i));
+}
+
 void Synchronization::take_master_mark(double place) noexcept {
   const MarkerWindow::Verdict verdict = master_window_.take(place, master_tolerance_);
   if (verdict == MarkerWindow::Verdict::ignored) return;
@@ -136,8 +141,8 @@ void Synchronization::meet_at_a_marker(double place) noexcept {
 
 void Synchronization::follow_path() noexcept {
   const auto at = static_cast<double>(master_position_);
-  target_ += path_.offset(at);
-  target_velocity_ += path_.slope(at) * velocity_;
+  target_.position += path_.offset(at);
+  target_.velocity += path_.slope(at) * velocity_;
   if (path_.over(at)) path_.clear();
 }
 

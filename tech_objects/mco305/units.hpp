@@ -23,6 +23,9 @@ inline std::int64_t counts_of(double position) noexcept {
   const auto cut = static_cast<std::int64_t>(position);
   return static_cast<double>(cut) > position ? cut - 1 : cut;
 }
+inline std::int64_t nearest_count(double position) noexcept {
+  return counts_of(position + 0.5);
+}
 /// The floor, without the call that it takes where the processor has no instruction for it.
 inline double whole_below(double value) noexcept {
   constexpr double kWhole = 4503599627370496.0;  // 2^52: from here on there is nothing behind the point

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "tech_objects/synchronous/plain_pursuit.hpp"
 #include "tech_objects/synchronous/pursuit.hpp"
+#include "tech_objects/synchronous/pursuit_limits.hpp"
 
 namespace lockstep {
 
@@ -21,7 +23,7 @@ class HeldBack {
     dither_ = dither;
     if (!active_) return begin();
     maximum_ = distance / ((1.0 - kRamp) * time);
-    limits_.acceleration = limits_.deceleration = maximum_ / (kRamp * time);
+    acceleration_ = maximum_ / (kRamp * time);
   }
   /// Nothing is held back.
   void begin() noexcept {
@@ -74,18 +76,19 @@ class HeldBack {
   }
   /// Not faster than the target goes forward.
   void give(bool forward) noexcept {
-    limits_.velocity = forward ? std::clamp(mean_, 0.0, maximum_) : maximum_;
-    if (-given_.velocity() > limits_.velocity) given_.begin(given_.position(), -limits_.velocity);
-    given_.step(0.0, 0.0, limits_);
+    const double velocity = forward ? std::clamp(mean_, 0.0, maximum_) : maximum_;
+    if (-given_.velocity() > velocity) given_.begin(given_.position(), -velocity);
+    given_.step(0.0, 0.0,
+                {.velocity = velocity, .acceleration = acceleration_, .deceleration = acceleration_});
     if (given_.position() == 0.0 && given_.velocity() == 0.0) state_ = State::free;
   }
 
   State state_ = State::free;
-  bool active_ = false;
-  double dither_ = 0.0, maximum_ = 0.0, mean_ = 0.0;
-  double turned_ = 0.0;  // where the target has turned
-  Pursuit given_;
-  PursuitLimits limits_;
+  double dither_ = 0.0, mean_ = 0.0;
+  double maximum_ = 0.0, acceleration_ = 1.0;  // of giving back [u/ms], [u/ms²]
+  double turned_ = 0.0;                        // where the target has turned
+  PlainPursuit given_;
+  bool active_ = false;  // last, beside what those need who ask for no more
 };
 
 }  // namespace lockstep

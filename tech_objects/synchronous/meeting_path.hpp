@@ -63,7 +63,7 @@ class MeetingPath {
  private:
   double part(double leading) const noexcept { return std::clamp((leading - begin_) / length_, 0.0, 1.0); }
 
-  double begin_ = 0.0, length_ = 0.0;   // [counts]
+  double length_ = 0.0, begin_ = 0.0;   // [counts]; first what tells whether there is a path
   double behind_ = 0.0, slower_ = 0.0;  // [u], of the whole length
 };
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tech_objects/synchronous/pursuit.hpp"
+#include "tech_objects/synchronous/plain_pursuit.hpp"
 
 namespace lockstep {
 
@@ -18,16 +18,16 @@ class OffsetSpread {
     constexpr double kRamp = 0.2;
     at_once_ = !(distance > 0.0) || !(time > 0.0);
     if (at_once_) return;
-    limits_.velocity = trapezoid ? distance / ((1.0 - kRamp) * time) : distance / time;
-    limits_.acceleration = limits_.deceleration = trapezoid ? limits_.velocity / (kRamp * time) : kAny;
+    velocity_ = trapezoid ? distance / ((1.0 - kRamp) * time) : distance / time;
+    acceleration_ = trapezoid ? velocity_ / (kRamp * time) : kAny;
   }
   /// What is wanted from now on, in equal steps of this time alone [ms].
   void want_within(double offset, double time) noexcept {
     want(offset);
     at_once_ = !(time > 1.0);
     if (at_once_) return;
-    limits_.velocity = std::abs(offset - moved_.position()) / time;
-    limits_.acceleration = limits_.deceleration = kAny;
+    velocity_ = std::abs(offset - moved_.position()) / time;
+    acceleration_ = kAny;
   }
   void begin(double offset) noexcept {
     want(offset);
@@ -44,10 +44,10 @@ class OffsetSpread {
     if (rests_) return wanted_;
     if (at_once_)
       moved_.begin(wanted_, 0.0);
-    else if (limits_.acceleration == kAny)
+    else if (acceleration_ == kAny)
       step_equally();
     else
-      moved_.step(wanted_, 0.0, limits_);
+      step_with_ramps();
     return moved_.position();
   }
 
@@ -61,15 +61,19 @@ class OffsetSpread {
   /// Without ramps there is nothing to pursue.
   void step_equally() noexcept {
     const double rest = wanted_ - moved_.position();
-    const double by = std::clamp(rest, -limits_.velocity, limits_.velocity);
-    moved_.move_to(by == rest ? wanted_ : moved_.position() + by, by);
+    const double by = std::clamp(rest, -velocity_, velocity_);
+    moved_.begin(by == rest ? wanted_ : moved_.position() + by, by);
+  }
+  [[gnu::noinline]] void step_with_ramps() noexcept {
+    moved_.step(wanted_, 0.0,
+                {.velocity = velocity_, .acceleration = acceleration_, .deceleration = acceleration_});
   }
 
   bool at_once_ = true;
   bool rests_ = false;  // at what is wanted
   double wanted_ = 0.0;
-  Pursuit moved_;
-  PursuitLimits limits_;
+  PlainPursuit moved_;
+  double velocity_ = 0.0, acceleration_ = 1.0;  // at most [u/ms], [u/ms²]
 };
 
 }  // namespace lockstep

@@ -20,6 +20,13 @@ struct PursuitLimits {
   /// Once it is on such a target it takes each count as it comes, as long as the velocity stays within so
   /// much of one that keeps the limits.
   double uncertainty = 0.0;
+
+  /// Whether the velocity must not be negative. What spreads a correction is no motion of the target.
+  bool only_forward(double target_velocity) const noexcept {
+    constexpr double kRests = -1e-9;  // [u/step]
+    return reversal == Reversal::never ||
+           (reversal == Reversal::with_target && target_velocity - spread >= kRests);
+  }
 };
 
 }  // namespace lockstep
