@@ -46,6 +46,7 @@ DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double 
   steps_ = std::max(1, static_cast<int>(std::floor(steps + 0.5)));
   step_ = piece(servo_cycle / steps_, time_constant);
   resolution_ = std::max(0.0, settings.resolution);
+  note_states();
   choose_path();
   const double transport_delay = (static_cast<double>(dead.whole) + dead.part + 0.5) * servo_cycle;
   return {.known_delay = transport_delay + time_constant,
@@ -55,7 +56,6 @@ DriveProperties SimulatedDrive::configure(const DriveSettings& settings, double 
 }
 
 void SimulatedDrive::choose_path() noexcept {
-  operates_ = states().operation();
   const bool delays = whole_cycles_ > 0 || before_.duration > 0.0;
   at_once_ = !delays && !unit_.has_faults() && operates_ && loop_cycles_ == 0;
 }
@@ -89,8 +89,13 @@ inline DoubleDouble SimulatedDrive::arriving() const noexcept {
 }
 
 /// First what most drives are in most of their cycles: on, without dead time.
-void SimulatedDrive::write_at_once(double velocity) noexcept {
-  if (std::abs(velocity_) < kNoMotion) return write_at_standstill(velocity);
+void SimulatedDrive::write(double velocity) noexcept {
+  if (!at_once_) return write_with_all(velocity);
+  last_setpoint_ = velocity;
+  if (std::abs(velocity_) < kNoMotion) {
+    if (!rests_ || !same_bits(rested_, {velocity, velocity})) write_at_standstill(velocity);
+    return;
+  }
   const DoubleDouble position_before = position_;
   const double velocity_before = velocity_;
   run(after_, velocity);
@@ -106,7 +111,10 @@ void SimulatedDrive::write_at_once(double velocity) noexcept {
 }
 
 [[gnu::noinline]] void SimulatedDrive::write_with_all(double velocity) noexcept {
-  if (unit_.has_faults() && unit_.watch_causes()) ramp_ = quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
+  if (unit_.has_faults()) {
+    if (unit_.watch_causes()) ramp_ = quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
+    note_states();
+  }
   if (states().operation()) last_setpoint_ = velocity;
   written_[kept(cycle_)] = states().operation() ? velocity : quick_stop_setpoint();
   const Motion before{position_, velocity_, plant_.memory()};
@@ -187,6 +195,7 @@ void SimulatedDrive::control(std::uint16_t stw1, std::uint16_t stw2) noexcept {
     ramp_ = states().state() == DriveStates::State::quick_stop && quick_stop_ > 0.0 ? last_setpoint_ : 0.0;
   if (!states().operation() && !states().stopping()) last_setpoint_ = 0.0;
   rests_ = false;
+  note_states();
   choose_path();
 }
 

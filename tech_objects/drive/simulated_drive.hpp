@@ -45,11 +45,7 @@ class alignas(kCacheLine) SimulatedDrive final : public Drive {
   bool operates() const noexcept { return operates_; }                           ///< `DriveActual::enabled`
   /// Whether the last `write` has changed nothing: all of that is as it was.
   bool rests() const noexcept { return rests_; }
-  void write(double velocity) noexcept override {
-    if (!at_once_) return write_with_all(velocity);
-    last_setpoint_ = velocity;
-    if (!rests_ || !same_bits(rested_, {velocity, velocity})) write_at_once(velocity);
-  }
+  void write(double velocity) noexcept override;
   void write_position(const PositionCommand& command) noexcept override;
   void control(std::uint16_t stw1, std::uint16_t stw2) noexcept override;
   void command_torque(const TorqueCommand& command) noexcept override {
@@ -96,8 +92,8 @@ class alignas(kCacheLine) SimulatedDrive final : public Drive {
     double velocity;
     MachinePlant::Memory plant;
   };
+  void note_states() noexcept { operates_ = states().operation(); }
   void choose_path() noexcept;
-  void write_at_once(double velocity) noexcept;
   void write_with_all(double velocity) noexcept;
   void write_at_standstill(double velocity) noexcept;
   DoubleDouble arriving() const noexcept;
