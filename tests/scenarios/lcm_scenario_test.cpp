@@ -132,7 +132,8 @@ TEST(LcmScenario, AForeignSubscriberShowsRowsAndEvents) {
 
 // ---- A network that takes nothing
 
-/// Runs the knife until the network hangs or fails, asks for the end and prints the exit status.
+/// Runs the knife until the network hangs or fails, asks for the end and prints the exit status. The mark
+/// appears whole: seen while it is still empty, it would stand for a network that hangs.
 std::string ended_with(const Directory& directory, const std::string& project, const std::string& how) {
   const std::string mark = directory.file("hang");
   return "export LOCKSTEP_HANG=" + mark +
@@ -144,7 +145,7 @@ std::string ended_with(const Directory& directory, const std::string& project, c
          directory.file("messages") +
          " || ! kill -0 $run; do sleep 0.02; done\n"
          "sleep 0.2\necho -n " +
-         how + " >" + mark +
+         how + " >" + mark + ".new\nmv " + mark + ".new " + mark +
          "\n"
          "until [ -e " +
          mark +
