@@ -111,7 +111,8 @@ TEST(StudioDesk, SaysOfEachFileThatIsNoTraceWhy) {
   page.open_tab("Traces");
   page.drop("notes.csv", "this is no trace\n1,2\n");
   page.drop("numbers.csv", "t,a\n0,1\n0.001,one\n");
-  for (const auto& [id, place] : {std::pair("file-1", "notes.csv:1:1"), std::pair("file-2", "numbers.csv:3:7")})
+  for (const auto& [id, place] :
+       {std::pair("file-1", "notes.csv:1:1"), std::pair("file-2", "numbers.csv:3:7")})
     EXPECT_TRUE(page.browser.wait_for("document.querySelector('[data-trace=" + std::string(id) +
                                       "]')?.textContent.includes('" + place + "')"))
         << page.browser.text(".traces-panel");
