@@ -62,6 +62,48 @@ TEST(MC_GearIn, FollowsAccelerationAndStandstillOfTheLeadingAxisInTheSameTick) {
   }
 }
 
+TEST(MC_GearIn, IgnoresTheOverrideOfTheFollowingAxisWhichCountsForItsOwnMotionOnly) {
+  GearPair plain;
+  GearPair slowed;
+  slowed.f.data.Override.Velocity = 20.0;
+  for (GearPair* const rig : {&plain, &slowed}) {
+    rig->start_leading(50.0);
+    rig->gear.RatioNumerator = 3;
+    rig->gear.Execute = true;
+  }
+  for (int i = 0; i < 2000; ++i) {
+    plain.tick();
+    slowed.tick();
+    if (i == 1000) slowed.f.data.Override.Velocity = 0.0;
+    ASSERT_EQ(slowed.f.data.Position, plain.f.data.Position) << "tick " << i;
+  }
+  EXPECT_TRUE(slowed.gear.InGear);
+  EXPECT_EQ(slowed.f.data.Velocity, 150.0);
+}
+
+TEST(MC_GearInPos, IgnoresTheOverrideOfTheFollowingAxisWhileItSynchronizesToo) {
+  GearPair plain;
+  GearPair slowed;
+  slowed.f.data.Override.Velocity = 20.0;
+  for (GearPair* const rig : {&plain, &slowed}) {
+    rig->pos.MasterSyncPosition = 100.0;
+    rig->pos.SlaveSyncPosition = 80.0;
+    rig->pos.SyncProfileReference = 1;
+    rig->pos.MasterStartDistance = 60.0;
+    rig->pos.Execute = true;
+    rig->start_leading(50.0);
+  }
+  bool synchronized_in_motion = false;
+  for (int i = 0; i < 4000; ++i) {
+    plain.tick();
+    slowed.tick();
+    ASSERT_EQ(slowed.f.data.Position, plain.f.data.Position) << "tick " << i;
+    synchronized_in_motion |= bit(slowed.f, StatusBit::Synchronizing) && slowed.f.data.Velocity != 0.0;
+  }
+  EXPECT_TRUE(synchronized_in_motion);
+  EXPECT_TRUE(slowed.pos.InSync);
+}
+
 /// Function diagram GearIn-1: a second job with another leading axis overrides the first.
 TEST(MC_GearIn, SwitchesTheLeadingValueOnTheFly) {
   Rig rig;
