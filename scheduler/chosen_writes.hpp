@@ -59,10 +59,11 @@ class ChosenWrites {
  private:
   void apply_batch(std::int64_t tick) noexcept;
 
+  // In one line, which is written only where there is a batch.
   alignas(kCacheLine) std::uint64_t number_ = 0;  // the cycle's: of the last batch applied
   // Whose the batch is: the cycle's as long as the two differ.
-  alignas(kCacheLine) std::atomic<std::uint64_t> handed_over_{0};
-  alignas(kCacheLine) std::atomic<std::uint64_t> applied_{0};
+  std::atomic<std::uint64_t> handed_over_{0};
+  std::atomic<std::uint64_t> applied_{0};
   std::vector<ChosenWrite> batch_;
   std::int64_t tick_ = -1;
 };

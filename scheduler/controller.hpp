@@ -253,6 +253,7 @@ class Controller {
   void tell_job(const JobWatch& watch, EventKind kind, int number, std::int64_t now) noexcept;
   void note_newest(const AlarmNote& note, std::size_t object, std::int64_t now) noexcept;
   void tell_notes(TechnologyObject& object, std::int64_t now) noexcept;
+  void fetch_rows() const noexcept;
   void show(std::int64_t now, bool interpolator_tick) noexcept;
 
   /// Axes of a level from which on it is shared: below, one processor is done before another has come.
@@ -285,6 +286,8 @@ class Controller {
   std::atomic<std::uint64_t> alarms_now_{0};       // counted by whoever steps an axis
   std::atomic<bool> attention_{true};              // some axis has new jobs or another coupling
   std::unique_ptr<CamInterpolator> interpolator_;  // for the largest cam; none without cams
+  alignas(kCacheLine) RowAhead trace_row_;         // of the next interpolator tick, as the one of the tap
+  RowAhead tap_row_;
   std::size_t next_stimulus_ = 0;
   std::int64_t next_tick_ = 0;
   std::int64_t last_time_ = -1;    // of the last executed tick [ns]; -1: none yet

@@ -22,6 +22,7 @@ void Controller::tick() noexcept {
   const std::int64_t t = now();
   const bool interpolator_tick = interpolator_is_due();
 
+  if (interpolator_tick) fetch_rows();
   take_inputs(t);
 
   run_programs(Ob::MC_PreServo, t);
@@ -29,8 +30,6 @@ void Controller::tick() noexcept {
   run_programs(Ob::MC_PostServo, t);
 
   if (interpolator_tick) {
-    if (trace != nullptr) trace->prefetch();
-    if (tap != nullptr) tap->prefetch();
     // They get up while the programs run, so that none is late at the axes.
     if (crew_ != nullptr) crew_->wake();
     run_programs(Ob::MC_PreInterpolator, t);
@@ -270,15 +269,26 @@ void Controller::count_overrun() noexcept {
   if (events != nullptr) tell({.kind = EventKind::overrun}, last_time_);
 }
 
+/// What `show` will write and nobody has touched since, with what leads there.
+void Controller::fetch_rows() const noexcept {
+  if (tap != nullptr) tap->fetch();
+  trace_row_.fetch();
+  tap_row_.fetch();
+}
+
 /// The image for Modbus, and on interpolator ticks the rows of the trace and of the tap.
 void Controller::show(std::int64_t t, bool interpolator_tick) noexcept {
   for (Watchdog& watchdog : watchdogs) watchdog.remember();
   for (ProcessImage* image : images) image->publish(next_tick_);
   if (!interpolator_tick) return;
-  if (trace != nullptr) trace->push(t, static_cast<std::uint64_t>(next_tick_));
+  if (trace != nullptr) {
+    trace->push(t, static_cast<std::uint64_t>(next_tick_));
+    trace_row_ = trace->ahead();
+  }
   if (tap != nullptr) {
     tap->exchange();
     tap->push(t, static_cast<std::uint64_t>(next_tick_));
+    tap_row_ = tap->ahead();
   }
 }
 

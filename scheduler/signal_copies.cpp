@@ -12,17 +12,13 @@ namespace lockstep {
 namespace {
 
 template <std::size_t kSize>
-char* copy(const void* const* address, const void* const* end, char* to) noexcept {
-  // Eight at a time: the loop would cost as much as what it copies.
-  for (; end - address >= 8; address += 8, to += 8 * kSize) {
+inline char* copy(const void* const* address, const void* const* end, char* to) noexcept {
+  // Four at a time: the loop would cost as much as what it copies.
+  for (; end - address >= 4; address += 4, to += 4 * kSize) {
     std::memcpy(to, address[0], kSize);
     std::memcpy(to + kSize, address[1], kSize);
     std::memcpy(to + 2 * kSize, address[2], kSize);
     std::memcpy(to + 3 * kSize, address[3], kSize);
-    std::memcpy(to + 4 * kSize, address[4], kSize);
-    std::memcpy(to + 5 * kSize, address[5], kSize);
-    std::memcpy(to + 6 * kSize, address[6], kSize);
-    std::memcpy(to + 7 * kSize, address[7], kSize);
   }
   for (; address != end; ++address, to += kSize) std::memcpy(to, *address, kSize);
   return to;
@@ -64,10 +60,13 @@ SignalCopies::SignalCopies(std::span<const Signal> signals) {
   for (const Signal& signal : signals) variables.try_emplace(key(signal));
   std::vector<Piece> pieces;
   for (auto next = variables.begin(); next != variables.end();) {
-    pieces.push_back(piece_at(variables, next, kSizes.front()));
+    pieces.push_back(piece_at(variables, next, std::ranges::max(kSizes)));
     std::advance(next, pieces.back().count);
   }
-  std::ranges::stable_sort(pieces, std::greater<>(), &Piece::size);
+  const auto place = [](std::size_t size) {
+    return static_cast<std::size_t>(std::ranges::find(kSizes, size) - kSizes.begin());
+  };
+  std::ranges::stable_sort(pieces, {}, [&](const Piece& piece) { return place(piece.size); });
   std::uint32_t offset = 0;
   for (const Piece& piece : pieces) {
     addresses_.push_back(piece.first->first.first);
@@ -77,7 +76,7 @@ SignalCopies::SignalCopies(std::span<const Signal> signals) {
   }
   for (std::size_t i = 0; i < kSizes.size(); ++i)
     ends_[i] = static_cast<std::uint32_t>(
-        std::ranges::count_if(pieces, [&](const Piece& piece) { return piece.size >= kSizes[i]; }));
+        std::ranges::count_if(pieces, [&](const Piece& piece) { return place(piece.size) <= i; }));
   words_ = (offset + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
   for (const Signal& signal : signals) taken_.push_back({variables.at(key(signal)), signal.type, signal.bit});
 }
@@ -85,12 +84,18 @@ SignalCopies::SignalCopies(std::span<const Signal> signals) {
 void SignalCopies::take(std::uint64_t* to) const noexcept {
   const void* const* const begin = addresses_.data();
   char* next = reinterpret_cast<char*>(to);
-  next = copy<32>(begin, begin + ends_[0], next);
-  next = copy<16>(begin + ends_[0], begin + ends_[1], next);
-  next = copy<8>(begin + ends_[1], begin + ends_[2], next);
-  next = copy<4>(begin + ends_[2], begin + ends_[3], next);
-  next = copy<2>(begin + ends_[3], begin + ends_[4], next);
-  copy<1>(begin + ends_[4], begin + ends_[5], next);
+  std::uint32_t done = 0;
+  // No further than there are pieces: code that is not reached is not fetched.
+  const auto those_of_size = [&]<std::size_t kIndex>() {
+    const std::uint32_t end = ends_[kIndex];
+    next = copy<kSizes[kIndex]>(begin + done, begin + end, next);
+    done = end;
+    return end != ends_.back();
+  };
+  [&]<std::size_t... kIndices>(std::index_sequence<kIndices...>) {
+    (those_of_size.template operator()<kIndices>() && ...);
+  }
+  (std::make_index_sequence<kSizes.size()>());
 }
 
 void SignalCopies::read(const std::uint64_t* from, std::span<Value> values) const noexcept {

@@ -24,6 +24,8 @@ class SignalCopies {
   std::size_t words() const noexcept { return words_; }
   /// How often `take` fetches and stores something.
   std::size_t pieces() const noexcept { return addresses_.size(); }
+  /// What `take` reads of the plan, to be fetched before.
+  std::span<const void* const> plan() const noexcept { return addresses_; }
   /// Copies the variables. A constant number of steps. Thread: the cycle.
   void take(std::uint64_t* to) const noexcept;
   /// What the signals had, of what `take` has filled. Any thread.
@@ -31,7 +33,7 @@ class SignalCopies {
   void read(const std::uint64_t* from, std::span<Value> values) const noexcept;
 
  private:
-  static constexpr std::array<std::size_t, 6> kSizes = {32, 16, 8, 4, 2, 1};  // of pieces
+  static constexpr std::array<std::size_t, 6> kSizes = {8, 16, 32, 4, 2, 1};  // of pieces, usual ones first
 
   /// Where the value of a signal lies in what was taken.
   struct Taken {
@@ -40,8 +42,8 @@ class SignalCopies {
     std::int8_t bit = -1;
   };
 
-  std::vector<const void*> addresses_;               // of the pieces, the largest first
   std::array<std::uint32_t, kSizes.size()> ends_{};  // of the addresses of each size
+  std::vector<const void*> addresses_;               // of the pieces, by size as in `kSizes`
   std::size_t words_ = 0;
   std::vector<Taken> taken_;
 };

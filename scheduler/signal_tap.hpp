@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "scheduler/chosen_writes.hpp"
+#include "scheduler/come_near.hpp"
 #include "scheduler/trace_ring.hpp"
 #include "tech_objects/arithmetic/cache_line.hpp"
 
@@ -38,10 +39,13 @@ class SignalTap {
     number_ = wanted;
     taken_.store(wanted, std::memory_order_release);
   }
-  /// Has the memory that `push` will write brought near while the tick computes. Thread: the cycle.
-  void prefetch() const noexcept {
-    if (ring_ != nullptr) ring_->prefetch();
+  /// Has what a tick looks at of this one brought near, while the tick computes. Thread: the cycle.
+  void fetch() const noexcept {
+    come_near_for_reading(&writes);
+    come_near_for_reading(&ring_);
   }
+  /// What the next `push` will need. Thread: the cycle.
+  RowAhead ahead() const noexcept { return ring_ != nullptr ? ring_->ahead() : RowAhead(); }
   /// Reads the signals into the ring, if there is one. Thread: the cycle.
   void push(std::int64_t t, std::uint64_t tick) noexcept {
     if (ring_ != nullptr) ring_->push(t, tick);
@@ -87,14 +91,13 @@ class SignalTap {
   }
   void give_back() noexcept;
 
-  // The cycle's.
+  // In one line, which is written only where a ring is handed over. The cycle's:
   alignas(kCacheLine) TraceRing* ring_ = nullptr;
   std::uint64_t number_ = 0;
-
   // Each side writes one of the numbers; what is handed over belongs to the cycle as long as they differ.
-  alignas(kCacheLine) std::atomic<std::uint64_t> wanted_{0};
+  std::atomic<std::uint64_t> wanted_{0};
   TraceRing* handed_over_ = nullptr;
-  alignas(kCacheLine) std::atomic<std::uint64_t> taken_{0};
+  std::atomic<std::uint64_t> taken_{0};
 
   // The bridge's.
   alignas(kCacheLine) std::uint64_t last_number_ = 0;

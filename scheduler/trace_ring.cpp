@@ -10,15 +10,24 @@
 namespace lockstep {
 
 TraceRing::TraceRing(std::vector<Signal> signals, std::size_t rows)
-    : copies_(signals),
-      row_lines_(((kPrefix + copies_.words()) * sizeof(std::uint64_t) + sizeof(Line) - 1) / sizeof(Line)),
-      mask_(std::bit_ceil(std::max<std::size_t>(rows, 2)) - 1),
-      lines_((mask_ + 1) * row_lines_),
-      values_(signals.size()) {}
+    : mask_(std::bit_ceil(std::max<std::size_t>(rows, 2)) - 1), copies_(signals), values_(signals.size()) {
+  const std::size_t bytes = (kPrefix + copies_.words()) * sizeof(std::uint64_t);
+  row_lines_ = (bytes + sizeof(Line) - 1) / sizeof(Line);
+  lines_ = std::make_unique<Line[]>((mask_ + 1) * row_lines_);
+}
 
-void TraceRing::prefetch() const noexcept {
-  const Line* const row = &lines_[(written_.load(std::memory_order_relaxed) & mask_) * row_lines_];
-  for (std::size_t line = 0; line < row_lines_; ++line) come_near_for_writing(row + line);
+void RowAhead::fetch() const noexcept {
+  if (ring_ == nullptr) return;
+  come_near_for_reading(&ring_->mask_);
+  come_near_for_writing(&ring_->written_);
+  const char* const row = static_cast<const char*>(row_);
+  for (std::size_t line = 0; line < row_lines_; ++line) come_near_for_writing(row + line * kCacheLine);
+  constexpr std::size_t kPlannedInALine = kCacheLine / sizeof(void*);
+  for (std::size_t i = 0; i < planned_; i += kPlannedInALine) come_near_for_reading(plan_ + i);
+}
+
+RowAhead TraceRing::ahead() const noexcept {
+  return {this, row_at(written_.load(std::memory_order_relaxed)), row_lines_, copies_.plan()};
 }
 
 bool TraceRing::push(std::int64_t t, std::uint64_t tick) noexcept {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,10 +24,36 @@ struct TraceRow {
   std::span<const Value> values;  ///< one for each signal, in the order of the signals
 };
 
+class TraceRing;
+
+/// Where the next row of a ring will be pushed. Known since the last one, so that the memory for it can be
+/// fetched at the begin of a tick without a look at any of it, while the tick computes: between two ticks
+/// others use the processor, and each line that is not there is waited for, one after the other where one
+/// leads to the next.
+class RowAhead {
+ public:
+  RowAhead() = default;
+  RowAhead(const TraceRing* ring, const void* row, std::size_t row_lines, std::span<const void* const> plan)
+      : ring_(ring),
+        row_(row),
+        plan_(plan.data()),
+        row_lines_(static_cast<std::uint32_t>(row_lines)),
+        planned_(static_cast<std::uint32_t>(plan.size())) {}
+
+  /// Has it brought near. A ring that is not there any more, or never was, does no harm.
+  void fetch() const noexcept;
+
+ private:
+  const TraceRing* ring_ = nullptr;
+  const void* row_ = nullptr;
+  const void* const* plan_ = nullptr;
+  std::uint32_t row_lines_ = 0;
+  std::uint32_t planned_ = 0;
+};
+
 /// The cycle copies what stands in memory; what the values are is found out by who reads them. A row has
-/// lines of the cache of its own, which the recorder had last: they are fetched while the tick computes.
-/// Fetched in the tick before they would be gone again where others use the processor between. Threads: the
-/// *cycle* pushes, the *runner* (the same thread, between two ticks) may wait, the *recorder* reads.
+/// lines of the cache of its own, which the recorder had last. Threads: the *cycle* pushes, the *runner* (the
+/// same thread, between two ticks) may wait, the *recorder* reads.
 class TraceRing {
  public:
   /// Rows that outlast a disk's pause of some seconds at the usual cycles, and keep virtual time from waiting
@@ -37,14 +64,13 @@ class TraceRing {
   /// What the signals point at must outlive the last `push`.
   explicit TraceRing(std::vector<Signal> signals, std::size_t rows = kRows);
 
-  /// Cycle, in a tick before what takes its time: has the memory that `push` will write brought near
-  /// meanwhile. Without it `push` takes longer.
-  void prefetch() const noexcept;
-
   /// Cycle: reads the signals into the ring. A constant number of steps; no allocation, no system call.
   /// @param t [ns] since the start of the run
   /// @return false if the ring is full: the row is dropped and counted.
   bool push(std::int64_t t, std::uint64_t tick) noexcept;
+
+  /// Cycle: what the next `push` will need, to be fetched early in that tick. Without it `push` takes longer.
+  RowAhead ahead() const noexcept;
 
   /// Runner, between two ticks, never inside one: returns when there is space for a row, so that the next
   /// `push` succeeds. This is how virtual time waits for the disk.
@@ -67,6 +93,8 @@ class TraceRing {
   std::size_t columns() const noexcept { return values_.size(); }
 
  private:
+  friend class RowAhead;
+
   static constexpr std::size_t kPrefix = 3;  // t, tick, dropped stand before the values
 
   struct alignas(kCacheLine) Line {
@@ -74,14 +102,15 @@ class TraceRing {
   };
 
   bool has_space() const noexcept;
-  std::uint64_t* row_at(std::uint64_t number) noexcept {
-    return lines_.data()[(number & mask_) * row_lines_].words.data();
+  std::uint64_t* row_at(std::uint64_t number) const noexcept {
+    return lines_[(number & mask_) * row_lines_].words.data();
   }
 
-  const SignalCopies copies_;
-  const std::size_t row_lines_;
-  const std::size_t mask_;
-  std::vector<Line> lines_;
+  // What the cycle only reads is one line, up to the plan of the copies; behind it comes what it writes.
+  alignas(kCacheLine) std::uint64_t mask_;
+  std::uint64_t row_lines_ = 0;
+  std::unique_ptr<Line[]> lines_;
+  SignalCopies copies_;
 
   // Both counters only grow; a row lives at counter & mask_. Each side owns a cache line.
   alignas(kCacheLine) std::atomic<std::uint64_t> written_{0};

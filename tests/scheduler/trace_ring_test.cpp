@@ -97,7 +97,7 @@ TEST(TraceRing, NoRowIsLostTornOrReorderedWhileTheWriterWaits) {
     low = tick;
     high = ~tick;
     ring.wait_for_space();
-    ring.prefetch();  // whether there is space or not
+    ring.ahead().fetch();  // whether there is space or not
     refused += !ring.push(static_cast<std::int64_t>(2 * tick), tick);
   }
   recorder.join();
