@@ -13,7 +13,9 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <numeric>
+#include <random>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -74,6 +76,34 @@ std::vector<std::unique_ptr<TraceSink>> sinks_to(const Project& project, const c
   return sinks;
 }
 
+/// On a thread as the one of a cycle.
+void as_a_cycle(int processor, const std::function<void()>& work) {
+  std::thread([&] {
+    const sched_param priority{80};
+    pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+    if (processor >= 0) keep_on_processor(pthread_self(), processor);
+    work();
+  }).join();
+}
+
+/// Ticks at their times, on the thread that makes it.
+class Pace {
+ public:
+  explicit Pace(Controller& controller) : controller_(controller) {}
+  /// @return what it took [µs]
+  double tick() {
+    const std::chrono::nanoseconds period(controller_.clock.servo_cycle);
+    do due_ += period;
+    while (due_ < std::chrono::steady_clock::now());
+    std::this_thread::sleep_until(due_);
+    return time_of_tick(controller_);
+  }
+
+ private:
+  Controller& controller_;
+  std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now();
+};
+
 TickTimes times_of(std::vector<double> ticks) {
   const auto middle = ticks.begin() + static_cast<std::ptrdiff_t>(ticks.size() / 2);
   std::nth_element(ticks.begin(), middle, ticks.end());
@@ -129,23 +159,31 @@ const char* StoppedSubscriber::url() const {
 
 TickTimes run_ticks(Controller& controller, int processor, int ticks) {
   std::vector<double> times;
-  times.reserve(static_cast<std::size_t>(ticks));
-  std::thread cycle([&] {
-    const sched_param priority{80};
-    pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
-    if (processor >= 0) keep_on_processor(pthread_self(), processor);
-    const std::chrono::nanoseconds period(controller.clock.servo_cycle);
-    auto due = std::chrono::steady_clock::now();
-    for (int i = -kNotCounted; i < ticks; ++i) {
-      do due += period;
-      while (due < std::chrono::steady_clock::now());
-      std::this_thread::sleep_until(due);
-      const double time = time_of_tick(controller);
-      if (i >= 0) times.push_back(time);
+  as_a_cycle(processor, [&] {
+    Pace pace(controller);
+    for (int i = 0; i < kNotCounted; ++i) pace.tick();
+    for (int i = 0; i < ticks; ++i) times.push_back(pace.tick());
+  });
+  return times_of(std::move(times));
+}
+
+TurnTimes run_ticks_by_turns(Controller& controller, int processor, int ticks,
+                             const std::function<void(bool with)>& turn) {
+  std::vector<double> times[2];
+  as_a_cycle(processor, [&] {
+    Pace pace(controller);
+    std::mt19937 random(20261127);
+    turn(true);
+    for (int i = 0; i < kNotCounted; ++i) pace.tick();
+    for (int i = 0; i < ticks; ++i) {
+      const bool first = random() % 2 == 0;
+      for (const bool with : {first, !first}) {
+        turn(with);
+        times[with].push_back(pace.tick());
+      }
     }
   });
-  cycle.join();
-  return times_of(std::move(times));
+  return {times_of(std::move(times[true])), times_of(std::move(times[false]))};
 }
 
 FloodedMachine::Recording::Recording(const Project& project, const char* file, const char* url)

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -49,6 +50,17 @@ struct TickTimes {
 /// permitted, each at its time, and none made up. Those at the beginning, which find what was before, are not
 /// counted. @param processor of the cycle; negative: any
 TickTimes run_ticks(Controller& controller, int processor, int ticks);
+
+/// Ticks with something, and ticks without it.
+struct TurnTimes {
+  TickTimes with, without;
+};
+
+/// The same with ticks by turns: of every two that follow each other one has it, drawn which, so that what
+/// else changes the speed of the processor changes both. @param turn called before each tick, outside of its
+/// time
+TurnTimes run_ticks_by_turns(Controller& controller, int processor, int ticks,
+                             const std::function<void(bool with)>& turn);
 
 class FloodedMachine {
  public:

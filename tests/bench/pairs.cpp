@@ -42,6 +42,11 @@ void Company::measure(const std::function<TickTimes()>& next_to_it, bool first) 
   if (!first) alone.push_back(next_to_it());
 }
 
+void Company::add(const TurnTimes& pair) {
+  times.push_back(pair.with);
+  alone.push_back(pair.without);
+}
+
 void print(const Company& company) {
   std::printf("  %-16s", company.name);
   print(company, &TickTimes::median);

@@ -33,15 +33,19 @@ constexpr char kHelp[] =
 studio_bench --files [--rows N]: how long a trace of ten signals takes to be read, and windows of it to be cut out
 
 A line shaft of six axes, and machines of 32 and 128 axes in gear (or of N alone), run in ticks of their servo
-cycle, as in real time. Each row is measured in pairs, as flood_bench does it:
+cycle, as in real time. By turns, of every two ticks one:
 
-  no page          with --studio and nobody who looks; next to it, without
+  no page          with --studio and nobody who looks; the other one without
   eight pages      four that draw 64 signals each, two that have subscribed and read nothing any more, two
-                   that subscribe and unsubscribe at full speed; next to it, without --studio
+                   that subscribe and unsubscribe at full speed; the other one as without --studio, beside the
+                   same pages
+  100 signals      one page that sees 100 signals; the other one with a trace of the same signals
+
+And in pairs of so many ticks (--ticks), as flood_bench does it:
+
   eight elsewhere  the same eight pages, of a machine whose rows come from a thread beside the cycle: what their
                    traffic costs a cycle that records nothing; next to it, without
   eight for one    eight pages that draw; next to it, one that sees the same signals
-  100 signals      one page that sees 100 signals; next to it, a trace of the same signals
 
 Shown are medians over many pairs (--rounds): processor time of a tick (CLOCK_THREAD_CPUTIME_ID without what
 reading this clock takes), and the ratio with the interval in which the true median lies by 95 %; for the middle
@@ -153,25 +157,24 @@ class WatchedMachine {
   WatchedMachine& operator=(const WatchedMachine&) = delete;
 
   TickTimes run(int ticks) { return run_ticks(*project_.controller, processor_, ticks); }
-  /// Ticks with --studio; with a trace of these signals in place of it; or with neither.
+  /// Ticks with --studio.
   TickTimes watched(int ticks) {
     project_.controller->tap = &session_.tap();
     const TickTimes times = run(ticks);
     project_.controller->tap = nullptr;
     return times;
   }
-  TickTimes traced(int ticks, std::vector<Signal> signals) {
+  /// The same by turns.
+  TurnTimes watched_or_not(int ticks) { return by_turns(ticks, nullptr); }
+  TurnTimes watched_or_traced(int ticks, std::vector<Signal> signals) {
     TraceRing ring(std::move(signals));
-    project_.controller->trace = &ring;
     std::jthread reader([&ring](const std::stop_token& end) {
       while (!end.stop_requested()) {
         ring.pop(ring.readable());
         std::this_thread::sleep_for(std::chrono::milliseconds(16));
       }
     });
-    const TickTimes times = run(ticks);
-    project_.controller->trace = nullptr;
-    return times;
+    return by_turns(ticks, &ring);
   }
   /// Rows from a thread that shares its processor with the rest, at the pace of the cycle, as long as the
   /// result is there. Nothing else runs this machine meanwhile.
@@ -196,6 +199,16 @@ class WatchedMachine {
     StudioServerOptions options;
     options.listen = {"127.0.0.1", 0};
     return options;
+  }
+  TurnTimes by_turns(int ticks, TraceRing* trace) {
+    Controller& controller = *project_.controller;
+    const TurnTimes times = run_ticks_by_turns(controller, processor_, ticks, [&](bool with) {
+      controller.tap = with ? &session_.tap() : nullptr;
+      controller.trace = with ? nullptr : trace;
+    });
+    controller.tap = nullptr;
+    controller.trace = nullptr;
+    return times;
   }
 
   Project project_;
@@ -223,35 +236,46 @@ void measure(const std::string& name, const std::string& text, int processor, co
       for (int i = 0; i < count; ++i) pages.push_back(std::make_unique<Page>(seen_one.port(), kind, paths));
     return pages;
   };
-  const auto pages = [&](const Kinds& kinds, const std::vector<std::string>& paths) {
-    const auto opened = open(machine, kinds, paths);
-    machine.watched(50);  // what they want has been taken
+  // What they want has been taken.
+  const auto opened_and_taken = [&](const Kinds& kinds, const std::vector<std::string>& paths) {
+    auto opened = open(machine, kinds, paths);
+    machine.watched(50);
+    return opened;
+  };
+  const auto drawing = [&](int count) {
+    const auto opened = opened_and_taken({{Page::Kind::draws, count}}, seen);
     return machine.watched(plan.ticks);
   };
   const Kinds mixed = {{Page::Kind::draws, 4}, {Page::Kind::hangs, 2}, {Page::Kind::floods, 2}};
-  Company nobody{"no page", [&] { return machine.watched(plan.ticks); }};
-  Company eight{"eight pages", [&] { return pages(mixed, seen); }};
+  Company nobody{"no page"};
+  Company eight{"eight pages"};
+  Company many{"100 signals"};
   Company elsewhere{"eight elsewhere", [&] {
                       const std::jthread rows = other.told_elsewhere();
                       const auto opened = open(other, mixed, seen);
                       machine.run(50);
                       return machine.run(plan.ticks);
                     }};
-  Company more{"eight for one", [&] { return pages({{Page::Kind::draws, 8}}, seen); }};
-  Company many{"100 signals", [&] { return pages({{Page::Kind::draws, 1}}, hundred); }};
+  Company more{"eight for one", [&] { return drawing(8); }};
   for (int round = 0; round < plan.rounds; ++round) {
     const bool first = round % 2 == 0;
-    nobody.measure(alone, first);
-    eight.measure(alone, first);
+    nobody.add(machine.watched_or_not(plan.ticks));
+    {
+      const auto opened = opened_and_taken(mixed, seen);
+      eight.add(machine.watched_or_not(plan.ticks));
+    }
+    {
+      const auto opened = opened_and_taken({{Page::Kind::draws, 1}}, hundred);
+      many.add(machine.watched_or_traced(plan.ticks, signals));
+    }
     elsewhere.measure(alone, first);
-    more.measure([&] { return pages({{Page::Kind::draws, 1}}, seen); }, first);
-    many.measure([&] { return machine.traced(plan.ticks, signals); }, first);
+    more.measure([&] { return drawing(1); }, first);
   }
   std::printf("\n%-18s  %-35s  %s\n%-18s", name.c_str(), "median of the ticks [us]", "mean of the ticks [us]",
               "");
   for (int i = 0; i < 2; ++i) std::printf("  %6s %6s  %-20s", "next", "so", "ratio");
   std::printf("\n");
-  for (const Company* const company : {&nobody, &eight, &elsewhere, &more, &many}) print(*company);
+  for (const Company* const company : {&nobody, &eight, &many, &elsewhere, &more}) print(*company);
   std::printf("pages see %zu signals, the last one %zu\n", seen.size(), hundred.size());
 }
 
