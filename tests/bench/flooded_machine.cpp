@@ -175,11 +175,13 @@ TurnTimes run_ticks_by_turns(Controller& controller, int processor, int ticks,
     std::mt19937 random(20261127);
     turn(true);
     for (int i = 0; i < kNotCounted; ++i) pace.tick();
-    for (int i = 0; i < ticks; ++i) {
+    // As long as a cycle of the interpolator, whose ticks take longer than those between.
+    const int length = controller.clock.interpolator_ratio;
+    for (int i = 0; i < ticks; i += length) {
       const bool first = random() % 2 == 0;
       for (const bool with : {first, !first}) {
         turn(with);
-        times[with].push_back(pace.tick());
+        for (int tick = 0; tick < length; ++tick) times[with].push_back(pace.tick());
       }
     }
   });

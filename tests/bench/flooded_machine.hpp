@@ -56,9 +56,9 @@ struct TurnTimes {
   TickTimes with, without;
 };
 
-/// The same with ticks by turns: of every two that follow each other one has it, drawn which, so that what
-/// else changes the speed of the processor changes both. @param turn called before each tick, outside of its
-/// time
+/// The same by turns: of every two cycles of the interpolator that follow each other one has it, drawn which,
+/// so that what else changes the speed of the processor changes both. @param turn called before each of them,
+/// outside of its time
 TurnTimes run_ticks_by_turns(Controller& controller, int processor, int ticks,
                              const std::function<void(bool with)>& turn);
 

@@ -33,7 +33,7 @@ constexpr char kHelp[] =
 studio_bench --files [--rows N]: how long a trace of ten signals takes to be read, and windows of it to be cut out
 
 A line shaft of six axes, and machines of 32 and 128 axes in gear (or of N alone), run in ticks of their servo
-cycle, as in real time. By turns, of every two ticks one:
+cycle, as in real time. By turns, of every two cycles one:
 
   no page          with --studio and nobody who looks; the other one without
   eight pages      four that draw 64 signals each, two that have subscribed and read nothing any more, two
