@@ -233,5 +233,15 @@ TEST(AposMachine, KeepsArraysFromOneProgramToTheNext) {
   EXPECT_EQ(machine.state(), ProgramState::kNone);
 }
 
+/// Published: byte 0 has outputs 1 to 8 of the option, byte 1 27 and 29 of the drive, lowest bit first.
+TEST(AposMachine, SwitchesTheOutputsOfABytePerBit) {
+  Running running("OUTB 0 129\nOUTB 1 2\n");
+  running.run(3);
+  std::vector<std::size_t> on;
+  for (std::size_t output = 1; output <= PlainDevice::kOutputs; ++output)
+    if (running.device.output(output)) on.push_back(output);
+  EXPECT_EQ(on, (std::vector<std::size_t>{1, 8, 29}));
+}
+
 }  // namespace
 }  // namespace lockstep::aposs::running_test
