@@ -12,7 +12,7 @@ namespace lockstep {
 namespace {
 
 template <std::size_t kSize>
-inline char* copy(const void* const* address, const void* const* end, char* to) noexcept {
+char* copy(const void* const* address, const void* const* end, char* to) noexcept {
   // Four at a time: the loop would cost as much as what it copies.
   for (; end - address >= 4; address += 4, to += 4 * kSize) {
     std::memcpy(to, address[0], kSize);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -104,6 +105,17 @@ TEST(TraceRing, NoRowIsLostTornOrReorderedWhileTheWriterWaits) {
   EXPECT_EQ(refused, 0u) << "after wait_for_space a push succeeds";
   EXPECT_EQ(wrong, 0u);
   EXPECT_EQ(ring.dropped(), 0u);
+}
+
+/// A cycle asks for the row of a ring that somebody has taken away since its last tick.
+TEST(TraceRing, ThatIsGoneIsNotTouchedByWhoFetchesItsNextRow) {
+  LREAL value = 0.0;
+  auto ring = std::make_unique<TraceRing>(std::vector<Signal>{{&value, Type::LREAL}}, 16);
+  ring->push(0, 0);
+  const RowAhead ahead = ring->ahead();
+  ring.reset();
+  ahead.fetch();
+  RowAhead().fetch();
 }
 
 TEST(TraceRing, EveryRowOfAHurriedWriterIsEitherReadOrCounted) {
