@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "tech_objects/arithmetic/double_double.hpp"
+#include "tech_objects/arithmetic/seldom_cut.hpp"
 
 namespace lockstep {
 
@@ -67,7 +68,7 @@ class CountController {
                                           settings_.derivative * moved);
     const double precontrol = settings_.scale * (settings_.velocity_precontrol * velocity +
                                                  settings_.acceleration_precontrol * acceleration);
-    reference_ = std::clamp(std::clamp(pid, -band_, band_) + precontrol, -kFullScale, kFullScale);
+    reference_ = seldom_cut(seldom_cut(pid, band_) + precontrol, kFullScale);
     still_ = moved == 0.0 && at_rest() && plain_ && same_bits({sum_, 0.0}, {sum_before, 0.0});
     return reference_;
   }

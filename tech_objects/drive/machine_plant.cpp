@@ -19,7 +19,8 @@ void MachinePlant::configure(const MachinePlantSettings& settings, double motor_
   inertia_ = settings.inertia * motor_angle;
   per_torque_ = cycle / inertia_;
   rubs_ = per_torque_ * settings.friction;
-  undisturbed_ = settings.friction == 0.0 && settings.load_torque == 0.0 && !settings.has_stop;
+  can_be_disturbed_ = settings.friction != 0.0 || settings.load_torque != 0.0 || settings.has_stop;
+  undisturbed_ = !can_be_disturbed_;
   start_ = start;
   cycle_ = cycle;
   // A stop takes the energy of what runs into it: critically damped with the inertia of the machine.
@@ -60,6 +61,7 @@ MachinePlant::Motion MachinePlant::step(const Begin& begin, const Motion& wanted
                                         const TorqueBand& permitted, double additive) noexcept {
   if (!pulses) {
     torque_ = known_ = 0.0;
+    undisturbed_ = !can_be_disturbed_;
     if (begin.velocity == 0.0) return {};  // the brake holds
   }
   double velocity = pulses ? push(begin.velocity, wanted.velocity, permitted, additive)
@@ -76,6 +78,7 @@ MachinePlant::Motion MachinePlant::step(const Begin& begin, const Motion& wanted
   const double friction = rubbed == 0.0 ? rubbed : rubbed / per_torque_;  // a division is long
   const double against = pushed_back + friction - settings_.load_torque - additive;
   if (pulses) known_ += (against - known_) * learning_;
+  undisturbed_ = !can_be_disturbed_ && known_ == 0.0;
   // At the stop with the velocity of the end, as its torque has been found; else the means of the cycle.
   if (stopped > 0.0) return {velocity * cycle_, velocity};
   if (!pulses || limited_) return {0.5 * (begin.velocity + velocity) * cycle_, velocity};

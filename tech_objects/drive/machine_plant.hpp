@@ -68,7 +68,8 @@ class MachinePlant {
   /// moves as is wanted. @return false: it is not so; `step` has to say what comes of it
   bool follow(double velocity, double wanted_velocity, const TorqueBand& permitted,
               double additive) noexcept {
-    if (!undisturbed_ || known_ != 0.0 || additive != 0.0) return false;
+    if (!undisturbed_) return false;
+    if (additive != 0.0) return false;
     const double asked = (wanted_velocity - velocity) / per_torque_ + 0.0;  // no -0
     if (!(asked >= permitted.lower && asked <= permitted.upper)) return false;
     torque_ = asked;
@@ -89,7 +90,8 @@ class MachinePlant {
               double additive) noexcept;
   double stop_torque(const Begin& begin, double velocity) const noexcept;
 
-  bool undisturbed_ = true;  // neither friction nor load, nor a stop
+  bool can_be_disturbed_ = false;  // by friction, load or a stop
+  bool undisturbed_ = true;        // nor is there anything that it makes up for
   bool limited_ = false;
   double torque_ = 0.0;      // of the motor
   double known_ = 0.0;       // disturbance that the drive makes up for

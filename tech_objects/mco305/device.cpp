@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "tech_objects/arithmetic/seldom_cut.hpp"
 #include "tech_objects/mco305/synchronization_step.hpp"
 
 namespace lockstep::mco305 {
@@ -308,7 +309,7 @@ inline void Device::control_position() noexcept {
   if (sampling_ != 1 && now_ % sampling_ != 0) return;
   const FourSlopeState& set = profile_.state();
   const bool by_velocity = mode_ == MotionMode::kFollow && sync_.mode() == SyncMode::kVelocity;
-  const double setpoint = by_velocity ? set.position : static_cast<double>(set_counts());
+  const double setpoint = by_velocity ? set.position : nearest_whole(set.position);
   const double change = set.velocity - last_velocity_;
   last_velocity_ = set.velocity;
   // A division is long.
@@ -460,7 +461,7 @@ inline void Device::write_drive() noexcept {
   if (!same) {
     scaled_reference_ = reference_;
     const double velocity = drive_sign_ * reference_ / CountController::kFullScale * full_reference_;
-    drive_velocity_ = std::clamp(velocity, -speed_limit_, speed_limit_) * kMillisecondsPerSecond;
+    drive_velocity_ = seldom_cut(velocity, speed_limit_) * kMillisecondsPerSecond;
   }
   drive_->write(drive_velocity_);
 }

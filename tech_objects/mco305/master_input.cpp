@@ -67,6 +67,7 @@ void MasterInput::turn(double encoder) noexcept {
   if (!heard_) {
     heard_ = true;
     absolute_.configure(absolute_type_, data_bits_, whole);
+    reads_absolute_ = absolute_.present();
     read_ = whole;
     if (absolute_.present()) last_ = position_ = absolute_.position();
     return;

@@ -99,19 +99,20 @@ class MasterInput {
   void read_absolute() noexcept;
   void pass_absolute(double from, double to) noexcept;
 
-  // What every step needs stands first, what is there of `own_` and `absolute_` within it.
+  // In three lines what every step needs, with what there is of it at the begin of `own_` and `track_`.
   alignas(kCacheLine) bool wired_ = false;
   bool begun_ = false, heard_ = false, simulated_ = false, last_level_ = false, enabled_ = true;
+  bool reads_absolute_ = false;  // `absolute_.present()`
   std::int32_t real_velocity_ = 0;
   std::int32_t type_ = 1, marker_type_ = 0;  // MENCODERTYPE, SYNCMTYPM
   std::uint32_t mark_count_ = 0, next_mark_count_ = 0;
   std::int64_t position_ = 0, last_ = 0, moved_ = 0, now_ = 0;
-  std::int64_t turned_ = 0;                 // whole counts of the encoder in this step
-  double free_from_ = 0.0, free_to_ = 0.0;  // between these there is no zero pulse [qc]
+  std::int64_t turned_ = 0;  // whole counts of the encoder in this step
   VirtualMaster own_;
-  AbsoluteEncoder absolute_;
+  double free_from_ = 0.0, free_to_ = 0.0;  // between these there is no zero pulse [qc]
   MarkerTrack track_;
 
+  AbsoluteEncoder absolute_;
   double encoder_ = 0.0;
   std::int64_t shown_encoder_ = 0, origin_ = 0;  // shown_encoder_: whole counts of the encoder
   std::int32_t enabling_input_ = 0;
@@ -141,14 +142,16 @@ class MasterInput {
 }
 
 [[gnu::always_inline]] inline void MasterInput::step() noexcept {
-  if (absolute_.present()) read_absolute();
+  if (reads_absolute_) read_absolute();
   if (own_.active()) {
     const auto begin = static_cast<double>(position_);
     move(own_.step());
     pass(begin, static_cast<double>(position_));
   }
   const std::int64_t moved = position_ - last_;
-  moved_ = moved > kFastest ? kFastest : moved < -kFastest ? -kFastest : moved;
+  moved_ = moved;
+  if (moved > kFastest || moved < -kFastest) [[unlikely]]
+    moved_ = moved > 0 ? kFastest : -kFastest;
   last_ = position_;
   if (turned_ != 0 || real_velocity_ != 0) show_velocity();
   if (mark_count_ != 0 || next_mark_count_ != 0) hand_over_marks();

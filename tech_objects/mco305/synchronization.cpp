@@ -169,7 +169,7 @@ void Synchronization::follow_velocity(std::int64_t actual, bool controls_velocit
 void Synchronization::look_whether_reached() noexcept {
   if (awaits_path_ || path_.active()) return;
   reached_ =
-      pursuit_.synchronous() || std::abs(pursuit_.velocity() - pursued().velocity) <= limits_.acceleration;
+      pursuit_.synchronous(limits_) || std::abs(pursuit_.velocity() - pursued().velocity) <= limits_.acceleration;
 }
 
 std::int32_t Synchronization::status() const noexcept {

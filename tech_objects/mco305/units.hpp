@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "tech_objects/arithmetic/nearest.hpp"
+
 namespace lockstep::mco305 {
 
 inline constexpr double kMillisecondsPerSecond = 1000.0;
@@ -14,7 +16,9 @@ inline constexpr double kFastest = 1'073'741'824.0;               ///< [qc/ms]
 inline constexpr std::int64_t kFarthest = std::int64_t{1} << 60;  ///< [qc]
 
 constexpr std::int64_t within_reach(std::int64_t counts) noexcept {
-  return counts > kFarthest ? kFarthest : counts < -kFarthest ? -kFarthest : counts;
+  if (counts > kFarthest || counts < -kFarthest) [[unlikely]]
+    return counts > 0 ? kFarthest : -kFarthest;
+  return counts;
 }
 /// The count at or below a position.
 inline std::int64_t counts_of(double position) noexcept {
@@ -25,6 +29,14 @@ inline std::int64_t counts_of(double position) noexcept {
 }
 inline std::int64_t nearest_count(double position) noexcept {
   return counts_of(position + 0.5);
+}
+/// `nearest_count` as a double: quicker where the position is not half way between two counts.
+inline double nearest_whole(double position) noexcept {
+  constexpr double kFar = 2251799813685248.0, kEdge = 0.49;  // kFar: 2⁵¹
+  const double whole = nearest(position);
+  if (std::abs(position - whole) < kEdge && std::abs(position) < kFar) [[likely]]
+    return whole;
+  return static_cast<double>(nearest_count(position));
 }
 /// The floor, without the call that it takes where the processor has no instruction for it.
 inline double whole_below(double value) noexcept {

@@ -62,12 +62,13 @@ class VirtualMaster {
     return advance(counts, moved - counts * kParts);
   }
 
+  // For the cache: last what only a step that changes the frequency needs.
+  bool active_ = false;
+  std::int32_t next_acceleration_ = 0;
   std::int64_t position_ = 0, rest_ = 0;     // [qc], [qc/1000000]
   std::int64_t frequency_ = 0, target_ = 0;  // [1/1000 Hz]
   std::int64_t counts_ = 0, parts_ = 0;      // of a step with this frequency, which takes no division to know
   std::int64_t acceleration_ = 0;            // [1/1000 Hz per ms]
-  std::int32_t next_acceleration_ = 0;
-  bool active_ = false;
 };
 
 }  // namespace lockstep::mco305

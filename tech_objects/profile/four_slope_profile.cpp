@@ -188,6 +188,7 @@ void FourSlopePlan::to_velocity(double wanted) noexcept {
 void FourSlopeProfile::stand(double position) noexcept {
   count_ = current_ = 0;
   now_ = end_ = {position, 0.0, 0.0};
+  led_ = false;
   phase_ = SlopePhase::end;
 }
 
@@ -195,6 +196,7 @@ void FourSlopeProfile::begin(const FourSlopeState& from, const FourSlopeLimits& 
   origin_ = from.position;
   now_ = from;
   current_ = 0;
+  led_ = false;
   time_ = 0.0;
   sinusoidal_ = limits.sinusoidal;
   phase_ = SlopePhase::start;

@@ -57,7 +57,8 @@ class FourSlopeProfile {
   /// Is where somebody else leads it, until it is told to move by itself.
   void lead(const FourSlopeState& to) noexcept {
     count_ = current_ = 0;
-    now_ = end_ = to;
+    now_ = to;
+    led_ = true;
     phase_ = SlopePhase::constant;
   }
   /// From a state to a velocity, cut to the limits, which is then kept.
@@ -101,6 +102,8 @@ class FourSlopeProfile {
   const FourSlopeState& go_on() noexcept;
   /// At the end. By parts: a state that is copied as a whole waits for its position to be written.
   const FourSlopeState& keep_velocity(double time) noexcept {
+    if (led_) end_ = now_;
+    led_ = false;
     const double position = end_.position + end_.velocity * time;
     end_.position = now_.position = position;
     now_.velocity = end_.velocity;
@@ -114,6 +117,7 @@ class FourSlopeProfile {
   bool sinusoidal_ = false;
   bool straight_ = false;  // along the current segment only the position changes any more
   std::uint8_t count_ = 0, current_ = 0;
+  bool led_ = false;  // by the last call: `end_` is `now_`
   FourSlopeState now_{};
   double time_ = 0.0;    // in the current segment
   double origin_ = 0.0;  // positions of the segments count from there

@@ -3,19 +3,26 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
+
+#include "tech_objects/arithmetic/nearest.hpp"
 
 namespace lockstep {
+
+namespace detail {
+/// Out of the way: seldom needed, and where the processor has no instruction for it a call.
+[[gnu::noinline, gnu::cold]] inline double floor(double value) noexcept { return std::floor(value); }
+}  // namespace detail
 
 /// So fast that whole steps of braking behind this one end at the distance; velocities are distances per
 /// step.
 /// @param distance [u] ≥ 0  @param braking [u/step²] > 0
 inline double braking_speed(double distance, double braking) noexcept {
-  constexpr double kWhole = 4503599627370496.0;  // 2⁵²: from here on there is nothing behind the point
-  const double steps = std::sqrt(0.25 + 2.0 * distance / braking) - 0.5;
-  // The floor, which is never negative, without the call that it takes where the processor has no instruction
-  // for it.
-  const double whole = steps < kWhole ? static_cast<double>(static_cast<std::int64_t>(steps)) : steps;
+  const double root = std::sqrt(0.25 + 2.0 * distance / braking);
+  // ⌊root - 0.5⌋, which but on its edges is the nearest one less 1.
+  double whole = nearest(root) - 1.0;
+  const double rest = root - whole;
+  if (!(rest >= 0.5 && rest < 1.5)) [[unlikely]]
+    whole = detail::floor(root - 0.5);
   return whole < 1.0 ? distance : whole * braking;
 }
 

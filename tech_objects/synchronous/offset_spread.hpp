@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "tech_objects/synchronous/plain_pursuit.hpp"
 
@@ -61,7 +62,8 @@ class OffsetSpread {
   /// Without ramps there is nothing to pursue.
   void step_equally() noexcept {
     const double rest = wanted_ - moved_.position();
-    const double by = std::clamp(rest, -velocity_, velocity_);
+    // Without a branch: to which side it goes changes from one correction to the next.
+    const double by = std::copysign(std::min(std::abs(rest), velocity_), rest);
     moved_.begin(by == rest ? wanted_ : moved_.position() + by, by);
   }
   [[gnu::noinline]] void step_with_ramps() noexcept {

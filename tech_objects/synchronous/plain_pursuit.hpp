@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tech_objects/arithmetic/seldom_cut.hpp"
 #include "tech_objects/synchronous/braking_speed.hpp"
 #include "tech_objects/synchronous/pursuit_limits.hpp"
 
@@ -42,6 +43,15 @@ class PlainPursuit {
   /// A velocity within limits. @param rest 0: the target is met, and goes along  @param target_velocity of it
   static double bounded(double wanted, double rest, double target_velocity,
                         const PursuitLimits& limits) noexcept {
+    const bool both_ways_alike = limits.band < 0.0 && limits.reversal == PursuitLimits::Reversal::free;
+    return both_ways_alike ? seldom_cut(wanted, limits.velocity)
+                           : bounded_by_all(wanted, rest, target_velocity, limits);
+  }
+
+ private:
+  /// `bounded`, where a band or a direction counts as well.
+  [[gnu::noinline]] static double bounded_by_all(double wanted, double rest, double target_velocity,
+                                                 const PursuitLimits& limits) noexcept {
     double low = -limits.velocity, high = limits.velocity;
     if (limits.band >= 0.0 && (rest != 0.0 || limits.spread != 0.0)) {
       const double pace = target_velocity - limits.spread, band = std::abs(pace) * limits.band;
@@ -54,8 +64,6 @@ class PlainPursuit {
     }
     return std::clamp(wanted, low, high);
   }
-
- private:
   static double approach(double rest, double target_velocity, const PursuitLimits& limits) noexcept {
     const double distance = std::abs(rest);
     if (distance == 0.0) return 0.0;

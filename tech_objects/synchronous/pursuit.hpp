@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tech_objects/synchronous/counted_pace.hpp"
 #include "tech_objects/synchronous/plain_pursuit.hpp"
@@ -17,6 +18,7 @@ class Pursuit {
   /// Goes on from here. @param velocity [u/step]
   void begin(double position, double velocity) noexcept {
     own_.begin(position, steady_ = last_target_velocity_ = velocity);
+    last_target_ = kNone;
     synchronous_ = locked_ = false;
     pace_.begin();
   }
@@ -34,16 +36,16 @@ class Pursuit {
       pace = limits.spread + pace_.step(target_velocity - limits.spread, limits.uncertainty,
                                         std::min(limits.acceleration, limits.deceleration));
     const bool stays = counted && stays_on(whole, rest, target_velocity, limits);
+    last_target_ = target;
     last_target_velocity_ = target_velocity;
+    synchronous_ = stays;
     if (stays) return own_.begin(target, whole);
     own_.step(target, rest, pace, limits);
-    const double jump = std::abs(velocity() - target_velocity);
-    synchronous_ =
-        std::abs(target - position()) < 1.0 && jump <= std::max(limits.acceleration, limits.deceleration);
   }
   /// One step towards a velocity alone.
   void follow(double target_velocity, const PursuitLimits& limits) noexcept {
     own_.follow(target_velocity, limits);
+    last_target_ = kNone;
     synchronous_ = velocity() == target_velocity;
   }
   /// Called by another name: what it is at moves, it does not.
@@ -51,11 +53,16 @@ class Pursuit {
 
   double position() const noexcept { return own_.position(); }
   double velocity() const noexcept { return own_.velocity(); }  ///< [u/step] of the last step
-  /// Whether it is within one unit of the target and goes along with it.
-  bool synchronous() const noexcept { return synchronous_; }
+  /// Whether it is within one unit of the target and goes along with it. @param limits of the last step
+  bool synchronous(const PursuitLimits& limits) const noexcept {
+    const double jump = std::abs(velocity() - last_target_velocity_);
+    return synchronous_ || (std::abs(last_target_ - position()) < 1.0 &&
+                            jump <= std::max(limits.acceleration, limits.deceleration));
+  }
 
  private:
   static constexpr double kRounding = 1e-14;  // of a position
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   /// Whether it is on a counted target, and may go on with all its steps.
   bool stays_on(double whole, double rest, double target_velocity, const PursuitLimits& limits) noexcept {
@@ -76,13 +83,12 @@ class Pursuit {
     const double correction = std::abs(rest) <= kRounding * (1.0 + std::abs(position())) ? 0.0 : rest;
     locked_ = std::abs(whole - steady_) <= change + uncertainty &&
               PlainPursuit::bounded(whole, correction, target_velocity, limits) == whole;
-    synchronous_ = locked_;
     return locked_;
   }
 
   PlainPursuit own_;
   double steady_ = 0.0;  // velocity that keeps the limits, beside which that of a counted target jumps
-  double last_target_velocity_ = 0.0;
+  double last_target_ = kNone, last_target_velocity_ = 0.0;
   CountedPace pace_;
   bool synchronous_ = false, locked_ = false;
 };

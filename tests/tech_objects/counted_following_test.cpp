@@ -82,7 +82,7 @@ TEST(Pursuit, KeepsItsLimitsAndMeetsATargetThatGoesOn) {
     pursuit.begin(0.0, of(-1.0, 1.0) * limits.velocity);
     int steps = 0;
     constexpr int kLongest = 400'000;
-    for (; steps < kLongest && !(pursuit.synchronous() && pursuit.position() == target); ++steps) {
+    for (; steps < kLongest && !(pursuit.synchronous(limits) && pursuit.position() == target); ++steps) {
       const double before = pursuit.velocity(), place = pursuit.position();
       target += velocity;
       pursuit.step(target, velocity, limits);
