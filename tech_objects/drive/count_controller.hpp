@@ -57,7 +57,7 @@ class CountController {
     begun_ = true;
     const double sum_before = sum_;
     double limit = settings_.integral_limit;
-    if (plain_) {
+    if (plain_) [[likely]] {
       idle_ = false;
     } else {
       if (rests_within(error)) return 0.0;

@@ -123,12 +123,16 @@ void Device::forget_settings() noexcept {
 // What is called here in every step is inline: to save registers and to hand over by memory would take up to
 // a seventh of its instructions.
 void Device::servo(bool step) noexcept {
-  if (!virtual_) read_drive();
-  if (step) {
+  if (!virtual_) [[likely]]
+    read_drive();
+  if (step) [[likely]] {
     ++now_;
-    if (samples_ || io_.changes() != sampled_inputs_) sample();
-    if (has_master_) step_master();
-    if (mode_ == MotionMode::kHome) step_home();
+    if (samples_ || io_.changes() != sampled_inputs_) [[unlikely]]
+      sample();
+    if (has_master_) [[likely]]
+      step_master();
+    if (mode_ == MotionMode::kHome) [[unlikely]]
+      step_home();
     generate();
     if (virtual_) {
       const double before = machine_;
@@ -138,13 +142,17 @@ void Device::servo(bool step) noexcept {
     }
     control();
     look_at_arrival();
-    if (watches_ || now_ == next_monitoring_) monitor();
-    if (has_master_) sync_.judge(actual_);
+    if (watches_ || now_ == next_monitoring_) [[unlikely]]
+      monitor();
+    if (has_master_) [[likely]]
+      sync_.judge(actual_);
     positions_.keep(now_, actual_);
-    if (shows_) write_outputs();
+    if (shows_) [[unlikely]]
+      write_outputs();
     brake_ = false;
   }
-  if (!virtual_) write_drive();
+  if (!virtual_) [[likely]]
+    write_drive();
 }
 
 /// A drive that does not move has nothing new to tell but its state.
@@ -251,7 +259,7 @@ void Device::mark(double place) noexcept {
 
 /// Of the markers of this millisecond those of the slave have been taken while its drive was read.
 [[gnu::always_inline]] inline void Device::step_master() noexcept {
-  if (io_.changes() != master_inputs_) {
+  if (io_.changes() != master_inputs_) [[unlikely]] {
     master_inputs_ = io_.changes();
     const std::int32_t enabling = master_.enabling_input();
     master_.look_at_marker(io_.input(5), enabling == 0 || io_.input(enabling));
@@ -259,7 +267,8 @@ void Device::mark(double place) noexcept {
   master_.step();
   sync_.average(master_);
   if (mode_ != MotionMode::kFollow) sync_.end();
-  if (sync_.runs()) sync_.step(master_, actual_);
+  if (sync_.runs()) [[likely]]
+    sync_.step(master_, actual_);
 }
 
 [[gnu::noinline]] void Device::sample() noexcept {
@@ -295,7 +304,7 @@ inline void Device::generate() noexcept {
     last_velocity_ = 0.0;
     return;
   }
-  if (mode_ == MotionMode::kFollow) {
+  if (mode_ == MotionMode::kFollow) [[likely]] {
     const double before = profile_.state().position;
     sync_.set_point(actual_, !virtual_);
     profile_.lead({sync_.set_position(), sync_.set_velocity(), sync_.set_acceleration()});
@@ -306,14 +315,15 @@ inline void Device::generate() noexcept {
 }
 
 inline void Device::control_position() noexcept {
-  if (sampling_ != 1 && now_ % sampling_ != 0) return;
+  if (sampling_ != 1 && now_ % sampling_ != 0) [[unlikely]]
+    return;
   const FourSlopeState& set = profile_.state();
   const bool by_velocity = mode_ == MotionMode::kFollow && sync_.mode() == SyncMode::kVelocity;
   const double setpoint = by_velocity ? set.position : nearest_whole(set.position);
   const double change = set.velocity - last_velocity_;
   last_velocity_ = set.velocity;
   // A division is long.
-  if (sampling_ == 1) {
+  if (sampling_ == 1) [[likely]] {
     reference_ = controller_.step(setpoint, static_cast<double>(actual_), set.velocity, change, 1.0);
   } else {
     const auto period = static_cast<double>(sampling_);
@@ -460,7 +470,7 @@ inline void Device::write_drive() noexcept {
       std::bit_cast<std::uint64_t>(reference_) == std::bit_cast<std::uint64_t>(scaled_reference_);
   if (!same) {
     scaled_reference_ = reference_;
-    const double velocity = drive_sign_ * reference_ / CountController::kFullScale * full_reference_;
+    const double velocity = reference_ / CountController::kFullScale * full_reference_;
     drive_velocity_ = seldom_cut(velocity, speed_limit_) * kMillisecondsPerSecond;
   }
   drive_->write(drive_velocity_);

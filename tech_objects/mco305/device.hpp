@@ -306,11 +306,11 @@ class alignas(kCacheLine) Device {
     double velocity = 0.0, torque = 0.0;
   } told_;
   std::int64_t window_since_ = -1;  // [ms]
+  // Of the drive [qc/ms]: what it does at full reference, below 0 where POSDRCT turns it round, and at most.
+  double full_reference_ = 1.0, speed_limit_ = 0.0;
 
-  // What one needs whose reference changes, or whose markers are seen.
-  double drive_sign_ = 1.0;                          // of the reference: POSDRCT
-  double full_reference_ = 1.0, speed_limit_ = 0.0;  // of the drive [qc/ms]
-  double unled_ = 0.0;                               // what set positions have stepped [qc]
+  // What one needs whose markers are seen.
+  double unled_ = 0.0;  // what set positions have stepped [qc]
   MarkerTrack track_;
 
   // What one that is led needs.
@@ -353,6 +353,7 @@ class alignas(kCacheLine) Device {
   std::int32_t speed_ = 0;
   std::int32_t program_line_ = 0;
   std::int32_t maximum_reference_ = 0, speed_high_limit_ = -1;   // 3-03, 4-13; 0, -1: not set
+  double drive_sign_ = 1.0;                                      // of the reference: POSDRCT
   double analog_output_ = 0.0;                                   // [mA]
   bool swapped_ = false;                                         // SWAPMENC
   double turn_ = 4096.0;                                         // of the motor [qc]

@@ -34,7 +34,8 @@ double Device::counts_per_millisecond(double rpm) const noexcept {
 /// What the drive makes of a reference; where a parameter of either has changed.
 void Device::scale_drive() noexcept {
   full_reference_ =
-      maximum_reference_ > 0 ? counts_per_millisecond(maximum_reference_ / kMilli) : velocity_maximum_;
+      drive_sign_ *
+      (maximum_reference_ > 0 ? counts_per_millisecond(maximum_reference_ / kMilli) : velocity_maximum_);
   speed_limit_ = speed_high_limit_ < 0 ? kFastest : counts_per_millisecond(speed_high_limit_);
   scaled_reference_ = std::numeric_limits<double>::quiet_NaN();
 }
@@ -58,7 +59,7 @@ bool Device::set_analog_output(std::int32_t terminal, std::int32_t value) noexce
 }
 
 bool Device::drive_parameter(std::int32_t number, std::int32_t& value) const noexcept {
-  const double full = full_reference_ > 0.0 ? full_reference_ : 1.0;
+  const double full = full_reference_ != 0.0 ? std::abs(full_reference_) : 1.0;
   const double velocity = virtual_ ? 0.0 : told_.velocity / kMillisecondsPerSecond;           // [qc/ms]
   const double frequency = std::abs(velocity) * kMillisecondsPerSecond / turn_ * kPolePairs;  // [Hz]
   switch (number) {

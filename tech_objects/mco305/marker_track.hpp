@@ -47,7 +47,8 @@ class MarkerTrack {
   /// is such a stretch; so it has to be seen only that it does not leave it.
   bool stays_free(double by) noexcept {
     const double carried = carried_ + by;
-    if (!plain_ || !(carried > free_from_ && carried < free_to_)) return false;
+    if (!plain_ || !(carried > free_from_ && carried < free_to_)) [[unlikely]]
+      return false;
     carried_ = carried;
     return true;
   }

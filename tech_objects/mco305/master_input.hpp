@@ -142,7 +142,8 @@ class MasterInput {
 }
 
 [[gnu::always_inline]] inline void MasterInput::step() noexcept {
-  if (reads_absolute_) read_absolute();
+  if (reads_absolute_) [[unlikely]]
+    read_absolute();
   if (own_.active()) {
     const auto begin = static_cast<double>(position_);
     move(own_.step());
@@ -154,7 +155,8 @@ class MasterInput {
     moved_ = moved > 0 ? kFastest : -kFastest;
   last_ = position_;
   if (turned_ != 0 || real_velocity_ != 0) show_velocity();
-  if (mark_count_ != 0 || next_mark_count_ != 0) hand_over_marks();
+  if (mark_count_ != 0 || next_mark_count_ != 0) [[unlikely]]
+    hand_over_marks();
   ++now_;
   positions_[static_cast<std::size_t>(now_) % kRing] = position_;
 }

@@ -26,6 +26,7 @@ void Synchronization::refresh(const ParameterValues& p, bool later_edition,
   signed_error_ = p[kSyncAccuracy] < 0;
   looks_ahead_ = p[kSyncType] == 1;
   filter_parameter_ = p[kSyncVfTime];
+  smooths_ = filter_parameter_ < 0;
   filter_limit_ = later_edition ? p.real(kSyncVfLimit) : 0.0;
   filter_time_ = filter_time(p.real(kMasterEncoder));
   constexpr double kTimes = 5.0;  // of the velocity, as resolution for the table
@@ -52,6 +53,7 @@ void Synchronization::refresh(const ParameterValues& p, bool later_edition,
   const bool gives_back = later_edition && limits_.reversal != PursuitLimits::Reversal::free;
   const double ratio = std::abs(gear_.ratio());
   held_.set(gives_back ? master_tolerance_.distance * ratio : 0.0, offset_time_, kDither * ratio);
+  gives_back_ = held_.active();
 }
 
 /// [ms]
@@ -168,8 +170,8 @@ void Synchronization::follow_velocity(std::int64_t actual, bool controls_velocit
 
 void Synchronization::look_whether_reached() noexcept {
   if (awaits_path_ || path_.active()) return;
-  reached_ =
-      pursuit_.synchronous(limits_) || std::abs(pursuit_.velocity() - pursued().velocity) <= limits_.acceleration;
+  reached_ = pursuit_.synchronous(limits_) ||
+             std::abs(pursuit_.velocity() - pursued().velocity) <= limits_.acceleration;
 }
 
 std::int32_t Synchronization::status() const noexcept {

@@ -59,7 +59,7 @@ class Synchronization {
   /// SYNCMFPAR 64: the distance of the master's markers is averaged whatever it does. Each millisecond,
   /// behind that of the master.
   void average(const MasterInput& master) noexcept {
-    if (averages_ && master.mark_count() != 0) average_markers(master);
+    if (master.mark_count() != 0 && averages_) average_markers(master);
   }
   /// A marker of the slave has been latched [qc].
   void take_slave_mark(double place) noexcept;
@@ -142,13 +142,20 @@ class Synchronization {
   double filter_time_ = 1.0, filter_limit_ = 0.0;
   std::int64_t master_marks_ = 0, slave_marks_ = 0;
 
-  // What all steps of following need, from the flag at the end of `held_` to that in front of `filter_`.
   HeldBack held_;  // by REVERS [qc]
+  double moved_origin_ = 0.0;
+  double slave_filter_time_ = 1.0;  // [ms]
+  CountFilter slave_filter_;
+  std::int64_t last_actual_ = 0;
+
+  // What all steps of following need, in seven lines: from the flags of `quality_`, at its end, to the trim
+  // of `filter_`, at its begin.
+  SyncQuality quality_;
   SyncMode mode_ = SyncMode::kNone;
-  bool following_ = false, later_edition_ = true, signed_error_ = false, looks_ahead_ = false;
-  bool reached_ = false;  // the velocity of the master, since the start
-  bool awaits_path_ = false, averages_ = false;
-  std::int32_t filter_parameter_ = 0, hits_ = 0;
+  bool following_ = false, later_edition_ = true, looks_ahead_ = false;
+  bool reached_ = false;                        // the velocity of the master, since the start
+  bool awaits_path_ = false, smooths_ = false;  // smooths_: the velocity of the master, SYNCVFTIME
+  bool gives_back_ = false;                     // `held_.active()`
   CountGear gear_;
   double velocity_precontrol_ = 0.0;
   double trimmed_ = 0.0;  // by the trim of the gear [qc]
@@ -159,17 +166,14 @@ class Synchronization {
   PursuitLimits limits_;
   double last_velocity_ = 0.0;  // [qc/ms] of the set position
   std::int64_t error_ = 0, wanted_ = 0, accuracy_ = 1000;
-  SyncQuality quality_;
   OffsetSpread offset_;      // [qc of the master]
   OffsetSpread correction_;  // by markers [qc]
   MeetingPath path_;         // start 7
   MarkerFilter filter_;
 
+  std::int32_t filter_parameter_ = 0, hits_ = 0;
+  bool averages_ = false, signed_error_ = false;
   FadingTime fading_;
-  double slave_filter_time_ = 1.0;  // [ms]
-  CountFilter slave_filter_;
-  std::int64_t last_actual_ = 0;
-  double moved_origin_ = 0.0;
   bool origin_defined_ = false;
   std::int64_t origin_master_ = 0;
   double origin_slave_ = 0.0;

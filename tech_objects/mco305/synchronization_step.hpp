@@ -20,7 +20,7 @@ namespace lockstep::mco305 {
   }
   gear_.move(master.moved());
   double velocity = moved, lag = 0.0;
-  if (filter_parameter_ < 0) {
+  if (smooths_) {
     velocity =
         velocity_filter_.step_and_return(moved, filter_limit_ > 0.0 ? faded_time(moved) : filter_time_);
     lag = velocity_filter_.lag();
@@ -42,7 +42,8 @@ namespace lockstep::mco305 {
                          velocity_precontrol_ * target_velocity,
              .velocity = target_velocity,
              .spread = spread};
-  if (path_.active()) follow_path();
+  if (path_.active()) [[unlikely]]
+    follow_path();
   wanted_ = nearest_count(position + total_offset());
 }
 
@@ -59,16 +60,17 @@ namespace lockstep::mco305 {
   last_velocity_ = pursuit_.velocity();
   if (mode_ == SyncMode::kVelocity) {
     follow_velocity(actual, controls_velocity);
-  } else if (awaits_path_) {
+  } else if (awaits_path_) [[unlikely]] {
     pursuit_.follow(0.0, limits_);
-  } else if (held_.active()) {
+  } else if (gives_back_) [[unlikely]] {
     pursue_what_holds_back();
   } else {
     const Target& aim = pursued();
     limits_.spread = aim.spread;
     pursuit_.step(aim.position, aim.velocity, limits_);
   }
-  if (!reached_) look_whether_reached();
+  if (!reached_) [[unlikely]]
+    look_whether_reached();
 }
 
 /// Until the velocity of the master has been reached once a small error is the beginning of a large one.

@@ -55,7 +55,11 @@ class CountFilter {
  private:
   /// Behind a counter that stands, both halve without end, and a processor takes several times as long for
   /// numbers below 2⁻¹⁰²² as for others: what is far below anything that is ever added is nothing.
-  static double settled(double value) noexcept { return std::abs(value) < 1e-300 ? 0.0 : value; }
+  static double settled(double value) noexcept {
+    if (std::abs(value) >= 1e-300) [[likely]]
+      return value;
+    return 0.0;
+  }
 
   double velocity_ = 0.0, lag_ = 0.0;
 };

@@ -42,7 +42,8 @@ class MarkerWindow {
   bool missed(double position, const MarkerTolerance& allowed) noexcept {
     const double moved = position - last_;
     // First what most steps end with.
-    if (std::abs(moved) <= allowed.distance + allowed.window) return false;
+    if (std::abs(moved) <= allowed.distance + allowed.window) [[likely]]
+      return false;
     if (!begun_ || !(allowed.window > 0.0) || !(allowed.distance > 0.0)) return false;
     last_ += moved < 0.0 ? -allowed.distance : allowed.distance;
     return true;

@@ -26,8 +26,8 @@ class SyncQuality {
   bool fault() const noexcept { return fault_; }
 
  private:
-  bool accurate_ = false, ready_ = false, fault_ = false;
   std::int64_t good_ = 0, bad_ = 0;
+  bool accurate_ = false, ready_ = false, fault_ = false;  // last what every step writes
 };
 
 }  // namespace lockstep
