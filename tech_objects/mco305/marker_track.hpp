@@ -61,7 +61,6 @@ class MarkerTrack {
     const double begin = carried_;
     carried_ += (to - from) * part;
     if (on(settings_.missing) || is_free(begin, carried_)) return;
-    free_from_ = free_to_ = 0.0;
     constexpr int kInATick = 8;  // no sensor is faster
     double at = begin;
     for (int i = 0; i < kInATick; ++i) {
@@ -70,43 +69,39 @@ class MarkerTrack {
       found(from + (*mark - begin) / part);
       at = *mark;
     }
-    if (!(carried_ > free_from_ && carried_ < free_to_)) free_from_ = free_to_ = 0.0;
+    note_free();
   }
 
  private:
   static constexpr double kBetween = 0.45, kBehind = 0.1;  // of a period
-  static constexpr double kNear = 1e-3;                    // [qc]
 
   static bool on(const bool* tag) noexcept { return tag != nullptr && *tag; }
   bool slips() const noexcept {
     return settings_.slip != 0.0 && (settings_.slips == nullptr || *settings_.slips);
   }
+  /// Place of a marker, where what bears the markers is.
+  double place(double number) const noexcept {
+    return settings_.position + number * settings_.period + settings_.noise * noise(number);
+  }
+  double number_below(double carried) const noexcept {
+    return whole_below((carried - settings_.position) / settings_.period);
+  }
   /// The first one met on the way; one where it begins is none.
-  std::optional<double> between(double from, double to) noexcept {
-    const double period = settings_.period;
-    const double turns = (from - settings_.position) / period, end = (to - settings_.position) / period;
-    const double first = whole_below(turns), last = whole_below(end);
-    constexpr double kPrecision = 1e-14;
-    const double rounding = kNear + kPrecision * (std::abs(from) + std::abs(settings_.position));
-    if (first == last && far_from_any(turns - first, rounding) && far_from_any(end - first, rounding)) {
-      note_free(first, 2.0 * rounding);
-      return std::nullopt;
-    }
-    const double step = from < to ? 1.0 : -1.0;
+  std::optional<double> between(double from, double to) const noexcept {
+    const double step = from < to ? 1.0 : -1.0, last = number_below(to) + step;
     constexpr int kMany = 64;  // periods of a tick
     std::optional<double> met;
-    double number = first - step;
+    double number = number_below(from) - step;
     for (int i = 0; i < kMany; ++i, number += step) {
-      const auto look = [&](double place) noexcept {
-        const bool passed = from < to ? from < place && place <= to : to <= place && place < from;
-        if (passed && (!met || (place < *met) == (from < to))) met = place;
+      const auto look = [&](double there) noexcept {
+        const bool passed = from < to ? from < there && there <= to : to <= there && there < from;
+        if (passed && (!met || (there < *met) == (from < to))) met = there;
       };
-      const double base = settings_.position + number * period;
-      const double mark = base + settings_.noise * noise(number);
-      look(mark);
-      if (on(settings_.spurious)) look(base + kBetween * period);
-      if (on(settings_.twice)) look(mark + kBehind * period);
-      if (number == last + step) break;
+      look(place(number));
+      if (on(settings_.spurious))
+        look(settings_.position + number * settings_.period + kBetween * settings_.period);
+      if (on(settings_.twice)) look(place(number) + kBehind * settings_.period);
+      if (number == last) break;
     }
     return met;
   }
@@ -116,17 +111,22 @@ class MarkerTrack {
     return from > free_from_ && from < free_to_ && to > free_from_ && to < free_to_ &&
            !on(settings_.spurious) && !on(settings_.twice);
   }
-  /// @param number of a marker, behind which there is none until the next  @param margin [qc] to both
-  void note_free(double number, double margin) noexcept {
-    const double begin = settings_.position + number * settings_.period;
-    free_from_ = begin + (settings_.noise + margin);
-    free_to_ = begin + settings_.period - (settings_.noise + margin);
-  }
-  /// Most steps are between two markers, and have nothing to look for. @param part of a period, 0 … 1
-  bool far_from_any(double part, double rounding) const noexcept {
-    if (on(settings_.spurious) || on(settings_.twice)) return false;
-    const double distance = std::min(part, 1.0 - part) * settings_.period;
-    return distance > settings_.noise + rounding;
+  /// The markers between which it is. Of those that may lie less than half a period off these are among the
+  /// next ones to both sides.
+  void note_free() noexcept {
+    free_from_ = free_to_ = 0.0;
+    if (!(settings_.noise < 0.5 * settings_.period)) return;
+    constexpr double kFar = 1e9;  // periods: from there on rounding counts
+    const double number = number_below(carried_);
+    if (!(std::abs(number) < kFar)) return;
+    double begin = -std::numeric_limits<double>::infinity(), end = -begin;
+    for (int i = -2; i <= 3; ++i) {
+      const double one = place(number + i);
+      if (one <= carried_) begin = std::max(begin, one);
+      if (one >= carried_) end = std::min(end, one);
+    }
+    free_from_ = begin;
+    free_to_ = end;
   }
   /// -1 … 1, of a marker of this number.
   double noise(double number) const noexcept {
