@@ -108,12 +108,14 @@ void RealTimeRun::run() noexcept {
     if (!shutting_down && (ended || stop_requested_.load(std::memory_order_relaxed) ||
                            status_.stopped_by_overrun.load(std::memory_order_relaxed))) {
       controller_.shut_down();
-      controller_.trace = nullptr;
       shutting_down = true;
       shutdown_begin = t;
     }
     const bool at_rest = shutting_down && (controller_.at_rest() || t - shutdown_begin > kLongestShutdown);
-    if (at_rest) status_.at_rest.store(true, std::memory_order_release);
+    if (at_rest) {
+      controller_.trace = nullptr;  // what follows is a wait for who serves the last clients
+      status_.at_rest.store(true, std::memory_order_release);
+    }
     const bool last = at_rest && may_end_.load(std::memory_order_acquire);
     const bool interpolator_tick = controller_.interpolator_is_due();
     controller_.tick();

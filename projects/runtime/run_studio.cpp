@@ -103,7 +103,15 @@ void RunSurroundings::start_studio() {
   studio_server_ = std::make_unique<StudioServer>(std::move(wanted), *studio_);
   if (const std::string error = studio_server_->start(); !error.empty())
     throw CouldNotStart(named("studio") + error);
-  messages_.inform("studio on http://" + to_string(studio_server_->endpoint()) + "/");
+  messages_.inform("studio on http://" + to_string(studio_server_->endpoint()) + "/" + rights_of_pages());
+}
+
+/// Who looks on knows from the first line on whether others may do more than that.
+std::string RunSurroundings::rights_of_pages() const {
+  if (!studio_writes()) return "";
+  const std::string axes =
+      commands_ && !options_.simulate ? commands_->desk().axes_text(CommandRoute::studio) : "";
+  return axes.empty() ? ", whose pages may write" : ", whose pages may write, and command " + axes;
 }
 
 }  // namespace lockstep

@@ -110,6 +110,7 @@ class RunSurroundings {
   // The studio.
   void make_studio();
   void empower_studio();
+  std::string rights_of_pages() const;
   std::string health() const;
   void start_studio();
 

@@ -34,6 +34,23 @@ TEST(Studio, DoesNotChangeABitOfASimulation) {
   EXPECT_EQ(content(folder.file("with.csv")), trace);
 }
 
+TEST(Studio, SaysAtTheStartWhatPagesMay) {
+  const std::string plain = LOCKSTEP_SOURCE_DIR "/projects/01_positioning/project.json";
+  const auto rights = [](std::vector<std::string> run) {
+    run.insert(run.begin(), "run");
+    run.insert(run.end(), {"--studio", "127.0.0.1:0", "--duration", "20ms", "--no-lcm", "--no-modbus"});
+    const Ended ended = lockstep(run);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    const std::string line =
+        ended.err.substr(std::min(ended.err.find("studio on http://"), ended.err.size()));
+    return line.substr(0, line.find('\n')).substr(line.rfind('/', line.find('\n')) + 1);
+  };
+  EXPECT_EQ(rights({plain}), "");
+  EXPECT_EQ(rights({plain, "--studio-write"}), ", whose pages may write");
+  EXPECT_EQ(rights({kKnife}), ", whose pages may write, and command Knife, Conveyor");
+  EXPECT_EQ(rights({kKnife, "--simulate"}), ", whose pages may write");
+}
+
 TEST(Studio, IsRefusedWhereStrangersCouldLook) {
   const Ended open = lockstep({"run", kKnife, "--simulate", "--duration", "10ms", "--studio", "0.0.0.0:0"});
   EXPECT_EQ(open.status, 2);

@@ -4,7 +4,9 @@
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <atomic>
+#include <functional>
 #include <thread>
 #include <utility>
 
@@ -130,6 +132,25 @@ TEST(Ending, WhatAClientOnASerialLineWasToldToBeWrittenIsKept) {
   run.send(SIGTERM);
   EXPECT_EQ(run.status(), 0) << run.err();
   EXPECT_EQ(kept_number(directory.file("project.retain")), hammer.last());
+}
+
+// ---- What it shows
+
+TEST(Ending, IsInTheTraceUntilTheAxesAreAtRest) {
+  const Directory directory;
+  const std::string project = directory.write("project.json", machine().dump());
+  const std::string file = directory.file("trace.csv");
+  RunningLockstep run(project, {"--trace", file, "--signals", "count,A.Velocity"});
+  ASSERT_TRUE(is_moving(run));
+  run.send(SIGTERM);
+  EXPECT_EQ(run.status(), 0) << run.err();
+  const CsvTable trace = read_csv(file);
+  const std::vector<double>& all = trace["A.Velocity"];
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all.back(), 0.0);
+  const auto slower = std::find(all.rbegin(), all.rend(), 100.0).base();
+  EXPECT_GT(all.end() - slower, 20) << "a tenth of a second, of which ticks may be missed";
+  EXPECT_TRUE(std::is_sorted(slower, all.end(), std::greater<>()));
 }
 
 // ---- What does not come to an end
