@@ -108,6 +108,7 @@ void RealTimeRun::run() noexcept {
     if (!shutting_down && (ended || stop_requested_.load(std::memory_order_relaxed) ||
                            status_.stopped_by_overrun.load(std::memory_order_relaxed))) {
       controller_.shut_down();
+      if (ended) controller_.trace = nullptr;  // which has as many rows as were asked for
       shutting_down = true;
       shutdown_begin = t;
     }
