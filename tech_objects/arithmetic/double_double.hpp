@@ -84,6 +84,12 @@ constexpr double rounded_sum(DoubleDouble a, double b) noexcept {
   return high.hi + (high.lo + a.lo);
 }
 
+/// a + b as a double, within an ulp of it; as exact as the one above where b.lo is 0.
+constexpr double rounded_sum(DoubleDouble a, DoubleDouble b) noexcept {
+  const DoubleDouble high = two_sum(a.hi, b.hi);
+  return high.hi + (high.lo + (a.lo + b.lo));
+}
+
 constexpr DoubleDouble operator-(DoubleDouble a, DoubleDouble b) noexcept {
   return a + -b;
 }

@@ -95,9 +95,19 @@ void Encoders::watch(std::size_t encoder, double play, TO_Struct_StatusSensor& s
   status.Velocity = failed ? 0.0 : beside.velocity * beside.sign;
 }
 
+/// Its turn anew from the origin, so that nothing adds up over many turns.
+AxisPosition Encoders::read_on_another_turn(const DoubleDouble& distance) noexcept {
+  const AxisPosition position = position_at(distance);
+  const auto passed = static_cast<std::int64_t>(static_cast<std::uint64_t>(position.turns) -
+                                                static_cast<std::uint64_t>(origin_.turns));
+  turn_ = position.turns;
+  on_turn_ = to_double_double(origin_.value) - turns_distance(passed, modulo_.length);
+  return position;
+}
+
 void Encoders::regain(AxisPosition here, double play) noexcept {
   lost_ = false;
-  if (!absolute(operative_)) origin_ = origin_at(operative_, here, play);
+  if (!absolute(operative_)) set_origin(origin_at(operative_, here, play));
 }
 
 // ---- MC_SetSensor
@@ -108,7 +118,7 @@ void Encoders::place(std::size_t encoder, AxisPosition position, AxisPosition ac
   const AxisPosition before = this->position(encoder, actual);
   if (placed.absolute) placed.lent += rounded_difference(position, before, modulo_);
   if (encoder == operative_) {
-    origin_ = advanced(origin_, difference(position, before, modulo_), modulo_);
+    set_origin(advanced(origin_, difference(position, before, modulo_), modulo_));
     return;
   }
   placed.origin = origin_at(encoder, position, play);
@@ -122,7 +132,7 @@ double Encoders::switch_to(std::size_t encoder, AxisPosition actual) noexcept {
   left.lent = 0.0;
   operative_ = encoder;
   const Encoder& taken = encoders_[encoder];
-  origin_ = taken.origin;
+  set_origin(taken.origin);
   sign_ = taken.sign;
   return taken.velocity * taken.sign;
 }

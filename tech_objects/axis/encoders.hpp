@@ -28,7 +28,7 @@ class Encoders {
   void configure(const AxisData& data, const DriveSettings& machine, bool has_drive, const Modulo& modulo,
                  double cycle) noexcept;
   /// The operative encoder shows 0 at this position, or another one.
-  void begin(AxisPosition origin) noexcept { origin_ = origin; }
+  void begin(AxisPosition origin) noexcept { set_origin(origin); }
   void begin_beside(std::size_t encoder, AxisPosition origin, double play) noexcept;
   /// Where an encoder shows 0 that tells this position; an absolute one, adjusted by AbsEncoderOffset [u].
   AxisPosition origin_at(std::size_t encoder, AxisPosition here, double play) const noexcept;
@@ -61,6 +61,11 @@ class Encoders {
   AxisPosition position_at(const DoubleDouble& distance) const noexcept {
     return advanced(origin_, distance, modulo_);
   }
+  /// The same in each servo cycle: it is brought onto the ring only where it leaves the turn of the last one.
+  AxisPosition read_position(const DoubleDouble& distance) noexcept {
+    const double value = rounded_sum(distance, on_turn_);
+    return modulo_.contains(value) ? AxisPosition{turn_, value} : read_on_another_turn(distance);
+  }
   /// One that is not operative, as it was read last: its state, and what it tells. One that fails goes on
   /// from where it was seen last, unless it is an absolute one; no alarm tells of it.
   void watch(std::size_t encoder, double play, TO_Struct_StatusSensor& status) noexcept;
@@ -92,7 +97,7 @@ class Encoders {
   // ---- Homing
 
   /// Homing renames what the operative encoder tells, all others, or one of those [u].
-  void shift(double by) noexcept { origin_ = advanced(origin_, by, modulo_); }
+  void shift(double by) noexcept { set_origin(advanced(origin_, by, modulo_)); }
   void shift_beside(double by) noexcept;
   /// One that is not operative; what MC_SetSensor has added to it is left out.
   void rename(std::size_t encoder, double by) noexcept;
@@ -122,6 +127,12 @@ class Encoders {
     return encoder == operative_ ? sign_ : encoders_[encoder].sign;
   }
   DoubleDouble travel(std::size_t encoder, double play) const noexcept;
+  void set_origin(AxisPosition origin) noexcept {
+    origin_ = origin;
+    turn_ = origin.turns;
+    on_turn_ = to_double_double(origin.value);
+  }
+  AxisPosition read_on_another_turn(const DoubleDouble& distance) noexcept;
 
   // What every servo cycle touches.
   AxisPosition origin_;   // position where the operative encoder shows 0
@@ -129,6 +140,8 @@ class Encoders {
   double sign_ = 1.0;     // of the operative one
   std::size_t operative_ = 0;
   Modulo modulo_;
+  std::int64_t turn_ = 0;  // on which the axis has been read last …
+  DoubleDouble on_turn_;   // … and `origin_`, seen from there [u]
   bool several_ = false;
   bool lost_ = false;
 

@@ -102,7 +102,7 @@ void ServoOrders::read_drive() noexcept {
   if (encoders_.lost())
     now.velocity = 0.0;
   else
-    actual_ = encoders_.position_at(
+    actual_ = encoders_.read_position(
         sensors_.passes_backlash() ? now.position - DoubleDouble{sensors_.play(), 0.0} : now.position);
   data.ActualAcceleration = (now.velocity - actual_velocity_) / servo_period_;
   actual_velocity_ = now.velocity;

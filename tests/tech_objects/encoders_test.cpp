@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <random>
+
 #include "tech_objects/drive/simulated_drive.hpp"
 
 namespace lockstep::encoders_test {
@@ -37,7 +40,7 @@ struct Machine {
     encoders.orient(now);
     for (std::size_t i = 0; i < Encoders::kCount; ++i)
       if (encoders.beside(i)) encoders.watch(i, 0.0, data.StatusSensor[i]);
-    actual = encoders.position_at(now.position);
+    actual = encoders.read_position(now.position);
     drive.write(velocity);
   }
   void go(double distance) {
@@ -101,6 +104,30 @@ TEST(Encoders, GoOnFromWhereTheyWereSeenLastOnceTheyAreBack) {
   machine.cycle(0.0);
   EXPECT_TRUE(machine.encoders.valid(1));
   EXPECT_NEAR(machine.encoders.position(1, machine.actual).value, seen, 1e-9);
+}
+
+// Over millions of turns it is where it would be if each cycle began anew, to the bit.
+TEST(Encoders, AreOnTheRingWithoutBringingThemThereInEachCycle) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto of = [&random](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    const Modulo ring{
+        .enabled = true, .length = seed % 3 == 0 ? 360.0 : of(0.01, 5000.0), .start = of(-500.0, 500.0)};
+    Encoders encoders;
+    encoders.configure({}, {}, true, ring, kCycle);
+    encoders.begin(normalised({0, of(-1e4, 1e4)}, ring));
+    DoubleDouble distance;
+    double velocity = 0.0;
+    for (int i = 0; i < 5000; ++i) {
+      if (random() % 50 == 0) velocity = of(-1.0, 1.0) * ring.length * (random() % 10 == 0 ? 1e5 : 0.3);
+      if (random() % 700 == 0) encoders.shift(of(-1.0, 1.0) * ring.length);
+      distance = distance + velocity;
+      ASSERT_EQ(encoders.read_position(distance), encoders.position_at(distance))
+          << "seed " << seed << ", cycle " << i;
+    }
+  }
 }
 
 }  // namespace
