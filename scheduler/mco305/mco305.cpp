@@ -33,6 +33,10 @@ void Mco305::configure(double servo_period, int ratio) {
       master.follows != nullptr || master.signal != nullptr || master.encoder_output_of != nullptr;
   device_.configure(settings, servo_period);
   modulo_ = {};
+  last_led_ = device_.led_position();
+  last_counts_ = device_.actual_position();
+  set_line_.take(device_.unit(), {});
+  actual_line_.take(device_.unit(), {});
   configure_leading(servo_period * ratio, extrapolation_);
   reset_leading(actual_position());
   setpoint_ = last_setpoint_ = step_ = last_step_ = {actual_position(), 0.0, 0.0};
@@ -143,17 +147,15 @@ void Mco305::start(DeviceProgram& program) noexcept {
   machine_.raise(later ? kOtherArraysLater : program.fault);
 }
 
-/// In its user units, on the line of its counter [u].
-double Mco305::units_of(double counts) const noexcept {
-  const mco305::UserUnit& unit = device_.unit();
-  return static_cast<double>(unit.sign) * counts * static_cast<double>(unit.denominator) /
-         static_cast<double>(unit.numerator);
+DoubleDouble Mco305::measured_line() const noexcept {
+  return actual_line_.at(to_double_double(device_.actual_position()));
 }
 
-DoubleDouble Mco305::measured_line() const noexcept {
-  const mco305::UserUnit& unit = device_.unit();
-  return to_double_double(device_.actual_position()) * static_cast<double>(unit.sign * unit.denominator) /
-         static_cast<double>(unit.numerator);
+/// POSFACT, POSDRCT: from where the device has been in the last step.
+void Mco305::take_unit() noexcept {
+  if (device_.unit() == set_line_.unit()) return;
+  set_line_.take(device_.unit(), to_double_double(last_led_));
+  actual_line_.take(device_.unit(), to_double_double(last_counts_));
 }
 
 /// Another device is served first, so that its values are those of this tick.
@@ -206,12 +208,15 @@ void Mco305::servo(std::int64_t now) noexcept {
   if (program_due_ && expects_writes_) take_parameters();
   device_.servo(program_due_);
   if (!program_due_) return;
+  take_unit();
+  last_led_ = device_.led_position();
+  last_counts_ = device_.actual_position();
   if (leads) {
     last_actual_ = actual_;
     actual_ = actual_position().value;
     last_step_ = step_;
-    step_.position.value = units_of(device_.led_position());
-    step_.velocity = units_of(device_.set_velocity_now()) / kStep;
+    step_.position.value = set_line_.at(to_double_double(device_.led_position())).rounded();
+    step_.velocity = set_line_.distance(device_.set_velocity_now()) / kStep;
     step_.acceleration = (step_.velocity - last_step_.velocity) / kStep;
   }
   show();
@@ -357,6 +362,7 @@ void Mco305::shut_down() noexcept {
 }
 
 bool Mco305::at_rest() const noexcept {
+  if (!device_.stands()) return false;
   if (!device_.controlled()) return !device_.open_loop();
   return !device_.moving() && device_.set_velocity_now() == 0.0;
 }

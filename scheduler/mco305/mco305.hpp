@@ -14,6 +14,7 @@
 #include "scheduler/mco305/device_commands.hpp"
 #include "scheduler/mco305/eeprom.hpp"
 #include "scheduler/mco305/program_values.hpp"
+#include "scheduler/mco305/unit_line.hpp"
 #include "tech_objects/data_blocks/mco305.hpp"
 #include "tech_objects/mco305/device.hpp"
 #include "tech_objects/mco305_catalogue/system_variables.hpp"
@@ -116,7 +117,7 @@ class Mco305 final : public LeadingObject {
   void turn_master(std::int64_t now) noexcept;
   void take_parameters() noexcept;
   void look_at_panel() noexcept;
-  double units_of(double counts) const noexcept;
+  void take_unit() noexcept;
 
   mco305::Device device_;
   DeviceCommands commands_{device_, eeprom, data.Outside, data.ErrorHistory};
@@ -138,6 +139,9 @@ class Mco305 final : public LeadingObject {
   TO_Struct_Extrapolation extrapolation_{};
   Setpoint step_, last_step_;                // as leading value, at the last two steps
   double actual_ = 0.0, last_actual_ = 0.0;  // [u]
+  UnitLine set_line_, actual_line_;          // of both, in the unit of the last step
+  double last_led_ = 0.0;                    // [qc] the set position there, without its steps
+  std::int64_t last_counts_ = 0;             // [qc] the actual position
   bool start_input_ = false, clear_input_ = false, continue_input_ = false;
   bool start_rises_ = false, continue_rises_ = false;
   bool running_ = false;      // the program's end has not been seen

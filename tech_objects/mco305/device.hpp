@@ -168,6 +168,8 @@ class alignas(kCacheLine) Device {
   /// Whether OUTAN turns the drive.
   bool open_loop() const noexcept { return open_loop_ != 0; }
   bool moving() const noexcept { return moving_; }
+  /// Whether the axis has been where it is, to a count, for 20 ms.
+  bool stands() const noexcept;
   MotionMode mode() const noexcept { return mode_; }
   /// The set position without the steps that it makes where the controller is switched off [qc].
   double led_position() const noexcept { return set_position() - unled_; }

@@ -100,7 +100,7 @@ class MarkerTrack {
       look(place(number));
       if (on(settings_.spurious))
         look(settings_.position + number * settings_.period + kBetween * settings_.period);
-      if (on(settings_.twice)) look(place(number) + kBehind * settings_.period);
+      if (on(settings_.twice)) look(place(number) + step * kBehind * settings_.period);
       if (number == last) break;
     }
     return met;

@@ -203,7 +203,7 @@ int Device::follow(SyncMode mode) noexcept {
   if (!may_move(error)) return error;
   if (!on_) return kErrorNotReset;
   has_master_ = true;
-  sync_.begin(mode, state(), limits(), master_);
+  sync_.begin(mode, state(), actual_, limits(), master_);
   mode_ = MotionMode::kFollow;
   interrupted_ = MotionMode::kHold;
   arrived_ = false;

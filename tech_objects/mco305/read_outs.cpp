@@ -40,6 +40,11 @@ std::int64_t Device::moved_in_window() const noexcept {
   return window <= 0 ? 0 : actual_ - positions_.at(now_ - window);
 }
 
+bool Device::stands() const noexcept {
+  constexpr std::int64_t kLong = 20;
+  return now_ < kLong || std::abs(actual_ - positions_.at(now_ - kLong)) <= 1;
+}
+
 // [UU/s]
 std::int32_t Device::velocity_units() const noexcept {
   const std::int64_t window = std::min(velocity_window_, now_);

@@ -22,7 +22,7 @@ void Synchronization::refresh(const ParameterValues& p, bool later_edition,
   limits_.uncertainty = std::min(std::abs(gear_.ratio()), 1.0);
   position_offset_ = p.real(kSyncPosOffs);
   offset_time_ = std::max(p.real(kSyncOffTime), 0.0);
-  accuracy_ = std::abs(std::int64_t{p[kSyncAccuracy]});
+  next_accuracy_ = std::abs(std::int64_t{p[kSyncAccuracy]});
   signed_error_ = p[kSyncAccuracy] < 0;
   looks_ahead_ = p[kSyncType] == 1;
   filter_parameter_ = p[kSyncVfTime];
@@ -88,8 +88,8 @@ void Synchronization::take_limits(const FourSlopeLimits& limits) noexcept {
   limits_.deceleration = limits.deceleration;
 }
 
-void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const FourSlopeLimits& limits,
-                            const MasterInput& master) noexcept {
+void Synchronization::begin(SyncMode mode, const FourSlopeState& from, std::int64_t actual,
+                            const FourSlopeLimits& limits, const MasterInput& master) noexcept {
   mode_ = mode;
   following_ = true;
   reached_ = false;
@@ -102,23 +102,17 @@ void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const Fou
   last_velocity_ = from.velocity;
   velocity_filter_.begin(static_cast<double>(master.moved()));
   slave_filter_.begin(from.velocity);
+  last_actual_ = actual;
   fading_.begin(velocity_filter_.velocity(), filter_time_);
   velocity_ = velocity_filter_.velocity();
   master_position_ = master.position();
   gear_.set(factor_master_, factor_slave_);
   gear_.begin(from.position);
   trimmed_ = 0.0;
-  if (origin_defined_ && mode != SyncMode::kVelocity) {
-    gear_.begin(origin_slave_);
-    const std::int64_t distance = master_position_ - origin_master_;
-    constexpr std::int64_t kFar = std::int64_t{1} << 31;
-    gear_.move(std::clamp(distance, -kFar, kFar));
-    origin_defined_ = false;
-  }
   moved_origin_ = 0.0;
   quality_.clear();
+  accuracy_ = next_accuracy_;
   error_ = 0;
-  wanted_ = nearest_count(gear_.position());
   const bool averaged = averages_ && averaged_.distance() > 0.0;
   filter_.begin(averaged ? averaged_.distance() : master_tolerance_.distance);
   path_.clear();
@@ -127,10 +121,25 @@ void Synchronization::begin(SyncMode mode, const FourSlopeState& from, const Fou
   correction_.begin(0.0);
   correction_.set(0.0, 0.0, false);
   offset_.begin(0.0);
+  if (origin_defined_ && mode != SyncMode::kVelocity) begin_at_origin();
   offset_.want(wanted_offset());
   held_.begin();
-  target_ = before_ = {.position = gear_.position(), .velocity = velocity_ * gear_.ratio(), .spread = 0.0};
+  wanted_ = nearest_count(gear_.position() + offset_.reached() * gear_.ratio());
+  target_ = before_ = {.position = gear_.position() + offset_.reached() * gear_.ratio(),
+                       .velocity = velocity_ * gear_.ratio(),
+                       .spread = 0.0};
   limits_.spread = 0.0;
+}
+
+/// Both are synchronous at the two places that have been defined, whatever SYNCPOSOFFS is: it is part of
+/// them.
+void Synchronization::begin_at_origin() noexcept {
+  offset_.begin(wanted_offset());
+  gear_.begin(origin_slave_ - wanted_offset() * gear_.ratio());
+  const std::int64_t distance = master_position_ - origin_master_;
+  constexpr std::int64_t kFar = std::int64_t{1} << 31;
+  gear_.move(std::clamp(distance, -kFar, kFar));
+  origin_defined_ = false;
 }
 
 void Synchronization::define_origin(std::int64_t master, double slave) noexcept {

@@ -41,8 +41,9 @@ class Synchronization {
   /// Looks at the parameters; when they have changed, also while it follows. @param velocity_maximum [qc/ms]
   void refresh(const ParameterValues& parameters, bool later_edition, double velocity_maximum) noexcept;
 
-  /// SYNCV, SYNCP, SYNCM: from a motion, which it takes over. @param limits VEL, ACC, DEC
-  void begin(SyncMode mode, const FourSlopeState& from, const FourSlopeLimits& limits,
+  /// SYNCV, SYNCP, SYNCM: from a motion, which it takes over. @param actual where the slave is [qc]
+  /// @param limits VEL, ACC, DEC
+  void begin(SyncMode mode, const FourSlopeState& from, std::int64_t actual, const FourSlopeLimits& limits,
              const MasterInput& master) noexcept;
   /// It does not set the position any more; from 5.00 on SYNCERR goes on.
   void end() noexcept { following_ = false; }
@@ -116,6 +117,7 @@ class Synchronization {
   double pair_distance() const noexcept;
   void take_limits(const FourSlopeLimits& limits) noexcept;
   void begin_markers() noexcept;
+  void begin_at_origin() noexcept;
   void average_markers(const MasterInput& master) noexcept;
   void look_for_markers(const MasterInput& master, std::int64_t actual) noexcept;
   void take_master_marks(const MasterInput& master) noexcept;
@@ -190,6 +192,7 @@ class Synchronization {
   double position_offset_ = 0.0, offset_time_ = 0.0;
   std::int64_t marks_per_pair_master_ = 1, marks_per_pair_slave_ = 1;
   std::int64_t ready_count_ = 1, fault_count_ = 10;
+  std::int64_t next_accuracy_ = 1000;  // from the next begin on
   std::int32_t start_ = 0, filter_bits_ = 0;
   double marker_filter_time_ = 0.0, maximum_correction_ = 0.0;
 };

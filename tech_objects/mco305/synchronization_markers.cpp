@@ -100,6 +100,7 @@ void Synchronization::take_master_mark(double place) noexcept {
   hits_ |= kMasterHit;
   if (awaits_path_) meet_at_a_marker(place);
   if (waits_for_velocity(start_) && !reached_) return;
+  pairing_.travel(velocity_ * gear_.ratio() < 0.0);
   const double since = static_cast<double>(master_position_) - place;
   const auto apart =
       pairing_.leading(gear_.position() - since * gear_.ratio(), pair_offset(), pair_distance());
@@ -159,6 +160,7 @@ void Synchronization::take_slave_mark(double place) noexcept {
   if (++slave_marks_ % marks_per_pair_slave_ != 0) return;
   hits_ |= kSlaveHit;
   if (waits_for_velocity(start_) && !reached_) return;
+  pairing_.travel(velocity_ * gear_.ratio() < 0.0);
   if (const auto apart = pairing_.following(place, pair_offset(), pair_distance())) pair(*apart);
 }
 

@@ -70,6 +70,7 @@ struct UserUnit {
   std::int64_t denominator = 1;  ///< POSFACT_N
   std::int64_t sign = 1;         ///< POSDRCT 3, 4: -1
 
+  bool operator==(const UserUnit&) const = default;
   /// Cut towards 0. Exact for 32 bits on all sides.
   constexpr std::int64_t counts(std::int64_t units) const noexcept {
     if (denominator == 1) return sign * units * numerator;

@@ -14,9 +14,9 @@ enum class FirstPair : std::uint8_t {
   leading_first,    ///< the first of what leads, then the next of what follows
   following_first,  ///< the first of what follows, then the next of what leads
   first_two,        ///< the first of either
-  forward,          ///< one of what follows with that in front of it: the correction is forwards
-  backward,         ///< one of what follows with that behind it
-  nearest           ///< one of what follows with the nearer one
+  forward,   ///< one of what follows with that in front of it: it catches up, in its direction of travel
+  backward,  ///< one of what follows with that behind it: it brakes
+  nearest    ///< one of what follows with the nearer one
 };
 
 class MarkerPairing {
@@ -26,6 +26,8 @@ class MarkerPairing {
     paired_ = false;
     drop();
   }
+  /// In which direction what follows travels, until this is called again.
+  void travel(bool backwards) noexcept { backwards_ = backwards; }
   /// A marker of what leads. @param place where that one of what follows belongs, without offset [u]
   /// @param offset that counts now [u]  @param distance of two markers [u] ≥ 0; 0: not known
   /// @return if it completes a pair, by how much what follows is behind [u]
@@ -61,10 +63,9 @@ class MarkerPairing {
           older.reset();
           return std::nullopt;
         }
-      } else if (rule_ == FirstPair::forward) {
-        apart -= std::floor(turns) * distance;
-      } else if (rule_ == FirstPair::backward) {
-        apart -= std::ceil(turns) * distance;
+      } else if (rule_ == FirstPair::forward || rule_ == FirstPair::backward) {
+        const bool upwards = (rule_ == FirstPair::forward) != backwards_;
+        apart -= (upwards ? std::floor(turns) : std::ceil(turns)) * distance;
       } else if (rule_ == FirstPair::nearest) {
         apart -= std::floor(turns + 0.5) * distance;
       }
@@ -75,7 +76,7 @@ class MarkerPairing {
   }
 
   FirstPair rule_ = FirstPair::first_two;
-  bool paired_ = false;
+  bool paired_ = false, backwards_ = false;
   std::optional<double> leading_, following_;
 };
 

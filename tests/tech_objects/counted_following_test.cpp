@@ -267,9 +267,11 @@ TEST(MarkerWindow, TellsMarkersFromNoiseAndFromNone) {
 
 TEST(MarkerPairing, FindsTheFirstPairAsItIsTold) {
   // Markers of what leads at 4000, 8000; of what follows at 4700, 8700.
-  const auto apart_of = [](FirstPair rule) {
+  bool backwards = false;
+  const auto apart_of = [&backwards](FirstPair rule) {
     MarkerPairing pairing;
     pairing.begin(rule);
+    pairing.travel(backwards);
     for (const double place : {4000.0, 8000.0, 12'000.0}) {
       if (const auto apart = pairing.leading(place, 0.0, 4000.0)) return *apart;
       if (const auto apart = pairing.following(place + 700.0, 0.0, 4000.0)) return *apart;
@@ -281,6 +283,10 @@ TEST(MarkerPairing, FindsTheFirstPairAsItIsTold) {
   EXPECT_EQ(apart_of(FirstPair::first_two), 700.0);
   EXPECT_EQ(apart_of(FirstPair::forward), 700.0);
   EXPECT_EQ(apart_of(FirstPair::backward), -3300.0);
+  EXPECT_EQ(apart_of(FirstPair::nearest), 700.0);
+  backwards = true;  // 3: "Korrektur durch Aufholen", 4: "durch Abbremsen", whichever way it travels
+  EXPECT_EQ(apart_of(FirstPair::forward), -3300.0);
+  EXPECT_EQ(apart_of(FirstPair::backward), 700.0);
   EXPECT_EQ(apart_of(FirstPair::nearest), 700.0);
 }
 

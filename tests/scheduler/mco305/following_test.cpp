@@ -36,6 +36,100 @@ TEST(Mco305Following, BeginsAtAnOriginThatHasBeenDefined) {
   EXPECT_GT(run.device().master().shown(), 19'999);
 }
 
+// DEF SYNCORIGIN: "it is guaranteed, that master and slave will be synchronized at the above position"; a
+// position offset is part of that, and what it is changed by later counts.
+TEST(Mco305Following, IsSynchronousAtItsOriginWhateverTheOffsetIs) {
+  for (const auto& [master, slave] : {std::pair{1, 1}, std::pair{1, -2}}) {
+    Following run;
+    run.set("SYNCFACTM", master);
+    run.set("SYNCFACTS", slave);
+    run.set("SYNCPOSOFFS", 900);
+    run.begin_with(
+        "PULSACC 1000000\nDEF SYNCORIGIN 2000 4000\nPULSVEL 5000\nSYNCP\nWHILE (MAPOS < 20000) DO\nENDWHILE\n"
+        "PULSVEL 0\nDELAY 2000\na = APOS\nSET SYNCPOSOFFS 1000\nDELAY 2000\nb = APOS\n");
+    run.run(9000);
+    const int moved = (run.device().master().shown() - 2000) * slave / master;
+    EXPECT_EQ(run.variable("a"), 4000 + moved);
+    EXPECT_EQ(run.variable("b"), run.variable("a") + 100 * slave / master);
+  }
+}
+
+// DE 33-13: a new window counts from the next SYNC command on.
+TEST(Mco305Following, TakesANewAccuracyWithTheNextStart) {
+  Following run;
+  run.set("SYNCACCURACY", 20);
+  run.begin_with(
+      "SYNCP\nDELAY 200\nVEL 1\nSET SYNCPOSOFFS 300\nDELAY 2\nSET SYNCACCURACY 500\nDELAY 2\na = SYNCSTAT & "
+      "4\n"
+      "DELAY 3000\nSYNCP\nDELAY 2\nb = SYNCSTAT & 4\n");
+  run.run(5000);
+  EXPECT_EQ(run.variable("a"), 0);
+  EXPECT_EQ(run.variable("b"), 4);
+}
+
+// Axes that follow a device see its user units: another unit is another scale from there on, and no step.
+TEST(Mco305Following, LeadsOnWhereItIsWhenItsUnitChanges) {
+  for (const bool drive : {false, true}) {
+    Following run;
+    run.set("FFVEL", 10'486);
+    run.object.settings.has_drive = drive;
+    run.object.leads = true;
+    run.object.lead_by_actual_value();
+    run.set("POSFACT_Z", 40);
+    run.begin_with(
+        "CVEL 20\nCSTART\nDELAY 2000\nSET POSFACT_Z 41\nDELAY 500\nSET POSFACT_Z 7\nSET POSDRCT 3\nDELAY "
+        "500\nSET POSFACT_Z 40000\n");
+    for (int i = 0; i < 4000; ++i) {
+      const double set = run.object.setpoint().position.value, actual = run.object.actual_position().value;
+      run.step();
+      run.object.before_axes();
+      EXPECT_NEAR(run.object.setpoint().position.value - set, run.object.setpoint().velocity * 1e-3, 1.0)
+          << i;
+      EXPECT_LT(std::abs(run.object.actual_position().value - actual), 20.0) << i;
+    }
+    EXPECT_NEAR(std::abs(run.object.setpoint().velocity), 20.0 * 1000.0 / 40'000.0, 1e-6);
+  }
+}
+
+/// The largest step of the set position beside its velocity, and of that of the axis, in so many
+/// milliseconds.
+struct Steps {
+  double set = 0.0, actual = 0.0;
+};
+Steps steps_of(Following& run, int milliseconds) {
+  Steps worst;
+  double set = run.device().set_position(), velocity = 0.0, before = run.device().machine_position();
+  for (int i = 0; i < milliseconds; ++i) {
+    run.step();
+    const double now = run.device().machine_position();
+    worst.set =
+        std::max(worst.set, std::abs(run.device().set_position() - set - run.device().set_velocity_now()));
+    if (i > 0) worst.actual = std::max(worst.actual, std::abs(now - before - velocity));
+    set = run.device().set_position();
+    velocity = now - before;
+    before = now;
+  }
+  return worst;
+}
+
+// A drive that follows a velocity gets its error from where the axis is, whatever it has done before.
+TEST(Mco305Following, SyncvBeginsInMotionAsAnyOtherMode) {
+  for (const char* const before : {"POSA 20000\n", "VEL 40\nCVEL 40\nCSTART\nDELAY 1500\n",
+                                   "SYNCP\nDELAY 1500\n", "SYNCV\nDELAY 500\nPOSA 30000\n"}) {
+    Following run;
+    run.set("FFVEL", 10'486);
+    run.object.settings.has_drive = true;
+    run.object.settings.drive.time_constant = 0.003;
+    run.begin_with("PULSACC 20000\nPULSVEL 5000\nDELAY 500\n" + std::string(before) + "WAITI 1 ON\nSYNCV\n");
+    run.run(6000);
+    run.device().io().set_input(1, true);
+    const Steps worst = steps_of(run, 3000);
+    EXPECT_LT(worst.set, 4.0) << before << "what the axis is behind its set position by, and counts";
+    EXPECT_LT(worst.actual, 0.6) << before << "ACC is 0.2 qc/ms², and a count of the controller";
+    EXPECT_NEAR(run.device().set_velocity_now(), 20.0, 0.5) << before;
+  }
+}
+
 TEST(Mco305Following, AddsWhatMovesItsOriginAndForgetsItWithTheNextStart) {
   Following run;
   run.begin_with(

@@ -192,6 +192,8 @@ TEST(Mco305Programs, AnErrorStopsADriveWithoutController) {
   ASSERT_TRUE(run.run_to_end(1000));
   run.run(5);
   EXPECT_FALSE(run.object.device().open_loop());
+  EXPECT_FALSE(run.object.at_rest()) << "the machine still turns";
+  run.run(300);
   EXPECT_TRUE(run.object.at_rest());
 }
 
