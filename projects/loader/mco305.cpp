@@ -19,7 +19,6 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kMaximumDevices = 4096;  // in a chain of followers
 constexpr std::size_t kLargestParameterFile = 1 << 20;
 constexpr int kInputs[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 18, 19, 27, 29, 32, 33};
 constexpr int kOutputs[] = {1, 2, 3, 4, 5, 6, 7, 8, 21, 22, 27, 29};
@@ -48,7 +47,6 @@ class DeviceLoader {
   void load_drive(const JsonValue& json);
   void load_master(const JsonValue& json);
   void load_counts(const JsonValue& json);
-  void refuse_circle(const JsonValue& json);
   template <std::size_t n>
   std::optional<std::size_t> line(const std::string& name, const JsonValue& json, const int (&allowed)[n]);
   void load_wiring(const Fields& fields);
@@ -206,21 +204,6 @@ void DeviceLoader::load_master(const JsonValue& json) {
     problems_.report(json,
                      "a master encoder is turned by several; allowed is one of 'follows', 'signal', "
                      "'encoder_output_of'");
-  refuse_circle(json);
-}
-
-/// The device of a circle that is read last finds it.
-void DeviceLoader::refuse_circle(const JsonValue& json) {
-  std::string path = "'" + device_.name + "'";
-  const Mco305* at = &device_;
-  for (std::size_t i = 0; i <= kMaximumDevices && at != nullptr; ++i) {
-    const LeadingObject* const next =
-        at->master.follows != nullptr ? at->master.follows : at->master.encoder_output_of;
-    at = next != nullptr && next->kind == ObjectKind::MCO_305 ? static_cast<const Mco305*>(next) : nullptr;
-    if (at == nullptr) return;
-    path += " follows '" + at->name + "'";
-    if (at == &device_) return problems_.report(json, "devices follow each other in a circle: " + path);
-  }
 }
 
 template <std::size_t n>
